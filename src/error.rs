@@ -1,0 +1,48 @@
+//! What can go wrong at a public boundary: the quantity, its value and what is allowed.
+
+use core::fmt;
+
+/// A quantity outside the domain of the equation it was given to, or a computation that could not be completed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Error {
+    /// A value outside the domain of an equation.
+    Domain {
+        /// The quantity, by its name in the field and its symbol.
+        quantity: &'static str,
+        /// The offending value.
+        value: f64,
+        /// What is allowed, in words.
+        allowed: &'static str,
+    },
+    /// An iteration that did not reach its goal.
+    NotConverged {
+        /// What was being solved.
+        what: &'static str,
+        /// Iterations spent.
+        iterations: usize,
+        /// Remaining residual.
+        residual: f64,
+    },
+}
+
+impl Error {
+    /// Refuses `value` unless `allowed_if` holds (NaN never does).
+    pub fn unless(allowed_if: bool, quantity: &'static str, value: f64, allowed: &'static str) -> Result<(), Self> {
+        if allowed_if { Ok(()) } else { Err(Error::Domain { quantity, value, allowed }) }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::Domain { quantity, value, allowed } => {
+                write!(f, "{quantity} = {value}: allowed is {allowed}")
+            }
+            Error::NotConverged { what, iterations, residual } => {
+                write!(f, "{what}: no convergence in {iterations} iterations, residual {residual:e}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Error {}

@@ -1,0 +1,19 @@
+//! The rotation of spheroidal stars under Lorentz violation, as verified equations.
+//!
+//! The model of Xu, Gao and Shao, *Precession of spheroids under Lorentz violation and observational consequences for
+//! neutron stars*: every equation is a function, generic over the scalar type, with the equation's number and LaTeX label.
+//! Nothing here reads a file, prints or starts a thread.
+
+//pub mod dynamics;
+//pub mod elliptic;
+pub mod error;
+pub mod euler_angles;
+pub mod lorentz_violation;
+//pub mod propagation;
+pub mod scalar;
+//pub mod solutions;
+//pub mod star;
+//pub mod units;
+
+pub use error::Error;
+pub use scalar::{Real, Scalar};

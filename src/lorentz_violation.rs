@@ -1,0 +1,121 @@
+//! Coefficients for Lorentz violation `s^IJ`: principal values, principal frame, PPN replacement. Eqs. (3), (5), (36).
+
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+
+use crate::error::Error;
+use crate::scalar::{Real, Scalar};
+
+/// Eigenvalues of `s^IJ` (dimensionless) along the axes X, Y, Z of its principal frame, the inertial frame of the paper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrincipalCoefficients<S> {
+    /// `s^XX`.
+    pub xx: S,
+    /// `s^YY`.
+    pub yy: S,
+    /// `s^ZZ`.
+    pub zz: S,
+}
+
+impl<S: Scalar> PrincipalCoefficients<S> {
+    /// From the array `[s^XX, s^YY, s^ZZ]`.
+    pub fn new([xx, yy, zz]: [S; 3]) -> Self {
+        Self { xx, yy, zz }
+    }
+
+    /// The diagonal tensor `s^IJ` in the principal frame.
+    pub fn tensor(&self) -> Matrix3<S> {
+        Matrix3::from_diagonal(&Vector3::new(self.xx, self.yy, self.zz))
+    }
+
+    /// The combination `2 s^ZZ - s^XX - s^YY` that pulsars bound, Eqs. (31) `[consdef]` and (40) `[est]`.
+    pub fn combination(&self) -> S {
+        self.zz * 2.0 - self.xx - self.yy
+    }
+
+    /// The asymmetry `s^XX - s^YY` about Z, Eq. (31) `[consdef]`.
+    pub fn asymmetry(&self) -> S {
+        self.xx - self.yy
+    }
+
+    /// The same tensor in the frame Y-Z-X, Eq. (36): `Z -> X, X -> Y, Y -> Z`. Three times is the identity.
+    pub fn permuted(&self) -> Self {
+        Self { xx: self.yy, yy: self.zz, zz: self.xx }
+    }
+
+    /// All three multiplied by `factor`.
+    pub fn scaled(&self, factor: S) -> Self {
+        Self { xx: self.xx * factor, yy: self.yy * factor, zz: self.zz * factor }
+    }
+}
+
+/// A symmetric tensor brought to its principal axes, with the rotation kept.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrincipalFrame {
+    /// Eigenvalues in descending order, `s^XX >= s^YY >= s^ZZ` (the order of the paper's examples).
+    pub coefficients: PrincipalCoefficients<f64>,
+    /// Proper rotation `Q` from components in the given frame to components in the principal frame: rows are the
+    /// principal axes. `Q s Q^T` is diagonal.
+    pub principal_from_given: Matrix3<f64>,
+}
+
+/// Principal axes of a symmetric tensor `s^IJ` given in any inertial frame.
+///
+/// The eigenvalues are accurate to a few ulp of the largest one. The axes of two eigenvalues `s1`, `s2` are determined to
+/// about `2e-16 |s| / |s1 - s2|`; for equal ones any pair of axes in their plane is as good, and one is returned.
+///
+/// # Errors
+/// [`Error::Domain`] for an entry that is not finite, and for an asymmetry above `1e-12` of the largest entry.
+pub fn principal_frame(tensor: &Matrix3<f64>) -> Result<PrincipalFrame, Error> {
+    for &entry in tensor.iter() {
+        Error::unless(entry.is_finite(), "entry of s^IJ", entry, "a finite number")?;
+    }
+    let asymmetry = (tensor - tensor.transpose()).amax();
+    Error::unless(
+        asymmetry <= 1e-12 * tensor.amax(),
+        "largest |s^IJ - s^JI|",
+        asymmetry,
+        "at most 1e-12 of the largest entry: s^IJ is symmetric",
+    )?;
+    let eigen = SymmetricEigen::new((tensor + tensor.transpose()) * 0.5);
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
+    let axes = order.map(|i| eigen.eigenvectors.column(i).into_owned());
+    // A sign per axis is free: the larger component positive for X and Y, Z to make the frame right-handed.
+    let x = positive_along_largest(axes[0]);
+    let y = positive_along_largest(axes[1]);
+    let z = x.cross(&y);
+    Ok(PrincipalFrame {
+        coefficients: PrincipalCoefficients::new(order.map(|i| eigen.eigenvalues[i])),
+        principal_from_given: Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]),
+    })
+}
+
+fn positive_along_largest(axis: Vector3<f64>) -> Vector3<f64> {
+    if axis[axis.iamax()] < 0.0 { -axis } else { axis }
+}
+
+/// PPN replacement, Eq. (5) `[replace]`: `s^ij = -alpha_2 w^i w^j`, with `w` the velocity relative to the preferred frame in
+/// units of the speed of light.
+pub fn coefficients_from_preferred_frame<S: Scalar>(alpha_2: S, w: &Vector3<S>) -> Matrix3<S> {
+    -(w * w.transpose()) * alpha_2
+}
+
+/// The PPN parameter of a tensor of rank one, the inverse of Eq. (5) `[replace]` for a given velocity `w` (units of c):
+/// `alpha_2 = -s^ij w^i w^j / |w|^4`.
+///
+/// # Errors
+/// [`Error::Domain`] for `w = 0`, or where `s^ij + alpha_2 w^i w^j` is not zero to `1e-9` of `s^ij`: such a tensor is not
+/// of preferred-frame form.
+pub fn preferred_frame_parameter<S: Real>(s: &Matrix3<S>, w: &Vector3<S>) -> Result<S, Error> {
+    let w2 = w.dot(w);
+    Error::unless(w2.re() > 0.0, "squared velocity |w|^2", w2.re(), "above zero")?;
+    let alpha_2 = -(w.dot(&(s * w)) / (w2 * w2));
+    let rest = (s - coefficients_from_preferred_frame(alpha_2, w)).map(S::re).amax();
+    Error::unless(
+        rest <= 1e-9 * s.map(S::re).amax(),
+        "largest |s^ij + alpha_2 w^i w^j|",
+        rest,
+        "at most 1e-9 of the largest |s^ij|: the tensor must have the form of Eq. (5)",
+    )?;
+    Ok(alpha_2)
+}

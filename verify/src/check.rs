@@ -1,0 +1,126 @@
+//! A check: written once as data, run singly by `cargo test` and listed by the command `twofold verify`.
+
+/// What a check compares with what; the kinds of evidence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// An identity of rational functions over a prime field: no tolerance.
+    Exact,
+    /// A formula of the paper against automatic derivatives of the Lagrangian or a time jet.
+    Autodiff,
+    /// A different method or a different source.
+    Oracle,
+    /// An invariant, symmetry or round trip at random points of the physical domain.
+    Property,
+    /// An approximation's error against the numerical motion: its order and where it holds.
+    Regime,
+}
+
+impl Kind {
+    /// Lower-case name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Exact => "exact",
+            Kind::Autodiff => "autodiff",
+            Kind::Oracle => "oracle",
+            Kind::Property => "property",
+            Kind::Regime => "regime",
+        }
+    }
+}
+
+/// What the measured figure must satisfy, in words of its unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bound {
+    /// The figure is at most this; NaN fails.
+    AtMost(f64),
+    /// The figure is at least this; NaN fails.
+    AtLeast(f64),
+    /// The figure lies in this closed interval; NaN fails.
+    Within(f64, f64),
+}
+
+impl Bound {
+    /// Whether `figure` satisfies the bound.
+    pub fn holds(self, figure: f64) -> bool {
+        match self {
+            Bound::AtMost(limit) => figure <= limit,
+            Bound::AtLeast(limit) => figure >= limit,
+            Bound::Within(low, high) => low <= figure && figure <= high,
+        }
+    }
+}
+
+impl std::fmt::Display for Bound {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Bound::AtMost(limit) => write!(f, "<= {limit:.3e}"),
+            Bound::AtLeast(limit) => write!(f, ">= {limit:.3e}"),
+            Bound::Within(low, high) => write!(f, "in [{low:.4}, {high:.4}]"),
+        }
+    }
+}
+
+/// The figure that a check measured, with what a reader needs to find the worst case again (seed, point, table).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// The figure that the bound is about.
+    pub figure: f64,
+    /// One line: where the worst case was, or the numbers behind the figure.
+    pub detail: String,
+}
+
+impl Measured {
+    /// A figure and its line of detail.
+    pub fn new(figure: f64, detail: impl Into<String>) -> Self {
+        Self { figure, detail: detail.into() }
+    }
+}
+
+/// One check.
+#[derive(Clone, Copy)]
+pub struct Check {
+    /// Kebab-case id, `kind` prefix not included: `euler-lagrange-equations`.
+    pub id: &'static str,
+    /// Kind of evidence.
+    pub kind: Kind,
+    /// Equation numbers it is about, in order: `&[25]`.
+    pub equations: &'static [u8],
+    /// What holds if it passes, one sentence.
+    pub statement: &'static str,
+    /// What the figure is: `mismatches at 24 points`, `largest error / ulp of the sum of magnitudes`.
+    pub figure: &'static str,
+    /// The bound on the figure.
+    pub bound: Bound,
+    /// Why this bound: where it comes from, in one sentence.
+    pub reason: &'static str,
+    /// Measures the figure. An error is a failure of the check.
+    pub measure: fn() -> Result<Measured, String>,
+}
+
+/// What became of a check.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// The measured figure, or why there is none.
+    pub measured: Result<Measured, String>,
+    /// Whether the bound holds.
+    pub passed: bool,
+    /// Wall-clock time spent.
+    pub seconds: f64,
+}
+
+impl Check {
+    /// Runs the check. A panic inside counts as a failure with its message.
+    pub fn run(&self) -> Outcome {
+        let start = std::time::Instant::now();
+        let measured = std::panic::catch_unwind(self.measure).unwrap_or_else(|panic| {
+            let message = panic
+                .downcast_ref::<String>()
+                .map(String::as_str)
+                .or_else(|| panic.downcast_ref::<&str>().copied())
+                .unwrap_or("panic without a message");
+            Err(format!("panicked: {message}"))
+        });
+        let passed = measured.as_ref().is_ok_and(|m| self.bound.holds(m.figure));
+        Outcome { measured, passed, seconds: start.elapsed().as_secs_f64() }
+    }
+}

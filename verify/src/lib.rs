@@ -1,0 +1,4 @@
+//! Verification of the model `twofold`: checks, golden numbers, scene files and the command `twofold`.
+
+pub mod check;
+pub mod checks;
