@@ -48,7 +48,7 @@ pub fn propagate<S: Real>(
     let mut motion = TaylorMotion { spheroid: *spheroid, violation: *s, span, steps: Vec::new(), scale };
     let mut elapsed = Compensated::new(0.0);
     let mut state = CompensatedState::new(initial);
-    let mut error = ErrorGrowth::default();
+    let mut error = ErrorGrowth::of_rounded_start();
     loop {
         if motion.steps.len() == STEP_LIMIT {
             return Err(Error::Domain {
@@ -200,7 +200,7 @@ fn step_size<S: Real>(series: &Series<S>, scale: &Scale, budget: f64) -> f64 {
 
 /// Sums over the steps, at times `t_k`, from which the grown truncation `sum_k e_k u_k` and the grown rounding
 /// `2e-16 sqrt(sum_k u_k^2)` follow, with `u_k = 1 + rate (t - t_k)`: rounding errors are independent, truncation errors not.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 struct ErrorGrowth {
     truncation: f64,
     truncation_times: f64,
@@ -210,6 +210,11 @@ struct ErrorGrowth {
 }
 
 impl ErrorGrowth {
+    /// The initial state comes out of a few rounded operations, about two ulp of one.
+    fn of_rounded_start() -> Self {
+        Self { truncation: 0.0, truncation_times: 0.0, steps: 4.0, times: 0.0, times_squared: 0.0 }
+    }
+
     fn add(&mut self, time: f64, truncation: f64) {
         self.truncation += truncation;
         self.truncation_times += truncation * time;
