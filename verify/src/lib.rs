@@ -2,5 +2,6 @@
 
 pub mod check;
 pub mod checks;
+pub mod fit;
 pub mod physical_domain;
 pub mod reference;
