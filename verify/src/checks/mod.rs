@@ -2,11 +2,12 @@
 
 mod propagation;
 pub mod regimes;
+mod solutions;
 
 use crate::check::Check;
 
 /// All checks, in the order in which they are listed.
 pub fn all() -> Vec<Check> {
-    let subjects: [fn() -> Vec<Check>; 2] = [propagation::checks, regimes::checks];
+    let subjects: [fn() -> Vec<Check>; 3] = [solutions::checks, propagation::checks, regimes::checks];
     subjects.iter().flat_map(|checks| checks()).collect()
 }
