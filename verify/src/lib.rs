@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod checks;
+pub mod equation_table;
 pub mod fit;
 pub mod golden;
 pub mod paper_examples;
