@@ -2,3 +2,10 @@
 
 pub mod check;
 pub mod checks;
+pub mod conditioned;
+pub mod derivation;
+pub mod dual;
+pub mod identity;
+mod operators;
+pub mod prime_field;
+pub mod random;
