@@ -11,7 +11,7 @@ pub mod euler_angles;
 pub mod lorentz_violation;
 pub mod propagation;
 pub mod scalar;
-//pub mod solutions;
+pub mod solutions;
 //pub mod star;
 //pub mod units;
 

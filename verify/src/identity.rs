@@ -2,7 +2,7 @@
 
 use num_traits::Zero;
 
-use crate::check::{Bound, Check, Kind, Measured};
+use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::conditioned::Conditioned;
 use crate::derivation::Differentiable;
 use crate::prime_field::Fp;
@@ -81,18 +81,14 @@ fn nonzero_residuals<I: Identity>() -> Result<Measured, String> {
 
 fn largest_rounding<I: Identity>() -> Result<Measured, String> {
     let seed = 2021;
-    let (mut largest, mut detail) = (0.0, String::new());
+    let mut worst = Worst::default();
     let pairs = points::<f64>(seed, PHYSICAL_POINTS).zip(points::<Conditioned>(seed, PHYSICAL_POINTS));
     for (index, (point, conditioned)) in pairs.enumerate() {
         let scales = I::residuals(&conditioned);
         for (component, (residual, scale)) in I::residuals(&point).into_iter().zip(scales).enumerate() {
             let figure = if residual == 0.0 { 0.0 } else { residual.abs() / (f64::EPSILON * scale.magnitude) };
-            // Not `figure > largest`: a NaN has to win.
-            if !(figure <= largest) {
-                largest = figure;
-                detail = format!("component {component} at point {index} of seed {seed}: {residual:e}");
-            }
+            worst.see(figure, || format!("component {component} at point {index} of seed {seed}: {residual:e}"));
         }
     }
-    Ok(Measured::new(largest, detail))
+    worst.finish()
 }

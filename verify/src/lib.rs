@@ -7,5 +7,7 @@ pub mod derivation;
 pub mod dual;
 pub mod identity;
 mod operators;
+pub mod physical_domain;
 pub mod prime_field;
 pub mod random;
+pub mod reference;

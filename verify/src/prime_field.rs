@@ -38,9 +38,9 @@ impl Fp {
         let (mut square, mut product) = (self, Self::one());
         while exponent > 0 {
             if exponent & 1 == 1 {
-                product = product * square;
+                product *= square;
             }
-            square = square * square;
+            square *= square;
             exponent >>= 1;
         }
         product

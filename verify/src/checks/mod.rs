@@ -1,23 +1,27 @@
 //! Every check of the project, by subject.
 
-use crate::check::Check;
+mod equations_of_motion;
+mod first_integrals;
+mod orientation;
+mod perturbation_equations;
+mod potential_energy;
+mod propagation;
+mod torque;
+mod wave_tensor;
 
-pub mod equations_of_motion;
-pub mod first_integrals;
-pub mod orientation;
-pub mod potential_energy;
-pub mod torque;
-pub mod wave_tensor;
+use crate::check::Check;
 
 /// All checks, in the order in which they are listed.
 pub fn all() -> Vec<Check> {
-    let subjects: [fn() -> Vec<Check>; 6] = [
+    let subjects: [fn() -> Vec<Check>; 8] = [
         orientation::checks,
         potential_energy::checks,
         equations_of_motion::checks,
         torque::checks,
         wave_tensor::checks,
         first_integrals::checks,
+        perturbation_equations::checks,
+        propagation::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()
 }

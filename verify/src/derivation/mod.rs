@@ -13,6 +13,7 @@ use crate::prime_field::Fp;
 
 pub mod body_motion;
 pub mod euler_lagrange;
+pub mod first_order;
 pub mod spheroid_motion;
 pub mod virtual_rotation;
 
@@ -26,6 +27,9 @@ pub trait Differentiable: Scalar {
 
     /// `x + x1 e`.
     fn first(x: Self, x1: Self) -> Self::First;
+
+    /// The part without `e`.
+    fn value(x: Self::First) -> Self;
 
     /// The coefficient of `e`.
     fn derivative(x: Self::First) -> Self;
@@ -58,6 +62,10 @@ impl Differentiable for f64 {
         Dual64::new(x, x1)
     }
 
+    fn value(x: Dual64) -> f64 {
+        x.re
+    }
+
     fn derivative(x: Dual64) -> f64 {
         x.eps
     }
@@ -84,6 +92,10 @@ macro_rules! differentiable_by_nesting {
 
             fn first(x: Self, x1: Self) -> Self::First {
                 Dual::new(x, x1)
+            }
+
+            fn value(x: Self::First) -> Self {
+                x.re
             }
 
             fn derivative(x: Self::First) -> Self {

@@ -1,0 +1,5 @@
+//! Solutions in closed form, exact and perturbative. Eqs. (26)-(34), (48), (57).
+
+pub mod free;
+pub mod perturbation;
+pub mod steady;
