@@ -99,8 +99,7 @@ impl Mul for Fp {
 impl Div for Fp {
     type Output = Self;
 
-    // The quotient is the product with the inverse.
-    #[allow(clippy::suspicious_arithmetic_impl)]
+    #[allow(clippy::suspicious_arithmetic_impl, reason = "a quotient is the product with the inverse")]
     fn div(self, rhs: Self) -> Self {
         self * rhs.inverse()
     }

@@ -6,6 +6,7 @@ mod orientation;
 mod perturbation_equations;
 mod potential_energy;
 mod propagation;
+mod steady_precession;
 mod torque;
 mod wave_tensor;
 
@@ -13,7 +14,7 @@ use crate::check::Check;
 
 /// All checks, in the order in which they are listed.
 pub fn all() -> Vec<Check> {
-    let subjects: [fn() -> Vec<Check>; 8] = [
+    let subjects: [fn() -> Vec<Check>; 9] = [
         orientation::checks,
         potential_energy::checks,
         equations_of_motion::checks,
@@ -21,6 +22,7 @@ pub fn all() -> Vec<Check> {
         wave_tensor::checks,
         first_integrals::checks,
         perturbation_equations::checks,
+        steady_precession::checks,
         propagation::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()

@@ -1,19 +1,15 @@
-//! The perturbation solutions and the equations that they solve. Eqs. (26)-(33), (57).
+//! The perturbation solutions and the equations that they solve. Eqs. (27)-(33).
 
-use num_dual::Dual64;
 use twofold::Scalar;
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_residuals};
-use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
 use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation};
-use twofold::solutions::steady::steady_precession_rate;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Check, Kind};
 use crate::derivation::Differentiable;
-use crate::derivation::first_order::{UnperturbedMotion, linearised_equations};
+use crate::derivation::first_order::{UnperturbedMotion, first_order_motion, linearised_equations};
 use crate::derivation::spheroid_motion::{fixed_coefficients, fixed_spheroid};
 use crate::identity::{self, Identity};
-use crate::random::{Point, Random};
+use crate::random::Point;
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
@@ -23,38 +19,13 @@ pub fn checks() -> Vec<Check> {
         identity::checks::<PrintedSolution>(),
         identity::checks::<CorrectedSolution>(),
         identity::checks::<TimeIntegral>(),
-        identity::checks::<SteadyPrecession>(),
     ]
-    .into_iter()
-    .flatten()
-    .chain([
-        Check {
-            id: "steady-precession-equation",
-            kind: Kind::Property,
-            equations: &[25, 26],
-            statement: "both roots of Eq. (26) solve Eq. (25) at constant inclination, for s^XX = s^YY",
-            figure: "largest residual / (2.2e-16 x sum of magnitudes of the terms of Eq. (25)), 200 random points",
-            bound: Bound::AtMost(4.0),
-            reason: "a root has about eight roundings of half an ulp, and enters the terms with degree one or two",
-            measure: steady_rates_in_equation,
-        },
-        Check {
-            id: "steady-precession-limit",
-            kind: Kind::Autodiff,
-            equations: &[26, 28, 31, 32],
-            statement: "the derivative of Eq. (26) by the size of s, at s = 0, is the forced precession -+a^(1)",
-            figure: "largest difference / (2.2e-16 x a^(1) with the magnitudes of its terms), 200 random points",
-            bound: Bound::AtMost(8.0),
-            reason: "some ten factors on each side, half an ulp each, and their derivatives",
-            measure: steady_rates_to_first_order,
-        },
-    ])
-    .collect()
+    .concat()
 }
 
-const KINDS: [Precession; 2] = [Precession::Twofold, Precession::Single];
+pub(super) const KINDS: [Precession; 2] = [Precession::Twofold, Precession::Single];
 
-fn constants<F: Scalar>(p: &Point<F>) -> Constants<F> {
+pub(super) fn constants<F: Scalar>(p: &Point<F>) -> Constants<F> {
     Constants {
         alpha_0: p.angles.alpha,
         beta_0: p.angles.beta,
@@ -69,7 +40,7 @@ fn zeroth_order<F: Scalar>(kind: Precession, p: &Point<F>) -> ZerothOrder<F> {
 }
 
 /// Eq. (28), from what the two kinds mean: free precession has `L` along Z, `I^zz Omega^z = L cos b`, `a = L / I^xx`.
-fn unperturbed_motion<F: Scalar>(kind: Precession, p: &Point<F>) -> UnperturbedMotion<F> {
+pub(super) fn unperturbed_motion<F: Scalar>(kind: Precession, p: &Point<F>) -> UnperturbedMotion<F> {
     let (_, cos_beta) = p.angles.beta.sin_cos();
     let rate = match kind {
         Precession::Twofold => p.spheroid.inertia_zz * p.rates.gamma / cos_beta / p.spheroid.inertia_xx,
@@ -86,41 +57,6 @@ fn any_first_order<F: Scalar>(p: &Point<F>) -> FirstOrderMotion<F> {
         beta_rate: p.rates.beta,
         alpha_acceleration: p.accelerations.alpha,
         beta_acceleration: p.accelerations.beta,
-    }
-}
-
-/// A solution as a first-order motion at `t = 0` with its phases at the zeroth-order rate `a` and the homogeneous frequency
-/// `nu`. What Eq. (32) adds to `a` is put back into the rate of `alpha1`, where Eq. (30) has it.
-fn first_order_motion<F: Differentiable>(solution: &Perturbation<F>, nu: F) -> FirstOrderMotion<F> {
-    let shift = solution.rate - solution.zeroth_rate;
-    let moving = Perturbation {
-        constants: Constants {
-            alpha_0: F::fixed(solution.constants.alpha_0),
-            beta_0: F::fixed(solution.constants.beta_0),
-            amplitude: F::fixed(solution.constants.amplitude),
-            phase: F::fixed(solution.constants.phase),
-        },
-        omega: F::fixed(solution.omega),
-        rate: F::fixed(solution.zeroth_rate),
-        zeroth_rate: F::fixed(solution.zeroth_rate),
-        forced_rate: F::fixed(solution.forced_rate),
-        c_tilde: F::fixed(solution.c_tilde),
-        eta_alpha: F::fixed(solution.eta_alpha),
-        eta_beta: F::fixed(solution.eta_beta),
-        homogeneous_frequency: F::fixed(nu),
-        homogeneous_ratio: F::fixed(solution.homogeneous_ratio),
-    };
-    let phases = (F::first(solution.constants.phase, nu), F::first(solution.constants.alpha_0, solution.zeroth_rate));
-    let (alpha_rate, beta_rate) = moving.first_order_rates(phases.0, phases.1);
-    // At rest (single precession) Eq. (33) would divide by zero, and beta1 has no part in the equations.
-    let beta =
-        if solution.zeroth_rate.is_zero() { F::zero() } else { F::value(moving.first_order(phases.0, phases.1).1) };
-    FirstOrderMotion {
-        beta,
-        alpha_rate: shift + F::value(alpha_rate),
-        beta_rate: F::value(beta_rate),
-        alpha_acceleration: F::derivative(alpha_rate),
-        beta_acceleration: F::derivative(beta_rate),
     }
 }
 
@@ -245,79 +181,4 @@ impl Identity for TimeIntegral {
             })
             .collect()
     }
-}
-
-struct SteadyPrecession;
-
-impl Identity for SteadyPrecession {
-    const ID: &'static str = "steady-precession-first-order";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "steady-precession-first-order-autodiff");
-    const EQUATIONS: &'static [u8] = &[25, 26, 28, 30, 31, 32];
-    const STATEMENT: &'static str = "for s^XX = s^YY and A = 0 the printed rates are constant at constant inclination, and solve Eq. (25), so Eq. (26), to \
-         first order in s";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let symmetric = PrincipalCoefficients { yy: p.s.xx, ..p.s };
-        KINDS
-            .into_iter()
-            .flat_map(|kind| {
-                let constants = Constants { amplitude: F::zero(), ..constants(p) };
-                let printed = Perturbation::printed_unchecked(kind, &p.spheroid, &symmetric, p.rates.gamma, &constants);
-                let first = first_order_motion(&printed, printed.homogeneous_frequency);
-                let unperturbed = unperturbed_motion(kind, p);
-                let [of_alpha, of_beta] = linearised_equations(&p.spheroid, &symmetric, &unperturbed, &first);
-                [of_alpha, of_beta, first.beta, first.beta_rate, first.alpha_acceleration, first.beta_acceleration]
-            })
-            .collect()
-    }
-}
-
-/// Bodies, coefficients symmetric about Z and spins large enough for both roots of Eq. (26) to be real:
-/// `(I^zz Omega^z)^2 >= 9`, above `8 |s^ZZ - s^XX| C I^xx < 6.4`.
-fn symmetric_points() -> impl Iterator<Item = (Point<f64>, PrincipalCoefficients<f64>, f64)> {
-    let mut random = Random::with_seed(26);
-    (0..200).map(move |_| {
-        let point = Point::<f64>::draw(&mut random);
-        let momentum = (3.0 + point.numbers[0].abs()).copysign(point.numbers[1]);
-        let symmetric = PrincipalCoefficients { yy: point.s.xx, ..point.s };
-        (point, symmetric, momentum / point.spheroid.inertia_zz)
-    })
-}
-
-fn steady_rates_in_equation() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (index, (p, s, spin)) in symmetric_points().enumerate() {
-        for kind in KINDS {
-            let beta = p.angles.beta;
-            let rate = steady_precession_rate(kind, &p.spheroid, &s, spin, beta).map_err(|e| e.to_string())?;
-            let motion = AxisAngles { alpha: p.angles.alpha, beta, alpha_rate: rate, beta_rate: 0.0 };
-            let (of_alpha, of_beta) = euler_angle_residuals(&p.spheroid, &s, spin, &motion, (0.0, 0.0));
-            let (sb, cb) = beta.sin_cos();
-            let potential = 2.0 * p.spheroid.constant_c * (s.xx.abs() + s.zz.abs()) / p.spheroid.inertia_xx;
-            let spin_term = p.spheroid.free_precession_constant(spin) * sb * rate;
-            let terms = sb * cb.abs() * rate * rate + spin_term.abs() + potential * sb * cb.abs();
-            let place = || format!("{kind:?}, point {index} of seed 26, residuals {of_alpha:e}, {of_beta:e}");
-            worst.see(of_alpha.abs().max(of_beta.abs()) / (f64::EPSILON * terms), place);
-        }
-    }
-    worst.finish()
-}
-
-fn steady_rates_to_first_order() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (index, (p, s, spin)) in symmetric_points().enumerate() {
-        for kind in KINDS {
-            let (beta, constants) = (Dual64::from(p.angles.beta), constants(&p));
-            let small = PrincipalCoefficients::new([s.xx, s.yy, s.zz].map(|x| Dual64::new(0.0, x)));
-            let spheroid = fixed_spheroid(&p.spheroid);
-            let exact = steady_precession_rate(kind, &spheroid, &small, Dual64::from(spin), beta);
-            let printed = Perturbation::printed(kind, &p.spheroid, &s, spin, &constants).map_err(|e| e.to_string())?;
-            let shift = -kind.sign() * printed.forced_rate;
-            let slope = exact.map_err(|e| e.to_string())?.eps;
-            let cancelled = 2.0 * (s.zz.abs() + s.xx.abs()) / s.combination().abs();
-            let place = || format!("{kind:?}, point {index} of seed 26: {slope:e}, a^(1) {shift:e}");
-            worst.see((slope - shift).abs() / (f64::EPSILON * shift.abs() * cancelled), place);
-        }
-    }
-    worst.finish()
 }

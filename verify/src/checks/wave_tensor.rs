@@ -86,7 +86,7 @@ impl Identity for FreeWaveTensor {
     }
 }
 
-/// M. Zimmermann, Phys. Rev. D 21, 891 (1980), for a freely precessing body, in his form with indices 1, 2, 3:
+/// The free result of M. Zimmermann, Phys. Rev. D 21, 891 (1980), with indices 1, 2, 3 for the body axes:
 /// `A_11 = 2 (D_2 W_2^2 - D_3 W_3^2)`, `A_12 = (D_1 - D_2 + D_3^2 / I_3) W_1 W_2` and cyclic, with
 /// `D_1 = I_2 - I_3` and cyclic.
 fn free_wave_tensor_of_zimmermann<F: Differentiable>(inertia: &PrincipalInertia<F>, omega: &Vector3<F>) -> Matrix3<F> {

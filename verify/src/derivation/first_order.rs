@@ -1,9 +1,10 @@
-//! The first-order equations by differentiating Eq. (25) once, with nothing dropped.
+//! The first-order equations by differentiating Eq. (25) once, with nothing dropped, and a solution put into them.
 
 use twofold::dynamics::RigidSpheroid;
 use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_residuals};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::linearised::FirstOrderMotion;
+use twofold::solutions::perturbation::{Constants, Perturbation};
 
 use crate::derivation::Differentiable;
 use crate::derivation::spheroid_motion::fixed_spheroid;
@@ -43,4 +44,39 @@ pub fn linearised_equations<F: Differentiable>(
         euler_angle_residuals(&fixed_spheroid(spheroid), &s, F::fixed(zeroth.spin), &motion, accelerations);
     let (sin_beta, _) = zeroth.beta.sin_cos();
     [F::derivative(of_alpha) / (sin_beta * sin_beta), F::derivative(of_beta)]
+}
+
+/// A solution as a first-order motion at `t = 0` with its phases at the zeroth-order rate `a` and the homogeneous frequency
+/// `nu`. What Eq. (32) adds to `a` is put back into the rate of `alpha1`, where Eq. (30) has it.
+pub fn first_order_motion<F: Differentiable>(solution: &Perturbation<F>, nu: F) -> FirstOrderMotion<F> {
+    let shift = solution.rate - solution.zeroth_rate;
+    let moving = Perturbation {
+        constants: Constants {
+            alpha_0: F::fixed(solution.constants.alpha_0),
+            beta_0: F::fixed(solution.constants.beta_0),
+            amplitude: F::fixed(solution.constants.amplitude),
+            phase: F::fixed(solution.constants.phase),
+        },
+        omega: F::fixed(solution.omega),
+        rate: F::fixed(solution.zeroth_rate),
+        zeroth_rate: F::fixed(solution.zeroth_rate),
+        forced_rate: F::fixed(solution.forced_rate),
+        c_tilde: F::fixed(solution.c_tilde),
+        eta_alpha: F::fixed(solution.eta_alpha),
+        eta_beta: F::fixed(solution.eta_beta),
+        homogeneous_frequency: F::fixed(nu),
+        homogeneous_ratio: F::fixed(solution.homogeneous_ratio),
+    };
+    let phases = (F::first(solution.constants.phase, nu), F::first(solution.constants.alpha_0, solution.zeroth_rate));
+    let (alpha_rate, beta_rate) = moving.first_order_rates(phases.0, phases.1);
+    // At rest (single precession) Eq. (33) would divide by zero, and beta1 has no part in the equations.
+    let beta =
+        if solution.zeroth_rate.is_zero() { F::zero() } else { F::value(moving.first_order(phases.0, phases.1).1) };
+    FirstOrderMotion {
+        beta,
+        alpha_rate: shift + F::value(alpha_rate),
+        beta_rate: F::value(beta_rate),
+        alpha_acceleration: F::derivative(alpha_rate),
+        beta_acceleration: F::derivative(beta_rate),
+    }
 }
