@@ -1,7 +1,6 @@
-//! Steady precession at constant inclination, free and forced. Eqs. (25), (26), (48), (57).
+//! Forced precession: the shift of the steady rates to first order in `s^IJ`. Eqs. (26), (31), (32), (57).
 
 use num_dual::Dual64;
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_residuals};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::free::free_precession_rates;
 use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation, shifted_rates};
@@ -19,17 +18,7 @@ use crate::random::{Point, Random};
 pub fn checks() -> Vec<Check> {
     identity::checks::<SteadyPrecession>().into_iter().chain([
         Check {
-            id: "steady-precession-equation",
-            kind: Kind::Property,
-            equations: &[25, 26],
-            statement: "both roots of Eq. (26) solve Eq. (25) at constant inclination, for s^XX = s^YY",
-            figure: "largest residual / (2.2e-16 x sum of magnitudes of the terms of Eq. (25)), 200 random points",
-            bound: Bound::AtMost(4.0),
-            reason: "a root has about eight roundings of half an ulp, and enters the terms with degree one or two",
-            measure: steady_rates_in_equation,
-        },
-        Check {
-            id: "steady-precession-limit",
+            id: "forced-precession-limit",
             kind: Kind::Autodiff,
             equations: &[26, 28, 31, 32],
             statement: "the derivative of Eq. (26) by the size of s, at s = 0, is the forced precession -+a^(1)",
@@ -86,25 +75,6 @@ fn symmetric_points() -> impl Iterator<Item = (Point<f64>, PrincipalCoefficients
         let symmetric = PrincipalCoefficients { yy: point.s.xx, ..point.s };
         (point, symmetric, momentum / point.spheroid.inertia_zz)
     })
-}
-
-fn steady_rates_in_equation() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (index, (p, s, spin)) in symmetric_points().enumerate() {
-        for kind in KINDS {
-            let beta = p.angles.beta;
-            let rate = steady_precession_rate(kind, &p.spheroid, &s, spin, beta).map_err(|e| e.to_string())?;
-            let motion = AxisAngles { alpha: p.angles.alpha, beta, alpha_rate: rate, beta_rate: 0.0 };
-            let (of_alpha, of_beta) = euler_angle_residuals(&p.spheroid, &s, spin, &motion, (0.0, 0.0));
-            let (sb, cb) = beta.sin_cos();
-            let potential = 2.0 * p.spheroid.constant_c * (s.xx.abs() + s.zz.abs()) / p.spheroid.inertia_xx;
-            let spin_term = p.spheroid.free_precession_constant(spin) * sb * rate;
-            let terms = sb * cb.abs() * rate * rate + spin_term.abs() + potential * sb * cb.abs();
-            let place = || format!("{kind:?}, point {index} of seed 26, residuals {of_alpha:e}, {of_beta:e}");
-            worst.see(of_alpha.abs().max(of_beta.abs()) / (f64::EPSILON * terms), place);
-        }
-    }
-    worst.finish()
 }
 
 fn steady_rates_to_first_order() -> Result<Measured, String> {

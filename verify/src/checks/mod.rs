@@ -2,11 +2,13 @@
 
 mod equations_of_motion;
 mod first_integrals;
+mod forced_precession;
 mod orientation;
 mod perturbation_equations;
 mod potential_energy;
 mod propagation;
-mod steady_precession;
+pub mod regimes;
+mod solutions;
 mod torque;
 mod wave_tensor;
 
@@ -14,7 +16,7 @@ use crate::check::Check;
 
 /// All checks, in the order in which they are listed.
 pub fn all() -> Vec<Check> {
-    let subjects: [fn() -> Vec<Check>; 9] = [
+    let subjects: &[fn() -> Vec<Check>] = &[
         orientation::checks,
         potential_energy::checks,
         equations_of_motion::checks,
@@ -22,8 +24,10 @@ pub fn all() -> Vec<Check> {
         wave_tensor::checks,
         first_integrals::checks,
         perturbation_equations::checks,
-        steady_precession::checks,
+        forced_precession::checks,
+        solutions::checks,
         propagation::checks,
+        regimes::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()
 }
