@@ -1,0 +1,3 @@
+//! Elliptic integrals and functions that carry derivatives: Carlson's symmetric integrals, Jacobi's functions.
+
+pub mod carlson;
