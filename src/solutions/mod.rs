@@ -1,0 +1,3 @@
+//! Solutions in closed form, exact and perturbative. Eqs. (26)-(34), (48), (57).
+
+pub mod symmetric;
