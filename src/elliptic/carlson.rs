@@ -111,8 +111,6 @@ pub fn rj<S: Real>(x: S, y: S, z: S, p: S) -> S {
 pub fn rj_pair<S: Real>(root_x: S, mean: S, product: S, p: S) -> S {
     let mut at = Arguments::new(root_x, mean, product);
     let mut p = p;
-    // (p - x)(p - y)(p - z), which each duplication divides by 64.
-    let mut delta = (p - at.x) * (p * p - p * mean * 2.0 + product);
     let (mut sum, mut scale) = (S::zero(), 1.0);
     for _ in 0..MOST_DUPLICATIONS {
         let centre = (at.x + at.mean * 2.0 + p * 2.0) / 5.0;
@@ -128,9 +126,10 @@ pub fn rj_pair<S: Real>(root_x: S, mean: S, product: S, p: S) -> S {
         }
         let root_p = p.sqrt();
         let d = (root_p + at.root_x) * (p + root_p * at.sum_of_roots() + at.root_of_product);
-        sum += rc(S::one(), S::one() + delta / (d * d)) * scale / d;
+        // 1 + (p - x)(p - y)(p - z) / d^2, as a sum of positive terms.
+        let y = root_p * (p + at.lambda()) * 2.0 / d;
+        sum += rc(S::one(), y) * scale / d;
         scale *= 0.25;
-        delta /= S::from_f64(64.0);
         p = (p + at.lambda()) * 0.25;
         at.duplicate();
     }
