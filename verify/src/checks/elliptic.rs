@@ -2,7 +2,7 @@
 
 use num_dual::{Dual3_64, third_derivative};
 use proptest::prelude::*;
-use twofold::elliptic::carlson::{rc, rd, rf, rf_pair, rj, rj_pair};
+use twofold::elliptic::carlson::{rc, rd, rf, rf_of_roots, rj, rj_of_roots};
 use twofold::elliptic::jacobi::{JacobiFunctions, complete_integral, jacobi};
 use twofold::scalar::Real;
 
@@ -122,10 +122,23 @@ fn carlson<S: Real>(function: &str, a: &[S]) -> S {
         "rc" => rc(a[0], a[1]),
         "rd" => rd(a[0], a[1], a[2]),
         "rj" => rj(a[0], a[1], a[2], a[3]),
-        "rf_pair" => rf_pair(root(a[0]), a[1], a[1] * a[1] + a[2] * a[2]),
-        "rj_pair" => rj_pair(root(a[0]), a[1], a[1] * a[1] + a[2] * a[2], a[3]),
+        "rf_pair" => {
+            let (sum, product) = roots_of_pair(a[1], a[2]);
+            rf_of_roots(root(a[0]), sum, product)
+        }
+        "rj_pair" => {
+            let (sum, product) = roots_of_pair(a[1], a[2]);
+            rj_of_roots(root(a[0]), sum, product, a[3])
+        }
         other => panic!("no function {other}"),
     }
+}
+
+/// Sum and product of the roots of a conjugate pair.
+fn roots_of_pair<S: Real>(re: S, im: S) -> (S, S) {
+    let modulus = (re * re + im * im).sqrt();
+    let twice = if re.re() < 0.0 { im * im / (modulus - re) } else { modulus + re };
+    ((twice * 2.0).sqrt(), modulus)
 }
 
 fn carlson_values() -> Result<Measured, String> {

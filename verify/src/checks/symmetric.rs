@@ -1,5 +1,6 @@
 //! The exact motion for `s^XX = s^YY`: equations of motion, reference motions, numerical motion, derivatives and limits.
 
+use std::cell::Cell;
 use std::f64::consts::PI;
 
 use nalgebra::Vector3;
@@ -117,9 +118,13 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-/// Random scenes with `s^XX = s^YY`; both signs of `s^ZZ - s^XX`, so that the quartic has four real roots or two.
+/// Random scenes with `s^XX = s^YY`; both signs of `s^ZZ - s^XX`, so that the quartic has four real roots or two. Half of
+/// them with coefficients of up to 3, which trap the axis near the equator or a pole.
 fn symmetric_scenes() -> impl Strategy<Value = RandomScene> {
-    scenes().prop_map(|scene| RandomScene { s: [scene.s[0], scene.s[0], scene.s[2]], ..scene })
+    (scenes(), prop_oneof![Just(1.0), Just(10.0)]).prop_map(|(scene, strength)| {
+        let [xx, _, zz] = scene.s.map(|s| s * strength);
+        RandomScene { s: [xx, xx, zz], ..scene }
+    })
 }
 
 fn lifted<S: Real>(scene: &RandomScene) -> (RigidSpheroid<S>, PrincipalCoefficients<S>, EulerAngles<S>, EulerRates<S>) {
@@ -196,7 +201,7 @@ fn compare_with_propagation(scene: &RandomScene) -> Result<f64, String> {
     for i in 0..=25 {
         let t = 2.0 * f64::from(i);
         let difference = difference(&state(&spheroid, &exact, t), &numerical.state(t).map_err(text)?);
-        largest = largest.max(difference / numerical.error_estimate(t));
+        largest = largest.max(difference / (numerical.error_estimate(t) + 4.0 * f64::EPSILON * phase(scene, t)));
     }
     Ok(largest)
 }
@@ -259,9 +264,8 @@ fn free_limit() -> Result<Measured, String> {
 }
 
 fn steady() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    let steady_scenes = (symmetric_scenes(), any::<bool>());
-    let measured = worst_over(35, 500, &steady_scenes, |&(mut scene, twofold)| {
+    let solved = Cell::new(0);
+    let measured = worst_over(35, 500, &(symmetric_scenes(), any::<bool>()), |&(mut scene, twofold)| {
         let kind = if twofold { Precession::Twofold } else { Precession::Single };
         let (spheroid, s, angles, _) = lifted::<f64>(&scene);
         let spin = scene.rates[2];
@@ -269,6 +273,14 @@ fn steady() -> Result<Measured, String> {
             return Ok(0.0);
         };
         scene.rates = [rate, 0.0, spin - rate * angles.beta.cos()];
+        let (sin, cos) = angles.beta.sin_cos();
+        let k = 2.0 * (s.zz - s.xx);
+        let stiffness =
+            (rate * sin).powi(2) + spheroid.free_precession_constant(spin).powi(2) + k * (sin * sin - 4.0 * cos * cos);
+        if stiffness <= 0.0 {
+            return Ok(if solution::<f64>(&scene).is_err() { 0.0 } else { f64::INFINITY });
+        }
+        solved.set(solved.get() + 1);
         let motion: SymmetricSolution<f64> = solution(&scene)?;
         let (t, now) = (50.0, motion.angles(50.0));
         let errors = [
@@ -277,10 +289,14 @@ fn steady() -> Result<Measured, String> {
             now.gamma - angles.gamma - scene.rates[2] * t,
             (motion.mean_rates().alpha - rate) * t,
         ];
-        Ok(errors.iter().fold(0.0, |max: f64, e| max.max(e.abs())) / (phase(&scene, t) * f64::EPSILON))
+        // A rounding of the rate tilts the axis by as much over the stiffness.
+        let condition = 1.0 + 1.0 / (stiffness * sin * sin);
+        Ok(errors.iter().fold(0.0, |max: f64, e| max.max(e.abs())) / (phase(&scene, t) * condition * f64::EPSILON))
     })?;
-    worst.see(measured.figure, || measured.detail);
-    worst.finish()
+    if solved.get() < 300 {
+        return Err(format!("only {} scenes have a stable steady precession", solved.get()));
+    }
+    Ok(measured)
 }
 
 fn periods() -> Result<Measured, String> {
