@@ -5,7 +5,7 @@
 //! Nothing here reads a file, prints or starts a thread.
 
 pub mod dynamics;
-//pub mod elliptic;
+pub mod elliptic;
 pub mod error;
 pub mod euler_angles;
 pub mod lorentz_violation;

@@ -3,3 +3,4 @@
 pub mod free;
 pub mod perturbation;
 pub mod steady;
+pub mod symmetric;

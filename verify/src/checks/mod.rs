@@ -1,5 +1,6 @@
 //! Every check of the project, by subject.
 
+mod elliptic;
 mod equations_of_motion;
 mod first_integrals;
 mod forced_precession;
@@ -9,6 +10,7 @@ mod potential_energy;
 mod propagation;
 pub mod regimes;
 mod solutions;
+mod symmetric;
 mod torque;
 mod wave_tensor;
 
@@ -26,6 +28,8 @@ pub fn all() -> Vec<Check> {
         perturbation_equations::checks,
         forced_precession::checks,
         solutions::checks,
+        elliptic::checks,
+        symmetric::checks,
         propagation::checks,
         regimes::checks,
     ];

@@ -1,0 +1,167 @@
+//! The exact motion when `s^IJ` is symmetric about Z, `s^XX = s^YY`: every inclination, spin and time, in elliptic functions.
+//!
+//! Besides `Omega^z` the component `L_Z` of the angular momentum is conserved then, and Eq. (25) `[eleq]` is solved by
+//! quadratures. With `u = cos beta`, `omega = I^zz Omega^z / I^xx`, `b = L_Z / I^xx` and `k = 2 C (s^ZZ - s^XX) / I^xx`,
+//!
+//! ```text
+//! u'^2   = P(u) = [w - k u^2] (1 - u^2) - (b - omega u)^2,     w = beta'^2 + alpha'^2 sin^2 beta + k u^2, conserved
+//! alpha' = (b - omega u) / (1 - u^2),     gamma' = Omega^z - alpha' u
+//! ```
+//!
+//! where the bracket is `(dn/dt)^2`. `P` is a quartic, so that `u` is an elliptic function and the angles are elliptic
+//! integrals of the third kind. The steady precession of Eq. (26) `[sol1]` is the double root, free precession `k = 0`; both
+//! kinds of precession and all between are covered, oscillations through the equator too.
+
+mod constant_inclination;
+mod nutation;
+mod oscillation;
+mod quartic;
+
+use constant_inclination::Steady;
+use nutation::Nutating;
+use oscillation::Pole;
+use quartic::InclinationQuartic;
+
+use crate::dynamics::RigidSpheroid;
+use crate::error::Error;
+use crate::euler_angles::{EulerAngles, EulerRates};
+use crate::lorentz_violation::PrincipalCoefficients;
+use crate::scalar::Real;
+
+/// The motion through given initial angles and rates at `t = 0`, ready to be evaluated at any time.
+///
+/// Error of the angles: about `2e-16 (1 + rate |t|)`, and what the rounding of the initial values grows to, which near a
+/// separatrix is much. Near a pole `alpha` and `gamma` separately have that error over `sin beta`, the orientation has not.
+/// Derivatives by initial values, parameters and time come with dual numbers; by initial values and parameters of a steady
+/// precession, the first ones only.
+#[derive(Debug, Clone, Copy)]
+pub struct SymmetricSolution<S> {
+    initial: EulerAngles<S>,
+    spin: S,
+    omega: S,
+    motion: Motion<S>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Motion<S> {
+    Steady(Steady<S>),
+    Nutating(Nutating<S>),
+}
+
+impl<S: Real> SymmetricSolution<S> {
+    /// The motion of `spheroid` through the Euler angles and rates at `t = 0`, with `Omega^z = a' cos b + g'`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless `s^XX = s^YY`; where `sin beta` is not above 2.2e-16 at `t = 0`; and on the separatrix, where
+    /// the motion approaches an unstable steady precession, or for an axis at rest without a restoring force.
+    pub fn new(
+        spheroid: &RigidSpheroid<S>,
+        s: &PrincipalCoefficients<S>,
+        angles: &EulerAngles<S>,
+        rates: &EulerRates<S>,
+    ) -> Result<Self, Error> {
+        Error::unless(
+            s.asymmetry().re() == 0.0,
+            "asymmetry s^XX - s^YY",
+            s.asymmetry().re(),
+            "zero: use a frame whose Z axis is the symmetry axis of s^IJ",
+        )?;
+        let (sin, cos) = angles.beta.sin_cos();
+        Error::unless(sin.re() > f64::EPSILON, "sin beta", sin.re(), "above 2.2e-16: beta in (0, pi), not on a pole")?;
+        let spin = rates.alpha * cos + rates.gamma;
+        let omega = spheroid.free_precession_constant(spin);
+        let k = spheroid.constant_c * (s.zz - s.xx) * 2.0 / spheroid.inertia_xx;
+        // About u0 the coefficients are sums of the initial values, without the cancellation of P(u) itself near a pole.
+        let sin2 = sin * sin;
+        let speed2 = rates.beta * rates.beta + rates.alpha * rates.alpha * sin2;
+        let g = rates.alpha * sin2;
+        let slope = [-(cos * speed2 * 2.0), -(k * cos * sin2 * 2.0), omega * g * 2.0];
+        let quartic = InclinationQuartic {
+            coefficients: [
+                rates.beta * rates.beta * sin2,
+                slope[0] + slope[1] + slope[2],
+                k * cos * cos * 4.0 - speed2 - k * sin2 - omega * omega,
+                k * cos * 4.0,
+                k,
+            ],
+        };
+        let rounding = 8.0 * f64::EPSILON * slope.iter().map(|x| x.re().abs()).sum::<f64>();
+        let [p0, p1, p2, ..] = quartic.coefficients;
+        let motion = if p1.re().abs() <= rounding && p0.re() * p2.re().abs() <= rounding * rounding {
+            Error::unless(p2.re() < 0.0, "half of P'' at the steady inclination", p2.re(), "below zero: stable")?;
+            Motion::Steady(Steady { rates: *rates, frequency: (-p2).sqrt(), sin, cos, acceleration: p1 * 0.5 })
+        } else {
+            Motion::Nutating(Nutating::new(&quartic, angles, rates, omega, g)?)
+        };
+        Ok(Self { initial: *angles, spin, omega, motion })
+    }
+
+    /// Euler angles at time `t`, `beta` in [0, pi], `alpha` and `gamma` continuous in `t`.
+    ///
+    /// In a motion through a pole itself `alpha` jumps by half a turn there, and `gamma` with it so that the body does not.
+    pub fn angles(&self, t: S) -> EulerAngles<S> {
+        let (initial, free_turn) = (&self.initial, (self.spin - self.omega) * t);
+        match &self.motion {
+            Motion::Steady(m) => m.angles(initial, self.spin, self.omega, t),
+            Motion::Nutating(m) => {
+                let place = m.oscillation.place(t);
+                let (north, south) = m.distances(&place);
+                let north_turn = m.oscillation.integral(&m.north, Pole::North, &place, t) - m.north_start;
+                let south_turn = m.oscillation.integral(&m.south, Pole::South, &place, t) - m.south_start;
+                EulerAngles {
+                    alpha: initial.alpha + south_turn + north_turn,
+                    beta: north.sqrt().atan2(south.sqrt()) * 2.0,
+                    gamma: initial.gamma + free_turn + south_turn - north_turn,
+                }
+            }
+        }
+    }
+
+    /// Euler rates at time `t`.
+    pub fn rates(&self, t: S) -> EulerRates<S> {
+        match &self.motion {
+            Motion::Steady(m) => m.rates(self.omega, t),
+            Motion::Nutating(m) => {
+                let place = m.oscillation.place(t);
+                let (north, south) = m.distances(&place);
+                let (by_north, by_south) = (m.north_constant / north, m.south_constant / south);
+                EulerRates {
+                    alpha: by_south + by_north,
+                    beta: -(place.rate / (north * south).sqrt()),
+                    gamma: self.spin - self.omega + by_south - by_north,
+                }
+            }
+        }
+    }
+
+    /// Period of the inclination; for steady precession, that of small oscillations about it.
+    pub fn period(&self) -> S {
+        match &self.motion {
+            Motion::Steady(m) => S::from_f64(core::f64::consts::TAU) / m.frequency,
+            Motion::Nutating(m) => m.oscillation.half_period * 2.0,
+        }
+    }
+
+    /// Mean rates: the advance of each angle in one period over the period (zero for `beta`).
+    pub fn mean_rates(&self) -> EulerRates<S> {
+        match &self.motion {
+            Motion::Steady(m) => m.rates_at(self.omega, m.acceleration / (m.frequency * m.frequency)),
+            Motion::Nutating(m) => {
+                let north = m.north.mean_rate(m.oscillation.half_period);
+                let south = m.south.mean_rate(m.oscillation.half_period);
+                EulerRates { alpha: south + north, beta: S::zero(), gamma: self.spin - self.omega + south - north }
+            }
+        }
+    }
+
+    /// Extreme inclinations `(smallest, largest)`, in rad.
+    pub fn inclinations(&self) -> (S, S) {
+        match &self.motion {
+            Motion::Steady(_) => (self.initial.beta, self.initial.beta),
+            Motion::Nutating(m) => (
+                m.north_distance.1.sqrt().atan2(m.south_distance.1.sqrt()) * 2.0,
+                m.north_distance.0.sqrt().atan2(m.south_distance.0.sqrt()) * 2.0,
+            ),
+        }
+    }
+}
