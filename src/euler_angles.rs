@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::error::Error;
 use crate::scalar::{Real, Scalar};
 
-/// Euler angles of the body frame x-y-z in the inertial frame X-Y-Z [rad].
+/// Euler angles of the body frame x-y-z in the inertial frame X-Y-Z (rad).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EulerAngles<S> {
     /// Precession angle, from X to the line of nodes.
@@ -19,7 +19,7 @@ pub struct EulerAngles<S> {
     pub gamma: S,
 }
 
-/// Time derivatives of the Euler angles [rad per unit of time].
+/// Time derivatives of the Euler angles (rad per unit of time).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EulerRates<S> {
     /// Rate of `alpha`.

@@ -48,7 +48,7 @@ pub trait Scalar:
     /// The constant `value`, with zero derivatives.
     fn from_f64(value: f64) -> Self;
 
-    /// Sine and cosine of the angle `self` [rad].
+    /// Sine and cosine of the angle `self` (rad).
     fn sin_cos(self) -> (Self, Self);
 }
 
@@ -68,13 +68,13 @@ pub trait Real: Scalar {
     /// Natural logarithm.
     fn ln(self) -> Self;
 
-    /// Inverse sine [rad].
+    /// Inverse sine (rad).
     fn asin(self) -> Self;
 
     /// Inverse hyperbolic sine.
     fn asinh(self) -> Self;
 
-    /// Angle [rad] of the point with ordinate `self` and abscissa `x`, in (-pi, pi].
+    /// Angle (rad) of the point with ordinate `self` and abscissa `x`, in (-pi, pi].
     fn atan2(self, x: Self) -> Self;
 
     /// Absolute value by the sign of the real part.

@@ -8,9 +8,9 @@ use crate::scalar::Scalar;
 /// Position and velocity of the symmetry axis in the angles of Eq. (25) `[eleq]`, and its acceleration where it is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisAngles<S> {
-    /// Precession angle `alpha` [rad].
+    /// Precession angle `alpha` (rad).
     pub alpha: S,
-    /// Inclination `beta` [rad].
+    /// Inclination `beta` (rad).
     pub beta: S,
     /// Rate of `alpha`.
     pub alpha_rate: S,

@@ -106,7 +106,7 @@ fn real_angles<S: Real>(angles: &EulerAngles<S>) -> EulerAngles<f64> {
     EulerAngles { alpha: angles.alpha.re(), beta: angles.beta.re(), gamma: angles.gamma.re() }
 }
 
-/// The whole turns [rad] nearest to an angle.
+/// The whole turns (rad) nearest to an angle.
 fn turns(angle: f64) -> f64 {
     (angle / TAU).round() * TAU
 }

@@ -119,13 +119,10 @@ fn errors(area: &Area) -> Result<(), Box<dyn Error>> {
     legend(&mut chart, SeriesLabelPosition::UpperLeft)
 }
 
-fn legend<'a, 'b: 'a, C: CoordTranslate>(
+fn legend<'a, 'b: 'a, C: CoordTranslate + 'a>(
     chart: &mut ChartContext<'a, SVGBackend<'b>, C>,
     position: SeriesLabelPosition,
-) -> Result<(), Box<dyn Error>>
-where
-    C: 'a,
-{
+) -> Result<(), Box<dyn Error>> {
     chart
         .configure_series_labels()
         .legend_area_size(30 * UNIT)

@@ -2,10 +2,10 @@
 
 pub mod check;
 pub mod checks;
-pub mod equation_table;
 pub mod conditioned;
 pub mod derivation;
 pub mod dual;
+pub mod equation_table;
 pub mod fit;
 pub mod golden;
 pub mod identity;
@@ -15,3 +15,4 @@ pub mod physical_domain;
 pub mod prime_field;
 pub mod random;
 pub mod reference;
+pub mod second_integrator;

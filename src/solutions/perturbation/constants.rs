@@ -22,12 +22,12 @@ impl Kind {
 /// Constants of integration `alpha_0`, `beta_0`, `A`, `phi` of Eqs. (27) `[ansatz]` and (30) `[sol2]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Constants<S> {
-    /// Mean precession angle at `t = 0` [rad].
+    /// Mean precession angle at `t = 0` (rad).
     pub alpha_0: S,
-    /// Mean inclination [rad].
+    /// Mean inclination (rad).
     pub beta_0: S,
     /// Amplitude `A` of the homogeneous solution, a rate.
     pub amplitude: S,
-    /// Phase `phi` of the homogeneous solution [rad].
+    /// Phase `phi` of the homogeneous solution (rad).
     pub phase: S,
 }

@@ -28,9 +28,9 @@ pub struct ZerothOrder<S> {
     pub kind: Kind,
     /// Spin component `Omega^z`.
     pub spin: S,
-    /// `alpha_0 + a t` [rad].
+    /// `alpha_0 + a t` (rad).
     pub alpha: S,
-    /// `beta_0` [rad].
+    /// `beta_0` (rad).
     pub beta: S,
 }
 

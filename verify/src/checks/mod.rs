@@ -9,6 +9,7 @@ mod perturbation_equations;
 mod potential_energy;
 mod propagation;
 pub mod regimes;
+mod second_integrator;
 mod solutions;
 mod symmetric;
 mod torque;
@@ -31,6 +32,7 @@ pub fn all() -> Vec<Check> {
         elliptic::checks,
         symmetric::checks,
         propagation::checks,
+        second_integrator::checks,
         regimes::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()

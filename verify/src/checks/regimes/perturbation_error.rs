@@ -82,7 +82,7 @@ impl Case {
     }
 }
 
-/// Largest errors of a solution over a span [rad].
+/// Largest errors of a solution over a span (rad).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Errors {
     /// Of the precession angle.
