@@ -1,13 +1,14 @@
-//! Potential and kinetic energy in Euler angles from their coordinate-free forms. Eqs. (6), (7), (11), (21)-(23).
+//! Potential and kinetic energy in Euler angles from their coordinate-free forms. Eqs. (5)-(7), (11), (13),
+//! (21)-(23).
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
 use twofold::dynamics::potential::{
     anisotropic_potential, anisotropic_potential_in_angles, anisotropic_potential_of_axis,
-    anisotropic_potential_of_body, potential_gradient_in_angles,
+    anisotropic_potential_of_body, nordtvedt_potential, potential_gradient_in_angles,
 };
-use twofold::euler_angles::{body_from_inertial, body_rates, tensor_in_body_frame};
-use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::euler_angles::{body_from_inertial, body_rates, symmetry_axis, tensor_in_body_frame};
+use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_preferred_frame};
 
 use crate::check::{Check, Kind};
 use crate::derivation::Differentiable;
@@ -20,6 +21,7 @@ pub fn checks() -> Vec<Check> {
         identity::checks::<PotentialInAngles>(),
         identity::checks::<PotentialGradient>(),
         identity::checks::<PotentialOfBody>(),
+        identity::checks::<NordtvedtForm>(),
         identity::checks::<KineticEnergy>(),
     ]
     .concat()
@@ -98,5 +100,25 @@ impl Identity for KineticEnergy {
     fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         let of_body = kinetic_energy_of_body(&p.spheroid.inertia(), &body_rates(&p.angles, &p.rates));
         vec![kinetic_energy(&p.spheroid, p.angles.beta, &p.rates) - of_body]
+    }
+}
+
+struct NordtvedtForm;
+
+impl Identity for NordtvedtForm {
+    const ID: &'static str = "nordtvedt-form";
+    const ROUNDED: (Kind, &'static str) = (Kind::Property, "nordtvedt-form-rounding");
+    const EQUATIONS: &'static [u8] = &[5, 11, 13];
+    const STATEMENT: &'static str =
+        "with s^ij = -alpha_2 w^i w^j and C = T_rot / 2 the potential of a star spinning about its axis is Nordtvedt's";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let (alpha_2, rotational_energy) = (p.numbers[0], p.spheroid.constant_c);
+        let axis = symmetry_axis(p.angles.alpha, p.angles.beta);
+        let s = coefficients_from_preferred_frame(alpha_2, &p.gradient);
+        vec![
+            anisotropic_potential_of_axis(rotational_energy / 2.0, &s, &axis)
+                - nordtvedt_potential(alpha_2, rotational_energy, &p.gradient, &axis),
+        ]
     }
 }

@@ -1,4 +1,4 @@
-//! The source of the quadrupole wave: second time derivative of the moment-of-inertia tensor. Eqs. (60)-(65), (67), (68).
+//! The source of the quadrupole wave: second time derivative of the moment-of-inertia tensor. Eqs. (59)-(65), (67), (68).
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::angular_acceleration::angular_acceleration;
@@ -8,9 +8,10 @@ use twofold::dynamics::inertia_tensor_rate::{
 use twofold::dynamics::regular_equations::torque_on_axis;
 use twofold::dynamics::{BodyState, PrincipalInertia};
 use twofold::euler_angles::{EulerRates, body_from_inertial, body_rates};
+use twofold::observables::gravitational_wave::metric_perturbation;
 
 use crate::check::{Check, Kind};
-use crate::derivation::{Differentiable, body_motion};
+use crate::derivation::{Differentiable, accelerated_angles, body_motion};
 use crate::identity::{self, Identity};
 use crate::random::Point;
 
@@ -22,6 +23,7 @@ pub fn checks() -> Vec<Check> {
         identity::checks::<FreeWaveTensor>(),
         identity::checks::<SpheroidSource>(),
         identity::checks::<FreePrecessionSource>(),
+        identity::checks::<QuadrupoleFormula>(),
     ]
     .concat()
 }
@@ -161,5 +163,29 @@ impl Identity for FreePrecessionSource {
         out.extend(&(free - short));
         out.extend(&(free - by_time));
         out
+    }
+}
+
+struct QuadrupoleFormula;
+
+impl Identity for QuadrupoleFormula {
+    const ID: &'static str = "quadrupole-formula";
+    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "quadrupole-formula-autodiff");
+    const EQUATIONS: &'static [u8] = &[59, 60];
+    const STATEMENT: &'static str = "the strain from the moment of inertia is (2/r) times the second derivative of the mass quadrupole of turning masses";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        // Two masses at points of the body with no symmetry at all.
+        let masses = [(p.inertia.xx, p.gradient), (p.inertia.yy, Vector3::from_fn(|i, _| p.numbers[i]))];
+        let rotation = body_from_inertial(&accelerated_angles(&p.angles, &p.rates, &p.accelerations)).transpose();
+        let turning = masses.map(|(mass, x)| (F::constant(mass), rotation * x.map(F::constant)));
+        let zero = Matrix3::zeros();
+        let quadrupole = turning.iter().fold(zero, |sum, (mass, x)| sum + x * x.transpose() * *mass);
+        let inertia = turning
+            .iter()
+            .fold(zero, |sum, (mass, x)| sum + (Matrix3::from_diagonal_element(x.dot(x)) - x * x.transpose()) * *mass);
+        let distance = p.spheroid.constant_c;
+        let strain = metric_perturbation(distance, &inertia.map(F::derivative_12));
+        (strain * distance - quadrupole.map(F::derivative_12) * F::from_f64(2.0)).iter().copied().collect()
     }
 }
