@@ -12,8 +12,8 @@ pub mod lorentz_violation;
 //pub mod propagation;
 pub mod scalar;
 //pub mod solutions;
-//pub mod star;
-//pub mod units;
+pub mod star;
+pub mod units;
 
 pub use error::Error;
 pub use scalar::{Real, Scalar};
