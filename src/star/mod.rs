@@ -4,7 +4,7 @@
 //! Everything is in units with G = 1 (and c = 1): any set in which mass, length and time are consistent, for instance
 //! [`units::geometrised`](crate::units::geometrised).
 
-//pub mod axisymmetric;
+pub mod axisymmetric;
 pub mod deformation;
 //pub mod ellipsoid;
 pub mod estimates;
