@@ -4,14 +4,14 @@
 //! neutron stars*: every equation is a function, generic over the scalar type, with the equation's number and LaTeX label.
 //! Nothing here reads a file, prints or starts a thread.
 
-//pub mod dynamics;
-//pub mod elliptic;
+pub mod dynamics;
+pub mod elliptic;
 pub mod error;
 pub mod euler_angles;
 pub mod lorentz_violation;
-//pub mod propagation;
+pub mod propagation;
 pub mod scalar;
-//pub mod solutions;
+pub mod solutions;
 pub mod star;
 pub mod units;
 

@@ -124,3 +124,35 @@ impl Check {
         Outcome { measured, passed, seconds: start.elapsed().as_secs_f64() }
     }
 }
+
+/// Keeps the largest of many figures and where it was seen. A figure that is not a number counts as infinite.
+#[derive(Debug, Clone)]
+pub struct Worst {
+    measured: Measured,
+    cases: usize,
+}
+
+impl Default for Worst {
+    fn default() -> Self {
+        Self { measured: Measured::new(f64::NEG_INFINITY, ""), cases: 0 }
+    }
+}
+
+impl Worst {
+    /// Takes one figure; `place` is asked only where it is the largest so far.
+    pub fn see(&mut self, figure: f64, place: impl FnOnce() -> String) {
+        let figure = if figure.is_nan() { f64::INFINITY } else { figure };
+        self.cases += 1;
+        if figure > self.measured.figure {
+            self.measured = Measured::new(figure, place());
+        }
+    }
+
+    /// The largest figure, or an error if none was seen: a check without a case has shown nothing.
+    pub fn finish(self) -> Result<Measured, String> {
+        match self.cases {
+            0 => Err("no case was measured".into()),
+            cases => Ok(Measured::new(self.measured.figure, format!("worst of {cases}: {}", self.measured.detail))),
+        }
+    }
+}

@@ -2,3 +2,5 @@
 
 pub mod check;
 pub mod checks;
+pub mod physical_domain;
+pub mod reference;

@@ -1,0 +1,69 @@
+//! The rigid bodies whose rotation is studied: moments of inertia and the constant of the anisotropic self-energy.
+
+use crate::error::Error;
+use crate::scalar::{Real, Scalar};
+
+/// Principal moments of inertia `I^xx, I^yy, I^zz` of any rigid body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrincipalInertia<S> {
+    /// `I^xx`.
+    pub xx: S,
+    /// `I^yy`.
+    pub yy: S,
+    /// `I^zz`.
+    pub zz: S,
+}
+
+impl<S: Scalar> PrincipalInertia<S> {
+    /// Differences `Delta_1 = I^yy - I^zz`, `Delta_2 = I^zz - I^xx`, `Delta_3 = I^xx - I^yy`, Eq. (67).
+    pub fn differences(&self) -> [S; 3] {
+        [self.yy - self.zz, self.zz - self.xx, self.xx - self.yy]
+    }
+}
+
+/// A rigid spheroid: `I^xx = I^yy`, `I^zz`, and the constant `C` of its anisotropic self-energy, Eqs. (11), (12).
+///
+/// In the paper's units `I^xx = C = 1`, so that time is in units of `t_c = sqrt(I^xx / C)`, Eq. (35) `[unitt]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidSpheroid<S> {
+    /// Moment of inertia about an equatorial axis, `I^xx = I^yy`.
+    pub inertia_xx: S,
+    /// Moment of inertia about the symmetry axis, `I^zz`.
+    pub inertia_zz: S,
+    /// Constant `C` of the anisotropic self-energy, an energy; positive for an oblate star.
+    pub constant_c: S,
+}
+
+impl<S: Scalar> RigidSpheroid<S> {
+    /// The spheroid in the paper's units, `I^xx = C = 1`, from the ratio `I^zz / I^xx`.
+    pub fn in_units_of_tc(inertia_ratio: S) -> Self {
+        Self { inertia_xx: S::one(), inertia_zz: inertia_ratio, constant_c: S::one() }
+    }
+
+    /// Oblateness `epsilon = (I^zz - I^xx) / I^xx`, Eq. (19) `[obl]`.
+    pub fn oblateness(&self) -> S {
+        (self.inertia_zz - self.inertia_xx) / self.inertia_xx
+    }
+
+    /// The three principal moments of inertia.
+    pub fn inertia(&self) -> PrincipalInertia<S> {
+        PrincipalInertia { xx: self.inertia_xx, yy: self.inertia_xx, zz: self.inertia_zz }
+    }
+
+    /// `omega = I^zz Omega^z / I^xx` for the spin `Omega^z`, Eq. (28).
+    pub fn free_precession_constant(&self, spin: S) -> S {
+        self.inertia_zz * spin / self.inertia_xx
+    }
+}
+
+impl<S: Real> RigidSpheroid<S> {
+    /// Unit of time `t_c = sqrt(I^xx / C)`, Eq. (35) `[unitt]`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless `C > 0`, which an oblate star has.
+    pub fn time_unit(&self) -> Result<S, Error> {
+        let c = self.constant_c.re();
+        Error::unless(c > 0.0, "constant C of the anisotropic self-energy", c, "above zero, as for an oblate star")?;
+        Ok((self.inertia_xx / self.constant_c).sqrt())
+    }
+}

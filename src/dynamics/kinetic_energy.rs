@@ -1,0 +1,23 @@
+//! Rotational kinetic energy. Eq. (23).
+
+use nalgebra::Vector3;
+
+use crate::dynamics::{PrincipalInertia, RigidSpheroid};
+use crate::euler_angles::EulerRates;
+use crate::scalar::Scalar;
+
+/// `T = (1/2) I^ij Omega^i Omega^j` from the body-frame angular velocity, three moments of inertia.
+pub fn kinetic_energy_of_body<S: Scalar>(inertia: &PrincipalInertia<S>, omega_body: &Vector3<S>) -> S {
+    (inertia.xx * omega_body.x * omega_body.x
+        + inertia.yy * omega_body.y * omega_body.y
+        + inertia.zz * omega_body.z * omega_body.z)
+        / 2.0
+}
+
+/// `T = (1/2) I^xx (a'^2 sin^2 b + b'^2) + (1/2) I^zz (a' cos b + g')^2` of a spheroid, Eq. (23).
+pub fn kinetic_energy<S: Scalar>(spheroid: &RigidSpheroid<S>, beta: S, rates: &EulerRates<S>) -> S {
+    let (sb, cb) = beta.sin_cos();
+    let transverse = rates.alpha * rates.alpha * sb * sb + rates.beta * rates.beta;
+    let spin = rates.alpha * cb + rates.gamma;
+    (spheroid.inertia_xx * transverse + spheroid.inertia_zz * spin * spin) / 2.0
+}

@@ -1,0 +1,15 @@
+//! Forces and equations of motion of a rigid body under Lorentz violation. Eqs. (11), (21)-(25), (59)-(68).
+
+pub mod angular_acceleration;
+pub mod euler_angle_equations;
+pub mod first_integrals;
+pub mod inertia;
+pub mod inertia_tensor_rate;
+pub mod kinetic_energy;
+pub mod lagrangian;
+pub mod potential;
+pub mod regular_equations;
+pub mod torque;
+
+pub use inertia::{PrincipalInertia, RigidSpheroid};
+pub use regular_equations::BodyState;

@@ -1,0 +1,50 @@
+//! Anisotropic gravitational self-energy as a function of the orientation. Eqs. (6), (11), (17), (21).
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::lorentz_violation::PrincipalCoefficients;
+use crate::scalar::Scalar;
+
+/// `delta U = C s^zz` of a spheroid from the body-frame component `s^zz`, Eq. (11) `[pecorrect2]`.
+///
+/// The part of the self-energy that does not depend on the orientation, `-(1/2) U^xx tr s`, is left out, as in the paper.
+pub fn anisotropic_potential<S: Scalar>(constant_c: S, s_zz_body: S) -> S {
+    constant_c * s_zz_body
+}
+
+/// `delta U` of a spheroid in the principal frame of `s^IJ`, in Euler angles, Eq. (21) `[anisopot]`:
+///
+/// ```text
+/// delta U = C [ (s^XX sin^2 a + s^YY cos^2 a) sin^2 b + s^ZZ cos^2 b ]
+/// ```
+pub fn anisotropic_potential_in_angles<S: Scalar>(constant_c: S, s: &PrincipalCoefficients<S>, alpha: S, beta: S) -> S {
+    let (sa, ca) = alpha.sin_cos();
+    let (sb, cb) = beta.sin_cos();
+    constant_c * ((s.xx * sa * sa + s.yy * ca * ca) * sb * sb + s.zz * cb * cb)
+}
+
+/// Derivatives `(d delta U / d alpha, d delta U / d beta)` of Eq. (21) `[anisopot]`. That by `gamma` is zero.
+pub fn potential_gradient_in_angles<S: Scalar>(
+    constant_c: S,
+    s: &PrincipalCoefficients<S>,
+    alpha: S,
+    beta: S,
+) -> (S, S) {
+    let (sa, ca) = alpha.sin_cos();
+    let (sb, cb) = beta.sin_cos();
+    let equatorial = s.xx * sa * sa + s.yy * ca * ca;
+    (constant_c * s.asymmetry() * sa * ca * sb * sb * 2.0, constant_c * (equatorial - s.zz) * sb * cb * 2.0)
+}
+
+/// `delta U = C n . (s n)` of a spheroid with symmetry axis `n` (unit vector) in any inertial frame: Eq. (11)
+/// `[pecorrect2]` without angles, regular everywhere.
+pub fn anisotropic_potential_of_axis<S: Scalar>(constant_c: S, s: &Matrix3<S>, axis: &Vector3<S>) -> S {
+    constant_c * axis.dot(&(s * axis))
+}
+
+/// `delta U = -(1/2) s^ij U^ij` of any body, Eq. (6) `[pecorrect1]` with the integral (17): both tensors in the body frame.
+///
+/// For a spheroid it exceeds Eq. (11) by the constant `-(1/2) U^xx tr s`.
+pub fn anisotropic_potential_of_body<S: Scalar>(s_body: &Matrix3<S>, potential_energy_tensor: &Matrix3<S>) -> S {
+    -(s_body * potential_energy_tensor).trace() / 2.0
+}

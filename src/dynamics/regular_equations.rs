@@ -1,0 +1,111 @@
+//! Equations of motion without coordinates: symmetry axis, angular momentum and one equatorial body axis.
+//!
+//! The anisotropic self-energy of a spheroid depends on its orientation only through the symmetry axis `n = e_z`, so that
+//! `(n, L)` move by themselves (the Clebsch system), and `e_x` follows them. Everything is quadratic in the state and
+//! regular on the whole sphere, where Eq. (25) `[eleq]` is singular on the poles.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::dynamics::RigidSpheroid;
+use crate::error::Error;
+use crate::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, body_rates, euler_rates};
+use crate::scalar::{Real, Scalar};
+
+/// State of rotation of a spheroid in inertial components.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyState<S> {
+    /// Symmetry axis `n = e_z`, a unit vector.
+    pub axis: Vector3<S>,
+    /// Angular momentum `L`.
+    pub momentum: Vector3<S>,
+    /// Equatorial body axis `e_x`, a unit vector normal to `axis`.
+    pub equatorial_axis: Vector3<S>,
+}
+
+/// `(dn/dt, dL/dt)` of the reduced motion:
+///
+/// ```text
+/// dn/dt = (L x n) / I^xx,    dL/dt = -2 C n x (s n)
+/// ```
+///
+/// with `s` the tensor `s^IJ` in the same inertial frame as `n` and `L`.
+pub fn reduced_rates<S: Scalar>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    axis: &Vector3<S>,
+    momentum: &Vector3<S>,
+) -> (Vector3<S>, Vector3<S>) {
+    (momentum.cross(axis) / spheroid.inertia_xx, torque_on_axis(spheroid.constant_c, s, axis))
+}
+
+/// Torque `Gamma = -2 C n x (s n)` on a spheroid, inertial components; it has no component along `n`.
+pub fn torque_on_axis<S: Scalar>(constant_c: S, s: &Matrix3<S>, axis: &Vector3<S>) -> Vector3<S> {
+    (s * axis).cross(axis) * (constant_c * 2.0)
+}
+
+/// Angular velocity in inertial components, `Omega = [L - (I^zz - I^xx) Omega^z n] / I^xx` with `Omega^z = L.n / I^zz`.
+pub fn angular_velocity<S: Scalar>(
+    spheroid: &RigidSpheroid<S>,
+    axis: &Vector3<S>,
+    momentum: &Vector3<S>,
+) -> Vector3<S> {
+    let spin = momentum.dot(axis) / spheroid.inertia_zz;
+    (momentum - axis * ((spheroid.inertia_zz - spheroid.inertia_xx) * spin)) / spheroid.inertia_xx
+}
+
+/// Rates of the full state: [`reduced_rates`] and `d e_x/dt = Omega x e_x`.
+pub fn body_state_rates<S: Scalar>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: &BodyState<S>) -> BodyState<S> {
+    let (axis, momentum) = reduced_rates(spheroid, s, &state.axis, &state.momentum);
+    let omega = angular_velocity(spheroid, &state.axis, &state.momentum);
+    BodyState { axis, momentum, equatorial_axis: omega.cross(&state.equatorial_axis) }
+}
+
+impl<S: Scalar> BodyState<S> {
+    /// The state with given Euler angles and rates: Eqs. (9) `[trans]` and (22) `[angvel1]` and `L = I Omega`. Regular at
+    /// the poles.
+    pub fn from_angles(spheroid: &RigidSpheroid<S>, angles: &EulerAngles<S>, rates: &EulerRates<S>) -> Self {
+        let rotation = body_from_inertial(angles);
+        let omega = body_rates(angles, rates);
+        let momentum_body =
+            Vector3::new(omega.x * spheroid.inertia_xx, omega.y * spheroid.inertia_xx, omega.z * spheroid.inertia_zz);
+        Self {
+            axis: rotation.row(2).transpose(),
+            momentum: rotation.transpose() * momentum_body,
+            equatorial_axis: rotation.row(0).transpose(),
+        }
+    }
+
+    /// Rotation matrix `R^{iI}`, rows the body axes, Eq. (8) `[rmat]`, with `e_y = e_z x e_x`.
+    pub fn body_from_inertial(&self) -> Matrix3<S> {
+        let y = self.axis.cross(&self.equatorial_axis);
+        Matrix3::from_rows(&[self.equatorial_axis.transpose(), y.transpose(), self.axis.transpose()])
+    }
+
+    /// The same motion seen from another inertial frame: every vector multiplied by the rotation `other_from_this`.
+    pub fn rotated(&self, other_from_this: &Matrix3<S>) -> Self {
+        Self {
+            axis: other_from_this * self.axis,
+            momentum: other_from_this * self.momentum,
+            equatorial_axis: other_from_this * self.equatorial_axis,
+        }
+    }
+}
+
+impl<S: Real> BodyState<S> {
+    /// Euler angles of the state, `alpha` and `gamma` in (-pi, pi].
+    ///
+    /// # Errors
+    /// [`Error::Domain`] on the poles, see [`angles_from_rotation`].
+    pub fn angles(&self) -> Result<EulerAngles<S>, Error> {
+        angles_from_rotation(&self.body_from_inertial())
+    }
+
+    /// Euler rates of the state, the inverse of Eq. (22) `[angvel1]`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] on the poles, see [`euler_rates`].
+    pub fn rates(&self, spheroid: &RigidSpheroid<S>) -> Result<EulerRates<S>, Error> {
+        let omega = angular_velocity(spheroid, &self.axis, &self.momentum);
+        euler_rates(&self.angles()?, &(self.body_from_inertial() * omega))
+    }
+}

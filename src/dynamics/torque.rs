@@ -1,0 +1,49 @@
+//! Torque of the anisotropic self-energy. Eq. (66).
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::error::Error;
+use crate::euler_angles::EulerAngles;
+use crate::scalar::{Real, Scalar};
+
+/// Body-frame torque from the derivatives of any potential by the Euler angles, Eq. (66):
+///
+/// ```text
+/// Gamma^x = -(sin g / sin b) U_a - cos g U_b + cot b sin g U_g
+/// Gamma^y = -(cos g / sin b) U_a + sin g U_b + cot b cos g U_g
+/// Gamma^z = -U_g
+/// ```
+///
+/// `gradient` is `(U_a, U_b, U_g)`, the derivatives by `alpha`, `beta`, `gamma`. Divides by `sin b`; the guarded form is
+/// [`torque_from_gradient`].
+pub fn torque_from_gradient_off_pole<S: Scalar>(angles: &EulerAngles<S>, gradient: &Vector3<S>) -> Vector3<S> {
+    let (sb, cb) = angles.beta.sin_cos();
+    let (sg, cg) = angles.gamma.sin_cos();
+    let across = (gradient.z * cb - gradient.x) / sb;
+    Vector3::new(across * sg - gradient.y * cg, across * cg + gradient.y * sg, -gradient.z)
+}
+
+/// Body-frame torque from the derivatives of any potential by the Euler angles, Eq. (66).
+///
+/// # Errors
+/// [`Error::Domain`] where `|sin beta|` is not above 2.2e-16. Near the pole the relative error grows as `1 / |sin beta|`;
+/// [`torque_on_body`] is regular.
+pub fn torque_from_gradient<S: Real>(angles: &EulerAngles<S>, gradient: &Vector3<S>) -> Result<Vector3<S>, Error> {
+    let (sb, _) = angles.beta.sin_cos();
+    Error::unless(
+        sb.re().abs() > f64::EPSILON,
+        "sine of the inclination, sin beta",
+        sb.re(),
+        "|sin beta| > 2.2e-16: Eq. (66) is singular on the poles",
+    )?;
+    Ok(torque_from_gradient_off_pole(angles, gradient))
+}
+
+/// Torque on any body by its anisotropic self-energy `-(1/2) s^ij U^ij`, without coordinates:
+/// `Gamma^i = -epsilon^{ijk} (s U)^{jk}`, all in one frame (body or inertial), three distinct entries of `U^ij` allowed.
+///
+/// For a spheroid it is `-2 C n x (s n)`.
+pub fn torque_on_body<S: Scalar>(s: &Matrix3<S>, potential_energy_tensor: &Matrix3<S>) -> Vector3<S> {
+    let p = s * potential_energy_tensor;
+    Vector3::new(p[(2, 1)] - p[(1, 2)], p[(0, 2)] - p[(2, 0)], p[(1, 0)] - p[(0, 1)])
+}

@@ -1,0 +1,68 @@
+//! Rotation without Lorentz violation, exact at any time. Eq. (48).
+
+use nalgebra::Vector3;
+
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::euler_angles::EulerRates;
+use crate::scalar::{Real, length};
+
+/// Euler rates of free precession about `Z`, Eq. (48) `[angfreqfre]`: `a' = I^zz Omega^z / (I^xx cos b)`, `b' = 0`,
+/// `g' = -epsilon Omega^z`.
+///
+/// # Errors
+/// [`Error::Domain`] where `|cos beta|` is not above 2.2e-16: with the axis normal to the angular momentum there is no spin
+/// component to fix the rate.
+pub fn free_precession_rates<S: Real>(spheroid: &RigidSpheroid<S>, spin: S, beta: S) -> Result<EulerRates<S>, Error> {
+    let (_, cb) = beta.sin_cos();
+    Error::unless(
+        cb.re().abs() > f64::EPSILON,
+        "cosine of the inclination, cos beta",
+        cb.re(),
+        "|cos beta| > 2.2e-16 in Eq. (48)",
+    )?;
+    Ok(EulerRates {
+        alpha: spheroid.free_precession_constant(spin) / cb,
+        beta: S::zero(),
+        gamma: -(spheroid.oblateness() * spin),
+    })
+}
+
+/// The free motion from any state after the time `t`: `n` and `e_x` turn about the constant `L` at the rate `|L| / I^xx`,
+/// and `e_x` turns about `n` at the rate `-epsilon Omega^z`. Regular for every orientation and for `L = 0`.
+///
+/// Error: a few ulp of one plus the rounding of the angle `|L| t / I^xx`.
+pub fn free_rotation<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S>, t: S) -> BodyState<S> {
+    let spin = initial.momentum.dot(&initial.axis) / spheroid.inertia_zz;
+    let turned = {
+        let (sin, cos) = (-(spheroid.oblateness() * spin * t)).sin_cos();
+        initial.equatorial_axis * cos + initial.axis.cross(&initial.equatorial_axis) * sin
+    };
+    let turn = initial.momentum * (t / spheroid.inertia_xx);
+    BodyState {
+        axis: rotated_by(&turn, &initial.axis),
+        momentum: initial.momentum,
+        equatorial_axis: rotated_by(&turn, &turned),
+    }
+}
+
+/// `v` turned by the rotation vector `turn` (axis times angle). The zero vector is the identity, with right derivatives.
+pub fn rotated_by<S: Real>(turn: &Vector3<S>, v: &Vector3<S>) -> Vector3<S> {
+    let angle_squared = turn.dot(turn);
+    // Below this the series is exact to rounding and, unlike the square root, has derivatives at zero.
+    let (sinc, half) = if angle_squared.re() < 1e-4 {
+        let x = angle_squared;
+        let one = S::one();
+        (
+            one - x / 6.0 * (one - x / 20.0 * (one - x / 42.0 * (one - x / 72.0))),
+            (one - x / 12.0 * (one - x / 30.0 * (one - x / 56.0 * (one - x / 90.0)))) / 2.0,
+        )
+    } else {
+        let angle = length(turn);
+        let (sin, _) = angle.sin_cos();
+        let (sin_half, _) = (angle / 2.0).sin_cos();
+        (sin / angle, sin_half * sin_half * 2.0 / angle_squared)
+    };
+    let across = turn.cross(v);
+    v + across * sinc + turn.cross(&across) * half
+}

@@ -1,0 +1,6 @@
+//! Solutions in closed form, exact and perturbative. Eqs. (26)-(34), (48), (57).
+
+pub mod free;
+pub mod perturbation;
+pub mod steady;
+pub mod symmetric;

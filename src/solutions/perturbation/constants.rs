@@ -1,0 +1,33 @@
+//! The two kinds of precession and the constants of integration of the perturbation solutions.
+
+/// Which free motion is perturbed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// A freely precessing star: the upper signs of Eqs. (29)-(34).
+    Twofold,
+    /// A star in stationary spin: the lower signs.
+    Single,
+}
+
+impl Kind {
+    /// `+1` for the upper sign, `-1` for the lower.
+    pub fn sign(self) -> f64 {
+        match self {
+            Kind::Twofold => 1.0,
+            Kind::Single => -1.0,
+        }
+    }
+}
+
+/// Constants of integration `alpha_0`, `beta_0`, `A`, `phi` of Eqs. (27) `[ansatz]` and (30) `[sol2]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Constants<S> {
+    /// Mean precession angle at `t = 0` [rad].
+    pub alpha_0: S,
+    /// Mean inclination [rad].
+    pub beta_0: S,
+    /// Amplitude `A` of the homogeneous solution, a rate.
+    pub amplitude: S,
+    /// Phase `phi` of the homogeneous solution [rad].
+    pub phase: S,
+}

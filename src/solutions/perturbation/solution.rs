@@ -1,0 +1,251 @@
+//! First-order solutions for the Euler angles. Eqs. (27), (28), (30)-(33), (57).
+
+use crate::dynamics::RigidSpheroid;
+use crate::dynamics::euler_angle_equations::AxisAngles;
+use crate::error::Error;
+use crate::lorentz_violation::PrincipalCoefficients;
+use crate::scalar::{Real, Scalar};
+use crate::solutions::perturbation::{Constants, Kind};
+
+/// A first-order solution: the numbers of Eqs. (28), (31) `[consdef]`, (32) `[precangvel]` for given constants.
+///
+/// ```text
+/// alpha  = alpha_0 + a t + (h A / nu) cos(nu t + phi) + eta_alpha C~/(2a) sin 2(a t + alpha_0)
+/// beta   = beta_0        + (A / nu)   sin(nu t + phi) - eta_beta  C~/(2a) cos 2(a t + alpha_0)
+/// ```
+///
+/// | | `nu` | `h` |
+/// |---|---|---|
+/// | printed, twofold | `omega` | `1 / sin beta_0` |
+/// | printed, single | `omega` | `-1 / sin beta_0` |
+/// | corrected, twofold | `a` | `cos beta_0 / sin beta_0` |
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Perturbation<S> {
+    /// Constants of integration.
+    pub constants: Constants<S>,
+    /// `omega = I^zz Omega^z / I^xx`, Eq. (28).
+    pub omega: S,
+    /// Precession rate `a` with the shift absorbed, Eq. (32) `[precangvel]`.
+    pub rate: S,
+    /// Precession rate at zeroth order, `omega / cos beta_0` or zero, Eq. (28).
+    pub zeroth_rate: S,
+    /// Forced precession `a^(1)`, Eq. (31) `[consdef]`.
+    pub forced_rate: S,
+    /// `C~ = C (s^XX - s^YY) / (I^zz Omega^z)`, Eq. (31) `[consdef]`.
+    pub c_tilde: S,
+    /// `eta_alpha`, Eq. (31) `[consdef]`.
+    pub eta_alpha: S,
+    /// `eta_beta`, Eq. (31) `[consdef]`.
+    pub eta_beta: S,
+    /// Frequency `nu` of the homogeneous solution.
+    pub homogeneous_frequency: S,
+    /// Ratio `h` of the homogeneous rates of `alpha` and `beta`.
+    pub homogeneous_ratio: S,
+}
+
+impl<S: Scalar> Perturbation<S> {
+    /// The printed solution without checks of its domain, for exact fields: see [`printed`](Self::printed).
+    pub fn printed_unchecked(
+        kind: Kind,
+        spheroid: &RigidSpheroid<S>,
+        s: &PrincipalCoefficients<S>,
+        spin: S,
+        constants: &Constants<S>,
+    ) -> Self {
+        let (sb, cb) = constants.beta_0.sin_cos();
+        let omega = spheroid.free_precession_constant(spin);
+        let momentum = spheroid.inertia_zz * spin;
+        let forced_rate = spheroid.constant_c * s.combination() * cb / momentum;
+        let c_tilde = spheroid.constant_c * s.asymmetry() / momentum;
+        let one = S::one();
+        let (zeroth_rate, rate, eta_alpha, eta_beta) = match kind {
+            Kind::Twofold => {
+                let denominator = one * 4.0 - cb * cb;
+                let zeroth = omega / cb;
+                (
+                    zeroth,
+                    zeroth - forced_rate,
+                    cb * (one * 2.0 + cb * cb) / denominator,
+                    sb * cb * cb * 3.0 / denominator,
+                )
+            }
+            Kind::Single => (S::zero(), forced_rate, cb, sb),
+        };
+        Self {
+            constants: *constants,
+            omega,
+            rate,
+            zeroth_rate,
+            forced_rate,
+            c_tilde,
+            eta_alpha,
+            eta_beta,
+            homogeneous_frequency: omega,
+            homogeneous_ratio: one * kind.sign() / sb,
+        }
+    }
+
+    /// The corrected twofold solution without checks of its domain, for exact fields: see
+    /// [`corrected_twofold`](Self::corrected_twofold).
+    pub fn corrected_twofold_unchecked(
+        spheroid: &RigidSpheroid<S>,
+        s: &PrincipalCoefficients<S>,
+        spin: S,
+        constants: &Constants<S>,
+    ) -> Self {
+        let printed = Self::printed_unchecked(Kind::Twofold, spheroid, s, spin, constants);
+        let (sb, cb) = constants.beta_0.sin_cos();
+        Self {
+            eta_alpha: cb * (S::one() + cb * cb) / 2.0,
+            eta_beta: sb * cb * cb,
+            homogeneous_frequency: printed.rate,
+            homogeneous_ratio: cb / sb,
+            ..printed
+        }
+    }
+
+    /// First-order parts `(alpha1, beta1)`, Eq. (33) `[sol3]`, at given phases `nu t + phi` and `a t + alpha_0`.
+    pub fn first_order(&self, homogeneous_phase: S, forced_phase: S) -> (S, S) {
+        let (sin, cos) = homogeneous_phase.sin_cos();
+        let (sin_2, cos_2) = doubled(forced_phase);
+        let free = self.constants.amplitude / self.homogeneous_frequency;
+        let forced = self.c_tilde / self.rate / 2.0;
+        (
+            free * self.homogeneous_ratio * cos + forced * self.eta_alpha * sin_2,
+            free * sin - forced * self.eta_beta * cos_2,
+        )
+    }
+
+    /// Rates of the first-order parts, Eq. (30) `[sol2]` without its constant `-+a^(1)`, which `a` has absorbed, at given
+    /// phases `nu t + phi` and `a t + alpha_0`.
+    pub fn first_order_rates(&self, homogeneous_phase: S, forced_phase: S) -> (S, S) {
+        let (sin, cos) = homogeneous_phase.sin_cos();
+        let (sin_2, cos_2) = doubled(forced_phase);
+        let amplitude = self.constants.amplitude;
+        (
+            self.c_tilde * self.eta_alpha * cos_2 - amplitude * self.homogeneous_ratio * sin,
+            amplitude * cos + self.c_tilde * self.eta_beta * sin_2,
+        )
+    }
+
+    /// Angles and rates at time `t`, Eqs. (27) `[ansatz]`, (30) `[sol2]`, (33) `[sol3]`; at `t = 0` these are the initial
+    /// values (34) `[integraltoinitial]`.
+    pub fn at(&self, t: S) -> AxisAngles<S> {
+        let homogeneous_phase = self.homogeneous_frequency * t + self.constants.phase;
+        let forced_phase = self.rate * t + self.constants.alpha_0;
+        let (alpha, beta) = self.first_order(homogeneous_phase, forced_phase);
+        let (alpha_rate, beta_rate) = self.first_order_rates(homogeneous_phase, forced_phase);
+        AxisAngles {
+            alpha: forced_phase + alpha,
+            beta: self.constants.beta_0 + beta,
+            alpha_rate: self.rate + alpha_rate,
+            beta_rate,
+        }
+    }
+}
+
+impl<S: Real> Perturbation<S> {
+    /// The solution as the paper prints it: Eqs. (28), (30)-(33) `[sol2]` `[consdef]` `[precangvel]` `[sol3]`.
+    ///
+    /// The twofold one has errors of first order, see [`corrected_twofold`](Self::corrected_twofold). The rates of the
+    /// single one are right to first order in `s` only while `|s^XX - s^YY|` is small against
+    /// `|2 s^ZZ - s^XX - s^YY|`: that ratio, not `s`, is the size of its `alpha1` and `beta1`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] where `sin beta_0` or (twofold) `cos beta_0` is not above 2.2e-16 in size, where the spin is zero,
+    /// and where `a` vanishes, by which Eq. (33) divides.
+    pub fn printed(
+        kind: Kind,
+        spheroid: &RigidSpheroid<S>,
+        s: &PrincipalCoefficients<S>,
+        spin: S,
+        constants: &Constants<S>,
+    ) -> Result<Self, Error> {
+        check_domain(kind, spin, constants.beta_0)?;
+        Self::printed_unchecked(kind, spheroid, s, spin, constants).with_nonzero_rate()
+    }
+
+    /// The solution of the full first-order equations about free precession, which are Eq. (29) `[eleq1]` with the term
+    /// `a^2 sin^2(beta_0) beta1` that the paper drops: the homogeneous motion has the frequency `a = |L| / I^xx`, not
+    /// `omega`, and
+    ///
+    /// ```text
+    /// eta_alpha = cos b0 (1 + cos^2 b0) / 2,    eta_beta = sin b0 cos^2 b0
+    /// ```
+    ///
+    /// `C~`, `a^(1)` and `a` are as printed. Error of second order in `s` and in `A / omega`, growing with time.
+    ///
+    /// # Errors
+    /// As for [`printed`](Self::printed).
+    pub fn corrected_twofold(
+        spheroid: &RigidSpheroid<S>,
+        s: &PrincipalCoefficients<S>,
+        spin: S,
+        constants: &Constants<S>,
+    ) -> Result<Self, Error> {
+        check_domain(Kind::Twofold, spin, constants.beta_0)?;
+        Self::corrected_twofold_unchecked(spheroid, s, spin, constants).with_nonzero_rate()
+    }
+
+    fn with_nonzero_rate(self) -> Result<Self, Error> {
+        let rate = self.rate.re();
+        Error::unless(
+            rate != 0.0 && rate.is_finite(),
+            "precession rate a of Eq. (32)",
+            rate,
+            "nonzero: Eq. (33) divides by it (for single precession 2 s^ZZ - s^XX - s^YY and cos beta_0 must not vanish)",
+        )?;
+        Ok(self)
+    }
+}
+
+/// Mean rates of the perturbation solutions, Eq. (57) `[tpconstant]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShiftedRates<S> {
+    /// Mean rate of `alpha`: `a`.
+    pub alpha: S,
+    /// Mean rate of `gamma`: `Omega^z - a cos beta_0`, for twofold precession `-epsilon Omega^z + cos beta_0 a^(1)`.
+    pub gamma: S,
+}
+
+/// Shifted rates `a' ~ a`, `g' ~ -epsilon Omega^z + cos(beta_0) a^(1)` of twofold precession, Eq. (57) `[tpconstant]`.
+///
+/// # Errors
+/// [`Error::Domain`] as for [`Perturbation::printed`], the vanishing rate excepted.
+pub fn shifted_rates<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &PrincipalCoefficients<S>,
+    spin: S,
+    beta_0: S,
+) -> Result<ShiftedRates<S>, Error> {
+    check_domain(Kind::Twofold, spin, beta_0)?;
+    let (_, cb) = beta_0.sin_cos();
+    let forced_rate = spheroid.constant_c * s.combination() * cb / (spheroid.inertia_zz * spin);
+    Ok(ShiftedRates {
+        alpha: spheroid.free_precession_constant(spin) / cb - forced_rate,
+        gamma: cb * forced_rate - spheroid.oblateness() * spin,
+    })
+}
+
+fn check_domain<S: Real>(kind: Kind, spin: S, beta_0: S) -> Result<(), Error> {
+    let (sb, cb) = beta_0.sin_cos();
+    Error::unless(
+        sb.re().abs() > f64::EPSILON,
+        "sine of the mean inclination, sin beta_0",
+        sb.re(),
+        "|sin beta_0| > 2.2e-16: Eqs. (30)-(34) divide by it",
+    )?;
+    Error::unless(
+        kind == Kind::Single || cb.re().abs() > f64::EPSILON,
+        "cosine of the mean inclination, cos beta_0",
+        cb.re(),
+        "|cos beta_0| > 2.2e-16 for twofold precession: a = omega / cos beta_0",
+    )?;
+    Error::unless(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero: Eq. (31) divides by it")
+}
+
+/// Sine and cosine of twice the angle.
+fn doubled<S: Scalar>(angle: S) -> (S, S) {
+    let (sin, cos) = angle.sin_cos();
+    (sin * cos * 2.0, cos * cos - sin * sin)
+}

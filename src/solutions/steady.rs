@@ -1,0 +1,64 @@
+//! Steady precession at constant inclination when `s^IJ` is symmetric about Z. Eq. (26).
+
+use crate::dynamics::RigidSpheroid;
+use crate::error::Error;
+use crate::lorentz_violation::PrincipalCoefficients;
+use crate::scalar::Real;
+use crate::solutions::perturbation::Kind;
+
+/// Rate `a'` of exact steady precession at constant `beta`, Eq. (26) `[sol1]` with `s^ZZ` read as `s^ZZ - s^XX` for
+/// `s^XX = s^YY`:
+///
+/// ```text
+/// a' = [ I^zz Omega^z +- sqrt((I^zz Omega^z)^2 - 8 (s^ZZ - s^XX) C I^xx cos^2 b) ] / (2 I^xx cos b)
+/// ```
+///
+/// [`Kind::Twofold`] is the root that becomes free precession as `s -> 0`, [`Kind::Single`] the one that becomes a
+/// stationary spin: the upper and lower sign for positive spin. The smaller root comes from the product of the two, so that
+/// none loses digits however small `s` is.
+///
+/// # Errors
+/// [`Error::Domain`] if `s^XX != s^YY` (no steady precession exists), if the root is not real, and for the twofold root
+/// where `|cos beta|` is not above 2.2e-16 or both the spin and the root vanish.
+pub fn steady_precession_rate<S: Real>(
+    kind: Kind,
+    spheroid: &RigidSpheroid<S>,
+    s: &PrincipalCoefficients<S>,
+    spin: S,
+    beta: S,
+) -> Result<S, Error> {
+    let asymmetry = s.asymmetry().re();
+    Error::unless(asymmetry == 0.0, "s^XX - s^YY", asymmetry, "zero: Eq. (26) holds for s symmetric about Z")?;
+    let (_, cb) = beta.sin_cos();
+    let momentum = spheroid.inertia_zz * spin;
+    let well = (s.zz - s.xx) * spheroid.constant_c * spheroid.inertia_xx * cb * cb * 8.0;
+    let radicand = momentum * momentum - well;
+    Error::unless(
+        radicand.re() >= 0.0,
+        "(I^zz Omega^z)^2 - 8 (s^ZZ - s^XX) C I^xx cos^2 beta",
+        radicand.re(),
+        "at least zero: below it there is no steady precession at this beta",
+    )?;
+    let root = if radicand.re() == 0.0 { S::zero() } else { radicand.sqrt() };
+    let larger = (if momentum.re() < 0.0 { momentum - root } else { momentum + root }) / 2.0;
+    match kind {
+        Kind::Twofold => {
+            Error::unless(
+                cb.re().abs() > f64::EPSILON,
+                "cosine of the inclination, cos beta",
+                cb.re(),
+                "|cos beta| > 2.2e-16 for the twofold root of Eq. (26)",
+            )?;
+            Ok(larger / (spheroid.inertia_xx * cb))
+        }
+        Kind::Single => {
+            Error::unless(
+                larger.re() != 0.0,
+                "I^zz Omega^z",
+                momentum.re(),
+                "nonzero where the square root vanishes: the two roots are not distinct",
+            )?;
+            Ok((s.zz - s.xx) * spheroid.constant_c * cb * 2.0 / larger)
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! The inclination between its turning points as an elliptic function of time, and the integrals of `1 / (1 -+ cos beta)`.
+//!
+//! With `v` from `low` to `high`, `P = (v - low)(high - v) Q(v)` and
+//!
+//! ```text
+//! D2 = Q(high)/4,  D1 = Q(low)/4,  H = sqrt(D1 D2),  M = Q(low, high)/4  (polar form),
+//! v = (low D2 + high x) / (x + D2)   makes   x'^2 = 4 x (x^2 + 2 M x + H^2),
+//! ```
+//!
+//! so `x` is a Weierstrass function less one of its values `e_i`, infinite when `v = high` and zero when `v = low`. The other
+//! two zeros are real or conjugate, and enter by `M` and `H` only: nothing changes where they meet, as they do when the
+//! Lorentz violation vanishes. `x -> H^2 / x` exchanges the two turning points, and time is counted from the nearer one, so
+//! that no root loses digits. `x = (xi / eta)^2` keeps both ends finite.
+
+use core::f64::consts::FRAC_PI_2;
+
+use super::quartic::TurningPoints;
+use crate::elliptic::carlson::{rf_pair, rj_pair};
+use crate::elliptic::jacobi::ArithmeticGeometricMean;
+use crate::error::Error;
+use crate::scalar::Real;
+
+/// The periodic motion of `v = u - u0` and the constants of `x`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Oscillation<S> {
+    low: S,
+    high: S,
+    d_low: S,
+    d_high: S,
+    mean: S,
+    root_of_product: S,
+    ladder: ArithmeticGeometricMean<S>,
+    /// Time from one turning point to the next.
+    pub(super) half_period: S,
+    /// Time since `high`, and since `low`, at `t = 0`.
+    since_high: S,
+    since_low: S,
+}
+
+/// Where the motion is at one time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place<S> {
+    from_high: Side<S>,
+    from_low: Side<S>,
+    /// Shares of `low` and `high` in `v`: they are positive and add up to one.
+    pub(super) shares: (S, S),
+    /// Rate of `v`.
+    pub(super) rate: S,
+}
+
+/// `x = (xi / eta)^2` counted from one turning point: `eta` has the sign of the time since it, `xi > 0`.
+#[derive(Debug, Clone, Copy)]
+struct Side<S> {
+    periods: f64,
+    xi: S,
+    eta: S,
+}
+
+/// `int dt / (1 -+ u)` times a constant, by the turning point away from the pole in question.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PoleTerm<S> {
+    /// Coefficient of the time.
+    rate: S,
+    /// Coefficient of `int dt / (x + delta)`.
+    amplitude: S,
+    delta: S,
+    /// `amplitude` times that integral over half a period.
+    over_half_period: S,
+}
+
+impl<S: Real> Oscillation<S> {
+    /// The motion through `v = 0` at `t = 0` with the given rate there.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] on the separatrix.
+    pub(super) fn new(points: &TurningPoints<S>, initial_rate: S) -> Result<Self, Error> {
+        let TurningPoints { low, high, .. } = *points;
+        let d_low = points.quotient(low, low) * 0.25;
+        let d_high = points.quotient(high, high) * 0.25;
+        let mean = points.quotient(low, high) * 0.25;
+        let product = (d_low * d_high).re();
+        // Rounding moves the quotient by some ulp of its largest value, and the separatrix by as much.
+        let largest = d_low.re().abs().max(d_high.re().abs()).max(mean.re().abs());
+        let allowed = d_high.re() > 0.0 && product > 64.0 * f64::EPSILON * largest * largest;
+        Error::unless(
+            allowed,
+            "product of the quotients P / (distance) at the turning points, relative",
+            product / (largest * largest),
+            "above 1.4e-14: on the separatrix the period is infinite",
+        )?;
+        let root_of_product = (d_low * d_high).sqrt();
+        let ladder = ArithmeticGeometricMean::new(((mean + root_of_product) * 0.5).sqrt(), root_of_product.sqrt());
+        let half_period = ladder.quarter_period();
+        let mut motion = Self {
+            low,
+            high,
+            d_low,
+            d_high,
+            mean,
+            root_of_product,
+            ladder,
+            half_period,
+            since_high: S::zero(),
+            since_low: S::zero(),
+        };
+        let root_q0 = points.quotient(S::zero(), S::zero()).sqrt();
+        // x at v = 0 is -low D2 / high; H is halfway.
+        if -low.re() * d_high.re() >= high.re() * root_of_product.re() {
+            motion.since_high = motion.time_from_turning(initial_rate / (low * d_high.sqrt() * root_q0));
+            motion.since_low = motion.since_high + half_period;
+        } else {
+            motion.since_low = motion.time_from_turning(initial_rate / (high * d_low.sqrt() * root_q0));
+            motion.since_high = motion.since_low + half_period;
+        }
+        Ok(motion)
+    }
+
+    /// Time since the turning point where `w = 1 / sqrt x` vanishes, odd in `w`: `w R_F(1, 1 + a w^2, 1 + b w^2)`.
+    fn time_from_turning(&self, w: S) -> S {
+        let (mean, product) = self.pair(S::one(), w);
+        w * rf_pair(S::one(), mean, product)
+    }
+
+    /// Mean and product of the pair of factors `xi^2 + a eta^2`, `xi^2 + b eta^2`; `(a + b)/2 = M`, `a b = H^2`.
+    fn pair(&self, xi: S, eta: S) -> (S, S) {
+        let (xi2, eta2) = (xi * xi, eta * eta);
+        let difference = xi2 - self.root_of_product * eta2;
+        (xi2 + self.mean * eta2, difference * difference + (self.mean + self.root_of_product) * xi2 * eta2 * 2.0)
+    }
+
+    /// The place at time `t`.
+    pub(super) fn place(&self, t: S) -> Place<S> {
+        let period = self.half_period * 2.0;
+        let reduced = |since: S| {
+            let periods = (since.re() / period.re()).round();
+            (periods, since - period * periods)
+        };
+        let (periods_high, from_high) = reduced(self.since_high + t);
+        let (periods_low, from_low) = reduced(self.since_low + t);
+        let ((xi_high, eta_high), (xi_low, eta_low)) = if from_high.re().abs() <= from_low.re().abs() {
+            let w = self.inverse_root(from_high);
+            ((S::one(), w), self.seen_from_the_other(w, from_low))
+        } else {
+            let w = self.inverse_root(from_low);
+            (self.seen_from_the_other(w, from_high), (S::one(), w))
+        };
+        let (xi2, eta2) = (xi_high * xi_high, eta_high * eta_high);
+        let total = xi2 + self.d_high * eta2;
+        let (_, product) = self.pair(xi_high, eta_high);
+        Place {
+            from_high: Side { periods: periods_high, xi: xi_high, eta: eta_high },
+            from_low: Side { periods: periods_low, xi: xi_low, eta: eta_low },
+            shares: (self.d_high * eta2 / total, xi2 / total),
+            rate: (self.low - self.high) * self.d_high * xi_high * eta_high * product.sqrt() * 2.0 / (total * total),
+        }
+    }
+
+    /// `1 / sqrt x` at a time after a turning point of at most a quarter of the period: `sn / (a cn dn)`.
+    fn inverse_root(&self, time: S) -> S {
+        let f = self.ladder.functions(time);
+        f.sn / (f.cn * f.dn)
+    }
+
+    /// `(xi, eta)` from the turning point that is farther away, with `x = (H w)^2`.
+    fn seen_from_the_other(&self, w: S, time: S) -> (S, S) {
+        let sign = if time.re() < 0.0 { -1.0 } else { 1.0 };
+        (-(self.root_of_product * w) * sign, S::from_f64(sign))
+    }
+
+    /// The term `int constant dt / distance` for a `distance` from a pole that is `far` at the turning point away from it
+    /// and `near` at the other.
+    pub(super) fn pole_term(&self, constant: S, pole: Pole, far: S, near: S) -> PoleTerm<S> {
+        let d = match pole {
+            Pole::North => self.d_low,
+            Pole::South => self.d_high,
+        };
+        let delta = d * near / far;
+        let amplitude = constant * (self.high - self.low) * d / (far * far);
+        let over_half_period = if constant.re() == 0.0 {
+            // Through the pole itself: half a turn at each passage, of which either sense is right.
+            S::from_f64(FRAC_PI_2)
+        } else {
+            amplitude * rj_pair(S::zero(), self.mean, self.root_of_product * self.root_of_product, delta) / 3.0
+        };
+        PoleTerm { rate: constant / far, amplitude, delta, over_half_period }
+    }
+
+    /// The term's integral from the nearest passage before `t = 0` (whatever constant that leaves) to the `place` at `t`.
+    pub(super) fn integral(&self, term: &PoleTerm<S>, pole: Pole, place: &Place<S>, t: S) -> S {
+        let side = match pole {
+            Pole::North => place.from_low,
+            Pole::South => place.from_high,
+        };
+        let (mean, product) = self.pair(side.xi, side.eta);
+        let p = side.xi * side.xi + term.delta * side.eta * side.eta;
+        let part = side.eta * side.eta * side.eta * rj_pair(side.xi, mean, product, p) / 3.0;
+        term.rate * t + term.over_half_period * (2.0 * side.periods) + term.amplitude * part
+    }
+}
+
+/// The pole of the sphere whose distance is in the denominator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pole {
+    /// `1 - u = 0`; counted from `low`.
+    North,
+    /// `1 + u = 0`; counted from `high`.
+    South,
+}
+
+impl<S: Real> PoleTerm<S> {
+    /// Mean rate over a period.
+    pub(super) fn mean_rate(&self, half_period: S) -> S {
+        self.rate + self.over_half_period / half_period
+    }
+}

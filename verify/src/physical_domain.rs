@@ -1,0 +1,93 @@
+//! Random physical scenes: proptest strategies over the domain of the equations, run with a fixed seed by the checks.
+
+use std::f64::consts::PI;
+
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::lorentz_violation::PrincipalCoefficients;
+
+use crate::check::{Measured, Worst};
+
+/// A random scene in units `I^xx = C = 1`.
+#[derive(Debug, Clone, Copy)]
+pub struct RandomScene {
+    /// `I^zz / I^xx`.
+    pub inertia_ratio: f64,
+    /// Eigenvalues of `s^IJ`.
+    pub s: [f64; 3],
+    /// Euler angles at the start.
+    pub angles: [f64; 3],
+    /// Euler rates at the start.
+    pub rates: [f64; 3],
+}
+
+impl RandomScene {
+    /// The body.
+    pub fn spheroid(&self) -> RigidSpheroid<f64> {
+        RigidSpheroid::in_units_of_tc(self.inertia_ratio)
+    }
+
+    /// Coefficients for Lorentz violation.
+    pub fn coefficients(&self) -> PrincipalCoefficients<f64> {
+        PrincipalCoefficients::new(self.s)
+    }
+
+    /// Euler angles at the start.
+    pub fn angles(&self) -> EulerAngles<f64> {
+        let [alpha, beta, gamma] = self.angles;
+        EulerAngles { alpha, beta, gamma }
+    }
+
+    /// Euler rates at the start.
+    pub fn rates(&self) -> EulerRates<f64> {
+        let [alpha, beta, gamma] = self.rates;
+        EulerRates { alpha, beta, gamma }
+    }
+
+    /// State at the start.
+    pub fn state(&self) -> BodyState<f64> {
+        BodyState::from_angles(&self.spheroid(), &self.angles(), &self.rates())
+    }
+}
+
+/// Scenes over the whole physical domain: `I^zz / I^xx` from 0.2 to 2 (the triangle inequality), any orientation off the
+/// poles by 0.05 rad, rates up to 2, coefficients of either sign with sizes from 1e-8 to 0.3.
+pub fn scenes() -> impl Strategy<Value = RandomScene> {
+    let coefficient = (-8.0..-0.523f64, any::<bool>()).prop_map(|(log, negative)| {
+        let size = 10f64.powf(log);
+        if negative { -size } else { size }
+    });
+    (
+        0.2..2.0f64,
+        prop::array::uniform3(coefficient),
+        (-PI..PI, 0.05..PI - 0.05, -PI..PI),
+        prop::array::uniform3(-2.0..2.0f64),
+    )
+        .prop_map(|(inertia_ratio, s, (alpha, beta, gamma), rates)| RandomScene {
+            inertia_ratio,
+            s,
+            angles: [alpha, beta, gamma],
+            rates,
+        })
+}
+
+/// The largest figure of `measure` over `cases` values of `strategy`, drawn with the given seed.
+pub fn worst_over<T: Strategy>(
+    seed: u8,
+    cases: usize,
+    strategy: &T,
+    measure: impl Fn(&T::Value) -> Result<f64, String>,
+) -> Result<Measured, String> {
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
+    let mut runner = TestRunner::new_with_rng(Config::default(), rng);
+    let mut worst = Worst::default();
+    for case in 0..cases {
+        let value = strategy.new_tree(&mut runner).map_err(|reason| reason.to_string())?.current();
+        let figure = measure(&value).map_err(|e| format!("case {case} of seed {seed}, {value:?}: {e}"))?;
+        worst.see(figure, || format!("case {case} of seed {seed}, {value:?}"));
+    }
+    worst.finish()
+}

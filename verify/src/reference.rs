@@ -1,0 +1,93 @@
+//! The reference motions: initial values and 34-digit states of ten scenes, carried as test data.
+
+use nalgebra::{Matrix3, Vector3};
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::lorentz_violation::PrincipalCoefficients;
+
+/// One reference motion.
+#[derive(Debug, Clone)]
+pub struct ReferenceMotion {
+    /// Name of the scene.
+    pub name: String,
+    /// The body, in units `I^xx = C = 1`.
+    pub spheroid: RigidSpheroid<f64>,
+    /// Eigenvalues of `s^IJ`.
+    pub coefficients: PrincipalCoefficients<f64>,
+    /// Spin `Omega^z`.
+    pub spin: f64,
+    /// Euler angles at `t = 0`.
+    pub angles: EulerAngles<f64>,
+    /// Euler rates at `t = 0`.
+    pub rates: EulerRates<f64>,
+    /// Times and states, the first at `t = 0`.
+    pub states: Vec<(f64, BodyState<f64>)>,
+}
+
+impl ReferenceMotion {
+    /// `s^IJ` in the principal frame.
+    pub fn violation(&self) -> Matrix3<f64> {
+        self.coefficients.tensor()
+    }
+
+    /// State at `t = 0` from the Euler angles and rates.
+    pub fn initial(&self) -> BodyState<f64> {
+        BodyState::from_angles(&self.spheroid, &self.angles, &self.rates)
+    }
+}
+
+/// All ten reference motions.
+///
+/// # Panics
+/// If the data compiled into the program are malformed.
+pub fn reference_motions() -> Vec<ReferenceMotion> {
+    let scenes = rows(include_str!("../data/reference_scenes.csv"));
+    let states = rows(include_str!("../data/reference_states.csv"));
+    scenes
+        .into_iter()
+        .map(|(name, v)| {
+            let angles = EulerAngles { alpha: v[5], beta: v[6], gamma: v[7] };
+            ReferenceMotion {
+                spheroid: RigidSpheroid::in_units_of_tc(v[0]),
+                spin: v[1],
+                coefficients: PrincipalCoefficients::new([v[2], v[3], v[4]]),
+                angles,
+                rates: EulerRates { alpha: v[8], beta: v[9], gamma: v[1] - v[8] * angles.beta.cos() },
+                states: states
+                    .iter()
+                    .filter(|(scene, _)| *scene == name)
+                    .map(|(_, v)| {
+                        let vector = |i: usize| Vector3::new(v[i], v[i + 1], v[i + 2]);
+                        let state = BodyState { axis: vector(1), momentum: vector(4), equatorial_axis: vector(7) };
+                        (v[0], state)
+                    })
+                    .collect(),
+                name,
+            }
+        })
+        .collect()
+}
+
+/// The reference motion called `name`.
+///
+/// # Panics
+/// If there is none.
+pub fn reference_motion(name: &str) -> ReferenceMotion {
+    reference_motions()
+        .into_iter()
+        .find(|motion| motion.name == name)
+        .unwrap_or_else(|| panic!("no reference motion is called {name}"))
+}
+
+fn rows(text: &str) -> Vec<(String, Vec<f64>)> {
+    csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes())
+        .records()
+        .map(|record| {
+            let record = record.expect("reference data are well-formed CSV");
+            let numbers = record.iter().skip(1).map(|cell| cell.parse().expect("a number")).collect();
+            (record[0].to_string(), numbers)
+        })
+        .collect()
+}
