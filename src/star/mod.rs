@@ -6,7 +6,7 @@
 
 pub mod axisymmetric;
 pub mod deformation;
-//pub mod ellipsoid;
+pub mod ellipsoid;
 pub mod estimates;
 pub mod maclaurin;
 pub mod potential_coefficients;
