@@ -94,7 +94,7 @@ impl<S: Real> TimeUnit<S> {
         Ok(Self { seconds: inertia_over_c.sqrt() })
     }
 
-    /// `t_c` [s].
+    /// `t_c`, in the unit of time that `I^xx / C` was given in, seconds as a rule.
     pub fn seconds(&self) -> S {
         self.seconds
     }
@@ -105,7 +105,7 @@ impl<S: Real> TimeUnit<S> {
     }
 
     /// A time in seconds, in units of `t_c`.
-    pub fn from_seconds(&self, seconds: S) -> S {
+    pub fn in_t_c(&self, seconds: S) -> S {
         seconds / self.seconds
     }
 
