@@ -17,7 +17,7 @@ use crate::scalar::Real;
 /// Degree [rad].
 pub const DEGREE: f64 = core::f64::consts::PI / 180.0;
 
-/// Julian year [s], 365.25 days (IAU).
+/// Julian year \[s\], 365.25 days (IAU).
 pub const JULIAN_YEAR: f64 = 31_557_600.0;
 
 /// SI: metre, kilogram, second.
@@ -48,27 +48,27 @@ pub mod cgs {
 pub mod geometrised {
     use super::si::{GRAVITATIONAL_CONSTANT as G, SOLAR_MASS_PARAMETER, SPEED_OF_LIGHT as C};
 
-    /// Second, the base [s].
+    /// Second, the base \[s\].
     pub const SECOND: f64 = 1.0;
-    /// Metre [s], `1 m / c`.
+    /// Metre \[s\], `1 m / c`.
     pub const METRE: f64 = 1.0 / C;
-    /// Kilometre [s].
+    /// Kilometre \[s\].
     pub const KILOMETRE: f64 = 1e3 / C;
-    /// Centimetre [s].
+    /// Centimetre \[s\].
     pub const CENTIMETRE: f64 = 1e-2 / C;
-    /// Kilogram [s], `G (1 kg) / c^3`.
+    /// Kilogram \[s\], `G (1 kg) / c^3`.
     pub const KILOGRAM: f64 = G / (C * C * C);
-    /// Gram [s].
+    /// Gram \[s\].
     pub const GRAM: f64 = 1e-3 * KILOGRAM;
-    /// Solar mass [s], `G M_sun / c^3`: 4.9255 microseconds.
+    /// Solar mass \[s\], `G M_sun / c^3`: 4.9255 microseconds.
     pub const SOLAR_MASS: f64 = SOLAR_MASS_PARAMETER / (C * C * C);
     /// Kilogram per cubic metre [s^-2], `G (1 kg m^-3)`.
     pub const KILOGRAM_PER_CUBIC_METRE: f64 = G;
     /// Gram per cubic centimetre [s^-2].
     pub const GRAM_PER_CUBIC_CENTIMETRE: f64 = G * 1e3;
-    /// Joule [s], `G (1 J) / c^5`.
+    /// Joule \[s\], `G (1 J) / c^5`.
     pub const JOULE: f64 = KILOGRAM / (C * C);
-    /// Erg [s].
+    /// Erg \[s\].
     pub const ERG: f64 = 1e-7 * JOULE;
     /// One cycle per second as an angular frequency [rad/s].
     pub const HERTZ: f64 = 2.0 * core::f64::consts::PI;
