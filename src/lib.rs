@@ -9,6 +9,7 @@ pub mod elliptic;
 pub mod error;
 pub mod euler_angles;
 pub mod lorentz_violation;
+pub mod observables;
 pub mod propagation;
 pub mod scalar;
 pub mod solutions;

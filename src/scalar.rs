@@ -134,7 +134,16 @@ where
 
     #[inline]
     fn atan2(self, x: Self) -> Self {
-        DualNum::atan2(&self, x)
+        if T::NDERIV == 0 {
+            return DualNum::atan2(&self, x);
+        }
+        // num-dual 0.15 divides by `x`, which loses the higher derivatives where `x` is small. Turned by the angle itself
+        // the point lies on the abscissa, and the quotient is regular all round.
+        let angle = Real::re(self).atan2(Real::re(x));
+        let (sin, cos) = angle.sin_cos();
+        let across = self * cos - x * sin;
+        let along = x * cos + self * sin;
+        T::from(angle) + DualNum::atan(&(across / along))
     }
 }
 

@@ -14,10 +14,10 @@
 use crate::error::Error;
 use crate::scalar::Real;
 
-/// Degree [rad].
+/// Degree in rad.
 pub const DEGREE: f64 = core::f64::consts::PI / 180.0;
 
-/// Julian year \[s\], 365.25 days (IAU).
+/// Julian year in s: 365.25 days (IAU).
 pub const JULIAN_YEAR: f64 = 31_557_600.0;
 
 /// SI: metre, kilogram, second.
@@ -28,7 +28,7 @@ pub mod si {
     pub const SPEED_OF_LIGHT: f64 = 299_792_458.0;
     /// Nominal solar mass parameter G M_sun [m^3 s^-2], IAU 2015 Resolution B3, exact by convention.
     pub const SOLAR_MASS_PARAMETER: f64 = 1.327_124_4e20;
-    /// Solar mass [kg], `G M_sun / G`: no better known than G.
+    /// Solar mass in kg, `G M_sun / G`: no better known than G.
     pub const SOLAR_MASS: f64 = SOLAR_MASS_PARAMETER / GRAVITATIONAL_CONSTANT;
     /// Density of one gram per cubic centimetre [kg m^-3].
     pub const GRAM_PER_CUBIC_CENTIMETRE: f64 = 1e3;
@@ -40,7 +40,7 @@ pub mod cgs {
     pub const GRAVITATIONAL_CONSTANT: f64 = super::si::GRAVITATIONAL_CONSTANT * 1e3;
     /// Speed of light c [cm/s].
     pub const SPEED_OF_LIGHT: f64 = super::si::SPEED_OF_LIGHT * 1e2;
-    /// Solar mass [g].
+    /// Solar mass in g.
     pub const SOLAR_MASS: f64 = super::si::SOLAR_MASS * 1e3;
 }
 
@@ -48,27 +48,27 @@ pub mod cgs {
 pub mod geometrised {
     use super::si::{GRAVITATIONAL_CONSTANT as G, SOLAR_MASS_PARAMETER, SPEED_OF_LIGHT as C};
 
-    /// Second, the base \[s\].
+    /// Second: the base.
     pub const SECOND: f64 = 1.0;
-    /// Metre \[s\], `1 m / c`.
+    /// Metre in s, `1 m / c`.
     pub const METRE: f64 = 1.0 / C;
-    /// Kilometre \[s\].
+    /// Kilometre in s.
     pub const KILOMETRE: f64 = 1e3 / C;
-    /// Centimetre \[s\].
+    /// Centimetre in s.
     pub const CENTIMETRE: f64 = 1e-2 / C;
-    /// Kilogram \[s\], `G (1 kg) / c^3`.
+    /// Kilogram in s, `G (1 kg) / c^3`.
     pub const KILOGRAM: f64 = G / (C * C * C);
-    /// Gram \[s\].
+    /// Gram in s.
     pub const GRAM: f64 = 1e-3 * KILOGRAM;
-    /// Solar mass \[s\], `G M_sun / c^3`: 4.9255 microseconds.
+    /// Solar mass in s, `G M_sun / c^3`: 4.9255 microseconds.
     pub const SOLAR_MASS: f64 = SOLAR_MASS_PARAMETER / (C * C * C);
     /// Kilogram per cubic metre [s^-2], `G (1 kg m^-3)`.
     pub const KILOGRAM_PER_CUBIC_METRE: f64 = G;
     /// Gram per cubic centimetre [s^-2].
     pub const GRAM_PER_CUBIC_CENTIMETRE: f64 = G * 1e3;
-    /// Joule \[s\], `G (1 J) / c^5`.
+    /// Joule in s, `G (1 J) / c^5`.
     pub const JOULE: f64 = KILOGRAM / (C * C);
-    /// Erg \[s\].
+    /// Erg in s.
     pub const ERG: f64 = 1e-7 * JOULE;
     /// One cycle per second as an angular frequency [rad/s].
     pub const HERTZ: f64 = 2.0 * core::f64::consts::PI;

@@ -48,3 +48,19 @@ pub fn anisotropic_potential_of_axis<S: Scalar>(constant_c: S, s: &Matrix3<S>, a
 pub fn anisotropic_potential_of_body<S: Scalar>(s_body: &Matrix3<S>, potential_energy_tensor: &Matrix3<S>) -> S {
     -(s_body * potential_energy_tensor).trace() / 2.0
 }
+
+/// Nordtvedt's self-energy `delta U_PPN = -(1/2) alpha_2 T_rot (w . Omega/|Omega|)^2` of a fluid star spinning stationarily,
+/// Eq. (13) `[ppndeu1]`: `rotation_axis` is the unit vector along the angular velocity, `w` the velocity relative to the
+/// preferred frame in units of c.
+///
+/// With the replacement (5) `[replace]` it is Eq. (11) `[pecorrect2]` for `C = T_rot / 2` and a star that spins about its
+/// symmetry axis; for a precessing star the two differ, and Eq. (11) holds.
+pub fn nordtvedt_potential<S: Scalar>(
+    alpha_2: S,
+    rotational_energy: S,
+    w: &Vector3<S>,
+    rotation_axis: &Vector3<S>,
+) -> S {
+    let along = w.dot(rotation_axis);
+    -(alpha_2 * rotational_energy * along * along / 2.0)
+}

@@ -25,7 +25,7 @@ pub fn centrifugal_coefficient() -> f64 {
 /// Fluid oblateness by the second form of Eq. (20) `[epf]`,
 /// `coefficient (f / 100 Hz)^2 (R / 10 km)^3 (1.4 M_sun / M)`, with the coefficient from the constants.
 ///
-/// `frequency` [Hz], `radius` [km], `mass` [solar masses].
+/// `frequency` in Hz, `radius` in km, `mass` in solar masses.
 pub fn centrifugal_oblateness_scaled<S: Scalar>(frequency: S, radius: S, mass: S) -> S {
     let (f, r) = (frequency / 100.0, radius / 10.0);
     f * f * r * r * r / mass * (1.4 * centrifugal_coefficient())

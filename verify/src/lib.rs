@@ -2,5 +2,8 @@
 
 pub mod check;
 pub mod checks;
+pub mod fit;
+pub mod golden;
+pub mod paper_examples;
 pub mod physical_domain;
 pub mod reference;

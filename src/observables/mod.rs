@@ -1,0 +1,3 @@
+//! What a distant observer measures of a motion.
+
+pub mod gravitational_wave;

@@ -1,0 +1,117 @@
+//! Precession about the middle principal axis of `s^IJ` is unstable.
+
+use nalgebra::Vector3;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::propagation::{Motion, propagate};
+
+use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::fit::slope;
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "middle-axis-growth",
+            kind: Kind::Regime,
+            equations: &[36],
+            statement: "forced precession about the middle axis of s^IJ (X, Y, Z in turn) is unstable with the rate (2 C |P2| / G) sqrt((s1 - s2)(s2 - s3))",
+            figure: "largest |growth rate / formula - 1|, s of the examples scaled by 0.02, permuted, about X, Y, Z",
+            bound: Bound::AtMost(0.02),
+            reason: "the formula is of first order: relative error of the order of s = 8e-4, and the fit's window adds a percent",
+            measure: growth_about_middle_axis,
+        },
+        Check {
+            id: "outer-axes-stable",
+            kind: Kind::Regime,
+            equations: &[36],
+            statement: "forced precession about the axes of the largest and the smallest eigenvalue (X, Y, Z in turn) is stable",
+            figure: "largest tilt of L over twenty growth times of the middle axis / initial tilt",
+            bound: Bound::AtMost(10.0),
+            reason: "bounded by the axis ratio of the ellipse about the stable axis, at most sqrt(6) here, and the fast wobble of L",
+            measure: tilt_about_outer_axes,
+        },
+    ]
+}
+
+const SCALE: f64 = 0.02;
+const MOMENTUM: f64 = 1.1;
+const START: f64 = 1e-7;
+
+/// Eigenvalues of the examples with the given one on the axis about which L precesses, and that axis.
+fn arrangements(on_axis: f64, others: [f64; 2]) -> Vec<(usize, PrincipalCoefficients<f64>)> {
+    (0..3)
+        .map(|axis| {
+            let mut s = [0.0; 3];
+            s[axis] = on_axis;
+            s[(axis + 1) % 3] = others[0];
+            s[(axis + 2) % 3] = others[1];
+            (axis, PrincipalCoefficients::new(s).scaled(SCALE))
+        })
+        .collect()
+}
+
+/// Tilts of L from the coordinate axis with the given index, at times up to `duration`, from a star spinning about L.
+fn tilts(axis: usize, s: &PrincipalCoefficients<f64>, duration: f64) -> Result<Vec<(f64, f64)>, String> {
+    let mut l = Vector3::zeros();
+    l[axis] = 1.0;
+    l[(axis + 1) % 3] = START;
+    l[(axis + 2) % 3] = START * 0.7;
+    let l = l.normalize();
+    let mut side = Vector3::zeros();
+    side[(axis + 1) % 3] = 1.0;
+    let equatorial_axis = (side - l * l.dot(&side)).normalize();
+    let initial = BodyState { axis: l, momentum: l * MOMENTUM, equatorial_axis };
+    let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+    let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12).map_err(|e| e.to_string())?;
+    let samples = 4000;
+    (0..=samples)
+        .map(|i| {
+            let t = duration * f64::from(i) / f64::from(samples);
+            let momentum = motion.state(t).map_err(|e| e.to_string())?.momentum;
+            let across = (0..3).filter(|&k| k != axis).map(|k| momentum[k].powi(2)).sum::<f64>().sqrt();
+            Ok((t, across / momentum.norm()))
+        })
+        .collect()
+}
+
+/// First-order growth rate for a star spinning about L: `P2(1) = 1`.
+fn growth_rate() -> f64 {
+    2.0 / MOMENTUM * SCALE * f64::sqrt((0.02 - 0.01) * (0.01 + 0.04))
+}
+
+fn growth_about_middle_axis() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for (axis, s) in arrangements(0.01, [0.02, -0.04]) {
+        // The decaying part must have died out, and the tilt must still be small.
+        let window: Vec<_> = tilts(axis, &s, 14.0 / growth_rate())?
+            .into_iter()
+            .filter(|(t, tilt)| t * growth_rate() > 3.0 && *tilt < 0.03)
+            .map(|(t, tilt)| (t, tilt.ln()))
+            .collect();
+        let rate = slope(&window)?;
+        worst.see((rate.value / growth_rate() - 1.0).abs(), || {
+            format!(
+                "about {}: rate {:.6e} +- {:.0e}, formula {:.6e}",
+                ["X", "Y", "Z"][axis],
+                rate.value,
+                rate.error,
+                growth_rate()
+            )
+        });
+    }
+    worst.finish()
+}
+
+fn tilt_about_outer_axes() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for (value, others) in [(0.02, [0.01, -0.04]), (-0.04, [0.02, 0.01])] {
+        for (axis, s) in arrangements(value, others) {
+            let tilts = tilts(axis, &s, 20.0 / growth_rate())?;
+            let start = tilts[0].1;
+            for (t, tilt) in tilts {
+                worst.see(tilt / start, || format!("about {} with s = {value}: t = {t:.0}", ["X", "Y", "Z"][axis]));
+            }
+        }
+    }
+    worst.finish()
+}

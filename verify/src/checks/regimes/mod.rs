@@ -1,0 +1,15 @@
+//! Where the approximations hold: their errors against the numerical motion.
+
+mod middle_axis;
+pub mod perturbation_error;
+mod precession_rates;
+mod single_precession;
+mod twofold_precession;
+
+use crate::check::Check;
+
+/// Checks of this subject.
+pub fn checks() -> Vec<Check> {
+    [twofold_precession::checks(), single_precession::checks(), precession_rates::checks(), middle_axis::checks()]
+        .concat()
+}

@@ -1,0 +1,132 @@
+//! Mean rates of the precession angle and of the angular momentum, with their signs, for both kinds of precession.
+
+use nalgebra::Vector3;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::propagation::{ContinuousAngles, Motion, propagate};
+
+use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::fit::mean_rate;
+use crate::reference::{ReferenceMotion, reference_motion};
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "mean-rates-of-examples",
+            kind: Kind::Oracle,
+            equations: &[32, 57],
+            statement: "mean rates of alpha, gamma and the azimuth of L of the four examples equal those of 20,000 t_c of high-precision integration",
+            figure: "largest difference [1/t_c]",
+            bound: Bound::AtMost(1e-9),
+            reason: "weighted average over 4,000 t_c; the references are given to 1e-10",
+            measure: rates_of_examples,
+        },
+        Check {
+            id: "forced-precession-direction",
+            kind: Kind::Regime,
+            equations: &[32, 57],
+            statement: "forced precession turns the angular momentum the same way for both kinds; what is opposite is the shift of the rate of alpha in tp-I, a change of its free precession",
+            figure: "signs that differ from: tp-I alpha +, tp-II azimuth of L -, sp-I azimuth of L -, sp-I alpha -",
+            bound: Bound::AtMost(0.0),
+            reason: "signs of numbers that are above 0.02 in size",
+            measure: directions,
+        },
+        Check {
+            id: "momentum-precession-rate",
+            kind: Kind::Regime,
+            equations: &[26, 32],
+            statement: "the angular momentum precesses about Z at (2 C P2(c) / G) (s^ZZ - s^XX) l_Z with c = n.L/G: its sign reverses where c^2 crosses 1/3",
+            figure: "largest |rate - formula| / (|2 C (s^ZZ - s^XX) / G| k), c^2 from 0.05 to 1, symmetric s scaled by k",
+            bound: Bound::AtMost(0.1),
+            reason: "the formula is of first order: with s^ZZ - s^XX = -0.055 k its relative error is of the order 0.055 k",
+            measure: momentum_rate_across_magic_angle,
+        },
+    ]
+}
+
+/// Mean rates of `alpha`, `gamma` and the azimuth of `L` about Z.
+fn mean_rates(scene: &ReferenceMotion, duration: f64, samples: usize) -> Result<[f64; 3], String> {
+    let motion = propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, duration), 1e-13)
+        .map_err(|e| e.to_string())?;
+    let mut angles = ContinuousAngles::new(&motion, 0.0, &scene.angles).map_err(|e| e.to_string())?;
+    let step = duration / samples as f64;
+    let (mut alphas, mut gammas, mut azimuths) = (Vec::new(), Vec::new(), Vec::new());
+    for i in 0..=samples {
+        let t = (step * i as f64).min(duration);
+        let at = angles.at(t).map_err(|e| e.to_string())?;
+        alphas.push(at.alpha);
+        gammas.push(at.gamma);
+        let momentum = motion.state(t).map_err(|e| e.to_string())?.momentum;
+        azimuths.push(continued(azimuths.last().copied(), momentum.y.atan2(momentum.x)));
+    }
+    Ok([alphas, gammas, azimuths].map(|series| mean_rate(&series, step)))
+}
+
+fn continued(last: Option<f64>, angle: f64) -> f64 {
+    use std::f64::consts::TAU;
+    angle + last.map_or(0.0, |last| ((last - angle) / TAU).round() * TAU)
+}
+
+fn rates_of_examples() -> Result<Measured, String> {
+    let expected = [
+        ("tp-1", [Some(1.51237304762), Some(-0.15557827845), Some(1.51237304762)]),
+        ("tp-2", [Some(1.39467831103), Some(-0.14421753117), Some(-0.03546436867)]),
+        ("sp-1", [Some(-0.0720704306), Some(1.0549619690), None]),
+        ("sp-2", [Some(-0.0257600721), Some(1.0086796666), None]),
+    ];
+    let mut worst = Worst::default();
+    for (name, rates) in expected {
+        let measured = mean_rates(&reference_motion(name), 4000.0, 40_000)?;
+        for ((label, expected), rate) in ["alpha", "gamma", "azimuth of L"].iter().zip(rates).zip(measured) {
+            if let Some(expected) = expected {
+                worst.see((rate - expected).abs(), || format!("{label} of {name}: {rate:.11}"));
+            }
+        }
+    }
+    worst.finish()
+}
+
+fn directions() -> Result<Measured, String> {
+    let shift = mean_rates(&reference_motion("tp-1"), 1000.0, 10_000)?[0] - 1.1 / 0.7f64.cos();
+    let twofold = mean_rates(&reference_motion("tp-2"), 1000.0, 10_000)?[2];
+    let [alpha, _, single] = mean_rates(&reference_motion("sp-1"), 1000.0, 10_000)?;
+    let wrong = [shift < 0.02, twofold > -0.02, single > -0.02, alpha > -0.02];
+    Ok(Measured::new(
+        wrong.iter().filter(|w| **w).count() as f64,
+        format!("tp-I alpha shift {shift:.4}, tp-II L {twofold:.4}, sp-I L {single:.4}, sp-I alpha {alpha:.4}"),
+    ))
+}
+
+fn momentum_rate_across_magic_angle() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    let k = 0.1;
+    let s = PrincipalCoefficients::new([0.015, 0.015, -0.04]).scaled(k);
+    let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+    let (g, tilt) = (1.4, 0.6_f64);
+    let l = Vector3::new(tilt.sin(), 0.0, tilt.cos());
+    let across = Vector3::new(tilt.cos(), 0.0, -tilt.sin());
+    for c2 in [0.05, 0.15, 0.25, 1.0 / 3.0, 0.4, 0.5, 0.7, 0.9, 1.0] {
+        let c = f64::sqrt(c2);
+        let axis = l * c + across * (1.0 - c2).sqrt();
+        let initial = BodyState { axis, momentum: l * g, equatorial_axis: Vector3::y() };
+        let duration = 4000.0;
+        let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12).map_err(|e| e.to_string())?;
+        let samples = 20_000;
+        let step = duration / f64::from(samples);
+        let mut azimuths = Vec::new();
+        for i in 0..=samples {
+            let m = motion.state((step * f64::from(i)).min(duration)).map_err(|e| e.to_string())?.momentum;
+            azimuths.push(continued(azimuths.last().copied(), m.y.atan2(m.x)));
+        }
+        let rate = mean_rate(&azimuths, step);
+        let size = 2.0 * (s.zz - s.xx) / g;
+        let formula = size * (1.5 * c2 - 0.5) * l.z;
+        if c2 < 0.3 && rate * size > 0.0 || c2 > 0.36 && rate * size < 0.0 {
+            return Err(format!("wrong sign of the rate {rate:e} at c^2 = {c2}"));
+        }
+        worst.see((rate - formula).abs() / (size.abs() * k), || {
+            format!("c^2 = {c2:.3}: rate {rate:.6e}, formula {formula:.6e}")
+        });
+    }
+    worst.finish()
+}

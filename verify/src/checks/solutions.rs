@@ -1,0 +1,282 @@
+//! Free rotation, steady precession and the constants of integration of the perturbation solutions.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
+use num_dual::Dual64;
+use proptest::prelude::*;
+use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_residuals};
+use twofold::dynamics::regular_equations::body_state_rates;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::EulerAngles;
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::solutions::free::{free_precession_rates, free_rotation};
+use twofold::solutions::perturbation::{Constants, Kind as Precession, constants_from_initial_values, initial_values};
+use twofold::solutions::steady::steady_precession_rate;
+
+use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::physical_domain::{scenes, worst_over};
+use crate::reference::reference_motion;
+
+/// Checks of this subject.
+pub fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "free-rotation-reference",
+            kind: Kind::Oracle,
+            equations: &[48],
+            statement: "the closed form of free rotation reproduces the 34-digit motion without Lorentz violation",
+            figure: "largest error of a component of n, e_x over 200 t_c",
+            bound: Bound::AtMost(5e-13),
+            reason: "rounding of the initial state, grown with a phase of 300 rad",
+            measure: free_reference,
+        },
+        Check {
+            id: "free-rotation-equations",
+            kind: Kind::Autodiff,
+            equations: &[25, 48],
+            statement: "the closed form of free rotation satisfies the regular equations of motion, L = 0 and t = 0 included",
+            figure: "largest |d/dt - rate| / (2.2e-16, size of the rates, 1 + phase)",
+            bound: Bound::AtMost(8.0),
+            reason: "rounding of two rotations and of their phase",
+            measure: free_equations,
+        },
+        Check {
+            id: "free-precession-rates",
+            kind: Kind::Property,
+            equations: &[48],
+            statement: "with the rates of Eq. (48) the angular momentum lies along Z",
+            figure: "largest |L x Z| / (2.2e-16 |L|)",
+            bound: Bound::AtMost(4.0),
+            reason: "rounding of the rotation matrix and of the rates",
+            measure: free_rates,
+        },
+        Check {
+            id: "steady-precession-equations",
+            kind: Kind::Property,
+            equations: &[25, 26],
+            statement: "both roots of Eq. (26) make Eq. (25) hold with constant beta, for s symmetric about Z and either sign of the spin",
+            figure: "largest residual of Eq. (25) / (2.2e-16, sum of the magnitudes of its terms)",
+            bound: Bound::AtMost(8.0),
+            reason: "the root is right to a few ulp, and each residual has four terms",
+            measure: steady_equations,
+        },
+        Check {
+            id: "steady-precession-limit",
+            kind: Kind::Oracle,
+            equations: &[26],
+            statement: "as s -> 0 the single root of Eq. (26) keeps its digits: it equals its series 2 s C cos b / (I^zz Omega^z) (1 + x + 2 x^2)",
+            figure: "largest relative error in 2.2e-16, s from 1e-6 to 1e-300",
+            bound: Bound::AtMost(4.0),
+            reason: "the next term of the series is 5 x^3 < 1e-17; a difference of the two terms of (26) would lose all digits",
+            measure: steady_limit,
+        },
+        Check {
+            id: "initial-values-inverse",
+            kind: Kind::Property,
+            equations: &[34],
+            statement: "constants of integration -> initial values (34) -> constants is the identity for the four examples",
+            figure: "largest error of alpha_0, beta_0, A cos phi, A sin phi",
+            bound: Bound::AtMost(1e-12),
+            reason: "rounding of 1e-16 through a Newton matrix of condition up to 1e3",
+            measure: inverse_round_trip,
+        },
+        Check {
+            id: "initial-values-inverse-random",
+            kind: Kind::Property,
+            equations: &[34],
+            statement: "initial values -> constants of integration -> initial values (34) is the identity, and no smaller A was missed",
+            figure: "largest error of an initial value",
+            bound: Bound::AtMost(1e-13),
+            reason: "the Newton iteration ends at rounding of terms of size pi, divided by a of 0.03 at the least",
+            measure: inverse_at_random,
+        },
+        Check {
+            id: "initial-values-inverse-derivatives",
+            kind: Kind::Autodiff,
+            equations: &[34],
+            statement: "the derivatives of the inverse of Eq. (34) are the inverse matrix of the derivatives of Eq. (34)",
+            figure: "largest entry of |J(inverse) J - 1|",
+            bound: Bound::AtMost(1e-11),
+            reason: "rounding through two matrices of condition up to 1e3",
+            measure: inverse_derivatives,
+        },
+    ]
+}
+
+fn free_reference() -> Result<Measured, String> {
+    let scene = reference_motion("free");
+    let mut worst = Worst::default();
+    for (t, state) in &scene.states {
+        let ours = free_rotation(&scene.spheroid, &scene.initial(), *t);
+        let error = (ours.axis - state.axis).amax().max((ours.equatorial_axis - state.equatorial_axis).amax());
+        worst.see(error, || format!("t = {t}"));
+    }
+    worst.finish()
+}
+
+fn free_equations() -> Result<Measured, String> {
+    worst_over(11, 300, &(scenes(), 0.0..100.0f64, 0..10), |(scene, t, pick)| {
+        // A third of the cases at t = 0, at rest, and below the switch to the series.
+        let t = if *pick == 0 { 0.0 } else { *t };
+        let slow = [1.0, 1e-9, 0.0][(*pick as usize).min(2)];
+        let lift = |x: f64| Dual64::from_re(x);
+        let spheroid = RigidSpheroid::in_units_of_tc(lift(scene.inertia_ratio));
+        let start = scene.state();
+        let initial = BodyState {
+            axis: start.axis.map(lift),
+            momentum: (start.momentum * slow).map(lift),
+            equatorial_axis: start.equatorial_axis.map(lift),
+        };
+        let state = free_rotation(&spheroid, &initial, Dual64::new(t, 1.0));
+        let rates = body_state_rates(&spheroid, &Matrix3::zeros(), &state);
+        let error =
+            |moved: &Vector3<Dual64>, rate: &Vector3<Dual64>| (moved.map(|x| x.eps) - rate.map(|x| x.re)).amax();
+        let size = start.momentum.norm() * slow;
+        let largest = error(&state.axis, &rates.axis)
+            .max(error(&state.equatorial_axis, &rates.equatorial_axis))
+            .max(error(&state.momentum, &rates.momentum));
+        let unit = f64::EPSILON * (size * (1.0 + size * t) * (1.0 + 1.0 / scene.inertia_ratio) + f64::MIN_POSITIVE);
+        Ok(largest / unit)
+    })
+}
+
+fn free_rates() -> Result<Measured, String> {
+    worst_over(
+        12,
+        300,
+        &(0.2..2.0f64, -3.0..3.0f64, 0.01..1.5f64, -PI..PI, -PI..PI),
+        |&(ratio, spin, beta, alpha, gamma)| {
+            let spheroid = RigidSpheroid::in_units_of_tc(ratio);
+            let rates = free_precession_rates(&spheroid, spin, beta).map_err(|e| e.to_string())?;
+            let state = BodyState::from_angles(&spheroid, &EulerAngles { alpha, beta, gamma }, &rates);
+            Ok(state.momentum.xy().norm() / (f64::EPSILON * state.momentum.norm()))
+        },
+    )
+}
+
+fn steady_equations() -> Result<Measured, String> {
+    let domain =
+        (0.2..2.0f64, prop_oneof![-3.0..-0.3f64, 0.3..3.0f64], 0.05..3.09f64, -0.2..0.2f64, -0.2..0.2f64, -PI..PI);
+    worst_over(13, 500, &domain, |&(ratio, spin, beta, xx, zz, alpha)| {
+        let spheroid = RigidSpheroid::in_units_of_tc(ratio);
+        let s = PrincipalCoefficients { xx, yy: xx, zz };
+        let mut largest = 0.0_f64;
+        for kind in [Precession::Twofold, Precession::Single] {
+            let Ok(rate) = steady_precession_rate(kind, &spheroid, &s, spin, beta) else {
+                let radicand = (ratio * spin).powi(2) - 8.0 * (zz - xx) * beta.cos().powi(2);
+                return if radicand < 0.0 { Ok(0.0) } else { Err(format!("refused at radicand {radicand}")) };
+            };
+            let q = AxisAngles { alpha, beta, alpha_rate: rate, beta_rate: 0.0 };
+            let (first, second) = euler_angle_residuals(&spheroid, &s, spin, &q, (0.0, 0.0));
+            let (sin, cos) = beta.sin_cos();
+            let terms = (sin * cos * rate * rate).abs()
+                + (ratio * spin * sin * rate).abs()
+                + (2.0 * (xx.abs() + zz.abs()) * sin * cos).abs();
+            largest = largest.max(second.abs() / terms).max(first.abs());
+        }
+        Ok(largest / f64::EPSILON)
+    })
+}
+
+fn steady_limit() -> Result<Measured, String> {
+    let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+    let mut worst = Worst::default();
+    for exponent in [6, 8, 12, 20, 100, 300] {
+        for spin in [1.0, -0.7] {
+            let zz = -0.4 * 10f64.powi(-exponent);
+            let s = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz };
+            let rate =
+                steady_precession_rate(Precession::Single, &spheroid, &s, spin, 0.7).map_err(|e| e.to_string())?;
+            let p = 1.1 * spin;
+            let x = 2.0 * zz * 0.7f64.cos().powi(2) / (p * p);
+            let series = 2.0 * zz * 0.7f64.cos() / p * (1.0 + x + 2.0 * x * x);
+            worst.see((rate / series - 1.0).abs() / f64::EPSILON, || format!("s^ZZ = {zz:e}, spin {spin}: {rate:e}"));
+        }
+    }
+    worst.finish()
+}
+
+const S: [f64; 3] = [0.02, 0.01, -0.04];
+
+fn inverse_round_trip() -> Result<Measured, String> {
+    let (spheroid, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new(S));
+    let round_trip = |kind: Precession, constants: &Constants<f64>, spin: f64| -> Result<f64, String> {
+        let initial = initial_values(kind, &spheroid, &s, spin, constants).map_err(|e| e.to_string())?;
+        let found = constants_from_initial_values(kind, &spheroid, &s, spin, &initial).map_err(|e| e.to_string())?;
+        let vector = |c: &Constants<f64>| {
+            let (sin, cos) = c.phase.sin_cos();
+            Vector4::new(c.alpha_0, c.beta_0, c.amplitude * cos, c.amplitude * sin)
+        };
+        Ok((vector(&found) - vector(constants)).amax())
+    };
+    let mut worst = Worst::default();
+    let examples = [
+        ("tp-I", Precession::Twofold, 0.7, 0.0),
+        ("tp-II", Precession::Twofold, 0.7, 0.4),
+        ("sp-I", Precession::Single, 0.7, 0.01),
+        ("sp-II", Precession::Single, 1.4, 0.01),
+    ];
+    for (name, kind, beta_0, amplitude) in examples {
+        let constants = Constants { alpha_0: FRAC_PI_2, beta_0, amplitude, phase: FRAC_PI_2 };
+        worst.see(round_trip(kind, &constants, 1.0)?, || name.into());
+    }
+    worst.finish()
+}
+
+/// Eq. (34) is not linear: several constants can give the same initial values, so the way back ends at the smallest `A`.
+fn inverse_at_random() -> Result<Measured, String> {
+    let (spheroid, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new(S));
+    let mut worst = Worst::default();
+    let domain = (-PI..PI, 0.2..1.1f64, 0.0..0.02f64, -PI..PI, prop_oneof![-2.0..-0.5f64, 0.5..2.0f64]);
+    for kind in [Precession::Twofold, Precession::Single] {
+        let random = worst_over(14, 200, &domain, |&(alpha_0, beta_0, amplitude, phase, spin)| {
+            let constants = Constants { alpha_0, beta_0, amplitude, phase };
+            let forward = |c: &Constants<f64>| initial_values(kind, &spheroid, &s, spin, c).map_err(|e| e.to_string());
+            let initial = forward(&constants)?;
+            let found =
+                constants_from_initial_values(kind, &spheroid, &s, spin, &initial).map_err(|e| e.to_string())?;
+            if found.amplitude > amplitude + 1e-12 {
+                return Err(format!("A = {} where {amplitude} is possible", found.amplitude));
+            }
+            let again = forward(&found)?;
+            let vector = |q: &AxisAngles<f64>| Vector4::new(q.alpha, q.beta, q.alpha_rate, q.beta_rate);
+            Ok((vector(&again) - vector(&initial)).amax())
+        })?;
+        worst.see(random.figure, || format!("{kind:?}: {}", random.detail));
+    }
+    worst.finish()
+}
+
+fn inverse_derivatives() -> Result<Measured, String> {
+    let lift = |x: f64| Dual64::from_re(x);
+    let (spheroid, s, spin) =
+        (RigidSpheroid::in_units_of_tc(lift(1.1)), PrincipalCoefficients::new(S.map(lift)), lift(1.0));
+    let mut worst = Worst::default();
+    for (kind, beta_0, amplitude) in [(Precession::Twofold, 0.7, 0.4), (Precession::Single, 0.7, 0.01)] {
+        let constants = [FRAC_PI_2, beta_0, amplitude, 1.2];
+        let seeded = |x: [f64; 4], i: usize| {
+            let mut x = x.map(lift);
+            x[i].eps = 1.0;
+            x
+        };
+        let forward = |[alpha_0, beta_0, amplitude, phase]: [Dual64; 4]| {
+            initial_values(kind, &spheroid, &s, spin, &Constants { alpha_0, beta_0, amplitude, phase })
+                .map(|q| [q.alpha, q.beta, q.alpha_rate, q.beta_rate])
+        };
+        let backward = |[alpha, beta, alpha_rate, beta_rate]: [Dual64; 4]| {
+            constants_from_initial_values(kind, &spheroid, &s, spin, &AxisAngles { alpha, beta, alpha_rate, beta_rate })
+                .map(|c| [c.alpha_0, c.beta_0, c.amplitude, c.phase])
+        };
+        let jacobian = |f: &dyn Fn([Dual64; 4]) -> Result<[Dual64; 4], twofold::Error>, x: [f64; 4]| {
+            let columns = (0..4)
+                .map(|i| Ok(Vector4::from(f(seeded(x, i)).map_err(|e| e.to_string())?.map(|y| y.eps))))
+                .collect::<Result<Vec<_>, String>>()?;
+            Ok::<_, String>(Matrix4::from_columns(&columns))
+        };
+        let initial = forward(constants.map(lift)).map_err(|e| e.to_string())?.map(|x| x.re);
+        let product = jacobian(&backward, initial)? * jacobian(&forward, constants)?;
+        worst.see((product - Matrix4::identity()).amax(), || format!("{kind:?}"));
+    }
+    worst.finish()
+}

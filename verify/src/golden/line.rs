@@ -1,0 +1,98 @@
+//! One number of the paper: as printed, as computed, and the verdict.
+
+/// How the paper gives a number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Printed {
+    /// A decimal number as printed, `0.701`: ours must round to it.
+    Decimal(&'static str),
+    /// An order of magnitude, `1e-5`: ours must be within half a decade.
+    Order(&'static str),
+    /// Not printed: derived by the paper's formula.
+    No,
+}
+
+/// One labelled number.
+#[derive(Debug, Clone)]
+pub struct GoldenLine {
+    /// What it is, with its symbol, unit and equation.
+    pub label: String,
+    /// The paper's number.
+    pub printed: Printed,
+    /// Ours.
+    pub ours: f64,
+}
+
+impl GoldenLine {
+    /// A line.
+    pub fn new(label: impl Into<String>, printed: Printed, ours: f64) -> Self {
+        Self { label: label.into(), printed, ours }
+    }
+
+    /// `confirmed`, `differs`, or `derived` where nothing is printed.
+    pub fn verdict(&self) -> &'static str {
+        let agrees = match self.printed {
+            Printed::No => return "derived",
+            Printed::Decimal(text) => rounds_to(self.ours, text),
+            Printed::Order(text) => {
+                let printed: f64 = text.parse().expect("printed numbers are numbers");
+                (self.ours / printed).log10().abs() <= 0.5
+            }
+        };
+        if agrees { "confirmed" } else { "differs" }
+    }
+
+    /// The line with its label padded to `width`; ours with nine significant digits.
+    pub(super) fn aligned(&self, width: usize) -> String {
+        let printed = match self.printed {
+            Printed::Decimal(text) => text.to_string(),
+            Printed::Order(text) => format!("~{text}"),
+            Printed::No => "-".to_string(),
+        };
+        format!(
+            "{:<width$}  printed {:>9}  ours {:>15}  {}",
+            self.label,
+            printed,
+            significant(self.ours),
+            self.verdict()
+        )
+    }
+}
+
+/// Whether `value`, rounded to the digits of `text`, is `text`. Powers of ten (`2.1e-3`) count digits of the mantissa.
+fn rounds_to(value: f64, text: &str) -> bool {
+    let printed: f64 = text.parse().expect("printed numbers are numbers");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
+    let decimals = mantissa.split_once('.').map_or(0, |(_, digits)| digits.len() as i32);
+    let exponent: i32 = exponent.parse().expect("an exponent");
+    let half_unit = 0.5 * 10f64.powi(exponent - decimals);
+    (value - printed).abs() <= half_unit * (1.0 + 1e-9)
+}
+
+/// Nine significant digits; below 1e-15, rounding of a zero in these tables, as zero.
+fn significant(value: f64) -> String {
+    if value.abs() < 1e-15 { "0".into() } else { format!("{value:.8e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_printed_number_is_met_by_what_rounds_to_it() {
+        for (ours, printed, verdict) in [
+            (0.70099, "0.701", "confirmed"),
+            (0.70151, "0.701", "differs"),
+            (-0.0084, "-0.008", "confirmed"),
+            (2.07e-3, "2.1e-3", "confirmed"),
+            (2.16e-3, "2.1e-3", "differs"),
+        ] {
+            assert_eq!(
+                GoldenLine::new("x", Printed::Decimal(printed), ours).verdict(),
+                verdict,
+                "{ours} for {printed}"
+            );
+        }
+        assert_eq!(GoldenLine::new("x", Printed::Order("1e-5"), 1.8e-5).verdict(), "confirmed");
+        assert_eq!(GoldenLine::new("x", Printed::Order("1e-5"), 4e-5).verdict(), "differs");
+    }
+}

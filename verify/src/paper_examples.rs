@@ -1,0 +1,55 @@
+//! The paper's four examples, tp-I, tp-II, sp-I and sp-II.
+
+use std::f64::consts::FRAC_PI_2;
+
+use twofold::dynamics::RigidSpheroid;
+use twofold::dynamics::euler_angle_equations::AxisAngles;
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::solutions::perturbation::{Constants, Kind, initial_values};
+
+/// `Omega^z` of all four examples [1/t_c].
+pub const SPIN: f64 = 1.0;
+
+/// Eigenvalues `s^XX, s^YY, s^ZZ` of all four examples.
+pub const COEFFICIENTS: PrincipalCoefficients<f64> = PrincipalCoefficients { xx: 0.02, yy: 0.01, zz: -0.04 };
+
+/// The body of all four examples, `I^zz / I^xx = 1.1` in units `I^xx = C = 1`.
+pub fn spheroid() -> RigidSpheroid<f64> {
+    RigidSpheroid::in_units_of_tc(1.1)
+}
+
+/// One example by its constants of integration.
+#[derive(Debug, Clone, Copy)]
+pub struct PaperExample {
+    /// Name in the paper.
+    pub name: &'static str,
+    /// Kind of precession.
+    pub kind: Kind,
+    /// Constants of integration in Eq. (34).
+    pub constants: Constants<f64>,
+}
+
+impl PaperExample {
+    /// Initial angles and rates by Eq. (34).
+    ///
+    /// # Errors
+    /// None for the four examples.
+    pub fn initial_values(&self) -> Result<AxisAngles<f64>, twofold::Error> {
+        initial_values(self.kind, &spheroid(), &COEFFICIENTS, SPIN, &self.constants)
+    }
+}
+
+/// The four examples in the paper's order.
+pub fn paper_examples() -> [PaperExample; 4] {
+    let example = |name, kind, beta_0, amplitude| PaperExample {
+        name,
+        kind,
+        constants: Constants { alpha_0: FRAC_PI_2, beta_0, amplitude, phase: FRAC_PI_2 },
+    };
+    [
+        example("tp-I", Kind::Twofold, 0.7, 0.0),
+        example("tp-II", Kind::Twofold, 0.7, 0.4),
+        example("sp-I", Kind::Single, 0.7, 0.01),
+        example("sp-II", Kind::Single, 1.4, 0.01),
+    ]
+}
