@@ -4,14 +4,13 @@
 //! Written here because derivatives are needed: the crate `ellip` computes the same integrals, but only for floats, and
 //! serves as the independent reference of the checks.
 //!
-//! Two of the arguments can be given as a pair by `mean = (y + z) / 2` and `product = y z`. Only these symmetric functions
-//! enter, so one formula covers two real arguments and two complex conjugate ones (`mean = Re y`, `product = |y|^2`), and
-//! is smooth where one case passes into the other.
+//! Two of the arguments can be given by the sum and the product of their roots, `sqrt y + sqrt z` and `sqrt y sqrt z`. Only
+//! these symmetric functions enter, so one formula covers two real arguments and two complex conjugate ones (sum
+//! `sqrt(2 (|y| + Re y))`, product `|y|`), and is smooth where one case passes into the other.
 //!
 //! Accuracy: a few ulp (2.2e-16) relative to the value, and as much for the first three derivatives relative to their
-//! natural size (value over powers of the argument). A pair near the negative real axis, `mean` close to
-//! `-sqrt(product)`, loses the factor `sqrt(product) / (mean + sqrt(product))`. Products of arguments must neither overflow
-//! nor underflow. Outside the domain the result is NaN.
+//! natural size (value over powers of the argument). Squares of arguments must neither overflow nor underflow. Outside the
+//! domain the result is NaN.
 
 use crate::scalar::Real;
 
@@ -26,14 +25,15 @@ const MOST_DUPLICATIONS: usize = 600;
 ///
 /// Arguments not negative, at most one of them zero. Derivatives do not exist at a zero argument and come out as NaN.
 pub fn rf<S: Real>(x: S, y: S, z: S) -> S {
-    rf_pair(x.sqrt(), (y + z) * 0.5, y * z)
+    let (root_y, root_z) = (y.sqrt(), z.sqrt());
+    rf_of_roots(x.sqrt(), root_y + root_z, root_y * root_z)
 }
 
-/// `R_F(x, y, z)` from the root of `x` and the pair `y`, `z` (see the module).
+/// `R_F(x, y, z)` from `sqrt x`, `sqrt y + sqrt z` and `sqrt y sqrt z` (see the module).
 ///
 /// `root_x >= 0`; smooth at `root_x = 0`, where the integral is complete.
-pub fn rf_pair<S: Real>(root_x: S, mean: S, product: S) -> S {
-    let mut at = Arguments::new(root_x, mean, product);
+pub fn rf_of_roots<S: Real>(root_x: S, root_sum: S, root_product: S) -> S {
+    let mut at = Arguments::new(root_x, root_sum, root_product);
     for _ in 0..MOST_DUPLICATIONS {
         let centre = (at.x + at.mean * 2.0) / 3.0;
         let (x, _, yz) = at.deviations(centre);
@@ -77,7 +77,8 @@ pub fn rc<S: Real>(x: S, y: S) -> S {
 /// `x`, `y` not negative and at most one of them zero, `z > 0`. Derivatives do not exist at a zero argument and come out as
 /// NaN.
 pub fn rd<S: Real>(x: S, y: S, z: S) -> S {
-    let mut at = Arguments::new(z.sqrt(), (x + y) * 0.5, x * y);
+    let (root_x, root_y) = (x.sqrt(), y.sqrt());
+    let mut at = Arguments::new(z.sqrt(), root_x + root_y, root_x * root_y);
     let (mut sum, mut scale) = (S::zero(), 1.0);
     for _ in 0..MOST_DUPLICATIONS {
         let centre = (at.mean * 2.0 + at.x * 3.0) / 5.0;
@@ -102,17 +103,16 @@ pub fn rd<S: Real>(x: S, y: S, z: S) -> S {
 /// `x`, `y`, `z` not negative and at most one of them zero, `p > 0`. Derivatives do not exist at a zero argument and come out
 /// as NaN.
 pub fn rj<S: Real>(x: S, y: S, z: S, p: S) -> S {
-    rj_pair(x.sqrt(), (y + z) * 0.5, y * z, p)
+    let (root_y, root_z) = (y.sqrt(), z.sqrt());
+    rj_of_roots(x.sqrt(), root_y + root_z, root_y * root_z, p)
 }
 
-/// `R_J(x, y, z, p)` from the root of `x` and the pair `y`, `z` (see the module).
+/// `R_J(x, y, z, p)` from `sqrt x`, `sqrt y + sqrt z`, `sqrt y sqrt z` and `p` (see the module).
 ///
 /// `root_x >= 0`, `p > 0`; smooth at `root_x = 0`, where the integral is complete.
-pub fn rj_pair<S: Real>(root_x: S, mean: S, product: S, p: S) -> S {
-    let mut at = Arguments::new(root_x, mean, product);
+pub fn rj_of_roots<S: Real>(root_x: S, root_sum: S, root_product: S, p: S) -> S {
+    let mut at = Arguments::new(root_x, root_sum, root_product);
     let mut p = p;
-    // (p - x)(p - y)(p - z), which each duplication divides by 64.
-    let mut delta = (p - at.x) * (p * p - p * mean * 2.0 + product);
     let (mut sum, mut scale) = (S::zero(), 1.0);
     for _ in 0..MOST_DUPLICATIONS {
         let centre = (at.x + at.mean * 2.0 + p * 2.0) / 5.0;
@@ -127,10 +127,11 @@ pub fn rj_pair<S: Real>(root_x: S, mean: S, product: S, p: S) -> S {
             return sum * 6.0 + degree_seven(e2, e3, e4, e5) * scale / (centre * centre.sqrt());
         }
         let root_p = p.sqrt();
-        let d = (root_p + at.root_x) * (p + root_p * at.sum_of_roots() + at.root_of_product);
-        sum += rc(S::one(), S::one() + delta / (d * d)) * scale / d;
+        let d = (root_p + at.root_x) * (p + root_p * at.root_sum + at.root_product);
+        // 1 + (p - x)(p - y)(p - z) / d^2, as a sum of positive terms.
+        let y = root_p * (p + at.lambda()) * 2.0 / d;
+        sum += rc(S::one(), y) * scale / d;
         scale *= 0.25;
-        delta /= S::from_f64(64.0);
         p = (p + at.lambda()) * 0.25;
         at.duplicate();
     }
@@ -141,33 +142,35 @@ pub fn rj_pair<S: Real>(root_x: S, mean: S, product: S, p: S) -> S {
 struct Arguments<S> {
     x: S,
     root_x: S,
+    /// `(y + z) / 2`.
     mean: S,
-    product: S,
-    root_of_product: S,
+    /// `sqrt y + sqrt z`.
+    root_sum: S,
+    /// `sqrt y sqrt z`.
+    root_product: S,
 }
 
 impl<S: Real> Arguments<S> {
-    fn new(root_x: S, mean: S, product: S) -> Self {
-        Self { x: root_x * root_x, root_x, mean, product, root_of_product: product.sqrt() }
-    }
-
-    /// `sqrt y + sqrt z`, real also for a conjugate pair.
-    fn sum_of_roots(&self) -> S {
-        ((self.mean + self.root_of_product) * 2.0).sqrt()
+    fn new(root_x: S, root_sum: S, root_product: S) -> Self {
+        let mean = root_sum * root_sum * 0.5 - root_product;
+        Self { x: root_x * root_x, root_x, mean, root_sum, root_product }
     }
 
     /// `sqrt x sqrt y + sqrt x sqrt z + sqrt y sqrt z`.
     fn lambda(&self) -> S {
-        self.root_x * self.sum_of_roots() + self.root_of_product
+        self.root_x * self.root_sum + self.root_product
     }
 
     /// Every argument `x` to `(x + lambda) / 4`, which leaves `R_F` as it is.
     fn duplicate(&mut self) {
         let lambda = self.lambda();
         let x = (self.x + lambda) * 0.25;
-        let product = (self.product + self.mean * lambda * 2.0 + lambda * lambda) / 16.0;
-        *self =
-            Self { x, root_x: x.sqrt(), mean: (self.mean + lambda) * 0.25, product, root_of_product: product.sqrt() };
+        let mean = (self.mean + lambda) * 0.25;
+        let product = self.root_product * self.root_product + self.mean * lambda * 2.0 + lambda * lambda;
+        let root_product = product.sqrt() * 0.25;
+        // The mean is positive by now.
+        let root_sum = ((mean + root_product) * 2.0).sqrt();
+        *self = Self { x, root_x: x.sqrt(), mean, root_sum, root_product };
     }
 
     /// Relative deviations from `centre`: that of `x`, the sum of those of the pair, and their product.
@@ -175,7 +178,7 @@ impl<S: Real> Arguments<S> {
         (
             (centre - self.x) / centre,
             (centre - self.mean) * 2.0 / centre,
-            (centre * centre - centre * self.mean * 2.0 + self.product) / (centre * centre),
+            (centre * centre - centre * self.mean * 2.0 + self.root_product * self.root_product) / (centre * centre),
         )
     }
 }

@@ -21,9 +21,11 @@ const MOST_STEPS: usize = 20;
 /// functions of parameter `m = 1 - (b/a)^2`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArithmeticGeometricMean<S> {
-    /// Start `(a, b)` and the means after each step; the first `used` of them count, the last is the limit.
+    /// The larger and the smaller start and the means after each step; the first `used` of them count, the last is the limit.
     steps: [(S, S); MOST_STEPS],
     used: usize,
+    /// Whether `a < b`, a negative parameter: the steps then start from `(b, a)`.
+    negative_parameter: bool,
 }
 
 /// The values `sn(u | m)`, `cn(u | m)`, `dn(u | m)`.
@@ -40,7 +42,8 @@ pub struct JacobiFunctions<S> {
 impl<S: Real> ArithmeticGeometricMean<S> {
     /// The mean of `a` and `b`, both above zero.
     pub fn new(a: S, b: S) -> Self {
-        let mut steps = [(a, b); MOST_STEPS];
+        let negative_parameter = a.re() < b.re();
+        let mut steps = [if negative_parameter { (b, a) } else { (a, b) }; MOST_STEPS];
         let (mut used, mut to_go) = (1, STEPS_FOR_DERIVATIVES + 1);
         while used < MOST_STEPS && to_go > 0 {
             let (a, b) = steps[used - 1];
@@ -50,7 +53,7 @@ impl<S: Real> ArithmeticGeometricMean<S> {
             steps[used] = ((a + b) * 0.5, (a * b).sqrt());
             used += 1;
         }
-        Self { steps, used }
+        Self { steps, used, negative_parameter }
     }
 
     /// The mean itself.
@@ -73,9 +76,12 @@ impl<S: Real> ArithmeticGeometricMean<S> {
             let c2 = (a - b) * (a + b);
             let denominator = S::one() + c2 * f.sn * f.sn * 0.25;
             let (sn, cn) = (f.sn / denominator, f.cn * f.dn / denominator);
-            // Of the two forms of dn, the one that is a sum of positive terms.
-            let dn = if c2.re() > 0.0 { (b * b + c2 * cn * cn).sqrt() / a } else { (S::one() - c2 * sn * sn).sqrt() };
+            let dn = (b * b + c2 * cn * cn).sqrt() / a;
             f = JacobiFunctions { sn, cn, dn };
+        }
+        if self.negative_parameter {
+            // DLMF 22.17(i): nothing cancels in the functions of the positive parameter.
+            return JacobiFunctions { sn: f.sn / f.dn, cn: f.cn / f.dn, dn: S::one() / f.dn };
         }
         f
     }
@@ -91,8 +97,8 @@ pub fn complete_integral<S: Real>(m1: S) -> S {
 /// `sn`, `cn`, `dn` of the real argument `u` and the complementary parameter `m1 = 1 - m > 0` (DLMF 22.2).
 ///
 /// Error: a few ulp relative for `|u|` up to `K/2` and relative to the largest value elsewhere, plus the rounding of `u`
-/// modulo `4 K`, about `2e-16 |u|` times the slope. Derivatives by `u` and by `m1` are right to the third order. NaN unless
-/// `m1 > 0` (at `m = 1` they are `tanh` and `sech`).
+/// modulo `4 K`, about `2e-16 |u|` times the slope. Derivatives to the third order: by `u` as accurate as the values, by `m1`
+/// relative to their natural size, value over powers of `m1`. NaN unless `m1 > 0` (at `m = 1` they are `tanh` and `sech`).
 pub fn jacobi<S: Real>(u: S, m1: S) -> JacobiFunctions<S> {
     let complement = m1.sqrt();
     let ladder = ArithmeticGeometricMean::new(S::one(), complement);

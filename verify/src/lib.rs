@@ -2,8 +2,16 @@
 
 pub mod check;
 pub mod checks;
+pub mod conditioned;
+pub mod derivation;
+pub mod dual;
+pub mod equation_table;
 pub mod fit;
 pub mod golden;
+pub mod identity;
+mod operators;
 pub mod paper_examples;
 pub mod physical_domain;
+pub mod prime_field;
+pub mod random;
 pub mod reference;

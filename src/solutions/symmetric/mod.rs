@@ -4,7 +4,7 @@
 //! quadratures. With `u = cos beta`, `omega = I^zz Omega^z / I^xx`, `b = L_Z / I^xx` and `k = 2 C (s^ZZ - s^XX) / I^xx`,
 //!
 //! ```text
-//! u'^2   = P(u) = [w - k u^2] (1 - u^2) - (b - omega u)^2,     w = b'^2 + a'^2 sin^2 b + k cos^2 b, conserved
+//! u'^2   = P(u) = [w - k u^2] (1 - u^2) - (b - omega u)^2,     w = beta'^2 + alpha'^2 sin^2 beta + k u^2, conserved
 //! alpha' = (b - omega u) / (1 - u^2),     gamma' = Omega^z - alpha' u
 //! ```
 //!
@@ -12,10 +12,14 @@
 //! integrals of the third kind. The steady precession of Eq. (26) `[sol1]` is the double root, free precession `k = 0`; both
 //! kinds of precession and all between are covered, oscillations through the equator too.
 
+mod constant_inclination;
+mod nutation;
 mod oscillation;
 mod quartic;
 
-use oscillation::{Oscillation, Place, Pole, PoleTerm};
+use constant_inclination::Steady;
+use nutation::Nutating;
+use oscillation::Pole;
 use quartic::InclinationQuartic;
 
 use crate::dynamics::RigidSpheroid;
@@ -26,9 +30,10 @@ use crate::scalar::Real;
 
 /// The motion through given initial angles and rates at `t = 0`, ready to be evaluated at any time.
 ///
-/// Error of the angles: a few ulp of one near `t = 0`, and `2e-16 |t|` times the rates for large times. The error grows as
-/// the inverse of the distance to the separatrix, relative to the other roots of `P`, and rates near a pole as
-/// `1 / sin beta`. Derivatives by the initial values, the parameters and the time come with dual numbers, to third order.
+/// Error of the angles: about `2e-16 (1 + rate |t|)`, and what the rounding of the initial values grows to, which near a
+/// separatrix is much. Near a pole `alpha` and `gamma` separately have that error over `sin beta`, the orientation has not.
+/// Derivatives by initial values, parameters and time come with dual numbers; by initial values and parameters of a steady
+/// precession, the first ones only.
 #[derive(Debug, Clone, Copy)]
 pub struct SymmetricSolution<S> {
     initial: EulerAngles<S>,
@@ -41,34 +46,6 @@ pub struct SymmetricSolution<S> {
 enum Motion<S> {
     Steady(Steady<S>),
     Nutating(Nutating<S>),
-}
-
-/// Constant inclination. The terms beside the rates are zero up to rounding; they carry the first derivatives.
-#[derive(Debug, Clone, Copy)]
-struct Steady<S> {
-    rates: EulerRates<S>,
-    /// Frequency of small oscillations about it.
-    frequency: S,
-    sin: S,
-    cos: S,
-    acceleration: S,
-}
-
-/// Inclination between two different turning points.
-#[derive(Debug, Clone, Copy)]
-struct Nutating<S> {
-    oscillation: Oscillation<S>,
-    /// `1 - u` and `1 + u` at the turning points (low, high).
-    north_distance: (S, S),
-    south_distance: (S, S),
-    /// Half of `b - omega` and of `b + omega`.
-    north_constant: S,
-    south_constant: S,
-    north: PoleTerm<S>,
-    south: PoleTerm<S>,
-    /// Integrals at `t = 0`.
-    north_start: S,
-    south_start: S,
 }
 
 impl<S: Real> SymmetricSolution<S> {
@@ -177,7 +154,7 @@ impl<S: Real> SymmetricSolution<S> {
         }
     }
 
-    /// Extreme inclinations `(smallest, largest)` [rad].
+    /// Extreme inclinations `(smallest, largest)`, in rad.
     pub fn inclinations(&self) -> (S, S) {
         match &self.motion {
             Motion::Steady(_) => (self.initial.beta, self.initial.beta),
@@ -185,98 +162,6 @@ impl<S: Real> SymmetricSolution<S> {
                 m.north_distance.1.sqrt().atan2(m.south_distance.1.sqrt()) * 2.0,
                 m.north_distance.0.sqrt().atan2(m.south_distance.0.sqrt()) * 2.0,
             ),
-        }
-    }
-}
-
-impl<S: Real> Nutating<S> {
-    /// `g = b - omega u0`, with `u0` the initial `cos beta`.
-    fn new(
-        quartic: &InclinationQuartic<S>,
-        angles: &EulerAngles<S>,
-        rates: &EulerRates<S>,
-        omega: S,
-        g: S,
-    ) -> Result<Self, Error> {
-        let (sin_half, cos_half) = (angles.beta * 0.5).sin_cos();
-        let (north, south) = (sin_half * sin_half * 2.0, cos_half * cos_half * 2.0);
-        let points = quartic.turning_points(-south.re(), north.re());
-        let (sin, _) = angles.beta.sin_cos();
-        let oscillation = Oscillation::new(&points, -(sin * rates.beta))?;
-        let (north_constant, south_constant) = ((g - omega * north) * 0.5, (g + omega * south) * 0.5);
-        // (1 - low)(1 - high) Q(1) = (b - omega)^2 gives a distance from the pole that a difference would lose.
-        let near_a_pole = |difference: S, from_here: S, constant: S, far: S, pole: S| {
-            if difference.re() > 0.1 * from_here.re() {
-                difference
-            } else {
-                constant * constant * 4.0 / (far * points.quotient(pole, pole))
-            }
-        };
-        let (north_far, south_far) = (north - points.low, south + points.high);
-        let north_near = near_a_pole(north - points.high, north, north_constant, north_far, north);
-        let south_near = near_a_pole(south + points.low, south, south_constant, south_far, -south);
-        let north_term = oscillation.pole_term(north_constant, Pole::North, north_far, north_near);
-        let south_term = oscillation.pole_term(south_constant, Pole::South, south_far, south_near);
-        let start = oscillation.place(S::zero());
-        Ok(Self {
-            north_distance: (north_far, north_near),
-            south_distance: (south_near, south_far),
-            north_constant,
-            south_constant,
-            north_start: oscillation.integral(&north_term, Pole::North, &start, S::zero()),
-            south_start: oscillation.integral(&south_term, Pole::South, &start, S::zero()),
-            north: north_term,
-            south: south_term,
-            oscillation,
-        })
-    }
-
-    /// `1 - u` and `1 + u`, sums of positive terms.
-    fn distances(&self, place: &Place<S>) -> (S, S) {
-        let (low, high) = place.shares;
-        (
-            self.north_distance.0 * low + self.north_distance.1 * high,
-            self.south_distance.0 * low + self.south_distance.1 * high,
-        )
-    }
-}
-
-impl<S: Real> Steady<S> {
-    /// Slope of `alpha'` by `u` at constant `b` and `omega`.
-    fn slope_of_alpha(&self, omega: S) -> S {
-        (self.cos * self.rates.alpha * 2.0 - omega) / (self.sin * self.sin)
-    }
-
-    fn angles(&self, initial: &EulerAngles<S>, spin: S, omega: S, t: S) -> EulerAngles<S> {
-        let nu = self.frequency;
-        let (sin, cos) = (nu * t).sin_cos();
-        let (start, pull) = (-(self.sin * self.rates.beta), self.acceleration / (nu * nu));
-        // Deviation of u to first order, v'' = -nu^2 v + acceleration, and its integral.
-        let v = start * sin / nu + pull * (S::one() - cos);
-        let v_integral = start * (S::one() - cos) / (nu * nu) + pull * (t - sin / nu);
-        let turn = self.slope_of_alpha(omega) * v_integral;
-        let alpha = self.rates.alpha * t + turn;
-        EulerAngles {
-            alpha: initial.alpha + alpha,
-            beta: initial.beta - v / self.sin,
-            gamma: initial.gamma + spin * t - self.cos * alpha - self.rates.alpha * v_integral,
-        }
-    }
-
-    fn rates(&self, omega: S, t: S) -> EulerRates<S> {
-        let nu = self.frequency;
-        let (sin, cos) = (nu * t).sin_cos();
-        let (start, pull) = (-(self.sin * self.rates.beta), self.acceleration / nu);
-        let beta = -((start * cos + pull * sin) / self.sin);
-        EulerRates { beta, ..self.rates_at(omega, (start * sin + pull * (S::one() - cos)) / nu) }
-    }
-
-    fn rates_at(&self, omega: S, v: S) -> EulerRates<S> {
-        let turn = self.slope_of_alpha(omega) * v;
-        EulerRates {
-            alpha: self.rates.alpha + turn,
-            beta: S::zero(),
-            gamma: self.rates.gamma - self.cos * turn - self.rates.alpha * v,
         }
     }
 }

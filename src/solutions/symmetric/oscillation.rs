@@ -15,10 +15,13 @@
 use core::f64::consts::FRAC_PI_2;
 
 use super::quartic::TurningPoints;
-use crate::elliptic::carlson::{rf_pair, rj_pair};
+use crate::elliptic::carlson::{rf_of_roots, rj_of_roots};
 use crate::elliptic::jacobi::ArithmeticGeometricMean;
 use crate::error::Error;
 use crate::scalar::Real;
+
+/// Rounding of the values of `P`, relative.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The periodic motion of `v = u - u0` and the constants of `x`.
 #[derive(Debug, Clone, Copy)]
@@ -29,6 +32,9 @@ pub(super) struct Oscillation<S> {
     d_high: S,
     mean: S,
     root_of_product: S,
+    /// `M + H`, and `H^2 - M^2`, positive for a conjugate pair.
+    sum: S,
+    determinant: S,
     ladder: ArithmeticGeometricMean<S>,
     /// Time from one turning point to the next.
     pub(super) half_period: S,
@@ -78,18 +84,24 @@ impl<S: Real> Oscillation<S> {
         let d_low = points.quotient(low, low) * 0.25;
         let d_high = points.quotient(high, high) * 0.25;
         let mean = points.quotient(low, high) * 0.25;
-        let product = (d_low * d_high).re();
-        // Rounding moves the quotient by some ulp of its largest value, and the separatrix by as much.
-        let largest = d_low.re().abs().max(d_high.re().abs()).max(mean.re().abs());
-        let allowed = d_high.re() > 0.0 && product > 64.0 * f64::EPSILON * largest * largest;
-        Error::unless(
-            allowed,
-            "product of the quotients P / (distance) at the turning points, relative",
-            product / (largest * largest),
-            "above 1.4e-14: on the separatrix the period is infinite",
-        )?;
         let root_of_product = (d_low * d_high).sqrt();
-        let ladder = ArithmeticGeometricMean::new(((mean + root_of_product) * 0.5).sqrt(), root_of_product.sqrt());
+        // Near the separatrix a turning point nearly meets another root (H -> 0), or a conjugate pair comes close to the
+        // path between them (M + H -> 0). Rounding of P moves a root by its square root in the first case.
+        let largest = d_low.re().abs().max(d_high.re().abs()).max(mean.re().abs());
+        let between = |quantity: f64, least: f64| {
+            Error::unless(
+                quantity > least * largest,
+                "distance of the roots of P(cos beta), relative",
+                quantity / largest,
+                "above rounding: on the separatrix the period is infinite",
+            )
+        };
+        let span = high - low;
+        let determinant = span * span * points.quotient_determinant() / 64.0;
+        let sum = if mean.re() < 0.0 { determinant / (root_of_product - mean) } else { mean + root_of_product };
+        between(d_low.re().min(d_high.re()), ROUNDING.sqrt())?;
+        between(sum.re(), ROUNDING)?;
+        let ladder = ArithmeticGeometricMean::new((sum * 0.5).sqrt(), root_of_product.sqrt());
         let half_period = ladder.quarter_period();
         let mut motion = Self {
             low,
@@ -98,6 +110,8 @@ impl<S: Real> Oscillation<S> {
             d_high,
             mean,
             root_of_product,
+            sum,
+            determinant,
             ladder,
             half_period,
             since_high: S::zero(),
@@ -117,15 +131,19 @@ impl<S: Real> Oscillation<S> {
 
     /// Time since the turning point where `w = 1 / sqrt x` vanishes, odd in `w`: `w R_F(1, 1 + a w^2, 1 + b w^2)`.
     fn time_from_turning(&self, w: S) -> S {
-        let (mean, product) = self.pair(S::one(), w);
-        w * rf_pair(S::one(), mean, product)
+        let (sum, product) = self.roots_of_pair(S::one(), w);
+        w * rf_of_roots(S::one(), sum, product)
     }
 
-    /// Mean and product of the pair of factors `xi^2 + a eta^2`, `xi^2 + b eta^2`; `(a + b)/2 = M`, `a b = H^2`.
-    fn pair(&self, xi: S, eta: S) -> (S, S) {
+    /// Sum and product of the roots of the pair `xi^2 + a eta^2`, `xi^2 + b eta^2`; `(a + b)/2 = M`, `a b = H^2`.
+    fn roots_of_pair(&self, xi: S, eta: S) -> (S, S) {
         let (xi2, eta2) = (xi * xi, eta * eta);
         let difference = xi2 - self.root_of_product * eta2;
-        (xi2 + self.mean * eta2, difference * difference + (self.mean + self.root_of_product) * xi2 * eta2 * 2.0)
+        let product = (difference * difference + self.sum * xi2 * eta2 * 2.0).sqrt();
+        let mean = xi2 + self.mean * eta2;
+        let half_square =
+            if mean.re() < 0.0 { self.determinant * eta2 * eta2 / (product - mean) } else { mean + product };
+        ((half_square * 2.0).sqrt(), product)
     }
 
     /// The place at time `t`.
@@ -146,12 +164,12 @@ impl<S: Real> Oscillation<S> {
         };
         let (xi2, eta2) = (xi_high * xi_high, eta_high * eta_high);
         let total = xi2 + self.d_high * eta2;
-        let (_, product) = self.pair(xi_high, eta_high);
+        let (_, speed) = self.roots_of_pair(xi_high, eta_high);
         Place {
             from_high: Side { periods: periods_high, xi: xi_high, eta: eta_high },
             from_low: Side { periods: periods_low, xi: xi_low, eta: eta_low },
             shares: (self.d_high * eta2 / total, xi2 / total),
-            rate: (self.low - self.high) * self.d_high * xi_high * eta_high * product.sqrt() * 2.0 / (total * total),
+            rate: (self.low - self.high) * self.d_high * xi_high * eta_high * speed * 2.0 / (total * total),
         }
     }
 
@@ -180,7 +198,7 @@ impl<S: Real> Oscillation<S> {
             // Through the pole itself: half a turn at each passage, of which either sense is right.
             S::from_f64(FRAC_PI_2)
         } else {
-            amplitude * rj_pair(S::zero(), self.mean, self.root_of_product * self.root_of_product, delta) / 3.0
+            amplitude * rj_of_roots(S::zero(), (self.sum * 2.0).sqrt(), self.root_of_product, delta) / 3.0
         };
         PoleTerm { rate: constant / far, amplitude, delta, over_half_period }
     }
@@ -191,9 +209,9 @@ impl<S: Real> Oscillation<S> {
             Pole::North => place.from_low,
             Pole::South => place.from_high,
         };
-        let (mean, product) = self.pair(side.xi, side.eta);
+        let (sum, product) = self.roots_of_pair(side.xi, side.eta);
         let p = side.xi * side.xi + term.delta * side.eta * side.eta;
-        let part = side.eta * side.eta * side.eta * rj_pair(side.xi, mean, product, p) / 3.0;
+        let part = side.eta * side.eta * side.eta * rj_of_roots(side.xi, sum, product, p) / 3.0;
         term.rate * t + term.over_half_period * (2.0 * side.periods) + term.amplitude * part
     }
 }

@@ -31,11 +31,14 @@ impl<S: Real> InclinationQuartic<S> {
             (first_root(&p[1..].iter().map(|c| -c).collect::<Vec<_>>(), south), 0.0)
         };
         let (low, high) = (self.polished(low), self.polished(high));
-        let [_, _, p2, p3, p4] = self.coefficients;
+        let [p0, _, p2, p3, p4] = self.coefficients;
         let (sum, product) = (low + high, low * high);
         let q2 = -p4;
         let q1 = sum * q2 - p3;
-        let q0 = sum * q1 - product * q2 - p2;
+        let deflated = sum * q1 - product * q2 - p2;
+        // Where the axis lingers near its start, the initial rate alone tells how slowly: P(0) = -low high q0.
+        let cancels = deflated.re().abs() < 0.1 * ((sum * q1).re().abs() + (product * q2).re().abs() + p2.re().abs());
+        let q0 = if cancels && p[0] > 0.0 { -(p0 / product) } else { deflated };
         TurningPoints { low, high, quotient: [q0, q1, q2] }
     }
 
@@ -53,6 +56,12 @@ impl<S: Real> InclinationQuartic<S> {
 }
 
 impl<S: Real> TurningPoints<S> {
+    /// `4 q0 q2 - q1^2`: minus the discriminant of the quotient.
+    pub(super) fn quotient_determinant(&self) -> S {
+        let [q0, q1, q2] = self.quotient;
+        q0 * q2 * 4.0 - q1 * q1
+    }
+
     /// The polar form `q0 + q1 (v + w) / 2 + q2 v w` of the quotient; `Q(v)` for `w = v`.
     pub(super) fn quotient(&self, v: S, w: S) -> S {
         let [q0, q1, q2] = self.quotient;

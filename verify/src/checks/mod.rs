@@ -1,14 +1,39 @@
 //! Every check of the project, by subject.
 
+mod elliptic;
+mod equations_of_motion;
+mod first_integrals;
+mod forced_precession;
+mod orientation;
+mod perturbation_equations;
+mod potential_energy;
 mod propagation;
 pub mod regimes;
 mod solutions;
 mod star;
+mod symmetric;
+mod torque;
+mod wave_tensor;
 
 use crate::check::Check;
 
 /// All checks, in the order in which they are listed.
 pub fn all() -> Vec<Check> {
-    let subjects: [fn() -> Vec<Check>; 4] = [star::checks, solutions::checks, propagation::checks, regimes::checks];
+    let subjects: &[fn() -> Vec<Check>] = &[
+        orientation::checks,
+        star::checks,
+        potential_energy::checks,
+        equations_of_motion::checks,
+        torque::checks,
+        wave_tensor::checks,
+        first_integrals::checks,
+        perturbation_equations::checks,
+        forced_precession::checks,
+        solutions::checks,
+        elliptic::checks,
+        symmetric::checks,
+        propagation::checks,
+        regimes::checks,
+    ];
     subjects.iter().flat_map(|checks| checks()).collect()
 }

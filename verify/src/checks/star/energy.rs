@@ -9,6 +9,7 @@ use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::{relative, unit_spheroid};
 use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::random::Random;
 
 pub(super) fn checks() -> Vec<Check> {
     vec![
@@ -185,12 +186,12 @@ fn point([a, b, c]: [f64; 3], q: f64) -> [f64; 3] {
 }
 
 /// Deviations of C and U^xx from their closed forms, in standard errors, and the relative standard errors.
-fn deviations(q: f64, rng: &mut Shifts) -> Result<[[f64; 2]; 2], String> {
+fn deviations(q: f64, random: &mut Random) -> Result<[[f64; 2]; 2], String> {
     let star = unit_spheroid(q)?;
     let (generator, square) = (generator(), star.mass() * star.mass());
     let mut means = [[0.0; 2]; LATTICES];
     for [mean_c, mean_u] in &mut means {
-        let mut at = rng.next();
+        let mut at = [(); 6].map(|()| random.within(0.0, 1.0));
         for _ in 0..POINTS {
             for (x, g) in at.iter_mut().zip(generator) {
                 *x = (*x + g).fract();
@@ -212,25 +213,11 @@ fn deviations(q: f64, rng: &mut Shifts) -> Result<[[f64; 2]; 2], String> {
     }))
 }
 
-/// Seeded random shifts (SplitMix64).
-struct Shifts(u64);
-
-impl Shifts {
-    fn next(&mut self) -> [f64; 6] {
-        [(); 6].map(|()| {
-            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-        })
-    }
-}
-
 fn six_dimensional_integral() -> Result<Measured, String> {
     let mut worst = Worst::default();
-    let mut rng = Shifts(7);
+    let mut random = Random::with_seed(7);
     for q in [0.6, 1.5] {
-        for ([deviation, error], name) in deviations(q, &mut rng)?.into_iter().zip(["C", "U^xx"]) {
+        for ([deviation, error], name) in deviations(q, &mut random)?.into_iter().zip(["C", "U^xx"]) {
             worst.see(deviation, || format!("{name} at a3/a1 = {q}, seed 7: standard error {error:e} of it"));
         }
     }

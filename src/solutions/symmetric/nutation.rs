@@ -1,0 +1,76 @@
+//! Motion of the inclination between two turning points, with the distances of the axis from the poles.
+
+use super::oscillation::{Oscillation, Place, Pole, PoleTerm};
+use super::quartic::InclinationQuartic;
+use crate::error::Error;
+use crate::euler_angles::{EulerAngles, EulerRates};
+use crate::scalar::Real;
+
+/// Inclination between two different turning points.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Nutating<S> {
+    pub(super) oscillation: Oscillation<S>,
+    /// `1 - u` and `1 + u` at the turning points (low, high).
+    pub(super) north_distance: (S, S),
+    pub(super) south_distance: (S, S),
+    /// Half of `b - omega` and of `b + omega`.
+    pub(super) north_constant: S,
+    pub(super) south_constant: S,
+    pub(super) north: PoleTerm<S>,
+    pub(super) south: PoleTerm<S>,
+    /// Integrals at `t = 0`.
+    pub(super) north_start: S,
+    pub(super) south_start: S,
+}
+
+impl<S: Real> Nutating<S> {
+    /// `g = b - omega u0`, with `u0` the initial `cos beta`.
+    pub(super) fn new(
+        quartic: &InclinationQuartic<S>,
+        angles: &EulerAngles<S>,
+        rates: &EulerRates<S>,
+        omega: S,
+        g: S,
+    ) -> Result<Self, Error> {
+        let (sin_half, cos_half) = (angles.beta * 0.5).sin_cos();
+        let (north, south) = (sin_half * sin_half * 2.0, cos_half * cos_half * 2.0);
+        let points = quartic.turning_points(-south.re(), north.re());
+        let (sin, _) = angles.beta.sin_cos();
+        let oscillation = Oscillation::new(&points, -(sin * rates.beta))?;
+        let (north_constant, south_constant) = ((g - omega * north) * 0.5, (g + omega * south) * 0.5);
+        // (1 - low)(1 - high) Q(1) = (b - omega)^2 gives a distance from the pole that a difference would lose.
+        let near_a_pole = |difference: S, from_here: S, constant: S, far: S, pole: S| {
+            if difference.re() > 0.1 * from_here.re() {
+                difference
+            } else {
+                constant * constant * 4.0 / (far * points.quotient(pole, pole))
+            }
+        };
+        let (north_far, south_far) = (north - points.low, south + points.high);
+        let north_near = near_a_pole(north - points.high, north, north_constant, north_far, north);
+        let south_near = near_a_pole(south + points.low, south, south_constant, south_far, -south);
+        let north_term = oscillation.pole_term(north_constant, Pole::North, north_far, north_near);
+        let south_term = oscillation.pole_term(south_constant, Pole::South, south_far, south_near);
+        let start = oscillation.place(S::zero());
+        Ok(Self {
+            north_distance: (north_far, north_near),
+            south_distance: (south_near, south_far),
+            north_constant,
+            south_constant,
+            north_start: oscillation.integral(&north_term, Pole::North, &start, S::zero()),
+            south_start: oscillation.integral(&south_term, Pole::South, &start, S::zero()),
+            north: north_term,
+            south: south_term,
+            oscillation,
+        })
+    }
+
+    /// `1 - u` and `1 + u`, sums of positive terms.
+    pub(super) fn distances(&self, place: &Place<S>) -> (S, S) {
+        let (low, high) = place.shares;
+        (
+            self.north_distance.0 * low + self.north_distance.1 * high,
+            self.south_distance.0 * low + self.south_distance.1 * high,
+        )
+    }
+}

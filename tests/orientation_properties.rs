@@ -1,0 +1,176 @@
+//! Rotations, Euler angles and the tensor `s^IJ` at random points of their domains, by proptest with a fixed seed.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Matrix3, Vector3};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+use twofold::Error;
+use twofold::dynamics::potential::{anisotropic_potential_in_angles, anisotropic_potential_of_axis};
+use twofold::euler_angles::{
+    EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, body_rates, euler_rates, permuted_from_inertial,
+};
+use twofold::lorentz_violation::{
+    PrincipalCoefficients, coefficients_from_preferred_frame, preferred_frame_parameter, principal_frame,
+};
+
+const EPS: f64 = f64::EPSILON;
+
+fn config() -> ProptestConfig {
+    ProptestConfig { cases: 500, rng_seed: RngSeed::Fixed(61), failure_persistence: None, ..ProptestConfig::default() }
+}
+
+/// Inclinations over the whole sphere, half of them close to a pole, down to 1e-8.
+fn inclinations() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        2 => 0.05..PI - 0.05,
+        1 => (-8.0..-1.0f64).prop_map(|log| 10f64.powf(log)),
+        1 => (-8.0..-1.0f64).prop_map(|log| PI - 10f64.powf(log)),
+    ]
+}
+
+fn orientations() -> impl Strategy<Value = EulerAngles<f64>> {
+    (-PI..PI, inclinations(), -PI..PI).prop_map(|(alpha, beta, gamma)| EulerAngles { alpha, beta, gamma })
+}
+
+fn rates() -> impl Strategy<Value = EulerRates<f64>> {
+    prop::array::uniform3(-3.0..3.0f64).prop_map(|[alpha, beta, gamma]| EulerRates { alpha, beta, gamma })
+}
+
+/// Three eigenvalues of any sign and size, some of them equal or nearly so.
+fn eigenvalues() -> impl Strategy<Value = [f64; 3]> {
+    (prop::array::uniform3(-1.0..1.0f64), -12.0..0.0f64, 0..4u8, -16.0..-8.0f64).prop_map(|(x, size, shape, gap)| {
+        let [a, b, c] = x.map(|v| v * 10f64.powf(size));
+        match shape {
+            0 => [a, a, c],
+            1 => [a, a * (1.0 + 10f64.powf(gap)), c],
+            2 => [a, a, a],
+            _ => [a, b, c],
+        }
+    })
+}
+
+/// Difference of two angles, modulo a turn.
+fn turn(a: f64, b: f64) -> f64 {
+    (a - b - 2.0 * PI * ((a - b) / (2.0 * PI)).round()).abs()
+}
+
+fn departure_from_rotation(r: &Matrix3<f64>) -> f64 {
+    let handed = r.row(0).cross(&r.row(1)) - r.row(2);
+    (r * r.transpose() - Matrix3::identity()).amax().max(handed.amax())
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    /// Products and inverses of rotations are rotations: sums of three products of entries with three roundings each.
+    #[test]
+    fn rotations_are_a_group(a in orientations(), b in orientations()) {
+        let (a, b) = (body_from_inertial(&a), body_from_inertial(&b));
+        prop_assert!(departure_from_rotation(&a) <= 4.0 * EPS);
+        prop_assert!(departure_from_rotation(&(a * b.transpose())) <= 8.0 * EPS);
+    }
+
+    /// Angles -> rotation -> angles: the arc tangents see ratios in which the small `sin beta` cancels, so the errors are a
+    /// few roundings of numbers up to pi, near the poles too.
+    #[test]
+    fn angles_come_back_from_the_rotation(angles in orientations()) {
+        let back = angles_from_rotation(&body_from_inertial(&angles)).unwrap();
+        prop_assert!(turn(back.alpha, angles.alpha) <= 8.0 * EPS, "{back:?}");
+        prop_assert!((back.beta - angles.beta).abs() <= 8.0 * EPS, "{back:?}");
+        prop_assert!(turn(back.gamma, angles.gamma) <= 8.0 * EPS, "{back:?}");
+    }
+
+    /// Rotation -> angles -> rotation, of a matrix with rounded entries: `alpha` and `gamma` are known to `eps / sin beta`.
+    #[test]
+    fn the_rotation_comes_back_from_its_angles(a in orientations(), b in orientations()) {
+        let rotation = body_from_inertial(&a) * body_from_inertial(&b).transpose();
+        let angles = angles_from_rotation(&rotation).unwrap();
+        prop_assert!((0.0..=PI).contains(&angles.beta));
+        let error = (body_from_inertial(&angles) - rotation).amax();
+        prop_assert!(error <= 8.0 * EPS / angles.beta.sin(), "{error:e}");
+    }
+
+    /// Rates -> angular velocity -> rates: a rounding of `b'` comes back in `a'` divided by `sin beta`.
+    #[test]
+    fn rates_come_back_from_the_angular_velocity(angles in orientations(), rates in rates()) {
+        let back = euler_rates(&angles, &body_rates(&angles, &rates)).unwrap();
+        let sin_beta = angles.beta.sin();
+        let of_alpha = 4.0 * EPS * (rates.alpha.abs() + rates.beta.abs() / sin_beta);
+        prop_assert!((back.alpha - rates.alpha).abs() <= of_alpha);
+        prop_assert!((back.beta - rates.beta).abs() <= 4.0 * EPS * (rates.beta.abs() + rates.alpha.abs() * sin_beta));
+        prop_assert!((back.gamma - rates.gamma).abs() <= of_alpha + 4.0 * EPS * (rates.gamma.abs() + rates.alpha.abs()));
+    }
+
+    /// The angles of the body in the frame Y-Z-X, with the permuted coefficients, give the same potential.
+    #[test]
+    fn the_permuted_frame_has_the_same_potential(a in orientations(), s in prop::array::uniform3(-0.1..0.1f64)) {
+        let s = PrincipalCoefficients::new(s);
+        let rotation = body_from_inertial(&a);
+        if let Ok(angles) = angles_from_rotation(&(rotation * permuted_from_inertial().transpose())) {
+            let permuted = anisotropic_potential_in_angles(1.0, &s.permuted(), angles.alpha, angles.beta);
+            let axis = anisotropic_potential_of_axis(1.0, &s.tensor(), &rotation.row(2).transpose());
+            let size = s.xx.abs() + s.yy.abs() + s.zz.abs();
+            prop_assert!((permuted - axis).abs() <= 8.0 * EPS * size);
+        }
+    }
+
+    /// Eigenvalues and frame -> tensor -> eigenvalues and frame, equal eigenvalues included.
+    #[test]
+    fn the_principal_frame_comes_back_from_the_tensor(given in orientations(), values in eigenvalues()) {
+        let given = body_from_inertial(&given);
+        let product = given.transpose() * PrincipalCoefficients::new(values).tensor() * given;
+        let tensor = (product + product.transpose()) * 0.5;
+        let size = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let frame = principal_frame(&tensor).unwrap();
+        let (q, s) = (frame.principal_from_given, frame.coefficients);
+        let mut descending = values;
+        descending.sort_by(|x, y| y.total_cmp(x));
+        prop_assert!(departure_from_rotation(&q) <= 16.0 * EPS);
+        for (found, expected) in [s.xx, s.yy, s.zz].into_iter().zip(descending) {
+            prop_assert!((found - expected).abs() <= 16.0 * EPS * size, "{found:e} {expected:e}");
+        }
+        prop_assert!((q * tensor * q.transpose() - s.tensor()).amax() <= 16.0 * EPS * size);
+        prop_assert!((q.transpose() * s.tensor() * q - tensor).amax() <= 16.0 * EPS * size);
+        prop_assert!((tensor * q.row(2).transpose() - q.row(2).transpose() * s.zz).amax() <= 16.0 * EPS * size);
+    }
+
+    /// Any numbers in, infinities and subnormals too: an answer with a rotation, or an error.
+    #[test]
+    fn no_tensor_makes_the_principal_frame_panic(x in prop::array::uniform6(prop::num::f64::ANY)) {
+        let [xx, yy, zz, xy, xz, yz] = x;
+        if let Ok(frame) = principal_frame(&Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)) {
+            let s = frame.coefficients;
+            prop_assert!(s.xx >= s.yy && s.yy >= s.zz, "{frame:?}");
+            prop_assert!(departure_from_rotation(&frame.principal_from_given) <= 16.0 * EPS, "{frame:?}");
+        }
+    }
+
+    /// PPN replacement, Eq. (5), both ways; a tensor that is not of its form is refused.
+    #[test]
+    fn the_preferred_frame_parameter_comes_back(
+        alpha_2 in -1e-3..1e-3f64,
+        w in prop::array::uniform3(-1e-2..1e-2f64),
+    ) {
+        let w = Vector3::from(w);
+        let tensor = coefficients_from_preferred_frame(alpha_2, &w);
+        let back = preferred_frame_parameter(&tensor, &w).unwrap();
+        prop_assert!((back - alpha_2).abs() <= 8.0 * EPS * alpha_2.abs());
+        let other = tensor + Matrix3::identity() * tensor.amax();
+        let refused = matches!(preferred_frame_parameter(&other, &w), Err(Error::Domain { .. }));
+        prop_assert!(refused);
+    }
+}
+
+#[test]
+fn the_poles_are_refused() {
+    let pole = EulerAngles { alpha: 0.3, beta: 0.0, gamma: 0.2 };
+    assert!(matches!(angles_from_rotation(&body_from_inertial(&pole)), Err(Error::Domain { .. })));
+    assert!(matches!(euler_rates(&pole, &Vector3::new(0.1, 0.2, 0.3)), Err(Error::Domain { .. })));
+}
+
+#[test]
+fn the_replacement_has_the_sign_of_the_paper() {
+    let tensor = coefficients_from_preferred_frame(2.0, &Vector3::new(0.0, 0.0, 1.0));
+    assert_eq!(tensor, Matrix3::from_diagonal(&Vector3::new(-0.0, -0.0, -2.0)));
+}

@@ -1,0 +1,122 @@
+//! Forced precession: the shift of the steady rates to first order in `s^IJ`. Eqs. (26), (31), (32), (57).
+
+use num_dual::Dual64;
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::solutions::free::free_precession_rates;
+use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation, shifted_rates};
+use twofold::solutions::steady::steady_precession_rate;
+
+use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::checks::perturbation_equations::{KINDS, constants, unperturbed_motion};
+use crate::derivation::Differentiable;
+use crate::derivation::first_order::{first_order_motion, linearised_equations};
+use crate::derivation::spheroid_motion::fixed_spheroid;
+use crate::identity::{self, Identity};
+use crate::random::{Point, Random};
+
+/// The checks of this subject.
+pub fn checks() -> Vec<Check> {
+    identity::checks::<SteadyPrecession>().into_iter().chain([
+        Check {
+            id: "forced-precession-limit",
+            kind: Kind::Autodiff,
+            equations: &[26, 28, 31, 32],
+            statement: "the derivative of Eq. (26) by the size of s, at s = 0, is the forced precession -+a^(1)",
+            figure: "largest difference / (2.2e-16 x a^(1) with the magnitudes of its terms), 200 random points",
+            bound: Bound::AtMost(8.0),
+            reason: "some ten factors on each side, half an ulp each, and their derivatives",
+            measure: steady_rates_to_first_order,
+        },
+        Check {
+            id: "shifted-rates",
+            kind: Kind::Property,
+            equations: &[22, 48, 57],
+            statement: "the shifted rates are a and Omega^z - a cos b0 of twofold precession, and the free ones without s",
+            figure: "largest difference / (2.2e-16 x sum of magnitudes of the terms), 200 random points",
+            bound: Bound::AtMost(4.0),
+            reason: "three or four products and as many sums on each side, half an ulp each",
+            measure: shifted_rates_of_spin,
+        },
+    ]).collect()
+}
+
+struct SteadyPrecession;
+
+impl Identity for SteadyPrecession {
+    const ID: &'static str = "steady-precession-first-order";
+    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "steady-precession-first-order-autodiff");
+    const EQUATIONS: &'static [u8] = &[25, 26, 28, 30, 31, 32];
+    const STATEMENT: &'static str = "for s^XX = s^YY and A = 0 the printed rates are constant at constant inclination, and solve Eq. (25), so Eq. (26), to \
+         first order in s";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let symmetric = PrincipalCoefficients { yy: p.s.xx, ..p.s };
+        KINDS
+            .into_iter()
+            .flat_map(|kind| {
+                let constants = Constants { amplitude: F::zero(), ..constants(p) };
+                let printed = Perturbation::printed_unchecked(kind, &p.spheroid, &symmetric, p.rates.gamma, &constants);
+                let first = first_order_motion(&printed, printed.homogeneous_frequency);
+                let unperturbed = unperturbed_motion(kind, p);
+                let [of_alpha, of_beta] = linearised_equations(&p.spheroid, &symmetric, &unperturbed, &first);
+                [of_alpha, of_beta, first.beta, first.beta_rate, first.alpha_acceleration, first.beta_acceleration]
+            })
+            .collect()
+    }
+}
+
+/// Bodies, coefficients symmetric about Z and spins large enough for both roots of Eq. (26) to be real:
+/// `(I^zz Omega^z)^2 >= 9`, above `8 |s^ZZ - s^XX| C I^xx < 6.4`.
+fn symmetric_points() -> impl Iterator<Item = (Point<f64>, PrincipalCoefficients<f64>, f64)> {
+    let mut random = Random::with_seed(26);
+    (0..200).map(move |_| {
+        let point = Point::<f64>::draw(&mut random);
+        let momentum = (3.0 + point.numbers[0].abs()).copysign(point.numbers[1]);
+        let symmetric = PrincipalCoefficients { yy: point.s.xx, ..point.s };
+        (point, symmetric, momentum / point.spheroid.inertia_zz)
+    })
+}
+
+fn steady_rates_to_first_order() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for (index, (p, s, spin)) in symmetric_points().enumerate() {
+        for kind in KINDS {
+            let (beta, constants) = (Dual64::from(p.angles.beta), constants(&p));
+            let small = PrincipalCoefficients::new([s.xx, s.yy, s.zz].map(|x| Dual64::new(0.0, x)));
+            let spheroid = fixed_spheroid(&p.spheroid);
+            let exact = steady_precession_rate(kind, &spheroid, &small, Dual64::from(spin), beta);
+            let printed = Perturbation::printed(kind, &p.spheroid, &s, spin, &constants).map_err(|e| e.to_string())?;
+            let shift = -kind.sign() * printed.forced_rate;
+            let slope = exact.map_err(|e| e.to_string())?.eps;
+            let cancelled = 2.0 * (s.zz.abs() + s.xx.abs()) / s.combination().abs();
+            let place = || format!("{kind:?}, point {index} of seed 26: {slope:e}, a^(1) {shift:e}");
+            worst.see((slope - shift).abs() / (f64::EPSILON * shift.abs() * cancelled), place);
+        }
+    }
+    worst.finish()
+}
+
+fn shifted_rates_of_spin() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for (index, (p, s, spin)) in symmetric_points().enumerate() {
+        let (beta, spheroid) = (p.angles.beta, &p.spheroid);
+        let printed = Perturbation::printed_unchecked(Precession::Twofold, spheroid, &s, spin, &constants(&p));
+        let shifted = shifted_rates(spheroid, &s, spin, beta).map_err(|e| e.to_string())?;
+        let none = PrincipalCoefficients::new([0.0; 3]);
+        let unshifted = shifted_rates(spheroid, &none, spin, beta).map_err(|e| e.to_string())?;
+        let free = free_precession_rates(spheroid, spin, beta).map_err(|e| e.to_string())?;
+        let cos_beta = beta.cos();
+        let differences = [
+            (shifted.alpha - printed.rate) * cos_beta,
+            shifted.gamma - (spin - printed.rate * cos_beta),
+            (unshifted.alpha - free.alpha) * cos_beta,
+            unshifted.gamma - free.gamma,
+            // Eq. (22): the rates make up the spin.
+            free.alpha * cos_beta + free.gamma - spin,
+        ];
+        let terms = spin.abs() + printed.omega.abs() + (printed.forced_rate * cos_beta).abs();
+        let largest = differences.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+        worst.see(largest / (f64::EPSILON * terms), || format!("point {index} of seed 26: {differences:?}"));
+    }
+    worst.finish()
+}

@@ -1,0 +1,353 @@
+//! The exact motion for `s^XX = s^YY`: equations of motion, reference motions, numerical motion, derivatives and limits.
+
+use std::cell::Cell;
+use std::f64::consts::PI;
+
+use nalgebra::Vector3;
+use num_dual::{Dual2_64, Dual64};
+use proptest::prelude::*;
+use twofold::Error;
+use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations};
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::propagation::{Motion, propagate};
+use twofold::scalar::Real;
+use twofold::solutions::free::free_rotation;
+use twofold::solutions::perturbation::Kind as Precession;
+use twofold::solutions::steady::steady_precession_rate;
+use twofold::solutions::symmetric::SymmetricSolution;
+
+use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::physical_domain::{RandomScene, scenes, worst_over};
+use crate::reference::reference_motion;
+
+/// Checks of this subject.
+pub fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "symmetric-equations",
+            kind: Kind::Autodiff,
+            equations: &[22, 25],
+            statement: "the exact solution for s^XX = s^YY, differentiated twice in time by duals, satisfies Eq. (25) and conserves Omega^z",
+            figure: "largest residual sin^2 b / (size of the terms, 2.2e-16)",
+            bound: Bound::AtMost(64.0),
+            reason: "a term of the second derivative is a product of three functions, each with the few units in the last place of its own check",
+            measure: solves_equations,
+        },
+        Check {
+            id: "symmetric-reference",
+            kind: Kind::Oracle,
+            equations: &[25],
+            statement: "the exact solution reproduces n and e_x of the 34-digit motions `axisymmetric-violation` and `free` up to 200 t_c",
+            figure: "largest error of a component",
+            bound: Bound::AtMost(1e-13),
+            reason: "phases of 300 rad with frequencies rounded to 2.2e-16",
+            measure: against_reference,
+        },
+        Check {
+            id: "symmetric-propagation",
+            kind: Kind::Oracle,
+            equations: &[25],
+            statement: "the exact solution and the numerical motion agree in n and e_x over 50 t_c, at random for s^XX = s^YY",
+            figure: "largest difference / (error estimate of the numerical motion + 8 roundings of phase and initial rate)",
+            bound: Bound::AtMost(1.0),
+            reason: "the same motion, twice computed; eight initial values and parameters are rounded",
+            measure: against_propagation,
+        },
+        Check {
+            id: "symmetric-poles",
+            kind: Kind::Oracle,
+            equations: &[25],
+            statement: "so they do for motions that start 1e-9 to 1e-2 rad from a pole",
+            figure: "largest difference / (error estimate of the numerical motion + 8 roundings of phase and initial rate)",
+            bound: Bound::AtMost(1.0),
+            reason: "the same motion, twice computed; eight initial values and parameters are rounded",
+            measure: near_the_poles,
+        },
+        Check {
+            id: "symmetric-derivatives",
+            kind: Kind::Autodiff,
+            equations: &[25],
+            statement: "derivatives by s^ZZ and by the initial rates agree with those of the numerical motion, for s = 0 too",
+            figure: "largest difference min(sin b)^2 / (largest derivative, 1 + phase, 2.2e-16)",
+            bound: Bound::AtMost(64.0),
+            reason: "a derivative of the integral R_J is right to a few units of its natural size, which is larger than the derivative by 1 / sin^2 of the least distance from a pole",
+            measure: derivatives,
+        },
+        Check {
+            id: "symmetric-free-limit",
+            kind: Kind::Property,
+            equations: &[25, 48],
+            statement: "for s = 0 the exact solution is free precession about L, from any initial state",
+            figure: "largest difference of n and e_x / (1 + phase, 2.2e-16)",
+            bound: Bound::AtMost(8.0),
+            reason: "a few roundings of the rates, times the time",
+            measure: free_limit,
+        },
+        Check {
+            id: "symmetric-steady",
+            kind: Kind::Property,
+            equations: &[26],
+            statement: "started on either root of Eq. (26) the exact solution precesses steadily at that rate",
+            figure: "largest error of the angles at 50 t_c / (1 + phase, 1 + 1 / (stiffness sin^2 b), 2.2e-16)",
+            bound: Bound::AtMost(4.0),
+            reason: "roundings of the rates, times the time",
+            measure: steady,
+        },
+        Check {
+            id: "symmetric-period",
+            kind: Kind::Property,
+            equations: &[25],
+            statement: "after any number of periods beta returns and alpha, gamma have advanced by their mean rates",
+            figure: "largest error sin^2 b / (1 + phase, 2.2e-16)",
+            bound: Bound::AtMost(4.0),
+            reason: "roundings of the period and of the rates, times the time",
+            measure: periods,
+        },
+        Check {
+            id: "symmetric-refusals",
+            kind: Kind::Property,
+            equations: &[25],
+            statement: "s^XX != s^YY, a start on the pole, the separatrix and unstable steady precession are refused by name",
+            figure: "cases not refused",
+            bound: Bound::AtMost(0.0),
+            reason: "each is outside the domain of the solution",
+            measure: refusals,
+        },
+    ]
+}
+
+/// Random scenes with `s^XX = s^YY`; both signs of `s^ZZ - s^XX`, so that the quartic has four real roots or two. Half of
+/// them with coefficients of up to 3, which trap the axis near the equator or a pole.
+fn symmetric_scenes() -> impl Strategy<Value = RandomScene> {
+    (scenes(), prop_oneof![Just(1.0), Just(10.0)]).prop_map(|(scene, strength)| {
+        let [xx, _, zz] = scene.s.map(|s| s * strength);
+        RandomScene { s: [xx, xx, zz], ..scene }
+    })
+}
+
+fn lifted<S: Real>(scene: &RandomScene) -> (RigidSpheroid<S>, PrincipalCoefficients<S>, EulerAngles<S>, EulerRates<S>) {
+    let [a, b, c] = scene.angles.map(S::from_f64);
+    let [u, v, w] = scene.rates.map(S::from_f64);
+    (
+        RigidSpheroid::in_units_of_tc(S::from_f64(scene.inertia_ratio)),
+        PrincipalCoefficients::new(scene.s.map(S::from_f64)),
+        EulerAngles { alpha: a, beta: b, gamma: c },
+        EulerRates { alpha: u, beta: v, gamma: w },
+    )
+}
+
+fn solution<S: Real>(scene: &RandomScene) -> Result<SymmetricSolution<S>, String> {
+    let (spheroid, s, angles, rates) = lifted(scene);
+    SymmetricSolution::new(&spheroid, &s, &angles, &rates).map_err(text)
+}
+
+/// The state of a solution in inertial components.
+fn state<S: Real>(spheroid: &RigidSpheroid<S>, solution: &SymmetricSolution<S>, t: S) -> BodyState<S> {
+    BodyState::from_angles(spheroid, &solution.angles(t), &solution.rates(t))
+}
+
+fn difference(a: &BodyState<f64>, b: &BodyState<f64>) -> f64 {
+    (a.axis - b.axis).amax().max((a.equatorial_axis - b.equatorial_axis).amax())
+}
+
+fn solves_equations() -> Result<Measured, String> {
+    worst_over(30, 500, &(symmetric_scenes(), -50.0..50.0f64), |(scene, t)| {
+        let motion = solution::<Dual2_64>(scene)?;
+        let angles = motion.angles(Dual2_64::new(*t, 1.0, 0.0));
+        let rates = motion.rates(Dual2_64::from_re(*t));
+        let q = AxisAngles {
+            alpha: angles.alpha.re,
+            beta: angles.beta.re,
+            alpha_rate: angles.alpha.v1,
+            beta_rate: angles.beta.v1,
+        };
+        let initial_spin = scene.rates[0] * scene.angles[1].cos() + scene.rates[2];
+        let spin = q.alpha_rate * q.beta.cos() + angles.gamma.v1;
+        let (alpha, beta) = euler_angle_accelerations(&scene.spheroid(), &scene.coefficients(), initial_spin, &q);
+        let sin = q.beta.sin();
+        let size = 1.0 + q.alpha_rate.powi(2) + (q.beta_rate * q.alpha_rate).abs() + scene.rates[2].powi(2);
+        let residual = [
+            (angles.alpha.v2 - alpha) * sin,
+            angles.beta.v2 - beta,
+            spin - initial_spin,
+            (angles.alpha.v1 - rates.alpha.re) * sin,
+            angles.beta.v1 - rates.beta.re,
+            (angles.gamma.v1 - rates.gamma.re) * sin,
+        ];
+        Ok(residual.iter().fold(0.0, |max: f64, r| max.max(r.abs())) * sin * sin / (size * f64::EPSILON))
+    })
+}
+
+fn against_reference() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for name in ["axisymmetric-violation", "free"] {
+        let scene = reference_motion(name);
+        let motion =
+            SymmetricSolution::new(&scene.spheroid, &scene.coefficients, &scene.angles, &scene.rates).map_err(text)?;
+        for (t, expected) in &scene.states {
+            worst.see(difference(&state(&scene.spheroid, &motion, *t), expected), || format!("{name} at t = {t}"));
+        }
+    }
+    worst.finish()
+}
+
+/// Largest difference over the error estimate of the numerical motion and the rounding that no solution can avoid: of the
+/// phase, and of the initial rate of `beta`, carried to `t` by the derivative of the motion.
+fn compare_with_propagation(scene: &RandomScene) -> Result<f64, String> {
+    let (spheroid, s, angles, mut rates) = lifted::<Dual64>(scene);
+    rates.beta.eps = 1.0;
+    let exact = SymmetricSolution::new(&spheroid, &s, &angles, &rates).map_err(text)?;
+    let (violation, initial) = (scene.coefficients().tensor(), scene.state());
+    let numerical = propagate(&scene.spheroid(), &violation, &initial, (0.0, 50.0), 1e-14).map_err(text)?;
+    let mut largest = 0.0_f64;
+    for i in 0..=25 {
+        let t = 2.0 * f64::from(i);
+        let BodyState { axis, momentum, equatorial_axis } = state(&spheroid, &exact, Dual64::from_re(t));
+        let real = |v: &Vector3<Dual64>| v.map(|x| x.re);
+        let ours = BodyState { axis: real(&axis), momentum: real(&momentum), equatorial_axis: real(&equatorial_axis) };
+        let sensitivity = axis.map(|x| x.eps).amax().max(equatorial_axis.map(|x| x.eps).amax());
+        let rounding = 8.0 * f64::EPSILON * (phase(scene, t) + sensitivity);
+        let difference = difference(&ours, &numerical.state(t).map_err(text)?);
+        largest = largest.max(difference / (numerical.error_estimate(t) + rounding));
+    }
+    Ok(largest)
+}
+
+fn against_propagation() -> Result<Measured, String> {
+    worst_over(31, 300, &symmetric_scenes(), compare_with_propagation)
+}
+
+fn near_the_poles() -> Result<Measured, String> {
+    let start = (symmetric_scenes(), -9.0..-2.0f64, any::<bool>()).prop_map(|(mut scene, log, south)| {
+        let distance = 10f64.powf(log);
+        scene.angles[1] = if south { PI - distance } else { distance };
+        scene
+    });
+    worst_over(32, 300, &start, compare_with_propagation)
+}
+
+fn derivatives() -> Result<Measured, String> {
+    let strategy = (symmetric_scenes(), 0..4_usize, any::<bool>());
+    worst_over(33, 100, &strategy, |&(scene, variable, no_violation)| {
+        let scene = if no_violation { RandomScene { s: [0.0; 3], ..scene } } else { scene };
+        let (spheroid, mut s, angles, mut rates) = lifted::<Dual64>(&scene);
+        match variable {
+            0 => s.zz.eps = 1.0,
+            1 => rates.alpha.eps = 1.0,
+            2 => rates.beta.eps = 1.0,
+            _ => rates.gamma.eps = 1.0,
+        }
+        let t = Dual64::from_re(10.0);
+        let exact = SymmetricSolution::new(&spheroid, &s, &angles, &rates).map_err(text)?;
+        let (smallest, most) = exact.inclinations();
+        let sin = smallest.re.sin().min(most.re.sin());
+        let exact = state(&spheroid, &exact, t);
+        let initial = BodyState::from_angles(&spheroid, &angles, &rates);
+        let numerical = propagate(&spheroid, &s.tensor(), &initial, (0.0, 10.0), 1e-16)
+            .and_then(|motion| motion.state(t))
+            .map_err(text)?;
+        let part = |v: &Vector3<Dual64>| v.map(|x| x.eps);
+        let error = [
+            part(&exact.axis) - part(&numerical.axis),
+            part(&exact.equatorial_axis) - part(&numerical.equatorial_axis),
+            part(&exact.momentum) - part(&numerical.momentum),
+        ];
+        let size = part(&numerical.axis).amax().max(part(&numerical.equatorial_axis).amax()).max(1.0);
+        let error = error.iter().fold(0.0, |max: f64, v| max.max(v.amax()));
+        Ok(error * sin * sin / (size * phase(&scene, 10.0) * f64::EPSILON))
+    })
+}
+
+/// `1 +` the turns of the motion in `t`, in rad.
+fn phase(scene: &RandomScene, t: f64) -> f64 {
+    let state = scene.state();
+    1.0 + t * (state.momentum.norm() + scene.rates.iter().map(|r| r.abs()).sum::<f64>())
+}
+
+fn free_limit() -> Result<Measured, String> {
+    worst_over(34, 500, &(symmetric_scenes(), 0.0..100.0f64), |&(scene, t)| {
+        let scene = RandomScene { s: [0.0; 3], ..scene };
+        let exact = state(&scene.spheroid(), &solution(&scene)?, t);
+        let free = free_rotation(&scene.spheroid(), &scene.state(), t);
+        Ok(difference(&exact, &free) / (phase(&scene, t) * f64::EPSILON))
+    })
+}
+
+fn steady() -> Result<Measured, String> {
+    let solved = Cell::new(0);
+    let measured = worst_over(35, 500, &(symmetric_scenes(), any::<bool>()), |&(mut scene, twofold)| {
+        let kind = if twofold { Precession::Twofold } else { Precession::Single };
+        let (spheroid, s, angles, _) = lifted::<f64>(&scene);
+        let spin = scene.rates[2];
+        let Ok(rate) = steady_precession_rate(kind, &spheroid, &s, spin, angles.beta) else {
+            return Ok(0.0);
+        };
+        scene.rates = [rate, 0.0, spin - rate * angles.beta.cos()];
+        let (sin, cos) = angles.beta.sin_cos();
+        let k = 2.0 * (s.zz - s.xx);
+        let stiffness =
+            (rate * sin).powi(2) + spheroid.free_precession_constant(spin).powi(2) + k * (sin * sin - 4.0 * cos * cos);
+        if stiffness <= 0.0 {
+            return Ok(if solution::<f64>(&scene).is_err() { 0.0 } else { f64::INFINITY });
+        }
+        solved.set(solved.get() + 1);
+        let motion: SymmetricSolution<f64> = solution(&scene)?;
+        let (t, now) = (50.0, motion.angles(50.0));
+        let errors = [
+            now.alpha - angles.alpha - rate * t,
+            now.beta - angles.beta,
+            now.gamma - angles.gamma - scene.rates[2] * t,
+            (motion.mean_rates().alpha - rate) * t,
+        ];
+        // A rounding of the rate tilts the axis by as much over the stiffness.
+        let condition = 1.0 + 1.0 / (stiffness * sin * sin);
+        Ok(errors.iter().fold(0.0, |max: f64, e| max.max(e.abs())) / (phase(&scene, t) * condition * f64::EPSILON))
+    })?;
+    if solved.get() < 300 {
+        return Err(format!("only {} scenes have a stable steady precession", solved.get()));
+    }
+    Ok(measured)
+}
+
+fn periods() -> Result<Measured, String> {
+    worst_over(36, 500, &(symmetric_scenes(), -5.0..5.0f64, -20..20_i32), |&(scene, t, count)| {
+        let motion: SymmetricSolution<f64> = solution(&scene)?;
+        let elapsed = f64::from(count) * motion.period();
+        let (before, after, mean) = (motion.angles(t), motion.angles(t + elapsed), motion.mean_rates());
+        let errors = [
+            after.alpha - before.alpha - mean.alpha * elapsed,
+            after.beta - before.beta,
+            after.gamma - before.gamma - mean.gamma * elapsed,
+        ];
+        let sin = before.beta.sin();
+        Ok(errors.iter().fold(0.0, |max: f64, e| max.max(e.abs())) * sin * sin
+            / (phase(&scene, elapsed.abs() + t.abs()) * f64::EPSILON))
+    })
+}
+
+fn refusals() -> Result<Measured, String> {
+    let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+    let at = |s: [f64; 3], beta: f64, rates: [f64; 3]| {
+        let [alpha, beta_rate, gamma] = rates;
+        let angles = EulerAngles { alpha: 0.0, beta, gamma: 0.0 };
+        let rates = EulerRates { alpha, beta: beta_rate, gamma };
+        SymmetricSolution::new(&spheroid, &PrincipalCoefficients::new(s), &angles, &rates)
+    };
+    // Without spin and L_Z the axis swings as a pendulum; cos beta0 is the rate with which it comes to rest on the equator.
+    let cases = [
+        ("asymmetric", at([0.1, 0.2, 0.3], 1.0, [1.0, 0.0, 0.0])),
+        ("pole", at([0.0, 0.0, 0.1], 0.0, [1.0, 0.1, 0.0])),
+        ("separatrix", at([0.0, 0.0, -0.5], 1.0, [0.0, 1.0_f64.cos(), 0.0])),
+        ("unstable steady", at([0.0, 0.0, -0.5], PI / 2.0, [0.0, 0.0, 0.0])),
+        ("not a number", at([0.0, 0.0, -0.5], 1.0, [f64::NAN, 0.0, 0.0])),
+    ];
+    let missed: Vec<&str> =
+        cases.iter().filter(|(_, r)| !matches!(r, Err(Error::Domain { .. }))).map(|(name, _)| *name).collect();
+    Ok(Measured::new(missed.len() as f64, format!("not refused: {missed:?}")))
+}
+
+fn text(error: Error) -> String {
+    error.to_string()
+}

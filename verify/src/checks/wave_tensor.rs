@@ -1,0 +1,165 @@
+//! The source of the quadrupole wave: second time derivative of the moment-of-inertia tensor. Eqs. (60)-(65), (67), (68).
+
+use nalgebra::{Matrix3, Vector3};
+use twofold::dynamics::angular_acceleration::angular_acceleration;
+use twofold::dynamics::inertia_tensor_rate::{
+    free_inertia_acceleration, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
+};
+use twofold::dynamics::regular_equations::torque_on_axis;
+use twofold::dynamics::{BodyState, PrincipalInertia};
+use twofold::euler_angles::{EulerRates, body_from_inertial, body_rates};
+
+use crate::check::{Check, Kind};
+use crate::derivation::{Differentiable, body_motion};
+use crate::identity::{self, Identity};
+use crate::random::Point;
+
+/// The checks of this subject.
+pub fn checks() -> Vec<Check> {
+    [
+        identity::checks::<EulersEquations>(),
+        identity::checks::<WaveTensor>(),
+        identity::checks::<FreeWaveTensor>(),
+        identity::checks::<SpheroidSource>(),
+        identity::checks::<FreePrecessionSource>(),
+    ]
+    .concat()
+}
+
+struct EulersEquations;
+
+impl Identity for EulersEquations {
+    const ID: &'static str = "angular-acceleration";
+    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "angular-acceleration-autodiff");
+    const EQUATIONS: &'static [u8] = &[22, 63, 67];
+    const STATEMENT: &'static str =
+        "with the torque d(R^T I Omega)/dt of any motion, the angular acceleration is the rate of the body rates";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let (q, v, a) = (&p.angles, &p.rates, &p.accelerations);
+        let torque = body_motion::torque_of_motion(&p.inertia, q, v, a);
+        (angular_acceleration(&p.inertia, &body_rates(q, v), &torque) - body_motion::angular_acceleration(q, v, a))
+            .iter()
+            .copied()
+            .collect()
+    }
+}
+
+struct WaveTensor;
+
+impl Identity for WaveTensor {
+    const ID: &'static str = "wave-tensor";
+    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "wave-tensor-autodiff");
+    const EQUATIONS: &'static [u8] = &[60, 62, 63, 64, 65, 67];
+    const STATEMENT: &'static str = "R^T A R is the second time derivative of I^IJ along any motion with its torque, three moments of inertia; the trace \
+         vanishes";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let (q, v, a) = (&p.angles, &p.rates, &p.accelerations);
+        let torque = body_motion::torque_of_motion(&p.inertia, q, v, a);
+        let tensor = wave_tensor(&p.inertia, &body_rates(q, v), &torque);
+        let by_time = body_motion::inertia_tensor_acceleration(&p.inertia, q, v, a);
+        let rotation = body_from_inertial(q);
+        let mut out = vec![tensor.trace()];
+        out.extend(&(tensor_in_inertial_frame(&rotation, &tensor) - by_time));
+        // The same in the body frame: each component of Eq. (65) by itself.
+        out.extend(&(tensor - rotation * by_time * rotation.transpose()));
+        out
+    }
+}
+
+struct FreeWaveTensor;
+
+impl Identity for FreeWaveTensor {
+    const ID: &'static str = "free-wave-tensor";
+    const ROUNDED: (Kind, &'static str) = (Kind::Property, "free-wave-tensor-rounding");
+    const EQUATIONS: &'static [u8] = &[65, 67];
+    const STATEMENT: &'static str = "without torque, A^ij is the published free result, and the double commutator of the angular velocity with I^ij";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let omega = body_rates(&p.angles, &p.rates);
+        let tensor = wave_tensor(&p.inertia, &omega, &Vector3::zeros());
+        let mut out = Vec::new();
+        out.extend(&(tensor - free_wave_tensor_of_zimmermann(&p.inertia, &omega)));
+        out.extend(&(tensor - free_wave_tensor_by_commutators(&p.inertia, &omega)));
+        out
+    }
+}
+
+/// The free result of M. Zimmermann, Phys. Rev. D 21, 891 (1980), with indices 1, 2, 3 for the body axes:
+/// `A_11 = 2 (D_2 W_2^2 - D_3 W_3^2)`, `A_12 = (D_1 - D_2 + D_3^2 / I_3) W_1 W_2` and cyclic, with
+/// `D_1 = I_2 - I_3` and cyclic.
+fn free_wave_tensor_of_zimmermann<F: Differentiable>(inertia: &PrincipalInertia<F>, omega: &Vector3<F>) -> Matrix3<F> {
+    let moment = [inertia.xx, inertia.yy, inertia.zz];
+    let next = |i: usize| (i + 1) % 3;
+    let difference = |i: usize| moment[next(i)] - moment[next(next(i))];
+    let mut tensor = Matrix3::zeros();
+    for i in 0..3 {
+        let (j, k) = (next(i), next(next(i)));
+        let square = |l: usize| difference(l) * omega[l] * omega[l];
+        tensor[(i, i)] = (square(j) - square(k)) * 2.0;
+        let mixed = difference(i) - difference(j) + difference(k) * difference(k) / moment[k];
+        tensor[(i, j)] = mixed * omega[i] * omega[j];
+        tensor[(j, i)] = tensor[(i, j)];
+    }
+    tensor
+}
+
+/// `A = [W', I] + [W, [W, I]]` with `W` the matrix of `Omega x`, and `Omega'` from `I Omega' = (I Omega) x Omega`.
+fn free_wave_tensor_by_commutators<F: Differentiable>(inertia: &PrincipalInertia<F>, omega: &Vector3<F>) -> Matrix3<F> {
+    let moments = Vector3::new(inertia.xx, inertia.yy, inertia.zz);
+    let body = Matrix3::from_diagonal(&moments);
+    let acceleration = (body * omega).cross(omega).component_div(&moments);
+    let commutator = |a: &Matrix3<F>, b: &Matrix3<F>| a * b - b * a;
+    let (w, w_rate) = (body_motion::cross_matrix(omega), body_motion::cross_matrix(&acceleration));
+    commutator(&w_rate, &body) + commutator(&w, &commutator(&w, &body))
+}
+
+struct SpheroidSource;
+
+impl Identity for SpheroidSource {
+    const ID: &'static str = "spheroid-wave-source";
+    const ROUNDED: (Kind, &'static str) = (Kind::Property, "spheroid-wave-source-rounding");
+    const EQUATIONS: &'static [u8] = &[64, 65, 66];
+    const STATEMENT: &'static str =
+        "the second derivative of I^IJ of a spheroid from n and L alone is R^T A R with the spheroid's torque";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let (q, s) = (&p.angles, &p.s_inertial);
+        let state = BodyState::from_angles(&p.spheroid, q, &p.rates);
+        let rotation = body_from_inertial(q);
+        let torque = rotation * torque_on_axis(p.spheroid.constant_c, s, &state.axis);
+        let tensor = wave_tensor(&p.spheroid.inertia(), &body_rates(q, &p.rates), &torque);
+        let short = spheroid_inertia_acceleration(&p.spheroid, s, &state.axis, &state.momentum);
+        (tensor_in_inertial_frame(&rotation, &tensor) - short).iter().copied().collect()
+    }
+}
+
+struct FreePrecessionSource;
+
+impl Identity for FreePrecessionSource {
+    const ID: &'static str = "free-wave-source";
+    const ROUNDED: (Kind, &'static str) = (Kind::Property, "free-wave-source-rounding");
+    const EQUATIONS: &'static [u8] = &[28, 65, 68];
+    const STATEMENT: &'static str = "Eq. (68) is R^T A R without torque, the short form with s = 0 and two time derivatives, at constant beta and \
+         a' = omega / cos b";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let (q, spheroid) = (&p.angles, &p.spheroid);
+        let (_, cos_beta) = q.beta.sin_cos();
+        let spin = p.rates.gamma;
+        let alpha_rate = spheroid.free_precession_constant(spin) / cos_beta;
+        let rates = EulerRates { alpha: alpha_rate, beta: F::zero(), gamma: spin - alpha_rate * cos_beta };
+        let none = EulerRates { alpha: F::zero(), beta: F::zero(), gamma: F::zero() };
+        let free = free_inertia_acceleration(spheroid, q.alpha, q.beta, alpha_rate);
+        let tensor = wave_tensor(&spheroid.inertia(), &body_rates(q, &rates), &Vector3::zeros());
+        let state = BodyState::from_angles(spheroid, q, &rates);
+        let short = spheroid_inertia_acceleration(spheroid, &Matrix3::zeros(), &state.axis, &state.momentum);
+        let by_time = body_motion::inertia_tensor_acceleration(&spheroid.inertia(), q, &rates, &none);
+        let mut out = Vec::new();
+        out.extend(&(free - tensor_in_inertial_frame(&body_from_inertial(q), &tensor)));
+        out.extend(&(free - short));
+        out.extend(&(free - by_time));
+        out
+    }
+}

@@ -1,0 +1,389 @@
+//! The table of equations: for each numbered equation its label, the items that implement it, the checks and golden tables
+//! about it. `docs/equations.md` is this table; a test keeps it so, and keeps every public function in it.
+
+use std::fmt::Write;
+
+use crate::checks;
+
+/// One numbered equation of the paper.
+#[derive(Debug, Clone, Copy)]
+pub struct Equation {
+    /// Its number, counting the paper's numbered equations in order.
+    pub number: u8,
+    /// Its LaTeX label, empty where it has none.
+    pub label: &'static str,
+    /// What it says.
+    pub subject: &'static str,
+    /// Paths in the crate `twofold` of what implements it.
+    pub items: &'static [&'static str],
+    /// Golden tables with numbers of it.
+    pub golden: &'static [&'static str],
+}
+
+const fn row(
+    number: u8,
+    label: &'static str,
+    subject: &'static str,
+    items: &'static [&'static str],
+    golden: &'static [&'static str],
+) -> Equation {
+    Equation { number, label, subject, items, golden }
+}
+
+/// The equations covered so far, in the paper's order.
+pub const EQUATIONS: &[Equation] = &[
+    row(
+        5,
+        "replace",
+        "PPN replacement s^ij -> -alpha_2 w^i w^j",
+        &["lorentz_violation::coefficients_from_preferred_frame", "lorentz_violation::preferred_frame_parameter"],
+        &[],
+    ),
+    row(
+        6,
+        "pecorrect1",
+        "anisotropic self-energy of any body",
+        &["dynamics::potential::anisotropic_potential_of_body"],
+        &[],
+    ),
+    row(7, "", "s^ij in the body frame", &["euler_angles::tensor_in_body_frame"], &[]),
+    row(
+        8,
+        "rmat",
+        "rotation matrix R^{iI} = e_i . e_I",
+        &["euler_angles::body_from_inertial", "dynamics::BodyState"],
+        &[],
+    ),
+    row(
+        9,
+        "trans",
+        "body axes in Euler angles",
+        &["euler_angles::body_from_inertial", "euler_angles::symmetry_axis", "euler_angles::angles_from_rotation"],
+        &[],
+    ),
+    row(
+        10,
+        "spheroid",
+        "surface of a spheroid",
+        &["star::spheroid_shape::SpheroidShape", "star::uniform_spheroid::UniformSpheroid"],
+        &[],
+    ),
+    row(
+        11,
+        "pecorrect2",
+        "delta U = C s^zz",
+        &["dynamics::potential::anisotropic_potential", "dynamics::potential::anisotropic_potential_of_axis"],
+        &[],
+    ),
+    row(
+        12,
+        "",
+        "constant C as an integral",
+        &[
+            "star::axisymmetric::axisymmetric_integrals",
+            "star::axisymmetric::AxisymmetricIntegrals",
+            "star::uniform_spheroid::UniformSpheroid",
+        ],
+        &[],
+    ),
+    row(13, "ppndeu1", "Nordtvedt's form of the self-energy", &["dynamics::potential::nordtvedt_potential"], &[]),
+    row(14, "", "tensor virial relation", &["star::maclaurin::MaclaurinSpheroid"], &[]),
+    row(
+        15,
+        "",
+        "kinetic tensor, pressure integral, potential-energy tensor",
+        &["star::maclaurin::MaclaurinSpheroid", "star::AxisymmetricTensor"],
+        &[],
+    ),
+    row(16, "newp", "Newtonian potential", &["star::axisymmetric::axisymmetric_integrals"], &[]),
+    row(
+        17,
+        "",
+        "U^ij as a double integral",
+        &[
+            "star::uniform_spheroid::UniformSpheroid::potential_energy_tensor",
+            "star::ellipsoid::UniformEllipsoid::potential_energy_tensor",
+            "star::axisymmetric::axisymmetric_integrals",
+        ],
+        &[],
+    ),
+    row(18, "", "K^zz = 0, T_rot = (K^xx + K^yy)/2", &["star::maclaurin::MaclaurinSpheroid::kinetic_tensor"], &[]),
+    row(
+        19,
+        "obl",
+        "oblateness",
+        &["dynamics::RigidSpheroid::oblateness", "star::uniform_spheroid::UniformSpheroid::oblateness"],
+        &[],
+    ),
+    row(
+        20,
+        "epf",
+        "centrifugal deformation",
+        &[
+            "star::deformation::centrifugal_oblateness",
+            "star::deformation::centrifugal_oblateness_scaled",
+            "star::deformation::centrifugal_coefficient",
+        ],
+        &["star_estimates"],
+    ),
+    row(
+        21,
+        "anisopot",
+        "self-energy in Euler angles",
+        &["dynamics::potential::anisotropic_potential_in_angles", "dynamics::potential::potential_gradient_in_angles"],
+        &[],
+    ),
+    row(
+        22,
+        "angvel1",
+        "angular velocity in the body frame",
+        &["euler_angles::body_rates", "euler_angles::euler_rates", "dynamics::regular_equations::angular_velocity"],
+        &[],
+    ),
+    row(
+        23,
+        "",
+        "rotational kinetic energy",
+        &[
+            "dynamics::kinetic_energy::kinetic_energy",
+            "dynamics::kinetic_energy::kinetic_energy_of_body",
+            "dynamics::lagrangian::lagrangian",
+        ],
+        &[],
+    ),
+    row(
+        24,
+        "firstint",
+        "first integrals E and Omega^z; beyond the paper, K",
+        &[
+            "dynamics::first_integrals::energy_in_angles",
+            "dynamics::first_integrals::spin_in_angles",
+            "dynamics::first_integrals::energy",
+            "dynamics::first_integrals::spin",
+            "dynamics::first_integrals::clebsch_integral",
+            "dynamics::first_integrals::symmetric_adjugate",
+            "dynamics::first_integrals::first_integrals",
+        ],
+        &[],
+    ),
+    row(
+        25,
+        "eleq",
+        "equations of motion",
+        &[
+            "dynamics::euler_angle_equations::euler_angle_residuals",
+            "dynamics::euler_angle_equations::euler_angle_accelerations",
+            "dynamics::regular_equations::reduced_rates",
+            "dynamics::regular_equations::body_state_rates",
+            "propagation::propagate",
+            "propagation::TaylorMotion",
+            "propagation::ContinuousAngles",
+            "solutions::symmetric::SymmetricSolution",
+        ],
+        &[],
+    ),
+    row(26, "sol1", "steady precession for symmetric s", &["solutions::steady::steady_precession_rate"], &[]),
+    row(27, "ansatz", "perturbation ansatz", &["solutions::perturbation::Perturbation::at"], &[]),
+    row(
+        28,
+        "",
+        "zeroth-order rate",
+        &["solutions::perturbation::Perturbation", "dynamics::RigidSpheroid::free_precession_constant"],
+        &["perturbation_constants"],
+    ),
+    row(
+        29,
+        "eleq1",
+        "first-order equations, as printed and in full",
+        &[
+            "solutions::perturbation::linearised::printed_residuals",
+            "solutions::perturbation::linearised::full_residuals",
+        ],
+        &[],
+    ),
+    row(
+        30,
+        "sol2",
+        "first-order rates",
+        &[
+            "solutions::perturbation::Perturbation::first_order_rates",
+            "solutions::perturbation::Perturbation::corrected_twofold",
+        ],
+        &[],
+    ),
+    row(
+        31,
+        "consdef",
+        "a^(1), C~, eta_alpha, eta_beta",
+        &["solutions::perturbation::Perturbation::printed", "lorentz_violation::PrincipalCoefficients"],
+        &["perturbation_constants"],
+    ),
+    row(
+        32,
+        "precangvel",
+        "precession rate a",
+        &["solutions::perturbation::Perturbation::printed"],
+        &["perturbation_constants"],
+    ),
+    row(33, "sol3", "first-order angles", &["solutions::perturbation::Perturbation::first_order"], &[]),
+    row(
+        34,
+        "integraltoinitial",
+        "initial values from the constants, and back",
+        &["solutions::perturbation::initial_values", "solutions::perturbation::constants_from_initial_values"],
+        &["caption_initial_values"],
+    ),
+    row(
+        35,
+        "unitt",
+        "unit of time t_c",
+        &["dynamics::RigidSpheroid::time_unit", "dynamics::RigidSpheroid::in_units_of_tc", "units::TimeUnit"],
+        &[],
+    ),
+    row(
+        36,
+        "",
+        "permutation of the axes",
+        &["lorentz_violation::PrincipalCoefficients::permuted", "euler_angles::permuted_from_inertial"],
+        &[],
+    ),
+    row(43, "", "estimate of I^zz / C", &["star::estimates::inertia_over_c_estimate"], &["star_estimates"]),
+    row(
+        48,
+        "angfreqfre",
+        "rates of free precession",
+        &["solutions::free::free_precession_rates", "solutions::free::free_rotation", "solutions::free::rotated_by"],
+        &["perturbation_constants"],
+    ),
+    row(57, "tpconstant", "shifted rates", &["solutions::perturbation::shifted_rates"], &["perturbation_constants"]),
+    row(58, "", "estimate of t_c", &["star::estimates::time_unit_estimate"], &["star_estimates"]),
+    row(59, "", "quadrupole formula", &["observables::gravitational_wave::metric_perturbation"], &[]),
+    row(60, "", "I^{IJ} in the inertial frame", &["dynamics::inertia_tensor_rate::tensor_in_inertial_frame"], &[]),
+    row(61, "", "infinitesimal rotation of the body axes", &["dynamics::inertia_tensor_rate::rotation_rate"], &[]),
+    row(62, "1stdrmat", "rate of the rotation matrix", &["dynamics::inertia_tensor_rate::rotation_rate"], &[]),
+    row(63, "", "equation of motion with torque", &["dynamics::angular_acceleration::angular_acceleration"], &[]),
+    row(
+        64,
+        "",
+        "ddot I^{IJ} = R R A",
+        &[
+            "dynamics::inertia_tensor_rate::tensor_in_inertial_frame",
+            "dynamics::inertia_tensor_rate::spheroid_inertia_acceleration",
+        ],
+        &[],
+    ),
+    row(65, "gwa", "body-frame tensor A^ij", &["dynamics::inertia_tensor_rate::wave_tensor"], &[]),
+    row(
+        66,
+        "",
+        "torque",
+        &[
+            "dynamics::torque::torque_from_gradient",
+            "dynamics::torque::torque_from_gradient_off_pole",
+            "dynamics::torque::torque_on_body",
+            "dynamics::regular_equations::torque_on_axis",
+        ],
+        &[],
+    ),
+    row(67, "", "differences of the moments of inertia", &["dynamics::PrincipalInertia::differences"], &[]),
+    row(
+        68,
+        "gwwf",
+        "ddot I^{IJ} of free precession",
+        &["dynamics::inertia_tensor_rate::free_inertia_acceleration"],
+        &[],
+    ),
+    row(72, "ecc", "eccentricity", &["star::spheroid_shape::SpheroidShape"], &[]),
+    row(
+        73,
+        "",
+        "interior potential of a uniform ellipsoid",
+        &["star::ellipsoid::UniformEllipsoid", "star::potential_coefficients::PotentialCoefficients"],
+        &[],
+    ),
+    row(
+        74,
+        "",
+        "A_0, A_1, A_2, A_3",
+        &["star::potential_coefficients::potential_coefficients", "star::ellipsoid::UniformEllipsoid::coefficients"],
+        &["appendix_expansions"],
+    ),
+    row(
+        75,
+        "",
+        "C of a uniform spheroid",
+        &["star::uniform_spheroid::UniformSpheroid::c", "star::potential_coefficients::reduced_difference"],
+        &["appendix_expansions"],
+    ),
+    row(76, "", "hydrostatic equilibrium", &["star::maclaurin::MaclaurinSpheroid::pressure"], &[]),
+    row(
+        77,
+        "",
+        "rotation of a Maclaurin spheroid",
+        &["star::maclaurin::MaclaurinSpheroid::rotation_rate_squared"],
+        &[],
+    ),
+    row(78, "estc", "T_rot = 2 C", &["star::maclaurin::MaclaurinSpheroid::rotational_energy"], &[]),
+    row(79, "", "oblateness from the eccentricity", &["star::spheroid_shape::SpheroidShape::oblateness"], &[]),
+];
+
+/// What serves the equations without having a number of its own in the paper.
+pub const AUXILIARY: &[(&str, &[&str])] = &[
+    ("number types", &["scalar::constant_vector", "scalar::length", "scalar::real_part"]),
+    ("principal axes of s^IJ", &["lorentz_violation::principal_frame"]),
+    (
+        "Carlson's symmetric integrals",
+        &[
+            "elliptic::carlson::rf",
+            "elliptic::carlson::rc",
+            "elliptic::carlson::rd",
+            "elliptic::carlson::rj",
+            "elliptic::carlson::rf_of_roots",
+            "elliptic::carlson::rj_of_roots",
+        ],
+    ),
+    (
+        "Jacobi's functions",
+        &[
+            "elliptic::jacobi::ArithmeticGeometricMean",
+            "elliptic::jacobi::JacobiFunctions",
+            "elliptic::jacobi::complete_integral",
+            "elliptic::jacobi::jacobi",
+        ],
+    ),
+    ("errors at public boundaries", &["error::Error"]),
+];
+
+/// The table as the Markdown page `docs/equations.md`.
+pub fn markdown() -> String {
+    let all = checks::all();
+    let mut page = String::from(
+        "# Equations\n\n\
+         Generated by `cargo run --release -- equations > docs/equations.md`; a test keeps it true.\n\n\
+         Numbers count the paper's numbered equations in order. Items are paths in the crate `twofold`; checks run by\n\
+         `cargo run --release -- verify --filter ID`; golden tables are files of `golden/`.\n\n\
+         | Eq. | label | subject | items | checks | golden |\n|---|---|---|---|---|---|\n",
+    );
+    let code =
+        |names: &mut dyn Iterator<Item = &str>| names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    for equation in EQUATIONS {
+        let about = all.iter().filter(|check| check.equations.contains(&equation.number));
+        let label = if equation.label.is_empty() { String::new() } else { format!("`{}`", equation.label) };
+        writeln!(
+            page,
+            "| ({}) | {} | {} | {} | {} | {} |",
+            equation.number,
+            label,
+            equation.subject,
+            code(&mut equation.items.iter().copied()),
+            code(&mut about.map(|check| check.id)),
+            code(&mut equation.golden.iter().copied()),
+        )
+        .expect("writing to a string succeeds");
+    }
+    page.push_str("\n## Beside the numbered equations\n\n| subject | items |\n|---|---|\n");
+    for (subject, items) in AUXILIARY {
+        writeln!(page, "| {subject} | {} |", code(&mut items.iter().copied())).expect("writing to a string succeeds");
+    }
+    page
+}

@@ -1,0 +1,126 @@
+//! Seeded random points: of the physical domain, or of the prime field.
+
+use nalgebra::{Matrix3, Vector3};
+use twofold::Scalar;
+use twofold::dynamics::{PrincipalInertia, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::lorentz_violation::PrincipalCoefficients;
+
+use crate::conditioned::Conditioned;
+use crate::prime_field::Fp;
+
+/// The generator SplitMix64 (Steele, Lea and Flood 2014): one word of state, the same numbers on every machine.
+#[derive(Debug, Clone)]
+pub struct Random(u64);
+
+impl Random {
+    /// The generator that starts at `seed`.
+    pub fn with_seed(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// Uniform word.
+    pub fn word(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform number in `[low, high)`.
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.word() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A number that can be drawn from a range; a field without order takes any element.
+pub trait Drawn: Scalar {
+    /// A random number of the range.
+    fn draw(random: &mut Random, low: f64, high: f64) -> Self;
+}
+
+impl Drawn for f64 {
+    fn draw(random: &mut Random, low: f64, high: f64) -> Self {
+        random.within(low, high)
+    }
+}
+
+impl Drawn for Conditioned {
+    fn draw(random: &mut Random, low: f64, high: f64) -> Self {
+        Self::new(random.within(low, high))
+    }
+}
+
+impl Drawn for Fp {
+    fn draw(random: &mut Random, _: f64, _: f64) -> Self {
+        Self::new(random.word())
+    }
+}
+
+/// A body, its coefficients for Lorentz violation and a state of motion, all independent of each other.
+#[derive(Debug, Clone, Copy)]
+pub struct Point<F> {
+    /// A spheroid.
+    pub spheroid: RigidSpheroid<F>,
+    /// Another body, with three moments of inertia.
+    pub inertia: PrincipalInertia<F>,
+    /// Its tensor `U^ij` (symmetric, six components) in the body frame.
+    pub potential_energy_tensor: Matrix3<F>,
+    /// Eigenvalues of `s^IJ`.
+    pub s: PrincipalCoefficients<F>,
+    /// Another symmetric `s^IJ`, in a frame that is not principal.
+    pub s_inertial: Matrix3<F>,
+    /// Angles.
+    pub angles: EulerAngles<F>,
+    /// Their rates.
+    pub rates: EulerRates<F>,
+    /// Their accelerations, not those of any equation of motion.
+    pub accelerations: EulerRates<F>,
+    /// Angles of a fixed rotation of the inertial frame.
+    pub frame: EulerAngles<F>,
+    /// Derivatives of some potential by the angles.
+    pub gradient: Vector3<F>,
+    /// Four more numbers between -1 and 1.
+    pub numbers: [F; 4],
+}
+
+impl<F: Drawn> Point<F> {
+    /// A random point: inertias and `C` in `[1/2, 2)`, coefficients in `(-0.1, 0.1)`, rates in `(-2, 2)`, inclinations at
+    /// least 0.2 rad from the poles (closer is the matter of the regular equations).
+    pub fn draw(random: &mut Random) -> Self {
+        let positive = |random: &mut Random| F::draw(random, 0.5, 2.0);
+        let angles = |random: &mut Random| EulerAngles {
+            alpha: F::draw(random, -3.1, 3.1),
+            beta: F::draw(random, 0.2, 2.9),
+            gamma: F::draw(random, -3.1, 3.1),
+        };
+        let rates = |random: &mut Random| EulerRates {
+            alpha: F::draw(random, -2.0, 2.0),
+            beta: F::draw(random, -2.0, 2.0),
+            gamma: F::draw(random, -2.0, 2.0),
+        };
+        let numbers = |random: &mut Random, size: f64| [0; 3].map(|_| F::draw(random, -size, size));
+        let symmetric = |random: &mut Random, size: f64| {
+            let ([xx, yy, zz], [xy, xz, yz]) = (numbers(random, size), numbers(random, size));
+            Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+        };
+        Self {
+            spheroid: RigidSpheroid {
+                inertia_xx: positive(random),
+                inertia_zz: positive(random),
+                constant_c: positive(random),
+            },
+            inertia: PrincipalInertia { xx: positive(random), yy: positive(random), zz: positive(random) },
+            potential_energy_tensor: symmetric(random, 1.0),
+            s: PrincipalCoefficients::new(numbers(random, 0.1)),
+            s_inertial: symmetric(random, 0.1),
+            angles: angles(random),
+            rates: rates(random),
+            accelerations: rates(random),
+            frame: angles(random),
+            gradient: numbers(random, 1.0).into(),
+            numbers: [0; 4].map(|_| F::draw(random, -1.0, 1.0)),
+        }
+    }
+}
