@@ -3,6 +3,7 @@
 mod energy;
 mod equilibrium;
 mod estimates;
+mod multiprecision_table;
 mod potential_coefficients;
 mod shape;
 
@@ -13,8 +14,15 @@ use crate::check::Check;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {
-    [potential_coefficients::checks(), shape::checks(), energy::checks(), equilibrium::checks(), estimates::checks()]
-        .concat()
+    [
+        multiprecision_table::checks(),
+        potential_coefficients::checks(),
+        shape::checks(),
+        energy::checks(),
+        equilibrium::checks(),
+        estimates::checks(),
+    ]
+    .concat()
 }
 
 /// Spheroid with `a1 = rho = 1`.
