@@ -13,8 +13,8 @@ pub mod observables;
 pub mod propagation;
 pub mod scalar;
 pub mod solutions;
-//pub mod star;
-//pub mod units;
+pub mod star;
+pub mod units;
 
 pub use error::Error;
 pub use scalar::{Real, Scalar};

@@ -11,6 +11,7 @@ mod propagation;
 pub mod regimes;
 mod second_integrator;
 mod solutions;
+mod star;
 mod symmetric;
 mod torque;
 mod wave_tensor;
@@ -21,6 +22,7 @@ use crate::check::Check;
 pub fn all() -> Vec<Check> {
     let subjects: &[fn() -> Vec<Check>] = &[
         orientation::checks,
+        star::checks,
         potential_energy::checks,
         equations_of_motion::checks,
         torque::checks,

@@ -1,0 +1,109 @@
+//! Any axisymmetric density: mass, inertia, tensor of the gravitational energy and C by multipoles. Eqs. (12), (15)-(17).
+//!
+//! The potential is expanded in Legendre polynomials, `Phi = -sum_l phi_l(r) P_l(mu)`, `mu = cos(theta)`. With
+//! `U^xx - U^zz = int rho D Phi d^3x`, `D = (varpi d_varpi) / 2 - z d_z = -P_2 r d_r - (3/2) mu (1 - mu^2) d_mu`, and the
+//! angular moments at radius `r`
+//!
+//! ```text
+//! M_l = int rho P_l dmu,   J_l = int rho P_2 P_l dmu,   K_l = (3/2) int rho mu (1 - mu^2) P_l' dmu,
+//! ```
+//!
+//! the six-dimensional integral of Eq. (12) is a sum over `l` of integrals over `r > s`: each pair of radii once, so that
+//! only the interior potential enters and no large powers cancel,
+//!
+//! ```text
+//! 2 C = 4 pi^2 sum_l int dr r^(1-l) int_0^r ds s^(l+2) { [K_l - (l+1) J_l](r) M_l(s) + M_l(r) [l J_l + K_l](s) },
+//! tr U = 4 pi^2 sum_l int dr r^(1-l) int_0^r ds s^(l+2) M_l(r) M_l(s).
+//! ```
+//!
+//! Gauss-Legendre rules serve every integral. Between the largest sphere inside the star and the smallest one around it the
+//! radius is that of the surface at a colatitude, which makes all integrands there as smooth as surface and density.
+//!
+//! Accuracy: the rules converge spectrally for smooth density and surface, the sum over degrees algebraically. Its tail is
+//! `a (degree + 3/2)^-3` for a density that ends by a jump, and is removed by Richardson's extrapolation from half the
+//! degree; what is left decreases as `degree^-5`. For a uniform spheroid of axis ratio 0.95, 0.6, 2 the relative error of C
+//! at degree 16 is 4e-6, 6e-5, 2e-4, at degree 32 it is 2e-7, 2e-6, 5e-6. For the sphere degree 2 is exact.
+
+mod multipoles;
+
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::star::AxisymmetricTensor;
+use crate::star::axisymmetric::multipoles::{Multipoles, unit_rule};
+use crate::star::uniform_spheroid::UniformSpheroid;
+
+/// An axisymmetric star that is its own mirror image in the equatorial plane, in spherical coordinates.
+pub trait AxisymmetricBody<S> {
+    /// Density at radius `r` and `mu = cos(theta)` in [0, 1], asked for inside the surface only.
+    fn density(&self, r: S, mu: S) -> S;
+
+    /// Radius `r_s` of the surface at `mu` in [0, 1] and its slope `d r_s / d mu`: a monotonic function of `mu`.
+    fn surface(&self, mu: S) -> (S, S);
+}
+
+/// A pair of closures: the density and the surface.
+impl<S, D: Fn(S, S) -> S, B: Fn(S) -> (S, S)> AxisymmetricBody<S> for (D, B) {
+    fn density(&self, r: S, mu: S) -> S {
+        self.0(r, mu)
+    }
+
+    fn surface(&self, mu: S) -> (S, S) {
+        self.1(mu)
+    }
+}
+
+impl<S: Real> AxisymmetricBody<S> for UniformSpheroid<S> {
+    fn density(&self, _r: S, _mu: S) -> S {
+        UniformSpheroid::density(self)
+    }
+
+    /// `r_s = a3 / sqrt(1 - e^2 (1 - mu^2))`.
+    fn surface(&self, mu: S) -> (S, S) {
+        let e2 = self.shape().eccentricity_squared();
+        let inside = self.shape().axis_ratio_squared() + e2 * mu * mu;
+        let radius = self.polar_radius() / inside.sqrt();
+        (radius, -(radius * e2 * mu / inside))
+    }
+}
+
+/// Integrals over an axisymmetric star, in units with G = 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisymmetricIntegrals<S> {
+    /// Mass `M`.
+    pub mass: S,
+    /// Moments of inertia `I^xx = I^yy`, `I^zz`.
+    pub moment_of_inertia: AxisymmetricTensor<S>,
+    /// Tensor `U^xx = U^yy`, `U^zz` of Eqs. (15) and (17).
+    pub potential_energy_tensor: AxisymmetricTensor<S>,
+    /// Constant `C = (U^xx - U^zz) / 2`, Eq. (12), computed as such: no difference of large numbers.
+    pub c: S,
+    /// Estimated error of `c`: the part that the extrapolation in the degree has added. Larger than the error left.
+    pub c_error: f64,
+}
+
+/// Integrals of `body` from even Legendre degrees up to `degree`; derivatives pass through.
+///
+/// The work grows as `degree^4`: 0.3 ms at 4, 5 ms at 16, 40 ms at 32.
+///
+/// # Errors
+/// [`Error::Domain`] for a degree that is not a positive multiple of 4, or a surface that is not positive and monotonic in
+/// `mu`.
+pub fn axisymmetric_integrals<S: Real>(
+    body: &impl AxisymmetricBody<S>,
+    degree: usize,
+) -> Result<AxisymmetricIntegrals<S>, Error> {
+    let allowed = "a positive multiple of 4: half of it is used for the extrapolation";
+    Error::unless(degree > 0 && degree.is_multiple_of(4), "highest Legendre degree", degree as f64, allowed)?;
+    let rule = unit_rule(degree);
+    let (equator, pole) = (body.surface(S::zero()).0, body.surface(S::one()).0);
+    let oblate = equator.re() >= pole.re();
+    for &(mu, _) in &rule {
+        let (radius, slope) = body.surface(S::from_f64(mu));
+        Error::unless(radius.re() > 0.0, "radius of the surface r_s", radius.re(), "positive")?;
+        let rise = if oblate { -slope.re() } else { slope.re() };
+        // The slope of a sphere may be rounding.
+        Error::unless(rise >= -1e-14 * radius.re(), "rise of r_s towards its larger end", rise, "not negative")?;
+    }
+    let star = Multipoles { body, rule, terms: degree / 2 + 1, oblate };
+    Ok(star.integrals(if oblate { pole } else { equator }))
+}

@@ -1,0 +1,89 @@
+//! Uniform triaxial ellipsoid: potential coefficients, tensor of the gravitational energy, inertias. Eqs. (15), (17), (73).
+//!
+//! The paper treats spheroids. The anisotropic energy `-(1/2) s^ij U^ij` holds for any body; this is the simplest one
+//! without a symmetry axis. Reference: Chandrasekhar, *Ellipsoidal Figures of Equilibrium*, chapter 3.
+
+use core::f64::consts::PI;
+
+use nalgebra::Vector3;
+
+use crate::elliptic::carlson;
+use crate::error::Error;
+use crate::scalar::Real;
+
+/// Ellipsoid `x^2 / a1^2 + y^2 / a2^2 + z^2 / a3^2 = 1` of uniform density. Units with G = 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UniformEllipsoid<S: Real> {
+    semi_axes: Vector3<S>,
+    density: S,
+}
+
+impl<S: Real> UniformEllipsoid<S> {
+    /// From the semi-axes `(a1, a2, a3)`, in any order of size, and the density.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless all are positive and finite.
+    pub fn new(semi_axes: Vector3<S>, density: S) -> Result<Self, Error> {
+        let named = semi_axes.iter().map(|a| (a.re(), "semi-axis")).chain([(density.re(), "density rho")]);
+        for (value, quantity) in named {
+            Error::unless(value > 0.0 && value.is_finite(), quantity, value, "positive and finite")?;
+        }
+        Ok(Self { semi_axes, density })
+    }
+
+    /// Semi-axes `(a1, a2, a3)`.
+    pub fn semi_axes(&self) -> &Vector3<S> {
+        &self.semi_axes
+    }
+
+    /// Density.
+    pub fn density(&self) -> S {
+        self.density
+    }
+
+    /// Mass `(4 pi / 3) rho a1 a2 a3`.
+    pub fn mass(&self) -> S {
+        self.density * self.product() * (4.0 * PI / 3.0)
+    }
+
+    /// Coefficient `A_0 = a1 a2 a3 int_0^inf du / Delta = 2 a1 a2 a3 R_F(a1^2, a2^2, a3^2)` of Eq. (73) [length^2], with
+    /// `Delta^2 = (a1^2 + u)(a2^2 + u)(a3^2 + u)`. Equal to `A_1 a1^2 + A_2 a2^2 + A_3 a3^2`.
+    pub fn central_coefficient(&self) -> S {
+        let [x, y, z] = self.squares();
+        self.product() * carlson::rf(x, y, z) * 2.0
+    }
+
+    /// Coefficients `A_i = a1 a2 a3 int_0^inf du / ((a_i^2 + u) Delta)` of Eq. (73), with sum 2:
+    /// `A_3 = (2/3) a1 a2 a3 R_D(a1^2, a2^2, a3^2)` and its permutations. Each to a few ulp; differences of nearly equal
+    /// ones lose what they cancel, unlike those of
+    /// [`potential_coefficients`](crate::star::potential_coefficients::potential_coefficients).
+    pub fn coefficients(&self) -> Vector3<S> {
+        let [x, y, z] = self.squares();
+        let factor = self.product() * (2.0 / 3.0);
+        Vector3::new(carlson::rd(y, z, x), carlson::rd(z, x, y), carlson::rd(x, y, z)) * factor
+    }
+
+    /// Second moments of the mass `int rho x_i^2 d^3x = M a_i^2 / 5`.
+    pub fn second_moments(&self) -> Vector3<S> {
+        self.semi_axes.component_mul(&self.semi_axes) * (self.mass() / 5.0)
+    }
+
+    /// Moments of inertia `I^xx = M (a2^2 + a3^2) / 5` and so on.
+    pub fn moments_of_inertia(&self) -> Vector3<S> {
+        let m = self.second_moments();
+        Vector3::new(m.y + m.z, m.z + m.x, m.x + m.y)
+    }
+
+    /// Diagonal of `U^ij = int rho x^i d_j Phi d^3x`, Eqs. (15) and (17): `U^ii = 2 pi rho A_i M a_i^2 / 5`.
+    pub fn potential_energy_tensor(&self) -> Vector3<S> {
+        self.coefficients().component_mul(&self.second_moments()) * (self.density * (2.0 * PI))
+    }
+
+    fn squares(&self) -> [S; 3] {
+        [0, 1, 2].map(|i| self.semi_axes[i] * self.semi_axes[i])
+    }
+
+    fn product(&self) -> S {
+        self.semi_axes.x * self.semi_axes.y * self.semi_axes.z
+    }
+}

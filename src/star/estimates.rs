@@ -1,0 +1,28 @@
+//! Estimates of `I^zz / C` and of the unit of time from density and oblateness. Eqs. (43), (58).
+//!
+//! Both are the uniform spheroid at first order in the oblateness. The exact counterparts are
+//! [`UniformSpheroid::polar_inertia_over_c`](crate::star::uniform_spheroid::UniformSpheroid::polar_inertia_over_c) and
+//! [`UniformSpheroid::time_unit`](crate::star::uniform_spheroid::UniformSpheroid::time_unit).
+
+use core::f64::consts::PI;
+
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::units::TimeUnit;
+
+/// Estimate `I^zz / C ~ 15 / (4 pi rho eps)`, Eq. (43) [time^2].
+///
+/// `density` in units with G = 1 (multiply g/cm^3 by
+/// [`GRAM_PER_CUBIC_CENTIMETRE`](crate::units::geometrised::GRAM_PER_CUBIC_CENTIMETRE) for s^2), `oblateness` dimensionless
+/// and not zero. The exact ratio is `1 + (5/7) eps + O(eps^2)` times it.
+pub fn inertia_over_c_estimate<S: Real>(density: S, oblateness: S) -> S {
+    S::from_f64(15.0 / (4.0 * PI)) / (density * oblateness)
+}
+
+/// Estimate `t_c ~ sqrt(15 / (4 pi rho eps))`, Eq. (58).
+///
+/// # Errors
+/// [`Error::Domain`] unless density times oblateness is positive.
+pub fn time_unit_estimate<S: Real>(density: S, oblateness: S) -> Result<TimeUnit<S>, Error> {
+    TimeUnit::new(inertia_over_c_estimate(density, oblateness))
+}

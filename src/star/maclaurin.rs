@@ -1,0 +1,77 @@
+//! Maclaurin spheroid: a uniform fluid in equilibrium, rotating about its axis. Eqs. (14)-(18), (76)-(78).
+
+use core::f64::consts::PI;
+
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::star::AxisymmetricTensor;
+use crate::star::potential_coefficients::potential_coefficients;
+use crate::star::uniform_spheroid::UniformSpheroid;
+
+/// A uniform oblate spheroid that turns at the rate which keeps it in hydrostatic equilibrium. Units with G = 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MaclaurinSpheroid<S> {
+    spheroid: UniformSpheroid<S>,
+}
+
+impl<S: Real> MaclaurinSpheroid<S> {
+    /// From an oblate or spherical spheroid.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a prolate spheroid: Eq. (77) would ask for `|Omega|^2 < 0`.
+    pub fn new(spheroid: UniformSpheroid<S>) -> Result<Self, Error> {
+        let e2 = spheroid.shape().eccentricity_squared().re();
+        Error::unless(e2 >= 0.0, "squared eccentricity e^2", e2, "not negative: no equilibrium is prolate")?;
+        Ok(Self { spheroid })
+    }
+
+    /// The body.
+    pub fn spheroid(&self) -> &UniformSpheroid<S> {
+        &self.spheroid
+    }
+
+    /// Squared rotation rate `|Omega|^2 = 2 pi rho (A_1 - (a3^2 / a1^2) A_3)`, Eq. (77); `(8 pi / 15) rho e^2` near the
+    /// sphere, with regular derivatives there.
+    pub fn rotation_rate_squared(&self) -> S {
+        self.spheroid.density() * potential_coefficients(self.spheroid.shape()).difference * (2.0 * PI)
+    }
+
+    /// Rotation rate `|Omega|`. Proportional to `e`: not differentiable in `e^2` at the sphere.
+    pub fn rotation_rate(&self) -> S {
+        self.rotation_rate_squared().sqrt()
+    }
+
+    /// Kinetic energy `T_rot = I^zz |Omega|^2 / 2`, which is `2 C`, Eq. (78) `[estc]`.
+    pub fn rotational_energy(&self) -> S {
+        self.spheroid.moment_of_inertia().zz * self.rotation_rate_squared() * 0.5
+    }
+
+    /// Tensor `K^ij = int rho v^i v^j d^3x`, Eq. (15): `K^xx = |Omega|^2 M a1^2 / 5`, `K^zz = 0`, Eq. (18).
+    pub fn kinetic_tensor(&self) -> AxisymmetricTensor<S> {
+        AxisymmetricTensor { xx: self.rotation_rate_squared() * self.spheroid.second_moments().xx, zz: S::zero() }
+    }
+
+    /// Pressure at the centre, `pi rho^2 A_3 a3^2`.
+    pub fn central_pressure(&self) -> S {
+        let (rho, a3) = (self.spheroid.density(), self.spheroid.polar_radius());
+        rho * rho * potential_coefficients(self.spheroid.shape()).a3 * a3 * a3 * PI
+    }
+
+    /// Pressure at cylindrical radius `varpi` and height `z`, Eq. (76): `p_c (1 - varpi^2 / a1^2 - z^2 / a3^2)`; negative
+    /// values mean a point outside.
+    pub fn pressure(&self, varpi: S, z: S) -> S {
+        let (u, w) = (varpi / self.spheroid.equatorial_radius(), z / self.spheroid.polar_radius());
+        self.central_pressure() * (S::one() - u * u - w * w)
+    }
+
+    /// Integral `P = int p d^3x = (2/5) p_c V`, Eq. (15), equal to `U^zz` by Eq. (14) with `K^zz = 0`.
+    pub fn pressure_integral(&self) -> S {
+        self.central_pressure() * self.spheroid.volume() * 0.4
+    }
+
+    /// Left side of the tensor virial relation `K^ij + delta^ij P - U^ij = 0`, Eq. (14).
+    pub fn virial_residual(&self) -> AxisymmetricTensor<S> {
+        let (k, u, p) = (self.kinetic_tensor(), self.spheroid.potential_energy_tensor(), self.pressure_integral());
+        AxisymmetricTensor { xx: k.xx + p - u.xx, zz: k.zz + p - u.zz }
+    }
+}

@@ -1,0 +1,95 @@
+//! Shape of a spheroid: axis ratio, eccentricity, oblateness. Eqs. (10), (72), (79).
+
+use crate::error::Error;
+use crate::scalar::Real;
+
+/// Shape of the spheroid `(x^2 + y^2) / a1^2 + z^2 / a3^2 = 1`, Eq. (10) `[spheroid]`: oblate, spherical or prolate.
+///
+/// Keeps `q = a3 / a1`, `q^2` and `e^2 = 1 - q^2` together, each to about one ulp of what it was built from. None of them
+/// can stand for the others: `e^2` of 1e-24 is lost in `q`, and `q` of a thin disc is lost in `e^2`. For a prolate spheroid
+/// `e^2` is negative; all functions of the shape are analytic in it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpheroidShape<S> {
+    axis_ratio: S,
+    axis_ratio_squared: S,
+    eccentricity_squared: S,
+}
+
+impl<S: Real> SpheroidShape<S> {
+    /// From the eccentricity `e = sqrt(1 - (a3 / a1)^2)`, Eq. (72) `[ecc]`, of an oblate spheroid.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless `0 <= e < 1`.
+    pub fn from_eccentricity(e: S) -> Result<Self, Error> {
+        Error::unless((0.0..1.0).contains(&e.re()), "eccentricity e", e.re(), "0 <= e < 1")?;
+        let e2 = e * e;
+        // 1 - e is exact for e >= 1/2, 1 - e^2 is not.
+        let q2 = if e.re() < 0.5 { S::one() - e2 } else { (S::one() - e) * (S::one() + e) };
+        Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2 })
+    }
+
+    /// From `e^2 = 1 - (a3 / a1)^2`, Eq. (72) `[ecc]`; negative for a prolate spheroid. Regular at zero for derivatives.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless `-1e200 <= e^2 < 1`.
+    pub fn from_eccentricity_squared(e2: S) -> Result<Self, Error> {
+        Error::unless((-1e200..1.0).contains(&e2.re()), "squared eccentricity e^2", e2.re(), "-1e200 <= e^2 < 1")?;
+        let q2 = S::one() - e2;
+        Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2 })
+    }
+
+    /// From the axis ratio `q = a3 / a1`: below one oblate, above one prolate.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless `1e-100 <= q <= 1e100`.
+    pub fn from_axis_ratio(q: S) -> Result<Self, Error> {
+        let allowed = "1e-100 to 1e100, so that no power of it over- or underflows";
+        Error::unless((1e-100..=1e100).contains(&q.re()), "axis ratio a3 / a1", q.re(), allowed)?;
+        let q2 = q * q;
+        Ok(Self { axis_ratio: q, axis_ratio_squared: q2, eccentricity_squared: (S::one() - q) * (S::one() + q) })
+    }
+
+    /// From the semi-axes `a1` (equatorial) and `a3` (polar).
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless both are positive and finite and their ratio is between 1e-100 and 1e100.
+    pub fn from_semi_axes(a1: S, a3: S) -> Result<Self, Error> {
+        for (a, name) in [(a1.re(), "equatorial semi-axis a1"), (a3.re(), "polar semi-axis a3")] {
+            Error::unless(a > 0.0 && a.is_finite(), name, a, "positive and finite")?;
+        }
+        let shape = Self::from_axis_ratio(a3 / a1)?;
+        // a1 - a3 is exact for axes within a factor of two.
+        Ok(Self { eccentricity_squared: ((a1 - a3) / a1) * ((a1 + a3) / a1), ..shape })
+    }
+
+    /// From the oblateness `epsilon` of the uniform spheroid, the inverse of Eq. (79): `e^2 = 2 epsilon / (1 + epsilon)`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless `-1 < epsilon < 1`.
+    pub fn from_oblateness(epsilon: S) -> Result<Self, Error> {
+        Error::unless(epsilon.re().abs() < 1.0, "oblateness epsilon", epsilon.re(), "-1 < epsilon < 1")?;
+        let q2 = (S::one() - epsilon) / (S::one() + epsilon);
+        let e2 = epsilon * 2.0 / (S::one() + epsilon);
+        Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2 })
+    }
+
+    /// Axis ratio `q = a3 / a1`.
+    pub fn axis_ratio(&self) -> S {
+        self.axis_ratio
+    }
+
+    /// Squared axis ratio `q^2 = 1 - e^2`.
+    pub fn axis_ratio_squared(&self) -> S {
+        self.axis_ratio_squared
+    }
+
+    /// Squared eccentricity `e^2 = 1 - (a3 / a1)^2`, Eq. (72) `[ecc]`; negative for a prolate spheroid.
+    pub fn eccentricity_squared(&self) -> S {
+        self.eccentricity_squared
+    }
+
+    /// Oblateness `epsilon = e^2 / (2 - e^2)` of the uniform spheroid, Eq. (79).
+    pub fn oblateness(&self) -> S {
+        self.eccentricity_squared / (self.axis_ratio_squared + S::one())
+    }
+}

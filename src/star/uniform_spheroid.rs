@@ -1,0 +1,154 @@
+//! Uniform spheroid: mass, inertia, tensor of the gravitational energy and the constant C. Eqs. (10), (12), (17), (19), (75).
+
+use core::f64::consts::PI;
+
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::star::AxisymmetricTensor;
+use crate::star::potential_coefficients::{potential_coefficients, reduced_difference};
+use crate::star::spheroid_shape::SpheroidShape;
+use crate::units::TimeUnit;
+
+/// `4 pi^2 / 15`, rounded once.
+const FOUR_PI_SQUARED_OVER_15: f64 = 2.631_894_506_957_162_3;
+
+/// Spheroid of uniform density, oblate, spherical or prolate. Units with G = 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UniformSpheroid<S> {
+    equatorial_radius: S,
+    density: S,
+    shape: SpheroidShape<S>,
+}
+
+impl<S: Real> UniformSpheroid<S> {
+    /// From the equatorial semi-axis `a1`, the density and the shape.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless `a1` and the density are positive and finite.
+    pub fn new(equatorial_radius: S, density: S, shape: SpheroidShape<S>) -> Result<Self, Error> {
+        positive(equatorial_radius.re(), "equatorial semi-axis a1")?;
+        positive(density.re(), "density rho")?;
+        Ok(Self { equatorial_radius, density, shape })
+    }
+
+    /// From the semi-axes `a1` (equatorial) and `a3` (polar) of Eq. (10) `[spheroid]` and the density.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless all three are positive and finite.
+    pub fn from_semi_axes(a1: S, a3: S, density: S) -> Result<Self, Error> {
+        Self::new(a1, density, SpheroidShape::from_semi_axes(a1, a3)?)
+    }
+
+    /// From the mass, the mean radius `R = (a1^2 a3)^(1/3)` and the shape: `rho = 3 M / (4 pi R^3)`, `a1 = R q^(-1/3)`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless mass and radius are positive and finite.
+    pub fn from_mass(mass: S, mean_radius: S, shape: SpheroidShape<S>) -> Result<Self, Error> {
+        positive(mass.re(), "mass M")?;
+        positive(mean_radius.re(), "mean radius R")?;
+        let density = mass * (0.75 / PI) / (mean_radius * mean_radius * mean_radius);
+        Self::new(mean_radius / cube_root(shape.axis_ratio()), density, shape)
+    }
+
+    /// Equatorial semi-axis `a1`.
+    pub fn equatorial_radius(&self) -> S {
+        self.equatorial_radius
+    }
+
+    /// Polar semi-axis `a3`.
+    pub fn polar_radius(&self) -> S {
+        self.equatorial_radius * self.shape.axis_ratio()
+    }
+
+    /// Mean radius `R = (a1^2 a3)^(1/3)`.
+    pub fn mean_radius(&self) -> S {
+        self.equatorial_radius * cube_root(self.shape.axis_ratio())
+    }
+
+    /// Density.
+    pub fn density(&self) -> S {
+        self.density
+    }
+
+    /// Shape.
+    pub fn shape(&self) -> &SpheroidShape<S> {
+        &self.shape
+    }
+
+    /// Volume `(4 pi / 3) a1^2 a3`.
+    pub fn volume(&self) -> S {
+        self.equatorial_radius * self.equatorial_radius * self.polar_radius() * (4.0 * PI / 3.0)
+    }
+
+    /// Mass `rho V`.
+    pub fn mass(&self) -> S {
+        self.density * self.volume()
+    }
+
+    /// Second moments of the mass, `int rho x^2 d^3x = M a1^2 / 5` and `int rho z^2 d^3x = M a3^2 / 5`.
+    pub fn second_moments(&self) -> AxisymmetricTensor<S> {
+        let xx = self.mass() * self.equatorial_radius * self.equatorial_radius / 5.0;
+        AxisymmetricTensor { xx, zz: xx * self.shape.axis_ratio_squared() }
+    }
+
+    /// Moments of inertia `I^zz = (2/5) M a1^2 = (8 pi / 15) rho a1^4 a3` and `I^xx = I^yy = M (a1^2 + a3^2) / 5`.
+    pub fn moment_of_inertia(&self) -> AxisymmetricTensor<S> {
+        let moments = self.second_moments();
+        AxisymmetricTensor { xx: moments.xx + moments.zz, zz: moments.xx * 2.0 }
+    }
+
+    /// Oblateness `(I^zz - I^xx) / I^xx = e^2 / (2 - e^2)`, Eqs. (19) `[obl]` and (79).
+    pub fn oblateness(&self) -> S {
+        self.shape.oblateness()
+    }
+
+    /// Tensor `U^ij = int rho x^i d_j Phi d^3x`, Eqs. (15) and (17): `U^xx = 2 pi rho A_1 M a1^2 / 5`,
+    /// `U^zz = 2 pi rho A_3 M a3^2 / 5`. Its trace is minus the gravitational energy.
+    pub fn potential_energy_tensor(&self) -> AxisymmetricTensor<S> {
+        let (a, moments) = (potential_coefficients(&self.shape), self.second_moments());
+        let factor = self.density * (2.0 * PI);
+        AxisymmetricTensor { xx: factor * a.a1 * moments.xx, zz: factor * a.a3 * moments.zz }
+    }
+
+    /// Constant `C = (U^xx - U^zz) / 2 = (4 pi^2 / 15) rho^2 a1^2 a3 (a1^2 A_1 - a3^2 A_3)`, Eqs. (12) and (75), in units of
+    /// energy: positive for an oblate spheroid, exactly zero for the sphere, negative for a prolate one.
+    ///
+    /// About 4 ulp for exact `a1` and density, however small `e` is.
+    pub fn c(&self) -> S {
+        let surface_density = self.density * self.equatorial_radius * self.equatorial_radius;
+        let shape =
+            self.shape.axis_ratio_squared() * (self.shape.eccentricity_squared() * reduced_difference(&self.shape));
+        shape * FOUR_PI_SQUARED_OVER_15 * (surface_density * surface_density * self.equatorial_radius)
+    }
+
+    /// Ratio `C / I^zz = (pi rho / 2) (A_1 - q^2 A_3)` [1 / time^2]; regular at the sphere, where it is zero.
+    pub fn c_over_polar_inertia(&self) -> S {
+        self.density * potential_coefficients(&self.shape).difference * (0.5 * PI)
+    }
+
+    /// Ratio `I^zz / C` [time^2], whose estimate is Eq. (43); negative for a prolate spheroid.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for the sphere, where `C = 0`.
+    pub fn polar_inertia_over_c(&self) -> Result<S, Error> {
+        let ratio = self.c_over_polar_inertia();
+        Error::unless(ratio.re() != 0.0, "C / I^zz", ratio.re(), "not zero: a sphere has no anisotropic energy")?;
+        Ok(S::one() / ratio)
+    }
+
+    /// Unit of time `t_c = sqrt(I^xx / C)`, Eq. (35) `[unitt]`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless the spheroid is oblate.
+    pub fn time_unit(&self) -> Result<TimeUnit<S>, Error> {
+        TimeUnit::new(self.polar_inertia_over_c()? / (self.oblateness() + S::one()))
+    }
+}
+
+fn positive(value: f64, quantity: &'static str) -> Result<(), Error> {
+    Error::unless(value > 0.0 && value.is_finite(), quantity, value, "positive and finite")
+}
+
+fn cube_root<S: Real>(x: S) -> S {
+    (x.ln() / 3.0).exp()
+}

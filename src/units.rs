@@ -1,0 +1,121 @@
+//! Physical constants, and the geometrised units of the paper (G = c = 1) with the second as base.
+//!
+//! A unit is a constant: `x * unit` takes `x` of that unit into the base, `x / unit` takes it back.
+//!
+//! ```
+//! use twofold::units::geometrised::{GRAM_PER_CUBIC_CENTIMETRE, KILOMETRE, SOLAR_MASS};
+//!
+//! let density = 1e15 * GRAM_PER_CUBIC_CENTIMETRE; // 1/s^2
+//! assert!((density / 6.6743e7 - 1.0).abs() < 1e-12);
+//! let compactness = (1.4 * SOLAR_MASS) / (10.0 * KILOMETRE); // dimensionless
+//! assert!((compactness - 0.2067).abs() < 1e-4);
+//! ```
+
+use crate::error::Error;
+use crate::scalar::Real;
+
+/// Degree in rad.
+pub const DEGREE: f64 = core::f64::consts::PI / 180.0;
+
+/// Julian year in s: 365.25 days (IAU).
+pub const JULIAN_YEAR: f64 = 31_557_600.0;
+
+/// SI: metre, kilogram, second.
+pub mod si {
+    /// Newtonian constant of gravitation G [m^3 kg^-1 s^-2], CODATA 2018 and 2022; relative uncertainty 2.2e-5.
+    pub const GRAVITATIONAL_CONSTANT: f64 = 6.674_30e-11;
+    /// Speed of light c [m/s], exact.
+    pub const SPEED_OF_LIGHT: f64 = 299_792_458.0;
+    /// Nominal solar mass parameter G M_sun [m^3 s^-2], IAU 2015 Resolution B3, exact by convention.
+    pub const SOLAR_MASS_PARAMETER: f64 = 1.327_124_4e20;
+    /// Solar mass in kg, `G M_sun / G`: no better known than G.
+    pub const SOLAR_MASS: f64 = SOLAR_MASS_PARAMETER / GRAVITATIONAL_CONSTANT;
+    /// Density of one gram per cubic centimetre [kg m^-3].
+    pub const GRAM_PER_CUBIC_CENTIMETRE: f64 = 1e3;
+}
+
+/// CGS: centimetre, gram, second.
+pub mod cgs {
+    /// Newtonian constant of gravitation G [cm^3 g^-1 s^-2].
+    pub const GRAVITATIONAL_CONSTANT: f64 = super::si::GRAVITATIONAL_CONSTANT * 1e3;
+    /// Speed of light c [cm/s].
+    pub const SPEED_OF_LIGHT: f64 = super::si::SPEED_OF_LIGHT * 1e2;
+    /// Solar mass in g.
+    pub const SOLAR_MASS: f64 = super::si::SOLAR_MASS * 1e3;
+}
+
+/// Units of mass, length, time, frequency and density as powers of the second, with G = c = 1.
+pub mod geometrised {
+    use super::si::{GRAVITATIONAL_CONSTANT as G, SOLAR_MASS_PARAMETER, SPEED_OF_LIGHT as C};
+
+    /// Second: the base.
+    pub const SECOND: f64 = 1.0;
+    /// Metre in s, `1 m / c`.
+    pub const METRE: f64 = 1.0 / C;
+    /// Kilometre in s.
+    pub const KILOMETRE: f64 = 1e3 / C;
+    /// Centimetre in s.
+    pub const CENTIMETRE: f64 = 1e-2 / C;
+    /// Kilogram in s, `G (1 kg) / c^3`.
+    pub const KILOGRAM: f64 = G / (C * C * C);
+    /// Gram in s.
+    pub const GRAM: f64 = 1e-3 * KILOGRAM;
+    /// Solar mass in s, `G M_sun / c^3`: 4.9255 microseconds.
+    pub const SOLAR_MASS: f64 = SOLAR_MASS_PARAMETER / (C * C * C);
+    /// Kilogram per cubic metre [s^-2], `G (1 kg m^-3)`.
+    pub const KILOGRAM_PER_CUBIC_METRE: f64 = G;
+    /// Gram per cubic centimetre [s^-2].
+    pub const GRAM_PER_CUBIC_CENTIMETRE: f64 = G * 1e3;
+    /// Joule in s, `G (1 J) / c^5`.
+    pub const JOULE: f64 = KILOGRAM / (C * C);
+    /// Erg in s.
+    pub const ERG: f64 = 1e-7 * JOULE;
+    /// One cycle per second as an angular frequency [rad/s].
+    pub const HERTZ: f64 = 2.0 * core::f64::consts::PI;
+}
+
+/// The unit of time `t_c = sqrt(I^xx / C)` of the paper's solutions, Eq. (35) `[unitt]`.
+///
+/// In it `C = I^xx = 1`: angular frequencies are in `1 / t_c`, energies in `C`, angular momenta in `I^xx / t_c`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeUnit<S> {
+    seconds: S,
+}
+
+impl<S: Real> TimeUnit<S> {
+    /// From `I^xx / C` [s^2].
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless `I^xx / C` is positive and finite: a sphere (`C = 0`) has no such unit, a prolate star
+    /// (`C < 0`) would need the opposite sign in Eq. (35).
+    pub fn new(inertia_over_c: S) -> Result<Self, Error> {
+        let value = inertia_over_c.re();
+        Error::unless(value > 0.0 && value.is_finite(), "I^xx / C", value, "positive and finite: an oblate star")?;
+        Ok(Self { seconds: inertia_over_c.sqrt() })
+    }
+
+    /// `t_c`, in the unit of time that `I^xx / C` was given in, seconds as a rule.
+    pub fn seconds(&self) -> S {
+        self.seconds
+    }
+
+    /// A time in units of `t_c`, in seconds.
+    pub fn in_seconds(&self, time: S) -> S {
+        time * self.seconds
+    }
+
+    /// A time in seconds, in units of `t_c`.
+    pub fn in_t_c(&self, seconds: S) -> S {
+        seconds / self.seconds
+    }
+
+    /// An angular frequency in rad per `t_c`, in rad/s.
+    pub fn in_radians_per_second(&self, omega: S) -> S {
+        omega / self.seconds
+    }
+
+    /// An angular frequency in rad per `t_c`, in cycles per second.
+    pub fn in_hertz(&self, omega: S) -> S {
+        self.in_radians_per_second(omega) / geometrised::HERTZ
+    }
+}

@@ -1,0 +1,191 @@
+//! Numbers for neutron stars: centrifugal oblateness, I^zz / C, the unit of time, and where the estimates hold.
+
+use std::f64::consts::PI;
+
+use twofold::star::deformation::{
+    PRINTED_CENTRIFUGAL_COEFFICIENT, centrifugal_coefficient, centrifugal_oblateness, centrifugal_oblateness_scaled,
+};
+use twofold::star::estimates::{inertia_over_c_estimate, time_unit_estimate};
+use twofold::star::maclaurin::MaclaurinSpheroid;
+use twofold::star::spheroid_shape::SpheroidShape;
+use twofold::star::uniform_spheroid::UniformSpheroid;
+use twofold::units::geometrised::{GRAM_PER_CUBIC_CENTIMETRE, HERTZ, KILOMETRE, SOLAR_MASS};
+use twofold::units::{TimeUnit, cgs, geometrised, si};
+
+use super::relative;
+use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::physical_domain::worst_over;
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "star-centrifugal-numbers",
+            kind: Kind::Oracle,
+            equations: &[20],
+            statement: "the centrifugal oblateness is 2.1e-3 at 100 Hz, 10 km, 1.4 solar masses, as printed, and 0.08 at 1.6 ms",
+            figure: "largest deviation / half a unit of the printed last digit",
+            bound: Bound::AtMost(1.0),
+            reason: "rounding to the printed digits",
+            measure: centrifugal_numbers,
+        },
+        Check {
+            id: "star-centrifugal-forms",
+            kind: Kind::Property,
+            equations: &[20],
+            statement: "both forms of Eq. (20) agree, through geometrised units",
+            figure: "largest relative error / 2.2e-16",
+            bound: Bound::AtMost(16.0),
+            reason: "about a dozen products on either side",
+            measure: centrifugal_forms,
+        },
+        Check {
+            id: "star-estimate-numbers",
+            kind: Kind::Oracle,
+            equations: &[43, 58],
+            statement: "at 1e15 g/cm^3, I^zz / C is 1.79e-5 s^2 for oblateness 1e-3, and t_c is 1.34 s for 1e-8 and 0.42 ms for 0.1",
+            figure: "largest deviation / half a unit of the last digit given here",
+            bound: Bound::AtMost(1.0),
+            reason: "rounding to these digits",
+            measure: estimate_numbers,
+        },
+        Check {
+            id: "star-estimate-magnitudes",
+            kind: Kind::Oracle,
+            equations: &[43, 58],
+            statement: "the printed orders of magnitude, 1e-5 s^2, 1 s and 1e-3 s, are those of the estimates",
+            figure: "largest |log10(ours / printed)|",
+            bound: Bound::AtMost(0.5),
+            reason: "the nearest power of ten",
+            measure: estimate_magnitudes,
+        },
+        Check {
+            id: "star-estimate-regime",
+            kind: Kind::Regime,
+            equations: &[35, 43, 58, 79],
+            statement: "I^zz / C of the uniform spheroid is its estimate times 1 + (5/7) eps + O(eps^2), and t_c^2 that over 1 + eps",
+            figure: "measured order of what is left, between eps = 0.02 and 0.01, farthest from 2",
+            bound: Bound::Within(1.95, 2.05),
+            reason: "the next term changes the order by about eps",
+            measure: estimate_regime,
+        },
+        Check {
+            id: "star-centrifugal-regime",
+            kind: Kind::Regime,
+            equations: &[20, 77, 79],
+            statement: "the oblateness of a Maclaurin spheroid is 5/4 of |Omega|^2 R^3 / M at small rates",
+            figure: "measured order of the relative deviation between eps = 0.02 and 0.01",
+            bound: Bound::Within(0.95, 1.05),
+            reason: "the next term changes the order by about eps",
+            measure: centrifugal_regime,
+        },
+        Check {
+            id: "star-units",
+            kind: Kind::Oracle,
+            equations: &[35],
+            statement: "G M_sun / c^3 is 4.925491 microseconds, G M_sun / c^2 1.476625 km, M_sun 1.98841e33 g, and the units agree \
+                        with each other",
+            figure: "largest deviation / half a unit of the last digit given here",
+            bound: Bound::AtMost(1.0),
+            reason: "published values (IAU 2015 B3 and CODATA 2018), rounded",
+            measure: units,
+        },
+    ]
+}
+
+/// The largest deviation in units of half a last digit: `(value, stated, last digit)`.
+fn against_digits(numbers: &[(f64, f64, f64)]) -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for &(value, stated, last_digit) in numbers {
+        worst.see((value - stated).abs() / (0.5 * last_digit), || format!("{value:e} where {stated:e} is stated"));
+    }
+    worst.finish()
+}
+
+fn centrifugal_numbers() -> Result<Measured, String> {
+    against_digits(&[
+        (centrifugal_coefficient(), PRINTED_CENTRIFUGAL_COEFFICIENT, 1e-4),
+        (centrifugal_oblateness_scaled(100.0, 10.0, 1.4), 2.1e-3, 1e-4),
+        (centrifugal_oblateness_scaled(1.0 / 1.6e-3, 10.0, 1.4), 0.08, 0.01),
+        (centrifugal_oblateness_scaled(70.0, 10.0, 1.4), 1e-3, 1e-3),
+    ])
+}
+
+fn centrifugal_forms() -> Result<Measured, String> {
+    worst_over(61, 200, &(1.0..1000.0f64, 8.0..15.0f64, 1.0..2.5f64), |&(frequency, radius, mass)| {
+        let exact = centrifugal_oblateness(frequency * HERTZ, radius * KILOMETRE, mass * SOLAR_MASS);
+        Ok(relative(centrifugal_oblateness_scaled(frequency, radius, mass), exact) / f64::EPSILON)
+    })
+}
+
+const DENSITY: f64 = 1e15 * GRAM_PER_CUBIC_CENTIMETRE;
+
+fn estimates() -> Result<[f64; 3], String> {
+    let seconds = |oblateness| time_unit_estimate(DENSITY, oblateness).map(|t| t.seconds()).map_err(|e| e.to_string());
+    Ok([inertia_over_c_estimate(DENSITY, 1e-3), seconds(1e-8)?, seconds(0.1)?])
+}
+
+fn estimate_numbers() -> Result<Measured, String> {
+    let [ratio, rigid, example] = estimates()?;
+    against_digits(&[(ratio, 1.79e-5, 1e-7), (rigid, 1.34, 0.01), (example, 4.2e-4, 1e-5)])
+}
+
+fn estimate_magnitudes() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for (ours, printed) in estimates()?.into_iter().zip([1e-5, 1.0, 1e-3]) {
+        worst.see((ours / printed).log10().abs(), || format!("{ours:e} where {printed:e} is printed"));
+    }
+    worst.finish()
+}
+
+fn spheroid(oblateness: f64) -> Result<UniformSpheroid<f64>, String> {
+    let shape = SpheroidShape::from_oblateness(oblateness).map_err(|e| e.to_string())?;
+    UniformSpheroid::new(1.0, 1.0, shape).map_err(|e| e.to_string())
+}
+
+fn estimate_regime() -> Result<Measured, String> {
+    let left = |eps: f64| {
+        let star = spheroid(eps)?;
+        let estimate = inertia_over_c_estimate(1.0, eps);
+        let ratio = star.polar_inertia_over_c().map_err(|e| e.to_string())? / estimate;
+        let t_c = star.time_unit().map_err(|e| e.to_string())?.seconds();
+        let estimated_t_c = time_unit_estimate(1.0, eps).map_err(|e| e.to_string())?.seconds();
+        let first = 1.0 + 5.0 / 7.0 * eps;
+        // The quotient of the two first-order factors differs from 1 + (5/7 - 1) eps at second order, as wanted here.
+        Ok::<_, String>([ratio - first, (t_c / estimated_t_c).powi(2) - (1.0 - 2.0 / 7.0 * eps)])
+    };
+    let (coarse, fine) = (left(0.02)?, left(0.01)?);
+    let orders = [0, 1].map(|i| (coarse[i] / fine[i]).log2());
+    let farthest = if (orders[0] - 2.0).abs() > (orders[1] - 2.0).abs() { orders[0] } else { orders[1] };
+    Ok(Measured::new(farthest, format!("orders of I^zz / C and t_c^2: {orders:?}")))
+}
+
+fn centrifugal_regime() -> Result<Measured, String> {
+    let deviation = |eps: f64| {
+        let star = MaclaurinSpheroid::new(spheroid(eps)?).map_err(|e| e.to_string())?;
+        let (rate, body) = (star.rotation_rate(), star.spheroid());
+        Ok::<_, String>(eps / (1.25 * centrifugal_oblateness(rate, body.mean_radius(), body.mass())) - 1.0)
+    };
+    let (coarse, fine) = (deviation(0.02)?, deviation(0.01)?);
+    Ok(Measured::new((coarse / fine).log2(), format!("relative deviations {coarse:e}, {fine:e}")))
+}
+
+fn units() -> Result<Measured, String> {
+    let exact = 1e-15;
+    let t_c = TimeUnit::new(4.0).map_err(|e| e.to_string())?;
+    against_digits(&[
+        (geometrised::SOLAR_MASS, 4.925_491e-6, 1e-12),
+        (geometrised::SOLAR_MASS / geometrised::KILOMETRE, 1.476_625, 1e-6),
+        (cgs::SOLAR_MASS, 1.988_41e33, 1e28),
+        (geometrised::SOLAR_MASS / (si::SOLAR_MASS * geometrised::KILOGRAM), 1.0, exact),
+        (geometrised::KILOMETRE / (1e5 * geometrised::CENTIMETRE), 1.0, exact),
+        // A density as mass over volume, in powers of the second.
+        (geometrised::GRAM / geometrised::CENTIMETRE.powi(3) / GRAM_PER_CUBIC_CENTIMETRE, 1.0, 4.0 * exact),
+        (geometrised::ERG / (geometrised::GRAM * (1.0 / cgs::SPEED_OF_LIGHT).powi(2)), 1.0, 4.0 * exact),
+        (t_c.in_seconds(3.0), 6.0, exact),
+        (t_c.in_t_c(6.0), 3.0, exact),
+        (t_c.in_radians_per_second(3.0), 1.5, exact),
+        (t_c.in_hertz(4.0 * PI), 1.0, exact),
+        (twofold::units::DEGREE * 180.0, PI, exact),
+        (twofold::units::JULIAN_YEAR / 86_400.0, 365.25, exact),
+    ])
+}

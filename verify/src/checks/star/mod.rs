@@ -1,0 +1,45 @@
+//! The star: potential coefficients, the constant C, equilibrium, estimates.
+
+mod energy;
+mod equilibrium;
+mod estimates;
+mod multiprecision_table;
+mod potential_coefficients;
+mod shape;
+
+use twofold::star::spheroid_shape::SpheroidShape;
+use twofold::star::uniform_spheroid::UniformSpheroid;
+
+use crate::check::Check;
+
+/// Checks of this subject.
+pub fn checks() -> Vec<Check> {
+    [
+        multiprecision_table::checks(),
+        potential_coefficients::checks(),
+        shape::checks(),
+        energy::checks(),
+        equilibrium::checks(),
+        estimates::checks(),
+    ]
+    .concat()
+}
+
+/// Spheroid with `a1 = rho = 1`.
+fn unit_spheroid(axis_ratio: f64) -> Result<UniformSpheroid<f64>, String> {
+    let shape = SpheroidShape::from_axis_ratio(axis_ratio).map_err(|e| e.to_string())?;
+    UniformSpheroid::new(1.0, 1.0, shape).map_err(|e| e.to_string())
+}
+
+/// `A_1`, `A_2`, `A_3` of Eq. (73) by the Carlson integrals of the crate `ellip`.
+fn coefficients_by_ellip([a1, a2, a3]: [f64; 3]) -> Result<[f64; 3], String> {
+    let (x, y, z) = (a1 * a1, a2 * a2, a3 * a3);
+    let factor = 2.0 / 3.0 * a1 * a2 * a3;
+    let rd = |x, y, z| ellip::elliprd(x, y, z).map(|r| factor * r).map_err(|e| format!("{e:?}"));
+    Ok([rd(y, z, x)?, rd(z, x, y)?, rd(x, y, z)?])
+}
+
+/// Relative difference.
+fn relative(value: f64, reference: f64) -> f64 {
+    ((value - reference) / reference).abs()
+}

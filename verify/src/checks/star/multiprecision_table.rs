@@ -1,0 +1,171 @@
+//! Coefficients A_0, A_1, A_3 and C with their derivatives against a table of 34-digit values.
+
+use num_dual::{Dual2_64, Dual64};
+use twofold::star::potential_coefficients::potential_coefficients;
+use twofold::star::spheroid_shape::SpheroidShape;
+use twofold::star::uniform_spheroid::UniformSpheroid;
+use twofold::{Error, Real};
+
+use crate::check::{Bound, Check, Kind, Measured, Worst};
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "star-coefficients-table",
+            kind: Kind::Oracle,
+            equations: &[74],
+            statement: "A_0, A_1, A_3 agree with 34-digit values from e = 0 through 1e-12 to 0.999 and from a3/a1 = 1 to 10",
+            figure: "largest error / ulp",
+            bound: Bound::AtMost(4.0),
+            reason: "about ten roundings without cancellation; 3.2 ulp were seen at 12,000 random shapes",
+            measure: coefficients_against_table,
+        },
+        Check {
+            id: "star-c-table",
+            kind: Kind::Oracle,
+            equations: &[75],
+            statement: "C agrees with 34-digit values from e = 0 through 1e-12 to 0.999 and from a3/a1 = 1 to 10",
+            figure: "largest error / ulp",
+            bound: Bound::AtMost(4.0),
+            reason: "about ten roundings without cancellation; 4.4 ulp were seen at 12,000 random shapes",
+            measure: c_against_table,
+        },
+        Check {
+            id: "star-derivatives-table",
+            kind: Kind::Autodiff,
+            equations: &[74, 75],
+            statement: "first and second derivatives of A_0, A_1, A_3, C with respect to e^2, and first ones with respect to e, \
+                        agree with 34-digit values, at e = 0 as elsewhere",
+            figure: "largest error / (2.2e-16 size), size = sum of |derivatives| to that order / min(1, q^2)",
+            bound: Bound::AtMost(8.0),
+            reason: "thrice the roundings of the value; e^2 given to an ulp leaves q^2 = 1 - e^2 with 1 / q^2 of it",
+            measure: derivatives_against_table,
+        },
+    ]
+}
+
+/// A row of the table: the shape's parameter, and value and two derivatives in `e^2` of A_0, A_1, A_3, C as decimals.
+struct Row {
+    prolate: bool,
+    parameter: f64,
+    entries: [[String; 3]; 4],
+}
+
+impl Row {
+    fn name(&self) -> String {
+        format!("{} = {}", if self.prolate { "a3/a1" } else { "e" }, self.parameter)
+    }
+
+    fn eccentricity_squared(&self) -> f64 {
+        let p = self.parameter;
+        if self.prolate { (1.0 - p) * (1.0 + p) } else { p * p }
+    }
+
+    fn shape(&self) -> Result<SpheroidShape<f64>, Error> {
+        match self.prolate {
+            true => SpheroidShape::from_axis_ratio(self.parameter),
+            false => SpheroidShape::from_eccentricity(self.parameter),
+        }
+    }
+
+    fn number(&self, function: usize, order: usize) -> f64 {
+        self.entries[function][order].parse().expect("a number of the table")
+    }
+}
+
+fn table() -> Vec<Row> {
+    let text = include_str!("../../../data/spheroid.csv");
+    csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes())
+        .records()
+        .map(|record| {
+            let record = record.expect("a row of the table");
+            Row {
+                prolate: &record[0] == "prolate",
+                parameter: record[1].parse().expect("a parameter"),
+                entries: [0, 1, 2, 3].map(|f| [0, 1, 2].map(|order| record[2 + 3 * f + order].to_owned())),
+            }
+        })
+        .collect()
+}
+
+/// `value - decimal` to 33 digits of either, in ulp of the decimal's nearest double.
+fn error_in_ulp(value: f64, decimal: &str) -> f64 {
+    let nearest: f64 = decimal.parse().expect("a decimal");
+    let ulp = if nearest == 0.0 { f64::MIN_POSITIVE } else { nearest.abs().next_up() - nearest.abs() };
+    let error = match (digits(&format!("{value:.33e}")), digits(decimal)) {
+        ((a, p), (b, r)) if a != 0 && b != 0 && (p - r).abs() <= 3 => {
+            let low = p.min(r);
+            let (a, b) = (a * 10i128.pow((p - low) as u32), b * 10i128.pow((r - low) as u32));
+            (a - b) as f64 * 10f64.powi(low)
+        }
+        _ => value - nearest,
+    };
+    error.abs() / ulp
+}
+
+/// Mantissa and decimal exponent of a decimal number with at most 35 digits.
+fn digits(decimal: &str) -> (i128, i32) {
+    let (mantissa, exponent) = decimal.split_once('e').unwrap_or((decimal, "0"));
+    let fraction = mantissa.split_once('.').map_or(0, |(_, f)| f.len());
+    let exponent: i32 = exponent.parse().expect("an exponent");
+    (mantissa.replace('.', "").parse().expect("digits"), exponent - fraction as i32)
+}
+
+fn text(e: Error) -> String {
+    e.to_string()
+}
+
+fn coefficients_against_table() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for row in table() {
+        let a = potential_coefficients(&row.shape().map_err(text)?);
+        for (i, value) in [a.a0, a.a1, a.a3].into_iter().enumerate() {
+            worst.see(error_in_ulp(value, &row.entries[i][0]), || format!("A_{} at {}", [0, 1, 3][i], row.name()));
+        }
+    }
+    worst.finish()
+}
+
+fn c_against_table() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for row in table() {
+        let spheroid = UniformSpheroid::new(1.0, 1.0, row.shape().map_err(text)?).map_err(text)?;
+        worst.see(error_in_ulp(spheroid.c(), &row.entries[3][0]), || format!("C at {}", row.name()));
+    }
+    worst.finish()
+}
+
+fn four<S: Real>(shape: SpheroidShape<S>) -> Result<[S; 4], Error> {
+    let a = potential_coefficients(&shape);
+    Ok([a.a0, a.a1, a.a3, UniformSpheroid::new(S::one(), S::one(), shape)?.c()])
+}
+
+fn derivatives_against_table() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for row in table() {
+        let e2 = row.eccentricity_squared();
+        let by_e2 = four(SpheroidShape::from_eccentricity_squared(Dual2_64::new(e2, 1.0, 0.0)).map_err(text)?);
+        for (i, f) in by_e2.map_err(text)?.into_iter().enumerate() {
+            let size = row.number(i, 0).abs() + row.number(i, 1).abs();
+            let unit = f64::EPSILON / (1.0 - e2).min(1.0);
+            let first = (f.v1 - row.number(i, 1)).abs() / (unit * size);
+            let second = (f.v2 - row.number(i, 2)).abs() / (unit * (size + row.number(i, 2).abs()));
+            worst.see(first, || format!("d/d(e^2) of function {i} at {}", row.name()));
+            worst.see(second, || format!("d2/d(e^2)2 of function {i} at {}", row.name()));
+        }
+        if !row.prolate {
+            let e = row.parameter;
+            let by_e = four(SpheroidShape::from_eccentricity(Dual64::new(e, 1.0)).map_err(text)?).map_err(text)?;
+            for (i, f) in by_e.into_iter().enumerate() {
+                let exact = 2.0 * e * row.number(i, 1);
+                let size = row.number(i, 0).abs() * e + exact.abs();
+                let error = (f.eps - exact).abs();
+                let figure = if error == 0.0 { 0.0 } else { error * (1.0 - e2) / (f64::EPSILON * size) };
+                worst.see(figure, || format!("d/de of function {i} at {}", row.name()));
+            }
+        }
+    }
+    worst.finish()
+}
