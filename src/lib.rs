@@ -11,6 +11,7 @@ pub mod euler_angles;
 pub mod lorentz_violation;
 pub mod observables;
 pub mod propagation;
+mod rounding;
 pub mod scalar;
 pub mod solutions;
 pub mod star;

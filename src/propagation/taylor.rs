@@ -6,6 +6,7 @@ use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::Motion;
 use crate::propagation::series::Series;
+use crate::rounding::two_sum;
 use crate::scalar::{Real, Scalar, real_part};
 
 /// Smallest and largest accuracy that [`propagate`] takes.
@@ -271,13 +272,6 @@ impl<S: Scalar> CompensatedState<S> {
         add(&mut self.high.momentum, &mut self.low.momentum, &change.momentum);
         add(&mut self.high.equatorial_axis, &mut self.low.equatorial_axis, &change.equatorial_axis);
     }
-}
-
-/// Knuth's exact sum: `a + b = sum + lost`. Linear, so it acts on each derivative of a dual as on its real part.
-fn two_sum<S: Scalar>(a: S, b: S) -> (S, S) {
-    let sum = a + b;
-    let b_part = sum - a;
-    (sum, (a - (sum - b_part)) + (b - b_part))
 }
 
 fn check_input<S: Real>(

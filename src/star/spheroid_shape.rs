@@ -1,6 +1,7 @@
 //! Shape of a spheroid: axis ratio, eccentricity, oblateness. Eqs. (10), (72), (79).
 
 use crate::error::Error;
+use crate::rounding::{two_product, two_sum};
 use crate::scalar::Real;
 
 /// Shape of the spheroid `(x^2 + y^2) / a1^2 + z^2 / a3^2 = 1`, Eq. (10) `[spheroid]`: oblate, spherical or prolate.
@@ -13,6 +14,8 @@ pub struct SpheroidShape<S> {
     axis_ratio: S,
     axis_ratio_squared: S,
     eccentricity_squared: S,
+    /// What the rounding of `q^2` and of `e^2` lost, where it is known.
+    lost: (S, S),
 }
 
 impl<S: Real> SpheroidShape<S> {
@@ -22,10 +25,9 @@ impl<S: Real> SpheroidShape<S> {
     /// [`Error::Domain`] unless `0 <= e < 1`.
     pub fn from_eccentricity(e: S) -> Result<Self, Error> {
         Error::unless((0.0..1.0).contains(&e.re()), "eccentricity e", e.re(), "0 <= e < 1")?;
-        let e2 = e * e;
-        // 1 - e is exact for e >= 1/2, 1 - e^2 is not.
-        let q2 = if e.re() < 0.5 { S::one() - e2 } else { (S::one() - e) * (S::one() + e) };
-        Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2 })
+        let (e2, e2_lost) = two_product(e, e);
+        let (q2, q2_lost) = one_minus(e2, e2_lost);
+        Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost: (q2_lost, e2_lost) })
     }
 
     /// From `e^2 = 1 - (a3 / a1)^2`, Eq. (72) `[ecc]`; negative for a prolate spheroid. Regular at zero for derivatives.
@@ -34,8 +36,8 @@ impl<S: Real> SpheroidShape<S> {
     /// [`Error::Domain`] unless `-1e200 <= e^2 < 1`.
     pub fn from_eccentricity_squared(e2: S) -> Result<Self, Error> {
         Error::unless((-1e200..1.0).contains(&e2.re()), "squared eccentricity e^2", e2.re(), "-1e200 <= e^2 < 1")?;
-        let q2 = S::one() - e2;
-        Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2 })
+        let (q2, lost) = one_minus(e2, S::zero());
+        Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost: (lost, S::zero()) })
     }
 
     /// From the axis ratio `q = a3 / a1`: below one oblate, above one prolate.
@@ -45,8 +47,9 @@ impl<S: Real> SpheroidShape<S> {
     pub fn from_axis_ratio(q: S) -> Result<Self, Error> {
         let allowed = "1e-100 to 1e100, so that no power of it over- or underflows";
         Error::unless((1e-100..=1e100).contains(&q.re()), "axis ratio a3 / a1", q.re(), allowed)?;
-        let q2 = q * q;
-        Ok(Self { axis_ratio: q, axis_ratio_squared: q2, eccentricity_squared: (S::one() - q) * (S::one() + q) })
+        let (q2, q2_lost) = two_product(q, q);
+        let (e2, e2_lost) = one_minus(q2, q2_lost);
+        Ok(Self { axis_ratio: q, axis_ratio_squared: q2, eccentricity_squared: e2, lost: (q2_lost, e2_lost) })
     }
 
     /// From the semi-axes `a1` (equatorial) and `a3` (polar).
@@ -59,7 +62,8 @@ impl<S: Real> SpheroidShape<S> {
         }
         let shape = Self::from_axis_ratio(a3 / a1)?;
         // a1 - a3 is exact for axes within a factor of two.
-        Ok(Self { eccentricity_squared: ((a1 - a3) / a1) * ((a1 + a3) / a1), ..shape })
+        let e2 = ((a1 - a3) / a1) * ((a1 + a3) / a1);
+        Ok(Self { eccentricity_squared: e2, lost: (S::zero(), S::zero()), ..shape })
     }
 
     /// From the oblateness `epsilon` of the uniform spheroid, the inverse of Eq. (79): `e^2 = 2 epsilon / (1 + epsilon)`.
@@ -70,7 +74,8 @@ impl<S: Real> SpheroidShape<S> {
         Error::unless(epsilon.re().abs() < 1.0, "oblateness epsilon", epsilon.re(), "-1 < epsilon < 1")?;
         let q2 = (S::one() - epsilon) / (S::one() + epsilon);
         let e2 = epsilon * 2.0 / (S::one() + epsilon);
-        Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2 })
+        let lost = (S::zero(), S::zero());
+        Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost })
     }
 
     /// Axis ratio `q = a3 / a1`.
@@ -88,8 +93,20 @@ impl<S: Real> SpheroidShape<S> {
         self.eccentricity_squared
     }
 
+    /// What the rounding of [`axis_ratio_squared`](Self::axis_ratio_squared) and of
+    /// [`eccentricity_squared`](Self::eccentricity_squared) lost, zero where that is not known.
+    pub(crate) fn lost(&self) -> (S, S) {
+        self.lost
+    }
+
     /// Oblateness `epsilon = e^2 / (2 - e^2)` of the uniform spheroid, Eq. (79).
     pub fn oblateness(&self) -> S {
         self.eccentricity_squared / (self.axis_ratio_squared + S::one())
     }
+}
+
+/// `1 - (x + lost)`, and what its rounding lost.
+fn one_minus<S: Real>(x: S, lost: S) -> (S, S) {
+    let (difference, first) = two_sum(S::one(), -x);
+    two_sum(difference, first - lost)
 }

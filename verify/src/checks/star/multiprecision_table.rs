@@ -17,7 +17,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "A_0, A_1, A_3 agree with 34-digit values from e = 0 through 1e-12 to 0.999 and from a3/a1 = 1 to 10",
             figure: "largest error / ulp",
             bound: Bound::AtMost(4.0),
-            reason: "about ten roundings without cancellation; 3.2 ulp were seen at 12,000 random shapes",
+            reason: "about ten roundings without cancellation; 3.6 ulp were seen at 100,000 random shapes",
             measure: coefficients_against_table,
         },
         Check {
@@ -27,7 +27,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "C agrees with 34-digit values from e = 0 through 1e-12 to 0.999 and from a3/a1 = 1 to 10",
             figure: "largest error / ulp",
             bound: Bound::AtMost(4.0),
-            reason: "about ten roundings without cancellation; 4.4 ulp were seen at 12,000 random shapes",
+            reason: "about ten roundings without cancellation; 3.3 ulp were seen at 100,000 random shapes",
             measure: c_against_table,
         },
         Check {
