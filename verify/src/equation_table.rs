@@ -198,6 +198,7 @@ pub const EQUATIONS: &[Equation] = &[
         &[
             "solutions::perturbation::linearised::printed_residuals",
             "solutions::perturbation::linearised::full_residuals",
+            "solutions::perturbation::Kind",
         ],
         &[],
     ),
@@ -351,7 +352,8 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
             "elliptic::jacobi::jacobi",
         ],
     ),
-    ("errors at public boundaries", &["error::Error"]),
+    ("errors at public boundaries", &["Error"]),
+    ("densities for the quadrature", &["star::axisymmetric::AxisymmetricBody"]),
 ];
 
 /// The table as the Markdown page `docs/equations.md`.

@@ -49,7 +49,7 @@ impl GoldenLine {
             Printed::No => "-".to_string(),
         };
         format!(
-            "{:<width$}  printed {:>9}  ours {:>15}  {}",
+            "{:<width$}  printed {:>11}  ours {:>15}  {}",
             self.label,
             printed,
             significant(self.ours),

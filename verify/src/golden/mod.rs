@@ -2,6 +2,7 @@
 
 mod captions;
 mod line;
+mod star;
 
 pub use line::{GoldenLine, Printed};
 
@@ -32,5 +33,5 @@ impl std::fmt::Display for GoldenTable {
 /// # Errors
 /// If a number cannot be computed.
 pub fn tables() -> Result<Vec<GoldenTable>, twofold::Error> {
-    Ok(vec![captions::initial_values()?, captions::constants()?])
+    Ok(vec![captions::initial_values()?, captions::constants()?, star::estimates()?, star::expansions()?])
 }
