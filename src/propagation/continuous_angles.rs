@@ -2,7 +2,10 @@
 
 use core::f64::consts::TAU;
 
-use crate::dynamics::BodyState;
+use nalgebra::Vector3;
+
+use crate::dynamics::regular_equations::{angular_velocity, reduced_rates};
+use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::euler_angles::EulerAngles;
 use crate::propagation::Motion;
@@ -75,18 +78,40 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
         })
     }
 
-    /// Whether no azimuth can have turned by a quarter between two states, by a bound on the speed of the directions.
+    /// Whether no azimuth can have turned by a quarter between two states, as seen from either of them. Between two
+    /// states on the pole there is nothing to count.
     fn resolved(&self, from: &BodyState<f64>, to: &BodyState<f64>, duration: f64) -> bool {
-        let spheroid = self.motion.spheroid();
-        let (xx, zz) = (spheroid.inertia_xx.re(), spheroid.inertia_zz.re());
-        let pull = 2.0 * spheroid.constant_c.re().abs() * self.motion.violation().map(S::re).norm();
-        let momentum = from.momentum.norm().max(to.momentum.norm()) + pull * duration.abs();
-        // |Omega| is at most |L| over the smaller moment of inertia.
-        let arc = momentum / xx.min(zz) * duration.abs();
-        // A path shorter than the distance to the pole turns its azimuth by less than a quarter; sin(beta) is below that
-        // distance.
-        let off_pole = |state: &BodyState<f64>| state.axis.x.hypot(state.axis.y);
-        arc < off_pole(from).min(off_pole(to))
+        let on_pole = |state: &BodyState<f64>| off_pole(state) <= f64::EPSILON;
+        self.stays_aside(from, duration) || self.stays_aside(to, duration) || (on_pole(from) && on_pole(to))
+    }
+
+    /// Whether over a time `t` from `state` both the path of `n` and that of Z in the body stay shorter than the distance
+    /// to the pole; sin(beta) is below that distance, and such a path turns its azimuth by less than a quarter.
+    ///
+    /// The bounds shrink with that distance where `n`, `L` and a principal axis are near Z, so that a body spinning there
+    /// costs no more than another: with `v = |dn/dt|`, `w >= |L| / I^xx`, the angular acceleration `g` of the torque now and
+    /// `k |dn|` its change, the path `p` of `n` obeys `p'' <= w p' + k p + g`, hence
+    /// `p <= (v t + g t^2 / 2) exp((w + sqrt(k)) t)`. The rate of Z in the body, `|Omega x Z|`, changes by
+    /// `g t + k int p dt + |I^zz - I^xx| |Omega^z| p / I^xx` at most.
+    fn stays_aside(&self, state: &BodyState<f64>, duration: f64) -> bool {
+        let spheroid = RigidSpheroid {
+            inertia_xx: self.motion.spheroid().inertia_xx.re(),
+            inertia_zz: self.motion.spheroid().inertia_zz.re(),
+            constant_c: self.motion.spheroid().constant_c.re(),
+        };
+        let s = self.motion.violation().map(S::re);
+        let (xx, t) = (spheroid.inertia_xx, duration.abs());
+        let (axis_rate, torque) = reduced_rates(&spheroid, &s, &state.axis, &state.momentum);
+        let acceleration = torque.norm() / xx;
+        let k = 4.0 * spheroid.constant_c.abs() * s.norm() / xx;
+        let w = state.momentum.norm() / xx + k * t;
+        let axis_path = (axis_rate.norm() * t + acceleration * t * t / 2.0) * ((w + k.sqrt()) * t).exp();
+        let spin = state.momentum.dot(&state.axis) / spheroid.inertia_zz;
+        let z_rate = angular_velocity(&spheroid, &state.axis, &state.momentum).cross(&Vector3::z()).norm();
+        let z_path = z_rate * t
+            + acceleration * t * t / 2.0
+            + (k * t * t / 2.0 + (spheroid.oblateness() * spin).abs() * t) * axis_path;
+        axis_path.max(z_path) < off_pole(state)
     }
 
     fn count(&mut self, state: &BodyState<f64>) {
@@ -100,6 +125,11 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
             },
         });
     }
+}
+
+/// Distance of `n` from the nearer end of the Z axis, across it: `sin(beta)`.
+fn off_pole(state: &BodyState<f64>) -> f64 {
+    state.axis.x.hypot(state.axis.y)
 }
 
 fn real_angles<S: Real>(angles: &EulerAngles<S>) -> EulerAngles<f64> {

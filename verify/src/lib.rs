@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod checks;
+pub mod command;
 pub mod conditioned;
 pub mod derivation;
 pub mod dual;
@@ -15,4 +16,7 @@ pub mod physical_domain;
 pub mod prime_field;
 pub mod random;
 pub mod reference;
+pub mod report;
+pub mod scene_file;
 pub mod second_integrator;
+pub mod trajectory;

@@ -1,0 +1,136 @@
+//! Scene files: every built-in scene is accepted and is what it says, every bad one is refused for the reason expected.
+
+use std::f64::consts::FRAC_PI_2;
+use std::fs;
+use std::path::Path;
+
+use twofold_verify::scene_file::{BUILT_IN, Scene};
+use twofold_verify::trajectory;
+
+#[test]
+fn every_built_in_scene_runs() {
+    assert_eq!(BUILT_IN.len(), 10);
+    for built_in in BUILT_IN {
+        let scene = Scene::named(built_in.name).unwrap_or_else(|error| panic!("{error}"));
+        assert!(!scene.about.is_empty() && scene.about.len() < 100, "{}", built_in.name);
+        let mut table = Vec::new();
+        let summary = trajectory::write_csv(&scene, &mut table).expect(built_in.name);
+        assert_eq!(summary.rows, scene.times.iter().count(), "{}", built_in.name);
+        assert_eq!(summary.rows_on_pole, 0, "{}", built_in.name);
+    }
+}
+
+/// Captions of the figures of the four examples: alpha, beta, their rates at t = 0, to the three decimals printed.
+#[test]
+fn the_four_examples_start_as_the_captions_say() {
+    let captions =
+        [("tp-1", [0.701, 1.509]), ("tp-2", [1.065, 0.889]), ("sp-1", [0.671, -0.068]), ("sp-2", [1.146, -0.008])];
+    for (name, [beta, alpha_rate]) in captions {
+        let scene = Scene::named(name).expect(name);
+        let angles = scene.initial.angles().expect(name);
+        let rates = scene.initial.rates(&scene.spheroid).expect(name);
+        let differences =
+            [angles.alpha - FRAC_PI_2, angles.beta - beta, angles.gamma, rates.alpha - alpha_rate, rates.beta];
+        let printed_to = [1e-15, 5e-4, 1e-15, 5e-4, 1e-15];
+        for (difference, bound) in differences.into_iter().zip(printed_to) {
+            assert!(difference.abs() <= bound, "{name}: off by {difference:e}");
+        }
+    }
+}
+
+/// The examples of `docs/scenes.md`, as they stand there.
+#[test]
+fn the_documented_scenes_run() {
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scenes.md")).expect("page");
+    let examples: Vec<_> = page.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    assert_eq!(examples.len(), 2);
+    for example in examples {
+        let scene = Scene::from_toml("docs/scenes.md", example).unwrap_or_else(|error| panic!("{error}"));
+        trajectory::write_csv(&scene, std::io::sink()).expect("motion");
+    }
+}
+
+#[test]
+fn every_bad_scene_is_refused_for_the_reason_expected() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/bad-scenes");
+    let mut count = 0;
+    for entry in fs::read_dir(folder).expect("folder of bad scenes") {
+        let path = entry.expect("file").path();
+        let text = fs::read_to_string(&path).expect("readable file");
+        let expected = text.lines().next().and_then(|line| line.strip_prefix("# expect: "));
+        let expected = expected.unwrap_or_else(|| panic!("{}: no `# expect:`", path.display()));
+        let file = path.to_str().expect("a path in UTF-8");
+        let message = Scene::named(file).expect_err(file).to_string();
+        for fragment in expected.split(" | ") {
+            assert!(message.contains(fragment), "{file}: expected `{fragment}` in\n{message}");
+        }
+        count += 1;
+    }
+    assert!(count >= 70, "only {count} bad scenes found");
+}
+
+/// A tensor given in a rotated frame is the same physics: the motion of the rotated star is the rotated motion.
+#[test]
+fn a_tensor_in_a_rotated_frame_gives_the_rotated_motion() {
+    // A quarter turn about X: (X, Y, Z) -> (X, -Z, Y), so that s^ZZ of tp-1 becomes s^YY.
+    let constants = "[initial]\nkind = \"twofold\"\nalpha_0 = 1.5707963267948966\nbeta_0 = 0.7\namplitude = 0.0\n\
+                     phase = 1.5707963267948966\n[time]\nspan = 10.0\nsamples = 3\n[star]\ninertia_ratio = 1.1\nspin = 1.0\n";
+    let turned = format!("{constants}[lorentz_violation]\ntensor = [[0.02, 0, 0], [0, -0.04, 0], [0, 0, 0.01]]\n");
+    let principal = format!("{constants}[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n");
+    let turned = Scene::from_toml("turned", &turned).expect("turned");
+    let principal = Scene::from_toml("principal", &principal).expect("principal");
+    let (a, b) = (turned.initial, principal.initial);
+    let along = |v: nalgebra::Vector3<f64>| [v.x.abs(), v.y.abs(), v.z.abs()];
+    let expected = |v: nalgebra::Vector3<f64>| [v.x.abs(), v.z.abs(), v.y.abs()];
+    for (turned, principal) in [(a.axis, b.axis), (a.momentum, b.momentum), (a.equatorial_axis, b.equatorial_axis)] {
+        for (x, y) in along(turned).into_iter().zip(expected(principal)) {
+            assert!((x - y).abs() < 1e-15, "{x} instead of {y}");
+        }
+    }
+    let n = a.axis;
+    let energy_of_axis = n.dot(&(turned.violation * n)) - b.axis.dot(&(principal.violation * b.axis));
+    assert!(energy_of_axis.abs() < 1e-16, "{energy_of_axis:e}");
+}
+
+/// A physical star is the same motion in other units.
+#[test]
+fn a_physical_star_moves_as_in_its_own_units() {
+    let rest = "[initial]\nalpha = 0.3\nbeta = 0.7\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n";
+    let star = "[star]\nmass = 1.4\nradius = 12.0\noblateness = 0.1\nspin_frequency = 50.0\n";
+    let read = |text: &str| Scene::from_toml("scene", text).unwrap_or_else(|error| panic!("{error}"));
+    let rates = "alpha_rate = 20.0\nbeta_rate = 3.0\n[time]\nspan = 0.1\nsamples = 5\n";
+    let physical = read(&format!("{star}{}", rest.replace("0.7\n", &format!("0.7\n{rates}"))));
+    let unit = physical.units.time;
+    let rates = format!(
+        "alpha_rate = {:?}\nbeta_rate = {:?}\n[time]\nspan = {:?}\nsamples = 5\n",
+        20.0 * unit,
+        3.0 * unit,
+        0.1 / unit
+    );
+    let spin = std::f64::consts::TAU * 50.0 * unit;
+    let star = format!("[star]\ninertia_ratio = 1.1\nspin = {spin:?}\n");
+    let dimensionless = read(&format!("{star}{}", rest.replace("0.7\n", &format!("0.7\n{rates}"))));
+    let table = |scene: &Scene| {
+        let mut bytes = Vec::new();
+        trajectory::write_csv(scene, &mut bytes).expect("motion");
+        let text = String::from_utf8(bytes).expect("text");
+        text.lines()
+            .skip(1)
+            .map(|line| line.split(',').map(|field| field.parse().expect("number")).collect::<Vec<f64>>())
+            .collect::<Vec<_>>()
+    };
+    let (in_seconds, in_tc) = (table(&physical), table(&dimensionless));
+    let (momentum, energy) = (physical.units.momentum, physical.units.energy);
+    let mut factors = vec![unit, 1.0, 1.0, 1.0];
+    factors.extend([1.0 / unit; 3]);
+    factors.extend([1.0; 6]);
+    factors.extend([momentum; 3]);
+    factors.extend([energy, 1.0 / unit, momentum * momentum]);
+    for (seconds, tc) in in_seconds.iter().zip(&in_tc) {
+        assert_eq!(seconds.len(), factors.len());
+        for ((x, y), factor) in seconds.iter().zip(tc).zip(&factors) {
+            // The motion is accurate to 1e-13 per component; components are compared against one.
+            assert!((x / factor - y).abs() < 1e-11 * y.abs().max(1.0), "{x} / {factor} instead of {y}");
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! The command `twofold`: verify the paper's equations, run a scene, list the scenes.
+
+mod run;
+mod scenes;
+mod verify;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+
+/// The rotation of spheroidal stars under Lorentz violation, as verified equations
+///
+/// Without a command, `verify` is run.
+#[derive(Parser)]
+#[command(name = "twofold", version, max_term_width = 100, after_help = AFTER_HELP)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+const AFTER_HELP: &str = "\
+Examples:
+  twofold                           run every check of the paper's equations, print the table
+  twofold verify --filter steady    only the checks whose name contains `steady`
+  twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
+  twofold run my-star.toml --out my-star.csv
+
+Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written.";
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run the checks of the paper's equations and print what each measured, its bound and the verdict
+    ///
+    /// A check compares an equation of the paper with something independent of it: exact arithmetic, automatic
+    /// derivatives, another method, an invariant. It measures one figure, which must meet one bound.
+    Verify(VerifyArgs),
+    /// Compute the motion of a star and write it as CSV: Euler angles, body axes, angular momentum, first integrals
+    ///
+    /// The header of the table names the columns and their units. A scene in the paper's units has times in
+    /// t_c = sqrt(I^xx / C), a scene of a physical star in seconds. Angles are in rad and continuous: they count their
+    /// turns. Where the symmetry axis is exactly on a pole they do not exist, and their fields are empty.
+    Run(RunArgs),
+    /// List the built-in scenes
+    Scenes,
+}
+
+#[derive(Args, Default)]
+struct VerifyArgs {
+    /// Only checks whose id contains this text
+    #[arg(long, value_name = "ID")]
+    filter: Option<String>,
+    /// Print the results as a JSON array instead of tables
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Args)]
+struct RunArgs {
+    /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
+    scene: String,
+    /// Write the table to this file instead of standard output; appears only when it is complete
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Replace the file if it exists
+    #[arg(long, requires = "out")]
+    force: bool,
+}
+
+/// How a command ends when it does not succeed.
+enum Failure {
+    /// A check or a computation failed: status 1.
+    Failed(String),
+    /// The input is not usable: status 2.
+    BadInput(String),
+}
+
+/// Runs the command with the arguments of the process.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(message) => {
+            // Help and version go to standard output with status 0, a misuse to standard error with status 2.
+            let _ = message.print();
+            return ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2));
+        }
+    };
+    let result = match cli.command.unwrap_or(Command::Verify(VerifyArgs::default())) {
+        Command::Verify(args) => verify::verify(&args),
+        Command::Run(args) => run::run(&args),
+        Command::Scenes => scenes::scenes(),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::Failed(message)) => end(1, &message),
+        Err(Failure::BadInput(message)) => end(2, &message),
+    }
+}
+
+fn end(status: u8, message: &str) -> ExitCode {
+    let _ = writeln!(io::stderr(), "error: {message}");
+    ExitCode::from(status)
+}
+
+/// Prints to standard output. A reader that has gone away (`| head`) is no failure.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::Failed(format!("standard output cannot be written: {error}")))
+        }
+        _ => Ok(()),
+    }
+}

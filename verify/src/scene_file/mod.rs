@@ -1,0 +1,158 @@
+//! Scene files: a star, its initial motion, the violation and the times asked for, read from TOML and checked.
+//!
+//! The format is described in `docs/scenes.md`. Everything is checked before anything is computed; a refusal names the
+//! file, line, column and key, the value as written and what is allowed.
+
+mod built_in;
+mod error;
+mod initial;
+mod output;
+mod section;
+mod star;
+mod time;
+mod violation;
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use nalgebra::Matrix3;
+use toml::de::DeTable;
+use twofold::dynamics::regular_equations::angular_velocity;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::EulerAngles;
+
+pub use built_in::{BUILT_IN, BuiltIn};
+use error::Fault;
+pub use error::SceneError;
+pub use output::ColumnGroup;
+use section::Section;
+pub(crate) use section::nearest;
+pub use star::Units;
+pub use time::Times;
+
+/// Largest scene file that is read, in bytes.
+pub const LARGEST_FILE: u64 = 64 << 20;
+
+/// Largest rotation over the whole span that is computed, in rad; it takes some minutes.
+pub const LARGEST_ROTATION: f64 = 1e8;
+
+/// A checked scene. Inside it everything is in the paper's units, `I^xx = C = 1`, with time in `t_c`.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// What the scene is, one line; may be empty.
+    pub about: String,
+    /// The star.
+    pub spheroid: RigidSpheroid<f64>,
+    /// `s^IJ` in the inertial frame of the output.
+    pub violation: Matrix3<f64>,
+    /// State at the time `times.start()`, in the inertial frame of the output.
+    pub initial: BodyState<f64>,
+    /// Euler angles of that state, with their turns, and on a pole as given.
+    pub initial_angles: EulerAngles<f64>,
+    /// Times of the output, in units of the output.
+    pub times: Times,
+    /// Columns of the output, in its order.
+    pub columns: Vec<ColumnGroup>,
+    /// Truncation error wanted at the end of the span.
+    pub accuracy: f64,
+    /// Units of the file and of the output.
+    pub units: Units,
+}
+
+impl Scene {
+    /// The scene with the built-in name, or in the file at the path, `name_or_path`. Built-in names come first: write
+    /// `./tp-1` for a file of that name.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and everything that [`Scene::from_toml`] refuses.
+    pub fn named(name_or_path: &str) -> Result<Self, SceneError> {
+        match BUILT_IN.iter().find(|scene| scene.name == name_or_path) {
+            Some(built_in) => Self::from_toml(built_in.name, built_in.toml),
+            None => Self::from_toml(name_or_path, &read(name_or_path)?),
+        }
+    }
+
+    /// Reads and checks the text of a scene file; `file` is how messages call it.
+    ///
+    /// # Errors
+    /// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or exclude one another, and for
+    /// values of a wrong type or out of range.
+    pub fn from_toml(file: &str, text: &str) -> Result<Self, SceneError> {
+        let in_text = |fault| SceneError::in_text(file, text, fault);
+        let document = DeTable::parse(text).map_err(|syntax| {
+            let message = syntax.message().trim().replace('\n', ", ");
+            in_text(Fault { span: syntax.span(), message: format!("not TOML: {message}") })
+        })?;
+        Self::from_document(&Section::document(text, document.get_ref())).map_err(in_text)
+    }
+
+    fn from_document(document: &Section<'_>) -> Result<Self, Fault> {
+        document.only(&["about", "star", "lorentz_violation", "initial", "time", "output"])?;
+        let about = document.optional("about").map(|entry| entry.string()).transpose()?.unwrap_or("").to_owned();
+        let star_section = document.required_section("star", "the spheroid and its spin")?;
+        let star = star::read(&star_section)?;
+        let violation = violation::read(&document.required_section("lorentz_violation", "the coefficients s^IJ")?)?;
+        let initial_section = document.required_section("initial", "the initial orientation and motion")?;
+        let (initial, initial_angles) = initial::read(&initial_section, &star, &violation)?;
+        let time_section = document.required_section("time", "the times of the output")?;
+        let times = time::read(&time_section)?;
+        let output = output::read(document.section("output")?.as_ref())?;
+        let scene = Scene {
+            about,
+            spheroid: star.spheroid,
+            violation: violation.tensor,
+            initial,
+            initial_angles,
+            times,
+            columns: output.columns,
+            accuracy: output.accuracy,
+            units: star.units,
+        };
+        let rotation = scene.rotation();
+        if rotation <= LARGEST_ROTATION {
+            return Ok(scene);
+        }
+        Err(time_section.fault(format!(
+            "[time] asks for a rotation by {rotation:.1e} rad: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \
+             minutes; shorten the span or lower the rates"
+        )))
+    }
+
+    /// Upper estimate of the angle through which the body turns over the span, in rad.
+    fn rotation(&self) -> f64 {
+        let duration = (self.times.last() - self.times.start()).abs() / self.units.time;
+        duration * self.turning_rate()
+    }
+
+    /// Upper estimate of the rate at which directions turn, per `t_c`.
+    pub(crate) fn turning_rate(&self) -> f64 {
+        let BodyState { axis, momentum, .. } = &self.initial;
+        let omega = angular_velocity(&self.spheroid, axis, momentum).norm();
+        omega.max(momentum.norm()) + (2.0 * self.violation.norm()).sqrt()
+    }
+}
+
+/// The text of a file, with the size bounded while reading, so that a device or pipe cannot fill the memory.
+fn read(path: &str) -> Result<String, SceneError> {
+    let refuse = |message: String| SceneError::of_file(path, message);
+    if Path::new(path).is_dir() {
+        return Err(refuse("is a directory: a scene is a TOML file or a built-in name, see `twofold scenes`".into()));
+    }
+    let file = File::open(path).map_err(|error| {
+        let names: Vec<_> = BUILT_IN.iter().map(|scene| scene.name).collect();
+        let guess = match nearest(path, &names) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("the built-in scenes are {}", section::listed(&names)),
+        };
+        refuse(format!("neither a built-in scene nor a readable file ({error}); {guess}"))
+    })?;
+    let mut bytes = Vec::new();
+    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|error| refuse(format!("cannot be read: {error}")))?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(refuse(format!("is longer than {} MiB, the most that is read", LARGEST_FILE >> 20)));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        refuse(format!("is not UTF-8 text (byte {}): a scene is a TOML file", error.utf8_error().valid_up_to() + 1))
+    })
+}

@@ -1,0 +1,222 @@
+//! Reading a section of a TOML document key by key, every refusal with its place, the value as written and what is allowed.
+
+use std::ops::Range;
+
+use nalgebra::Vector3;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::Fault;
+
+/// A table of the document.
+pub(crate) struct Section<'a> {
+    text: &'a str,
+    /// Dotted name; empty for the document itself.
+    name: String,
+    span: Range<usize>,
+    table: &'a DeTable<'a>,
+}
+
+/// A value of a section.
+pub(crate) struct Entry<'a> {
+    text: &'a str,
+    /// Dotted key.
+    key: String,
+    span: Range<usize>,
+    value: &'a DeValue<'a>,
+}
+
+impl<'a> Section<'a> {
+    pub(crate) fn document(text: &'a str, table: &'a DeTable<'a>) -> Self {
+        Self { text, name: String::new(), span: 0..0, table }
+    }
+
+    fn dotted(&self, key: &str) -> String {
+        if self.name.is_empty() { key.to_owned() } else { format!("{}.{key}", self.name) }
+    }
+
+    fn title(&self) -> String {
+        if self.name.is_empty() { "a scene".to_owned() } else { format!("[{}]", self.name) }
+    }
+
+    /// Refuses keys that are not in `allowed`.
+    pub(crate) fn only(&self, allowed: &[&str]) -> Result<(), Fault> {
+        let unknown = self.table.keys().filter(|key| !allowed.contains(&key.get_ref().as_ref()));
+        let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
+        let guess = nearest(key.get_ref(), allowed).map(|near| format!(" Did you mean `{near}`?")).unwrap_or_default();
+        Err(Fault::at(
+            key.span(),
+            format!(
+                "unknown key `{}`: {} has {}.{guess}",
+                self.dotted(&shortened(key.get_ref())),
+                self.title(),
+                listed(allowed)
+            ),
+        ))
+    }
+
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.find(key).is_some()
+    }
+
+    fn find(&self, key: &str) -> Option<&'a Spanned<DeValue<'a>>> {
+        self.table.iter().find(|(k, _)| k.get_ref() == key).map(|(_, value)| value)
+    }
+
+    /// The value of `key`, if it is there.
+    pub(crate) fn optional(&self, key: &str) -> Option<Entry<'a>> {
+        let value = self.find(key)?;
+        Some(Entry { text: self.text, key: self.dotted(key), span: value.span(), value: value.get_ref() })
+    }
+
+    /// The value of `key`; `meaning` is said where it is missing.
+    pub(crate) fn required(&self, key: &str, meaning: &str) -> Result<Entry<'a>, Fault> {
+        self.optional(key).ok_or_else(|| self.missing(&format!("`{}` ({meaning})", self.dotted(key))))
+    }
+
+    /// A refusal because something is missing from the section.
+    pub(crate) fn missing(&self, what: &str) -> Fault {
+        self.fault(format!("missing {what}"))
+    }
+
+    /// A refusal of the section as a whole.
+    pub(crate) fn fault(&self, message: impl Into<String>) -> Fault {
+        Fault { span: (!self.name.is_empty()).then(|| self.span.clone()), message: message.into() }
+    }
+
+    /// Refuses `second` beside `first`, which say the same thing in two ways.
+    pub(crate) fn not_both(&self, first: &str, second: &str) -> Result<(), Fault> {
+        match (self.find(first), self.find(second)) {
+            (Some(_), Some(value)) => Err(Fault::at(
+                value.span(),
+                format!("`{}` beside `{}`: only one of the two is allowed", self.dotted(second), self.dotted(first)),
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// The section `key`, if it is there.
+    pub(crate) fn section(&self, key: &str) -> Result<Option<Section<'a>>, Fault> {
+        let Some(entry) = self.optional(key) else { return Ok(None) };
+        match entry.value {
+            DeValue::Table(table) => Ok(Some(Section { text: self.text, name: entry.key, span: entry.span, table })),
+            _ => Err(entry.refuse(&format!("a section, written [{}]", entry.key))),
+        }
+    }
+
+    /// The section `key`; `meaning` is said where it is missing.
+    pub(crate) fn required_section(&self, key: &str, meaning: &str) -> Result<Section<'a>, Fault> {
+        self.section(key)?.ok_or_else(|| self.missing(&format!("section [{key}] ({meaning})")))
+    }
+}
+
+impl<'a> Entry<'a> {
+    /// A refusal of the value.
+    pub(crate) fn refuse(&self, allowed: &str) -> Fault {
+        let written = self.text.get(self.span.clone()).unwrap_or("");
+        Fault::at(self.span.clone(), format!("`{}` = {}: allowed is {allowed}", self.key, shortened(written)))
+    }
+
+    /// A finite number.
+    pub(crate) fn number(&self) -> Result<f64, Fault> {
+        match self.value {
+            DeValue::Float(float) => float.as_str().parse().ok().filter(|x: &f64| x.is_finite()),
+            DeValue::Integer(integer) if integer.radix() == 10 => {
+                integer.as_str().parse().ok().filter(|x: &f64| x.is_finite())
+            }
+            _ => None,
+        }
+        .ok_or_else(|| self.refuse("a finite number"))
+    }
+
+    /// A finite number for which `holds`.
+    pub(crate) fn number_where(&self, allowed: &str, holds: impl Fn(f64) -> bool) -> Result<f64, Fault> {
+        let x = self.number()?;
+        if holds(x) { Ok(x) } else { Err(self.refuse(allowed)) }
+    }
+
+    /// A whole number from `low` to `high`.
+    pub(crate) fn whole_number(&self, low: usize, high: usize) -> Result<usize, Fault> {
+        match self.value {
+            DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
+            _ => None,
+        }
+        .filter(|n| (low..=high).contains(n))
+        .ok_or_else(|| self.refuse(&format!("a whole number from {low} to {high}")))
+    }
+
+    /// A string.
+    pub(crate) fn string(&self) -> Result<&'a str, Fault> {
+        match self.value {
+            DeValue::String(string) => Ok(string),
+            _ => Err(self.refuse("a string in quotes")),
+        }
+    }
+
+    /// A string out of `allowed`.
+    pub(crate) fn word(&self, allowed: &[&str]) -> Result<&'a str, Fault> {
+        let quoted = || allowed.iter().map(|w| format!("\"{w}\"")).collect::<Vec<_>>().join(", ");
+        match self.value {
+            DeValue::String(word) if allowed.contains(&word.as_ref()) => Ok(word),
+            _ => Err(self.refuse(&format!("one of {}", quoted()))),
+        }
+    }
+
+    /// The entries of a list; `allowed` says of what.
+    pub(crate) fn list(&self, allowed: &str) -> Result<Vec<Entry<'a>>, Fault> {
+        let DeValue::Array(array) = self.value else { return Err(self.refuse(allowed)) };
+        let entry = |(i, value): (usize, &'a Spanned<DeValue<'a>>)| Entry {
+            text: self.text,
+            key: format!("{}[{i}]", self.key),
+            span: value.span(),
+            value: value.get_ref(),
+        };
+        Ok(array.iter().enumerate().map(entry).collect())
+    }
+
+    /// Three finite numbers.
+    pub(crate) fn vector(&self, allowed: &str) -> Result<Vector3<f64>, Fault> {
+        let entries = self.list(allowed)?;
+        if entries.len() != 3 {
+            return Err(self.refuse(allowed));
+        }
+        Ok(Vector3::new(entries[0].number()?, entries[1].number()?, entries[2].number()?))
+    }
+}
+
+/// `` `a`, `b` and `c` ``.
+pub(crate) fn listed(names: &[&str]) -> String {
+    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    match quoted.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => quoted.concat(),
+    }
+}
+
+/// The text on one line, cut after 40 characters.
+fn shortened(text: &str) -> String {
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    if line.chars().count() <= 40 { line } else { line.chars().take(37).chain("...".chars()).collect() }
+}
+
+/// The name that is most probably meant: at most two letters wrong, or the beginning of a name.
+pub(crate) fn nearest<'n>(word: &str, names: &[&'n str]) -> Option<&'n str> {
+    let (distance, name) = names.iter().map(|&name| (edit_distance(word, name), name)).min()?;
+    let beginning = || names.iter().copied().find(|name| word.len() > 2 && name.starts_with(word));
+    if distance <= 2.min(name.len() / 2) { Some(name) } else { beginning() }
+}
+
+/// Levenshtein's distance.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.chars().enumerate() {
+            let above = row[j + 1];
+            row[j + 1] = (diagonal + usize::from(x != y)).min(above + 1).min(row[j] + 1);
+            diagonal = above;
+        }
+    }
+    row[b.chars().count()]
+}

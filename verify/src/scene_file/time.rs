@@ -1,0 +1,103 @@
+//! The section `[time]`.
+
+use super::error::Fault;
+use super::section::Section;
+
+/// Most rows of output.
+pub(crate) const MOST_SAMPLES: usize = 10_000_000;
+
+/// Times of the output, strictly increasing or strictly decreasing, in units of the output.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Times {
+    /// Equally spaced, both ends included.
+    Even {
+        /// First time; the initial values hold there.
+        start: f64,
+        /// Last time.
+        end: f64,
+        /// Number of times, at least two.
+        samples: usize,
+    },
+    /// As listed.
+    Listed {
+        /// Time at which the initial values hold.
+        start: f64,
+        /// Times, leading away from `start`.
+        times: Vec<f64>,
+    },
+}
+
+impl Times {
+    /// Time at which the initial values hold.
+    pub fn start(&self) -> f64 {
+        match self {
+            Times::Even { start, .. } | Times::Listed { start, .. } => *start,
+        }
+    }
+
+    /// Last time.
+    pub fn last(&self) -> f64 {
+        match self {
+            Times::Even { end, .. } => *end,
+            Times::Listed { times, .. } => times[times.len() - 1],
+        }
+    }
+
+    /// All times in order.
+    pub fn iter(&self) -> Box<dyn Iterator<Item = f64> + '_> {
+        match self {
+            Times::Even { start, end, samples } => {
+                let (start, end, last) = (*start, *end, *samples - 1);
+                Box::new((0..=last).map(move |i| {
+                    let part = i as f64 / last as f64;
+                    if i == last { end } else { start + (end - start) * part }
+                }))
+            }
+            Times::Listed { times, .. } => Box::new(times.iter().copied()),
+        }
+    }
+}
+
+pub(super) fn read(section: &Section<'_>) -> Result<Times, Fault> {
+    section.only(&["start", "span", "end", "samples", "times"])?;
+    for (first, second) in [("span", "end"), ("times", "span"), ("times", "end"), ("times", "samples")] {
+        section.not_both(first, second)?;
+    }
+    let start = section.optional("start").map_or(Ok(0.0), |entry| entry.number())?;
+    if section.has("times") { listed(section, start) } else { even(section, start) }
+}
+
+fn even(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
+    let (end, entry) = match (section.optional("span"), section.optional("end")) {
+        (Some(span), _) => (start + span.number_where("any number except zero", |x| x != 0.0)?, span),
+        (None, Some(end)) => (end.number_where("any number except `time.start`", |x| x != start)?, end),
+        (None, None) => return Err(section.missing("one of `time.span`, `time.end` and `time.times`")),
+    };
+    let samples = section.required("samples", "number of rows, both ends included")?.whole_number(2, MOST_SAMPLES)?;
+    // Rows must differ in time: a span that is lost in the rounding of its ends has no even spacing.
+    let spacing = (end - start).abs() / (samples - 1) as f64;
+    if !(spacing.is_finite() && spacing > 4.0 * f64::EPSILON * start.abs().max(end.abs())) {
+        return Err(entry.refuse("a span whose samples differ from one another in double precision"));
+    }
+    Ok(Times::Even { start, end, samples })
+}
+
+fn listed(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
+    let allowed = "a list of 1 to 10000000 numbers, strictly increasing or strictly decreasing away from `time.start`";
+    let list = section.required("times", "times of the rows")?;
+    let entries = list.list(allowed)?;
+    if entries.is_empty() || entries.len() > MOST_SAMPLES {
+        return Err(list.refuse(allowed));
+    }
+    let times = entries.iter().map(|entry| entry.number()).collect::<Result<Vec<_>, _>>()?;
+    let backwards = times[times.len() - 1] < start;
+    let mut previous = start;
+    for (i, (&time, entry)) in times.iter().zip(&entries).enumerate() {
+        let onward = if backwards { time < previous } else { time > previous };
+        if !(onward || (i == 0 && time == start)) {
+            return Err(entry.refuse("times strictly increasing or strictly decreasing away from `time.start`"));
+        }
+        previous = time;
+    }
+    Ok(Times::Listed { start, times })
+}

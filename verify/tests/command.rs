@@ -1,0 +1,209 @@
+//! The command `twofold` as a user meets it: status, messages, files.
+
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use tempfile::{TempDir, tempdir};
+
+fn twofold(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_twofold")).args(args).output().expect("the command starts")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn folder() -> TempDir {
+    tempdir().expect("a temporary folder")
+}
+
+fn names_in(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("folder");
+    entries.map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned()).collect()
+}
+
+/// Status 2, nothing on standard output, one message that contains the fragments, no file.
+fn assert_refused(scene: &Path, fragments: &[&str]) {
+    let folder = folder();
+    let out = folder.path().join("motion.csv");
+    let scene = scene.to_str().expect("path in UTF-8");
+    for extra in [&["--out", out.to_str().expect("path in UTF-8")][..], &[]] {
+        let output = twofold(&[&["run", scene], extra].concat());
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{scene}: {message}");
+        assert!(output.stdout.is_empty(), "{scene}: something on standard output");
+        assert!(message.starts_with("error: "), "{message}");
+        assert_eq!(message.matches("error: ").count(), 1, "{scene}: {message}");
+        assert!(!message.contains("panicked"), "{message}");
+        for fragment in fragments {
+            assert!(message.contains(fragment), "{scene}: expected `{fragment}` in\n{message}");
+        }
+        assert!(names_in(folder.path()).is_empty(), "{scene}: left {:?}", names_in(folder.path()));
+    }
+}
+
+#[test]
+fn bad_scenes_are_refused_before_anything_is_written() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/bad-scenes");
+    let mut count = 0;
+    for entry in fs::read_dir(folder).expect("folder of bad scenes") {
+        let path = entry.expect("entry").path();
+        let text = fs::read_to_string(&path).expect("text");
+        let expected = text.lines().next().and_then(|line| line.strip_prefix("# expect: ")).expect("`# expect:`");
+        assert_refused(&path, &expected.split(" | ").collect::<Vec<_>>());
+        count += 1;
+    }
+    assert!(count >= 70, "only {count} bad scenes found");
+}
+
+#[test]
+fn files_that_are_no_scenes_are_refused() {
+    let folder = folder();
+    assert_refused(folder.path(), &["is a directory"]);
+    assert_refused(Path::new("tp-11"), &["neither a built-in scene nor a readable file", "did you mean `tp-1`?"]);
+    assert_refused(&folder.path().join("none.toml"), &["the built-in scenes are `tp-1`, `tp-2`"]);
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).expect("file");
+        path
+    };
+    assert_refused(&file("latin-1.toml", b"about = \"\xe9toile\"\n"), &["is not UTF-8 text (byte 10)"]);
+    assert_refused(&file("empty.toml", b""), &["missing section [star]"]);
+    assert_refused(&file("zeros.toml", &[0; 100]), &["not TOML"]);
+    assert_refused(&file("deep.toml", format!("a = {}", "[".repeat(100_000)).as_bytes()), &["not TOML"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_endless_file_is_not_read_to_the_end() {
+    assert_refused(Path::new("/dev/zero"), &["is longer than 64 MiB"]);
+}
+
+#[test]
+fn an_output_file_appears_complete_and_is_not_overwritten() {
+    let folder = folder();
+    let out = folder.path().join("motion.csv");
+    let out = out.to_str().expect("path in UTF-8");
+    let printed = twofold(&["run", "tp-1"]);
+    assert_eq!(printed.status.code(), Some(0));
+    assert!(printed.stderr.is_empty(), "{}", stderr(&printed));
+    assert!(printed.stdout.starts_with(b"t [t_c],alpha [rad],beta [rad],gamma [rad],alpha_rate [rad/t_c],"));
+    assert_eq!(printed.stdout.iter().filter(|&&byte| byte == b'\n').count(), 4002);
+
+    let written = twofold(&["run", "tp-1", "--out", out]);
+    assert_eq!(written.status.code(), Some(0), "{}", stderr(&written));
+    assert!(written.stdout.is_empty());
+    assert_eq!(fs::read(out).expect("table"), printed.stdout);
+    assert_eq!(names_in(folder.path()), ["motion.csv"]);
+
+    let again = twofold(&["run", "tp-2", "--out", out]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(stderr(&again).contains("exists; --force replaces it"), "{}", stderr(&again));
+    assert_eq!(fs::read(out).expect("table"), printed.stdout);
+
+    let forced = twofold(&["run", "tp-2", "--out", out, "--force"]);
+    assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));
+    assert_ne!(fs::read(out).expect("table"), printed.stdout);
+    assert_eq!(names_in(folder.path()), ["motion.csv"]);
+}
+
+#[test]
+fn an_output_that_cannot_be_a_file_is_refused() {
+    let folder = folder();
+    let missing = folder.path().join("none/motion.csv");
+    for (out, reason) in [
+        (folder.path(), "is not a regular file"),
+        (missing.as_path(), "no file can be made in"),
+        (Path::new("/"), "is not a regular file"),
+    ] {
+        let output = twofold(&["run", "tp-1", "--force", "--out", out.to_str().expect("path in UTF-8")]);
+        assert_eq!(output.status.code(), Some(2), "{}", out.display());
+        assert!(stderr(&output).contains(reason), "{}", stderr(&output));
+        assert!(output.stdout.is_empty());
+    }
+    assert!(names_in(folder.path()).is_empty());
+}
+
+#[test]
+fn a_reader_that_goes_away_ends_the_command_quietly() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_twofold"))
+        .args(["run", "tp-1"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    drop(child.stdout.take());
+    let mut message = String::new();
+    child.stderr.take().expect("standard error").read_to_string(&mut message).expect("text");
+    assert_eq!(message, "");
+    assert_eq!(child.wait().expect("status").code(), Some(0));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error() {
+    let full = || fs::File::options().write(true).open("/dev/full").expect("/dev/full");
+    for args in [&["run", "tp-1"][..], &["scenes"]] {
+        let output = Command::new(env!("CARGO_BIN_EXE_twofold")).args(args).stdout(full()).output().expect("starts");
+        assert_eq!(output.status.code(), Some(1), "{args:?}");
+        assert!(stderr(&output).contains("cannot be written") || stderr(&output).contains("could not be written"));
+    }
+}
+
+#[test]
+fn a_pole_leaves_fields_empty_and_says_so() {
+    let folder = folder();
+    let scene = folder.path().join("pole.toml");
+    let text = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.0, 0.0, 0.0]\n\
+                [initial]\nalpha = 0.0\nbeta = 0.0\nalpha_rate = 0.0\nbeta_rate = 0.0\n[time]\ntimes = [0.0, 1.0]\n\
+                [output]\ncolumns = [\"angles\", \"e_z\"]\n";
+    fs::write(&scene, text).expect("scene");
+    let output = twofold(&["run", scene.to_str().expect("path in UTF-8")]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let table = String::from_utf8(output.stdout.clone()).expect("text");
+    assert_eq!(table.lines().nth(1), Some("0.0,,,,0.0,0.0,1.0"), "{table}");
+    assert!(stderr(&output).contains("on a pole in 2 of 2 rows, first at t = 0.0 t_c"), "{}", stderr(&output));
+}
+
+#[test]
+fn scenes_are_listed_and_each_listed_name_runs() {
+    let output = twofold(&["scenes"]);
+    assert_eq!(output.status.code(), Some(0));
+    let text = String::from_utf8(output.stdout).expect("text");
+    let names: Vec<_> = text.lines().filter_map(|line| line.strip_prefix("  ")?.split("  ").next()).collect();
+    assert_eq!(names.len(), 10, "{text}");
+    for name in names {
+        assert_eq!(twofold(&["run", name]).status.code(), Some(0), "{name}");
+    }
+}
+
+#[test]
+fn verify_prints_tables_or_json_and_refuses_an_unknown_filter() {
+    let id = twofold_verify::checks::all()[0].id;
+    let table = twofold(&["verify", "--filter", id]);
+    assert_eq!(table.status.code(), Some(0), "{}", stderr(&table));
+    assert!(table.stderr.is_empty(), "no progress where there is no terminal: {}", stderr(&table));
+    let text = String::from_utf8(table.stdout).expect("text");
+    assert!(text.contains("verdict") && text.contains("all pass"), "{text}");
+
+    let json = twofold(&["verify", "--json", "--filter", id]);
+    let json: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
+    assert!(json.as_array().expect("array").iter().any(|check| check["id"] == id && check["passed"] == true));
+
+    let unknown = twofold(&["verify", "--filter", "no-such-check"]);
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(stderr(&unknown).contains("no check has an id that contains `no-such-check`"));
+    assert!(unknown.stdout.is_empty());
+}
+
+#[test]
+fn misuse_has_status_2_and_help_has_status_0() {
+    for args in [&["run"][..], &["walk"], &["run", "tp-1", "--force"], &["verify", "--filter"]] {
+        assert_eq!(twofold(args).status.code(), Some(2), "{args:?}");
+    }
+    for args in [&["--help"][..], &["run", "--help"], &["--version"]] {
+        assert_eq!(twofold(args).status.code(), Some(0), "{args:?}");
+    }
+}
