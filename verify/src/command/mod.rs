@@ -10,6 +10,8 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::equation_table;
+
 /// The rotation of spheroidal stars under Lorentz violation, as verified equations
 ///
 /// Without a command, `verify` is run.
@@ -44,6 +46,8 @@ enum Command {
     Run(RunArgs),
     /// List the built-in scenes
     Scenes,
+    /// Print the table of equations: what implements each, which checks and golden numbers are about it (Markdown)
+    Equations,
 }
 
 #[derive(Args, Default)]
@@ -90,6 +94,7 @@ pub fn main() -> ExitCode {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
         Command::Scenes => scenes::scenes(),
+        Command::Equations => print(&equation_table::markdown()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
