@@ -60,7 +60,9 @@ pub(super) fn read(section: &Section<'_>) -> Result<Star, Fault> {
 fn in_units_of_tc(section: &Section<'_>) -> Result<Star, Fault> {
     let ratio = section
         .required("inertia_ratio", "I^zz / I^xx")?
-        .number_where("from 1e-3 to 2: I^zz <= I^xx + I^yy for any distribution of mass", |x| x > 0.0 && x <= 2.0)?;
+        .number_where("from 1e-3 to 2: I^zz <= I^xx + I^yy for any distribution of mass", |x| {
+            (1e-3..=2.0).contains(&x)
+        })?;
     let spin = section.required("spin", "Omega^z in 1/t_c")?.number()?;
     Ok(Star { spheroid: RigidSpheroid::in_units_of_tc(ratio), spin, units: Units::PAPER })
 }
