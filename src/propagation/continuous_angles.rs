@@ -20,7 +20,7 @@ use crate::scalar::{Real, real_part};
 pub struct ContinuousAngles<'m, S, M> {
     motion: &'m M,
     time: f64,
-    last: Option<EulerAngles<f64>>,
+    last: EulerAngles<f64>,
     scalar: core::marker::PhantomData<S>,
 }
 
@@ -32,7 +32,7 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
     /// [`Error::Domain`] for a time outside the span.
     pub fn new(motion: &'m M, t0: f64, start: &EulerAngles<f64>) -> Result<Self, Error> {
         motion.state(S::from_f64(t0))?;
-        Ok(Self { motion, time: t0, last: Some(*start), scalar: core::marker::PhantomData })
+        Ok(Self { motion, time: t0, last: *start, scalar: core::marker::PhantomData })
     }
 
     /// Angles at the time `t`, continued from the last call; `t` may lie on either side of it.
@@ -61,11 +61,10 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
         }
         self.time = target;
         let angles = self.motion.state(t)?.angles()?;
-        let counted = self.last.unwrap_or(real_angles(&angles));
         Ok(EulerAngles {
-            alpha: angles.alpha + S::from_f64(turns(counted.alpha - angles.alpha.re())),
+            alpha: angles.alpha + S::from_f64(turns(self.last.alpha - angles.alpha.re())),
             beta: angles.beta,
-            gamma: angles.gamma + S::from_f64(turns(counted.gamma - angles.gamma.re())),
+            gamma: angles.gamma + S::from_f64(turns(self.last.gamma - angles.gamma.re())),
         })
     }
 
@@ -116,24 +115,17 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
 
     fn count(&mut self, state: &BodyState<f64>) {
         let Ok(angles) = state.angles() else { return };
-        self.last = Some(match self.last {
-            None => angles,
-            Some(last) => EulerAngles {
-                alpha: angles.alpha + turns(last.alpha - angles.alpha),
-                beta: angles.beta,
-                gamma: angles.gamma + turns(last.gamma - angles.gamma),
-            },
-        });
+        self.last = EulerAngles {
+            alpha: angles.alpha + turns(self.last.alpha - angles.alpha),
+            beta: angles.beta,
+            gamma: angles.gamma + turns(self.last.gamma - angles.gamma),
+        };
     }
 }
 
 /// Distance of `n` from the nearer end of the Z axis, across it: `sin(beta)`.
 fn off_pole(state: &BodyState<f64>) -> f64 {
     state.axis.x.hypot(state.axis.y)
-}
-
-fn real_angles<S: Real>(angles: &EulerAngles<S>) -> EulerAngles<f64> {
-    EulerAngles { alpha: angles.alpha.re(), beta: angles.beta.re(), gamma: angles.gamma.re() }
 }
 
 /// The whole turns (rad) nearest to an angle.

@@ -13,7 +13,7 @@ use crate::scalar::{Real, Scalar, real_part};
 pub const ACCURACY_RANGE: (f64, f64) = (1e-16, 1e-2);
 
 /// Most steps that one motion may keep: each holds about 2 kB of coefficients for `f64`.
-pub const STEP_LIMIT: usize = 2_000_000;
+pub const STEP_LIMIT: usize = 500_000;
 
 /// The numerical motion of a spheroid from `initial` at `span.0` to `span.1` (forwards or backwards).
 ///
@@ -51,13 +51,7 @@ pub fn propagate<S: Real>(
     let mut state = CompensatedState::new(initial);
     let mut error = ErrorGrowth::of_rounded_start();
     loop {
-        if motion.steps.len() == STEP_LIMIT {
-            return Err(Error::Domain {
-                quantity: "duration of the motion in steps of its own size, needed steps",
-                value: STEP_LIMIT as f64 * duration / elapsed.high.max(f64::MIN_POSITIVE),
-                allowed: "at most 2,000,000 steps: take a shorter span or a lower accuracy",
-            });
-        }
+        check_length(motion.steps.len(), elapsed.high, duration)?;
         let series = Series::about(spheroid, s, &state.high, order);
         let step = step_size(&series, &motion.scale, budget);
         let remaining = (duration - elapsed.high) - elapsed.low;
@@ -272,6 +266,18 @@ impl<S: Scalar> CompensatedState<S> {
         add(&mut self.high.momentum, &mut self.low.momentum, &change.momentum);
         add(&mut self.high.equatorial_axis, &mut self.low.equatorial_axis, &change.equatorial_axis);
     }
+}
+
+/// Refuses a motion that has too many steps, or that has shown within its first steps that it will have.
+fn check_length(steps: usize, elapsed: f64, duration: f64) -> Result<(), Error> {
+    let foreseen = steps as f64 * duration / elapsed.max(f64::MIN_POSITIVE);
+    let hopeless = steps >= 256 && foreseen > 2.0 * STEP_LIMIT as f64;
+    Error::unless(
+        steps < STEP_LIMIT && !hopeless,
+        "length of the motion in its own steps",
+        foreseen,
+        "at most 500,000 steps: take a shorter span (and go on from its end) or a lower accuracy",
+    )
 }
 
 fn check_input<S: Real>(

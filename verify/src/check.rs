@@ -53,6 +53,7 @@ impl Bound {
 impl std::fmt::Display for Bound {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
+            Bound::AtMost(0.0) => write!(f, "<= 0"),
             Bound::AtMost(limit) => write!(f, "<= {limit:.3e}"),
             Bound::AtLeast(limit) => write!(f, ">= {limit:.3e}"),
             Bound::Within(low, high) => write!(f, "in [{low:.4}, {high:.4}]"),

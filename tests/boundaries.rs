@@ -1,0 +1,131 @@
+//! Public boundaries of the model refuse what is outside their domain, and nothing else.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::{Matrix3, Vector3};
+use twofold::Error;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, euler_rates};
+use twofold::lorentz_violation::{PrincipalCoefficients, preferred_frame_parameter, principal_frame};
+use twofold::propagation::{ContinuousAngles, Motion, propagate};
+use twofold::solutions::free::free_precession_rates;
+use twofold::solutions::perturbation::{Constants, Kind, Perturbation, shifted_rates};
+use twofold::solutions::steady::steady_precession_rate;
+
+fn star() -> RigidSpheroid<f64> {
+    RigidSpheroid::in_units_of_tc(1.1)
+}
+
+fn refused<T: std::fmt::Debug>(result: Result<T, Error>, quantity: &str) {
+    match result {
+        Err(Error::Domain { quantity: found, .. }) => {
+            assert!(found.contains(quantity), "{found} where {quantity} was meant")
+        }
+        other => panic!("{quantity}: not refused but {other:?}"),
+    }
+}
+
+const S: PrincipalCoefficients<f64> = PrincipalCoefficients { xx: 0.02, yy: 0.01, zz: -0.04 };
+
+#[test]
+fn poles_are_reported() {
+    for beta in [0.0, PI] {
+        let angles = EulerAngles { alpha: 0.3, beta, gamma: 0.1 };
+        refused(euler_rates(&angles, &Vector3::new(0.1, 0.2, 0.3)), "sin beta");
+        refused(angles_from_rotation(&body_from_inertial(&angles)), "sin beta");
+    }
+    let close = EulerAngles { alpha: 0.3, beta: 1e-12, gamma: 0.1 };
+    assert!(euler_rates(&close, &Vector3::new(0.1, 0.2, 0.3)).is_ok());
+}
+
+#[test]
+fn perturbation_solutions_know_where_they_hold() {
+    let constants = |beta_0| Constants { alpha_0: 0.1, beta_0, amplitude: 0.01, phase: 0.2 };
+    let printed = |kind, s, spin, beta_0| Perturbation::printed(kind, &star(), &s, spin, &constants(beta_0));
+    refused(printed(Kind::Single, S, 1.0, 0.0), "sin beta_0");
+    refused(printed(Kind::Twofold, S, 1.0, FRAC_PI_2), "cos beta_0");
+    refused(printed(Kind::Twofold, S, 0.0, 0.7), "spin");
+    refused(Perturbation::corrected_twofold(&star(), &S, 1.0, &constants(FRAC_PI_2)), "cos beta_0");
+    refused(shifted_rates(&star(), &S, 0.0, 0.7), "spin");
+    // 2 s^ZZ - s^XX - s^YY vanishes up to the rounding of 0.015.
+    let balanced = PrincipalCoefficients { xx: 0.02, yy: 0.01, zz: 0.015 };
+    refused(printed(Kind::Single, balanced, 1.0, 0.7), "precession rate");
+    refused(printed(Kind::Single, PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: 0.0 }, 1.0, 0.7), "precession rate");
+    assert!(printed(Kind::Twofold, balanced, 1.0, 0.7).is_ok());
+    assert!(printed(Kind::Single, S, 1.0, 0.7).is_ok());
+    assert!(printed(Kind::Single, S.scaled(1e-200), 1.0, 0.7).is_ok());
+}
+
+#[test]
+fn steady_precession_knows_where_it_exists() {
+    let symmetric = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: 0.2 };
+    let rate = |s, spin, beta| steady_precession_rate(Kind::Single, &star(), &s, spin, beta);
+    refused(rate(S, 1.0, 0.7), "s^XX - s^YY");
+    refused(rate(symmetric, 0.5, 0.1), "8 (s^ZZ - s^XX)");
+    refused(steady_precession_rate(Kind::Twofold, &star(), &symmetric, 1.0, FRAC_PI_2), "cos beta");
+    refused(rate(PrincipalCoefficients { xx: 0.1, yy: 0.1, zz: 0.1 }, 0.0, 0.7), "I^zz Omega^z");
+    assert!(rate(symmetric, 3.0, 0.1).is_ok());
+    refused(free_precession_rates(&star(), 1.0, FRAC_PI_2), "cos beta");
+}
+
+#[test]
+fn tensors_are_refused_with_the_entry_that_is_wrong() {
+    refused(principal_frame(&Matrix3::from_diagonal_element(f64::NAN)), "entry of s^IJ");
+    refused(principal_frame(&Matrix3::new(0.0, 0.1, 0.0, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0)), "s^JI");
+    let w = Vector3::new(1e-3, 2e-3, 0.0);
+    refused(preferred_frame_parameter(&Matrix3::identity(), &w), "alpha_2");
+    refused(preferred_frame_parameter::<f64>(&Matrix3::identity(), &Vector3::zeros()), "|w|^2");
+}
+
+#[test]
+fn time_unit_needs_an_oblate_star() {
+    refused(RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.9, constant_c: -0.1 }.time_unit(), "constant C");
+    assert_eq!(RigidSpheroid { inertia_xx: 8.0, inertia_zz: 9.0, constant_c: 2.0 }.time_unit(), Ok(2.0));
+}
+
+#[test]
+fn propagation_refuses_what_it_cannot_follow() {
+    let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.0 };
+    let start = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.0 });
+    let run = |state: &BodyState<f64>, span, accuracy| propagate(&star(), &S.tensor(), state, span, accuracy);
+    refused(run(&start, (0.0, 1.0), 1e-17), "accuracy");
+    refused(run(&start, (0.0, 1.0), f64::NAN), "accuracy");
+    refused(run(&start, (0.0, 1.0), 0.1), "accuracy");
+    refused(run(&start, (0.0, f64::INFINITY), 1e-10), "time span");
+    refused(run(&BodyState { axis: start.axis * 1.1, ..start }, (0.0, 1.0), 1e-10), "axis n");
+    refused(run(&BodyState { equatorial_axis: start.axis, ..start }, (0.0, 1.0), 1e-10), "n . e_x");
+    refused(run(&BodyState { equatorial_axis: start.equatorial_axis * 0.5, ..start }, (0.0, 1.0), 1e-10), "axis e_x");
+    refused(run(&BodyState { momentum: Vector3::repeat(f64::NAN), ..start }, (0.0, 1.0), 1e-10), "component of L");
+    let needs_too_many = run(&start, (0.0, 1e9), 1e-10);
+    refused(needs_too_many.map(|_| ()), "steps");
+    let hollow = RigidSpheroid { inertia_zz: 0.0, ..star() };
+    refused(propagate(&hollow, &S.tensor(), &start, (0.0, 1.0), 1e-10).map(|_| ()), "moment of inertia");
+    let endless = S.scaled(f64::INFINITY).tensor();
+    refused(propagate(&star(), &endless, &start, (0.0, 1.0), 1e-10).map(|_| ()), "entry of s^IJ");
+    let bad = RigidSpheroid { constant_c: f64::NAN, ..star() };
+    refused(propagate(&bad, &S.tensor(), &start, (0.0, 1.0), 1e-10).map(|_| ()), "constant C");
+
+    let motion = run(&start, (1.0, 3.0), 1e-10).expect("a short motion");
+    for t in [0.999, 3.001, f64::NAN] {
+        refused(motion.state(t), "time t");
+        assert!(motion.error_estimate(t).is_nan());
+    }
+    assert!(motion.state(1.0).is_ok() && motion.state(3.0).is_ok());
+}
+
+/// An axis that stays on a pole, or passes next to it, neither hangs nor loses count.
+#[test]
+fn turns_are_counted_next_to_the_poles() {
+    for beta in [1e-9, 1e-3, PI - 1e-9] {
+        let angles = EulerAngles { alpha: 0.3, beta, gamma: 0.1 };
+        let start = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 0.2, beta: 0.0, gamma: 1.0 });
+        let symmetric = PrincipalCoefficients { xx: 0.01, yy: 0.01, zz: -0.04 };
+        let motion = propagate(&star(), &symmetric.tensor(), &start, (0.0, 100.0), 1e-13).expect("a motion");
+        let end = ContinuousAngles::new(&motion, 0.0, &angles).and_then(|mut a| a.at(100.0)).expect("angles");
+        // Rotation about Z as a whole: alpha + gamma near the upper pole, alpha - gamma near the lower one.
+        let (turned, expected) =
+            if beta < 1.0 { (end.alpha + end.gamma, 0.4 + 120.0) } else { (end.alpha - end.gamma, 0.2 - 80.0) };
+        let lost = (turned - expected).abs();
+        assert!(lost < 0.5, "beta = {beta}: {turned} where about {expected} is expected");
+    }
+}
