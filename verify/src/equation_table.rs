@@ -226,7 +226,13 @@ pub const EQUATIONS: &[Equation] = &[
         &["solutions::perturbation::Perturbation::printed"],
         &["perturbation_constants"],
     ),
-    row(33, "sol3", "first-order angles", &["solutions::perturbation::Perturbation::first_order"], &[]),
+    row(
+        33,
+        "sol3",
+        "first-order angles",
+        &["solutions::perturbation::Perturbation::first_order"],
+        &["twofold_regimes", "single_regimes"],
+    ),
     row(
         34,
         "integraltoinitial",

@@ -20,12 +20,14 @@ pub struct GoldenLine {
     pub printed: Printed,
     /// Ours.
     pub ours: f64,
+    /// Significant digits shown, as many as are the same on every machine.
+    pub digits: usize,
 }
 
 impl GoldenLine {
-    /// A line.
+    /// A line with nine significant digits.
     pub fn new(label: impl Into<String>, printed: Printed, ours: f64) -> Self {
-        Self { label: label.into(), printed, ours }
+        Self { label: label.into(), printed, ours, digits: 9 }
     }
 
     /// `confirmed`, `differs`, or `derived` where nothing is printed.
@@ -41,7 +43,7 @@ impl GoldenLine {
         if agrees { "confirmed" } else { "differs" }
     }
 
-    /// The line with its label padded to `width`; ours with nine significant digits.
+    /// The line with its label padded to `width`.
     pub(super) fn aligned(&self, width: usize) -> String {
         let printed = match self.printed {
             Printed::Decimal(text) => text.to_string(),
@@ -52,9 +54,14 @@ impl GoldenLine {
             "{:<width$}  printed {:>11}  ours {:>15}  {}",
             self.label,
             printed,
-            significant(self.ours),
+            significant(self.ours, self.digits),
             self.verdict()
         )
+    }
+
+    /// Label and our number, for a table of which the paper prints nothing.
+    pub(super) fn aligned_ours(&self, width: usize) -> String {
+        format!("{:<width$}  {:>15}", self.label, significant(self.ours, self.digits))
     }
 }
 
@@ -68,9 +75,9 @@ fn rounds_to(value: f64, text: &str) -> bool {
     (value - printed).abs() <= half_unit * (1.0 + 1e-9)
 }
 
-/// Nine significant digits; below 1e-15, rounding of a zero in these tables, as zero.
-fn significant(value: f64) -> String {
-    if value.abs() < 1e-15 { "0".into() } else { format!("{value:.8e}") }
+/// A number below 1e-15 is the rounding of a zero in these tables.
+fn significant(value: f64, digits: usize) -> String {
+    if value.abs() < 1e-15 { "0".into() } else { format!("{value:.*e}", digits - 1) }
 }
 
 #[cfg(test)]

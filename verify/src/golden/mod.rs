@@ -2,6 +2,7 @@
 
 mod captions;
 mod line;
+mod regimes;
 mod star;
 
 pub use line::{GoldenLine, Printed};
@@ -21,8 +22,10 @@ impl std::fmt::Display for GoldenTable {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         writeln!(f, "{}", self.title)?;
         let width = self.lines.iter().map(|line| line.label.chars().count()).max().unwrap_or(0);
+        let nothing_printed = self.lines.iter().all(|line| line.printed == Printed::No);
         for line in &self.lines {
-            writeln!(f, "{}", line.aligned(width))?;
+            let text = if nothing_printed { line.aligned_ours(width) } else { line.aligned(width) };
+            writeln!(f, "{text}")?;
         }
         Ok(())
     }
@@ -32,6 +35,14 @@ impl std::fmt::Display for GoldenTable {
 ///
 /// # Errors
 /// If a number cannot be computed.
-pub fn tables() -> Result<Vec<GoldenTable>, twofold::Error> {
-    Ok(vec![captions::initial_values()?, captions::constants()?, star::estimates()?, star::expansions()?])
+pub fn tables() -> Result<Vec<GoldenTable>, String> {
+    let text = |error: twofold::Error| error.to_string();
+    Ok(vec![
+        captions::initial_values().map_err(text)?,
+        captions::constants().map_err(text)?,
+        star::estimates().map_err(text)?,
+        star::expansions().map_err(text)?,
+        regimes::twofold()?,
+        regimes::single()?,
+    ])
 }
