@@ -1,4 +1,6 @@
 //! Runs every check of the project as a test of its own: `cargo test --test checks -- ID`.
+//!
+//! With the variable `FAIL_FAST` set the first failure ends the run, which is all that mutation tests want to know.
 
 use libtest_mimic::{Arguments, Failed, Trial};
 
@@ -11,13 +13,18 @@ fn main() {
                 if outcome.passed {
                     return Ok(());
                 }
-                Err(Failed::from(match outcome.measured {
+                let failure = match outcome.measured {
                     Ok(measured) => format!(
                         "{}\n{}: {:e}, required {} ({})\n{}",
                         check.statement, check.figure, measured.figure, check.bound, check.reason, measured.detail
                     ),
                     Err(message) => format!("{}\n{message}", check.statement),
-                }))
+                };
+                if std::env::var_os("FAIL_FAST").is_some() {
+                    eprintln!("{}: {failure}", check.id);
+                    std::process::exit(101);
+                }
+                Err(Failed::from(failure))
             })
             .with_kind(check.kind.name())
         })
