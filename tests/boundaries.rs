@@ -34,8 +34,9 @@ fn poles_are_reported() {
         refused(euler_rates(&angles, &Vector3::new(0.1, 0.2, 0.3)), "sin beta");
         refused(angles_from_rotation(&body_from_inertial(&angles)), "sin beta");
     }
-    let close = EulerAngles { alpha: 0.3, beta: 1e-12, gamma: 0.1 };
-    assert!(euler_rates(&close, &Vector3::new(0.1, 0.2, 0.3)).is_ok());
+    let at = |beta| euler_rates(&EulerAngles { alpha: 0.3, beta, gamma: 0.1 }, &Vector3::new(0.1, 0.2, 0.3));
+    refused(at(f64::EPSILON), "sin beta");
+    assert!(at(2.0 * f64::EPSILON).is_ok() && at(-2.0 * f64::EPSILON).is_ok());
 }
 
 #[test]
@@ -75,6 +76,43 @@ fn tensors_are_refused_with_the_entry_that_is_wrong() {
     let w = Vector3::new(1e-3, 2e-3, 0.0);
     refused(preferred_frame_parameter(&Matrix3::identity(), &w), "alpha_2");
     refused(preferred_frame_parameter::<f64>(&Matrix3::identity(), &Vector3::zeros()), "|w|^2");
+}
+
+#[test]
+fn tensors_may_be_asymmetric_by_rounding_only() {
+    let with_asymmetry = |size: f64| {
+        let mut tensor = Matrix3::from_diagonal(&Vector3::new(100.0, 20.0, 3.0));
+        tensor[(0, 1)] = size;
+        principal_frame(&tensor)
+    };
+    assert!(with_asymmetry(5e-11).is_ok());
+    refused(with_asymmetry(2e-10), "s^JI");
+}
+
+/// The convention for what an eigenvalue problem leaves free: descending values, X and Y axes with their largest component
+/// positive, Z to the right hand.
+#[test]
+fn principal_axes_have_settled_signs() {
+    let frame = principal_frame(&S.tensor()).expect("a diagonal tensor");
+    assert_eq!((frame.coefficients, frame.principal_from_given), (S, Matrix3::identity()));
+    for (i, angles) in [(0.4, 1.0, 2.0), (-2.0, 2.5, 0.3), (3.0, 0.2, -1.0), (1.0, 1.6, -2.8)].into_iter().enumerate() {
+        let (alpha, beta, gamma) = angles;
+        let turn = body_from_inertial(&EulerAngles { alpha, beta, gamma });
+        let q = principal_frame(&(turn.transpose() * S.tensor() * turn)).expect("a symmetric tensor").principal_from_given;
+        for row in 0..2 {
+            let axis = q.row(row);
+            assert!(axis[axis.transpose().iamax()] > 0.0, "case {i}, axis {row}: {axis}");
+        }
+        assert!((q.determinant() - 1.0).abs() < 1e-14, "case {i}: left-handed");
+    }
+}
+
+#[test]
+fn coefficients_scale_and_combine() {
+    let doubled = S.scaled(2.0);
+    assert_eq!([doubled.xx, doubled.yy, doubled.zz], [0.04, 0.02, -0.08]);
+    assert_eq!((doubled.asymmetry(), doubled.combination()), (0.02, -0.22));
+    assert_eq!(doubled.permuted(), PrincipalCoefficients::new([0.02, -0.08, 0.04]));
 }
 
 #[test]
