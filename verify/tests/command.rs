@@ -63,6 +63,7 @@ fn files_that_are_no_scenes_are_refused() {
     let folder = folder();
     assert_refused(folder.path(), &["is a directory"]);
     assert_refused(Path::new("tp-11"), &["neither a built-in scene nor a readable file", "did you mean `tp-1`?"]);
+    assert_refused(Path::new("TP-1"), &["did you mean `tp-1`?"]);
     assert_refused(&folder.path().join("none.toml"), &["the built-in scenes are `tp-1`, `tp-2`"]);
     let file = |name: &str, bytes: &[u8]| {
         let path = folder.path().join(name);
@@ -72,6 +73,8 @@ fn files_that_are_no_scenes_are_refused() {
     assert_refused(&file("latin-1.toml", b"about = \"\xe9toile\"\n"), &["is not UTF-8 text (byte 10)"]);
     assert_refused(&file("empty.toml", b""), &["missing section [star]"]);
     assert_refused(&file("zeros.toml", &[0; 100]), &["not TOML"]);
+    assert_refused(&file("escape.toml", b"\"\\u001b[31mred\" = 1\n"), &["unknown key `\u{fffd}[31mred`"]);
+    assert_refused(&file("raw-escape.toml", b"a = \"\x1b[31m\"\n"), &["1 | a = \"\u{fffd}[31m\""]);
     assert_refused(&file("deep.toml", format!("a = {}", "[".repeat(100_000)).as_bytes()), &["not TOML"]);
 }
 
