@@ -4,6 +4,8 @@ use std::fs;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
 
 use tempfile::{TempDir, tempdir};
 
@@ -152,6 +154,46 @@ fn a_full_disk_is_an_error() {
         let output = Command::new(env!("CARGO_BIN_EXE_twofold")).args(args).stdout(full()).output().expect("starts");
         assert_eq!(output.status.code(), Some(1), "{args:?}");
         assert!(stderr(&output).contains("cannot be written") || stderr(&output).contains("could not be written"));
+    }
+}
+
+/// Whether signal number `signal` is ignored, as in the background of a script.
+#[cfg(target_os = "linux")]
+fn is_ignored(signal: u32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").expect("/proc");
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:")).expect("SigIgn");
+    u64::from_str_radix(mask.trim(), 16).expect("mask") >> (signal - 1) & 1 == 1
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupt_leaves_nothing_behind() {
+    let (hang_up, interrupt, terminate) = (1, 2, 15);
+    if [hang_up, interrupt, terminate].into_iter().any(is_ignored) {
+        return;
+    }
+    let folder = folder();
+    let scene = folder.path().join("long.toml");
+    let text = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n\
+                [initial]\nalpha = 0.0\nbeta = 0.7\nalpha_rate = 1.5\nbeta_rate = 0.0\n[time]\nspan = 4e7\nsamples = 2\n";
+    fs::write(&scene, text).expect("scene");
+    for signal in [interrupt, terminate] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_twofold"))
+            .args(["run", scene.to_str().expect("path in UTF-8"), "--out", "motion.csv"])
+            .current_dir(folder.path())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the command starts");
+        while names_in(folder.path()).len() < 2 && child.try_wait().expect("status").is_none() {
+            sleep(Duration::from_millis(10));
+        }
+        // The file is there a moment before the signals are caught.
+        sleep(Duration::from_millis(300));
+        Command::new("sh").args(["-c", &format!("kill -{signal} {}", child.id())]).status().expect("kill");
+        let output = child.wait_with_output().expect("status");
+        assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+        assert_eq!(stderr(&output), "error: interrupted: nothing was written\n");
+        assert_eq!(names_in(folder.path()), ["long.toml"]);
     }
 }
 
