@@ -129,6 +129,21 @@ fn an_output_that_cannot_be_a_file_is_refused() {
         assert!(output.stdout.is_empty());
     }
     assert!(names_in(folder.path()).is_empty());
+    let dash = twofold(&["run", "tp-1", "--out", "-"]);
+    assert_eq!(dash.status.code(), Some(2));
+    assert!(stderr(&dash).contains("is not standard output here"), "{}", stderr(&dash));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_nothing_is_refused_before_the_computation() {
+    let folder = folder();
+    let link = folder.path().join("link.csv");
+    std::os::unix::fs::symlink("nothing", &link).expect("link");
+    let output = twofold(&["run", "tp-1", "--out", link.to_str().expect("path in UTF-8")]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("is a link to nothing"), "{}", stderr(&output));
+    assert_eq!(names_in(folder.path()), ["link.csv"]);
 }
 
 #[test]

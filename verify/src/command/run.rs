@@ -109,9 +109,15 @@ impl OutputFile {
     /// Starts a temporary file in the folder of `path`.
     fn beside(path: &Path, replace: bool) -> Result<Self, Failure> {
         let refuse = |why: String| Failure::BadInput(format!("--out {}: {why}", path.display()));
+        if path == Path::new("-") {
+            return Err(refuse("is not standard output here: leave --out away, or write ./- for a file".into()));
+        }
         match fs::metadata(path) {
             Ok(found) if !found.is_file() => return Err(refuse("exists and is not a regular file".into())),
             Ok(_) if !replace => return Err(refuse("exists; --force replaces it".into())),
+            Err(_) if !replace && path.is_symlink() => {
+                return Err(refuse("is a link to nothing; --force replaces it".into()));
+            }
             _ => {}
         }
         // A link is followed, so that what it points to is replaced and not the link.
