@@ -14,7 +14,7 @@ fn every_built_in_scene_runs() {
         let scene = Scene::named(built_in.name).unwrap_or_else(|error| panic!("{error}"));
         assert!(!scene.about.is_empty() && scene.about.len() < 100, "{}", built_in.name);
         let mut table = Vec::new();
-        let summary = trajectory::write_csv(&scene, &mut table).expect(built_in.name);
+        let summary = trajectory::write_csv(&scene, &mut table, |_| {}).expect(built_in.name);
         assert_eq!(summary.rows, scene.times.iter().count(), "{}", built_in.name);
         assert_eq!(summary.rows_on_pole, 0, "{}", built_in.name);
     }
@@ -46,7 +46,7 @@ fn the_documented_scenes_run() {
     assert_eq!(examples.len(), 2);
     for example in examples {
         let scene = Scene::from_toml("docs/scenes.md", example).unwrap_or_else(|error| panic!("{error}"));
-        trajectory::write_csv(&scene, std::io::sink()).expect("motion");
+        trajectory::write_csv(&scene, std::io::sink(), |_| {}).expect("motion");
     }
 }
 
@@ -112,7 +112,7 @@ fn a_physical_star_moves_as_in_its_own_units() {
     let dimensionless = read(&format!("{star}{}", rest.replace("0.7\n", &format!("0.7\n{rates}"))));
     let table = |scene: &Scene| {
         let mut bytes = Vec::new();
-        trajectory::write_csv(scene, &mut bytes).expect("motion");
+        trajectory::write_csv(scene, &mut bytes, |_| {}).expect("motion");
         let text = String::from_utf8(bytes).expect("text");
         text.lines()
             .skip(1)

@@ -20,3 +20,8 @@ pub mod report;
 pub mod scene_file;
 pub mod second_integrator;
 pub mod trajectory;
+
+/// The example of the README, run as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

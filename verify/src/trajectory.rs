@@ -100,11 +100,12 @@ pub fn header(scene: &Scene) -> Vec<String> {
 }
 
 /// Computes the motion of `scene` and writes it as CSV: the [`header`], then a row per time. Numbers are written with as
-/// few digits as identify the double. Memory is bounded whatever the span.
+/// few digits as identify the double. Memory is bounded whatever the span. `progress` is told again and again which part of
+/// the span is done, from 0 to 1.
 ///
 /// # Errors
 /// A motion that cannot be computed, or `writer` failing.
-pub fn write_csv(scene: &Scene, writer: impl Write) -> Result<Summary, TrajectoryError> {
+pub fn write_csv(scene: &Scene, writer: impl Write, mut progress: impl FnMut(f64)) -> Result<Summary, TrajectoryError> {
     let mut table = csv::Writer::from_writer(writer);
     table.write_record(header(scene))?;
     let mut summary = Summary::default();
@@ -125,6 +126,7 @@ pub fn write_csv(scene: &Scene, writer: impl Write) -> Result<Summary, Trajector
             let t = since_start(time).clamp(from.min(to), from.max(to));
             let row = Row { time, state: motion.state(t)?, angles: || angles.at(t).ok() };
             let on_pole = row.write(scene, &mut table)?;
+            progress(if total == 0.0 { 1.0 } else { t / total });
             summary.rows += 1;
             if on_pole {
                 summary.rows_on_pole += 1;
@@ -133,6 +135,7 @@ pub fn write_csv(scene: &Scene, writer: impl Write) -> Result<Summary, Trajector
         }
         state = motion.state(to)?;
         start_angles = angles.at(to).unwrap_or(start_angles);
+        progress((stretch + 1) as f64 / stretches as f64);
     }
     table.flush()?;
     Ok(summary)

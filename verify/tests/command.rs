@@ -4,6 +4,8 @@ use std::fs;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
 
 use tempfile::{TempDir, tempdir};
 
@@ -63,6 +65,7 @@ fn files_that_are_no_scenes_are_refused() {
     let folder = folder();
     assert_refused(folder.path(), &["is a directory"]);
     assert_refused(Path::new("tp-11"), &["neither a built-in scene nor a readable file", "did you mean `tp-1`?"]);
+    assert_refused(Path::new("TP-1"), &["did you mean `tp-1`?"]);
     assert_refused(&folder.path().join("none.toml"), &["the built-in scenes are `tp-1`, `tp-2`"]);
     let file = |name: &str, bytes: &[u8]| {
         let path = folder.path().join(name);
@@ -72,6 +75,8 @@ fn files_that_are_no_scenes_are_refused() {
     assert_refused(&file("latin-1.toml", b"about = \"\xe9toile\"\n"), &["is not UTF-8 text (byte 10)"]);
     assert_refused(&file("empty.toml", b""), &["missing section [star]"]);
     assert_refused(&file("zeros.toml", &[0; 100]), &["not TOML"]);
+    assert_refused(&file("escape.toml", b"\"\\u001b[31mred\" = 1\n"), &["unknown key `\u{fffd}[31mred`"]);
+    assert_refused(&file("raw-escape.toml", b"a = \"\x1b[31m\"\n"), &["1 | a = \"\u{fffd}[31m\""]);
     assert_refused(&file("deep.toml", format!("a = {}", "[".repeat(100_000)).as_bytes()), &["not TOML"]);
 }
 
@@ -124,6 +129,21 @@ fn an_output_that_cannot_be_a_file_is_refused() {
         assert!(output.stdout.is_empty());
     }
     assert!(names_in(folder.path()).is_empty());
+    let dash = twofold(&["run", "tp-1", "--out", "-"]);
+    assert_eq!(dash.status.code(), Some(2));
+    assert!(stderr(&dash).contains("is not standard output here"), "{}", stderr(&dash));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_nothing_is_refused_before_the_computation() {
+    let folder = folder();
+    let link = folder.path().join("link.csv");
+    std::os::unix::fs::symlink("nothing", &link).expect("link");
+    let output = twofold(&["run", "tp-1", "--out", link.to_str().expect("path in UTF-8")]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("is a link to nothing"), "{}", stderr(&output));
+    assert_eq!(names_in(folder.path()), ["link.csv"]);
 }
 
 #[test]
@@ -149,6 +169,46 @@ fn a_full_disk_is_an_error() {
         let output = Command::new(env!("CARGO_BIN_EXE_twofold")).args(args).stdout(full()).output().expect("starts");
         assert_eq!(output.status.code(), Some(1), "{args:?}");
         assert!(stderr(&output).contains("cannot be written") || stderr(&output).contains("could not be written"));
+    }
+}
+
+/// Whether signal number `signal` is ignored, as in the background of a script.
+#[cfg(target_os = "linux")]
+fn is_ignored(signal: u32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").expect("/proc");
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:")).expect("SigIgn");
+    u64::from_str_radix(mask.trim(), 16).expect("mask") >> (signal - 1) & 1 == 1
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupt_leaves_nothing_behind() {
+    let (hang_up, interrupt, terminate) = (1, 2, 15);
+    if [hang_up, interrupt, terminate].into_iter().any(is_ignored) {
+        return;
+    }
+    let folder = folder();
+    let scene = folder.path().join("long.toml");
+    let text = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n\
+                [initial]\nalpha = 0.0\nbeta = 0.7\nalpha_rate = 1.5\nbeta_rate = 0.0\n[time]\nspan = 4e7\nsamples = 2\n";
+    fs::write(&scene, text).expect("scene");
+    for signal in [interrupt, terminate] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_twofold"))
+            .args(["run", scene.to_str().expect("path in UTF-8"), "--out", "motion.csv"])
+            .current_dir(folder.path())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the command starts");
+        while names_in(folder.path()).len() < 2 && child.try_wait().expect("status").is_none() {
+            sleep(Duration::from_millis(10));
+        }
+        // The file is there a moment before the signals are caught.
+        sleep(Duration::from_millis(300));
+        Command::new("sh").args(["-c", &format!("kill -{signal} {}", child.id())]).status().expect("kill");
+        let output = child.wait_with_output().expect("status");
+        assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+        assert_eq!(stderr(&output), "error: interrupted: nothing was written\n");
+        assert_eq!(names_in(folder.path()), ["long.toml"]);
     }
 }
 

@@ -29,7 +29,7 @@ Examples:
   twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
   twofold run my-star.toml --out my-star.csv
 
-Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written.";
+Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written; 130 interrupted.";
 
 #[derive(Subcommand)]
 enum Command {

@@ -64,6 +64,7 @@ impl Place {
         let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
         let column = text[line_start..start].chars().count();
         let line = text[line_start..].lines().next().unwrap_or("").replace('\t', " ");
+        let line = line.replace(char::is_control, "\u{fffd}");
         let length = line.chars().count();
         let marked = text.get(start..span.end).map_or(1, |s| s.lines().next().unwrap_or("").chars().count()).max(1);
         let excerpt =

@@ -193,14 +193,17 @@ pub(crate) fn listed(names: &[&str]) -> String {
     }
 }
 
-/// The text on one line, cut after 40 characters.
+/// The text on one line, without control characters, cut after 40 characters.
 fn shortened(text: &str) -> String {
-    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ").replace(char::is_control, "\u{fffd}");
     if line.chars().count() <= 40 { line } else { line.chars().take(37).chain("...".chars()).collect() }
 }
 
-/// The name that is most probably meant: at most two letters wrong, or the beginning of a name.
+/// The name that is most probably meant: at most two letters wrong, or the beginning of a name, in capitals or not.
 pub(crate) fn nearest<'n>(word: &str, names: &[&'n str]) -> Option<&'n str> {
+    if let Some(name) = names.iter().find(|name| name.eq_ignore_ascii_case(word)) {
+        return Some(name);
+    }
     let (distance, name) = names.iter().map(|&name| (edit_distance(word, name), name)).min()?;
     let beginning = || names.iter().copied().find(|name| word.len() > 2 && name.starts_with(word));
     if distance <= 2.min(name.len() / 2) { Some(name) } else { beginning() }
