@@ -98,7 +98,8 @@ fn principal_axes_have_settled_signs() {
     for (i, angles) in [(0.4, 1.0, 2.0), (-2.0, 2.5, 0.3), (3.0, 0.2, -1.0), (1.0, 1.6, -2.8)].into_iter().enumerate() {
         let (alpha, beta, gamma) = angles;
         let turn = body_from_inertial(&EulerAngles { alpha, beta, gamma });
-        let q = principal_frame(&(turn.transpose() * S.tensor() * turn)).expect("a symmetric tensor").principal_from_given;
+        let q =
+            principal_frame(&(turn.transpose() * S.tensor() * turn)).expect("a symmetric tensor").principal_from_given;
         for row in 0..2 {
             let axis = q.row(row);
             assert!(axis[axis.transpose().iamax()] > 0.0, "case {i}, axis {row}: {axis}");

@@ -46,7 +46,7 @@ fn from_angles(section: &Section<'_>, star: &Star) -> Result<(BodyState<f64>, Eu
     let angles = EulerAngles {
         alpha: section
             .required("alpha", "precession angle [rad], or `initial.kind` for the paper's constants")?
-            .number()?,
+            .angle()?,
         beta: section
             .required("beta", "inclination of the symmetry axis to Z [rad]")?
             .number_where("an angle from 0 to pi [rad]", |x| (0.0..=PI).contains(&x))?,
@@ -85,10 +85,10 @@ fn from_constants(
         return Err(beta_entry.refuse("not pi/2 for kind \"twofold\": its rate is omega / cos(beta_0)"));
     }
     let constants = Constants {
-        alpha_0: section.required("alpha_0", "mean precession angle at the start [rad]")?.number()?,
+        alpha_0: section.required("alpha_0", "mean precession angle at the start [rad]")?.angle()?,
         beta_0,
         amplitude: section.required("amplitude", "A, a rate")?.number()? * star.units.time,
-        phase: section.required("phase", "phi [rad]")?.number()?,
+        phase: section.required("phase", "phi [rad]")?.angle()?,
     };
     let start = initial_values(kind, &star.spheroid, &violation.coefficients, star.spin, &constants)
         .map_err(|error| section.fault(format!("[initial] has no solution: {error}")))?;
@@ -117,7 +117,7 @@ fn rates(star: &Star, angles: &EulerAngles<f64>, alpha: f64, beta: f64) -> Euler
 }
 
 fn gamma(section: &Section<'_>) -> Result<f64, Fault> {
-    section.optional("gamma").map_or(Ok(0.0), |entry| entry.number())
+    section.optional("gamma").map_or(Ok(0.0), |entry| entry.angle())
 }
 
 fn refuse_overflow(section: &Section<'_>, state: &BodyState<f64>) -> Result<(), Fault> {

@@ -126,7 +126,12 @@ impl<'a> Entry<'a> {
             }
             _ => None,
         }
-        .ok_or_else(|| self.refuse("a finite number"))
+        .ok_or_else(|| self.refuse("a finite decimal number"))
+    }
+
+    /// An angle in radians. Beyond a million, more than six digits of its place on the circle are lost.
+    pub(crate) fn angle(&self) -> Result<f64, Fault> {
+        self.number_where("an angle of at most 1e6 in size [rad]", |x| x.abs() <= 1e6)
     }
 
     /// A finite number for which `holds`.
