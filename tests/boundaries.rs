@@ -5,12 +5,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::{Matrix3, Vector3};
 use twofold::Error;
 use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, euler_rates};
 use twofold::lorentz_violation::{PrincipalCoefficients, preferred_frame_parameter, principal_frame};
 use twofold::propagation::{ContinuousAngles, Motion, propagate};
-use twofold::solutions::free::free_precession_rates;
+use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::perturbation::{Constants, Kind, Perturbation, shifted_rates};
 use twofold::solutions::steady::steady_precession_rate;
+use twofold::solutions::symmetric::SymmetricSolution;
 
 fn star() -> RigidSpheroid<f64> {
     RigidSpheroid::in_units_of_tc(1.1)
@@ -167,4 +169,79 @@ fn turns_are_counted_next_to_the_poles() {
         let lost = (turned - expected).abs();
         assert!(lost < 0.5, "beta = {beta}: {turned} where about {expected} is expected");
     }
+}
+
+/// A motion counted in units of time from 1e-30 to 1e30 of its own: the same motion, or an error, never something else.
+#[test]
+fn the_unit_of_time_does_not_matter() {
+    let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+    let rates = EulerRates { alpha: 1.2, beta: 0.3, gamma: -0.2 };
+    let start = BodyState::from_angles(&star(), &angles, &rates);
+    let expected =
+        propagate(&star(), &S.tensor(), &start, (0.0, 20.0), 1e-14).and_then(|m| m.state(20.0)).expect("a motion");
+    for rate in [1e-30, 1e-18, 1e-10, 1e10, 1e18, 1e30] {
+        let body = RigidSpheroid { constant_c: rate * rate, ..star() };
+        let start = BodyState { momentum: start.momentum * rate, ..start };
+        let motion = propagate(&body, &S.tensor(), &start, (0.0, 20.0 / rate), 1e-14).expect("a motion");
+        let end = motion.state(20.0 / rate).expect("its end");
+        let difference = (end.axis - expected.axis).norm() + (end.equatorial_axis - expected.equatorial_axis).norm();
+        assert!(difference < 1e-13, "rate {rate:e}: {difference:e}");
+    }
+    // Squares of L overflow.
+    let heavy = RigidSpheroid { inertia_xx: 1e200, inertia_zz: 1.1e200, constant_c: 1e200 };
+    let start = BodyState { momentum: start.momentum * 1e200, ..start };
+    refused(propagate(&heavy, &S.tensor(), &start, (0.0, 20.0), 1e-14).map(|_| ()), "rate at which the body turns");
+
+    let symmetric = PrincipalCoefficients { yy: 0.02, ..S };
+    for rate in [1e-160, 1e-100, 1e100, 1e150] {
+        let body = RigidSpheroid { constant_c: rate * rate, ..star() };
+        let rates = EulerRates { alpha: 1.2 * rate, beta: 0.3 * rate, gamma: -0.2 * rate };
+        refused(SymmetricSolution::new(&body, &symmetric, &angles, &rates).map(|_| ()), "period");
+    }
+}
+
+/// An isotropic `s^IJ` exerts no torque, and a body at rest without torque stays; the error estimates know it.
+#[test]
+fn what_exerts_no_torque_makes_no_error() {
+    let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+    let slow = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 1.2e-6, beta: 3e-7, gamma: -2e-7 });
+    for s in [0.3, 1.0 / 3.0, 100.1] {
+        let motion =
+            propagate(&star(), &Matrix3::from_diagonal_element(s), &slow, (0.0, 1e4), 1e-13).expect("a motion");
+        let (end, exact) = (motion.state(1e4).expect("its end"), free_rotation(&star(), &slow, 1e4));
+        let error = (end.axis - exact.axis).norm().max((end.momentum - exact.momentum).norm() / slow.momentum.norm());
+        assert!(error <= motion.error_estimate(1e4), "s = {s}: {error:e}, estimate {:e}", motion.error_estimate(1e4));
+    }
+    let at_rest = BodyState { momentum: Vector3::zeros(), ..slow };
+    let motion = propagate(&star(), &Matrix3::zeros(), &at_rest, (0.0, 1e8), 1e-13).expect("a motion");
+    assert!(motion.error_estimate(1e8) < 2e-13, "{:e}", motion.error_estimate(1e8));
+}
+
+/// Without spin and `L_Z` the axis swings like a pendulum, through a pole or about the equator.
+#[test]
+fn a_pendulum_keeps_its_plane() {
+    let angles = EulerAngles { alpha: 0.3, beta: 0.5, gamma: 0.1 };
+    for (zz, beta, alpha_rate) in
+        [(-0.5, 0.5, 0.0), (-0.5, 0.5, 1e-170), (-0.5, 0.5, -1e-20), (0.5, 1.2, 0.0), (-0.5, 2.8, 0.0)]
+    {
+        let s = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz };
+        let angles = EulerAngles { beta, ..angles };
+        let rates = EulerRates { alpha: alpha_rate, beta: 0.1, gamma: 0.0 };
+        let start = BodyState::from_angles(&star(), &angles, &rates);
+        let motion = propagate(&star(), &s.tensor(), &start, (0.0, 50.0), 1e-14).expect("a motion");
+        let solution = SymmetricSolution::new(&star(), &s, &angles, &rates).expect("a solution");
+        for t in (0..=100).map(|i| 0.5 * f64::from(i)) {
+            let (now, exact) = (motion.state(t).expect("in the span"), body_from_inertial(&solution.angles(t)));
+            let difference = (exact - now.body_from_inertial()).norm();
+            assert!(difference < 1e-12, "s^ZZ = {zz}, beta = {beta}, t = {t}: {difference:e}");
+        }
+    }
+}
+
+#[test]
+fn elliptic_functions_are_not_numbers_outside_their_domain() {
+    for m1 in [0.0, -0.1, f64::NAN] {
+        assert!(complete_integral(m1).is_nan() && jacobi(0.5, m1).sn.is_nan(), "m1 = {m1}");
+    }
+    assert!((complete_integral(f64::MIN_POSITIVE) / (4.0 / f64::MIN_POSITIVE.sqrt()).ln() - 1.0).abs() < 1e-15);
 }

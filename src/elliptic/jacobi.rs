@@ -40,8 +40,10 @@ pub struct JacobiFunctions<S> {
 }
 
 impl<S: Real> ArithmeticGeometricMean<S> {
-    /// The mean of `a` and `b`, both above zero.
+    /// The mean of `a` and `b`, both above zero; NaN otherwise.
     pub fn new(a: S, b: S) -> Self {
+        // The means of a positive number and zero would only halve, and end short of their limit zero.
+        let b = if a.re() > 0.0 && b.re() > 0.0 { b } else { S::from_f64(f64::NAN) };
         let negative_parameter = a.re() < b.re();
         let mut steps = [if negative_parameter { (b, a) } else { (a, b) }; MOST_STEPS];
         let (mut used, mut to_go) = (1, STEPS_FOR_DERIVATIVES + 1);

@@ -5,7 +5,10 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::scalar::Scalar;
 
-/// Taylor coefficients of `n`, `L`, `e_x` about one time, `state(t0 + h) = sum_k coefficients[k] h^k`.
+/// Taylor coefficients of `n`, `L`, `e_x` about one time, `state(t0 + h) = sum_k coefficients[k] (h / unit)^k`.
+///
+/// The unit of time, a power of two near the time of the motion, keeps high orders within the range of doubles whatever unit
+/// the caller counts in; being a power of two it rounds nothing.
 ///
 /// The right-hand sides are quadratic, so each order is a convolution of cross products of the lower ones:
 ///
@@ -17,11 +20,18 @@ use crate::scalar::Scalar;
 #[derive(Debug, Clone)]
 pub(super) struct Series<S> {
     pub(super) coefficients: Vec<BodyState<S>>,
+    unit: f64,
 }
 
 impl<S: Scalar> Series<S> {
-    /// Coefficients up to `order` (at least one) about the state `start`.
-    pub(super) fn about(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, start: &BodyState<S>, order: usize) -> Self {
+    /// Coefficients up to `order` (at least one) about the state `start`, for time in the given unit.
+    pub(super) fn about(
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        start: &BodyState<S>,
+        order: usize,
+        unit: f64,
+    ) -> Self {
         let inverse_inertia = S::one() / spheroid.inertia_xx;
         let twice_c = spheroid.constant_c * 2.0;
         let spin = start.momentum.dot(&start.axis) / spheroid.inertia_zz;
@@ -42,18 +52,19 @@ impl<S: Scalar> Series<S> {
                 momentum += strained[j].cross(&other.axis);
                 equatorial_axis += omegas[j].cross(&other.equatorial_axis);
             }
-            let share = S::one() / (k + 1) as f64;
+            let share = S::from_f64(unit / (k + 1) as f64);
             coefficients.push(BodyState {
                 axis: axis * (inverse_inertia * share),
                 momentum: momentum * (twice_c * share),
                 equatorial_axis: equatorial_axis * share,
             });
         }
-        Self { coefficients }
+        Self { coefficients, unit }
     }
 
     /// Change of the state over the time `h`: the sum without its constant term, which the caller adds last.
     pub(super) fn change(&self, h: S) -> BodyState<S> {
+        let h = h / self.unit;
         let zero = BodyState { axis: Vector3::zeros(), momentum: Vector3::zeros(), equatorial_axis: Vector3::zeros() };
         self.coefficients[1..].iter().rev().fold(zero, |sum, c| BodyState {
             axis: (sum.axis + c.axis) * h,

@@ -38,11 +38,19 @@ pub fn propagate<S: Real>(
 ) -> Result<TaylorMotion<S>, Error> {
     check_input(spheroid, s, initial, span, accuracy)?;
     let duration = (span.1 - span.0).abs();
-    let scale = Scale::of(spheroid, s, initial);
+    // An isotropic part of s^IJ exerts no torque; left in, its rounding would.
+    let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
+    let scale = Scale::of(spheroid, &anisotropic, initial);
+    Error::unless(
+        scale.turning_rate.is_finite(),
+        "rate at which the body turns",
+        scale.turning_rate,
+        "within the range of doubles with the squares of L and s^IJ: choose other units",
+    )?;
     // An error made at one time turns into a phase error that grows with the rotation: the budget per unit of time is
     // what is left of the accuracy after that growth over half of the span on average.
     let growth = 1.0 + scale.turning_rate * duration / 2.0;
-    let budget = if duration > 0.0 { accuracy / (duration * growth) } else { accuracy };
+    let budget = if duration > 0.0 { (accuracy / (duration * growth)).min(f64::MAX) } else { accuracy };
     let order = order_for(budget / scale.turning_rate.max(f64::MIN_POSITIVE));
     let direction = if span.1 >= span.0 { 1.0 } else { -1.0 };
 
@@ -52,8 +60,9 @@ pub fn propagate<S: Real>(
     let mut error = ErrorGrowth::of_rounded_start();
     loop {
         check_length(motion.steps.len(), elapsed.high, duration)?;
-        let series = Series::about(spheroid, s, &state.high, order);
+        let series = Series::about(spheroid, &anisotropic, &state.high, order, motion.scale.time);
         let step = step_size(&series, &motion.scale, budget);
+        Error::unless(step > 0.0, "step of the motion", step, "above zero: in these units the motion is out of range")?;
         let remaining = (duration - elapsed.high) - elapsed.low;
         let last = step >= remaining;
         let step = if last { remaining } else { step };
@@ -155,16 +164,21 @@ struct Scale {
     momentum: f64,
     /// Upper bound of the rate at which directions turn.
     turning_rate: f64,
+    /// A power of two near the inverse of that rate.
+    time: f64,
 }
 
 impl Scale {
     fn of<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: &BodyState<S>) -> Self {
         let inertia = spheroid.inertia_xx.re();
         let pull = spheroid.constant_c.re().abs() * s.map(S::re).norm();
-        let momentum = real_part(&state.momentum).norm() + (2.0 * inertia * pull).sqrt();
-        let momentum = if momentum > 0.0 { momentum } else { inertia };
+        // Two roots, since the product may be out of range where they are not.
+        let momentum = real_part(&state.momentum).norm() + (2.0 * inertia).sqrt() * pull.sqrt();
         let body_turn = (1.0 - spheroid.inertia_xx.re() / spheroid.inertia_zz.re()).abs();
-        Self { momentum, turning_rate: momentum / inertia * (1.0 + body_turn) }
+        let turning_rate = momentum / inertia * (1.0 + body_turn);
+        let time = if turning_rate > 0.0 { 2f64.powi(-turning_rate.log2().clamp(-1000.0, 1000.0) as i32) } else { 1.0 };
+        // A body at rest without torque stays so: any unit of momentum does.
+        Self { momentum: if momentum > 0.0 { momentum } else { inertia }, turning_rate, time }
     }
 
     /// Largest component of a coefficient, `L` in units of the momentum.
@@ -181,12 +195,16 @@ fn order_for(budget: f64) -> usize {
 }
 
 /// Step with truncation error at most `budget` per unit of time, from the last two coefficients (two, since one may vanish
-/// by symmetry).
+/// by symmetry); zero where the coefficients are out of range.
 fn step_size<S: Real>(series: &Series<S>, scale: &Scale, budget: f64) -> f64 {
     let order = series.coefficients.len() - 1;
     let bound = |k: usize| {
         let size = scale.size(&series.coefficients[k]);
-        if size > 0.0 { (budget / size).powf(1.0 / (k as f64 - 1.0)) } else { f64::INFINITY }
+        match size {
+            0.0 => f64::INFINITY,
+            size if size.is_finite() => (budget * scale.time / size).powf(1.0 / (k as f64 - 1.0)) * scale.time,
+            _ => 0.0,
+        }
     };
     // The first omitted term is about the last kept one times (step / radius of convergence), and that ratio is below
     // one fifth: so the last kept term bounds the whole remainder.

@@ -17,6 +17,8 @@ use crate::solutions::perturbation::Kind;
 /// stationary spin: the upper and lower sign for positive spin. The smaller root comes from the product of the two, so that
 /// none loses digits however small `s` is.
 ///
+/// Derivatives (duals) are within `s^XX = s^YY`: the common one of the two is taken from `s^XX`, that of `s^YY` is dropped.
+///
 /// # Errors
 /// [`Error::Domain`] if `s^XX != s^YY` (no steady precession exists), if the root is not real, and for the twofold root
 /// where `|cos beta|` is not above 2.2e-16 or both the spin and the root vanish.

@@ -157,3 +157,27 @@ impl Worst {
         }
     }
 }
+
+/// The largest of some figures, none of them negative; NaN if one is NaN, which `f64::max` would drop.
+pub fn largest(figures: impl IntoIterator<Item = f64>) -> f64 {
+    figures.into_iter().fold(0.0, |most: f64, x| if x.is_nan() || most.is_nan() { f64::NAN } else { most.max(x) })
+}
+
+/// The largest magnitude in a vector; NaN if one component is NaN.
+pub fn largest_component(v: &nalgebra::Vector3<f64>) -> f64 {
+    largest(v.iter().map(|x| x.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_a_number_is_not_small() {
+        assert_eq!(largest([1.0, 3.0, 2.0]), 3.0);
+        for figures in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+            assert!(largest(figures).is_nan() && !Bound::AtMost(9.0).holds(largest(figures)));
+        }
+        assert!(largest_component(&nalgebra::Vector3::new(1.0, f64::NAN, 2.0)).is_nan());
+    }
+}

@@ -33,7 +33,8 @@ use crate::scalar::Real;
 /// Error of the angles: about `2e-16 (1 + rate |t|)`, and what the rounding of the initial values grows to, which near a
 /// separatrix is much. Near a pole `alpha` and `gamma` separately have that error over `sin beta`, the orientation has not.
 /// Derivatives by initial values, parameters and time come with dual numbers; by initial values and parameters of a steady
-/// precession, the first ones only.
+/// precession, the first ones only. They are derivatives within `s^XX = s^YY`: of `s^XX` and `s^YY` only their common change counts, as
+/// that of `s^XX`, and what `s^YY` carries besides is dropped.
 #[derive(Debug, Clone, Copy)]
 pub struct SymmetricSolution<S> {
     initial: EulerAngles<S>,

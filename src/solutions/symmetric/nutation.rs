@@ -52,13 +52,26 @@ impl<S: Real> Nutating<S> {
         let north_term = oscillation.pole_term(north_constant, Pole::North, north_far, north_near);
         let south_term = oscillation.pole_term(south_constant, Pole::South, south_far, south_near);
         let start = oscillation.place(S::zero());
+        let north_start = oscillation.integral(&north_term, Pole::North, &start, S::zero());
+        let south_start = oscillation.integral(&south_term, Pole::South, &start, S::zero());
+        let period = oscillation.half_period.re();
+        let turns = north_start.re()
+            + south_start.re()
+            + north_term.mean_rate(oscillation.half_period).re()
+            + south_term.mean_rate(oscillation.half_period).re();
+        Error::unless(
+            period > 0.0 && turns.is_finite(),
+            "half the period of the inclination",
+            period,
+            "within the range of doubles with its fourth power: choose another unit of time",
+        )?;
         Ok(Self {
             north_distance: (north_far, north_near),
             south_distance: (south_near, south_far),
             north_constant,
             south_constant,
-            north_start: oscillation.integral(&north_term, Pole::North, &start, S::zero()),
-            south_start: oscillation.integral(&south_term, Pole::South, &start, S::zero()),
+            north_start,
+            south_start,
             north: north_term,
             south: south_term,
             oscillation,

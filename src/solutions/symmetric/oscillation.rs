@@ -194,9 +194,9 @@ impl<S: Real> Oscillation<S> {
         };
         let delta = d * near / far;
         let amplitude = constant * (self.high - self.low) * d / (far * far);
-        let over_half_period = if constant.re() == 0.0 {
+        let over_half_period = if near.re() == 0.0 {
             // Through the pole itself: half a turn at each passage, of which either sense is right.
-            S::from_f64(FRAC_PI_2)
+            S::from_f64(FRAC_PI_2.copysign(constant.re()))
         } else {
             amplitude * rj_of_roots(S::zero(), (self.sum * 2.0).sqrt(), self.root_of_product, delta) / 3.0
         };
@@ -211,6 +211,10 @@ impl<S: Real> Oscillation<S> {
         };
         let (sum, product) = self.roots_of_pair(side.xi, side.eta);
         let p = side.xi * side.xi + term.delta * side.eta * side.eta;
+        if p.re() == 0.0 {
+            // On the pole, where the sense of the half turn is open.
+            return term.rate * t + term.over_half_period * (2.0 * side.periods);
+        }
         let part = side.eta * side.eta * side.eta * rj_of_roots(side.xi, sum, product, p) / 3.0;
         term.rate * t + term.over_half_period * (2.0 * side.periods) + term.amplitude * part
     }

@@ -6,7 +6,7 @@ use twofold::elliptic::carlson::{rc, rd, rf, rf_of_roots, rj, rj_of_roots};
 use twofold::elliptic::jacobi::{JacobiFunctions, complete_integral, jacobi};
 use twofold::scalar::Real;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::physical_domain::worst_over;
 
 /// Checks of this subject.
@@ -197,7 +197,7 @@ fn carlson_against_ellip() -> Result<Measured, String> {
             (rd(x, y, z), ellip::elliprd(x, y, z).map_err(fault)?),
             (rj(x, y, z, p), ellip::elliprj(x, y, z, p).map_err(fault)?),
         ];
-        Ok(pairs.iter().map(|(ours, theirs)| (ours / theirs - 1.0).abs() / f64::EPSILON).fold(0.0, f64::max))
+        Ok(largest(pairs.iter().map(|(ours, theirs)| (ours / theirs - 1.0).abs() / f64::EPSILON)))
     })
 }
 
@@ -288,7 +288,7 @@ fn jacobi_argument_derivatives() -> Result<Measured, String> {
             (sn2 + (1.0 + m) * sn - 2.0 * m * sn.powi(3)) / size,
             (sn3 + (1.0 + m) * s - 6.0 * m * sn * sn * s) / size.powf(1.5),
         ];
-        Ok(residuals.iter().fold(0.0, |max: f64, r| max.max(r.abs())) / f64::EPSILON)
+        Ok(largest(residuals.map(f64::abs)) / f64::EPSILON)
     })
 }
 
@@ -301,6 +301,6 @@ fn jacobi_identities() -> Result<Measured, String> {
             (d + m * s - 1.0) / (d + m.abs() * s + 1.0),
             (d - m1 - m * c) / (d + m1 + m.abs() * c),
         ];
-        Ok(residuals.iter().fold(0.0, |max: f64, r| max.max(r.abs())) / f64::EPSILON)
+        Ok(largest(residuals.map(f64::abs)) / f64::EPSILON)
     })
 }

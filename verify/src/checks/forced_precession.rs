@@ -6,7 +6,7 @@ use twofold::solutions::free::free_precession_rates;
 use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation, shifted_rates};
 use twofold::solutions::steady::steady_precession_rate;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::checks::perturbation_equations::{KINDS, constants, unperturbed_motion};
 use crate::derivation::Differentiable;
 use crate::derivation::first_order::{first_order_motion, linearised_equations};
@@ -115,8 +115,8 @@ fn shifted_rates_of_spin() -> Result<Measured, String> {
             free.alpha * cos_beta + free.gamma - spin,
         ];
         let terms = spin.abs() + printed.omega.abs() + (printed.forced_rate * cos_beta).abs();
-        let largest = differences.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
-        worst.see(largest / (f64::EPSILON * terms), || format!("point {index} of seed 26: {differences:?}"));
+        let most = largest(differences.map(f64::abs));
+        worst.see(most / (f64::EPSILON * terms), || format!("point {index} of seed 26: {differences:?}"));
     }
     worst.finish()
 }

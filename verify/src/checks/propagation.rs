@@ -8,7 +8,7 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{Motion, propagate};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
 use crate::physical_domain::{RandomScene, scenes, worst_over};
 use crate::reference::{reference_motion, reference_motions};
 
@@ -109,10 +109,11 @@ pub fn checks() -> Vec<Check> {
 }
 
 fn largest_difference(a: &BodyState<f64>, b: &BodyState<f64>) -> f64 {
-    (a.axis - b.axis)
-        .amax()
-        .max((a.momentum - b.momentum).amax() / b.momentum.norm().max(1.0))
-        .max((a.equatorial_axis - b.equatorial_axis).amax())
+    largest([
+        largest_component(&(a.axis - b.axis)),
+        largest_component(&(a.momentum - b.momentum)) / b.momentum.norm().max(1.0),
+        largest_component(&(a.equatorial_axis - b.equatorial_axis)),
+    ])
 }
 
 fn against_reference() -> Result<Measured, String> {
@@ -123,11 +124,9 @@ fn against_reference() -> Result<Measured, String> {
             .map_err(text)?;
         for (t, state) in &reference.states {
             let ours = motion.state(*t).map_err(text)?;
-            let error = (ours.axis - state.axis)
-                .amax()
-                .max((ours.momentum - state.momentum).amax())
-                .max((ours.equatorial_axis - state.equatorial_axis).amax());
-            worst.see(error, || format!("{} at t = {t}", reference.name));
+            let differences =
+                [ours.axis - state.axis, ours.momentum - state.momentum, ours.equatorial_axis - state.equatorial_axis];
+            worst.see(largest(differences.iter().map(largest_component)), || format!("{} at t = {t}", reference.name));
         }
     }
     worst.finish()
@@ -195,12 +194,9 @@ fn integrals_of_random_motions() -> Result<Measured, String> {
         let end = motion.state(50.0).map_err(text)?;
         let ((before, scale), (after, _)) =
             (integrals_and_scales(&spheroid, &s, &initial), integrals_and_scales(&spheroid, &s, &end));
-        let drift = (0..3).map(|k| (after[k] - before[k]).abs() / scale[k]).fold(0.0, f64::max);
-        let frame = (end.axis.norm() - 1.0)
-            .abs()
-            .max((end.equatorial_axis.norm() - 1.0).abs())
-            .max(end.axis.dot(&end.equatorial_axis).abs());
-        Ok(drift.max(frame) / (f64::EPSILON * (motion.step_count() as f64 + 1.0).sqrt()))
+        let drift = largest((0..3).map(|k| (after[k] - before[k]).abs() / scale[k]));
+        let frame = [end.axis.norm() - 1.0, end.equatorial_axis.norm() - 1.0, end.axis.dot(&end.equatorial_axis)];
+        Ok(largest([drift, largest(frame.map(f64::abs))]) / (f64::EPSILON * (motion.step_count() as f64 + 1.0).sqrt()))
     })
 }
 
@@ -218,7 +214,7 @@ fn dense_output_solves_equations() -> Result<Measured, String> {
         };
         // The truncation must be far below rounding: two derivatives multiply it by (order / step)^2.
         let motion = propagate(&spheroid, &s, &initial, (0.0, 10.0), 1e-16).map_err(text)?;
-        let mut largest = 0.0_f64;
+        let mut most = 0.0_f64;
         for i in 1..20 {
             let state = motion.state(Dual2_64::new(0.5 * f64::from(i), 1.0, 0.0)).map_err(text)?;
             let angles = state.angles().map_err(text)?;
@@ -236,9 +232,9 @@ fn dense_output_solves_equations() -> Result<Measured, String> {
             let (alpha, beta) = euler_angle_accelerations(&scene.spheroid(), &scene.coefficients(), spin, &q);
             let size = 1.0 + q.alpha_rate.abs().powi(2) + q.beta_rate.abs() * q.alpha_rate.abs();
             let residual = ((angles.alpha.v2 - alpha) * sin).abs() + (angles.beta.v2 - beta).abs();
-            largest = largest.max(residual * sin * sin / (size * f64::EPSILON));
+            most = largest([most, residual * sin * sin / (size * f64::EPSILON)]);
         }
-        Ok(largest)
+        Ok(most)
     })
 }
 
@@ -268,11 +264,10 @@ fn derivatives_by_duals() -> Result<Measured, String> {
         (dual.momentum, above.momentum - below.momentum),
         (dual.equatorial_axis, above.equatorial_axis - below.equatorial_axis),
     ];
-    let largest = pairs.iter().map(|(d, _)| d.map(|x| x.eps).amax()).fold(0.0, f64::max);
+    let size = largest(pairs.iter().map(|(d, _)| largest_component(&d.map(|x| x.eps))));
     for (index, (dual, difference)) in pairs.iter().enumerate() {
-        let error = (dual.map(|x| x.eps) - difference / (2.0 * step)).amax();
-        worst
-            .see(error / largest, || format!("d/ds^YY of n, L, e_x [{index}] of tp-2 at t = 50, largest {largest:.3}"));
+        let error = largest_component(&(dual.map(|x| x.eps) - difference / (2.0 * step)));
+        worst.see(error / size, || format!("d/ds^YY of n, L, e_x [{index}] of tp-2 at t = 50, largest {size:.3}"));
     }
     worst.finish()
 }
@@ -319,7 +314,7 @@ fn frame_covariance() -> Result<Measured, String> {
     worst_over(5, 200, &scenes(), |scene| {
         let any = twofold::euler_angles::body_from_inertial(&scene.angles());
         let permuted = twofold::euler_angles::permuted_from_inertial();
-        Ok(compare(scene, &any)?.max(compare(scene, &permuted)?))
+        Ok(largest([compare(scene, &any)?, compare(scene, &permuted)?]))
     })
 }
 

@@ -2,7 +2,7 @@
 
 use twofold::propagation::{ContinuousAngles, Motion, propagate};
 
-use crate::check::{Bound, Check, Kind, Measured};
+use crate::check::{Bound, Check, Kind, Measured, largest, largest_component};
 use crate::physical_domain::{scenes, worst_over};
 use crate::second_integrator::{motion_in_angles, regular_motion};
 
@@ -41,10 +41,9 @@ fn regular_forms() -> Result<Measured, String> {
         let ours = propagate(&spheroid, &s, &initial, (0.0, DURATION), 1e-14)
             .and_then(|motion| motion.state(DURATION))
             .map_err(|e| e.to_string())?;
-        Ok((ours.axis - other.axis)
-            .amax()
-            .max((ours.momentum - other.momentum).amax())
-            .max((ours.equatorial_axis - other.equatorial_axis).amax()))
+        let differences =
+            [ours.axis - other.axis, ours.momentum - other.momentum, ours.equatorial_axis - other.equatorial_axis];
+        Ok(largest(differences.iter().map(largest_component)))
     })
 }
 
@@ -73,7 +72,8 @@ fn forms_agree() -> Result<Measured, String> {
         let ours = ContinuousAngles::new(&motion, 0.0, &scene.angles())
             .and_then(|mut angles| angles.at(DURATION))
             .map_err(|e| e.to_string())?;
-        Ok((ours.alpha - other.alpha).abs().max((ours.beta - other.beta).abs()).max((ours.gamma - other.gamma).abs()))
+        let differences = [ours.alpha - other.alpha, ours.beta - other.beta, ours.gamma - other.gamma];
+        Ok(largest(differences.map(f64::abs)))
     })?;
     if measured.get() < 100 {
         return Err(format!("only {} of 200 scenes stay off the poles", measured.get()));

@@ -14,7 +14,7 @@ use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::perturbation::{Constants, Kind as Precession, constants_from_initial_values, initial_values};
 use twofold::solutions::steady::steady_precession_rate;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
 use crate::physical_domain::{scenes, worst_over};
 use crate::reference::reference_motion;
 
@@ -109,7 +109,9 @@ fn free_reference() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for (t, state) in &scene.states {
         let ours = free_rotation(&scene.spheroid, &scene.initial(), *t);
-        let error = (ours.axis - state.axis).amax().max((ours.equatorial_axis - state.equatorial_axis).amax());
+        let error = largest(
+            [ours.axis - state.axis, ours.equatorial_axis - state.equatorial_axis].map(|v| largest_component(&v)),
+        );
         worst.see(error, || format!("t = {t}"));
     }
     worst.finish()
@@ -130,14 +132,17 @@ fn free_equations() -> Result<Measured, String> {
         };
         let state = free_rotation(&spheroid, &initial, Dual64::new(t, 1.0));
         let rates = body_state_rates(&spheroid, &Matrix3::zeros(), &state);
-        let error =
-            |moved: &Vector3<Dual64>, rate: &Vector3<Dual64>| (moved.map(|x| x.eps) - rate.map(|x| x.re)).amax();
+        let error = |moved: &Vector3<Dual64>, rate: &Vector3<Dual64>| {
+            largest_component(&(moved.map(|x| x.eps) - rate.map(|x| x.re)))
+        };
         let size = start.momentum.norm() * slow;
-        let largest = error(&state.axis, &rates.axis)
-            .max(error(&state.equatorial_axis, &rates.equatorial_axis))
-            .max(error(&state.momentum, &rates.momentum));
+        let most = largest([
+            error(&state.axis, &rates.axis),
+            error(&state.equatorial_axis, &rates.equatorial_axis),
+            error(&state.momentum, &rates.momentum),
+        ]);
         let unit = f64::EPSILON * (size * (1.0 + size * t) * (1.0 + 1.0 / scene.inertia_ratio) + f64::MIN_POSITIVE);
-        Ok(largest / unit)
+        Ok(most / unit)
     })
 }
 
@@ -161,7 +166,7 @@ fn steady_equations() -> Result<Measured, String> {
     worst_over(13, 500, &domain, |&(ratio, spin, beta, xx, zz, alpha)| {
         let spheroid = RigidSpheroid::in_units_of_tc(ratio);
         let s = PrincipalCoefficients { xx, yy: xx, zz };
-        let mut largest = 0.0_f64;
+        let mut most = 0.0_f64;
         for kind in [Precession::Twofold, Precession::Single] {
             let Ok(rate) = steady_precession_rate(kind, &spheroid, &s, spin, beta) else {
                 let radicand = (ratio * spin).powi(2) - 8.0 * (zz - xx) * beta.cos().powi(2);
@@ -173,9 +178,9 @@ fn steady_equations() -> Result<Measured, String> {
             let terms = (sin * cos * rate * rate).abs()
                 + (ratio * spin * sin * rate).abs()
                 + (2.0 * (xx.abs() + zz.abs()) * sin * cos).abs();
-            largest = largest.max(second.abs() / terms).max(first.abs());
+            most = largest([most, second.abs() / terms, first.abs()]);
         }
-        Ok(largest / f64::EPSILON)
+        Ok(most / f64::EPSILON)
     })
 }
 
@@ -208,7 +213,7 @@ fn inverse_round_trip() -> Result<Measured, String> {
             let (sin, cos) = c.phase.sin_cos();
             Vector4::new(c.alpha_0, c.beta_0, c.amplitude * cos, c.amplitude * sin)
         };
-        Ok((vector(&found) - vector(constants)).amax())
+        Ok(largest((vector(&found) - vector(constants)).iter().map(|x| x.abs())))
     };
     let mut worst = Worst::default();
     let examples = [
@@ -241,7 +246,7 @@ fn inverse_at_random() -> Result<Measured, String> {
             }
             let again = forward(&found)?;
             let vector = |q: &AxisAngles<f64>| Vector4::new(q.alpha, q.beta, q.alpha_rate, q.beta_rate);
-            Ok((vector(&again) - vector(&initial)).amax())
+            Ok(largest((vector(&again) - vector(&initial)).iter().map(|x| x.abs())))
         })?;
         worst.see(random.figure, || format!("{kind:?}: {}", random.detail));
     }
@@ -276,7 +281,7 @@ fn inverse_derivatives() -> Result<Measured, String> {
         };
         let initial = forward(constants.map(lift)).map_err(|e| e.to_string())?.map(|x| x.re);
         let product = jacobian(&backward, initial)? * jacobian(&forward, constants)?;
-        worst.see((product - Matrix4::identity()).amax(), || format!("{kind:?}"));
+        worst.see(largest((product - Matrix4::identity()).iter().map(|x: &f64| x.abs())), || format!("{kind:?}"));
     }
     worst.finish()
 }

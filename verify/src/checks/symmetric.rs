@@ -18,7 +18,7 @@ use twofold::solutions::perturbation::Kind as Precession;
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::solutions::symmetric::SymmetricSolution;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
 use crate::physical_domain::{RandomScene, scenes, worst_over};
 use crate::reference::reference_motion;
 
@@ -149,7 +149,7 @@ fn state<S: Real>(spheroid: &RigidSpheroid<S>, solution: &SymmetricSolution<S>, 
 }
 
 fn difference(a: &BodyState<f64>, b: &BodyState<f64>) -> f64 {
-    (a.axis - b.axis).amax().max((a.equatorial_axis - b.equatorial_axis).amax())
+    largest([a.axis - b.axis, a.equatorial_axis - b.equatorial_axis].map(|v| largest_component(&v)))
 }
 
 fn solves_equations() -> Result<Measured, String> {
@@ -176,7 +176,7 @@ fn solves_equations() -> Result<Measured, String> {
             angles.beta.v1 - rates.beta.re,
             (angles.gamma.v1 - rates.gamma.re) * sin,
         ];
-        Ok(residual.iter().fold(0.0, |max: f64, r| max.max(r.abs())) * sin * sin / (size * f64::EPSILON))
+        Ok(largest(residual.map(f64::abs)) * sin * sin / (size * f64::EPSILON))
     })
 }
 
@@ -201,7 +201,7 @@ fn compare_with_propagation(scene: &RandomScene) -> Result<f64, String> {
     let exact = SymmetricSolution::new(&spheroid, &s, &angles, &rates).map_err(text)?;
     let (violation, initial) = (scene.coefficients().tensor(), scene.state());
     let numerical = propagate(&scene.spheroid(), &violation, &initial, (0.0, 50.0), 1e-14).map_err(text)?;
-    let mut largest = 0.0_f64;
+    let mut most = 0.0_f64;
     for i in 0..=25 {
         let t = 2.0 * f64::from(i);
         let BodyState { axis, momentum, equatorial_axis } = state(&spheroid, &exact, Dual64::from_re(t));
@@ -210,9 +210,9 @@ fn compare_with_propagation(scene: &RandomScene) -> Result<f64, String> {
         let sensitivity = axis.map(|x| x.eps).amax().max(equatorial_axis.map(|x| x.eps).amax());
         let rounding = 8.0 * f64::EPSILON * (phase(scene, t) + sensitivity);
         let difference = difference(&ours, &numerical.state(t).map_err(text)?);
-        largest = largest.max(difference / (numerical.error_estimate(t) + rounding));
+        most = largest([most, difference / (numerical.error_estimate(t) + rounding)]);
     }
-    Ok(largest)
+    Ok(most)
 }
 
 fn against_propagation() -> Result<Measured, String> {
@@ -255,7 +255,7 @@ fn derivatives() -> Result<Measured, String> {
             part(&exact.momentum) - part(&numerical.momentum),
         ];
         let size = part(&numerical.axis).amax().max(part(&numerical.equatorial_axis).amax()).max(1.0);
-        let error = error.iter().fold(0.0, |max: f64, v| max.max(v.amax()));
+        let error = largest(error.iter().map(largest_component));
         Ok(error * sin * sin / (size * phase(&scene, 10.0) * f64::EPSILON))
     })
 }
@@ -303,7 +303,7 @@ fn steady() -> Result<Measured, String> {
         ];
         // A rounding of the rate tilts the axis by as much over the stiffness.
         let condition = 1.0 + 1.0 / (stiffness * sin * sin);
-        Ok(errors.iter().fold(0.0, |max: f64, e| max.max(e.abs())) / (phase(&scene, t) * condition * f64::EPSILON))
+        Ok(largest(errors.map(f64::abs)) / (phase(&scene, t) * condition * f64::EPSILON))
     })?;
     if solved.get() < 300 {
         return Err(format!("only {} scenes have a stable steady precession", solved.get()));
@@ -322,8 +322,7 @@ fn periods() -> Result<Measured, String> {
             after.gamma - before.gamma - mean.gamma * elapsed,
         ];
         let sin = before.beta.sin();
-        Ok(errors.iter().fold(0.0, |max: f64, e| max.max(e.abs())) * sin * sin
-            / (phase(&scene, elapsed.abs() + t.abs()) * f64::EPSILON))
+        Ok(largest(errors.map(f64::abs)) * sin * sin / (phase(&scene, elapsed.abs() + t.abs()) * f64::EPSILON))
     })
 }
 

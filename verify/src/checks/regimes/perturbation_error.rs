@@ -8,6 +8,8 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
 use twofold::solutions::perturbation::{Constants, Kind, Perturbation};
 
+use crate::check::largest;
+
 /// Which perturbation solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
@@ -74,9 +76,9 @@ impl Case {
             let t = duration * f64::from(i) / f64::from(samples);
             let (exact, approximate) = (angles.at(t).map_err(|e| e.to_string())?, solution.at(t));
             let axis = motion.state(t).map_err(|e| e.to_string())?.axis;
-            errors.alpha = errors.alpha.max((exact.alpha - approximate.alpha).abs());
-            errors.beta = errors.beta.max((exact.beta - approximate.beta).abs());
-            errors.axis = errors.axis.max((axis - symmetry_axis(approximate.alpha, approximate.beta)).norm());
+            errors.alpha = largest([errors.alpha, (exact.alpha - approximate.alpha).abs()]);
+            errors.beta = largest([errors.beta, (exact.beta - approximate.beta).abs()]);
+            errors.axis = largest([errors.axis, (axis - symmetry_axis(approximate.alpha, approximate.beta)).norm()]);
         }
         Ok(errors)
     }

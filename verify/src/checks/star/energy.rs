@@ -8,7 +8,7 @@ use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::{relative, unit_spheroid};
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::random::Random;
 
 pub(super) fn checks() -> Vec<Check> {
@@ -112,7 +112,9 @@ fn multipole_order() -> Result<Measured, String> {
         let (coarse, fine) = (error(16)?, error(32)?);
         figures.push((coarse / fine).log2() - if fine <= 1e-5 { 0.0 } else { 1.0 });
     }
-    Ok(Measured::new(figures.iter().copied().fold(f64::INFINITY, f64::min), format!("orders {figures:.3?}")))
+    let lowest = figures.iter().copied().min_by(|a, b| a.total_cmp(b)).unwrap_or(f64::NAN);
+    let lowest = if figures.iter().any(|x| x.is_nan()) { f64::NAN } else { lowest };
+    Ok(Measured::new(lowest, format!("orders {figures:.3?}")))
 }
 
 fn multipole_moments() -> Result<Measured, String> {
@@ -129,8 +131,7 @@ fn multipole_moments() -> Result<Measured, String> {
             let u = star.potential_energy_tensor().xx;
             errors.extend([found.c.abs() / u, relative(found.potential_energy_tensor.xx, u)]);
         }
-        let largest = errors.iter().copied().fold(0.0, f64::max) / f64::EPSILON;
-        worst.see(largest, || format!("a3/a1 = {q}: {errors:?}"));
+        worst.see(largest(errors.iter().copied()) / f64::EPSILON, || format!("a3/a1 = {q}: {errors:?}"));
     }
     worst.finish()
 }

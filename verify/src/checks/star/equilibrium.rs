@@ -7,7 +7,7 @@ use gauss_quad::GaussLegendre;
 use twofold::star::maclaurin::MaclaurinSpheroid;
 
 use super::{coefficients_by_ellip, relative, unit_spheroid};
-use crate::check::{Bound, Check, Kind, Measured};
+use crate::check::{Bound, Check, Kind, Measured, largest};
 use crate::physical_domain::worst_over;
 
 pub(super) fn checks() -> Vec<Check> {
@@ -67,7 +67,7 @@ fn energy() -> Result<Measured, String> {
             relative(star.rotation_rate().powi(2), rate),
             relative(2.0 * star.spheroid().c(), energy),
         ];
-        Ok(errors.into_iter().fold(0.0, f64::max) * (1.0 - q * q) / f64::EPSILON)
+        Ok(largest(errors) * (1.0 - q * q) / f64::EPSILON)
     })
 }
 
@@ -88,12 +88,13 @@ fn tensor_virial() -> Result<Measured, String> {
         };
         let p = integral(&pressure);
         let kxx = integral(&|varpi, _| rate * varpi * varpi / 2.0);
-        let surface = (0..=20)
-            .map(|i| f64::from(i) / 20.0)
-            .map(|mu| pressure((1.0 - mu * mu).sqrt(), q * mu).abs() / pressure(0.0, 0.0))
-            .fold(0.0, f64::max);
+        let surface = largest(
+            (0..=20)
+                .map(|i| f64::from(i) / 20.0)
+                .map(|mu| pressure((1.0 - mu * mu).sqrt(), q * mu).abs() / pressure(0.0, 0.0)),
+        );
         let residuals = [(kxx + p - u.xx) / u.zz, (p - u.zz) / u.zz, surface];
-        Ok(residuals.into_iter().fold(0.0, |m: f64, r| m.max(r.abs())) / f64::EPSILON)
+        Ok(largest(residuals.map(f64::abs)) / f64::EPSILON)
     })
 }
 
@@ -110,6 +111,6 @@ fn closed_forms() -> Result<Measured, String> {
             star.pressure(1.0, 0.0) / star.central_pressure(),
             relative(star.pressure(0.0, 0.0), star.central_pressure()),
         ];
-        Ok(errors.into_iter().fold(0.0, |m: f64, d| m.max(d.abs())) / f64::EPSILON)
+        Ok(largest(errors.map(f64::abs)) / f64::EPSILON)
     })
 }

@@ -9,7 +9,7 @@ use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::{coefficients_by_ellip, relative};
-use crate::check::{Bound, Check, Kind, Measured};
+use crate::check::{Bound, Check, Kind, Measured, largest};
 use crate::physical_domain::worst_over;
 
 pub(super) fn checks() -> Vec<Check> {
@@ -79,7 +79,7 @@ fn printed_closed_forms() -> Result<Measured, String> {
         let a1 = q / (e * e) * (f - q);
         let a3 = 2.0 / (e * e) * (1.0 - q * f);
         let errors = [a.a0 - 2.0 * q * f, a.a1 - a1, a.a3 - a3, a.difference - (a1 - q * q * a3)];
-        Ok(errors.into_iter().fold(0.0, |m: f64, d| m.max(d.abs())) * e * e / f64::EPSILON)
+        Ok(largest(errors.map(f64::abs)) * e * e / f64::EPSILON)
     })
 }
 
@@ -93,7 +93,7 @@ fn ellipsoid(axes: [f64; 3]) -> Result<UniformEllipsoid<f64>, String> {
 }
 
 fn largest_relative<const N: usize>(values: [f64; N], references: [f64; N]) -> f64 {
-    values.into_iter().zip(references).fold(0.0, |m: f64, (v, r)| m.max(relative(v, r))) / f64::EPSILON
+    largest(values.into_iter().zip(references).map(|(v, r)| relative(v, r))) / f64::EPSILON
 }
 
 fn against_elliptic_integrals() -> Result<Measured, String> {
@@ -103,7 +103,7 @@ fn against_elliptic_integrals() -> Result<Measured, String> {
         let shape = SpheroidShape::from_semi_axes(x, z).map_err(text)?;
         let (a, [a1, _, a3]) = (potential_coefficients(&shape), coefficients_by_ellip([x, x, z])?);
         let spheroid = largest_relative([a.a1, a.a3], [a1, a3]) * shape.eccentricity_squared().abs().min(1.0);
-        Ok(triaxial.max(spheroid))
+        Ok(largest([triaxial, spheroid]))
     })
 }
 
@@ -121,7 +121,7 @@ fn against_defining_integral() -> Result<Measured, String> {
         let a0 = trapezoid(axes, |u| 1.0 / delta(u));
         let a = axes.map(|axis| trapezoid(axes, |u| 1.0 / ((axis * axis + u) * delta(u))));
         let coefficients = <[f64; 3]>::from(star.coefficients());
-        Ok(largest_relative(coefficients, a).max(largest_relative([star.central_coefficient()], [a0])))
+        Ok(largest([largest_relative(coefficients, a), largest_relative([star.central_coefficient()], [a0])]))
     })
 }
 
@@ -134,7 +134,7 @@ fn sum_rules() -> Result<Measured, String> {
         let shape = SpheroidShape::from_semi_axes(axes[0], axes[2]).map_err(text)?;
         let s = potential_coefficients(&shape);
         let spheroid = [2.0 * s.a1 + s.a3, 2.0 * s.a1 + shape.axis_ratio_squared() * s.a3];
-        Ok(triaxial.max(largest_relative(spheroid, [2.0, s.a0])))
+        Ok(largest([triaxial, largest_relative(spheroid, [2.0, s.a0])]))
     })
 }
 

@@ -8,7 +8,7 @@ use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::unit_spheroid;
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::physical_domain::worst_over;
 
 pub(super) fn checks() -> Vec<Check> {
@@ -66,7 +66,7 @@ fn oblateness() -> Result<Measured, String> {
         let i = spheroid.moment_of_inertia();
         let epsilon = spheroid.oblateness();
         let again = SpheroidShape::from_oblateness(epsilon).map_err(|e| e.to_string())?.oblateness();
-        Ok(((i.zz - i.xx) / i.xx - epsilon).abs().max((again - epsilon).abs()) / f64::EPSILON)
+        Ok(largest([(i.zz - i.xx) / i.xx - epsilon, again - epsilon].map(f64::abs)) / f64::EPSILON)
     })
 }
 
@@ -83,7 +83,7 @@ fn mass_and_radius() -> Result<Measured, String> {
                 again.mass() / mass - 1.0,
                 (again.c() / star.c() - 1.0) * e2,
             ];
-            Ok(errors.into_iter().fold(0.0, |m: f64, d| m.max(d.abs())) / f64::EPSILON)
+            Ok(largest(errors.map(f64::abs)) / f64::EPSILON)
         };
         build().map_err(|e: twofold::Error| e.to_string())
     })
