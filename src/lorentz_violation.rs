@@ -64,10 +64,10 @@ pub struct PrincipalFrame {
 /// about `2e-16 |s| / |s1 - s2|`; for equal ones any pair of axes in their plane is as good, and one is returned.
 ///
 /// # Errors
-/// [`Error::Domain`] for an entry that is not finite, and for an asymmetry above `1e-12` of the largest entry.
+/// [`Error::Domain`] for an entry that is not finite or above 1e300 in size, and for an asymmetry above `1e-12` of the largest entry.
 pub fn principal_frame(tensor: &Matrix3<f64>) -> Result<PrincipalFrame, Error> {
     for &entry in tensor.iter() {
-        Error::unless(entry.is_finite(), "entry of s^IJ", entry, "a finite number")?;
+        Error::unless(entry.abs() <= 1e300, "entry of s^IJ", entry, "a finite number of at most 1e300 in size")?;
     }
     let asymmetry = (tensor - tensor.transpose()).amax();
     Error::unless(

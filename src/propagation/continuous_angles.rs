@@ -45,6 +45,12 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
         let (mut from_time, mut from) = (self.time, self.real_state(self.time)?);
         let mut ends = vec![(target, self.real_state(target)?)];
         while let Some((to_time, to)) = ends.pop() {
+            Error::unless(
+                finite(&to),
+                "state of the motion at time t",
+                to_time,
+                "a time at which every component is finite",
+            )?;
             if self.resolved(&from, &to, to_time - from_time) {
                 self.count(&to);
                 (from_time, from) = (to_time, to);
@@ -77,11 +83,13 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
         })
     }
 
-    /// Whether no azimuth can have turned by a quarter between two states, as seen from either of them. Between two
-    /// states on the pole there is nothing to count.
+    /// Whether no azimuth can have turned by a quarter between two states, as seen from either of them. Between two states
+    /// on the pole less than a radian of rotation apart there is nothing to count.
     fn resolved(&self, from: &BodyState<f64>, to: &BodyState<f64>, duration: f64) -> bool {
         let on_pole = |state: &BodyState<f64>| off_pole(state) <= f64::EPSILON;
-        self.stays_aside(from, duration) || self.stays_aside(to, duration) || (on_pole(from) && on_pole(to))
+        let inertia = self.motion.spheroid().inertia_xx.re().min(self.motion.spheroid().inertia_zz.re());
+        let short = from.momentum.norm().max(to.momentum.norm()) * duration.abs() < inertia;
+        self.stays_aside(from, duration) || self.stays_aside(to, duration) || (short && on_pole(from) && on_pole(to))
     }
 
     /// Whether over a time `t` from `state` both the path of `n` and that of Z in the body stay shorter than the distance
@@ -121,6 +129,10 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
             gamma: angles.gamma + turns(self.last.gamma - angles.gamma),
         };
     }
+}
+
+fn finite(state: &BodyState<f64>) -> bool {
+    [state.axis, state.momentum, state.equatorial_axis].iter().flatten().all(|component| component.is_finite())
 }
 
 /// Distance of `n` from the nearer end of the Z axis, across it: `sin(beta)`.

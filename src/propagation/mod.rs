@@ -1,8 +1,12 @@
 //! Numerical motion with dense output, and the continuous Euler angles of any motion.
 
+mod compensated;
 mod continuous_angles;
+mod error_growth;
+mod input;
 mod motion;
 mod series;
+mod step_size;
 mod taylor;
 
 pub use continuous_angles::ContinuousAngles;

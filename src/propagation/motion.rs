@@ -23,6 +23,7 @@ pub trait Motion<S: Scalar> {
     /// [`Error::Domain`] for a time outside [`span`](Motion::span).
     fn state(&self, t: S) -> Result<BodyState<S>, Error>;
 
-    /// Estimated error of the components of `n` and `e_x`, and of those of `L` relative to `|L|`, at time `t` of the span.
+    /// Estimated error of the components of `n` and `e_x`, and of those of `L` in units of its size (that of `L` at the start
+    /// and what the torque makes of it), at time `t` of the span.
     fn error_estimate(&self, t: f64) -> f64;
 }

@@ -1,13 +1,16 @@
 //! Numerical motion by Taylor series with adaptive steps and dense output.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::Motion;
+use crate::propagation::compensated::{Compensated, CompensatedState};
+use crate::propagation::error_growth::ErrorGrowth;
+use crate::propagation::input::check_input;
 use crate::propagation::series::Series;
-use crate::rounding::two_sum;
-use crate::scalar::{Real, Scalar, real_part};
+use crate::propagation::step_size::{Scale, order_for, step_size};
+use crate::scalar::Real;
 
 /// Smallest and largest accuracy that [`propagate`] takes.
 pub const ACCURACY_RANGE: (f64, f64) = (1e-16, 1e-2);
@@ -18,8 +21,8 @@ pub const STEP_LIMIT: usize = 500_000;
 /// The numerical motion of a spheroid from `initial` at `span.0` to `span.1` (forwards or backwards).
 ///
 /// `s` is the tensor `s^IJ` in the inertial frame of `initial`, which may be any. `accuracy` is the truncation error wanted
-/// in the components of `n`, `e_x` and `L / |L|` at the end of the span, in [`ACCURACY_RANGE`]; rounding adds about
-/// `2e-16 sqrt(steps)` and its growth, see [`Motion::error_estimate`]. A truncation below rounding costs little: the order
+/// in the components of `n`, `e_x` and of `L` in units of `|L| + sqrt(2 I^xx C |s|)` at the end of the span, in
+/// [`ACCURACY_RANGE`]; rounding adds about `2e-16 sqrt(steps)` and its growth, see [`Motion::error_estimate`]. A truncation below rounding costs little: the order
 /// of the series rises by one for each factor of seven.
 ///
 /// Step sizes and order follow from the real parts alone, so that derivatives (duals) are those of the motion and not of
@@ -157,135 +160,6 @@ impl<S: Real> Motion<S> for TaylorMotion<S> {
     }
 }
 
-/// Sizes by which errors are measured.
-#[derive(Debug, Clone, Copy)]
-struct Scale {
-    /// Size of the angular momentum, or what the torque makes of it within its own time.
-    momentum: f64,
-    /// Upper bound of the rate at which directions turn.
-    turning_rate: f64,
-    /// A power of two near the inverse of that rate.
-    time: f64,
-}
-
-impl Scale {
-    fn of<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: &BodyState<S>) -> Self {
-        let inertia = spheroid.inertia_xx.re();
-        let pull = spheroid.constant_c.re().abs() * s.map(S::re).norm();
-        // Two roots, since the product may be out of range where they are not.
-        let momentum = real_part(&state.momentum).norm() + (2.0 * inertia).sqrt() * pull.sqrt();
-        let body_turn = (1.0 - spheroid.inertia_xx.re() / spheroid.inertia_zz.re()).abs();
-        let turning_rate = momentum / inertia * (1.0 + body_turn);
-        let time = if turning_rate > 0.0 { 2f64.powi(-turning_rate.log2().clamp(-1000.0, 1000.0) as i32) } else { 1.0 };
-        // A body at rest without torque stays so: any unit of momentum does.
-        Self { momentum: if momentum > 0.0 { momentum } else { inertia }, turning_rate, time }
-    }
-
-    /// Largest component of a coefficient, `L` in units of the momentum.
-    fn size<S: Real>(&self, c: &BodyState<S>) -> f64 {
-        let largest = |v: &Vector3<S>| real_part(v).amax();
-        largest(&c.axis).max(largest(&c.equatorial_axis)).max(largest(&c.momentum) / self.momentum)
-    }
-}
-
-/// Order of the series for a relative truncation `budget` per radian: the work per unit of time is least near
-/// `-ln(budget) / 2` (Jorba and Zou 2005).
-fn order_for(budget: f64) -> usize {
-    (-budget.ln() / 2.0).ceil().clamp(6.0, 32.0) as usize
-}
-
-/// Step with truncation error at most `budget` per unit of time, from the last two coefficients (two, since one may vanish
-/// by symmetry); zero where the coefficients are out of range.
-fn step_size<S: Real>(series: &Series<S>, scale: &Scale, budget: f64) -> f64 {
-    let order = series.coefficients.len() - 1;
-    let bound = |k: usize| {
-        let size = scale.size(&series.coefficients[k]);
-        match size {
-            0.0 => f64::INFINITY,
-            size if size.is_finite() => (budget * scale.time / size).powf(1.0 / (k as f64 - 1.0)) * scale.time,
-            _ => 0.0,
-        }
-    };
-    // The first omitted term is about the last kept one times (step / radius of convergence), and that ratio is below
-    // one fifth: so the last kept term bounds the whole remainder.
-    bound(order).min(bound(order - 1))
-}
-
-/// Sums over the steps, at times `t_k`, from which the grown truncation `sum_k e_k u_k` and the grown rounding
-/// `2e-16 sqrt(sum_k u_k^2)` follow, with `u_k = 1 + rate (t - t_k)`: rounding errors are independent, truncation errors not.
-#[derive(Debug, Clone, Copy)]
-struct ErrorGrowth {
-    truncation: f64,
-    truncation_times: f64,
-    steps: f64,
-    times: f64,
-    times_squared: f64,
-}
-
-impl ErrorGrowth {
-    /// The initial state comes out of a few rounded operations, about two ulp of one.
-    fn of_rounded_start() -> Self {
-        Self { truncation: 0.0, truncation_times: 0.0, steps: 4.0, times: 0.0, times_squared: 0.0 }
-    }
-
-    fn add(&mut self, time: f64, truncation: f64) {
-        self.truncation += truncation;
-        self.truncation_times += truncation * time;
-        self.steps += 1.0;
-        self.times += time;
-        self.times_squared += time * time;
-    }
-
-    fn at(&self, time: f64, rate: f64) -> f64 {
-        let now = 1.0 + rate * time;
-        let truncation = self.truncation * now - rate * self.truncation_times;
-        let squares = self.steps * now * now - 2.0 * rate * now * self.times + rate * rate * self.times_squared;
-        truncation + f64::EPSILON * squares.max(1.0).sqrt()
-    }
-}
-
-/// A time as an unevaluated sum, so that many small steps do not add up their rounding.
-#[derive(Debug, Clone, Copy)]
-struct Compensated {
-    high: f64,
-    low: f64,
-}
-
-impl Compensated {
-    fn new(high: f64) -> Self {
-        Self { high, low: 0.0 }
-    }
-
-    fn add(&mut self, step: f64) {
-        let (high, low) = two_sum(self.high, step + self.low);
-        (self.high, self.low) = (high, low);
-    }
-}
-
-/// A state whose additions are compensated: `high` is the state, `low` what its last addition lost.
-struct CompensatedState<S> {
-    high: BodyState<S>,
-    low: BodyState<S>,
-}
-
-impl<S: Scalar> CompensatedState<S> {
-    fn new(state: &BodyState<S>) -> Self {
-        let zero = Vector3::zeros();
-        Self { high: *state, low: BodyState { axis: zero, momentum: zero, equatorial_axis: zero } }
-    }
-
-    fn add(&mut self, change: &BodyState<S>) {
-        let add = |high: &mut Vector3<S>, low: &mut Vector3<S>, change: &Vector3<S>| {
-            for i in 0..3 {
-                (high[i], low[i]) = two_sum(high[i], change[i] + low[i]);
-            }
-        };
-        add(&mut self.high.axis, &mut self.low.axis, &change.axis);
-        add(&mut self.high.momentum, &mut self.low.momentum, &change.momentum);
-        add(&mut self.high.equatorial_axis, &mut self.low.equatorial_axis, &change.equatorial_axis);
-    }
-}
-
 /// Refuses a motion that has too many steps, or that has shown within its first steps that it will have.
 fn check_length(steps: usize, elapsed: f64, duration: f64) -> Result<(), Error> {
     let foreseen = steps as f64 * duration / elapsed.max(f64::MIN_POSITIVE);
@@ -296,35 +170,4 @@ fn check_length(steps: usize, elapsed: f64, duration: f64) -> Result<(), Error> 
         foreseen,
         "at most 500,000 steps: take a shorter span (and go on from its end) or a lower accuracy",
     )
-}
-
-fn check_input<S: Real>(
-    spheroid: &RigidSpheroid<S>,
-    s: &Matrix3<S>,
-    state: &BodyState<S>,
-    span: (f64, f64),
-    accuracy: f64,
-) -> Result<(), Error> {
-    let (least, most) = ACCURACY_RANGE;
-    Error::unless(least <= accuracy && accuracy <= most, "accuracy", accuracy, "between 1e-16 and 1e-2")?;
-    for time in [span.0, span.1] {
-        Error::unless(time.is_finite(), "end of the time span", time, "a finite number")?;
-    }
-    for inertia in [spheroid.inertia_xx.re(), spheroid.inertia_zz.re()] {
-        Error::unless(inertia > 0.0 && inertia.is_finite(), "moment of inertia", inertia, "above zero and finite")?;
-    }
-    let c = spheroid.constant_c.re();
-    Error::unless(c.is_finite(), "constant C of the anisotropic self-energy", c, "a finite number")?;
-    for entry in s.iter() {
-        Error::unless(entry.re().is_finite(), "entry of s^IJ", entry.re(), "a finite number")?;
-    }
-    for component in state.momentum.iter() {
-        Error::unless(component.re().is_finite(), "component of L", component.re(), "a finite number")?;
-    }
-    let (axis, equatorial) = (real_part(&state.axis), real_part(&state.equatorial_axis));
-    for (length, name) in [(axis.norm(), "length of the axis n"), (equatorial.norm(), "length of the axis e_x")] {
-        Error::unless((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")?;
-    }
-    let overlap = axis.dot(&equatorial);
-    Error::unless(overlap.abs() < 1e-9, "n . e_x", overlap, "zero, to 1e-9")
 }

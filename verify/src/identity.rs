@@ -86,6 +86,9 @@ fn largest_rounding<I: Identity>() -> Result<Measured, String> {
     for (index, (point, conditioned)) in pairs.enumerate() {
         let scales = I::residuals(&conditioned);
         for (component, (residual, scale)) in I::residuals(&point).into_iter().zip(scales).enumerate() {
+            if !scale.magnitude.is_finite() {
+                return Err(format!("component {component} at point {index} of seed {seed} has no finite magnitude"));
+            }
             let figure = if residual == 0.0 { 0.0 } else { residual.abs() / (f64::EPSILON * scale.magnitude) };
             worst.see(figure, || format!("component {component} at point {index} of seed {seed}: {residual:e}"));
         }

@@ -1,5 +1,7 @@
 //! Initial values from the constants of integration, Eq. (34), and the constants from initial values.
 
+use core::f64::consts::{PI, TAU};
+
 use nalgebra::{Matrix2, Vector2};
 use num_dual::Dual64;
 
@@ -28,8 +30,8 @@ pub fn initial_values<S: Real>(
 /// `[integraltoinitial]`.
 ///
 /// `A cos phi` and `A sin phi` follow directly; `alpha_0`, `beta_0` by Newton's method with exact derivatives, started at
-/// the initial angles and at a grid of inclinations. Eq. (34) is not linear, so there can be several solutions: the one
-/// with the smallest `|A|` is returned, with `A >= 0` and `phi` in (-pi, pi], `phi = 0` if `A = 0`. Residual: a few ulp of the
+/// the initial angles and at a grid of inclinations. Eq. (34) is not linear, so there can be several solutions: of those
+/// found, the one with the smallest `|A|` is returned, with `A >= 0` and `phi` in (-pi, pi], `phi = 0` if `A = 0`. Residual: a few ulp of the
 /// terms of Eq. (34). Derivatives (duals) of the constants hold up to third order, except of `A` and `phi` at `A = 0`.
 ///
 /// # Errors
@@ -43,6 +45,9 @@ pub fn constants_from_initial_values<S: Real>(
     initial: &AxisAngles<S>,
 ) -> Result<Constants<S>, Error> {
     Error::unless(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero: Eq. (34) divides by it")?;
+    // Eq. (34) repeats itself after a turn of alpha: near zero Newton's method loses no digits to it.
+    let whole_turns = (initial.alpha.re() / TAU).round() * TAU;
+    let initial = &AxisAngles { alpha: initial.alpha - S::from_f64(whole_turns), ..*initial };
     let real = Inversion {
         kind,
         spheroid: RigidSpheroid {
@@ -73,7 +78,7 @@ pub fn constants_from_initial_values<S: Real>(
     let (p, q) = generic.homogeneous(&found);
     let (amplitude, phase) =
         if p.re() == 0.0 && q.re() == 0.0 { (S::zero(), S::zero()) } else { ((p * p + q * q).sqrt(), q.atan2(p)) };
-    Ok(Constants { alpha_0: found.x, beta_0: found.y, amplitude, phase })
+    Ok(Constants { alpha_0: found.x + S::from_f64(whole_turns), beta_0: found.y, amplitude, phase })
 }
 
 /// Eq. (34) as two equations for `(alpha_0, beta_0)`.
@@ -159,7 +164,7 @@ impl Inversion<f64> {
 
     fn solve(&self) -> Result<Root, Error> {
         let lifted = self.lifted();
-        let grid = (0..Self::STARTS).map(|i| core::f64::consts::PI * (i as f64 + 0.5) / Self::STARTS as f64);
+        let grid = (0..Self::STARTS).map(|i| PI * (i as f64 + 0.5) / Self::STARTS as f64);
         core::iter::once(self.initial.beta)
             .chain(grid)
             .filter_map(|beta| self.newton(&lifted, Vector2::new(self.initial.alpha, beta)))
@@ -184,7 +189,7 @@ impl Inversion<f64> {
             let step = jacobian.try_inverse()? * self.residual(&x);
             let size = step.norm();
             x -= step * (0.2 / size).min(1.0);
-            let inside = x.y > 0.0 && x.y < core::f64::consts::PI;
+            let inside = x.y > 0.0 && x.y < PI;
             if !size.is_finite() || !inside {
                 return None;
             }

@@ -99,7 +99,8 @@ impl<S: Real> SymmetricSolution<S> {
 
     /// Euler angles at time `t`, `beta` in [0, pi], `alpha` and `gamma` continuous in `t`.
     ///
-    /// In a motion through a pole itself `alpha` jumps by half a turn there, and `gamma` with it so that the body does not.
+    /// In a motion through a pole itself `alpha` jumps by half a turn there, and `gamma` with it so that the body does not;
+    /// on the pole their derivatives (duals) do not exist and are not finite.
     pub fn angles(&self, t: S) -> EulerAngles<S> {
         let (initial, free_turn) = (&self.initial, (self.spin - self.omega) * t);
         match &self.motion {

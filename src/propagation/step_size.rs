@@ -1,0 +1,61 @@
+//! Sizes by which a series is measured, its order and its step.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::propagation::series::Series;
+use crate::scalar::{Real, real_part};
+
+/// Sizes by which errors are measured.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scale {
+    /// Size of the angular momentum, or what the torque makes of it within its own time.
+    pub(super) momentum: f64,
+    /// Upper bound of the rate at which directions turn.
+    pub(super) turning_rate: f64,
+    /// A power of two near the inverse of that rate.
+    pub(super) time: f64,
+}
+
+impl Scale {
+    pub(super) fn of<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: &BodyState<S>) -> Self {
+        let inertia = spheroid.inertia_xx.re();
+        let pull = spheroid.constant_c.re().abs() * s.map(S::re).norm();
+        // Two roots, since the product may be out of range where they are not.
+        let momentum = real_part(&state.momentum).norm() + (2.0 * inertia).sqrt() * pull.sqrt();
+        let body_turn = (1.0 - spheroid.inertia_xx.re() / spheroid.inertia_zz.re()).abs();
+        let turning_rate = momentum / inertia * (1.0 + body_turn);
+        let time = if turning_rate > 0.0 { 2f64.powi(-turning_rate.log2().clamp(-1000.0, 1000.0) as i32) } else { 1.0 };
+        // A body at rest without torque stays so: any unit of momentum does.
+        Self { momentum: if momentum > 0.0 { momentum } else { inertia }, turning_rate, time }
+    }
+
+    /// Largest component of a coefficient, `L` in units of the momentum.
+    pub(super) fn size<S: Real>(&self, c: &BodyState<S>) -> f64 {
+        let largest = |v: &Vector3<S>| real_part(v).amax();
+        largest(&c.axis).max(largest(&c.equatorial_axis)).max(largest(&c.momentum) / self.momentum)
+    }
+}
+
+/// Order of the series for a relative truncation `budget` per radian: the work per unit of time is least near
+/// `-ln(budget) / 2` (Jorba and Zou 2005).
+pub(super) fn order_for(budget: f64) -> usize {
+    (-budget.ln() / 2.0).ceil().clamp(6.0, 32.0) as usize
+}
+
+/// Step with truncation error at most `budget` per unit of time, from the last two coefficients (two, since one may vanish
+/// by symmetry); zero where the coefficients are out of range.
+pub(super) fn step_size<S: Real>(series: &Series<S>, scale: &Scale, budget: f64) -> f64 {
+    let order = series.coefficients.len() - 1;
+    let bound = |k: usize| {
+        let size = scale.size(&series.coefficients[k]);
+        match size {
+            0.0 => f64::INFINITY,
+            size if size.is_finite() => (budget * scale.time / size).powf(1.0 / (k as f64 - 1.0)) * scale.time,
+            _ => 0.0,
+        }
+    };
+    // The first omitted term is about the last kept one times (step / radius of convergence), and that ratio is below
+    // one fifth: so the last kept term bounds the whole remainder.
+    bound(order).min(bound(order - 1))
+}
