@@ -121,6 +121,7 @@ fn coefficients_scale_and_combine() {
 #[test]
 fn time_unit_needs_an_oblate_star() {
     refused(RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.9, constant_c: -0.1 }.time_unit(), "constant C");
+    refused(RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.0, constant_c: 0.0 }.time_unit(), "constant C");
     assert_eq!(RigidSpheroid { inertia_xx: 8.0, inertia_zz: 9.0, constant_c: 2.0 }.time_unit(), Ok(2.0));
 }
 
