@@ -53,12 +53,21 @@ impl Bound {
 impl std::fmt::Display for Bound {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Bound::AtMost(0.0) => write!(f, "<= 0"),
-            Bound::AtMost(limit) => write!(f, "<= {limit:.3e}"),
-            Bound::AtLeast(limit) => write!(f, ">= {limit:.3e}"),
-            Bound::Within(low, high) => write!(f, "in [{low:.4}, {high:.4}]"),
+            Bound::AtMost(limit) => write!(f, "<= {}", short(limit)),
+            Bound::AtLeast(limit) => write!(f, ">= {}", short(limit)),
+            Bound::Within(low, high) => write!(f, "in [{}, {}]", short(low), short(high)),
         }
     }
+}
+
+/// Four significant digits without trailing zeros.
+fn short(x: f64) -> String {
+    if x == 0.0 || (1e-2..1e5).contains(&x.abs()) {
+        return ((x * 1e4).round() / 1e4).to_string();
+    }
+    let text = format!("{x:.3e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
 }
 
 /// The figure that a check measured, with what a reader needs to find the worst case again (seed, point, table).

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
-use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width};
+use comfy_table::presets::{NOTHING, UTF8_HORIZONTAL_ONLY};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, Width};
 use serde_json::{Value, json};
 
 use crate::check::{Bound, Check, Kind, Outcome};
@@ -19,8 +19,9 @@ const KINDS: [(Kind, &str); 5] = [
     (Kind::Regime, "errors of approximations, and where they hold"),
 ];
 
-/// A table per kind of check, `width` characters wide, and below them each failure with its reason.
-pub fn tables(results: &[Result], width: u16) -> String {
+/// A table per kind of check, `width` characters wide, and below them each failure with its reason; `detailed` ones say
+/// what each figure is.
+pub fn tables(results: &[Result], width: u16, detailed: bool) -> String {
     let longest_id = results.iter().map(|(check, _)| check.id.len()).max().unwrap_or(0);
     let id_width = u16::try_from(longest_id).unwrap_or(u16::MAX).clamp(6, 38) + 2;
     let mut text = String::new();
@@ -32,7 +33,7 @@ pub fn tables(results: &[Result], width: u16) -> String {
                 "\n{} ({}): {about}\n{}",
                 kind.name(),
                 of_kind.len(),
-                table(&of_kind, id_width, width).trim_fmt()
+                table(&of_kind, id_width, width, detailed).trim_fmt()
             );
         }
     }
@@ -42,13 +43,21 @@ pub fn tables(results: &[Result], width: u16) -> String {
     text
 }
 
-fn table(results: &[&Result], id_width: u16, width: u16) -> Table {
+fn table(results: &[&Result], id_width: u16, width: u16, detailed: bool) -> Table {
     let mut table = Table::new();
+    let line = LineStyle::none().fill('─').junction('─');
     table
-        .load_style(UTF8_HORIZONTAL_ONLY)
+        .load_style(if detailed { UTF8_HORIZONTAL_ONLY } else { NOTHING.header_separator(line).bottom_border(line) })
         .set_content_arrangement(ContentArrangement::Dynamic)
         .set_width(width)
-        .set_header(["check", "Eqs.", "what holds, and the figure measured for it", "measured", "bound", "verdict"]);
+        .set_header([
+            "check",
+            "Eqs.",
+            if detailed { "what holds, and the figure measured for it" } else { "what holds" },
+            "measured",
+            "bound",
+            "verdict",
+        ]);
     // Fixed widths, so that the tables of all kinds line up; the text takes what is left.
     let (others, separators) = ([9, 12, 18, 9], 5);
     let text = width.saturating_sub(id_width + others.iter().sum::<u16>() + separators).max(30);
@@ -64,7 +73,7 @@ fn table(results: &[&Result], id_width: u16, width: u16) -> Table {
         table.add_row([
             check.id.to_owned(),
             equations(check.equations),
-            format!("{}\n[{}]", check.statement, check.figure),
+            if detailed { format!("{}\n[{}]", check.statement, check.figure) } else { check.statement.to_owned() },
             measured(outcome),
             check.bound.to_string(),
             verdict(outcome).to_owned(),

@@ -52,7 +52,7 @@ enum Command {
 
 #[derive(Args, Default)]
 struct VerifyArgs {
-    /// Only checks whose id contains this text
+    /// Only checks whose id contains this text, and what each of their figures is
     #[arg(long, value_name = "ID")]
     filter: Option<String>,
     /// Print the results as a JSON array instead of tables

@@ -31,7 +31,7 @@ pub(super) fn verify(args: &VerifyArgs) -> Result<(), Failure> {
     } else {
         let width = Term::stdout().size_checked().map_or(WIDTH, |(_, columns)| columns.max(110));
         let summary = report::summary(&results, start.elapsed().as_secs_f64());
-        print(&format!("{}\n{summary}\n", report::tables(&results, width)))?;
+        print(&format!("{}\n{summary}\n", report::tables(&results, width, args.filter.is_some())))?;
     }
     conclude(&results)
 }
@@ -97,7 +97,7 @@ mod tests {
         assert!(matches!(conclude(&results), Err(Failure::Failed(m)) if m == "failing checks: nan, errs, panics"));
         assert!(conclude(&results[..1]).is_ok());
 
-        let text = report::tables(&results, 130);
+        let text = report::tables(&results, 130, true);
         for line in ["FAIL nan: zero is zero", "at t = 3", "no solution", "panicked: out of luck", "22-24"] {
             assert!(text.contains(line), "no `{line}` in\n{text}");
         }
