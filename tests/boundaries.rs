@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::Error;
+use twofold::dynamics::torque::{torque_from_gradient, torque_from_gradient_off_pole};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, euler_rates};
@@ -35,7 +36,16 @@ fn poles_are_reported() {
         let angles = EulerAngles { alpha: 0.3, beta, gamma: 0.1 };
         refused(euler_rates(&angles, &Vector3::new(0.1, 0.2, 0.3)), "sin beta");
         refused(angles_from_rotation(&body_from_inertial(&angles)), "sin beta");
+        refused(torque_from_gradient(&angles, &Vector3::new(0.1, 0.2, 0.3)), "sin beta");
     }
+    let torque = |beta| {
+        let angles = EulerAngles { alpha: 0.3, beta, gamma: 0.1 };
+        torque_from_gradient(&angles, &Vector3::new(0.1, 0.2, 0.3))
+            .map(|t| (t, torque_from_gradient_off_pole(&angles, &Vector3::new(0.1, 0.2, 0.3))))
+    };
+    refused(torque(f64::EPSILON), "sin beta");
+    let (guarded, plain) = torque(2.0 * f64::EPSILON).expect("off the pole");
+    assert_eq!(guarded, plain);
     let at = |beta| euler_rates(&EulerAngles { alpha: 0.3, beta, gamma: 0.1 }, &Vector3::new(0.1, 0.2, 0.3));
     refused(at(f64::EPSILON), "sin beta");
     assert!(at(2.0 * f64::EPSILON).is_ok() && at(-2.0 * f64::EPSILON).is_ok());
@@ -69,6 +79,11 @@ fn steady_precession_knows_where_it_exists() {
     refused(rate(PrincipalCoefficients { xx: 0.1, yy: 0.1, zz: 0.1 }, 0.0, 0.7), "I^zz Omega^z");
     assert!(rate(symmetric, 3.0, 0.1).is_ok());
     refused(free_precession_rates(&star(), 1.0, FRAC_PI_2), "cos beta");
+    // Without spin the two roots differ in sign only, and the twofold one is the upper.
+    let pendulum = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: -0.2 };
+    let spinless = |kind| steady_precession_rate(kind, &star(), &pendulum, 0.0, 0.7).expect("real roots");
+    assert!(spinless(Kind::Twofold) > 0.0);
+    assert_eq!(spinless(Kind::Single), -spinless(Kind::Twofold));
 }
 
 #[test]

@@ -52,7 +52,7 @@ impl Bound {
 
 impl std::fmt::Display for Bound {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
+        match *self {
             Bound::AtMost(limit) => write!(f, "<= {}", short(limit)),
             Bound::AtLeast(limit) => write!(f, ">= {}", short(limit)),
             Bound::Within(low, high) => write!(f, "in [{}, {}]", short(low), short(high)),

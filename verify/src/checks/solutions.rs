@@ -161,15 +161,17 @@ fn free_rates() -> Result<Measured, String> {
 }
 
 fn steady_equations() -> Result<Measured, String> {
-    let domain =
-        (0.2..2.0f64, prop_oneof![-3.0..-0.3f64, 0.3..3.0f64], 0.05..3.09f64, -0.2..0.2f64, -0.2..0.2f64, -PI..PI);
-    worst_over(13, 500, &domain, |&(ratio, spin, beta, xx, zz, alpha)| {
-        let spheroid = RigidSpheroid::in_units_of_tc(ratio);
+    let body = (0.3..3.0f64, 0.2..2.0f64, 0.3..3.0f64);
+    let spin = prop_oneof![-3.0..-0.3f64, 0.3..3.0f64];
+    let domain = (body, spin, 0.05..3.09f64, -0.2..0.2f64, -0.2..0.2f64, -PI..PI);
+    worst_over(13, 500, &domain, |&((inertia_xx, ratio, constant_c), spin, beta, xx, zz, alpha)| {
+        let spheroid = RigidSpheroid { inertia_xx, inertia_zz: inertia_xx * ratio, constant_c };
         let s = PrincipalCoefficients { xx, yy: xx, zz };
         let mut most = 0.0_f64;
         for kind in [Precession::Twofold, Precession::Single] {
             let Ok(rate) = steady_precession_rate(kind, &spheroid, &s, spin, beta) else {
-                let radicand = (ratio * spin).powi(2) - 8.0 * (zz - xx) * beta.cos().powi(2);
+                let radicand = (inertia_xx * ratio * spin).powi(2)
+                    - 8.0 * (zz - xx) * constant_c * inertia_xx * beta.cos().powi(2);
                 return if radicand < 0.0 { Ok(0.0) } else { Err(format!("refused at radicand {radicand}")) };
             };
             let q = AxisAngles { alpha, beta, alpha_rate: rate, beta_rate: 0.0 };
@@ -177,7 +179,7 @@ fn steady_equations() -> Result<Measured, String> {
             let (sin, cos) = beta.sin_cos();
             let terms = (sin * cos * rate * rate).abs()
                 + (ratio * spin * sin * rate).abs()
-                + (2.0 * (xx.abs() + zz.abs()) * sin * cos).abs();
+                + (2.0 * (xx.abs() + zz.abs()) * constant_c / inertia_xx * sin * cos).abs();
             most = largest([most, second.abs() / terms, first.abs()]);
         }
         Ok(most / f64::EPSILON)
