@@ -65,6 +65,17 @@ fn perturbation_solutions_know_where_they_hold() {
     refused(printed(Kind::Single, balanced, 1.0, 0.7), "precession rate");
     refused(printed(Kind::Single, PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: 0.0 }, 1.0, 0.7), "precession rate");
     assert!(printed(Kind::Twofold, balanced, 1.0, 0.7).is_ok());
+    let nearly = PrincipalCoefficients { zz: 0.015 + 1e-14, ..balanced };
+    assert!(printed(Kind::Single, nearly, 1.0, 0.7).is_ok());
+    // Forced and free precession cancel: a^(1) = omega / cos beta_0 up to rounding.
+    let zz = 1.21 * 0.01 / (2.0 * 0.7f64.cos().powi(2));
+    let cancelling = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz };
+    refused(printed(Kind::Twofold, cancelling, 0.1, 0.7), "precession rate");
+    assert!(printed(Kind::Twofold, PrincipalCoefficients { zz: zz * (1.0 + 1e-14), ..cancelling }, 0.1, 0.7).is_ok());
+    refused(printed(Kind::Twofold, S, 1e-310, 0.7), "precession rate");
+    let tiny = f64::EPSILON;
+    refused(printed(Kind::Single, S, 1.0, tiny), "sin beta_0");
+    assert!(printed(Kind::Single, S, 1.0, 2.0 * tiny).is_ok());
     assert!(printed(Kind::Single, S, 1.0, 0.7).is_ok());
     assert!(printed(Kind::Single, S.scaled(1e-200), 1.0, 0.7).is_ok());
 }

@@ -162,7 +162,7 @@ impl<S: Real> Perturbation<S> {
         constants: &Constants<S>,
     ) -> Result<Self, Error> {
         check_domain(kind, spin, constants.beta_0)?;
-        Self::printed_unchecked(kind, spheroid, s, spin, constants).with_nonzero_rate(s)
+        Self::printed_unchecked(kind, spheroid, s, spin, constants).with_nonzero_rate(spheroid, s, spin)
     }
 
     /// The solution of the full first-order equations about free precession, which are Eq. (29) `[eleq1]` with the term
@@ -184,20 +184,23 @@ impl<S: Real> Perturbation<S> {
         constants: &Constants<S>,
     ) -> Result<Self, Error> {
         check_domain(Kind::Twofold, spin, constants.beta_0)?;
-        Self::corrected_twofold_unchecked(spheroid, s, spin, constants).with_nonzero_rate(s)
+        Self::corrected_twofold_unchecked(spheroid, s, spin, constants).with_nonzero_rate(spheroid, s, spin)
     }
 
-    /// Refuses a rate `a` that vanishes, if only up to the rounding of `2 s^ZZ - s^XX - s^YY` or of its two terms.
-    fn with_nonzero_rate(self, s: &PrincipalCoefficients<S>) -> Result<Self, Error> {
-        let (xx, yy, zz) = (s.xx.re().abs(), s.yy.re().abs(), s.zz.re().abs());
-        let combination = s.combination().re().abs();
-        let combination_rounding =
-            if combination > 0.0 { f64::EPSILON * (xx + yy + 2.0 * zz) / combination } else { 0.0 };
-        let forced = self.forced_rate.re().abs();
-        let rounding = f64::EPSILON * self.zeroth_rate.re().abs() + combination_rounding * forced;
+    /// Refuses a rate `a` that vanishes, if only up to the rounding of the terms of Eqs. (31) and (32).
+    fn with_nonzero_rate(
+        self,
+        spheroid: &RigidSpheroid<S>,
+        s: &PrincipalCoefficients<S>,
+        spin: S,
+    ) -> Result<Self, Error> {
+        let (_, cb) = self.constants.beta_0.sin_cos();
+        let coefficients = s.xx.abs() + s.yy.abs() + s.zz.abs() * 2.0;
+        let forced_terms = (spheroid.constant_c * coefficients * cb / (spheroid.inertia_zz * spin)).re().abs();
+        let terms = self.zeroth_rate.re().abs() + forced_terms;
         let rate = self.rate.re();
         Error::unless(
-            rate.abs() > 4.0 * rounding && rate.is_finite(),
+            rate.abs() > 4.0 * f64::EPSILON * terms,
             "precession rate a of Eq. (32)",
             rate,
             "nonzero beyond rounding: Eq. (33) divides by it (for single precession 2 s^ZZ - s^XX - s^YY and cos beta_0 must not vanish)",
