@@ -14,6 +14,7 @@ use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::perturbation::{Constants, Kind, Perturbation, shifted_rates};
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::solutions::symmetric::SymmetricSolution;
+use twofold::star::spheroid_shape::SpheroidShape;
 
 fn star() -> RigidSpheroid<f64> {
     RigidSpheroid::in_units_of_tc(1.1)
@@ -142,6 +143,15 @@ fn coefficients_scale_and_combine() {
     assert_eq!([doubled.xx, doubled.yy, doubled.zz], [0.04, 0.02, -0.08]);
     assert_eq!((doubled.asymmetry(), doubled.combination()), (0.02, -0.22));
     assert_eq!(doubled.permuted(), PrincipalCoefficients::new([0.02, -0.08, 0.04]));
+}
+
+/// Axes that nearly agree keep the digits of their difference, which their ratio has lost.
+#[test]
+fn eccentricity_comes_from_the_axes_themselves() {
+    let (a1, difference) = (3.0, 2f64.powi(-40));
+    let shape = SpheroidShape::from_semi_axes(a1, a1 - difference).expect("a spheroid");
+    let exact = difference / a1 * ((2.0 * a1 - difference) / a1);
+    assert!((shape.eccentricity_squared() / exact - 1.0).abs() < 1e-15);
 }
 
 #[test]
