@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Matrix3, Vector3};
+use num_dual::Dual64;
 use twofold::Error;
 use twofold::dynamics::torque::{torque_from_gradient, torque_from_gradient_off_pole};
 use twofold::dynamics::{BodyState, RigidSpheroid};
@@ -64,6 +65,7 @@ fn perturbation_solutions_know_where_they_hold() {
     // 2 s^ZZ - s^XX - s^YY vanishes up to the rounding of 0.015.
     let balanced = PrincipalCoefficients { xx: 0.02, yy: 0.01, zz: 0.015 };
     refused(printed(Kind::Single, balanced, 1.0, 0.7), "precession rate");
+    refused(printed(Kind::Single, balanced, 1e-3, 0.7), "precession rate");
     refused(printed(Kind::Single, PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: 0.0 }, 1.0, 0.7), "precession rate");
     assert!(printed(Kind::Twofold, balanced, 1.0, 0.7).is_ok());
     let nearly = PrincipalCoefficients { zz: 0.015 + 1e-14, ..balanced };
@@ -143,6 +145,23 @@ fn coefficients_scale_and_combine() {
     assert_eq!([doubled.xx, doubled.yy, doubled.zz], [0.04, 0.02, -0.08]);
     assert_eq!((doubled.asymmetry(), doubled.combination()), (0.02, -0.22));
     assert_eq!(doubled.permuted(), PrincipalCoefficients::new([0.02, -0.08, 0.04]));
+}
+
+/// In steady precession the rates' derivatives are the time derivatives of the angles' derivatives.
+#[test]
+fn steady_rates_carry_the_derivatives_of_the_angles() {
+    let lift = |x: f64| Dual64::from_re(x);
+    let symmetric = PrincipalCoefficients { xx: 0.01, yy: 0.01, zz: -0.04 };
+    let rate = steady_precession_rate(Kind::Twofold, &star(), &symmetric, 1.0, 0.7).expect("a root");
+    let spheroid = RigidSpheroid::in_units_of_tc(lift(1.1));
+    let s = PrincipalCoefficients { xx: lift(0.01), yy: lift(0.01), zz: lift(-0.04) };
+    let angles = EulerAngles { alpha: lift(0.0), beta: lift(0.7), gamma: lift(0.0) };
+    let rates = EulerRates { alpha: lift(rate), beta: Dual64::new(0.0, 1.0), gamma: lift(1.0 - rate * 0.7f64.cos()) };
+    let motion = SymmetricSolution::new(&spheroid, &s, &angles, &rates).expect("steady precession");
+    let (t, h) = (2.3, 1e-4);
+    let slope = (motion.angles(lift(t + h)).beta.eps - motion.angles(lift(t - h)).beta.eps) / (2.0 * h);
+    let carried = motion.rates(lift(t)).beta.eps;
+    assert!((carried - slope).abs() < 1e-7 && slope.abs() > 0.1, "{carried} and {slope}");
 }
 
 /// Axes that nearly agree keep the digits of their difference, which their ratio has lost.
