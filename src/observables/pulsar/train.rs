@@ -123,3 +123,46 @@ pub fn pulse_train<M: Motion<f64>>(
     }
     Ok(train)
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix3;
+
+    use super::*;
+    use crate::dynamics::{BodyState, RigidSpheroid};
+    use crate::propagation::{TaylorMotion, propagate};
+
+    /// A star that spins about Z at one radian per unit of time.
+    fn upright() -> TaylorMotion<f64> {
+        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+        let start = BodyState { axis: Vector3::z(), momentum: Vector3::z() * 1.1, equatorial_axis: Vector3::x() };
+        propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 30.0), 1e-14).unwrap()
+    }
+
+    #[test]
+    fn what_is_out_of_domain_is_refused() {
+        let (motion, beam, n) = (upright(), Beam::new(0.5, 0.0, 0.3), Vector3::x());
+        let refused = |beam: &Beam<f64>, n: &Vector3<f64>, span| pulse_train(&motion, beam, n, span).is_err();
+        assert!(!refused(&beam, &n, (0.0, 30.0)) && !refused(&beam, &n, (3.0, 3.0)));
+        assert!(refused(&beam, &(n * 1.1), (0.0, 30.0)));
+        assert!(refused(&Beam { axis: beam.axis * 0.9, ..beam }, &n, (0.0, 30.0)));
+        for opening in [0.0, -0.1, 3.2, f64::NAN] {
+            assert!(refused(&Beam { half_opening: opening, ..beam }, &n, (0.0, 30.0)));
+        }
+        for span in [(0.0, 31.0), (-1.0, 30.0), (f64::NAN, 1.0), (0.0, f64::NAN)] {
+            assert!(refused(&beam, &n, span));
+        }
+    }
+
+    #[test]
+    fn line_of_sight_on_the_edge_of_a_beam_at_rest_is_refused() {
+        let (motion, n) = (upright(), Vector3::new(0.6, 0.0, 0.8));
+        let on_the_pole = |opening| pulse_train(&motion, &Beam::new(0.0, 0.0, opening), &n, (0.0, 30.0));
+        let edge = 0.8_f64.acos();
+        assert!(on_the_pole(edge).is_err());
+        assert!(on_the_pole(edge - 1e-9).unwrap().pulses.is_empty());
+        let always = on_the_pole(edge + 1e-9).unwrap();
+        assert!(always.pulses.len() == 1 && always.pulses[0].cut_at_start && always.pulses[0].cut_at_end);
+        assert!(always.periods().count() == 0 && always.durations().count() == 0);
+    }
+}
