@@ -8,6 +8,7 @@ mod orientation;
 mod perturbation_equations;
 mod potential_energy;
 mod propagation;
+mod pulsar;
 pub mod regimes;
 mod second_integrator;
 mod solutions;
@@ -27,6 +28,7 @@ pub fn all() -> Vec<Check> {
         equations_of_motion::checks,
         torque::checks,
         wave_tensor::checks,
+        pulsar::checks,
         first_integrals::checks,
         perturbation_equations::checks,
         forced_precession::checks,

@@ -1,0 +1,82 @@
+//! The beam: a cone about the magnetic axis, and whether it holds the line of sight. Eqs. (44), (45), (47).
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::sin_cos_of_sum;
+use crate::dynamics::regular_equations::{angular_velocity, reduced_rates};
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::euler_angles::EulerAngles;
+use crate::scalar::Scalar;
+
+/// A cone of radiation fixed in the body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beam<S> {
+    /// Magnetic axis `m`, a unit vector in body components.
+    pub axis: Vector3<S>,
+    /// Semi-open angle `rho` of the cone (rad), between 0 and pi.
+    pub half_opening: S,
+}
+
+impl<S: Scalar> Beam<S> {
+    /// The beam about `m = sin(chi) cos(delta) e_x + sin(chi) sin(delta) e_y + cos(chi) e_z`, Eq. (45), with the semi-open
+    /// angle `half_opening`; angles in rad.
+    pub fn new(chi: S, delta: S, half_opening: S) -> Self {
+        let ((s_chi, c_chi), (s_delta, c_delta)) = (chi.sin_cos(), delta.sin_cos());
+        Self { axis: Vector3::new(s_chi * c_delta, s_chi * s_delta, c_chi), half_opening }
+    }
+
+    /// The second beam of the star, about `-m`.
+    pub fn opposite(&self) -> Self {
+        Self { axis: -self.axis, half_opening: self.half_opening }
+    }
+
+    /// Magnetic axis `m` in inertial components.
+    pub fn direction(&self, state: &BodyState<S>) -> Vector3<S> {
+        let y = state.axis.cross(&state.equatorial_axis);
+        state.equatorial_axis * self.axis.x + y * self.axis.y + state.axis * self.axis.z
+    }
+
+    /// `m.n - cos(rho)`, positive where the observer in the direction `line_of_sight` (the unit vector `n`, inertial
+    /// components) is inside the cone, Eq. (44) `[ineq]`.
+    pub fn margin(&self, state: &BodyState<S>, line_of_sight: &Vector3<S>) -> S {
+        let (_, edge) = self.half_opening.sin_cos();
+        self.direction(state).dot(line_of_sight) - edge
+    }
+
+    /// The [`margin`](Self::margin) and its first and second time derivatives, for a spheroid under the tensor `s^IJ`.
+    ///
+    /// ```text
+    /// dm/dt = Omega x m,   d2m/dt2 = Omega' x m + Omega x (Omega x m),
+    /// I^xx Omega' = -2 C n x (s n) - (I^zz - I^xx) Omega^z dn/dt        (here n = e_z)
+    /// ```
+    pub fn margin_rates(
+        &self,
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        state: &BodyState<S>,
+        line_of_sight: &Vector3<S>,
+    ) -> [S; 3] {
+        let m = self.direction(state);
+        let omega = angular_velocity(spheroid, &state.axis, &state.momentum);
+        let (axis_rate, torque) = reduced_rates(spheroid, s, &state.axis, &state.momentum);
+        let spin = state.momentum.dot(&state.axis) / spheroid.inertia_zz;
+        let along_axis = axis_rate * ((spheroid.inertia_zz - spheroid.inertia_xx) * spin);
+        let acceleration = (torque - along_axis) / spheroid.inertia_xx;
+        let rate = omega.cross(&m);
+        let second = acceleration.cross(&m) + omega.cross(&rate);
+        [self.margin(state, line_of_sight), rate.dot(line_of_sight), second.dot(line_of_sight)]
+    }
+}
+
+/// `m.n` in angles, Eq. (47) `[pulsemn]`: the magnetic axis at `(chi, delta)` in the body, the observer at colatitude
+/// `theta_o` and azimuth `phi_o` in the inertial frame (rad).
+pub fn axis_along_line_of_sight<S: Scalar>(angles: &EulerAngles<S>, chi: S, delta: S, theta_o: S, phi_o: S) -> S {
+    let (sin_a, cos_a) = sin_cos_of_sum(angles.alpha, -phi_o);
+    let (sin_g, cos_g) = sin_cos_of_sum(angles.gamma, delta);
+    let (sb, cb) = angles.beta.sin_cos();
+    let ((s_chi, c_chi), (s_o, c_o)) = (chi.sin_cos(), theta_o.sin_cos());
+    s_o * s_chi * cos_a * cos_g - s_o * s_chi * sin_a * cb * sin_g
+        + c_o * c_chi * cb
+        + s_o * c_chi * sin_a * sb
+        + c_o * s_chi * sb * sin_g
+}

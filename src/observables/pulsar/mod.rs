@@ -1,0 +1,21 @@
+//! Radio pulses of a precessing star in the cone model. Eqs. (44), (45), (47), (49)-(56).
+
+pub mod beam;
+pub mod direction;
+mod edge_search;
+pub mod period;
+pub mod rate_bounds;
+mod root;
+pub mod train;
+pub mod width;
+
+pub use beam::Beam;
+pub use train::{Pulse, PulseTrain, Stamped, pulse_train};
+
+use crate::scalar::Scalar;
+
+/// Sine and cosine of `a + b` from those of each: over an exact field a sum of angles has no code of its own.
+fn sin_cos_of_sum<S: Scalar>(a: S, b: S) -> (S, S) {
+    let ((sa, ca), (sb, cb)) = (a.sin_cos(), b.sin_cos());
+    (sa * cb + ca * sb, ca * cb - sa * sb)
+}

@@ -1,0 +1,144 @@
+//! Angles of the magnetic axis, periods and widths with roots and inverse functions. Eqs. (49)-(51), (53)-(56).
+
+use std::f64::consts::{PI, TAU};
+
+use twofold::euler_angles::EulerAngles;
+use twofold::observables::pulsar::Beam;
+use twofold::observables::pulsar::direction::{
+    axis_along_line_of_sight_in_azimuth, cosine_of_colatitude, magnetic_axis_direction,
+};
+use twofold::observables::pulsar::period::{approximate_period, instantaneous_period};
+use twofold::observables::pulsar::width::{PulseWidth, cosine_of_half_width, edge_azimuths, pulse_width};
+
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::random::Random;
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "magnetic-axis-angles",
+            kind: Kind::Property,
+            equations: &[45, 49, 50],
+            statement: "Theta and Phi, the latter by the two-argument arc tangent, are the colatitude and azimuth of the turned axis in every quadrant",
+            figure: "largest error of a component / 2.2e-16, 2,000 random orientations",
+            bound: Bound::AtMost(8.0),
+            reason: "Phi up to 2 pi is rounded by half an ulp, 2 x 2.2e-16, twice, and so is the axis it is compared with",
+            measure: angles_of_axis,
+        },
+        Check {
+            id: "pulse-period-first-order",
+            kind: Kind::Property,
+            equations: &[51],
+            statement: "the approximate period of Eq. (51) is the exact one times 1 - (DeltaPhi' / alpha')^2: its error is of second order",
+            figure: "largest relative error / 2.2e-16, 2,000 random rates",
+            bound: Bound::AtMost(4.0),
+            reason: "four roundings of half an ulp on either side",
+            measure: second_order_of_period,
+        },
+        Check {
+            id: "pulse-width-edges",
+            kind: Kind::Property,
+            equations: &[44, 53, 54, 55, 56],
+            statement: "at the azimuths (55) the product (54) is cos rho, inside them it is above and outside below; without edges the axis is always or \
+                 never within rho of the line of sight",
+            figure: "largest error of cos rho or of cos(W/2) sin Theta sin theta_o / 2.2e-16, 20,000 random cases; infinite for a wrong kind",
+            bound: Bound::AtMost(16.0),
+            reason: "azimuths up to pi + phi_o are rounded by 2 x 2.2e-16 twice; the arguments of four half sines, the quotient and the arc tangent add as much",
+            measure: edges_of_width,
+        },
+        Check {
+            id: "narrow-pulse-width",
+            kind: Kind::Property,
+            equations: &[56],
+            statement: "for Theta = theta_o the width is 4 arcsin(sin(rho/2) / sin Theta), down to beams of 1e-12 rad",
+            figure: "largest relative error / 2.2e-16, rho = 1e-12 to 0.1, Theta = 0.2 to 2.9",
+            bound: Bound::AtMost(8.0),
+            reason: "some ten roundings of half an ulp; the printed cosine would lose all digits below rho = 1e-8",
+            measure: narrow_widths,
+        },
+    ]
+}
+
+fn angles_of_axis() -> Result<Measured, String> {
+    let (mut random, mut worst) = (Random::with_seed(49), Worst::default());
+    for case in 0..2000 {
+        let q =
+            EulerAngles { alpha: random.within(-PI, PI), beta: random.within(0.0, PI), gamma: random.within(-PI, PI) };
+        let (chi, delta) = (random.within(0.0, PI), random.within(-PI, PI));
+        let (theta, phi) = magnetic_axis_direction(&q, chi, delta).map_err(|e| e.to_string())?;
+        let rotation = twofold::euler_angles::body_from_inertial(&q);
+        let m = rotation.transpose() * Beam::new(chi, delta, 1.0).axis;
+        let by_angles = [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
+        let error = largest((0..3).map(|i| (by_angles[i] - m[i]).abs()));
+        let cosine = (cosine_of_colatitude(q.beta, q.gamma, chi, delta) - theta.cos()).abs();
+        worst.see(largest([error, cosine]) / f64::EPSILON, || format!("case {case} of seed 49: {q:?}, {chi}, {delta}"));
+    }
+    worst.finish()
+}
+
+fn second_order_of_period() -> Result<Measured, String> {
+    let (mut random, mut worst) = (Random::with_seed(51), Worst::default());
+    for case in 0..2000 {
+        let alpha: f64 = random.within(0.5, 2.0);
+        let offset = alpha * random.within(-0.5, 0.5);
+        let exact = instantaneous_period(alpha + offset);
+        let expected = exact * (1.0 - (offset / alpha).powi(2));
+        let error = (approximate_period(alpha, offset) / expected - 1.0).abs();
+        let second_name = (exact * (alpha + offset) / TAU - 1.0).abs();
+        worst
+            .see(largest([error, second_name]) / f64::EPSILON, || format!("case {case} of seed 51: {alpha}, {offset}"));
+    }
+    worst.finish()
+}
+
+fn edges_of_width() -> Result<Measured, String> {
+    let (mut random, mut worst) = (Random::with_seed(56), Worst::default());
+    let mut kinds = [0; 3];
+    for case in 0..20_000 {
+        let [rho, theta, theta_o] = [0; 3].map(|_| random.within(0.0, PI));
+        let phi_o = random.within(-PI, PI);
+        let product = |phi: f64| axis_along_line_of_sight_in_azimuth(theta, phi, theta_o, phi_o);
+        let (nearest, farthest) = (product(phi_o) - rho.cos(), product(phi_o + PI) - rho.cos());
+        let figure = match pulse_width(rho, theta, theta_o) {
+            PulseWidth::Pulsed(width) => {
+                kinds[0] += 1;
+                let (first, second) = edge_azimuths(phi_o, width);
+                let at_edges = largest([first, second].map(|phi| (product(phi) - rho.cos()).abs()));
+                let printed =
+                    (cosine_of_half_width(rho, theta, theta_o) - (width / 2.0).cos()) * theta.sin() * theta_o.sin();
+                // The width is the difference of the azimuths of its edges, Eq. (53).
+                let difference = (second - first - width).abs() / 4.0;
+                let right_kind = 0.0 < width && width < TAU && nearest > -1e-15 && farthest < 1e-15;
+                if right_kind { largest([at_edges, printed.abs(), difference]) / f64::EPSILON } else { f64::INFINITY }
+            }
+            PulseWidth::AlwaysOn => {
+                kinds[1] += 1;
+                if farthest > -1e-15 { 0.0 } else { f64::INFINITY }
+            }
+            PulseWidth::NeverOn => {
+                kinds[2] += 1;
+                if nearest < 1e-15 { 0.0 } else { f64::INFINITY }
+            }
+        };
+        worst.see(figure, || format!("case {case} of seed 56: {rho}, {theta}, {theta_o}, {phi_o}"));
+    }
+    if kinds.contains(&0) {
+        return Err(format!("a kind was never met: {kinds:?}"));
+    }
+    worst.finish()
+}
+
+fn narrow_widths() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for decade in 1..=12 {
+        for i in 0..28 {
+            let (rho, theta) = (10f64.powi(-decade), 0.2 + 0.1 * f64::from(i));
+            let PulseWidth::Pulsed(width) = pulse_width(rho, theta, theta) else {
+                return Err(format!("no pulse at rho = {rho}, Theta = theta_o = {theta}"));
+            };
+            let expected = 4.0 * ((rho / 2.0).sin() / theta.sin()).asin();
+            worst.see((width / expected - 1.0).abs() / f64::EPSILON, || format!("rho = {rho:e}, Theta = {theta}"));
+        }
+    }
+    worst.finish()
+}

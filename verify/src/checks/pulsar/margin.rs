@@ -1,0 +1,87 @@
+//! Time derivatives of `m.n` along motions, and their bounds. Eq. (44).
+
+use nalgebra::{Matrix3, Vector3};
+use num_dual::Dual3_64;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::observables::pulsar::Beam;
+use twofold::observables::pulsar::rate_bounds::rate_bounds;
+use twofold::propagation::{Motion, propagate};
+use twofold::scalar::constant_vector;
+
+use crate::check::{Bound, Check, Kind, Measured, largest};
+use crate::physical_domain::{RandomScene, scenes, worst_over};
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "beam-margin-rates",
+            kind: Kind::Autodiff,
+            equations: &[44],
+            statement: "the first and second time derivatives of m.n are those of the dense output, differentiated by duals",
+            figure: "largest error / (2.2e-16, bound on that derivative), 40 random motions",
+            bound: Bound::AtMost(64.0),
+            reason: "differentiating a series of order 22 twice multiplies its rounding by up to (22/3)^2 = 54; the state adds a few",
+            measure: rates_by_duals,
+        },
+        Check {
+            id: "beam-margin-bounds",
+            kind: Kind::Property,
+            equations: &[44],
+            statement: "the first three time derivatives of m.n stay below the bounds from energy and spin at the start",
+            figure: "largest derivative / its bound, 40 random motions",
+            bound: Bound::AtMost(1.0),
+            reason: "a bound is a bound",
+            measure: rates_within_bounds,
+        },
+    ]
+}
+
+fn rates_by_duals() -> Result<Measured, String> {
+    along_motions(|bounds, kernel, duals| {
+        largest([1, 2].map(|k| (kernel[k] - duals[k]).abs() / (bounds[k - 1] * f64::EPSILON)))
+    })
+}
+
+fn rates_within_bounds() -> Result<Measured, String> {
+    along_motions(|bounds, _, duals| largest([1, 2, 3].map(|k| duals[k].abs() / bounds[k - 1])))
+}
+
+/// The largest figure of the three bounds at the start, the margin and its rates by the kernel, and its first derivatives by
+/// duals, at 25 times of 40 random motions over 20 t_c.
+fn along_motions(figure: fn([f64; 3], [f64; 3], [f64; 4]) -> f64) -> Result<Measured, String> {
+    worst_over(44, 40, &scenes(), |scene| of_motion(scene, figure).map_err(|e| e.to_string()))
+}
+
+fn of_motion(scene: &RandomScene, figure: fn([f64; 3], [f64; 3], [f64; 4]) -> f64) -> Result<f64, twofold::Error> {
+    let (spheroid, s, start) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
+    let bounds = rate_bounds(&spheroid, &s, &start);
+    let lifted = RigidSpheroid::in_units_of_tc(Dual3_64::from(scene.inertia_ratio));
+    let initial = BodyState {
+        axis: constant_vector(&start.axis),
+        momentum: constant_vector(&start.momentum),
+        equatorial_axis: constant_vector(&start.equatorial_axis),
+    };
+    let s_lifted: Matrix3<Dual3_64> = s.map(Dual3_64::from);
+    let motion = propagate(&lifted, &s_lifted, &initial, (0.0, 20.0), 1e-16)?;
+    // The direction of the beam and of the observer are taken from the scene's numbers.
+    let [chi, theta, azimuth] = scene.angles;
+    let beam = Beam::new(chi, azimuth, 0.7);
+    let observer = Vector3::new(theta.sin() * chi.cos(), theta.sin() * chi.sin(), theta.cos());
+    let beam_lifted = Beam { axis: constant_vector(&beam.axis), half_opening: Dual3_64::from(0.7) };
+    Ok(largest((0..25).map(|i| {
+        let t = 0.3 + 0.8 * f64::from(i);
+        let Ok(state) = motion.state(Dual3_64::new(t, 1.0, 0.0, 0.0)) else { return f64::NAN };
+        let by_duals = beam_lifted.margin(&state, &constant_vector(&observer));
+        let real = BodyState {
+            axis: state.axis.map(|x| x.re),
+            momentum: state.momentum.map(|x| x.re),
+            equatorial_axis: state.equatorial_axis.map(|x| x.re),
+        };
+        let kernel = beam.margin_rates(&spheroid, &s, &real, &observer);
+        figure(
+            [bounds.first, bounds.second, bounds.third],
+            kernel,
+            [by_duals.re, by_duals.v1, by_duals.v2, by_duals.v3],
+        )
+    })))
+}
