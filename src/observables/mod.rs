@@ -1,3 +1,8 @@
-//! What a distant observer measures of a motion.
+//! What a distant observer measures of a motion. Eqs. (37)-(42), (46), (59), (69)-(71).
 
+pub mod bound;
 pub mod gravitational_wave;
+pub mod observer;
+pub mod spin_axis;
+
+pub use observer::Observer;
