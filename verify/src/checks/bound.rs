@@ -52,6 +52,16 @@ pub fn checks() -> Vec<Check> {
                 reason: "rounding of the printed numbers",
                 measure: printed_changes,
             },
+            Check {
+                id: "pulsar-bounds-rounded-down",
+                kind: Kind::Oracle,
+                equations: &[41, 42, 43],
+                statement: "the bounds printed for the two pulsars are tighter than Eq. (41) gives: their powers of ten are rounded down",
+                figure: "smallest ratio of the bound by Eq. (41), with the printed I^zz/C = 1e-5 s^2, to the printed one",
+                bound: Bound::AtLeast(2.0),
+                reason: "a power of ten between half and twice our number would be a fair rounding",
+                measure: bounds_over_printed,
+            },
         ])
         .collect()
 }
@@ -143,4 +153,20 @@ fn printed_changes() -> Result<Measured, String> {
         worst.see((ours - value).abs() / unit, || format!("{ours} for {printed}"));
     }
     worst.finish()
+}
+
+fn bounds_over_printed() -> Result<Measured, String> {
+    let mut ratios = Vec::new();
+    for column in &COLUMNS {
+        let printed = column.printed_bound;
+        let value: f64 = printed.parse().map_err(|_| format!("{printed} is not a number"))?;
+        ratios.push(column.bound(1e-5, 1.0).map_err(|e| e.to_string())? / value);
+    }
+    if ratios.iter().any(|ratio| ratio.is_nan()) {
+        return Err(format!("ratios {ratios:?}"));
+    }
+    Ok(Measured::new(
+        ratios.iter().copied().fold(f64::INFINITY, f64::min),
+        format!("main pulse, interpulse, J1744: {ratios:.2?}"),
+    ))
 }

@@ -12,6 +12,7 @@ use twofold::observables::gravitational_wave::{
     Polarizations, metric_perturbation, polarization_tensors, polarizations, strain_unit,
 };
 use twofold::propagation::{Motion, TaylorMotion, propagate};
+use twofold::units::geometrised::HERTZ;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::checks::observer::observer;
@@ -334,9 +335,10 @@ fn against_published_data() -> Result<Measured, String> {
 }
 
 fn textbook_strain() -> Result<Measured, String> {
-    // Unit of time 1 s, of inertia 1e38 kg m^2; seen along the spin axis, where h_+ is h_0 at alpha = 0.
+    // Units of 1e38 kg m^2 and 1 ms; seen along the spin axis, where h_+ is h_0 at alpha = 0.
     let inertia = PrincipalInertia { xx: 1.0, yy: 1.0 - 1e-6, zz: 1.0 };
-    let wave = spinning_body(&inertia, 0.0, 500.0 * twofold::units::geometrised::HERTZ, 0.0, 1.0);
-    let h_0 = wave.plus * strain_unit(1e38, 1.0, 3.0857e19);
+    let millisecond = 1e-3;
+    let wave = spinning_body(&inertia, 0.0, 500.0 * HERTZ * millisecond, 0.0, 1.0);
+    let h_0 = wave.plus * strain_unit(1e38, millisecond, 3.0857e19);
     Ok(Measured::new((h_0 / 1.1e-24 - 1.0).abs(), format!("h_0 = {h_0:.4e}")))
 }

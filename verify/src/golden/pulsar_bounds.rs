@@ -19,7 +19,7 @@ pub(crate) struct Column {
     /// Printed change of `lambda`.
     pub printed_change: &'static str,
     /// Printed bounds in 1e-16, with the factor eta left out and with eta = 10.
-    printed_bound: &'static str,
+    pub printed_bound: &'static str,
     printed_conservative: &'static str,
 }
 
@@ -67,7 +67,7 @@ impl Column {
     }
 
     /// Bound on `|2 s^ZZ - s^XX - s^YY|` in 1e-16, Eq. (41).
-    fn bound(&self, polar_inertia_over_c: f64, eta: f64) -> Result<f64, Error> {
+    pub(crate) fn bound(&self, polar_inertia_over_c: f64, eta: f64) -> Result<f64, Error> {
         let change = self.lambda_change()? * 1e-3 * DEGREE;
         SpinAxisDrift {
             polar_inertia_over_c,
@@ -97,7 +97,7 @@ pub(super) fn table() -> Result<GoldenTable, Error> {
     Ok(GoldenTable {
         name: "pulsar_bounds",
         title: "Table of two pulsars: Delta lambda by Eq. (42), bounds on |2 s^ZZ - s^XX - s^YY| by Eq. (41) over 15 Julian \
-                years, I^zz/C = 1.79e-5 s^2 by Eq. (43)",
+                years with Delta cos lambda = -sin(lambda) Delta lambda, I^zz/C = 1.79e-5 s^2 by Eq. (43)",
         lines,
     })
 }
