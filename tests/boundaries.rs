@@ -10,6 +10,9 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, euler_rates};
 use twofold::lorentz_violation::{PrincipalCoefficients, preferred_frame_parameter, principal_frame};
+use twofold::observables::bound::{
+    SpinAxisDrift, eta_from_inclination, lambda_change, preferred_frame_bound, zeta_change,
+};
 use twofold::propagation::{ContinuousAngles, Motion, propagate};
 use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::perturbation::{Constants, Kind, Perturbation, shifted_rates};
@@ -98,6 +101,23 @@ fn steady_precession_knows_where_it_exists() {
     let spinless = |kind| steady_precession_rate(kind, &star(), &pendulum, 0.0, 0.7).expect("real roots");
     assert!(spinless(Kind::Twofold) > 0.0);
     assert_eq!(spinless(Kind::Single), -spinless(Kind::Twofold));
+}
+
+#[test]
+fn bounds_know_where_they_say_nothing() {
+    let drift = SpinAxisDrift { polar_inertia_over_c: 1e-5, spin: 4e3, interval: 5e8, cos_lambda_change: -1e-4 };
+    refused(SpinAxisDrift { interval: 0.0, ..drift }.combination_bound(1.0), "interval");
+    refused(SpinAxisDrift { interval: f64::NAN, ..drift }.combination_bound(1.0), "interval");
+    refused(drift.combination_bound_at(FRAC_PI_2), "cos beta_0");
+    assert!(drift.combination_bound_at(2.5).is_ok_and(|bound| bound > 0.0));
+    assert_eq!(eta_from_inclination(PI), Ok(1.0));
+    refused(preferred_frame_bound(1e-14, &Vector3::zeros()), "|w|^2");
+    // The line of sight through the axis of the beam: the width is the widest, and stationary.
+    refused(zeta_change(0.6, 0.6, 0.0, 1e-3), "line of sight");
+    refused(lambda_change(FRAC_PI_2, FRAC_PI_2, 0.3, 1e-3), "line of sight");
+    let [zeta, lambda] =
+        [zeta_change(1.0, 0.8, 0.3, 1e-3), lambda_change(PI - 1.0, 0.8, 0.3, 1e-3)].map(Result::unwrap);
+    assert!((zeta + lambda).abs() < 1e-17);
 }
 
 #[test]

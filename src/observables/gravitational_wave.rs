@@ -1,15 +1,66 @@
-//! Metric perturbation of a rotating star in the quadrupole approximation. Eq. (59).
+//! Gravitational wave of a rotating star in the quadrupole approximation. Eqs. (59), (69)-(71).
+//!
+//! The source is `ddot I^{IJ}`, the second time derivative of the moment-of-inertia tensor, from
+//! [`wave_tensor`](crate::dynamics::inertia_tensor_rate::wave_tensor),
+//! [`spheroid_inertia_acceleration`](crate::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration) or, for the free
+//! waveform, [`free_inertia_acceleration`](crate::dynamics::inertia_tensor_rate::free_inertia_acceleration).
+//!
+//! Everything is in geometrised units, or in those of the paper with `I^xx = t_c = r = 1`, where `h` counts multiples of
+//! [`strain_unit`].
 
 use nalgebra::Matrix3;
 
-use crate::scalar::Scalar;
+use crate::observables::Observer;
+use crate::scalar::{Real, Scalar};
+use crate::units::geometrised::{KILOGRAM, METRE};
 
 /// Metric perturbation `h^{IJ} = -(2 / r) ddot I^{IJ}` at the distance `r`, Eq. (59), geometrised units.
 ///
-/// `ddot I^{IJ}` is the second time derivative of the moment-of-inertia tensor `I = integral rho (x.x delta - x x)`, from
-/// [`wave_tensor`](crate::dynamics::inertia_tensor_rate::wave_tensor) or
-/// [`spheroid_inertia_acceleration`](crate::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration). The mass
+/// `ddot I^{IJ}` is the second time derivative of the moment-of-inertia tensor `I = integral rho (x.x delta - x x)`. The mass
 /// quadrupole `integral rho x x` has the opposite sign up to a constant, hence the minus.
 pub fn metric_perturbation<S: Scalar>(distance: S, inertia_acceleration: &Matrix3<S>) -> Matrix3<S> {
     -(inertia_acceleration * (S::from_f64(2.0) / distance))
+}
+
+/// The two polarizations of a wave at an observer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Polarizations<S> {
+    /// `h_+`.
+    pub plus: S,
+    /// `h_x`.
+    pub cross: S,
+}
+
+/// Polarization tensors `e_+ = theta theta - phi phi` and `e_x = theta phi + phi theta` of an observer, Eq. (69).
+pub fn polarization_tensors<S: Scalar>(observer: &Observer<S>) -> [Matrix3<S>; 2] {
+    let (theta, phi) = (&observer.theta_hat, &observer.phi_hat);
+    let mixed = theta * phi.transpose();
+    [theta * theta.transpose() - phi * phi.transpose(), mixed + mixed.transpose()]
+}
+
+/// `h_+ = (1/2) e_+^{IJ} h^{IJ}` and `h_x = (1/2) e_x^{IJ} h^{IJ}` at an observer in the same inertial frame as `h^{IJ}`,
+/// symmetric, Eq. (71) `[hpluscross]`.
+///
+/// They are the components of its transverse and trace-free part, `h_+ e_+ + h_x e_x`.
+pub fn polarizations<S: Scalar>(observer: &Observer<S>, metric_perturbation: &Matrix3<S>) -> Polarizations<S> {
+    let [plus, cross] =
+        polarization_tensors(observer).map(|tensor| tensor.component_mul(metric_perturbation).sum() / 2.0);
+    Polarizations { plus, cross }
+}
+
+/// The strain that one unit of `h` stands for, `G I^xx / (c^4 t_c^2 r)`, from `I^xx` [kg m^2], `t_c` [s] and the distance
+/// `r` [m]: what [`polarizations`] of `I^xx = 1`, `t_c = 1`, `r = 1` are multiplied by.
+///
+/// For `ddot I^{IJ}` in J (kg m^2 / s^2) it is the factor with `I^xx = t_c = 1`. As accurate as G, 2.2e-5.
+///
+/// ```
+/// use twofold::observables::gravitational_wave::strain_unit;
+///
+/// // 1e38 kg m^2, t_c = 1 ms, 1 kpc.
+/// let unit: f64 = strain_unit(1e38, 1e-3, 3.0857e19);
+/// assert!((unit / 2.6777e-20 - 1.0).abs() < 1e-4);
+/// ```
+pub fn strain_unit<S: Real>(inertia_xx: S, time_unit: S, distance: S) -> S {
+    // The square of METRE in I^xx loses one factor to the distance.
+    inertia_xx * (KILOGRAM * METRE) / (time_unit * time_unit * distance)
 }

@@ -1,9 +1,11 @@
 //! Every check of the project, by subject.
 
+mod bound;
 mod elliptic;
 mod equations_of_motion;
 mod first_integrals;
 mod forced_precession;
+mod observer;
 mod orientation;
 mod perturbation_equations;
 mod potential_energy;
@@ -12,10 +14,12 @@ mod pulsar;
 pub mod regimes;
 mod second_integrator;
 mod solutions;
+mod spin_axis;
 mod star;
 mod symmetric;
 mod torque;
 mod wave_tensor;
+mod waves;
 
 use crate::check::Check;
 
@@ -38,6 +42,10 @@ pub fn all() -> Vec<Check> {
         propagation::checks,
         second_integrator::checks,
         regimes::checks,
+        observer::checks,
+        spin_axis::checks,
+        bound::checks,
+        waves::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()
 }

@@ -2,6 +2,7 @@
 
 mod captions;
 mod line;
+pub(crate) mod pulsar_bounds;
 mod regimes;
 mod star;
 
@@ -40,6 +41,7 @@ pub fn tables() -> Result<Vec<GoldenTable>, String> {
     Ok(vec![
         captions::initial_values().map_err(text)?,
         captions::constants().map_err(text)?,
+        pulsar_bounds::table().map_err(text)?,
         star::estimates().map_err(text)?,
         star::expansions().map_err(text)?,
         regimes::twofold()?,

@@ -1,0 +1,138 @@
+//! Bounds on Lorentz violation from a spin axis that does not move. Eqs. (40)-(42).
+
+use nalgebra::Vector3;
+
+use crate::error::Error;
+use crate::scalar::{Real, Scalar};
+
+/// What an observation says of the spin axis of a star: by how much `cos lambda` changed at most, and in what time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpinAxisDrift<S> {
+    /// `I^zz / C`, a time squared; [`inertia_over_c_estimate`](crate::star::estimates::inertia_over_c_estimate).
+    pub polar_inertia_over_c: S,
+    /// Spin `Omega^z`, an angular frequency in rad per unit of time.
+    pub spin: S,
+    /// Time `Delta t` between the observations.
+    pub interval: S,
+    /// Change of `cos lambda`, of either sign.
+    pub cos_lambda_change: S,
+}
+
+impl<S: Real> SpinAxisDrift<S> {
+    /// Bound `|2 s^ZZ - s^XX - s^YY| <~ eta |I^zz Omega^z Delta cos lambda / (C Delta t)|`, Eq. (41) `[est1]`.
+    ///
+    /// An estimate of the order of magnitude: factors of order one by which Eq. (38) depends on the directions are taken to
+    /// be one. `eta` is [`eta_from_inclination`] for `beta_0` up to about 1.1 and, says the paper, at most 10.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for an interval of zero.
+    pub fn combination_bound(&self, eta: S) -> Result<S, Error> {
+        let interval = self.interval.re();
+        Error::unless(interval.abs() > 0.0, "interval Delta t", interval, "not zero")?;
+        Ok((eta * self.polar_inertia_over_c * self.spin * self.cos_lambda_change / self.interval).abs())
+    }
+
+    /// Bound `|2 s^ZZ - s^XX - s^YY| <~ |I^zz Omega^z Delta cos lambda / (C Delta t cos b0)|`, Eq. (40) `[est]`: Eq. (41)
+    /// `[est1]` with [`eta_from_inclination`].
+    ///
+    /// # Errors
+    /// As for [`combination_bound`](Self::combination_bound) and [`eta_from_inclination`].
+    pub fn combination_bound_at(&self, beta_0: S) -> Result<S, Error> {
+        self.combination_bound(eta_from_inclination(beta_0)?)
+    }
+}
+
+/// `eta = 1 / |cos b0|`, from Eqs. (40) `[est]` and (41) `[est1]`, with `beta_0` the angle (rad) between the symmetry axis
+/// and the principal axis of `s^IJ` about which it precesses.
+///
+/// # Errors
+/// [`Error::Domain`] where `|cos b0|` is not above 2.2e-16. The perturbation solution behind it fails long before.
+pub fn eta_from_inclination<S: Real>(beta_0: S) -> Result<S, Error> {
+    let (_, cb) = beta_0.sin_cos();
+    let allowed = "|cos beta_0| > 2.2e-16: the estimate (40) divides by it";
+    Error::unless(cb.re().abs() > f64::EPSILON, "cosine of the mean inclination, cos beta_0", cb.re(), allowed)?;
+    Ok(S::one() / cb.abs())
+}
+
+/// Bound on `|alpha_2|` of the PPN form, from one on `|2 s^ZZ - s^XX - s^YY|` and a given velocity `w` relative to the
+/// preferred frame (units of c): `|alpha_2| <= combination / (2 |w|^2)`.
+///
+/// With the replacement (5) `[replace]` the tensor `-alpha_2 w w` is symmetric about `w`, the star precesses about `w`, so
+/// that Z lies along `w` and the combination is `-2 alpha_2 |w|^2`. The bound on it must be taken with `beta_0` the angle
+/// between the spin axis and `w`.
+///
+/// # Errors
+/// [`Error::Domain`] for `w = 0`.
+pub fn preferred_frame_bound<S: Real>(combination_bound: S, w: &Vector3<S>) -> Result<S, Error> {
+    let w2 = w.dot(w);
+    Error::unless(w2.re() > 0.0, "squared velocity |w|^2", w2.re(), "above zero")?;
+    Ok(combination_bound.abs() / (w2 * 2.0))
+}
+
+/// `cos rho = cos chi cos zeta + sin chi sin zeta cos(W/2)`: opening angle `rho` of the beam cone whose axis is at the angle
+/// `chi` from the spin axis, if a pulse of width `W` is seen from the angle `zeta` between the spin axis and the direction
+/// from the star to the observer (all rad).
+pub fn cos_opening_angle<S: Scalar>(zeta: S, chi: S, width: S) -> S {
+    let ((sz, cz), (sc, cc)) = (zeta.sin_cos(), chi.sin_cos());
+    let (_, cos_half) = (width / 2.0).sin_cos();
+    cc * cz + sc * sz * cos_half
+}
+
+/// Change of `zeta`, the angle between the spin axis and the direction from the star **to** the observer, for a small change
+/// of the pulse width `W` at constant `rho` and `chi` (all rad):
+///
+/// ```text
+/// Delta zeta = (1/2) sin(W/2) / (cot zeta cos(W/2) - cot chi) Delta W
+/// ```
+///
+/// the derivative of [`cos_opening_angle`] set to zero, written without cotangents.
+///
+/// # Errors
+/// [`Error::Domain`] where the denominator vanishes to rounding: there the width is stationary and says nothing of `zeta`.
+pub fn zeta_change<S: Real>(zeta: S, chi: S, width: S, width_change: S) -> Result<S, Error> {
+    let [sine, turning] = zeta_change_terms(zeta, chi, width);
+    refuse_stationary_width(turning)?;
+    Ok(sine / turning * width_change)
+}
+
+/// Change of the paper's `lambda`, the angle between the spin axis and the direction **from** the observer to the star,
+/// `lambda = pi - zeta`, for a small change of the pulse width `W`, Eq. (42) `[dela]` (all rad):
+///
+/// ```text
+/// Delta lambda = (1/2) sin(W/2) / (cot lambda cos(W/2) + cot chi) Delta W
+/// ```
+///
+/// If `lambda` of Eq. (37) is taken with `n-hat` of Eq. (46), it is [`zeta_change`] that holds.
+///
+/// # Errors
+/// As for [`zeta_change`].
+pub fn lambda_change<S: Real>(lambda: S, chi: S, width: S, width_change: S) -> Result<S, Error> {
+    let [sine, turning] = lambda_change_terms(lambda, chi, width);
+    refuse_stationary_width(turning)?;
+    Ok(sine / turning * width_change)
+}
+
+/// Numerator and denominator of `d zeta / d W` in [`zeta_change`], multiplied by `sin chi sin zeta`, for exact fields:
+/// `(1/2) sin chi sin zeta sin(W/2)` and `sin chi cos zeta cos(W/2) - cos chi sin zeta`.
+pub fn zeta_change_terms<S: Scalar>(zeta: S, chi: S, width: S) -> [S; 2] {
+    let ((sz, cz), (sc, cc)) = (zeta.sin_cos(), chi.sin_cos());
+    let (sin_half, cos_half) = (width / 2.0).sin_cos();
+    [sc * sz * sin_half / 2.0, sc * cz * cos_half - cc * sz]
+}
+
+/// Numerator and denominator of `d lambda / d W` in Eq. (42) `[dela]`, multiplied by `sin chi sin lambda`, for exact fields:
+/// `(1/2) sin chi sin lambda sin(W/2)` and `sin chi cos lambda cos(W/2) + cos chi sin lambda`.
+pub fn lambda_change_terms<S: Scalar>(lambda: S, chi: S, width: S) -> [S; 2] {
+    let ((sl, cl), (sc, cc)) = (lambda.sin_cos(), chi.sin_cos());
+    let (sin_half, cos_half) = (width / 2.0).sin_cos();
+    [sc * sl * sin_half / 2.0, sc * cl * cos_half + cc * sl]
+}
+
+fn refuse_stationary_width<S: Real>(turning: S) -> Result<(), Error> {
+    Error::unless(
+        turning.re().abs() > f64::EPSILON,
+        "derivative of cos rho by the angle to the line of sight",
+        turning.re(),
+        "above 2.2e-16 in size: the width is stationary there and Eq. (42) divides by it",
+    )
+}

@@ -1,0 +1,76 @@
+//! Angle `lambda` between the spin axis `e_z` and a fixed direction, and its change. Eqs. (37)-(39).
+//!
+//! The fixed direction is any: from the star to the observer, as `n-hat` in Eq. (46), or the opposite one, from which the
+//! paper counts `lambda` in Eq. (42) `[dela]`. Reversed, `cos lambda` and all its changes reverse their sign.
+
+use nalgebra::Vector3;
+
+use crate::dynamics::RigidSpheroid;
+use crate::scalar::Scalar;
+use crate::solutions::perturbation::Perturbation;
+
+/// `cos lambda = sin t sin b sin(a - p) + cos t cos b` for the direction of colatitude `t = theta_o` and azimuth `p = phi_o`
+/// (rad), Eq. (37).
+pub fn cos_lambda_in_angles<S: Scalar>(theta_o: S, phi_o: S, alpha: S, beta: S) -> S {
+    let (st, ct) = theta_o.sin_cos();
+    let (sb, cb) = beta.sin_cos();
+    let (sin, _) = sin_cos_of_difference(alpha, phi_o);
+    st * sb * sin + ct * cb
+}
+
+/// `cos lambda = e_z . direction` for unit vectors in the same frame: Eq. (37) without coordinates.
+pub fn cos_lambda<S: Scalar>(direction: &Vector3<S>, axis: &Vector3<S>) -> S {
+    direction.dot(axis)
+}
+
+/// Change of `cos lambda` to first order in small changes of `alpha` and `beta` (rad), Eq. (38):
+///
+/// ```text
+/// (sin t cos b sin(a - p) - cos t sin b) Delta beta + sin t sin b cos(a - p) Delta alpha
+/// ```
+///
+/// Error: of second order in the changes.
+pub fn cos_lambda_change<S: Scalar>(
+    theta_o: S,
+    phi_o: S,
+    (alpha, beta): (S, S),
+    (alpha_change, beta_change): (S, S),
+) -> S {
+    let (st, ct) = theta_o.sin_cos();
+    let (sb, cb) = beta.sin_cos();
+    let (sin, cos) = sin_cos_of_difference(alpha, phi_o);
+    (st * cb * sin - ct * sb) * beta_change + st * sb * cos * alpha_change
+}
+
+/// Changes `(Delta alpha, Delta beta)` in the time `interval` after `t = 0`, Eq. (39): the rates of a perturbation solution
+/// at `t = 0` times the interval. For single precession, with `a1 = a^(1)`,
+///
+/// ```text
+/// Delta alpha = (a1 + A sin phi / sin b0 + cos b0 C~ cos 2 alpha_0) Delta t
+/// Delta beta  = (A cos phi               + sin b0 C~ sin 2 alpha_0) Delta t
+/// ```
+///
+/// Error: of second order in the interval. The terms in `A` belong to an oscillation of frequency `omega` and stand for
+/// `omega Delta t << 1` alone, less than one turn of the star; over many turns they average out. Without them (`A = 0`) and
+/// for `s^XX = s^YY` the error after any number of turns is of second order in `s`.
+pub fn changes_from_start<S: Scalar>(solution: &Perturbation<S>, interval: S) -> (S, S) {
+    let start = solution.at(S::zero());
+    (start.alpha_rate * interval, start.beta_rate * interval)
+}
+
+/// Rate `d cos lambda / dt = direction . (L x n) / I^xx` of a moving spheroid, from its symmetry axis `n` and angular
+/// momentum `L`. Exact and regular everywhere.
+pub fn cos_lambda_rate<S: Scalar>(
+    spheroid: &RigidSpheroid<S>,
+    direction: &Vector3<S>,
+    axis: &Vector3<S>,
+    momentum: &Vector3<S>,
+) -> S {
+    direction.dot(&momentum.cross(axis)) / spheroid.inertia_xx
+}
+
+/// `(sin, cos)` of `a - b` without subtracting angles, so that it holds in an exact field.
+fn sin_cos_of_difference<S: Scalar>(a: S, b: S) -> (S, S) {
+    let ((sa, ca), (sb, cb)) = (a.sin_cos(), b.sin_cos());
+    (sa * cb - ca * sb, ca * cb + sa * sb)
+}

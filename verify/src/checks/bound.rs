@@ -1,0 +1,172 @@
+//! Bounds from the spin axis and from the pulse width. Eqs. (40)-(42), and (5).
+
+use nalgebra::Vector3;
+use twofold::Scalar;
+use twofold::dynamics::RigidSpheroid;
+use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_preferred_frame, principal_frame};
+use twofold::observables::bound::{
+    SpinAxisDrift, cos_opening_angle, lambda_change_terms, preferred_frame_bound, zeta_change_terms,
+};
+use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change};
+use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation};
+
+use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::derivation::Differentiable;
+use crate::golden::pulsar_bounds::COLUMNS;
+use crate::identity::{self, Identity};
+use crate::random::{Point, Random};
+
+/// The checks of this subject.
+pub fn checks() -> Vec<Check> {
+    identity::checks::<WidthAndInclination>()
+        .into_iter()
+        .chain([
+            Check {
+                id: "bound-estimate",
+                kind: Kind::Property,
+                equations: &[31, 38, 39, 40, 41],
+                statement: "for A = 0 and s^XX = s^YY, the estimate (40) of the change (38), (39) is |2 s^ZZ - s^XX - s^YY| times the \
+                            factor sin t sin b cos(a - p) that the paper takes to be one",
+                figure: "largest relative difference / 2.2e-16, 200 random points",
+                bound: Bound::AtMost(32.0),
+                reason: "some ten products on each side, and cos(a - p), kept above 0.1, from two terms that may cancel to a tenth",
+                measure: estimate_of_known_change,
+            },
+            Check {
+                id: "preferred-frame-bound",
+                kind: Kind::Property,
+                equations: &[5, 40, 41],
+                statement: "a tensor of the form (5) has the combination -2 alpha_2 |w|^2 with Z along w: a bound equal to it gives |alpha_2|",
+                figure: "largest relative difference / 2.2e-16, 200 random alpha_2 and w",
+                bound: Bound::AtMost(16.0),
+                reason: "the eigenvalues are right to a few ulp of the largest one, which counts once or, as -w^2, twice",
+                measure: bound_of_known_tensor,
+            },
+            Check {
+                id: "pulsar-angle-changes",
+                kind: Kind::Oracle,
+                equations: &[42],
+                statement: "Eq. (42) gives the changes of lambda printed for the two pulsars",
+                figure: "largest difference / unit of the last printed digit",
+                bound: Bound::AtMost(0.5),
+                reason: "rounding of the printed numbers",
+                measure: printed_changes,
+            },
+            Check {
+                id: "pulsar-bounds-rounded-down",
+                kind: Kind::Oracle,
+                equations: &[41, 42, 43],
+                statement: "the bounds printed for the two pulsars are tighter than Eq. (41) gives: their powers of ten are rounded down",
+                figure: "smallest ratio of the bound by Eq. (41), with the printed I^zz/C = 1e-5 s^2, to the printed one",
+                bound: Bound::AtLeast(2.0),
+                reason: "a power of ten between half and twice our number would be a fair rounding",
+                measure: bounds_over_printed,
+            },
+        ])
+        .collect()
+}
+
+struct WidthAndInclination;
+
+impl Identity for WidthAndInclination {
+    const ID: &'static str = "pulse-width-change";
+    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "pulse-width-change-autodiff");
+    const EQUATIONS: &'static [u8] = &[42];
+    const STATEMENT: &'static str = "cos rho = cos chi cos zeta + sin chi sin zeta cos(W/2) stays constant along Delta zeta, and along Eq. (42) as printed \
+         with lambda = pi - zeta";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let (angle, chi, width) = (p.angles.beta, p.frame.beta, p.angles.alpha);
+        let moved = |[change, width_change]: [F; 2]| (F::first(angle, change), F::first(width, width_change));
+        let fixed_chi = F::fixed(chi);
+
+        let (zeta, moved_width) = moved(zeta_change_terms(angle, chi, width));
+        let opening = cos_opening_angle(zeta, fixed_chi, moved_width);
+
+        let [numerator, denominator] = lambda_change_terms(angle, chi, width);
+        let (lambda, moved_width) = moved([numerator, denominator]);
+        // cos(pi - lambda) = -cos lambda: the first term has the other sign.
+        let with_reversed_cosine =
+            cos_opening_angle(lambda, fixed_chi, moved_width) - lambda.sin_cos().1 * fixed_chi.sin_cos().1 * 2.0;
+
+        let ((sl, cl), (sc, cc)) = (angle.sin_cos(), chi.sin_cos());
+        let (sin_half, cos_half) = (width / 2.0).sin_cos();
+        let printed = sin_half / 2.0 / (cl / sl * cos_half + cc / sc);
+        vec![F::derivative(opening), F::derivative(with_reversed_cosine), numerator - printed * denominator]
+    }
+}
+
+fn estimate_of_known_change() -> Result<Measured, String> {
+    let mut random = Random::with_seed(40);
+    let mut worst = Worst::default();
+    let mut index = 0;
+    while index < 200 {
+        let p = Point::<f64>::draw(&mut random);
+        let s = PrincipalCoefficients { yy: p.s.xx, ..p.s };
+        let (spin, interval, theta, phi) = (p.rates.gamma, p.numbers[2], p.frame.beta, p.frame.alpha);
+        let constants = Constants { alpha_0: p.angles.alpha, beta_0: p.angles.beta, amplitude: 0.0, phase: 0.0 };
+        let (sin_b, cos_b) = constants.beta_0.sin_cos();
+        let factor = theta.sin() * sin_b * (constants.alpha_0 - phi).cos();
+        if factor.abs() < 0.1 || cos_b.abs() < 0.1 {
+            continue;
+        }
+        index += 1;
+        let RigidSpheroid { inertia_zz, constant_c, .. } = p.spheroid;
+        let solution = Perturbation::printed_unchecked(Precession::Single, &p.spheroid, &s, spin, &constants);
+        let changes = changes_from_start(&solution, interval);
+        let drift = SpinAxisDrift {
+            polar_inertia_over_c: inertia_zz / constant_c,
+            spin,
+            interval,
+            cos_lambda_change: cos_lambda_change(theta, phi, (constants.alpha_0, constants.beta_0), changes),
+        };
+        let estimate = drift.combination_bound_at(constants.beta_0).map_err(|e| e.to_string())?;
+        let expected = (s.combination() * factor).abs();
+        worst.see((estimate / expected - 1.0).abs() / f64::EPSILON, || format!("point {index} of seed 40"));
+    }
+    worst.finish()
+}
+
+fn bound_of_known_tensor() -> Result<Measured, String> {
+    let mut random = Random::with_seed(41);
+    let mut worst = Worst::default();
+    for index in 0..200 {
+        let alpha_2 = random.within(-1e-3, 1e-3);
+        let w = Vector3::from_fn(|_, _| random.within(-1e-3, 1e-3));
+        let frame = principal_frame(&coefficients_from_preferred_frame(alpha_2, &w)).map_err(|e| e.to_string())?;
+        // The odd eigenvalue is the first or the last; the axis of that one is Z.
+        let s = frame.coefficients;
+        let about_w = if alpha_2 < 0.0 { s.permuted() } else { s };
+        let bound = preferred_frame_bound(about_w.combination(), &w).map_err(|e| e.to_string())?;
+        worst.see((bound / alpha_2.abs() - 1.0).abs() / f64::EPSILON, || format!("case {index} of seed 41"));
+    }
+    worst.finish()
+}
+
+fn printed_changes() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for column in &COLUMNS {
+        let ours = column.lambda_change().map_err(|e| e.to_string())?;
+        let printed = column.printed_change;
+        let unit = if printed.contains('.') { 0.1 } else { 1.0 };
+        let value: f64 = printed.parse().map_err(|_| format!("{printed} is not a number"))?;
+        worst.see((ours - value).abs() / unit, || format!("{ours} for {printed}"));
+    }
+    worst.finish()
+}
+
+fn bounds_over_printed() -> Result<Measured, String> {
+    let mut ratios = Vec::new();
+    for column in &COLUMNS {
+        let printed = column.printed_bound;
+        let value: f64 = printed.parse().map_err(|_| format!("{printed} is not a number"))?;
+        ratios.push(column.bound(1e-5, 1.0).map_err(|e| e.to_string())? / value);
+    }
+    if ratios.iter().any(|ratio| ratio.is_nan()) {
+        return Err(format!("ratios {ratios:?}"));
+    }
+    Ok(Measured::new(
+        ratios.iter().copied().fold(f64::INFINITY, f64::min),
+        format!("main pulse, interpulse, J1744: {ratios:.2?}"),
+    ))
+}
