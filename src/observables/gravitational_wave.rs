@@ -48,8 +48,8 @@ pub fn polarizations<S: Scalar>(observer: &Observer<S>, metric_perturbation: &Ma
     Polarizations { plus, cross }
 }
 
-/// The strain that one unit of `h` stands for, `G I^xx / (c^4 t_c^2 r)`, from `I^xx` [kg m^2], `t_c` [s] and the distance
-/// `r` [m]: what [`polarizations`] of `I^xx = 1`, `t_c = 1`, `r = 1` are multiplied by.
+/// The strain that one unit of `h` stands for, `G I^xx / (c^4 t_c^2 r)`, from `I^xx` (kg m^2), `t_c` (s) and the distance
+/// `r` (m): what [`polarizations`] of `I^xx = 1`, `t_c = 1`, `r = 1` are multiplied by.
 ///
 /// For `ddot I^{IJ}` in J (kg m^2 / s^2) it is the factor with `I^xx = t_c = 1`. As accurate as G, 2.2e-5.
 ///
