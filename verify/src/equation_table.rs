@@ -295,7 +295,6 @@ pub const EQUATIONS: &[Equation] = &[
         &["pulsar_bounds"],
     ),
     row(43, "", "estimate of I^zz / C", &["star::estimates::inertia_over_c_estimate"], &["star_estimates"]),
-    row(46, "", "direction of the observer", &["observables::Observer"], &[]),
     row(
         44,
         "ineq",
@@ -303,7 +302,6 @@ pub const EQUATIONS: &[Equation] = &[
         &[
             "observables::pulsar::Beam::margin",
             "observables::pulsar::Beam::margin_rates",
-            "observables::pulsar::pulse_train",
             "observables::pulsar::train::pulse_train",
             "observables::pulsar::Pulse",
             "observables::pulsar::PulseTrain",
@@ -324,6 +322,7 @@ pub const EQUATIONS: &[Equation] = &[
         ],
         &[],
     ),
+    row(46, "", "direction of the observer", &["observables::Observer"], &[]),
     row(47, "pulsemn", "m.n in Euler angles", &["observables::pulsar::beam::axis_along_line_of_sight"], &[]),
     row(
         48,
