@@ -262,7 +262,6 @@ pub const EQUATIONS: &[Equation] = &[
         &[
             "observables::pulsar::Beam::margin",
             "observables::pulsar::Beam::margin_rates",
-            "observables::pulsar::pulse_train",
             "observables::pulsar::train::pulse_train",
             "observables::pulsar::Pulse",
             "observables::pulsar::PulseTrain",
