@@ -7,7 +7,7 @@ use twofold::observables::pulsar::{PulseTrain, Stamped, pulse_train};
 use twofold::propagation::{ContinuousAngles, Motion};
 use twofold::solutions::perturbation::{ShiftedRates, shifted_rates};
 
-use super::train::paper_signal;
+use super::train::{Signal, paper_signal};
 use crate::check::{Bound, Check, Kind, Measured, largest};
 use crate::paper_examples::{COEFFICIENTS, SPIN, spheroid};
 
@@ -77,7 +77,7 @@ fn smallest(figures: impl IntoIterator<Item = f64>) -> f64 {
 /// Deviations up to the time `end` with the mean rates of the whole motion, and with the shifted rates (57).
 fn both_rates(example: &str, end: f64) -> Result<[[f64; 3]; 2], String> {
     let message = |e: twofold::Error| e.to_string();
-    let (motion, beam, observer) = paper_signal(example).map_err(message)?;
+    let Signal { motion, beam, observer } = paper_signal(example).map_err(message)?;
     let train = pulse_train(&motion, &beam, &observer, (0.0, end)).map_err(message)?;
     let start = motion.state(0.0).and_then(|state| state.angles()).map_err(message)?;
     let last = ContinuousAngles::new(&motion, 0.0, &start).and_then(|mut angles| angles.at(SPAN.1)).map_err(message)?;

@@ -323,18 +323,23 @@ fn symmetries() -> Result<Measured, String> {
 }
 
 /// The motion, beam and observer of the paper's pulsar signals.
-pub(super) fn paper_signal(name: &str) -> Result<(TaylorMotion<f64>, Beam<f64>, Vector3<f64>), Error> {
+pub(super) struct Signal {
+    pub(super) motion: TaylorMotion<f64>,
+    pub(super) beam: Beam<f64>,
+    pub(super) observer: Vector3<f64>,
+}
+
+/// The signal of an example, over 400 t_c.
+pub(super) fn paper_signal(name: &str) -> Result<Signal, Error> {
     let reference = reference_motion(name);
     signal_from(&reference, &reference.initial())
 }
 
-fn signal_from(
-    reference: &ReferenceMotion,
-    start: &BodyState<f64>,
-) -> Result<(TaylorMotion<f64>, Beam<f64>, Vector3<f64>), Error> {
+fn signal_from(reference: &ReferenceMotion, start: &BodyState<f64>) -> Result<Signal, Error> {
     let motion = propagate(&reference.spheroid, &reference.violation(), start, (0.0, 400.0), 1e-14)?;
     let theta_o: f64 = 0.8;
-    Ok((motion, Beam::new(0.5, 0.0, 0.6), Vector3::new(theta_o.sin(), 0.0, theta_o.cos())))
+    let observer = Vector3::new(theta_o.sin(), 0.0, theta_o.cos());
+    Ok(Signal { motion, beam: Beam::new(0.5, 0.0, 0.6), observer })
 }
 
 fn against_authors() -> Result<Measured, String> {
@@ -357,7 +362,7 @@ fn against_authors() -> Result<Measured, String> {
     let rates = EulerRates { alpha: 1.509, beta: 0.0, gamma: reference.spin - 1.509 * angles.beta.cos() };
     let rounded = BodyState::from_angles(&reference.spheroid, &angles, &rates);
     let train = |start: &BodyState<f64>| {
-        let (motion, beam, observer) = signal_from(&reference, start).map_err(|e| e.to_string())?;
+        let Signal { motion, beam, observer } = signal_from(&reference, start).map_err(|e| e.to_string())?;
         let at_start = beam.direction(start).dot(&observer);
         pulse_train(&motion, &beam, &observer, (0.0, 400.0)).map(|train| (train, at_start)).map_err(|e| e.to_string())
     };
