@@ -116,7 +116,8 @@ pub fn permuted_from_inertial<S: Scalar>() -> Matrix3<S> {
     Matrix3::new(o, l, o, o, o, l, l, o, o)
 }
 
-fn refuse_pole(sin_beta: f64) -> Result<(), Error> {
+/// Refuses an axis on a pole, where the Euler angles are singular.
+pub(crate) fn refuse_pole(sin_beta: f64) -> Result<(), Error> {
     Error::unless(
         sin_beta.abs() > f64::EPSILON,
         "sine of the inclination, sin beta",

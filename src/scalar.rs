@@ -68,12 +68,6 @@ pub trait Real: Scalar {
     /// Natural logarithm.
     fn ln(self) -> Self;
 
-    /// Inverse sine (rad).
-    fn asin(self) -> Self;
-
-    /// Inverse hyperbolic sine.
-    fn asinh(self) -> Self;
-
     /// Angle (rad) of the point with ordinate `self` and abscissa `x`, in (-pi, pi].
     fn atan2(self, x: Self) -> Self;
 
@@ -120,16 +114,6 @@ where
     #[inline]
     fn ln(self) -> Self {
         DualNum::ln(&self)
-    }
-
-    #[inline]
-    fn asin(self) -> Self {
-        DualNum::asin(&self)
-    }
-
-    #[inline]
-    fn asinh(self) -> Self {
-        DualNum::asinh(&self)
     }
 
     #[inline]

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::error::Error;
-use crate::euler_angles::EulerAngles;
+use crate::euler_angles::{EulerAngles, refuse_pole};
 use crate::scalar::{Real, Scalar};
 
 /// Body-frame torque from the derivatives of any potential by the Euler angles, Eq. (66):
@@ -30,12 +30,7 @@ pub fn torque_from_gradient_off_pole<S: Scalar>(angles: &EulerAngles<S>, gradien
 /// [`torque_on_body`] is regular.
 pub fn torque_from_gradient<S: Real>(angles: &EulerAngles<S>, gradient: &Vector3<S>) -> Result<Vector3<S>, Error> {
     let (sb, _) = angles.beta.sin_cos();
-    Error::unless(
-        sb.re().abs() > f64::EPSILON,
-        "sine of the inclination, sin beta",
-        sb.re(),
-        "|sin beta| > 2.2e-16: Eq. (66) is singular on the poles",
-    )?;
+    refuse_pole(sb.re())?;
     Ok(torque_from_gradient_off_pole(angles, gradient))
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{ContinuousAngles, Motion, propagate};
+use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::fit::mean_rate;
@@ -50,16 +50,26 @@ fn mean_rates(scene: &ReferenceMotion, duration: f64, samples: usize) -> Result<
         .map_err(|e| e.to_string())?;
     let mut angles = ContinuousAngles::new(&motion, 0.0, &scene.angles).map_err(|e| e.to_string())?;
     let step = duration / samples as f64;
-    let (mut alphas, mut gammas, mut azimuths) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut alphas, mut gammas) = (Vec::new(), Vec::new());
     for i in 0..=samples {
         let t = (step * i as f64).min(duration);
         let at = angles.at(t).map_err(|e| e.to_string())?;
         alphas.push(at.alpha);
         gammas.push(at.gamma);
-        let momentum = motion.state(t).map_err(|e| e.to_string())?.momentum;
+    }
+    let azimuth = momentum_azimuth_rate(&motion, duration, samples)?;
+    Ok([mean_rate(&alphas, step), mean_rate(&gammas, step), azimuth])
+}
+
+/// Mean rate of the azimuth of `L` about Z.
+fn momentum_azimuth_rate(motion: &TaylorMotion<f64>, duration: f64, samples: usize) -> Result<f64, String> {
+    let step = duration / samples as f64;
+    let mut azimuths = Vec::new();
+    for i in 0..=samples {
+        let momentum = motion.state((step * i as f64).min(duration)).map_err(|e| e.to_string())?.momentum;
         azimuths.push(continued(azimuths.last().copied(), momentum.y.atan2(momentum.x)));
     }
-    Ok([alphas, gammas, azimuths].map(|series| mean_rate(&series, step)))
+    Ok(mean_rate(&azimuths, step))
 }
 
 fn continued(last: Option<f64>, angle: f64) -> f64 {
@@ -111,14 +121,7 @@ fn momentum_rate_across_magic_angle() -> Result<Measured, String> {
         let initial = BodyState { axis, momentum: l * g, equatorial_axis: Vector3::y() };
         let duration = 4000.0;
         let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12).map_err(|e| e.to_string())?;
-        let samples = 20_000;
-        let step = duration / f64::from(samples);
-        let mut azimuths = Vec::new();
-        for i in 0..=samples {
-            let m = motion.state((step * f64::from(i)).min(duration)).map_err(|e| e.to_string())?.momentum;
-            azimuths.push(continued(azimuths.last().copied(), m.y.atan2(m.x)));
-        }
-        let rate = mean_rate(&azimuths, step);
+        let rate = momentum_azimuth_rate(&motion, duration, 20_000)?;
         let size = 2.0 * (s.zz - s.xx) / g;
         let formula = size * (1.5 * c2 - 0.5) * l.z;
         if c2 < 0.3 && rate * size > 0.0 || c2 > 0.36 && rate * size < 0.0 {
