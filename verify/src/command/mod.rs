@@ -1,5 +1,7 @@
 //! The command `twofold`: verify the paper's equations, run a scene, list the scenes.
 
+mod figures;
+mod output_folder;
 mod run;
 mod scenes;
 mod verify;
@@ -28,6 +30,7 @@ Examples:
   twofold verify --filter steady    only the checks whose name contains `steady`
   twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
   twofold run my-star.toml --out my-star.csv
+  twofold figures --out figures     the paper's figures and ours
 
 Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written; 130 interrupted.";
 
@@ -44,6 +47,11 @@ enum Command {
     /// t_c = sqrt(I^xx / C), a scene of a physical star in seconds. Angles are in rad and continuous: they count their
     /// turns. Where the symmetry axis is exactly on a pole they do not exist, and their fields are empty.
     Run(RunArgs),
+    /// Draw the paper's figures and ours, each as SVG and PNG, with its caption and its data
+    ///
+    /// Writes NAME.svg, NAME.png, NAME.md and NAME.csv (or NAME.TABLE.csv) of each figure; the files appear when all are
+    /// complete. With --scene the figures of a motion are drawn for a scene in place of the paper's examples.
+    Figures(FiguresArgs),
     /// List the built-in scenes
     Scenes,
     /// Print the table of equations: what implements each, which checks and golden numbers are about it (Markdown)
@@ -72,6 +80,25 @@ struct RunArgs {
     force: bool,
 }
 
+#[derive(Args)]
+struct FiguresArgs {
+    /// Figures to draw, by name or by number of the paper's figure; all if none is named
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    /// Folder for the files, made if it is not there
+    #[arg(long, value_name = "DIR", default_value = "figures")]
+    out: PathBuf,
+    /// Draw the figures of a motion for this built-in scene or scene file (TOML)
+    #[arg(long, value_name = "SCENE")]
+    scene: Option<String>,
+    /// Replace files that exist
+    #[arg(long)]
+    force: bool,
+    /// List the figures instead of drawing them
+    #[arg(long)]
+    list: bool,
+}
+
 /// How a command ends when it does not succeed.
 enum Failure {
     /// A check or a computation failed: status 1.
@@ -93,6 +120,7 @@ pub fn main() -> ExitCode {
     let result = match cli.command.unwrap_or(Command::Verify(VerifyArgs::default())) {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
+        Command::Figures(args) => figures::figures(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
     };

@@ -48,7 +48,7 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
         let [x, y] = panel.at(shown.max(0.0), edge);
         page.text([x + 3.0, y + 0.35 * SMALL], Anchor::Start, SMALL, VERMILION, "cos *ρ*");
         panel.draw_frame(&mut page);
-        panel.letter(&mut page, char::from(b'a' + i as u8), &subject.name);
+        panel.letter(&mut page, i, subjects.len(), &subject.name);
     }
     page.finish("Cosine of the angle between the beam and the line of sight in time")
 }

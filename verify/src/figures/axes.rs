@@ -25,7 +25,9 @@ impl Axis {
     /// A linear axis that holds all `values` with some room on either side.
     pub(super) fn around(label: &str, values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-        let room = 0.06 * (high - low).max(1e-9 * high.abs().max(1e-300));
+        let size = low.abs().max(high.abs());
+        // A constant is drawn as one: its rounding is not spread over the frame.
+        let room = if high - low > 1e-3 * size { 0.06 * (high - low) } else { 0.05 * size.max(1e-3) };
         Self::linear(label, low - room, high + room)
     }
 
@@ -45,6 +47,21 @@ impl Axis {
         (scale(value) - scale(self.low)) / (scale(self.high) - scale(self.low))
     }
 
+    /// Power of ten that is taken out of the numbers at the ticks, to keep them short.
+    fn power(&self) -> i32 {
+        let size = self.low.abs().max(self.high.abs()).log10();
+        if self.logarithmic || (-2.0..4.0).contains(&size) { 0 } else { size.floor() as i32 }
+    }
+
+    /// The label, with the power of ten that its numbers lack.
+    fn full_label(&self) -> String {
+        let power = self.power();
+        if power == 0 || self.label.is_empty() {
+            return self.label.clone();
+        }
+        format!("{} / 10^{{{}}}", self.label, signed(&power.to_string()))
+    }
+
     /// Values of the large ticks with their numbers, and of the small ones, for an axis of the given length that takes one
     /// number each `spacing`.
     fn ticks(&self, length: f64, spacing: f64) -> (Vec<(f64, String)>, Vec<f64>) {
@@ -58,14 +75,15 @@ impl Axis {
         let (digit, parts) =
             [(1.0, 5), (2.0, 4), (5.0, 5), (10.0, 5)].into_iter().find(|(m, _)| m * power >= rough).unwrap_or((10.0, 5));
         let step = digit * power;
-        let decimals = (-step.log10().floor()).max(0.0) as usize;
+        let unit = 10f64.powi(self.power());
+        let decimals = (-(step / unit * 1.0000001).log10().floor()).max(0.0) as usize;
         let multiples = |step: f64| {
             let slack = 1e-9 * range;
             let first = ((self.low - slack) / step).ceil() as i64;
             let last = ((self.high + slack) / step).floor() as i64;
             (first..=last).map(move |i| i as f64 * step)
         };
-        let large = multiples(step).map(|value| (value, signed(&format!("{value:.decimals$}")))).collect();
+        let large = multiples(step).map(|value| (value, signed(&format!("{:.decimals$}", value / unit)))).collect();
         (large, multiples(step / f64::from(parts)).collect())
     }
 
@@ -97,8 +115,6 @@ pub(super) fn signed(number: &str) -> String {
 pub(super) enum Mark {
     Disc,
     Ring,
-    Diamond,
-    Square,
 }
 
 /// A frame on the page with two axes.
@@ -112,7 +128,7 @@ pub(super) struct Panel {
 }
 
 /// Room that a panel needs around its frame for numbers and labels.
-pub(super) const LEFT: f64 = 40.0;
+pub(super) const LEFT: f64 = 42.0;
 pub(super) const BELOW: f64 = 28.0;
 
 impl Panel {
@@ -168,7 +184,7 @@ impl Panel {
                 page.text([x, f.bottom() + 10.5], Anchor::Middle, SMALL, BLACK, number);
             }
         }
-        page.label([f.left + f.width / 2.0, f.bottom() + 22.5], Anchor::Middle, &self.x.label);
+        page.label([f.left + f.width / 2.0, f.bottom() + 22.5], Anchor::Middle, &self.x.full_label());
 
         let (large, small) = self.y.ticks(f.height, 16.0);
         for (value, length) in large.iter().map(|(v, _)| (*v, 3.5)).chain(small.iter().map(|v| (*v, 2.0))) {
@@ -182,13 +198,16 @@ impl Panel {
                 page.text([f.left - 3.0, y + 0.35 * SMALL], Anchor::End, SMALL, BLACK, number);
             }
         }
-        let x = f.left - self.y_label_distance;
-        page.turned_text([x, f.top + f.height / 2.0], -90.0, Anchor::Middle, LABEL, BLACK, &self.y.label);
+        // Digits are 0.556 of the size of the letters wide.
+        let widest = large.iter().map(|(_, number)| 0.556 * SMALL * super::plain(number).chars().count() as f64);
+        let x = f.left - self.y_label_distance.max(9.0 + if self.y.logarithmic { 0.0 } else { widest.fold(0.0, f64::max) });
+        page.turned_text([x, f.top + f.height / 2.0], -90.0, Anchor::Middle, LABEL, BLACK, &self.y.full_label());
     }
 
-    /// The letter of the panel, above its left edge, with what tells it from the others.
-    pub(super) fn letter(&self, page: &mut Page, letter: char, what: &str) {
-        heading(page, [self.frame.left, self.frame.top - 4.5], letter, what);
+    /// The letter of panel number `index` of `count`, above its left edge, with what tells it from the others.
+    pub(super) fn letter(&self, page: &mut Page, index: usize, count: usize, what: &str) {
+        let at = [self.frame.left, self.frame.top - 4.5];
+        if count > 1 { heading(page, at, char::from(b'a' + index as u8), what) } else { page.label(at, Anchor::Start, what) }
     }
 }
 
@@ -201,14 +220,6 @@ pub(super) fn draw_mark(page: &mut Page, [x, y]: At, mark: Mark, size: f64, colo
     match mark {
         Mark::Disc => page.circle([x, y], size, colour, None),
         Mark::Ring => page.circle([x, y], size, "#ffffff", Some(solid(colour, 0.9))),
-        Mark::Diamond => {
-            let r = 1.3 * size;
-            page.area(&[[x - r, y], [x, y - r], [x + r, y], [x, y + r]], colour);
-        }
-        Mark::Square => page.area(
-            &[[x - size, y - size], [x + size, y - size], [x + size, y + size], [x - size, y + size]],
-            colour,
-        ),
     }
 }
 

@@ -8,6 +8,8 @@ mod axes;
 mod beam_cone;
 mod contour;
 mod euler_angles;
+#[cfg(test)]
+mod layout_tests;
 mod markup;
 mod momentum_sphere;
 mod motion;
@@ -77,6 +79,24 @@ struct Sheet {
     caption: Caption,
     tables: Vec<Table>,
     svg: String,
+}
+
+impl Figure {
+    /// Name of the file of one of its tables.
+    pub fn table_file(&self, table: &Table) -> String {
+        if table.name.is_empty() { format!("{}.csv", self.name) } else { format!("{}.{}.csv", self.name, table.name) }
+    }
+
+    /// Summary, caption and data files as a page of Markdown.
+    pub fn description(&self) -> String {
+        let number = self.paper_figure.map_or(String::new(), |number| format!(" (Figure {number} of the paper)"));
+        let mut page = format!("# {}{number}\n", self.summary);
+        for paragraph in self.caption.paragraphs() {
+            page += &format!("\n{}\n", markdown(paragraph));
+        }
+        let files: Vec<_> = self.tables.iter().map(|table| format!("`{}`", self.table_file(table))).collect();
+        page + &format!("\nData: {}.\n", files.join(", "))
+    }
 }
 
 /// A figure that can be drawn.
@@ -167,27 +187,54 @@ pub const RECIPES: &[Recipe] = &[
     },
 ];
 
+/// Figures of any motion, for a scene.
+pub const OF_A_SCENE: &[Recipe] = &[
+    Recipe {
+        name: "motion",
+        paper_figure: None,
+        summary: "Euler angles and the paths of the body axes",
+        maker: Maker::Motions(&[0], motion::sheet),
+    },
+    Recipe {
+        name: "beam-alignment",
+        paper_figure: None,
+        summary: "Cosine of the angle between beam and line of sight in time",
+        maker: Maker::Motions(&[0], alignment::sheet),
+    },
+    Recipe {
+        name: "pulse-series",
+        paper_figure: None,
+        summary: "Periods and lengths of the pulses",
+        maker: Maker::Motions(&[0], pulse_series::sheet),
+    },
+    Recipe {
+        name: "waves",
+        paper_figure: None,
+        summary: "Gravitational waves h_+ and h_x in time",
+        maker: Maker::Motions(&[0], waves::sheet),
+    },
+];
+
 impl Recipe {
-    /// Draws the figure of the paper's examples.
+    /// Draws the figure: those of [`RECIPES`] with the [`examples`], those of [`OF_A_SCENE`] with one motion.
     ///
     /// # Errors
     /// If its data cannot be computed.
-    pub fn draw(&self, examples: &[Subject; 4]) -> Result<Figure, String> {
+    pub fn draw(&self, motions: &[Subject]) -> Result<Figure, String> {
         let sheet = match self.maker {
             Maker::Alone(make) => make(),
-            Maker::Motions(places, make) => make(self.name, &places.iter().map(|&i| &examples[i]).collect::<Vec<_>>()),
+            Maker::Motions(places, make) => {
+                let chosen: Option<Vec<_>> = places.iter().map(|&i| motions.get(i)).collect();
+                chosen.ok_or("a motion is missing".to_owned()).and_then(|chosen| make(self.name, &chosen))
+            }
         };
-        self.figure(sheet)
-    }
-
-    fn figure(&self, sheet: Result<Sheet, String>) -> Result<Figure, String> {
         let Sheet { caption, tables, svg } = sheet.map_err(|error| format!("{}: {error}", self.name))?;
         let Self { name, paper_figure, summary, .. } = *self;
         Ok(Figure { name: name.to_owned(), paper_figure, summary: summary.to_owned(), caption, tables, svg })
     }
 }
 
-/// All figures, drawn.
+/// All figures, drawn: the paper's in its order, then ours.
 ///
 /// # Errors
 /// If the data of one cannot be computed.

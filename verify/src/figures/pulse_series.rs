@@ -121,7 +121,7 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
             }
             panel.draw_frame(&mut page);
             if row == 0 {
-                panel.letter(&mut page, char::from(b'a' + i as u8), &subject.name);
+                panel.letter(&mut page, i, subjects.len(), &subject.name);
             }
         }
     }

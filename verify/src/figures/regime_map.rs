@@ -143,7 +143,7 @@ fn draw(maps: &[Map; 3]) -> String {
             page.name([at[0] - 2.0, at[1] + 10.0], BLACK, example);
         }
         panel.draw_frame(&mut page);
-        panel.letter(&mut page, char::from(b'a' + i as u8), what);
+        panel.letter(&mut page, i, maps.len(), what);
     }
     scale(&mut page, PAGE - 38.0, top, height);
     page.finish("Error of the perturbation solutions")

@@ -23,7 +23,6 @@ pub(super) const BLACK: &str = "#000000";
 pub(super) const GREY: &str = "#8c8c8c";
 pub(super) const LIGHT: &str = "#c8c8c8";
 pub(super) const ORANGE: &str = "#e69f00";
-pub(super) const SKY: &str = "#56b4e9";
 pub(super) const GREEN: &str = "#009e73";
 pub(super) const BLUE: &str = "#0072b2";
 pub(super) const VERMILION: &str = "#d55e00";

@@ -1,6 +1,6 @@
 //! A motion as figures need it, and the paper's four examples.
 
-use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
+use nalgebra::{Matrix3, Matrix4, Vector4};
 use num_dual::Dual64;
 use twofold::dynamics::euler_angle_equations::AxisAngles;
 use twofold::dynamics::{BodyState, RigidSpheroid};
@@ -13,6 +13,7 @@ use twofold::scalar::Real;
 use twofold::solutions::perturbation::{Constants, Kind, Perturbation};
 
 use crate::paper_examples::{COEFFICIENTS, PaperExample, SPIN, paper_examples, spheroid};
+use crate::scene_file::Scene;
 
 /// Truncation error of the motions, far below what a picture shows; the data of the figures have all their digits.
 const ACCURACY: f64 = 1e-14;
@@ -118,6 +119,21 @@ impl Subject {
         Self::showing(name, start, all, line_of_sight, shown)
     }
 
+    /// The motion of a scene, with the paper's observer and beam where the scene names none.
+    ///
+    /// # Errors
+    /// A motion that cannot be computed.
+    pub fn of_scene(name: &str, scene: &Scene) -> Result<Self, String> {
+        let start = Start {
+            spheroid: scene.spheroid,
+            violation: scene.violation,
+            state: scene.initial,
+            angles: scene.initial_angles,
+        };
+        let duration = (scene.times.last() - scene.times.start()) / scene.units.time;
+        Self::new(name, start, duration, LineOfSight::PAPER)
+    }
+
     fn showing(name: &str, start: Start, duration: f64, line_of_sight: LineOfSight, shown: Shown) -> Result<Self, String> {
         let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, duration), ACCURACY)
             .map_err(|error| format!("{name}: {error}"))?;
@@ -171,11 +187,6 @@ impl Subject {
         let mut angles = ContinuousAngles::new(&self.motion, 0.0, &self.start.angles)
             .map_err(|error| format!("{}: {error}", self.name))?;
         Ok(times.iter().filter_map(|&t| Some((t, angles.at(t).ok()?))).collect())
-    }
-
-    /// Direction of the angular momentum.
-    pub(super) fn momentum_direction(&self, t: f64) -> Result<Vector3<f64>, String> {
-        Ok(self.state(t)?.momentum.normalize())
     }
 
     /// The parameters in words.

@@ -56,7 +56,7 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
             panel.curve(&mut page, &table.points(0, 1 + polarization), solid(colour, 0.9));
             panel.draw_frame(&mut page);
             if polarization == 0 {
-                panel.letter(&mut page, char::from(b'a' + i as u8), &subject.name);
+                panel.letter(&mut page, i, subjects.len(), &subject.name);
             }
         }
     }
