@@ -26,7 +26,8 @@ pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
         }
         None => figures::examples().map_err(Failure::Failed)?.into(),
     };
-    let folder = OutputFolder::at(&args.out, args.force, |file| chosen.iter().any(|recipe| is_file_of(file, recipe.name)))?;
+    let folder =
+        OutputFolder::at(&args.out, args.force, |file| chosen.iter().any(|recipe| is_file_of(file, recipe.name)))?;
     draw_all(&chosen, &motions, &folder)?;
     let files = folder.complete()?;
     let s = if chosen.len() == 1 { "" } else { "s" };

@@ -41,13 +41,13 @@ impl OutputFolder {
             let mut found: Vec<_> = names.filter(|name| would_write(name)).collect();
             found.sort();
             if let Some(first) = found.first() {
-                let others = if found.len() > 1 { format!(" and {} more exist", found.len() - 1) } else { " exists".into() };
+                let others =
+                    if found.len() > 1 { format!(" and {} more exist", found.len() - 1) } else { " exists".into() };
                 return Err(refuse(format!("{first}{others} there; --force replaces them")));
             }
         }
         let temporary = tempfile::Builder::new().prefix(".figures.").suffix(".part").tempdir_in(path);
-        folder.temporary =
-            Some(temporary.map_err(|error| refuse(format!("no file can be made there: {error}")))?);
+        folder.temporary = Some(temporary.map_err(|error| refuse(format!("no file can be made there: {error}")))?);
         folder.remove_on_interrupt();
         Ok(folder)
     }
@@ -69,7 +69,8 @@ impl OutputFolder {
     /// Writes a file, for now aside.
     pub(super) fn write(&self, name: &str, content: &[u8]) -> Result<(), Failure> {
         let Some(temporary) = &self.temporary else { return Ok(()) };
-        fs::write(temporary.path().join(name), content).map_err(|error| cannot_be_written(&self.path.join(name), &error))
+        fs::write(temporary.path().join(name), content)
+            .map_err(|error| cannot_be_written(&self.path.join(name), &error))
     }
 
     /// Gives the files their names; says how many there are.

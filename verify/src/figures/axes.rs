@@ -72,8 +72,10 @@ impl Axis {
         let range = self.high - self.low;
         let rough = range * spacing / length;
         let power = 10f64.powf(rough.log10().floor());
-        let (digit, parts) =
-            [(1.0, 5), (2.0, 4), (5.0, 5), (10.0, 5)].into_iter().find(|(m, _)| m * power >= rough).unwrap_or((10.0, 5));
+        let (digit, parts) = [(1.0, 5), (2.0, 4), (5.0, 5), (10.0, 5)]
+            .into_iter()
+            .find(|(m, _)| m * power >= rough)
+            .unwrap_or((10.0, 5));
         let step = digit * power;
         let unit = 10f64.powi(self.power());
         let decimals = (-(step / unit * 1.0000001).log10().floor()).max(0.0) as usize;
@@ -129,11 +131,16 @@ pub(super) struct Panel {
 
 /// Room that a panel needs around its frame for numbers and labels.
 pub(super) const LEFT: f64 = 42.0;
-pub(super) const BELOW: f64 = 28.0;
+pub(super) const BELOW: f64 = 29.0;
 
 impl Panel {
     pub(super) fn new(frame: Rectangle, x: Axis, y: Axis) -> Self {
         Self { frame, x, y, y_label_distance: 29.0 }
+    }
+
+    /// Power of ten that is taken out of the numbers at the y axis.
+    pub(super) fn y_power(&self) -> i32 {
+        self.y.power()
     }
 
     /// Place of a point on the page.
@@ -169,7 +176,8 @@ impl Panel {
     pub(super) fn draw_frame(&self, page: &mut Page) {
         let f = self.frame;
         let line = solid(BLACK, 0.6);
-        let corners = [[f.left, f.top], [f.right(), f.top], [f.right(), f.bottom()], [f.left, f.bottom()], [f.left, f.top]];
+        let corners =
+            [[f.left, f.top], [f.right(), f.top], [f.right(), f.bottom()], [f.left, f.bottom()], [f.left, f.top]];
         page.path(&corners, line);
 
         let (large, small) = self.x.ticks(f.width, 34.0);
@@ -181,10 +189,10 @@ impl Panel {
         if self.x.numbers {
             for (value, number) in &large {
                 let x = f.left + self.x.place(*value) * f.width;
-                page.text([x, f.bottom() + 10.5], Anchor::Middle, SMALL, BLACK, number);
+                page.text([x, f.bottom() + 11.5], Anchor::Middle, SMALL, BLACK, number);
             }
         }
-        page.label([f.left + f.width / 2.0, f.bottom() + 22.5], Anchor::Middle, &self.x.full_label());
+        page.label([f.left + f.width / 2.0, f.bottom() + 23.0], Anchor::Middle, &self.x.full_label());
 
         let (large, small) = self.y.ticks(f.height, 16.0);
         for (value, length) in large.iter().map(|(v, _)| (*v, 3.5)).chain(small.iter().map(|v| (*v, 2.0))) {
@@ -200,14 +208,19 @@ impl Panel {
         }
         // Digits are 0.556 of the size of the letters wide.
         let widest = large.iter().map(|(_, number)| 0.556 * SMALL * super::plain(number).chars().count() as f64);
-        let x = f.left - self.y_label_distance.max(9.0 + if self.y.logarithmic { 0.0 } else { widest.fold(0.0, f64::max) });
+        let x =
+            f.left - self.y_label_distance.max(9.0 + if self.y.logarithmic { 0.0 } else { widest.fold(0.0, f64::max) });
         page.turned_text([x, f.top + f.height / 2.0], -90.0, Anchor::Middle, LABEL, BLACK, &self.y.full_label());
     }
 
     /// The letter of panel number `index` of `count`, above its left edge, with what tells it from the others.
     pub(super) fn letter(&self, page: &mut Page, index: usize, count: usize, what: &str) {
         let at = [self.frame.left, self.frame.top - 4.5];
-        if count > 1 { heading(page, at, char::from(b'a' + index as u8), what) } else { page.label(at, Anchor::Start, what) }
+        if count > 1 {
+            heading(page, at, char::from(b'a' + index as u8), what)
+        } else {
+            page.label(at, Anchor::Start, what)
+        }
     }
 }
 

@@ -27,8 +27,7 @@ pub(super) fn sheet() -> Result<Sheet, String> {
 fn draw(m: &Vector3<f64>, n: &Vector3<f64>) -> String {
     let mut page = Page::new("beam-cone", COLUMN, 190.0);
     let view = View::new([COLUMN / 2.0 - 34.0, 136.0], 112.0, 20.0, 20.0);
-    for (axis, length, label) in
-        [(Vector3::x(), 0.85, "*X*"), (Vector3::y(), 0.85, "*Y*"), (Vector3::z(), 1.08, "*Z*")]
+    for (axis, length, label) in [(Vector3::x(), 0.85, "*X*"), (Vector3::y(), 0.85, "*Y*"), (Vector3::z(), 1.08, "*Z*")]
     {
         view.arrow(&mut page, &(axis * length), solid(BLACK, 1.0));
         view.name(&mut page, &(axis * length), 8.0, BLACK, label);
@@ -37,8 +36,7 @@ fn draw(m: &Vector3<f64>, n: &Vector3<f64>) -> String {
     // The cone up to the plane through the head of m.
     let u = m.cross(&Vector3::z()).normalize();
     let v = m.cross(&u);
-    let rim: Vec<_> =
-        arc(&u, &v, 0.0, std::f64::consts::TAU).iter().map(|p| m + p * HALF_OPENING.tan()).collect();
+    let rim: Vec<_> = arc(&u, &v, 0.0, std::f64::consts::TAU).iter().map(|p| m + p * HALF_OPENING.tan()).collect();
     page.area(&rim.iter().map(|p| view.at(p)).collect::<Vec<_>>(), "#dbe9f4");
     view.line(&mut page, &rim, solid(BLUE, 0.8));
     // The two lines of the cone that are its outline: those farthest to either side of the axis on the page.
@@ -53,10 +51,9 @@ fn draw(m: &Vector3<f64>, n: &Vector3<f64>) -> String {
         view.line(&mut page, &[Vector3::zeros(), *side], solid(BLUE, 0.8));
     }
 
-    for (direction, [theta, phi], colour, radius, names) in [
-        (m, BEAM, BLUE, 0.3, ["**m**", "*Θ*", "*Φ*"]),
-        (n, OBSERVER, VERMILION, 0.62, ["**n**", "*θ*_{o}", "*φ*_{o}"]),
-    ] {
+    for (direction, [theta, phi], colour, radius, names) in
+        [(m, BEAM, BLUE, 0.3, ["**m**", "*Θ*", "*Φ*"]), (n, OBSERVER, VERMILION, 0.62, ["**n**", "*θ*_{o}", "*φ*_{o}"])]
+    {
         let length = if colour == BLUE { 1.0 } else { 1.08 };
         let across = Vector3::new(phi.cos(), phi.sin(), 0.0);
         let foot = across * (length * theta.sin());

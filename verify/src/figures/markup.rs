@@ -110,10 +110,7 @@ mod tests {
     fn markup_becomes_plain_text_html_and_markdown() {
         let text = "*a*^{(1)} < *t*_{c}^{-1}, **m**·**n**";
         assert_eq!(plain(text), "a^(1) < t_c^-1, m·n");
-        assert_eq!(
-            html(text),
-            "<i>a</i><sup>(1)</sup> &lt; <i>t</i><sub>c</sub><sup>-1</sup>, <b>m</b>·<b>n</b>"
-        );
+        assert_eq!(html(text), "<i>a</i><sup>(1)</sup> &lt; <i>t</i><sub>c</sub><sup>-1</sup>, <b>m</b>·<b>n</b>");
         assert_eq!(markdown(text), "*a*<sup>(1)</sup> < *t*<sub>c</sub><sup>-1</sup>, **m**·**n**");
         assert_eq!(plain("a } b { c"), "a } b { c");
     }

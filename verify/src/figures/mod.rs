@@ -4,6 +4,7 @@
 //! a curve shows is in the figure's tables.
 
 mod alignment;
+mod alignment_spectra;
 mod axes;
 mod beam_cone;
 mod contour;
@@ -16,11 +17,13 @@ mod motion;
 mod png;
 mod pulse_series;
 mod regime_map;
+mod spectrum;
 mod sphere;
 mod style;
 mod subject;
 mod svg;
 mod table;
+mod wave_spectra;
 mod waves;
 
 pub use markup::{html, markdown, plain};
@@ -162,6 +165,12 @@ pub const RECIPES: &[Recipe] = &[
         maker: Maker::Motions(&[0, 1], alignment::sheet),
     },
     Recipe {
+        name: "beam-alignment-spectra",
+        paper_figure: Some(9),
+        summary: "Spectra of the cosine of the angle between beam and line of sight, tp-I and tp-II",
+        maker: Maker::Motions(&[0, 1], alignment_spectra::sheet),
+    },
+    Recipe {
         name: "pulse-series",
         paper_figure: Some(10),
         summary: "Periods and lengths of the pulses of tp-I and tp-II, with the curves of Eqs. (51), (56)",
@@ -172,6 +181,12 @@ pub const RECIPES: &[Recipe] = &[
         paper_figure: Some(11),
         summary: "Gravitational waves h_+ and h_x of tp-I and tp-II in time",
         maker: Maker::Motions(&[0, 1], waves::sheet),
+    },
+    Recipe {
+        name: "wave-spectra",
+        paper_figure: Some(12),
+        summary: "Spectra of the gravitational waves of tp-I and tp-II, with the third harmonic enlarged",
+        maker: Maker::Motions(&[0, 1], wave_spectra::sheet),
     },
     Recipe {
         name: "perturbation-regimes",
@@ -202,6 +217,12 @@ pub const OF_A_SCENE: &[Recipe] = &[
         maker: Maker::Motions(&[0], alignment::sheet),
     },
     Recipe {
+        name: "beam-alignment-spectra",
+        paper_figure: None,
+        summary: "Spectrum of the cosine of the angle between beam and line of sight",
+        maker: Maker::Motions(&[0], alignment_spectra::sheet),
+    },
+    Recipe {
         name: "pulse-series",
         paper_figure: None,
         summary: "Periods and lengths of the pulses",
@@ -212,6 +233,12 @@ pub const OF_A_SCENE: &[Recipe] = &[
         paper_figure: None,
         summary: "Gravitational waves h_+ and h_x in time",
         maker: Maker::Motions(&[0], waves::sheet),
+    },
+    Recipe {
+        name: "wave-spectra",
+        paper_figure: None,
+        summary: "Spectra of the gravitational waves",
+        maker: Maker::Motions(&[0], wave_spectra::sheet),
     },
 ];
 

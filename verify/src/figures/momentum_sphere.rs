@@ -5,7 +5,9 @@ use twofold::dynamics::BodyState;
 use twofold::euler_angles::EulerAngles;
 
 use super::sphere::{View, arc};
-use super::style::{BLACK, BLUE, COLUMN, GREEN, GREY, LIGHT, Line, ORANGE, PURPLE, VERMILION, dash_dotted, dashed, solid};
+use super::style::{
+    BLACK, BLUE, COLUMN, GREEN, GREY, LIGHT, Line, ORANGE, PURPLE, VERMILION, dash_dotted, dashed, solid,
+};
 use super::subject::{LineOfSight, Start, Subject, times};
 use super::svg::Page;
 use super::table::Table;
@@ -46,8 +48,7 @@ fn near_separatrix() -> Result<Subject, String> {
     let spheroid = spheroid();
     // Towards Z, so that L goes round Z after all.
     let axis = Vector3::new(0.0, TILT.cos(), TILT.sin());
-    let state =
-        BodyState { axis, momentum: axis * (spheroid.inertia_zz * SPIN), equatorial_axis: Vector3::x() };
+    let state = BodyState { axis, momentum: axis * (spheroid.inertia_zz * SPIN), equatorial_axis: Vector3::x() };
     let angles = state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 });
     let start = Start { spheroid, violation: COEFFICIENTS.tensor(), state, angles };
     Subject::new("near Y", start, SPAN, LineOfSight::PAPER)
@@ -76,9 +77,7 @@ fn contour(h: f64) -> Vec<Vec<Vector3<f64>>> {
 /// The two great circles through the middle axis that separate motion about the largest from motion about the smallest.
 fn separatrix() -> [Vec<Vector3<f64>>; 2] {
     let (x, z) = ((COEFFICIENTS.yy - COEFFICIENTS.zz).sqrt(), (COEFFICIENTS.xx - COEFFICIENTS.yy).sqrt());
-    [1.0, -1.0].map(|sign| {
-        arc(&Vector3::y(), &Vector3::new(x, 0.0, sign * z).normalize(), 0.0, std::f64::consts::TAU)
-    })
+    [1.0, -1.0].map(|sign| arc(&Vector3::y(), &Vector3::new(x, 0.0, sign * z).normalize(), 0.0, std::f64::consts::TAU))
 }
 
 fn draw(name: &str, motions: &[&Subject], table: &Table) -> String {
@@ -105,8 +104,10 @@ fn draw(name: &str, motions: &[&Subject], table: &Table) -> String {
         view.line_on_sphere(&mut page, &path, front, Some(Line { colour: pale[i], ..front }));
     }
     // Each name at a point of its path, off it to a side that is free.
-    for (i, (motion, (row, offset))) in
-        motions.iter().zip([(0, [17.0, 4.0]), (400, [18.0, 4.0]), (100, [14.0, 8.0]), (200, [0.0, -10.0]), (0, [24.0, -4.0])]).enumerate()
+    for (i, (motion, (row, offset))) in motions
+        .iter()
+        .zip([(0, [17.0, 4.0]), (400, [18.0, 4.0]), (100, [14.0, 8.0]), (200, [0.0, -10.0]), (0, [24.0, -4.0])])
+        .enumerate()
     {
         let row = &table.rows[row];
         let v = Vector3::new(row[1 + 4 * i], row[2 + 4 * i], row[3 + 4 * i]);

@@ -93,7 +93,8 @@ fn draw(name: &str, subject: &Subject, tables: &[Table]) -> String {
     let view = View::new([418.0, 112.0], 74.0, 35.0, 25.0);
     view.draw_sphere(&mut page);
     view.draw_axes(&mut page, 1.22, ["*X*", "*Y*", "*Z*"]);
-    let points = |from: usize| paths.rows.iter().map(move |row| (row[0], Vector3::new(row[from], row[from + 1], row[from + 2])));
+    let points =
+        |from: usize| paths.rows.iter().map(move |row| (row[0], Vector3::new(row[from], row[from + 1], row[from + 2])));
     let shown = subject.shown.equatorial_axis.abs();
     let equatorial: Vec<_> = points(1).filter(|(t, _)| t.abs() <= shown).map(|(_, v)| v).collect();
     let axis: Vec<_> = points(4).map(|(_, v)| v).collect();

@@ -60,7 +60,8 @@ fn curves(subject: &Subject, beta_0: f64) -> Result<Table, String> {
     let [(_, first), (_, last)] = angles[..] else { return Err("the axis is on a pole".into()) };
     let mean = ShiftedRates { alpha: (last.alpha - first.alpha) / end, gamma: (last.gamma - first.gamma) / end };
     let shifted = shifted_rates(&start.spheroid, &COEFFICIENTS, SPIN, beta_0).map_err(message)?;
-    let columns = ["mean rates", "Eq. (57)"].iter().flat_map(|r| ["period", "length"].map(|q| format!("{q} by {r} [t_c]")));
+    let columns =
+        ["mean rates", "Eq. (57)"].iter().flat_map(|r| ["period", "length"].map(|q| format!("{q} by {r} [t_c]")));
     let mut table =
         Table::new(format!("{}-curves", subject.name), std::iter::once("t [t_c]".to_owned()).chain(columns));
     for t in times(end, 1000) {

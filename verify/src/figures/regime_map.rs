@@ -90,7 +90,8 @@ const COLOURS: [[f64; 3]; 5] =
 fn colour(part: f64) -> String {
     let place = part.clamp(0.0, 1.0) * 4.0;
     let i = (place as usize).min(3);
-    let [r, g, b] = [0, 1, 2].map(|k| (COLOURS[i][k] + (COLOURS[i + 1][k] - COLOURS[i][k]) * (place - i as f64)).round());
+    let [r, g, b] =
+        [0, 1, 2].map(|k| (COLOURS[i][k] + (COLOURS[i + 1][k] - COLOURS[i][k]) * (place - i as f64)).round());
     format!("#{:02x}{:02x}{:02x}", r as u8, g as u8, b as u8)
 }
 
@@ -103,18 +104,16 @@ fn draw(maps: &[Map; 3]) -> String {
     let names = ["twofold, printed", "twofold, corrected", "single"];
     for (i, (map, what)) in maps.iter().zip(names).enumerate() {
         let frame = Rectangle { left: left + (width + between) * i as f64, top, width, height };
-        let (powers, label) = if i < 2 {
-            (POWERS, "*A* *t*_{c}")
-        } else {
-            (ASYMMETRY_POWERS, "asymmetry of *s*")
-        };
+        let (powers, label) = if i < 2 { (POWERS, "*A* *t*_{c}") } else { (ASYMMETRY_POWERS, "asymmetry of *s*") };
         let x = Axis::linear("*β*_{0} [rad]", INCLINATIONS.0, INCLINATIONS.1);
         let y = Axis::logarithmic(label, 10f64.powf(powers.0), 10f64.powf(powers.1));
         let mut panel = Panel::new(frame, x, y);
         panel.y_label_distance = 25.0;
         let values: Vec<f64> = map.table.rows.iter().map(|row| row[2].log10()).collect();
         let band = |value: f64| (value - ERRORS.0) / (ERRORS.1 - ERRORS.0) * BANDS as f64;
-        for (cell, number) in bands(&values, map.columns, map.rows, |value| band(value).floor().clamp(0.0, 9.0) as usize) {
+        for (cell, number) in
+            bands(&values, map.columns, map.rows, |value| band(value).floor().clamp(0.0, 9.0) as usize)
+        {
             let part = (number as f64 + 0.5) / BANDS as f64;
             let [u0, v0, u1, v1] = cell;
             let r = Rectangle {
@@ -127,8 +126,10 @@ fn draw(maps: &[Map; 3]) -> String {
         }
         for power in [-4, -3, -2, -1] {
             for line in isoline(&values, map.columns, map.rows, f64::from(power)) {
-                let points: Vec<_> =
-                    line.iter().map(|[u, v]| [frame.left + u * frame.width, frame.bottom() - v * frame.height]).collect();
+                let points: Vec<_> = line
+                    .iter()
+                    .map(|[u, v]| [frame.left + u * frame.width, frame.bottom() - v * frame.height])
+                    .collect();
                 page.path(&points, solid(if power > -2 { "#ffffff" } else { BLACK }, 0.8));
             }
         }

@@ -83,11 +83,7 @@ impl View {
     /// The outline of the unit sphere, its equator and two meridians, faint.
     pub(super) fn draw_sphere(&self, page: &mut Page) {
         page.circle(self.centre, self.unit, "#fafafa", Some(solid(GREY, 0.6)));
-        for (u, v) in [
-            (Vector3::x(), Vector3::y()),
-            (Vector3::x(), Vector3::z()),
-            (Vector3::y(), Vector3::z()),
-        ] {
+        for (u, v) in [(Vector3::x(), Vector3::y()), (Vector3::x(), Vector3::z()), (Vector3::y(), Vector3::z())] {
             let circle = arc(&u, &v, 0.0, std::f64::consts::TAU);
             self.line_on_sphere(page, &circle, solid(LIGHT, 0.5), Some(Line { width: 0.4, ..dashed(LIGHT, 0.4) }));
         }

@@ -1,5 +1,7 @@
 //! A motion as figures need it, and the paper's four examples.
 
+use std::sync::OnceLock;
+
 use nalgebra::{Matrix3, Matrix4, Vector4};
 use num_dual::Dual64;
 use twofold::dynamics::euler_angle_equations::AxisAngles;
@@ -12,6 +14,7 @@ use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
 use twofold::scalar::Real;
 use twofold::solutions::perturbation::{Constants, Kind, Perturbation};
 
+use super::spectrum::{LongMotion, SAMPLES_ROTATION};
 use crate::paper_examples::{COEFFICIENTS, PaperExample, SPIN, paper_examples, spheroid};
 use crate::scene_file::Scene;
 
@@ -93,6 +96,9 @@ pub struct Subject {
     pub shown: Shown,
     /// The motion.
     pub motion: TaylorMotion<f64>,
+    /// Length of the series of which spectra are taken, t_c.
+    pub(super) spectrum_duration: f64,
+    long: OnceLock<Result<LongMotion, String>>,
 }
 
 /// Rotation that figures of any motion show at most (rad): some hundred turns, beyond which curves become a blot.
@@ -106,8 +112,11 @@ impl Subject {
     /// # Errors
     /// A motion that cannot be computed.
     pub fn new(name: &str, start: Start, duration: f64, line_of_sight: LineOfSight) -> Result<Self, String> {
-        let rate = start.state.momentum.norm() / start.spheroid.inertia_xx;
-        let at_most = |rotation: f64| duration.abs().min(rotation / rate.max(1e-12)).copysign(duration);
+        let (spheroid, torque) = (&start.spheroid, start.spheroid.constant_c.abs() * start.violation.norm());
+        // A star at rest turns at the rate of its swing.
+        let swing = (2.0 * torque / spheroid.inertia_xx).sqrt();
+        let rate = (start.state.momentum.norm() / spheroid.inertia_xx).max(swing).max(1.0 / duration.abs());
+        let at_most = |rotation: f64| duration.abs().min(rotation / rate).copysign(duration);
         let all = at_most(MOST_ROTATION);
         let shown = Shown {
             angles: at_most(0.4 * MOST_ROTATION),
@@ -116,7 +125,19 @@ impl Subject {
             waves: at_most(0.25 * MOST_ROTATION),
             pulses: all,
         };
-        Self::showing(name, start, all, line_of_sight, shown)
+        let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, all), ACCURACY)
+            .map_err(|error| format!("{name}: {error}"))?;
+        Ok(Self {
+            name: name.to_owned(),
+            start,
+            solutions: Vec::new(),
+            mean_inclination: None,
+            line_of_sight,
+            shown,
+            motion,
+            spectrum_duration: SAMPLES_ROTATION / rate,
+            long: OnceLock::new(),
+        })
     }
 
     /// The motion of a scene, with the paper's observer and beam where the scene names none.
@@ -132,13 +153,6 @@ impl Subject {
         };
         let duration = (scene.times.last() - scene.times.start()) / scene.units.time;
         Self::new(name, start, duration, LineOfSight::PAPER)
-    }
-
-    fn showing(name: &str, start: Start, duration: f64, line_of_sight: LineOfSight, shown: Shown) -> Result<Self, String> {
-        let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, duration), ACCURACY)
-            .map_err(|error| format!("{name}: {error}"))?;
-        let name = name.to_owned();
-        Ok(Self { name, start, solutions: Vec::new(), mean_inclination: None, line_of_sight, shown, motion })
     }
 
     fn example(example: &PaperExample) -> Result<Self, twofold::Error> {
@@ -174,6 +188,23 @@ impl Subject {
             line_of_sight: LineOfSight::PAPER,
             shown,
             motion,
+            spectrum_duration: 6000.0,
+            long: OnceLock::new(),
+        })
+    }
+
+    /// The motion over the length of the spectra, computed once.
+    pub(super) fn long_motion(&self) -> Result<&LongMotion, String> {
+        let long = self.long.get_or_init(|| LongMotion::of(self, self.spectrum_duration));
+        long.as_ref().map_err(Clone::clone)
+    }
+
+    /// `alpha'` and `|gamma'|` of free precession at the mean inclination, Eq. (48), where the motion is given by twofold precession.
+    pub(super) fn free_rates(&self) -> Vec<f64> {
+        let twofold = self.solutions.first().filter(|(_, solution)| solution.zeroth_rate != 0.0);
+        twofold.map_or(Vec::new(), |(_, solution)| {
+            let gamma = self.start.spheroid.oblateness() * SPIN;
+            vec![solution.zeroth_rate, gamma]
         })
     }
 
@@ -194,9 +225,8 @@ impl Subject {
         let Start { spheroid, violation, angles, state } = &self.start;
         let spin = state.momentum.dot(&state.axis) / spheroid.inertia_zz;
         let rates = state.rates(spheroid).ok();
-        let rate = rates.map_or(String::new(), |r| {
-            format!(", d*α*/d*t* = {:.4}, d*β*/d*t* = {:.4}", tidy(r.alpha), tidy(r.beta))
-        });
+        let rate = rates
+            .map_or(String::new(), |r| format!(", d*α*/d*t* = {:.4}, d*β*/d*t* = {:.4}", tidy(r.alpha), tidy(r.beta)));
         let off_diagonal = [(0, 1), (0, 2), (1, 2)].iter().any(|&place| violation[place] != 0.0);
         let s = |i: usize| tidy(violation[(i, i)]);
         let frame = if off_diagonal { " and other components" } else { "" };

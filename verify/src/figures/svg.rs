@@ -129,8 +129,17 @@ impl Page {
     }
 
     /// Text turned by `degrees` about `at`, clockwise.
-    pub(super) fn turned_text(&mut self, [x, y]: At, degrees: f64, anchor: Anchor, size: f64, colour: &str, text: &str) {
-        let turn = if degrees == 0.0 { String::new() } else { format!(" transform=\"rotate({degrees} {x:.2} {y:.2})\"") };
+    pub(super) fn turned_text(
+        &mut self,
+        [x, y]: At,
+        degrees: f64,
+        anchor: Anchor,
+        size: f64,
+        colour: &str,
+        text: &str,
+    ) {
+        let turn =
+            if degrees == 0.0 { String::new() } else { format!(" transform=\"rotate({degrees} {x:.2} {y:.2})\"") };
         self.spans([x, y], anchor, size, colour, text, &turn);
     }
 
@@ -184,8 +193,7 @@ impl Page {
 }
 
 fn stroke(line: Line) -> String {
-    let dashes =
-        if line.dashes.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{}\"", line.dashes) };
+    let dashes = if line.dashes.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{}\"", line.dashes) };
     format!(" stroke=\"{}\" stroke-width=\"{}\"{dashes}", line.colour, line.width)
 }
 
