@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
+use twofold::Error;
 use twofold::dynamics::BodyState;
 use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::solutions::perturbation::{Constants, Kind, initial_values};
+use twofold::solutions::perturbation::{Constants, Kind, Perturbation, initial_values};
 
 use super::error::Fault;
 use super::section::Section;
@@ -14,12 +15,26 @@ use super::violation::Violation;
 const ANGLES: [&str; 5] = ["alpha", "beta", "gamma", "alpha_rate", "beta_rate"];
 const CONSTANTS: [&str; 6] = ["kind", "alpha_0", "beta_0", "amplitude", "phase", "gamma"];
 
-/// The state in the frame of the file, in the paper's units, and its Euler angles.
-pub(super) fn read(
-    section: &Section<'_>,
-    star: &Star,
-    violation: &Violation,
-) -> Result<(BodyState<f64>, EulerAngles<f64>), Fault> {
+/// The perturbation solutions of one set of constants; time from the start, in t_c.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PerturbationCurves {
+    /// As the paper prints it, Eq. (33).
+    pub printed: Perturbation<f64>,
+    /// Right to first order; of twofold precession only.
+    pub corrected: Option<Perturbation<f64>>,
+}
+
+/// The start of a motion in the paper's units.
+pub(super) struct Initial {
+    /// State in the frame of the file.
+    pub(super) state: BodyState<f64>,
+    /// Its Euler angles.
+    pub(super) angles: EulerAngles<f64>,
+    /// The perturbation solution in the same frame, or why there is none.
+    pub(super) perturbation: Result<PerturbationCurves, &'static str>,
+}
+
+pub(super) fn read(section: &Section<'_>, star: &Star, violation: &Violation) -> Result<Initial, Fault> {
     section.only(&[
         "alpha",
         "beta",
@@ -42,7 +57,7 @@ pub(super) fn read(
     from_constants(section, star, violation)
 }
 
-fn from_angles(section: &Section<'_>, star: &Star) -> Result<(BodyState<f64>, EulerAngles<f64>), Fault> {
+fn from_angles(section: &Section<'_>, star: &Star) -> Result<Initial, Fault> {
     let angles = EulerAngles {
         alpha: section
             .required("alpha", "precession angle [rad], or `initial.kind` for the paper's constants")?
@@ -58,14 +73,10 @@ fn from_angles(section: &Section<'_>, star: &Star) -> Result<(BodyState<f64>, Eu
     let rates = rates(star, &angles, alpha_rate, beta_rate);
     let state = BodyState::from_angles(&star.spheroid, &angles, &rates);
     refuse_overflow(section, &state)?;
-    Ok((state, angles))
+    Ok(Initial { state, angles, perturbation: Err("[initial] gives angles and no constants (`initial.kind`)") })
 }
 
-fn from_constants(
-    section: &Section<'_>,
-    star: &Star,
-    violation: &Violation,
-) -> Result<(BodyState<f64>, EulerAngles<f64>), Fault> {
+fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> Result<Initial, Fault> {
     let kind_entry = section.required("kind", "\"twofold\" or \"single\"")?;
     let kind = match kind_entry.word(&["twofold", "single"])? {
         "twofold" => Kind::Twofold,
@@ -104,11 +115,20 @@ fn from_constants(
     let state = BodyState::from_angles(&star.spheroid, &principal, &rates);
     refuse_overflow(section, &state)?;
     if violation.principal_from_given.is_identity(0.0) {
-        return Ok((state, principal));
+        let (body, s) = (&star.spheroid, &violation.coefficients);
+        let curves = || {
+            let printed = Perturbation::printed(kind, body, s, star.spin, &constants)?;
+            let corrected = || Perturbation::corrected_twofold(body, s, star.spin, &constants);
+            Ok(PerturbationCurves { printed, corrected: (kind == Kind::Twofold).then(corrected).transpose()? })
+        };
+        let perturbation =
+            curves().map_err(|error: Error| section.fault(format!("[initial] has no solution: {error}")))?;
+        return Ok(Initial { state, angles: principal, perturbation: Ok(perturbation) });
     }
     let state = state.rotated(&violation.principal_from_given.transpose());
     let angles = state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: state.axis.z.acos(), gamma: 0.0 });
-    Ok((state, angles))
+    let perturbation = Err("its angles are those of the principal frame, which is not the frame of this file");
+    Ok(Initial { state, angles, perturbation })
 }
 
 /// Rates with `gamma' = Omega^z - alpha' cos(beta)`, Eq. (24) `[firstint]`.
