@@ -4,6 +4,7 @@ pub mod check;
 pub mod checks;
 pub mod columns;
 pub mod command;
+pub mod compare;
 pub mod conditioned;
 pub mod derivation;
 pub mod dual;

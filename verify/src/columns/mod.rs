@@ -47,8 +47,7 @@ enum Need {
     Observer,
     Distance,
     Pulsar,
-    PrintedSolution,
-    CorrectedSolution,
+    Constants,
 }
 
 impl Need {
@@ -62,16 +61,7 @@ impl Need {
                 scene.units.are_physical() && scene.observer.is_some_and(|observer| observer.distance.is_none()),
                 "`observer.distance` [kpc], without which a physical star has no strain",
             ),
-            Need::PrintedSolution => {
-                scene.perturbation.as_ref().err().map(|why| format!("a perturbation solution: {why}"))
-            }
-            Need::CorrectedSolution => match &scene.perturbation {
-                Err(why) => Some(format!("a perturbation solution: {why}")),
-                Ok(curves) => because(
-                    curves.corrected.is_none(),
-                    "a corrected perturbation solution: there is one for `initial.kind` = \"twofold\" only",
-                ),
-            },
+            Need::Constants => scene.perturbation.as_ref().err().map(|why| format!("a perturbation solution: {why}")),
         }
     }
 }
@@ -88,7 +78,7 @@ impl ColumnGroup {
 }
 
 /// All groups in the order of the columns; the first six are those of the motion.
-pub const ALL: [&ColumnGroup; 12] = [
+pub const ALL: [&ColumnGroup; 11] = [
     &motion::ANGLES,
     &motion::RATES,
     &motion::EQUATORIAL_AXIS,
@@ -96,7 +86,6 @@ pub const ALL: [&ColumnGroup; 12] = [
     &motion::MOMENTUM,
     &motion::INTEGRALS,
     &motion::PERTURBATION,
-    &motion::CORRECTED_PERTURBATION,
     &observables::LAMBDA,
     &observables::LINE_OF_SIGHT,
     &observables::MAGNETIC_AXIS,

@@ -69,25 +69,14 @@ pub(super) const INTEGRALS: ColumnGroup = ColumnGroup {
     },
 };
 
-/// Eq. (33) as printed.
+/// Eq. (33) as printed: it starts with the motion, which the corrected solution of the same constants does not.
 pub(super) const PERTURBATION: ColumnGroup = ColumnGroup {
     name: "perturbation",
-    needs: &[Need::PrintedSolution],
+    needs: &[Need::Constants],
     counts_turns: false,
     header: |_| with_unit(&["alpha_printed", "beta_printed"], "rad"),
     values: |scene, moment| {
-        let angles = scene.perturbation.as_ref().ok()?.printed.at(moment.since_start);
-        Some(vec![angles.alpha, angles.beta])
-    },
-};
-
-pub(super) const CORRECTED_PERTURBATION: ColumnGroup = ColumnGroup {
-    name: "corrected_perturbation",
-    needs: &[Need::CorrectedSolution],
-    counts_turns: false,
-    header: |_| with_unit(&["alpha_corrected", "beta_corrected"], "rad"),
-    values: |scene, moment| {
-        let angles = scene.perturbation.as_ref().ok()?.corrected?.at(moment.since_start);
+        let angles = scene.perturbation.as_ref().ok()?.at(moment.since_start);
         Some(vec![angles.alpha, angles.beta])
     },
 };

@@ -1,5 +1,6 @@
 //! The command `twofold`: verify the paper's equations, run a scene, list the scenes.
 
+mod compare;
 mod output_file;
 mod progress;
 mod pulses;
@@ -54,6 +55,11 @@ enum Command {
     /// A pulse is a stretch of time in which the line of sight is inside the beam, m.n > cos(rho). The scene must have the
     /// sections [observer] and [pulsar]; the samples of its [time] do not matter, its span does.
     Pulses(PulsesArgs),
+    /// Compare the data that the paper's authors published with the same numbers computed here
+    ///
+    /// The files are those of the folder `data3` of github.com/ryxxastroat/lorentz_precession. Each known one in the folder is
+    /// read and computed anew; the largest difference of each column is printed beside what the file is known to be off by.
+    Compare(CompareArgs),
     /// List the built-in scenes
     Scenes,
     /// Print the table of equations: what implements each, which checks and golden numbers are about it (Markdown)
@@ -74,8 +80,8 @@ struct VerifyArgs {
 struct RunArgs {
     /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
     scene: String,
-    /// Only these groups of columns, whatever the scene says: angles, rates, e_x, e_z, L, integrals, perturbation,
-    /// corrected_perturbation, lambda, m.n, magnetic_axis, h
+    /// Only these groups of columns, whatever the scene says: angles, rates, e_x, e_z, L, integrals, perturbation, lambda,
+    /// m.n, magnetic_axis, h
     #[arg(long, value_name = "GROUP,GROUP", value_delimiter = ',')]
     columns: Option<Vec<String>>,
     #[command(flatten)]
@@ -91,6 +97,16 @@ struct PulsesArgs {
     second_beam: bool,
     #[command(flatten)]
     output: OutputArgs,
+}
+
+#[derive(Args)]
+struct CompareArgs {
+    /// Folder with the authors' files: tp1.dat, mntp1.dat, ...
+    #[arg(long, value_name = "DIR")]
+    authors_data: PathBuf,
+    /// Print the comparison as JSON instead of a table
+    #[arg(long)]
+    json: bool,
 }
 
 #[derive(Args)]
@@ -125,6 +141,7 @@ pub fn main() -> ExitCode {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
         Command::Pulses(args) => pulses::pulses(&args),
+        Command::Compare(args) => compare::compare(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
     };

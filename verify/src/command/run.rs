@@ -12,9 +12,12 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let mut scene = read_scene(&args.scene)?;
     if let Some(columns) = &args.columns {
         let names: Vec<_> = columns.iter().map(|name| name.trim()).collect();
-        scene.choose_columns(&names).map_err(|why| Failure::BadInput(format!("--columns for {}: {why}", args.scene)))?;
+        scene
+            .choose_columns(&names)
+            .map_err(|why| Failure::BadInput(format!("--columns for {}: {why}", args.scene)))?;
     }
-    let Some(summary) = write(&args.output, &scene, |writer, progress| trajectory::write_csv(&scene, writer, progress))?
+    let Some(summary) =
+        write(&args.output, &scene, |writer, progress| trajectory::write_csv(&scene, writer, progress))?
     else {
         return Ok(());
     };

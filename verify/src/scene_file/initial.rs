@@ -2,7 +2,6 @@
 
 use std::f64::consts::PI;
 
-use twofold::Error;
 use twofold::dynamics::BodyState;
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::solutions::perturbation::{Constants, Kind, Perturbation, initial_values};
@@ -15,23 +14,14 @@ use super::violation::Violation;
 const ANGLES: [&str; 5] = ["alpha", "beta", "gamma", "alpha_rate", "beta_rate"];
 const CONSTANTS: [&str; 6] = ["kind", "alpha_0", "beta_0", "amplitude", "phase", "gamma"];
 
-/// The perturbation solutions of one set of constants; time from the start, in t_c.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PerturbationCurves {
-    /// As the paper prints it, Eq. (33).
-    pub printed: Perturbation<f64>,
-    /// Right to first order; of twofold precession only.
-    pub corrected: Option<Perturbation<f64>>,
-}
-
 /// The start of a motion in the paper's units.
 pub(super) struct Initial {
     /// State in the frame of the file.
     pub(super) state: BodyState<f64>,
     /// Its Euler angles.
     pub(super) angles: EulerAngles<f64>,
-    /// The perturbation solution in the same frame, or why there is none.
-    pub(super) perturbation: Result<PerturbationCurves, &'static str>,
+    /// The printed perturbation solution in the same frame, time from the start, or why there is none.
+    pub(super) perturbation: Result<Perturbation<f64>, &'static str>,
 }
 
 pub(super) fn read(section: &Section<'_>, star: &Star, violation: &Violation) -> Result<Initial, Fault> {
@@ -116,13 +106,8 @@ fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> 
     refuse_overflow(section, &state)?;
     if violation.principal_from_given.is_identity(0.0) {
         let (body, s) = (&star.spheroid, &violation.coefficients);
-        let curves = || {
-            let printed = Perturbation::printed(kind, body, s, star.spin, &constants)?;
-            let corrected = || Perturbation::corrected_twofold(body, s, star.spin, &constants);
-            Ok(PerturbationCurves { printed, corrected: (kind == Kind::Twofold).then(corrected).transpose()? })
-        };
-        let perturbation =
-            curves().map_err(|error: Error| section.fault(format!("[initial] has no solution: {error}")))?;
+        let perturbation = Perturbation::printed(kind, body, s, star.spin, &constants)
+            .map_err(|error| section.fault(format!("[initial] has no solution: {error}")))?;
         return Ok(Initial { state, angles: principal, perturbation: Ok(perturbation) });
     }
     let state = state.rotated(&violation.principal_from_given.transpose());

@@ -22,13 +22,13 @@ use toml::de::DeTable;
 use twofold::dynamics::regular_equations::angular_velocity;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::EulerAngles;
+use twofold::solutions::perturbation::Perturbation;
 
 use crate::columns::{self, ColumnGroup};
 
 pub use built_in::{BUILT_IN, BuiltIn};
 use error::Fault;
 pub use error::SceneError;
-pub use initial::PerturbationCurves;
 pub use observer::{Pulsar, Viewer};
 use section::Section;
 pub(crate) use section::nearest;
@@ -60,8 +60,8 @@ pub struct Scene {
     pub observer: Option<Viewer>,
     /// What shines, where the file says so.
     pub pulsar: Option<Pulsar>,
-    /// The perturbation solution of the scene's constants, or why there is none.
-    pub perturbation: Result<PerturbationCurves, &'static str>,
+    /// The perturbation solution of the scene's constants as printed, with time from the start in t_c, or why there is none.
+    pub perturbation: Result<Perturbation<f64>, &'static str>,
     /// Columns of the output, in its order.
     pub columns: Vec<&'static ColumnGroup>,
     /// Truncation error wanted at the end of the span.

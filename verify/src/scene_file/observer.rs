@@ -60,9 +60,9 @@ pub(super) fn read_observer(section: &Section<'_>, units: &Units) -> Result<View
         Some(entry) if !units.are_physical() => {
             return Err(entry.refuse("a distance only for a physical star: in the paper's units h is that at r = 1"));
         }
-        Some(entry) => Some(
-            entry.number_where("a distance from 1e-6 to 1e8 [kpc]", |x| (1e-6..=1e8).contains(&x))? * KILOPARSEC,
-        ),
+        Some(entry) => {
+            Some(entry.number_where("a distance from 1e-6 to 1e8 [kpc]", |x| (1e-6..=1e8).contains(&x))? * KILOPARSEC)
+        }
         None => None,
     };
     Ok(Viewer { theta_o, phi_o, distance })

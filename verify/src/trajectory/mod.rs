@@ -54,8 +54,7 @@ pub fn write_csv(scene: &Scene, writer: impl Write, mut progress: impl FnMut(f64
         while let Some(time) = rows.next_if(within) {
             let t = since_start(scene, time).clamp(from.min(to), from.max(to));
             let mut angles = || angles.at(t).ok();
-            let mut moment =
-                Moment { since_start: t, state: stretch.motion.state(t)?, angles: &mut angles };
+            let mut moment = Moment { since_start: t, state: stretch.motion.state(t)?, angles: &mut angles };
             let mut on_pole = false;
             table.write_field(format!("{time:?}"))?;
             for (group, &width) in scene.columns.iter().zip(&widths) {
