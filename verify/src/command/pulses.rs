@@ -18,8 +18,8 @@ pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
     let summary =
         write(&args.output, &scene, |writer, progress| write_pulses(&scene, (&viewer, &pulsar), writer, progress))?;
     let Some(summary) = summary else { return Ok(()) };
-    if summary.pulses == 0 {
-        note("no pulse: the line of sight stays outside the beam");
+    for (beam, _) in summary.pulses.iter().enumerate().filter(|(_, pulses)| **pulses == 0) {
+        note(&format!("no pulse of beam {}: the line of sight stays outside it", beam + 1));
     }
     if let Some(time) = summary.first_grazing {
         note(&format!(

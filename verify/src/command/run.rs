@@ -67,8 +67,8 @@ fn note_units(scene: &Scene) {
 fn note_poles(scene: &Scene, summary: &Summary) {
     if let Some(time) = summary.first_on_pole {
         note(&format!(
-            "fields are empty in {} of {} rows, first at t = {time:?} {}: alpha, gamma and the rates do not exist where the \
-             symmetry axis is on a pole, nor does the direction of the magnetic axis where that one is",
+            "an axis is on a pole in {} of {} rows, first at t = {time:?} {}: alpha, gamma and the rates do not exist where the \
+             symmetry axis is, Theta and Phi where the magnetic axis is; they are left empty",
             summary.rows_on_pole, summary.rows, scene.units.time_name
         ));
     }

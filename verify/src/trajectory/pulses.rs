@@ -13,10 +13,10 @@ use super::stretches::{Stretch, Stretches};
 use crate::scene_file::{Pulsar, Scene, Viewer};
 
 /// What there is to say about a table of pulses.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct PulseSummary {
-    /// Rows written.
-    pub pulses: usize,
+    /// Pulses written, of each beam.
+    pub pulses: Vec<usize>,
     /// Extrema of m.n so near to the edge of a beam that a pulse is there, or missing, by rounding.
     pub grazings: usize,
     /// Time of the first of those.
@@ -76,13 +76,13 @@ pub fn write_pulses(
                 width_at(numbered.pulse.midpoint(), motions, beam, viewer.theta_o)
             });
             numbered.write(scene, width.flatten(), &mut table)?;
-            summary.pulses += 1;
         }
         stretches.resume_at(&stretch, to)?;
         progress(stretches.part_done(to));
         last_motion = Some(stretch.motion);
     }
     table.flush()?;
+    summary.pulses = sources.iter().map(|source| source.seen).collect();
     Ok(summary)
 }
 
