@@ -1,6 +1,6 @@
 //! Groups of columns that a scene's table can have: header and values of each side by side.
 //!
-//! A new group is an entry in [`motion`] or [`observables`] and its place in [`ALL`].
+//! A new group is an entry in `motion.rs` or `observables.rs` and its place in [`ALL`].
 
 mod motion;
 mod observables;

@@ -54,7 +54,7 @@ pub fn text(comparison: &Comparison) -> String {
                 first(&file.rows.to_string()),
                 first(&file.start),
                 column.column.clone(),
-                format!("{:.2e} {}", column.difference, column.unit),
+                format!("{:.2e} {}", column.difference, if column.unit == "1" { "" } else { column.unit }),
                 format!("{:.3}", column.time),
                 column.allowed.map_or("-".into(), |allowed| format!("{allowed:.3e}")),
                 format!("[{}]", number + 1),
