@@ -1,6 +1,7 @@
 //! Spectra of `m.n`.
 
 use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::parameters::{line_of_sight, parameters};
 use super::spectrum::{self, Spectrum};
 use super::style::{BLACK, PAGE, VERMILION, dashed, solid};
 use super::svg::{Anchor, Page, Rectangle};
@@ -18,7 +19,8 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
     let mut tables = Vec::new();
     let mut spectra = Vec::new();
     for subject in subjects {
-        let (beam, observer) = (subject.line_of_sight.beam(), subject.line_of_sight.observer());
+        let (viewer, pulsar) = subject.line_of_sight()?;
+        let (beam, observer) = (pulsar.beam(), viewer.basis());
         let of = spectrum::spectrum(subject, highest, |state| beam.direction(state).dot(&observer.direction))?;
         let mut table = Table::new(format!("{}-spectrum", subject.name), ["frequency [rad/t_c]", "amplitude [1]"]);
         of.points.iter().for_each(|&(frequency, amplitude)| table.push([frequency, amplitude]));
@@ -79,14 +81,11 @@ fn caption(subjects: &[&Subject], spectra: &[Spectrum]) -> Result<Caption, Strin
         shows: "Amplitude spectra of **m** · **n**. Names over the lines are combinations of the mean rates *α*, *γ* and *l* of precession angle, \
                 rotation angle and slow precession (*ν*: nutation). Dashed: *α* and |*γ*| of free precession, Eq. (48)."
             .to_owned(),
-        parameters: subjects
-            .iter()
-            .map(|s| format!("{}, over {}: {}", s.name, spectrum::length_in_words(s), s.parameters()))
-            .collect::<Vec<_>>()
-            .join(" "),
+        parameters: parameters(&line_of_sight(subjects, true), subjects),
         method: format!(
-            "Fourier transform of 16,384 values with Kaiser's window (shape 14); lines by a joint fit, to 10^{{−5}} of the strongest; mean rates \
+            "Fourier transform of 16,384 values over {} with Kaiser's window (shape 14); lines by a joint fit, to 10^{{−5}} of the strongest; mean rates \
              by weighted averages. Mean rates per *t*_{{c}}: {}.",
+            spectrum::length_in_words(subjects),
             rates.join("; ")
         ),
         says,

@@ -7,7 +7,7 @@ use twofold::observables::fundamental_frequencies::{FundamentalFrequencies, fund
 use twofold::observables::spectrum::{Combination, Series, Window, amplitude_spectrum, spectral_lines};
 use twofold::propagation::{TaylorMotion, propagate};
 
-use super::subject::Subject;
+use super::subject::{ACCURACY, Subject};
 use super::table::Table;
 
 /// Values in a series, of which 10 or more are on each wave that matters.
@@ -34,7 +34,7 @@ impl LongMotion {
     /// The motion of `duration` (t_c) from the start of a subject.
     pub(super) fn of(subject: &Subject, duration: f64) -> Result<Self, String> {
         let start = &subject.start;
-        let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, duration), 1e-14)
+        let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, duration), ACCURACY)
             .map_err(|error| format!("{}: {error}", subject.name))?;
         let frequencies = fundamental_frequencies(&motion).ok();
         Ok(Self { motion, frequencies })
@@ -123,17 +123,19 @@ pub(super) fn rates(subject: &Subject) -> Result<String, String> {
     Ok(format!("{}: {}", subject.name, known.collect::<Vec<_>>().join(", ")))
 }
 
-/// Length of the series.
-pub(super) fn length_in_words(subject: &Subject) -> String {
-    format!("{:.0} *t*_{{c}}", subject.spectrum_duration)
+/// Lengths of the series.
+pub(super) fn length_in_words(subjects: &[&Subject]) -> String {
+    let mut lengths: Vec<_> = subjects.iter().map(|s| format!("{:.0} *t*_{{c}}", s.spectrum_duration)).collect();
+    lengths.dedup();
+    lengths.join(" and ")
 }
 
 /// The highest frequency that a figure shows: some times the rate of free precession, rounded up to halves.
 pub(super) fn highest(subjects: &[&Subject], times: f64) -> f64 {
-    let rate = |subject: &&Subject| SAMPLES_ROTATION / subject.spectrum_duration;
+    let rate = |subject: &&Subject| SERIES_ROTATION / subject.spectrum_duration;
     let fastest = subjects.iter().map(rate).fold(0.0, f64::max);
     (times * fastest * 2.0).ceil() / 2.0
 }
 
 /// Rotation over the length of a series (rad): some 1,400 turns.
-pub(super) const SAMPLES_ROTATION: f64 = 1400.0 * TAU;
+pub(super) const SERIES_ROTATION: f64 = 1400.0 * TAU;

@@ -4,6 +4,7 @@ use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
 
 use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::parameters::{line_of_sight, parameters};
 use super::spectrum::{self, NamedLine, Spectrum};
 use super::style::{BLACK, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
 use super::svg::{Anchor, Page, Rectangle};
@@ -21,7 +22,7 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
     let mut spectra = Vec::new();
     for subject in subjects {
         let start = &subject.start;
-        let observer = subject.line_of_sight.observer();
+        let observer = subject.viewer()?.basis();
         let wave = |state: &twofold::dynamics::BodyState<f64>| {
             let source = spheroid_inertia_acceleration(&start.spheroid, &start.violation, &state.axis, &state.momentum);
             polarizations(&observer, &metric_perturbation(1.0, &source))
@@ -139,14 +140,11 @@ fn caption(subjects: &[&Subject], spectra: &[[Spectrum; 2]]) -> Result<Caption, 
         shows: "Amplitude spectra of *h*_{+} (top) and *h*_{×} (bottom); the insets enlarge what is near three times the mean rate of *α* (dotted). \
                 Dashed: *α* and 2*α* of free precession, Eq. (48)."
             .to_owned(),
-        parameters: subjects
-            .iter()
-            .map(|s| format!("{}, over {}: {}", s.name, spectrum::length_in_words(s), s.parameters()))
-            .collect::<Vec<_>>()
-            .join(" "),
+        parameters: parameters(&line_of_sight(subjects, false), subjects),
         method: format!(
-            "Waves by Eqs. (59), (64), (65), (69)-(71); Fourier transform of 16,384 values with Kaiser's window (shape 14); lines by a joint fit, to \
+            "Waves by Eqs. (59), (64), (65), (69)-(71); Fourier transform of 16,384 values over {} with Kaiser's window (shape 14); lines by a joint fit, to \
              10^{{−5}} of the strongest. Mean rates per *t*_{{c}}: {}.",
+            spectrum::length_in_words(subjects),
             rates.join("; ")
         ),
         says,
