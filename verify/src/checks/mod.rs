@@ -3,6 +3,7 @@
 mod bound;
 mod elliptic;
 mod equations_of_motion;
+mod eta;
 mod first_integrals;
 mod forced_precession;
 mod observer;
@@ -45,6 +46,7 @@ pub fn all() -> Vec<Check> {
         observer::checks,
         spin_axis::checks,
         bound::checks,
+        eta::checks,
         waves::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()

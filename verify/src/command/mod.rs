@@ -1,5 +1,6 @@
-//! The command `twofold`: verify the paper's equations, run a scene, list the scenes.
+//! The command `twofold`: verify the paper's equations, run a scene, list the scenes, bounds from pulsars.
 
+mod bounds;
 mod run;
 mod scenes;
 mod verify;
@@ -28,6 +29,7 @@ Examples:
   twofold verify --filter steady    only the checks whose name contains `steady`
   twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
   twofold run my-star.toml --out my-star.csv
+  twofold bounds                    the paper's table of pulsars with uncertainties
 
 Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written; 130 interrupted.";
 
@@ -44,6 +46,11 @@ enum Command {
     /// t_c = sqrt(I^xx / C), a scene of a physical star in seconds. Angles are in rad and continuous: they count their
     /// turns. Where the symmetry axis is exactly on a pole they do not exist, and their fields are empty.
     Run(RunArgs),
+    /// Print the bounds on Lorentz violation from the pulse widths of pulsars, with uncertainties
+    ///
+    /// Without a file: the two pulsars of the paper's table, beside its numbers. The format of a table and the method are
+    /// described in docs/bounds.md.
+    Bounds(BoundsArgs),
     /// List the built-in scenes
     Scenes,
     /// Print the table of equations: what implements each, which checks and golden numbers are about it (Markdown)
@@ -72,6 +79,15 @@ struct RunArgs {
     force: bool,
 }
 
+#[derive(Args)]
+struct BoundsArgs {
+    /// A table of pulsars (TOML)
+    file: Option<String>,
+    /// Print the bounds as a JSON array instead of tables
+    #[arg(long)]
+    json: bool,
+}
+
 /// How a command ends when it does not succeed.
 enum Failure {
     /// A check or a computation failed: status 1.
@@ -93,6 +109,7 @@ pub fn main() -> ExitCode {
     let result = match cli.command.unwrap_or(Command::Verify(VerifyArgs::default())) {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
+        Command::Bounds(args) => bounds::bounds(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
     };
