@@ -5,6 +5,7 @@ mod elliptic;
 mod equations_of_motion;
 mod eta;
 mod first_integrals;
+mod fisher;
 mod forced_precession;
 mod observer;
 mod orientation;
@@ -12,6 +13,7 @@ mod perturbation_equations;
 mod potential_energy;
 mod propagation;
 mod pulsar;
+mod pulsar_table;
 pub mod regimes;
 mod second_integrator;
 mod solutions;
@@ -47,6 +49,8 @@ pub fn all() -> Vec<Check> {
         spin_axis::checks,
         bound::checks,
         eta::checks,
+        pulsar_table::checks,
+        fisher::checks,
         waves::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()

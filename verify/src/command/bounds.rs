@@ -80,7 +80,8 @@ fn table(rows: &[Row]) -> Table {
             column.set_cell_alignment(CellAlignment::Right);
         }
     }
-    for (figure, line) in rows {
+    // The paper's round number is of interest beside the paper's bounds alone.
+    for (figure, line) in rows.iter().filter(|(figure, _)| compares || figure.key != "bound_over_eta_round") {
         let mut cells = vec![figure.label.clone(), rounded(figure.value), rounded(figure.uncertainty)];
         if compares {
             cells.push(line.as_ref().map(as_printed).unwrap_or_default());
