@@ -3,9 +3,11 @@
 pub mod bound;
 pub mod eta;
 pub mod eta_distribution;
+pub mod fundamental_frequencies;
 pub mod gravitational_wave;
 pub mod observer;
 pub mod pulsar;
+pub mod spectrum;
 pub mod spin_axis;
 
 pub use observer::Observer;

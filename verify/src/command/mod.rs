@@ -11,7 +11,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
-use crate::equation_table;
+use crate::{claims, equation_table};
 
 /// The rotation of spheroidal stars under Lorentz violation, as verified equations
 ///
@@ -55,6 +55,8 @@ enum Command {
     Scenes,
     /// Print the table of equations: what implements each, which checks and golden numbers are about it (Markdown)
     Equations,
+    /// Print the paper's statements, each with a verdict and what the checks behind it measured (Markdown)
+    Claims,
 }
 
 #[derive(Args, Default)]
@@ -112,6 +114,7 @@ pub fn main() -> ExitCode {
         Command::Bounds(args) => bounds::bounds(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
+        Command::Claims => claims::markdown().map_err(Failure::Failed).and_then(|page| print(&page)),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
