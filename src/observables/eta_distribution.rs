@@ -54,7 +54,7 @@ impl EtaDistribution {
 
     /// For the start of a single precession with the constant `beta_0` (rad) of Eq. (34) `[integraltoinitial]`, a random
     /// constant `alpha_0` and `A = 0`: the inclination itself is then another,
-    /// [`single_precession_start`](super::eta::single_precession_start).
+    /// [`single_precession_start`].
     ///
     /// # Errors
     /// [`Error::Domain`] where Eq. (34) gives an inclination outside `[0, pi]` for some `alpha_0`.

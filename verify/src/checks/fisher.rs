@@ -171,9 +171,17 @@ fn jacobian<const N: usize>(
     Ok(DMatrix::from_columns(&columns))
 }
 
-/// Singular values, largest first, and right singular vectors as rows, of a matrix with its columns scaled to unit length; and
-/// those lengths.
-fn scaled_svd(jacobian: &DMatrix<f64>) -> Result<(Vec<f64>, DMatrix<f64>, Vec<f64>), String> {
+/// A matrix with its columns scaled to unit length, decomposed.
+struct ScaledSvd {
+    /// Singular values, largest first.
+    values: Vec<f64>,
+    /// Right singular vectors as rows.
+    vectors: DMatrix<f64>,
+    /// Lengths of the columns.
+    lengths: Vec<f64>,
+}
+
+fn scaled_svd(jacobian: &DMatrix<f64>) -> Result<ScaledSvd, String> {
     let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
     if !lengths.iter().all(|length| length.is_finite() && *length > 0.0) {
         return Err(format!("lengths of the columns of the Jacobian: {lengths:?}"));
@@ -184,7 +192,7 @@ fn scaled_svd(jacobian: &DMatrix<f64>) -> Result<(Vec<f64>, DMatrix<f64>, Vec<f6
     }
     let svd = scaled.svd(false, true);
     let vectors = svd.v_t.ok_or("no singular vectors")?;
-    Ok((svd.singular_values.iter().copied().collect(), vectors, lengths))
+    Ok(ScaledSvd { values: svd.singular_values.iter().copied().collect(), vectors, lengths })
 }
 
 fn formula_jacobian() -> Result<DMatrix<f64>, String> {
@@ -192,7 +200,7 @@ fn formula_jacobian() -> Result<DMatrix<f64>, String> {
 }
 
 fn rank_of_formulas() -> Result<Measured, String> {
-    let (values, _, _) = scaled_svd(&formula_jacobian()?)?;
+    let ScaledSvd { values, .. } = scaled_svd(&formula_jacobian()?)?;
     let detail = format!("singular values {}", listed(&values));
     let second_smallest = values[values.len() - 2] / values[0];
     if second_smallest.is_nan() || second_smallest < 1e-6 {
@@ -203,7 +211,7 @@ fn rank_of_formulas() -> Result<Measured, String> {
 }
 
 fn null_direction() -> Result<Measured, String> {
-    let (values, vectors, lengths) = scaled_svd(&formula_jacobian()?)?;
+    let ScaledSvd { values, vectors, lengths } = scaled_svd(&formula_jacobian()?)?;
     let null = vectors.row(values.len() - 1).transpose();
     let parameters = formula_parameters();
     let mut expected = DVector::zeros(FORMULA_PARAMETERS);
@@ -301,7 +309,7 @@ fn rank_of_signal() -> Result<Measured, String> {
     let parameters = signal_parameters()?;
     let edges = edges(&scene(&parameters)?)?;
     let jacobian = signal_jacobian(parameters, &edges)?;
-    let (values, _, _) = scaled_svd(&jacobian)?;
+    let ScaledSvd { values, .. } = scaled_svd(&jacobian)?;
     let covariance = (jacobian.transpose() * &jacobian).try_inverse().ok_or("the Fisher matrix has no inverse")?;
     // Of times known to 1e-3 t_c.
     let [oblateness, combination] = [1, 2].map(|i| 1e-3 * covariance[(i, i)].sqrt() / parameters[i].abs());

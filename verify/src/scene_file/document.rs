@@ -14,8 +14,17 @@ use super::section::{Section, listed, nearest};
 pub(crate) struct FileKind {
     /// With its article: `a scene`.
     pub(crate) name: &'static str,
-    /// Names of those that come with the command, and the command that lists them; may be none.
-    pub(crate) built_in: Option<(fn() -> Vec<&'static str>, &'static str)>,
+    /// Those that come with the command and can be named; may be none.
+    pub(crate) built_in: Option<BuiltInNames>,
+}
+
+/// Names that stand for files inside the program.
+#[derive(Clone, Copy)]
+pub(crate) struct BuiltInNames {
+    /// The names.
+    pub(crate) names: fn() -> Vec<&'static str>,
+    /// The command that lists them.
+    pub(crate) listed_by: &'static str,
 }
 
 impl FileKind {
@@ -24,11 +33,13 @@ impl FileKind {
         let refuse = |message: String| SceneError::of_file(path, message);
         let name = self.name;
         if Path::new(path).is_dir() {
-            let or = self.built_in.map(|(_, list)| format!(" or a built-in name, see `{list}`")).unwrap_or_default();
+            let or = self.built_in.map(|b| format!(" or a built-in name, see `{}`", b.listed_by)).unwrap_or_default();
             return Err(refuse(format!("is a directory: {name} is a TOML file{or}")));
         }
         let file = File::open(path).map_err(|error| {
-            let Some((names, _)) = self.built_in else { return refuse(format!("is not a readable file ({error})")) };
+            let Some(BuiltInNames { names, .. }) = self.built_in else {
+                return refuse(format!("is not a readable file ({error})"));
+            };
             let (names, noun) = (names(), name.trim_start_matches("a "));
             let guess = match nearest(path, &names) {
                 Some(near) => format!("did you mean `{near}`?"),

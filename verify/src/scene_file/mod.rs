@@ -19,6 +19,7 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::EulerAngles;
 
 pub use built_in::{BUILT_IN, BuiltIn};
+use document::BuiltInNames;
 pub(crate) use document::FileKind;
 pub(crate) use error::Fault;
 pub use error::SceneError;
@@ -127,5 +128,8 @@ impl Scene {
 /// A scene, in the words of the messages.
 const SCENE: FileKind = FileKind {
     name: "a scene",
-    built_in: Some((|| BUILT_IN.iter().map(|scene| scene.name).collect(), "twofold scenes")),
+    built_in: Some(BuiltInNames {
+        names: || BUILT_IN.iter().map(|scene| scene.name).collect(),
+        listed_by: "twofold scenes",
+    }),
 };
