@@ -59,7 +59,7 @@ pub struct EtaPoint {
 }
 
 /// `eta` at the inclinations `beta_0` (rad, in (0, pi), `pi/2` excluded where the estimate divides by zero) for a tensor with the
-/// asymmetry ratio `r`, [`PAPER_ASYMMETRY`] for that of the paper. Some 10 microseconds a point.
+/// asymmetry ratio `r`, [`PAPER_ASYMMETRY`] for that of the paper. Some 0.1 ms a point.
 ///
 /// # Errors
 /// [`Error::Domain`] for an inclination whose cosine is zero to 2.2e-16.
