@@ -14,6 +14,7 @@ mod pulsar;
 pub mod regimes;
 mod second_integrator;
 mod solutions;
+pub(crate) mod spectrum;
 mod spin_axis;
 mod star;
 mod symmetric;
@@ -46,6 +47,7 @@ pub fn all() -> Vec<Check> {
         spin_axis::checks,
         bound::checks,
         waves::checks,
+        spectrum::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()
 }

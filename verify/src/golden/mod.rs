@@ -4,6 +4,7 @@ mod captions;
 mod line;
 pub(crate) mod pulsar_bounds;
 mod regimes;
+mod spectral_lines;
 mod star;
 
 pub use line::{GoldenLine, Printed};
@@ -46,5 +47,6 @@ pub fn tables() -> Result<Vec<GoldenTable>, String> {
         star::expansions().map_err(text)?,
         regimes::twofold()?,
         regimes::single()?,
+        spectral_lines::table()?,
     ])
 }
