@@ -17,6 +17,7 @@ mod pulsar_table;
 pub mod regimes;
 mod second_integrator;
 mod solutions;
+pub(crate) mod spectrum;
 mod spin_axis;
 mod star;
 mod symmetric;
@@ -52,6 +53,7 @@ pub fn all() -> Vec<Check> {
         pulsar_table::checks,
         fisher::checks,
         waves::checks,
+        spectrum::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()
 }

@@ -5,6 +5,7 @@ mod eta;
 mod line;
 pub(crate) mod pulsar_bounds;
 mod regimes;
+mod spectral_lines;
 mod star;
 
 pub use line::{GoldenLine, Printed};
@@ -48,5 +49,6 @@ pub fn tables() -> Result<Vec<GoldenTable>, String> {
         star::expansions().map_err(text)?,
         regimes::twofold()?,
         regimes::single()?,
+        spectral_lines::table()?,
     ])
 }
