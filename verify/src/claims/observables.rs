@@ -251,7 +251,7 @@ pub(super) const CLAIMS: &[Claim] = &[
         place: "Sec. III C, wave spectra",
         statement: "Higher harmonics than the third exist with much smaller amplitudes.",
         verdict: Corrected,
-        finding: "In tp-II. In tp-I the fourth has half the amplitude of the third or more: both come from the forced oscillation of the axis at 2 alpha', of first order in s, beside the lines at alpha' and 2 alpha'.",
+        finding: "In tp-II. In tp-I the fourth has 0.49 (h_x) and 0.74 (h_+) of the amplitude of the third: both come from the forced oscillation of the axis at 2 alpha', of first order in s, beside the lines at alpha' and 2 alpha'.",
         checks: &["fourth-harmonic-tp-1", "fourth-harmonic-tp-2"],
         golden: &["spectral_lines"],
     },
