@@ -73,7 +73,7 @@ fn caption(subjects: &[&Subject], spectra: &[Spectrum]) -> Result<Caption, Strin
         format!("{known} of the {} strongest lines of {} are such combinations", spectrum.lines.len(), subject.name)
     });
     let mut says = format!("{}.", counts.collect::<Vec<_>>().join("; "));
-    if subjects.iter().any(|subject| !subject.free_rates().is_empty()) {
+    if subjects.len() > 1 {
         says += " The peaks stand beside the dashed lines: Lorentz violation shifts the rates. The smallest frequency of tp-II, *l*, is that \
                  at which its angular momentum goes round *Z*; tp-I has it too, but 600 times weaker than its strongest line.";
     }

@@ -1,6 +1,7 @@
 //! The factor `eta` of Eq. (41) against the inclination.
 
-use super::axes::{Axis, BELOW, LEFT, Panel, Sample, legend};
+use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::legend::{Sample, legend};
 use super::style::{BLACK, BLUE, COLUMN, GREY, Line, VERMILION, dash_dotted, dashed, dotted, solid};
 use super::svg::{Page, Rectangle};
 use super::table::Table;
@@ -50,9 +51,10 @@ pub(super) fn sheet() -> Result<Sheet, String> {
 
 fn draw(table: &Table) -> String {
     let (top, height) = (10.0, 150.0);
-    let mut page = Page::new(NAME, COLUMN, top + height + BELOW + 38.0);
-    let frame = Rectangle { left: LEFT - 8.0, top, width: COLUMN - LEFT, height };
-    let panel = Panel::new(frame, Axis::linear("*β*_{0} [rad]", 0.0, 1.6), Axis::logarithmic("*η*", 1.0, 1000.0));
+    let mut page = Page::new(NAME, COLUMN, top + height + BELOW + 42.0);
+    let frame = Rectangle { left: LEFT - 4.0, top, width: COLUMN - LEFT - 4.0, height };
+    let mut panel = Panel::new(frame, Axis::linear("*β*_{0} [rad]", 0.0, 1.6), Axis::logarithmic("*η*", 1.0, 1000.0));
+    panel.y_label_distance = 24.0;
     panel.level(&mut page, CONSERVATIVE, solid("#c8c8c8", 0.8));
     for (column, line) in [(5, AXISYMMETRIC), (3, MEDIAN), (4, HIGH), (1, PRINTED), (2, ROOT_MEAN_SQUARE)] {
         panel.curve(&mut page, &table.points(0, column), line);
@@ -64,7 +66,7 @@ fn draw(table: &Table) -> String {
         (Sample::Line(MEDIAN), "median"),
         (Sample::Line(HIGH), "97.5 %"),
     ];
-    legend(&mut page, [LEFT - 8.0, below], &left);
+    legend(&mut page, [LEFT - 4.0, below], &left);
     let right = [(Sample::Line(PRINTED), "1/cos *β*_{0}"), (Sample::Line(AXISYMMETRIC), "*s*^{*XX*} = *s*^{*YY*}")];
     legend(&mut page, [LEFT + 104.0, below], &right);
     page.finish("Factor eta against the inclination")

@@ -49,7 +49,7 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
         "sp-II" => 500.0,
         _ => 30.0,
     };
-    let shown = Shown { angles, equatorial_axis: 40.0, beam: 200.0, waves: 100.0, pulses: 400.0 };
+    let shown = Shown { angles, equatorial_axis: angles.min(40.0), beam: 200.0, waves: 100.0, pulses: 400.0 };
     let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, 500.0), ACCURACY)?;
     Ok(Subject {
         name: example.name.to_owned(),

@@ -3,12 +3,13 @@
 use nalgebra::Vector3;
 use twofold::solutions::perturbation::Perturbation;
 
-use super::axes::{Axis, BELOW, LEFT, Panel, Sample, heading, legend_row};
+use super::axes::{Axis, BELOW, LEFT, Panel, heading};
+use super::legend::{Sample, legend_row};
 use super::parameters::parameters;
 use super::sphere::View;
-use super::style::{BLACK, BLUE, GREEN, Line, PAGE, VERMILION, dashed, dotted, solid};
+use super::style::{BLACK, BLUE, GREEN, GREY, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
 use super::subject::times;
-use super::svg::{Page, Rectangle};
+use super::svg::{Anchor, Page, Rectangle};
 use super::table::Table;
 use super::{Caption, Sheet, Subject};
 
@@ -90,6 +91,10 @@ fn draw(name: &str, subject: &Subject, tables: &[Table]) -> String {
         for (column, line) in columns(angle).zip(&lines) {
             panel.curve(&mut page, &angles.points(0, column), *line);
         }
+        if angles.rows.is_empty() {
+            let middle = [panel.frame.left + panel.frame.width / 2.0, panel.frame.top + panel.frame.height / 2.0];
+            page.text(middle, Anchor::Middle, SMALL, GREY, "the axis is on a pole: no angles");
+        }
         panel.draw_frame(&mut page);
     }
     heading(&mut page, [LEFT, 12.0], 'a', "");
@@ -129,7 +134,9 @@ fn caption(subject: &Subject, angles: &Table) -> Caption {
         format!("{name}: up to {:.2} rad in *α* and {:.3} rad in *β*", worst(1), worst(2))
     });
     let errors: Vec<_> = errors.collect();
-    let says = if errors.is_empty() {
+    let says = if angles.rows.is_empty() {
+        "The symmetry axis stays on a pole, where the Euler angles are not defined.".to_owned()
+    } else if errors.is_empty() {
         "No perturbation solution belongs to this motion: it is not given by constants of integration.".to_owned()
     } else {
         format!("Differences from the numerical motion over the span shown: {}.", errors.join("; "))

@@ -6,7 +6,8 @@ use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{PulseTrain, Stamped, pulse_train};
 use twofold::solutions::perturbation::{Perturbation, ShiftedRates};
 
-use super::axes::{Axis, BELOW, Mark, Panel, Sample, legend};
+use super::axes::{Axis, BELOW, Mark, Panel};
+use super::legend::{Sample, legend};
 use super::parameters::{line_of_sight, parameters};
 use super::style::{BLACK, BLUE, GREY, Line, PAGE, SMALL, VERMILION, dashed, solid};
 use super::subject::times;
@@ -160,9 +161,14 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
     let mut says: Vec<_> = ranges.collect();
     if series.iter().any(|series| series.curves.is_some()) {
         says.push(
+            "The formulas follow the mean rates of the motion; with the rates of Eq. (57), which are of first order, they drift out of step."
+                .to_owned(),
+        );
+    }
+    if subjects.len() > 1 {
+        says.push(
             "Both are modulated with the period of *γ*, about 40 *t*_{c}; tp-II has a second modulation of about 180 *t*_{c}, that of \
-             its angular momentum about *Z*. The formulas follow tp-I with its mean rates; with the rates of Eq. (57) they drift \
-             out of step by a radian of *γ* in 400 *t*_{c}."
+             its angular momentum about *Z*. In tp-I the rates of Eq. (57) are off by a radian of *γ* in 400 *t*_{c}."
                 .to_owned(),
         );
     }

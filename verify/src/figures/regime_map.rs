@@ -141,7 +141,9 @@ fn draw(maps: &[Map; 3]) -> String {
         for &(beta_0, parameter, example) in examples {
             let at = panel.at(beta_0, parameter);
             draw_mark(&mut page, at, Mark::Ring, 2.2, BLACK);
-            page.name([at[0] - 2.0, at[1] + 10.0], BLACK, example);
+            // Inside the frame near its right side too.
+            let aside = if beta_0 > 1.2 { -8.0 } else { 0.0 };
+            page.name([at[0] + aside, at[1] + 10.0], BLACK, example);
         }
         panel.draw_frame(&mut page);
         panel.letter(&mut page, i, maps.len(), what);

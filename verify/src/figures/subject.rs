@@ -85,9 +85,10 @@ impl Subject {
     /// A motion that cannot be computed.
     pub fn new(name: &str, start: Start, duration: f64) -> Result<Self, String> {
         let (spheroid, torque) = (&start.spheroid, start.spheroid.constant_c.abs() * start.violation.norm());
-        // A star at rest turns at the rate of its swing.
+        // A star at rest turns at the rate of its swing, one without a torque not at all.
         let swing = (2.0 * torque / spheroid.inertia_xx).sqrt();
-        let rate = (start.state.momentum.norm() / spheroid.inertia_xx).max(swing).max(1.0 / duration.abs());
+        let rate = (start.state.momentum.norm() / spheroid.inertia_xx).max(swing);
+        let rate = if rate > 0.0 { rate } else { 1.0 / duration.abs() };
         let at_most = |rotation: f64| duration.abs().min(rotation / rate).copysign(duration);
         let all = at_most(MOST_ROTATION);
         let shown = Shown {
@@ -175,5 +176,5 @@ impl Subject {
 
 /// `count + 1` times from zero to `end`.
 pub(super) fn times(end: f64, count: usize) -> Vec<f64> {
-    (0..=count).map(|i| end * i as f64 / count as f64).collect()
+    (0..=count).map(|i| if i == count { end } else { end * i as f64 / count as f64 }).collect()
 }

@@ -87,11 +87,14 @@ impl Page {
         self.write(format_args!("<path d=\"{data}Z\" fill=\"{fill}\"/>"));
     }
 
-    /// A filled rectangle whose neighbours leave no seam.
+    /// A filled rectangle that leaves no seam to a neighbour drawn before it: it reaches a little over its lower side.
     pub(super) fn cell(&mut self, r: Rectangle, fill: &str) {
         self.write(format_args!(
             "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>",
-            r.left, r.top, r.width, r.height
+            r.left,
+            r.top,
+            r.width,
+            r.height + 0.3
         ));
     }
 

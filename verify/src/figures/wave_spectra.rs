@@ -13,6 +13,9 @@ use super::{Caption, Sheet, Subject};
 
 const LINE: Line = solid(BLACK, 0.8);
 
+/// An amplitude that is the rounding of none.
+const NOTHING: f64 = 1e-15;
+
 /// Half of the width of the inset, in frequency.
 const INSET: f64 = 0.32;
 
@@ -59,7 +62,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
     let width = (PAGE - LEFT - 8.0 - (count - 1.0) * between) / count;
     let mut page = Page::new(name, PAGE, top + 2.0 * height + gap + BELOW);
     // One scale for both stars and polarizations, so that sizes can be compared.
-    let most = spectra.iter().flatten().flat_map(|s| s.points.iter().skip(1).map(|p| p.1)).fold(1e-300, f64::max);
+    let most = spectra.iter().flatten().flat_map(|s| s.points.iter().skip(1).map(|p| p.1)).fold(NOTHING, f64::max);
     for (i, (subject, both)) in subjects.iter().zip(spectra).enumerate() {
         let third = fundamental(subject)?.map(|rate| 3.0 * rate).filter(|third| third + INSET < highest);
         for (polarization, (spectrum, symbol)) in both.iter().zip(["*h*_{+}", "*h*_{×}"]).enumerate() {
@@ -91,7 +94,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
 /// The part of the spectrum around `centre` at a scale of its own, in the upper right of the frame.
 fn inset(page: &mut Page, frame: Rectangle, centre: f64, spectrum: &Spectrum) {
     let part: Vec<_> = spectrum.points.iter().filter(|point| (point.0 - centre).abs() < INSET).copied().collect();
-    let most = part.iter().map(|point| point.1).fold(1e-300, f64::max);
+    let most = part.iter().map(|point| point.1).fold(NOTHING, f64::max);
     let inner = Rectangle {
         left: frame.left + 0.65 * frame.width,
         top: frame.top + 17.0,
