@@ -8,7 +8,7 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{Beam, PulseTrain, pulse_train};
-use twofold::propagation::{Motion, TaylorMotion, propagate};
+use twofold::propagation::{AxisMotion, Motion, TaylorMotion, propagate};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::physical_domain::scenes;
