@@ -3,11 +3,11 @@
     python3 verify/oracle/pulse_edges.py
 
 writes verify/data/pulse_edges.csv: for each of the two scenes the first 160 whole pulses of the beam chi = 0.5, delta = 0,
-rho = 0.6, seen from theta_o = 0.8, phi_o = 0. The initial values are those of Eq. (34) as printed; the equations are
+rho = 0.6, seen from theta_o = 0.8, phi_o = 0, with the time at which m.n is largest in each. The initial values are those of Eq. (34) as printed; the equations are
 
     dn/dt = L x n,   dL/dt = -2 n x (s n),   d e_x/dt = Omega x e_x,   Omega = L - epsilon Omega^z n      (I^xx = C = 1)
 
-An edge is a root of m.n - cos rho of the series, by Newton's method. Within each step the sign of m.n - cos rho is taken at 40
+An edge is a root of m.n - cos rho of the series, by Newton's method; the largest m.n a root of its rate. Within each step the sign of m.n - cos rho is taken at 40
 times, and at each extremum between two of them, so that a short pulse is not passed over. The script refuses to write unless
 energy, spin and the third integral are constant and n, e_x orthonormal to 1e-32, and unless the states agree with
 verify/data/reference_states.csv, which another program computed, to its 22 digits.
@@ -107,6 +107,16 @@ def newton(c, h):
     raise SystemExit("Newton's method does not converge")
 
 
+def maxima(c, step):
+    """The maxima of the series c in (0, step], in order, with their values."""
+    rate = [k * x for k, x in enumerate(c)][1:]
+    grid = [step * k / SAMPLES for k in range(SAMPLES + 1)]
+    rates = [mp.polyval(rate[::-1], h) for h in grid]
+    tops = [newton(rate, grid[k]) for k in range(SAMPLES) if rates[k] > 0 >= rates[k + 1]]
+    assert all(0 < h <= step for h in tops), "a maximum outside its bracket"
+    return [(h, mp.polyval(c[::-1], h)) for h in tops]
+
+
 def roots(c, step):
     """The roots of the series c in (0, step], in order."""
     highest_first = c[::-1]
@@ -131,13 +141,15 @@ def roots(c, step):
 def pulses(name, amplitude, reference):
     state = initial_state(amplitude)
     start = integrals(*state)
-    t, edges, worst, compared = mp.mpf(0), [], mp.mpf(0), mp.mpf(0)
+    t, edges, tops, worst, compared = mp.mpf(0), [], [], mp.mpf(0), mp.mpf(0)
     inside = margin_series([[x] + [0] * ORDER for x in state[0]], [[x] + [0] * ORDER for x in state[2]])[0] > 0
     while len(edges) < 2 * PULSES + inside:
         expansion = series(*state)
         sizes = [max(abs(v[i][k]) for v in expansion for i in range(3)) for k in (ORDER - 1, ORDER)]
         step = min((TOLERANCE / size) ** (mp.mpf(1) / k) for size, k in zip(sizes, (ORDER - 1, ORDER)))
-        edges += [t + h for h in roots(margin_series(expansion[0], expansion[2]), step)]
+        margin = margin_series(expansion[0], expansion[2])
+        edges += [t + h for h in roots(margin, step)]
+        tops += [(t + h, value) for h, value in maxima(margin, step)]
         for time, expected in reference:
             if t <= time < t + step:
                 ours = [x for vector in at(expansion, time - t) for x in vector]
@@ -147,7 +159,8 @@ def pulses(name, amplitude, reference):
     print(f"{name}: to t = {mp.nstr(t, 6)}, drift {mp.nstr(worst, 3)}, against the reference states {mp.nstr(compared, 3)}")
     assert worst < mp.mpf(10) ** -32 and compared < mp.mpf(10) ** -21
     whole = edges[inside:]
-    return list(zip(whole[0::2], whole[1::2]))[:PULSES]
+    largest = lambda start, end: max((value, time) for time, value in tops if start < time < end)[1]
+    return [(start, end, largest(start, end)) for start, end in zip(whole[0::2], whole[1::2])][:PULSES]
 
 
 def reference_states(name):
@@ -159,12 +172,13 @@ def reference_states(name):
 def main():
     scenes = [(name, pulses(name, mp.mpf(a), reference_states(name))) for name, a in (("tp-1", 0), ("tp-2", "0.4"))]
     with open(os.path.join(DATA, "pulse_edges.csv"), "w") as file:
-        file.write("# Whole pulses of tp-I and tp-II, chi = 0.5, delta = 0, rho = 0.6, theta_o = 0.8, phi_o = 0: roots of m.n = cos rho along Taylor\n")
-        file.write("# series of order 40 in 50 digits (verify/oracle/pulse_edges.py), rounded to 22 digits; times in t_c.\n")
-        file.write("scene,start,end\n")
+        file.write("# Whole pulses of tp-I and tp-II, chi = 0.5, delta = 0, rho = 0.6, theta_o = 0.8, phi_o = 0: roots of m.n = cos rho, and the\n")
+        file.write("# largest m.n between them, along Taylor series of order 40 in 50 digits (verify/oracle/pulse_edges.py), rounded to 22\n")
+        file.write("# digits; times in t_c.\n")
+        file.write("scene,start,end,closest\n")
         for name, found in scenes:
-            for start, end in found:
-                file.write(f"{name},{mp.nstr(start, 22)},{mp.nstr(end, 22)}\n")
+            for times in found:
+                file.write(",".join([name, *(mp.nstr(time, 22) for time in times)]) + "\n")
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ pub mod beam;
 pub mod direction;
 mod edge_search;
 pub mod period;
+pub mod position_angle;
 pub mod rate_bounds;
 mod root;
 pub mod train;
