@@ -46,11 +46,7 @@ pub fn position_angle<S: Real>(axis: &Vector3<S>, observer: &Observer<S>) -> Res
 ///
 /// # Errors
 /// As for [`position_angle`]. Near the line of sight the relative error grows as `1 / |m x n|^2`.
-pub fn position_angle_rate<S: Real>(
-    axis: &Vector3<S>,
-    omega: &Vector3<S>,
-    observer: &Observer<S>,
-) -> Result<S, Error> {
+pub fn position_angle_rate<S: Real>(axis: &Vector3<S>, omega: &Vector3<S>, observer: &Observer<S>) -> Result<S, Error> {
     let on_sky = sky_from_inertial(observer) * axis;
     refuse_line_of_sight(on_sky.x, on_sky.y)?;
     Ok(position_angle_rate_off_line_of_sight(axis, omega, observer))

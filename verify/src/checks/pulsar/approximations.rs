@@ -7,7 +7,7 @@ use twofold::observables::pulsar::{PulseTrain, Stamped, pulse_train};
 use twofold::propagation::{ContinuousAngles, Motion};
 use twofold::solutions::perturbation::{ShiftedRates, shifted_rates};
 
-use super::train::{Signal, paper_signal};
+use super::cases::{Signal, paper_signal};
 use crate::check::{Bound, Check, Kind, Measured, largest};
 use crate::paper_examples::{COEFFICIENTS, SPIN, spheroid};
 

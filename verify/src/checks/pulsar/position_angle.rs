@@ -160,7 +160,8 @@ impl Identity for RateOfPositionAngle {
         let sky = sky_from_inertial(&observer);
         let (here, there) = (sky * m, sky * m_rate);
         // Any axis at (theta, phi) with any rates of both.
-        let (theta, phi, theta_rate, phi_rate) = (p.numbers[2], p.numbers[3], p.accelerations.alpha, p.accelerations.beta);
+        let (theta, phi, theta_rate, phi_rate) =
+            (p.numbers[2], p.numbers[3], p.accelerations.alpha, p.accelerations.beta);
         let (by_theta, by_phi) = rotating_vector_gradient(theta, phi, theta_o, phi_o);
         let axis = spherical::<F::First>(F::first(theta, theta_rate), F::first(phi, phi_rate));
         let (axis, axis_rate) = (axis.map(F::value), axis.map(F::derivative));
@@ -206,7 +207,9 @@ fn upright_star() -> Result<Measured, String> {
             let gradient = rotating_vector_gradient(chi, spin * t + delta, zeta, phi_o).1 * spin;
             let scale = f64::EPSILON * (4.0 + (4.0 + phi.abs()) / across);
             let errors = [wrapped(psi + printed).abs(), (rate - gradient).abs() * across / (4.0 * spin.abs().max(0.1))];
-            worst.see(largest(errors) / scale, || format!("case {case} of seed 69, t = {t}: chi = {chi}, zeta = {zeta}"));
+            worst.see(largest(errors) / scale, || {
+                format!("case {case} of seed 69, t = {t}: chi = {chi}, zeta = {zeta}")
+            });
         }
     }
     worst.finish()

@@ -1,0 +1,4 @@
+use crate::check::Check;
+pub(super) fn checks() -> Vec<Check> {
+    vec![]
+}
