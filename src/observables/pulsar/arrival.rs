@@ -27,10 +27,13 @@ pub struct Arrival {
 ///
 /// The number counts the turns of the magnetic axis about the angular momentum, relative to the line of sight, so that it stays
 /// right where a beam misses some turns. (About L rather than Z: the azimuth about Z counts turns only while the path of `m`
-/// goes round Z, which it does not for a star whose spin axis is farther from Z than `m` is from the spin axis; where both go
-/// round, they count the same.) Numbers grow, whichever way the star spins about Z. Two pulses of one turn, as a beam
-/// nearly grazed gives, have the same number; a pulse whose phase at the closest approach is more than half a turn from that
-/// of the line of sight, possible only where the star precesses as fast as it turns, is numbered with the nearer turn.
+/// goes round Z. In single precession it need not, and in twofold precession it may leave Z out of a turn now and then; L it
+/// goes round always. Where both are gone round, the counts are the same.) Numbers grow, whichever way the star spins about Z.
+///
+/// Two pulses of one turn, as a beam nearly grazed gives, have the same number. A pulse that lasts over more than one turn has
+/// that of its closest approach, and none is given to the others. A pulse whose phase at the closest approach is more than half
+/// a turn from that of the line of sight, possible only where the star precesses as fast as it turns, is numbered with the
+/// nearer turn.
 ///
 /// The closest approach is a root of the rate of `m.n`, in error by that of the rate over its slope: about 1e-16 over the
 /// rotation rate where the maximum is sharp. With several maxima in a pulse it is the highest.
