@@ -49,15 +49,16 @@ pub(super) fn order_for(budget: f64) -> usize {
 /// by symmetry); zero where the coefficients are out of range.
 pub(super) fn step_size<S: Real, const V: usize>(series: &[Vectors<S, V>], scale: &Scale, budget: f64) -> f64 {
     let order = series.len() - 1;
+    // The logarithm of the largest step in units of the series.
     let bound = |k: usize| {
         let size = scale.size(&series[k]);
         match size {
             0.0 => f64::INFINITY,
-            size if size.is_finite() => (budget * scale.time / size).powf(1.0 / (k as f64 - 1.0)) * scale.time,
-            _ => 0.0,
+            size if size.is_finite() => (budget * scale.time / size).ln() / (k as f64 - 1.0),
+            _ => f64::NEG_INFINITY,
         }
     };
     // The first omitted term is about the last kept one times (step / radius of convergence), and that ratio is below
     // one fifth: so the last kept term bounds the whole remainder.
-    bound(order).min(bound(order - 1))
+    bound(order).min(bound(order - 1)).exp() * scale.time
 }
