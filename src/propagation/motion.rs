@@ -16,6 +16,13 @@ pub struct AxisState<S> {
     pub momentum: Vector3<S>,
 }
 
+impl<S: Scalar> AxisState<S> {
+    /// The same motion seen from another inertial frame: both vectors multiplied by the rotation `other_from_this`.
+    pub fn rotated(&self, other_from_this: &Matrix3<S>) -> Self {
+        Self { axis: other_from_this * self.axis, momentum: other_from_this * self.momentum }
+    }
+}
+
 impl<S: Scalar> From<&BodyState<S>> for AxisState<S> {
     fn from(state: &BodyState<S>) -> Self {
         Self { axis: state.axis, momentum: state.momentum }

@@ -1,6 +1,7 @@
 //! Pulses of a precessing star: the kernels, their approximations, the pulse train, times of arrival and polarization. Eqs.
 //! (44), (45), (47), (49)-(56).
 
+mod absorbed_angles;
 mod approximations;
 mod arrivals;
 mod cases;
@@ -30,6 +31,7 @@ pub fn checks() -> Vec<Check> {
         arrivals::checks(),
         position_angle::checks(),
         approximations::checks(),
+        absorbed_angles::checks(),
     ]
     .concat()
 }
