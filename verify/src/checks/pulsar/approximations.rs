@@ -77,7 +77,8 @@ fn drift_of_tp_1() -> Result<Measured, String> {
 fn failure_of_tp_2() -> Result<Measured, String> {
     let [fit, _] = both_rates("tp-1", SPAN.1)?;
     // Formulas with a slip in them would fit nothing: the misfit counts only of those that fit tp-I.
-    if !(largest(fit) < 0.5) {
+    let fits = largest(fit) < 0.5;
+    if !fits {
         return Err(format!("the same formulas do not fit tp-I: {fit:.3?}"));
     }
     let [mean, shifted] = both_rates("tp-2", SPAN.1)?;

@@ -28,7 +28,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "the edges of the first 160 whole pulses of tp-I and of tp-II each are the roots along a 34-digit motion, no pulse more or less",
             figure: "largest error of an edge [t_c]; infinite for another number of pulses",
             bound: Bound::AtMost(1e-12),
-            reason: "the motion is held to 1e-12; at the edges m.n changes by 0.2 per t_c or more",
+            reason: "what is asked of the search: the motion's rounding after 1,500 rad, some 1e-14, over the rate of m.n, 0.04 to 0.5 per t_c",
             measure: edges_against_reference,
         },
         Check {
@@ -38,7 +38,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "and so are the times at which m.n is largest in them",
             figure: "largest error of a time [t_c]",
             bound: Bound::AtMost(1e-12),
-            reason: "the rate of m.n, as exact as the motion, over a second derivative of 0.5 or more",
+            reason: "the rate of m.n, as exact as the motion, over a second derivative of 0.19 or more",
             measure: approaches_against_reference,
         },
     ]

@@ -12,6 +12,7 @@ mod identities;
 mod margin;
 mod position_angle;
 mod published;
+mod pulse_numbers;
 mod scan;
 mod train;
 
@@ -29,6 +30,7 @@ pub fn checks() -> Vec<Check> {
         edges_reference::checks(),
         published::checks(),
         arrivals::checks(),
+        pulse_numbers::checks(),
         position_angle::checks(),
         approximations::checks(),
         absorbed_angles::checks(),
