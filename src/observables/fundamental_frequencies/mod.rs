@@ -261,3 +261,48 @@ fn body_angles(averages: &[Averaged]) -> Vec<f64> {
 fn azimuth(v: &Vector3<f64>) -> f64 {
     v.y.atan2(v.x)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::{BodyState, RigidSpheroid};
+    use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::lorentz_violation::PrincipalCoefficients;
+    use crate::propagation::{TaylorMotion, propagate};
+
+    fn precession(s: [f64; 3], beta: f64, span: (f64, f64)) -> TaylorMotion<f64> {
+        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+        let angles = EulerAngles { alpha: 0.0, beta, gamma: 0.0 };
+        let rates = EulerRates { alpha: 1.1 / beta.cos(), beta: 0.0, gamma: -0.1 };
+        let start = BodyState::from_angles(&spheroid, &angles, &rates);
+        propagate(&spheroid, &PrincipalCoefficients::new(s).tensor(), &start, span, 1e-13).unwrap()
+    }
+
+    #[test]
+    fn free_precession_about_z_has_two_frequencies() {
+        for span in [(0.0, 500.0), (500.0, 0.0)] {
+            let found = fundamental_frequencies(&precession([0.0; 3], 0.7, span)).unwrap();
+            assert!((found.alpha.unwrap().value - 1.1 / 0.7_f64.cos()).abs() < 1e-12);
+            assert!((found.gamma.unwrap().value + 0.1).abs() < 1e-12);
+            assert!(found.slow.is_none() && found.momentum.is_none_or(|rate| rate.value.is_finite()));
+            assert_eq!(found.basis().unwrap().generators().len(), 2);
+        }
+    }
+
+    #[test]
+    fn spans_too_short_are_refused() {
+        let s = [0.02, 0.01, -0.04];
+        let over = |span| fundamental_frequencies(&precession(s, 0.9, (0.0, span)));
+        assert!(matches!(over(50.0), Err(Error::Domain { .. })));
+        assert!(matches!(over(200.0), Err(Error::NotConverged { .. })));
+        let motion = precession(s, 0.9, (0.0, 300.0));
+        assert!(matches!(mean_rates_about(&motion, &(Matrix3::identity() * 1.1)), Err(Error::Domain { .. })));
+        assert!(matches!(mean_rates_about(&motion, &-Matrix3::<f64>::identity()), Err(Error::Domain { .. })));
+    }
+
+    #[test]
+    fn a_mean_rate_needs_angles() {
+        assert!(mean_rate(&[0.0; 15], 1.0).is_err() && mean_rate(&[0.0; 16], 1.0).is_ok());
+        assert!(mean_rate(&[f64::NAN; 16], 1.0).is_err() && mean_rate(&[0.0; 16], 0.0).is_err());
+    }
+}

@@ -283,7 +283,7 @@ fn slow_line_of_tp_2() -> Result<Measured, String> {
     let named = |l: &&SpectralLine| {
         format!("{:.6} ({:.1e}) {}", l.frequency, l.amplitude, example.basis.identify(l.frequency, l.uncertainty))
     };
-    let list = others.iter().map(|l| named(l)).collect::<Vec<_>>().join(", ");
+    let list = others.iter().map(named).collect::<Vec<_>>().join(", ");
     Ok(Measured::new(
         figure,
         format!("amplitude {:.3} of the highest; lines below 0.05: {list}", line.amplitude / highest),

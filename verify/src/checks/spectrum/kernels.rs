@@ -140,7 +140,7 @@ fn parseval() -> Result<Measured, String> {
 fn windows() -> Result<Measured, String> {
     let mut worst = Worst::default();
     // The documentation's table: sidelobe, half width times T.
-    let documented = [(0.217, 6.28), (0.0267, 12.57), (2.0e-4, 21.0), (1.79e-8, 40.5)];
+    let documented = [(0.217, TAU), (0.0267, 2.0 * TAU), (2.0e-4, 21.0), (1.79e-8, 40.5)];
     for (window, (sidelobe, width)) in WINDOWS.into_iter().zip(documented) {
         let weights = window.weights(128).map_err(message)?;
         let transform = |f: f64| {
