@@ -277,9 +277,20 @@ pub const EQUATIONS: &[Equation] = &[
     row(
         41,
         "est1",
-        "estimate of the bound with eta; the same as a bound on alpha_2",
-        &["observables::bound::SpinAxisDrift::combination_bound", "observables::bound::preferred_frame_bound"],
-        &["pulsar_bounds"],
+        "estimate of the bound with eta, and eta itself; the same as a bound on alpha_2",
+        &[
+            "observables::bound::SpinAxisDrift::combination_bound",
+            "observables::bound::preferred_frame_bound",
+            "observables::eta::secular_axis_rate",
+            "observables::eta::squared_speed",
+            "observables::eta::mean_squared_speed",
+            "observables::eta::squared_speed_along_motion",
+            "observables::eta::root_mean_square_eta",
+            "observables::eta::single_precession_start",
+            "observables::eta_distribution::EtaDistribution",
+            "observables::eta_distribution::root_mean_square_along_motion",
+        ],
+        &["pulsar_bounds", "eta"],
     ),
     row(
         42,
@@ -294,7 +305,13 @@ pub const EQUATIONS: &[Equation] = &[
         ],
         &["pulsar_bounds"],
     ),
-    row(43, "", "estimate of I^zz / C", &["star::estimates::inertia_over_c_estimate"], &["star_estimates"]),
+    row(
+        43,
+        "",
+        "estimate of I^zz / C",
+        &["star::estimates::inertia_over_c_estimate", "observables::bound::fluid_inertia_over_c"],
+        &["star_estimates"],
+    ),
     row(
         44,
         "ineq",

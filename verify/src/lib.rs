@@ -2,11 +2,15 @@
 
 pub mod check;
 pub mod checks;
+pub mod claims;
+pub mod columns;
 pub mod command;
+pub mod compare;
 pub mod conditioned;
 pub mod derivation;
 pub mod dual;
 pub mod equation_table;
+pub mod eta;
 pub mod fit;
 pub mod golden;
 pub mod identity;
@@ -14,6 +18,7 @@ mod operators;
 pub mod paper_examples;
 pub mod physical_domain;
 pub mod prime_field;
+pub mod pulsar_table;
 pub mod random;
 pub mod reference;
 pub mod report;

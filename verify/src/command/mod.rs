@@ -1,5 +1,10 @@
-//! The command `twofold`: verify the paper's equations, run a scene, list the scenes.
+//! The command `twofold`: verify the paper's equations, run a scene, list the scenes, bounds from pulsars.
 
+mod bounds;
+mod compare;
+mod output_file;
+mod progress;
+mod pulses;
 mod run;
 mod scenes;
 mod verify;
@@ -10,7 +15,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
-use crate::equation_table;
+use crate::{claims, equation_table};
 
 /// The rotation of spheroidal stars under Lorentz violation, as verified equations
 ///
@@ -28,6 +33,9 @@ Examples:
   twofold verify --filter steady    only the checks whose name contains `steady`
   twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
   twofold run my-star.toml --out my-star.csv
+  twofold bounds                    the paper's table of pulsars with uncertainties
+  twofold run tp-2 --columns h      only the gravitational wave
+  twofold pulses tp-1               every pulse of the radio beam
 
 Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written; 130 interrupted.";
 
@@ -38,16 +46,33 @@ enum Command {
     /// A check compares an equation of the paper with something independent of it: exact arithmetic, automatic
     /// derivatives, another method, an invariant. It measures one figure, which must meet one bound.
     Verify(VerifyArgs),
-    /// Compute the motion of a star and write it as CSV: Euler angles, body axes, angular momentum, first integrals
+    /// Compute the motion of a star, or what an observer sees of it, and write it as CSV
     ///
     /// The header of the table names the columns and their units. A scene in the paper's units has times in
     /// t_c = sqrt(I^xx / C), a scene of a physical star in seconds. Angles are in rad and continuous: they count their
     /// turns. Where the symmetry axis is exactly on a pole they do not exist, and their fields are empty.
     Run(RunArgs),
+    /// Print the bounds on Lorentz violation from the pulse widths of pulsars, with uncertainties
+    ///
+    /// Without a file: the two pulsars of the paper's table, beside its numbers. The format of a table and the method are
+    /// described in docs/bounds.md.
+    Bounds(BoundsArgs),
+    /// Find every pulse of a star's radio beam in the span of a scene and write them as CSV
+    ///
+    /// A pulse is a stretch of time in which the line of sight is inside the beam, m.n > cos(rho). The scene must have the
+    /// sections [observer] and [pulsar]; the samples of its [time] do not matter, its span does.
+    Pulses(PulsesArgs),
+    /// Compare the data that the paper's authors published with the same numbers computed here
+    ///
+    /// The files are those of the folder `data3` of github.com/ryxxastroat/lorentz_precession. Each known one in the folder is
+    /// read and computed anew; the largest difference of each column is printed beside what the file is known to be off by.
+    Compare(CompareArgs),
     /// List the built-in scenes
     Scenes,
     /// Print the table of equations: what implements each, which checks and golden numbers are about it (Markdown)
     Equations,
+    /// Print the paper's statements, each with a verdict and what the checks behind it measured (Markdown)
+    Claims,
 }
 
 #[derive(Args, Default)]
@@ -64,12 +89,52 @@ struct VerifyArgs {
 struct RunArgs {
     /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
     scene: String,
+    /// Only these groups of columns, whatever the scene says: angles, rates, e_x, e_z, L, integrals, perturbation, lambda,
+    /// m.n, magnetic_axis, h
+    #[arg(long, value_name = "GROUP,GROUP", value_delimiter = ',')]
+    columns: Option<Vec<String>>,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+#[derive(Args)]
+struct PulsesArgs {
+    /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
+    scene: String,
+    /// The opposite beam too, whatever the scene says
+    #[arg(long)]
+    second_beam: bool,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+#[derive(Args)]
+struct CompareArgs {
+    /// Folder with the authors' files: tp1.dat, mntp1.dat, ...
+    #[arg(long, value_name = "DIR")]
+    authors_data: PathBuf,
+    /// Print the comparison as JSON instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Args)]
+struct OutputArgs {
     /// Write the table to this file instead of standard output; appears only when it is complete
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Replace the file if it exists
     #[arg(long, requires = "out")]
     force: bool,
+}
+
+#[derive(Args)]
+struct BoundsArgs {
+    /// A table of pulsars (TOML)
+    file: Option<String>,
+    /// Print the bounds as a JSON array instead of tables
+    #[arg(long)]
+    json: bool,
 }
 
 /// How a command ends when it does not succeed.
@@ -93,8 +158,12 @@ pub fn main() -> ExitCode {
     let result = match cli.command.unwrap_or(Command::Verify(VerifyArgs::default())) {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
+        Command::Bounds(args) => bounds::bounds(&args),
+        Command::Pulses(args) => pulses::pulses(&args),
+        Command::Compare(args) => compare::compare(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
+        Command::Claims => claims::markdown().map_err(Failure::Failed).and_then(|page| print(&page)),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -106,6 +175,11 @@ pub fn main() -> ExitCode {
 fn end(status: u8, message: &str) -> ExitCode {
     let _ = writeln!(io::stderr(), "error: {message}");
     ExitCode::from(status)
+}
+
+/// A line on standard error that is no error.
+fn note(text: &str) {
+    let _ = writeln!(io::stderr(), "note: {text}");
 }
 
 /// Prints to standard output. A reader that has gone away (`| head`) is no failure.

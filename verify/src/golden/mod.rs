@@ -1,6 +1,7 @@
 //! The paper's numbers beside ours, one table per figure, table or passage of the paper.
 
-mod captions;
+pub(crate) mod captions;
+mod eta;
 mod line;
 pub(crate) mod pulsar_bounds;
 mod regimes;
@@ -43,6 +44,7 @@ pub fn tables() -> Result<Vec<GoldenTable>, String> {
         captions::initial_values().map_err(text)?,
         captions::constants().map_err(text)?,
         pulsar_bounds::table().map_err(text)?,
+        eta::table().map_err(text)?,
         star::estimates().map_err(text)?,
         star::expansions().map_err(text)?,
         regimes::twofold()?,
