@@ -11,6 +11,7 @@
 //!   `alpha`: its mean rate is that of `alpha`, as the paper says. The slow frequency is there all the same; it is that of `L` averaged
 //!   over the fast rotation.
 
+mod angles;
 mod mean_rate;
 mod rotated;
 mod samples;
@@ -19,21 +20,19 @@ pub use mean_rate::{MeanRate, mean_rate};
 
 use core::f64::consts::TAU;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 use crate::error::Error;
 use crate::euler_angles::permuted_from_inertial;
 use crate::lorentz_violation::principal_frame;
 use crate::observables::spectrum::{FrequencyBasis, Generator};
 use crate::propagation::{ContinuousAngles, Motion};
+use angles::{body_angles, momentum_angles, momentum_circles, nutation_angles, slow_angles};
 use rotated::Rotated;
-use samples::{Averaged, Samples, continuous};
+use samples::{Averaged, Samples};
 
 /// A mean rate less certain than this, in units of the rotation rate, is none.
 const LEAST_CERTAINTY: f64 = 1e-5;
-
-/// A circle of `L` smaller than this, in units of what `L` moves, may be a remainder of its oscillations.
-const LEAST_CIRCLE: f64 = 2e-5;
 
 /// The nutation has the rate `|L| / I^xx` up to a shift of the order of s; what has another is not it.
 const LARGEST_SHIFT: f64 = 0.5;
@@ -163,7 +162,7 @@ fn about<M: Motion<f64>>(
         alphas.push(at.alpha);
         gammas.push(at.gamma);
     }
-    let momenta = continuous(samples.states.iter().map(|state| azimuth(&(frame * state.momentum))));
+    let momenta = momentum_angles(samples, frame);
     let counted = momenta.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= LONGEST_STEP);
 
     // An error of the angles of this size at one end, under weights that vary as those of the mean rate.
@@ -212,17 +211,6 @@ fn about<M: Motion<f64>>(
     })
 }
 
-/// Whether the averaged `L` stays off the axis.
-fn momentum_circles(samples: &Samples, averages: &[Averaged], frame: &Matrix3<f64>) -> bool {
-    let radius = |momentum: &Vector3<f64>| {
-        let v = frame * momentum;
-        v.x.hypot(v.y)
-    };
-    let widest = samples.states.iter().fold(0.0_f64, |most, state| most.max(radius(&state.momentum)));
-    let narrowest = averages.iter().fold(f64::INFINITY, |least, averaged| least.min(radius(&averaged.momentum)));
-    narrowest > LEAST_CIRCLE * widest + 1e-12 * averages[0].momentum.norm()
-}
-
 /// The rate of an angle that differs from another one by whole turns of the nutation and what averages to zero. Near a pole `alpha` and
 /// `gamma` are rough functions of time and their own averages converge slowly, but well enough to count those turns.
 fn by_whole_turns(rough: MeanRate, base: MeanRate, nutation: MeanRate) -> MeanRate {
@@ -232,34 +220,6 @@ fn by_whole_turns(rough: MeanRate, base: MeanRate, nutation: MeanRate) -> MeanRa
     let counted = rough.uncertainty < 0.02 * nutation.value.abs();
     let agree = (value - rough.value).abs() <= 3.0 * (rough.uncertainty + uncertainty);
     if counted && agree && uncertainty < rough.uncertainty { MeanRate { value, uncertainty } } else { rough }
-}
-
-/// Azimuths of the averaged `L`.
-fn slow_angles(averages: &[Averaged], frame: &Matrix3<f64>) -> Vec<f64> {
-    continuous(averages.iter().map(|averaged| azimuth(&(frame * averaged.momentum))))
-}
-
-/// Angles of the fast part of `n` about the averaged `L`, from the side of the axis (`circles`) or of a fixed direction.
-fn nutation_angles(averages: &[Averaged], frame: &Matrix3<f64>, circles: bool) -> Vec<f64> {
-    let zero = frame.row(if circles { 2 } else { 0 }).transpose();
-    continuous(averages.iter().map(|averaged| {
-        let across = averaged.momentum.cross(&zero);
-        let along = across.cross(&averaged.momentum) / averaged.momentum.norm();
-        averaged.fast_axis.dot(&across).atan2(averaged.fast_axis.dot(&along))
-    }))
-}
-
-/// Angles of `e_x` about `n` from the direction in which the fast part of `n` moves: regular wherever `n` and `L` are.
-fn body_angles(averages: &[Averaged]) -> Vec<f64> {
-    continuous(averages.iter().map(|averaged| {
-        let (axis, equatorial) = (&averaged.state.axis, &averaged.state.equatorial_axis);
-        let zero = averaged.momentum.cross(&averaged.fast_axis);
-        axis.dot(&zero.cross(equatorial)).atan2(zero.dot(equatorial))
-    }))
-}
-
-fn azimuth(v: &Vector3<f64>) -> f64 {
-    v.y.atan2(v.x)
 }
 
 #[cfg(test)]
