@@ -46,7 +46,7 @@ pub(super) fn checks() -> Vec<Check> {
             id: "fourth-harmonic-tp-1",
             kind: Kind::Oracle,
             equations: &[71],
-            statement: "'frequencies higher than the third harmonic have even much smaller amplitudes' does not hold in tp-I: the fourth is half as high as the third or more",
+            statement: "'frequencies higher than the third harmonic have even much smaller amplitudes' does not hold in tp-I: the fourth has about half the amplitude of the third, or more",
             figure: "smallest ratio of the highest lines about the fourth and the third harmonic, h_+ and h_x",
             bound: Bound::AtLeast(0.4),
             reason: "'much smaller' would be a fifth or less",
