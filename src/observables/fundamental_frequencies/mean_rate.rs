@@ -14,7 +14,7 @@ const PART: f64 = 0.75;
 pub struct MeanRate {
     /// The rate (rad per unit of time).
     pub value: f64,
-    /// Estimated error: the largest difference from the averages over the first and over the last three quarters. That is
+    /// Estimated error: twice the largest difference from the averages over the first and over the last three quarters. That is
     /// the error of a shorter span, so an upper bound as long as averaging converges.
     pub uncertainty: f64,
 }
@@ -24,7 +24,7 @@ pub struct MeanRate {
 ///
 /// A weighted Birkhoff average: an oscillation of the rate with the frequency `f` and the amplitude `a` contributes less than
 /// `1.2e-12 a` as soon as the series is longer than `60.3 / f`, whatever its phase. (With the weight `exp(-1/(x (1-x)))` of
-/// that average's literature the same takes about ten times the length.) In a motion of several frequencies `f` is the lowest of
+/// that average's literature the same takes six times the length.) In a motion of several frequencies `f` is the lowest of
 /// their combinations that has an amplitude worth mentioning.
 ///
 /// # Errors
@@ -39,7 +39,7 @@ pub fn mean_rate(angles: &[f64], step: f64) -> Result<MeanRate, Error> {
     let part = (PART * count as f64) as usize;
     let [whole, first, last] = [angles, &angles[..part], &angles[count - part..]].map(|angles| average(angles, step));
     let (whole, first, last) = (whole?, first?, last?);
-    Ok(MeanRate { value: whole, uncertainty: (first - whole).abs().max((last - whole).abs()) })
+    Ok(MeanRate { value: whole, uncertainty: 2.0 * (first - whole).abs().max((last - whole).abs()) })
 }
 
 fn average(angles: &[f64], step: f64) -> Result<f64, Error> {

@@ -69,9 +69,6 @@ pub fn slow_precession<S: Real>(
     } else {
         ((s1 - s2) * ((s1 - s3) * l1 * l1 + (s2 - s3) * l2 * l2), -((s1 - s3) * below_middle), (order[0], l1), 1.0)
     };
-    // Proper or improper order of the axes: an odd permutation turns the sense of rotation.
-    let odd = (order[1] + 3 - order[0]) % 3 == 2;
-    let sense = if odd { -sense } else { sense };
     let sense = if end.1.re() < 0.0 { -sense } else { sense };
     if p_squared.re() <= 0.0 && q_squared.re() <= 0.0 {
         return Ok(SlowPrecession { axis: end.0, rate: S::zero() });
@@ -85,4 +82,19 @@ pub fn slow_precession<S: Real>(
     )?;
     let mean = ArithmeticGeometricMean::new(p_squared.sqrt(), q_squared.sqrt()).limit();
     Ok(SlowPrecession { axis: end.0, rate: kappa * mean * sense })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn separatrix_and_rest_are_refused() {
+        let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+        let of =
+            |momentum: Vector3<f64>| slow_precession(&RigidSpheroid::in_units_of_tc(1.1), &s, &momentum, &Vector3::z());
+        assert!(of(Vector3::zeros()).is_err() && of(Vector3::y()).is_err());
+        assert!(of(Vector3::new(0.0, 1.0, 1e-3)).is_ok_and(|found| found.axis == 2));
+        assert!(of(Vector3::new(1e-3, 1.0, 0.0)).is_ok_and(|found| found.axis == 0));
+    }
 }

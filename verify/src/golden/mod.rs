@@ -1,9 +1,11 @@
 //! The paper's numbers beside ours, one table per figure, table or passage of the paper.
 
 pub(crate) mod captions;
+mod eta;
 mod line;
 pub(crate) mod pulsar_bounds;
 mod regimes;
+mod spectral_lines;
 mod star;
 
 pub use line::{GoldenLine, Printed};
@@ -42,9 +44,11 @@ pub fn tables() -> Result<Vec<GoldenTable>, String> {
         captions::initial_values().map_err(text)?,
         captions::constants().map_err(text)?,
         pulsar_bounds::table().map_err(text)?,
+        eta::table().map_err(text)?,
         star::estimates().map_err(text)?,
         star::expansions().map_err(text)?,
         regimes::twofold()?,
         regimes::single()?,
+        spectral_lines::table()?,
     ])
 }
