@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod checks;
+pub mod claims;
 pub mod command;
 pub mod conditioned;
 pub mod derivation;

@@ -2,8 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use twofold::dynamics::RigidSpheroid;
 use twofold::dynamics::euler_angle_equations::AxisAngles;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::{Constants, Kind, initial_values};
 
@@ -36,6 +37,18 @@ impl PaperExample {
     /// None for the four examples.
     pub fn initial_values(&self) -> Result<AxisAngles<f64>, twofold::Error> {
         initial_values(self.kind, &spheroid(), &COEFFICIENTS, SPIN, &self.constants)
+    }
+
+    /// The initial state, with `gamma = 0`.
+    ///
+    /// # Errors
+    /// None for the four examples.
+    pub fn initial_state(&self) -> Result<BodyState<f64>, twofold::Error> {
+        let start = self.initial_values()?;
+        let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
+        let gamma_rate = SPIN - start.alpha_rate * start.beta.cos();
+        let rates = EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma: gamma_rate };
+        Ok(BodyState::from_angles(&spheroid(), &angles, &rates))
     }
 }
 

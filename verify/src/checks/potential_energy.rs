@@ -10,21 +10,46 @@ use twofold::dynamics::potential::{
 use twofold::euler_angles::{body_from_inertial, body_rates, symmetry_axis, tensor_in_body_frame};
 use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_preferred_frame};
 
-use crate::check::{Check, Kind};
+use crate::check::{Bound, Check, Kind, Measured};
 use crate::derivation::Differentiable;
+use crate::fit::order;
 use crate::identity::{self, Identity};
 use crate::random::Point;
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    [
+    let mut checks = [
         identity::checks::<PotentialInAngles>(),
         identity::checks::<PotentialGradient>(),
         identity::checks::<PotentialOfBody>(),
         identity::checks::<NordtvedtForm>(),
         identity::checks::<KineticEnergy>(),
     ]
-    .concat()
+    .concat();
+    checks.push(Check {
+        id: "nordtvedt-form-needs-alignment",
+        kind: Kind::Regime,
+        equations: &[11, 13],
+        statement: "Nordtvedt's form differs from delta U = C s^zz to first order in the angle between angular velocity and axis",
+        figure: "slope of log(difference / C) against log of that angle, 1e-1 to 1e-5 rad",
+        bound: Bound::Within(0.95, 1.05),
+        reason: "one form has the direction of the angular velocity where the other has the axis; an integer order to 0.05",
+        measure: misaligned_nordtvedt,
+    });
+    checks
+}
+
+/// Both forms for a star that turns about a direction at an angle from its axis, `w` at 0.6 rad from the axis.
+fn misaligned_nordtvedt() -> Result<Measured, String> {
+    let w = symmetry_axis(0.0, 0.6);
+    let s = coefficients_from_preferred_frame(1.0, &w);
+    let points = [1e-1_f64, 1e-2, 1e-3, 1e-4, 1e-5].map(|angle| {
+        let (axis, angular_velocity) = (Vector3::z(), symmetry_axis(0.4, angle));
+        let rigid = anisotropic_potential_of_axis(1.0, &s, &axis);
+        (angle, (rigid - nordtvedt_potential(1.0, 2.0, &w, &angular_velocity)).abs())
+    });
+    // Rounding: 1e-16 of C.
+    Ok(order(&points, 1e-15)?.measured(&points))
 }
 
 struct PotentialInAngles;

@@ -15,6 +15,7 @@ use twofold::solutions::perturbation::{Constants, Kind as Precession, constants_
 use twofold::solutions::steady::steady_precession_rate;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
+use crate::golden::captions;
 use crate::physical_domain::{scenes, worst_over};
 use crate::reference::reference_motion;
 
@@ -30,6 +31,21 @@ pub fn checks() -> Vec<Check> {
             bound: Bound::AtMost(5e-13),
             reason: "rounding of the initial state, grown with a phase of 300 rad",
             measure: free_reference,
+        },
+        Check {
+            id: "caption-initial-values",
+            kind: Kind::Oracle,
+            equations: &[34],
+            statement: "Eq. (34) gives the initial values in the captions of the four examples, to every digit printed",
+            figure: "values of 16 that do not round to the printed one",
+            bound: Bound::AtMost(0.0),
+            reason: "rounding of the printed digits",
+            measure: || {
+                let table = captions::initial_values().map_err(|e| e.to_string())?;
+                let differing: Vec<_> = table.lines.iter().filter(|line| line.verdict() != "confirmed").collect();
+                let labels: Vec<_> = differing.iter().map(|line| line.label.as_str()).collect();
+                Ok(Measured::new(differing.len() as f64, labels.join(", ")))
+            },
         },
         Check {
             id: "free-rotation-equations",

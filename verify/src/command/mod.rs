@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
-use crate::equation_table;
+use crate::{claims, equation_table};
 
 /// The rotation of spheroidal stars under Lorentz violation, as verified equations
 ///
@@ -48,6 +48,8 @@ enum Command {
     Scenes,
     /// Print the table of equations: what implements each, which checks and golden numbers are about it (Markdown)
     Equations,
+    /// Print the paper's statements, each with a verdict and what the checks behind it measured (Markdown)
+    Claims,
 }
 
 #[derive(Args, Default)]
@@ -95,6 +97,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
+        Command::Claims => claims::markdown().map_err(Failure::Failed).and_then(|page| print(&page)),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

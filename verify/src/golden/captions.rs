@@ -8,7 +8,7 @@ use super::{GoldenLine, GoldenTable, Printed};
 use crate::paper_examples::{COEFFICIENTS, SPIN, paper_examples, spheroid};
 
 /// Initial values of the four examples, Eq. (34).
-pub(super) fn initial_values() -> Result<GoldenTable, Error> {
+pub(crate) fn initial_values() -> Result<GoldenTable, Error> {
     let printed = [
         ["1.5707963", "0.701", "1.509", "0"],
         ["1.5707963", "1.065", "0.889", "0"],

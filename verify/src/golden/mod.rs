@@ -1,6 +1,6 @@
 //! The paper's numbers beside ours, one table per figure, table or passage of the paper.
 
-mod captions;
+pub(crate) mod captions;
 mod line;
 pub(crate) mod pulsar_bounds;
 mod regimes;

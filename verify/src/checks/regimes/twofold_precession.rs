@@ -1,10 +1,13 @@
 //! Twofold precession: the printed solution is not right to first order, the corrected one is.
 
+use std::f64::consts::PI;
+
 use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::propagation::Motion;
 use twofold::solutions::perturbation::Kind as Precession;
 
 use super::perturbation_error::{Case, Errors, Form};
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::fit::order;
 
 const PRINTED: Form = Form::Printed(Precession::Twofold);
@@ -74,6 +77,16 @@ pub(super) fn checks() -> Vec<Check> {
             reason: "second order against first; only towards beta_0 = 0 and pi/2, where the dropped term vanishes, do they meet",
             measure: corrected_is_better,
         },
+        Check {
+            id: "twofold-fails-for-large-tilt",
+            kind: Kind::Regime,
+            equations: &[33, 34],
+            statement: "where A is not small, as in tp-II, the twofold solution does not follow the motion",
+            figure: "largest error of beta over 40 t_c of tp-II / swing of beta in the motion",
+            bound: Bound::AtLeast(0.5),
+            reason: "the error is as large as what is to be described",
+            measure: large_tilt,
+        },
     ]
 }
 
@@ -142,4 +155,14 @@ fn corrected_is_better() -> Result<Measured, String> {
         }
     }
     worst.finish()
+}
+
+fn large_tilt() -> Result<Measured, String> {
+    let case = Case::paper(PRINTED, 1.0, 0.7, 0.4);
+    let (motion, _) = case.motion(40.0)?;
+    let inclination = |i: u32| Ok(motion.state(40.0 * f64::from(i) / 800.0)?.angles()?.beta);
+    let betas = (0..=800).map(inclination).collect::<Result<Vec<_>, twofold::Error>>().map_err(|e| e.to_string())?;
+    let (most, least) = (largest(betas.iter().copied()), PI - largest(betas.iter().map(|beta| PI - beta)));
+    let error = case.errors(40.0, 800)?.beta;
+    Ok(Measured::new(error / (most - least), format!("beta from {least:.3} to {most:.3}, largest error {error:.3}")))
 }

@@ -1,0 +1,67 @@
+//! Whether `phi_o` and `delta` can be absorbed in the initial values of `alpha` and `gamma`, as said below Eq. (47).
+
+use nalgebra::{Rotation3, UnitVector3, Vector3};
+use twofold::Error;
+use twofold::dynamics::BodyState;
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::observables::Observer;
+use twofold::observables::pulsar::Beam;
+use twofold::propagation::{Motion, propagate};
+
+use crate::check::{Bound, Check, Kind, Measured, largest};
+use crate::paper_examples::{COEFFICIENTS, paper_examples, spheroid};
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "beam-azimuth-absorbed",
+            kind: Kind::Property,
+            equations: &[45, 46, 47],
+            statement: "delta is absorbed in the initial value of gamma, and with s^XX = s^YY also phi_o in that of alpha",
+            figure: "largest change of m.n over 40 t_c of tp-I, delta = 0.4, phi_o = 0.7",
+            bound: Bound::AtMost(1e-13),
+            reason: "rounding of the motion over 60 rad, and of angles that are put in differently",
+            measure: || {
+                let equal = PrincipalCoefficients::new([0.015, 0.015, -0.04]);
+                let text = |e: Error| e.to_string();
+                let beam = change_of_signal(&COEFFICIENTS, 0.0, 0.4).map_err(text)?;
+                let both = change_of_signal(&equal, 0.7, 0.4).map_err(text)?;
+                Ok(Measured::new(
+                    largest([beam, both]),
+                    format!("delta alone {beam:.1e}, both with s^XX = s^YY {both:.1e}"),
+                ))
+            },
+        },
+        Check {
+            id: "observer-azimuth-not-absorbed",
+            kind: Kind::Regime,
+            equations: &[46, 47],
+            statement: "with s^XX and s^YY different phi_o is not absorbed in the initial value of alpha: another azimuth is another signal",
+            figure: "largest change of m.n over 40 t_c of tp-I, phi_o = 0.7",
+            bound: Bound::AtLeast(1e-3),
+            reason: "the potential depends on alpha with the amplitude s^XX - s^YY = 0.01",
+            measure: || {
+                let change = change_of_signal(&COEFFICIENTS, 0.7, 0.0).map_err(|e| e.to_string())?;
+                Ok(Measured::new(change, ""))
+            },
+        },
+    ]
+}
+
+/// Largest difference between `m.n` of tp-I with `phi_o` and `delta`, and that of the star turned by them from the start.
+fn change_of_signal(s: &PrincipalCoefficients<f64>, phi_o: f64, delta: f64) -> Result<f64, Error> {
+    let given = paper_examples()[0].initial_state()?;
+    let signal = |phi_o: f64, delta: f64, start: &BodyState<f64>| {
+        let motion = propagate(&spheroid(), &s.tensor(), start, (0.0, 40.0), 1e-15)?;
+        let (beam, n) = (Beam::new(0.5, delta, 0.6), Observer::at(0.8, phi_o).direction);
+        (0..=400).map(|i| Ok(beam.margin(&motion.state(0.1 * f64::from(i))?, &n))).collect::<Result<Vec<_>, Error>>()
+    };
+    // The star turned by -phi_o about Z, and by delta about its own axis.
+    let (about_z, about_axis) =
+        (Rotation3::from_axis_angle(&Vector3::z_axis(), -phi_o), UnitVector3::new_normalize(given.axis));
+    let x = Rotation3::from_axis_angle(&about_axis, delta) * given.equatorial_axis;
+    let turned = BodyState { equatorial_axis: x, ..given }.rotated(about_z.matrix());
+    let with_angles = signal(phi_o, delta, &given)?;
+    let absorbed = signal(0.0, 0.0, &turned)?;
+    Ok(largest(with_angles.iter().zip(&absorbed).map(|(a, b)| (a - b).abs())))
+}
