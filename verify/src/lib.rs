@@ -10,6 +10,7 @@ pub mod dual;
 pub mod equation_table;
 pub mod fit;
 pub mod golden;
+pub mod html_report;
 pub mod identity;
 mod operators;
 pub mod paper_examples;

@@ -1,5 +1,6 @@
 //! The command `twofold`: verify the paper's equations, run a scene, list the scenes.
 
+mod report;
 mod run;
 mod scenes;
 mod verify;
@@ -28,6 +29,7 @@ Examples:
   twofold verify --filter steady    only the checks whose name contains `steady`
   twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
   twofold run my-star.toml --out my-star.csv
+  twofold report                    all of it as one page, report/index.html
 
 Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written; 130 interrupted.";
 
@@ -46,6 +48,11 @@ enum Command {
     Run(RunArgs),
     /// List the built-in scenes
     Scenes,
+    /// Run every check and write all of it as one HTML page: claims, discrepancies, equations, checks, golden tables
+    ///
+    /// The page is FOLDER/index.html. It needs no network, no script and no other file. It is written, and says so at its
+    /// top, also where checks fail; the status is then 1.
+    Report(ReportArgs),
     /// Print the table of equations: what implements each, which checks and golden numbers are about it (Markdown)
     Equations,
     /// Print the paper's statements, each with a verdict and what the checks behind it measured (Markdown)
@@ -74,6 +81,16 @@ struct RunArgs {
     force: bool,
 }
 
+#[derive(Args)]
+struct ReportArgs {
+    /// Write the page into this folder, which is made if need be
+    #[arg(long, value_name = "FOLDER", default_value = "report")]
+    out: PathBuf,
+    /// Replace the page if it exists
+    #[arg(long)]
+    force: bool,
+}
+
 /// How a command ends when it does not succeed.
 enum Failure {
     /// A check or a computation failed: status 1.
@@ -95,6 +112,7 @@ pub fn main() -> ExitCode {
     let result = match cli.command.unwrap_or(Command::Verify(VerifyArgs::default())) {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
+        Command::Report(args) => report::report(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
         Command::Claims => claims::markdown().map_err(Failure::Failed).and_then(|page| print(&page)),

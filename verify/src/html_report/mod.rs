@@ -1,0 +1,112 @@
+//! The report: one page of HTML with everything in it, which needs no network, no script and no other file.
+//!
+//! The page is put together with maud, which escapes every text that it is given. What goes in as markup is named by
+//! `PreEscaped`: the MathML of our equations, the pages of `docs/`, the figures' SVG and the style sheets.
+
+mod checks;
+mod claims;
+mod cross_reference;
+mod environment;
+mod equation_source;
+mod equations;
+mod golden;
+mod latex;
+mod markdown;
+mod summary;
+mod typography;
+
+pub use environment::Environment;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::golden::GoldenTable;
+use crate::report;
+use cross_reference::Index;
+
+/// What a report is about.
+pub struct Content {
+    /// Every check with what became of it.
+    pub results: Vec<report::Result>,
+    /// Time that they took together.
+    pub seconds: f64,
+    /// The golden tables.
+    pub golden: Vec<GoldenTable>,
+    /// Where and when.
+    pub environment: Environment,
+}
+
+const TITLE: &str = "Precession of spheroids under Lorentz violation: verification report";
+
+/// Allows nothing but what is in the page itself.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:; base-uri 'none'; form-action 'none'";
+
+/// The page.
+///
+/// # Errors
+/// LaTeX or Markdown of ours that cannot be set.
+pub fn page(content: &Content) -> Result<String, String> {
+    let mut index = index(content);
+    claims::note(&mut index);
+    let discrepancies = markdown::page(include_str!("../../../docs/discrepancies.md"), &mut index)?;
+    let equations = equations::section(content, &mut index)?;
+    let sections = [
+        ("claims", "Claims", claims::section(content, &index)),
+        ("discrepancies", "Discrepancies", discrepancies),
+        ("equations", "Equations", equations),
+        ("checks", "Checks", checks::section(content, &index)),
+        ("golden", "Golden tables", golden::section(content, &index)),
+        ("environment", "Environment", environment_section(content)),
+    ];
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (TITLE) }
+                style { (PreEscaped(include_str!("../../data/math-font.css"))) }
+                style { (PreEscaped(include_str!("style.css"))) }
+            }
+            body {
+                a.skip href="#main" { "Skip to the report" }
+                nav.contents aria-label="Contents" {
+                    h2 { "Contents" }
+                    ol {
+                        li { a href="#summary" { "Summary" } }
+                        @for (id, name, _) in &sections { li { a href={ "#" (id) } { (name) } } }
+                    }
+                }
+                main id="main" {
+                    (summary::header(content))
+                    @for (id, name, section) in &sections {
+                        section id=(id) aria-labelledby={ (id) "-heading" } {
+                            h2 id={ (id) "-heading" } { (name) }
+                            (section)
+                        }
+                    }
+                }
+            }
+        }
+    };
+    Ok(page.into_string())
+}
+
+/// Everything that can be linked to by name.
+fn index(content: &Content) -> Index {
+    let mut index = Index::default();
+    equations::numbers().for_each(|number| index.add(cross_reference::equation(number)));
+    content.results.iter().for_each(|(check, _)| index.add(cross_reference::check(check.id)));
+    content.golden.iter().for_each(|table| index.add(cross_reference::golden(table.name)));
+    markdown::numbers(include_str!("../../../docs/discrepancies.md")).for_each(|number| index.add(cross_reference::discrepancy(number)));
+    index
+}
+
+fn environment_section(content: &Content) -> Markup {
+    html! {
+        dl.facts {
+            @for (name, value) in &content.environment.facts { (equations::row(name, vec![html! { (value) }])) }
+            (equations::row("Checks", vec![html! { (content.results.len()) " in " (format!("{:.1}", content.seconds)) " s" }]))
+        }
+    }
+}
