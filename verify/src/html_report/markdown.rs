@@ -13,18 +13,14 @@ pub(super) fn page(markdown: &str, index: &mut Index) -> Result<Markup, String> 
     let parser = Parser::new_ext(markdown, Options::ENABLE_TABLES | Options::ENABLE_MATH);
     let mut events = TextMergeStream::new(parser);
     let mut output = Vec::new();
-    let (mut section, mut in_title, mut in_link) = (None::<(String, String)>, false, false);
+    // Id and name of the section; whether text stands as it is.
+    let (mut section, mut verbatim) = (None::<(String, String)>, false);
     while let Some(event) = events.next() {
         let kept = match event {
             Event::Start(Tag::Heading { level: HeadingLevel::H1, .. }) => {
-                in_title = true;
+                heading(&mut events);
                 continue;
             }
-            Event::End(TagEnd::Heading(HeadingLevel::H1)) => {
-                in_title = false;
-                continue;
-            }
-            _ if in_title => continue,
             Event::Start(Tag::Heading { .. }) => {
                 let (title, number) = heading(&mut events);
                 let id = number.as_deref().map(cross_reference::discrepancy);
@@ -32,11 +28,15 @@ pub(super) fn page(markdown: &str, index: &mut Index) -> Result<Markup, String> 
                 raw(html! { h3 id=[id] { (typeset(&title)) } })
             }
             Event::Start(Tag::Link { link_type, dest_url, title, id }) => {
-                in_link = true;
+                verbatim = true;
                 Event::Start(Tag::Link { link_type, dest_url: destination(&dest_url).into(), title, id })
             }
-            Event::End(TagEnd::Link) => {
-                in_link = false;
+            Event::Start(Tag::CodeBlock(_)) => {
+                verbatim = true;
+                event
+            }
+            Event::End(TagEnd::Link | TagEnd::CodeBlock) => {
+                verbatim = false;
                 event
             }
             Event::Start(Tag::Table(_)) => {
@@ -47,14 +47,14 @@ pub(super) fn page(markdown: &str, index: &mut Index) -> Result<Markup, String> 
                 output.push(event);
                 raw(PreEscaped("</div>".to_owned()))
             }
-            Event::Text(text) if !in_link => {
+            Event::Text(text) if !verbatim => {
                 if let Some((id, label)) = &section {
                     index.note_text(&text, id, label);
                 }
                 raw(index.linked(&text))
             }
             Event::Code(name) => {
-                let target = index.code(&name).filter(|_| !in_link);
+                let target = index.code(&name).filter(|_| !verbatim);
                 if let (Some(target), Some((id, label))) = (&target, &section) {
                     index.note(target.clone(), id, label);
                 }
@@ -117,4 +117,38 @@ fn destination(url: &str) -> String {
 
 fn raw(markup: Markup) -> Event<'static> {
     Event::InlineHtml(CowStr::from(markup.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_gets_ids_links_and_maths_and_keeps_no_html() {
+        let mut index = Index::default();
+        for id in [cross_reference::check("order"), cross_reference::equation(25), cross_reference::discrepancy("2")] {
+            index.add(id);
+        }
+        let text = "# Title\n\n## 2. Of beta\n\nBy (25), `order` and `a < b`: $\\beta$ <script>x</script> \
+                    [there](claims.md), [far](https://example.org/a.md)\n\n    beta_0 (25)\n\n| a |\n|---|\n| b |\n";
+        let html = page(text, &mut index).expect("Markdown").0;
+        for part in [
+            "<h3 id=\"discrepancy-2\">2. Of β</h3>",
+            "<a href=\"#eq-25\">(25)</a>",
+            "<a href=\"#check-order\"><code>order</code></a>",
+            "<code>a &lt; b</code>",
+            "<math><mi>β</mi></math>",
+            "&lt;script&gt;",
+            "<a href=\"#claims\">there</a>",
+            "<a href=\"https://example.org/a.md\">far</a>",
+            "<code>beta_0 (25)\n</code>",
+            "<table>",
+        ] {
+            assert!(html.contains(part), "no {part} in\n{html}");
+        }
+        assert!(!html.contains("Title"));
+        assert_eq!(index.named_by("check-order", "discrepancy-")[0].0, "<a href=\"#discrepancy-2\">discrepancy 2</a>");
+        assert_eq!(numbers(text).collect::<Vec<_>>(), ["2"]);
+        assert_eq!(line("of $\\beta$", &mut index).expect("Markdown").0, "of <math><mi>β</mi></math>");
+    }
 }

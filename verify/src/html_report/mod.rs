@@ -110,3 +110,72 @@ fn environment_section(content: &Content) -> Markup {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::check::{Measured, Outcome};
+
+    /// All checks, none of them run; the first fails, the second found no figure.
+    fn page_of_failures() -> (String, Vec<&'static str>) {
+        let measured = |place| match place {
+            0 => Ok(Measured::new(f64::NAN, "worst at <b>here</b> & there")),
+            1 => Err("panicked: <script>alert(1)</script>".to_owned()),
+            _ => Ok(Measured::new(0.0, "")),
+        };
+        let outcome = |place| Outcome { measured: measured(place), passed: place > 1, seconds: 0.0 };
+        let results: Vec<_> = crate::checks::all().into_iter().enumerate().map(|(i, check)| (check, outcome(i))).collect();
+        let ids = results.iter().map(|(check, _)| check.id).collect();
+        let environment = Environment::of_this_run();
+        let content = Content { results, seconds: 1.0, golden: crate::golden::tables().expect("numbers"), environment };
+        (page(&content).expect("a page"), ids)
+    }
+
+    /// The values of an attribute.
+    fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {
+        let parts = page.split(&format!(" {attribute}=\"")).skip(1);
+        parts.filter_map(|rest| rest.split('"').next()).collect()
+    }
+
+    #[test]
+    fn failures_stand_on_top_escaped_and_links_lead_somewhere() {
+        let (page, checks) = page_of_failures();
+        let top = page.split("<section").next().expect("a beginning");
+        for part in [
+            format!("2 of {} checks FAIL", checks.len()),
+            format!("#check-{}", checks[0]),
+            "Void with them".to_owned(),
+            "worst at &lt;b&gt;here&lt;/b&gt; &amp; there".to_owned(),
+            "panicked: &lt;script&gt;alert(1)&lt;/script&gt;".to_owned(),
+        ] {
+            assert!(top.contains(&part), "no {part} at the top");
+        }
+        assert!(!page.contains("<script"));
+
+        let all = values(&page, "id");
+        let ids: BTreeSet<_> = all.iter().copied().collect();
+        assert_eq!(all.len(), ids.len(), "an id is there twice");
+        for link in values(&page, "href") {
+            assert!(link.strip_prefix('#').is_some_and(|id| ids.contains(id)), "a link to {link}, which is not there");
+        }
+        assert!(values(&page, "src").is_empty() && !page.contains("@import"), "something from elsewhere");
+        for check in checks {
+            assert!(ids.contains(format!("check-{check}").as_str()), "{check} is not on the page");
+        }
+        for number in 1..=79 {
+            assert!(ids.contains(format!("eq-{number}").as_str()), "({number}) is not on the page");
+        }
+    }
+
+    #[test]
+    fn nothing_private_is_on_the_page() {
+        let (page, _) = page_of_failures();
+        for variable in ["HOME", "USER", "HOSTNAME", "CARGO_MANIFEST_DIR", "PWD"] {
+            if let Some(value) = std::env::var(variable).ok().filter(|value| value.len() > 5) {
+                assert!(!page.contains(&value), "{variable} is on the page");
+            }
+        }
+    }
+}
