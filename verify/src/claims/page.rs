@@ -81,6 +81,11 @@ pub fn markdown() -> Result<String, String> {
         let count = claims().filter(|claim| claim.verdict == verdict).count();
         writeln!(page, "- {}: {count}", verdict.name()).expect("writing to a string succeeds");
     }
+    page += "\n| statement | where | verdict |\n|---|---|---|\n";
+    for claim in claims() {
+        writeln!(page, "| [{0}](#{0}) | {1} | {2} |", claim.id, claim.place, claim.verdict.name())
+            .expect("writing to a string succeeds");
+    }
     for claim in claims() {
         let evidence = evidence(claim)?;
         if let Some(failed) = evidence.iter().find(|evidence| !evidence.passed) {

@@ -1,0 +1,236 @@
+//! Which integer combination of given frequencies a line is, or none.
+
+use core::fmt;
+
+use crate::error::Error;
+
+/// Largest `sum |k|` of a combination that is looked for.
+const HIGHEST_ORDER: i32 = 12;
+
+/// A combination so likely to fit by accident is not taken for one.
+const LARGEST_CHANCE: f64 = 1e-3;
+
+/// A fit is within this many times the estimated errors.
+const TOLERANCE: f64 = 3.0;
+
+/// A second fit whose order is at most this much higher than the first one's makes both doubtful.
+const DOUBT: i32 = 2;
+
+/// A frequency of which lines are combinations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Generator {
+    /// What it is called in print.
+    pub symbol: &'static str,
+    /// The frequency, of either sign (rad per unit of time).
+    pub frequency: f64,
+    /// Its estimated error.
+    pub uncertainty: f64,
+}
+
+/// An integer combination of the generators that fits a line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Combination {
+    /// The integers with the symbols of their generators, in the order of the basis.
+    pub terms: Vec<(i32, &'static str)>,
+    /// Its frequency.
+    pub frequency: f64,
+    /// Frequency of the line minus that of the combination.
+    pub misfit: f64,
+    /// Expected number of combinations of this order or lower that would fit a random frequency as near.
+    pub chance: f64,
+}
+
+impl Combination {
+    /// `sum |k|`.
+    pub fn order(&self) -> i32 {
+        self.terms.iter().map(|(k, _)| k.abs()).sum()
+    }
+
+    /// The integers alone.
+    pub fn integers(&self) -> Vec<i32> {
+        self.terms.iter().map(|(k, _)| *k).collect()
+    }
+}
+
+impl fmt::Display for Combination {
+    /// Prints `2 alpha' - l'`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut first = true;
+        for &(k, symbol) in self.terms.iter().filter(|(k, _)| *k != 0) {
+            match (first, k < 0) {
+                (true, true) => write!(f, "-")?,
+                (true, false) => {}
+                (false, true) => write!(f, " - ")?,
+                (false, false) => write!(f, " + ")?,
+            }
+            if k.abs() > 1 {
+                write!(f, "{} ", k.abs())?;
+            }
+            write!(f, "{symbol}")?;
+            first = false;
+        }
+        if first { write!(f, "0") } else { Ok(()) }
+    }
+}
+
+/// What a line is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Identification {
+    /// One combination fits, and not by accident.
+    Identified(Combination),
+    /// Several combinations of nearly the same order fit.
+    Ambiguous(Vec<Combination>),
+    /// No combination fits, or only such as could do so by accident.
+    Unidentified,
+}
+
+impl Identification {
+    /// The combination, if there is one and only one.
+    pub fn combination(&self) -> Option<&Combination> {
+        match self {
+            Identification::Identified(combination) => Some(combination),
+            Identification::Ambiguous(_) | Identification::Unidentified => None,
+        }
+    }
+}
+
+impl fmt::Display for Identification {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Identification::Identified(combination) => write!(f, "{combination}"),
+            Identification::Ambiguous(several) => write!(f, "ambiguous ({} combinations)", several.len()),
+            Identification::Unidentified => write!(f, "unidentified"),
+        }
+    }
+}
+
+/// Up to three generators with all their combinations of order 12 or less.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrequencyBasis {
+    generators: Vec<Generator>,
+    /// Integers and frequency of each combination, lowest orders first.
+    combinations: Vec<([i32; 3], f64)>,
+}
+
+impl FrequencyBasis {
+    /// The basis of one to three frequencies, none of them zero within its error.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for another number of generators, for one that is zero or not finite, and for an uncertainty that is
+    /// negative or not finite.
+    pub fn new(generators: Vec<Generator>) -> Result<Self, Error> {
+        let count = generators.len();
+        Error::unless((1..=3).contains(&count), "number of generators", count as f64, "one to three")?;
+        for g in &generators {
+            let error = g.uncertainty;
+            Error::unless(error >= 0.0 && error.is_finite(), "error of a generator", error, "zero or above, finite")?;
+            let apart = g.frequency.abs() > error && g.frequency.is_finite();
+            Error::unless(apart, "frequency of a generator", g.frequency, "farther from zero than its error, finite")?;
+        }
+        let range = |i: usize| if i < count { HIGHEST_ORDER } else { 0 };
+        let mut combinations = Vec::new();
+        for a in -range(0)..=range(0) {
+            for b in -range(1)..=range(1) {
+                for c in -range(2)..=range(2) {
+                    let integers = [a, b, c];
+                    if order(&integers) <= HIGHEST_ORDER {
+                        let terms = generators.iter().zip(integers).map(|(g, k)| g.frequency * f64::from(k));
+                        combinations.push((integers, terms.sum()));
+                    }
+                }
+            }
+        }
+        combinations.sort_by_key(|(integers, _)| order(integers));
+        Ok(Self { generators, combinations })
+    }
+
+    /// The generators.
+    pub fn generators(&self) -> &[Generator] {
+        &self.generators
+    }
+
+    /// The combination `sum k_i f_i` of lowest `sum |k_i|` within the errors of a line at `frequency` (of either sign) and of
+    /// the generators; threefold errors are allowed for.
+    ///
+    /// Not taken: orders above 12; a combination whose chance of fitting a random frequency as near is above 1e-3 (its
+    /// tolerance times the density of combinations of its order or lower around the line); one of several whose orders differ
+    /// by two or less.
+    pub fn identify(&self, frequency: f64, uncertainty: f64) -> Identification {
+        let mut fitting: Vec<Combination> = Vec::new();
+        for (integers, value) in &self.combinations {
+            if fitting.first().is_some_and(|first| order(integers) > first.order() + DOUBT) {
+                break;
+            }
+            let errors = self.generators.iter().zip(integers).map(|(g, k)| g.uncertainty * f64::from(k.abs()));
+            let rounding = f64::EPSILON * (frequency.abs() + value.abs());
+            let tolerance = TOLERANCE * (uncertainty + errors.sum::<f64>() + rounding);
+            if (value - frequency).abs() <= tolerance {
+                fitting.push(Combination {
+                    terms: self.generators.iter().zip(integers).map(|(g, &k)| (k, g.symbol)).collect(),
+                    frequency: *value,
+                    misfit: frequency - value,
+                    chance: 2.0 * tolerance * self.density(frequency, order(integers)),
+                });
+            }
+        }
+        fitting.retain(|combination| combination.chance <= LARGEST_CHANCE);
+        match fitting.len() {
+            0 => Identification::Unidentified,
+            1 => Identification::Identified(fitting.remove(0)),
+            _ => Identification::Ambiguous(fitting),
+        }
+    }
+
+    /// Combinations up to an order per unit of frequency, in an interval around `frequency` as wide as the largest generator.
+    fn density(&self, frequency: f64, most: i32) -> f64 {
+        let width = self.generators.iter().fold(0.0_f64, |most, g| most.max(g.frequency.abs()));
+        let near = self.combinations.iter().take_while(|(integers, _)| order(integers) <= most);
+        near.filter(|(_, value)| (value - frequency).abs() <= width / 2.0).count() as f64 / width
+    }
+}
+
+fn order(integers: &[i32; 3]) -> i32 {
+    integers.iter().map(|k| k.abs()).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn basis() -> FrequencyBasis {
+        let generator = |symbol, frequency| Generator { symbol, frequency, uncertainty: 1e-12 };
+        FrequencyBasis::new(vec![generator("a'", 1.394_678_311_03), generator("g'", -0.144_217_531_17)]).unwrap()
+    }
+
+    #[test]
+    fn combinations_print_as_sums() {
+        let print = |frequency: f64| basis().identify(frequency, 1e-10).to_string();
+        let (a, g) = (1.394_678_311_03, -0.144_217_531_17);
+        assert_eq!(print(2.0 * a - g), "2 a' - g'");
+        assert_eq!(print(-g), "-g'");
+        assert_eq!(print(a + 3.0 * g), "a' + 3 g'");
+        assert_eq!(print(0.0), "0");
+        assert_eq!(print(1.0), "unidentified");
+    }
+
+    #[test]
+    fn near_resonance_is_ambiguous() {
+        let generator = |symbol, frequency| Generator { symbol, frequency, uncertainty: 1e-10 };
+        let resonant = FrequencyBasis::new(vec![generator("a'", 1.0), generator("b'", 0.5)]).unwrap();
+        assert_eq!(resonant.identify(1.0, 1e-10).to_string(), "ambiguous (2 combinations)");
+    }
+
+    #[test]
+    fn what_is_no_basis_is_refused() {
+        let one = Generator { symbol: "a'", frequency: 1.0, uncertainty: 1e-10 };
+        assert!(FrequencyBasis::new(vec![]).is_err() && FrequencyBasis::new(vec![one; 4]).is_err());
+        for wrong in [
+            Generator { frequency: 1e-11, ..one },
+            Generator { frequency: f64::NAN, ..one },
+            Generator { uncertainty: -1.0, ..one },
+            Generator { uncertainty: f64::INFINITY, ..one },
+        ] {
+            assert!(FrequencyBasis::new(vec![wrong]).is_err());
+        }
+    }
+}
