@@ -190,9 +190,7 @@ fn about<M: Motion<f64>>(
             });
         }
     }
-    let settled = |rate: MeanRate| {
-        Some(MeanRate { uncertainty: rate.uncertainty + unknown, ..rate }).filter(certain)
-    };
+    let settled = |rate: MeanRate| Some(MeanRate { uncertainty: rate.uncertainty + unknown, ..rate }).filter(certain);
     let nutation = settled(rate(&nutation_angles(averages, frame, circles))?)
         .filter(|nutation| (nutation.value / rotation - 1.0).abs() < LARGEST_SHIFT);
     let (mut alpha, mut gamma, mut body) = (rate(&alphas)?, rate(&gammas)?, None);

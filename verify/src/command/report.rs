@@ -52,7 +52,8 @@ impl Destination {
     }
 
     fn write(self, page: &str) -> Result<PathBuf, Failure> {
-        let failed = |error: std::io::Error| Failure::Failed(format!("{} cannot be written: {error}", self.file.display()));
+        let failed =
+            |error: std::io::Error| Failure::Failed(format!("{} cannot be written: {error}", self.file.display()));
         fs::create_dir_all(&self.folder).map_err(failed)?;
         let mut part = tempfile::Builder::new()
             .prefix(".index.html.")

@@ -73,7 +73,10 @@ impl Index {
     /// Links to what names `target` and whose ids begin with `prefix`.
     pub(super) fn named_by(&self, target: &str, prefix: &str) -> Vec<Markup> {
         let sources = self.named_by.get(target).into_iter().flatten();
-        sources.filter(|(id, _)| id.starts_with(prefix)).map(|(id, label)| html! { a href={ "#" (id) } { (label) } }).collect()
+        sources
+            .filter(|(id, _)| id.starts_with(prefix))
+            .map(|(id, label)| html! { a href={ "#" (id) } { (label) } })
+            .collect()
     }
 
     /// Plain text with its formulas set, in which `(25)`, `discrepancy 1` and `Figure 8` are links, where there is something

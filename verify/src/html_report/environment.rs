@@ -21,7 +21,10 @@ impl Environment {
             ("Compiler", env!("TWOFOLD_RUSTC").to_owned()),
             ("Target", format!("{}, {optimised}", env!("TWOFOLD_TARGET"))),
             ("Processors", thread::available_parallelism().map_or_else(|_| "unknown".to_owned(), |n| n.to_string())),
-            ("Date and time", humantime::format_rfc3339_seconds(SystemTime::now()).to_string().replace(['T', 'Z'], " ") + "UTC"),
+            (
+                "Date and time",
+                humantime::format_rfc3339_seconds(SystemTime::now()).to_string().replace(['T', 'Z'], " ") + "UTC",
+            ),
         ]);
         Self { facts }
     }

@@ -99,7 +99,8 @@ fn form(entry: &Entry, index: &mut Index) -> Result<Markup, String> {
 
 fn evidence(equation: &crate::equation_table::Equation, content: &Content, index: &Index) -> Markup {
     let id = cross_reference::equation(equation.number);
-    let about: Vec<_> = content.results.iter().filter(|(check, _)| check.equations.contains(&equation.number)).collect();
+    let about: Vec<_> =
+        content.results.iter().filter(|(check, _)| check.equations.contains(&equation.number)).collect();
     let code = |name: &&str| html! { code { (name) } };
     let check = |(check, outcome): &&crate::report::Result| {
         html! {

@@ -50,7 +50,8 @@ fn counts(content: &Content) -> Markup {
         html! { (count) " " (verdict.name()) }
     });
     let numbers = ["confirmed", "differs", "derived"].into_iter().map(|verdict| {
-        let count = content.golden.iter().flat_map(|table| &table.lines).filter(|line| line.verdict() == verdict).count();
+        let count =
+            content.golden.iter().flat_map(|table| &table.lines).filter(|line| line.verdict() == verdict).count();
         html! { (count) " " (verdict) }
     });
     html! {

@@ -131,8 +131,14 @@ mod tests {
         for (text, html) in [
             ("alpha_0 + a^(1) sin^2 beta1", "α<sub>0</sub> + a<sup>(1)</sup> sin<sup>2</sup> β1"),
             ("|s^XX - s^YY| <= 1e-3", "|s<sup>XX</sup> - s<sup>YY</sup>| ≤ 1e-3"),
-            ("2^61 - 1, t_c^-1, h_+ and h_x", "2<sup>61</sup> - 1, t<sub>c</sub><sup>-1</sup>, h<sub>+</sub> and h<sub>x</sub>"),
-            ("1e15 g/cm^3, I^{IJ} of the Omega^z, eta_beta", "1e15 g/cm<sup>3</sup>, I<sup>IJ</sup> of the Ω<sup>z</sup>, η<sub>β</sub>"),
+            (
+                "2^61 - 1, t_c^-1, h_+ and h_x",
+                "2<sup>61</sup> - 1, t<sub>c</sub><sup>-1</sup>, h<sub>+</sub> and h<sub>x</sub>",
+            ),
+            (
+                "1e15 g/cm^3, I^{IJ} of the Omega^z, eta_beta",
+                "1e15 g/cm<sup>3</sup>, I<sup>IJ</sup> of the Ω<sup>z</sup>, η<sub>β</sub>",
+            ),
             ("the beta-decay of alphabet_soup, x^", "the β-decay of alphabet_soup, x^"),
             ("é < ü", "é &lt; ü"),
         ] {
