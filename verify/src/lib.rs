@@ -8,6 +8,7 @@ pub mod conditioned;
 pub mod derivation;
 pub mod dual;
 pub mod equation_table;
+pub mod figures;
 pub mod fit;
 pub mod golden;
 pub mod html_report;

@@ -1,5 +1,7 @@
 //! The command `twofold`: verify the paper's equations, run a scene, list the scenes.
 
+mod figures;
+mod output_folder;
 mod report;
 mod run;
 mod scenes;
@@ -29,7 +31,8 @@ Examples:
   twofold verify --filter steady    only the checks whose name contains `steady`
   twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
   twofold run my-star.toml --out my-star.csv
-  twofold report                    all of it as one page, report/index.html
+  twofold figures --out figures     the paper's figures and ours
+  twofold report                    everything as one page, report/index.html
 
 Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written; 130 interrupted.";
 
@@ -46,11 +49,16 @@ enum Command {
     /// t_c = sqrt(I^xx / C), a scene of a physical star in seconds. Angles are in rad and continuous: they count their
     /// turns. Where the symmetry axis is exactly on a pole they do not exist, and their fields are empty.
     Run(RunArgs),
+    /// Draw the paper's figures and ours, each as SVG and PNG, with its caption and its data
+    ///
+    /// Writes NAME.svg, NAME.png, NAME.md and NAME.csv (or NAME.TABLE.csv) of each figure; the files appear when all are
+    /// complete. With --scene the figures of a motion are drawn for a scene in place of the paper's examples.
+    Figures(FiguresArgs),
     /// List the built-in scenes
     Scenes,
-    /// Run every check and write all of it as one HTML page: claims, discrepancies, equations, checks, golden tables
+    /// Run every check and write everything as one HTML page: claims, equations, checks, golden tables, figures
     ///
-    /// The page is FOLDER/index.html. It needs no network, no script and no other file. It is written, and says so at its
+    /// The page is DIR/index.html. It needs no network, no script and no other file. It is written, and says so at its
     /// top, also where checks fail; the status is then 1.
     Report(ReportArgs),
     /// Print the table of equations: what implements each, which checks and golden numbers are about it (Markdown)
@@ -84,11 +92,30 @@ struct RunArgs {
 #[derive(Args)]
 struct ReportArgs {
     /// Write the page into this folder, which is made if need be
-    #[arg(long, value_name = "FOLDER", default_value = "report")]
+    #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
     /// Replace the page if it exists
     #[arg(long)]
     force: bool,
+}
+
+#[derive(Args)]
+struct FiguresArgs {
+    /// Figures to draw, by name or by number of the paper's figure; all if none is named
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    /// Folder for the files, made if it is not there
+    #[arg(long, value_name = "DIR", default_value = "figures")]
+    out: PathBuf,
+    /// Draw the figures of a motion for this built-in scene or scene file (TOML)
+    #[arg(long, value_name = "SCENE")]
+    scene: Option<String>,
+    /// Replace files that exist
+    #[arg(long)]
+    force: bool,
+    /// List the figures instead of drawing them
+    #[arg(long)]
+    list: bool,
 }
 
 /// How a command ends when it does not succeed.
@@ -113,6 +140,7 @@ pub fn main() -> ExitCode {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
         Command::Report(args) => report::report(&args),
+        Command::Figures(args) => figures::figures(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
         Command::Claims => claims::markdown().map_err(Failure::Failed).and_then(|page| print(&page)),

@@ -1,6 +1,7 @@
 //! The paper's numbers beside ours, one table per figure, table or passage of the paper.
 
 pub(crate) mod captions;
+mod figures;
 mod line;
 pub(crate) mod pulsar_bounds;
 mod regimes;
@@ -38,7 +39,7 @@ impl std::fmt::Display for GoldenTable {
 /// If a number cannot be computed.
 pub fn tables() -> Result<Vec<GoldenTable>, String> {
     let text = |error: twofold::Error| error.to_string();
-    Ok(vec![
+    let mut tables = vec![
         captions::initial_values().map_err(text)?,
         captions::constants().map_err(text)?,
         pulsar_bounds::table().map_err(text)?,
@@ -46,5 +47,7 @@ pub fn tables() -> Result<Vec<GoldenTable>, String> {
         star::expansions().map_err(text)?,
         regimes::twofold()?,
         regimes::single()?,
-    ])
+    ];
+    tables.extend(figures::tables()?);
+    Ok(tables)
 }

@@ -82,11 +82,16 @@ impl Index {
     /// Plain text with its formulas set, in which `(25)`, `discrepancy 1` and `Figure 8` are links, where there is something
     /// of the name.
     pub(super) fn linked(&self, text: &str) -> Markup {
+        self.linked_with(text, typeset)
+    }
+
+    /// The same with another way to set what is between the links.
+    pub(super) fn linked_with(&self, text: &str, set: impl Fn(&str) -> Markup) -> Markup {
         html! {
             @for (piece, target) in self.pieces(text) {
                 @match target {
                     Some(id) => a href={ "#" (id) } { (piece) },
-                    None => (typeset(piece)),
+                    None => (set(piece)),
                 }
             }
         }
@@ -101,7 +106,7 @@ impl Index {
     fn pieces<'t>(&self, text: &'t str) -> Vec<(&'t str, Option<String>)> {
         let (mut pieces, mut start, mut at) = (Vec::new(), 0, 0);
         while let Some(letter) = text[at..].chars().next() {
-            let fresh = text[..at].chars().next_back().is_none_or(|c| !c.is_alphanumeric() && !"^_".contains(c));
+            let fresh = text[..at].chars().next_back().is_none_or(|c| !c.is_alphanumeric() && !"^_{".contains(c));
             match self.name_at(&text[at..]).filter(|_| fresh) {
                 Some((length, id)) => {
                     pieces.push((&text[start..at], None));

@@ -9,6 +9,7 @@ mod cross_reference;
 mod environment;
 mod equation_source;
 mod equations;
+mod figures;
 mod golden;
 mod latex;
 mod markdown;
@@ -19,6 +20,7 @@ pub use environment::Environment;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::figures::Figure;
 use crate::golden::GoldenTable;
 use crate::report;
 use cross_reference::Index;
@@ -31,6 +33,8 @@ pub struct Content {
     pub seconds: f64,
     /// The golden tables.
     pub golden: Vec<GoldenTable>,
+    /// The figures.
+    pub figures: Vec<Figure>,
     /// Where and when.
     pub environment: Environment,
 }
@@ -48,6 +52,7 @@ const POLICY: &str =
 pub fn page(content: &Content) -> Result<String, String> {
     let mut index = index(content);
     claims::note(&mut index);
+    figures::note(content, &mut index);
     let discrepancies = markdown::page(include_str!("../../../docs/discrepancies.md"), &mut index)?;
     let equations = equations::section(content, &mut index)?;
     let sections = [
@@ -56,6 +61,7 @@ pub fn page(content: &Content) -> Result<String, String> {
         ("equations", "Equations", equations),
         ("checks", "Checks", checks::section(content, &index)),
         ("golden", "Golden tables", golden::section(content, &index)),
+        ("figures", "Figures", figures::section(content, &index)),
         ("environment", "Environment", environment_section(content)),
     ];
     let page = html! {
@@ -98,6 +104,8 @@ fn index(content: &Content) -> Index {
     let mut index = Index::default();
     equations::numbers().for_each(|number| index.add(cross_reference::equation(number)));
     content.results.iter().for_each(|(check, _)| index.add(cross_reference::check(check.id)));
+    let figures = content.figures.iter();
+    figures.for_each(|figure| index.add_figure(cross_reference::figure(&figure.name), figure.paper_figure));
     content.golden.iter().for_each(|table| index.add(cross_reference::golden(table.name)));
     markdown::numbers(include_str!("../../../docs/discrepancies.md"))
         .for_each(|number| index.add(cross_reference::discrepancy(number)));
@@ -134,7 +142,8 @@ mod tests {
         let results: Vec<_> = crate::checks::all().into_iter().map(|check| (check, outcome(&check))).collect();
         let ids = results.iter().map(|(check, _)| check.id).collect();
         let golden = crate::golden::tables().expect("numbers");
-        let content = Content { results, seconds: 1.0, golden, environment: Environment::of_this_run() };
+        let figures = crate::figures::all().expect("figures");
+        let content = Content { results, seconds: 1.0, golden, figures, environment: Environment::of_this_run() };
         (page(&content).expect("a page"), ids)
     }
 

@@ -1,0 +1,65 @@
+//! The figures with their captions.
+
+use maud::{Markup, PreEscaped, html};
+
+use super::Content;
+use super::cross_reference::{self, Index};
+use super::equations::row;
+use crate::claims::claims;
+use crate::figures::{self, Figure};
+
+/// Claims that a figure shows: its name and the names of the claims.
+const SHOWN: &[(&str, &[&str])] = &[];
+
+/// Notes what the figures show and name.
+pub(super) fn note(content: &Content, index: &mut Index) {
+    for figure in &content.figures {
+        let (id, label) = (cross_reference::figure(&figure.name), name(figure));
+        for paragraph in figure.caption.paragraphs() {
+            index.note_text(paragraph, &id, &label);
+        }
+        for claim in shown(figure) {
+            index.note(cross_reference::claim(claim), &id, &label);
+            index.note(id.clone(), &cross_reference::claim(claim), claim);
+        }
+    }
+}
+
+pub(super) fn section(content: &Content, index: &Index) -> Markup {
+    html! {
+        p { "Numbers of figures are the paper's, by order of appearance; what has none is ours. Data files and pictures: " code { "twofold figures" } "." }
+        @for figure in &content.figures { (article(figure, index)) }
+    }
+}
+
+fn article(figure: &Figure, index: &Index) -> Markup {
+    let id = cross_reference::figure(&figure.name);
+    let summary = figures::plain(&figure.summary);
+    // The drawing is one picture with a name, not a heap of letters; the prolog of a file has no place in a page.
+    let svg = figure.svg.find("<svg").map_or("", |start| &figure.svg[start..]);
+    html! {
+        article.figure id=(id) {
+            h3 { a href={ "#" (id) } { (name(figure)) } ": " (index.linked(&summary)) }
+            figure {
+                div.wide tabindex="0" { (PreEscaped(svg)) }
+                figcaption {
+                    @for paragraph in figure.caption.paragraphs() {
+                        p { (index.linked_with(paragraph, |text| PreEscaped(figures::html(text)))) }
+                    }
+                }
+            }
+            dl {
+                (row("Claims", index.named_by(&id, "claim-")))
+            }
+        }
+    }
+}
+
+/// `Figure 8`, or the name of a figure that the paper does not have.
+fn name(figure: &Figure) -> String {
+    figure.paper_figure.map_or_else(|| figure.name.clone(), |number| format!("Figure {number}"))
+}
+
+fn shown(figure: &Figure) -> &'static [&'static str] {
+    SHOWN.iter().find(|(name, _)| *name == figure.name).map_or(&[], |(_, claims)| claims)
+}
