@@ -36,7 +36,7 @@ fn table(results: &[&report::Result], index: &Index) -> Markup {
                     tr.failing[!outcome.passed] role="row" id=(cross_reference::check(check.id)) {
                         th scope="row" role="rowheader" { (name(check, index)) }
                         td role="cell" { (what(check, outcome, index)) }
-                        td.number role="cell" data-label=(columns[2]) { (report::measured(outcome)) }
+                        td.number role="cell" data-label=(columns[2]) { (typeset(&report::measured(outcome))) }
                         td.number role="cell" data-label=(columns[3]) { (typeset(&check.bound.to_string())) }
                         td role="cell" data-label=(columns[4]) {
                             b.pass[outcome.passed].fail[!outcome.passed] { (report::verdict(outcome)) }
@@ -88,7 +88,7 @@ pub(super) fn failures(content: &Content) -> Markup {
                 a href={ "#" (cross_reference::check(check.id)) } { code { (check.id) } } ": " (typeset(check.statement)) "."
                 @match &outcome.measured {
                     Ok(measured) => {
-                        " " (typeset(check.figure)) ": " b { (report::measured(outcome)) } ", required " (typeset(&check.bound.to_string())) "."
+                        " " (typeset(check.figure)) ": " b { (typeset(&report::measured(outcome))) } ", required " (typeset(&check.bound.to_string())) "."
                         @if !measured.detail.is_empty() { p.found { (measured.detail) } }
                     }
                     Err(message) => p.found { (message) },

@@ -67,7 +67,7 @@ fn article(claim: &Claim, content: &Content, index: &Index) -> Markup {
         html! {
             a href={ "#" (cross_reference::check(id)) } { code { (id) } }
             @if let Some((check, outcome)) = outcome {
-                " " (report::measured(outcome)) " (" (typeset(&check.bound.to_string())) ")"
+                " " (typeset(&report::measured(outcome))) " (" (typeset(&check.bound.to_string())) ")"
                 @if !outcome.passed { " " b.fail { "FAIL" } }
             }
         }

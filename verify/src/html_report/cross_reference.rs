@@ -43,7 +43,7 @@ pub(super) struct Index {
     /// Ids of the figures by the paper's numbers.
     figures: BTreeMap<u8, String>,
     /// Id of what is named -> ids of what names it, with their labels.
-    named_by: BTreeMap<String, BTreeSet<(String, String)>>,
+    named_by: BTreeMap<String, Vec<(String, String)>>,
 }
 
 impl Index {
@@ -60,7 +60,10 @@ impl Index {
 
     /// Notes that the part with the id `source`, called `label`, names `target`.
     pub(super) fn note(&mut self, target: String, source: &str, label: &str) {
-        self.named_by.entry(target).or_default().insert((source.to_owned(), label.to_owned()));
+        let (sources, new) = (self.named_by.entry(target).or_default(), (source.to_owned(), label.to_owned()));
+        if !sources.contains(&new) {
+            sources.push(new);
+        }
     }
 
     /// Notes everything that `text` names.
@@ -88,10 +91,12 @@ impl Index {
     /// The same with another way to set what is between the links.
     pub(super) fn linked_with(&self, text: &str, set: impl Fn(&str) -> Markup) -> Markup {
         html! {
-            @for (piece, target) in self.pieces(text) {
-                @match target {
-                    Some(id) => a href={ "#" (id) } { (piece) },
-                    None => (set(piece)),
+            @for (place, (piece, target)) in self.pieces(text).into_iter().enumerate() {
+                @match (target, piece.strip_prefix('-').filter(|_| place > 0)) {
+                    (Some(id), _) => a href={ "#" (id) } { (piece) },
+                    // From one equation to another.
+                    (None, Some(rest)) => { "–" (set(rest)) }
+                    (None, None) => (set(piece)),
                 }
             }
         }
@@ -159,7 +164,7 @@ mod tests {
         index.add_figure(figure("line-of-sight"), Some(8));
         assert_eq!(
             index.linked("Eqs. (25)-(26), a^(1) < b(1), (1); discrepancy 7, Figure 8, Fig. 9, (300), é(").0,
-            "Eqs. <a href=\"#eq-25\">(25)</a>-(26), a<sup>(1)</sup> &lt; b(1), <a href=\"#eq-1\">(1)</a>; \
+            "Eqs. <a href=\"#eq-25\">(25)</a>–(26), a<sup>(1)</sup> &lt; b(1), <a href=\"#eq-1\">(1)</a>; \
              <a href=\"#discrepancy-7\">discrepancy 7</a>, <a href=\"#figure-line-of-sight\">Figure 8</a>, Fig. 9, (300), é("
         );
         assert_eq!(index.code("order").as_deref(), Some("check-order"));

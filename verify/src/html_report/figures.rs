@@ -5,11 +5,21 @@ use maud::{Markup, PreEscaped, html};
 use super::Content;
 use super::cross_reference::{self, Index};
 use super::equations::row;
-use crate::claims::claims;
 use crate::figures::{self, Figure};
 
 /// Claims that a figure shows: its name and the names of the claims.
-const SHOWN: &[(&str, &[&str])] = &[];
+const SHOWN: &[(&str, &[&str])] = &[
+    ("motion-tp-1", &["caption-values"]),
+    ("motion-tp-2", &["caption-values", "twofold-large-tilt"]),
+    ("motion-sp-1", &["caption-values", "single-one-period"]),
+    ("motion-sp-2", &["caption-values", "single-right-angle"]),
+    ("pulse-series", &["formulas-fit-tp-1", "formulas-fail-tp-2"]),
+    (
+        "perturbation-regimes",
+        &["twofold-leading-order", "single-leading-order", "single-one-period", "single-right-angle"],
+    ),
+    ("momentum-sphere", &["two-first-integrals", "opposite-forced-precession", "middle-axis"]),
+];
 
 /// Notes what the figures show and name.
 pub(super) fn note(content: &Content, index: &mut Index) {
@@ -62,4 +72,19 @@ fn name(figure: &Figure) -> String {
 
 fn shown(figure: &Figure) -> &'static [&'static str] {
     SHOWN.iter().find(|(name, _)| *name == figure.name).map_or(&[], |(_, claims)| claims)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_and_claims_that_belong_together_exist() {
+        for (figure, shown) in SHOWN {
+            assert!(figures::RECIPES.iter().any(|recipe| recipe.name == *figure), "no figure {figure}");
+            for claim in *shown {
+                assert!(crate::claims::claims().any(|known| known.id == *claim), "{figure}: no claim {claim}");
+            }
+        }
+    }
 }

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::Content;
 use super::cross_reference::{self, Index};
 use super::equations::row;
+use super::typography::typeset;
 use crate::equation_table::EQUATIONS;
 use crate::golden::{GoldenTable, Printed};
 
@@ -45,8 +46,8 @@ fn table(golden: &GoldenTable, index: &Index) -> Markup {
                     @for line in &golden.lines {
                         tr role="row" {
                             th scope="row" role="rowheader" { (index.linked(&line.label)) }
-                            @if !nothing_printed { td.number role="cell" data-label="Printed" { (line.printed_text()) } }
-                            td.number role="cell" data-label="Ours" { (line.ours_text()) }
+                            @if !nothing_printed { td.number role="cell" data-label="Printed" { (typeset(&line.printed_text())) } }
+                            td.number role="cell" data-label="Ours" { (typeset(&line.ours_text())) }
                             @if !nothing_printed {
                                 @let verdict = line.verdict();
                                 td role="cell" data-label="Verdict" {

@@ -124,12 +124,13 @@ fn environment_section(content: &Content) -> Markup {
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
+    use std::sync::LazyLock;
 
     use super::*;
     use crate::check::{Check, Measured, Outcome};
 
-    /// All checks, none of them run, two of which fail.
-    fn page_of_failures() -> (String, Vec<&'static str>) {
+    /// A page of all checks, none of them run, two of which fail; and their ids.
+    static FAILURES: LazyLock<(String, Vec<&'static str>)> = LazyLock::new(|| {
         let measured = |id| match id {
             "nordtvedt-form" => Ok(Measured::new(f64::NAN, "worst at <b>here</b> & there")),
             "forced-precession-direction" => Err("panicked: <script>alert(1)</script>".to_owned()),
@@ -145,7 +146,7 @@ mod tests {
         let figures = crate::figures::all().expect("figures");
         let content = Content { results, seconds: 1.0, golden, figures, environment: Environment::of_this_run() };
         (page(&content).expect("a page"), ids)
-    }
+    });
 
     /// The values of an attribute.
     fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {
@@ -156,7 +157,7 @@ mod tests {
 
     #[test]
     fn failures_stand_on_top_escaped_and_links_lead_somewhere() {
-        let (page, checks) = page_of_failures();
+        let (page, checks) = &*FAILURES;
         let top = page.split("<section").next().expect("a beginning");
         for part in [
             format!("2 of {} checks FAIL", checks.len()),
@@ -169,13 +170,13 @@ mod tests {
         }
         assert!(!page.contains("<script"));
 
-        let all = values(&page, "id");
+        let all = values(page, "id");
         let ids: BTreeSet<_> = all.iter().copied().collect();
         assert_eq!(all.len(), ids.len(), "an id is there twice");
-        for link in values(&page, "href") {
+        for link in values(page, "href") {
             assert!(link.strip_prefix('#').is_some_and(|id| ids.contains(id)), "a link to {link}, which is not there");
         }
-        assert!(values(&page, "src").is_empty() && !page.contains("@import"), "something from elsewhere");
+        assert!(values(page, "src").is_empty() && !page.contains("@import"), "something from elsewhere");
         for check in checks {
             assert!(ids.contains(format!("check-{check}").as_str()), "{check} is not on the page");
         }
@@ -186,7 +187,7 @@ mod tests {
 
     #[test]
     fn nothing_private_is_on_the_page() {
-        let (page, _) = page_of_failures();
+        let (page, _) = &*FAILURES;
         for variable in ["HOME", "USER", "HOSTNAME", "CARGO_MANIFEST_DIR", "PWD"] {
             if let Some(value) = std::env::var(variable).ok().filter(|value| value.len() > 5) {
                 assert!(!page.contains(&value), "{variable} is on the page");

@@ -47,12 +47,12 @@ fn counts(content: &Content) -> Markup {
     });
     let verdicts = [Verdict::Confirmed, Verdict::Corrected, Verdict::NotReproduced].into_iter().map(|verdict| {
         let count = crate::claims::claims().filter(|claim| claim.verdict == verdict).count();
-        html! { (count) " " (verdict.name()) }
+        html! { a href="#claims" { (count) " " (verdict.name()) } }
     });
     let numbers = ["confirmed", "differs", "derived"].into_iter().map(|verdict| {
         let count =
             content.golden.iter().flat_map(|table| &table.lines).filter(|line| line.verdict() == verdict).count();
-        html! { (count) " " (verdict) }
+        html! { a href="#golden" { (count) " " (verdict) } }
     });
     html! {
         dl.facts {
