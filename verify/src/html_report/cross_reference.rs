@@ -82,6 +82,13 @@ impl Index {
             .collect()
     }
 
+    /// A link to the figure whose numbers the golden table `figure_NAME` has.
+    pub(super) fn figure_of(&self, golden: &str) -> Option<Markup> {
+        let name = golden.strip_prefix("figure_")?.replace('_', "-");
+        let id = figure(&name);
+        self.known.contains(&id).then(|| html! { a href={ "#" (id) } { (name) } })
+    }
+
     /// Plain text with its formulas set, in which `(25)`, `discrepancy 1` and `Figure 8` are links, where there is something
     /// of the name.
     pub(super) fn linked(&self, text: &str) -> Markup {

@@ -2,9 +2,9 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use super::Content;
 use super::cross_reference::{self, Index};
 use super::equations::row;
+use super::{Content, golden};
 use crate::figures::{self, Figure};
 
 /// Claims that a figure shows: its name and the names of the claims.
@@ -38,12 +38,14 @@ pub(super) fn note(content: &Content, index: &mut Index) {
 pub(super) fn section(content: &Content, index: &Index) -> Markup {
     html! {
         p { "Numbers of figures are the paper's, by order of appearance; what has none is ours. Data files and pictures: " code { "twofold figures" } "." }
-        @for figure in &content.figures { (article(figure, index)) }
+        @for figure in &content.figures { (article(figure, content, index)) }
     }
 }
 
-fn article(figure: &Figure, index: &Index) -> Markup {
+fn article(figure: &Figure, content: &Content, index: &Index) -> Markup {
     let id = cross_reference::figure(&figure.name);
+    let numbers = format!("figure_{}", figure.name.replace('-', "_"));
+    let golden = content.golden.iter().filter(|table| table.name == numbers);
     let summary = figures::plain(&figure.summary);
     // The drawing is one picture with a name, not a heap of letters; the prolog of a file has no place in a page.
     let svg = figure.svg.find("<svg").map_or("", |start| &figure.svg[start..]);
@@ -59,6 +61,7 @@ fn article(figure: &Figure, index: &Index) -> Markup {
                 }
             }
             dl {
+                (row("Golden table", golden.map(|table| golden::link(table.name)).collect()))
                 (row("Claims", index.named_by(&id, "claim-")))
             }
         }

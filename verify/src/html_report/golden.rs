@@ -59,6 +59,7 @@ fn table(golden: &GoldenTable, index: &Index) -> Markup {
                 }
             }
             dl {
+                (row("Figure", index.figure_of(golden.name).into_iter().collect()))
                 (row("Equations", equations.map(|e| equation(e.number)).collect()))
                 (row("Claims", index.named_by(&id, "claim-")))
                 (row("Discrepancies", index.named_by(&id, "discrepancy-")))

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-const SYMBOLS: [(&str, &str); 35] = [
+const SYMBOLS: [(&str, &str); 36] = [
     ("alpha", "α"),
     ("beta", "β"),
     ("gamma", "γ"),
@@ -38,6 +38,7 @@ const SYMBOLS: [(&str, &str); 35] = [
     (">=", "≥"),
     ("<~", "≲"),
     ("-+", "∓"),
+    ("->", "→"),
 ];
 
 /// A stretch of text in one position.
