@@ -88,10 +88,13 @@ pub(super) fn failures(content: &Content) -> Markup {
                 a href={ "#" (cross_reference::check(check.id)) } { code { (check.id) } } ": " (typeset(check.statement)) "."
                 @match &outcome.measured {
                     Ok(measured) => {
-                        " " (typeset(check.figure)) ": " b { (typeset(&report::measured(outcome))) } ", required " (typeset(&check.bound.to_string())) "."
-                        @if !measured.detail.is_empty() { p.found { (measured.detail) } }
+                        div {
+                            "Figure: " (typeset(check.figure)) ": " b { (typeset(&report::measured(outcome))) } ", required "
+                            (typeset(&check.bound.to_string())) "."
+                        }
+                        @if !measured.detail.is_empty() { div.found { (measured.detail) } }
                     }
-                    Err(message) => p.found { (message) },
+                    Err(message) => div.found { (message) },
                 }
             }
         }

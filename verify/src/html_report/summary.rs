@@ -27,10 +27,10 @@ fn verdict(content: &Content) -> Markup {
     let void: Vec<_> = crate::claims::claims().filter(|claim| claims::is_void(claim, content)).collect();
     html! {
         @if failed == 0 {
-            p.verdict { b.pass { "All " (content.results.len()) " checks pass." } }
+            p { b.verdict.pass { "All " (content.results.len()) " checks pass." } }
         } @else {
-            div.verdict.failing {
-                p { b.fail { (failed) " of " (content.results.len()) " checks FAIL." } }
+            div.failing {
+                p { b.verdict.fail { (failed) " of " (content.results.len()) " checks FAIL." } }
                 ul { (checks::failures(content)) }
                 @if !void.is_empty() {
                     p { "Void with them: the verdicts on " (claims::links(&void)) "." }
