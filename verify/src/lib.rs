@@ -3,7 +3,9 @@
 pub mod check;
 pub mod checks;
 pub mod claims;
+pub mod columns;
 pub mod command;
+pub mod compare;
 pub mod conditioned;
 pub mod derivation;
 pub mod dual;

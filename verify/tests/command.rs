@@ -57,7 +57,7 @@ fn bad_scenes_are_refused_before_anything_is_written() {
         assert_refused(&path, &expected.split(" | ").collect::<Vec<_>>());
         count += 1;
     }
-    assert!(count >= 70, "only {count} bad scenes found");
+    assert!(count >= 95, "only {count} bad scenes found");
 }
 
 #[test]
@@ -275,6 +275,69 @@ fn verify_prints_tables_or_json_and_refuses_an_unknown_filter() {
     assert_eq!(unknown.status.code(), Some(2));
     assert!(stderr(&unknown).contains("no check has an id that contains `no-such-check`"));
     assert!(unknown.stdout.is_empty());
+}
+
+#[test]
+fn columns_of_the_command_line_replace_those_of_the_scene() {
+    let output = twofold(&["run", "tp-1", "--columns", "m.n,h"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(
+        output.stdout.starts_with(b"t [t_c],m.n [1],m.n_rate [1/t_c],h_plus [1],h_cross [1]\n0.0,0.87328491422829")
+    );
+    for (columns, fragments) in [
+        ("lamda", &["--columns for free", "`lamda` is no group of columns", "Did you mean `lambda`?"][..]),
+        ("h,h", &["`h` comes twice"]),
+        ("", &["`` is no group of columns"]),
+        ("perturbation", &["the scene lacks a perturbation solution", "`initial.kind`"]),
+    ] {
+        let output = twofold(&["run", "free", "--columns", columns]);
+        assert_eq!(output.status.code(), Some(2), "{columns}");
+        assert!(output.stdout.is_empty());
+        for fragment in fragments {
+            assert!(stderr(&output).contains(fragment), "expected `{fragment}` in {}", stderr(&output));
+        }
+    }
+}
+
+#[test]
+fn pulses_are_written_like_a_motion() {
+    let output = twofold(&["pulses", "tp-1"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = String::from_utf8(output.stdout).expect("text");
+    let lines: Vec<_> = text.lines().collect();
+    assert_eq!(lines[0], "beam,pulse,start [t_c],end [t_c],midpoint [t_c],duration [t_c],cut,period [t_c],W_56 [rad]");
+    assert!(lines[1].starts_with("1,1,0.0,0.0870381812") && lines[1].ends_with(",start,,"), "{}", lines[1]);
+    assert_eq!(lines.len(), 98);
+    let none = twofold(&["pulses", "tp-1", "--second-beam"]);
+    assert_eq!(String::from_utf8_lossy(&none.stdout), text);
+    assert!(stderr(&none).starts_with("note: no pulse of beam 2: "), "{}", stderr(&none));
+    let both = twofold(&["pulses", "retrograde", "--second-beam"]);
+    assert!(String::from_utf8_lossy(&both.stdout).contains("\n2,1,"));
+
+    let folder = folder();
+    let scene = folder.path().join("scene.toml");
+    let of_built_in = |without: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/tp-1.toml");
+        let text = fs::read_to_string(path).expect("scene");
+        let kept = text.split("\n\n").filter(|section| !section.starts_with(without)).collect::<Vec<_>>();
+        fs::write(&scene, kept.join("\n\n")).expect("file");
+        twofold(&["pulses", scene.to_str().expect("UTF-8")])
+    };
+    for section in ["[observer]", "[pulsar]"] {
+        let output = of_built_in(section);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(&format!("the scene lacks the section {section}")), "{}", stderr(&output));
+        assert!(output.stdout.is_empty());
+    }
+    let dark = fs::read_to_string(&scene).expect("scene");
+    fs::write(&scene, format!("{dark}\n[pulsar]\nchi = 0.5\nrho = 1e-6\n")).expect("file");
+    let output = twofold(&["pulses", scene.to_str().expect("UTF-8")]);
+    assert_eq!(
+        (output.status.code(), stderr(&output).contains("note: no pulse of beam 1")),
+        (Some(0), true),
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[test]

@@ -8,30 +8,53 @@ use std::thread;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::output_folder::OutputFolder;
-use super::{Failure, FiguresArgs, print};
+use super::{Failure, FiguresArgs, note, print};
 use crate::figures::{self, Figure, OF_A_SCENE, RECIPES, Recipe, Subject};
 use crate::scene_file::Scene;
 
 pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
     let known = if args.scene.is_some() { OF_A_SCENE } else { RECIPES };
-    let chosen = chosen(known, &args.names)?;
+    let mut chosen = chosen(known, &args.names)?;
     if args.list {
         return print(&list(&chosen));
     }
     let motions = match &args.scene {
-        Some(named) => {
-            let scene = Scene::named(named).map_err(|error| Failure::BadInput(error.to_string()))?;
-            let name = Path::new(named).file_stem().map_or_else(|| named.into(), |stem| stem.to_string_lossy());
-            vec![Subject::of_scene(&name, &scene).map_err(Failure::Failed)?]
-        }
+        Some(scene) => vec![motion_of(scene)?],
         None => figures::examples().map_err(Failure::Failed)?.into(),
     };
-    let folder =
-        OutputFolder::at(&args.out, args.force, |file| chosen.iter().any(|recipe| is_file_of(file, recipe.name)))?;
+    if args.scene.is_some() {
+        leave_out_what_is_lacking(&mut chosen, &motions[0], !args.names.is_empty())?;
+    }
+    let would_write = |file: &str| chosen.iter().any(|recipe| is_file_of(file, recipe.name));
+    let folder = OutputFolder::at(&args.out, args.force, would_write)?;
     draw_all(&chosen, &motions, &folder)?;
     let files = folder.complete()?;
     let s = if chosen.len() == 1 { "" } else { "s" };
     print(&format!("{}: {} figure{s}, {files} files\n", args.out.display(), chosen.len()))
+}
+
+/// The motion of a built-in scene or of a scene file.
+fn motion_of(scene: &str) -> Result<Subject, Failure> {
+    let read = Scene::named(scene).map_err(|error| Failure::BadInput(error.to_string()))?;
+    let name = Path::new(scene).file_stem().map_or_else(|| scene.into(), |stem| stem.to_string_lossy());
+    Subject::of_scene(&name, &read).map_err(Failure::Failed)
+}
+
+/// Leaves out the figures for which the scene lacks a section; one that was asked for by name is refused.
+fn leave_out_what_is_lacking(chosen: &mut Vec<Recipe>, motion: &Subject, named: bool) -> Result<(), Failure> {
+    for recipe in chosen.iter() {
+        if let Some(section) = recipe.lacks(motion) {
+            let name = recipe.name;
+            if named {
+                let message =
+                    format!("the scene lacks the section [{section}], without which there is no figure `{name}`");
+                return Err(Failure::BadInput(message));
+            }
+            note(&format!("no figure `{name}`: the scene lacks the section [{section}]"));
+        }
+    }
+    chosen.retain(|recipe| recipe.lacks(motion).is_none());
+    Ok(())
 }
 
 /// The figures asked for, by name or by number of the paper's figure, in the order of the list; all if none is named.
@@ -43,9 +66,14 @@ fn chosen(known: &[Recipe], names: &[String]) -> Result<Vec<Recipe>, Failure> {
         let all = known.iter().map(|recipe| recipe.name).collect::<Vec<_>>();
         let guess = crate::scene_file::nearest(unknown, &all).map(|name| format!(" Did you mean `{name}`?"));
         return Err(Failure::BadInput(format!(
-            "no figure is called `{unknown}`.{} There are {}, and the paper's figures by their numbers.",
+            "no figure is called `{unknown}`.{} There are {}{}.",
             guess.unwrap_or_default(),
-            all.join(", ")
+            all.join(", "),
+            if known.iter().any(|recipe| recipe.paper_figure.is_some()) {
+                ", or the number of a figure of the paper"
+            } else {
+                ""
+            }
         )));
     }
     let wanted = |recipe: &&Recipe| names.is_empty() || names.iter().any(|name| meant(recipe, name));

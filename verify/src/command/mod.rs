@@ -1,8 +1,12 @@
 //! The command `twofold`: verify the paper's equations, run a scene, list the scenes.
 
+mod compare;
 mod figures;
+mod output_file;
 mod output_folder;
 mod report;
+mod progress;
+mod pulses;
 mod run;
 mod scenes;
 mod verify;
@@ -31,6 +35,8 @@ Examples:
   twofold verify --filter steady    only the checks whose name contains `steady`
   twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
   twofold run my-star.toml --out my-star.csv
+  twofold run tp-2 --columns h      only the gravitational wave
+  twofold pulses tp-1               every pulse of the radio beam
   twofold figures --out figures     the paper's figures and ours
   twofold report                    everything as one page, report/index.html
 
@@ -43,12 +49,22 @@ enum Command {
     /// A check compares an equation of the paper with something independent of it: exact arithmetic, automatic
     /// derivatives, another method, an invariant. It measures one figure, which must meet one bound.
     Verify(VerifyArgs),
-    /// Compute the motion of a star and write it as CSV: Euler angles, body axes, angular momentum, first integrals
+    /// Compute the motion of a star, or what an observer sees of it, and write it as CSV
     ///
     /// The header of the table names the columns and their units. A scene in the paper's units has times in
     /// t_c = sqrt(I^xx / C), a scene of a physical star in seconds. Angles are in rad and continuous: they count their
     /// turns. Where the symmetry axis is exactly on a pole they do not exist, and their fields are empty.
     Run(RunArgs),
+    /// Find every pulse of a star's radio beam in the span of a scene and write them as CSV
+    ///
+    /// A pulse is a stretch of time in which the line of sight is inside the beam, m.n > cos(rho). The scene must have the
+    /// sections [observer] and [pulsar]; the samples of its [time] do not matter, its span does.
+    Pulses(PulsesArgs),
+    /// Compare the data that the paper's authors published with the same numbers computed here
+    ///
+    /// The files are those of the folder `data3` of github.com/ryxxastroat/lorentz_precession. Each known one in the folder is
+    /// read and computed anew; the largest difference of each column is printed beside what the file is known to be off by.
+    Compare(CompareArgs),
     /// Draw the paper's figures and ours, each as SVG and PNG, with its caption and its data
     ///
     /// Writes NAME.svg, NAME.png, NAME.md and NAME.csv (or NAME.TABLE.csv) of each figure; the files appear when all are
@@ -81,6 +97,37 @@ struct VerifyArgs {
 struct RunArgs {
     /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
     scene: String,
+    /// Only these groups of columns, whatever the scene says: angles, rates, e_x, e_z, L, integrals, perturbation, lambda,
+    /// m.n, magnetic_axis, h
+    #[arg(long, value_name = "GROUP,GROUP", value_delimiter = ',')]
+    columns: Option<Vec<String>>,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+#[derive(Args)]
+struct PulsesArgs {
+    /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
+    scene: String,
+    /// The opposite beam too, whatever the scene says
+    #[arg(long)]
+    second_beam: bool,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+#[derive(Args)]
+struct CompareArgs {
+    /// Folder with the authors' files: tp1.dat, mntp1.dat, ...
+    #[arg(long, value_name = "DIR")]
+    authors_data: PathBuf,
+    /// Print the comparison as JSON instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Args)]
+struct OutputArgs {
     /// Write the table to this file instead of standard output; appears only when it is complete
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -140,6 +187,8 @@ pub fn main() -> ExitCode {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
         Command::Report(args) => report::report(&args),
+        Command::Pulses(args) => pulses::pulses(&args),
+        Command::Compare(args) => compare::compare(&args),
         Command::Figures(args) => figures::figures(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
@@ -155,6 +204,11 @@ pub fn main() -> ExitCode {
 fn end(status: u8, message: &str) -> ExitCode {
     let _ = writeln!(io::stderr(), "error: {message}");
     ExitCode::from(status)
+}
+
+/// A line on standard error that is no error.
+fn note(text: &str) {
+    let _ = writeln!(io::stderr(), "note: {text}");
 }
 
 /// Prints to standard output. A reader that has gone away (`| head`) is no failure.

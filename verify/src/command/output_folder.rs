@@ -1,16 +1,13 @@
 //! A folder in which each file appears under its name only when it is complete, and none before all are.
 
 use std::fs;
-use std::io::{self, IsTerminal, Write};
+use std::io;
 use std::path::{Path, PathBuf};
-use std::process;
 
 use tempfile::TempDir;
 
 use super::Failure;
-
-/// Status of a command ended by an interrupt, by the shells' convention.
-const INTERRUPTED: i32 = 130;
+use super::output_file::on_interrupt;
 
 /// A folder that is being filled.
 pub(super) struct OutputFolder {
@@ -22,7 +19,8 @@ pub(super) struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// The folder `path`, made if it is not there. `in_the_way` are names of files in it that would be replaced.
+    /// The folder `path`, made if it is not there. Refused if a file of a name that `would_write` is in it, unless
+    /// files may be replaced.
     pub(super) fn at(path: &Path, replace: bool, would_write: impl Fn(&str) -> bool) -> Result<Self, Failure> {
         let refuse = |why: String| Failure::BadInput(format!("--out {}: {why}", path.display()));
         let new = !path.exists();
@@ -40,10 +38,13 @@ impl OutputFolder {
             let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
             let mut found: Vec<_> = names.filter(|name| would_write(name)).collect();
             found.sort();
-            if let Some(first) = found.first() {
-                let others =
-                    if found.len() > 1 { format!(" and {} more exist", found.len() - 1) } else { " exists".into() };
-                return Err(refuse(format!("{first}{others} there; --force replaces them")));
+            match &found[..] {
+                [] => {}
+                [only] => return Err(refuse(format!("{only} exists there; --force replaces it"))),
+                [first, more @ ..] => {
+                    let count = more.len();
+                    return Err(refuse(format!("{first} and {count} more exist there; --force replaces them")));
+                }
             }
         }
         let temporary = tempfile::Builder::new().prefix(".figures.").suffix(".part").tempdir_in(path);
@@ -52,17 +53,13 @@ impl OutputFolder {
         Ok(folder)
     }
 
-    /// Removes what is not complete and ends the process on an interrupt (Ctrl-C), hang-up or request to terminate.
     fn remove_on_interrupt(&self) {
         let Some(temporary) = self.temporary.as_ref().map(|folder| folder.path().to_owned()) else { return };
         let made = self.new.then(|| self.path.clone());
-        let _ = ctrlc::try_set_handler(move || {
+        on_interrupt("no file was left incomplete", move || {
             let _ = fs::remove_dir_all(&temporary);
-            // Only if nothing is in it.
+            // Goes only if nothing is in it.
             let _ = made.as_ref().map(fs::remove_dir);
-            let line_end = if io::stderr().is_terminal() { "\n" } else { "" };
-            let _ = writeln!(io::stderr(), "{line_end}error: interrupted: no file was left incomplete");
-            process::exit(INTERRUPTED);
         });
     }
 

@@ -1,6 +1,7 @@
 //! `m.n`, the cosine of the angle between the beam and the line of sight, in time.
 
 use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::parameters::{line_of_sight, parameters};
 use super::style::{BLACK, BLUE, PAGE, SMALL, VERMILION, dashed, solid};
 use super::subject::times;
 use super::svg::{Anchor, Page, Rectangle};
@@ -12,9 +13,15 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
     Ok(Sheet { svg: draw(name, subjects, &tables), caption: caption(subjects, &tables), tables })
 }
 
+/// `cos rho`; there is a beam, or there would be no table.
+fn edge(subject: &Subject) -> f64 {
+    subject.pulsar.map_or(f64::NAN, |pulsar| pulsar.rho.cos())
+}
+
 /// `m.n` over the span shown.
 fn alignment(subject: &Subject) -> Result<Table, String> {
-    let (beam, observer) = (subject.line_of_sight.beam(), subject.line_of_sight.observer());
+    let (viewer, pulsar) = subject.line_of_sight()?;
+    let (beam, observer) = (pulsar.beam(), viewer.basis());
     let mut table = Table::new(&subject.name, ["t [t_c]", "m.n [1]"]);
     for t in times(subject.shown.beam, 4000) {
         table.push([t, beam.direction(&subject.state(t)?).dot(&observer.direction)]);
@@ -36,7 +43,7 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
         let shown = subject.shown.beam;
         let x = Axis::linear("*t* / *t*_{c}", shown.min(0.0), shown.max(0.0));
         let values = table.rows.iter().map(|row| row[1]);
-        let edge = subject.line_of_sight.rho.cos();
+        let edge = edge(subject);
         let y = Axis::around("**m** · **n**", values.chain([edge]));
         let panel = Panel::new(frame, if i + 1 < subjects.len() { x.unnamed() } else { x }, y);
         let points = table.points(0, 1);
@@ -54,9 +61,8 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
 }
 
 fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
-    let sight = subjects[0].line_of_sight;
     let inside = |(subject, table): (&&Subject, &Table)| {
-        let edge = subject.line_of_sight.rho.cos();
+        let edge = edge(subject);
         let part = table.rows.iter().filter(|row| row[1] > edge).count() as f64 / table.rows.len() as f64;
         format!("{:.0} % of the time for {}", 100.0 * part, subject.name)
     };
@@ -65,15 +71,7 @@ fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
         shows: "Cosine of the angle between the axis **m** of the beam and the line of sight **n** in time. Above cos *ρ* (dashed) \
                 the beam holds the line of sight: thick stretches are pulses."
             .to_owned(),
-        parameters: format!(
-            "*θ*_{{o}} = {}, *φ*_{{o}} = {}, *χ* = {}, *δ* = {}, *ρ* = {} (rad). {}",
-            sight.theta_o,
-            sight.phi_o,
-            sight.chi,
-            sight.delta,
-            sight.rho,
-            subjects.iter().map(|s| format!("{}: {}", s.name, s.parameters())).collect::<Vec<_>>().join(" ")
-        ),
+        parameters: parameters(&line_of_sight(subjects, true), subjects),
         method: "Numerical motion; **m** by Eq. (45), **n** by Eq. (46); the condition of a pulse is Eq. (44).".to_owned(),
         says: format!("The line of sight is inside the beam {}.", parts.join(", ")),
     }

@@ -131,11 +131,16 @@ pub(super) struct Panel {
 
 /// Room that a panel needs around its frame for numbers and labels.
 pub(super) const LEFT: f64 = 42.0;
-pub(super) const BELOW: f64 = 28.0;
+pub(super) const BELOW: f64 = 29.0;
 
 impl Panel {
     pub(super) fn new(frame: Rectangle, x: Axis, y: Axis) -> Self {
         Self { frame, x, y, y_label_distance: 29.0 }
+    }
+
+    /// Power of ten that is taken out of the numbers at the y axis.
+    pub(super) fn y_power(&self) -> i32 {
+        self.y.power()
     }
 
     /// Place of a point on the page.
@@ -184,10 +189,10 @@ impl Panel {
         if self.x.numbers {
             for (value, number) in &large {
                 let x = f.left + self.x.place(*value) * f.width;
-                page.text([x, f.bottom() + 10.5], Anchor::Middle, SMALL, BLACK, number);
+                page.text([x, f.bottom() + 11.5], Anchor::Middle, SMALL, BLACK, number);
             }
         }
-        page.label([f.left + f.width / 2.0, f.bottom() + 22.5], Anchor::Middle, &self.x.full_label());
+        page.label([f.left + f.width / 2.0, f.bottom() + 23.0], Anchor::Middle, &self.x.full_label());
 
         let (large, small) = self.y.ticks(f.height, 16.0);
         for (value, length) in large.iter().map(|(v, _)| (*v, 3.5)).chain(small.iter().map(|v| (*v, 2.0))) {

@@ -6,17 +6,19 @@ use resvg::usvg::{Group, Node};
 
 use super::style::CENTIMETRE;
 use super::{Figure, OF_A_SCENE, Subject, all, png};
-use crate::scene_file::{BUILT_IN, Scene};
+use crate::scene_file::Scene;
 
 /// Points in a CSS pixel, the unit of a resolved SVG.
 const POINTS: f32 = 0.75;
 
-/// The figures of the paper and of every built-in scene, drawn once.
+/// Scenes unlike the paper's examples.
+const SCENES: [&str; 3] = ["prolate", "free", "through-the-pole"];
+
+/// The figures of the paper and of some scenes, drawn once.
 static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
     let mut figures = all().unwrap();
-    for built_in in BUILT_IN {
-        let scene = Scene::from_toml(built_in.name, built_in.toml).unwrap();
-        let motion = [Subject::of_scene(built_in.name, &scene).unwrap()];
+    for name in SCENES {
+        let motion = [Subject::of_scene(name, &Scene::named(name).unwrap()).unwrap()];
         figures.extend(OF_A_SCENE.iter().map(|recipe| recipe.draw(&motion).unwrap()));
     }
     figures

@@ -4,28 +4,34 @@
 //! a curve shows is in the figure's tables.
 
 mod alignment;
+mod alignment_spectra;
 mod axes;
 mod beam_cone;
 mod contour;
 mod euler_angles;
+mod examples;
 #[cfg(test)]
 mod layout_tests;
 mod markup;
 mod momentum_sphere;
 mod motion;
+mod parameters;
 mod png;
 mod pulse_series;
 mod regime_map;
+mod spectrum;
 mod sphere;
 mod style;
 mod subject;
 mod svg;
 mod table;
+mod wave_spectra;
 mod waves;
 
+pub use examples::examples;
 pub use markup::{html, markdown, plain};
 pub use png::png;
-pub use subject::{LineOfSight, Shown, Start, Subject, examples};
+pub use subject::{Shown, Start, Subject};
 pub use table::Table;
 
 /// A figure: its drawing, its data and what there is to say about it.
@@ -70,8 +76,16 @@ impl Caption {
 enum Maker {
     /// Nothing but itself.
     Alone(fn() -> Result<Sheet, String>),
-    /// Motions: those of the paper's examples with the given places, or one of a scene.
-    Motions(&'static [usize], fn(&str, &[&Subject]) -> Result<Sheet, String>),
+    /// Motions with what the figure shows of them: those of the paper's examples with the given places, or one of a scene.
+    Motions(Needs, &'static [usize], fn(&str, &[&Subject]) -> Result<Sheet, String>),
+}
+
+/// What a figure of a motion needs beside it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Needs {
+    Nothing,
+    Observer,
+    ObserverAndBeam,
 }
 
 /// What a maker makes.
@@ -123,25 +137,25 @@ pub const RECIPES: &[Recipe] = &[
         name: "motion-tp-1",
         paper_figure: Some(2),
         summary: "Example I of twofold precession: Euler angles and the paths of the body axes",
-        maker: Maker::Motions(&[0], motion::sheet),
+        maker: Maker::Motions(Needs::Nothing, &[0], motion::sheet),
     },
     Recipe {
         name: "motion-tp-2",
         paper_figure: Some(3),
         summary: "Example II of twofold precession: Euler angles and the paths of the body axes",
-        maker: Maker::Motions(&[1], motion::sheet),
+        maker: Maker::Motions(Needs::Nothing, &[1], motion::sheet),
     },
     Recipe {
         name: "motion-sp-1",
         paper_figure: Some(4),
         summary: "Example I of single precession: Euler angles and the paths of the body axes",
-        maker: Maker::Motions(&[2], motion::sheet),
+        maker: Maker::Motions(Needs::Nothing, &[2], motion::sheet),
     },
     Recipe {
         name: "motion-sp-2",
         paper_figure: Some(5),
         summary: "Example II of single precession: Euler angles and the paths of the body axes",
-        maker: Maker::Motions(&[3], motion::sheet),
+        maker: Maker::Motions(Needs::Nothing, &[3], motion::sheet),
     },
     Recipe {
         name: "euler-angles-yzx",
@@ -159,19 +173,31 @@ pub const RECIPES: &[Recipe] = &[
         name: "beam-alignment",
         paper_figure: Some(8),
         summary: "Cosine of the angle between beam and line of sight in time, tp-I and tp-II",
-        maker: Maker::Motions(&[0, 1], alignment::sheet),
+        maker: Maker::Motions(Needs::ObserverAndBeam, &[0, 1], alignment::sheet),
+    },
+    Recipe {
+        name: "beam-alignment-spectra",
+        paper_figure: Some(9),
+        summary: "Spectra of the cosine of the angle between beam and line of sight, tp-I and tp-II",
+        maker: Maker::Motions(Needs::ObserverAndBeam, &[0, 1], alignment_spectra::sheet),
     },
     Recipe {
         name: "pulse-series",
         paper_figure: Some(10),
         summary: "Periods and lengths of the pulses of tp-I and tp-II, with the curves of Eqs. (51), (56)",
-        maker: Maker::Motions(&[0, 1], pulse_series::sheet),
+        maker: Maker::Motions(Needs::ObserverAndBeam, &[0, 1], pulse_series::sheet),
     },
     Recipe {
         name: "waves",
         paper_figure: Some(11),
         summary: "Gravitational waves h_+ and h_x of tp-I and tp-II in time",
-        maker: Maker::Motions(&[0, 1], waves::sheet),
+        maker: Maker::Motions(Needs::Observer, &[0, 1], waves::sheet),
+    },
+    Recipe {
+        name: "wave-spectra",
+        paper_figure: Some(12),
+        summary: "Spectra of the gravitational waves of tp-I and tp-II, with the third harmonic enlarged",
+        maker: Maker::Motions(Needs::Observer, &[0, 1], wave_spectra::sheet),
     },
     Recipe {
         name: "perturbation-regimes",
@@ -183,7 +209,7 @@ pub const RECIPES: &[Recipe] = &[
         name: "momentum-sphere",
         paper_figure: None,
         summary: "Directions of the angular momentum: contours, separatrix and paths of the examples",
-        maker: Maker::Motions(&[0, 1, 2, 3], momentum_sphere::sheet),
+        maker: Maker::Motions(Needs::Nothing, &[0, 1, 2, 3], momentum_sphere::sheet),
     },
 ];
 
@@ -193,29 +219,51 @@ pub const OF_A_SCENE: &[Recipe] = &[
         name: "motion",
         paper_figure: None,
         summary: "Euler angles and the paths of the body axes",
-        maker: Maker::Motions(&[0], motion::sheet),
+        maker: Maker::Motions(Needs::Nothing, &[0], motion::sheet),
     },
     Recipe {
         name: "beam-alignment",
         paper_figure: None,
         summary: "Cosine of the angle between beam and line of sight in time",
-        maker: Maker::Motions(&[0], alignment::sheet),
+        maker: Maker::Motions(Needs::ObserverAndBeam, &[0], alignment::sheet),
+    },
+    Recipe {
+        name: "beam-alignment-spectra",
+        paper_figure: None,
+        summary: "Spectrum of the cosine of the angle between beam and line of sight",
+        maker: Maker::Motions(Needs::ObserverAndBeam, &[0], alignment_spectra::sheet),
     },
     Recipe {
         name: "pulse-series",
         paper_figure: None,
         summary: "Periods and lengths of the pulses",
-        maker: Maker::Motions(&[0], pulse_series::sheet),
+        maker: Maker::Motions(Needs::ObserverAndBeam, &[0], pulse_series::sheet),
     },
     Recipe {
         name: "waves",
         paper_figure: None,
         summary: "Gravitational waves h_+ and h_x in time",
-        maker: Maker::Motions(&[0], waves::sheet),
+        maker: Maker::Motions(Needs::Observer, &[0], waves::sheet),
+    },
+    Recipe {
+        name: "wave-spectra",
+        paper_figure: None,
+        summary: "Spectra of the gravitational waves",
+        maker: Maker::Motions(Needs::Observer, &[0], wave_spectra::sheet),
     },
 ];
 
 impl Recipe {
+    /// The section of a scene file that the figure needs and a motion lacks.
+    pub fn lacks(&self, motion: &Subject) -> Option<&'static str> {
+        let Maker::Motions(needs, ..) = self.maker else { return None };
+        match needs {
+            Needs::Observer | Needs::ObserverAndBeam if motion.observer.is_none() => Some("observer"),
+            Needs::ObserverAndBeam if motion.pulsar.is_none() => Some("pulsar"),
+            _ => None,
+        }
+    }
+
     /// Draws the figure: those of [`RECIPES`] with the [`examples`], those of [`OF_A_SCENE`] with one motion.
     ///
     /// # Errors
@@ -223,7 +271,7 @@ impl Recipe {
     pub fn draw(&self, motions: &[Subject]) -> Result<Figure, String> {
         let sheet = match self.maker {
             Maker::Alone(make) => make(),
-            Maker::Motions(places, make) => {
+            Maker::Motions(_, places, make) => {
                 let chosen: Option<Vec<_>> = places.iter().map(|&i| motions.get(i)).collect();
                 chosen.ok_or("a motion is missing".to_owned()).and_then(|chosen| make(self.name, &chosen))
             }

@@ -8,7 +8,7 @@ use super::sphere::{View, arc};
 use super::style::{
     BLACK, BLUE, COLUMN, GREEN, GREY, LIGHT, Line, ORANGE, PURPLE, VERMILION, dash_dotted, dashed, solid,
 };
-use super::subject::{LineOfSight, Start, Subject, times};
+use super::subject::{Start, Subject, times};
 use super::svg::Page;
 use super::table::Table;
 use super::{Caption, Sheet};
@@ -51,7 +51,7 @@ fn near_separatrix() -> Result<Subject, String> {
     let state = BodyState { axis, momentum: axis * (spheroid.inertia_zz * SPIN), equatorial_axis: Vector3::x() };
     let angles = state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 });
     let start = Start { spheroid, violation: COEFFICIENTS.tensor(), state, angles };
-    Subject::new("near Y", start, SPAN, LineOfSight::PAPER)
+    Subject::new("near Y", start, SPAN)
 }
 
 /// The two closed lines with `l.(s l) = h`: about the axis of the smallest eigenvalue below the middle one, about that of

@@ -1,8 +1,10 @@
 //! Euler angles in time beside perturbation solutions, and the paths of `e_x` and `e_z` on the unit sphere.
 
 use nalgebra::Vector3;
+use twofold::solutions::perturbation::Perturbation;
 
 use super::axes::{Axis, BELOW, LEFT, Panel, Sample, heading, legend_row};
+use super::parameters::parameters;
 use super::sphere::View;
 use super::style::{BLACK, BLUE, GREEN, Line, PAGE, VERMILION, dashed, dotted, solid};
 use super::subject::times;
@@ -23,15 +25,21 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
     Ok(Sheet { svg: draw(name, subject, &tables), caption: caption(subject, &tables[0]), tables })
 }
 
+/// Perturbation solutions with the initial values of the motion, and what they are called.
+fn solutions(subject: &Subject) -> Vec<(&'static str, Perturbation<f64>)> {
+    let both = [("perturbation, printed", subject.printed), ("perturbation, corrected", subject.corrected)];
+    both.into_iter().filter_map(|(name, solution)| Some((name, solution?))).collect()
+}
+
 fn angles(subject: &Subject) -> Result<Table, String> {
     let mut columns = vec!["t [t_c]".to_owned(), "alpha [rad]".to_owned(), "beta [rad]".to_owned()];
-    for (solution, _) in &subject.solutions {
-        columns.extend(["alpha", "beta"].map(|angle| format!("{angle} by {} [rad]", solution.replace(", ", " "))));
+    for (name, _) in solutions(subject) {
+        columns.extend(["alpha", "beta"].map(|angle| format!("{angle} by {} [rad]", name.replace(", ", " "))));
     }
     let mut table = Table::new("angles", columns);
     for (t, angles) in subject.angles(&times(subject.shown.angles, 2000))? {
         let mut row = vec![t, angles.alpha, angles.beta];
-        for (_, solution) in &subject.solutions {
+        for (_, solution) in solutions(subject) {
             let approximate = solution.at(t);
             row.extend([approximate.alpha, approximate.beta]);
         }
@@ -63,7 +71,8 @@ fn draw(name: &str, subject: &Subject, tables: &[Table]) -> String {
         height: panel_height,
     };
     let x = Axis::linear("*t* / *t*_{c}", subject.shown.angles.min(0.0), subject.shown.angles.max(0.0));
-    let columns = |angle: usize| (0..=subject.solutions.len()).map(move |i| 1 + angle + 2 * i);
+    let solutions = solutions(subject);
+    let columns = |angle: usize| (0..=solutions.len()).map(move |i| 1 + angle + 2 * i);
     let range = |angle: usize| {
         // A solution may leave the frame; the motion may not.
         let values = |column: usize| angles.rows.iter().map(move |row| row[column]);
@@ -84,7 +93,7 @@ fn draw(name: &str, subject: &Subject, tables: &[Table]) -> String {
         panel.draw_frame(&mut page);
     }
     heading(&mut page, [LEFT, 12.0], 'a', "");
-    let names = std::iter::once(("numerical", 66.0)).chain(subject.solutions.iter().map(|(name, _)| (*name, 104.0)));
+    let names = std::iter::once(("numerical", 66.0)).chain(solutions.iter().map(|(name, _)| (*name, 104.0)));
     let entries: Vec<_> =
         lines.iter().zip(names).map(|(line, (name, width))| (Sample::Line(*line), name, width)).collect();
     legend_row(&mut page, [LEFT + 18.0, 12.0], &entries);
@@ -113,7 +122,7 @@ fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 fn caption(subject: &Subject, angles: &Table) -> Caption {
     let shown = subject.shown;
-    let errors = subject.solutions.iter().enumerate().map(|(i, (name, _))| {
+    let errors = solutions(subject).into_iter().enumerate().map(|(i, (name, _))| {
         let worst = |column: usize| {
             angles.rows.iter().map(|row| (row[column + 2 * i + 2] - row[column]).abs()).fold(0.0, f64::max)
         };
@@ -132,7 +141,7 @@ fn caption(subject: &Subject, angles: &Table) -> Caption {
              *t* = 0, and what is behind the unit sphere is pale.",
             subject.name, shown.equatorial_axis, shown.angles
         ),
-        parameters: subject.parameters(),
+        parameters: parameters("", &[subject]),
         method: "Numerical: Taylor series of the regular equations of motion, Eq. (25) without its poles. Perturbation: Eqs. \
                  (30)-(33) as printed, and for twofold precession also with the first-order term that Eq. (29) lacks."
             .to_owned(),

@@ -4,18 +4,21 @@ use twofold::observables::pulsar::direction::cosine_of_colatitude;
 use twofold::observables::pulsar::period::{approximate_period, azimuth_offset_rate};
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{PulseTrain, Stamped, pulse_train};
-use twofold::solutions::perturbation::{ShiftedRates, shifted_rates};
+use twofold::solutions::perturbation::{Perturbation, ShiftedRates};
 
 use super::axes::{Axis, BELOW, Mark, Panel, Sample, legend};
+use super::parameters::{line_of_sight, parameters};
 use super::style::{BLACK, BLUE, GREY, Line, PAGE, SMALL, VERMILION, dashed, solid};
 use super::subject::times;
 use super::svg::{Anchor, Page, Rectangle};
 use super::table::Table;
 use super::{Caption, Sheet, Subject};
-use crate::paper_examples::{COEFFICIENTS, SPIN};
 
 const MEAN_RATES: Line = solid(BLUE, 1.0);
 const SHIFTED_RATES: Line = dashed(VERMILION, 1.0);
+
+/// Curves are drawn for an amplitude A below this part of omega.
+const MOST_SWING: f64 = 0.1;
 
 /// Series of one motion, and curves where Eqs. (51), (56) are meant to hold.
 struct Series {
@@ -40,26 +43,26 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
 
 fn series(subject: &Subject) -> Result<Series, String> {
     let message = |error: twofold::Error| format!("{}: {error}", subject.name);
-    let sight = subject.line_of_sight;
+    let (viewer, pulsar) = subject.line_of_sight()?;
     let span = (0.0, subject.shown.pulses);
     let train: PulseTrain =
-        pulse_train(&subject.motion, &sight.beam(), &sight.observer().direction, span).map_err(message)?;
-    let curves = match subject.mean_inclination {
-        // The paper draws curves for tp-I alone: for tp-II the formulas fail.
-        Some(beta_0) if subject.name == "tp-I" => Some(curves(subject, beta_0)?),
-        _ => None,
-    };
+        pulse_train(&subject.motion, &pulsar.beam(), &viewer.basis().direction, span).map_err(message)?;
+    // The formulas take beta for constant: they fail for tp-II, whose A is 0.36 omega.
+    let steady = |solution: &&Perturbation<f64>| solution.constants.amplitude.abs() < MOST_SWING * solution.omega.abs();
+    let twofold = subject.printed.as_ref().filter(|solution| solution.zeroth_rate != 0.0);
+    let curves = twofold.filter(steady).map(|solution| curves(subject, solution)).transpose()?;
     Ok(Series { periods: train.periods().collect(), lengths: train.durations().collect(), curves })
 }
 
 /// Period and length by Eqs. (51) and (56), with the mean rates of the motion and with those of Eq. (57).
-fn curves(subject: &Subject, beta_0: f64) -> Result<Table, String> {
+fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, String> {
     let message = |error: twofold::Error| error.to_string();
-    let (start, sight, end) = (&subject.start, subject.line_of_sight, subject.shown.pulses);
+    let (viewer, pulsar) = subject.line_of_sight()?;
+    let (end, beta_0) = (subject.shown.pulses, solution.constants.beta_0);
     let angles = subject.angles(&[0.0, end])?;
     let [(_, first), (_, last)] = angles[..] else { return Err("the axis is on a pole".into()) };
     let mean = ShiftedRates { alpha: (last.alpha - first.alpha) / end, gamma: (last.gamma - first.gamma) / end };
-    let shifted = shifted_rates(&start.spheroid, &COEFFICIENTS, SPIN, beta_0).map_err(message)?;
+    let shifted = ShiftedRates { alpha: solution.rate, gamma: subject.start.spin() - solution.rate * beta_0.cos() };
     let columns =
         ["mean rates", "Eq. (57)"].iter().flat_map(|r| ["period", "length"].map(|q| format!("{q} by {r} [t_c]")));
     let mut table =
@@ -68,9 +71,9 @@ fn curves(subject: &Subject, beta_0: f64) -> Result<Table, String> {
         let mut row = vec![t];
         for rates in [mean, shifted] {
             let gamma = first.gamma + rates.gamma * t;
-            let offset = azimuth_offset_rate(beta_0, gamma, rates.gamma, sight.chi, sight.delta).map_err(message)?;
-            let theta = cosine_of_colatitude(beta_0, gamma, sight.chi, sight.delta).acos();
-            let length = match pulse_width(sight.rho, theta, sight.theta_o) {
+            let offset = azimuth_offset_rate(beta_0, gamma, rates.gamma, pulsar.chi, pulsar.delta).map_err(message)?;
+            let theta = cosine_of_colatitude(beta_0, gamma, pulsar.chi, pulsar.delta).acos();
+            let length = match pulse_width(pulsar.rho, theta, viewer.theta_o) {
                 PulseWidth::Pulsed(width) => width / (rates.alpha + offset),
                 PulseWidth::AlwaysOn | PulseWidth::NeverOn => 0.0,
             };
@@ -141,7 +144,6 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
 }
 
 fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
-    let sight = subjects[0].line_of_sight;
     let range = |points: &[Stamped]| {
         let values = points.iter().map(|point| point.value);
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
@@ -168,15 +170,7 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
         shows: "Periods (top) and lengths in time (bottom) of the pulses: the period is the time between the midpoints of two \
                 consecutive pulses, at the mean of both midpoints, the length is at its midpoint. Thin grey lines join points."
             .to_owned(),
-        parameters: format!(
-            "*θ*_{{o}} = {}, *φ*_{{o}} = {}, *χ* = {}, *δ* = {}, *ρ* = {} (rad). {}",
-            sight.theta_o,
-            sight.phi_o,
-            sight.chi,
-            sight.delta,
-            sight.rho,
-            subjects.iter().map(|s| format!("{}: {}", s.name, s.parameters())).collect::<Vec<_>>().join(" ")
-        ),
+        parameters: parameters(&line_of_sight(subjects, true), subjects),
         method: "Edges of the pulses: roots of **m** · **n** = cos *ρ*, Eq. (44), along the numerical motion, with bounds that let none be \
                  missed. Curves: Eqs. (51), (52) and (56), the width in azimuth divided by the rate of azimuth, at constant *β*_{0} \
                  and constant rates of *α* and *γ*."

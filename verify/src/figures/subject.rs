@@ -1,52 +1,18 @@
-//! A motion as figures need it, and the paper's four examples.
+//! A motion as figures need it.
 
-use nalgebra::{Matrix3, Matrix4, Vector4};
-use num_dual::Dual64;
-use twofold::dynamics::euler_angle_equations::AxisAngles;
+use std::sync::OnceLock;
+
+use nalgebra::Matrix3;
 use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::Observer;
-use twofold::observables::pulsar::Beam;
+use twofold::euler_angles::EulerAngles;
 use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
-use twofold::scalar::Real;
-use twofold::solutions::perturbation::{Constants, Kind, Perturbation};
+use twofold::solutions::perturbation::Perturbation;
 
-use crate::paper_examples::{COEFFICIENTS, PaperExample, SPIN, paper_examples, spheroid};
-use crate::scene_file::Scene;
+use super::spectrum::{LongMotion, SERIES_ROTATION};
+use crate::scene_file::{Pulsar, Scene, Viewer};
 
 /// Truncation error of the motions, far below what a picture shows; the data of the figures have all their digits.
-const ACCURACY: f64 = 1e-14;
-
-/// Where the observer is and where the beam points; rad.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LineOfSight {
-    /// Colatitude `theta_o` of the observer.
-    pub theta_o: f64,
-    /// Azimuth `phi_o` of the observer.
-    pub phi_o: f64,
-    /// Angle `chi` between the beam and the symmetry axis.
-    pub chi: f64,
-    /// Azimuth `delta` of the beam in the body.
-    pub delta: f64,
-    /// Semi-open angle `rho` of the beam.
-    pub rho: f64,
-}
-
-impl LineOfSight {
-    /// Those of the paper's figures.
-    pub const PAPER: Self = Self { theta_o: 0.8, phi_o: 0.0, chi: 0.5, delta: 0.0, rho: 0.6 };
-
-    /// The observer.
-    pub(super) fn observer(&self) -> Observer<f64> {
-        Observer::at(self.theta_o, self.phi_o)
-    }
-
-    /// The beam.
-    pub(super) fn beam(&self) -> Beam<f64> {
-        Beam::new(self.chi, self.delta, self.rho)
-    }
-}
+pub(super) const ACCURACY: f64 = 1e-14;
 
 /// What a motion starts from. Units of the paper, `I^xx = C = 1`, time in `t_c` since the start.
 #[derive(Debug, Clone)]
@@ -59,6 +25,13 @@ pub struct Start {
     pub state: BodyState<f64>,
     /// Euler angles of that state.
     pub angles: EulerAngles<f64>,
+}
+
+impl Start {
+    /// `Omega^z`.
+    pub(super) fn spin(&self) -> f64 {
+        self.state.momentum.dot(&self.state.axis) / self.spheroid.inertia_zz
+    }
 }
 
 /// How much of a motion the figures show, in `t_c` from the start; none above the span of the motion.
@@ -83,31 +56,39 @@ pub struct Subject {
     pub name: String,
     /// The star and its first state.
     pub start: Start,
-    /// Perturbation solutions with the same initial values, each with its name.
-    pub(super) solutions: Vec<(&'static str, Perturbation<f64>)>,
-    /// Mean inclination `beta_0` by the constants of integration, where the motion is given by them.
-    pub(super) mean_inclination: Option<f64>,
-    /// Observer and beam.
-    pub line_of_sight: LineOfSight,
+    /// The perturbation solution whose constants give the motion, as printed.
+    pub printed: Option<Perturbation<f64>>,
+    /// The corrected solution with the same initial values.
+    pub corrected: Option<Perturbation<f64>>,
+    /// Who looks on.
+    pub observer: Option<Viewer>,
+    /// What shines.
+    pub pulsar: Option<Pulsar>,
     /// How much is shown.
     pub shown: Shown,
     /// The motion.
     pub motion: TaylorMotion<f64>,
+    /// Length of the series of which spectra are taken, t_c.
+    pub(super) spectrum_duration: f64,
+    pub(super) long: OnceLock<Result<LongMotion, String>>,
 }
 
 /// Rotation that figures of any motion show at most (rad): some hundred turns, beyond which curves become a blot.
 const MOST_ROTATION: f64 = 600.0;
 
 impl Subject {
-    /// The motion of `duration` (t_c, forwards or backwards) from a start.
+    /// The motion of `duration` (t_c, forwards or backwards) from a start, without observer and beam.
     ///
     /// Long motions are shown from the start for as long as curves can be told apart.
     ///
     /// # Errors
     /// A motion that cannot be computed.
-    pub fn new(name: &str, start: Start, duration: f64, line_of_sight: LineOfSight) -> Result<Self, String> {
-        let rate = start.state.momentum.norm() / start.spheroid.inertia_xx;
-        let at_most = |rotation: f64| duration.abs().min(rotation / rate.max(1e-12)).copysign(duration);
+    pub fn new(name: &str, start: Start, duration: f64) -> Result<Self, String> {
+        let (spheroid, torque) = (&start.spheroid, start.spheroid.constant_c.abs() * start.violation.norm());
+        // A star at rest turns at the rate of its swing.
+        let swing = (2.0 * torque / spheroid.inertia_xx).sqrt();
+        let rate = (start.state.momentum.norm() / spheroid.inertia_xx).max(swing).max(1.0 / duration.abs());
+        let at_most = |rotation: f64| duration.abs().min(rotation / rate).copysign(duration);
         let all = at_most(MOST_ROTATION);
         let shown = Shown {
             angles: at_most(0.4 * MOST_ROTATION),
@@ -116,10 +97,23 @@ impl Subject {
             waves: at_most(0.25 * MOST_ROTATION),
             pulses: all,
         };
-        Self::showing(name, start, all, line_of_sight, shown)
+        let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, all), ACCURACY)
+            .map_err(|error| format!("{name}: {error}"))?;
+        Ok(Self {
+            name: name.to_owned(),
+            start,
+            printed: None,
+            corrected: None,
+            observer: None,
+            pulsar: None,
+            shown,
+            motion,
+            spectrum_duration: SERIES_ROTATION / rate,
+            long: OnceLock::new(),
+        })
     }
 
-    /// The motion of a scene, with the paper's observer and beam where the scene names none.
+    /// The motion of a scene.
     ///
     /// # Errors
     /// A motion that cannot be computed.
@@ -131,56 +125,39 @@ impl Subject {
             angles: scene.initial_angles,
         };
         let duration = (scene.times.last() - scene.times.start()) / scene.units.time;
-        Self::new(name, start, duration, LineOfSight::PAPER)
+        let motion = Self::new(name, start, duration)?;
+        let printed = scene.perturbation.as_ref().ok().copied();
+        Ok(Self { printed, observer: scene.observer, pulsar: scene.pulsar, ..motion })
     }
 
-    fn showing(
-        name: &str,
-        start: Start,
-        duration: f64,
-        line_of_sight: LineOfSight,
-        shown: Shown,
-    ) -> Result<Self, String> {
-        let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, duration), ACCURACY)
-            .map_err(|error| format!("{name}: {error}"))?;
-        let name = name.to_owned();
-        Ok(Self { name, start, solutions: Vec::new(), mean_inclination: None, line_of_sight, shown, motion })
+    /// The motion over the length of the spectra, computed once.
+    pub(super) fn long_motion(&self) -> Result<&LongMotion, String> {
+        let long = self.long.get_or_init(|| LongMotion::of(self, self.spectrum_duration));
+        long.as_ref().map_err(Clone::clone)
     }
 
-    fn example(example: &PaperExample) -> Result<Self, twofold::Error> {
-        let (spheroid, first) = (spheroid(), example.initial_values()?);
-        let angles = EulerAngles { alpha: first.alpha, beta: first.beta, gamma: 0.0 };
-        let rates = EulerRates {
-            alpha: first.alpha_rate,
-            beta: first.beta_rate,
-            gamma: SPIN - first.alpha_rate * first.beta.cos(),
-        };
-        let state = BodyState::from_angles(&spheroid, &angles, &rates);
-        let start = Start { spheroid, violation: COEFFICIENTS.tensor(), state, angles };
-        let printed = Perturbation::printed(example.kind, &spheroid, &COEFFICIENTS, SPIN, &example.constants)?;
-        let mut solutions = vec![("perturbation, printed", printed)];
-        if example.kind == Kind::Twofold {
-            if let Some(corrected) = corrected_solution(&first, &example.constants)? {
-                solutions.push(("perturbation, corrected", corrected));
-            }
-        }
-        // Single precession goes round once in 90 to 250 t_c, twofold precession in 4.
-        let angles = match example.name {
-            "sp-I" => 200.0,
-            "sp-II" => 500.0,
-            _ => 30.0,
-        };
-        let shown = Shown { angles, equatorial_axis: 40.0, beam: 200.0, waves: 100.0, pulses: 400.0 };
-        let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, 500.0), ACCURACY)?;
-        Ok(Self {
-            name: example.name.to_owned(),
-            start,
-            solutions,
-            mean_inclination: Some(example.constants.beta_0),
-            line_of_sight: LineOfSight::PAPER,
-            shown,
-            motion,
-        })
+    /// The observer.
+    ///
+    /// # Errors
+    /// A motion without one.
+    pub(super) fn viewer(&self) -> Result<Viewer, String> {
+        self.observer.ok_or_else(|| format!("{}: no observer is given", self.name))
+    }
+
+    /// The observer and the beam.
+    ///
+    /// # Errors
+    /// A motion without one of them.
+    pub(super) fn line_of_sight(&self) -> Result<(Viewer, Pulsar), String> {
+        Ok((self.viewer()?, self.pulsar.ok_or_else(|| format!("{}: no beam is given", self.name))?))
+    }
+
+    /// `alpha'` and `|gamma'|` of free precession at the mean inclination, Eq. (48), where the motion is twofold precession
+    /// by its constants.
+    pub(super) fn free_rates(&self) -> Vec<f64> {
+        let twofold = self.printed.filter(|solution| solution.zeroth_rate != 0.0);
+        let gamma = self.start.spheroid.oblateness() * self.start.spin();
+        twofold.map_or(Vec::new(), |solution| vec![solution.zeroth_rate.abs(), gamma.abs()])
     }
 
     /// State at a time of the motion.
@@ -194,90 +171,9 @@ impl Subject {
             .map_err(|error| format!("{}: {error}", self.name))?;
         Ok(times.iter().filter_map(|&t| Some((t, angles.at(t).ok()?))).collect())
     }
-
-    /// The parameters in words.
-    pub(super) fn parameters(&self) -> String {
-        let Start { spheroid, violation, angles, state } = &self.start;
-        let spin = state.momentum.dot(&state.axis) / spheroid.inertia_zz;
-        let rates = state.rates(spheroid).ok();
-        let rate = rates
-            .map_or(String::new(), |r| format!(", d*α*/d*t* = {:.4}, d*β*/d*t* = {:.4}", tidy(r.alpha), tidy(r.beta)));
-        let off_diagonal = [(0, 1), (0, 2), (1, 2)].iter().any(|&place| violation[place] != 0.0);
-        let s = |i: usize| tidy(violation[(i, i)]);
-        let frame = if off_diagonal { " and other components" } else { "" };
-        format!(
-            "*I*^{{zz}}/*I*^{{xx}} = {}, Ω^{{z}} = {}, *s*^{{XX}}, *s*^{{YY}}, *s*^{{ZZ}} = {}, {}, {}{frame}; at *t* = 0: *α* = {:.4}, *β* = {:.4}, \
-             *γ* = {:.4}{rate}. Angles in rad, time in *t*_{{c}}.",
-            tidy(spheroid.inertia_zz / spheroid.inertia_xx),
-            tidy(spin),
-            s(0),
-            s(1),
-            s(2),
-            angles.alpha,
-            angles.beta,
-            angles.gamma,
-        )
-    }
-}
-
-/// The corrected solution that has the initial values `first`, by Newton's method from the constants of the printed one;
-/// none where that does not lead to it.
-fn corrected_solution(
-    first: &AxisAngles<f64>,
-    printed: &Constants<f64>,
-) -> Result<Option<Perturbation<f64>>, twofold::Error> {
-    let wanted = Vector4::new(first.alpha, first.beta, first.alpha_rate, first.beta_rate);
-    // The phase of no amplitude would have no derivative.
-    let mut x = Vector4::new(printed.alpha_0, printed.beta_0, printed.amplitude.max(1e-4), printed.phase);
-    for _ in 0..30 {
-        let mut jacobian = Matrix4::zeros();
-        let mut residual = Vector4::zeros();
-        for i in 0..4 {
-            let number = |j: usize| Dual64::new(x[j], if i == j { 1.0 } else { 0.0 });
-            let q = corrected(number(0), number(1), number(2), number(3))?.at(Dual64::new(0.0, 0.0));
-            let q = [q.alpha, q.beta, q.alpha_rate, q.beta_rate];
-            jacobian.set_column(i, &Vector4::from(q.map(|number| number.eps)));
-            residual = Vector4::from(q.map(|number| number.re)) - wanted;
-        }
-        let Some(inverse) = jacobian.try_inverse() else { return Ok(None) };
-        let step = inverse * residual;
-        x -= step * (0.2 / step.norm()).min(1.0);
-        if step.norm() < 1e-12 {
-            return corrected(x[0], x[1], x[2], x[3]).map(Some);
-        }
-    }
-    Ok(None)
-}
-
-fn corrected<S: Real>(alpha_0: S, beta_0: S, amplitude: S, phase: S) -> Result<Perturbation<S>, twofold::Error> {
-    let constant = S::from_f64;
-    let paper = spheroid();
-    let spheroid = RigidSpheroid {
-        inertia_xx: constant(paper.inertia_xx),
-        inertia_zz: constant(paper.inertia_zz),
-        constant_c: constant(paper.constant_c),
-    };
-    let s = PrincipalCoefficients::new([COEFFICIENTS.xx, COEFFICIENTS.yy, COEFFICIENTS.zz].map(constant));
-    let constants = Constants { alpha_0, beta_0, amplitude, phase };
-    Perturbation::corrected_twofold(&spheroid, &s, constant(SPIN), &constants)
-}
-
-/// A number without the rounding of its last digits, and zero without a sign.
-fn tidy(x: f64) -> f64 {
-    let rounded = (x * 1e10).round() / 1e10;
-    if rounded == 0.0 { 0.0 } else { rounded }
 }
 
 /// `count + 1` times from zero to `end`.
 pub(super) fn times(end: f64, count: usize) -> Vec<f64> {
     (0..=count).map(|i| end * i as f64 / count as f64).collect()
-}
-
-/// The paper's four examples, in its order.
-///
-/// # Errors
-/// None for the four examples.
-pub fn examples() -> Result<[Subject; 4], String> {
-    let [a, b, c, d] = paper_examples().map(|example| Subject::example(&example).map_err(|error| error.to_string()));
-    Ok([a?, b?, c?, d?])
 }

@@ -4,6 +4,7 @@ use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
 use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
 
 use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::parameters::{line_of_sight, parameters};
 use super::style::{BLUE, PAGE, VERMILION, solid};
 use super::subject::times;
 use super::svg::{Page, Rectangle};
@@ -19,7 +20,7 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
 pub(super) fn wave(subject: &Subject, t: f64) -> Result<Polarizations<f64>, String> {
     let (start, state) = (&subject.start, subject.state(t)?);
     let source = spheroid_inertia_acceleration(&start.spheroid, &start.violation, &state.axis, &state.momentum);
-    Ok(polarizations(&subject.line_of_sight.observer(), &metric_perturbation(1.0, &source)))
+    Ok(polarizations(&subject.viewer()?.basis(), &metric_perturbation(1.0, &source)))
 }
 
 fn waves(subject: &Subject) -> Result<Table, String> {
@@ -64,17 +65,11 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
 }
 
 fn caption(subjects: &[&Subject]) -> Caption {
-    let sight = subjects[0].line_of_sight;
     Caption {
         shows: "Quadrupole waves *h*_{+} and *h*_{×} at the observer in time; *h* *r* / *I*^{*xx*} counts multiples of \
                 *G* / (*c*^{4} *t*_{c}^{2})."
             .to_owned(),
-        parameters: format!(
-            "*θ*_{{o}} = {}, *φ*_{{o}} = {} (rad). {}",
-            sight.theta_o,
-            sight.phi_o,
-            subjects.iter().map(|s| format!("{}: {}", s.name, s.parameters())).collect::<Vec<_>>().join(" ")
-        ),
+        parameters: parameters(&line_of_sight(subjects, false), subjects),
         method: "Numerical motion; second time derivative of the moment of inertia, Eqs. (64), (65), in the form for a spheroid; \
                  *h*^{*IJ*} by Eq. (59) and the polarizations by Eqs. (69)-(71)."
             .to_owned(),

@@ -12,13 +12,15 @@ enum Pick {
     At(f64),
     /// That of the row whose first two columns are this and, in size, nearest to that.
     Of(f64, f64),
+    /// That of the row with this place.
+    Row(usize),
     First,
     Last,
     Least,
     Most,
 }
 
-use Pick::{At, First, Last, Least, Most, Of};
+use Pick::{At, First, Last, Least, Most, Of, Row};
 
 /// Numbers of one column of a table, columns counted from zero.
 type Numbers = (&'static str, usize, &'static [Pick]);
@@ -38,6 +40,16 @@ const NUMBERS: &[(&str, &str, &[Numbers])] = &[
         &[
             ("tp-I", 1, &[First, At(50.0), At(100.0), Last, Least, Most]),
             ("tp-II", 1, &[First, At(50.0), At(100.0), Last, Least, Most]),
+        ],
+    ),
+    (
+        "beam-alignment-spectra",
+        "figure_beam_alignment_spectra",
+        &[
+            ("tp-I-lines", 0, &[Row(0), Row(1), Row(2), Row(3)]),
+            ("tp-I-lines", 1, &[Row(0), Row(1), Row(2), Row(3)]),
+            ("tp-II-lines", 0, &[Row(0), Row(1), Row(2), Row(3), Row(4)]),
+            ("tp-II-lines", 1, &[Row(0), Row(1), Row(2)]),
         ],
     ),
     (
@@ -62,6 +74,17 @@ const NUMBERS: &[(&str, &str, &[Numbers])] = &[
             ("tp-I", 2, &[At(50.0), Last, Most]),
             ("tp-II", 1, &[First, At(50.0), Last, Most]),
             ("tp-II", 2, &[At(50.0), Last, Most]),
+        ],
+    ),
+    (
+        "wave-spectra",
+        "figure_wave_spectra",
+        &[
+            ("tp-I-plus-lines", 0, &[Row(0), Row(1), Row(2)]),
+            ("tp-I-plus-lines", 1, &[Row(0), Row(1), Row(2)]),
+            ("tp-I-cross-lines", 1, &[Row(0), Row(1), Row(2)]),
+            ("tp-II-plus-lines", 0, &[Row(0), Row(1), Row(7)]),
+            ("tp-II-plus-lines", 1, &[Row(0), Row(1), Row(7)]),
         ],
     ),
     (
@@ -138,8 +161,12 @@ fn table(
             lines.push(line(table, *column, *pick).ok_or(format!("{name}: {} is empty", table.name))?);
         }
     }
-    // Errors of approximations are shown to three digits, as in the tables of regimes.
-    let digits = if name == "perturbation-regimes" { 3 } else { 9 };
+    // Errors of approximations to three digits, as in the tables of regimes; lines, which are fitted, to six.
+    let digits = match name {
+        "perturbation-regimes" => 3,
+        "beam-alignment-spectra" | "wave-spectra" => 6,
+        _ => 9,
+    };
     lines.iter_mut().for_each(|line| line.digits = digits);
     Ok(GoldenTable { name: snapshot, title: figure_title(figure), lines })
 }
@@ -154,6 +181,7 @@ fn line(table: &Table, column: usize, pick: Pick) -> Option<GoldenLine> {
         |distance: &dyn Fn(&Vec<f64>) -> f64| table.rows.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let by_value = |a: &&Vec<f64>, b: &&Vec<f64>| a[column].total_cmp(&b[column]);
     let row = match pick {
+        Row(place) => table.rows.get(place),
         First => table.rows.first(),
         Last => table.rows.last(),
         Least => table.rows.iter().min_by(by_value),
@@ -167,6 +195,7 @@ fn line(table: &Table, column: usize, pick: Pick) -> Option<GoldenLine> {
         Of(..) => format!("at {:.4}, {:.4e}", row[0], row[1]),
         // A table of vectors has no time.
         _ if table.columns[0].starts_with("t [") => format!("at t = {:.3}", row[0]),
+        Row(place) => format!("of line {}", place + 1),
         First => "first".to_owned(),
         _ => "last".to_owned(),
     };

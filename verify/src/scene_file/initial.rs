@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use twofold::dynamics::BodyState;
 use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::solutions::perturbation::{Constants, Kind, initial_values};
+use twofold::solutions::perturbation::{Constants, Kind, Perturbation, initial_values};
 
 use super::error::Fault;
 use super::section::Section;
@@ -14,12 +14,17 @@ use super::violation::Violation;
 const ANGLES: [&str; 5] = ["alpha", "beta", "gamma", "alpha_rate", "beta_rate"];
 const CONSTANTS: [&str; 6] = ["kind", "alpha_0", "beta_0", "amplitude", "phase", "gamma"];
 
-/// The state in the frame of the file, in the paper's units, and its Euler angles.
-pub(super) fn read(
-    section: &Section<'_>,
-    star: &Star,
-    violation: &Violation,
-) -> Result<(BodyState<f64>, EulerAngles<f64>), Fault> {
+/// The start of a motion in the paper's units.
+pub(super) struct Initial {
+    /// State in the frame of the file.
+    pub(super) state: BodyState<f64>,
+    /// Its Euler angles.
+    pub(super) angles: EulerAngles<f64>,
+    /// The printed perturbation solution in the same frame, time from the start, or why there is none.
+    pub(super) perturbation: Result<Perturbation<f64>, &'static str>,
+}
+
+pub(super) fn read(section: &Section<'_>, star: &Star, violation: &Violation) -> Result<Initial, Fault> {
     section.only(&[
         "alpha",
         "beta",
@@ -42,7 +47,7 @@ pub(super) fn read(
     from_constants(section, star, violation)
 }
 
-fn from_angles(section: &Section<'_>, star: &Star) -> Result<(BodyState<f64>, EulerAngles<f64>), Fault> {
+fn from_angles(section: &Section<'_>, star: &Star) -> Result<Initial, Fault> {
     let angles = EulerAngles {
         alpha: section
             .required("alpha", "precession angle [rad], or `initial.kind` for the paper's constants")?
@@ -58,14 +63,10 @@ fn from_angles(section: &Section<'_>, star: &Star) -> Result<(BodyState<f64>, Eu
     let rates = rates(star, &angles, alpha_rate, beta_rate);
     let state = BodyState::from_angles(&star.spheroid, &angles, &rates);
     refuse_overflow(section, &state)?;
-    Ok((state, angles))
+    Ok(Initial { state, angles, perturbation: Err("[initial] gives angles and no constants (`initial.kind`)") })
 }
 
-fn from_constants(
-    section: &Section<'_>,
-    star: &Star,
-    violation: &Violation,
-) -> Result<(BodyState<f64>, EulerAngles<f64>), Fault> {
+fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> Result<Initial, Fault> {
     let kind_entry = section.required("kind", "\"twofold\" or \"single\"")?;
     let kind = match kind_entry.word(&["twofold", "single"])? {
         "twofold" => Kind::Twofold,
@@ -104,11 +105,15 @@ fn from_constants(
     let state = BodyState::from_angles(&star.spheroid, &principal, &rates);
     refuse_overflow(section, &state)?;
     if violation.principal_from_given.is_identity(0.0) {
-        return Ok((state, principal));
+        let (body, s) = (&star.spheroid, &violation.coefficients);
+        let perturbation = Perturbation::printed(kind, body, s, star.spin, &constants)
+            .map_err(|error| section.fault(format!("[initial] has no solution: {error}")))?;
+        return Ok(Initial { state, angles: principal, perturbation: Ok(perturbation) });
     }
     let state = state.rotated(&violation.principal_from_given.transpose());
     let angles = state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: state.axis.z.acos(), gamma: 0.0 });
-    Ok((state, angles))
+    let perturbation = Err("its angles are those of the principal frame, which is not the frame of this file");
+    Ok(Initial { state, angles, perturbation })
 }
 
 /// Rates with `gamma' = Omega^z - alpha' cos(beta)`, Eq. (24) `[firstint]`.

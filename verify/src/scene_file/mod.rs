@@ -6,6 +6,7 @@
 mod built_in;
 mod error;
 mod initial;
+mod observer;
 mod output;
 mod section;
 mod star;
@@ -21,11 +22,14 @@ use toml::de::DeTable;
 use twofold::dynamics::regular_equations::angular_velocity;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::EulerAngles;
+use twofold::solutions::perturbation::Perturbation;
+
+use crate::columns::{self, ColumnGroup};
 
 pub use built_in::{BUILT_IN, BuiltIn};
 use error::Fault;
 pub use error::SceneError;
-pub use output::ColumnGroup;
+pub use observer::{Pulsar, Viewer};
 use section::Section;
 pub(crate) use section::nearest;
 pub use star::Units;
@@ -52,8 +56,14 @@ pub struct Scene {
     pub initial_angles: EulerAngles<f64>,
     /// Times of the output, in units of the output.
     pub times: Times,
+    /// Who looks on, where the file says so.
+    pub observer: Option<Viewer>,
+    /// What shines, where the file says so.
+    pub pulsar: Option<Pulsar>,
+    /// The perturbation solution of the scene's constants as printed, with time from the start in t_c, or why there is none.
+    pub perturbation: Result<Perturbation<f64>, &'static str>,
     /// Columns of the output, in its order.
-    pub columns: Vec<ColumnGroup>,
+    pub columns: Vec<&'static ColumnGroup>,
     /// Truncation error wanted at the end of the span.
     pub accuracy: f64,
     /// Units of the file and of the output.
@@ -88,27 +98,36 @@ impl Scene {
     }
 
     fn from_document(document: &Section<'_>) -> Result<Self, Fault> {
-        document.only(&["about", "star", "lorentz_violation", "initial", "time", "output"])?;
+        document.only(&["about", "star", "lorentz_violation", "initial", "observer", "pulsar", "time", "output"])?;
         let about = document.optional("about").map(|entry| entry.string()).transpose()?.unwrap_or("").to_owned();
         let star_section = document.required_section("star", "the spheroid and its spin")?;
         let star = star::read(&star_section)?;
         let violation = violation::read(&document.required_section("lorentz_violation", "the coefficients s^IJ")?)?;
         let initial_section = document.required_section("initial", "the initial orientation and motion")?;
-        let (initial, initial_angles) = initial::read(&initial_section, &star, &violation)?;
+        let initial = initial::read(&initial_section, &star, &violation)?;
+        let observer = document.section("observer")?;
+        let observer = observer.map(|section| observer::read_observer(&section, &star.units)).transpose()?;
+        let pulsar = document.section("pulsar")?.map(|section| observer::read_pulsar(&section)).transpose()?;
         let time_section = document.required_section("time", "the times of the output")?;
         let times = time::read(&time_section)?;
-        let output = output::read(document.section("output")?.as_ref())?;
-        let scene = Scene {
+        let output = document.section("output")?;
+        let mut scene = Scene {
             about,
             spheroid: star.spheroid,
             violation: violation.tensor,
-            initial,
-            initial_angles,
+            initial: initial.state,
+            initial_angles: initial.angles,
             times,
-            columns: output.columns,
-            accuracy: output.accuracy,
+            observer,
+            pulsar,
+            perturbation: initial.perturbation,
+            columns: columns::of_the_motion(),
+            accuracy: output::DEFAULT_ACCURACY,
             units: star.units,
         };
+        if let Some(output) = &output {
+            output::read(output, &mut scene)?;
+        }
         let rotation = scene.rotation();
         if rotation <= LARGEST_ROTATION {
             return Ok(scene);

@@ -1,74 +1,66 @@
 //! The section `[output]`.
 
+use super::Scene;
 use super::error::Fault;
 use super::section::Section;
+use crate::columns::{self, ColumnGroup};
 
-/// Columns that belong together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ColumnGroup {
-    /// Euler angles.
-    Angles,
-    /// Rates of the Euler angles.
-    Rates,
-    /// Equatorial body axis.
-    EquatorialAxis,
-    /// Symmetry axis.
-    SymmetryAxis,
-    /// Angular momentum.
-    Momentum,
-    /// The three first integrals.
-    Integrals,
-}
+pub(super) const DEFAULT_ACCURACY: f64 = 1e-13;
 
-impl ColumnGroup {
-    /// All groups in the order of the columns.
-    pub const ALL: [Self; 6] =
-        [Self::Angles, Self::Rates, Self::EquatorialAxis, Self::SymmetryAxis, Self::Momentum, Self::Integrals];
-
-    /// Name in a scene file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Angles => "angles",
-            Self::Rates => "rates",
-            Self::EquatorialAxis => "e_x",
-            Self::SymmetryAxis => "e_z",
-            Self::Momentum => "L",
-            Self::Integrals => "integrals",
-        }
-    }
-}
-
-pub(super) struct Output {
-    pub(super) columns: Vec<ColumnGroup>,
-    pub(super) accuracy: f64,
-}
-
-const DEFAULT_ACCURACY: f64 = 1e-13;
-
-pub(super) fn read(section: Option<&Section<'_>>) -> Result<Output, Fault> {
-    let Some(section) = section else {
-        return Ok(Output { columns: ColumnGroup::ALL.to_vec(), accuracy: DEFAULT_ACCURACY });
-    };
+/// Reads columns and accuracy into a scene that is complete otherwise.
+pub(super) fn read(section: &Section<'_>, scene: &mut Scene) -> Result<(), Fault> {
     section.only(&["columns", "accuracy"])?;
-    let accuracy = section.optional("accuracy").map_or(Ok(DEFAULT_ACCURACY), |entry| {
-        entry.number_where("a number from 1e-14 to 1e-2", |x| (1e-14..=1e-2).contains(&x))
-    })?;
-    let Some(list) = section.optional("columns") else {
-        return Ok(Output { columns: ColumnGroup::ALL.to_vec(), accuracy });
-    };
-    let names = ColumnGroup::ALL.map(ColumnGroup::name);
+    if let Some(entry) = section.optional("accuracy") {
+        scene.accuracy = entry.number_where("a number from 1e-14 to 1e-2", |x| (1e-14..=1e-2).contains(&x))?;
+    }
+    let Some(list) = section.optional("columns") else { return Ok(()) };
+    let names: Vec<_> = columns::ALL.iter().map(|group| group.name).collect();
     let allowed = format!("a list of different names out of \"{}\"", names.join("\", \""));
     let entries = list.list(&allowed)?;
     if entries.is_empty() {
         return Err(list.refuse(&allowed));
     }
-    let mut wanted = Vec::new();
+    let mut wanted: Vec<&'static ColumnGroup> = Vec::new();
     for entry in &entries {
         let name = entry.word(&names)?;
-        if wanted.contains(&name) {
+        let Some(group) = columns::named(name) else { return Err(entry.refuse(&allowed)) };
+        if wanted.contains(&group) {
             return Err(entry.refuse(&allowed));
         }
-        wanted.push(name);
+        group.available_in(scene).map_err(|why| entry.refuse_because(&why))?;
+        wanted.push(group);
     }
-    Ok(Output { columns: ColumnGroup::ALL.into_iter().filter(|c| wanted.contains(&c.name())).collect(), accuracy })
+    scene.columns = columns::in_order(&wanted);
+    Ok(())
+}
+
+impl Scene {
+    /// Replaces the columns by the groups called `names`.
+    ///
+    /// # Errors
+    /// A sentence about a name that is unknown or comes twice, or about a group that needs what the scene lacks.
+    pub fn choose_columns(&mut self, names: &[&str]) -> Result<(), String> {
+        let mut wanted: Vec<&'static ColumnGroup> = Vec::new();
+        for &name in names {
+            let Some(group) = columns::named(name) else {
+                let known: Vec<_> = columns::ALL.iter().map(|group| group.name).collect();
+                let guess = super::nearest(name, &known).map(|near| format!(" Did you mean `{near}`?"));
+                return Err(format!(
+                    "`{name}` is no group of columns; allowed are {}.{}",
+                    super::section::listed(&known),
+                    guess.unwrap_or_default()
+                ));
+            };
+            if wanted.contains(&group) {
+                return Err(format!("`{name}` comes twice"));
+            }
+            group.available_in(self).map_err(|why| format!("`{name}`: {why}"))?;
+            wanted.push(group);
+        }
+        if wanted.is_empty() {
+            return Err("no group of columns is named".into());
+        }
+        self.columns = columns::in_order(&wanted);
+        Ok(())
+    }
 }

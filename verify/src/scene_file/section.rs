@@ -113,8 +113,13 @@ impl<'a> Section<'a> {
 impl<'a> Entry<'a> {
     /// A refusal of the value.
     pub(crate) fn refuse(&self, allowed: &str) -> Fault {
+        self.refuse_because(&format!("allowed is {allowed}"))
+    }
+
+    /// A refusal of the value for a reason that lies elsewhere in the scene.
+    pub(crate) fn refuse_because(&self, why: &str) -> Fault {
         let written = self.text.get(self.span.clone()).unwrap_or("");
-        Fault::at(self.span.clone(), format!("`{}` = {}: allowed is {allowed}", self.key, shortened(written)))
+        Fault::at(self.span.clone(), format!("`{}` = {}: {why}", self.key, shortened(written)))
     }
 
     /// A finite number.
@@ -148,6 +153,14 @@ impl<'a> Entry<'a> {
         }
         .filter(|n| (low..=high).contains(n))
         .ok_or_else(|| self.refuse(&format!("a whole number from {low} to {high}")))
+    }
+
+    /// `true` or `false`.
+    pub(crate) fn boolean(&self) -> Result<bool, Fault> {
+        match self.value {
+            DeValue::Boolean(value) => Ok(*value),
+            _ => Err(self.refuse("true or false")),
+        }
     }
 
     /// A string.

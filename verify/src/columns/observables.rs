@@ -1,0 +1,74 @@
+//! Columns of what an observer measures.
+
+use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::observables::gravitational_wave::{metric_perturbation, polarizations, strain_unit};
+use twofold::observables::spin_axis::{cos_lambda, cos_lambda_rate};
+
+use super::{ColumnGroup, Need, with_unit};
+use crate::scene_file::{Scene, Units};
+
+/// Eq. (37): the angle between the symmetry axis and the direction to the observer.
+pub(super) const LAMBDA: ColumnGroup = ColumnGroup {
+    name: "lambda",
+    needs: &[Need::Observer],
+    counts_turns: false,
+    header: |units| value_and_rate("cos_lambda", units),
+    values: |scene, moment| {
+        let direction = scene.observer?.basis().direction;
+        let (axis, momentum) = (&moment.state.axis, &moment.state.momentum);
+        let rate = cos_lambda_rate(&scene.spheroid, &direction, axis, momentum);
+        Some(vec![cos_lambda(&direction, axis), rate / scene.units.time])
+    },
+};
+
+/// Eq. (47).
+pub(super) const LINE_OF_SIGHT: ColumnGroup = ColumnGroup {
+    name: "m.n",
+    needs: &[Need::Observer, Need::Pulsar],
+    counts_turns: false,
+    header: |units| value_and_rate("m.n", units),
+    values: |scene, moment| {
+        let (beam, direction) = (scene.pulsar?.beam(), scene.observer?.basis().direction);
+        let [_, rate, _] = beam.margin_rates(&scene.spheroid, &scene.violation, &moment.state, &direction);
+        Some(vec![beam.direction(&moment.state).dot(&direction), rate / scene.units.time])
+    },
+};
+
+/// Eq. (49), by the components of `m`, which are regular where the Euler angles are not.
+pub(super) const MAGNETIC_AXIS: ColumnGroup = ColumnGroup {
+    name: "magnetic_axis",
+    needs: &[Need::Pulsar],
+    counts_turns: false,
+    header: |_| with_unit(&["Theta", "Phi"], "rad"),
+    values: |scene, moment| {
+        let m = scene.pulsar?.beam().direction(&moment.state);
+        let across = m.x.hypot(m.y);
+        (across > f64::EPSILON).then(|| vec![across.atan2(m.z), m.y.atan2(m.x)])
+    },
+};
+
+/// Eq. (71): in the paper's units at r = 1, for a physical star the strain at its distance.
+pub(super) const STRAIN: ColumnGroup = ColumnGroup {
+    name: "h",
+    needs: &[Need::Observer, Need::Distance],
+    counts_turns: false,
+    header: |_| with_unit(&["h_plus", "h_cross"], "1"),
+    values: |scene, moment| {
+        let observer = scene.observer?;
+        let (axis, momentum) = (&moment.state.axis, &moment.state.momentum);
+        let acceleration = spheroid_inertia_acceleration(&scene.spheroid, &scene.violation, axis, momentum);
+        let h = polarizations(&observer.basis(), &metric_perturbation(1.0, &acceleration));
+        let unit = observer.distance.map_or(1.0, |distance| strain_of_scene(scene, distance));
+        Some(vec![h.plus * unit, h.cross * unit])
+    },
+};
+
+/// The strain of `h = 1` at a distance in m. The unit of angular momentum of a physical star is `I^xx / t_c` in g cm^2/s.
+fn strain_of_scene(scene: &Scene, distance: f64) -> f64 {
+    let units = &scene.units;
+    strain_unit(units.momentum * units.time * 1e-7, units.time, distance)
+}
+
+fn value_and_rate(name: &str, units: &Units) -> Vec<String> {
+    vec![format!("{name} [1]"), format!("{name}_rate [1/{}]", units.time_name)]
+}

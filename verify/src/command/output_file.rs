@@ -1,0 +1,89 @@
+//! A file that appears under its name only when it is complete.
+
+use std::fs::{self, File};
+use std::io::{self, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::process;
+
+use tempfile::NamedTempFile;
+
+use super::Failure;
+
+/// Status of a command ended by an interrupt, by the shells' convention.
+const INTERRUPTED: i32 = 130;
+
+/// On an interrupt (Ctrl-C), hang-up or request to terminate, removes what is not complete, says what is left and ends the
+/// process. Where one of these is ignored already (`nohup`), all are left as they are.
+pub(super) fn on_interrupt(left: &'static str, mut remove: impl FnMut() + Send + 'static) {
+    let _ = ctrlc::try_set_handler(move || {
+        remove();
+        // The terminal's line has the bar and ^C on it.
+        let line_end = if io::stderr().is_terminal() { "\n" } else { "" };
+        let _ = writeln!(io::stderr(), "{line_end}error: interrupted: {left}");
+        process::exit(INTERRUPTED);
+    });
+}
+
+/// A file that appears under its name only when it is complete.
+pub(super) struct OutputFile {
+    path: PathBuf,
+    temporary: NamedTempFile,
+    replace: bool,
+}
+
+impl OutputFile {
+    /// Starts a temporary file in the folder of `path`.
+    pub(super) fn beside(path: &Path, replace: bool) -> Result<Self, Failure> {
+        let refuse = |why: String| Failure::BadInput(format!("--out {}: {why}", path.display()));
+        if path == Path::new("-") {
+            return Err(refuse("is not standard output here: leave --out away, or write ./- for a file".into()));
+        }
+        match fs::metadata(path) {
+            Ok(found) if !found.is_file() => return Err(refuse("exists and is not a regular file".into())),
+            Ok(_) if !replace => return Err(refuse("exists; --force replaces it".into())),
+            Err(_) if !replace && path.is_symlink() => {
+                return Err(refuse("is a link to nothing; --force replaces it".into()));
+            }
+            _ => {}
+        }
+        // A link is followed, so that what it points to is replaced and not the link.
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let Some(name) = path.file_name() else { return Err(refuse("is not the name of a file".into())) };
+        let mut prefix = std::ffi::OsString::from(".");
+        prefix.push(name);
+        prefix.push(".");
+        let temporary = tempfile::Builder::new()
+            .prefix(&prefix)
+            .suffix(".part")
+            .make_in(folder, |part| File::options().write(true).create_new(true).open(part))
+            .map_err(|error| refuse(format!("no file can be made in {}: {error}", folder.display())))?;
+        Ok(Self { path, temporary, replace })
+    }
+
+    /// Removes the temporary file on an interrupt, see [`on_interrupt`].
+    pub(super) fn remove_on_interrupt(&self) {
+        let temporary = self.temporary.path().to_owned();
+        on_interrupt("nothing was written", move || {
+            let _ = fs::remove_file(&temporary);
+        });
+    }
+
+    /// The file to write to.
+    pub(super) fn file(&self) -> &File {
+        self.temporary.as_file()
+    }
+
+    /// Gives the file its name.
+    pub(super) fn complete(self) -> Result<(), Failure> {
+        let named = if self.replace {
+            self.temporary.persist(&self.path)
+        } else {
+            self.temporary.persist_noclobber(&self.path)
+        };
+        match named {
+            Ok(_) => Ok(()),
+            Err(error) => Err(Failure::Failed(format!("{} cannot be written: {}", self.path.display(), error.error))),
+        }
+    }
+}

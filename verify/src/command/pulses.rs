@@ -1,0 +1,32 @@
+//! `twofold pulses`.
+
+use super::run::{read_scene, write};
+use super::{Failure, PulsesArgs, note};
+use crate::trajectory::write_pulses;
+
+pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
+    let scene = read_scene(&args.scene)?;
+    let lacking = |section: &str| {
+        Failure::BadInput(format!(
+            "{}: the scene lacks the section [{section}], without which it has no pulses (docs/scenes.md describes it)",
+            args.scene
+        ))
+    };
+    let viewer = scene.observer.ok_or_else(|| lacking("observer"))?;
+    let mut pulsar = scene.pulsar.ok_or_else(|| lacking("pulsar"))?;
+    pulsar.second_beam |= args.second_beam;
+    let summary =
+        write(&args.output, &scene, |writer, progress| write_pulses(&scene, (&viewer, &pulsar), writer, progress))?;
+    let Some(summary) = summary else { return Ok(()) };
+    for (beam, _) in summary.pulses.iter().enumerate().filter(|(_, pulses)| **pulses == 0) {
+        note(&format!("no pulse of beam {}: the line of sight stays outside it", beam + 1));
+    }
+    if let Some(time) = summary.first_grazing {
+        note(&format!(
+            "the line of sight grazes the edge of a beam {} times, first at t = {time:?} {}: a pulse there, or a gap between \
+             two, is one by rounding",
+            summary.grazings, scene.units.time_name
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,94 @@
+//! Up to what a column of a file may differ, and why so much.
+
+use super::known::KnownFile;
+use super::recompute::Scales;
+
+/// Up to what a column may differ, and why so much.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Allowed {
+    /// Largest difference allowed; none if there is nothing to judge the column by.
+    pub(super) limit: Option<f64>,
+    pub(super) reason: &'static str,
+}
+
+impl Allowed {
+    /// For a series beside one that starts elsewhere.
+    pub(super) const OTHER_START: Self = Self {
+        limit: None,
+        reason: "for information: the file was made from the caption's rounded initial values, not from Eq. (34)",
+    };
+
+    const UNKNOWN: Self = Self { limit: None, reason: "no error of the file itself is known to judge it by" };
+}
+
+/// What is allowed for a column of a file.
+pub(super) fn allowed(known: &KnownFile, column: &str, scales: Option<&Scales>) -> Allowed {
+    let own = |column: &str| own_error(known, column);
+    if let Some(limit) = own(column) {
+        return Allowed {
+            limit: Some(limit),
+            reason: "the file's own error against 34-digit reference motions, to its last digit",
+        };
+    }
+    let Some(scales) = scales else { return Allowed::UNKNOWN };
+    if column.ends_with("Eq. (33)") {
+        return Allowed {
+            limit: Some(ROUNDINGS * scales.phase * f64::EPSILON / 2.0),
+            reason: "Eq. (33) as printed in doubles: 8 roundings of 1.1e-16 of its largest phase",
+        };
+    }
+    let (Some(alpha), Some(beta)) = (own("alpha"), own("beta")) else { return Allowed::UNKNOWN };
+    let &Scales { duration, sin_beta, cos_beta, alpha_rate, beta_rate, .. } = scales;
+    match column {
+        "e_z X" | "e_z Y" => Allowed {
+            limit: Some(sin_beta * alpha + beta),
+            reason: "from the errors of the file's alpha and beta: sin(beta) |d alpha| + |d beta|",
+        },
+        "e_z Z" => {
+            Allowed { limit: Some(sin_beta * beta), reason: "from the error of the file's beta: sin(beta) |d beta|" }
+        }
+        _ => Allowed {
+            limit: Some(
+                alpha + beta + cos_beta * alpha + duration * sin_beta * (beta_rate * alpha + alpha_rate * beta),
+            ),
+            reason: "from the errors of the file's alpha and beta: |d alpha| + |d beta| + |d gamma|, with the largest d gamma \
+                     that gamma' = Omega^z - alpha' cos(beta) allows",
+        },
+    }
+}
+
+/// What is allowed for stamps or values of a series of pulses, from the error of `m.n` and its slowest rate at an edge.
+pub(super) fn allowed_of_series(known: &KnownFile, column: &str, slowest_rate: f64) -> Allowed {
+    let Some(edge) = own_error(known, "m.n").map(|error| error / slowest_rate) else { return Allowed::UNKNOWN };
+    if column == "stamp" {
+        return Allowed {
+            limit: Some(edge),
+            reason: "from the error of the same solver's m.n: |d m.n| over the slowest rate of m.n at an edge of a pulse",
+        };
+    }
+    Allowed { limit: Some(2.0 * edge), reason: "twice that of a stamp: a difference of two times" }
+}
+
+fn own_error(known: &KnownFile, quantity: &str) -> Option<f64> {
+    known.own_errors.iter().find(|(name, _)| *name == quantity).map(|(_, error)| up_to_last_digit(*error))
+}
+
+/// Roundings by which two evaluations of a phase of Eq. (33) can differ: rate, product with the time and sum, four in each.
+const ROUNDINGS: f64 = 8.0;
+
+/// The largest number that two digits give as `error`.
+fn up_to_last_digit(error: f64) -> f64 {
+    error + 10f64.powi(error.log10().floor() as i32 - 1) / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::up_to_last_digit;
+
+    #[test]
+    fn a_number_of_two_digits_stands_for_half_a_unit_more() {
+        for (error, limit) in [(4.8e-7, 4.85e-7), (9.6e-8, 9.65e-8), (2.0e-6, 2.05e-6)] {
+            assert!((up_to_last_digit(error) / limit - 1.0).abs() < 1e-12);
+        }
+    }
+}

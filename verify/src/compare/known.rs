@@ -1,0 +1,99 @@
+//! The authors' files: what each holds, and how far it is known to be off.
+
+/// What a file holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Content {
+    /// Euler angles, numerically and by the perturbation solution, and two body axes.
+    Angles,
+    /// `m.n` and the curves of period and width.
+    Signal,
+    /// Periods of the pulses.
+    Periods,
+    /// Lengths of the pulses in time.
+    Widths,
+    /// Polarizations of the wave.
+    Waves,
+}
+
+/// A column of a file beside its time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Column {
+    pub(super) name: &'static str,
+    pub(super) unit: &'static str,
+}
+
+/// One of the files that the authors published.
+#[derive(Debug)]
+pub(super) struct KnownFile {
+    pub(super) name: &'static str,
+    pub(super) content: Content,
+    /// Name of the example.
+    pub(super) example: &'static str,
+    /// Rows of the published file.
+    pub(super) rows: usize,
+    /// Quantities of which it is known by how much the published file is off; for the series, `m.n` that they are roots of.
+    pub(super) own_errors: &'static [(&'static str, f64)],
+}
+
+const fn columns_of(content: Content) -> &'static [Column] {
+    const fn column(name: &'static str, unit: &'static str) -> Column {
+        Column { name, unit }
+    }
+    const ANGLES: &[Column] = &[
+        column("alpha", "rad"),
+        column("alpha, Eq. (33)", "rad"),
+        column("beta", "rad"),
+        column("beta, Eq. (33)", "rad"),
+        column("e_x X", "1"),
+        column("e_x Y", "1"),
+        column("e_x Z", "1"),
+        column("e_z X", "1"),
+        column("e_z Y", "1"),
+        column("e_z Z", "1"),
+    ];
+    const SIGNAL: &[Column] = &[column("m.n", "1"), column("P, Eq. (51)", "t_c"), column("W / <Phi'>", "t_c")];
+    const PERIODS: &[Column] = &[column("period", "t_c")];
+    const WIDTHS: &[Column] = &[column("duration", "t_c")];
+    const WAVES: &[Column] = &[column("h_+", "1"), column("h_x", "1")];
+    match content {
+        Content::Angles => ANGLES,
+        Content::Signal => SIGNAL,
+        Content::Periods => PERIODS,
+        Content::Widths => WIDTHS,
+        Content::Waves => WAVES,
+    }
+}
+
+impl KnownFile {
+    /// Columns beside time.
+    pub(super) fn columns(&self) -> &'static [Column] {
+        columns_of(self.content)
+    }
+}
+
+const fn file(
+    name: &'static str,
+    content: Content,
+    example: &'static str,
+    rows: usize,
+    own_errors: &'static [(&'static str, f64)],
+) -> KnownFile {
+    KnownFile { name, content, example, rows, own_errors }
+}
+
+/// All files that are compared. The errors are the largest differences, in two digits, of the published files from reference
+/// motions by a 34-digit Taylor method: a general-purpose solver at its default tolerance made them.
+pub(super) const KNOWN: [KnownFile; 12] = [
+    file("tp1.dat", Content::Angles, "tp-I", 10_000, &[("alpha", 4.8e-7), ("beta", 9.6e-8)]),
+    file("tp2.dat", Content::Angles, "tp-II", 10_000, &[]),
+    file("sp1.dat", Content::Angles, "sp-I", 10_000, &[("alpha", 3.5e-6), ("beta", 2.0e-6)]),
+    file("sp2.dat", Content::Angles, "sp-II", 10_000, &[]),
+    file("mntp1.dat", Content::Signal, "tp-I", 10_000, &[("m.n", 2.7e-6)]),
+    file("mntp2.dat", Content::Signal, "tp-II", 10_000, &[]),
+    file("mntp1_pset.dat", Content::Periods, "tp-I", 95, &[("m.n", 2.7e-6)]),
+    file("mntp2_pset.dat", Content::Periods, "tp-II", 140, &[]),
+    file("mntp1_widset.dat", Content::Widths, "tp-I", 96, &[("m.n", 2.7e-6)]),
+    file("mntp2_widset.dat", Content::Widths, "tp-II", 160, &[]),
+    file("gwtp1.dat", Content::Waves, "tp-I", 10_000, &[("h_+", 3.4e-6), ("h_x", 3.4e-6)]),
+    file("gwtp2.dat", Content::Waves, "tp-II", 10_000, &[]),
+];

@@ -1,0 +1,127 @@
+//! A comparison for a reader (text) and for a program (JSON).
+
+use std::fmt::Write as _;
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table};
+use serde_json::json;
+
+use super::{Comparison, Verdict};
+
+impl Verdict {
+    fn name(self) -> &'static str {
+        match self {
+            Verdict::Agrees => "agrees",
+            Verdict::Differs => "DIFFERS",
+            Verdict::NotJudged => "not judged",
+        }
+    }
+}
+
+/// A table of the largest differences, what is allowed for each column and why, and what was left aside.
+pub fn text(comparison: &Comparison) -> String {
+    let mut reasons: Vec<&str> = Vec::new();
+    let line = LineStyle::none().fill('─').junction('─');
+    let mut table = Table::new();
+    table
+        .load_style(NOTHING.header_separator(line).bottom_border(line))
+        .set_content_arrangement(ContentArrangement::Disabled)
+        .set_header([
+            "file",
+            "rows",
+            "started from",
+            "column",
+            "largest difference",
+            "at t [t_c]",
+            "allowed",
+            "",
+            "verdict",
+        ]);
+    for index in [1, 5, 6] {
+        if let Some(column) = table.column_mut(index) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    for file in &comparison.files {
+        for (i, column) in file.columns.iter().enumerate() {
+            let number = reasons.iter().position(|reason| *reason == column.reason).unwrap_or_else(|| {
+                reasons.push(column.reason);
+                reasons.len() - 1
+            });
+            let first = |text: &str| if i == 0 { text.to_owned() } else { String::new() };
+            table.add_row([
+                first(file.file),
+                first(&file.rows.to_string()),
+                first(&file.start),
+                column.column.clone(),
+                format!("{:.2e} {}", column.difference, if column.unit == "1" { "" } else { column.unit }),
+                format!("{:.3}", column.time),
+                column.allowed.map_or("-".into(), |allowed| format!("{allowed:.3e}")),
+                format!("[{}]", number + 1),
+                column.verdict.name().to_owned(),
+            ]);
+        }
+    }
+    let mut text = format!("{}\n\n", table.trim_fmt());
+    for (i, reason) in reasons.iter().enumerate() {
+        let _ = writeln!(text, "[{}] {reason}", i + 1);
+    }
+    for file in &comparison.files {
+        for note in &file.notes {
+            let _ = writeln!(text, "{}, started from {}: {note}", file.file, file.start);
+        }
+    }
+    if !comparison.absent.is_empty() {
+        let _ = writeln!(text, "not in the folder: {}", comparison.absent.join(", "));
+    }
+    if !comparison.not_read.is_empty() {
+        let _ = writeln!(text, "not read, no name of a file that is known: {}", comparison.not_read.join(", "));
+    }
+    let all = comparison.files.iter().flat_map(|file| &file.columns);
+    let count = |verdict| all.clone().filter(|column| column.verdict == verdict).count();
+    let (agree, differ, open) = (count(Verdict::Agrees), count(Verdict::Differs), count(Verdict::NotJudged));
+    let differ = if differ == 0 { "none differs".to_owned() } else { format!("{differ} DIFFER") };
+    let _ = write!(text, "{agree} columns agree, {differ}, {open} not judged");
+    text
+}
+
+/// The comparison as a JSON object.
+pub fn json(comparison: &Comparison) -> String {
+    let finite = |x: f64| if x.is_finite() { json!(x) } else { json!(null) };
+    let files: Vec<_> = comparison
+        .files
+        .iter()
+        .map(|file| {
+            let columns: Vec<_> = file
+                .columns
+                .iter()
+                .map(|column| {
+                    json!({
+                        "column": column.column,
+                        "unit": column.unit,
+                        "largest_difference": finite(column.difference),
+                        "at": finite(column.time),
+                        "allowed": column.allowed,
+                        "reason": column.reason,
+                        "verdict": column.verdict.name().to_lowercase(),
+                    })
+                })
+                .collect();
+            json!({
+                "file": file.file,
+                "rows": file.rows,
+                "started_from": file.start,
+                "columns": columns,
+                "notes": file.notes,
+            })
+        })
+        .collect();
+    let whole = json!({
+        "folder": comparison.folder,
+        "files": files,
+        "absent": comparison.absent,
+        "not_read": comparison.not_read,
+        "differing": comparison.differing(),
+    });
+    serde_json::to_string_pretty(&whole).unwrap_or_default()
+}

@@ -1,0 +1,83 @@
+//! The sections `[observer]` and `[pulsar]`: who looks on, and what shines.
+
+use std::f64::consts::PI;
+
+use twofold::observables::Observer;
+use twofold::observables::pulsar::Beam;
+
+use super::error::Fault;
+use super::section::Section;
+use super::star::Units;
+
+/// A kiloparsec in m: 1e3 * 648000 / pi astronomical units of 149597870700 m (IAU 2015 Resolution B2, 2012 Resolution B2).
+const KILOPARSEC: f64 = 648_000.0 / PI * 149_597_870_700.0 * 1e3;
+
+/// A distant observer, in the inertial frame of the scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Viewer {
+    /// Colatitude `theta_o` (rad).
+    pub theta_o: f64,
+    /// Azimuth `phi_o` (rad).
+    pub phi_o: f64,
+    /// Distance of a physical star in m, where given.
+    pub distance: Option<f64>,
+}
+
+impl Viewer {
+    /// The direction to the observer and the basis normal to it, Eqs. (46), (70).
+    pub fn basis(&self) -> Observer<f64> {
+        Observer::at(self.theta_o, self.phi_o)
+    }
+}
+
+/// The radiation of a scene's star.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pulsar {
+    /// Angle `chi` of the magnetic axis to the symmetry axis (rad).
+    pub chi: f64,
+    /// Azimuth `delta` of the magnetic axis in the body (rad).
+    pub delta: f64,
+    /// Semi-open angle `rho` of the beam (rad).
+    pub rho: f64,
+    /// Whether the pulses of the opposite beam are wanted too.
+    pub second_beam: bool,
+}
+
+impl Pulsar {
+    /// The beam about the magnetic axis, Eq. (45).
+    pub fn beam(&self) -> Beam<f64> {
+        Beam::new(self.chi, self.delta, self.rho)
+    }
+}
+
+pub(super) fn read_observer(section: &Section<'_>, units: &Units) -> Result<Viewer, Fault> {
+    section.only(&["theta_o", "phi_o", "distance"])?;
+    let theta_o = section
+        .required("theta_o", "colatitude of the observer [rad]")?
+        .number_where("an angle from 0 to pi [rad]", |x| (0.0..=PI).contains(&x))?;
+    let phi_o = section.required("phi_o", "azimuth of the observer [rad]")?.angle()?;
+    let distance = match section.optional("distance") {
+        Some(entry) if !units.are_physical() => {
+            return Err(entry.refuse("a distance only for a physical star: in the paper's units h is that at r = 1"));
+        }
+        Some(entry) => {
+            Some(entry.number_where("a distance from 1e-6 to 1e8 [kpc]", |x| (1e-6..=1e8).contains(&x))? * KILOPARSEC)
+        }
+        None => None,
+    };
+    Ok(Viewer { theta_o, phi_o, distance })
+}
+
+pub(super) fn read_pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
+    section.only(&["chi", "delta", "rho", "second_beam"])?;
+    Ok(Pulsar {
+        chi: section
+            .required("chi", "angle of the magnetic axis to the symmetry axis [rad]")?
+            .number_where("an angle from 0 to pi [rad]", |x| (0.0..=PI).contains(&x))?,
+        delta: section.optional("delta").map_or(Ok(0.0), |entry| entry.angle())?,
+        rho: section
+            .required("rho", "semi-open angle of the beam [rad]")?
+            .number_where("an angle above 0 and below pi [rad]", |x| x > 0.0 && x < PI)?,
+        second_beam: section.optional("second_beam").map_or(Ok(false), |entry| entry.boolean())?,
+    })
+}

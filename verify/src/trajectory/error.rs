@@ -1,0 +1,56 @@
+//! Why a table could not be finished.
+
+use std::fmt;
+
+use twofold::Error;
+
+/// Why a table could not be finished.
+#[derive(Debug)]
+pub enum TrajectoryError {
+    /// The motion, or what is asked of it, could not be computed.
+    Motion(Error),
+    /// The rows could not be written.
+    Write(csv::Error),
+}
+
+impl TrajectoryError {
+    /// Whether the reader of a pipe has gone away.
+    pub fn is_closed_pipe(&self) -> bool {
+        match self {
+            TrajectoryError::Write(error) => match error.kind() {
+                csv::ErrorKind::Io(error) => error.kind() == std::io::ErrorKind::BrokenPipe,
+                _ => false,
+            },
+            TrajectoryError::Motion(_) => false,
+        }
+    }
+}
+
+impl fmt::Display for TrajectoryError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            TrajectoryError::Motion(error) => write!(f, "the motion could not be computed: {error}"),
+            TrajectoryError::Write(error) => write!(f, "the table could not be written: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for TrajectoryError {}
+
+impl From<Error> for TrajectoryError {
+    fn from(error: Error) -> Self {
+        TrajectoryError::Motion(error)
+    }
+}
+
+impl From<csv::Error> for TrajectoryError {
+    fn from(error: csv::Error) -> Self {
+        TrajectoryError::Write(error)
+    }
+}
+
+impl From<std::io::Error> for TrajectoryError {
+    fn from(error: std::io::Error) -> Self {
+        TrajectoryError::Write(error.into())
+    }
+}
