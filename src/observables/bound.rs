@@ -21,8 +21,9 @@ pub struct SpinAxisDrift<S> {
 impl<S: Real> SpinAxisDrift<S> {
     /// Bound `|2 s^ZZ - s^XX - s^YY| <~ eta |I^zz Omega^z Delta cos lambda / (C Delta t)|`, Eq. (41) `[est1]`.
     ///
-    /// An estimate of the order of magnitude: factors of order one by which Eq. (38) depends on the directions are taken to
-    /// be one. `eta` is [`eta_from_inclination`] for `beta_0` up to about 1.1 and, says the paper, at most 10.
+    /// The paper's estimate takes the factors by which Eq. (38) depends on the directions to be one: `eta` is
+    /// [`eta_from_inclination`] for `beta_0` up to about 1.1 and, says the paper, at most 10. What it is on the average and at a
+    /// given confidence follows from [`eta`](super::eta) and [`eta_distribution`](super::eta_distribution).
     ///
     /// # Errors
     /// [`Error::Domain`] for an interval of zero.
@@ -52,6 +53,16 @@ pub fn eta_from_inclination<S: Real>(beta_0: S) -> Result<S, Error> {
     let allowed = "|cos beta_0| > 2.2e-16: the estimate (40) divides by it";
     Error::unless(cb.re().abs() > f64::EPSILON, "cosine of the mean inclination, cos beta_0", cb.re(), allowed)?;
     Ok(S::one() / cb.abs())
+}
+
+/// `I^zz / C = 4 / (Omega^z)^2` of a uniform star that owes its oblateness to its spin alone: Eq. (43) with Eq. (20) `[epf]`.
+///
+/// Density and radius cancel: `eps = (5/4) (Omega^z)^2 R^3 / M` (the coefficient 5/4 for a uniform star, which Eq. (20)
+/// leaves to one) in `15 / (4 pi rho eps)`. With it and Eq. (5) `[replace]` the spin axis precesses about `w` with the rate
+/// `(alpha_2 / 2) |w|^2 Omega^z cos(beta)` of Nordtvedt. To first order in the oblateness; time squared, as `spin` (rad per
+/// unit of time) is given.
+pub fn fluid_inertia_over_c<S: Scalar>(spin: S) -> S {
+    S::from_f64(4.0) / (spin * spin)
 }
 
 /// Bound on `|alpha_2|` of the PPN form, from one on `|2 s^ZZ - s^XX - s^YY|` and a given velocity `w` relative to the

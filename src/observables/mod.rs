@@ -1,6 +1,8 @@
 //! What a distant observer measures of a motion. Eqs. (37)-(42), (44)-(56), (59), (69)-(71).
 
 pub mod bound;
+pub mod eta;
+pub mod eta_distribution;
 pub mod fundamental_frequencies;
 pub mod gravitational_wave;
 pub mod observer;

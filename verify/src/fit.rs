@@ -1,4 +1,4 @@
-//! Straight-line fits and mean rates, for measured orders and frequencies.
+//! Straight-line fits, for measured orders.
 
 use crate::check::Measured;
 
@@ -44,16 +44,4 @@ pub fn slope(points: &[(f64, f64)]) -> Result<Slope, String> {
 pub fn order(points: &[(f64, f64)], floor: f64) -> Result<Slope, String> {
     let kept: Vec<_> = points.iter().filter(|p| p.1 > floor).map(|p| (p.0.log10(), p.1.log10())).collect();
     slope(&kept)
-}
-
-/// Mean rate of an angle (continuous, in equal steps of time) by a weighted Birkhoff average with the weight
-/// `exp(-1 / (x (1 - x)))`: for quasi-periodic motion the error falls faster than any power of the span.
-pub fn mean_rate(angles: &[f64], step: f64) -> f64 {
-    let n = angles.len() - 1;
-    let weight = |i: usize| {
-        let x = (i as f64 + 0.5) / n as f64;
-        (-1.0 / (x * (1.0 - x))).exp()
-    };
-    let total: f64 = (0..n).map(weight).sum();
-    (0..n).map(|i| weight(i) * (angles[i + 1] - angles[i])).sum::<f64>() / (total * step)
 }

@@ -14,7 +14,7 @@ const PART: f64 = 0.75;
 pub struct MeanRate {
     /// The rate (rad per unit of time).
     pub value: f64,
-    /// Estimated error: the largest difference from the averages over the first and over the last three quarters. That is
+    /// Estimated error: twice the largest difference from the averages over the first and over the last three quarters. That is
     /// the error of a shorter span, so an upper bound as long as averaging converges.
     pub uncertainty: f64,
 }
@@ -39,7 +39,7 @@ pub fn mean_rate(angles: &[f64], step: f64) -> Result<MeanRate, Error> {
     let part = (PART * count as f64) as usize;
     let [whole, first, last] = [angles, &angles[..part], &angles[count - part..]].map(|angles| average(angles, step));
     let (whole, first, last) = (whole?, first?, last?);
-    Ok(MeanRate { value: whole, uncertainty: (first - whole).abs().max((last - whole).abs()) })
+    Ok(MeanRate { value: whole, uncertainty: 2.0 * (first - whole).abs().max((last - whole).abs()) })
 }
 
 fn average(angles: &[f64], step: f64) -> Result<f64, Error> {

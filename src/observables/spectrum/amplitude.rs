@@ -47,7 +47,7 @@ pub fn amplitude_spectrum(series: &Series, window: Window) -> Result<AmplitudeSp
     let mut amplitudes: Vec<f64> =
         transform(tapered).iter().map(|coefficient| coefficient.norm() * 2.0 / count as f64).collect();
     amplitudes[0] /= 2.0;
-    if count % 2 == 0 {
+    if count.is_multiple_of(2) {
         *amplitudes.last_mut().expect("a transform is not empty") /= 2.0;
     }
     Ok(AmplitudeSpectrum { spacing: TAU / series.duration(), amplitudes })

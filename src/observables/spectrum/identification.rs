@@ -157,7 +157,9 @@ impl FrequencyBasis {
     /// by two or less.
     pub fn identify(&self, frequency: f64, uncertainty: f64) -> Identification {
         let mut fitting: Vec<Combination> = Vec::new();
-        for (integers, value) in &self.combinations {
+        let largest_error = self.generators.iter().fold(0.0_f64, |most, g| most.max(g.uncertainty));
+        let widest = TOLERANCE * (uncertainty + largest_error * f64::from(HIGHEST_ORDER)) + 1e-12 * frequency.abs();
+        for (integers, value) in self.combinations.iter().filter(|(_, value)| (value - frequency).abs() <= widest) {
             if fitting.first().is_some_and(|first| order(integers) > first.order() + DOUBT) {
                 break;
             }

@@ -1,6 +1,6 @@
 //! Weighted least squares for a constant and any number of real waves together, frequencies included.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::error::Error;
 use crate::rounding::two_product;
@@ -79,12 +79,7 @@ impl<'s> JointFit<'s> {
             let (c, s) = self.direction(k);
             [right[1 + 3 * k], right[2 + 3 * k], right[3 + 3 * k]] = [u, v, s * yu - c * yv];
         }
-        let normal = self.normal_matrix(count);
-        let step = normal.cholesky().map(|factors| factors.solve(&right)).ok_or(Error::NotConverged {
-            what: "lines of a spectrum: two of them are not resolved",
-            iterations: self.waves.len(),
-            residual: right.amax(),
-        })?;
+        let step = self.factors(count)?.solve(&right);
         self.constant += step[0];
         let mut largest = 0.0_f64;
         for (k, wave) in self.waves.iter_mut().enumerate() {
@@ -95,6 +90,22 @@ impl<'s> JointFit<'s> {
             wave.sin_part += step[2 + 3 * k];
         }
         Ok(largest)
+    }
+
+    /// How much an error of the projections is amplified in each frequency (times half the length): `sqrt(2 shape) / amplitude` for a
+    /// line alone, more for close ones.
+    pub(super) fn amplification(&self) -> Result<Vec<f64>, Error> {
+        let inverse = self.factors(self.values.len() as f64)?.inverse();
+        let of = |(k, wave): (usize, &Wave)| inverse[(3 + 3 * k, 3 + 3 * k)].sqrt() / wave.amplitude();
+        Ok(self.waves.iter().enumerate().map(of).collect())
+    }
+
+    fn factors(&self, count: f64) -> Result<Cholesky<f64, Dyn>, Error> {
+        self.normal_matrix(count).cholesky().ok_or(Error::NotConverged {
+            what: "lines of a spectrum: two of them are not resolved",
+            iterations: self.waves.len(),
+            residual: f64::NAN,
+        })
     }
 
     fn direction(&self, k: usize) -> (f64, f64) {

@@ -87,21 +87,27 @@ pub fn spectral_lines(series: &Series, least: f64, most: usize) -> Result<LineLi
     }
     improve(&mut fit, STEPS.1)?;
     spectrum = ResidualSpectrum::of(&fit.residual(), &weights);
-    let rounding = SHAPE.sqrt() * f64::EPSILON * series.values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    // The values are rounded, and so are the times for which they were computed: independently, but near each line.
+    let largest = series.values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let latest = series.start.abs().max((series.start + series.duration()).abs());
+    let turned = fit.waves.iter().fold(0.0_f64, |most, wave| most.max(wave.phase)) * 2.0 / series.step * latest;
+    let rounding = f64::EPSILON * largest * (1.0 + turned / (series.values.len() as f64).sqrt());
+    let noise = rounding.max(spectrum.median());
     let middle = series.start + series.step * (series.values.len() - 1) as f64 / 2.0;
     let mut lines: Vec<_> = fit
         .waves
         .iter()
-        .filter(|wave| wave.amplitude() >= least)
-        .map(|wave| {
+        .zip(fit.amplification()?)
+        .filter(|(wave, _)| wave.amplitude() >= least)
+        .map(|(wave, amplification)| {
             let frequency = wave.phase * 2.0 / series.step;
-            let shift = spectrum.shift_of(wave) + rounding / wave.amplitude();
+            let shift = spectrum.shift_of(wave) + noise * amplification;
             let phase = (-wave.sin_part).atan2(wave.cos_part) - frequency * middle;
             SpectralLine {
                 frequency,
                 amplitude: wave.amplitude(),
                 phase: PI - (PI - phase).rem_euclid(2.0 * PI),
-                uncertainty: shift * 2.0 / series.duration(),
+                uncertainty: shift * 2.0 / series.duration() + f64::EPSILON * frequency,
             }
         })
         .collect();
@@ -194,6 +200,13 @@ impl ResidualSpectrum {
             a[i] * distance * (-distance * distance / (2.0 * SHAPE)).exp().max(SIDELOBES)
         });
         shifts.sum::<f64>() / wave.amplitude()
+    }
+
+    /// Median of the amplitudes: the noise, unless lines crowd the whole spectrum.
+    fn median(&self) -> f64 {
+        let mut sorted = self.amplitudes.clone();
+        let middle = sorted.len() / 2;
+        *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
     }
 
     /// Largest amplitude above frequency zero.

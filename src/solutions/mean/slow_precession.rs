@@ -69,9 +69,6 @@ pub fn slow_precession<S: Real>(
     } else {
         ((s1 - s2) * ((s1 - s3) * l1 * l1 + (s2 - s3) * l2 * l2), -((s1 - s3) * below_middle), (order[0], l1), 1.0)
     };
-    // Proper or improper order of the axes: an odd permutation turns the sense of rotation.
-    let odd = (order[1] + 3 - order[0]) % 3 == 2;
-    let sense = if odd { -sense } else { sense };
     let sense = if end.1.re() < 0.0 { -sense } else { sense };
     if p_squared.re() <= 0.0 && q_squared.re() <= 0.0 {
         return Ok(SlowPrecession { axis: end.0, rate: S::zero() });

@@ -12,8 +12,9 @@ use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbati
 
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::derivation::Differentiable;
-use crate::golden::pulsar_bounds::COLUMNS;
+use crate::golden::pulsar_bounds::columns;
 use crate::identity::{self, Identity};
+use crate::pulsar_table::ROUND_INERTIA_OVER_C;
 use crate::random::{Point, Random};
 
 /// The checks of this subject.
@@ -145,9 +146,9 @@ fn bound_of_known_tensor() -> Result<Measured, String> {
 
 fn printed_changes() -> Result<Measured, String> {
     let mut worst = Worst::default();
-    for column in &COLUMNS {
-        let ours = column.lambda_change().map_err(|e| e.to_string())?;
-        let printed = column.printed_change;
+    for (pulsar, printed) in columns() {
+        let ours = pulsar.lambda_change().map_err(|e| e.to_string())? * 1e3;
+        let printed = printed.lambda_change;
         let unit = if printed.contains('.') { 0.1 } else { 1.0 };
         let value: f64 = printed.parse().map_err(|_| format!("{printed} is not a number"))?;
         worst.see((ours - value).abs() / unit, || format!("{ours} for {printed}"));
@@ -157,10 +158,10 @@ fn printed_changes() -> Result<Measured, String> {
 
 fn bounds_over_printed() -> Result<Measured, String> {
     let mut ratios = Vec::new();
-    for column in &COLUMNS {
-        let printed = column.printed_bound;
+    for (pulsar, printed) in columns() {
+        let printed = printed.bound;
         let value: f64 = printed.parse().map_err(|_| format!("{printed} is not a number"))?;
-        ratios.push(column.bound(1e-5, 1.0).map_err(|e| e.to_string())? / value);
+        ratios.push(pulsar.bound_over_eta(ROUND_INERTIA_OVER_C).map_err(|e| e.to_string())? * 1e16 / value);
     }
     if ratios.iter().any(|ratio| ratio.is_nan()) {
         return Err(format!("ratios {ratios:?}"));

@@ -3,7 +3,9 @@
 mod bound;
 mod elliptic;
 mod equations_of_motion;
+mod eta;
 mod first_integrals;
+mod fisher;
 mod forced_precession;
 mod observer;
 mod orientation;
@@ -11,9 +13,11 @@ mod perturbation_equations;
 mod potential_energy;
 mod propagation;
 mod pulsar;
+mod pulsar_table;
 pub mod regimes;
 mod second_integrator;
 mod solutions;
+pub(crate) mod spectrum;
 mod spin_axis;
 mod star;
 mod symmetric;
@@ -45,7 +49,11 @@ pub fn all() -> Vec<Check> {
         observer::checks,
         spin_axis::checks,
         bound::checks,
+        eta::checks,
+        pulsar_table::checks,
+        fisher::checks,
         waves::checks,
+        spectrum::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()
 }

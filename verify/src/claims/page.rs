@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::{Claim, Verdict, claims};
-use crate::check::{Check, Kind, Outcome};
+use crate::check::{Check, Outcome};
 use crate::checks;
 
 /// A check of a claim and what it measured.
@@ -35,12 +35,12 @@ impl Evidence {
     }
 }
 
-/// Two digits of a physical figure. What is rounding, and differs from machine to machine, is not shown.
+/// Two or three digits of a physical figure. What is rounding, and differs from machine to machine, is not shown.
 fn shown(check: &Check, figure: f64) -> String {
-    let rounding = matches!(check.kind, Kind::Autodiff | Kind::Property) || check.figure.contains("2.2e-16");
+    let in_units_of_rounding = check.figure.contains("2.2e-16") || check.figure.contains("ulp");
     match figure {
-        0.0 => "0".to_owned(),
-        _ if rounding || figure.abs() < 1e-8 => "rounding".to_owned(),
+        _ if figure.fract() == 0.0 && figure.abs() < 1e6 => figure.to_string(),
+        _ if in_units_of_rounding || figure.abs() < 1e-8 => "rounding".to_owned(),
         _ if (1e-2..1e4).contains(&figure.abs()) => significant(figure, 3),
         _ => format!("{figure:.1e}"),
     }

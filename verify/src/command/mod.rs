@@ -1,12 +1,13 @@
-//! The command `twofold`: verify the paper's equations, run a scene, list the scenes.
+//! The command `twofold`: verify the paper's equations, run a scene, list the scenes, bounds from pulsars.
 
+mod bounds;
 mod compare;
 mod figures;
 mod output_file;
 mod output_folder;
-mod report;
 mod progress;
 mod pulses;
+mod report;
 mod run;
 mod scenes;
 mod verify;
@@ -35,6 +36,7 @@ Examples:
   twofold verify --filter steady    only the checks whose name contains `steady`
   twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
   twofold run my-star.toml --out my-star.csv
+  twofold bounds                    the paper's table of pulsars with uncertainties
   twofold run tp-2 --columns h      only the gravitational wave
   twofold pulses tp-1               every pulse of the radio beam
   twofold figures --out figures     the paper's figures and ours
@@ -55,6 +57,11 @@ enum Command {
     /// t_c = sqrt(I^xx / C), a scene of a physical star in seconds. Angles are in rad and continuous: they count their
     /// turns. Where the symmetry axis is exactly on a pole they do not exist, and their fields are empty.
     Run(RunArgs),
+    /// Print the bounds on Lorentz violation from the pulse widths of pulsars, with uncertainties
+    ///
+    /// Without a file: the two pulsars of the paper's table, beside its numbers. The format of a table and the method are
+    /// described in docs/bounds.md.
+    Bounds(BoundsArgs),
     /// Find every pulse of a star's radio beam in the span of a scene and write them as CSV
     ///
     /// A pulse is a stretch of time in which the line of sight is inside the beam, m.n > cos(rho). The scene must have the
@@ -165,6 +172,15 @@ struct FiguresArgs {
     list: bool,
 }
 
+#[derive(Args)]
+struct BoundsArgs {
+    /// A table of pulsars (TOML)
+    file: Option<String>,
+    /// Print the bounds as a JSON array instead of tables
+    #[arg(long)]
+    json: bool,
+}
+
 /// How a command ends when it does not succeed.
 enum Failure {
     /// A check or a computation failed: status 1.
@@ -187,6 +203,7 @@ pub fn main() -> ExitCode {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
         Command::Report(args) => report::report(&args),
+        Command::Bounds(args) => bounds::bounds(&args),
         Command::Pulses(args) => pulses::pulses(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::Figures(args) => figures::figures(&args),

@@ -1,10 +1,12 @@
 //! The paper's numbers beside ours, one table per figure, table or passage of the paper.
 
 pub(crate) mod captions;
+mod eta;
 mod figures;
 mod line;
 pub(crate) mod pulsar_bounds;
 mod regimes;
+mod spectral_lines;
 mod star;
 
 pub use line::{GoldenLine, Printed};
@@ -43,10 +45,12 @@ pub fn tables() -> Result<Vec<GoldenTable>, String> {
         captions::initial_values().map_err(text)?,
         captions::constants().map_err(text)?,
         pulsar_bounds::table().map_err(text)?,
+        eta::table().map_err(text)?,
         star::estimates().map_err(text)?,
         star::expansions().map_err(text)?,
         regimes::twofold()?,
         regimes::single()?,
+        spectral_lines::table()?,
     ];
     tables.extend(figures::tables()?);
     Ok(tables)

@@ -1,4 +1,4 @@
-//! Why a scene was refused, with the place in the file.
+//! Why a scene, or another file of the command's, was refused, with the place in it.
 
 use std::fmt;
 use std::ops::Range;
@@ -18,7 +18,7 @@ impl Fault {
     }
 }
 
-/// A scene that cannot be used: file, place, key, value and what is allowed.
+/// A scene, or a table of pulsars, that cannot be used: file, place, key, value and what is allowed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneError {
     file: String,

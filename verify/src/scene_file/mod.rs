@@ -4,6 +4,7 @@
 //! file, line, column and key, the value as written and what is allowed.
 
 mod built_in;
+mod document;
 mod error;
 mod initial;
 mod observer;
@@ -13,12 +14,7 @@ mod star;
 mod time;
 mod violation;
 
-use std::fs::File;
-use std::io::Read;
-use std::path::Path;
-
 use nalgebra::Matrix3;
-use toml::de::DeTable;
 use twofold::dynamics::regular_equations::angular_velocity;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::EulerAngles;
@@ -27,11 +23,12 @@ use twofold::solutions::perturbation::Perturbation;
 use crate::columns::{self, ColumnGroup};
 
 pub use built_in::{BUILT_IN, BuiltIn};
-use error::Fault;
+use document::BuiltInNames;
+pub(crate) use document::FileKind;
+pub(crate) use error::Fault;
 pub use error::SceneError;
 pub use observer::{Pulsar, Viewer};
-use section::Section;
-pub(crate) use section::nearest;
+pub(crate) use section::{Entry, Section, nearest};
 pub use star::Units;
 pub use time::Times;
 
@@ -79,7 +76,7 @@ impl Scene {
     pub fn named(name_or_path: &str) -> Result<Self, SceneError> {
         match BUILT_IN.iter().find(|scene| scene.name == name_or_path) {
             Some(built_in) => Self::from_toml(built_in.name, built_in.toml),
-            None => Self::from_toml(name_or_path, &read(name_or_path)?),
+            None => Self::from_toml(name_or_path, &SCENE.read(name_or_path)?),
         }
     }
 
@@ -89,12 +86,7 @@ impl Scene {
     /// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or exclude one another, and for
     /// values of a wrong type or out of range.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SceneError> {
-        let in_text = |fault| SceneError::in_text(file, text, fault);
-        let document = DeTable::parse(text).map_err(|syntax| {
-            let message = syntax.message().trim().replace('\n', ", ");
-            in_text(Fault { span: syntax.span(), message: format!("not TOML: {message}") })
-        })?;
-        Self::from_document(&Section::document(text, document.get_ref())).map_err(in_text)
+        SCENE.parse(file, text, Self::from_document)
     }
 
     fn from_document(document: &Section<'_>) -> Result<Self, Fault> {
@@ -152,26 +144,11 @@ impl Scene {
     }
 }
 
-/// The text of a file, with the size bounded while reading, so that a device or pipe cannot fill the memory.
-fn read(path: &str) -> Result<String, SceneError> {
-    let refuse = |message: String| SceneError::of_file(path, message);
-    if Path::new(path).is_dir() {
-        return Err(refuse("is a directory: a scene is a TOML file or a built-in name, see `twofold scenes`".into()));
-    }
-    let file = File::open(path).map_err(|error| {
-        let names: Vec<_> = BUILT_IN.iter().map(|scene| scene.name).collect();
-        let guess = match nearest(path, &names) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("the built-in scenes are {}", section::listed(&names)),
-        };
-        refuse(format!("neither a built-in scene nor a readable file ({error}); {guess}"))
-    })?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|error| refuse(format!("cannot be read: {error}")))?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(refuse(format!("is longer than {} MiB, the most that is read", LARGEST_FILE >> 20)));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        refuse(format!("is not UTF-8 text (byte {}): a scene is a TOML file", error.utf8_error().valid_up_to() + 1))
-    })
-}
+/// A scene, in the words of the messages.
+const SCENE: FileKind = FileKind {
+    name: "a scene",
+    built_in: Some(BuiltInNames {
+        names: || BUILT_IN.iter().map(|scene| scene.name).collect(),
+        listed_by: "twofold scenes",
+    }),
+};

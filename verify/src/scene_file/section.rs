@@ -11,6 +11,8 @@ use super::error::Fault;
 /// A table of the document.
 pub(crate) struct Section<'a> {
     text: &'a str,
+    /// What the document is: `a scene`.
+    document: &'static str,
     /// Dotted name; empty for the document itself.
     name: String,
     span: Range<usize>,
@@ -27,8 +29,9 @@ pub(crate) struct Entry<'a> {
 }
 
 impl<'a> Section<'a> {
-    pub(crate) fn document(text: &'a str, table: &'a DeTable<'a>) -> Self {
-        Self { text, name: String::new(), span: 0..0, table }
+    /// The document itself, which messages call `document`.
+    pub(crate) fn document(text: &'a str, table: &'a DeTable<'a>, document: &'static str) -> Self {
+        Self { text, document, name: String::new(), span: 0..0, table }
     }
 
     fn dotted(&self, key: &str) -> String {
@@ -36,7 +39,7 @@ impl<'a> Section<'a> {
     }
 
     fn title(&self) -> String {
-        if self.name.is_empty() { "a scene".to_owned() } else { format!("[{}]", self.name) }
+        if self.name.is_empty() { self.document.to_owned() } else { format!("[{}]", self.name) }
     }
 
     /// Refuses keys that are not in `allowed`.
@@ -98,10 +101,25 @@ impl<'a> Section<'a> {
     /// The section `key`, if it is there.
     pub(crate) fn section(&self, key: &str) -> Result<Option<Section<'a>>, Fault> {
         let Some(entry) = self.optional(key) else { return Ok(None) };
-        match entry.value {
-            DeValue::Table(table) => Ok(Some(Section { text: self.text, name: entry.key, span: entry.span, table })),
-            _ => Err(entry.refuse(&format!("a section, written [{}]", entry.key))),
+        let refusal = entry.refuse(&format!("a section, written [{}]", entry.key));
+        self.of_table(entry).map(Some).ok_or(refusal)
+    }
+
+    fn of_table(&self, entry: Entry<'a>) -> Option<Section<'a>> {
+        let DeValue::Table(table) = entry.value else { return None };
+        Some(Section { text: self.text, document: self.document, name: entry.key, span: entry.span, table })
+    }
+
+    /// The sections `key`, each written `[[key]]`, one at least; `meaning` is said where they are missing.
+    pub(crate) fn repeated_section(&self, key: &str, meaning: &str) -> Result<Vec<Section<'a>>, Fault> {
+        let allowed = format!("sections, each written [[{key}]]");
+        let missing = || self.missing(&format!("section [[{key}]] ({meaning})"));
+        let list = self.optional(key).ok_or_else(missing)?;
+        let entries = list.list(&allowed)?;
+        if entries.is_empty() {
+            return Err(list.refuse(&allowed));
         }
+        entries.into_iter().map(|entry| self.of_table(entry).ok_or_else(|| list.refuse(&allowed))).collect()
     }
 
     /// The section `key`; `meaning` is said where it is missing.
@@ -132,6 +150,14 @@ impl<'a> Entry<'a> {
             _ => None,
         }
         .ok_or_else(|| self.refuse("a finite decimal number"))
+    }
+
+    /// Half of the unit of the last digit written: the largest error of a number that was rounded to it.
+    pub(crate) fn rounding(&self) -> f64 {
+        let text = self.text.get(self.span.clone()).unwrap_or("").replace('_', "").to_ascii_lowercase();
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        let decimals = mantissa.split_once('.').map_or(0, |(_, digits)| digits.len());
+        exponent.parse::<f64>().map_or(0.0, |exponent| 0.5 * 10f64.powf(exponent - decimals as f64))
     }
 
     /// An angle in radians. Beyond a million, more than six digits of its place on the circle are lost.
@@ -178,6 +204,11 @@ impl<'a> Entry<'a> {
             DeValue::String(word) if allowed.contains(&word.as_ref()) => Ok(word),
             _ => Err(self.refuse(&format!("one of {}", quoted()))),
         }
+    }
+
+    /// Whether the value is a list.
+    pub(crate) fn is_list(&self) -> bool {
+        matches!(self.value, DeValue::Array(_))
     }
 
     /// The entries of a list; `allowed` says of what.

@@ -1,0 +1,124 @@
+//! The factor `eta` of Eq. (41) `[est1]`, derived from the mean motion of the spin axis in single precession.
+//!
+//! The symmetry axis stays within a nutation, of first order in `s`, of the direction `l` of the angular momentum. Over many
+//! turns of the star what is left of the motion is [`secular_axis_rate`]. A direction `n-hat` to the observer then sees
+//!
+//! ```text
+//! |d cos lambda / dt| = |n-hat . dl/dt|,      eta = C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z |n-hat . dl/dt|)
+//! ```
+//!
+//! which makes Eq. (41) an equality. `eta` depends on the direction, on where the axis is and on the shape of the tensor, by
+//! the asymmetry ratio `r = (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)`: 0 for a tensor symmetric about Z, 1/3 in size for the
+//! most asymmetric one (`s^YY` midway between the others), 1 for one symmetric about X or Y. It does not depend on the size
+//! of `s`. Speeds here are in units of `C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z)`.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::elliptic::carlson::{rd, rf};
+use crate::error::Error;
+use crate::scalar::{Real, Scalar};
+
+/// Mean rate of the spin axis `l` (unit vector) in single precession, `dl/dt = (2 C / (I^zz Omega^z)) (s l) x l`, from
+/// `I^zz / C` and the spin `Omega^z`: the torque on a star that spins about its symmetry axis, divided by its angular momentum.
+///
+/// For `s^XX = s^YY` it is a rotation about Z with the rate `a^(1)` of Eq. (31) `[consdef]`, as in Eq. (32) `[precangvel]`. Error: of
+/// second order in `s`, and the nutation, which averages out.
+pub fn secular_axis_rate<S: Scalar>(polar_inertia_over_c: S, spin: S, s: &Matrix3<S>, axis: &Vector3<S>) -> Vector3<S> {
+    (s * axis).cross(axis) * (S::from_f64(2.0) / (polar_inertia_over_c * spin))
+}
+
+/// Squared mean speed of the spin axis at the azimuth `alpha` and inclination `beta` (rad) for the asymmetry ratio `r`:
+///
+/// ```text
+/// v^2 = 4 r^2 lX^2 lY^2 + (1 - r)^2 lX^2 lZ^2 + (1 + r)^2 lY^2 lZ^2,     l = (sin a sin b, -cos a sin b, cos b)
+/// ```
+pub fn squared_speed<S: Scalar>(asymmetry_ratio: S, alpha: S, beta: S) -> S {
+    let r = asymmetry_ratio;
+    let ((sa, ca), (sb, cb)) = (alpha.sin_cos(), beta.sin_cos());
+    let (x, y) = (sa * sb, ca * sb);
+    let (x2, y2, z2) = (x * x, y * y, cb * cb);
+    let (with_x, with_y) = (S::one() - r, S::one() + r);
+    r * r * x2 * y2 * 4.0 + with_x * with_x * x2 * z2 + with_y * with_y * y2 * z2
+}
+
+/// Mean of [`squared_speed`] over the azimuth, `sin^2 b [(1 + r^2) cos^2 b + (r^2 / 2) sin^2 b]`.
+pub fn mean_squared_speed<S: Scalar>(asymmetry_ratio: S, beta: S) -> S {
+    let r2 = asymmetry_ratio * asymmetry_ratio;
+    let (sb, cb) = beta.sin_cos();
+    let (sin2, cos2) = (sb * sb, cb * cb);
+    sin2 * ((S::one() + r2) * cos2 + r2 * sin2 / 2.0)
+}
+
+/// The factor `eta` of Eq. (41) `[est1]` for the root mean square of `d cos lambda / dt` over isotropic directions to the
+/// observer and over the azimuth of the spin axis at the inclination `beta` (rad) to Z, for the asymmetry ratio `r`:
+///
+/// ```text
+/// eta = sqrt(3) / (sin b sqrt((1 + r^2) cos^2 b + (r^2 / 2) sin^2 b))
+/// ```
+///
+/// For `r = 0` it is `sqrt(3) / (sin b cos b)`: the estimate `1 / cos b` of Eq. (40) `[est]` with the factor
+/// `sin b |n-hat . dl/dt| / |dl/dt|` that Eqs. (38), (39) have and the estimate leaves out. At `b = pi/2` it is `sqrt(6) / |r|`.
+/// A single star may see less: quantiles are those of [`EtaDistribution`](super::eta_distribution::EtaDistribution).
+///
+/// # Errors
+/// [`Error::Domain`] where the axis is at rest, to 2.2e-16: on the poles, and for `r = 0` on the equator.
+pub fn root_mean_square_eta<S: Real>(asymmetry_ratio: S, beta: S) -> Result<S, Error> {
+    let mean = mean_squared_speed(asymmetry_ratio, beta);
+    let speed = mean.re().sqrt();
+    let allowed = "above 2.2e-16 of C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z): an axis at rest bounds nothing";
+    Error::unless(speed > f64::EPSILON, "root mean square speed of the spin axis", speed, allowed)?;
+    Ok((S::from_f64(3.0) / mean).sqrt())
+}
+
+/// Mean of the squared speed along the whole secular motion through the azimuth `alpha` and inclination `beta` (rad), which
+/// is that of the rotation axis of a free asymmetric top:
+///
+/// ```text
+/// <v^2> = 4 (h - s3) [(s1 - h) - (s1 - s2) <sn^2>],    h = l.(s l),    s1 >= s2 >= s3
+/// <sn^2> = R_D(0, 1 - m, 1) / (3 R_F(0, 1 - m, 1)),    1 - m = (s1 - s3)(s2 - h) / ((s2 - s3)(s1 - h))
+/// ```
+///
+/// for `h <= s2`, and with `s1` and `s3` interchanged for `h >= s2`. On the separatrix, `h = s2`, it is zero: the axis stays
+/// near the middle principal axis for ever. Absolute error some 1e-15.
+pub fn squared_speed_along_motion<S: Real>(asymmetry_ratio: S, alpha: S, beta: S) -> S {
+    let half = asymmetry_ratio * 0.5;
+    let sixth = S::from_f64(-1.0 / 6.0);
+    // Trace-free, with 2 s^ZZ - s^XX - s^YY = 1.
+    let [xx, yy, zz] = [sixth + half, sixth - half, S::from_f64(1.0 / 3.0)];
+    let ((sa, ca), (sb, cb)) = (alpha.sin_cos(), beta.sin_cos());
+    let (x, y) = (sa * sb, ca * sb);
+    let mut h = xx * x * x + yy * y * y + zz * cb * cb;
+    let mut sorted = [xx, yy, zz];
+    sorted.sort_by(|a, b| b.re().total_cmp(&a.re()));
+    let [mut first, middle, mut last] = sorted;
+    for (beyond, end) in [(h.re() > first.re(), first), (h.re() < last.re(), last)] {
+        if beyond {
+            h = end;
+        }
+    }
+    if h.re() > middle.re() {
+        core::mem::swap(&mut first, &mut last);
+    }
+    let complement = (first - last) * (middle - h) / ((middle - last) * (first - h));
+    // Not above zero on the separatrix; not a number where the axis rests because two eigenvalues are equal.
+    let mean_sn2 = if complement.re() > 0.0 {
+        rd(S::zero(), complement, S::one()) / (rf(S::zero(), complement, S::one()) * 3.0)
+    } else {
+        S::one()
+    };
+    (h - last) * ((first - h) - (first - middle) * mean_sn2) * 4.0
+}
+
+/// Azimuth and inclination `(alpha, beta)` (rad) at the start of a single precession with the constants `alpha_0`, `beta_0`
+/// of Eq. (34) `[integraltoinitial]` and `A = 0`, for the asymmetry ratio `r`:
+///
+/// ```text
+/// alpha = alpha_0 + (r / 2) sin 2 alpha_0,     beta = beta_0 - (r / 2) tan b0 cos 2 alpha_0
+/// ```
+///
+/// The constant `beta_0` is not the inclination of any moment; near `pi/2`, where `tan b0` is large, not even near one.
+pub fn single_precession_start<S: Scalar>(asymmetry_ratio: S, alpha_0: S, beta_0: S) -> (S, S) {
+    let ((sa, ca), (sb, cb)) = (alpha_0.sin_cos(), beta_0.sin_cos());
+    let half = asymmetry_ratio / 2.0;
+    (alpha_0 + half * sa * ca * 2.0, beta_0 - half * (sb / cb) * (ca * ca - sa * sa))
+}

@@ -1,0 +1,358 @@
+//! The factor eta of the bound, from the mean motion of the spin axis. Eqs. (31), (32), (34), (37)-(41).
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+
+use nalgebra::{Matrix3, Vector3};
+use twofold::dynamics::regular_equations::reduced_rates;
+use twofold::elliptic::jacobi::complete_integral;
+use twofold::euler_angles::symmetry_axis;
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::observables::eta::{
+    mean_squared_speed, secular_axis_rate, single_precession_start, squared_speed, squared_speed_along_motion,
+};
+use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
+use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation};
+
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::derivation::Differentiable;
+use crate::eta::{PAPER_ASYMMETRY, eta_curve, numerical_axis_rate, twelve_turns};
+use crate::fit::order;
+use crate::identity::{self, Identity};
+use crate::paper_examples::{COEFFICIENTS, SPIN};
+use crate::random::{Point, Random};
+
+/// Shapes of the tensor: symmetric about Z, the paper's, the most asymmetric one.
+const SHAPES: [f64; 3] = [0.0, PAPER_ASYMMETRY, -1.0 / 3.0];
+
+/// The checks of this subject.
+pub fn checks() -> Vec<Check> {
+    let mut checks = [identity::checks::<SecularRate>(), identity::checks::<SinglePrecessionStart>()].concat();
+    checks.extend([
+        Check {
+            id: "eta-azimuth-mean",
+            kind: Kind::Property,
+            equations: &[41],
+            statement: "the closed mean of the squared speed of the spin axis over its azimuth is the mean over eight azimuths",
+            figure: "largest relative difference / 2.2e-16, 300 random inclinations and asymmetry ratios",
+            bound: Bound::AtMost(16.0),
+            reason: "the speed squared has azimuthal orders 0, 2 and 4, for which eight equal steps are exact; some ten roundings on each side",
+            measure: azimuth_mean,
+        },
+        Check {
+            id: "eta-along-motion",
+            kind: Kind::Oracle,
+            equations: &[41],
+            statement: "the mean of the squared speed along the secular motion, by elliptic integrals, is that of an integration in time over a period",
+            figure: "largest relative difference, and distance from the start after the period, 60 random motions on both sides of the separatrix",
+            bound: Bound::AtMost(1e-9),
+            reason: "Runge-Kutta of order four with 4000 steps a period: (2 pi / 4000)^4 / 120 a radian, times the harmonics of a motion near the separatrix",
+            measure: along_motion,
+        },
+        Check {
+            id: "eta-distribution",
+            kind: Kind::Oracle,
+            equations: &[37, 41],
+            statement: "eta over random directions to the observer and random azimuths of the axis is distributed as by the sum over speeds",
+            figure: "largest Kolmogorov-Smirnov statistic sqrt(N) D, 20,000 samples each at four inclinations, seed 41",
+            bound: Bound::AtMost(1.95),
+            reason: "exceeded by chance in one case of a thousand",
+            measure: distribution,
+        },
+        Check {
+            id: "eta-unknown-axis",
+            kind: Kind::Oracle,
+            equations: &[41],
+            statement: "for a symmetric tensor and an axis of which nothing is known, P(eta > x) is the closed integral",
+            figure: "largest relative difference for x = 2.1 to 1000",
+            bound: Bound::AtMost(2e-3),
+            reason: "midpoint rule over a kink, beyond which 22 of the 256 nodes lie at x = 1000: (1/22)^2 of the part beyond",
+            measure: unknown_axis,
+        },
+        Check {
+            id: "eta-secular-rate",
+            kind: Kind::Regime,
+            equations: &[40, 41],
+            statement: "the mean rate of the spin axis over twelve turns of the numerical motion is the secular one to first order in s",
+            figure: "slope of log(relative difference) against log k, s of the examples scaled by k = 3e-2 to 1e-3",
+            bound: Bound::Within(0.9, 1.1),
+            reason: "what is neglected is of second order in s, of first order relative to the rate; the curvature of the path adds (k 12 turns)^2/24",
+            measure: secular_rate,
+        },
+        Check {
+            id: "eta-by-numerical-motion",
+            kind: Kind::Regime,
+            equations: &[40, 41],
+            statement: "median, 84 % and 97.5 % of eta from numerical motions are those of the secular rate",
+            figure: "largest relative difference, beta_0 = 0.2 to 1.5, s of the examples scaled by 1e-3, 24 azimuths",
+            bound: Bound::AtMost(0.01),
+            reason: "first order in s, 1e-3 x (0.04 / 0.11), over the share of the fastest speed that the axis has near its slowest azimuths, 1/r = 11",
+            measure: by_numerical_motion,
+        },
+        Check {
+            id: "eta-estimate-order",
+            kind: Kind::Regime,
+            equations: &[40, 41],
+            statement: "for beta_0 from 0.2 to 1.1 the paper's 1 / cos beta_0 is eta to an order of magnitude, and always too small",
+            figure: "largest log10(eta cos beta_0), infinite if one is negative; root mean square over directions, azimuths and time or at the inclination, three shapes of the tensor",
+            bound: Bound::AtMost(1.0),
+            reason: "an order of magnitude: a factor of ten",
+            measure: estimate_order,
+        },
+        Check {
+            id: "eta-estimate-lacks-sine",
+            kind: Kind::Regime,
+            equations: &[38, 39, 40, 41],
+            statement: "towards beta_0 = 0 eta grows as 1 / sin beta_0, where 1 / cos beta_0 goes to one: the estimate leaves out the factor sin beta of Eq. (38)",
+            figure: "slope of log eta against log beta_0, 1e-3 to 1e-1, the paper's tensor",
+            bound: Bound::Within(-1.01, -0.99),
+            reason: "sqrt(3 / (1 + r^2)) / (sin b cos b): the next order shifts the slope by some b^2",
+            measure: small_inclinations,
+        },
+        Check {
+            id: "eta-near-right-angle",
+            kind: Kind::Regime,
+            equations: &[41],
+            statement: "for the paper's tensor eta increases to 10 towards pi/2, as the paper says, if the changes of inclination along the motion are averaged over",
+            figure: "largest eta for beta_0 = 1.1 to pi/2, root mean square over directions, azimuths and time",
+            bound: Bound::Within(5.0, 20.0),
+            reason: "'10' read as within a factor of two",
+            measure: near_right_angle,
+        },
+        Check {
+            id: "eta-ten-is-no-maximum",
+            kind: Kind::Regime,
+            equations: &[5, 41],
+            statement: "10 is no upper limit of eta: at beta_0 = pi/2 it grows without limit as the tensor becomes symmetric, as that of alpha_2 is",
+            figure: "slope of log eta(pi/2) against log |r|, r = 1e-2 to 1e-4",
+            bound: Bound::Within(-0.51, -0.49),
+            reason: "the axis swings up to cos beta ~ sqrt|r| and moves with that speed; the next order shifts the slope by about r",
+            measure: symmetric_limit,
+        },
+    ]);
+    checks
+}
+
+struct SecularRate;
+
+impl Identity for SecularRate {
+    const ID: &'static str = "secular-axis-rate";
+    const ROUNDED: (Kind, &'static str) = (Kind::Property, "secular-axis-rate-rounding");
+    const EQUATIONS: &'static [u8] = &[31, 32, 41];
+    const STATEMENT: &'static str = "the secular rate of the spin axis is torque over angular momentum, is a^(1) about Z for s^XX = s^YY, and has the square \
+         of Eq. (41) with eta = 1 / speed";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let spin = p.rates.gamma;
+        let axis = symmetry_axis(p.angles.alpha, p.angles.beta);
+        let inertia_over_c = p.spheroid.inertia_zz / p.spheroid.constant_c;
+        let rate = secular_axis_rate(inertia_over_c, spin, &p.s.tensor(), &axis);
+        let momentum = p.spheroid.inertia_zz * spin;
+        let (_, torque) = reduced_rates(&p.spheroid, &p.s.tensor(), &axis, &(axis * momentum));
+        let from_torque = rate - torque / momentum;
+
+        let symmetric = PrincipalCoefficients { yy: p.s.xx, ..p.s };
+        let constants =
+            Constants { alpha_0: p.angles.alpha, beta_0: p.angles.beta, amplitude: F::zero(), phase: F::zero() };
+        let forced = Perturbation::printed_unchecked(Precession::Single, &p.spheroid, &symmetric, spin, &constants);
+        let about_z = Vector3::new(F::zero(), F::zero(), forced.forced_rate).cross(&axis);
+        let from_forced = secular_axis_rate(inertia_over_c, spin, &symmetric.tensor(), &axis) - about_z;
+
+        let unit = p.s.combination() / (inertia_over_c * spin);
+        let ratio = p.s.asymmetry() / p.s.combination();
+        let square = rate.dot(&rate) - squared_speed(ratio, p.angles.alpha, p.angles.beta) * unit * unit;
+        from_torque.iter().chain(from_forced.iter()).copied().chain([square]).collect()
+    }
+}
+
+struct SinglePrecessionStart;
+
+impl Identity for SinglePrecessionStart {
+    const ID: &'static str = "single-precession-start";
+    const ROUNDED: (Kind, &'static str) = (Kind::Property, "single-precession-start-rounding");
+    const EQUATIONS: &'static [u8] = &[34];
+    const STATEMENT: &'static str =
+        "angles at the start by the asymmetry ratio alone are those of Eq. (34), lower signs, with A = 0";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let (alpha_0, beta_0) = (p.angles.alpha, p.angles.beta);
+        let ratio = p.s.asymmetry() / p.s.combination();
+        let (alpha, beta) = single_precession_start(ratio, alpha_0, beta_0);
+        let constants = Constants { alpha_0, beta_0, amplitude: F::zero(), phase: F::one() };
+        let start = Perturbation::printed_unchecked(Precession::Single, &p.spheroid, &p.s, p.rates.gamma, &constants)
+            .at(F::zero());
+        vec![alpha - start.alpha, beta - start.beta]
+    }
+}
+
+fn azimuth_mean() -> Result<Measured, String> {
+    let mut random = Random::with_seed(31);
+    let mut worst = Worst::default();
+    for case in 0..300 {
+        let (ratio, beta, alpha) = (random.within(-1.0, 1.0), random.within(0.0, PI), random.within(0.0, TAU));
+        let mean = (0..8).map(|k| squared_speed(ratio, alpha + f64::from(k) * FRAC_PI_4, beta)).sum::<f64>() / 8.0;
+        let closed = mean_squared_speed(ratio, beta);
+        worst.see((closed / mean - 1.0).abs() / f64::EPSILON, || {
+            format!("case {case} of seed 31: r = {ratio}, beta = {beta}")
+        });
+    }
+    worst.finish()
+}
+
+/// Mean of `|dl/dt|^2` over the time `period` by Runge-Kutta, and how far the end is from the start.
+fn integrated_mean(s: &Matrix3<f64>, start: Vector3<f64>, period: f64) -> (f64, f64) {
+    const STEPS: usize = 4000;
+    let rate = |l: &Vector3<f64>| secular_axis_rate(1.0, 1.0, s, l);
+    let step = period / STEPS as f64;
+    let (mut l, mut sum) = (start, 0.0);
+    for _ in 0..STEPS {
+        let k1 = rate(&l);
+        let k2 = rate(&(l + k1 * (step / 2.0)));
+        let k3 = rate(&(l + k2 * (step / 2.0)));
+        let k4 = rate(&(l + k3 * step));
+        sum += k1.norm_squared();
+        l += (k1 + k2 * 2.0 + k3 * 2.0 + k4) * (step / 6.0);
+    }
+    (sum / STEPS as f64, (l - start).norm())
+}
+
+/// Period `4 K / (2 sqrt((s2 - s3)(s1 - h)))` of the secular motion for `I^zz / C = Omega^z = 1`, on either side.
+fn secular_period(mut s: [f64; 3], h: f64) -> f64 {
+    s.sort_by(|a, b| b.total_cmp(a));
+    let [first, middle, last] = if h > s[1] { [s[2], s[1], s[0]] } else { s };
+    let squared = (middle - last) * (first - h);
+    4.0 * complete_integral((first - last) * (middle - h) / squared) / (2.0 * squared.sqrt())
+}
+
+fn along_motion() -> Result<Measured, String> {
+    let mut random = Random::with_seed(33);
+    let mut worst = Worst::default();
+    for case in 0..60 {
+        let (ratio, alpha, beta) = (random.within(-1.0, 1.0), random.within(0.0, TAU), random.within(0.1, PI - 0.1));
+        let s = [ratio / 2.0 - 1.0 / 6.0, -ratio / 2.0 - 1.0 / 6.0, 1.0 / 3.0];
+        let (tensor, axis) = (PrincipalCoefficients::new(s).tensor(), symmetry_axis(alpha, beta));
+        let period = secular_period(s, axis.dot(&(tensor * axis)));
+        let (integrated, off) = integrated_mean(&tensor, axis, period);
+        let closed = squared_speed_along_motion(ratio, alpha, beta);
+        worst.see(largest([(closed / integrated - 1.0).abs(), off]), || {
+            format!("case {case} of seed 33: r = {ratio}, alpha = {alpha}, beta = {beta}: {closed:e}, {integrated:e}")
+        });
+    }
+    worst.finish()
+}
+
+fn distribution() -> Result<Measured, String> {
+    let count = 20_000;
+    let mut random = Random::with_seed(41);
+    let mut worst = Worst::default();
+    for beta in [0.3, 1.0, 1.4, 1.55] {
+        let expected = EtaDistribution::at_inclination(PAPER_ASYMMETRY, beta).map_err(|e| e.to_string())?;
+        let mut samples: Vec<f64> = (0..count)
+            .map(|_| {
+                let axis = symmetry_axis(random.within(0.0, TAU), beta);
+                let direction = symmetry_axis(random.within(0.0, TAU), random.within(-1.0, 1.0).acos());
+                let rate = secular_axis_rate(1.0, 1.0, &COEFFICIENTS.tensor(), &axis);
+                (COEFFICIENTS.combination() / direction.dot(&rate)).abs()
+            })
+            .collect();
+        samples.sort_by(f64::total_cmp);
+        let n = f64::from(count);
+        let distance = largest(samples.iter().enumerate().map(|(i, &eta)| {
+            let below = 1.0 - expected.probability_above(eta);
+            (below - i as f64 / n).abs().max(((i as f64 + 1.0) / n - below).abs())
+        }));
+        worst.see(distance * n.sqrt(), || format!("beta_0 = {beta}"));
+    }
+    worst.finish()
+}
+
+fn unknown_axis() -> Result<Measured, String> {
+    let distribution = EtaDistribution::of_unknown_axis(0.0).map_err(|e| e.to_string())?;
+    let mut worst = Worst::default();
+    for x in [2.1_f64, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0] {
+        // P = int_0^1 min(1, 1 / (x mu sqrt(1 - mu^2))) d mu; the integrand leaves 1 where mu^2 (1 - mu^2) = 1 / x^2.
+        let root = (1.0 - 4.0 / (x * x)).sqrt();
+        let (low, high) = ((2.0 / (x * x) / (1.0 + root)).sqrt(), ((1.0 + root) / 2.0).sqrt());
+        let antiderivative = |mu: f64| -((1.0 + (1.0 - mu * mu).sqrt()) / mu).ln();
+        let closed = low + (1.0 - high) + (antiderivative(high) - antiderivative(low)) / x;
+        worst.see((distribution.probability_above(x) / closed - 1.0).abs(), || format!("x = {x}: {closed:.6}"));
+    }
+    worst.finish()
+}
+
+fn secular_rate() -> Result<Measured, String> {
+    let points = [3e-2, 1e-2, 3e-3, 1e-3]
+        .into_iter()
+        .map(|k| {
+            let s = COEFFICIENTS.scaled(k);
+            let (rate, axis) =
+                numerical_axis_rate(&s, SPIN, (0.4, 0.9), twelve_turns(SPIN)).map_err(|e| e.to_string())?;
+            let secular = secular_axis_rate(1.1, SPIN, &s.tensor(), &axis);
+            Ok((k, (rate - secular).norm() / secular.norm()))
+        })
+        .collect::<Result<Vec<_>, String>>()?;
+    Ok(order(&points, 0.0)?.measured(&points))
+}
+
+fn by_numerical_motion() -> Result<Measured, String> {
+    let s = COEFFICIENTS.scaled(1e-3);
+    let unit = s.combination().abs() / (1.1 * SPIN);
+    let azimuths: Vec<f64> = (0..24).map(|i| FRAC_PI_2 * (f64::from(i) + 0.5) / 24.0).collect();
+    let mut worst = Worst::default();
+    for beta in [0.2, 0.7, 1.1, 1.3, 1.5] {
+        let (mut numerical, mut secular) = (Vec::new(), Vec::new());
+        for &alpha in &azimuths {
+            let (rate, _) =
+                numerical_axis_rate(&s, SPIN, (alpha, beta), twelve_turns(SPIN)).map_err(|e| e.to_string())?;
+            numerical.push((rate.norm() / unit, 1.0));
+            secular.push((squared_speed(PAPER_ASYMMETRY, alpha, beta).sqrt(), 1.0));
+        }
+        let [numerical, secular] = [numerical, secular].map(EtaDistribution::from_speeds);
+        let (numerical, secular) = (numerical.map_err(|e| e.to_string())?, secular.map_err(|e| e.to_string())?);
+        for probability in [0.5, 0.84, 0.975] {
+            let quantile = |d: &EtaDistribution| d.quantile(probability).map_err(|e| e.to_string());
+            let (numerical, secular) = (quantile(&numerical)?, quantile(&secular)?);
+            worst.see((numerical / secular - 1.0).abs(), || {
+                format!("beta_0 = {beta}, probability {probability}: {numerical:.4}, {secular:.4}")
+            });
+        }
+    }
+    worst.finish()
+}
+
+fn estimate_order() -> Result<Measured, String> {
+    let inclinations: Vec<f64> = (0..=90).map(|i| 0.2 + 0.01 * f64::from(i)).collect();
+    let mut worst = Worst::default();
+    for ratio in SHAPES {
+        for point in eta_curve(ratio, &inclinations).map_err(|e| e.to_string())? {
+            let (along, at) = (point.along_motion, point.at_inclination.root_mean_square);
+            for eta in [along, at] {
+                let excess = (eta / point.printed).log10();
+                worst.see(if excess < 0.0 { f64::INFINITY } else { excess }, || {
+                    format!("r = {ratio:.3}, beta_0 = {:.2}: {eta:.3} for {:.3}", point.beta_0, point.printed)
+                });
+            }
+        }
+    }
+    worst.finish()
+}
+
+fn small_inclinations() -> Result<Measured, String> {
+    let points: Vec<_> =
+        [1e-3, 1e-2, 1e-1].map(|beta| (beta, root_mean_square_along_motion(PAPER_ASYMMETRY, beta))).to_vec();
+    Ok(order(&points, 0.0)?.measured(&points))
+}
+
+fn near_right_angle() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for i in 0..=47 {
+        let beta = FRAC_PI_2 - 0.01 * f64::from(i);
+        worst.see(root_mean_square_along_motion(PAPER_ASYMMETRY, beta), || format!("beta_0 = {beta:.3}"));
+    }
+    worst.finish()
+}
+
+fn symmetric_limit() -> Result<Measured, String> {
+    let points: Vec<_> =
+        [1e-2, 1e-3, 1e-4].map(|ratio| (ratio, root_mean_square_along_motion(-ratio, FRAC_PI_2))).to_vec();
+    Ok(order(&points, 0.0)?.measured(&points))
+}

@@ -1,0 +1,191 @@
+//! Fundamental frequencies of motions against reference values, the exact symmetric solution, other frames and other spans.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Matrix3;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates, permuted_from_inertial};
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::observables::fundamental_frequencies::{
+    FundamentalFrequencies, MeanRate, fundamental_frequencies, mean_rates_about,
+};
+use twofold::propagation::propagate;
+use twofold::solutions::symmetric::SymmetricSolution;
+
+use super::signals::{AVERAGING, motion_of};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::random::Random;
+use crate::reference::reference_motion;
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "mean-rates-of-examples",
+            kind: Kind::Oracle,
+            equations: &[32, 57],
+            statement: "mean rates of alpha, gamma and the azimuth of L of the four examples equal those of integration over 20,000 t_c with quadruple precision checks",
+            figure: "largest difference beyond half a unit of the reference's last digit [1/t_c]",
+            bound: Bound::AtMost(1e-11),
+            reason: "the accuracy asked of mean rates; the references are given to 1e-11 and 1e-10",
+            measure: rates_of_examples,
+        },
+        Check {
+            id: "mean-rates-symmetric",
+            kind: Kind::Oracle,
+            equations: &[25, 32, 57],
+            statement: "for s^XX = s^YY the mean rates of alpha and gamma, the nutation and the slow precession are those of the exact solution in elliptic functions: \
+                 the nutation is 2 pi over the period of the inclination, and alpha' = l' + nu' or l'",
+            figure: "largest difference [1/t_c], 8 random motions of both kinds",
+            bound: Bound::AtMost(1e-11),
+            reason: "the accuracy asked of mean rates; both sides are exact to 1e-12",
+            measure: symmetric_motions,
+        },
+        Check {
+            id: "mean-rates-of-frame",
+            kind: Kind::Property,
+            equations: &[36],
+            statement: "the same motion in the frames X-Y-Z, Y-Z-X and Z-X-Y has the same frequencies about the same principal axis, also where that is X; about an axis that L does not go round the slow rate is zero",
+            figure: "largest difference [1/t_c], tp-II, sp-I and a motion about the axis of the largest eigenvalue",
+            bound: Bound::AtMost(2e-11),
+            reason: "twice the accuracy asked of mean rates",
+            measure: frames,
+        },
+        Check {
+            id: "mean-rate-uncertainty",
+            kind: Kind::Property,
+            equations: &[32, 57],
+            statement: "a mean rate over a shorter span differs from that over 2,400 t_c by no more than its estimated error",
+            figure: "largest difference / sum of the two estimates, four examples, spans from 800 to 1,600 t_c",
+            bound: Bound::AtMost(1.0),
+            reason: "the estimate compares with spans a quarter shorter, whose error is larger while averaging converges",
+            measure: uncertainties,
+        },
+    ]
+}
+
+fn message(e: twofold::Error) -> String {
+    e.to_string()
+}
+
+fn known(rate: Option<MeanRate>, what: &str) -> Result<f64, String> {
+    rate.map(|rate| rate.value).ok_or_else(|| format!("no mean rate of {what}"))
+}
+
+fn rates_of_examples() -> Result<Measured, String> {
+    // Rate of alpha, of gamma, of the azimuth of L; unit of the last digit given.
+    let expected = [
+        ("tp-1", 1.51237304762, -0.15557827845, 1.51237304762, 1e-11),
+        ("tp-2", 1.39467831103, -0.14421753117, -0.03546436867, 1e-11),
+        ("sp-1", -0.0720704306, 1.0549619690, -0.0720704306, 1e-10),
+        ("sp-2", -0.0257600721, 1.0086796666, -0.0257600721, 1e-10),
+    ];
+    let mut worst = Worst::default();
+    for (name, alpha, gamma, momentum, digit) in expected {
+        let motion = motion_of(&reference_motion(name), AVERAGING).map_err(message)?;
+        let found = fundamental_frequencies(&motion).map_err(message)?;
+        for (label, rate, expected) in
+            [("alpha", found.alpha, alpha), ("gamma", found.gamma, gamma), ("L", found.momentum, momentum)]
+        {
+            let rate = known(rate, label)?;
+            let beyond = ((rate - expected).abs() - digit / 2.0).max(0.0);
+            worst.see(if rate.is_finite() { beyond } else { f64::NAN }, || format!("{label} of {name}: {rate:.13}"));
+        }
+    }
+    worst.finish()
+}
+
+fn symmetric_motions() -> Result<Measured, String> {
+    let (mut random, mut worst) = (Random::with_seed(25), Worst::default());
+    let (mut twofold, mut single) = (0, 0);
+    for case in 0..8 {
+        let spheroid = RigidSpheroid::in_units_of_tc(random.within(0.8, 1.3));
+        let equatorial = random.within(-0.02, 0.02);
+        let s = PrincipalCoefficients::new([equatorial, equatorial, equatorial - random.within(0.03, 0.08)]);
+        let angles = EulerAngles { alpha: 0.3, beta: random.within(0.6, 0.9), gamma: -1.0 };
+        let (alpha_rate, gamma_rate) = if case % 2 == 0 { (1.5, -0.15) } else { (-0.07, 1.1) };
+        let rates = EulerRates { alpha: alpha_rate, beta: random.within(-0.1, 0.1), gamma: gamma_rate };
+        let exact = SymmetricSolution::new(&spheroid, &s, &angles, &rates).map_err(message)?;
+        let start = BodyState::from_angles(&spheroid, &angles, &rates);
+        let motion = propagate(&spheroid, &s.tensor(), &start, (0.0, AVERAGING), 1e-13).map_err(message)?;
+        let found = fundamental_frequencies(&motion).map_err(message)?;
+        let (mean, nutation) = (exact.mean_rates(), TAU / exact.period());
+        let (alpha, slow) = (known(found.alpha, "alpha")?, known(found.slow, "L")?);
+        // The inclination repeats, so alpha, L and the axes differ by whole turns of the nutation.
+        let fast = (alpha - slow).abs() > 0.5;
+        *(if fast { &mut twofold } else { &mut single }) += 1;
+        let differences = [
+            alpha - mean.alpha,
+            known(found.gamma, "gamma")? - mean.gamma,
+            known(found.nutation, "n round L")? - nutation,
+            slow - (mean.alpha - if fast { nutation } else { 0.0 }),
+        ];
+        worst.see(largest(differences.map(f64::abs)), || format!("case {case} of seed 25: {differences:?}"));
+    }
+    if twofold == 0 || single == 0 {
+        return Err(format!("{twofold} twofold and {single} single motions: both are needed"));
+    }
+    worst.finish()
+}
+
+fn frames() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    let permuted = permuted_from_inertial::<f64>();
+    for name in ["tp-2", "sp-1", "retrograde"] {
+        let scene = reference_motion(name);
+        let mut turn = Matrix3::identity();
+        let mut first: Option<FundamentalFrequencies> = None;
+        for _ in 0..3 {
+            let s = turn * scene.violation() * turn.transpose();
+            let start = scene.initial().rotated(&turn);
+            let motion = propagate(&scene.spheroid, &s, &start, (0.0, AVERAGING), 1e-13).map_err(message)?;
+            let found = fundamental_frequencies(&motion).map_err(message)?;
+            let axis = (turn.transpose() * found.frame.row(2).transpose(), found.frame.row(2).transpose());
+            let reference = *first.get_or_insert(found);
+            let differences = [
+                known(found.alpha, "alpha")? - known(reference.alpha, "alpha")?,
+                known(found.gamma, "gamma")? - known(reference.gamma, "gamma")?,
+                known(found.slow, "L")? - known(reference.slow, "L")?,
+                known(found.nutation, "n")? - known(reference.nutation, "n")?,
+                (axis.0 - reference.frame.row(2).transpose()).norm(),
+            ];
+            worst.see(largest(differences.map(f64::abs)), || format!("{name}, axis {:?}: {differences:?}", axis.1));
+            turn = permuted * turn;
+        }
+        // About the next axis, which L does not go round.
+        let motion = motion_of(&scene, AVERAGING).map_err(message)?;
+        let frame = first.map_or(Matrix3::identity(), |first| permuted * first.frame);
+        let about_another = mean_rates_about(&motion, &frame).map_err(message)?;
+        worst.see(known(about_another.slow, "L")?.abs(), || format!("{name}, about another axis"));
+    }
+    worst.finish()
+}
+
+fn uncertainties() -> Result<Measured, String> {
+    let (mut worst, mut spans) = (Worst::default(), 0);
+    for name in ["tp-1", "tp-2", "sp-1", "sp-2"] {
+        let scene = reference_motion(name);
+        let over = |span| motion_of(&scene, span).and_then(|motion| fundamental_frequencies(&motion));
+        let long = over(AVERAGING).map_err(message)?;
+        for span in [800.0, 1000.0, 1600.0] {
+            // A span that is too short is refused, which is right as well.
+            let Ok(short) = over(span) else { continue };
+            spans += 1;
+            for (label, short, long) in [
+                ("alpha", short.alpha, long.alpha),
+                ("gamma", short.gamma, long.gamma),
+                ("slow L", short.slow, long.slow),
+                ("nutation", short.nutation, long.nutation),
+            ] {
+                let (Some(short), Some(long)) = (short, long) else { continue };
+                let difference = (short.value - long.value).abs();
+                worst.see(difference / (short.uncertainty + long.uncertainty), || {
+                    format!("{label} of {name} over {span} t_c: {difference:.1e}, estimate {:.1e}", short.uncertainty)
+                });
+            }
+        }
+    }
+    if spans < 8 {
+        return Err(format!("only {spans} shorter spans gave rates"));
+    }
+    worst.finish()
+}

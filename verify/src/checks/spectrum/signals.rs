@@ -1,0 +1,116 @@
+//! The paper's pulsar and wave signals of tp-I and tp-II as line lists, computed once for all checks and golden tables.
+
+use std::sync::OnceLock;
+
+use nalgebra::Vector3;
+use twofold::Error;
+use twofold::dynamics::BodyState;
+use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::observables::Observer;
+use twofold::observables::fundamental_frequencies::{FundamentalFrequencies, fundamental_frequencies};
+use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
+use twofold::observables::pulsar::Beam;
+use twofold::observables::spectrum::{FrequencyBasis, LineList, Series, SpectralLine, spectral_lines};
+use twofold::propagation::{TaylorMotion, propagate};
+
+use crate::reference::{ReferenceMotion, reference_motion};
+
+/// Angles of the paper's figures: observer, magnetic axis, half opening of the beam (rad).
+const THETA_O: f64 = 0.8;
+const CHI: f64 = 0.5;
+const RHO: f64 = 0.6;
+
+/// Span over which rates are averaged [t_c].
+pub(super) const AVERAGING: f64 = 2400.0;
+
+/// Span and number of samples of the signals. Of m.n of tp-II, four slow turns are nearly one modulation: its
+/// lines come in pairs 0.0024 apart, which takes longer to resolve.
+const SIGNAL: (f64, usize) = (6000.0, 16_384);
+const PAIRED_SIGNAL: (f64, usize) = (20_000.0, 49_152);
+
+/// A twofold example with its signals.
+pub(crate) struct Example {
+    /// Name in the paper.
+    pub name: &'static str,
+    /// Fundamental frequencies.
+    pub frequencies: FundamentalFrequencies,
+    /// Their combinations.
+    pub basis: FrequencyBasis,
+    /// Lines of `m.n` above 1e-4, of `h_+` and `h_x` above 1e-6 (`r = 1`).
+    pub pulsar: LineList,
+    /// `h_+`.
+    pub plus: LineList,
+    /// `h_x`.
+    pub cross: LineList,
+    /// The motion over [`SIGNAL`].
+    pub(super) motion: TaylorMotion<f64>,
+}
+
+impl Example {
+    /// `h_+` and `h_x`.
+    pub fn waves(&self) -> [(&'static str, &LineList); 2] {
+        [("h_+", &self.plus), ("h_x", &self.cross)]
+    }
+
+    /// All three signals.
+    pub fn signals(&self) -> [(&'static str, &LineList); 3] {
+        [("m.n", &self.pulsar), ("h_+", &self.plus), ("h_x", &self.cross)]
+    }
+}
+
+/// tp-I and tp-II.
+pub(crate) fn examples() -> Result<&'static [Example; 2], String> {
+    static EXAMPLES: OnceLock<Result<[Example; 2], String>> = OnceLock::new();
+    let examples = EXAMPLES.get_or_init(|| {
+        let example = |name, scene, signal| example(name, scene, signal).map_err(|e| format!("{name}: {e}"));
+        Ok([example("tp-I", "tp-1", SIGNAL)?, example("tp-II", "tp-2", PAIRED_SIGNAL)?])
+    });
+    examples.as_ref().map_err(Clone::clone)
+}
+
+fn example(name: &'static str, scene: &str, (span, count): (f64, usize)) -> Result<Example, Error> {
+    let scene = reference_motion(scene);
+    let frequencies = fundamental_frequencies(&motion_of(&scene, AVERAGING)?)?;
+    let motion = motion_of(&scene, SIGNAL.0)?;
+    let wave = |part: fn(Polarizations<f64>) -> f64| {
+        let series = Series::of_motion(&motion, SIGNAL.1, |state| part(wave_of(&scene, state)))?;
+        spectral_lines(&series, 1e-6, 200)
+    };
+    let (beam, observer) = (beam(), line_of_sight());
+    let long = motion_of(&scene, span)?;
+    let pulsar = Series::of_motion(&long, count, |state| beam.direction(state).dot(&observer))?;
+    Ok(Example {
+        name,
+        frequencies,
+        basis: frequencies.basis()?,
+        pulsar: spectral_lines(&pulsar, 1e-4, 200)?,
+        plus: wave(|h| h.plus)?,
+        cross: wave(|h| h.cross)?,
+        motion,
+    })
+}
+
+pub(super) fn motion_of(scene: &ReferenceMotion, span: f64) -> Result<TaylorMotion<f64>, Error> {
+    propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, span), 1e-13)
+}
+
+pub(super) fn beam() -> Beam<f64> {
+    Beam::new(CHI, 0.0, RHO)
+}
+
+pub(super) fn line_of_sight() -> Vector3<f64> {
+    Observer::at(THETA_O, 0.0).direction
+}
+
+pub(super) fn wave_of(scene: &ReferenceMotion, state: &BodyState<f64>) -> Polarizations<f64> {
+    let source = spheroid_inertia_acceleration(&scene.spheroid, &scene.violation(), &state.axis, &state.momentum);
+    polarizations(&Observer::at(THETA_O, 0.0), &metric_perturbation(1.0, &source))
+}
+
+/// The strongest line with a frequency in a range.
+pub(crate) fn strongest(list: &LineList, range: std::ops::Range<f64>) -> Result<&SpectralLine, String> {
+    list.lines
+        .iter()
+        .find(|line| range.contains(&line.frequency))
+        .ok_or_else(|| format!("no line between {} and {}", range.start, range.end))
+}

@@ -1,0 +1,179 @@
+//! The closed formula of the slow precession: against the averaged equation, in its limits, and against the motion.
+
+use nalgebra::Vector3;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::observables::fundamental_frequencies::{fundamental_frequencies, mean_rate};
+use twofold::observables::spectrum::Window;
+use twofold::propagation::{Motion, propagate};
+use twofold::solutions::mean::slow_precession::slow_precession;
+
+use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::fit::order;
+use crate::random::Random;
+use crate::reference::reference_motion;
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "slow-precession-averaged",
+            kind: Kind::Oracle,
+            equations: &[32, 57],
+            statement: "the closed formula is the mean rate of dl/dt = kappa (s l) x l, axis and sense included, for all orders of the eigenvalues, both signs of kappa and both sides of the separatrix",
+            figure: "largest difference / (|kappa| (s1 - s3)), 24 random cases, Runge-Kutta integration",
+            bound: Bound::AtMost(1e-8),
+            reason: "step 0.02 in that unit: the phase error of the fourth-order method is 0.02^4 / 120 = 1.3e-9 times powers of the anharmonicity",
+            measure: averaged_equation,
+        },
+        Check {
+            id: "slow-precession-limits",
+            kind: Kind::Property,
+            equations: &[26, 32],
+            statement: "with two equal eigenvalues the formula is kappa times their distance from the third times the cosine of the inclination to its axis, and zero with three",
+            figure: "largest relative error / 2.2e-16",
+            bound: Bound::AtMost(16.0),
+            reason: "some fifteen roundings of half an ulp",
+            measure: limits,
+        },
+        Check {
+            id: "slow-frequency-formula",
+            kind: Kind::Regime,
+            equations: &[57],
+            statement: "a simple expression relates the slow frequency of tp-II to the coefficients: the formula gives it to 5%",
+            figure: "|formula / measured - 1|, with L and n averaged over the fast rotation",
+            bound: Bound::AtMost(0.06),
+            reason: "the formula is of first order in s, whose largest difference is 0.06",
+            measure: formula_of_tp_2,
+        },
+        Check {
+            id: "slow-precession-order",
+            kind: Kind::Regime,
+            equations: &[57],
+            statement: "its relative error falls with s as of first order, and the slow frequency is proportional to s to that order",
+            figure: "order of the relative error in s: tp-II with s scaled by 1, 1/2, 1/4",
+            bound: Bound::Within(0.75, 1.4),
+            reason: "one, with corrections of relative order 0.06 k per factor of two",
+            measure: order_in_s,
+        },
+    ]
+}
+
+fn message(e: twofold::Error) -> String {
+    e.to_string()
+}
+
+fn averaged_equation() -> Result<Measured, String> {
+    let (mut random, mut worst, mut axes) = (Random::with_seed(37), Worst::default(), [0; 3]);
+    let permutations = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+    let mut case = 0;
+    while case < 24 {
+        let values = [0.03, random.within(-0.01, 0.015), -0.03];
+        let s = PrincipalCoefficients::new(permutations[case % 6].map(|i| values[i]));
+        let l = Vector3::from_fn(|_, _| random.within(-1.0, 1.0)).normalize();
+        let tensor = s.tensor();
+        if (l.dot(&(tensor * l)) - values[1]).abs() < 0.003 {
+            continue;
+        }
+        let (spheroid, g, c) = (RigidSpheroid::in_units_of_tc(1.1), random.within(0.5, 2.0), random.within(-1.0, 1.0));
+        let across = l.cross(&Vector3::new(0.36, 0.48, 0.8)).normalize();
+        let axis = l * c + across * (1.0 - c * c).sqrt();
+        let formula = slow_precession(&spheroid, &s, &(l * g), &axis).map_err(message)?;
+        let kappa = (3.0 * c * c - 1.0) / g;
+        let scale = kappa.abs() * 0.06;
+        let (step, count) = (0.02 / scale, 12_000);
+        let rate = |l: &Vector3<f64>| (tensor * l).cross(l) * kappa;
+        let (i, j) = ((formula.axis + 1) % 3, (formula.axis + 2) % 3);
+        let (mut at, mut azimuths) = (l, Vec::with_capacity(count));
+        for _ in 0..count {
+            let azimuth = at[j].atan2(at[i]);
+            let last = azimuths.last().copied().unwrap_or(azimuth);
+            azimuths.push(azimuth + ((last - azimuth) / std::f64::consts::TAU).round() * std::f64::consts::TAU);
+            let a = rate(&at);
+            let b = rate(&(at + a * (step / 2.0)));
+            let c = rate(&(at + b * (step / 2.0)));
+            let d = rate(&(at + c * step));
+            at += (a + b * 2.0 + c * 2.0 + d) * (step / 6.0);
+        }
+        let measured = mean_rate(&azimuths, step).map_err(message)?;
+        axes[formula.axis] += 1;
+        worst.see((formula.rate - measured.value).abs() / scale, || {
+            format!(
+                "case {case} of seed 37, {s:?}, axis {}: {:.9} and {:.9}",
+                formula.axis, formula.rate, measured.value
+            )
+        });
+        case += 1;
+    }
+    if axes.contains(&0) {
+        return Err(format!("an axis was never gone round: {axes:?}"));
+    }
+    worst.finish()
+}
+
+fn limits() -> Result<Measured, String> {
+    let (mut random, mut worst) = (Random::with_seed(26), Worst::default());
+    let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+    for case in 0..300 {
+        let (equal, other) = (random.within(-0.1, 0.1), random.within(-0.1, 0.1));
+        let l = Vector3::from_fn(|_, _| random.within(-1.0, 1.0)).normalize();
+        let n = Vector3::from_fn(|_, _| random.within(-1.0, 1.0)).normalize();
+        let momentum = l * random.within(0.5, 2.0);
+        let third = case % 3;
+        let mut values = [equal; 3];
+        values[third] = other;
+        let found = slow_precession(&spheroid, &PrincipalCoefficients::new(values), &momentum, &n).map_err(message)?;
+        let c = n.dot(&momentum) / momentum.norm();
+        let size = (3.0 * c * c + 1.0) / momentum.norm() * (equal - other).abs() * l[third].abs();
+        let kappa = (3.0 * c * c - 1.0) / momentum.norm();
+        // About the third axis: (s l) x l turns by (s3 - s1) l3.
+        let expected = kappa * (other - equal) * l[third];
+        let right_axis = if found.axis == third { 1.0 } else { f64::INFINITY };
+        worst.see((found.rate - expected).abs() / (size * f64::EPSILON) * right_axis, || {
+            format!("case {case} of seed 26: {} and {expected}", found.rate)
+        });
+        let isotropic = slow_precession(&spheroid, &PrincipalCoefficients::new([equal; 3]), &momentum, &n);
+        worst.see(isotropic.map_err(message)?.rate.abs() / f64::EPSILON, || format!("case {case}, isotropic"));
+    }
+    worst.finish()
+}
+
+/// Slow frequency of tp-II with s scaled by `k`: by the formula, and measured.
+fn slow_frequency(k: f64) -> Result<[f64; 2], String> {
+    let scene = reference_motion("tp-2");
+    let s = scene.coefficients.scaled(k);
+    let span = 1600.0 / k;
+    let motion = propagate(&scene.spheroid, &s.tensor(), &scene.initial(), (0.0, span), 1e-12).map_err(message)?;
+    let measured = fundamental_frequencies(&motion).map_err(message)?.slow.ok_or("no slow precession")?;
+    // Averages over 24 t_c, five turns of n about L: of the direction of L and of its size.
+    let count = 96;
+    let weights = Window::Kaiser { shape: 14.0 }.weights(count).map_err(message)?;
+    let (mut direction, mut g) = (Vector3::zeros(), 0.0);
+    for (i, weight) in weights.iter().enumerate() {
+        let state: BodyState<f64> = motion.state(0.25 * i as f64).map_err(message)?;
+        direction += state.momentum * *weight;
+        g += state.momentum.norm() * weight / count as f64;
+    }
+    let l: Vector3<f64> = direction.normalize();
+    let c = scene.spheroid.inertia_zz * scene.spin / g;
+    let mean = l * g;
+    let axis = l * c + l.cross(&Vector3::x()).normalize() * (1.0 - c * c).sqrt();
+    let formula = slow_precession(&scene.spheroid, &s, &mean, &axis).map_err(message)?;
+    if formula.axis != 2 {
+        return Err("the formula has L go round another axis than Z".into());
+    }
+    Ok([formula.rate, measured.value])
+}
+
+fn formula_of_tp_2() -> Result<Measured, String> {
+    let [formula, measured] = slow_frequency(1.0)?;
+    Ok(Measured::new((formula / measured - 1.0).abs(), format!("formula {formula:.5}, measured {measured:.8}")))
+}
+
+fn order_in_s() -> Result<Measured, String> {
+    let points: Result<Vec<_>, String> = [1.0, 0.5, 0.25]
+        .into_iter()
+        .map(|k| slow_frequency(k).map(|[formula, measured]| (k, (formula / measured - 1.0).abs())))
+        .collect();
+    let points = points?;
+    Ok(order(&points, 0.0)?.measured(&points))
+}

@@ -1,0 +1,116 @@
+//! The curve of `eta` against the inclination, and the same from numerical motion.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+use twofold::Error;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::symmetry_axis;
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::observables::bound::eta_from_inclination;
+use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
+use twofold::propagation::{Motion, propagate};
+
+/// Asymmetry ratio `(s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` of the paper's examples, -1/11.
+pub const PAPER_ASYMMETRY: f64 = -1.0 / 11.0;
+
+/// `eta` of Eq. (41) over directions to the observer and azimuths of the spin axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EtaStatistics {
+    /// For the root mean square of `d cos lambda / dt`.
+    pub root_mean_square: f64,
+    /// Not exceeded in half of the cases.
+    pub median: f64,
+    /// Not exceeded in 84 % of the cases.
+    pub quantile_84: f64,
+    /// Not exceeded in 97.5 % of the cases.
+    pub quantile_975: f64,
+}
+
+impl EtaStatistics {
+    /// The statistics of a distribution.
+    ///
+    /// # Errors
+    /// None.
+    pub fn of(distribution: &EtaDistribution) -> Result<Self, Error> {
+        Ok(Self {
+            root_mean_square: distribution.root_mean_square(),
+            median: distribution.quantile(0.5)?,
+            quantile_84: distribution.quantile(0.84)?,
+            quantile_975: distribution.quantile(0.975)?,
+        })
+    }
+}
+
+/// One inclination of the curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EtaPoint {
+    /// `beta_0` (rad).
+    pub beta_0: f64,
+    /// `1 / |cos beta_0|`, the paper's estimate.
+    pub printed: f64,
+    /// With `beta_0` the inclination of the axis at the start, and the root mean square taken over all later times too: the
+    /// number that stands for `eta` where one is wanted.
+    pub along_motion: f64,
+    /// With `beta_0` the inclination of the axis while it is observed.
+    pub at_inclination: EtaStatistics,
+    /// With `beta_0` the constant of Eq. (34); none where that gives no inclination.
+    pub at_constant: Option<EtaStatistics>,
+}
+
+/// `eta` at the inclinations `beta_0` (rad, in (0, pi), `pi/2` excluded where the estimate divides by zero) for a tensor with the
+/// asymmetry ratio `r`, [`PAPER_ASYMMETRY`] for that of the paper. Some 0.1 ms a point.
+///
+/// # Errors
+/// [`Error::Domain`] for an inclination whose cosine is zero to 2.2e-16.
+pub fn eta_curve(asymmetry_ratio: f64, inclinations: &[f64]) -> Result<Vec<EtaPoint>, Error> {
+    let point = |&beta_0: &f64| {
+        Ok(EtaPoint {
+            beta_0,
+            printed: eta_from_inclination(beta_0)?,
+            along_motion: root_mean_square_along_motion(asymmetry_ratio, beta_0),
+            at_inclination: EtaStatistics::of(&EtaDistribution::at_inclination(asymmetry_ratio, beta_0)?)?,
+            at_constant: match EtaDistribution::at_constant(asymmetry_ratio, beta_0) {
+                Ok(distribution) => Some(EtaStatistics::of(&distribution)?),
+                Err(_) => None,
+            },
+        })
+    };
+    inclinations.iter().map(point).collect()
+}
+
+/// Mean of `dn/dt` over about `duration`, from numerical motion of a star that starts along `L` at the azimuth `alpha` and
+/// inclination `beta`, and the direction of `L` at the mean time. In units of `t_c`.
+///
+/// The mean has a smooth weight that vanishes with all derivatives at both ends, so that the nutation leaves next to nothing.
+///
+/// # Errors
+/// What [`propagate`] reports.
+pub fn numerical_axis_rate(
+    s: &PrincipalCoefficients<f64>,
+    spin: f64,
+    (alpha, beta): (f64, f64),
+    duration: f64,
+) -> Result<(Vector3<f64>, Vector3<f64>), Error> {
+    const SAMPLES: usize = 400;
+    let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+    let axis = symmetry_axis(alpha, beta);
+    let equatorial_axis = axis.cross(&Vector3::from_fn(|i, _| if i == axis.iamin() { 1.0 } else { 0.0 })).normalize();
+    let initial = BodyState { axis, momentum: axis * (spheroid.inertia_zz * spin), equatorial_axis };
+    let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12)?;
+    let (mut rate, mut direction, mut total) = (Vector3::zeros(), Vector3::zeros(), 0.0);
+    for i in 1..SAMPLES {
+        let x = i as f64 / SAMPLES as f64;
+        let weight = (-1.0 / (x * (1.0 - x))).exp();
+        let state = motion.state(x * duration)?;
+        rate += state.momentum.cross(&state.axis) * (weight / spheroid.inertia_xx);
+        direction += state.momentum * weight;
+        total += weight;
+    }
+    Ok((rate / total, direction.normalize()))
+}
+
+/// Twelve turns of a star with the given spin: enough for [`numerical_axis_rate`] to lose the nutation.
+pub fn twelve_turns(spin: f64) -> f64 {
+    12.0 * TAU / spin
+}
