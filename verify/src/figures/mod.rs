@@ -7,6 +7,7 @@ mod alignment;
 mod alignment_spectra;
 mod axes;
 mod beam_cone;
+mod bound_factor;
 mod contour;
 mod euler_angles;
 mod examples;
@@ -198,6 +199,12 @@ pub const RECIPES: &[Recipe] = &[
         paper_figure: Some(12),
         summary: "Spectra of the gravitational waves of tp-I and tp-II, with the third harmonic enlarged",
         maker: Maker::Motions(Needs::Observer, &[0, 1], wave_spectra::sheet),
+    },
+    Recipe {
+        name: "bound-factor",
+        paper_figure: None,
+        summary: "Factor eta of the bounds from pulsars against the inclination",
+        maker: Maker::Alone(bound_factor::sheet),
     },
     Recipe {
         name: "perturbation-regimes",

@@ -88,6 +88,17 @@ const NUMBERS: &[(&str, &str, &[Numbers])] = &[
         ],
     ),
     (
+        "bound-factor",
+        "figure_bound_factor",
+        &[
+            ("", 1, &[At(0.2), At(1.1), At(1.4)]),
+            ("", 2, &[At(0.2), At(1.1), At(1.4), Last]),
+            ("", 3, &[At(0.7), Least]),
+            ("", 4, &[At(0.7), Least]),
+            ("", 5, &[At(0.7), Least]),
+        ],
+    ),
+    (
         "perturbation-regimes",
         "figure_perturbation_regimes",
         &[
@@ -193,6 +204,7 @@ fn line(table: &Table, column: usize, pick: Pick) -> Option<GoldenLine> {
         Least => "least".to_owned(),
         Most => "largest".to_owned(),
         Of(..) => format!("at {:.4}, {:.4e}", row[0], row[1]),
+        _ if table.columns[0].starts_with("beta_0") => format!("at {:.4}", row[0]),
         // A table of vectors has no time.
         _ if table.columns[0].starts_with("t [") => format!("at t = {:.3}", row[0]),
         Row(place) => format!("of line {}", place + 1),

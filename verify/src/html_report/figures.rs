@@ -13,7 +13,13 @@ const SHOWN: &[(&str, &[&str])] = &[
     ("motion-tp-2", &["caption-values", "twofold-large-tilt"]),
     ("motion-sp-1", &["caption-values", "single-one-period"]),
     ("motion-sp-2", &["caption-values", "single-right-angle"]),
-    ("pulse-series", &["formulas-fit-tp-1", "formulas-fail-tp-2"]),
+    ("beam-alignment-spectra", &["slow-line", "no-slow-line-tp-1", "free-pulse-lines"]),
+    ("pulse-series", &["formulas-fit-tp-1", "formulas-fail-tp-2", "period-40", "period-180"]),
+    (
+        "wave-spectra",
+        &["peaks-near-free", "third-harmonic", "third-weaker", "higher-harmonics", "no-slow-wave", "all-harmonics"],
+    ),
+    ("bound-factor", &["estimate-order", "eta-ten"]),
     (
         "perturbation-regimes",
         &["twofold-leading-order", "single-leading-order", "single-one-period", "single-right-angle"],

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-const SYMBOLS: [(&str, &str); 36] = [
+const SYMBOLS: [(&str, &str); 37] = [
     ("alpha", "α"),
     ("beta", "β"),
     ("gamma", "γ"),
@@ -37,6 +37,7 @@ const SYMBOLS: [(&str, &str); 36] = [
     ("<=", "≤"),
     (">=", "≥"),
     ("<~", "≲"),
+    ("+-", "±"),
     ("-+", "∓"),
     ("->", "→"),
 ];
