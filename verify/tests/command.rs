@@ -236,7 +236,7 @@ fn a_report_that_cannot_be_written_is_refused_before_the_checks_are_run() {
     let page = Path::new(out).join("index.html");
     fs::write(&page, "mine").expect("file");
     for (out, reason) in
-        [(out, "index.html exists in it; --force replaces it"), (page.to_str().expect("UTF-8"), "is not a folder")]
+        [(out, "index.html exists there; --force replaces"), (page.to_str().expect("UTF-8"), "is not a folder")]
     {
         let output = twofold(&["report", "--out", out]);
         assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
