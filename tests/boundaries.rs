@@ -13,7 +13,7 @@ use twofold::lorentz_violation::{PrincipalCoefficients, preferred_frame_paramete
 use twofold::observables::bound::{
     SpinAxisDrift, eta_from_inclination, lambda_change, preferred_frame_bound, zeta_change,
 };
-use twofold::propagation::{ContinuousAngles, Motion, propagate};
+use twofold::propagation::{AxisMotion, ContinuousAngles, Motion, propagate};
 use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::perturbation::{Constants, Kind, Perturbation, shifted_rates};
 use twofold::solutions::steady::steady_precession_rate;

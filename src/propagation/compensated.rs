@@ -1,8 +1,6 @@
 //! Sums that keep what each addition loses.
 
-use nalgebra::Vector3;
-
-use crate::dynamics::BodyState;
+use crate::propagation::series::Vectors;
 use crate::rounding::two_sum;
 use crate::scalar::Scalar;
 
@@ -25,25 +23,19 @@ impl Compensated {
 }
 
 /// A state whose additions are compensated: `high` is the state, `low` what its last addition lost.
-pub(super) struct CompensatedState<S> {
-    pub(super) high: BodyState<S>,
-    pub(super) low: BodyState<S>,
+pub(super) struct CompensatedState<S, const V: usize> {
+    pub(super) high: Vectors<S, V>,
+    pub(super) low: Vectors<S, V>,
 }
 
-impl<S: Scalar> CompensatedState<S> {
-    pub(super) fn new(state: &BodyState<S>) -> Self {
-        let zero = Vector3::zeros();
-        Self { high: *state, low: BodyState { axis: zero, momentum: zero, equatorial_axis: zero } }
+impl<S: Scalar, const V: usize> CompensatedState<S, V> {
+    pub(super) fn new(state: &Vectors<S, V>) -> Self {
+        Self { high: *state, low: Vectors::zeros() }
     }
 
-    pub(super) fn add(&mut self, change: &BodyState<S>) {
-        let add = |high: &mut Vector3<S>, low: &mut Vector3<S>, change: &Vector3<S>| {
-            for i in 0..3 {
-                (high[i], low[i]) = two_sum(high[i], change[i] + low[i]);
-            }
-        };
-        add(&mut self.high.axis, &mut self.low.axis, &change.axis);
-        add(&mut self.high.momentum, &mut self.low.momentum, &change.momentum);
-        add(&mut self.high.equatorial_axis, &mut self.low.equatorial_axis, &change.equatorial_axis);
+    pub(super) fn add(&mut self, change: &Vectors<S, V>) {
+        for ((high, low), change) in self.high.iter_mut().zip(self.low.iter_mut()).zip(change.iter()) {
+            (*high, *low) = two_sum(*high, *change + *low);
+        }
     }
 }

@@ -2,16 +2,17 @@
 
 use nalgebra::Matrix3;
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
 use crate::propagation::ACCURACY_RANGE;
-use crate::scalar::{Real, real_part};
+use crate::propagation::series::{AXIS, EQUATORIAL_AXIS, MOMENTUM, Vectors};
+use crate::scalar::Real;
 
 /// Refuses what is not finite, not a frame, or out of range.
-pub(super) fn check_input<S: Real>(
+pub(super) fn check_input<S: Real, const V: usize>(
     spheroid: &RigidSpheroid<S>,
     s: &Matrix3<S>,
-    state: &BodyState<S>,
+    state: &Vectors<S, V>,
     span: (f64, f64),
     accuracy: f64,
 ) -> Result<(), Error> {
@@ -28,13 +29,19 @@ pub(super) fn check_input<S: Real>(
     for entry in s.iter() {
         Error::unless(entry.re().is_finite(), "entry of s^IJ", entry.re(), "a finite number")?;
     }
-    for component in state.momentum.iter() {
-        Error::unless(component.re().is_finite(), "component of L", component.re(), "a finite number")?;
+    let state = state.map(S::re);
+    for component in state.column(MOMENTUM).iter() {
+        Error::unless(component.is_finite(), "component of L", *component, "a finite number")?;
     }
-    let (axis, equatorial) = (real_part(&state.axis), real_part(&state.equatorial_axis));
-    for (length, name) in [(axis.norm(), "length of the axis n"), (equatorial.norm(), "length of the axis e_x")] {
-        Error::unless((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")?;
+    let unit = |column: usize, name| {
+        let length = state.column(column).norm();
+        Error::unless((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")
+    };
+    unit(AXIS, "length of the axis n")?;
+    if V > EQUATORIAL_AXIS {
+        unit(EQUATORIAL_AXIS, "length of the axis e_x")?;
+        let overlap = state.column(AXIS).dot(&state.column(EQUATORIAL_AXIS));
+        Error::unless(overlap.abs() < 1e-9, "n . e_x", overlap, "zero, to 1e-9")?;
     }
-    let overlap = axis.dot(&equatorial);
-    Error::unless(overlap.abs() < 1e-9, "n . e_x", overlap, "zero, to 1e-9")
+    Ok(())
 }

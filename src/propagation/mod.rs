@@ -10,5 +10,5 @@ mod step_size;
 mod taylor;
 
 pub use continuous_angles::ContinuousAngles;
-pub use motion::Motion;
-pub use taylor::{ACCURACY_RANGE, STEP_LIMIT, TaylorMotion, propagate};
+pub use motion::{AxisMotion, AxisState, Motion};
+pub use taylor::{ACCURACY_RANGE, STEP_LIMIT, TaylorAxisMotion, TaylorMotion, propagate, propagate_axis};

@@ -1,13 +1,37 @@
 //! A motion: the state of rotation at any time of a span, whoever computed it.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::scalar::Scalar;
 
-/// The rotation of one spheroid over a span of time. Observables take a motion and never know the method behind it.
-pub trait Motion<S: Scalar> {
+/// State of the reduced motion of a spheroid in inertial components: what its potential energy, its spin axis and its
+/// gravitational wave depend on. The rotation about the symmetry axis is left out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisState<S> {
+    /// Symmetry axis `n = e_z`, a unit vector.
+    pub axis: Vector3<S>,
+    /// Angular momentum `L`.
+    pub momentum: Vector3<S>,
+}
+
+impl<S: Scalar> AxisState<S> {
+    /// The same motion seen from another inertial frame: both vectors multiplied by the rotation `other_from_this`.
+    pub fn rotated(&self, other_from_this: &Matrix3<S>) -> Self {
+        Self { axis: other_from_this * self.axis, momentum: other_from_this * self.momentum }
+    }
+}
+
+impl<S: Scalar> From<&BodyState<S>> for AxisState<S> {
+    fn from(state: &BodyState<S>) -> Self {
+        Self { axis: state.axis, momentum: state.momentum }
+    }
+}
+
+/// The motion of the symmetry axis and the angular momentum of one spheroid over a span of time. Observables take a motion
+/// and never know the method behind it.
+pub trait AxisMotion<S: Scalar> {
     /// The body that moves.
     fn spheroid(&self) -> &RigidSpheroid<S>;
 
@@ -17,13 +41,23 @@ pub trait Motion<S: Scalar> {
     /// First and last time at which the motion is known, in either order.
     fn span(&self) -> (f64, f64);
 
-    /// State at time `t`. Dense: any `t` of the span, at a cost that does not depend on how far `t` is from a step.
+    /// Symmetry axis and angular momentum at time `t`. Dense: any `t` of the span, at a cost that does not depend on how far
+    /// `t` is from a step.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a time outside [`span`](Motion::span).
-    fn state(&self, t: S) -> Result<BodyState<S>, Error>;
+    /// [`Error::Domain`] for a time outside [`span`](AxisMotion::span).
+    fn axis_state(&self, t: S) -> Result<AxisState<S>, Error>;
 
-    /// Estimated error of the components of `n` and `e_x`, and of those of `L` in units of its size (that of `L` at the start
-    /// and what the torque makes of it), at time `t` of the span.
+    /// Estimated error of the components of `n` and, where it is known, `e_x`, and of those of `L` in units of its size (that
+    /// of `L` at the start and what the torque makes of it), at time `t` of the span.
     fn error_estimate(&self, t: f64) -> f64;
+}
+
+/// The whole rotation of one spheroid over a span of time, the angle about the symmetry axis included.
+pub trait Motion<S: Scalar>: AxisMotion<S> {
+    /// State at time `t`, as dense as [`axis_state`](AxisMotion::axis_state).
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a time outside [`span`](AxisMotion::span).
+    fn state(&self, t: S) -> Result<BodyState<S>, Error>;
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::dynamics::{BodyState, RigidSpheroid};
-use crate::propagation::series::Series;
+use crate::dynamics::RigidSpheroid;
+use crate::propagation::series::{MOMENTUM, Vectors};
 use crate::scalar::{Real, real_part};
 
 /// Sizes by which errors are measured.
@@ -18,11 +18,11 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    pub(super) fn of<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: &BodyState<S>) -> Self {
+    pub(super) fn of<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, momentum: &Vector3<S>) -> Self {
         let inertia = spheroid.inertia_xx.re();
         let pull = spheroid.constant_c.re().abs() * s.map(S::re).norm();
         // Two roots, since the product may be out of range where they are not.
-        let momentum = real_part(&state.momentum).norm() + (2.0 * inertia).sqrt() * pull.sqrt();
+        let momentum = real_part(momentum).norm() + (2.0 * inertia).sqrt() * pull.sqrt();
         let body_turn = (1.0 - spheroid.inertia_xx.re() / spheroid.inertia_zz.re()).abs();
         let turning_rate = momentum / inertia * (1.0 + body_turn);
         let time = if turning_rate > 0.0 { 2f64.powi(-turning_rate.log2().clamp(-1000.0, 1000.0) as i32) } else { 1.0 };
@@ -31,9 +31,11 @@ impl Scale {
     }
 
     /// Largest component of a coefficient, `L` in units of the momentum.
-    pub(super) fn size<S: Real>(&self, c: &BodyState<S>) -> f64 {
-        let largest = |v: &Vector3<S>| real_part(v).amax();
-        largest(&c.axis).max(largest(&c.equatorial_axis)).max(largest(&c.momentum) / self.momentum)
+    pub(super) fn size<S: Real, const V: usize>(&self, coefficient: &Vectors<S, V>) -> f64 {
+        let mut sizes = coefficient.map(|component| component.re().abs());
+        let mut momentum = sizes.column_mut(MOMENTUM);
+        momentum /= self.momentum;
+        sizes.max()
     }
 }
 
@@ -45,17 +47,18 @@ pub(super) fn order_for(budget: f64) -> usize {
 
 /// Step with truncation error at most `budget` per unit of time, from the last two coefficients (two, since one may vanish
 /// by symmetry); zero where the coefficients are out of range.
-pub(super) fn step_size<S: Real>(series: &Series<S>, scale: &Scale, budget: f64) -> f64 {
-    let order = series.coefficients.len() - 1;
+pub(super) fn step_size<S: Real, const V: usize>(series: &[Vectors<S, V>], scale: &Scale, budget: f64) -> f64 {
+    let order = series.len() - 1;
+    // The logarithm of the largest step in units of the series.
     let bound = |k: usize| {
-        let size = scale.size(&series.coefficients[k]);
+        let size = scale.size(&series[k]);
         match size {
             0.0 => f64::INFINITY,
-            size if size.is_finite() => (budget * scale.time / size).powf(1.0 / (k as f64 - 1.0)) * scale.time,
-            _ => 0.0,
+            size if size.is_finite() => (budget * scale.time / size).ln() / (k as f64 - 1.0),
+            _ => f64::NEG_INFINITY,
         }
     };
     // The first omitted term is about the last kept one times (step / radius of convergence), and that ratio is below
     // one fifth: so the last kept term bounds the whole remainder.
-    bound(order).min(bound(order - 1))
+    bound(order).min(bound(order - 1)).exp() * scale.time
 }

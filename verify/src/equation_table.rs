@@ -176,7 +176,9 @@ pub const EQUATIONS: &[Equation] = &[
             "dynamics::regular_equations::reduced_rates",
             "dynamics::regular_equations::body_state_rates",
             "propagation::propagate",
+            "propagation::propagate_axis",
             "propagation::TaylorMotion",
+            "propagation::AxisState",
             "propagation::ContinuousAngles",
             "solutions::symmetric::SymmetricSolution",
         ],
@@ -561,6 +563,26 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
     (
         "slow precession of the averaged angular momentum",
         &["solutions::mean::slow_precession::slow_precession", "solutions::mean::slow_precession::SlowPrecession"],
+    ),
+    (
+        "times of arrival, pulse numbers, residuals against a constant period",
+        &[
+            "observables::pulsar::arrival::arrivals",
+            "observables::pulsar::Arrival",
+            "observables::pulsar::ConstantPeriod",
+        ],
+    ),
+    (
+        "position angle of the polarization, rotating-vector model",
+        &[
+            "observables::pulsar::position_angle::sky_from_inertial",
+            "observables::pulsar::position_angle::position_angle",
+            "observables::pulsar::position_angle::position_angle_rate",
+            "observables::pulsar::position_angle::position_angle_rate_off_line_of_sight",
+            "observables::pulsar::position_angle::rotating_vector_point",
+            "observables::pulsar::position_angle::rotating_vector_position_angle",
+            "observables::pulsar::position_angle::rotating_vector_gradient",
+        ],
     ),
     ("errors at public boundaries", &["Error"]),
     ("densities for the quadrature", &["star::axisymmetric::AxisymmetricBody"]),

@@ -14,6 +14,7 @@ pub mod eta;
 pub mod figures;
 pub mod fit;
 pub mod golden;
+pub mod html_report;
 pub mod identity;
 mod operators;
 pub mod paper_examples;

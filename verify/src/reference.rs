@@ -1,4 +1,4 @@
-//! The reference motions: initial values and 34-digit states of ten scenes, carried as test data.
+//! The reference motions: initial values and 34-digit states of ten scenes, and the pulses of two, carried as test data.
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
@@ -77,6 +77,29 @@ pub fn reference_motion(name: &str) -> ReferenceMotion {
         .into_iter()
         .find(|motion| motion.name == name)
         .unwrap_or_else(|| panic!("no reference motion is called {name}"))
+}
+
+/// One reference pulse: whole, of the beam `chi = 0.5`, `delta = 0`, `rho = 0.6` seen from `theta_o = 0.8`, `phi_o = 0`.
+#[derive(Debug, Clone, Copy)]
+pub struct ReferencePulse {
+    /// Time at which the line of sight enters the beam.
+    pub start: f64,
+    /// Time at which it leaves.
+    pub end: f64,
+    /// Time at which `m.n` is largest.
+    pub closest_approach: f64,
+}
+
+/// The reference pulses of `tp-1` or `tp-2`, the first ones in order of time.
+///
+/// # Panics
+/// If the data compiled into the program are malformed.
+pub fn reference_pulses(scene: &str) -> Vec<ReferencePulse> {
+    rows(include_str!("../data/pulse_edges.csv"))
+        .into_iter()
+        .filter(|(name, _)| name == scene)
+        .map(|(_, v)| ReferencePulse { start: v[0], end: v[1], closest_approach: v[2] })
+        .collect()
 }
 
 fn rows(text: &str) -> Vec<(String, Vec<f64>)> {

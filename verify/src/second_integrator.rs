@@ -2,12 +2,13 @@
 
 use nalgebra::{Matrix3, Vector3};
 use numeris::Vector;
-use numeris::ode::{AdaptiveSettings, RKAdaptive, RKV98NoInterp};
+use numeris::ode::{AdaptiveSettings, RKAdaptive, RKV98, RKV98NoInterp};
 use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations};
-use twofold::dynamics::regular_equations::body_state_rates;
+use twofold::dynamics::regular_equations::{body_state_rates, reduced_rates};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::propagation::AxisState;
 
 fn settings(tolerance: f64) -> AdaptiveSettings<f64> {
     AdaptiveSettings { abs_tol: tolerance, rel_tol: tolerance, max_steps: 10_000_000, ..AdaptiveSettings::default() }
@@ -39,6 +40,36 @@ pub fn regular_motion(
     let end = RKV98NoInterp::integrate(0.0, duration, &pack(initial), rates, &settings(tolerance))
         .map_err(|e| e.to_string())?;
     Ok(unpack(&end.y))
+}
+
+/// Symmetry axis and angular momentum at the given times, in ascending order from zero, by the interpolant of order 8 of the
+/// method.
+///
+/// # Errors
+/// What the integrator reports.
+pub fn axis_states(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    initial: &AxisState<f64>,
+    times: &[f64],
+    tolerance: f64,
+) -> Result<Vec<AxisState<f64>>, String> {
+    let pack = |n: &Vector3<f64>, l: &Vector3<f64>| Vector::from_array([n.x, n.y, n.z, l.x, l.y, l.z]);
+    let unpack = |y: &Vector<f64, 6>| AxisState {
+        axis: Vector3::new(y[0], y[1], y[2]),
+        momentum: Vector3::new(y[3], y[4], y[5]),
+    };
+    let rates = |_: f64, y: &Vector<f64, 6>| {
+        let AxisState { axis, momentum } = unpack(y);
+        let (axis_rate, momentum_rate) = reduced_rates(spheroid, s, &axis, &momentum);
+        pack(&axis_rate, &momentum_rate)
+    };
+    let settings = AdaptiveSettings { dense_output: true, ..settings(tolerance) };
+    let start = pack(&initial.axis, &initial.momentum);
+    let end = times.last().copied().unwrap_or(0.0);
+    let solution = RKV98::integrate(0.0, end, &start, rates, &settings).map_err(|e| e.to_string())?;
+    let states = RKV98::interpolate_batch(times, &solution).map_err(|e| e.to_string())?;
+    Ok(states.iter().map(unpack).collect())
 }
 
 /// Euler angles after `duration` by Eq. (25) `[eleq]` and `gamma' = Omega^z - alpha' cos beta`; they count their turns.

@@ -24,7 +24,7 @@ pub struct MeanRate {
 ///
 /// A weighted Birkhoff average: an oscillation of the rate with the frequency `f` and the amplitude `a` contributes less than
 /// `1.2e-12 a` as soon as the series is longer than `60.3 / f`, whatever its phase. (With the weight `exp(-1/(x (1-x)))` of
-/// that average's literature the same takes about ten times the length.) In a motion of several frequencies `f` is the lowest of
+/// that average's literature the same takes six times the length.) In a motion of several frequencies `f` is the lowest of
 /// their combinations that has an amplitude worth mentioning.
 ///
 /// # Errors

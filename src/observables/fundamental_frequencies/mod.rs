@@ -11,6 +11,7 @@
 //!   `alpha`: its mean rate is that of `alpha`, as the paper says. The slow frequency is there all the same; it is that of `L` averaged
 //!   over the fast rotation.
 
+mod angles;
 mod mean_rate;
 mod rotated;
 mod samples;
@@ -19,21 +20,19 @@ pub use mean_rate::{MeanRate, mean_rate};
 
 use core::f64::consts::TAU;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 use crate::error::Error;
 use crate::euler_angles::permuted_from_inertial;
 use crate::lorentz_violation::principal_frame;
 use crate::observables::spectrum::{FrequencyBasis, Generator};
 use crate::propagation::{ContinuousAngles, Motion};
+use angles::{body_angles, momentum_angles, momentum_circles, nutation_angles, slow_angles};
 use rotated::Rotated;
-use samples::{Averaged, Samples, continuous};
+use samples::{Averaged, Samples};
 
 /// A mean rate less certain than this, in units of the rotation rate, is none.
 const LEAST_CERTAINTY: f64 = 1e-5;
-
-/// A circle of `L` smaller than this, in units of what `L` moves, may be a remainder of its oscillations.
-const LEAST_CIRCLE: f64 = 2e-5;
 
 /// The nutation has the rate `|L| / I^xx` up to a shift of the order of s; what has another is not it.
 const LARGEST_SHIFT: f64 = 0.5;
@@ -163,7 +162,7 @@ fn about<M: Motion<f64>>(
         alphas.push(at.alpha);
         gammas.push(at.gamma);
     }
-    let momenta = continuous(samples.states.iter().map(|state| azimuth(&(frame * state.momentum))));
+    let momenta = momentum_angles(samples, frame);
     let counted = momenta.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= LONGEST_STEP);
 
     // An error of the angles of this size at one end, under weights that vary as those of the mean rate.
@@ -212,17 +211,6 @@ fn about<M: Motion<f64>>(
     })
 }
 
-/// Whether the averaged `L` stays off the axis.
-fn momentum_circles(samples: &Samples, averages: &[Averaged], frame: &Matrix3<f64>) -> bool {
-    let radius = |momentum: &Vector3<f64>| {
-        let v = frame * momentum;
-        v.x.hypot(v.y)
-    };
-    let widest = samples.states.iter().fold(0.0_f64, |most, state| most.max(radius(&state.momentum)));
-    let narrowest = averages.iter().fold(f64::INFINITY, |least, averaged| least.min(radius(&averaged.momentum)));
-    narrowest > LEAST_CIRCLE * widest + 1e-12 * averages[0].momentum.norm()
-}
-
 /// The rate of an angle that differs from another one by whole turns of the nutation and what averages to zero. Near a pole `alpha` and
 /// `gamma` are rough functions of time and their own averages converge slowly, but well enough to count those turns.
 fn by_whole_turns(rough: MeanRate, base: MeanRate, nutation: MeanRate) -> MeanRate {
@@ -234,30 +222,47 @@ fn by_whole_turns(rough: MeanRate, base: MeanRate, nutation: MeanRate) -> MeanRa
     if counted && agree && uncertainty < rough.uncertainty { MeanRate { value, uncertainty } } else { rough }
 }
 
-/// Azimuths of the averaged `L`.
-fn slow_angles(averages: &[Averaged], frame: &Matrix3<f64>) -> Vec<f64> {
-    continuous(averages.iter().map(|averaged| azimuth(&(frame * averaged.momentum))))
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::{BodyState, RigidSpheroid};
+    use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::lorentz_violation::PrincipalCoefficients;
+    use crate::propagation::{TaylorMotion, propagate};
 
-/// Angles of the fast part of `n` about the averaged `L`, from the side of the axis (`circles`) or of a fixed direction.
-fn nutation_angles(averages: &[Averaged], frame: &Matrix3<f64>, circles: bool) -> Vec<f64> {
-    let zero = frame.row(if circles { 2 } else { 0 }).transpose();
-    continuous(averages.iter().map(|averaged| {
-        let across = averaged.momentum.cross(&zero);
-        let along = across.cross(&averaged.momentum) / averaged.momentum.norm();
-        averaged.fast_axis.dot(&across).atan2(averaged.fast_axis.dot(&along))
-    }))
-}
+    fn precession(s: [f64; 3], beta: f64, span: (f64, f64)) -> TaylorMotion<f64> {
+        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+        let angles = EulerAngles { alpha: 0.0, beta, gamma: 0.0 };
+        let rates = EulerRates { alpha: 1.1 / beta.cos(), beta: 0.0, gamma: -0.1 };
+        let start = BodyState::from_angles(&spheroid, &angles, &rates);
+        propagate(&spheroid, &PrincipalCoefficients::new(s).tensor(), &start, span, 1e-13).unwrap()
+    }
 
-/// Angles of `e_x` about `n` from the direction in which the fast part of `n` moves: regular wherever `n` and `L` are.
-fn body_angles(averages: &[Averaged]) -> Vec<f64> {
-    continuous(averages.iter().map(|averaged| {
-        let (axis, equatorial) = (&averaged.state.axis, &averaged.state.equatorial_axis);
-        let zero = averaged.momentum.cross(&averaged.fast_axis);
-        axis.dot(&zero.cross(equatorial)).atan2(zero.dot(equatorial))
-    }))
-}
+    #[test]
+    fn free_precession_about_z_has_two_frequencies() {
+        for span in [(0.0, 500.0), (500.0, 0.0)] {
+            let found = fundamental_frequencies(&precession([0.0; 3], 0.7, span)).unwrap();
+            assert!((found.alpha.unwrap().value - 1.1 / 0.7_f64.cos()).abs() < 1e-12);
+            assert!((found.gamma.unwrap().value + 0.1).abs() < 1e-12);
+            assert!(found.slow.is_none() && found.momentum.is_none_or(|rate| rate.value.is_finite()));
+            assert_eq!(found.basis().unwrap().generators().len(), 2);
+        }
+    }
 
-fn azimuth(v: &Vector3<f64>) -> f64 {
-    v.y.atan2(v.x)
+    #[test]
+    fn spans_too_short_are_refused() {
+        let s = [0.02, 0.01, -0.04];
+        let over = |span| fundamental_frequencies(&precession(s, 0.9, (0.0, span)));
+        assert!(matches!(over(50.0), Err(Error::Domain { .. })));
+        assert!(matches!(over(200.0), Err(Error::NotConverged { .. })));
+        let motion = precession(s, 0.9, (0.0, 300.0));
+        assert!(matches!(mean_rates_about(&motion, &(Matrix3::identity() * 1.1)), Err(Error::Domain { .. })));
+        assert!(matches!(mean_rates_about(&motion, &-Matrix3::<f64>::identity()), Err(Error::Domain { .. })));
+    }
+
+    #[test]
+    fn a_mean_rate_needs_angles() {
+        assert!(mean_rate(&[0.0; 15], 1.0).is_err() && mean_rate(&[0.0; 16], 1.0).is_ok());
+        assert!(mean_rate(&[f64::NAN; 16], 1.0).is_err() && mean_rate(&[0.0; 16], 0.0).is_err());
+    }
 }

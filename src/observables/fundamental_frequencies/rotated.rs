@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::Motion;
+use crate::propagation::{AxisMotion, AxisState, Motion};
 
 /// The motion `inner` in components of another frame.
 pub(super) struct Rotated<'m, M> {
@@ -20,7 +20,7 @@ impl<'m, M: Motion<f64>> Rotated<'m, M> {
     }
 }
 
-impl<M: Motion<f64>> Motion<f64> for Rotated<'_, M> {
+impl<M: AxisMotion<f64>> AxisMotion<f64> for Rotated<'_, M> {
     fn spheroid(&self) -> &RigidSpheroid<f64> {
         self.inner.spheroid()
     }
@@ -33,11 +33,17 @@ impl<M: Motion<f64>> Motion<f64> for Rotated<'_, M> {
         self.inner.span()
     }
 
-    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
-        Ok(self.inner.state(t)?.rotated(&self.other_from_this))
+    fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
+        Ok(self.inner.axis_state(t)?.rotated(&self.other_from_this))
     }
 
     fn error_estimate(&self, t: f64) -> f64 {
         self.inner.error_estimate(t)
+    }
+}
+
+impl<M: Motion<f64>> Motion<f64> for Rotated<'_, M> {
+    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
+        Ok(self.inner.state(t)?.rotated(&self.other_from_this))
     }
 }

@@ -21,7 +21,7 @@ pub(super) struct EdgeSearch<'a, M> {
     pub(super) motion: &'a M,
     pub(super) beam: &'a Beam<f64>,
     pub(super) line_of_sight: &'a Vector3<f64>,
-    bounds: RateBounds,
+    pub(super) bounds: RateBounds,
 }
 
 impl<'a, M: Motion<f64>> EdgeSearch<'a, M> {

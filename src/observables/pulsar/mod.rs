@@ -1,15 +1,21 @@
 //! Radio pulses of a precessing star in the cone model. Eqs. (44), (45), (47), (49)-(56).
 
+pub mod arrival;
 pub mod beam;
 pub mod direction;
 mod edge_search;
 pub mod period;
+pub mod position_angle;
 pub mod rate_bounds;
 mod root;
+pub mod timing;
 pub mod train;
+mod turns;
 pub mod width;
 
+pub use arrival::{Arrival, arrivals};
 pub use beam::Beam;
+pub use timing::ConstantPeriod;
 pub use train::{Pulse, PulseTrain, Stamped, pulse_train};
 
 use crate::scalar::Scalar;

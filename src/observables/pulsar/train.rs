@@ -84,7 +84,7 @@ impl PulseTrain {
 ///
 /// The span is halved until bounds on the derivatives of `m.n`, from energy and spin, prove that a piece holds no edge, or one
 /// at most, or one extremum; the edges are then roots between two times of different sign. This holds for the exact motion;
-/// a numerical one adds its error, see [`Motion::error_estimate`]. Edges are as exact as `m.n` allows: its error divided by
+/// a numerical one adds its error, see [`error_estimate`](crate::propagation::AxisMotion::error_estimate). Edges are as exact as `m.n` allows: its error divided by
 /// its rate, about 1e-16 over the rotation rate plus the rounding of `t`, more for a short pulse, whose `m.n` is slow at the
 /// edges (a pulse of the length `w` radian multiplies the error by about `2 / w`).
 ///

@@ -101,10 +101,16 @@ impl<'s> JointFit<'s> {
     }
 
     fn factors(&self, count: f64) -> Result<Cholesky<f64, Dyn>, Error> {
-        self.normal_matrix(count).cholesky().ok_or(Error::NotConverged {
-            what: "lines of a spectrum: two of them are not resolved",
-            iterations: self.waves.len(),
-            residual: f64::NAN,
+        self.normal_matrix(count).cholesky().ok_or_else(|| {
+            let apart = |(k, wave): (usize, &Wave)| {
+                let others = self.waves[k + 1..].iter().map(|other| (wave.phase - other.phase).abs() * count);
+                others.fold(wave.phase.abs() * count, f64::min)
+            };
+            Error::NotConverged {
+                what: "lines of a spectrum (the residual is the least distance of two, times T / 2)",
+                iterations: self.waves.len(),
+                residual: self.waves.iter().enumerate().map(apart).fold(f64::INFINITY, f64::min),
+            }
         })
     }
 

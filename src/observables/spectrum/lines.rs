@@ -2,28 +2,13 @@
 
 use core::f64::consts::PI;
 
-use super::amplitude::transform;
-use super::joint_fit::{JointFit, Wave};
+use super::joint_fit::JointFit;
+use super::residual_spectrum::{LEAST_DISTANCE, ResidualSpectrum, SHAPE};
 use super::{Series, Window};
 use crate::error::Error;
 
-/// Shape of the window: lines reach no farther than 1.8e-8 of their amplitude beyond `40.5 / T`.
-const SHAPE: f64 = 20.0;
-
-/// Largest sidelobe of that window.
-const SIDELOBES: f64 = 1.8e-8;
-
 /// The window under which lines are fitted.
 const WINDOW: Window = Window::Kaiser { shape: SHAPE };
-
-/// Least distance of two lines, and of a line from zero and from Nyquist's frequency, in units of `2 / T`.
-const LEAST_DISTANCE: f64 = 4.0;
-
-/// The transform is this much finer than the series demands, so that a peak is near its highest point.
-const PADDING: usize = 2;
-
-/// Peaks taken in one round are within this ratio of the highest: their neighbours follow when it is gone.
-const ROUND: f64 = 1e-3;
 
 /// Steps of the fit after a round, and at the end.
 const STEPS: (usize, usize) = (2, 12);
@@ -60,8 +45,8 @@ pub struct LineList {
 /// neighbours bias the result.
 ///
 /// Resolution: with `T` the length of the series, lines `40 / T` or more apart (and from zero and Nyquist's frequency) do not
-/// know of each other; down to `8 / T` they are separated by the fit, at the price of digits; nearer ones are taken as one
-/// line. Lines below `least` are left in the series and shift a stronger one within `40 / T` by up to
+/// know of each other; down to `10 / T` they are separated by the fit, at the price of digits; below `8 / T` they are taken as
+/// one line. Lines below `least` are left in the series and shift a stronger one within `40 / T` by up to
 /// `6 / T` times the ratio of the amplitudes: ask for weaker lines than are wanted. For a series that is a sum of lines
 /// the error of a frequency is below 1e-9 for amplitudes from 1 to 1e-6, at `T = 4000`, whatever the phases; see
 /// [`SpectralLine::uncertainty`].
@@ -126,91 +111,54 @@ fn improve(fit: &mut JointFit<'_>, steps: usize) -> Result<(), Error> {
     Ok(())
 }
 
-/// Spectrum of what a fit leaves of a series, on a fine grid.
-struct ResidualSpectrum {
-    /// Parts along cosine and sine about the middle of the series.
-    parts: Vec<(f64, f64)>,
-    amplitudes: Vec<f64>,
-    /// Number of samples.
-    count: usize,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl ResidualSpectrum {
-    fn of(residual: &[f64], weights: &[f64]) -> Self {
-        let count = residual.len();
-        let mut padded: Vec<f64> = residual.iter().zip(weights).map(|(r, w)| r * w * 2.0 / count as f64).collect();
-        padded.resize(PADDING * count, 0.0);
-        let parts: Vec<(f64, f64)> = transform(padded)
-            .iter()
-            .enumerate()
-            .map(|(index, z)| {
-                // From the phase at the first sample to that in the middle.
-                let (sin, cos) = (Self::phase_of(count, index as f64) * (count - 1) as f64).sin_cos();
-                (z.re * cos - z.im * sin, -(z.re * sin + z.im * cos))
+    fn series(values: Vec<f64>) -> Series {
+        Series { start: 0.0, step: 0.25, values }
+    }
+
+    #[test]
+    fn what_has_no_spectrum_is_refused() {
+        let refused = |series: &Series| spectral_lines(series, 1e-6, 10).is_err();
+        assert!(refused(&series(vec![1.0; 15])) && !refused(&series(vec![1.0; 16])));
+        for wrong in [f64::NAN, f64::INFINITY, 1e200] {
+            let mut values = vec![1.0; 64];
+            values[20] = wrong;
+            assert!(refused(&series(values)));
+            assert!(wrong.is_finite() || refused(&Series { start: wrong, ..series(vec![1.0; 64]) }));
+        }
+        for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(refused(&Series { step, ..series(vec![1.0; 64]) }));
+        }
+        for least in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(spectral_lines(&series(vec![1.0; 64]), least, 10).is_err());
+        }
+    }
+
+    #[test]
+    fn a_constant_has_no_lines_and_the_number_of_lines_is_kept() {
+        let none = spectral_lines(&series(vec![-3.0; 256]), 1e-9, 10).unwrap();
+        assert!(none.lines.is_empty() && (none.constant + 3.0).abs() < 1e-14 && none.remainder < 1e-14);
+        let sum = (0..1024).map(|j| 0.25 * f64::from(j)).map(|t| t.cos() + 0.1 * (2.3 * t).sin()).collect();
+        let one = spectral_lines(&series(sum), 1e-3, 1).unwrap();
+        assert!(one.lines.len() == 1 && (one.remainder - 0.1).abs() < 0.01);
+        assert!((one.lines[0].frequency - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn noise_ends_in_a_list_or_an_error() {
+        // A generator of low quality is noise enough.
+        let mut state = 1_u64;
+        let noise = (0..512)
+            .map(|_| {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                (state >> 40) as f64 / f64::from(1 << 24) - 0.5
             })
             .collect();
-        let amplitudes = parts.iter().map(|(c, s)| c.hypot(*s)).collect();
-        Self { parts, amplitudes, count }
-    }
-
-    /// Phase per half step at a place on the grid.
-    fn phase_of(count: usize, index: f64) -> f64 {
-        PI * index / (PADDING * count) as f64
-    }
-
-    /// Waves at the peaks above `least`, far enough from each other and from the waves already there.
-    fn peaks(&self, least: f64, waves: &[Wave]) -> Vec<Wave> {
-        let a = &self.amplitudes;
-        let mut tops: Vec<usize> =
-            (1..a.len() - 1).filter(|&i| a[i] >= least && a[i] >= a[i - 1] && a[i] > a[i + 1]).collect();
-        tops.sort_by(|&i, &j| a[j].total_cmp(&a[i]));
-        let highest = tops.first().map_or(0.0, |&i| a[i]);
-        let distance = |one: f64, other: f64| (one - other).abs() * self.count as f64;
-        let mut taken: Vec<Wave> = Vec::new();
-        for &i in tops.iter().take_while(|&&i| a[i] >= ROUND * highest) {
-            // The top of a parabola through three logarithms: exact for the nearly Gaussian line.
-            let [low, top, high] = [a[i - 1], a[i], a[i + 1]].map(|x| x.max(f64::MIN_POSITIVE).ln());
-            let shift = 0.5 * (low - high) / (low - 2.0 * top + high);
-            let phase = Self::phase_of(self.count, i as f64 + if shift.abs() <= 1.0 { shift } else { 0.0 });
-            let clear_of_ends = distance(phase, 0.0).min(distance(phase, PI / 2.0)) >= LEAST_DISTANCE;
-            let clear_of_waves = waves.iter().all(|wave| distance(phase, wave.phase) >= LEAST_DISTANCE);
-            let clear_of_peaks = taken.iter().all(|wave| distance(phase, wave.phase) >= 1.5 * SHAPE);
-            if clear_of_ends && clear_of_waves && clear_of_peaks {
-                let (cos_part, sin_part) = self.parts[i];
-                taken.push(Wave { phase, cos_part, sin_part });
-            }
+        if let Ok(list) = spectral_lines(&series(noise), 1e-3, 20) {
+            assert!(list.lines.len() <= 20 && list.lines.iter().all(|line| line.frequency.is_finite()));
         }
-        taken
-    }
-
-    /// Estimated shift of the frequency of a wave, times half the length of the series, by lines left in the spectrum: each, of the
-    /// amplitude `a` at the distance `d`, shifts by `(a / amplitude) d exp(-d^2 / (2 shape))`, the slope of the line at its place. One within
-    /// the width of the line counts as if it stood where that is largest: the fit hides it in part.
-    fn shift_of(&self, wave: &Wave) -> f64 {
-        let a = &self.amplitudes;
-        let per_index = Self::phase_of(self.count, 1.0) * self.count as f64;
-        let place = wave.phase * self.count as f64 / per_index;
-        let reach = 2.0 * SHAPE.hypot(PI) / per_index;
-        let first = (place - reach).floor().max(1.0) as usize;
-        let last = ((place + reach).ceil() as usize).min(a.len() - 2);
-        let tops = (first..=last).filter(|&i| a[i] >= a[i - 1] && a[i] > a[i + 1]);
-        let shifts = tops.map(|i| {
-            let distance = ((i as f64 - place) * per_index).abs().max(SHAPE.sqrt());
-            // Between the main lobe and the sidelobes the Gaussian falls too far.
-            a[i] * distance * (-distance * distance / (2.0 * SHAPE)).exp().max(SIDELOBES)
-        });
-        shifts.sum::<f64>() / wave.amplitude()
-    }
-
-    /// Median of the amplitudes: the noise, unless lines crowd the whole spectrum.
-    fn median(&self) -> f64 {
-        let mut sorted = self.amplitudes.clone();
-        let middle = sorted.len() / 2;
-        *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
-    }
-
-    /// Largest amplitude above frequency zero.
-    fn largest(&self) -> f64 {
-        self.amplitudes[1..].iter().fold(0.0, |most, &x| most.max(x))
     }
 }

@@ -5,6 +5,7 @@ mod amplitude;
 mod identification;
 mod joint_fit;
 mod lines;
+mod residual_spectrum;
 mod series;
 mod window;
 

@@ -83,3 +83,18 @@ pub fn slow_precession<S: Real>(
     let mean = ArithmeticGeometricMean::new(p_squared.sqrt(), q_squared.sqrt()).limit();
     Ok(SlowPrecession { axis: end.0, rate: kappa * mean * sense })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn separatrix_and_rest_are_refused() {
+        let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+        let of =
+            |momentum: Vector3<f64>| slow_precession(&RigidSpheroid::in_units_of_tc(1.1), &s, &momentum, &Vector3::z());
+        assert!(of(Vector3::zeros()).is_err() && of(Vector3::y()).is_err());
+        assert!(of(Vector3::new(0.0, 1.0, 1e-3)).is_ok_and(|found| found.axis == 2));
+        assert!(of(Vector3::new(1e-3, 1.0, 0.0)).is_ok_and(|found| found.axis == 0));
+    }
+}

@@ -16,7 +16,7 @@ use twofold::observables::pulsar::direction::cosine_of_colatitude;
 use twofold::observables::pulsar::period::{approximate_period, azimuth_offset_rate};
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{Beam, Pulse, pulse_train};
-use twofold::propagation::{Motion, TaylorMotion, propagate};
+use twofold::propagation::{AxisMotion, Motion, TaylorMotion, propagate};
 use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation, shifted_rates};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};

@@ -1,5 +1,6 @@
 //! Every check of the project, by subject.
 
+mod axis_motion;
 mod bound;
 mod elliptic;
 mod equations_of_motion;
@@ -44,6 +45,7 @@ pub fn all() -> Vec<Check> {
         elliptic::checks,
         symmetric::checks,
         propagation::checks,
+        axis_motion::checks,
         second_integrator::checks,
         regimes::checks,
         observer::checks,

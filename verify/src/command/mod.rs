@@ -7,6 +7,7 @@ mod output_file;
 mod output_folder;
 mod progress;
 mod pulses;
+mod report;
 mod run;
 mod scenes;
 mod verify;
@@ -39,6 +40,7 @@ Examples:
   twofold run tp-2 --columns h      only the gravitational wave
   twofold pulses tp-1               every pulse of the radio beam
   twofold figures --out figures     the paper's figures and ours
+  twofold report                    everything as one page, report/index.html
 
 Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written; 130 interrupted.";
 
@@ -77,6 +79,11 @@ enum Command {
     Figures(FiguresArgs),
     /// List the built-in scenes
     Scenes,
+    /// Run every check and write everything as one HTML page: claims, equations, checks, golden tables, figures
+    ///
+    /// The page is DIR/index.html. It needs no network, no script and no other file. It is written, and says so at its
+    /// top, also where checks fail; the status is then 1.
+    Report(ReportArgs),
     /// Print the table of equations: what implements each, which checks and golden numbers are about it (Markdown)
     Equations,
     /// Print the paper's statements, each with a verdict and what the checks behind it measured (Markdown)
@@ -137,6 +144,16 @@ struct OutputArgs {
 }
 
 #[derive(Args)]
+struct ReportArgs {
+    /// Write the page into this folder, which is made if need be
+    #[arg(long, value_name = "DIR", default_value = "report")]
+    out: PathBuf,
+    /// Replace the page if it exists
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(Args)]
 struct FiguresArgs {
     /// Figures to draw, by name or by number of the paper's figure; all if none is named
     #[arg(value_name = "NAME")]
@@ -185,6 +202,7 @@ pub fn main() -> ExitCode {
     let result = match cli.command.unwrap_or(Command::Verify(VerifyArgs::default())) {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
+        Command::Report(args) => report::report(&args),
         Command::Bounds(args) => bounds::bounds(&args),
         Command::Pulses(args) => pulses::pulses(&args),
         Command::Compare(args) => compare::compare(&args),

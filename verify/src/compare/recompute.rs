@@ -10,7 +10,7 @@ use twofold::observables::pulsar::direction::magnetic_axis_direction;
 use twofold::observables::pulsar::period::{azimuth_offset_rate, instantaneous_period};
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{Beam, PulseTrain, pulse_train};
-use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
+use twofold::propagation::{AxisMotion, ContinuousAngles, Motion, TaylorMotion, propagate};
 use twofold::solutions::perturbation::Perturbation;
 
 use super::table::Table;

@@ -186,7 +186,8 @@ impl Recipe {
         }
     }
 
-    /// Draws the figure: those of [`RECIPES`] with the [`examples`], those of [`OF_A_SCENE`] with one motion.
+    /// Draws the figure: those of [`RECIPES`] with the [`examples`](super::examples()), those of [`OF_A_SCENE`] with one
+    /// motion.
     ///
     /// # Errors
     /// If its data cannot be computed.

@@ -32,7 +32,7 @@ fn four_angles<F: Scalar>(p: &Point<F>) -> [F; 4] {
 }
 
 /// The unit vector at a colatitude and an azimuth.
-fn spherical<F: Scalar>(colatitude: F, azimuth: F) -> Vector3<F> {
+pub(super) fn spherical<F: Scalar>(colatitude: F, azimuth: F) -> Vector3<F> {
     let ((s, c), (s_azimuth, c_azimuth)) = (colatitude.sin_cos(), azimuth.sin_cos());
     Vector3::new(s * c_azimuth, s * s_azimuth, c)
 }

@@ -1,10 +1,19 @@
-//! Pulses of a precessing star: the kernels, their approximations and the pulse train. Eqs. (44), (45), (47), (49)-(56).
+//! Pulses of a precessing star: the kernels, their approximations, the pulse train, times of arrival and polarization. Eqs.
+//! (44), (45), (47), (49)-(56).
 
 mod absorbed_angles;
 mod approximations;
+mod arrivals;
+mod cases;
+mod edges_reference;
 mod formulas;
+mod grazing;
 mod identities;
 mod margin;
+mod position_angle;
+mod published;
+mod pulse_numbers;
+mod scan;
 mod train;
 
 use crate::check::Check;
@@ -15,7 +24,14 @@ pub fn checks() -> Vec<Check> {
         identities::checks(),
         formulas::checks(),
         margin::checks(),
+        scan::checks(),
         train::checks(),
+        grazing::checks(),
+        edges_reference::checks(),
+        published::checks(),
+        arrivals::checks(),
+        pulse_numbers::checks(),
+        position_angle::checks(),
         approximations::checks(),
         absorbed_angles::checks(),
     ]

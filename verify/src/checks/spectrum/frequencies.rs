@@ -35,7 +35,7 @@ pub(super) fn checks() -> Vec<Check> {
             equations: &[25, 32, 57],
             statement: "for s^XX = s^YY the mean rates of alpha and gamma, the nutation and the slow precession are those of the exact solution in elliptic functions: \
                  the nutation is 2 pi over the period of the inclination, and alpha' = l' + nu' or l'",
-            figure: "largest difference [1/t_c], 8 random motions of both kinds",
+            figure: "largest difference [1/t_c], 6 random motions of both kinds",
             bound: Bound::AtMost(1e-11),
             reason: "the accuracy asked of mean rates; both sides are exact to 1e-12",
             measure: symmetric_motions,
@@ -45,7 +45,7 @@ pub(super) fn checks() -> Vec<Check> {
             kind: Kind::Property,
             equations: &[36],
             statement: "the same motion in the frames X-Y-Z, Y-Z-X and Z-X-Y has the same frequencies about the same principal axis, also where that is X; about an axis that L does not go round the slow rate is zero",
-            figure: "largest difference [1/t_c], tp-II, sp-I and a motion about the axis of the largest eigenvalue",
+            figure: "largest difference [1/t_c], tp-II and a motion about the axis of the largest eigenvalue",
             bound: Bound::AtMost(2e-11),
             reason: "twice the accuracy asked of mean rates",
             measure: frames,
@@ -55,7 +55,7 @@ pub(super) fn checks() -> Vec<Check> {
             kind: Kind::Property,
             equations: &[32, 57],
             statement: "a mean rate over a shorter span differs from that over 2,400 t_c by no more than its estimated error",
-            figure: "largest difference / sum of the two estimates, four examples, spans from 800 to 1,600 t_c",
+            figure: "largest difference / sum of the two estimates, four examples, spans of 800 and 1,400 t_c",
             bound: Bound::AtMost(1.0),
             reason: "the estimate compares with spans a quarter shorter, whose error is larger while averaging converges",
             measure: uncertainties,
@@ -97,7 +97,7 @@ fn rates_of_examples() -> Result<Measured, String> {
 fn symmetric_motions() -> Result<Measured, String> {
     let (mut random, mut worst) = (Random::with_seed(25), Worst::default());
     let (mut twofold, mut single) = (0, 0);
-    for case in 0..8 {
+    for case in 0..6 {
         let spheroid = RigidSpheroid::in_units_of_tc(random.within(0.8, 1.3));
         let equatorial = random.within(-0.02, 0.02);
         let s = PrincipalCoefficients::new([equatorial, equatorial, equatorial - random.within(0.03, 0.08)]);
@@ -130,7 +130,7 @@ fn symmetric_motions() -> Result<Measured, String> {
 fn frames() -> Result<Measured, String> {
     let mut worst = Worst::default();
     let permuted = permuted_from_inertial::<f64>();
-    for name in ["tp-2", "sp-1", "retrograde"] {
+    for name in ["tp-2", "retrograde"] {
         let scene = reference_motion(name);
         let mut turn = Matrix3::identity();
         let mut first: Option<FundamentalFrequencies> = None;
@@ -166,7 +166,7 @@ fn uncertainties() -> Result<Measured, String> {
         let scene = reference_motion(name);
         let over = |span| motion_of(&scene, span).and_then(|motion| fundamental_frequencies(&motion));
         let long = over(AVERAGING).map_err(message)?;
-        for span in [800.0, 1000.0, 1600.0] {
+        for span in [800.0, 1400.0] {
             // A span that is too short is refused, which is right as well.
             let Ok(short) = over(span) else { continue };
             spans += 1;
@@ -184,7 +184,7 @@ fn uncertainties() -> Result<Measured, String> {
             }
         }
     }
-    if spans < 8 {
+    if spans < 5 {
         return Err(format!("only {spans} shorter spans gave rates"));
     }
     worst.finish()

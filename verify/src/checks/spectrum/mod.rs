@@ -1,8 +1,12 @@
 //! Spectra, line lists and fundamental frequencies, and what the paper says of its spectra.
 
-mod claims;
+mod amplitudes;
 mod frequencies;
-mod kernels;
+mod harmonics;
+mod identification;
+mod line_lists;
+mod lines;
+mod pulse_series;
 pub(crate) mod signals;
 mod slow_precession;
 
@@ -10,5 +14,15 @@ use crate::check::Check;
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    [kernels::checks(), frequencies::checks(), slow_precession::checks(), claims::checks()].concat()
+    [
+        amplitudes::checks(),
+        line_lists::checks(),
+        identification::checks(),
+        frequencies::checks(),
+        slow_precession::checks(),
+        lines::checks(),
+        harmonics::checks(),
+        pulse_series::checks(),
+    ]
+    .concat()
 }

@@ -26,7 +26,7 @@ pub(super) const AVERAGING: f64 = 2400.0;
 /// Span and number of samples of the signals. Of m.n of tp-II, four slow turns are nearly one modulation: its
 /// lines come in pairs 0.0024 apart, which takes longer to resolve.
 const SIGNAL: (f64, usize) = (6000.0, 16_384);
-const PAIRED_SIGNAL: (f64, usize) = (20_000.0, 49_152);
+const PAIRED_SIGNAL: (f64, usize) = (16_000.0, 40_960);
 
 /// A twofold example with its signals.
 pub(crate) struct Example {

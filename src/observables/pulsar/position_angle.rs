@@ -1,0 +1,119 @@
+//! Position angle of the linear polarization in the rotating-vector model, for a precessing star.
+//!
+//! In the model of V. Radhakrishnan and D. J. Cooke, Astrophys. Lett. 3, 225 (1969), the polarization is along (or across) the
+//! projection of the magnetic axis `m` on the sky. Its position angle `psi` is counted as astronomers do, from north through
+//! east, counterclockwise as the observer sees it:
+//!
+//! ```text
+//! north = -theta-hat_o   (the projection of +Z),    east = -phi-hat_o = n-hat x north,    n-hat towards the observer
+//! tan psi = (m . east) / (m . north)
+//! ```
+//!
+//! The printed formula of that model counts clockwise: its angle is `-psi` (J. E. Everett and J. M. Weisberg, Astrophys. J. 553,
+//! 341 (2001)). For a line, such as a polarization, `psi` is known up to half a turn. Nothing in the model asks the star to spin
+//! about a fixed axis: with `Theta(t)` and `Phi(t)` of Eq. (49) `[tranang]` it holds for any motion.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::period::azimuth_rate_off_pole;
+use super::sin_cos_of_sum;
+use crate::error::Error;
+use crate::observables::Observer;
+use crate::scalar::{Real, Scalar};
+
+/// Rotation from the inertial frame to the sky of an observer: rows north `-theta-hat_o`, east `-phi-hat_o` and, towards the
+/// observer, `n-hat`, Eqs. (46), (70) `[thphinertial]`.
+pub fn sky_from_inertial<S: Scalar>(observer: &Observer<S>) -> Matrix3<S> {
+    Matrix3::from_rows(&[
+        -observer.theta_hat.transpose(),
+        -observer.phi_hat.transpose(),
+        observer.direction.transpose(),
+    ])
+}
+
+/// Position angle `psi` (rad) of the magnetic axis `m`, a unit vector in inertial components, in (-pi, pi].
+///
+/// # Errors
+/// [`Error::Domain`] where `m` is along the line of sight (`|m x n-hat|` not above 2.2e-16): it has no projection.
+pub fn position_angle<S: Real>(axis: &Vector3<S>, observer: &Observer<S>) -> Result<S, Error> {
+    let on_sky = sky_from_inertial(observer) * axis;
+    refuse_line_of_sight(on_sky.x, on_sky.y)?;
+    Ok(on_sky.y.atan2(on_sky.x))
+}
+
+/// Exact rate `psi' = [Omega.n - (Omega.m)(m.n)] / |m x n|^2` (here `n = n-hat`) of the position angle of an axis `m` fixed in
+/// a body that turns with `omega`, all in inertial components.
+///
+/// # Errors
+/// As for [`position_angle`]. Near the line of sight the relative error grows as `1 / |m x n|^2`.
+pub fn position_angle_rate<S: Real>(axis: &Vector3<S>, omega: &Vector3<S>, observer: &Observer<S>) -> Result<S, Error> {
+    let on_sky = sky_from_inertial(observer) * axis;
+    refuse_line_of_sight(on_sky.x, on_sky.y)?;
+    Ok(position_angle_rate_off_line_of_sight(axis, omega, observer))
+}
+
+/// [`position_angle_rate`] without the check of its domain, for exact fields.
+pub fn position_angle_rate_off_line_of_sight<S: Scalar>(
+    axis: &Vector3<S>,
+    omega: &Vector3<S>,
+    observer: &Observer<S>,
+) -> S {
+    // The position angle is an azimuth about the line of sight.
+    let sky = sky_from_inertial(observer);
+    azimuth_rate_off_pole(&(sky * axis), &(sky * omega))
+}
+
+/// The point `(m . north, m . east)` at the angle `psi`, of length `|m x n-hat|`, for the magnetic axis at `(Theta, Phi)` and
+/// the observer at `(theta_o, phi_o)` (rad):
+///
+/// ```text
+/// north = cos Theta sin theta_o - sin Theta cos theta_o cos(Phi - phi_o)
+/// east  = -sin Theta sin(Phi - phi_o)
+/// ```
+pub fn rotating_vector_point<S: Scalar>(theta: S, phi: S, theta_o: S, phi_o: S) -> (S, S) {
+    let (sin_phi, cos_phi) = sin_cos_of_sum(phi, -phi_o);
+    let ((s, c), (s_o, c_o)) = (theta.sin_cos(), theta_o.sin_cos());
+    (c * s_o - s * c_o * cos_phi, -(s * sin_phi))
+}
+
+/// Position angle `psi` (rad, in (-pi, pi]) of the magnetic axis at `(Theta, Phi)`, seen from `(theta_o, phi_o)`:
+///
+/// ```text
+/// tan psi = -sin Theta sin(Phi - phi_o) / [cos Theta sin theta_o - sin Theta cos theta_o cos(Phi - phi_o)]
+/// ```
+///
+/// For a star that spins about Z, `Theta = chi` and `theta_o = zeta`: minus the angle of Radhakrishnan and Cooke (1969). For a
+/// precessing one, `Theta` and `Phi` are those of Eq. (49) `[tranang]`.
+///
+/// # Errors
+/// As for [`position_angle`].
+pub fn rotating_vector_position_angle<S: Real>(theta: S, phi: S, theta_o: S, phi_o: S) -> Result<S, Error> {
+    let (north, east) = rotating_vector_point(theta, phi, theta_o, phi_o);
+    refuse_line_of_sight(north, east)?;
+    Ok(east.atan2(north))
+}
+
+/// Derivatives `(d psi / d Theta, d psi / d Phi)` of the rotating-vector model; the rate along a motion is
+/// `psi' = (d psi / d Theta) Theta' + (d psi / d Phi) Phi'`.
+///
+/// ```text
+/// d psi / d Theta = -sin theta_o sin(Phi - phi_o) / |m x n|^2
+/// d psi / d Phi   = sin Theta [sin Theta cos theta_o - cos Theta sin theta_o cos(Phi - phi_o)] / |m x n|^2
+/// ```
+///
+/// At `Phi = phi_o` the second is `-sin Theta / sin(theta_o - Theta)`, for `Theta = chi` the steepest gradient of the classic
+/// model. Off the line of sight; on it a division by zero.
+pub fn rotating_vector_gradient<S: Scalar>(theta: S, phi: S, theta_o: S, phi_o: S) -> (S, S) {
+    let (sin_phi, cos_phi) = sin_cos_of_sum(phi, -phi_o);
+    let ((s, c), (s_o, c_o)) = (theta.sin_cos(), theta_o.sin_cos());
+    let (north, east) = rotating_vector_point(theta, phi, theta_o, phi_o);
+    let squared = north * north + east * east;
+    (-(s_o * sin_phi) / squared, s * (s * c_o - c * s_o * cos_phi) / squared)
+}
+
+/// Refuses a magnetic axis along the line of sight, given its projection on the sky.
+fn refuse_line_of_sight<S: Real>(north: S, east: S) -> Result<(), Error> {
+    let across = north.re().hypot(east.re());
+    let allowed = "above 2.2e-16: along the line of sight it has no position angle";
+    Error::unless(across > f64::EPSILON, "sine of the angle between m and the line of sight", across, allowed)
+}

@@ -1,0 +1,59 @@
+//! Residuals of times of arrival against a constant period.
+
+use crate::error::Error;
+
+/// A constant period fitted to numbered times by least squares: `time = epoch + period number + residual`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConstantPeriod {
+    /// Time from one number to the next.
+    pub period: f64,
+    /// Time of the number zero.
+    pub epoch: f64,
+    /// Time minus fit, in the order of the points.
+    pub residuals: Vec<f64>,
+}
+
+impl ConstantPeriod {
+    /// The fit to points `(number, time)`, all of the same weight.
+    ///
+    /// # Errors
+    /// As for [`fit_weighted`](Self::fit_weighted).
+    pub fn fit(points: &[(i64, f64)]) -> Result<Self, Error> {
+        Self::fit_weighted(points, &vec![1.0; points.len()])
+    }
+
+    /// The fit to points `(number, time)` that makes `sum weight residual^2` least, a weight being the inverse square of a
+    /// time's uncertainty in any unit.
+    ///
+    /// Numbers and times are counted from their weighted means, so that the residuals keep the digits of the times.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless there is one weight for each point, finite and not negative, times are finite, and two numbers at
+    /// least differ among the points with weight.
+    pub fn fit_weighted(points: &[(i64, f64)], weights: &[f64]) -> Result<Self, Error> {
+        let (counted, wanted) = (weights.len() as f64, "one weight for each point");
+        Error::unless(weights.len() == points.len(), "number of weights", counted, wanted)?;
+        for (&(_, time), &weight) in points.iter().zip(weights) {
+            Error::unless(time.is_finite(), "time of arrival", time, "a finite number")?;
+            Error::unless(weight >= 0.0 && weight.is_finite(), "weight", weight, "a finite number, not negative")?;
+        }
+        // From the first point, so that nothing is lost in the means.
+        let (first, start) = points.first().copied().unwrap_or_default();
+        let offsets = || points.iter().map(|&(number, time)| ((number - first) as f64, time - start));
+        let mean = |values: &mut dyn Iterator<Item = f64>| {
+            values.zip(weights).map(|(value, weight)| value * weight).sum::<f64>() / weights.iter().sum::<f64>()
+        };
+        let mean_number = mean(&mut offsets().map(|(number, _)| number));
+        let mean_time = mean(&mut offsets().map(|(_, time)| time));
+        let centred = || offsets().map(|(number, time)| (number - mean_number, time - mean_time));
+        let variance = mean(&mut centred().map(|(number, _)| number * number));
+        let covariance = mean(&mut centred().map(|(number, time)| number * time));
+        Error::unless(variance > 0.0, "variance of the pulse numbers", variance, "above zero: two different numbers")?;
+        let period = covariance / variance;
+        Ok(Self {
+            period,
+            epoch: start + (mean_time - period * (mean_number + first as f64)),
+            residuals: centred().map(|(number, time)| time - period * number).collect(),
+        })
+    }
+}

@@ -1,0 +1,213 @@
+//! Times of arrival and residuals. Eqs. (44), (48), (51).
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{Matrix3, Vector3};
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
+use twofold::observables::Observer;
+use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
+use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod, arrivals, pulse_train};
+use twofold::propagation::{AxisMotion, TaylorMotion, propagate};
+
+use super::cases::for_random_cases;
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::random::Random;
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "arrival-closest-approach",
+            kind: Kind::Property,
+            equations: &[44],
+            statement: "there is an arrival for each whole pulse, inside it, and m.n is nowhere larger in the pulse",
+            figure: "largest excess of m.n at 100 times of a pulse over that at the closest approach / 2.2e-16, 600 random trains",
+            bound: Bound::AtMost(16.0),
+            reason: "m.n of two times is rounded some ten times each; the maximum is flat",
+            measure: highest_in_pulse,
+        },
+        Check {
+            id: "arrival-steady-rotation",
+            kind: Kind::Oracle,
+            equations: &[44, 51],
+            statement: "a star that does not precess, spinning either way about any direction, has a pulse each turn, its period, and no residuals",
+            figure: "largest error of period x number or residual / (2.2e-16 (8 + phase) times the sensitivity of the edge), 200 stars over 100 t_c",
+            bound: Bound::AtMost(8.0),
+            reason: "the spin that follows from n and L in a turned frame is off by some ulp, and the phase by that times 200 rad",
+            measure: steady_rotation,
+        },
+        Check {
+            id: "arrival-free-precession",
+            kind: Kind::Oracle,
+            equations: &[48, 51],
+            statement: "for free precession in any frame, alpha' = 13 |gamma'|, times of arrival repeat after 2 pi / |gamma'|, 13 turns later for \
+                 chi < beta and 12 for chi > beta, where the path of m leaves L outside of one turn; residuals have that period and are not zero",
+            figure: "largest error of a repetition [t_c]; infinite if residuals stay below 1e-3 t_c or a number is wrong",
+            bound: Bound::AtMost(1e-12),
+            reason: "phases up to 400 rad and a motion held to 1e-12",
+            measure: free_precession,
+        },
+        Check {
+            id: "constant-period-fit",
+            kind: Kind::Property,
+            equations: &[51],
+            statement: "residuals are time - epoch - period number, and normal to a constant and to the number: the least squares with weights",
+            figure: "largest error / (2.2e-16 times the sum of magnitudes), 200 random sets of 50 points with numbers up to 1e6",
+            bound: Bound::AtMost(4.0),
+            reason: "sums of 50 terms, each rounded a few times in directions that have no reason to agree",
+            measure: least_squares,
+        },
+    ]
+}
+
+pub(super) fn text(error: twofold::Error) -> String {
+    error.to_string()
+}
+
+fn highest_in_pulse() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for_random_cases(81, 300, (20.0, 1e-14), |case| {
+        let train = case.train()?;
+        let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
+        let found = arrivals(&case.motion, &case.beam, &case.observer, &train).map_err(text)?;
+        if found.len() != whole.len() {
+            worst.see(f64::INFINITY, || format!("{} arrivals of {} pulses, {}", found.len(), whole.len(), case.name));
+        }
+        for (arrival, pulse) in found.iter().zip(whole) {
+            let inside = pulse.start < arrival.closest_approach && arrival.closest_approach < pulse.end;
+            let highest = case.margin(arrival.closest_approach)[0];
+            let at = |i: u32| pulse.start + pulse.duration() * f64::from(i) / 100.0;
+            let excess = (0..=100).map(|i| case.margin(at(i))[0] - highest);
+            let excess = largest(excess.map(|x| if x <= 0.0 { 0.0 } else { x }));
+            let figure = if inside { excess / f64::EPSILON } else { f64::INFINITY };
+            worst.see(figure, || format!("{pulse:?} of {}", case.name));
+        }
+        Ok(())
+    })?;
+    worst.finish()
+}
+
+/// Arrivals of a motion for a beam and an observer in its frame.
+pub(super) fn arrivals_of(
+    motion: &TaylorMotion<f64>,
+    beam: &Beam<f64>,
+    n: &Vector3<f64>,
+) -> Result<Vec<Arrival>, String> {
+    let train = pulse_train(motion, beam, n, motion.span()).map_err(text)?;
+    arrivals(motion, beam, n, &train).map_err(text)
+}
+
+/// A random rotation.
+fn any_frame(random: &mut Random) -> Matrix3<f64> {
+    let (alpha, beta, gamma) = (random.within(-PI, PI), random.within(0.1, 3.0), random.within(-PI, PI));
+    body_from_inertial(&EulerAngles { alpha, beta, gamma })
+}
+
+fn steady_rotation() -> Result<Measured, String> {
+    let (mut random, mut worst, mut stars) = (Random::with_seed(82), Worst::default(), 0);
+    while stars < 200 {
+        let [chi, theta_o] = [0; 2].map(|_| random.within(0.1, PI - 0.1));
+        let (rho, spin) = (random.within(0.1, 2.0), random.within(0.4, 2.0));
+        let PulseWidth::Pulsed(width) = pulse_width(rho, chi, theta_o) else { continue };
+        stars += 1;
+        let spheroid = RigidSpheroid::in_units_of_tc(random.within(0.5, 1.8));
+        let upright = EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 };
+        let spin = if stars % 2 == 0 { spin } else { -spin };
+        let start = BodyState::from_angles(&spheroid, &upright, &EulerRates { alpha: 0.0, beta: 0.0, gamma: spin });
+        let frame = any_frame(&mut random);
+        let motion =
+            propagate(&spheroid, &Matrix3::zeros(), &start.rotated(&frame), (0.0, 100.0), 1e-15).map_err(text)?;
+        let observer = Observer::at(theta_o, random.within(-PI, PI)).rotated(&frame);
+        let found = arrivals_of(&motion, &Beam::new(chi, random.within(-PI, PI), rho), &observer.direction)?;
+        // m.n changes by this much per radian at an edge, and its rate by this much at the maximum.
+        let across = chi.sin() * theta_o.sin();
+        let rounding = |t: f64, slope: f64| f64::EPSILON * (8.0 + spin.abs() * t) * (1.0 + 1.0 / slope) / spin.abs();
+        let numbers_in_order = found.iter().enumerate().all(|(i, arrival)| arrival.number == i as i64);
+        let mut figure: f64 = if numbers_in_order && found.len() > 4 { 0.0 } else { f64::INFINITY };
+        for (slope, time) in [
+            (across * (width / 2.0).sin(), (|a: &Arrival| a.midpoint) as fn(&Arrival) -> f64),
+            (across, |a| a.closest_approach),
+        ] {
+            let points: Vec<_> = found.iter().map(|a| (a.number, time(a))).collect();
+            let fit = ConstantPeriod::fit(&points).map_err(text)?;
+            let scale = rounding(100.0, slope);
+            let period = (fit.period - TAU / spin.abs()).abs() * found.len() as f64;
+            figure = largest([figure, period / scale, largest(fit.residuals.iter().map(|r| r.abs() / scale))]);
+        }
+        worst.see(figure, || format!("star {stars} of seed 82: chi = {chi}, theta_o = {theta_o}, rho = {rho}, {spin}"));
+    }
+    worst.finish()
+}
+
+fn free_precession() -> Result<Measured, String> {
+    let (mut random, mut worst) = (Random::with_seed(83), Worst::default());
+    // alpha' / |gamma'| = (1 + epsilon) / (epsilon cos beta).
+    let (oblateness, ratio) = (0.1, 13);
+    let beta = ((1.0 + oblateness) / (oblateness * f64::from(ratio))).acos();
+    let spheroid = RigidSpheroid::in_units_of_tc(1.0 + oblateness);
+    let angles = EulerAngles { alpha: 0.0, beta, gamma: 0.0 };
+    let repetition = TAU / oblateness;
+    for (chi, turns) in [(0.4, ratio), (0.5, ratio), (0.7, ratio - 1), (1.2, ratio - 1)] {
+        for theta_o in [0.4, 0.7, 1.0] {
+            let rates = EulerRates { alpha: (1.0 + oblateness) / beta.cos(), beta: 0.0, gamma: -oblateness };
+            let frame = any_frame(&mut random);
+            let start = BodyState::from_angles(&spheroid, &angles, &rates).rotated(&frame);
+            let motion =
+                propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 4.2 * repetition), 1e-15).map_err(text)?;
+            let observer = Observer::at(theta_o, random.within(-PI, PI)).rotated(&frame);
+            let found = arrivals_of(&motion, &Beam::new(chi, random.within(-PI, PI), 0.5), &observer.direction)?;
+            let mut figure = 0.0;
+            for time in [(|a: &Arrival| a.midpoint) as fn(&Arrival) -> f64, |a| a.closest_approach] {
+                let later = |a: &Arrival| found.iter().find(|b| b.number == a.number + i64::from(turns)).map(time);
+                let errors = found.iter().filter_map(|a| later(a).map(|t| (t - time(a) - repetition).abs()));
+                let errors: Vec<f64> = errors.collect();
+                let points: Vec<_> = found.iter().map(|a| (a.number, time(a))).collect();
+                let modulation = largest(ConstantPeriod::fit(&points).map_err(text)?.residuals.iter().map(|r| r.abs()));
+                // Three of four periods have a later one; in the least favourable case they hold four pulses each.
+                let enough = errors.len() >= 12 && modulation > 1e-3;
+                figure = largest([figure, if enough { largest(errors) } else { f64::INFINITY }]);
+            }
+            worst.see(figure, || format!("chi = {chi}, theta_o = {theta_o}, {} pulses", found.len()));
+        }
+    }
+    worst.finish()
+}
+
+fn least_squares() -> Result<Measured, String> {
+    let (mut random, mut worst) = (Random::with_seed(85), Worst::default());
+    for case in 0..200 {
+        let (first, period) = (random.within(-1e6, 1e6).round() as i64, random.within(0.1, 10.0));
+        let mut number = first;
+        let points: Vec<(i64, f64)> = (0..50)
+            .map(|_| {
+                number += random.within(0.0, 4.0) as i64;
+                (number, 1e3 + period * number as f64 + random.within(-0.3, 0.3))
+            })
+            .collect();
+        let weights: Vec<f64> = points.iter().map(|_| random.within(0.0, 2.0)).collect();
+        let fit = ConstantPeriod::fit_weighted(&points, &weights).map_err(text)?;
+        let mut figure = 0.0;
+        let (mut sums, mut sizes) = ([0.0; 2], [0.0; 2]);
+        for ((&(number, time), weight), residual) in points.iter().zip(&weights).zip(&fit.residuals) {
+            let (predicted, offset) = (fit.period * number as f64, (number - first) as f64);
+            // The residuals are rounded as the times are.
+            for (k, (factor, size)) in [(1.0, 1.0), (offset, 100.0)].into_iter().enumerate() {
+                sums[k] += weight * residual * factor;
+                sizes[k] += weight * (residual.abs() + time.abs() / 50.0) * size;
+            }
+            let size = time.abs() + predicted.abs() + fit.epoch.abs();
+            figure = largest([figure, (time - fit.epoch - predicted - residual).abs() / (f64::EPSILON * size)]);
+        }
+        let normal = largest([0, 1].map(|k| sums[k].abs() / (f64::EPSILON * sizes[k])));
+        let halved: Vec<f64> = weights.iter().map(|w| w / 2.0).collect();
+        let same = ConstantPeriod::fit_weighted(&points, &halved).map_err(text)? == fit;
+        let refused = ConstantPeriod::fit(&points[..1]).is_err()
+            && ConstantPeriod::fit(&[]).is_err()
+            && ConstantPeriod::fit_weighted(&points, &weights[1..]).is_err()
+            && ConstantPeriod::fit_weighted(&points, &vec![0.0; 50]).is_err()
+            && ConstantPeriod::fit(&[(0, 1.0), (1, f64::NAN)]).is_err();
+        let figure = if same && refused { largest([figure, normal]) } else { f64::INFINITY };
+        worst.see(figure, || format!("case {case} of seed 85"));
+    }
+    worst.finish()
+}

@@ -1,0 +1,104 @@
+//! The pulsar signal against 34-digit motion: `m.n`, edges and closest approaches. Eqs. (44)-(47).
+
+use twofold::observables::Observer;
+use twofold::observables::pulsar::beam::axis_along_line_of_sight;
+use twofold::observables::pulsar::{Arrival, Beam, Pulse, arrivals, pulse_train};
+use twofold::propagation::{Motion, propagate};
+
+use super::cases::{Signal, paper_signal_until};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::reference::{ReferencePulse, reference_motions, reference_pulses};
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "signal-of-reference-motion",
+            kind: Kind::Oracle,
+            equations: &[45, 46, 47],
+            statement: "m.n of the numerical motion of ten scenes, as a vector and by Eq. (47) in its Euler angles, is that of the 34-digit states",
+            figure: "largest difference of m.n, three magnetic axes and three observers, every listed time",
+            bound: Bound::AtMost(1e-12),
+            reason: "the numerical motion is held to 1e-12 of those states",
+            measure: signal_of_reference_motion,
+        },
+        Check {
+            id: "pulse-edges-reference",
+            kind: Kind::Oracle,
+            equations: &[44, 47],
+            statement: "the edges of the first 160 whole pulses of tp-I and of tp-II each are the roots along a 34-digit motion, no pulse more or less",
+            figure: "largest error of an edge [t_c]; infinite for another number of pulses",
+            bound: Bound::AtMost(1e-12),
+            reason: "what is asked of the search: the motion's rounding after 1,500 rad, some 1e-14, over the rate of m.n, 0.04 to 0.5 per t_c",
+            measure: edges_against_reference,
+        },
+        Check {
+            id: "closest-approach-reference",
+            kind: Kind::Oracle,
+            equations: &[44, 47],
+            statement: "and so are the times at which m.n is largest in them",
+            figure: "largest error of a time [t_c]",
+            bound: Bound::AtMost(1e-12),
+            reason: "the rate of m.n, as exact as the motion, over a second derivative of 0.19 or more",
+            measure: approaches_against_reference,
+        },
+    ]
+}
+
+fn signal_of_reference_motion() -> Result<Measured, String> {
+    let text = |e: twofold::Error| e.to_string();
+    let mut worst = Worst::default();
+    for scene in reference_motions() {
+        let end = scene.states.last().map_or(0.0, |(t, _)| *t);
+        let motion =
+            propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, end), 1e-14).map_err(text)?;
+        for (t, reference) in &scene.states {
+            let state = motion.state(*t).map_err(text)?;
+            for (chi, delta) in [(0.5, 0.0), (1.3, 0.7), (2.8, -2.0)] {
+                for (theta_o, phi_o) in [(0.8, 0.0), (1.5, 2.2), (2.9, -1.1)] {
+                    let (beam, observer) = (Beam::new(chi, delta, 0.6), Observer::at(theta_o, phi_o));
+                    let theirs = beam.direction(reference).dot(&observer.direction);
+                    let mut errors = vec![beam.direction(&state).dot(&observer.direction) - theirs];
+                    // On a pole the motion has no angles.
+                    errors.extend(
+                        state
+                            .angles()
+                            .ok()
+                            .map(|angles| axis_along_line_of_sight(&angles, chi, delta, theta_o, phi_o) - theirs),
+                    );
+                    worst.see(largest(errors.iter().map(|e| e.abs())), || {
+                        format!("{} at t = {t}, chi = {chi}, theta_o = {theta_o}", scene.name)
+                    });
+                }
+            }
+        }
+    }
+    worst.finish()
+}
+
+/// The worst error of a pulse, given as found and as it should be.
+fn worst_pulse(error: fn(&Pulse, &Arrival, &ReferencePulse) -> f64) -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for name in ["tp-1", "tp-2"] {
+        let expected = reference_pulses(name);
+        let end = expected.last().map_or(f64::NAN, |pulse| pulse.end + 0.1);
+        let Signal { motion, beam, observer } = paper_signal_until(name, end).map_err(|e| e.to_string())?;
+        let train = pulse_train(&motion, &beam, &observer, (0.0, end)).map_err(|e| e.to_string())?;
+        let found = arrivals(&motion, &beam, &observer, &train).map_err(|e| e.to_string())?;
+        let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
+        if whole.len() != expected.len() || expected.len() < 150 {
+            return Ok(Measured::new(f64::INFINITY, format!("{name}: {} pulses of {}", whole.len(), expected.len())));
+        }
+        for (index, ((pulse, arrival), expected)) in whole.into_iter().zip(&found).zip(&expected).enumerate() {
+            worst.see(error(pulse, arrival, expected), || format!("pulse {index} of {name}, {expected:?}"));
+        }
+    }
+    worst.finish()
+}
+
+fn edges_against_reference() -> Result<Measured, String> {
+    worst_pulse(|pulse, _, expected| largest([(pulse.start - expected.start).abs(), (pulse.end - expected.end).abs()]))
+}
+
+fn approaches_against_reference() -> Result<Measured, String> {
+    worst_pulse(|_, arrival, expected| (arrival.closest_approach - expected.closest_approach).abs())
+}

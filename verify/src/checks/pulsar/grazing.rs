@@ -1,0 +1,72 @@
+//! Pulses that the line of sight grazes. Eq. (44).
+
+use twofold::observables::pulsar::{Beam, pulse_train};
+
+use super::cases::{edges, for_random_cases};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![Check {
+        id: "pulse-train-grazing",
+        kind: Kind::Property,
+        equations: &[44],
+        statement: "with cos rho at an extremum of m.n, plus or minus 1e-10 to 1e-12, the short pulse (or gap) is there or is not, and lasts \
+                 2 sqrt(2 d / |f''|); with cos rho at the extremum, a grazing is reported",
+        figure: "largest relative error of the short duration; infinite for a wrong number of edges",
+        bound: Bound::AtMost(1e-2),
+        reason: "m.n - cos rho = 1e-12 has 4e-4 of rounding and of the motion's error; the next term of the duration is 1e-5",
+        measure: grazing_by_construction,
+    }]
+}
+
+const END: f64 = 20.0;
+
+fn grazing_by_construction() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for_random_cases(46, 60, (END, 1e-14), |case| {
+        for index in 0..100 {
+            // An extremum by bisection of the rate.
+            let (mut low, mut high) = (0.2 * f64::from(index), 0.2 * f64::from(index + 1));
+            let rising = case.margin(low)[1] > 0.0;
+            if (case.margin(high)[1] > 0.0) == rising {
+                continue;
+            }
+            for _ in 0..60 {
+                let middle = (low + high) / 2.0;
+                if (case.margin(middle)[1] > 0.0) == rising { low = middle } else { high = middle }
+            }
+            let [margin, _, second] = case.margin(low);
+            let product = margin + case.beam.half_opening.cos();
+            // A flat extremum, or a beam whose cosine rounds its angle, makes another test.
+            if second.abs() < 1e-2 || product.abs() > 0.95 {
+                continue;
+            }
+            let with_offset = |offset: f64| {
+                let beam = Beam { half_opening: (product + offset).acos(), ..case.beam };
+                let span = ((low - 0.05).max(0.0), (low + 0.05).min(END));
+                pulse_train(&case.motion, &beam, &case.observer, span).map_err(|e| e.to_string())
+            };
+            let touching = with_offset(0.0)?;
+            let mut figure = if touching.grazings.iter().any(|t| (t - low).abs() < 1e-5) { 0.0 } else { f64::INFINITY };
+            for size in [1e-10, 1e-11, 1e-12] {
+                for offset in [size, -size] {
+                    let found = edges(&with_offset(offset)?);
+                    // Edges near the extremum: two where cos rho is on the side of the extremum's curvature.
+                    let near: Vec<f64> = found.into_iter().filter(|t| (t - low).abs() < 1e-3).collect();
+                    let crossing = (offset > 0.0) == (second > 0.0);
+                    figure = match (crossing, near.as_slice()) {
+                        (true, [start, end]) => {
+                            let expected = 2.0 * (2.0 * size / second.abs()).sqrt();
+                            largest([figure, ((end - start) / expected - 1.0).abs()])
+                        }
+                        (false, []) => figure,
+                        _ => f64::INFINITY,
+                    };
+                }
+            }
+            worst.see(figure, || format!("extremum {margin} at {low}, {}", case.name));
+        }
+        Ok(())
+    })?;
+    worst.finish()
+}

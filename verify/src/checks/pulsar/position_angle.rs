@@ -1,0 +1,237 @@
+//! Position angle of the polarization: the rotating-vector model of a precessing star. Eqs. (45), (46), (49), (70).
+
+use nalgebra::{Matrix3, Vector3};
+use twofold::Scalar;
+use twofold::dynamics::regular_equations::angular_velocity;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial, body_rates};
+use twofold::observables::Observer;
+use twofold::observables::pulsar::Beam;
+use twofold::observables::pulsar::direction::magnetic_axis_direction;
+use twofold::observables::pulsar::position_angle::{
+    position_angle, position_angle_rate, position_angle_rate_off_line_of_sight, rotating_vector_gradient,
+    rotating_vector_point, rotating_vector_position_angle, sky_from_inertial,
+};
+use twofold::propagation::{Motion, propagate};
+
+use super::identities::spherical;
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::derivation::{Differentiable, moving_angles};
+use crate::identity::{self, Identity};
+use crate::random::{Point, Random};
+
+pub(super) fn checks() -> Vec<Check> {
+    let mut checks = [
+        identity::checks::<Sky>(),
+        identity::checks::<RotatingVector>(),
+        identity::checks::<Gradient>(),
+        identity::checks::<RateOfPositionAngle>(),
+    ]
+    .concat();
+    checks.extend([
+        Check {
+            id: "position-angle-of-upright-star",
+            kind: Kind::Oracle,
+            equations: &[45, 46, 70],
+            statement: "along the numerical motion of a star that spins about Z the position angle is minus the angle of Radhakrishnan and Cooke \
+                 (1969), tan = sin chi sin(Phi - phi_o) / (sin zeta cos chi - cos zeta sin chi cos(Phi - phi_o)), its half turn included",
+            figure: "largest error / (2.2e-16 (4 + phase / |m x n|)), 200 stars at 40 times",
+            bound: Bound::AtMost(4.0),
+            reason: "the phase of the motion and that of the formula are rounded by an ulp; near the line of sight it is divided by |m x n|",
+            measure: upright_star,
+        },
+        Check {
+            id: "position-angle-of-precessing-star",
+            kind: Kind::Property,
+            equations: &[45, 49, 70],
+            statement: "from the state and from Theta, Phi of Eq. (49) the position angle is the same, in every quadrant; along the line of sight both \
+                 refuse",
+            figure: "largest difference x |m x n| / 2.2e-16, 2,000 random orientations",
+            bound: Bound::AtMost(16.0),
+            reason: "some ten roundings of unit vectors, azimuths up to 2 pi rounded by 2 x 2.2e-16",
+            measure: state_and_angles,
+        },
+    ]);
+    checks
+}
+
+/// `chi, delta`, and the observer's `theta_o, phi_o` of a point.
+fn angles<F: Scalar>(p: &Point<F>) -> [F; 4] {
+    [p.numbers[0], p.numbers[1], p.frame.beta, p.frame.alpha]
+}
+
+struct Sky;
+
+impl Identity for Sky {
+    const ID: &'static str = "sky-directions";
+    const ROUNDED: (Kind, &'static str) = (Kind::Property, "sky-directions-rounding");
+    const EQUATIONS: &'static [u8] = &[46, 70];
+    const STATEMENT: &'static str = "north on the sky is the projection of Z, east is along Z x (direction in which the observer looks), as right ascension grows, \
+         and north x east points to the observer: from north to east is counterclockwise for him";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let [.., theta_o, phi_o] = angles(p);
+        let observer = Observer::at(theta_o, phi_o);
+        let sky = sky_from_inertial(&observer);
+        let [north, east, towards] = [0, 1, 2].map(|row| sky.row(row).transpose());
+        let (sin, _) = theta_o.sin_cos();
+        // The observer looks along -n; right ascension grows eastwards, as a turn about Z carries the sky.
+        let (z, view) = (Vector3::z(), -observer.direction);
+        let mut out: Vec<F> = (sky * sky.transpose() - Matrix3::identity()).iter().copied().collect();
+        out.extend(&(north * sin - (z - view * view.dot(&z))));
+        out.extend(&(east * sin - z.cross(&view)));
+        out.extend(&(north.cross(&east) - towards));
+        out.extend(&(towards + view));
+        out
+    }
+}
+
+struct RotatingVector;
+
+impl Identity for RotatingVector {
+    const ID: &'static str = "rotating-vector-model";
+    const ROUNDED: (Kind, &'static str) = (Kind::Property, "rotating-vector-model-rounding");
+    const EQUATIONS: &'static [u8] = &[45, 46, 49, 70];
+    const STATEMENT: &'static str = "the point at the position angle is the projection of m on the sky, as a vector and in (Theta, Phi), and its tangent is \
+         minus that printed by Radhakrishnan and Cooke (1969)";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let [theta, phi, theta_o, phi_o] = angles(p);
+        let m = spherical(theta, phi);
+        let on_sky = sky_from_inertial(&Observer::at(theta_o, phi_o)) * m;
+        let (north, east) = rotating_vector_point(theta, phi, theta_o, phi_o);
+        let ((s, c), (s_o, c_o)) = (theta.sin_cos(), theta_o.sin_cos());
+        let ((sp, cp), (sp_o, cp_o)) = (phi.sin_cos(), phi_o.sin_cos());
+        let (sin, cos) = (sp * cp_o - cp * sp_o, cp * cp_o + sp * sp_o);
+        let across = m.cross(&spherical(theta_o, phi_o));
+        vec![
+            north - on_sky.x,
+            east - on_sky.y,
+            north * north + east * east - across.dot(&across),
+            east * (s_o * c - c_o * s * cos) + north * (s * sin),
+        ]
+    }
+}
+
+struct Gradient;
+
+impl Identity for Gradient {
+    const ID: &'static str = "rotating-vector-gradient";
+    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "rotating-vector-gradient-autodiff");
+    const EQUATIONS: &'static [u8] = &[49, 70];
+    const STATEMENT: &'static str = "the derivatives of the position angle by Theta and Phi are those of the point by duals, and the steepest one, at \
+         Phi = phi_o, is -sin Theta / sin(theta_o - Theta)";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let [theta, phi, theta_o, phi_o] = angles(p);
+        let (by_theta, by_phi) = rotating_vector_gradient(theta, phi, theta_o, phi_o);
+        let swept = |theta, phi| {
+            let moving = rotating_vector_point::<F::First>(theta, phi, F::fixed(theta_o), F::fixed(phi_o));
+            let (north, east) = (F::value(moving.0), F::value(moving.1));
+            (north * F::derivative(moving.1) - east * F::derivative(moving.0), north * north + east * east)
+        };
+        let (along_theta, squared) = swept(F::first(theta, F::one()), F::fixed(phi));
+        let (along_phi, _) = swept(F::fixed(theta), F::first(phi, F::one()));
+        let (_, steepest) = rotating_vector_gradient(theta, phi_o, theta_o, phi_o);
+        let ((s, c), (s_o, c_o)) = (theta.sin_cos(), theta_o.sin_cos());
+        vec![by_theta * squared - along_theta, by_phi * squared - along_phi, steepest * (s_o * c - c_o * s) + s]
+    }
+}
+
+struct RateOfPositionAngle;
+
+impl Identity for RateOfPositionAngle {
+    const ID: &'static str = "position-angle-rate";
+    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "position-angle-rate-autodiff");
+    const EQUATIONS: &'static [u8] = &[22, 45, 49, 70];
+    const STATEMENT: &'static str = "the rate of the position angle is that of the projection of m along any motion by duals, and the gradient of the \
+         rotating-vector model times the rates of Theta and Phi";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let [chi, delta, theta_o, phi_o] = angles(p);
+        let observer = Observer::at(theta_o, phi_o);
+        let (q, v) = (&p.angles, &p.rates);
+        let rotation = body_from_inertial(q).transpose();
+        let in_body = spherical(chi, delta);
+        let m = rotation * in_body;
+        let rate = position_angle_rate_off_line_of_sight(&m, &(rotation * body_rates(q, v)), &observer);
+        let moving = body_from_inertial(&moving_angles(q, v)).transpose() * in_body.map(F::fixed);
+        let m_rate = moving.map(F::derivative);
+        let sky = sky_from_inertial(&observer);
+        let (here, there) = (sky * m, sky * m_rate);
+        // Any axis at (theta, phi) with any rates of both.
+        let (theta, phi, theta_rate, phi_rate) =
+            (p.numbers[2], p.numbers[3], p.accelerations.alpha, p.accelerations.beta);
+        let (by_theta, by_phi) = rotating_vector_gradient(theta, phi, theta_o, phi_o);
+        let axis = spherical::<F::First>(F::first(theta, theta_rate), F::first(phi, phi_rate));
+        let (axis, axis_rate) = (axis.map(F::value), axis.map(F::derivative));
+        // A rotation that carries it so.
+        let omega = axis.cross(&axis_rate);
+        vec![
+            rate * (here.x * here.x + here.y * here.y) - (here.x * there.y - here.y * there.x),
+            position_angle_rate_off_line_of_sight(&axis, &omega, &observer) - by_theta * theta_rate - by_phi * phi_rate,
+        ]
+    }
+}
+
+fn text(error: twofold::Error) -> String {
+    error.to_string()
+}
+
+/// An angle brought to (-pi, pi].
+fn wrapped(angle: f64) -> f64 {
+    angle.sin().atan2(angle.cos())
+}
+
+fn upright_star() -> Result<Measured, String> {
+    let (mut random, mut worst) = (Random::with_seed(69), Worst::default());
+    for case in 0..200 {
+        let [chi, zeta] = [0; 2].map(|_| random.within(0.05, 3.09));
+        let (delta, phi_o, spin) = (random.within(-3.0, 3.0), random.within(-3.0, 3.0), random.within(-2.0, 2.0));
+        let spheroid = RigidSpheroid::in_units_of_tc(random.within(0.5, 1.8));
+        let upright = EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 };
+        let start = BodyState::from_angles(&spheroid, &upright, &EulerRates { alpha: 0.0, beta: 0.0, gamma: spin });
+        let motion = propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 20.0), 1e-15).map_err(text)?;
+        let (beam, observer) = (Beam::new(chi, delta, 0.5), Observer::at(zeta, phi_o));
+        for i in 0..40 {
+            let t = 0.5 * f64::from(i);
+            let state = motion.state(t).map_err(text)?;
+            let m = beam.direction(&state);
+            let psi = position_angle(&m, &observer).map_err(text)?;
+            let phi = spin * t + delta - phi_o;
+            let across = m.cross(&observer.direction).norm();
+            let (down, along) = (chi.sin() * phi.sin(), zeta.sin() * chi.cos() - zeta.cos() * chi.sin() * phi.cos());
+            let printed = down.atan2(along);
+            let omega = angular_velocity(&spheroid, &state.axis, &state.momentum);
+            let rate = position_angle_rate(&m, &omega, &observer).map_err(text)?;
+            let gradient = rotating_vector_gradient(chi, spin * t + delta, zeta, phi_o).1 * spin;
+            let scale = f64::EPSILON * (4.0 + (4.0 + phi.abs()) / across);
+            let errors = [wrapped(psi + printed).abs(), (rate - gradient).abs() * across / (4.0 * spin.abs().max(0.1))];
+            worst.see(largest(errors) / scale, || {
+                format!("case {case} of seed 69, t = {t}: chi = {chi}, zeta = {zeta}")
+            });
+        }
+    }
+    worst.finish()
+}
+
+fn state_and_angles() -> Result<Measured, String> {
+    let (mut random, mut worst) = (Random::with_seed(70), Worst::default());
+    for case in 0..2000 {
+        let [alpha, gamma, delta, phi_o] = [0; 4].map(|_| random.within(-3.1, 3.1));
+        let [beta, chi, theta_o] = [0; 3].map(|_| random.within(0.05, 3.09));
+        let q = EulerAngles { alpha, beta, gamma };
+        let (theta, phi) = magnetic_axis_direction(&q, chi, delta).map_err(text)?;
+        let observer = Observer::at(theta_o, phi_o);
+        let m = body_from_inertial(&q).transpose() * Beam::new(chi, delta, 0.5).axis;
+        let by_angles = rotating_vector_position_angle(theta, phi, theta_o, phi_o).map_err(text)?;
+        let difference = wrapped(position_angle(&m, &observer).map_err(text)? - by_angles).abs();
+        let across = m.cross(&observer.direction).norm();
+        let refused = position_angle(&observer.direction, &observer).is_err()
+            && position_angle_rate(&-observer.direction, &m, &observer).is_err()
+            && rotating_vector_position_angle(theta_o, phi_o, theta_o, phi_o).is_err();
+        let figure = if refused { difference * across / f64::EPSILON } else { f64::INFINITY };
+        worst.see(figure, || format!("case {case} of seed 70: {q:?}, {chi}, {delta}, {theta_o}, {phi_o}"));
+    }
+    worst.finish()
+}

@@ -1,0 +1,112 @@
+//! The pulse train against a scan of `m.n`. Eq. (44).
+
+use twofold::dynamics::regular_equations::angular_velocity;
+use twofold::propagation::{AxisMotion, Motion};
+
+use super::cases::{Case, edges, for_random_cases};
+use crate::check::{Bound, Check, Kind, Measured};
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![Check {
+        id: "pulse-train-scan",
+        kind: Kind::Oracle,
+        equations: &[44, 47],
+        statement: "the edges of both beams of 10,000 random stars over 10 t_c are as many as a scan of m.n finds, a point each 0.01 t_c, with each \
+             extremum between them refined, and inside and outside are the same",
+        figure: "trains with a wrong number of edges, or inside where the scan is outside, of 20,000 random ones",
+        bound: Bound::AtMost(0.0),
+        reason: "counts; the scan passes over no pair of edges, since it looks at every extremum, and leaves out only what m cannot reach in time",
+        measure: against_scan,
+    }]
+}
+
+fn against_scan() -> Result<Measured, String> {
+    let (mut wrong, mut total, mut trains, mut looks, mut first) = (0, 0, 0, 0, String::new());
+    // Search and scan look at one and the same numerical motion, whatever its error.
+    for_random_cases(44, 10_000, (END, 1e-10), |case| {
+        let train = case.train()?;
+        let mut scan = Scan::of(case);
+        scan.search(0, POINTS);
+        let inside = |t: f64| train.pulses.iter().any(|p| p.start <= t && t <= p.end);
+        let differ = scan.points.iter().any(|&(t, margin)| margin.abs() > 1e-12 && inside(t) != (margin > 0.0));
+        trains += 1;
+        total += scan.edges;
+        looks += scan.points.len();
+        if edges(&train).len() != scan.edges || differ || !train.grazings.is_empty() {
+            wrong += 1;
+            if first.is_empty() {
+                first = format!("; first {}, {} edges by the scan, {}", case.name, scan.edges, edges(&train).len());
+            }
+        }
+        Ok(())
+    })?;
+    if total < 50_000 {
+        return Err(format!("only {total} edges were met"));
+    }
+    Ok(Measured::new(f64::from(wrong), format!("{trains} trains with {total} edges, {looks} looks at m.n{first}")))
+}
+
+const END: f64 = 10.0;
+
+/// Intervals of the full scan.
+const POINTS: u32 = 1024;
+
+/// A scan of one case. Only values of `m.n` and signs of its rate are used.
+struct Scan<'a> {
+    case: &'a Case,
+    /// More than the star turns by in a unit of time.
+    turning: f64,
+    edges: usize,
+    /// Times that were looked at, with the margin.
+    points: Vec<(f64, f64)>,
+}
+
+impl<'a> Scan<'a> {
+    fn of(case: &'a Case) -> Self {
+        let turning = |i: i32| {
+            let state = case.motion.state(END * f64::from(i) / 20.0).expect("a time of the span");
+            angular_velocity(case.motion.spheroid(), &state.axis, &state.momentum).norm()
+        };
+        // Half as much again as the fastest of some looks: no bound of the search under test goes into its oracle.
+        let turning = 1.5 * (0..=20).map(turning).fold(0.0, f64::max);
+        Self { case, turning, edges: 0, points: Vec::new() }
+    }
+
+    /// Time of a point of the full scan.
+    fn time(index: u32) -> f64 {
+        END * f64::from(index) / f64::from(POINTS)
+    }
+
+    /// Scans between two points: not at all where m is too far from the edge of the beam to reach it, as a whole where they are
+    /// neighbours, and by halves otherwise.
+    fn search(&mut self, from: u32, to: u32) {
+        let middle = (from + to) / 2;
+        if to - from > 1 {
+            let state = self.case.motion.state(Self::time(middle)).expect("a time of the span");
+            let margin = self.case.beam.margin(&state, &self.case.observer);
+            self.points.push((Self::time(middle), margin));
+            if margin.abs() < self.turning * (Self::time(to) - Self::time(middle)) {
+                self.search(from, middle);
+                self.search(middle, to);
+            }
+        } else {
+            self.count(Self::time(from), Self::time(to));
+        }
+    }
+
+    /// Counts the edges between neighbours: one where the sides differ, two where an extremum between them is on the other side.
+    fn count(&mut self, mut low: f64, mut high: f64) {
+        let ([first, rate, _], [second, next_rate, _]) = (self.case.margin(low), self.case.margin(high));
+        if (first > 0.0) != (second > 0.0) {
+            self.edges += 1;
+        } else if (rate > 0.0) != (next_rate > 0.0) {
+            while high - low > 1e-9 {
+                let middle = (low + high) / 2.0;
+                if (self.case.margin(middle)[1] > 0.0) == (rate > 0.0) { low = middle } else { high = middle }
+            }
+            if (self.case.margin((low + high) / 2.0)[0] > 0.0) != (first > 0.0) {
+                self.edges += 2;
+            }
+        }
+    }
+}

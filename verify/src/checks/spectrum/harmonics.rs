@@ -1,0 +1,159 @@
+//! What the paper says of the harmonics and peaks of its spectra.
+
+use twofold::observables::spectrum::{LineList, SpectralLine};
+
+use super::signals::{examples, strongest};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+
+/// Frequencies about the fundamental, the second, third and fourth harmonic, for both examples [1/t_c].
+const FUNDAMENTAL: std::ops::Range<f64> = 1.0..2.0;
+const THIRD: std::ops::Range<f64> = 4.0..5.0;
+const FOURTH: std::ops::Range<f64> = 5.4..6.4;
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "third-harmonic-tp-1",
+            kind: Kind::Oracle,
+            equations: &[71],
+            statement: "h of tp-I has a third harmonic at exactly three times its fundamental, alpha'",
+            figure: "|3 w_1 - w_3| of the highest lines about 1.5 and 4.5, h_+ and h_x [1/t_c]",
+            bound: Bound::AtMost(1e-9),
+            reason: "the accuracy asked of line lists",
+            measure: || third_harmonic(0),
+        },
+        Check {
+            id: "third-harmonic-tp-2",
+            kind: Kind::Oracle,
+            equations: &[71],
+            statement: "in tp-II the highest line about the third harmonic is 3 alpha' - l', not three times the fundamental alpha'; the line 3 alpha' is there and lower",
+            figure: "|3 w_1 - w_3| of the highest lines about 1.4 and 4.2, h_+ and h_x [1/t_c]",
+            bound: Bound::Within(0.0354, 0.0355),
+            reason: "the slow frequency, 0.03546; zero is claimed",
+            measure: || third_harmonic(1),
+        },
+        Check {
+            id: "third-harmonic-weaker",
+            kind: Kind::Oracle,
+            equations: &[71],
+            statement: "the third harmonic of tp-I is weaker than that of tp-II",
+            figure: "largest ratio of the two, each the highest line there over the highest about the fundamental, h_+ and h_x",
+            bound: Bound::AtMost(0.5),
+            reason: "'further suppressed' read as at most half",
+            measure: third_harmonic_ratio,
+        },
+        Check {
+            id: "fourth-harmonic-tp-1",
+            kind: Kind::Oracle,
+            equations: &[71],
+            statement: "'frequencies higher than the third harmonic have even much smaller amplitudes' does not hold in tp-I: the fourth has about half the amplitude of the third, or more",
+            figure: "smallest ratio of the highest lines about the fourth and the third harmonic, h_+ and h_x",
+            bound: Bound::AtLeast(0.4),
+            reason: "'much smaller' would be a fifth or less",
+            measure: || fourth_harmonic(0).map(|[low, _]| low),
+        },
+        Check {
+            id: "fourth-harmonic-tp-2",
+            kind: Kind::Oracle,
+            equations: &[71],
+            statement: "in tp-II the fourth harmonic is much smaller than the third",
+            figure: "largest ratio of the highest lines about the fourth and the third harmonic, h_+ and h_x",
+            bound: Bound::AtMost(0.2),
+            reason: "'much smaller' read as at most a fifth",
+            measure: || fourth_harmonic(1).map(|[_, high]| high),
+        },
+        Check {
+            id: "spectra-peaks",
+            kind: Kind::Oracle,
+            equations: &[47, 48, 71],
+            statement: "the highest lines about the fundamental are at the mean rates of alpha, not at the 1.438 / t_c of free precession that the figures mark",
+            figure: "least distance from 1.438 of the highest line between 1 and 2, m.n, h_+ and h_x of tp-I and tp-II [1/t_c]",
+            bound: Bound::AtLeast(0.04),
+            reason: "the mean rates of alpha are 1.512 and 1.395; the resolution of 200 t_c is 0.03",
+            measure: peaks,
+        },
+        Check {
+            id: "wave-lines-not-harmonics",
+            kind: Kind::Oracle,
+            equations: &[71],
+            statement: "the waves of tp-II are not made of harmonics of the mean rate of alpha alone: a fifth of their power and more is in combinations with the slow frequency",
+            figure: "least share of the sum of squared amplitudes in lines that are no multiple of alpha', h_+ and h_x",
+            bound: Bound::AtLeast(0.2),
+            reason: "none is claimed by 'all harmonics of the average rate of alpha'",
+            measure: not_harmonics,
+        },
+    ]
+}
+
+/// The highest lines about the fundamental and a harmonic.
+fn pair(list: &LineList, harmonic: std::ops::Range<f64>) -> Result<[&SpectralLine; 2], String> {
+    Ok([strongest(list, FUNDAMENTAL)?, strongest(list, harmonic)?])
+}
+
+fn third_harmonic(index: usize) -> Result<Measured, String> {
+    let example = &examples()?[index];
+    let (mut differences, mut details) = (Vec::new(), Vec::new());
+    for (signal, list) in example.waves() {
+        let [first, third] = pair(list, THIRD)?;
+        differences.push((3.0 * first.frequency - third.frequency).abs());
+        let named = [first, third].map(|l| example.basis.identify(l.frequency, l.uncertainty).to_string());
+        let exact = strongest(list, 3.0 * first.frequency - 1e-6..3.0 * first.frequency + 1e-6)?;
+        details.push(format!(
+            "{signal}: {} ({:.2e}), {} ({:.2e}), three times the first ({:.2e})",
+            named[0], first.amplitude, named[1], third.amplitude, exact.amplitude
+        ));
+    }
+    Ok(Measured::new(largest(differences), details.join("; ")))
+}
+
+fn third_harmonic_ratio() -> Result<Measured, String> {
+    let [weak, strong] = examples()?;
+    let mut worst = Worst::default();
+    for ((signal, weak), (_, strong)) in weak.waves().into_iter().zip(strong.waves()) {
+        let ratio = |list| pair(list, THIRD).map(|[first, third]| third.amplitude / first.amplitude);
+        let (weak, strong) = (ratio(weak)?, ratio(strong)?);
+        worst.see(weak / strong, || format!("{signal}: {weak:.2e} in tp-I, {strong:.2e} in tp-II"));
+    }
+    worst.finish()
+}
+
+/// Lower and higher ratio of the two polarizations.
+fn fourth_harmonic(index: usize) -> Result<[Measured; 2], String> {
+    let example = &examples()?[index];
+    let mut ratios = Vec::new();
+    for (_, list) in example.waves() {
+        ratios.push(strongest(list, FOURTH)?.amplitude / strongest(list, THIRD)?.amplitude);
+    }
+    let detail = format!("h_+ {:.3}, h_x {:.3}", ratios[0], ratios[1]);
+    let (low, high) = if ratios[0] < ratios[1] { (ratios[0], ratios[1]) } else { (ratios[1], ratios[0]) };
+    Ok([low, high].map(|ratio| Measured::new(ratio, detail.clone())))
+}
+
+fn peaks() -> Result<Measured, String> {
+    let (mut inverse, mut details) = (Vec::new(), Vec::new());
+    for example in examples()? {
+        for (signal, list) in example.signals() {
+            let line = strongest(list, FUNDAMENTAL)?;
+            inverse.push(1.0 / (line.frequency - 1.438).abs());
+            details.push(format!("{} {signal} {:.4}", example.name, line.frequency));
+        }
+    }
+    Ok(Measured::new(1.0 / largest(inverse), details.join(", ")))
+}
+
+fn not_harmonics() -> Result<Measured, String> {
+    let example = &examples()?[1];
+    let mut shares = Vec::new();
+    for (_, list) in example.waves() {
+        let power = |line: &SpectralLine| line.amplitude * line.amplitude;
+        let harmonic = |line: &&SpectralLine| {
+            let what = example.basis.identify(line.frequency, line.uncertainty);
+            what.combination().is_some_and(|c| c.integers()[1..].iter().all(|&k| k == 0))
+        };
+        let total: f64 = list.lines.iter().map(power).sum();
+        let in_harmonics: f64 = list.lines.iter().filter(harmonic).map(power).sum();
+        shares.push(1.0 - in_harmonics / total);
+    }
+    let least = if shares[0] < shares[1] { shares[0] } else { shares[1] };
+    Ok(Measured::new(least, format!("h_+ {:.3}, h_x {:.3}", shares[0], shares[1])))
+}

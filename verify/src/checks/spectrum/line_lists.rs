@@ -1,0 +1,125 @@
+//! Line lists of known sums.
+
+use std::f64::consts::{PI, TAU};
+
+use twofold::observables::spectrum::{LineList, Series, SpectralLine, spectral_lines};
+
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::random::Random;
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "line-list-synthetic",
+            kind: Kind::Oracle,
+            equations: &[47, 71],
+            statement: "the lines of a known sum, amplitudes 1 to 1e-6, at random frequencies 0.02 apart or more, beside a constant: none missed, none invented, \
+                 frequencies, amplitudes and phases found",
+            figure: "largest error of a frequency [1/t_c], 8 sums of 24 lines over 4,000 t_c",
+            bound: Bound::AtMost(1e-9),
+            reason: "the accuracy asked of line lists",
+            measure: synthetic_sums,
+        },
+        Check {
+            id: "line-list-resolution",
+            kind: Kind::Oracle,
+            equations: &[47, 71],
+            statement: "two lines 10/T to 40/T apart, amplitude ratios 1 to 1e-3, and one line 10/T to 40/T from zero are found as such, and no error of a frequency exceeds its estimate",
+            figure: "largest error of a frequency in units of 2/T, T = 4,000 t_c",
+            bound: Bound::AtMost(1e-6),
+            reason: "1e-9 / t_c at T = 2,000 t_c in that unit: the accuracy asked of line lists, at the least distance documented",
+            measure: close_lines,
+        },
+    ]
+}
+
+fn message(e: twofold::Error) -> String {
+    e.to_string()
+}
+
+fn sum_of(lines: &[SpectralLine], constant: f64, start: f64, step: f64, count: usize) -> Series {
+    let value = |j: usize| {
+        let t = start + step * j as f64;
+        constant + lines.iter().map(|l| l.amplitude * (l.frequency * t + l.phase).cos()).sum::<f64>()
+    };
+    Series { start, step, values: (0..count).map(value).collect() }
+}
+
+/// Largest error of a frequency, and of an amplitude and a phase relative to what the rounding of the series allows; infinite
+/// if a line is missing, invented, or farther off than its uncertainty says.
+fn compare(found: &LineList, known: &[SpectralLine], rounding: f64) -> [f64; 3] {
+    if found.lines.len() != known.len() {
+        return [f64::INFINITY; 3];
+    }
+    let mut errors = [0.0_f64; 3];
+    for line in known {
+        let near = |l: &&SpectralLine| (l.frequency - line.frequency).abs();
+        let nearest = found.lines.iter().min_by(|a, b| near(a).total_cmp(&near(b))).expect("there are lines");
+        let turned = ((nearest.phase - line.phase + PI).rem_euclid(TAU) - PI).abs();
+        let error = near(&nearest);
+        let honest = error <= 3.0 * nearest.uncertainty;
+        let here = [
+            if honest { error } else { f64::INFINITY },
+            (nearest.amplitude - line.amplitude).abs() / rounding,
+            turned * line.amplitude / rounding,
+        ];
+        errors = std::array::from_fn(|i| largest([errors[i], here[i]]));
+    }
+    errors
+}
+
+fn synthetic_sums() -> Result<Measured, String> {
+    let (mut random, mut worst, mut others) = (Random::with_seed(1990), Worst::default(), 0.0_f64);
+    for case in 0..8 {
+        let mut lines: Vec<SpectralLine> = Vec::new();
+        while lines.len() < 24 {
+            let frequency = random.within(0.02, 4.5);
+            if lines.iter().all(|l| (l.frequency - frequency).abs() > 0.02) {
+                let amplitude = 10f64.powf(-6.0 * lines.len() as f64 / 23.0);
+                lines.push(SpectralLine { frequency, amplitude, phase: random.within(-PI, PI), uncertainty: 0.0 });
+            }
+        }
+        let constant = random.within(-1.0, 1.0);
+        let series = sum_of(&lines, constant, -700.0, 4000.0 / 8192.0, 8192);
+        let list = spectral_lines(&series, 3e-7, 100).map_err(message)?;
+        let [frequency, amplitude, phase] = compare(&list, &lines, 1e-10);
+        others = largest([others, amplitude, phase, (list.constant - constant).abs() / 1e-10]);
+        worst.see(frequency, || format!("sum {case} of seed 1990, {} lines found", list.lines.len()));
+    }
+    // Amplitudes, phases times amplitudes and constants: to 1e-10 of the strongest line.
+    let measured = worst.finish()?;
+    let figure = if others <= 1.0 { measured.figure } else { f64::INFINITY };
+    Ok(Measured::new(
+        figure,
+        format!("{}; amplitudes, phases, constants within {:.1e}", measured.detail, others * 1e-10),
+    ))
+}
+
+fn close_lines() -> Result<Measured, String> {
+    let (mut random, mut worst) = (Random::with_seed(1993), Worst::default());
+    let (span, count) = (4000.0, 8192);
+    for distance in [10.0, 12.0, 16.0, 20.0, 30.0, 40.0] {
+        for ratio in [1.0, 0.1, 1e-3] {
+            for near_zero in [false, true] {
+                let line = |frequency, amplitude, random: &mut Random| SpectralLine {
+                    frequency,
+                    amplitude,
+                    phase: random.within(-PI, PI),
+                    uncertainty: 0.0,
+                };
+                let first = if near_zero { distance / span } else { 1.4 };
+                let mut lines = vec![line(first, 1.0, &mut random)];
+                if !near_zero {
+                    lines.push(line(first + distance / span, ratio, &mut random));
+                }
+                let series = sum_of(&lines, ratio, 0.0, span / count as f64, count);
+                let list = spectral_lines(&series, 1e-7, 20).map_err(message)?;
+                let [frequency, ..] = compare(&list, &lines, 1.0);
+                worst.see(frequency * span / 2.0, || {
+                    format!("{distance} / T apart, ratio {ratio}, near zero: {near_zero}; {} lines", list.lines.len())
+                });
+            }
+        }
+    }
+    worst.finish()
+}

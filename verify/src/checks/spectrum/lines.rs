@@ -1,0 +1,224 @@
+//! Lines of the paper's signals: what they are, those of free precession, and the slow one.
+
+use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::observables::Observer;
+use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
+use twofold::observables::spectrum::{Series, SpectralLine, spectral_lines};
+use twofold::propagation::propagate;
+use twofold::solutions::free::free_precession_rates;
+
+use super::signals::{Example, beam, examples, strongest};
+use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::paper_examples::COEFFICIENTS;
+
+/// Frequencies of the order of the coefficients for Lorentz violation [1/t_c].
+const SLOW: std::ops::Range<f64> = 0.01..0.1;
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "lines-identified",
+            kind: Kind::Oracle,
+            equations: &[47, 71],
+            statement: "every line of m.n above 1e-4 and of h_+ and h_x above 1e-6 of tp-I and tp-II is one combination of alpha', gamma' and the slow frequency",
+            figure: "lines unidentified or ambiguous",
+            bound: Bound::AtMost(0.0),
+            reason: "the motion is quasi-periodic with these three frequencies",
+            measure: all_identified,
+        },
+        Check {
+            id: "lines-of-motion",
+            kind: Kind::Oracle,
+            equations: &[47, 71],
+            statement: "the frequencies of these lines, found in the series alone, are those combinations of the mean rates",
+            figure: "largest difference, m.n above 1e-4, h above 1e-5 [1/t_c]",
+            bound: Bound::AtMost(1e-9),
+            reason: "the accuracy asked of line lists",
+            measure: lines_against_rates,
+        },
+        Check {
+            id: "free-precession-lines",
+            kind: Kind::Oracle,
+            equations: &[47, 48, 68, 71],
+            statement: "in free precession m.n has exactly four lines, alpha', |gamma'| and alpha' +- gamma', and h exactly two, alpha' and 2 alpha'",
+            figure: "largest amplitude in the spectrum of what these leave; infinite if one is missing or off by more than 1e-11",
+            bound: Bound::AtMost(1e-11),
+            reason: "the motion and the products of its components are rounded at 1e-15, its phase at 3e-12 over the span",
+            measure: free_precession,
+        },
+        Check {
+            id: "slow-line-tp-2",
+            kind: Kind::Oracle,
+            equations: &[47, 57],
+            statement: "m.n of tp-II has a line between 0.03 and 0.04 / t_c, and it is the mean rate of the azimuth of L about Z",
+            figure: "|frequency of the strongest line there - |mean rate|| [1/t_c]; infinite if it is below a tenth of the highest line",
+            bound: Bound::AtMost(1e-9),
+            reason: "the accuracy asked of line lists",
+            measure: slow_line_of_tp_2,
+        },
+        Check {
+            id: "slow-line-tp-1",
+            kind: Kind::Oracle,
+            equations: &[47, 57],
+            statement: "m.n of tp-I shows no such line: the azimuth of L counts turns of alpha, and the slow frequency, 0.0280 / t_c all the same, has 0.0016 of the highest amplitude",
+            figure: "largest amplitude between 0.01 and 0.1 / that of the highest line; infinite unless L and alpha have one mean rate",
+            bound: Bound::AtMost(0.01),
+            reason: "a hundredth cannot be seen on the figure's linear axis",
+            measure: slow_line_of_tp_1,
+        },
+        Check {
+            id: "slow-line-waves",
+            kind: Kind::Oracle,
+            equations: &[57, 71],
+            statement: "the waves of tp-I and tp-II show no line of the order of the coefficients",
+            figure: "largest amplitude between 0.01 and 0.1 / that of the highest line, h_+ and h_x",
+            bound: Bound::AtMost(0.01),
+            reason: "a hundredth cannot be seen on the figure's linear axis",
+            measure: slow_line_of_waves,
+        },
+        Check {
+            id: "slow-frequency-magnitude",
+            kind: Kind::Oracle,
+            equations: &[35, 57],
+            statement: "the slow frequency of tp-II has the order of magnitude of the coefficients for Lorentz violation",
+            figure: "|slow frequency| t_c / geometric mean of |s^XX|, |s^YY|, |s^ZZ|",
+            bound: Bound::Within(10f64.powf(-0.5), 3.162_277_660_168_379_5),
+            reason: "half a decade on either side",
+            measure: slow_magnitude,
+        },
+    ]
+}
+
+fn message(e: twofold::Error) -> String {
+    e.to_string()
+}
+
+fn each_line(
+    least_wave: f64,
+) -> Result<impl Iterator<Item = (&'static Example, &'static str, &'static SpectralLine)>, String> {
+    let of = move |example: &'static Example| {
+        example.signals().into_iter().flat_map(move |(signal, list)| {
+            let wanted = move |line: &&SpectralLine| signal == "m.n" || line.amplitude >= least_wave;
+            list.lines.iter().filter(wanted).map(move |line| (example, signal, line))
+        })
+    };
+    Ok(examples()?.iter().flat_map(of))
+}
+
+fn all_identified() -> Result<Measured, String> {
+    let (mut failed, mut total, mut detail) = (0, 0, String::new());
+    for (example, signal, line) in each_line(0.0)? {
+        total += 1;
+        let what = example.basis.identify(line.frequency, line.uncertainty);
+        if what.combination().is_none() {
+            failed += 1;
+            detail += &format!("; {} {signal} {:.9} ({:.1e}): {what}", example.name, line.frequency, line.amplitude);
+        }
+    }
+    for example in examples()? {
+        for (signal, list) in example.signals() {
+            let asked = if signal == "m.n" { 1e-4 } else { 1e-6 };
+            if list.remainder > asked {
+                return Err(format!("{} {signal}: lines up to {:.1e} are left", example.name, list.remainder));
+            }
+        }
+    }
+    Ok(Measured::new(f64::from(failed), format!("of {total} lines{detail}")))
+}
+
+fn lines_against_rates() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for (example, signal, line) in each_line(1e-5)? {
+        let what = example.basis.identify(line.frequency, line.uncertainty);
+        let misfit = what.combination().map_or(f64::INFINITY, |combination| combination.misfit.abs());
+        worst.see(misfit, || {
+            format!("{} {signal} {:.11}, {:.1e}: {what}", example.name, line.frequency, line.amplitude)
+        });
+    }
+    worst.finish()
+}
+
+fn free_precession() -> Result<Measured, String> {
+    let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+    let free = free_precession_rates(&spheroid, 1.0, 0.7).map_err(message)?;
+    let angles = EulerAngles { alpha: 0.4, beta: 0.7, gamma: 0.2 };
+    let start =
+        BodyState::from_angles(&spheroid, &angles, &EulerRates { alpha: free.alpha, beta: 0.0, gamma: free.gamma });
+    let s = PrincipalCoefficients::new([0.0; 3]).tensor();
+    let motion = propagate(&spheroid, &s, &start, (0.0, 2000.0), 1e-15).map_err(message)?;
+    let (beam, observer) = (beam(), Observer::at(0.8, 0.0));
+    let wave = |state: &BodyState<f64>| {
+        let source = spheroid_inertia_acceleration(&spheroid, &s, &state.axis, &state.momentum);
+        polarizations(&observer, &metric_perturbation(1.0, &source))
+    };
+    let list = |observable: &dyn Fn(&BodyState<f64>) -> f64| {
+        Series::of_motion(&motion, 4096, observable)
+            .and_then(|series| spectral_lines(&series, 1e-9, 20))
+            .map_err(message)
+    };
+    let (a, g) = (free.alpha, free.gamma.abs());
+    let mut worst = Worst::default();
+    for (name, list, expected) in [
+        ("m.n", list(&|state| beam.direction(state).dot(&observer.direction))?, vec![g, a - g, a, a + g]),
+        ("h_+", list(&|state| wave(state).plus)?, vec![a, 2.0 * a]),
+        ("h_x", list(&|state| wave(state).cross)?, vec![a, 2.0 * a]),
+    ] {
+        let mut found: Vec<f64> = list.lines.iter().map(|line| line.frequency).collect();
+        found.sort_by(f64::total_cmp);
+        let same = found.len() == expected.len() && found.iter().zip(&expected).all(|(x, y)| (x - y).abs() < 1e-11);
+        let figure = if same { list.remainder } else { f64::INFINITY };
+        worst.see(figure, || format!("{name}: lines {found:.9?}, remainder {:.1e}", list.remainder));
+    }
+    worst.finish()
+}
+
+fn slow_line_of_tp_2() -> Result<Measured, String> {
+    let example = &examples()?[1];
+    let line = strongest(&example.pulsar, 0.03..0.04)?;
+    let rate = example.frequencies.momentum.ok_or("L has no mean azimuth")?.value;
+    let highest = example.pulsar.lines[0].amplitude;
+    let figure = if line.amplitude > 0.1 * highest { (line.frequency - rate.abs()).abs() } else { f64::INFINITY };
+    let others: Vec<_> = example.pulsar.lines.iter().filter(|other| other.frequency < 0.05).collect();
+    let named = |l: &&SpectralLine| {
+        format!("{:.6} ({:.1e}) {}", l.frequency, l.amplitude, example.basis.identify(l.frequency, l.uncertainty))
+    };
+    let list = others.iter().map(named).collect::<Vec<_>>().join(", ");
+    Ok(Measured::new(
+        figure,
+        format!("amplitude {:.3} of the highest; lines below 0.05: {list}", line.amplitude / highest),
+    ))
+}
+
+fn slow_line_of_tp_1() -> Result<Measured, String> {
+    let example = &examples()?[0];
+    let (alpha, momentum) = (example.frequencies.alpha, example.frequencies.momentum);
+    let locked = alpha.zip(momentum).is_some_and(|(a, l)| (a.value - l.value).abs() < 1e-11);
+    let line = strongest(&example.pulsar, SLOW)?;
+    let ratio = line.amplitude / example.pulsar.lines[0].amplitude;
+    let what = example.basis.identify(line.frequency, line.uncertainty);
+    Ok(Measured::new(if locked { ratio } else { f64::INFINITY }, format!("{:.7}: {what}", line.frequency)))
+}
+
+fn slow_line_of_waves() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for example in examples()? {
+        for (signal, list) in example.waves() {
+            // A list without a line there has none above the amplitude asked for.
+            let line = strongest(list, SLOW).ok();
+            let amplitude = line.map_or(1e-6, |line| line.amplitude);
+            let ratio = amplitude / list.lines[0].amplitude;
+            worst.see(ratio, || format!("{} {signal} at {:.6?}", example.name, line.map(|line| line.frequency)));
+        }
+    }
+    worst.finish()
+}
+
+fn slow_magnitude() -> Result<Measured, String> {
+    let slow = examples()?[1].frequencies.slow.ok_or("no slow precession")?.value;
+    let s = COEFFICIENTS;
+    let mean = (s.xx * s.yy * s.zz).abs().cbrt();
+    Ok(Measured::new(slow.abs() / mean, format!("slow frequency {slow:.8}, coefficients {} to {}", s.yy, s.zz.abs())))
+}
