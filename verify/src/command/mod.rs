@@ -90,7 +90,7 @@ struct RunArgs {
     /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
     scene: String,
     /// Only these groups of columns, whatever the scene says: angles, rates, e_x, e_z, L, integrals, perturbation, lambda,
-    /// m.n, magnetic_axis, h
+    /// m.n, magnetic_axis, position_angle, h
     #[arg(long, value_name = "GROUP,GROUP", value_delimiter = ',')]
     columns: Option<Vec<String>>,
     #[command(flatten)]

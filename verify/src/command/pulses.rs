@@ -21,6 +21,12 @@ pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
     for (beam, _) in summary.pulses.iter().enumerate().filter(|(_, pulses)| **pulses == 0) {
         note(&format!("no pulse of beam {}: the line of sight stays outside it", beam + 1));
     }
+    for (beam, time, why) in &summary.uncounted {
+        note(&format!(
+            "turn and closest_approach of beam {beam} are empty from t = {time:?} {} on, since turns cannot be counted there: {why}",
+            scene.units.time_name
+        ));
+    }
     if let Some(time) = summary.first_grazing {
         note(&format!(
             "the line of sight grazes the edge of a beam {} times, first at t = {time:?} {}: a pulse there, or a gap between \

@@ -1,7 +1,10 @@
 //! The motion of a scene as tables of comma-separated values.
 
 mod error;
+mod pulse_source;
 mod pulses;
+#[cfg(test)]
+mod pulses_across_stretches;
 mod stretches;
 
 use std::io::Write;
