@@ -21,10 +21,9 @@ pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
     for (beam, _) in summary.pulses.iter().enumerate().filter(|(_, pulses)| **pulses == 0) {
         note(&format!("no pulse of beam {}: the line of sight stays outside it", beam + 1));
     }
-    for (beam, time, why) in &summary.uncounted {
+    for (beam, pulses, why) in &summary.without_turn {
         note(&format!(
-            "turn and closest_approach of beam {beam} are empty from t = {time:?} {} on, since turns cannot be counted there: {why}",
-            scene.units.time_name
+            "turn and closest_approach are empty for {pulses} whole pulses of beam {beam}: turns cannot be counted: {why}"
         ));
     }
     if let Some(time) = summary.first_grazing {

@@ -19,8 +19,10 @@ pub(super) struct Source {
     /// Turns counted up to the end of the last stretch.
     turns: i64,
     first_turn: Option<i64>,
-    /// From which time on turns are not counted, and why.
-    pub(super) uncounted: Option<(f64, Error)>,
+    /// Why turns are not counted any more, once they are not.
+    pub(super) uncounted: Option<Error>,
+    /// Whole pulses without a turn for that reason.
+    pub(super) without_turn: usize,
 }
 
 /// A pulse with its place in the train of its beam.
@@ -60,6 +62,7 @@ impl Source {
             turns: 0,
             first_turn: None,
             uncounted: None,
+            without_turn: 0,
         }
     }
 
@@ -128,7 +131,7 @@ impl Source {
         let mut found = match arrivals(&stretch.motion, &self.beam, &self.line_of_sight, &train) {
             Ok(found) => found,
             Err(why) => {
-                self.uncounted = Some((stretch.from, why));
+                self.uncounted = Some(why);
                 return Ok(vec![None; pulses.len()]);
             }
         };
@@ -154,6 +157,7 @@ impl Source {
         let arrival = approach
             .filter(|_| pulse.is_whole() && self.uncounted.is_none())
             .map(|approach| (approach.turn - *self.first_turn.get_or_insert(approach.turn), approach.time));
+        self.without_turn += usize::from(pulse.is_whole() && arrival.is_none());
         Numbered { beam: self.number, number: self.seen, pulse: *pulse, period, arrival }
     }
 }

@@ -21,8 +21,8 @@ pub struct PulseSummary {
     pub grazings: usize,
     /// Time of the first of those.
     pub first_grazing: Option<f64>,
-    /// Beams whose turns cannot be counted, from which time on, and why.
-    pub uncounted: Vec<(usize, f64, Error)>,
+    /// Beams with whole pulses whose turns cannot be counted, how many of them, and why.
+    pub without_turn: Vec<(usize, usize, Error)>,
 }
 
 /// Names of the columns with their units.
@@ -95,8 +95,11 @@ pub(super) fn write_by_stretches(
     }
     table.flush()?;
     summary.pulses = sources.iter().map(|source| source.seen).collect();
-    let uncounted = |source: Source| source.uncounted.map(|(time, why)| (source.number, in_output(scene, time), why));
-    summary.uncounted = sources.into_iter().filter_map(uncounted).collect();
+    summary.without_turn = sources
+        .into_iter()
+        .filter(|source| source.without_turn > 0)
+        .filter_map(|source| source.uncounted.map(|why| (source.number, source.without_turn, why)))
+        .collect();
     Ok(summary)
 }
 

@@ -36,7 +36,7 @@ fn pulses_across_stretches_are_whole() {
         let n = viewer.basis().direction;
         let (rows, summary) = rows_of(&scene, per_stretch);
         assert_eq!(rows.len(), summary.pulses.iter().sum::<usize>());
-        assert!(summary.uncounted.is_empty());
+        assert!(summary.without_turn.is_empty());
 
         let mut longest = 0.0_f64;
         let motion = propagate(&scene.spheroid, &scene.violation, &scene.initial, (0.0, span), 1e-13).expect("motion");
