@@ -59,7 +59,7 @@ pub const EQUATIONS: &[Equation] = &[
         "trans",
         "body axes in Euler angles",
         &["euler_angles::body_from_inertial", "euler_angles::symmetry_axis", "euler_angles::angles_from_rotation"],
-        &[],
+        &["figure_euler_angles"],
     ),
     row(
         10,
@@ -182,7 +182,7 @@ pub const EQUATIONS: &[Equation] = &[
             "propagation::ContinuousAngles",
             "solutions::symmetric::SymmetricSolution",
         ],
-        &[],
+        &["figure_motion_tp_1", "figure_motion_tp_2", "figure_motion_sp_1", "figure_motion_sp_2"],
     ),
     row(26, "sol1", "steady precession for symmetric s", &["solutions::steady::steady_precession_rate"], &[]),
     row(27, "ansatz", "perturbation ansatz", &["solutions::perturbation::Perturbation::at"], &[]),
@@ -233,7 +233,7 @@ pub const EQUATIONS: &[Equation] = &[
         "sol3",
         "first-order angles",
         &["solutions::perturbation::Perturbation::first_order"],
-        &["twofold_regimes", "single_regimes"],
+        &["twofold_regimes", "single_regimes", "figure_perturbation_regimes"],
     ),
     row(
         34,
@@ -254,7 +254,7 @@ pub const EQUATIONS: &[Equation] = &[
         "",
         "permutation of the axes",
         &["lorentz_violation::PrincipalCoefficients::permuted", "euler_angles::permuted_from_inertial"],
-        &[],
+        &["figure_euler_angles_yzx", "figure_momentum_sphere"],
     ),
     row(
         37,
@@ -292,7 +292,7 @@ pub const EQUATIONS: &[Equation] = &[
             "observables::eta_distribution::EtaDistribution",
             "observables::eta_distribution::root_mean_square_along_motion",
         ],
-        &["pulsar_bounds", "eta"],
+        &["pulsar_bounds", "eta", "figure_bound_factor"],
     ),
     row(
         42,
@@ -328,7 +328,7 @@ pub const EQUATIONS: &[Equation] = &[
             "observables::pulsar::rate_bounds::RateBounds",
             "observables::pulsar::rate_bounds::rate_bounds",
         ],
-        &[],
+        &["figure_pulse_series"],
     ),
     row(
         45,
@@ -339,7 +339,7 @@ pub const EQUATIONS: &[Equation] = &[
             "observables::pulsar::Beam::opposite",
             "observables::pulsar::Beam::direction",
         ],
-        &[],
+        &["figure_beam_cone"],
     ),
     row(46, "", "direction of the observer", &["observables::Observer"], &[]),
     row(
@@ -347,7 +347,7 @@ pub const EQUATIONS: &[Equation] = &[
         "pulsemn",
         "m.n in Euler angles",
         &["observables::pulsar::beam::axis_along_line_of_sight"],
-        &["spectral_lines"],
+        &["spectral_lines", "figure_beam_alignment", "figure_beam_alignment_spectra"],
     ),
     row(
         48,
@@ -474,7 +474,7 @@ pub const EQUATIONS: &[Equation] = &[
             "observables::gravitational_wave::Polarizations",
             "observables::gravitational_wave::strain_unit",
         ],
-        &["spectral_lines"],
+        &["spectral_lines", "figure_waves", "figure_wave_spectra"],
     ),
     row(72, "ecc", "eccentricity", &["star::spheroid_shape::SpheroidShape"], &[]),
     row(

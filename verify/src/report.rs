@@ -11,7 +11,8 @@ use crate::check::{Bound, Check, Kind, Outcome};
 /// A check and its outcome.
 pub type Result = (Check, Outcome);
 
-const KINDS: [(Kind, &str); 5] = [
+/// The kinds of checks in the order in which they are listed, and what each is.
+pub(crate) const KINDS: [(Kind, &str); 5] = [
     (Kind::Exact, "identities over a prime field, no tolerance"),
     (Kind::Autodiff, "the paper's formulas against automatic derivatives"),
     (Kind::Oracle, "another method or another source"),
@@ -127,7 +128,8 @@ fn failure(check: &Check, outcome: &Outcome) -> String {
     format!("FAIL {}: {}\n    {found}\n    required {} ({})", check.id, check.statement, check.bound, check.reason)
 }
 
-fn measured(outcome: &Outcome) -> String {
+/// The measured figure in four digits.
+pub(crate) fn measured(outcome: &Outcome) -> String {
     match &outcome.measured {
         Ok(measured) if measured.figure == 0.0 => "0".to_owned(),
         Ok(measured) if (1e-2..1e5).contains(&measured.figure.abs()) => format!("{:.4}", measured.figure),
@@ -136,7 +138,8 @@ fn measured(outcome: &Outcome) -> String {
     }
 }
 
-fn verdict(outcome: &Outcome) -> &'static str {
+/// The verdict in a word.
+pub(crate) fn verdict(outcome: &Outcome) -> &'static str {
     if outcome.passed { "pass" } else { "FAIL" }
 }
 

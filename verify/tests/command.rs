@@ -228,6 +228,25 @@ fn a_pole_leaves_fields_empty_and_says_so() {
 }
 
 #[test]
+fn a_report_that_cannot_be_written_is_refused_before_the_checks_are_run() {
+    let folder = folder();
+    let out = folder.path().join("report");
+    let out = out.to_str().expect("path in UTF-8");
+    fs::create_dir(out).expect("folder");
+    let page = Path::new(out).join("index.html");
+    fs::write(&page, "mine").expect("file");
+    for (out, reason) in
+        [(out, "index.html exists there; --force replaces"), (page.to_str().expect("UTF-8"), "is not a folder")]
+    {
+        let output = twofold(&["report", "--out", out]);
+        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        assert!(stderr(&output).contains(reason), "{}", stderr(&output));
+    }
+    assert_eq!(fs::read_to_string(&page).expect("file"), "mine");
+    assert_eq!(names_in(Path::new(out)), ["index.html"]);
+}
+
+#[test]
 fn scenes_are_listed_and_each_listed_name_runs() {
     let output = twofold(&["scenes"]);
     assert_eq!(output.status.code(), Some(0));

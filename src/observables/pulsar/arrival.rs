@@ -100,3 +100,35 @@ impl<M: Motion<f64>> EdgeSearch<'_, M> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix3;
+
+    use super::*;
+    use crate::dynamics::{BodyState, RigidSpheroid};
+    use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::observables::Observer;
+    use crate::observables::pulsar::pulse_train;
+    use crate::propagation::propagate;
+
+    /// A freely precessing star with L along Z.
+    #[test]
+    fn along_the_angular_momentum_turns_are_not_counted() {
+        let (spheroid, beta) = (RigidSpheroid::in_units_of_tc(1.2), 0.6_f64);
+        let rates = EulerRates { alpha: 1.2 / beta.cos(), beta: 0.0, gamma: -0.2 };
+        let start = BodyState::from_angles(&spheroid, &EulerAngles { alpha: 0.0, beta, gamma: 0.0 }, &rates);
+        let motion = propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 100.0), 1e-12).unwrap();
+        let beam = Beam::new(0.4, 0.0, 0.5);
+        let seen = |observer: Observer<f64>| {
+            let n = observer.direction;
+            let train = pulse_train(&motion, &beam, &n, (0.0, 100.0)).unwrap();
+            assert!(train.pulses.iter().any(|pulse| pulse.is_whole()));
+            arrivals(&motion, &beam, &n, &train)
+        };
+        assert!(seen(Observer::at(0.7, 0.0)).is_ok());
+        assert!(matches!(seen(Observer::at(0.0, 0.0)), Err(Error::Domain { .. })));
+        let none = PulseTrain { pulses: Vec::new(), grazings: Vec::new() };
+        assert_eq!(arrivals(&motion, &beam, &Observer::at(0.0, 0.0).direction, &none), Ok(Vec::new()));
+    }
+}

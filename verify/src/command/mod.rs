@@ -2,9 +2,12 @@
 
 mod bounds;
 mod compare;
+mod figures;
 mod output_file;
+mod output_folder;
 mod progress;
 mod pulses;
+mod report;
 mod run;
 mod scenes;
 mod spectrum;
@@ -39,6 +42,8 @@ Examples:
   twofold pulses tp-1               every pulse of the radio beam
   twofold spectrum tp-1 --of m.n --span 4000
                                     the spectral lines of the pulsar signal, identified
+  twofold figures --out figures     the paper's figures and ours
+  twofold report                    everything as one page, report/index.html
 
 Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written; 130 interrupted.";
 
@@ -75,8 +80,18 @@ enum Command {
     /// The files are those of the folder `data3` of github.com/ryxxastroat/lorentz_precession. Each known one in the folder is
     /// read and computed anew; the largest difference of each column is printed beside what the file is known to be off by.
     Compare(CompareArgs),
+    /// Draw the paper's figures and ours, each as SVG and PNG, with its caption and its data
+    ///
+    /// Writes NAME.svg, NAME.png, NAME.md and NAME.csv (or NAME.TABLE.csv) of each figure; the files appear when all are
+    /// complete. With --scene the figures of a motion are drawn for a scene in place of the paper's examples.
+    Figures(FiguresArgs),
     /// List the built-in scenes
     Scenes,
+    /// Run every check and write everything as one HTML page: claims, equations, checks, golden tables, figures
+    ///
+    /// The page is DIR/index.html. It needs no network, no script and no other file. It is written, and says so at its
+    /// top, also where checks fail; the status is then 1.
+    Report(ReportArgs),
     /// Print the table of equations: what implements each, which checks and golden numbers are about it (Markdown)
     Equations,
     /// Print the paper's statements, each with a verdict and what the checks behind it measured (Markdown)
@@ -170,6 +185,35 @@ struct OutputArgs {
 }
 
 #[derive(Args)]
+struct ReportArgs {
+    /// Write the page into this folder, which is made if need be
+    #[arg(long, value_name = "DIR", default_value = "report")]
+    out: PathBuf,
+    /// Replace the page if it exists
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(Args)]
+struct FiguresArgs {
+    /// Figures to draw, by name or by number of the paper's figure; all if none is named
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    /// Folder for the files, made if it is not there
+    #[arg(long, value_name = "DIR", default_value = "figures")]
+    out: PathBuf,
+    /// Draw the figures of a motion for this built-in scene or scene file (TOML)
+    #[arg(long, value_name = "SCENE")]
+    scene: Option<String>,
+    /// Replace files that exist
+    #[arg(long)]
+    force: bool,
+    /// List the figures instead of drawing them
+    #[arg(long)]
+    list: bool,
+}
+
+#[derive(Args)]
 struct BoundsArgs {
     /// A table of pulsars (TOML)
     file: Option<String>,
@@ -199,10 +243,12 @@ pub fn main() -> ExitCode {
     let result = match cli.command.unwrap_or(Command::Verify(VerifyArgs::default())) {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
+        Command::Report(args) => report::report(&args),
         Command::Bounds(args) => bounds::bounds(&args),
         Command::Pulses(args) => pulses::pulses(&args),
         Command::Spectrum(args) => spectrum::spectrum(&args),
         Command::Compare(args) => compare::compare(&args),
+        Command::Figures(args) => figures::figures(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
         Command::Claims => claims::markdown().map_err(Failure::Failed).and_then(|page| print(&page)),

@@ -12,6 +12,18 @@ use super::Failure;
 /// Status of a command ended by an interrupt, by the shells' convention.
 const INTERRUPTED: i32 = 130;
 
+/// On an interrupt (Ctrl-C), hang-up or request to terminate, removes what is not complete, says what is left and ends the
+/// process. Where one of these is ignored already (`nohup`), all are left as they are.
+pub(super) fn on_interrupt(left: &'static str, mut remove: impl FnMut() + Send + 'static) {
+    let _ = ctrlc::try_set_handler(move || {
+        remove();
+        // The terminal's line has the bar and ^C on it.
+        let line_end = if io::stderr().is_terminal() { "\n" } else { "" };
+        let _ = writeln!(io::stderr(), "{line_end}error: interrupted: {left}");
+        process::exit(INTERRUPTED);
+    });
+}
+
 /// A file that appears under its name only when it is complete.
 pub(super) struct OutputFile {
     path: PathBuf,
@@ -49,16 +61,11 @@ impl OutputFile {
         Ok(Self { path, temporary, replace })
     }
 
-    /// Removes the temporary file and ends the process on an interrupt (Ctrl-C), hang-up or request to terminate. Where
-    /// one of these is ignored already (`nohup`), all are left as they are.
+    /// Removes the temporary file on an interrupt, see [`on_interrupt`].
     pub(super) fn remove_on_interrupt(&self) {
         let temporary = self.temporary.path().to_owned();
-        let _ = ctrlc::try_set_handler(move || {
+        on_interrupt("nothing was written", move || {
             let _ = fs::remove_file(&temporary);
-            // The terminal's line has the bar and ^C on it.
-            let line_end = if io::stderr().is_terminal() { "\n" } else { "" };
-            let _ = writeln!(io::stderr(), "{line_end}error: interrupted: nothing was written");
-            process::exit(INTERRUPTED);
         });
     }
 

@@ -37,13 +37,13 @@ pub(super) fn verify(args: &VerifyArgs) -> Result<(), Failure> {
 }
 
 /// Success if every check passed.
-fn conclude(results: &[report::Result]) -> Result<(), Failure> {
+pub(super) fn conclude(results: &[report::Result]) -> Result<(), Failure> {
     let failed: Vec<_> = results.iter().filter(|(_, outcome)| !outcome.passed).map(|(check, _)| check.id).collect();
     if failed.is_empty() { Ok(()) } else { Err(Failure::Failed(format!("failing checks: {}", failed.join(", ")))) }
 }
 
 /// Runs the checks on all processors, with a bar on a terminal; the results are in the order of the list.
-fn run_all(checks: Vec<Check>) -> Vec<report::Result> {
+pub(super) fn run_all(checks: Vec<Check>) -> Vec<report::Result> {
     let bar = ProgressBar::new(checks.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{pos}/{len} checks [{bar:40}] {elapsed} {msg}") {
         bar.set_style(style);

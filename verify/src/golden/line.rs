@@ -45,23 +45,32 @@ impl GoldenLine {
 
     /// The line with its label padded to `width`.
     pub(super) fn aligned(&self, width: usize) -> String {
-        let printed = match self.printed {
-            Printed::Decimal(text) => text.to_string(),
-            Printed::Order(text) => format!("~{text}"),
-            Printed::No => "-".to_string(),
-        };
         format!(
             "{:<width$}  printed {:>11}  ours {:>15}  {}",
             self.label,
-            printed,
-            significant(self.ours, self.digits),
+            self.printed_text(),
+            self.ours_text(),
             self.verdict()
         )
     }
 
     /// Label and our number, for a table of which the paper prints nothing.
     pub(super) fn aligned_ours(&self, width: usize) -> String {
-        format!("{:<width$}  {:>15}", self.label, significant(self.ours, self.digits))
+        format!("{:<width$}  {:>15}", self.label, self.ours_text())
+    }
+
+    /// The paper's number, an order of magnitude with `~` before it.
+    pub(crate) fn printed_text(&self) -> String {
+        match self.printed {
+            Printed::Decimal(text) => text.to_string(),
+            Printed::Order(text) => format!("~{text}"),
+            Printed::No => "-".to_string(),
+        }
+    }
+
+    /// Our number.
+    pub(crate) fn ours_text(&self) -> String {
+        significant(self.ours, self.digits)
     }
 }
 

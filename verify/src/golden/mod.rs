@@ -2,6 +2,7 @@
 
 pub(crate) mod captions;
 mod eta;
+mod figures;
 mod line;
 pub(crate) mod pulsar_bounds;
 mod regimes;
@@ -40,7 +41,7 @@ impl std::fmt::Display for GoldenTable {
 /// If a number cannot be computed.
 pub fn tables() -> Result<Vec<GoldenTable>, String> {
     let text = |error: twofold::Error| error.to_string();
-    Ok(vec![
+    let mut tables = vec![
         captions::initial_values().map_err(text)?,
         captions::constants().map_err(text)?,
         pulsar_bounds::table().map_err(text)?,
@@ -50,5 +51,7 @@ pub fn tables() -> Result<Vec<GoldenTable>, String> {
         regimes::twofold()?,
         regimes::single()?,
         spectral_lines::table()?,
-    ])
+    ];
+    tables.extend(figures::tables()?);
+    Ok(tables)
 }

@@ -1,0 +1,99 @@
+//! A folder in which each file appears under its name only when it is complete, and none before all are.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+
+use super::Failure;
+use super::output_file::on_interrupt;
+
+/// A folder that is being filled.
+pub(super) struct OutputFolder {
+    path: PathBuf,
+    /// Whether the folder was made for this output.
+    new: bool,
+    /// Where files are until all of them are complete: inside the folder, so that they can be moved at once.
+    temporary: Option<TempDir>,
+}
+
+impl OutputFolder {
+    /// The folder `path`, made if it is not there. Refused if a file of a name that `would_write` is in it, unless
+    /// files may be replaced.
+    pub(super) fn at(path: &Path, replace: bool, would_write: impl Fn(&str) -> bool) -> Result<Self, Failure> {
+        let refuse = |why: String| Failure::BadInput(format!("--out {}: {why}", path.display()));
+        let new = !path.exists();
+        if new {
+            if path.is_symlink() {
+                return Err(refuse("is a link to nothing".into()));
+            }
+            fs::create_dir_all(path).map_err(|error| refuse(format!("no folder can be made: {error}")))?;
+        } else if !path.is_dir() {
+            return Err(refuse("exists and is not a folder".into()));
+        }
+        let mut folder = Self { path: path.to_owned(), new, temporary: None };
+        if !replace {
+            let entries = fs::read_dir(path).map_err(|error| refuse(format!("cannot be read: {error}")))?;
+            let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+            let mut found: Vec<_> = names.filter(|name| would_write(name)).collect();
+            found.sort();
+            match &found[..] {
+                [] => {}
+                [only] => return Err(refuse(format!("{only} exists there; --force replaces it"))),
+                [first, more @ ..] => {
+                    let count = more.len();
+                    return Err(refuse(format!("{first} and {count} more exist there; --force replaces them")));
+                }
+            }
+        }
+        let temporary = tempfile::Builder::new().prefix(".figures.").suffix(".part").tempdir_in(path);
+        folder.temporary = Some(temporary.map_err(|error| refuse(format!("no file can be made there: {error}")))?);
+        folder.remove_on_interrupt();
+        Ok(folder)
+    }
+
+    fn remove_on_interrupt(&self) {
+        let Some(temporary) = self.temporary.as_ref().map(|folder| folder.path().to_owned()) else { return };
+        let made = self.new.then(|| self.path.clone());
+        on_interrupt("no file was left incomplete", move || {
+            let _ = fs::remove_dir_all(&temporary);
+            // Goes only if nothing is in it.
+            let _ = made.as_ref().map(fs::remove_dir);
+        });
+    }
+
+    /// Writes a file, for now aside.
+    pub(super) fn write(&self, name: &str, content: &[u8]) -> Result<(), Failure> {
+        let Some(temporary) = &self.temporary else { return Ok(()) };
+        fs::write(temporary.path().join(name), content)
+            .map_err(|error| cannot_be_written(&self.path.join(name), &error))
+    }
+
+    /// Gives the files their names; says how many there are.
+    pub(super) fn complete(mut self) -> Result<usize, Failure> {
+        let Some(temporary) = self.temporary.take() else { return Ok(0) };
+        let mut count = 0;
+        for entry in fs::read_dir(temporary.path()).map_err(|error| cannot_be_written(&self.path, &error))? {
+            let entry = entry.map_err(|error| cannot_be_written(&self.path, &error))?;
+            let target = self.path.join(entry.file_name());
+            fs::rename(entry.path(), &target).map_err(|error| cannot_be_written(&target, &error))?;
+            count += 1;
+        }
+        Ok(count)
+    }
+}
+
+impl Drop for OutputFolder {
+    fn drop(&mut self) {
+        drop(self.temporary.take());
+        if self.new {
+            // Goes only if nothing is in it.
+            let _ = fs::remove_dir(&self.path);
+        }
+    }
+}
+
+fn cannot_be_written(path: &Path, error: &io::Error) -> Failure {
+    Failure::Failed(format!("{} cannot be written: {error}", path.display()))
+}

@@ -1,0 +1,78 @@
+//! `m.n`, the cosine of the angle between the beam and the line of sight, in time.
+
+use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::parameters::{line_of_sight, parameters};
+use super::style::{BLACK, BLUE, PAGE, SMALL, VERMILION, dashed, solid};
+use super::subject::times;
+use super::svg::{Anchor, Page, Rectangle};
+use super::table::Table;
+use super::{Caption, Sheet, Subject};
+
+pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
+    let tables = subjects.iter().map(|subject| alignment(subject)).collect::<Result<Vec<_>, _>>()?;
+    Ok(Sheet { svg: draw(name, subjects, &tables), caption: caption(subjects, &tables), tables })
+}
+
+/// `cos rho`; there is a beam, or there would be no table.
+fn edge(subject: &Subject) -> f64 {
+    subject.pulsar.map_or(f64::NAN, |pulsar| pulsar.rho.cos())
+}
+
+/// `m.n` over the span shown.
+fn alignment(subject: &Subject) -> Result<Table, String> {
+    let (viewer, pulsar) = subject.line_of_sight()?;
+    let (beam, observer) = (pulsar.beam(), viewer.basis());
+    let mut table = Table::new(&subject.name, ["t [t_c]", "m.n [1]"]);
+    for t in times(subject.shown.beam, 4000) {
+        table.push([t, beam.direction(&subject.state(t)?).dot(&observer.direction)]);
+    }
+    Ok(table)
+}
+
+fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
+    let (top, panel_height, gap) = (18.0, 84.0, 30.0);
+    let count = subjects.len() as f64;
+    let mut page = Page::new(name, PAGE, top + count * panel_height + (count - 1.0) * gap + BELOW);
+    for (i, (subject, table)) in subjects.iter().zip(tables).enumerate() {
+        let frame = Rectangle {
+            left: LEFT,
+            top: top + (panel_height + gap) * i as f64,
+            width: PAGE - LEFT - 34.0,
+            height: panel_height,
+        };
+        let shown = subject.shown.beam;
+        let x = Axis::linear("*t* / *t*_{c}", shown.min(0.0), shown.max(0.0));
+        let values = table.rows.iter().map(|row| row[1]);
+        let edge = edge(subject);
+        let y = Axis::around("**m** · **n**", values.chain([edge]));
+        let panel = Panel::new(frame, if i + 1 < subjects.len() { x.unnamed() } else { x }, y);
+        let points = table.points(0, 1);
+        panel.curve(&mut page, &points, solid(BLACK, 0.6));
+        for pulse in points.chunk_by(|a, b| (a.1 > edge) == (b.1 > edge)).filter(|piece| piece[0].1 > edge) {
+            panel.curve(&mut page, pulse, solid(BLUE, 1.7));
+        }
+        panel.level(&mut page, edge, dashed(VERMILION, 1.0));
+        let [x, y] = panel.at(shown.max(0.0), edge);
+        page.text([x + 3.0, y + 0.35 * SMALL], Anchor::Start, SMALL, VERMILION, "cos *ρ*");
+        panel.draw_frame(&mut page);
+        panel.letter(&mut page, i, subjects.len(), &subject.name);
+    }
+    page.finish("Cosine of the angle between the beam and the line of sight in time")
+}
+
+fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
+    let inside = |(subject, table): (&&Subject, &Table)| {
+        let edge = edge(subject);
+        let part = table.rows.iter().filter(|row| row[1] > edge).count() as f64 / table.rows.len() as f64;
+        format!("{:.0} % of the time for {}", 100.0 * part, subject.name)
+    };
+    let parts: Vec<_> = subjects.iter().zip(tables).map(inside).collect();
+    Caption {
+        shows: "Cosine of the angle between the axis **m** of the beam and the line of sight **n** in time. Above cos *ρ* (dashed) \
+                the beam holds the line of sight: thick stretches are pulses."
+            .to_owned(),
+        parameters: parameters(&line_of_sight(subjects, true), subjects),
+        method: "Numerical motion; **m** by Eq. (45), **n** by Eq. (46); the condition of a pulse is Eq. (44).".to_owned(),
+        says: format!("The line of sight is inside the beam {}.", parts.join(", ")),
+    }
+}

@@ -1,0 +1,107 @@
+//! The Euler angles between two frames.
+
+use nalgebra::Vector3;
+use twofold::euler_angles::{EulerAngles, body_from_inertial};
+
+use super::sphere::{View, arc};
+use super::style::{BLACK, BLUE, COLUMN, GREY, LIGHT, Line, VERMILION, dashed, solid};
+use super::svg::Page;
+use super::table::Table;
+use super::{Caption, Sheet};
+
+/// The angles that are drawn.
+const ANGLES: EulerAngles<f64> = EulerAngles { alpha: 1.0, beta: 0.8, gamma: 0.9 };
+
+const INERTIAL: Line = solid(BLACK, 1.0);
+const BODY: Line = solid(BLUE, 1.2);
+const ARC: Line = solid(VERMILION, 1.0);
+
+/// X-Y-Z and x-y-z.
+pub(super) fn common() -> Result<Sheet, String> {
+    sheet("euler-angles", ["*X*", "*Y*", "*Z*"], ["*M*", "*N*"], "*X*-*Y*-*Z*")
+}
+
+/// Y-Z-X and x-y-z, for forced precession about X.
+pub(super) fn permuted() -> Result<Sheet, String> {
+    sheet("euler-angles-yzx", ["*Y*", "*Z*", "*X*"], ["*P*", "*Q*"], "*Y*-*Z*-*X*")
+}
+
+fn sheet(name: &str, axes: [&str; 3], nodes: [&str; 2], frame: &str) -> Result<Sheet, String> {
+    let rotation = body_from_inertial(&ANGLES);
+    let body = [0, 1, 2].map(|i| rotation.row(i).transpose());
+    let (sin, cos) = ANGLES.alpha.sin_cos();
+    let node = Vector3::new(cos, sin, 0.0);
+    let mut table = Table::new("", ["e_x [1]", "e_y [1]", "e_z [1]", "line of nodes [1]"]);
+    for i in 0..3 {
+        table.push([body[0][i], body[1][i], body[2][i], node[i]]);
+    }
+    Ok(Sheet { svg: draw(name, axes, nodes, &body, &node), caption: caption(axes, nodes, frame), tables: vec![table] })
+}
+
+fn draw(name: &str, axes: [&str; 3], nodes: [&str; 2], body: &[Vector3<f64>; 3], node: &Vector3<f64>) -> String {
+    let height = 196.0;
+    let mut page = Page::new(name, COLUMN, height);
+    let view = View::new([COLUMN / 2.0, 108.0], 82.0, 22.0, 24.0);
+    let full = std::f64::consts::TAU;
+    let plane = |page: &mut Page, u: &Vector3<f64>, v: &Vector3<f64>, line: Line| {
+        let back = Line { width: 0.6, ..dashed(line.colour, 0.6) };
+        view.line_on_sphere(page, &arc(u, v, 0.0, full), line, Some(back));
+    };
+    plane(&mut page, &Vector3::x(), &Vector3::y(), solid(GREY, 0.8));
+    plane(&mut page, &body[0], &body[1], solid("#5f9fc9", 0.8));
+    view.line(&mut page, &[-node, *node], dashed(VERMILION, 0.9));
+
+    for (axis, label) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().zip(axes) {
+        view.arrow(&mut page, axis, INERTIAL);
+        view.name(&mut page, axis, 8.0, BLACK, label);
+    }
+    for (axis, label) in body.iter().zip(["*x*", "*y*", "*z*"]) {
+        view.arrow(&mut page, axis, BODY);
+        view.name(&mut page, axis, 8.0, BLUE, label);
+    }
+    for (end, label) in [(-node, nodes[0]), (*node, nodes[1])] {
+        page.circle(view.at(&end), 1.5, VERMILION, None);
+        view.name(&mut page, &end, 8.0, VERMILION, label);
+    }
+
+    // From X to the node, from Z to z, from the node to x.
+    let across = Vector3::new(-node.y, node.x, 0.0);
+    let arcs = [
+        (Vector3::x(), Vector3::y(), ANGLES.alpha, 0.42, "*α*"),
+        (Vector3::z(), -across, ANGLES.beta, 0.5, "*β*"),
+        (*node, body[2].cross(node), ANGLES.gamma, 0.62, "*γ*"),
+    ];
+    for (u, v, angle, radius, label) in arcs {
+        let points: Vec<_> = arc(&u, &v, 0.0, angle).iter().map(|p| p * radius).collect();
+        let last = points.len() - 1;
+        view.line(&mut page, &points[..last - 12], ARC);
+        page.arrow(view.at(&points[last - 14]), view.at(&points[last]), ARC);
+        let middle = points[points.len() / 2];
+        let [x, y] = view.at(&middle);
+        let [cx, cy] = view.at(&Vector3::zeros());
+        let length = (x - cx).hypot(y - cy);
+        page.name([x + 7.0 * (x - cx) / length, y + 7.0 * (y - cy) / length], VERMILION, label);
+    }
+    page.circle(view.at(&Vector3::zeros()), 1.2, LIGHT, None);
+    page.finish("Euler angles")
+}
+
+fn caption(axes: [&str; 3], nodes: [&str; 2], frame: &str) -> Caption {
+    let [first, second, third] = axes;
+    let [from, to] = nodes;
+    Caption {
+        shows: format!(
+            "Euler angles *α*, *β* and *γ* between the inertial frame {frame} (black) and the body frame *x*-*y*-*z* (blue). The line {from}{to} \
+             is the intersection of the planes {first}-{second} and *x*-*y*, drawn as circles, dashed where they are behind."
+        ),
+        parameters: format!("Drawn for *α* = {}, *β* = {}, *γ* = {} rad.", ANGLES.alpha, ANGLES.beta, ANGLES.gamma),
+        method: format!(
+            "Rotation matrix of Eqs. (8), (9){}; orthographic projection.",
+            if third == "*X*" { " in the frame permuted by Eq. (36)" } else { "" }
+        ),
+        says: format!(
+            "*α* counts from {first} to the line of nodes, *β* from {third} to *z*, *γ* from the line of nodes to *x*{}.",
+            if third == "*X*" { ": with these angles the solutions apply to forced precession about *X*" } else { "" }
+        ),
+    }
+}

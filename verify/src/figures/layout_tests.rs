@@ -1,0 +1,110 @@
+//! What a referee would send back: text that is cut off, too small, over other text, or not in the font.
+
+use std::sync::LazyLock;
+
+use resvg::usvg::{Group, Node};
+
+use super::style::CENTIMETRE;
+use super::{Figure, OF_A_SCENE, Subject, all, png};
+use crate::scene_file::Scene;
+
+/// Points in a CSS pixel, the unit of a resolved SVG.
+const POINTS: f32 = 0.75;
+
+/// Scenes unlike the paper's examples.
+const SCENES: [&str; 3] = ["prolate", "free", "through-the-pole"];
+
+/// The figures of the paper and of some scenes, drawn once.
+static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
+    let mut figures = all().unwrap();
+    for name in SCENES {
+        let motion = [Subject::of_scene(name, &Scene::named(name).unwrap()).unwrap()];
+        figures.extend(OF_A_SCENE.iter().map(|recipe| recipe.draw(&motion).unwrap()));
+    }
+    figures
+});
+
+/// Texts with their boxes `[left, top, right, bottom]` in points, and their smallest letters.
+fn texts(group: &Group, found: &mut Vec<(String, [f32; 4], f32)>) {
+    for node in group.children() {
+        match node {
+            Node::Group(group) => texts(group, found),
+            Node::Text(text) => {
+                let b = text.abs_bounding_box();
+                let letters: String = text.chunks().iter().map(|chunk| chunk.text()).collect();
+                let sizes =
+                    text.chunks().iter().flat_map(|chunk| chunk.spans().iter().map(|span| span.font_size().get()));
+                let smallest = sizes.fold(f32::INFINITY, f32::min);
+                found.push((letters, [b.left(), b.top(), b.right(), b.bottom()].map(|x| x * POINTS), smallest));
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn text_is_whole_large_enough_and_apart() {
+    let mut faults = Vec::new();
+    for figure in FIGURES.iter() {
+        let tree = png::tree(&figure.svg).unwrap();
+        let (width, height) = (tree.size().width() * POINTS, tree.size().height() * POINTS);
+        let columns = [8.6, 17.8].map(|centimetres| (centimetres * CENTIMETRE) as f32);
+        assert!(columns.iter().any(|column| (column - width).abs() < 0.1), "{}: {width} pt wide", figure.name);
+        let mut found = Vec::new();
+        texts(tree.root(), &mut found);
+        assert!(found.len() > 5, "{}: {} texts", figure.name, found.len());
+        for (i, (text, b, size)) in found.iter().enumerate() {
+            if *size < 7.0 {
+                faults.push(format!("{}: `{text}` has letters of {size} pt", figure.name));
+            }
+            let inside = b[0] >= 0.0 && b[1] >= 0.0 && b[2] <= width && b[3] <= height;
+            if !inside {
+                faults.push(format!("{}: `{text}` at {b:.1?} is cut off", figure.name));
+            }
+            for (other, o, _) in &found[..i] {
+                let apart = b[2] < o[0] + 0.5 || o[2] < b[0] + 0.5 || b[3] < o[1] + 0.5 || o[3] < b[1] + 0.5;
+                if !apart {
+                    faults.push(format!("{}: `{text}` at {b:.1?} is over `{other}` at {o:.1?}", figure.name));
+                }
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn the_fonts_have_every_letter() {
+    let ranges = include_str!("fonts/README.md").split("U+").skip(1).map(|rest| {
+        let range: String = rest.chars().take_while(|c| c.is_ascii_hexdigit() || *c == '-').collect();
+        let (first, last) = range.split_once('-').unwrap_or((&range, &range));
+        u32::from_str_radix(first, 16).unwrap()..=u32::from_str_radix(last, 16).unwrap()
+    });
+    let ranges: Vec<_> = ranges.collect();
+    for figure in FIGURES.iter() {
+        let tree = png::tree(&figure.svg).unwrap();
+        let mut found = Vec::new();
+        texts(tree.root(), &mut found);
+        for letter in found.iter().flat_map(|(text, _, _)| text.chars()) {
+            let drawn = ranges.iter().any(|range| range.contains(&u32::from(letter)));
+            assert!(drawn, "{}: the fonts have no `{letter}`", figure.name);
+        }
+    }
+}
+
+#[test]
+fn data_are_numbers_in_columns_with_units() {
+    for figure in FIGURES.iter() {
+        assert!(!figure.tables.is_empty(), "{} has no data", figure.name);
+        for table in &figure.tables {
+            for column in &table.columns {
+                let has_unit = column.ends_with(']') || column.contains('[');
+                assert!(has_unit && !column.contains(','), "{}: `{column}`", figure.name);
+            }
+            for row in &table.rows {
+                assert_eq!(row.len(), table.columns.len(), "{} {}", figure.name, table.name);
+                assert!(row.iter().all(|x| x.is_finite()), "{} {}: {row:?}", figure.name, table.name);
+            }
+        }
+        assert!(figure.caption.paragraphs().iter().all(|part| part.ends_with('.')), "{}", figure.name);
+    }
+}

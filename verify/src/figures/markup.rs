@@ -1,0 +1,117 @@
+//! The light markup of labels and captions: `*t*` italic, `**m**` bold, `_{c}` and `^{-1}` below and above the line.
+//!
+//! Labels in pictures become `<tspan>`s, captions Markdown or HTML; a name in a table loses its markup.
+
+/// A stretch of text in one style.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Run {
+    pub(super) text: String,
+    pub(super) italic: bool,
+    pub(super) bold: bool,
+    pub(super) level: Level,
+}
+
+/// Where a run stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Level {
+    Line,
+    Below,
+    Above,
+}
+
+/// The runs of a text.
+pub(super) fn runs(text: &str) -> Vec<Run> {
+    let mut runs = Vec::new();
+    let mut run = Run { text: String::new(), italic: false, bold: false, level: Level::Line };
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let mut next = run.clone();
+        let taken = if rest.starts_with("**") {
+            next.bold = !run.bold;
+            2
+        } else if rest.starts_with('*') {
+            next.italic = !run.italic;
+            1
+        } else if rest.starts_with("_{") {
+            next.level = Level::Below;
+            2
+        } else if rest.starts_with("^{") {
+            next.level = Level::Above;
+            2
+        } else if run.level != Level::Line && first == '}' {
+            next.level = Level::Line;
+            1
+        } else {
+            run.text.push(first);
+            rest = &rest[first.len_utf8()..];
+            continue;
+        };
+        rest = &rest[taken..];
+        next.text.clear();
+        let finished = std::mem::replace(&mut run, next);
+        if !finished.text.is_empty() {
+            runs.push(finished);
+        }
+    }
+    if !run.text.is_empty() {
+        runs.push(run);
+    }
+    runs
+}
+
+/// The text without its markup, for names in tables: `s^{XX}` becomes `s^XX`.
+pub fn plain(text: &str) -> String {
+    let sign = |level| match level {
+        Level::Line => "",
+        Level::Below => "_",
+        Level::Above => "^",
+    };
+    runs(text).iter().map(|run| format!("{}{}", sign(run.level), run.text)).collect()
+}
+
+/// The text as HTML.
+pub fn html(text: &str) -> String {
+    let wrapped = |inner: String, tag: &str, wanted: bool| {
+        if wanted { format!("<{tag}>{inner}</{tag}>") } else { inner }
+    };
+    let mut html = String::new();
+    for run in runs(text) {
+        let inner = wrapped(wrapped(escaped(&run.text), "i", run.italic), "b", run.bold);
+        let inner = wrapped(inner, "sub", run.level == Level::Below);
+        html += &wrapped(inner, "sup", run.level == Level::Above);
+    }
+    html
+}
+
+/// The text as Markdown, which shares the marks for italic and bold.
+pub fn markdown(text: &str) -> String {
+    let mut markdown = String::new();
+    for run in runs(text) {
+        let (mark, inner) = (["", "*", "**", "***"][usize::from(run.italic) + 2 * usize::from(run.bold)], &run.text);
+        markdown += &match run.level {
+            Level::Line => format!("{mark}{inner}{mark}"),
+            Level::Below => format!("<sub>{mark}{inner}{mark}</sub>"),
+            Level::Above => format!("<sup>{mark}{inner}{mark}</sup>"),
+        };
+    }
+    markdown
+}
+
+/// The text with the characters that mean something in XML and HTML replaced.
+pub(super) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn markup_becomes_plain_text_html_and_markdown() {
+        let text = "*a*^{(1)} < *t*_{c}^{-1}, **m**·**n**";
+        assert_eq!(plain(text), "a^(1) < t_c^-1, m·n");
+        assert_eq!(html(text), "<i>a</i><sup>(1)</sup> &lt; <i>t</i><sub>c</sub><sup>-1</sup>, <b>m</b>·<b>n</b>");
+        assert_eq!(markdown(text), "*a*<sup>(1)</sup> < *t*<sub>c</sub><sup>-1</sup>, **m**·**n**");
+        assert_eq!(plain("a } b { c"), "a } b { c");
+    }
+}

@@ -1,0 +1,157 @@
+//! Euler angles in time beside perturbation solutions, and the paths of `e_x` and `e_z` on the unit sphere.
+
+use nalgebra::Vector3;
+use twofold::solutions::perturbation::Perturbation;
+
+use super::axes::{Axis, BELOW, LEFT, Panel, heading};
+use super::legend::{Sample, legend_row};
+use super::parameters::parameters;
+use super::sphere::View;
+use super::style::{BLACK, BLUE, GREEN, GREY, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
+use super::subject::times;
+use super::svg::{Anchor, Page, Rectangle};
+use super::table::Table;
+use super::{Caption, Sheet, Subject};
+
+const NUMERICAL: Line = solid(BLACK, 0.9);
+/// Lines of the solutions of a subject, in its order.
+const SOLUTIONS: [Line; 2] = [dashed(VERMILION, 1.2), dotted(BLUE, 1.5)];
+
+const E_X: Line = solid(GREEN, 0.5);
+const E_Z: Line = solid(BLUE, 1.1);
+
+pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
+    let subject = subjects[0];
+    let tables = vec![angles(subject)?, paths(subject)?];
+    Ok(Sheet { svg: draw(name, subject, &tables), caption: caption(subject, &tables[0]), tables })
+}
+
+/// Perturbation solutions with the initial values of the motion, and what they are called.
+fn solutions(subject: &Subject) -> Vec<(&'static str, Perturbation<f64>)> {
+    let both = [("perturbation, printed", subject.printed), ("perturbation, corrected", subject.corrected)];
+    both.into_iter().filter_map(|(name, solution)| Some((name, solution?))).collect()
+}
+
+fn angles(subject: &Subject) -> Result<Table, String> {
+    let mut columns = vec!["t [t_c]".to_owned(), "alpha [rad]".to_owned(), "beta [rad]".to_owned()];
+    for (name, _) in solutions(subject) {
+        columns.extend(["alpha", "beta"].map(|angle| format!("{angle} by {} [rad]", name.replace(", ", " "))));
+    }
+    let mut table = Table::new("angles", columns);
+    for (t, angles) in subject.angles(&times(subject.shown.angles, 2000))? {
+        let mut row = vec![t, angles.alpha, angles.beta];
+        for (_, solution) in solutions(subject) {
+            let approximate = solution.at(t);
+            row.extend([approximate.alpha, approximate.beta]);
+        }
+        table.push(row);
+    }
+    Ok(table)
+}
+
+fn paths(subject: &Subject) -> Result<Table, String> {
+    let axes = ["e_x", "e_z"].iter().flat_map(|axis| ["X", "Y", "Z"].map(|i| format!("{axis}_{i} [1]")));
+    let mut table = Table::new("paths", std::iter::once("t [t_c]".to_owned()).chain(axes));
+    for t in times(subject.shown.angles, 6000) {
+        let state = subject.state(t)?;
+        let (x, z) = (state.equatorial_axis, state.axis);
+        table.push([t, x.x, x.y, x.z, z.x, z.y, z.z]);
+    }
+    Ok(table)
+}
+
+fn draw(name: &str, subject: &Subject, tables: &[Table]) -> String {
+    let [angles, paths] = tables else { unreachable!("two tables") };
+    let height = 208.0;
+    let mut page = Page::new(name, PAGE, height);
+    let panel_height = (height - 24.0 - 10.0 - BELOW) / 2.0;
+    let frame = |i: usize| Rectangle {
+        left: LEFT,
+        top: 24.0 + (panel_height + 10.0) * i as f64,
+        width: 268.0,
+        height: panel_height,
+    };
+    let x = Axis::linear("*t* / *t*_{c}", subject.shown.angles.min(0.0), subject.shown.angles.max(0.0));
+    let solutions = solutions(subject);
+    let columns = |angle: usize| (0..=solutions.len()).map(move |i| 1 + angle + 2 * i);
+    let range = |angle: usize| {
+        // A solution may leave the frame; the motion may not.
+        let values = |column: usize| angles.rows.iter().map(move |row| row[column]);
+        let (low, high) = bounds(values(1 + angle));
+        let room = 0.8 * (high - low);
+        let near = columns(angle).flat_map(values).filter(|v| (low - room..=high + room).contains(v));
+        near.collect::<Vec<_>>()
+    };
+    let panels = [
+        Panel::new(frame(0), x.bare(), Axis::around("*α* [rad]", range(0))),
+        Panel::new(frame(1), x, Axis::around("*β* [rad]", range(1))),
+    ];
+    let lines = std::iter::once(NUMERICAL).chain(SOLUTIONS).collect::<Vec<_>>();
+    for (angle, panel) in panels.iter().enumerate() {
+        for (column, line) in columns(angle).zip(&lines) {
+            panel.curve(&mut page, &angles.points(0, column), *line);
+        }
+        if angles.rows.is_empty() {
+            let middle = [panel.frame.left + panel.frame.width / 2.0, panel.frame.top + panel.frame.height / 2.0];
+            page.text(middle, Anchor::Middle, SMALL, GREY, "the axis is on a pole: no angles");
+        }
+        panel.draw_frame(&mut page);
+    }
+    heading(&mut page, [LEFT, 12.0], 'a', "");
+    let names = std::iter::once(("numerical", 66.0)).chain(solutions.iter().map(|(name, _)| (*name, 104.0)));
+    let entries: Vec<_> =
+        lines.iter().zip(names).map(|(line, (name, width))| (Sample::Line(*line), name, width)).collect();
+    legend_row(&mut page, [LEFT + 18.0, 12.0], &entries);
+
+    heading(&mut page, [346.0, 12.0], 'b', "");
+    let view = View::new([418.0, 112.0], 74.0, 35.0, 25.0);
+    view.draw_sphere(&mut page);
+    view.draw_axes(&mut page, 1.22, ["*X*", "*Y*", "*Z*"]);
+    let points =
+        |from: usize| paths.rows.iter().map(move |row| (row[0], Vector3::new(row[from], row[from + 1], row[from + 2])));
+    let shown = subject.shown.equatorial_axis.abs();
+    let equatorial: Vec<_> = points(1).filter(|(t, _)| t.abs() <= shown).map(|(_, v)| v).collect();
+    let axis: Vec<_> = points(4).map(|(_, v)| v).collect();
+    view.line_on_sphere(&mut page, &equatorial, E_X, Some(Line { colour: "#9fd4c4", ..E_X }));
+    view.line_on_sphere(&mut page, &axis, E_Z, Some(Line { colour: "#94bcd9", ..E_Z }));
+    view.arrow(&mut page, &equatorial[0], solid(GREEN, 1.4));
+    view.arrow(&mut page, &axis[0], solid(BLUE, 1.4));
+    view.name_beside(&mut page, &equatorial[0], [-4.0, 11.0], GREEN, "**e**_{*x*}");
+    view.name_beside(&mut page, &axis[0], [-9.0, -9.0], BLUE, "**e**_{*z*}");
+    page.finish(&format!("Euler angles and body axes of {}", subject.name))
+}
+
+fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+}
+
+fn caption(subject: &Subject, angles: &Table) -> Caption {
+    let shown = subject.shown;
+    let errors = solutions(subject).into_iter().enumerate().map(|(i, (name, _))| {
+        let worst = |column: usize| {
+            angles.rows.iter().map(|row| (row[column + 2 * i + 2] - row[column]).abs()).fold(0.0, f64::max)
+        };
+        format!("{name}: up to {:.2} rad in *α* and {:.3} rad in *β*", worst(1), worst(2))
+    });
+    let errors: Vec<_> = errors.collect();
+    let says = if angles.rows.is_empty() {
+        "The symmetry axis stays on a pole, where the Euler angles are not defined.".to_owned()
+    } else if errors.is_empty() {
+        "No perturbation solution belongs to this motion: it is not given by constants of integration.".to_owned()
+    } else {
+        format!("Differences from the numerical motion over the span shown: {}.", errors.join("; "))
+    };
+    Caption {
+        shows: format!(
+            "{}. (a) Euler angles *α* and *β* in time. (b) Paths of the heads of **e**_{{*x*}} (thin, green; for *t* up to {}) and \
+             **e**_{{*z*}} (thick, blue; for *t* up to {}) in the frame *X*-*Y*-*Z*, their tails at the origin; arrows mark both at \
+             *t* = 0, and what is behind the unit sphere is pale.",
+            subject.name, shown.equatorial_axis, shown.angles
+        ),
+        parameters: parameters("", &[subject]),
+        method: "Numerical: Taylor series of the regular equations of motion, Eq. (25) without its poles. Perturbation: Eqs. \
+                 (30)-(33) as printed, and for twofold precession also with the first-order term that Eq. (29) lacks."
+            .to_owned(),
+        says,
+    }
+}

@@ -1,0 +1,47 @@
+//! The PNG of a figure, drawn from its SVG with fonts that the program carries.
+
+use std::sync::{Arc, LazyLock};
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb};
+
+/// Pixels per inch.
+const RESOLUTION: f32 = 300.0;
+
+/// CSS pixels per inch, the unit of an SVG's size.
+const CSS_PIXELS: f32 = 96.0;
+
+static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
+    let mut fonts = fontdb::Database::new();
+    for file in [
+        &include_bytes!("fonts/Arimo-Regular.ttf")[..],
+        include_bytes!("fonts/Arimo-Italic.ttf"),
+        include_bytes!("fonts/Arimo-Bold.ttf"),
+    ] {
+        fonts.load_font_data(file.to_vec());
+    }
+    fonts.set_sans_serif_family("Arimo");
+    Arc::new(fonts)
+});
+
+/// The SVG with its fonts resolved, as it will be drawn.
+///
+/// # Errors
+/// Text that is not SVG.
+pub(super) fn tree(svg: &str) -> Result<Tree, String> {
+    let options = Options { fontdb: FONTS.clone(), ..Options::default() };
+    Tree::from_str(svg, &options).map_err(|error| format!("not SVG: {error}"))
+}
+
+/// The PNG of an SVG, at 300 pixels per inch.
+///
+/// # Errors
+/// Text that is not SVG, or a picture that is too large.
+pub fn png(svg: &str) -> Result<Vec<u8>, String> {
+    let tree = tree(svg)?;
+    let scale = RESOLUTION / CSS_PIXELS;
+    let size = tree.size().to_int_size().scale_by(scale).ok_or("the picture has no size")?;
+    let mut pixels = Pixmap::new(size.width(), size.height()).ok_or("the picture is too large")?;
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    pixels.encode_png().map_err(|error| format!("the picture cannot be coded: {error}"))
+}

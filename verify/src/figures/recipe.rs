@@ -1,0 +1,206 @@
+//! Which figures there are, and what each is drawn from.
+
+use super::{
+    Caption, Figure, Subject, Table, alignment, alignment_spectra, beam_cone, bound_factor, euler_angles,
+    momentum_sphere, motion, pulse_series, regime_map, wave_spectra, waves,
+};
+
+/// What a figure is drawn from.
+#[derive(Clone, Copy)]
+enum Maker {
+    /// Nothing but itself.
+    Alone(fn() -> Result<Sheet, String>),
+    /// Motions with what the figure shows of them: those of the paper's examples with the given places, or one of a scene.
+    Motions(Needs, &'static [usize], fn(&str, &[&Subject]) -> Result<Sheet, String>),
+}
+
+/// What a figure of a motion needs beside it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Needs {
+    Nothing,
+    Observer,
+    ObserverAndBeam,
+}
+
+/// What a maker makes.
+pub(super) struct Sheet {
+    pub(super) caption: Caption,
+    pub(super) tables: Vec<Table>,
+    pub(super) svg: String,
+}
+
+/// A figure that can be drawn.
+#[derive(Clone, Copy)]
+pub struct Recipe {
+    /// Name of the figure and of its files.
+    pub name: &'static str,
+    /// Number of the paper's figure, by order of appearance.
+    pub paper_figure: Option<u8>,
+    /// What it is, one line.
+    pub summary: &'static str,
+    maker: Maker,
+}
+
+/// All figures: the paper's in its order, then ours.
+pub const RECIPES: &[Recipe] = &[
+    Recipe {
+        name: "euler-angles",
+        paper_figure: Some(1),
+        summary: "Euler angles between the frames X-Y-Z and x-y-z",
+        maker: Maker::Alone(euler_angles::common),
+    },
+    Recipe {
+        name: "motion-tp-1",
+        paper_figure: Some(2),
+        summary: "Example I of twofold precession: Euler angles and the paths of the body axes",
+        maker: Maker::Motions(Needs::Nothing, &[0], motion::sheet),
+    },
+    Recipe {
+        name: "motion-tp-2",
+        paper_figure: Some(3),
+        summary: "Example II of twofold precession: Euler angles and the paths of the body axes",
+        maker: Maker::Motions(Needs::Nothing, &[1], motion::sheet),
+    },
+    Recipe {
+        name: "motion-sp-1",
+        paper_figure: Some(4),
+        summary: "Example I of single precession: Euler angles and the paths of the body axes",
+        maker: Maker::Motions(Needs::Nothing, &[2], motion::sheet),
+    },
+    Recipe {
+        name: "motion-sp-2",
+        paper_figure: Some(5),
+        summary: "Example II of single precession: Euler angles and the paths of the body axes",
+        maker: Maker::Motions(Needs::Nothing, &[3], motion::sheet),
+    },
+    Recipe {
+        name: "euler-angles-yzx",
+        paper_figure: Some(6),
+        summary: "Euler angles between the frames Y-Z-X and x-y-z",
+        maker: Maker::Alone(euler_angles::permuted),
+    },
+    Recipe {
+        name: "beam-cone",
+        paper_figure: Some(7),
+        summary: "Cone model of pulsar radiation: magnetic axis and line of sight",
+        maker: Maker::Alone(beam_cone::sheet),
+    },
+    Recipe {
+        name: "beam-alignment",
+        paper_figure: Some(8),
+        summary: "Cosine of the angle between beam and line of sight in time, tp-I and tp-II",
+        maker: Maker::Motions(Needs::ObserverAndBeam, &[0, 1], alignment::sheet),
+    },
+    Recipe {
+        name: "beam-alignment-spectra",
+        paper_figure: Some(9),
+        summary: "Spectra of the cosine of the angle between beam and line of sight, tp-I and tp-II",
+        maker: Maker::Motions(Needs::ObserverAndBeam, &[0, 1], alignment_spectra::sheet),
+    },
+    Recipe {
+        name: "pulse-series",
+        paper_figure: Some(10),
+        summary: "Periods and lengths of the pulses of tp-I and tp-II, with the curves of Eqs. (51), (56)",
+        maker: Maker::Motions(Needs::ObserverAndBeam, &[0, 1], pulse_series::sheet),
+    },
+    Recipe {
+        name: "waves",
+        paper_figure: Some(11),
+        summary: "Gravitational waves h_+ and h_x of tp-I and tp-II in time",
+        maker: Maker::Motions(Needs::Observer, &[0, 1], waves::sheet),
+    },
+    Recipe {
+        name: "wave-spectra",
+        paper_figure: Some(12),
+        summary: "Spectra of the gravitational waves of tp-I and tp-II, with the third harmonic enlarged",
+        maker: Maker::Motions(Needs::Observer, &[0, 1], wave_spectra::sheet),
+    },
+    Recipe {
+        name: "bound-factor",
+        paper_figure: None,
+        summary: "Factor eta of the bounds from pulsars against the inclination",
+        maker: Maker::Alone(bound_factor::sheet),
+    },
+    Recipe {
+        name: "perturbation-regimes",
+        paper_figure: None,
+        summary: "Error of the perturbation solutions over their parameters",
+        maker: Maker::Alone(regime_map::sheet),
+    },
+    Recipe {
+        name: "momentum-sphere",
+        paper_figure: None,
+        summary: "Directions of the angular momentum: contours, separatrix and paths of the examples",
+        maker: Maker::Motions(Needs::Nothing, &[0, 1, 2, 3], momentum_sphere::sheet),
+    },
+];
+
+/// Figures of any motion, for a scene.
+pub const OF_A_SCENE: &[Recipe] = &[
+    Recipe {
+        name: "motion",
+        paper_figure: None,
+        summary: "Euler angles and the paths of the body axes",
+        maker: Maker::Motions(Needs::Nothing, &[0], motion::sheet),
+    },
+    Recipe {
+        name: "beam-alignment",
+        paper_figure: None,
+        summary: "Cosine of the angle between beam and line of sight in time",
+        maker: Maker::Motions(Needs::ObserverAndBeam, &[0], alignment::sheet),
+    },
+    Recipe {
+        name: "beam-alignment-spectra",
+        paper_figure: None,
+        summary: "Spectrum of the cosine of the angle between beam and line of sight",
+        maker: Maker::Motions(Needs::ObserverAndBeam, &[0], alignment_spectra::sheet),
+    },
+    Recipe {
+        name: "pulse-series",
+        paper_figure: None,
+        summary: "Periods and lengths of the pulses",
+        maker: Maker::Motions(Needs::ObserverAndBeam, &[0], pulse_series::sheet),
+    },
+    Recipe {
+        name: "waves",
+        paper_figure: None,
+        summary: "Gravitational waves h_+ and h_x in time",
+        maker: Maker::Motions(Needs::Observer, &[0], waves::sheet),
+    },
+    Recipe {
+        name: "wave-spectra",
+        paper_figure: None,
+        summary: "Spectra of the gravitational waves",
+        maker: Maker::Motions(Needs::Observer, &[0], wave_spectra::sheet),
+    },
+];
+
+impl Recipe {
+    /// The section of a scene file that the figure needs and a motion lacks.
+    pub fn lacks(&self, motion: &Subject) -> Option<&'static str> {
+        let Maker::Motions(needs, ..) = self.maker else { return None };
+        match needs {
+            Needs::Observer | Needs::ObserverAndBeam if motion.observer.is_none() => Some("observer"),
+            Needs::ObserverAndBeam if motion.pulsar.is_none() => Some("pulsar"),
+            _ => None,
+        }
+    }
+
+    /// Draws the figure: those of [`RECIPES`] with the [`examples`](super::examples()), those of [`OF_A_SCENE`] with one
+    /// motion.
+    ///
+    /// # Errors
+    /// If its data cannot be computed.
+    pub fn draw(&self, motions: &[Subject]) -> Result<Figure, String> {
+        let sheet = match self.maker {
+            Maker::Alone(make) => make(),
+            Maker::Motions(_, places, make) => {
+                let chosen: Option<Vec<_>> = places.iter().map(|&i| motions.get(i)).collect();
+                chosen.ok_or("a motion is missing".to_owned()).and_then(|chosen| make(self.name, &chosen))
+            }
+        };
+        let Sheet { caption, tables, svg } = sheet.map_err(|error| format!("{}: {error}", self.name))?;
+        let Self { name, paper_figure, summary, .. } = *self;
+        Ok(Figure { name: name.to_owned(), paper_figure, summary: summary.to_owned(), caption, tables, svg })
+    }
+}

@@ -1,0 +1,141 @@
+//! What the two figures of spectra share: a long motion, its fundamental frequencies and the lines of a series.
+
+use std::f64::consts::TAU;
+
+use twofold::dynamics::BodyState;
+use twofold::observables::fundamental_frequencies::{FundamentalFrequencies, fundamental_frequencies};
+use twofold::observables::spectrum::{Combination, Series, Window, amplitude_spectrum, spectral_lines};
+use twofold::propagation::{TaylorMotion, propagate};
+
+use super::subject::{ACCURACY, Subject};
+use super::table::Table;
+
+/// Values in a series, of which 10 or more are on each wave that matters.
+const SAMPLES: usize = 16_384;
+
+/// The taper: narrow enough to part the lines of tp-II, with sidelobes below 1e-5 of a line.
+pub(super) const WINDOW: Window = Window::Kaiser { shape: 14.0 };
+
+/// Lines weaker than this, relative to the strongest, are not looked for.
+const WEAKEST: f64 = 1e-5;
+
+/// Most lines of a list.
+const MOST_LINES: usize = 40;
+
+/// A motion long enough to part its frequencies.
+#[derive(Debug, Clone)]
+pub(super) struct LongMotion {
+    motion: TaylorMotion<f64>,
+    /// None where the motion has no mean rates that its length shows.
+    pub(super) frequencies: Option<FundamentalFrequencies>,
+}
+
+impl LongMotion {
+    /// The motion of `duration` (t_c) from the start of a subject.
+    pub(super) fn of(subject: &Subject, duration: f64) -> Result<Self, String> {
+        let start = &subject.start;
+        let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, duration), ACCURACY)
+            .map_err(|error| format!("{}: {error}", subject.name))?;
+        let frequencies = fundamental_frequencies(&motion).ok();
+        Ok(Self { motion, frequencies })
+    }
+}
+
+/// A line with its name.
+pub(super) struct NamedLine {
+    pub(super) frequency: f64,
+    pub(super) amplitude: f64,
+    pub(super) combination: Option<Combination>,
+}
+
+impl NamedLine {
+    /// The combination of mean rates, with markup: `*α* − *l*`.
+    pub(super) fn name(&self) -> Option<String> {
+        let mut name = self.combination.as_ref()?.to_string().replace(" - ", " \u{2212} ");
+        if let Some(rest) = name.strip_prefix('-') {
+            name = format!("\u{2212}{rest}");
+        }
+        let symbols = [("alpha'", "*α*"), ("gamma'", "*γ*"), ("nu'", "*ν*"), ("psi'", "*ψ*"), ("l'", "*l*")];
+        Some(symbols.iter().fold(name, |name, (plain, symbol)| name.replace(plain, symbol)))
+    }
+}
+
+/// Amplitudes up to a frequency, and the lines of a series.
+pub(super) struct Spectrum {
+    pub(super) points: Vec<(f64, f64)>,
+    pub(super) lines: Vec<NamedLine>,
+}
+
+/// Spectrum of an observable of the state, up to the angular frequency `highest`.
+pub(super) fn spectrum(
+    subject: &Subject,
+    highest: f64,
+    observable: impl Fn(&BodyState<f64>) -> f64,
+) -> Result<Spectrum, String> {
+    let message = |error: twofold::Error| format!("{}: {error}", subject.name);
+    let long = subject.long_motion()?;
+    let series = Series::of_motion(&long.motion, SAMPLES, observable).map_err(message)?;
+    let amplitudes = amplitude_spectrum(&series, WINDOW).map_err(message)?;
+    let points: Vec<_> = amplitudes.points().take_while(|(frequency, _)| *frequency <= highest).collect();
+    let strongest = points.iter().skip(1).map(|point| point.1).fold(0.0, f64::max);
+    let basis = long.frequencies.as_ref().and_then(|frequencies| frequencies.basis().ok());
+    let mut lines = Vec::new();
+    if strongest > 0.0 {
+        // Lines too near to be told apart leave the list empty: the spectrum shows them all the same.
+        let found = spectral_lines(&series, WEAKEST * strongest, MOST_LINES).map(|list| list.lines).unwrap_or_default();
+        for line in found {
+            let identified = basis.as_ref().map(|basis| basis.identify(line.frequency, line.uncertainty));
+            let combination = identified.and_then(|identified| identified.combination().cloned());
+            lines.push(NamedLine { frequency: line.frequency, amplitude: line.amplitude, combination });
+        }
+    }
+    Ok(Spectrum { points, lines })
+}
+
+/// Lines as a table: frequency, amplitude, and how often each fundamental frequency is in it; all zero where it is not known.
+pub(super) fn lines_table(name: String, lines: &[NamedLine], unit: &str) -> Table {
+    const SYMBOLS: [&str; 5] = ["alpha'", "gamma'", "l'", "nu'", "psi'"];
+    let multiples = SYMBOLS.map(|symbol| format!("multiple of {symbol} [1]"));
+    let head = ["frequency [rad/t_c]".to_owned(), format!("amplitude [{unit}]")];
+    let mut table = Table::new(name, head.into_iter().chain(multiples));
+    for line in lines {
+        let multiple = |symbol: &&str| {
+            let terms = line.combination.as_ref().map_or(&[][..], |combination| &combination.terms);
+            terms.iter().find(|(_, found)| found == symbol).map_or(0.0, |(count, _)| f64::from(*count))
+        };
+        let mut row = vec![line.frequency, line.amplitude];
+        row.extend(SYMBOLS.iter().map(multiple));
+        table.push(row);
+    }
+    table
+}
+
+/// The fundamental frequencies in words.
+pub(super) fn rates(subject: &Subject) -> Result<String, String> {
+    let Some(f) = &subject.long_motion()?.frequencies else {
+        return Ok(format!("{}: no mean rates are certain over the length of the series", subject.name));
+    };
+    let named = [("*α*", f.alpha), ("*γ*", f.gamma), ("*l*", f.slow), ("*ν*", f.nutation)];
+    let known = named.iter().filter_map(|(name, rate)| {
+        let value = rate.filter(|rate| rate.uncertainty < 1e-7)?.value;
+        Some(format!("{name} = {}", super::axes::signed(&format!("{value:.6}"))))
+    });
+    Ok(format!("{}: {}", subject.name, known.collect::<Vec<_>>().join(", ")))
+}
+
+/// Lengths of the series.
+pub(super) fn length_in_words(subjects: &[&Subject]) -> String {
+    let mut lengths: Vec<_> = subjects.iter().map(|s| format!("{:.0} *t*_{{c}}", s.spectrum_duration)).collect();
+    lengths.dedup();
+    lengths.join(" and ")
+}
+
+/// The highest frequency that a figure shows: some times the rate of free precession, rounded up to halves.
+pub(super) fn highest(subjects: &[&Subject], times: f64) -> f64 {
+    let rate = |subject: &&Subject| SERIES_ROTATION / subject.spectrum_duration;
+    let fastest = subjects.iter().map(rate).fold(0.0, f64::max);
+    (times * fastest * 2.0).ceil() / 2.0
+}
+
+/// Rotation over the length of a series (rad): some 1,400 turns.
+pub(super) const SERIES_ROTATION: f64 = 1400.0 * TAU;

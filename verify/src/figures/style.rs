@@ -1,0 +1,58 @@
+//! Sizes, colours and lines that all figures share. Lengths in points, 1/72 inch.
+
+/// Width of a column of the paper, 8.6 cm.
+pub(super) const COLUMN: f64 = 8.6 * CENTIMETRE;
+
+/// Width of both columns, 17.8 cm.
+pub(super) const PAGE: f64 = 17.8 * CENTIMETRE;
+
+/// Points in a centimetre.
+pub(super) const CENTIMETRE: f64 = 72.0 / 2.54;
+
+/// Size of axis labels and names.
+pub(super) const LABEL: f64 = 9.0;
+
+/// Size of numbers at ticks and of legends.
+pub(super) const SMALL: f64 = 8.0;
+
+/// Fonts of the SVG: the one that the PNG is drawn with, then fonts with the same widths.
+pub(super) const FONTS: &str = "Arimo, 'Liberation Sans', Arial, Helvetica, sans-serif";
+
+// Okabe and Ito's colours, told apart by readers who see red and green alike. What they mean is said by line styles too.
+pub(super) const BLACK: &str = "#000000";
+pub(super) const GREY: &str = "#8c8c8c";
+pub(super) const LIGHT: &str = "#c8c8c8";
+pub(super) const ORANGE: &str = "#e69f00";
+pub(super) const GREEN: &str = "#009e73";
+pub(super) const BLUE: &str = "#0072b2";
+pub(super) const VERMILION: &str = "#d55e00";
+pub(super) const PURPLE: &str = "#cc79a7";
+
+/// How a line is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Line {
+    pub(super) colour: &'static str,
+    pub(super) width: f64,
+    /// Lengths of dashes and gaps, none for a solid line.
+    pub(super) dashes: &'static str,
+}
+
+/// A solid line.
+pub(super) const fn solid(colour: &'static str, width: f64) -> Line {
+    Line { colour, width, dashes: "" }
+}
+
+/// A dashed line.
+pub(super) const fn dashed(colour: &'static str, width: f64) -> Line {
+    Line { colour, width, dashes: "5 2.5" }
+}
+
+/// A dotted line.
+pub(super) const fn dotted(colour: &'static str, width: f64) -> Line {
+    Line { colour, width, dashes: "1.2 1.8" }
+}
+
+/// A line of dashes and dots.
+pub(super) const fn dash_dotted(colour: &'static str, width: f64) -> Line {
+    Line { colour, width, dashes: "6 2 1.2 2" }
+}

@@ -1,0 +1,40 @@
+//! The data of a figure as columns of numbers.
+
+/// A table: columns of the same length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// What tells it from the other tables of its figure; empty where there is one only.
+    pub name: String,
+    /// Headers with units, `t [t_c]`.
+    pub columns: Vec<String>,
+    /// Rows of as many numbers.
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// An empty table with the given headers.
+    pub(super) fn new<C: Into<String>>(name: impl Into<String>, columns: impl IntoIterator<Item = C>) -> Self {
+        Self { name: name.into(), columns: columns.into_iter().map(Into::into).collect(), rows: Vec::new() }
+    }
+
+    /// Adds a row.
+    pub(super) fn push(&mut self, row: impl Into<Vec<f64>>) {
+        let row = row.into();
+        debug_assert_eq!(row.len(), self.columns.len(), "a number for each column of {}", self.name);
+        self.rows.push(row);
+    }
+
+    /// The points of column `y` over column `x`, by place.
+    pub(super) fn points(&self, x: usize, y: usize) -> Vec<(f64, f64)> {
+        self.rows.iter().map(|row| (row[x], row[y])).collect()
+    }
+
+    /// Comma-separated values; numbers with as few digits as identify the double.
+    pub fn csv(&self) -> String {
+        let mut text = self.columns.join(",") + "\n";
+        for row in &self.rows {
+            text += &(row.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(",") + "\n");
+        }
+        text
+    }
+}

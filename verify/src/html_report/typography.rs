@@ -1,0 +1,185 @@
+//! Formulas within plain text, set as a reader expects them: `alpha_0` with a Greek letter and a subscript, `<=` as one sign.
+
+use maud::{Markup, html};
+
+const SYMBOLS: [(&str, &str); 37] = [
+    ("alpha", "α"),
+    ("beta", "β"),
+    ("gamma", "γ"),
+    ("delta", "δ"),
+    ("epsilon", "ϵ"),
+    ("eps", "ϵ"),
+    ("zeta", "ζ"),
+    ("eta", "η"),
+    ("theta", "θ"),
+    ("kappa", "κ"),
+    ("lambda", "λ"),
+    ("mu", "μ"),
+    ("nu", "ν"),
+    ("xi", "ξ"),
+    ("pi", "π"),
+    ("rho", "ρ"),
+    ("sigma", "σ"),
+    ("tau", "τ"),
+    ("phi", "ϕ"),
+    ("varphi", "φ"),
+    ("chi", "χ"),
+    ("psi", "ψ"),
+    ("omega", "ω"),
+    ("Gamma", "Γ"),
+    ("Delta", "Δ"),
+    ("Theta", "Θ"),
+    ("Lambda", "Λ"),
+    ("Phi", "Φ"),
+    ("Psi", "Ψ"),
+    ("Omega", "Ω"),
+    ("DeltaPhi", "ΔΦ"),
+    ("<=", "≤"),
+    (">=", "≥"),
+    ("<~", "≲"),
+    ("+-", "±"),
+    ("-+", "∓"),
+    ("->", "→"),
+];
+
+/// A stretch of text in one position.
+#[derive(Debug, PartialEq)]
+enum Piece<'t> {
+    Line(&'t str),
+    Below(&'t str),
+    Above(&'t str),
+}
+
+/// The text with its formulas set.
+pub(super) fn typeset(text: &str) -> Markup {
+    html! {
+        @for piece in pieces(text) {
+            @match piece {
+                Piece::Line(text) => (text),
+                Piece::Below(text) => sub { (text.replace('-', "−")) },
+                Piece::Above(text) => sup { (text.replace('-', "−")) },
+            }
+        }
+    }
+}
+
+fn pieces(text: &str) -> Vec<Piece<'_>> {
+    let (mut pieces, mut at) = (Vec::new(), 0);
+    // Whether what stands before is a symbol, whose indices and powers are set, or any word, whose powers are if numbers.
+    let (mut symbol, mut word_before) = (false, false);
+    while let Some(first) = text[at..].chars().next() {
+        let rest = &text[at..];
+        // `beta1` is a letter and a number.
+        let end = |kind: fn(char) -> bool| rest.find(|c| !kind(c)).unwrap_or(rest.len());
+        let (letters, word) = (&rest[..end(char::is_alphabetic)], &rest[..end(char::is_alphanumeric)]);
+        let word = if symbol_of(letters).is_some() { letters } else { word };
+        at += match first {
+            '^' | '_' if word_before => match script(&rest[1..]) {
+                Some((script, length)) if symbol || first == '^' && script.parse::<i32>().is_ok() => {
+                    let script = symbol_of(script).unwrap_or(script);
+                    pieces.push(if first == '^' { Piece::Above(script) } else { Piece::Below(script) });
+                    1 + length
+                }
+                _ => {
+                    pieces.push(Piece::Line(&rest[..1]));
+                    1
+                }
+            },
+            _ if let Some((mantissa, exponent, length)) = power_of_ten(rest).filter(|_| !word_before) => {
+                pieces.push(Piece::Line(mantissa));
+                if exponent != "0" {
+                    pieces.extend([Piece::Line("×10"), Piece::Above(exponent)]);
+                }
+                (symbol, word_before) = (false, true);
+                length
+            }
+            _ if !word.is_empty() => {
+                let letter = symbol_of(word);
+                symbol = letter.is_some()
+                    || word.chars().count() == 1 && first.is_alphabetic()
+                    || ["sin", "cos", "tan", "cot"].contains(&word);
+                word_before = true;
+                pieces.push(Piece::Line(letter.unwrap_or(word)));
+                word.len()
+            }
+            _ => {
+                (symbol, word_before) = (false, false);
+                let sign = rest.get(..2).and_then(|sign| Some((sign.len(), symbol_of(sign)?)));
+                let (length, mut sign) = sign.unwrap_or_else(|| (first.len_utf8(), &rest[..first.len_utf8()]));
+                if sign == "-" && is_minus(&text[..at], &rest[1..]) {
+                    sign = "−";
+                }
+                pieces.push(Piece::Line(sign));
+                length
+            }
+        };
+    }
+    pieces
+}
+
+/// Whether the stroke between the two texts is a minus sign, not the hyphen of a word or between numbers of a range.
+fn is_minus(before: &str, after: &str) -> bool {
+    let (before, after) = (before.chars().next_back(), after.chars().next());
+    let space_before = before.is_none_or(|c| c.is_whitespace() || "([|=~/".contains(c));
+    space_before && after.is_some()
+}
+
+/// Mantissa, exponent and length of the number `2.2e-16` at the beginning of `text`.
+fn power_of_ten(text: &str) -> Option<(&str, &str, usize)> {
+    let digits = |from: usize| from + text[from..].bytes().take_while(u8::is_ascii_digit).count();
+    let mut mantissa = digits(0);
+    if mantissa > 0 && text[mantissa..].starts_with('.') {
+        mantissa = digits(mantissa + 1);
+    }
+    let exponent = mantissa + 1;
+    let sign = usize::from(text.get(exponent..)?.starts_with('-'));
+    let end = digits(exponent + sign);
+    let is_number = mantissa > 0 && text[mantissa..].starts_with('e') && end > exponent + sign;
+    let at_end = text[end..].chars().next().is_none_or(|c| !c.is_alphanumeric());
+    (is_number && at_end).then(|| (&text[..mantissa], &text[exponent..end], end))
+}
+
+fn symbol_of(word: &str) -> Option<&'static str> {
+    SYMBOLS.iter().find(|(name, _)| *name == word).map(|(_, letter)| *letter)
+}
+
+/// The index or power at the beginning of `text` without its braces, and the length of what it takes.
+fn script(text: &str) -> Option<(&str, usize)> {
+    if let Some(inner) = text.strip_prefix('{') {
+        return inner.find('}').map(|end| (&inner[..end], end + 2));
+    }
+    if text.starts_with('(') {
+        return text.find(')').map(|end| (&text[..=end], end + 1));
+    }
+    let sign = usize::from(text.starts_with(['+', '-']));
+    let length = sign + text[sign..].bytes().take_while(u8::is_ascii_alphanumeric).count();
+    // `h_+` has its sign for an index, `x^-` nothing.
+    (length > 0 && text != "-").then_some((&text[..length], length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formulas_are_set_and_words_are_left_alone() {
+        for (text, html) in [
+            ("alpha_0 + a^(1) sin^2 beta1", "α<sub>0</sub> + a<sup>(1)</sup> sin<sup>2</sup> β1"),
+            ("|s^XX - s^YY| <= 1e-3", "|s<sup>XX</sup> − s<sup>YY</sup>| ≤ 1×10<sup>−3</sup>"),
+            ("-1.50e0 in [-0.5, 2.2e-16]", "−1.50 in [−0.5, 2.2×10<sup>−16</sup>]"),
+            ("Euler-Lagrange, tp-I, (11)-(15), 2e, 1e5x", "Euler-Lagrange, tp-I, (11)-(15), 2e, 1e5x"),
+            (
+                "2^61 - 1, t_c^-1, h_+ and h_x",
+                "2<sup>61</sup> − 1, t<sub>c</sub><sup>−1</sup>, h<sub>+</sub> and h<sub>x</sub>",
+            ),
+            (
+                "1e15 g/cm^3, I^{IJ} of the Omega^z, eta_beta",
+                "1×10<sup>15</sup> g/cm<sup>3</sup>, I<sup>IJ</sup> of the Ω<sup>z</sup>, η<sub>β</sub>",
+            ),
+            ("the beta-decay of alphabet_soup, x^", "the β-decay of alphabet_soup, x^"),
+            ("é < ü", "é &lt; ü"),
+        ] {
+            assert_eq!(typeset(text).0, html, "{text}");
+        }
+    }
+}

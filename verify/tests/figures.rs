@@ -1,0 +1,173 @@
+//! `twofold figures` as a user meets it: files, names, refusals.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+use tempfile::{TempDir, tempdir};
+
+fn figures(folder: &Path, args: &[&str]) -> Output {
+    let command = Command::new(env!("CARGO_BIN_EXE_twofold")).arg("figures").args(args).current_dir(folder).output();
+    command.expect("the command starts")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn folder() -> TempDir {
+    tempdir().expect("a temporary folder")
+}
+
+fn names_in(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("folder");
+    let mut names: Vec<_> =
+        entries.map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_figure_has_its_four_kinds_of_files() {
+    let folder = folder();
+    let output = figures(folder.path(), &["waves", "1"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(String::from_utf8_lossy(&output.stdout), "figures: 2 figures, 9 files\n");
+    let made = folder.path().join("figures");
+    let expected = [
+        "euler-angles.csv",
+        "euler-angles.md",
+        "euler-angles.png",
+        "euler-angles.svg",
+        "waves.md",
+        "waves.png",
+        "waves.svg",
+        "waves.tp-I.csv",
+        "waves.tp-II.csv",
+    ];
+    assert_eq!(names_in(&made), expected);
+    let png = fs::read(made.join("waves.png")).expect("PNG");
+    assert!(png.starts_with(b"\x89PNG"));
+    // 17.8 cm at 300 pixels per inch.
+    assert_eq!(u32::from_be_bytes(png[16..20].try_into().expect("width")), 2103);
+    let csv = fs::read_to_string(made.join("waves.tp-I.csv")).expect("CSV");
+    assert!(csv.starts_with("t [t_c],h_+ [G I^xx / (c^4 t_c^2 r)],h_x"), "{}", &csv[..80]);
+    assert_eq!(csv.lines().count(), 2002);
+    let caption = fs::read_to_string(made.join("waves.md")).expect("caption");
+    assert!(caption.contains("(Figure 11 of the paper)") && caption.contains("`waves.tp-II.csv`"), "{caption}");
+}
+
+#[test]
+fn nothing_is_replaced_unless_asked() {
+    let folder = folder();
+    let made = folder.path().join("figures");
+    fs::create_dir(&made).expect("folder");
+    for (file, text) in [("beam-cone.svg", "mine"), ("beam-cone.pdf", "mine"), ("notes.txt", "mine")] {
+        fs::write(made.join(file), text).expect("file");
+    }
+    let refused = figures(folder.path(), &["beam-cone", "--out", "figures"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(
+        stderr(&refused).contains("--out figures: beam-cone.svg exists there; --force replaces it"),
+        "{}",
+        stderr(&refused)
+    );
+    assert_eq!(names_in(&made), ["beam-cone.pdf", "beam-cone.svg", "notes.txt"]);
+    assert_eq!(fs::read(made.join("beam-cone.svg")).expect("file"), b"mine");
+
+    let forced = figures(folder.path(), &["beam-cone", "--force"]);
+    assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));
+    assert!(fs::read(made.join("beam-cone.svg")).expect("file").starts_with(b"<svg"));
+    for untouched in ["beam-cone.pdf", "notes.txt"] {
+        assert_eq!(fs::read(made.join(untouched)).expect("file"), b"mine");
+    }
+}
+
+#[test]
+fn bad_input_is_refused_before_anything_is_made() {
+    let folder = folder();
+    fs::write(folder.path().join("file"), "mine").expect("file");
+    for (args, fragment) in [
+        (&["wave"][..], "no figure is called `wave`. Did you mean `waves`? There are euler-angles, "),
+        (&["13"], "no figure is called `13`."),
+        (&["motion-tp-1", "--scene", "tp-1"], "There are motion, beam-alignment, "),
+        (&["--scene", "tp-11"], "did you mean `tp-1`?"),
+        (&["waves", "--out", "file"], "--out file: exists and is not a folder"),
+        (&["waves", "--out", "file/below"], "--out file/below: no folder can be made"),
+    ] {
+        let output = figures(folder.path(), args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(fragment), "{args:?}: {}", stderr(&output));
+        assert!(output.stdout.is_empty());
+    }
+    assert_eq!(names_in(folder.path()), ["file"]);
+}
+
+#[test]
+fn a_scene_has_the_figures_for_which_it_has_sections() {
+    let folder = folder();
+    let text = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n\
+                [initial]\nalpha = 0.0\nbeta = 0.7\nalpha_rate = 1.5\nbeta_rate = 0.0\n[time]\nspan = -30.0\nsamples = 2\n";
+    fs::write(folder.path().join("my-star.toml"), text).expect("scene");
+    let output = figures(folder.path(), &["--scene", "my-star.toml", "--out", "all"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stderr(&output).matches("the scene lacks the section [observer]").count(), 5, "{}", stderr(&output));
+    let made = names_in(&folder.path().join("all"));
+    assert_eq!(made, ["motion.angles.csv", "motion.md", "motion.paths.csv", "motion.png", "motion.svg"]);
+
+    let named = figures(folder.path(), &["waves", "--scene", "my-star.toml", "--out", "none"]);
+    assert_eq!(named.status.code(), Some(2));
+    assert!(stderr(&named).contains("lacks the section [observer]"), "{}", stderr(&named));
+    assert!(!folder.path().join("none").exists());
+}
+
+#[test]
+fn every_figure_is_listed_with_its_number() {
+    let folder = folder();
+    let output = figures(folder.path(), &["--list"]);
+    let text = String::from_utf8(output.stdout).expect("text");
+    for number in 1..=12 {
+        assert_eq!(text.matches(&format!("Fig. {number} ")).count(), 1, "{number} in\n{text}");
+    }
+    assert!(names_in(folder.path()).is_empty());
+    let page = include_str!("../../docs/figures.md");
+    for name in text.lines().filter_map(|line| line.split_whitespace().next()) {
+        assert!(page.contains(&format!("`{name}`")), "docs/figures.md does not name `{name}`");
+    }
+}
+
+/// Whether signal number `signal` is ignored, as in the background of a script.
+#[cfg(target_os = "linux")]
+fn is_ignored(signal: u32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").expect("/proc");
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:")).expect("SigIgn");
+    u64::from_str_radix(mask.trim(), 16).expect("mask") >> (signal - 1) & 1 == 1
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupt_leaves_nothing_incomplete() {
+    if [1, 2, 15].into_iter().any(is_ignored) {
+        return;
+    }
+    let folder = folder();
+    let child = Command::new(env!("CARGO_BIN_EXE_twofold"))
+        .arg("figures")
+        .current_dir(folder.path())
+        .stderr(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    // The folder is there as soon as the drawing begins, which takes a good second.
+    while names_in(folder.path()).is_empty() {
+        sleep(Duration::from_millis(5));
+    }
+    sleep(Duration::from_millis(150));
+    Command::new("sh").args(["-c", &format!("kill -2 {}", child.id())]).status().expect("kill");
+    let output = child.wait_with_output().expect("status");
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert_eq!(stderr(&output), "error: interrupted: no file was left incomplete\n");
+    assert!(names_in(folder.path()).is_empty(), "{:?}", names_in(folder.path()));
+}
