@@ -30,6 +30,10 @@ pub mod si {
     pub const SOLAR_MASS_PARAMETER: f64 = 1.327_124_4e20;
     /// Solar mass in kg, `G M_sun / G`: no better known than G.
     pub const SOLAR_MASS: f64 = SOLAR_MASS_PARAMETER / GRAVITATIONAL_CONSTANT;
+    /// Astronomical unit in m, IAU 2012 Resolution B2, exact.
+    pub const ASTRONOMICAL_UNIT: f64 = 149_597_870_700.0;
+    /// Parsec in m, `648000 / pi` astronomical units, IAU 2015 Resolution B2, exact.
+    pub const PARSEC: f64 = 648_000.0 / core::f64::consts::PI * ASTRONOMICAL_UNIT;
     /// Density of one gram per cubic centimetre [kg m^-3].
     pub const GRAM_PER_CUBIC_CENTIMETRE: f64 = 1e3;
 }

@@ -5,8 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use twofold::observables::pulsar::direction::magnetic_axis_direction;
-use twofold::observables::pulsar::{Beam, Pulse, pulse_train};
-use twofold::propagation::{Motion, propagate};
+use twofold::observables::pulsar::position_angle::rotating_vector_position_angle;
 use twofold_verify::columns;
 use twofold_verify::scene_file::{BUILT_IN, Scene};
 use twofold_verify::trajectory;
@@ -195,19 +194,23 @@ fn columns_of_observables_agree_with_one_another() {
         let toml = toml.replace("span = 400", "span = 2").replace("samples = 4001", "samples = 2001");
         Scene::from_toml("tp-2", &toml).unwrap_or_else(|error| panic!("{error}"))
     };
-    let rows = table_of(scene(), &["lambda", "m.n", "magnetic_axis", "e_z", "angles"]);
+    let rows = table_of(scene(), &["lambda", "m.n", "magnetic_axis", "e_z", "angles", "position_angle"]);
     let step = rows[1][0] - rows[0][0];
     for triple in rows.windows(3) {
-        // t, alpha, beta, gamma, e_z (3), cos lambda, rate, m.n, rate, Theta, Phi
+        // t, alpha, beta, gamma, e_z (3), cos lambda, rate, m.n, rate, Theta, Phi, psi, rate
         for value in [7, 9] {
             let slope = (triple[2][value] - triple[0][value]) / (2.0 * step);
             assert!((slope - triple[1][value + 1]).abs() < 1e-5, "column {value}: {slope}");
         }
+        let turn = |angle: f64| (angle + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
+        let slope = turn(triple[2][13] - triple[0][13]) / (2.0 * step);
+        assert!((slope - triple[1][14]).abs() < 1e-4, "psi: {slope} instead of {}", triple[1][14]);
         let row = &triple[1];
+        let psi = rotating_vector_position_angle(row[11], row[12], 0.8, 0.0).expect("off the line of sight");
+        assert!(turn(psi - row[13]).abs() < 1e-11, "{row:?}");
         let angles = twofold::euler_angles::EulerAngles { alpha: row[1], beta: row[2], gamma: row[3] };
         let (theta, phi) = magnetic_axis_direction(&angles, 0.5, 0.0).expect("off the pole");
-        let turned = (phi - row[12] + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
-        assert!((theta - row[11]).abs() < 1e-12 && turned.abs() < 1e-12, "{row:?}");
+        assert!((theta - row[11]).abs() < 1e-12 && turn(phi - row[12]).abs() < 1e-12, "{row:?}");
         assert!((row[7] - (0.8_f64.sin() * row[4] + 0.8_f64.cos() * row[6])).abs() < 1e-15);
     }
 }
@@ -242,59 +245,4 @@ fn perturbation_starts_with_the_motion_and_strain_scales() {
             assert!((near[i] / far[i] - 10.0).abs() < 1e-12);
         }
     }
-}
-
-/// A long train, written stretch by stretch, is that of one motion over the whole span, forwards and backwards: pulses that
-/// last across the boundary of two stretches are neither torn nor counted twice.
-#[test]
-fn pulses_across_stretches_are_whole() {
-    for (span, rho) in [(40_000.0, 2.6), (-40_000.0, 1.5)] {
-        let toml = BUILT_IN.iter().find(|scene| scene.name == "tp-2").expect("tp-2").toml;
-        let toml = toml
-            .replace("span = 400", &format!("start = 5.0\nspan = {span:?}"))
-            .replace("rho = 0.6", &format!("rho = {rho:?}\nsecond_beam = true"));
-        let scene = Scene::from_toml("long", &toml).unwrap_or_else(|error| panic!("{error}"));
-        let (viewer, pulsar) = (scene.observer.expect("observer"), scene.pulsar.expect("pulsar"));
-        let mut table = Vec::new();
-        let summary = trajectory::write_pulses(&scene, (&viewer, &pulsar), &mut table, |_| {}).expect("pulses");
-        let text = String::from_utf8(table).expect("text");
-        let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split(',').collect()).collect();
-        assert_eq!(rows.len(), summary.pulses.iter().sum::<usize>());
-
-        let motion = propagate(&scene.spheroid, &scene.violation, &scene.initial, (0.0, span), 1e-13).expect("motion");
-        for (beam, number) in [(pulsar.beam(), "1"), (pulsar.beam().opposite(), "2")] {
-            let mut pulses = whole_train(&motion, &beam, &viewer.basis().direction);
-            if span < 0.0 {
-                pulses.reverse();
-            }
-            let found: Vec<_> = rows.iter().filter(|row| row[0] == number).collect();
-            assert_eq!(found.len(), pulses.len(), "span {span}, beam {number}");
-            assert!(summary.pulses.contains(&pulses.len()));
-            let mut last: Option<f64> = None;
-            for (i, (row, pulse)) in found.iter().zip(&pulses).enumerate() {
-                let field = |k: usize| row[k].parse::<f64>().expect("number");
-                assert_eq!(row[1], (i + 1).to_string());
-                // The error of either motion after 5e4 rad, over a slow rate of m.n.
-                let near = |a: f64, b: f64| (a - b).abs() < 1e-7;
-                assert!(near(field(2), 5.0 + pulse.start) && near(field(3), 5.0 + pulse.end), "{row:?} {pulse:?}");
-                assert!(near(field(4), 5.0 + pulse.midpoint()) && near(field(5), pulse.duration()));
-                let cut =
-                    ["", "start", "end", "both"][usize::from(pulse.cut_at_start) + 2 * usize::from(pulse.cut_at_end)];
-                assert_eq!(row[6], cut);
-                let midpoint = pulse.is_whole().then(|| pulse.midpoint());
-                match midpoint.zip(last) {
-                    Some((this, last)) => assert!(near(field(7), (this - last).abs())),
-                    None => assert_eq!(row[7], ""),
-                }
-                last = midpoint;
-            }
-        }
-        let over: Vec<f64> =
-            rows.iter().map(|row| row[if span < 0.0 { 2 } else { 3 }].parse().expect("number")).collect();
-        assert!(over.windows(2).all(|pair| if span < 0.0 { pair[0] >= pair[1] } else { pair[0] <= pair[1] }));
-    }
-}
-
-fn whole_train(motion: &impl Motion<f64>, beam: &Beam<f64>, line_of_sight: &nalgebra::Vector3<f64>) -> Vec<Pulse> {
-    pulse_train(motion, beam, line_of_sight, motion.span()).expect("train").pulses
 }

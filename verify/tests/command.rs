@@ -305,8 +305,11 @@ fn pulses_are_written_like_a_motion() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = String::from_utf8(output.stdout).expect("text");
     let lines: Vec<_> = text.lines().collect();
-    assert_eq!(lines[0], "beam,pulse,start [t_c],end [t_c],midpoint [t_c],duration [t_c],cut,period [t_c],W_56 [rad]");
-    assert!(lines[1].starts_with("1,1,0.0,0.0870381812") && lines[1].ends_with(",start,,"), "{}", lines[1]);
+    assert_eq!(
+        lines[0],
+        "beam,pulse,start [t_c],end [t_c],midpoint [t_c],duration [t_c],cut,period [t_c],turn,closest_approach [t_c],W_56 [rad]"
+    );
+    assert!(lines[1].starts_with("1,1,0.0,0.0870381812") && lines[1].ends_with(",start,,,,"), "{}", lines[1]);
     assert_eq!(lines.len(), 98);
     let none = twofold(&["pulses", "tp-1", "--second-beam"]);
     assert_eq!(String::from_utf8_lossy(&none.stdout), text);
@@ -338,6 +341,74 @@ fn pulses_are_written_like_a_motion() {
         "{}",
         stderr(&output)
     );
+}
+
+#[test]
+fn pulses_have_turns_and_closest_approaches_where_turns_can_be_counted() {
+    let folder = folder();
+    let text = String::from_utf8(twofold(&["pulses", "sp-2"]).stdout).expect("text");
+    let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let whole: Vec<_> = rows.iter().filter(|row| row[6].is_empty()).collect();
+    assert_eq!(whole[0][8], "0", "{text}");
+    for row in &rows {
+        assert_eq!((row[8].is_empty(), row[9].is_empty()), (!row[6].is_empty(), !row[6].is_empty()), "{row:?}");
+    }
+    for pair in whole.windows(2) {
+        let turn = |row: &[&str]| row[8].parse::<i64>().expect("turn");
+        assert!(turn(pair[0]) < turn(pair[1]));
+    }
+    for row in &whole {
+        let at = |k: usize| row[k].parse::<f64>().expect("number");
+        assert!(at(2) < at(9) && at(9) < at(3), "{row:?}");
+    }
+    // Free precession, seen along the angular momentum.
+    let scene = folder.path().join("along.toml");
+    let rate = 1.1 / 0.7_f64.cos();
+    let text = format!(
+        "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.0, 0.0, 0.0]\n[initial]\nalpha = 0.0\n\
+         beta = 0.7\nalpha_rate = {rate:?}\nbeta_rate = 0.0\n[observer]\ntheta_o = 0.0\nphi_o = 0.0\n[pulsar]\nchi = 0.5\n\
+         rho = 0.6\n[time]\nspan = 300.0\nsamples = 3\n"
+    );
+    fs::write(&scene, text).expect("scene");
+    let output = twofold(&["pulses", scene.to_str().expect("UTF-8")]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let table = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(table.lines().count(), 6, "{table}");
+    assert!(table.lines().skip(1).all(|line| line.ends_with(",,,")), "{table}");
+    assert_eq!(
+        stderr(&output).matches("note: turn and closest_approach are empty for 4 whole pulses of beam 1").count(),
+        1
+    );
+}
+
+/// A steady line of sight inside the beam has no closest approach to look for.
+#[test]
+fn a_beam_that_is_always_seen_is_one_pulse_without_a_turn() {
+    let folder = folder();
+    let scene = folder.path().join("steady.toml");
+    let text = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n[initial]\n\
+                alpha = 0.0\nbeta = 0.0\nalpha_rate = 0.0\nbeta_rate = 0.0\n[observer]\ntheta_o = 0.0\nphi_o = 0.0\n[pulsar]\n\
+                chi = 0.5\nrho = 0.6\n[time]\nspan = 3000.0\nsamples = 2\n";
+    fs::write(&scene, text).expect("scene");
+    let output = twofold(&["pulses", scene.to_str().expect("UTF-8")]);
+    assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""));
+    let table = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(table.lines().nth(1), Some("1,1,0.0,3000.0,1500.0,3000.0,both,,,,"), "{table}");
+    assert_eq!(table.lines().count(), 2);
+}
+
+#[test]
+fn the_position_angle_is_empty_along_the_line_of_sight() {
+    let folder = folder();
+    let scene = folder.path().join("scene.toml");
+    let text = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.0, 0.0, 0.0]\n[initial]\n\
+                alpha = 0.0\nbeta = 0.0\nalpha_rate = 0.0\nbeta_rate = 0.0\n[observer]\ntheta_o = 0.0\nphi_o = 0.0\n[pulsar]\n\
+                chi = 0.0\nrho = 0.6\n[time]\ntimes = [0.0]\n";
+    fs::write(&scene, text).expect("scene");
+    let output = twofold(&["run", scene.to_str().expect("UTF-8"), "--columns", "position_angle"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(String::from_utf8_lossy(&output.stdout), "t [t_c],psi [rad],psi_rate [rad/t_c]\n0.0,,\n");
+    assert!(stderr(&output).contains("psi where that is along the line of sight"), "{}", stderr(&output));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //!
 //! A new group is an entry in `motion.rs` or `observables.rs` and its place in [`ALL`].
 
+mod column;
 mod motion;
 mod observables;
 
@@ -9,6 +10,8 @@ use twofold::dynamics::BodyState;
 use twofold::euler_angles::EulerAngles;
 
 use crate::scene_file::{Scene, Units};
+
+pub use column::Column;
 
 /// Columns that belong together.
 #[derive(Debug)]
@@ -78,7 +81,7 @@ impl ColumnGroup {
 }
 
 /// All groups in the order of the columns; the first six are those of the motion.
-pub const ALL: [&ColumnGroup; 11] = [
+pub const ALL: [&ColumnGroup; 12] = [
     &motion::ANGLES,
     &motion::RATES,
     &motion::EQUATORIAL_AXIS,
@@ -89,6 +92,7 @@ pub const ALL: [&ColumnGroup; 11] = [
     &observables::LAMBDA,
     &observables::LINE_OF_SIGHT,
     &observables::MAGNETIC_AXIS,
+    &observables::POSITION_ANGLE,
     &observables::STRAIN,
 ];
 

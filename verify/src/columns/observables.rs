@@ -1,7 +1,9 @@
 //! Columns of what an observer measures.
 
 use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::dynamics::regular_equations::angular_velocity;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations, strain_unit};
+use twofold::observables::pulsar::position_angle::{position_angle, position_angle_rate};
 use twofold::observables::spin_axis::{cos_lambda, cos_lambda_rate};
 
 use super::{ColumnGroup, Need, with_unit};
@@ -44,6 +46,20 @@ pub(super) const MAGNETIC_AXIS: ColumnGroup = ColumnGroup {
         let m = scene.pulsar?.beam().direction(&moment.state);
         let across = m.x.hypot(m.y);
         (across > f64::EPSILON).then(|| vec![across.atan2(m.z), m.y.atan2(m.x)])
+    },
+};
+
+/// The rotating-vector model for the precessing star.
+pub(super) const POSITION_ANGLE: ColumnGroup = ColumnGroup {
+    name: "position_angle",
+    needs: &[Need::Observer, Need::Pulsar],
+    counts_turns: false,
+    header: |units| vec!["psi [rad]".to_owned(), format!("psi_rate [rad/{}]", units.time_name)],
+    values: |scene, moment| {
+        let (observer, m) = (scene.observer?.basis(), scene.pulsar?.beam().direction(&moment.state));
+        let omega = angular_velocity(&scene.spheroid, &moment.state.axis, &moment.state.momentum);
+        let rate = position_angle_rate(&m, &omega, &observer).ok()?;
+        Some(vec![position_angle(&m, &observer).ok()?, rate / scene.units.time])
     },
 };
 

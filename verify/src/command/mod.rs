@@ -10,6 +10,7 @@ mod pulses;
 mod report;
 mod run;
 mod scenes;
+mod spectrum;
 mod verify;
 
 use std::io::{self, Write};
@@ -39,6 +40,8 @@ Examples:
   twofold bounds                    the paper's table of pulsars with uncertainties
   twofold run tp-2 --columns h      only the gravitational wave
   twofold pulses tp-1               every pulse of the radio beam
+  twofold spectrum tp-1 --of m.n --span 4000
+                                    the spectral lines of the pulsar signal, identified
   twofold figures --out figures     the paper's figures and ours
   twofold report                    everything as one page, report/index.html
 
@@ -67,6 +70,11 @@ enum Command {
     /// A pulse is a stretch of time in which the line of sight is inside the beam, m.n > cos(rho). The scene must have the
     /// sections [observer] and [pulsar]; the samples of its [time] do not matter, its span does.
     Pulses(PulsesArgs),
+    /// Find the spectral lines of what a scene gives, name them by the fundamental frequencies of the motion, write them as CSV
+    ///
+    /// The step of the series follows from the rotation rate, not from the scene's samples. Notes on standard error tell the
+    /// step, the fundamental frequencies and the constant term.
+    Spectrum(SpectrumArgs),
     /// Compare the data that the paper's authors published with the same numbers computed here
     ///
     /// The files are those of the folder `data3` of github.com/ryxxastroat/lorentz_precession. Each known one in the folder is
@@ -105,7 +113,7 @@ struct RunArgs {
     /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
     scene: String,
     /// Only these groups of columns, whatever the scene says: angles, rates, e_x, e_z, L, integrals, perturbation, lambda,
-    /// m.n, magnetic_axis, h
+    /// m.n, magnetic_axis, position_angle, h
     #[arg(long, value_name = "GROUP,GROUP", value_delimiter = ',')]
     columns: Option<Vec<String>>,
     #[command(flatten)]
@@ -121,6 +129,39 @@ struct PulsesArgs {
     second_beam: bool,
     #[command(flatten)]
     output: OutputArgs,
+}
+
+#[derive(Args)]
+struct SpectrumArgs {
+    /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
+    scene: String,
+    /// The column, by its name in the header of `twofold run`, without the unit: m.n, h_plus, cos_lambda, beta, ...
+    #[arg(long, value_name = "COLUMN")]
+    of: String,
+    /// The lines, or the amplitudes at equally spaced frequencies by a Fourier transform
+    #[arg(long, value_enum, default_value = "lines")]
+    table: SpectrumTable,
+    /// Length of the series in the scene's unit of time, instead of the scene's span
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    span: Option<f64>,
+    /// Least amplitude of a line, as a part of the largest one
+    #[arg(long, value_name = "RATIO", default_value = "1e-6")]
+    least: f64,
+    /// Most lines
+    #[arg(long, value_name = "NUMBER", default_value = "50", value_parser = clap::value_parser!(u8).range(1..=200))]
+    most: u8,
+    /// Do not name the lines, which asks for a longer span than to find them
+    #[arg(long)]
+    unidentified: bool,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+/// Which table of a spectrum.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum SpectrumTable {
+    Lines,
+    Spectrum,
 }
 
 #[derive(Args)]
@@ -205,6 +246,7 @@ pub fn main() -> ExitCode {
         Command::Report(args) => report::report(&args),
         Command::Bounds(args) => bounds::bounds(&args),
         Command::Pulses(args) => pulses::pulses(&args),
+        Command::Spectrum(args) => spectrum::spectrum(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::Figures(args) => figures::figures(&args),
         Command::Scenes => scenes::scenes(),

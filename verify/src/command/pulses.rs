@@ -21,6 +21,11 @@ pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
     for (beam, _) in summary.pulses.iter().enumerate().filter(|(_, pulses)| **pulses == 0) {
         note(&format!("no pulse of beam {}: the line of sight stays outside it", beam + 1));
     }
+    for (beam, pulses, why) in &summary.without_turn {
+        note(&format!(
+            "turn and closest_approach are empty for {pulses} whole pulses of beam {beam}: turns cannot be counted: {why}"
+        ));
+    }
     if let Some(time) = summary.first_grazing {
         note(&format!(
             "the line of sight grazes the edge of a beam {} times, first at t = {time:?} {}: a pulse there, or a gap between \

@@ -60,7 +60,7 @@ pub(super) fn write<T>(
 fn note_units(scene: &Scene) {
     if scene.units.are_physical() {
         let ratio = scene.spheroid.inertia_zz / scene.spheroid.inertia_xx;
-        note(&format!("t_c = {:.6e} s, I^zz/I^xx = {ratio:.9}; times are in s, L in g cm^2/s", scene.units.time));
+        note(&format!("t_c = {:.6e} s, I^zz/I^xx = {ratio:.9}; times are in s", scene.units.time));
     }
 }
 
@@ -68,7 +68,8 @@ fn note_poles(scene: &Scene, summary: &Summary) {
     if let Some(time) = summary.first_on_pole {
         note(&format!(
             "an axis is on a pole in {} of {} rows, first at t = {time:?} {}: alpha, gamma and the rates do not exist where the \
-             symmetry axis is, Theta and Phi where the magnetic axis is; they are left empty",
+             symmetry axis is, Theta and Phi where the magnetic axis is, psi where that is along the line of sight; they are \
+             left empty",
             summary.rows_on_pole, summary.rows, scene.units.time_name
         ));
     }

@@ -28,7 +28,7 @@ pub(crate) use document::FileKind;
 pub(crate) use error::Fault;
 pub use error::SceneError;
 pub use observer::{Pulsar, Viewer};
-pub(crate) use section::{Entry, Section, nearest};
+pub(crate) use section::{Entry, Section, listed, nearest};
 pub use star::Units;
 pub use time::Times;
 

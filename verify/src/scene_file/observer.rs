@@ -4,13 +4,11 @@ use std::f64::consts::PI;
 
 use twofold::observables::Observer;
 use twofold::observables::pulsar::Beam;
+use twofold::units::si::PARSEC;
 
 use super::error::Fault;
 use super::section::Section;
 use super::star::Units;
-
-/// A kiloparsec in m: 1e3 * 648000 / pi astronomical units of 149597870700 m (IAU 2015 Resolution B2, 2012 Resolution B2).
-const KILOPARSEC: f64 = 648_000.0 / PI * 149_597_870_700.0 * 1e3;
 
 /// A distant observer, in the inertial frame of the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,7 +59,7 @@ pub(super) fn read_observer(section: &Section<'_>, units: &Units) -> Result<View
             return Err(entry.refuse("a distance only for a physical star: in the paper's units h is that at r = 1"));
         }
         Some(entry) => {
-            Some(entry.number_where("a distance from 1e-6 to 1e8 [kpc]", |x| (1e-6..=1e8).contains(&x))? * KILOPARSEC)
+            Some(entry.number_where("a distance from 1e-6 to 1e8 [kpc]", |x| (1e-6..=1e8).contains(&x))? * 1e3 * PARSEC)
         }
         None => None,
     };

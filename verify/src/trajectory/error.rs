@@ -9,6 +9,17 @@ use twofold::Error;
 pub enum TrajectoryError {
     /// The motion, or what is asked of it, could not be computed.
     Motion(Error),
+    /// A column does not exist at a time, written with its unit.
+    Undefined {
+        /// Name of the column.
+        column: String,
+        /// Time and unit.
+        time: String,
+    },
+    /// The span is too short for the fundamental frequencies of the motion, or it has none.
+    NoFrequencies(Error),
+    /// The lines of a spectrum could not be found.
+    NoLines(Error),
     /// The rows could not be written.
     Write(csv::Error),
 }
@@ -21,7 +32,7 @@ impl TrajectoryError {
                 csv::ErrorKind::Io(error) => error.kind() == std::io::ErrorKind::BrokenPipe,
                 _ => false,
             },
-            TrajectoryError::Motion(_) => false,
+            _ => false,
         }
     }
 }
@@ -30,6 +41,18 @@ impl fmt::Display for TrajectoryError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             TrajectoryError::Motion(error) => write!(f, "the motion could not be computed: {error}"),
+            TrajectoryError::Undefined { column, time } => {
+                write!(f, "`{column}` does not exist at t = {time}, where an axis is on a pole, and so has no spectrum")
+            }
+            TrajectoryError::NoFrequencies(error) => write!(
+                f,
+                "the lines cannot be identified: {error}; a longer span (--span, `time.span`) gives the fundamental frequencies, \
+                 --unidentified lists the lines without"
+            ),
+            TrajectoryError::NoLines(error) => write!(
+                f,
+                "the lines could not be found: {error}; a longer span separates them, a larger --least leaves more of them out"
+            ),
             TrajectoryError::Write(error) => write!(f, "the table could not be written: {error}"),
         }
     }

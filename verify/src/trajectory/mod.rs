@@ -1,13 +1,18 @@
 //! The motion of a scene as tables of comma-separated values.
 
 mod error;
+mod pulse_source;
 mod pulses;
+#[cfg(test)]
+mod pulses_across_stretches;
+mod spectrum;
 mod stretches;
 
 use std::io::Write;
 
 pub use error::TrajectoryError;
 pub use pulses::{PulseSummary, write_pulses};
+pub use spectrum::{LinesSummary, LinesWanted, Sampling};
 use stretches::{Stretches, since_start};
 use twofold::propagation::{ContinuousAngles, Motion};
 

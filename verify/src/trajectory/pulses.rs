@@ -2,13 +2,13 @@
 
 use std::io::Write;
 
-use nalgebra::Vector3;
 use twofold::Error;
+use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
-use twofold::observables::pulsar::{Beam, Pulse, pulse_train};
 use twofold::propagation::{Motion, TaylorMotion};
 
 use super::TrajectoryError;
+use super::pulse_source::{Numbered, Source};
 use super::stretches::{Stretch, Stretches};
 use crate::scene_file::{Pulsar, Scene, Viewer};
 
@@ -21,6 +21,8 @@ pub struct PulseSummary {
     pub grazings: usize,
     /// Time of the first of those.
     pub first_grazing: Option<f64>,
+    /// Beams with whole pulses whose turns cannot be counted, how many of them, and why.
+    pub without_turn: Vec<(usize, usize, Error)>,
 }
 
 /// Names of the columns with their units.
@@ -28,7 +30,8 @@ fn header(scene: &Scene) -> Vec<String> {
     let time = scene.units.time_name;
     let mut names = vec!["beam".to_owned(), "pulse".to_owned()];
     names.extend(["start", "end", "midpoint", "duration"].map(|name| format!("{name} [{time}]")));
-    names.extend(["cut".to_owned(), format!("period [{time}]"), "W_56 [rad]".to_owned()]);
+    names.extend(["cut".to_owned(), format!("period [{time}]"), "turn".to_owned()]);
+    names.extend([format!("closest_approach [{time}]"), "W_56 [rad]".to_owned()]);
     names
 }
 
@@ -41,28 +44,37 @@ pub fn write_pulses(
     scene: &Scene,
     (viewer, pulsar): (&Viewer, &Pulsar),
     writer: impl Write,
+    progress: impl FnMut(f64),
+) -> Result<PulseSummary, TrajectoryError> {
+    write_by_stretches(scene, (viewer, pulsar), Stretches::new(scene), writer, progress)
+}
+
+pub(super) fn write_by_stretches(
+    scene: &Scene,
+    (viewer, pulsar): (&Viewer, &Pulsar),
+    mut stretches: Stretches<'_>,
+    writer: impl Write,
     mut progress: impl FnMut(f64),
 ) -> Result<PulseSummary, TrajectoryError> {
     let mut table = csv::Writer::from_writer(writer);
     table.write_record(header(scene))?;
     let line_of_sight = viewer.basis().direction;
-    let mut sources = vec![Source::new(1, pulsar.beam())];
+    let mut sources = vec![Source::new(1, pulsar.beam(), line_of_sight)];
     if pulsar.second_beam {
-        sources.push(Source::new(2, pulsar.beam().opposite()));
+        sources.push(Source::new(2, pulsar.beam().opposite(), line_of_sight));
     }
     let mut summary = PulseSummary::default();
-    let mut stretches = Stretches::new(scene);
     let mut last_motion: Option<TaylorMotion<f64>> = None;
     while let Some(stretch) = stretches.next()? {
-        let to = if stretch.is_last { stretch.to } else { off_every_edge(&stretch, &sources, &line_of_sight)? };
+        let to = if stretch.is_last { stretch.to } else { cut(scene, &stretch, &sources)? };
         let mut complete = Vec::new();
         for source in &mut sources {
-            let train = pulse_train(&stretch.motion, &source.beam, &line_of_sight, (stretch.from, to))?;
-            for time in &train.grazings {
+            let (pulses, grazings) = source.take(&stretch, to)?;
+            complete.extend(pulses);
+            for time in grazings {
                 summary.grazings += 1;
-                summary.first_grazing.get_or_insert(in_output(scene, *time));
+                summary.first_grazing.get_or_insert(in_output(scene, time));
             }
-            complete.extend(source.take(train.pulses, (stretch.from, to), stretch.is_last));
         }
         let backwards = to < stretch.from;
         complete.sort_by(|a, b| {
@@ -83,79 +95,34 @@ pub fn write_pulses(
     }
     table.flush()?;
     summary.pulses = sources.iter().map(|source| source.seen).collect();
+    summary.without_turn = sources
+        .into_iter()
+        .filter(|source| source.without_turn > 0)
+        .filter_map(|source| source.uncounted.map(|why| (source.number, source.without_turn, why)))
+        .collect();
     Ok(summary)
 }
 
-/// A time near the end of the stretch at which it is beyond doubt whether each beam is seen: cut there, no pulse is torn or
-/// counted twice by rounding.
-fn off_every_edge(stretch: &Stretch, sources: &[Source], line_of_sight: &Vector3<f64>) -> Result<f64, Error> {
-    const CLEAR: f64 = 1e-6;
+/// A time near the end of the stretch at which every source is clear: cut there, no pulse is torn or counted twice by
+/// rounding, and no turn. If turns are nowhere clear, as of a beam along the axis of rotation, that much is left to rounding.
+fn cut(scene: &Scene, stretch: &Stretch, sources: &[Source]) -> Result<f64, Error> {
     const TRIES: usize = 1000;
-    let mut time = stretch.to;
-    for k in 1..=TRIES {
-        let state = stretch.motion.state(time)?;
-        if sources.iter().all(|source| source.beam.margin(&state, line_of_sight).abs() > CLEAR) {
-            break;
-        }
-        // A stretch is 5e4 rad long: steps of some tenths of a radian.
-        time = stretch.to + (stretch.from - stretch.to) * (k as f64 * 7e-6);
-    }
-    Ok(time)
-}
-
-/// One beam, and the pulse that is not over yet.
-struct Source {
-    number: usize,
-    beam: Beam<f64>,
-    seen: usize,
-    open: Option<Pulse>,
-    last_midpoint: Option<f64>,
-}
-
-/// A pulse with its place in the train of its beam.
-struct Numbered {
-    beam: usize,
-    number: usize,
-    pulse: Pulse,
-    /// Time between the midpoints of this pulse and of the one before, if both are whole.
-    period: Option<f64>,
-}
-
-impl Source {
-    fn new(number: usize, beam: Beam<f64>) -> Self {
-        Self { number, beam, seen: 0, open: None, last_midpoint: None }
-    }
-
-    /// Takes the pulses of a stretch in order of time and gives those that are over, in the order of the motion.
-    fn take(&mut self, mut pulses: Vec<Pulse>, (from, to): (f64, f64), is_last: bool) -> Vec<Numbered> {
-        let backwards = to < from;
-        if backwards {
-            pulses.reverse();
-        }
-        // A pulse cut where the last stretch ended goes on; the flags of the joined one are those of its outer ends.
-        if let Some(open) = self.open.take() {
-            match pulses.first_mut() {
-                Some(next) if backwards && next.cut_at_end => (next.end, next.cut_at_end) = (open.end, open.cut_at_end),
-                Some(next) if !backwards && next.cut_at_start => {
-                    (next.start, next.cut_at_start) = (open.start, open.cut_at_start);
-                }
-                _ => pulses.insert(0, open),
+    const ROTATION_PER_TRY: f64 = 0.35;
+    let half = (stretch.from - stretch.to) / 2.0;
+    let step = (ROTATION_PER_TRY / scene.turning_rate()).copysign(half);
+    let mut off_edges = None;
+    for k in 0..TRIES {
+        let back = step * k as f64;
+        let time = stretch.to + if back.abs() < half.abs() { back } else { half };
+        let clear = sources.iter().map(|source| source.is_clear_at(stretch, time)).collect::<Result<Vec<_>, _>>()?;
+        if clear.iter().all(|(off_edge, _)| *off_edge) {
+            off_edges.get_or_insert(time);
+            if clear.iter().all(|(_, off_half_turn)| *off_half_turn) {
+                return Ok(time);
             }
         }
-        if !is_last {
-            let lasts = |pulse: &Pulse| if backwards { pulse.cut_at_start } else { pulse.cut_at_end };
-            self.open = pulses.pop_if(|pulse| lasts(pulse));
-        }
-        pulses.into_iter().map(|pulse| self.numbered(pulse)).collect()
     }
-
-    fn numbered(&mut self, pulse: Pulse) -> Numbered {
-        self.seen += 1;
-        let midpoint = pulse.is_whole().then(|| pulse.midpoint());
-        let period = midpoint.zip(self.last_midpoint).map(|(this, last)| (this - last).abs());
-        self.last_midpoint = midpoint;
-        Numbered { beam: self.number, number: self.seen, pulse, period }
-    }
+    Ok(off_edges.unwrap_or(stretch.to))
 }
 
 impl Numbered {
@@ -178,6 +145,8 @@ impl Numbered {
             number(pulse.duration() * unit),
             cut.to_owned(),
             optional(self.period.map(|period| period * unit)),
+            self.arrival.map_or(String::new(), |(turn, _)| turn.to_string()),
+            optional(self.arrival.map(|(_, time)| in_output(scene, time))),
             optional(width),
         ])
     }

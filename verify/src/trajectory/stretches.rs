@@ -35,8 +35,13 @@ pub struct Stretch {
 impl<'s> Stretches<'s> {
     /// The stretches of the span of `scene`, one at least.
     pub fn new(scene: &'s Scene) -> Self {
+        Self::of_rotation(scene, ROTATION_PER_STRETCH)
+    }
+
+    /// The stretches of the span of `scene` with a rotation of at most `most` rad each.
+    pub(super) fn of_rotation(scene: &'s Scene, most: f64) -> Self {
         let total = since_start(scene, scene.times.last());
-        let count = (total.abs() * scene.turning_rate() / ROTATION_PER_STRETCH).ceil().max(1.0) as usize;
+        let count = (total.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize;
         Self { scene, total, count, next: 0, from: 0.0, state: scene.initial }
     }
 

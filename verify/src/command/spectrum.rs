@@ -1,0 +1,78 @@
+//! `twofold spectrum`.
+
+use super::run::{read_scene, write};
+use super::{Failure, SpectrumArgs, SpectrumTable, note};
+use crate::columns::Column;
+use crate::scene_file::{Scene, Times};
+use crate::trajectory::{LinesSummary, LinesWanted, Sampling};
+
+pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
+    let mut scene = read_scene(&args.scene)?;
+    if let Some(span) = args.span {
+        let (start, end) = (scene.times.start(), scene.times.start() + span);
+        if !end.is_finite() || start == end {
+            return Err(Failure::BadInput(format!(
+                "--span {span:?}: allowed is a finite number, not zero beside `time.start`"
+            )));
+        }
+        scene.times = Times::Even { start, end, samples: 2 };
+    }
+    let column = Column::oscillating(&args.of, &scene)
+        .map_err(|why| Failure::BadInput(format!("--of for {}: {why}", args.scene)))?;
+    if !(1e-12..=1.0).contains(&args.least) {
+        return Err(Failure::BadInput(format!("--least {:?}: allowed is from 1e-12 to 1", args.least)));
+    }
+    Sampling::check(&scene).map_err(|why| Failure::BadInput(format!("{}: {why}", args.scene)))?;
+    let wanted = LinesWanted { least: args.least, most: usize::from(args.most), identified: !args.unidentified };
+    let summary = write(&args.output, &scene, |writer, _| {
+        let sampling = Sampling::of(&scene, &column)?;
+        note_sampling(&scene, &column, &sampling);
+        match args.table {
+            SpectrumTable::Lines => sampling.write_lines(&scene, &column, &wanted, writer).map(Some),
+            SpectrumTable::Spectrum => sampling.write_spectrum(&scene, &column, writer).map(|()| None),
+        }
+    })?;
+    if let Some(Some(summary)) = summary {
+        note_lines(&scene, &column, &summary);
+    }
+    Ok(())
+}
+
+fn note_sampling(scene: &Scene, column: &Column, sampling: &Sampling) {
+    let (count, step, highest) = sampling.describe(scene);
+    let time = scene.units.time_name;
+    note(&format!(
+        "{} at {count} times {step:.6e} {time} apart, chosen from the rotation rate; frequencies up to {highest:.6e} rad/{time}",
+        column.name
+    ));
+}
+
+fn note_lines(scene: &Scene, column: &Column, summary: &LinesSummary) {
+    let (name, time) = (&column.name, scene.units.time_name);
+    let unit = if column.unit == "1" { String::new() } else { format!(" {}", column.unit) };
+    match &summary.fundamental {
+        None => {}
+        Some(Ok(fundamental)) => {
+            for g in fundamental {
+                note(&format!("{} = {:?} +- {:.1e} rad/{time}", g.symbol, g.frequency, g.uncertainty));
+            }
+        }
+        Some(Err(why)) => note(&format!("no line is identified: the motion has no fundamental frequencies: {why}")),
+    }
+    note(&format!("{name} has the constant term {:?}{unit}", summary.constant));
+    if summary.lines == 0 {
+        note(&format!("{name} has no line of an amplitude above {:.1e}{unit}", summary.least));
+    }
+    if summary.remainder >= summary.least {
+        note(&format!(
+            "lines are missing: an amplitude of {:.1e}{unit} is left; see --most, and a longer span separates near lines",
+            summary.remainder
+        ));
+    }
+    if summary.near_highest > 0 {
+        note(&format!(
+            "{} of the lines are near the highest frequency, where others may be folded back from above it",
+            summary.near_highest
+        ));
+    }
+}

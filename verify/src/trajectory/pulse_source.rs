@@ -1,0 +1,176 @@
+//! The pulses of one beam, put together from those of the stretches of a motion, with the turns that they belong to.
+
+use nalgebra::Vector3;
+use twofold::Error;
+use twofold::observables::pulsar::{Arrival, Beam, Pulse, PulseTrain, arrivals, pulse_train};
+use twofold::propagation::Motion;
+
+use super::stretches::Stretch;
+
+/// One beam with its line of sight, and the pulse that is not over yet.
+pub(super) struct Source {
+    pub(super) number: usize,
+    pub(super) beam: Beam<f64>,
+    line_of_sight: Vector3<f64>,
+    /// Pulses so far.
+    pub(super) seen: usize,
+    open: Option<Unfinished>,
+    last_midpoint: Option<f64>,
+    /// Turns counted up to the end of the last stretch.
+    turns: i64,
+    first_turn: Option<i64>,
+    /// Why turns are not counted any more, once they are not.
+    pub(super) uncounted: Option<Error>,
+    /// Whole pulses without a turn for that reason.
+    pub(super) without_turn: usize,
+}
+
+/// A pulse with its place in the train of its beam.
+pub(super) struct Numbered {
+    pub(super) beam: usize,
+    pub(super) number: usize,
+    pub(super) pulse: Pulse,
+    /// Time between the midpoints of this pulse and of the one before, if both are whole.
+    pub(super) period: Option<f64>,
+    /// Turn of the star, zero for the first whole pulse, and time of the closest approach, for a whole pulse.
+    pub(super) arrival: Option<(i64, f64)>,
+}
+
+/// A pulse as far as it is known.
+struct Unfinished {
+    pulse: Pulse,
+    approach: Option<Approach>,
+}
+
+/// The magnetic axis nearest to the line of sight.
+#[derive(Clone, Copy)]
+struct Approach {
+    turn: i64,
+    time: f64,
+    margin: f64,
+}
+
+impl Source {
+    pub(super) fn new(number: usize, beam: Beam<f64>, line_of_sight: Vector3<f64>) -> Self {
+        Self {
+            number,
+            beam,
+            line_of_sight,
+            seen: 0,
+            open: None,
+            last_midpoint: None,
+            turns: 0,
+            first_turn: None,
+            uncounted: None,
+            without_turn: 0,
+        }
+    }
+
+    /// Whether it is beyond doubt at a time of the stretch if the beam is seen, and which turn it is: the magnetic axis neither
+    /// on the edge nor opposite to the line of sight.
+    pub(super) fn is_clear_at(&self, stretch: &Stretch, time: f64) -> Result<(bool, bool), Error> {
+        const CLEAR: f64 = 1e-6;
+        let state = stretch.motion.state(time)?;
+        let (l, n, m) = (state.momentum.normalize(), &self.line_of_sight, self.beam.direction(&state));
+        let (x, y) = (n.dot(&m) - l.dot(n) * l.dot(&m), l.dot(&n.cross(&m)));
+        Ok((self.beam.margin(&state, n).abs() > CLEAR, x > CLEAR || y.abs() > CLEAR))
+    }
+
+    /// The pulses that are over at the time `to` of a stretch, in the order of the motion, and the times of grazing.
+    pub(super) fn take(&mut self, stretch: &Stretch, to: f64) -> Result<(Vec<Numbered>, Vec<f64>), Error> {
+        let backwards = to < stretch.from;
+        let mut train = pulse_train(&stretch.motion, &self.beam, &self.line_of_sight, (stretch.from, to))?;
+        if backwards {
+            train.pulses.reverse();
+        }
+        let begins_cut = |pulse: &Pulse| if backwards { pulse.cut_at_end } else { pulse.cut_at_start };
+        let lasts = |pulse: &Pulse| if backwards { pulse.cut_at_start } else { pulse.cut_at_end };
+        let open = self.open.take();
+        // Only what may become a whole pulse has a closest approach.
+        let goes_on = open.as_ref().is_some_and(|open| !begins_cut(&open.pulse));
+        let wanted = |(i, pulse): (usize, &Pulse)| {
+            (!begins_cut(pulse) || i == 0 && goes_on) && !(stretch.is_last && lasts(pulse))
+        };
+        let wanted: Vec<bool> = train.pulses.iter().enumerate().map(wanted).collect();
+        let approaches = self.approaches(stretch, to, &train.pulses, &wanted)?;
+        let pairs = train.pulses.into_iter().zip(approaches);
+        let mut found: Vec<_> = pairs.map(|(pulse, approach)| Unfinished { pulse, approach }).collect();
+        if let Some(open) = open {
+            match found.first_mut().filter(|next| begins_cut(&next.pulse)) {
+                Some(next) => next.continue_from(open, backwards),
+                None => found.insert(0, open),
+            }
+        }
+        if !stretch.is_last {
+            self.open = found.pop_if(|last| lasts(&last.pulse));
+        }
+        Ok((found.into_iter().map(|pulse| self.numbered(&pulse)).collect(), train.grazings))
+    }
+
+    /// The closest approach in each of the pulses that are wanted, their turns counted on from the stretch before.
+    fn approaches(
+        &mut self,
+        stretch: &Stretch,
+        to: f64,
+        pulses: &[Pulse],
+        wanted: &[bool],
+    ) -> Result<Vec<Option<Approach>>, Error> {
+        if self.uncounted.is_some() {
+            return Ok(vec![None; pulses.len()]);
+        }
+        let whole = |start, end| Pulse { start, end, cut_at_start: false, cut_at_end: false };
+        // Pulses without length at both ends tie the count to those of the neighbouring stretches.
+        let mut parts = vec![whole(stretch.from, stretch.from)];
+        parts.extend(pulses.iter().zip(wanted).filter(|(_, wanted)| **wanted).map(|(p, _)| whole(p.start, p.end)));
+        parts.push(whole(to, to));
+        let backwards = to < stretch.from;
+        if backwards {
+            parts.reverse();
+        }
+        let train = PulseTrain { pulses: parts, grazings: Vec::new() };
+        let mut found = match arrivals(&stretch.motion, &self.beam, &self.line_of_sight, &train) {
+            Ok(found) => found,
+            Err(why) => {
+                self.uncounted = Some(why);
+                return Ok(vec![None; pulses.len()]);
+            }
+        };
+        if backwards {
+            found.reverse();
+        }
+        let before = self.turns - found[0].number;
+        self.turns = before + found[found.len() - 1].number;
+        let mut found = found.into_iter().skip(1);
+        let approach = |Arrival { number, closest_approach: time, .. }| {
+            let margin = self.beam.margin(&stretch.motion.state(time)?, &self.line_of_sight);
+            Ok(Approach { turn: before + number, time, margin })
+        };
+        let mut next = |wanted: &bool| wanted.then(|| found.next()).flatten().map(approach).transpose();
+        wanted.iter().map(&mut next).collect()
+    }
+
+    fn numbered(&mut self, Unfinished { pulse, approach }: &Unfinished) -> Numbered {
+        self.seen += 1;
+        let midpoint = pulse.is_whole().then(|| pulse.midpoint());
+        let period = midpoint.zip(self.last_midpoint).map(|(this, last)| (this - last).abs());
+        self.last_midpoint = midpoint;
+        let arrival = approach
+            .filter(|_| pulse.is_whole() && self.uncounted.is_none())
+            .map(|approach| (approach.turn - *self.first_turn.get_or_insert(approach.turn), approach.time));
+        self.without_turn += usize::from(pulse.is_whole() && arrival.is_none());
+        Numbered { beam: self.number, number: self.seen, pulse: *pulse, period, arrival }
+    }
+}
+
+impl Unfinished {
+    /// Joins the part of the pulse in the stretches before. Flags are those of the outer ends.
+    fn continue_from(&mut self, open: Unfinished, backwards: bool) {
+        if backwards {
+            (self.pulse.end, self.pulse.cut_at_end) = (open.pulse.end, open.pulse.cut_at_end);
+        } else {
+            (self.pulse.start, self.pulse.cut_at_start) = (open.pulse.start, open.pulse.cut_at_start);
+        }
+        let higher = |one: &Approach, other: &Approach| one.margin.total_cmp(&other.margin);
+        self.approach = self.approach.into_iter().chain(open.approach).max_by(higher);
+    }
+}

@@ -1,0 +1,208 @@
+//! Lines and amplitude spectra of a column of a scene's table.
+
+use std::io::Write;
+
+use twofold::Error;
+use twofold::observables::fundamental_frequencies::fundamental_frequencies;
+use twofold::observables::spectrum::{
+    FrequencyBasis, Generator, LineList, Series, Window, amplitude_spectrum, spectral_lines,
+};
+use twofold::propagation::{Motion, TaylorMotion, propagate};
+
+use super::TrajectoryError;
+use super::stretches::since_start;
+use crate::columns::{Column, Moment};
+use crate::scene_file::Scene;
+
+/// Highest frequency of a series over the upper estimate of the rotation rate: what is observed has harmonics.
+const HARMONICS: f64 = 8.0;
+
+/// Largest rotation of a series, in rad; the whole motion is in memory.
+const LARGEST_ROTATION: f64 = 1e5;
+
+/// Window of the amplitude spectrum: sidelobes of 1.8e-8.
+const WINDOW: Window = Window::Kaiser { shape: 20.0 };
+
+/// A column in equal steps over the span of a scene. Inside, times are those since the start, in t_c.
+pub struct Sampling {
+    motion: TaylorMotion<f64>,
+    series: Series,
+}
+
+/// What is asked of a list of lines.
+#[derive(Debug, Clone, Copy)]
+pub struct LinesWanted {
+    /// Least amplitude as a part of the largest one.
+    pub least: f64,
+    /// Most lines.
+    pub most: usize,
+    /// Whether lines are to be named by the fundamental frequencies of the motion.
+    pub identified: bool,
+}
+
+/// What there is to say about a list of lines.
+#[derive(Debug, Clone)]
+pub struct LinesSummary {
+    /// Constant term, in the unit of the column.
+    pub constant: f64,
+    /// Lines written.
+    pub lines: usize,
+    /// Lines among them in the upper fifth of the frequencies, where there may be others folded back from above.
+    pub near_highest: usize,
+    /// Least amplitude that was looked for: the one wanted, or the error of the motion if that is more.
+    pub least: f64,
+    /// Largest amplitude left in the series; above `least`, lines are missing.
+    pub remainder: f64,
+    /// The fundamental frequencies in the unit of the output, or why there are none; none where they are not wanted.
+    pub fundamental: Option<Result<Vec<Generator>, Error>>,
+}
+
+impl Sampling {
+    /// Why the span of a scene cannot be sampled.
+    ///
+    /// # Errors
+    /// A sentence about the span.
+    pub fn check(scene: &Scene) -> Result<(), String> {
+        let rotation = duration(scene).abs() * scene.turning_rate();
+        if rotation == 0.0 {
+            return Err("[time] has no length, so nothing has a spectrum".into());
+        }
+        if rotation <= LARGEST_ROTATION {
+            return Ok(());
+        }
+        let (most, unit) = (LARGEST_ROTATION / scene.turning_rate() * scene.units.time, scene.units.time_name);
+        Err(format!(
+            "the span holds a rotation by {rotation:.1e} rad: allowed for a spectrum is at most {LARGEST_ROTATION:.0e} rad, here \
+             {most:.3e} {unit}"
+        ))
+    }
+
+    /// Computes the motion and samples a column. The step follows from the rotation rate alone, not from the scene's samples.
+    ///
+    /// # Errors
+    /// A motion that cannot be computed, and a time at which the column does not exist.
+    pub fn of(scene: &Scene, column: &Column) -> Result<Self, TrajectoryError> {
+        let span = (0.0, duration(scene));
+        let motion = propagate(&scene.spheroid, &scene.violation, &scene.initial, span, scene.accuracy)?;
+        let intervals = (span.1.abs() * scene.turning_rate() * HARMONICS / std::f64::consts::PI).ceil().max(15.0);
+        let start = span.1.min(0.0);
+        let step = span.1.abs() / intervals;
+        let value = |index: usize| {
+            let since_start = (start + step * index as f64).min(start + span.1.abs());
+            let state = motion.state(since_start)?;
+            let mut angles = || state.angles().ok();
+            let mut moment = Moment { since_start, state, angles: &mut angles };
+            column.value(scene, &mut moment).ok_or_else(|| TrajectoryError::Undefined {
+                column: column.name.clone(),
+                time: format!("{:?} {}", since_start * scene.units.time + scene.times.start(), scene.units.time_name),
+            })
+        };
+        let values = (0..=intervals as usize).map(value).collect::<Result<_, _>>()?;
+        Ok(Self { motion, series: Series { start, step, values } })
+    }
+
+    /// Number of values, time between two in the unit of the output, and Nyquist's frequency in rad per unit of time.
+    pub fn describe(&self, scene: &Scene) -> (usize, f64, f64) {
+        let unit = scene.units.time;
+        (self.series.values.len(), self.series.step * unit, self.series.highest_frequency() / unit)
+    }
+
+    /// Writes the amplitude spectrum as CSV.
+    ///
+    /// # Errors
+    /// `writer` failing.
+    pub fn write_spectrum(&self, scene: &Scene, column: &Column, writer: impl Write) -> Result<(), TrajectoryError> {
+        let mut table = csv::Writer::from_writer(writer);
+        table.write_record([frequency_title(scene, "frequency"), format!("amplitude [{}]", column.unit)])?;
+        for (frequency, amplitude) in amplitude_spectrum(&self.series, WINDOW)?.points() {
+            table.write_record([frequency / scene.units.time, amplitude].map(|x| format!("{x:?}")))?;
+        }
+        table.flush()?;
+        Ok(())
+    }
+
+    /// Writes the lines as CSV, strongest first.
+    ///
+    /// # Errors
+    /// A span too short for the fundamental frequencies, lines that cannot be told apart, or `writer` failing.
+    pub fn write_lines(
+        &self,
+        scene: &Scene,
+        column: &Column,
+        wanted: &LinesWanted,
+        writer: impl Write,
+    ) -> Result<LinesSummary, TrajectoryError> {
+        let basis = wanted.identified.then(|| self.basis()).transpose()?;
+        let (least, list) = self.lines(scene, wanted)?;
+        let unit = scene.units.time;
+        let mut table = csv::Writer::from_writer(writer);
+        table.write_record([
+            frequency_title(scene, "frequency"),
+            format!("amplitude [{}]", column.unit),
+            "phase [rad]".to_owned(),
+            frequency_title(scene, "uncertainty"),
+            "combination".to_owned(),
+        ])?;
+        for line in &list.lines {
+            let name = match &basis {
+                Some(Ok(basis)) => basis.identify(line.frequency, line.uncertainty).to_string(),
+                Some(Err(_)) | None => "unidentified".to_owned(),
+            };
+            let numbers = [line.frequency / unit, line.amplitude, line.phase, line.uncertainty / unit];
+            table.write_record(numbers.map(|x| format!("{x:?}")).into_iter().chain([name]))?;
+        }
+        table.flush()?;
+        let in_output =
+            |g: &Generator| Generator { frequency: g.frequency / unit, uncertainty: g.uncertainty / unit, ..*g };
+        let high = 0.8 * self.series.highest_frequency();
+        Ok(LinesSummary {
+            constant: list.constant,
+            lines: list.lines.len(),
+            near_highest: list.lines.iter().filter(|line| line.frequency > high).count(),
+            least,
+            remainder: list.remainder,
+            fundamental: basis.map(|basis| basis.map(|basis| basis.generators().iter().map(in_output).collect())),
+        })
+    }
+
+    /// The lines, and the least amplitude that was looked for.
+    fn lines(&self, scene: &Scene, wanted: &LinesWanted) -> Result<(f64, LineList), TrajectoryError> {
+        let values = &self.series.values;
+        let size = values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let weights = WINDOW.weights(values.len())?;
+        let mean = weights.iter().zip(values).map(|(w, x)| w * x).sum::<f64>() / values.len() as f64;
+        let about_mean = Series { values: values.iter().map(|x| x - mean).collect(), ..self.series };
+        let spectrum = amplitude_spectrum(&about_mean, WINDOW)?;
+        let strongest = spectrum.amplitudes.iter().fold(0.0_f64, |most, x| most.max(*x));
+        // What is below the error of the motion is no line of it; nor may the least amplitude be zero.
+        let error = (size * scene.accuracy).max(f64::MIN_POSITIVE);
+        let least = error.max(strongest * wanted.least);
+        let lines = spectral_lines(&self.series, least, wanted.most);
+        Ok((least, lines.map_err(TrajectoryError::NoLines)?))
+    }
+
+    /// The fundamental frequencies, or why this motion has none.
+    ///
+    /// # Errors
+    /// A span too short for them.
+    fn basis(&self) -> Result<Result<FrequencyBasis, Error>, TrajectoryError> {
+        match fundamental_frequencies(&self.motion).and_then(|found| found.basis()) {
+            Err(why @ (Error::NotConverged { .. } | Error::Domain { quantity: SHORT_SPAN, .. })) => {
+                Err(TrajectoryError::NoFrequencies(why))
+            }
+            basis => Ok(basis),
+        }
+    }
+}
+
+/// The quantity that [`fundamental_frequencies`] refuses in a span of few turns.
+const SHORT_SPAN: &str = "span in turns of n about L";
+
+/// Length of the span in t_c, negative backwards.
+fn duration(scene: &Scene) -> f64 {
+    since_start(scene, scene.times.last())
+}
+
+fn frequency_title(scene: &Scene, name: &str) -> String {
+    format!("{name} [rad/{}]", scene.units.time_name)
+}
