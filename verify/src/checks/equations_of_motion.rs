@@ -5,7 +5,7 @@ use twofold::dynamics::BodyState;
 use twofold::dynamics::euler_angle_equations::euler_angle_residuals;
 use twofold::dynamics::first_integrals::spin_in_angles;
 use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
-use twofold::dynamics::regular_equations::{angular_velocity, body_state_rates, torque_on_axis};
+use twofold::dynamics::regular_equations::{angular_velocity, body_state_rates, reduced_rates, torque_on_axis};
 use twofold::euler_angles::{body_from_inertial, body_rates};
 
 use crate::check::{Check, Kind};
@@ -24,6 +24,7 @@ pub fn checks() -> Vec<Check> {
         identity::checks::<Accelerations>(),
         identity::checks::<RegularEquations>(),
         identity::checks::<InertialFrame>(),
+        identity::checks::<SpinAlongPrincipalAxis>(),
     ]
     .concat()
 }
@@ -140,6 +141,28 @@ impl Identity for InertialFrame {
         out.extend(&(rates.equatorial_axis - rates_turned.equatorial_axis));
         out.extend(&(frame * torque(&p.s_inertial, &state.axis) - torque(&s_turned, &turned.axis)));
         out.extend(&(frame * source(&p.s_inertial, &state) * frame.transpose() - source(&s_turned, &turned)));
+        out
+    }
+}
+
+struct SpinAlongPrincipalAxis;
+
+impl Identity for SpinAlongPrincipalAxis {
+    const ID: &'static str = "spin-along-principal-axis";
+    const ROUNDED: (Kind, &'static str) = (Kind::Property, "spin-along-principal-axis-rounding");
+    const EQUATIONS: &'static [u8] = &[25, 27];
+    const STATEMENT: &'static str =
+        "with any three eigenvalues a spin along X, Y or Z, both ways, is stationary: along X and Y beta stays at pi/2";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let mut out = Vec::new();
+        for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+            for axis in [axis, -axis] {
+                let momentum = axis * (p.spheroid.inertia_zz * p.rates.gamma);
+                let (turning, torque) = reduced_rates(&p.spheroid, &p.s.tensor(), &axis, &momentum);
+                out.extend(turning.iter().chain(&torque));
+            }
+        }
         out
     }
 }

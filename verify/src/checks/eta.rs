@@ -8,7 +8,8 @@ use twofold::elliptic::jacobi::complete_integral;
 use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::eta::{
-    mean_squared_speed, secular_axis_rate, single_precession_start, squared_speed, squared_speed_along_motion,
+    mean_squared_speed, root_mean_square_eta, secular_axis_rate, single_precession_start, squared_speed,
+    squared_speed_along_motion,
 };
 use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
 use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation};
@@ -107,6 +108,19 @@ pub fn checks() -> Vec<Check> {
             bound: Bound::Within(-1.01, -0.99),
             reason: "sqrt(3 / (1 + r^2)) / (sin b cos b): the next order shifts the slope by some b^2",
             measure: small_inclinations,
+        },
+        Check {
+            id: "eta-depends-on-average",
+            kind: Kind::Regime,
+            equations: &[41],
+            statement: "another average gives another eta at pi/2: without later times, at that inclination, its root mean square value is sqrt(6) / |r|",
+            figure: "|eta / 26.94 - 1| at pi/2, the paper's tensor, root mean square over directions and azimuths",
+            bound: Bound::AtMost(1e-3),
+            reason: "sqrt(6) x 11 to four digits",
+            measure: || {
+                let eta: f64 = root_mean_square_eta(PAPER_ASYMMETRY, FRAC_PI_2).map_err(|e| e.to_string())?;
+                Ok(Measured::new((eta / 26.94 - 1.0).abs(), format!("{eta:.4}")))
+            },
         },
         Check {
             id: "eta-near-right-angle",

@@ -22,6 +22,16 @@ pub(super) fn checks() -> Vec<Check> {
             measure: directions,
         },
         Check {
+            id: "rates-of-both-examples",
+            kind: Kind::Regime,
+            equations: &[51, 56, 57],
+            statement: "the ratio of the mean rates |gamma'| / alpha' is the same in tp-I and tp-II: it does not tell where Eqs. (51), (56) apply",
+            figure: "|ratio of tp-II / ratio of tp-I - 1|",
+            bound: Bound::AtMost(0.05),
+            reason: "a twentieth of what is said to be small in one and not in the other",
+            measure: ratios_of_rates,
+        },
+        Check {
             id: "momentum-precession-rate",
             kind: Kind::Regime,
             equations: &[26, 32],
@@ -69,6 +79,20 @@ fn directions() -> Result<Measured, String> {
         wrong.iter().filter(|w| **w).count() as f64,
         format!("tp-I alpha shift {shift:.4}, tp-II L {twofold:.4}, sp-I L {single:.4}, sp-I alpha {alpha:.4}"),
     ))
+}
+
+fn ratios_of_rates() -> Result<Measured, String> {
+    let ratios = ["tp-1", "tp-2"].map(|name| {
+        let scene = reference_motion(name);
+        let motion = propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, 2000.0), 1e-13)
+            .map_err(|e| e.to_string())?;
+        let found = fundamental_frequencies(&motion).map_err(|e| e.to_string())?;
+        let (gamma, alpha) = found.gamma.zip(found.alpha).ok_or_else(|| format!("{name} has no mean rates"))?;
+        Ok::<_, String>(gamma.value.abs() / alpha.value)
+    });
+    let [first, second] = ratios;
+    let (first, second) = (first?, second?);
+    Ok(Measured::new((second / first - 1.0).abs(), format!("tp-I {first:.4}, tp-II {second:.4}")))
 }
 
 fn momentum_rate_across_magic_angle() -> Result<Measured, String> {
