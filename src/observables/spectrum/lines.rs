@@ -22,7 +22,8 @@ pub struct SpectralLine {
     pub amplitude: f64,
     /// Phase at `t = 0`, in (-pi, pi] (rad).
     pub phase: f64,
-    /// Estimated error of the frequency, from what is left of the series near the line.
+    /// Estimated error of the frequency, from what is left of the series near the line and, where lines are missing from the list, from the
+    /// strongest of those.
     pub uncertainty: f64,
 }
 
@@ -77,7 +78,10 @@ pub fn spectral_lines(series: &Series, least: f64, most: usize) -> Result<LineLi
     let latest = series.start.abs().max((series.start + series.duration()).abs());
     let turned = fit.waves.iter().fold(0.0_f64, |most, wave| most.max(wave.phase)) * 2.0 / series.step * latest;
     let rounding = f64::EPSILON * largest * (1.0 + turned / (series.values.len() as f64).sqrt());
-    let noise = rounding.max(spectrum.median());
+    // Lines that are missing elsewhere say that there may be as strong ones under the lines found, where the fit hides them.
+    let remainder = spectrum.largest();
+    let hidden = if remainder >= least { remainder } else { 0.0 };
+    let noise = rounding.max(spectrum.median()) + hidden;
     let middle = series.start + series.step * (series.values.len() - 1) as f64 / 2.0;
     let mut lines: Vec<_> = fit
         .waves
@@ -97,7 +101,7 @@ pub fn spectral_lines(series: &Series, least: f64, most: usize) -> Result<LineLi
         })
         .collect();
     lines.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
-    Ok(LineList { constant: fit.constant, lines, remainder: spectrum.largest() })
+    Ok(LineList { constant: fit.constant, lines, remainder })
 }
 
 /// Steps of the fit until no frequency moves by more than rounding.
