@@ -83,7 +83,7 @@ fn caption(subjects: &[&Subject], spectra: &[Spectrum]) -> Result<Caption, Strin
             .to_owned(),
         parameters: parameters(&line_of_sight(subjects, true), subjects),
         method: format!(
-            "Fourier transform of 16,384 values over {} with Kaiser's window (shape 14); lines by a joint fit, to 10^{{−5}} of the strongest; mean rates \
+            "Fourier transform of 49,152 values over {} with Kaiser's window (shape 14); lines by a joint fit, to 10^{{−5}} of the strongest; mean rates \
              by weighted averages. Mean rates per *t*_{{c}}: {}.",
             spectrum::length_in_words(subjects),
             rates.join("; ")

@@ -22,8 +22,8 @@ pub(super) const OBSERVER: Viewer = Viewer { theta_o: 0.8, phi_o: 0.0, distance:
 /// The beam of the paper's figures.
 const PULSAR: Pulsar = Pulsar { chi: 0.5, delta: 0.0, rho: 0.6, second_beam: false };
 
-/// Length of the series of which spectra are taken (t_c): lines of tp-II are 0.035 apart.
-const SPECTRUM_DURATION: f64 = 6000.0;
+/// Length of the series of which spectra are taken (t_c): pairs of lines of tp-II are 0.0024 apart.
+const SPECTRUM_DURATION: f64 = 17_150.0;
 
 /// The paper's four examples, in its order.
 ///

@@ -11,7 +11,7 @@ use super::subject::{ACCURACY, Subject};
 use super::table::Table;
 
 /// Values in a series, of which 10 or more are on each wave that matters.
-const SAMPLES: usize = 16_384;
+const SAMPLES: usize = 49_152;
 
 /// The taper: narrow enough to part the lines of tp-II, with sidelobes below 1e-5 of a line.
 pub(super) const WINDOW: Window = Window::Kaiser { shape: 14.0 };
@@ -19,7 +19,10 @@ pub(super) const WINDOW: Window = Window::Kaiser { shape: 14.0 };
 /// Lines weaker than this, relative to the strongest, are not looked for.
 const WEAKEST: f64 = 1e-5;
 
-/// Most lines of a list.
+/// Most lines that are fitted: the errors of all count the strongest one that is left out.
+const MOST_FITTED: usize = 200;
+
+/// Most lines of a table.
 const MOST_LINES: usize = 40;
 
 /// A motion long enough to part its frequencies.
@@ -82,8 +85,9 @@ pub(super) fn spectrum(
     let mut lines = Vec::new();
     if strongest > 0.0 {
         // Lines too near to be told apart leave the list empty: the spectrum shows them all the same.
-        let found = spectral_lines(&series, WEAKEST * strongest, MOST_LINES).map(|list| list.lines).unwrap_or_default();
-        for line in found {
+        let found =
+            spectral_lines(&series, WEAKEST * strongest, MOST_FITTED).map(|list| list.lines).unwrap_or_default();
+        for line in found.into_iter().take(MOST_LINES) {
             let identified = basis.as_ref().map(|basis| basis.identify(line.frequency, line.uncertainty));
             let combination = identified.and_then(|identified| identified.combination().cloned());
             lines.push(NamedLine { frequency: line.frequency, amplitude: line.amplitude, combination });
@@ -117,8 +121,11 @@ pub(super) fn rates(subject: &Subject) -> Result<String, String> {
     };
     let named = [("*α*", f.alpha), ("*γ*", f.gamma), ("*l*", f.slow), ("*ν*", f.nutation)];
     let known = named.iter().filter_map(|(name, rate)| {
-        let value = rate.filter(|rate| rate.uncertainty < 1e-7)?.value;
-        Some(format!("{name} = {}", super::axes::signed(&format!("{value:.6}"))))
+        let rate = (*rate)?;
+        let value = super::axes::signed(&format!("{:.6}", rate.value));
+        // Digits that are not certain are said to be so.
+        let error = if rate.uncertainty < 1e-7 { String::new() } else { format!(" ± {:.0e}", rate.uncertainty) };
+        Some(format!("{name} = {value}{error}"))
     });
     Ok(format!("{}: {}", subject.name, known.collect::<Vec<_>>().join(", ")))
 }
@@ -137,5 +144,5 @@ pub(super) fn highest(subjects: &[&Subject], times: f64) -> f64 {
     (times * fastest * 2.0).ceil() / 2.0
 }
 
-/// Rotation over the length of a series (rad): some 1,400 turns.
-pub(super) const SERIES_ROTATION: f64 = 1400.0 * TAU;
+/// Rotation over the length of a series (rad): 4,000 turns part the lines of tp-II, of which pairs are 0.0024 / t_c apart.
+pub(super) const SERIES_ROTATION: f64 = 4000.0 * TAU;

@@ -73,7 +73,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
                 height,
             };
             let x = Axis::linear("angular frequency × *t*_{c}", 0.0, highest);
-            let y = Axis::linear(&format!("{symbol} *r* / *I*^{{*xx*}}"), 0.0, 1.08 * most);
+            let y = Axis::linear(&format!("amplitude of {symbol}"), 0.0, 1.08 * most);
             let panel = Panel::new(frame, if polarization == 0 { x.bare() } else { x }, y);
             if let Some(free) = subject.free_rates().first() {
                 [*free, 2.0 * free].iter().for_each(|rate| panel.upright(&mut page, *rate, dashed(VERMILION, 0.9)));
@@ -110,7 +110,7 @@ fn inset(page: &mut Page, frame: Rectangle, centre: f64, spectrum: &Spectrum) {
         0 => String::new(),
         power => format!(" [10^{{{}}}]", super::axes::signed(&power.to_string())),
     };
-    page.text([inner.right(), inner.top - 4.0], Anchor::End, SMALL, "#000000", &format!("near 3*α*{power}"));
+    page.text([inner.right(), inner.top - 4.0], Anchor::End, SMALL, "#000000", &format!("near 3 d*α*/d*t*{power}"));
 }
 
 fn caption(subjects: &[&Subject], spectra: &[[Spectrum; 2]]) -> Result<Caption, String> {
@@ -140,12 +140,12 @@ fn caption(subjects: &[&Subject], spectra: &[[Spectrum; 2]]) -> Result<Caption, 
     let says = says.join(", ").replace(". , ", ". ").trim_end().to_owned();
     let says = if says.is_empty() { "The star does not radiate.".to_owned() } else { says };
     Ok(Caption {
-        shows: "Amplitude spectra of *h*_{+} (top) and *h*_{×} (bottom); the insets enlarge what is near three times the mean rate of *α* (dotted). \
+        shows: "Amplitude spectra of *h*_{+} (top) and *h*_{×} (bottom), in units of *G* *I*^{*xx*} / (*c*^{4} *t*_{c}^{2} *r*); the insets enlarge what is near three times the mean rate of *α* (dotted). \
                 Dashed: *α* and 2*α* of free precession, Eq. (48)."
             .to_owned(),
         parameters: parameters(&line_of_sight(subjects, false), subjects),
         method: format!(
-            "Waves by Eqs. (59), (64), (65), (69)-(71); Fourier transform of 16,384 values over {} with Kaiser's window (shape 14); lines by a joint fit, to \
+            "Waves by Eqs. (59), (64), (65), (69)-(71); Fourier transform of 49,152 values over {} with Kaiser's window (shape 14); lines by a joint fit, to \
              10^{{−5}} of the strongest. Mean rates per *t*_{{c}}: {}.",
             spectrum::length_in_words(subjects),
             rates.join("; ")
