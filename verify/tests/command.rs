@@ -47,6 +47,22 @@ fn assert_refused(scene: &Path, fragments: &[&str]) {
 }
 
 #[test]
+fn columns_of_a_scene_need_sections_only_where_they_are_written() {
+    let folder = folder();
+    let text = include_str!("../../tests/data/bad-scenes/product-without-pulsar.toml");
+    let scene = folder.path().join("scene.toml");
+    fs::write(&scene, text).expect("scene");
+    let scene = scene.to_str().expect("path in UTF-8");
+    assert_eq!(twofold(&["run", scene]).status.code(), Some(2));
+    let angles = twofold(&["run", scene, "--columns", "angles"]);
+    assert_eq!(angles.status.code(), Some(0), "{}", stderr(&angles));
+    assert!(angles.stdout.starts_with(b"t [t_c],alpha"));
+    let still = twofold(&["run", scene, "--columns", "m.n"]);
+    assert_eq!(still.status.code(), Some(2));
+    assert!(stderr(&still).contains("`m.n`: the scene lacks"), "{}", stderr(&still));
+}
+
+#[test]
 fn bad_scenes_are_refused_before_anything_is_written() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/bad-scenes");
     let mut count = 0;

@@ -292,6 +292,16 @@ fn folders_without_the_files_are_refused() {
             assert!(stderr(&output).contains(fragment), "expected `{fragment}` in\n{}", stderr(&output));
         }
     }
+    // A pipe that nobody writes to.
+    #[cfg(unix)]
+    {
+        let pipes = folder_of(&[]);
+        let made = Command::new("mkfifo").arg(pipes.path().join("sp1.dat")).status();
+        assert!(made.expect("mkfifo").success());
+        let output = compare(pipes.path(), &[]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("sp1.dat: is not a regular file"), "{}", stderr(&output));
+    }
     let without = Command::new(env!("CARGO_BIN_EXE_twofold")).arg("compare").output().expect("starts");
     assert_eq!(without.status.code(), Some(2));
 }

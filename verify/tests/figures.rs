@@ -77,6 +77,16 @@ fn nothing_is_replaced_unless_asked() {
     assert_eq!(names_in(&made), ["beam-cone.pdf", "beam-cone.svg", "notes.txt"]);
     assert_eq!(fs::read(made.join("beam-cone.svg")).expect("file"), b"mine");
 
+    fs::create_dir(made.join("waves.png")).expect("folder");
+    let not_a_file = figures(folder.path(), &["waves", "--force"]);
+    assert_eq!(not_a_file.status.code(), Some(2));
+    assert!(
+        stderr(&not_a_file).contains("waves.png exists there and is not a regular file"),
+        "{}",
+        stderr(&not_a_file)
+    );
+    assert_eq!(names_in(&made), ["beam-cone.pdf", "beam-cone.svg", "notes.txt", "waves.png"]);
+
     let forced = figures(folder.path(), &["beam-cone", "--force"]);
     assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));
     assert!(fs::read(made.join("beam-cone.svg")).expect("file").starts_with(b"<svg"));
@@ -119,7 +129,11 @@ fn a_scene_has_the_figures_for_which_it_has_sections() {
 
     let named = figures(folder.path(), &["waves", "--scene", "my-star.toml", "--out", "none"]);
     assert_eq!(named.status.code(), Some(2));
-    assert!(stderr(&named).contains("lacks the section [observer]"), "{}", stderr(&named));
+    assert!(
+        stderr(&named).contains("error: my-star.toml: the scene lacks the section [observer]"),
+        "{}",
+        stderr(&named)
+    );
     assert!(!folder.path().join("none").exists());
 }
 

@@ -137,6 +137,17 @@ fn an_amplitude_spectrum_and_lines_without_names_need_no_long_span() {
     let shorter = twofold(&["spectrum", "tp-2", "--of", "m.n", "--span", "50"]);
     assert_eq!(shorter.status.code(), Some(1));
     assert!(stderr(&shorter).contains("turns of n about L") && stderr(&shorter).contains("--unidentified"));
+    let hardly = twofold(&["spectrum", "tp-2", "--of", "m.n", "--span", "1e-9"]);
+    let value =
+        stderr(&hardly).split("turns of n about L = ").nth(1).and_then(|rest| rest.split(':').next()).map(String::from);
+    let digits = value.expect("the number").trim_start_matches(['0', '.']).len();
+    assert!(digits <= 3, "{}", stderr(&hardly));
+
+    let near = twofold(&["spectrum", "tp-2", "--of", "m.n", "--span", "4000", "--most", "20"]);
+    assert!(lines_of(&near).iter().any(|(_, name)| name == "unidentified"));
+    for fragment in ["lines are missing: ", "the uncertainties may be too small", "longer --span"] {
+        assert!(stderr(&near).contains(fragment), "{}", stderr(&near));
+    }
 }
 
 #[test]

@@ -8,9 +8,9 @@ use std::thread;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::output_folder::OutputFolder;
+use super::run::read_scene;
 use super::{Failure, FiguresArgs, note, print};
 use crate::figures::{self, Figure, OF_A_SCENE, RECIPES, Recipe, Subject};
-use crate::scene_file::Scene;
 
 pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
     let known = if args.scene.is_some() { OF_A_SCENE } else { RECIPES };
@@ -22,8 +22,8 @@ pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
         Some(scene) => vec![motion_of(scene)?],
         None => figures::examples().map_err(Failure::Failed)?.into(),
     };
-    if args.scene.is_some() {
-        leave_out_what_is_lacking(&mut chosen, &motions[0], !args.names.is_empty())?;
+    if let Some(scene) = &args.scene {
+        leave_out_what_is_lacking(&mut chosen, scene, &motions[0], !args.names.is_empty())?;
     }
     let would_write = |file: &str| chosen.iter().any(|recipe| is_file_of(file, recipe.name));
     let folder = OutputFolder::at(&args.out, args.force, would_write)?;
@@ -35,19 +35,25 @@ pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
 
 /// The motion of a built-in scene or of a scene file.
 fn motion_of(scene: &str) -> Result<Subject, Failure> {
-    let read = Scene::named(scene).map_err(|error| Failure::BadInput(error.to_string()))?;
+    let read = read_scene(scene)?;
     let name = Path::new(scene).file_stem().map_or_else(|| scene.into(), |stem| stem.to_string_lossy());
     Subject::of_scene(&name, &read).map_err(Failure::Failed)
 }
 
 /// Leaves out the figures for which the scene lacks a section; one that was asked for by name is refused.
-fn leave_out_what_is_lacking(chosen: &mut Vec<Recipe>, motion: &Subject, named: bool) -> Result<(), Failure> {
+fn leave_out_what_is_lacking(
+    chosen: &mut Vec<Recipe>,
+    scene: &str,
+    motion: &Subject,
+    named: bool,
+) -> Result<(), Failure> {
     for recipe in chosen.iter() {
         if let Some(section) = recipe.lacks(motion) {
             let name = recipe.name;
             if named {
-                let message =
-                    format!("the scene lacks the section [{section}], without which there is no figure `{name}`");
+                let message = format!(
+                    "{scene}: the scene lacks the section [{section}], without which there is no figure `{name}`"
+                );
                 return Err(Failure::BadInput(message));
             }
             note(&format!("no figure `{name}`: the scene lacks the section [{section}]"));

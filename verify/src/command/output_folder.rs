@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use tempfile::TempDir;
+use tempfile::{TempDir, TempPath};
 
 use super::Failure;
 use super::output_file::on_interrupt;
@@ -14,13 +14,14 @@ pub(super) struct OutputFolder {
     path: PathBuf,
     /// Whether the folder was made for this output.
     new: bool,
+    replace: bool,
     /// Where files are until all of them are complete: inside the folder, so that they can be moved at once.
     temporary: Option<TempDir>,
 }
 
 impl OutputFolder {
     /// The folder `path`, made if it is not there. Refused if a file of a name that `would_write` is in it, unless
-    /// files may be replaced.
+    /// files may be replaced; what is not a file never is.
     pub(super) fn at(path: &Path, replace: bool, would_write: impl Fn(&str) -> bool) -> Result<Self, Failure> {
         let refuse = |why: String| Failure::BadInput(format!("--out {}: {why}", path.display()));
         let new = !path.exists();
@@ -32,19 +33,22 @@ impl OutputFolder {
         } else if !path.is_dir() {
             return Err(refuse("exists and is not a folder".into()));
         }
-        let mut folder = Self { path: path.to_owned(), new, temporary: None };
-        if !replace {
-            let entries = fs::read_dir(path).map_err(|error| refuse(format!("cannot be read: {error}")))?;
-            let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-            let mut found: Vec<_> = names.filter(|name| would_write(name)).collect();
-            found.sort();
-            match &found[..] {
-                [] => {}
-                [only] => return Err(refuse(format!("{only} exists there; --force replaces it"))),
-                [first, more @ ..] => {
-                    let count = more.len();
-                    return Err(refuse(format!("{first} and {count} more exist there; --force replaces them")));
-                }
+        let mut folder = Self { path: path.to_owned(), new, replace, temporary: None };
+        let entries = fs::read_dir(path).map_err(|error| refuse(format!("cannot be read: {error}")))?;
+        let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        let mut found: Vec<_> = names.filter(|name| would_write(name)).collect();
+        found.sort();
+        if let Some(name) = found.iter().find(|name| fs::metadata(path.join(name)).is_ok_and(|found| !found.is_file()))
+        {
+            return Err(refuse(format!("{name} exists there and is not a regular file")));
+        }
+        match &found[..] {
+            _ if replace => {}
+            [] => {}
+            [only] => return Err(refuse(format!("{only} exists there; --force replaces it"))),
+            [first, more @ ..] => {
+                let count = more.len();
+                return Err(refuse(format!("{first} and {count} more exist there; --force replaces them")));
             }
         }
         let temporary = tempfile::Builder::new().prefix(".figures.").suffix(".part").tempdir_in(path);
@@ -70,14 +74,18 @@ impl OutputFolder {
             .map_err(|error| cannot_be_written(&self.path.join(name), &error))
     }
 
-    /// Gives the files their names; says how many there are.
+    /// Gives the files their names; says how many there are. If one cannot have its name, those named before it keep
+    /// theirs; without leave to replace, none takes the name of a file that has appeared since.
     pub(super) fn complete(mut self) -> Result<usize, Failure> {
         let Some(temporary) = self.temporary.take() else { return Ok(0) };
         let mut count = 0;
         for entry in fs::read_dir(temporary.path()).map_err(|error| cannot_be_written(&self.path, &error))? {
             let entry = entry.map_err(|error| cannot_be_written(&self.path, &error))?;
             let target = self.path.join(entry.file_name());
-            fs::rename(entry.path(), &target).map_err(|error| cannot_be_written(&target, &error))?;
+            let complete =
+                TempPath::try_from_path(entry.path()).map_err(|error| cannot_be_written(&self.path, &error))?;
+            let named = if self.replace { complete.persist(&target) } else { complete.persist_noclobber(&target) };
+            named.map_err(|error| cannot_be_written(&target, &error.error))?;
             count += 1;
         }
         Ok(count)
@@ -96,4 +104,45 @@ impl Drop for OutputFolder {
 
 fn cannot_be_written(path: &Path, error: &io::Error) -> Failure {
     Failure::Failed(format!("{} cannot be written: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::{Failure, OutputFolder};
+
+    /// What a file that appears while the folder is filled holds afterwards, and the failure.
+    fn meanwhile(replace: bool) -> (String, Option<String>) {
+        let parent = tempfile::tempdir().expect("folder");
+        let folder = OutputFolder::at(parent.path(), replace, |name| name == "page").ok().expect("empty folder");
+        assert!(folder.write("page", b"ours").is_ok());
+        fs::write(parent.path().join("page"), "theirs").expect("file");
+        let failure = match folder.complete() {
+            Err(Failure::Failed(why)) => Some(why),
+            _ => None,
+        };
+        let names: Vec<_> = fs::read_dir(parent.path()).expect("folder").collect();
+        assert_eq!(names.len(), 1, "{names:?}");
+        (fs::read_to_string(parent.path().join("page")).expect("text"), failure)
+    }
+
+    #[test]
+    fn a_file_that_appears_meanwhile_is_replaced_only_with_leave() {
+        let (text, failure) = meanwhile(false);
+        assert_eq!(text, "theirs");
+        assert!(failure.is_some_and(|why| why.contains("page cannot be written")));
+        assert_eq!(meanwhile(true), ("ours".to_owned(), None));
+    }
+
+    #[test]
+    fn what_is_not_a_file_is_refused_with_and_without_leave() {
+        let parent = tempfile::tempdir().expect("folder");
+        fs::create_dir(parent.path().join("page")).expect("folder");
+        for replace in [false, true] {
+            let refused = OutputFolder::at(parent.path(), replace, |name| name == "page").err();
+            assert!(matches!(refused, Some(Failure::BadInput(why)) if why.contains("page exists there and is not a")));
+        }
+        assert_eq!(fs::read_dir(parent.path()).expect("folder").count(), 1);
+    }
 }

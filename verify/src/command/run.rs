@@ -9,7 +9,10 @@ use crate::scene_file::Scene;
 use crate::trajectory::{self, Summary, TrajectoryError};
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
-    let mut scene = read_scene(&args.scene)?;
+    let mut scene = match args.columns {
+        None => Scene::named(&args.scene).map_err(|error| Failure::BadInput(error.to_string()))?,
+        Some(_) => read_scene(&args.scene)?,
+    };
     if let Some(columns) = &args.columns {
         let names: Vec<_> = columns.iter().map(|name| name.trim()).collect();
         scene
@@ -25,8 +28,9 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     Ok(())
 }
 
+/// A scene of which the columns that it names are not used.
 pub(super) fn read_scene(name: &str) -> Result<Scene, Failure> {
-    Scene::named(name).map_err(|error| Failure::BadInput(error.to_string()))
+    Scene::named_without_columns(name).map_err(|error| Failure::BadInput(error.to_string()))
 }
 
 /// Lets `table` write to the file that the arguments name, or to standard output. Nothing if a reader has gone away.

@@ -1,10 +1,12 @@
 //! `twofold spectrum`.
 
+use twofold::Error;
+
 use super::run::{read_scene, write};
 use super::{Failure, SpectrumArgs, SpectrumTable, note};
 use crate::columns::Column;
 use crate::scene_file::{Scene, Times};
-use crate::trajectory::{LinesSummary, LinesWanted, Sampling};
+use crate::trajectory::{LinesSummary, LinesWanted, Sampling, TrajectoryError};
 
 pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
     let mut scene = read_scene(&args.scene)?;
@@ -28,7 +30,7 @@ pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
         let sampling = Sampling::of(&scene, &column)?;
         note_sampling(&scene, &column, &sampling);
         match args.table {
-            SpectrumTable::Lines => sampling.write_lines(&scene, &column, &wanted, writer).map(Some),
+            SpectrumTable::Lines => sampling.write_lines(&scene, &column, &wanted, writer).map(Some).map_err(rounded),
             SpectrumTable::Spectrum => sampling.write_spectrum(&scene, &column, writer).map(|()| None),
         }
     })?;
@@ -36,6 +38,17 @@ pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
         note_lines(&scene, &column, &summary);
     }
     Ok(())
+}
+
+/// The error with the number in it as a reader wants it: three digits of the span that is too short.
+fn rounded(error: TrajectoryError) -> TrajectoryError {
+    match error {
+        TrajectoryError::NoFrequencies(Error::Domain { quantity, value, allowed }) => {
+            let value = format!("{value:.2e}").parse().unwrap_or(value);
+            TrajectoryError::NoFrequencies(Error::Domain { quantity, value, allowed })
+        }
+        error => error,
+    }
 }
 
 fn note_sampling(scene: &Scene, column: &Column, sampling: &Sampling) {
@@ -65,7 +78,8 @@ fn note_lines(scene: &Scene, column: &Column, summary: &LinesSummary) {
     }
     if summary.remainder >= summary.least {
         note(&format!(
-            "lines are missing: an amplitude of {:.1e}{unit} is left; see --most, and a longer span separates near lines",
+            "lines are missing: an amplitude of {:.1e}{unit} is left, and the uncertainties may be too small; a \
+             longer --span separates near lines, a larger --most lists more",
             summary.remainder
         ));
     }

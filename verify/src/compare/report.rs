@@ -81,7 +81,8 @@ pub fn text(comparison: &Comparison) -> String {
     let count = |verdict| all.clone().filter(|column| column.verdict == verdict).count();
     let (agree, differ, open) = (count(Verdict::Agrees), count(Verdict::Differs), count(Verdict::NotJudged));
     let differ = if differ == 0 { "none differs".to_owned() } else { format!("{differ} DIFFER") };
-    let _ = write!(text, "{agree} columns agree, {differ}, {open} not judged");
+    let agreeing = if agree == 1 { "column agrees" } else { "columns agree" };
+    let _ = write!(text, "{agree} {agreeing}, {differ}, {open} not judged");
     text
 }
 

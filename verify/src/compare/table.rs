@@ -1,7 +1,7 @@
 //! Reading a file of the authors: numbers in columns, separated by tabs or spaces, without a header.
 
 use std::fmt;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 
@@ -62,6 +62,10 @@ pub(super) fn read(path: &Path, known: &KnownFile) -> Result<Table, FileFault> {
     let refuse = |message: String| FileFault::of_file(&name, message);
     if path.is_dir() {
         return Err(refuse("is a directory, not a file of numbers".into()));
+    }
+    // A pipe or a device: opening it may wait for ever.
+    if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        return Err(refuse("is not a regular file".into()));
     }
     let file = File::open(path).map_err(|error| refuse(format!("cannot be opened: {error}")))?;
     let mut bytes = Vec::new();

@@ -74,9 +74,24 @@ impl Scene {
     /// # Errors
     /// A file that cannot be read, and everything that [`Scene::from_toml`] refuses.
     pub fn named(name_or_path: &str) -> Result<Self, SceneError> {
+        Self::named_with(name_or_path, true)
+    }
+
+    /// As [`Scene::named`], for one who does not use the columns of the file: they are those of the motion, and the file may
+    /// name groups without what these need.
+    ///
+    /// # Errors
+    /// Those of [`Scene::named`], but for the needs of columns.
+    pub fn named_without_columns(name_or_path: &str) -> Result<Self, SceneError> {
+        Self::named_with(name_or_path, false)
+    }
+
+    fn named_with(name_or_path: &str, use_columns: bool) -> Result<Self, SceneError> {
+        let read =
+            |file: &str, text: &str| SCENE.parse(file, text, |document| Self::from_document(document, use_columns));
         match BUILT_IN.iter().find(|scene| scene.name == name_or_path) {
-            Some(built_in) => Self::from_toml(built_in.name, built_in.toml),
-            None => Self::from_toml(name_or_path, &SCENE.read(name_or_path)?),
+            Some(built_in) => read(built_in.name, built_in.toml),
+            None => read(name_or_path, &SCENE.read(name_or_path)?),
         }
     }
 
@@ -86,10 +101,10 @@ impl Scene {
     /// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or exclude one another, and for
     /// values of a wrong type or out of range.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SceneError> {
-        SCENE.parse(file, text, Self::from_document)
+        SCENE.parse(file, text, |document| Self::from_document(document, true))
     }
 
-    fn from_document(document: &Section<'_>) -> Result<Self, Fault> {
+    fn from_document(document: &Section<'_>, use_columns: bool) -> Result<Self, Fault> {
         document.only(&["about", "star", "lorentz_violation", "initial", "observer", "pulsar", "time", "output"])?;
         let about = document.optional("about").map(|entry| entry.string()).transpose()?.unwrap_or("").to_owned();
         let star_section = document.required_section("star", "the spheroid and its spin")?;
@@ -118,7 +133,7 @@ impl Scene {
             units: star.units,
         };
         if let Some(output) = &output {
-            output::read(output, &mut scene)?;
+            output::read(output, &mut scene, use_columns)?;
         }
         let rotation = scene.rotation();
         if rotation <= LARGEST_ROTATION {

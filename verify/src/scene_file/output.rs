@@ -7,8 +7,9 @@ use crate::columns::{self, ColumnGroup};
 
 pub(super) const DEFAULT_ACCURACY: f64 = 1e-13;
 
-/// Reads columns and accuracy into a scene that is complete otherwise.
-pub(super) fn read(section: &Section<'_>, scene: &mut Scene) -> Result<(), Fault> {
+/// Reads columns and accuracy into a scene that is complete otherwise. Columns that are not `used` need nothing of the
+/// scene, which keeps those it has.
+pub(super) fn read(section: &Section<'_>, scene: &mut Scene, used: bool) -> Result<(), Fault> {
     section.only(&["columns", "accuracy"])?;
     if let Some(entry) = section.optional("accuracy") {
         scene.accuracy = entry.number_where("a number from 1e-14 to 1e-2", |x| (1e-14..=1e-2).contains(&x))?;
@@ -27,10 +28,14 @@ pub(super) fn read(section: &Section<'_>, scene: &mut Scene) -> Result<(), Fault
         if wanted.contains(&group) {
             return Err(entry.refuse(&allowed));
         }
-        group.available_in(scene).map_err(|why| entry.refuse_because(&why))?;
+        if used {
+            group.available_in(scene).map_err(|why| entry.refuse_because(&why))?;
+        }
         wanted.push(group);
     }
-    scene.columns = columns::in_order(&wanted);
+    if used {
+        scene.columns = columns::in_order(&wanted);
+    }
     Ok(())
 }
 
