@@ -147,7 +147,7 @@ struct SpectrumArgs {
     /// Least amplitude of a line, as a part of the largest one
     #[arg(long, value_name = "RATIO", default_value = "1e-6")]
     least: f64,
-    /// Most lines
+    /// Most lines that are written, the strongest first
     #[arg(long, value_name = "NUMBER", default_value = "50", value_parser = clap::value_parser!(u8).range(1..=200))]
     most: u8,
     /// Do not name the lines, which asks for a longer span than to find them

@@ -76,10 +76,13 @@ fn note_lines(scene: &Scene, column: &Column, summary: &LinesSummary) {
     if summary.lines == 0 {
         note(&format!("{name} has no line of an amplitude above {:.1e}{unit}", summary.least));
     }
+    if summary.found > summary.lines {
+        note(&format!("{} lines were found; --most writes more of them", summary.found));
+    }
     if summary.remainder >= summary.least {
         note(&format!(
-            "lines are missing: an amplitude of {:.1e}{unit} is left, and the uncertainties may be too small; a \
-             longer --span separates near lines, a larger --most lists more",
+            "lines are missing: an amplitude of {:.1e}{unit} is left, which the uncertainties count; a longer --span \
+             separates near lines",
             summary.remainder
         ));
     }

@@ -29,12 +29,15 @@ pub struct Sampling {
     series: Series,
 }
 
+/// Most lines that are fitted, however few are written: the error of each counts the strongest one that is left out.
+const MOST_FITTED: usize = 200;
+
 /// What is asked of a list of lines.
 #[derive(Debug, Clone, Copy)]
 pub struct LinesWanted {
     /// Least amplitude as a part of the largest one.
     pub least: f64,
-    /// Most lines.
+    /// Most lines that are written.
     pub most: usize,
     /// Whether lines are to be named by the fundamental frequencies of the motion.
     pub identified: bool,
@@ -47,6 +50,8 @@ pub struct LinesSummary {
     pub constant: f64,
     /// Lines written.
     pub lines: usize,
+    /// Lines found.
+    pub found: usize,
     /// Lines among them in the upper fifth of the frequencies, where there may be others folded back from above.
     pub near_highest: usize,
     /// Least amplitude that was looked for: the one wanted, or the error of the motion if that is more.
@@ -133,7 +138,9 @@ impl Sampling {
         writer: impl Write,
     ) -> Result<LinesSummary, TrajectoryError> {
         let basis = wanted.identified.then(|| self.basis()).transpose()?;
-        let (least, list) = self.lines(scene, wanted)?;
+        let (least, mut list) = self.lines(scene, wanted)?;
+        let found = list.lines.len();
+        list.lines.truncate(wanted.most);
         let unit = scene.units.time;
         let mut table = csv::Writer::from_writer(writer);
         table.write_record([
@@ -158,6 +165,7 @@ impl Sampling {
         Ok(LinesSummary {
             constant: list.constant,
             lines: list.lines.len(),
+            found,
             near_highest: list.lines.iter().filter(|line| line.frequency > high).count(),
             least,
             remainder: list.remainder,
@@ -177,7 +185,7 @@ impl Sampling {
         // What is below the error of the motion is no line of it; nor may the least amplitude be zero.
         let error = (size * scene.accuracy).max(f64::MIN_POSITIVE);
         let least = error.max(strongest * wanted.least);
-        let lines = spectral_lines(&self.series, least, wanted.most);
+        let lines = spectral_lines(&self.series, least, MOST_FITTED);
         Ok((least, lines.map_err(TrajectoryError::NoLines)?))
     }
 
