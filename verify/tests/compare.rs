@@ -173,10 +173,14 @@ fn a_difference_beyond_the_files_own_error_fails() {
             compare(with_change(file, |text| with_line(text, line, shifted(column, by.signum() * within))).path(), &[]);
         assert_eq!(output.status.code(), Some(0), "{file} {named}\n{}", stdout(&output));
     }
+    let (_, series) = files().iter().find(|(name, _)| *name == "mntp1_pset.dat").expect("file");
+    let alone = folder_of(&[("mntp1_pset.dat", &with_line(series, 40, shifted(1, 2e-4)))]);
+    let text = stdout(&compare(alone.path(), &[]));
+    assert!(text.contains("\n1 column agrees, 1 DIFFERS, "), "{text}");
     // A pulse of another star.
     let output = compare(with_change("mntp1_widset.dat", |text| with_line(text, 40, shifted(0, 1.7))).path(), &[]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stdout(&output).contains("1 rows of the file have nothing of ours within 1 t_c"), "{}", stdout(&output));
+    assert!(stdout(&output).contains("1 row of the file has nothing of ours within 1 t_c"), "{}", stdout(&output));
 }
 
 #[test]

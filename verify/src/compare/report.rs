@@ -80,7 +80,11 @@ pub fn text(comparison: &Comparison) -> String {
     let all = comparison.files.iter().flat_map(|file| &file.columns);
     let count = |verdict| all.clone().filter(|column| column.verdict == verdict).count();
     let (agree, differ, open) = (count(Verdict::Agrees), count(Verdict::Differs), count(Verdict::NotJudged));
-    let differ = if differ == 0 { "none differs".to_owned() } else { format!("{differ} DIFFER") };
+    let differ = match differ {
+        0 => "none differs".to_owned(),
+        1 => "1 DIFFERS".to_owned(),
+        _ => format!("{differ} DIFFER"),
+    };
     let agreeing = if agree == 1 { "column agrees" } else { "columns agree" };
     let _ = write!(text, "{agree} {agreeing}, {differ}, {open} not judged");
     text

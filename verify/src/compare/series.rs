@@ -49,7 +49,8 @@ pub(super) fn by_stamps(
         }
         let mut notes = Vec::new();
         if alone > 0 {
-            notes.push(format!("{alone} rows of the file have nothing of ours within {SAME_PULSE} t_c"));
+            let rows = if alone == 1 { "row of the file has" } else { "rows of the file have" };
+            notes.push(format!("{alone} {rows} nothing of ours within {SAME_PULSE} t_c"));
         }
         let (first, last) = (table.rows[0][0], table.last_time());
         let in_file = |stamped: &Stamped| pairs.iter().any(|(_, ours)| *ours == stamped);
