@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use twofold::observables::pulsar::{Stamped, pulse_train};
+use twofold::observables::pulsar::Stamped;
 use twofold::observables::spectrum::Window;
 
 use super::signals::{Example, beam, examples, line_of_sight};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::pulse_series::PulseSeries;
 
 pub(super) fn checks() -> Vec<Check> {
     vec![
@@ -41,7 +42,7 @@ fn message(e: twofold::Error) -> String {
 fn period_of_gamma() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for example in examples()? {
-        for (name, values) in pulse_series(example)? {
+        for (name, values) in series(example)? {
             let spectrum = StampedSpectrum::of(&values)?;
             let power = |w: f64| (1..=4).map(|k| spectrum.amplitude(w * f64::from(k)).powi(2)).sum::<f64>();
             let w = highest(0.1..0.2, power)?;
@@ -61,7 +62,7 @@ fn period_of_slow_precession() -> Result<Measured, String> {
     let example = &examples()?[1];
     let slow = example.frequencies.slow.ok_or("no slow precession")?.value;
     let (mut differences, mut details) = (Vec::new(), Vec::new());
-    for (name, values) in pulse_series(example)? {
+    for (name, values) in series(example)? {
         let spectrum = StampedSpectrum::of(&values)?;
         let w = highest(0.025..0.045, |w| spectrum.amplitude(w))?;
         let strongest = spectrum.amplitude(highest(0.01..0.7, |w| spectrum.amplitude(w))?);
@@ -80,9 +81,11 @@ fn highest(range: std::ops::Range<f64>, function: impl Fn(f64) -> f64) -> Result
     points.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(w, _)| w).ok_or_else(|| "no frequency".into())
 }
 
-fn pulse_series(example: &Example) -> Result<[(&'static str, Vec<Stamped>); 2], String> {
-    let train = pulse_train(&example.motion, &beam(), &line_of_sight(), (0.0, SERIES)).map_err(message)?;
-    Ok([("periods", train.periods().collect()), ("widths", train.durations().collect())])
+/// The series of an example, without intervals over turns that have no pulse.
+fn series(example: &Example) -> Result<[(&'static str, Vec<Stamped>); 2], String> {
+    let PulseSeries { periods, lengths, .. } =
+        crate::pulse_series::pulse_series(&example.motion, &beam(), &line_of_sight(), (0.0, SERIES)).map_err(message)?;
+    Ok([("periods", periods), ("widths", lengths)])
 }
 
 /// Distance of two frequencies of a scan [1/t_c]: a quarter of the resolution of the series.
