@@ -38,9 +38,9 @@ pub(crate) fn pulse_series(
     let of_one_turn = |pulse: &Pulse| pulse.duration() < mean_turn;
     // Only the first and the last pulse may be cut: the whole ones, which have numbers, are neighbours.
     let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).zip(&numbers).collect();
-    let single = whole.windows(2).map(|pair| {
-        pair[1].1.number - pair[0].1.number == 1 && pair.iter().all(|(pulse, _)| of_one_turn(pulse))
-    });
+    let single = whole
+        .windows(2)
+        .map(|pair| pair[1].1.number - pair[0].1.number == 1 && pair.iter().all(|(pulse, _)| of_one_turn(pulse)));
     let intervals: Vec<_> = train.periods().zip(single).collect();
     let chosen = |wanted: bool| {
         let chosen = intervals.iter().filter(|(_, single)| *single == wanted);

@@ -107,7 +107,9 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
         let shown = subject.shown.pulses;
         let x = Axis::linear("*t* / *t*_{c}", shown.min(0.0), shown.max(0.0));
         for (row, (points, label)) in
-            [(&series.pulses.periods, "period / *t*_{c}"), (&series.pulses.lengths, "pulse length / *t*_{c}")].into_iter().enumerate()
+            [(&series.pulses.periods, "period / *t*_{c}"), (&series.pulses.lengths, "pulse length / *t*_{c}")]
+                .into_iter()
+                .enumerate()
         {
             let frame = Rectangle {
                 left: left + (width + between) * i as f64,
