@@ -193,8 +193,8 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
     }
     Caption {
         shows: "Periods (top) and lengths in time (bottom) of the pulses: the period is the time between the midpoints of two \
-                consecutive pulses, at the mean of both midpoints, the length is at its midpoint. Intervals between pulses that are not of \
-                consecutive turns of the star, most of them over a turn without a pulse, are no periods and are left out. Where there are no \
+                consecutive pulses, at the mean of both midpoints, the length is at its midpoint. Intervals that are not from one turn of the star to the next, because a turn has no pulse or a pulse lasts for more than a turn, are \
+                left out. Where there are no \
                 curves, thin grey lines join points, broken where an interval is left out."
             .to_owned(),
         parameters: parameters(&line_of_sight(subjects, true), subjects),
