@@ -17,8 +17,8 @@ use crate::pulse_series::{PaperCurves, PulseSeries, Viewing, pulse_series};
 /// The curves with the names that the legend and the data give their angles and rates.
 const CURVES: [(Line, &str); 3] = [
     (solid(BLUE, 1.0), "at the instant"),
-    (dotted(GREEN, 1.2), "mean rates"),
-    (dashed(VERMILION, 1.0), "rates by (57)"),
+    (dotted(GREEN, 1.2), "with mean rates"),
+    (dashed(VERMILION, 1.0), "with rates (57)"),
 ];
 
 /// Curves are drawn for an amplitude A below this part of omega.
@@ -150,7 +150,7 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
     if with_legend {
         let y = top + 2.0 * panel_height + gap + BELOW + 8.0;
         legend(&mut page, [left, y], &[(Sample::Mark(Mark::Disc, BLACK), "pulses")]);
-        for ((line, of), x) in CURVES.iter().zip([66.0, 206.0, 300.0]) {
+        for ((line, of), x) in CURVES.iter().zip([66.0, 210.0, 316.0]) {
             let name = if x < 70.0 { format!("Eqs. (51), (56) {of}") } else { (*of).to_owned() };
             legend(&mut page, [left + x, y], &[(Sample::Line(*line), &name)]);
         }
