@@ -179,8 +179,8 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
     let mut says: Vec<_> = ranges.collect();
     if series.iter().any(|series| series.curves.is_some()) {
         says.push(
-            "The formulas follow the series with the angles and rates at the instant, and less closely with constant ones; with the rates of \
-             Eq. (57), which are of first order, they drift out of step."
+            "The formulas follow the series, with angles and rates at the instant as with mean ones; with the rates of Eq. (57), which are of \
+             first order, they drift out of step."
                 .to_owned(),
         );
     }
