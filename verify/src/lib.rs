@@ -21,6 +21,7 @@ pub mod paper_examples;
 pub mod physical_domain;
 pub mod prime_field;
 pub mod pulsar_table;
+pub(crate) mod pulse_series;
 pub mod random;
 pub mod reference;
 pub mod report;

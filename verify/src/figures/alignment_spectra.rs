@@ -56,7 +56,9 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -
         for line in spectrum.lines.iter().filter(|line| line.amplitude > NAMED && line.frequency < highest) {
             let [x, y] = panel.at(line.frequency, line.amplitude);
             if let Some(name) = line.name().filter(|_| taken.iter().all(|other| (x - other).abs() > 8.4)) {
-                page.turned_text([x + 2.5, y - 3.0], -90.0, Anchor::Start, 7.0, BLACK, &name);
+                // Clear of the ticks at the left.
+                let baseline = (x + 2.5).max(frame.left + 10.5);
+                page.turned_text([baseline, y - 3.0], -90.0, Anchor::Start, 7.0, BLACK, &name);
                 taken.push(x);
             }
         }
@@ -78,8 +80,8 @@ fn caption(subjects: &[&Subject], spectra: &[Spectrum]) -> Result<Caption, Strin
                  at which its angular momentum goes round *Z*; tp-I has it too, but 600 times weaker than its strongest line.";
     }
     Ok(Caption {
-        shows: "Amplitude spectra of **m** · **n**. Names over the lines are combinations of the mean rates *α*, *γ* and *l* of precession angle, \
-                rotation angle and slow precession (*ν*: nutation). Dashed: *α* and |*γ*| of free precession, Eq. (48)."
+        shows: "Amplitude spectra of **m** · **n**. Names over the lines are combinations of mean rates; *α*, *γ* and *l* in them stand for the mean \
+                rates of change of precession angle, rotation angle and slow precession (*ν*: nutation). Dashed: *α* and |*γ*| of free precession, Eq. (48)."
             .to_owned(),
         parameters: parameters(&line_of_sight(subjects, true), subjects),
         method: format!(

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use twofold::euler_angles::{EulerAngles, body_from_inertial};
 
+use super::markup::plain;
 use super::sphere::{View, arc};
 use super::style::{BLACK, BLUE, COLUMN, GREY, LIGHT, Line, VERMILION, dashed, solid};
 use super::svg::Page;
@@ -88,10 +89,11 @@ fn draw(name: &str, axes: [&str; 3], nodes: [&str; 2], body: &[Vector3<f64>; 3],
 
 fn caption(axes: [&str; 3], nodes: [&str; 2], frame: &str) -> Caption {
     let [first, second, third] = axes;
-    let [from, to] = nodes;
+    // One stretch of italics: two side by side would be the mark of bold.
+    let line = format!("*{}*", nodes.map(plain).concat());
     Caption {
         shows: format!(
-            "Euler angles *α*, *β* and *γ* between the inertial frame {frame} (black) and the body frame *x*-*y*-*z* (blue). The line {from}{to} \
+            "Euler angles *α*, *β* and *γ* between the inertial frame {frame} (black) and the body frame *x*-*y*-*z* (blue). The line {line} \
              is the intersection of the planes {first}-{second} and *x*-*y*, drawn as circles, dashed where they are behind."
         ),
         parameters: format!("Drawn for *α* = {}, *β* = {}, *γ* = {} rad.", ANGLES.alpha, ANGLES.beta, ANGLES.gamma),

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use resvg::usvg::{Group, Node};
 
 use super::style::CENTIMETRE;
-use super::{Figure, OF_A_SCENE, Subject, all, png};
+use super::{Figure, OF_A_SCENE, Subject, all, html, markup, png};
 use crate::scene_file::Scene;
 
 /// Points in a CSS pixel, the unit of a resolved SVG.
@@ -106,5 +106,24 @@ fn data_are_numbers_in_columns_with_units() {
             }
         }
         assert!(figure.caption.paragraphs().iter().all(|part| part.ends_with('.')), "{}", figure.name);
+    }
+}
+
+#[test]
+fn captions_close_their_marks() {
+    for figure in FIGURES.iter() {
+        for paragraph in figure.caption.paragraphs() {
+            assert!(markup::is_balanced(paragraph), "{}: {paragraph}", figure.name);
+            let html = html(paragraph);
+            for tag in ["i", "b", "sub", "sup"] {
+                let count = |mark: String| html.matches(&mark).count();
+                assert_eq!(count(format!("<{tag}>")), count(format!("</{tag}>")), "{}: {html}", figure.name);
+            }
+            // Long stretches of bold or italics are a mark that was read as another.
+            let longest = markup::runs(paragraph).into_iter().filter(|run| run.bold || run.italic);
+            for run in longest {
+                assert!(run.text.chars().count() < 8, "{}: `{}`", figure.name, run.text);
+            }
+        }
     }
 }

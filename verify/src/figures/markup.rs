@@ -102,6 +102,15 @@ pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
+/// What is still open at the end of a text: a caption must close its italics, bold letters and indices.
+#[cfg(test)]
+pub(super) fn is_balanced(text: &str) -> bool {
+    // A visible last letter shows the style that the text ends in.
+    let ended = format!("{text}.");
+    let last_is_plain = runs(&ended).last().is_some_and(|run| !run.italic && !run.bold && run.level == Level::Line);
+    last_is_plain && runs(text).iter().all(|run| !run.text.contains(['*', '_', '^']))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,5 +122,13 @@ mod tests {
         assert_eq!(html(text), "<i>a</i><sup>(1)</sup> &lt; <i>t</i><sub>c</sub><sup>-1</sup>, <b>m</b>·<b>n</b>");
         assert_eq!(markdown(text), "*a*<sup>(1)</sup> < *t*<sub>c</sub><sup>-1</sup>, **m**·**n**");
         assert_eq!(plain("a } b { c"), "a } b { c");
+    }
+
+    #[test]
+    fn open_marks_are_seen() {
+        assert!(is_balanced("*a*_{*b*}, **c**"));
+        for open in ["line *M**N* is", "*a", "**a", "a_{b"] {
+            assert!(!is_balanced(open), "{open}");
+        }
     }
 }

@@ -1,38 +1,52 @@
 //! The series of pulse periods and of pulse lengths, with the curves of Eqs. (51) and (56).
 
-use twofold::observables::pulsar::direction::cosine_of_colatitude;
-use twofold::observables::pulsar::period::{approximate_period, azimuth_offset_rate};
-use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
-use twofold::observables::pulsar::{PulseTrain, Stamped, pulse_train};
+use twofold::observables::pulsar::Stamped;
+use twofold::observables::pulsar::period::approximate_period;
 use twofold::solutions::perturbation::{Perturbation, ShiftedRates};
 
 use super::axes::{Axis, BELOW, Mark, Panel};
 use super::legend::{Sample, legend};
 use super::parameters::{line_of_sight, parameters};
-use super::style::{BLACK, BLUE, GREY, Line, PAGE, SMALL, VERMILION, dashed, solid};
+use super::style::{BLACK, BLUE, GREEN, GREY, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
 use super::subject::times;
 use super::svg::{Anchor, Page, Rectangle};
 use super::table::Table;
 use super::{Caption, Sheet, Subject};
+use crate::pulse_series::{PaperCurves, PulseSeries, Viewing, pulse_series};
 
-const MEAN_RATES: Line = solid(BLUE, 1.0);
-const SHIFTED_RATES: Line = dashed(VERMILION, 1.0);
+/// The curves with the names that the legend and the data give their angles and rates.
+const CURVES: [(Line, &str); 3] = [
+    (solid(BLUE, 1.0), "at the instant"),
+    (dotted(GREEN, 1.2), "with mean rates"),
+    (dashed(VERMILION, 1.0), "with rates (57)"),
+];
 
 /// Curves are drawn for an amplitude A below this part of omega.
 const MOST_SWING: f64 = 0.1;
 
 /// Series of one motion, and curves where Eqs. (51), (56) are meant to hold.
 struct Series {
-    periods: Vec<Stamped>,
-    lengths: Vec<Stamped>,
+    pulses: PulseSeries,
     curves: Option<Table>,
+}
+
+impl Series {
+    /// The stretches of a series between gaps.
+    fn stretches<'a>(&'a self, points: &'a [Stamped]) -> impl Iterator<Item = &'a [Stamped]> {
+        let gap_between = |a: f64, b: f64| self.pulses.gaps.iter().any(|gap| a < gap.time && gap.time < b);
+        points.chunk_by(move |a, b| !gap_between(a.time, b.time))
+    }
 }
 
 pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
     let series = subjects.iter().map(|subject| series(subject)).collect::<Result<Vec<_>, _>>()?;
     let mut tables = Vec::new();
     for (subject, series) in subjects.iter().zip(&series) {
-        for (what, points) in [("period", &series.periods), ("length", &series.lengths)] {
+        let pulses = &series.pulses;
+        for (what, points) in [("period", &pulses.periods), ("gap", &pulses.gaps), ("length", &pulses.lengths)] {
+            if what == "gap" && points.is_empty() {
+                continue;
+            }
             let mut table = Table::new(format!("{}-{what}s", subject.name), ["t [t_c]", &format!("{what} [t_c]")]);
             points.iter().for_each(|point| table.push([point.time, point.value]));
             tables.push(table);
@@ -46,39 +60,36 @@ fn series(subject: &Subject) -> Result<Series, String> {
     let message = |error: twofold::Error| format!("{}: {error}", subject.name);
     let (viewer, pulsar) = subject.line_of_sight()?;
     let span = (0.0, subject.shown.pulses);
-    let train: PulseTrain =
-        pulse_train(&subject.motion, &pulsar.beam(), &viewer.basis().direction, span).map_err(message)?;
-    // The formulas take beta for constant: they fail for tp-II, whose A is 0.36 omega.
+    let pulses = pulse_series(&subject.motion, &pulsar.beam(), &viewer.basis().direction, span).map_err(message)?;
+    // The formulas take beta for constant during a turn: they fail for tp-II, whose A is 0.36 omega.
     let steady = |solution: &&Perturbation<f64>| solution.constants.amplitude.abs() < MOST_SWING * solution.omega.abs();
     let twofold = subject.printed.as_ref().filter(|solution| solution.zeroth_rate != 0.0);
     let curves = twofold.filter(steady).map(|solution| curves(subject, solution)).transpose()?;
-    Ok(Series { periods: train.periods().collect(), lengths: train.durations().collect(), curves })
+    Ok(Series { pulses, curves })
 }
 
-/// Period and length by Eqs. (51) and (56), with the mean rates of the motion and with those of Eq. (57).
+/// Period and length with the angles and rates of the motion at the instant; by Eqs. (51) and (56) with its mean rates, and with
+/// those of Eq. (57).
 fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, String> {
-    let message = |error: twofold::Error| error.to_string();
+    let message = |error: twofold::Error| format!("{}: {error}", subject.name);
     let (viewer, pulsar) = subject.line_of_sight()?;
+    let viewing = Viewing { chi: pulsar.chi, delta: pulsar.delta, rho: pulsar.rho, theta_o: viewer.theta_o };
     let (end, beta_0) = (subject.shown.pulses, solution.constants.beta_0);
+    let paper = PaperCurves::new(&subject.motion, viewing, end).map_err(message)?;
     let angles = subject.angles(&[0.0, end])?;
     let [(_, first), (_, last)] = angles[..] else { return Err("the axis is on a pole".into()) };
     let mean = ShiftedRates { alpha: (last.alpha - first.alpha) / end, gamma: (last.gamma - first.gamma) / end };
     let shifted = ShiftedRates { alpha: solution.rate, gamma: subject.start.spin() - solution.rate * beta_0.cos() };
-    let columns =
-        ["mean rates", "Eq. (57)"].iter().flat_map(|r| ["period", "length"].map(|q| format!("{q} by {r} [t_c]")));
+    let columns = CURVES.iter().flat_map(|(_, of)| ["period", "length"].map(|q| format!("{q} {of} [t_c]")));
     let mut table =
         Table::new(format!("{}-curves", subject.name), std::iter::once("t [t_c]".to_owned()).chain(columns));
     for t in times(end, 1000) {
         let mut row = vec![t];
+        row.extend(paper.at(t).map_err(message)?);
         for rates in [mean, shifted] {
-            let gamma = first.gamma + rates.gamma * t;
-            let offset = azimuth_offset_rate(beta_0, gamma, rates.gamma, pulsar.chi, pulsar.delta).map_err(message)?;
-            let theta = cosine_of_colatitude(beta_0, gamma, pulsar.chi, pulsar.delta).acos();
-            let length = match pulse_width(pulsar.rho, theta, viewer.theta_o) {
-                PulseWidth::Pulsed(width) => width / (rates.alpha + offset),
-                PulseWidth::AlwaysOn | PulseWidth::NeverOn => 0.0,
-            };
-            row.extend([approximate_period(rates.alpha, offset), length]);
+            let at = viewing.formulas([beta_0, first.gamma + rates.gamma * t], [rates.alpha, rates.gamma]);
+            let at = at.map_err(message)?;
+            row.extend([approximate_period(rates.alpha, at.offset_rate), at.width / at.azimuth_rate]);
         }
         table.push(row);
     }
@@ -96,7 +107,9 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
         let shown = subject.shown.pulses;
         let x = Axis::linear("*t* / *t*_{c}", shown.min(0.0), shown.max(0.0));
         for (row, (points, label)) in
-            [(&series.periods, "period / *t*_{c}"), (&series.lengths, "pulse length / *t*_{c}")].into_iter().enumerate()
+            [(&series.pulses.periods, "period / *t*_{c}"), (&series.pulses.lengths, "pulse length / *t*_{c}")]
+                .into_iter()
+                .enumerate()
         {
             let frame = Rectangle {
                 left: left + (width + between) * i as f64,
@@ -104,21 +117,25 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
                 width,
                 height: panel_height,
             };
-            let curve = |rates: usize| series.curves.as_ref().map(|table| table.points(0, 1 + row + 2 * rates));
-            let on_curves = (0..2).filter_map(curve).flatten().map(|(_, y)| y);
+            let curve = |i: usize| series.curves.as_ref().map(|table| table.points(0, 1 + row + 2 * i));
+            let on_curves = (0..CURVES.len()).filter_map(curve).flatten().map(|(_, y)| y);
             let values: Vec<_> = points.iter().map(|point| point.value).chain(on_curves).collect();
             let y = if values.is_empty() { Axis::linear(label, 0.0, 1.0) } else { Axis::around(label, values) };
             let mut panel = Panel::new(frame, if row == 0 { x.bare() } else { x.clone() }, y);
             panel.y_label_distance = 26.0;
-            for (rates, line) in [(1, SHIFTED_RATES), (0, MEAN_RATES)] {
-                if let Some(points) = curve(rates) {
-                    panel.curve(&mut page, &points, line);
+            // The paper's curve over the others.
+            for (i, (line, _)) in CURVES.iter().enumerate().rev() {
+                if let Some(points) = curve(i) {
+                    panel.curve(&mut page, &points, *line);
                 }
             }
-            let points: Vec<_> = points.iter().map(|point| (point.time, point.value)).collect();
+            let pairs = |points: &[Stamped]| points.iter().map(|point| (point.time, point.value)).collect::<Vec<_>>();
             if series.curves.is_none() {
-                panel.curve(&mut page, &points, solid(GREY, 0.5));
+                for stretch in series.stretches(points) {
+                    panel.curve(&mut page, &pairs(stretch), solid(GREY, 0.5));
+                }
             }
+            let points = pairs(points);
             panel.marks(&mut page, &points, Mark::Disc, 1.4, BLACK);
             if points.is_empty() {
                 let middle = [frame.left + frame.width / 2.0, frame.top + frame.height / 2.0];
@@ -132,13 +149,10 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
     }
     if with_legend {
         let y = top + 2.0 * panel_height + gap + BELOW + 8.0;
-        let entries = [
-            (Sample::Mark(Mark::Disc, BLACK), "pulses"),
-            (Sample::Line(MEAN_RATES), "Eqs. (51), (56), mean rates"),
-            (Sample::Line(SHIFTED_RATES), "Eqs. (51), (56), rates by (57)"),
-        ];
-        for (entry, x) in entries.into_iter().zip([left, left + 66.0, left + 216.0]) {
-            legend(&mut page, [x, y], &[entry]);
+        legend(&mut page, [left, y], &[(Sample::Mark(Mark::Disc, BLACK), "pulses")]);
+        for ((line, of), x) in CURVES.iter().zip([66.0, 210.0, 316.0]) {
+            let name = if x < 70.0 { format!("Eqs. (51), (56) {of}") } else { (*of).to_owned() };
+            legend(&mut page, [left + x, y], &[(Sample::Line(*line), &name)]);
         }
     }
     page.finish("Pulse periods and lengths in time")
@@ -150,18 +164,23 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
         format!("from {low:.2} to {high:.2} *t*_{{c}}")
     };
-    let ranges = subjects.iter().zip(series).map(|(subject, series)| {
-        let (name, whole) = (&subject.name, series.lengths.len());
-        if whole < 2 {
+    let ranges = subjects.iter().zip(series).map(|(subject, Series { pulses, .. })| {
+        let (name, whole) = (&subject.name, pulses.lengths.len());
+        if pulses.periods.is_empty() {
             return format!("{name}: {whole} whole pulses.");
         }
-        let (periods, lengths) = (range(&series.periods), range(&series.lengths));
-        format!("{name}: {whole} whole pulses, periods {periods}, lengths {lengths}.")
+        let left_out = match pulses.gaps.len() {
+            0 => String::new(),
+            count => format!(" ({count} of {} intervals left out)", count + pulses.periods.len()),
+        };
+        let (periods, lengths) = (range(&pulses.periods), range(&pulses.lengths));
+        format!("{name}: {whole} whole pulses, periods {periods}{left_out}, lengths {lengths}.")
     });
     let mut says: Vec<_> = ranges.collect();
     if series.iter().any(|series| series.curves.is_some()) {
         says.push(
-            "The formulas follow the mean rates of the motion; with the rates of Eq. (57), which are of first order, they drift out of step."
+            "The formulas follow the series, with angles and rates at the instant as with mean ones; with the rates of Eq. (57), which are of \
+             first order, they drift out of step."
                 .to_owned(),
         );
     }
@@ -174,12 +193,16 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
     }
     Caption {
         shows: "Periods (top) and lengths in time (bottom) of the pulses: the period is the time between the midpoints of two \
-                consecutive pulses, at the mean of both midpoints, the length is at its midpoint. Thin grey lines join points."
+                consecutive pulses, at the mean of both midpoints, the length is at its midpoint. Intervals that are not from one turn of the star to the next, because a turn has no pulse or a pulse lasts for more than a turn, are \
+                left out. Where there are no \
+                curves, thin grey lines join points, broken where an interval is left out."
             .to_owned(),
         parameters: parameters(&line_of_sight(subjects, true), subjects),
         method: "Edges of the pulses: roots of **m** · **n** = cos *ρ*, Eq. (44), along the numerical motion, with bounds that let none be \
-                 missed. Curves: Eqs. (51), (52) and (56), the width in azimuth divided by the rate of azimuth, at constant *β*_{0} \
-                 and constant rates of *α* and *γ*."
+                 missed. Solid curves, the paper's: 2π over the rate of azimuth *α*′ + Δ*Φ*′, the period of Eqs. (51) and (52) before it is \
+                 expanded, and the width (56) over the mean rate of azimuth, both with the angles and rates of the numerical motion at each \
+                 instant. Dotted and dashed, not in the paper: Eq. (51) to first order and the width over the rate of azimuth at constant \
+                 *β*_{0} and constant rates, the mean ones of the motion and those of Eq. (57)."
             .to_owned(),
         says: says.join(" "),
     }

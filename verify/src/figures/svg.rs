@@ -87,14 +87,15 @@ impl Page {
         self.write(format_args!("<path d=\"{data}Z\" fill=\"{fill}\"/>"));
     }
 
-    /// A filled rectangle that leaves no seam to a neighbour drawn before it: it reaches a little over its lower side.
+    /// A filled rectangle that leaves no seam to its neighbours, drawn from left to right and upwards: it reaches a little over its
+    /// lower and its right side.
     pub(super) fn cell(&mut self, r: Rectangle, fill: &str) {
         self.write(format_args!(
             "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>",
             r.left,
             r.top,
-            r.width,
-            r.height + 0.3
+            r.width + OVERLAP,
+            r.height + OVERLAP
         ));
     }
 
@@ -194,6 +195,9 @@ impl Page {
         self.write(format_args!("</g>"));
     }
 }
+
+/// How far a cell reaches over its neighbours: more than a pixel of the PNG, less than half of a line round all of them.
+const OVERLAP: f64 = 0.3;
 
 fn stroke(line: Line) -> String {
     let dashes = if line.dashes.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{}\"", line.dashes) };

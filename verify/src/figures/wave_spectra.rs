@@ -73,7 +73,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
                 height,
             };
             let x = Axis::linear("angular frequency × *t*_{c}", 0.0, highest);
-            let y = Axis::linear(&format!("amplitude of {symbol}"), 0.0, 1.08 * most);
+            let y = Axis::linear(&format!("amplitude of {symbol}"), 0.0, 1.05 * most);
             let panel = Panel::new(frame, if polarization == 0 { x.bare() } else { x }, y);
             if let Some(free) = subject.free_rates().first() {
                 [*free, 2.0 * free].iter().for_each(|rate| panel.upright(&mut page, *rate, dashed(VERMILION, 0.9)));

@@ -7,6 +7,7 @@ mod arrivals;
 mod cases;
 mod edges_reference;
 mod formulas;
+mod functions_of_gamma;
 mod grazing;
 mod identities;
 mod margin;
@@ -33,6 +34,7 @@ pub fn checks() -> Vec<Check> {
         pulse_numbers::checks(),
         position_angle::checks(),
         approximations::checks(),
+        functions_of_gamma::checks(),
         absorbed_angles::checks(),
     ]
     .concat()

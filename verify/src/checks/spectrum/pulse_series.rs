@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use twofold::observables::pulsar::{Stamped, pulse_train};
-use twofold::observables::spectrum::Window;
+use nalgebra::{DMatrix, DVector};
+use twofold::observables::pulsar::Stamped;
 
 use super::signals::{Example, beam, examples, line_of_sight};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::pulse_series::PulseSeries;
 
 pub(super) fn checks() -> Vec<Check> {
     vec![
@@ -15,7 +16,7 @@ pub(super) fn checks() -> Vec<Check> {
             kind: Kind::Oracle,
             equations: &[51, 57],
             statement: "the series of pulse periods and widths of tp-I and tp-II have a period of about 40 t_c, that of gamma",
-            figure: "largest |2 pi / w - 40|, w between 0.1 and 0.2 / t_c the frequency whose multiples have most power [t_c]; infinite unless w is the rate of gamma",
+            figure: "largest |2 pi / w - 40|, w between 0.1 and 0.2 / t_c the frequency whose first four multiples fit best [t_c]; infinite unless w is the rate of gamma",
             bound: Bound::AtMost(5.0),
             reason: "'about 40' read as 35 to 45",
             measure: period_of_gamma,
@@ -25,7 +26,8 @@ pub(super) fn checks() -> Vec<Check> {
             kind: Kind::Oracle,
             equations: &[51, 57],
             statement: "those of tp-II have a period of about 180 t_c too, that of the slow precession",
-            figure: "largest |2 pi / w - 180| of the highest peak between 0.025 and 0.045 / t_c [t_c]; infinite unless w is the slow frequency and the peak a fifth of the highest",
+            figure: "largest |2 pi / w - 180|, w between 0.025 and 0.045 / t_c the frequency that fits best beside six multiples of gamma's [t_c]; infinite unless \
+                 w is the slow frequency and its amplitude half of the largest",
             bound: Bound::AtMost(10.0),
             reason: "'about 180' read as 170 to 190",
             measure: period_of_slow_precession,
@@ -37,19 +39,17 @@ fn message(e: twofold::Error) -> String {
     e.to_string()
 }
 
-/// Period of gamma in the series of both examples: that whose first four multiples together have most power.
+/// Period of gamma in the series of both examples: that whose first four multiples fit best.
 fn period_of_gamma() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for example in examples()? {
-        for (name, values) in pulse_series(example)? {
-            let spectrum = StampedSpectrum::of(&values)?;
-            let power = |w: f64| (1..=4).map(|k| spectrum.amplitude(w * f64::from(k)).powi(2)).sum::<f64>();
-            let w = highest(0.1..0.2, power)?;
+        for (name, values) in series(example)? {
+            let w = highest(0.1..0.2, |w| explained(&values, &multiples(w, 4)))?;
             let rate = example.frequencies.gamma.ok_or("gamma has no mean rate")?.value;
             let figure = if (w - rate.abs()).abs() < GRID { (TAU / w - 40.0).abs() } else { f64::INFINITY };
             worst.see(figure, || {
-                let multiples = [1.0, 2.0, 3.0, 4.0].map(|k| format!("{:.3}", spectrum.amplitude(k * w))).join(", ");
-                format!("{} {name}: {:.1} t_c, amplitudes of the multiples {multiples} t_c", example.name, TAU / w)
+                let part = explained(&values, &multiples(w, 4));
+                format!("{} {name}: {:.1} t_c, {part:.2} of the variance", example.name, TAU / w)
             });
         }
     }
@@ -60,17 +60,31 @@ fn period_of_gamma() -> Result<Measured, String> {
 fn period_of_slow_precession() -> Result<Measured, String> {
     let example = &examples()?[1];
     let slow = example.frequencies.slow.ok_or("no slow precession")?.value;
+    let gamma = multiples(example.frequencies.gamma.ok_or("gamma has no mean rate")?.value, 6);
     let (mut differences, mut details) = (Vec::new(), Vec::new());
-    for (name, values) in pulse_series(example)? {
-        let spectrum = StampedSpectrum::of(&values)?;
-        let w = highest(0.025..0.045, |w| spectrum.amplitude(w))?;
-        let strongest = spectrum.amplitude(highest(0.01..0.7, |w| spectrum.amplitude(w))?);
-        let share = spectrum.amplitude(w) / strongest;
-        let seen = (w - slow.abs()).abs() < GRID && share > 0.2;
+    for (name, values) in series(example)? {
+        let of_gamma = explained(&values, &gamma);
+        // What a frequency adds to the multiples of gamma's. Where it is one of them the columns depend on each other: it adds nothing.
+        let added = |w: f64| {
+            let beside = gamma.iter().all(|g| (w - g.abs()).abs() > 4.0 * GRID);
+            if beside { explained(&values, &[&gamma[..], &[w]].concat()) - of_gamma } else { 0.0 }
+        };
+        let w = highest(0.025..0.045, added)?;
+        let strongest = added(highest(0.01..0.7, added)?);
+        let share = (added(w) / strongest).sqrt();
+        let seen = (w - slow.abs()).abs() < GRID && share > 0.5;
         differences.push(if seen { (TAU / w - 180.0).abs() } else { f64::INFINITY });
-        details.push(format!("{name}: {:.1} t_c, {share:.2} of the highest peak", TAU / w));
+        let part = added(w) / (1.0 - of_gamma);
+        details.push(format!(
+            "{name}: {:.1} t_c, {share:.2} of the largest amplitude, {part:.2} of the variance that gamma leaves",
+            TAU / w
+        ));
     }
     Ok(Measured::new(largest(differences), details.join("; ")))
+}
+
+fn multiples(w: f64, count: u8) -> Vec<f64> {
+    (1..=count).map(|k| w * f64::from(k)).collect()
 }
 
 /// The frequency of a grid at which a function is largest.
@@ -80,9 +94,12 @@ fn highest(range: std::ops::Range<f64>, function: impl Fn(f64) -> f64) -> Result
     points.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(w, _)| w).ok_or_else(|| "no frequency".into())
 }
 
-fn pulse_series(example: &Example) -> Result<[(&'static str, Vec<Stamped>); 2], String> {
-    let train = pulse_train(&example.motion, &beam(), &line_of_sight(), (0.0, SERIES)).map_err(message)?;
-    Ok([("periods", train.periods().collect()), ("widths", train.durations().collect())])
+/// The series of an example, without intervals over turns that have no pulse.
+fn series(example: &Example) -> Result<[(&'static str, Vec<Stamped>); 2], String> {
+    let PulseSeries { periods, lengths, .. } =
+        crate::pulse_series::pulse_series(&example.motion, &beam(), &line_of_sight(), (0.0, SERIES))
+            .map_err(message)?;
+    Ok([("periods", periods), ("widths", lengths)])
 }
 
 /// Distance of two frequencies of a scan [1/t_c]: a quarter of the resolution of the series.
@@ -91,29 +108,18 @@ const GRID: f64 = 0.0005;
 /// Length of the series [t_c].
 const SERIES: f64 = 3000.0;
 
-/// Amplitudes of a stamped series, tapered: in tp-II some turns have no pulse and some pulses merge, so that its series is not in equal
-/// steps of anything and has no fast transform.
-struct StampedSpectrum {
-    /// Time and weighted value.
-    points: Vec<(f64, f64)>,
-}
-
-impl StampedSpectrum {
-    fn of(values: &[Stamped]) -> Result<Self, String> {
-        let count = 4096;
-        let taper = Window::Kaiser { shape: 8.0 }.weights(count).map_err(message)?;
-        let weight = |point: &Stamped| taper[((point.time / SERIES * count as f64) as usize).min(count - 1)];
-        let total: f64 = values.iter().map(weight).sum();
-        let mean = values.iter().map(|point| weight(point) * point.value).sum::<f64>() / total;
-        let points = values.iter().map(|point| (point.time, weight(point) * (point.value - mean) * 2.0 / total));
-        Ok(Self { points: points.collect() })
-    }
-
-    fn amplitude(&self, w: f64) -> f64 {
-        let (sin, cos) = self.points.iter().fold((0.0, 0.0), |(sin, cos), (time, value)| {
-            let (s, c) = (w * time).sin_cos();
-            (sin + value * s, cos + value * c)
-        });
-        sin.hypot(cos)
-    }
+/// Part of the variance of a series that a constant and waves of the given frequencies fit by least squares.
+///
+/// A Fourier sum will not do: in tp-II many turns have no pulse, always at the same phases of its motion, so that the times are not in
+/// equal steps and the waves not orthogonal on them. NaN where the waves are not independent.
+fn explained(values: &[Stamped], frequencies: &[f64]) -> f64 {
+    let waves = DMatrix::from_fn(values.len(), 1 + 2 * frequencies.len(), |row, column| {
+        let phase = column.checked_sub(1).map_or(0.0, |i| frequencies[i / 2] * values[row].time);
+        if column % 2 == 0 && column > 0 { phase.sin() } else { phase.cos() }
+    });
+    let values = DVector::from_iterator(values.len(), values.iter().map(|point| point.value));
+    let transposed = waves.transpose();
+    let Some(cholesky) = (&transposed * &waves).cholesky() else { return f64::NAN };
+    let left = (&waves * cholesky.solve(&(transposed * &values)) - &values).norm_squared();
+    1.0 - left / values.add_scalar(-values.mean()).norm_squared()
 }

@@ -1,0 +1,57 @@
+//! Whether the width series is a function of gamma, as the width at constant rates is. Eq. (56).
+
+use nalgebra::{DMatrix, DVector};
+use twofold::observables::pulsar::Stamped;
+use twofold::propagation::{ContinuousAngles, Motion};
+
+use super::cases::{Signal, paper_signal};
+use crate::check::{Bound, Check, Kind, Measured};
+use crate::pulse_series::pulse_series;
+
+/// Length of the series, t_c.
+const SPAN: f64 = 400.0;
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![Check {
+        id: "width-series-not-of-gamma-tp-2",
+        kind: Kind::Regime,
+        equations: &[56],
+        statement: "the width (56) fails for tp-II with any constants: a function of the mean phase of gamma, as it is at constant rates, leaves most of \
+                 the width series, which has the slow period of the angular momentum as well, but little of that of tp-I",
+        figure: "what the harmonics of the mean phase up to the sixth leave of the widths: tp-II / tp-I",
+        bound: Bound::AtLeast(3.0),
+        reason: "three quarters of the modulation of tp-II is most, a quarter of that of tp-I little",
+        measure: functions_of_gamma,
+    }]
+}
+
+fn functions_of_gamma() -> Result<Measured, String> {
+    let left = |example: &str| left_by_functions_of_gamma(example).map_err(|e| format!("{example}: {e}"));
+    let ([period_1, width_1], [period_2, width_2]) = (left("tp-1")?, left("tp-2")?);
+    let detail = format!(
+        "left of the widths of tp-I {width_1:.3}, of tp-II {width_2:.3}; of the periods {period_1:.3} and {period_2:.3}"
+    );
+    Ok(Measured::new(width_2 / width_1, detail))
+}
+
+/// What the best sum of harmonics of the mean phase of gamma up to the sixth leaves of the period and the width series, root mean
+/// square in units of that of the series from its mean.
+fn left_by_functions_of_gamma(example: &str) -> Result<[f64; 2], String> {
+    let message = |e: twofold::Error| e.to_string();
+    let Signal { motion, beam, observer } = paper_signal(example).map_err(message)?;
+    let series = pulse_series(&motion, &beam, &observer, (0.0, SPAN)).map_err(message)?;
+    let start = motion.state(0.0).and_then(|state| state.angles()).map_err(message)?;
+    let last = ContinuousAngles::new(&motion, 0.0, &start).and_then(|mut angles| angles.at(SPAN)).map_err(message)?;
+    let rate = (last.gamma - start.gamma) / SPAN;
+    let left = |series: &[Stamped]| -> Result<f64, String> {
+        let functions = DMatrix::from_fn(series.len(), 13, |row, k| {
+            let (sin, cos) = (k.div_ceil(2) as f64 * rate * series[row].time).sin_cos();
+            if k % 2 == 0 { cos } else { sin }
+        });
+        let values = DVector::from_iterator(series.len(), series.iter().map(|point| point.value));
+        let amplitudes = functions.clone().svd(true, true).solve(&values, 1e-12)?;
+        let modulation = values.add_scalar(-values.mean());
+        Ok((functions * amplitudes - values).norm() / modulation.norm())
+    };
+    Ok([left(&series.periods)?, left(&series.lengths)?])
+}

@@ -1,0 +1,124 @@
+//! The paper's series of pulse periods and lengths, and its curves beside them. Eqs. (44), (47), (51), (52), (56).
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+use twofold::Error;
+use twofold::observables::pulsar::direction::cosine_of_colatitude;
+use twofold::observables::pulsar::period::{azimuth_offset_rate, instantaneous_period};
+use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
+use twofold::observables::pulsar::{Beam, Pulse, Stamped, arrivals, pulse_train};
+use twofold::propagation::Motion;
+
+/// Series of the whole pulses of a motion.
+#[derive(Debug, Clone)]
+pub(crate) struct PulseSeries {
+    /// Times between pulses of consecutive single turns, each at the mean of the two midpoints.
+    pub(crate) periods: Vec<Stamped>,
+    /// Times between the others: over turns without a pulse, within one turn, from or to a pulse that lasts for several.
+    pub(crate) gaps: Vec<Stamped>,
+    /// Lengths in time, at the midpoints.
+    pub(crate) lengths: Vec<Stamped>,
+}
+
+/// The series of a beam in a span of a motion, the turns counted as in [`arrivals`].
+pub(crate) fn pulse_series(
+    motion: &impl Motion<f64>,
+    beam: &Beam<f64>,
+    line_of_sight: &Vector3<f64>,
+    span: (f64, f64),
+) -> Result<PulseSeries, Error> {
+    let train = pulse_train(motion, beam, line_of_sight, span)?;
+    let numbers = arrivals(motion, beam, line_of_sight, &train)?;
+    let mean_turn = match (&numbers[..], numbers.last()) {
+        ([first, ..], Some(last)) => (last.midpoint - first.midpoint) / (last.number - first.number) as f64,
+        _ => f64::NAN,
+    };
+    // The middle of a pulse that lasts for more than a turn is that of no turn.
+    let of_one_turn = |pulse: &Pulse| pulse.duration() < mean_turn;
+    // Only the first and the last pulse may be cut: the whole ones, which have numbers, are neighbours.
+    let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).zip(&numbers).collect();
+    let single = whole
+        .windows(2)
+        .map(|pair| pair[1].1.number - pair[0].1.number == 1 && pair.iter().all(|(pulse, _)| of_one_turn(pulse)));
+    let intervals: Vec<_> = train.periods().zip(single).collect();
+    let chosen = |wanted: bool| {
+        let chosen = intervals.iter().filter(|(_, single)| *single == wanted);
+        chosen.map(|(interval, _)| *interval).collect()
+    };
+    Ok(PulseSeries { periods: chosen(true), gaps: chosen(false), lengths: train.durations().collect() })
+}
+
+/// Beam and observer as the formulas have them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Viewing {
+    pub(crate) chi: f64,
+    pub(crate) delta: f64,
+    pub(crate) rho: f64,
+    pub(crate) theta_o: f64,
+}
+
+/// What the formulas give at a time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Formulas {
+    /// `DeltaPhi'`, Eq. (52).
+    pub(crate) offset_rate: f64,
+    /// `alpha' + DeltaPhi'`.
+    pub(crate) azimuth_rate: f64,
+    /// `W`, Eq. (56): zero without a pulse, a turn for a beam that is always on.
+    pub(crate) width: f64,
+}
+
+impl Viewing {
+    /// The formulas for angles `[beta, gamma]` and rates `[alpha', gamma']`.
+    pub(crate) fn formulas(
+        &self,
+        [beta, gamma]: [f64; 2],
+        [alpha_rate, gamma_rate]: [f64; 2],
+    ) -> Result<Formulas, Error> {
+        let offset_rate = azimuth_offset_rate(beta, gamma, gamma_rate, self.chi, self.delta)?;
+        let theta = cosine_of_colatitude(beta, gamma, self.chi, self.delta).acos();
+        let width = match pulse_width(self.rho, theta, self.theta_o) {
+            PulseWidth::Pulsed(width) => width,
+            PulseWidth::AlwaysOn => TAU,
+            PulseWidth::NeverOn => 0.0,
+        };
+        Ok(Formulas { offset_rate, azimuth_rate: alpha_rate + offset_rate, width })
+    }
+
+    /// The formulas for the angles and rates that a motion has at a time.
+    fn at(&self, motion: &impl Motion<f64>, t: f64) -> Result<Formulas, Error> {
+        let state = motion.state(t)?;
+        let (angles, rates) = (state.angles()?, state.rates(motion.spheroid())?);
+        self.formulas([angles.beta, angles.gamma], [rates.alpha, rates.gamma])
+    }
+}
+
+/// The paper's curves of a motion: period `2 pi / (alpha' + DeltaPhi')`, Eq. (51) before it is expanded, and width (56), with the
+/// angles and rates of the numerical motion at each time. A width becomes a time by the mean of `alpha' + DeltaPhi'`, as
+/// the authors' data have it.
+pub(crate) struct PaperCurves<'m, M> {
+    motion: &'m M,
+    viewing: Viewing,
+    mean_rate: f64,
+}
+
+impl<'m, M: Motion<f64>> PaperCurves<'m, M> {
+    /// The curves from time zero to `end`.
+    pub(crate) fn new(motion: &'m M, viewing: Viewing, end: f64) -> Result<Self, Error> {
+        // Some ten looks each radian: beyond the digits that the mean needs.
+        let count = (10.0 * end.abs()).ceil() as usize;
+        let mut sum = 0.0;
+        for i in 0..=count {
+            let weight = if i == 0 || i == count { 0.5 } else { 1.0 };
+            sum += viewing.at(motion, end * i as f64 / count as f64)?.azimuth_rate * weight;
+        }
+        Ok(Self { motion, viewing, mean_rate: sum / count as f64 })
+    }
+
+    /// Period and length at a time.
+    pub(crate) fn at(&self, t: f64) -> Result<[f64; 2], Error> {
+        let formulas = self.viewing.at(self.motion, t)?;
+        Ok([instantaneous_period(formulas.azimuth_rate), formulas.width / self.mean_rate])
+    }
+}
