@@ -185,7 +185,9 @@ impl Sampling {
         // What is below the error of the motion is no line of it; nor may the least amplitude be zero.
         let error = (size * scene.accuracy).max(f64::MIN_POSITIVE);
         let least = error.max(strongest * wanted.least);
-        let lines = spectral_lines(&self.series, least, MOST_FITTED);
+        // Where so many cannot be told apart, the strongest may be.
+        let lines = spectral_lines(&self.series, least, MOST_FITTED)
+            .or_else(|_| spectral_lines(&self.series, least, wanted.most));
         Ok((least, lines.map_err(TrajectoryError::NoLines)?))
     }
 
