@@ -1,14 +1,15 @@
 //! Numerical motion with dense output, and the continuous Euler angles of any motion.
 
-mod compensated;
+mod arithmetic;
 mod continuous_angles;
-mod error_growth;
+#[cfg_attr(not(target_arch = "x86_64"), path = "unfused.rs")]
+mod fused;
 mod input;
 mod motion;
-mod series;
-mod step_size;
 mod taylor;
 
 pub use continuous_angles::ContinuousAngles;
 pub use motion::{AxisMotion, AxisState, Motion};
-pub use taylor::{ACCURACY_RANGE, STEP_LIMIT, TaylorAxisMotion, TaylorMotion, propagate, propagate_axis};
+pub use taylor::{
+    ACCURACY_RANGE, STEP_LIMIT, Samples, TaylorAxisMotion, TaylorMotion, axis_states_at, propagate, propagate_axis, states_at,
+};

@@ -1,0 +1,130 @@
+//! States at given times, without keeping the motion between them.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::propagation::AxisState;
+use crate::propagation::arithmetic::{Arithmetic, Plain};
+use crate::propagation::fused::{Fused, run_fused};
+use crate::propagation::taylor::drive::StepLimit;
+use crate::propagation::taylor::fused_for;
+use crate::propagation::taylor::setup::Setup;
+use crate::scalar::{Real, Scalar};
+
+/// An hour or so.
+const LIMIT: StepLimit =
+    StepLimit { steps: 10_000_000_000, allowed: "at most 1e10 steps: take earlier times or a lower accuracy" };
+
+/// States at given times, with what is known of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Samples<T> {
+    /// One state for each time asked, in their order.
+    pub states: Vec<T>,
+    /// Estimated error of each, as [`AxisMotion::error_estimate`](crate::propagation::AxisMotion::error_estimate).
+    pub error_estimates: Vec<f64>,
+    /// Number of steps of the motion.
+    pub step_count: usize,
+    /// Order of its series.
+    pub order: usize,
+}
+
+/// States of the numerical motion that begins as `initial` at the time `start`, at the `times` asked: the same numbers as
+/// those of [`propagate`](crate::propagation::propagate) over the span from `start` to the last of them, without keeping the
+/// motion in between. Memory does not grow with the span; a motion may have 1e10 steps.
+///
+/// # Errors
+/// As for [`propagate`](crate::propagation::propagate) but for the number of steps, and [`Error::Domain`] for no times or
+/// times that do not lie on one side of `start`, in the order in which the motion reaches them.
+pub fn states_at<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    initial: &BodyState<S>,
+    start: f64,
+    times: &[f64],
+    accuracy: f64,
+) -> Result<Samples<BodyState<S>>, Error> {
+    let vectors = [initial.axis, initial.momentum, initial.equatorial_axis];
+    sampled(spheroid, s, vectors, start, times, accuracy, |setup, vectors, t| setup.body_state(vectors, t))
+}
+
+/// Axis and angular momentum alone: to [`states_at`] what [`propagate_axis`](crate::propagation::propagate_axis) is to
+/// [`propagate`](crate::propagation::propagate).
+///
+/// # Errors
+/// As for [`states_at`].
+pub fn axis_states_at<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    initial: &AxisState<S>,
+    start: f64,
+    times: &[f64],
+    accuracy: f64,
+) -> Result<Samples<AxisState<S>>, Error> {
+    let vectors = [initial.axis, initial.momentum];
+    sampled(spheroid, s, vectors, start, times, accuracy, |_, [axis, momentum], _| AxisState { axis, momentum })
+}
+
+fn sampled<S: Real, T, const V: usize>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    vectors: [Vector3<S>; V],
+    start: f64,
+    times: &[f64],
+    accuracy: f64,
+    state: impl Fn(&Setup<S, V>, [Vector3<S>; V], S) -> T,
+) -> Result<Samples<T>, Error> {
+    let Some(&last) = times.last() else {
+        return Err(Error::Domain { quantity: "number of times", value: 0.0, allowed: "at least one" });
+    };
+    let span = (start, last);
+    let mut before = start;
+    for &t in times {
+        let onwards = if last >= start { before <= t && t <= last } else { before >= t && t >= last };
+        Error::unless(onwards, "time t", t, "times in the order in which the motion reaches them from its start")?;
+        before = t;
+    }
+    let setup = Setup::new::<Plain<S>>(spheroid, s, vectors, span, accuracy)?;
+    if let Some(fused) = fused_for::<S>() {
+        let (spheroid, s) = (spheroid.map(S::re), s.map(S::re));
+        let real = Setup::new::<Fused>(&spheroid, &s, vectors.map(|v| v.map(S::re)), span, accuracy)?;
+        let samples = run_fused(
+            fused,
+            #[inline(always)]
+            || visited(&real, fused, times, |_, vectors, t| (vectors, t)),
+        )?;
+        let Samples { states, error_estimates, step_count, order } = samples;
+        let given = |(vectors, t): ([Vector3<f64>; V], f64)| {
+            state(&setup, vectors.map(|v| v.map(S::from_f64)), S::from_f64(t))
+        };
+        return Ok(Samples { states: states.into_iter().map(given).collect(), error_estimates, step_count, order });
+    }
+    visited(&setup, Plain::new(), times, state)
+}
+
+/// Evaluates each step at the times within it.
+#[inline(always)]
+fn visited<A: Arithmetic, T, const V: usize>(
+    setup: &Setup<A::Scalar, V>,
+    a: A,
+    times: &[f64],
+    state: impl Fn(&Setup<A::Scalar, V>, [Vector3<A::Scalar>; V], A::Scalar) -> T,
+) -> Result<Samples<T>, Error> {
+    let room = || Vec::with_capacity(times.len());
+    let mut samples = Samples { states: Vec::with_capacity(times.len()), error_estimates: room(), step_count: 0, order: setup.order };
+    let rate = setup.scale.turning_rate;
+    setup.drive().run(a, LIMIT, |step| {
+        samples.step_count += 1;
+        while let Some(&time) = times.get(samples.states.len()) {
+            let elapsed = (time - setup.span.0).abs();
+            if elapsed >= step.end {
+                break;
+            }
+            let t = A::Scalar::from_f64(time);
+            let vectors = setup.sum(a, step.series, (step.start.high, step.start.low), t).map(|v| v.vector());
+            samples.states.push(state(setup, vectors, t));
+            samples.error_estimates.push(step.error.at(elapsed, rate));
+        }
+    })?;
+    Ok(samples)
+}
