@@ -29,32 +29,42 @@ impl<S: Scalar> From<Vector3<S>> for Stored<S> {
 /// Three-component vectors whose components are multiplied one by one. Cross products are made of the two cyclic
 /// permutations: `a x b = a.yzx * b.zxy - a.zxy * b.yzx`.
 pub(super) trait Arithmetic: Copy {
-    /// A component.
-    type Scalar: Real;
     /// Three components.
     type Vector: Copy;
+    /// A vector from which either permutation is at hand.
+    type Turned: Copy;
     /// Whether the recurrences may take the tensor `s^IJ` to be diagonal. Turning to its principal axes is exact to
     /// rounding for real numbers; a dual number may have derivatives by the other components.
     const PRINCIPAL_FRAME: bool;
+    /// Whether the vectors are those of many motions, and so fill the registers by themselves.
+    const MANY: bool = false;
 
-    fn load(self, stored: &Stored<Self::Scalar>) -> Self::Vector;
-    fn store(self, v: Self::Vector) -> Stored<Self::Scalar>;
-    fn zero(self) -> Self::Vector {
-        self.load(&Stored::zero())
-    }
-    /// All components alike.
-    fn splat(self, value: Self::Scalar) -> Self::Vector;
-    /// The components in the order y, z, x.
-    fn yzx(self, v: Self::Vector) -> Self::Vector;
-    /// The components in the order z, x, y.
-    fn zxy(self, v: Self::Vector) -> Self::Vector;
+    fn zero(self) -> Self::Vector;
     fn add(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     fn sub(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     /// `a * b + c`, rounded once or twice.
     fn mul_add(self, a: Self::Vector, b: Self::Vector, c: Self::Vector) -> Self::Vector;
+    fn scale(self, a: Self::Vector, factor: f64) -> Self::Vector;
     /// The sum of the three columns multiplied by the components of `v`.
     fn combine(self, columns: &[Self::Vector; 3], v: Self::Vector) -> Self::Vector;
+
+    fn turned(self, v: Self::Vector) -> Self::Turned;
+    /// The components in the order y, z, x.
+    fn yzx(self, v: Self::Turned) -> Self::Vector;
+    /// The components in the order z, x, y.
+    fn zxy(self, v: Self::Turned) -> Self::Vector;
+}
+
+/// Vectors of one motion.
+pub(super) trait OneMotion: Arithmetic {
+    /// A component.
+    type Scalar: Real;
+
+    fn load(self, stored: &Stored<Self::Scalar>) -> Self::Vector;
+    fn store(self, v: Self::Vector) -> Stored<Self::Scalar>;
+    /// All components alike.
+    fn splat(self, value: Self::Scalar) -> Self::Vector;
     /// Largest component in size, by real parts; NaN if one is NaN.
     fn largest(self, v: Self::Vector) -> f64;
 }
@@ -70,33 +80,13 @@ impl<S> Plain<S> {
 }
 
 impl<S: Real> Arithmetic for Plain<S> {
-    type Scalar = S;
     type Vector = [S; 3];
+    type Turned = [S; 3];
     const PRINCIPAL_FRAME: bool = false;
 
     #[inline(always)]
-    fn load(self, stored: &Stored<S>) -> [S; 3] {
-        [stored.0[0], stored.0[1], stored.0[2]]
-    }
-
-    #[inline(always)]
-    fn store(self, [x, y, z]: [S; 3]) -> Stored<S> {
-        Stored([x, y, z, S::zero()])
-    }
-
-    #[inline(always)]
-    fn splat(self, value: S) -> [S; 3] {
-        [value; 3]
-    }
-
-    #[inline(always)]
-    fn yzx(self, [x, y, z]: [S; 3]) -> [S; 3] {
-        [y, z, x]
-    }
-
-    #[inline(always)]
-    fn zxy(self, [x, y, z]: [S; 3]) -> [S; 3] {
-        [z, x, y]
+    fn zero(self) -> [S; 3] {
+        [S::zero(); 3]
     }
 
     #[inline(always)]
@@ -120,8 +110,47 @@ impl<S: Real> Arithmetic for Plain<S> {
     }
 
     #[inline(always)]
+    fn scale(self, a: [S; 3], factor: f64) -> [S; 3] {
+        a.map(|component| component * factor)
+    }
+
+    #[inline(always)]
     fn combine(self, [a, b, c]: &[[S; 3]; 3], v: [S; 3]) -> [S; 3] {
         [0, 1, 2].map(|i| a[i] * v[0] + b[i] * v[1] + c[i] * v[2])
+    }
+
+    #[inline(always)]
+    fn turned(self, v: [S; 3]) -> [S; 3] {
+        v
+    }
+
+    #[inline(always)]
+    fn yzx(self, [x, y, z]: [S; 3]) -> [S; 3] {
+        [y, z, x]
+    }
+
+    #[inline(always)]
+    fn zxy(self, [x, y, z]: [S; 3]) -> [S; 3] {
+        [z, x, y]
+    }
+}
+
+impl<S: Real> OneMotion for Plain<S> {
+    type Scalar = S;
+
+    #[inline(always)]
+    fn load(self, stored: &Stored<S>) -> [S; 3] {
+        [stored.0[0], stored.0[1], stored.0[2]]
+    }
+
+    #[inline(always)]
+    fn store(self, [x, y, z]: [S; 3]) -> Stored<S> {
+        Stored([x, y, z, S::zero()])
+    }
+
+    #[inline(always)]
+    fn splat(self, value: S) -> [S; 3] {
+        [value; 3]
     }
 
     #[inline(always)]

@@ -3,7 +3,7 @@
 use pulp::f64x4;
 use pulp::x86::V3;
 
-use crate::propagation::arithmetic::{Arithmetic, Stored, largest};
+use crate::propagation::arithmetic::{Arithmetic, OneMotion, Stored, largest};
 
 /// Proof that the processor has the instructions, found at run time.
 #[derive(Debug, Clone, Copy)]
@@ -21,33 +21,13 @@ pub(super) fn run_fused<R>(fused: Fused, work: impl FnOnce() -> R) -> R {
 }
 
 impl Arithmetic for Fused {
-    type Scalar = f64;
     type Vector = f64x4;
+    type Turned = [f64x4; 2];
     const PRINCIPAL_FRAME: bool = true;
 
     #[inline(always)]
-    fn load(self, &Stored([x, y, z, rest]): &Stored<f64>) -> f64x4 {
-        f64x4(x, y, z, rest)
-    }
-
-    #[inline(always)]
-    fn store(self, v: f64x4) -> Stored<f64> {
-        Stored([v.0, v.1, v.2, v.3])
-    }
-
-    #[inline(always)]
-    fn splat(self, value: f64) -> f64x4 {
-        self.0.splat_f64x4(value)
-    }
-
-    #[inline(always)]
-    fn yzx(self, v: f64x4) -> f64x4 {
-        pulp::cast(self.0.avx2._mm256_permute4x64_pd::<0b11_00_10_01>(pulp::cast(v)))
-    }
-
-    #[inline(always)]
-    fn zxy(self, v: f64x4) -> f64x4 {
-        pulp::cast(self.0.avx2._mm256_permute4x64_pd::<0b11_01_00_10>(pulp::cast(v)))
+    fn zero(self) -> f64x4 {
+        self.0.splat_f64x4(0.0)
     }
 
     #[inline(always)]
@@ -71,9 +51,52 @@ impl Arithmetic for Fused {
     }
 
     #[inline(always)]
+    fn scale(self, a: f64x4, factor: f64) -> f64x4 {
+        self.mul(a, self.splat(factor))
+    }
+
+    #[inline(always)]
     fn combine(self, [a, b, c]: &[f64x4; 3], v: f64x4) -> f64x4 {
         let [x, y, z] = [v.0, v.1, v.2].map(|component| self.splat(component));
         self.mul_add(*a, x, self.mul_add(*b, y, self.mul(*c, z)))
+    }
+
+    /// Both permutations are made once: each takes part in many products.
+    #[inline(always)]
+    fn turned(self, v: f64x4) -> [f64x4; 2] {
+        let v = pulp::cast(v);
+        let yzx = self.0.avx2._mm256_permute4x64_pd::<0b11_00_10_01>(v);
+        let zxy = self.0.avx2._mm256_permute4x64_pd::<0b11_01_00_10>(v);
+        [pulp::cast(yzx), pulp::cast(zxy)]
+    }
+
+    #[inline(always)]
+    fn yzx(self, [yzx, _]: [f64x4; 2]) -> f64x4 {
+        yzx
+    }
+
+    #[inline(always)]
+    fn zxy(self, [_, zxy]: [f64x4; 2]) -> f64x4 {
+        zxy
+    }
+}
+
+impl OneMotion for Fused {
+    type Scalar = f64;
+
+    #[inline(always)]
+    fn load(self, &Stored([x, y, z, rest]): &Stored<f64>) -> f64x4 {
+        f64x4(x, y, z, rest)
+    }
+
+    #[inline(always)]
+    fn store(self, v: f64x4) -> Stored<f64> {
+        Stored([v.0, v.1, v.2, v.3])
+    }
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> f64x4 {
+        self.0.splat_f64x4(value)
     }
 
     #[inline(always)]

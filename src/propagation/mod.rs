@@ -6,10 +6,13 @@ mod continuous_angles;
 mod fused;
 mod input;
 mod motion;
+#[cfg(target_arch = "x86_64")]
+mod registers;
 mod taylor;
 
 pub use continuous_angles::ContinuousAngles;
 pub use motion::{AxisMotion, AxisState, Motion};
 pub use taylor::{
-    ACCURACY_RANGE, STEP_LIMIT, Samples, TaylorAxisMotion, TaylorMotion, axis_states_at, propagate, propagate_axis, states_at,
+    ACCURACY_RANGE, AxisScene, STEP_LIMIT, Samples, TaylorAxisMotion, TaylorMotion, axis_states_at,
+    axis_states_of_many, propagate, propagate_axis, states_at,
 };

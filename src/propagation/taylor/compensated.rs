@@ -25,7 +25,7 @@ impl Compensated {
 /// A state whose additions are compensated: `high` is the state, `low` what its last addition lost.
 pub(super) struct CompensatedState<A: Arithmetic, const V: usize> {
     pub(super) high: Vectors<A::Vector, V>,
-    low: Vectors<A::Vector, V>,
+    pub(super) low: Vectors<A::Vector, V>,
 }
 
 impl<A: Arithmetic, const V: usize> CompensatedState<A, V> {

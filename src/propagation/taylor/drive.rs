@@ -1,12 +1,12 @@
 //! The steps of a motion, one after the other.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
-use crate::propagation::arithmetic::{Arithmetic, Stored};
-use crate::propagation::taylor::compensated::{Compensated, CompensatedState};
-use crate::propagation::taylor::error_growth::ErrorGrowth;
+use crate::propagation::arithmetic::{OneMotion, Stored};
+use crate::propagation::taylor::clock::{Clock, Interval, StepLimit};
+use crate::propagation::taylor::compensated::CompensatedState;
 use crate::propagation::taylor::series::{Recurrence, Vectors, change};
 use crate::propagation::taylor::step_size::{Scale, step_size};
 use crate::scalar::Real;
@@ -27,71 +27,61 @@ pub(super) struct Drive<'a, S, const V: usize> {
     pub(super) budget: f64,
 }
 
-/// A step with its series, and the errors made up to its end.
-pub(super) struct Step<'a, S, const V: usize> {
-    /// Start of the step: time since the start of the motion, positive in either direction.
-    pub(super) start: Compensated,
-    /// Time since the start of the motion at which the next step begins; infinite for the last.
-    pub(super) end: f64,
-    /// Errors made up to the end of the step.
-    pub(super) error: ErrorGrowth,
-    /// The coefficients.
-    pub(super) series: &'a [Vectors<Stored<S>, V>],
+/// Rates of the recurrences in units of the series.
+pub(super) struct Rates<S> {
+    /// `unit / I^xx`.
+    pub(super) axis: S,
+    /// `2 C unit`.
+    momentum: S,
+    /// `2 C unit (s^YY - s^ZZ, s^ZZ - s^XX, s^XX - s^YY)`, for a tensor that is diagonal.
+    pub(super) momentum_of_principal: [S; 3],
 }
 
 impl<S: Real, const V: usize> Drive<'_, S, V> {
-    /// Steps from the start to the end of the span, at most `limit`, and gives each to `visit`.
     #[inline(always)]
-    pub(super) fn run<A: Arithmetic<Scalar = S>>(
+    pub(super) fn rates(&self) -> Rates<S> {
+        let RigidSpheroid { inertia_xx, constant_c, .. } = *self.spheroid;
+        let unit = self.scale.time;
+        let momentum = constant_c * (2.0 * unit);
+        let [x, y, z] = [0, 1, 2].map(|i| self.violation[(i, i)]);
+        let momentum_of_principal = [y - z, z - x, x - y].map(|difference| momentum * difference);
+        Rates { axis: S::from_f64(unit) / inertia_xx, momentum, momentum_of_principal }
+    }
+
+    fn recurrence<A: OneMotion<Scalar = S>>(&self, a: A) -> Recurrence<A, V> {
+        let rates = self.rates();
+        let momentum_rate = if A::PRINCIPAL_FRAME {
+            a.load(&Stored::from(Vector3::from(rates.momentum_of_principal)))
+        } else {
+            a.splat(rates.momentum)
+        };
+        let columns = [0, 1, 2].map(|i| a.load(&Stored::from(self.violation.column(i).into_owned())));
+        Recurrence::new(a, self.order, a.splat(rates.axis), momentum_rate, columns)
+    }
+
+    /// Steps from the start to the end of the span, at most `limit`; `visit` is given each with its series.
+    #[inline(always)]
+    pub(super) fn run<A: OneMotion<Scalar = S>>(
         &self,
         a: A,
         limit: StepLimit,
-        mut visit: impl FnMut(Step<'_, S, V>),
+        mut visit: impl FnMut(&Interval, &[Vectors<A::Vector, V>]),
     ) -> Result<(), Error> {
         let Drive { scale, order, duration, direction, budget, .. } = *self;
-        let mut recurrence = Recurrence::<A, V>::new(a, self.spheroid, self.violation, order, scale.time);
-        let mut series = vec![[Stored::zero(); V]; order + 1];
-        let mut elapsed = Compensated::new(0.0);
+        let mut recurrence = self.recurrence(a);
+        let mut series = vec![[a.zero(); V]; order + 1];
         let mut state = CompensatedState::new(a, self.start.map(|v| a.load(&v)));
-        let mut error = ErrorGrowth::of_rounded_start();
-        let mut count = 0;
+        let mut clock = Clock::new();
         loop {
-            check_length(count, limit, elapsed.high, duration)?;
             recurrence.expand(&state.high, &mut series);
-            let step = step_size(a, &series, scale, budget);
-            Error::unless(
-                step > 0.0,
-                "step of the motion",
-                step,
-                "above zero: in these units the motion is out of range",
-            )?;
-            let remaining = (duration - elapsed.high) - elapsed.low;
-            let last = step >= remaining;
-            let step = if last { remaining } else { step };
-            error.add(elapsed.high, budget * step);
-            let start = elapsed;
-            elapsed.add(step);
-            let end = if last { f64::INFINITY } else { elapsed.high };
-            visit(Step { start, end, error, series: &series });
-            if last {
+            let sizes = [order, order - 1].map(|k| scale.size(a, &series[k]));
+            let step = clock.advance(step_size(sizes, order, scale, budget), duration, budget, limit)?;
+            visit(&step, &series);
+            if step.is_last() {
                 return Ok(());
             }
-            state.add(a, &change(a, &series, S::from_f64(step * direction / scale.time)));
-            count += 1;
+            let h = S::from_f64(step.length * direction / scale.time);
+            state.add(a, &change(a, order, |k| series[k], a.splat(h)));
         }
     }
-}
-
-/// Most steps that a motion may have, in numbers and in words.
-#[derive(Clone, Copy)]
-pub(super) struct StepLimit {
-    pub(super) steps: usize,
-    pub(super) allowed: &'static str,
-}
-
-/// Refuses a motion that has too many steps, or that has shown within its first steps that it will have.
-fn check_length(steps: usize, limit: StepLimit, elapsed: f64, duration: f64) -> Result<(), Error> {
-    let foreseen = steps as f64 * duration / elapsed.max(f64::MIN_POSITIVE);
-    let hopeless = steps >= 256 && foreseen > 2.0 * limit.steps as f64;
-    Error::unless(steps < limit.steps && !hopeless, "length of the motion in its own steps", foreseen, limit.allowed)
 }

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
-use crate::propagation::arithmetic::{Arithmetic, Stored};
+use crate::propagation::arithmetic::{OneMotion, Stored};
 use crate::scalar::{Real, Scalar};
 
 /// The tensor `s^IJ` without its isotropic part, in the frame of a series, and the way back.
@@ -17,10 +17,10 @@ pub(super) struct SeriesFrame<S> {
 }
 
 impl<S: Real> SeriesFrame<S> {
-    /// The frame that the arithmetic wants.
-    pub(super) fn of<A: Arithmetic>(anisotropic: &Matrix3<S>) -> Result<Self, Error> {
+    /// The principal frame, by real parts, or the given one.
+    pub(super) fn of(anisotropic: &Matrix3<S>, principal: bool) -> Result<Self, Error> {
         let off_diagonal = [(0, 1), (0, 2), (1, 2)].iter().any(|&place| anisotropic[place].re() != 0.0);
-        if !A::PRINCIPAL_FRAME || !off_diagonal {
+        if !principal || !off_diagonal {
             return Ok(Self { violation: *anisotropic, given_from_series: None });
         }
         let frame = principal_frame(&anisotropic.map(S::re))?;
@@ -35,8 +35,13 @@ impl<S: Real> SeriesFrame<S> {
     }
 
     /// A vector of the series in the given frame.
+    pub(super) fn to_given(&self, v: &Vector3<S>) -> Vector3<S> {
+        self.given_from_series.map_or(*v, |back| back.map(S::from_f64) * v)
+    }
+
+    /// The same, by the instructions of the series.
     #[inline(always)]
-    pub(super) fn given_from_series<A: Arithmetic<Scalar = S>>(&self, a: A, v: A::Vector) -> A::Vector {
+    pub(super) fn given_from_series<A: OneMotion<Scalar = S>>(&self, a: A, v: A::Vector) -> A::Vector {
         match &self.given_from_series {
             None => v,
             Some(back) => {

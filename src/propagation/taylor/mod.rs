@@ -1,9 +1,13 @@
 //! Numerical motion by Taylor series with adaptive steps and dense output.
 
+mod clock;
 mod compensated;
 mod drive;
 mod error_growth;
 mod frame;
+#[cfg(target_arch = "x86_64")]
+mod lanes;
+mod many;
 mod samples;
 mod series;
 mod setup;
@@ -15,16 +19,19 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::arithmetic::{Arithmetic, Plain, Stored};
+use crate::propagation::arithmetic::{OneMotion, Plain, Stored};
 use crate::propagation::fused::{Fused, detect_fused, run_fused};
 use crate::propagation::{AxisMotion, AxisState, Motion};
 use crate::scalar::Real;
+use clock::StepLimit;
 use compensated::Compensated;
 use error_growth::ErrorGrowth;
+pub use many::{AxisScene, axis_states_of_many};
 pub use samples::{Samples, axis_states_at, states_at};
-use drive::StepLimit;
+
 use series::{AXIS, MOMENTUM, Vectors};
 use setup::Setup;
+use step_size::Work;
 
 /// Smallest and largest accuracy that [`propagate`] takes.
 pub const ACCURACY_RANGE: (f64, f64) = (1e-16, 1e-2);
@@ -103,16 +110,16 @@ struct Steps<S, const V: usize> {
 
 impl<S: Real, const V: usize> Steps<S, V> {
     #[inline(always)]
-    fn kept<A: Arithmetic<Scalar = S>>(setup: &Setup<S, V>, a: A) -> Result<Self, Error> {
+    fn kept<A: OneMotion<Scalar = S>>(setup: &Setup<S, V>, a: A) -> Result<Self, Error> {
         let mut steps = Self { starts: Vec::new(), errors: Vec::new(), coefficients: Vec::new() };
-        setup.drive().run(a, LIMIT, |step| {
+        setup.drive().run(a, LIMIT, |step, series| {
             if let [_] = steps.starts.as_slice() {
                 // Steps of one motion are much alike: room for all of them at once.
-                steps.reserve(setup.duration() / step.start.high, step.series.len());
+                steps.reserve(setup.duration() / step.start.high, series.len());
             }
             steps.starts.push(step.start);
             steps.errors.push(step.error);
-            steps.coefficients.extend_from_slice(step.series);
+            steps.coefficients.extend(series.iter().map(|vectors| vectors.map(|v| a.store(v))));
         })?;
         Ok(steps)
     }
@@ -157,7 +164,7 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
     ) -> Result<Self, Error> {
         if let Some(fused) = fused_for::<S>() {
             let (spheroid, s, start) = (spheroid.map(S::re), s.map(S::re), start.map(|v| v.map(S::re)));
-            let setup = Setup::new::<Fused>(&spheroid, &s, start, span, accuracy)?;
+            let setup = Setup::new((true, Work::Latent), &spheroid, &s, start, span, accuracy)?;
             let steps = run_fused(
                 fused,
                 #[inline(always)]
@@ -166,7 +173,7 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
             let motion: Box<dyn Any> = Box::new(TaylorMotion { setup, fused: Some(fused), steps });
             return Ok(*motion.downcast().expect("the scalar is f64"));
         }
-        let setup = Setup::new::<Plain<S>>(spheroid, s, start, span, accuracy)?;
+        let setup = Setup::new((false, Work::Quadratic), spheroid, s, start, span, accuracy)?;
         let steps = Steps::kept(&setup, Plain::new())?;
         Ok(Self { setup, fused: None, steps })
     }
@@ -209,10 +216,10 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
     }
 
     #[inline(always)]
-    fn sum<A: Arithmetic<Scalar = S>>(&self, a: A, step: usize, t: S) -> [Stored<S>; V] {
+    fn sum<A: OneMotion<Scalar = S>>(&self, a: A, step: usize, t: S) -> [Stored<S>; V] {
         let length = self.setup.order + 1;
-        let Compensated { high, low } = self.steps.starts[step];
-        self.setup.sum(a, &self.steps.coefficients[step * length..][..length], (high, low), t)
+        let series = &self.steps.coefficients[step * length..][..length];
+        self.setup.sum(a, |k| series[k].each_ref().map(|v| a.load(v)), &self.steps.starts[step], t)
     }
 }
 

@@ -5,15 +5,16 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::AxisState;
-use crate::propagation::arithmetic::{Arithmetic, Plain};
-use crate::propagation::fused::{Fused, run_fused};
-use crate::propagation::taylor::drive::StepLimit;
+use crate::propagation::arithmetic::{OneMotion, Plain};
+use crate::propagation::fused::run_fused;
+use crate::propagation::taylor::clock::{Interval, StepLimit};
 use crate::propagation::taylor::fused_for;
 use crate::propagation::taylor::setup::Setup;
+use crate::propagation::taylor::step_size::Work;
 use crate::scalar::{Real, Scalar};
 
 /// An hour or so.
-const LIMIT: StepLimit =
+pub(super) const LIMIT: StepLimit =
     StepLimit { steps: 10_000_000_000, allowed: "at most 1e10 steps: take earlier times or a lower accuracy" };
 
 /// States at given times, with what is known of them.
@@ -65,6 +66,20 @@ pub fn axis_states_at<S: Real>(
     sampled(spheroid, s, vectors, start, times, accuracy, |_, [axis, momentum], _| AxisState { axis, momentum })
 }
 
+/// The span from the start to the last of the times, which must be in the order in which a motion reaches them.
+pub(super) fn span_of(start: f64, times: &[f64]) -> Result<(f64, f64), Error> {
+    let Some(&last) = times.last() else {
+        return Err(Error::Domain { quantity: "number of times", value: 0.0, allowed: "at least one" });
+    };
+    let mut before = start;
+    for &t in times {
+        let onwards = if last >= start { before <= t && t <= last } else { before >= t && t >= last };
+        Error::unless(onwards, "time t", t, "times in the order in which the motion reaches them from its start")?;
+        before = t;
+    }
+    Ok((start, last))
+}
+
 fn sampled<S: Real, T, const V: usize>(
     spheroid: &RigidSpheroid<S>,
     s: &Matrix3<S>,
@@ -74,29 +89,19 @@ fn sampled<S: Real, T, const V: usize>(
     accuracy: f64,
     state: impl Fn(&Setup<S, V>, [Vector3<S>; V], S) -> T,
 ) -> Result<Samples<T>, Error> {
-    let Some(&last) = times.last() else {
-        return Err(Error::Domain { quantity: "number of times", value: 0.0, allowed: "at least one" });
-    };
-    let span = (start, last);
-    let mut before = start;
-    for &t in times {
-        let onwards = if last >= start { before <= t && t <= last } else { before >= t && t >= last };
-        Error::unless(onwards, "time t", t, "times in the order in which the motion reaches them from its start")?;
-        before = t;
-    }
-    let setup = Setup::new::<Plain<S>>(spheroid, s, vectors, span, accuracy)?;
+    let span = span_of(start, times)?;
+    let setup = Setup::new((false, Work::Quadratic), spheroid, s, vectors, span, accuracy)?;
     if let Some(fused) = fused_for::<S>() {
         let (spheroid, s) = (spheroid.map(S::re), s.map(S::re));
-        let real = Setup::new::<Fused>(&spheroid, &s, vectors.map(|v| v.map(S::re)), span, accuracy)?;
+        let real = Setup::new((true, Work::Latent), &spheroid, &s, vectors.map(|v| v.map(S::re)), span, accuracy)?;
         let samples = run_fused(
             fused,
             #[inline(always)]
             || visited(&real, fused, times, |_, vectors, t| (vectors, t)),
         )?;
         let Samples { states, error_estimates, step_count, order } = samples;
-        let given = |(vectors, t): ([Vector3<f64>; V], f64)| {
-            state(&setup, vectors.map(|v| v.map(S::from_f64)), S::from_f64(t))
-        };
+        let given =
+            |(vectors, t): ([Vector3<f64>; V], f64)| state(&setup, vectors.map(|v| v.map(S::from_f64)), S::from_f64(t));
         return Ok(Samples { states: states.into_iter().map(given).collect(), error_estimates, step_count, order });
     }
     visited(&setup, Plain::new(), times, state)
@@ -104,27 +109,45 @@ fn sampled<S: Real, T, const V: usize>(
 
 /// Evaluates each step at the times within it.
 #[inline(always)]
-fn visited<A: Arithmetic, T, const V: usize>(
+fn visited<A: OneMotion, T, const V: usize>(
     setup: &Setup<A::Scalar, V>,
     a: A,
     times: &[f64],
     state: impl Fn(&Setup<A::Scalar, V>, [Vector3<A::Scalar>; V], A::Scalar) -> T,
 ) -> Result<Samples<T>, Error> {
-    let room = || Vec::with_capacity(times.len());
-    let mut samples = Samples { states: Vec::with_capacity(times.len()), error_estimates: room(), step_count: 0, order: setup.order };
-    let rate = setup.scale.turning_rate;
-    setup.drive().run(a, LIMIT, |step| {
+    let mut samples = Samples::with_room(times.len(), setup.order);
+    setup.drive().run(a, LIMIT, |step, series| {
         samples.step_count += 1;
-        while let Some(&time) = times.get(samples.states.len()) {
+        samples.take(setup, times, step, |time| {
+            let t = A::Scalar::from_f64(time);
+            state(setup, setup.sum(a, |k| series[k], &step.start, t).map(|v| v.vector()), t)
+        });
+    })?;
+    Ok(samples)
+}
+
+impl<T> Samples<T> {
+    /// No samples yet, but room for `count`.
+    pub(super) fn with_room(count: usize, order: usize) -> Self {
+        Self { states: Vec::with_capacity(count), error_estimates: Vec::with_capacity(count), step_count: 0, order }
+    }
+
+    /// Takes those of the `times` that lie in a step and have not been taken.
+    #[inline(always)]
+    pub(super) fn take<S: Real, const V: usize>(
+        &mut self,
+        setup: &Setup<S, V>,
+        times: &[f64],
+        step: &Interval,
+        state_at: impl Fn(f64) -> T,
+    ) {
+        while let Some(&time) = times.get(self.states.len()) {
             let elapsed = (time - setup.span.0).abs();
             if elapsed >= step.end {
                 break;
             }
-            let t = A::Scalar::from_f64(time);
-            let vectors = setup.sum(a, step.series, (step.start.high, step.start.low), t).map(|v| v.vector());
-            samples.states.push(state(setup, vectors, t));
-            samples.error_estimates.push(step.error.at(elapsed, rate));
+            self.states.push(state_at(time));
+            self.error_estimates.push(step.error.at(elapsed, setup.scale.turning_rate));
         }
-    })?;
-    Ok(samples)
+    }
 }

@@ -1,10 +1,6 @@
 //! Taylor series of a motion about one time: the recurrences of the quadratic equations of motion.
 
-use nalgebra::Matrix3;
-use num_traits::{One, Zero};
-
-use crate::dynamics::RigidSpheroid;
-use crate::propagation::arithmetic::{Arithmetic, Stored};
+use crate::propagation::arithmetic::Arithmetic;
 
 /// What a series carries: `n`, `L` and, with `V = 3`, a vector `u` that turns with `L / I^xx` as `n` does.
 pub(super) type Vectors<T, const V: usize> = [T; V];
@@ -40,50 +36,13 @@ impl<T: Copy> Row<T> {
     }
 
     #[inline(always)]
+    fn window(&self, from: usize, count: usize) -> &[T] {
+        &self.0[from..][..count]
+    }
+
+    #[inline(always)]
     fn put(&mut self, k: usize, value: T) {
         self.0[k & MASK] = value;
-    }
-}
-
-/// The two cyclic permutations of a series of vectors, of which its cross products are made.
-struct Turned<T> {
-    yzx: Box<Row<T>>,
-    zxy: Box<Row<T>>,
-}
-
-impl<T: Copy> Turned<T> {
-    fn filled(value: T) -> Self {
-        Self { yzx: Row::filled(value), zxy: Row::filled(value) }
-    }
-
-    #[inline(always)]
-    fn at(&self, k: usize) -> [T; 2] {
-        [self.yzx.at(k), self.zxy.at(k)]
-    }
-
-    #[inline(always)]
-    fn window(&self, from: usize, count: usize) -> Window<'_, T> {
-        Window { yzx: &self.yzx.0[from..][..count], zxy: &self.zxy.0[from..][..count] }
-    }
-
-    #[inline(always)]
-    fn put<A: Arithmetic<Vector = T>>(&mut self, a: A, k: usize, v: T) {
-        self.yzx.put(k, a.yzx(v));
-        self.zxy.put(k, a.zxy(v));
-    }
-}
-
-/// Consecutive coefficients.
-#[derive(Clone, Copy)]
-struct Window<'a, T> {
-    yzx: &'a [T],
-    zxy: &'a [T],
-}
-
-impl<T: Copy> Window<'_, T> {
-    #[inline(always)]
-    fn at(&self, k: usize) -> [T; 2] {
-        [self.yzx[k], self.zxy[k]]
     }
 }
 
@@ -105,11 +64,11 @@ pub(super) struct Recurrence<A: Arithmetic, const V: usize> {
     share_of_momentum: Box<Row<A::Vector>>,
     /// Columns of `s`.
     violation: [A::Vector; 3],
-    axis: Turned<A::Vector>,
-    momentum: Turned<A::Vector>,
+    axis: Box<Row<A::Turned>>,
+    momentum: Box<Row<A::Turned>>,
     /// `s n`; unused in the principal frame.
-    pulled: Turned<A::Vector>,
-    companion: Turned<A::Vector>,
+    pulled: Box<Row<A::Turned>>,
+    companion: Box<Row<A::Turned>>,
 }
 
 /// Sums of one order: the terms of the cross products with either sign.
@@ -121,58 +80,59 @@ struct Sums<T> {
 }
 
 impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
-    /// The recurrences up to `order` for time in the given unit. `violation` must be diagonal if the arithmetic wants the
-    /// principal frame.
+    /// The recurrences up to `order`. `axis_rate` is `unit / I^xx` for the unit of time of the series, `momentum_rate` is
+    /// `2 C unit`, in the principal frame times the differences of eigenvalues `s^YY - s^ZZ, s^ZZ - s^XX, s^XX - s^YY`;
+    /// `violation` has the columns of `s`, which are not used there.
     pub(super) fn new(
         arithmetic: A,
-        spheroid: &RigidSpheroid<A::Scalar>,
-        violation: &Matrix3<A::Scalar>,
         order: usize,
-        unit: f64,
+        axis_rate: A::Vector,
+        momentum_rate: A::Vector,
+        violation: [A::Vector; 3],
     ) -> Self {
         let a = arithmetic;
         let zero = a.zero();
-        let columns = [0, 1, 2].map(|i| a.load(&Stored::from(violation.column(i).into_owned())));
-        let differences = if A::PRINCIPAL_FRAME {
-            let [x, y, z] = [0, 1, 2].map(|i| violation[(i, i)]);
-            a.load(&Stored([y - z, z - x, x - y, A::Scalar::zero()]))
-        } else {
-            a.splat(A::Scalar::one())
-        };
-        let (mut share_of_axis, mut share_of_momentum) = (Row::filled(zero), Row::filled(zero));
-        let inverse_inertia = A::Scalar::one() / spheroid.inertia_xx;
-        for k in 0..order {
-            let share = unit / (k + 1) as f64;
-            share_of_axis.put(k, a.splat(inverse_inertia * share));
-            share_of_momentum.put(k, a.mul(differences, a.splat(spheroid.constant_c * (2.0 * share))));
-        }
-        let turned = || Turned::filled(zero);
-        Self {
+        let turned = || Row::filled(a.turned(zero));
+        let mut recurrence = Self {
             arithmetic,
             order,
-            share_of_axis,
-            share_of_momentum,
-            violation: columns,
+            share_of_axis: Row::filled(zero),
+            share_of_momentum: Row::filled(zero),
+            violation,
             axis: turned(),
             momentum: turned(),
             pulled: turned(),
             companion: turned(),
+        };
+        recurrence.set_rates(axis_rate, momentum_rate);
+        recurrence
+    }
+
+    /// Other rates from now on.
+    #[inline(always)]
+    pub(super) fn set_rates(&mut self, axis_rate: A::Vector, momentum_rate: A::Vector) {
+        for k in 0..self.order {
+            let share = 1.0 / (k + 1) as f64;
+            self.share_of_axis.put(k, self.arithmetic.scale(axis_rate, share));
+            self.share_of_momentum.put(k, self.arithmetic.scale(momentum_rate, share));
         }
     }
 
     /// Fills `series` (of length `order + 1`) with the coefficients about the state `start`.
     #[inline(always)]
-    pub(super) fn expand(&mut self, start: &Vectors<A::Vector, V>, series: &mut [Vectors<Stored<A::Scalar>, V>]) {
+    pub(super) fn expand(&mut self, start: &Vectors<A::Vector, V>, series: &mut [Vectors<A::Vector, V>]) {
         // Several orders at once share what they read. How many the registers hold depends on the sums of each.
-        if V > COMPANION { self.expand_by::<2>(start, series) } else { self.expand_by::<3>(start, series) }
+        if A::MANY {
+            self.expand_by::<1>(start, series);
+        } else if V > COMPANION {
+            self.expand_by::<2>(start, series);
+        } else {
+            self.expand_by::<3>(start, series);
+        }
     }
 
     #[inline(always)]
-    fn expand_by<const B: usize>(
-        &mut self,
-        start: &Vectors<A::Vector, V>,
-        series: &mut [Vectors<Stored<A::Scalar>, V>],
-    ) {
+    fn expand_by<const B: usize>(&mut self, start: &Vectors<A::Vector, V>, series: &mut [Vectors<A::Vector, V>]) {
         let series = &mut series[..self.order + 1];
         self.put(0, start, series);
         let mut k = 0;
@@ -216,16 +176,16 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
     #[inline(always)]
     fn add_common_terms<const B: usize>(&self, sums: &mut [Sums<A::Vector>; B], k: usize) {
         let count = k + 2 - B;
-        let turning = [&self.momentum, if A::PRINCIPAL_FRAME { &self.axis } else { &self.pulled }];
-        let [momentum, pulled] = turning.map(|turned| turned.window(B - 1, count));
+        let pulled = if A::PRINCIPAL_FRAME { &self.axis } else { &self.pulled };
+        let (momentum, pulled) = (self.momentum.window(B - 1, count), pulled.window(B - 1, count));
         let axis: [_; B] = core::array::from_fn(|r| self.axis.window(r, count));
         let companion: [_; B] = core::array::from_fn(|r| self.companion.window(r, count));
         for j in 0..count {
             let i = count - 1 - j;
-            let (momentum, pulled) = (momentum.at(j), pulled.at(j));
+            let (momentum, pulled) = (momentum[j], pulled[j]);
             for (r, sum) in sums.iter_mut().enumerate() {
-                let companion = if V > COMPANION { companion[r].at(i) } else { momentum };
-                self.add_products(sum, momentum, pulled, axis[r].at(i), companion);
+                let companion = if V > COMPANION { companion[r][i] } else { momentum };
+                self.add_products(sum, momentum, pulled, axis[r][i], companion);
             }
         }
     }
@@ -239,23 +199,23 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
         self.add_products(sums, momentum, pulled, self.axis.at(i), companion);
     }
 
-    /// Adds `L_j x n_i`, `(s n)_j x n_i` and `L_j x u_i`, each vector by its two permutations.
+    /// Adds `L_j x n_i`, `(s n)_j x n_i` and `L_j x u_i`, by their terms of either sign.
     #[inline(always)]
     fn add_products(
         &self,
         sums: &mut Sums<A::Vector>,
-        momentum: [A::Vector; 2],
-        pulled: [A::Vector; 2],
-        axis: [A::Vector; 2],
-        companion: [A::Vector; 2],
+        momentum: A::Turned,
+        pulled: A::Turned,
+        axis: A::Turned,
+        companion: A::Turned,
     ) {
         let a = self.arithmetic;
-        let add = |[ahead, behind]: [A::Vector; 2], [yzx, zxy]: [A::Vector; 2], turned: [A::Vector; 2]| {
-            [a.mul_add(yzx, turned[1], ahead), a.mul_add(zxy, turned[0], behind)]
+        let add = |[ahead, behind]: [A::Vector; 2], turning, turned| {
+            [a.mul_add(a.yzx(turning), a.zxy(turned), ahead), a.mul_add(a.zxy(turning), a.yzx(turned), behind)]
         };
         sums.axis = add(sums.axis, momentum, axis);
         if A::PRINCIPAL_FRAME {
-            sums.pull[0] = a.mul_add(pulled[0], axis[1], sums.pull[0]);
+            sums.pull[0] = a.mul_add(a.yzx(pulled), a.zxy(axis), sums.pull[0]);
         } else {
             sums.pull = add(sums.pull, pulled, axis);
         }
@@ -266,7 +226,7 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
 
     /// Makes coefficient `k + 1` of the sums of order `k`.
     #[inline(always)]
-    fn finish(&mut self, k: usize, sums: &Sums<A::Vector>, series: &mut [Vectors<Stored<A::Scalar>, V>]) {
+    fn finish(&mut self, k: usize, sums: &Sums<A::Vector>, series: &mut [Vectors<A::Vector, V>]) {
         let a = self.arithmetic;
         let cross = |[ahead, behind]: [A::Vector; 2]| a.sub(ahead, behind);
         let pull = if A::PRINCIPAL_FRAME { sums.pull[0] } else { cross(sums.pull) };
@@ -280,50 +240,54 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
     }
 
     #[inline(always)]
-    fn put(&mut self, k: usize, coefficient: &Vectors<A::Vector, V>, series: &mut [Vectors<Stored<A::Scalar>, V>]) {
+    fn put(&mut self, k: usize, coefficient: &Vectors<A::Vector, V>, series: &mut [Vectors<A::Vector, V>]) {
         let a = self.arithmetic;
-        series[k] = coefficient.map(|v| a.store(v));
-        self.axis.put(a, k, coefficient[AXIS]);
-        self.momentum.put(a, k, coefficient[MOMENTUM]);
+        series[k] = *coefficient;
+        self.axis.put(k, a.turned(coefficient[AXIS]));
+        self.momentum.put(k, a.turned(coefficient[MOMENTUM]));
         if !A::PRINCIPAL_FRAME {
-            self.pulled.put(a, k, a.combine(&self.violation, coefficient[AXIS]));
+            self.pulled.put(k, a.turned(a.combine(&self.violation, coefficient[AXIS])));
         }
         if V > COMPANION {
-            self.companion.put(a, k, coefficient[COMPANION]);
+            self.companion.put(k, a.turned(coefficient[COMPANION]));
         }
     }
 }
 
-/// Change of the vectors over the time `h`, in units of the series, by its coefficients: the sum without its constant term,
-/// which the caller adds last.
+/// Change of the vectors over the time `h` (the same in each component), in units of the series, by its coefficients: the sum
+/// without its constant term, which the caller adds last. `coefficient` gives those up to `order`.
 #[inline(always)]
 pub(super) fn change<A: Arithmetic, const V: usize>(
     a: A,
-    series: &[Vectors<Stored<A::Scalar>, V>],
-    h: A::Scalar,
+    order: usize,
+    coefficient: impl Fn(usize) -> Vectors<A::Vector, V>,
+    h: A::Vector,
 ) -> Vectors<A::Vector, V> {
     // Even and odd powers apart: two short chains of products instead of a long one. The largest terms come last.
     let zero = [a.zero(); V];
     let (mut even, mut odd) = (zero, zero);
-    let (step, square) = (a.splat(h), a.splat(h * h));
-    let times_plus = |sum: &mut Vectors<A::Vector, V>, factor, next: &Vectors<Stored<A::Scalar>, V>| {
+    let square = a.mul(h, h);
+    let times_square_plus = |sum: &mut Vectors<A::Vector, V>, next: Vectors<A::Vector, V>| {
         for (sum, next) in sum.iter_mut().zip(next) {
-            *sum = a.mul_add(*sum, factor, a.load(next));
+            *sum = a.mul_add(*sum, square, next);
         }
     };
-    // Pairs of an even and an odd coefficient from the second on; the last may be alone.
-    let pairs = series[2..].chunks_exact(2);
-    if let [last] = pairs.remainder() {
-        even = last.each_ref().map(|v| a.load(v));
+    let mut k = order;
+    if k % 2 == 0 {
+        even = coefficient(k);
+        k -= 1;
     }
-    for pair in pairs.rev() {
-        times_plus(&mut even, square, &pair[0]);
-        times_plus(&mut odd, square, &pair[1]);
+    // `k` is odd: pairs of an odd and an even coefficient, down to the third and second.
+    while k > 2 {
+        times_square_plus(&mut odd, coefficient(k));
+        times_square_plus(&mut even, coefficient(k - 1));
+        k -= 2;
     }
+    let first = coefficient(1);
     let mut sum = zero;
     for i in 0..V {
-        let higher = a.mul_add(odd[i], step, even[i]);
-        sum[i] = a.mul(a.mul_add(higher, step, a.load(&series[1][i])), step);
+        let higher = a.mul_add(odd[i], h, even[i]);
+        sum[i] = a.mul(a.mul_add(higher, h, first[i]), h);
     }
     sum
 }

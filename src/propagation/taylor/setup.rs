@@ -4,12 +4,13 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::arithmetic::{Arithmetic, Stored};
+use crate::propagation::arithmetic::{OneMotion, Stored};
 use crate::propagation::input::check_input;
+use crate::propagation::taylor::compensated::Compensated;
 use crate::propagation::taylor::drive::Drive;
 use crate::propagation::taylor::frame::{SeriesFrame, rate_about_axis};
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Vectors, change};
-use crate::propagation::taylor::step_size::{Scale, order_for};
+use crate::propagation::taylor::step_size::{Scale, Work, order_for};
 use crate::scalar::Real;
 
 /// Body, tensor, start and span of a motion, with the order and the error allowed per unit of time.
@@ -21,7 +22,7 @@ pub(super) struct Setup<S, const V: usize> {
     pub(super) scale: Scale,
     pub(super) order: usize,
     budget: f64,
-    frame: SeriesFrame<S>,
+    pub(super) frame: SeriesFrame<S>,
     /// In the frame of the series.
     start: Vectors<Stored<S>, V>,
     /// Rate at which `e_x` turns about `n` against the vector carried along.
@@ -29,7 +30,9 @@ pub(super) struct Setup<S, const V: usize> {
 }
 
 impl<S: Real, const V: usize> Setup<S, V> {
-    pub(super) fn new<A: Arithmetic<Scalar = S>>(
+    /// `principal_frame` says whether the series is computed in that of `s`.
+    pub(super) fn new(
+        (principal_frame, work): (bool, Work),
         spheroid: &RigidSpheroid<S>,
         s: &Matrix3<S>,
         start: [Vector3<S>; V],
@@ -51,8 +54,8 @@ impl<S: Real, const V: usize> Setup<S, V> {
         // what is left of the accuracy after that growth over half of the span on average.
         let growth = 1.0 + scale.turning_rate * duration / 2.0;
         let budget = if duration > 0.0 { (accuracy / (duration * growth)).min(f64::MAX) } else { accuracy };
-        let order = order_for::<A>(budget / scale.turning_rate.max(f64::MIN_POSITIVE));
-        let frame = SeriesFrame::of::<A>(&anisotropic)?;
+        let order = order_for(budget / scale.turning_rate.max(f64::MIN_POSITIVE), work);
+        let frame = SeriesFrame::of(&anisotropic, principal_frame)?;
         let rate_about_axis = rate_about_axis(spheroid, &start[AXIS], &start[MOMENTUM]);
         let start = start.map(|v| Stored::from(frame.series_from_given(&v)));
         let (spheroid, violation) = (*spheroid, *s);
@@ -84,22 +87,29 @@ impl<S: Real, const V: usize> Setup<S, V> {
         }
     }
 
-    /// The vectors, in the given frame, at the time `t` of a step that begins at the time `high + low` after the start.
+    /// Time in units of the series from the start of a step, which is at the time `high + low` after that of the motion, to
+    /// the time `t`.
     #[inline(always)]
-    pub(super) fn sum<A: Arithmetic<Scalar = S>>(
+    pub(super) fn series_time(&self, start: &Compensated, t: S) -> S {
+        let direction = self.direction();
+        let offset = t - S::from_f64(self.span.0) - S::from_f64(start.high * direction);
+        (offset - S::from_f64(start.low * direction)) * (1.0 / self.scale.time)
+    }
+
+    /// The vectors, in the given frame, at the time `t` by the series of a step.
+    #[inline(always)]
+    pub(super) fn sum<A: OneMotion<Scalar = S>>(
         &self,
         a: A,
-        series: &[Vectors<Stored<S>, V>],
-        (high, low): (f64, f64),
+        coefficient: impl Fn(usize) -> Vectors<A::Vector, V>,
+        start: &Compensated,
         t: S,
     ) -> [Stored<S>; V] {
-        let direction = self.direction();
-        let offset = t - S::from_f64(self.span.0) - S::from_f64(high * direction);
-        let h = (offset - S::from_f64(low * direction)) * (1.0 / self.scale.time);
-        let change = change(a, series, h);
+        let first = coefficient(0);
+        let change = change(a, self.order, coefficient, a.splat(self.series_time(start, t)));
         let mut vectors = [Stored::zero(); V];
         for i in 0..V {
-            let v = a.add(a.load(&series[0][i]), change[i]);
+            let v = a.add(first[i], change[i]);
             vectors[i] = a.store(self.frame.given_from_series(a, v));
         }
         vectors

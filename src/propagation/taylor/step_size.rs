@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
-use crate::propagation::arithmetic::{Arithmetic, Stored};
+use crate::propagation::arithmetic::OneMotion;
 use crate::propagation::taylor::series::{MAX_ORDER, MOMENTUM, Vectors};
 use crate::scalar::{Real, real_part};
 
@@ -31,55 +31,61 @@ impl Scale {
         Self { momentum: if momentum > 0.0 { momentum } else { inertia }, turning_rate, time }
     }
 
-    /// Largest component of a coefficient, `L` in units of the momentum.
+    /// Largest component of a coefficient, `L` in units of the momentum; NaN if one is NaN.
     #[inline(always)]
-    pub(super) fn size<A: Arithmetic, const V: usize>(
-        &self,
-        a: A,
-        coefficient: &Vectors<Stored<A::Scalar>, V>,
-    ) -> f64 {
-        let mut size: f64 = 0.0;
-        for (i, vector) in coefficient.iter().enumerate() {
-            let largest = a.largest(a.load(vector));
-            let largest = if i == MOMENTUM { largest / self.momentum } else { largest };
-            size = if largest <= size { size } else { largest };
+    pub(super) fn size<A: OneMotion, const V: usize>(&self, a: A, coefficient: &Vectors<A::Vector, V>) -> f64 {
+        let mut sizes = coefficient.map(|v| a.largest(v));
+        sizes[MOMENTUM] /= self.momentum;
+        let mut size = sizes[0];
+        for other in &sizes[1..] {
+            size = if *other <= size { size } else { *other };
         }
         size
     }
+
+    /// The same from the largest components of `n` and of `L`.
+    #[inline(always)]
+    pub(super) fn size_of_both(&self, axis: f64, momentum: f64) -> f64 {
+        let momentum = momentum / self.momentum;
+        if momentum <= axis { axis } else { momentum }
+    }
 }
 
-/// Order of the series for a relative truncation `budget` per radian. The work per unit of time would be least near
-/// `-ln(budget) / 2` if it grew as the square of the order (Jorba and Zou 2005); by instructions that multiply whole vectors
-/// it grows more slowly, and the best order is higher.
-pub(super) fn order_for<A: Arithmetic>(budget: f64) -> usize {
-    let share = if A::PRINCIPAL_FRAME { 0.75 } else { 0.5 };
+/// How the series is computed, as far as its order depends on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Work {
+    /// The work grows as the square of the order.
+    Quadratic,
+    /// By instructions that multiply whole vectors: much of the work is waiting for the order before, so that it grows more
+    /// slowly.
+    Latent,
+}
+
+/// Order of the series for a relative truncation `budget` per radian. If the work grows as the square of the order it is least
+/// near `-ln(budget) / 2` (Jorba and Zou 2005), and at a higher order if it grows more slowly.
+pub(super) fn order_for(budget: f64, work: Work) -> usize {
+    let share = match work {
+        Work::Quadratic => 0.5,
+        Work::Latent => 0.75,
+    };
     // One more than a multiple of three, the number of orders that are worked on at once.
     let triples = ((-budget.ln() * share - 1.0) / 3.0).round().clamp(2.0, (MAX_ORDER / 3 - 1) as f64);
     3 * triples as usize + 1
 }
 
-/// Step with truncation error at most `budget` per unit of time, from the last two coefficients (two, since one may vanish
-/// by symmetry); zero where the coefficients are out of range.
+/// Step with truncation error at most `budget` per unit of time, from the sizes of the last coefficient and the one before
+/// (two, since one may vanish by symmetry); zero where the coefficients are out of range.
 #[inline(always)]
-pub(super) fn step_size<A: Arithmetic, const V: usize>(
-    a: A,
-    series: &[Vectors<Stored<A::Scalar>, V>],
-    scale: &Scale,
-    budget: f64,
-) -> f64 {
-    let order = series.len() - 1;
+pub(super) fn step_size(sizes: [f64; 2], order: usize, scale: &Scale, budget: f64) -> f64 {
     // The binary logarithm of the largest step in units of the series.
-    let bound = |k: usize| {
-        let size = scale.size(a, &series[k]);
-        match size {
-            0.0 => f64::INFINITY,
-            size if size.is_finite() => coarse_log2(budget * scale.time / size) / (k as f64 - 1.0),
-            _ => f64::NEG_INFINITY,
-        }
+    let bound = |size: f64, k: usize| match size {
+        0.0 => f64::INFINITY,
+        size if size.is_finite() => coarse_log2(budget * scale.time / size) / (k as f64 - 1.0),
+        _ => f64::NEG_INFINITY,
     };
     // The first omitted term is about the last kept one times (step / radius of convergence), and that ratio is below
     // one fifth: so the last kept term bounds the whole remainder.
-    let exponent = bound(order).min(bound(order - 1));
+    let exponent = bound(sizes[0], order).min(bound(sizes[1], order - 1));
     if exponent == f64::NEG_INFINITY { 0.0 } else { coarse_exp2(exponent) * scale.time }
 }
 
