@@ -4,10 +4,12 @@ mod compensated;
 mod continuous_angles;
 mod error_growth;
 mod input;
+mod linearised_flow;
 mod motion;
 mod series;
 mod step_size;
 mod taylor;
+mod taylor_error;
 
 pub use continuous_angles::ContinuousAngles;
 pub use motion::{AxisMotion, AxisState, Motion};

@@ -1,14 +1,16 @@
 //! Numerical motion by Taylor series with adaptive steps and dense output.
 
+use std::sync::OnceLock;
+
 use nalgebra::Matrix3;
 
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::compensated::{Compensated, CompensatedState};
-use crate::propagation::error_growth::ErrorGrowth;
 use crate::propagation::input::check_input;
 use crate::propagation::series::{AXIS, EQUATORIAL_AXIS, MOMENTUM, Recurrence, Vectors, change};
 use crate::propagation::step_size::{Scale, order_for, step_size};
+use crate::propagation::taylor_error::{StepError, TaylorErrors};
 use crate::propagation::{AxisMotion, AxisState, Motion};
 use crate::scalar::Real;
 
@@ -68,8 +70,8 @@ pub struct TaylorMotion<S, const V: usize = 3> {
     order: usize,
     /// Start of each step: time since the start of the motion, positive in either direction.
     starts: Vec<Compensated>,
-    /// Errors made up to the end of each step.
-    errors: Vec<ErrorGrowth>,
+    /// Estimated error of each step, found when first asked for: most motions never are.
+    errors: OnceLock<Vec<StepError>>,
     /// `order + 1` coefficients for each step.
     coefficients: Vec<Vectors<S, V>>,
 }
@@ -103,12 +105,11 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
         let order = order_for(budget / scale.turning_rate.max(f64::MIN_POSITIVE));
 
         let (spheroid, violation) = (*spheroid, *s);
-        let (starts, errors, coefficients) = (Vec::new(), Vec::new(), Vec::new());
+        let (starts, errors, coefficients) = (Vec::new(), OnceLock::new(), Vec::new());
         let mut motion = Self { spheroid, violation, span, scale, order, starts, errors, coefficients };
         let mut recurrence = Recurrence::new(&spheroid, &anisotropic, order, scale.time);
         let mut elapsed = Compensated::new(0.0);
         let mut state = CompensatedState::new(&start);
-        let mut error = ErrorGrowth::of_rounded_start();
         loop {
             check_length(motion.step_count(), elapsed.high, duration)?;
             recurrence.append(&state.high, &mut motion.coefficients);
@@ -123,12 +124,10 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
             let remaining = (duration - elapsed.high) - elapsed.low;
             let last = step >= remaining;
             let step = if last { remaining } else { step };
-            error.add(elapsed.high, budget * step);
             if !last {
                 state.add(&change(series, motion.in_series_units(S::from_f64(step * motion.direction()))));
             }
             motion.starts.push(elapsed);
-            motion.errors.push(error);
             if last {
                 return Ok(motion);
             }
@@ -154,6 +153,34 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
     /// The coefficients of one step.
     fn series(&self, step: usize) -> &[Vectors<S, V>] {
         &self.coefficients[step * (self.order + 1)..][..self.order + 1]
+    }
+
+    /// Length of one step, positive in either direction.
+    fn length(&self, step: usize) -> f64 {
+        let end = self.starts.get(step + 1).copied().unwrap_or(Compensated::new((self.span.1 - self.span.0).abs()));
+        (end.high - self.starts[step].high) + (end.low - self.starts[step].low)
+    }
+
+    /// The estimated errors of all steps.
+    fn step_errors(&self) -> Vec<StepError> {
+        let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = self.spheroid;
+        let [inertia_xx, inertia_zz, constant_c] = [inertia_xx, inertia_zz, constant_c].map(S::re);
+        let spheroid = RigidSpheroid { inertia_xx, inertia_zz, constant_c };
+        let violation = self.violation.map(S::re);
+        let anisotropic = violation - Matrix3::from_diagonal_element(violation.trace() / 3.0);
+        let mut errors = TaylorErrors::new(&spheroid, &anisotropic, &self.scale);
+        let mut series = Vec::with_capacity(self.order + 1);
+        let steps = (0..self.step_count()).map(|step| {
+            series.clear();
+            series.extend(self.series(step).iter().map(|coefficient| coefficient.map(S::re)));
+            let h = self.length(step) * self.direction() / self.scale.time;
+            let end = match step + 1 < self.step_count() {
+                true => self.series(step + 1)[0].map(S::re),
+                false => series[0] + change(&series, h),
+            };
+            errors.step(&series, h, &end)
+        });
+        steps.collect()
     }
 
     /// A time in units of the series, a power of two.
@@ -202,13 +229,17 @@ impl<S: Real, const V: usize> AxisMotion<S> for TaylorMotion<S, V> {
         Ok(AxisState { axis: vectors.column(AXIS).into(), momentum: vectors.column(MOMENTUM).into() })
     }
 
-    /// Truncation and rounding of each step so far, each grown linearly with the phase it shifts. It does not foresee
-    /// exponential growth near the unstable middle axis.
+    /// The truncation of each step by its defect, with its sign, and its rounding by its size, carried along the motion by
+    /// the linearised equations: linear growth of phases and exponential growth near the unstable middle axis alike. Found
+    /// for all steps at the first call, for less than the cost of the propagation.
+    ///
+    /// Over random motions of every kind it is never below the true error and most often ten to thirty times it
+    /// (`docs/accuracy.md`). Where it reaches one, nothing more is known of the phase and it is 2.5 from there on.
     fn error_estimate(&self, t: f64) -> f64 {
-        match self.step_at(t) {
-            Ok((index, elapsed)) => self.errors[index].at(elapsed, self.scale.turning_rate),
-            Err(_) => f64::NAN,
-        }
+        let Ok((index, elapsed)) = self.step_at(t) else { return f64::NAN };
+        let error = self.errors.get_or_init(|| self.step_errors())[index];
+        let (into, length) = (elapsed - self.starts[index].high, self.length(index));
+        error.at(if into > 0.0 { into / length } else { 0.0 }, self.order)
     }
 }
 
