@@ -8,6 +8,7 @@ pub mod command;
 pub mod compare;
 pub mod conditioned;
 pub mod derivation;
+pub mod double_double;
 pub mod dual;
 pub mod equation_table;
 pub mod eta;
