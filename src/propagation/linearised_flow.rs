@@ -36,6 +36,11 @@ impl LinearisedFlow {
         Self { pull, body_turn: inertia_xx / inertia_zz - 1.0 }
     }
 
+    /// Largest rate at which `L / I^xx` is turned.
+    pub(super) fn strength(&self) -> f64 {
+        self.pull.norm()
+    }
+
     /// Calls `apply` with the maps of the time `h` from `start` to `end`, each `(n, L / I^xx)`, in their order.
     pub(super) fn over(
         &self,

@@ -35,8 +35,8 @@ pub(super) struct Recurrence<S> {
     inverse_inertia_zz: S,
     oblateness: S,
     violation: Matrix3<S>,
-    pub(super) order: usize,
-    unit: f64,
+    /// `unit / (k + 1)`, divided in `S`: a quotient rounded to a double would cost wider numbers their digits.
+    shares: Vec<S>,
     /// `L_j` and `(s n)_j` of the series at work, by rows: both turn `n_{k-j}`, and side by side they do so at once.
     turning: Vec<Matrix2x3<S>>,
     /// `Omega_j`.
@@ -52,8 +52,7 @@ impl<S: Scalar> Recurrence<S> {
             inverse_inertia_zz: S::one() / spheroid.inertia_zz,
             oblateness: spheroid.oblateness(),
             violation: *violation,
-            order,
-            unit,
+            shares: (1..=order).map(|k| S::from_f64(unit) / S::from_f64(k as f64)).collect(),
             turning: Vec::with_capacity(order),
             angular_velocity: Vec::with_capacity(order),
         }
@@ -66,14 +65,13 @@ impl<S: Scalar> Recurrence<S> {
         let body_turn = start.column(MOMENTUM).dot(&start.column(AXIS)) * self.inverse_inertia_zz * self.oblateness;
         self.turning.clear();
         self.angular_velocity.clear();
-        for k in 0..self.order {
+        for (k, &share) in self.shares.iter().enumerate() {
             let series = &coefficients[first..];
             let (axis, momentum) = (series[k].column(AXIS), series[k].column(MOMENTUM));
             let pulled = self.violation * axis;
             self.turning.push(Matrix2x3::from_rows(&[momentum.transpose(), pulled.transpose()]));
             let mut next = Vectors::<S, V>::zeros();
             let [axis_change, momentum_change] = self.turned_axis(series);
-            let share = S::from_f64(self.unit / (k + 1) as f64);
             next.set_column(AXIS, &(axis_change * (self.inverse_inertia * share)));
             next.set_column(MOMENTUM, &(momentum_change * (self.twice_c * share)));
             if V > EQUATORIAL_AXIS {

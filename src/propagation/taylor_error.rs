@@ -76,12 +76,12 @@ impl TaylorErrors {
 
         let (known, off_frame) = self.truncation(series, h, end);
         let size = known.size(self.momentum_unit) + off_frame;
-        // The changes that are rounded, without the cancellation between the first two terms.
+        // What is rounded is the changes without the cancellation between their first two terms or within a cross product.
         let changes = (series[1].abs() + series[2].abs() * h.abs()) * h.abs();
         let turned = (0..V).filter(|column| *column != MOMENTUM).map(|column| changes.column(column).norm());
-        let turned = turned.fold(0.0, f64::max).min(1.0);
-        let kicked = (changes.column(MOMENTUM).norm() * rate).min(self.momentum_unit);
-        let deviations = [(turned, 1.0), (kicked, self.momentum_unit)]
+        let turned = turned.fold(start.1.norm() * h.abs(), f64::max).min(1.0);
+        let kicked = (self.flow.strength() * h.abs()).max(changes.column(MOMENTUM).norm() * rate);
+        let deviations = [(turned, 1.0), (kicked.min(self.momentum_unit), self.momentum_unit)]
             .map(|(change, unit)| ROUNDING * f64::EPSILON * change + UNCERTAIN * size * unit);
         let common = COMMON_ROUNDING * f64::EPSILON * (series[0].column(MOMENTUM).norm() * rate * h).abs();
         self.growth.add(&known, deviations, off_frame + common);

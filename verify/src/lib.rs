@@ -11,7 +11,7 @@ pub mod derivation;
 pub mod double_double;
 pub mod dual;
 pub mod equation_table;
-pub mod estimate_scenes;
+pub mod error_scenes;
 pub mod eta;
 pub mod figures;
 pub mod fit;

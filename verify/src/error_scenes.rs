@@ -4,16 +4,17 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::scalar::{Real, Scalar};
+use twofold::propagation::{AxisMotion, Motion, propagate};
+use twofold::scalar::Real;
 
-use crate::check::largest_component;
+use crate::check::{largest, largest_component};
 use crate::double_double::DoubleDouble;
 use crate::independent_taylor::state_after;
 use crate::random::Random;
 
 /// A motion and a time at which its error is asked for.
 #[derive(Debug, Clone, Copy)]
-pub struct EstimateScene {
+pub struct ErrorScene {
     /// The body.
     pub spheroid: RigidSpheroid<f64>,
     /// `s^IJ`.
@@ -38,7 +39,7 @@ fn unit_vector(random: &mut Random) -> Vector3<f64> {
     Vector3::new(r * angle.cos(), r * angle.sin(), z)
 }
 
-impl EstimateScene {
+impl ErrorScene {
     /// Scene `number` of those that start from `seed`.
     pub fn draw(seed: u64, number: u64) -> Self {
         let mut random = Random::with_seed(seed.wrapping_mul(0x1_0000_0001).wrapping_add(number));
@@ -109,12 +110,27 @@ impl EstimateScene {
         self.initial.momentum.norm() + (2.0 * self.spheroid.inertia_xx * torque).sqrt()
     }
 
+    /// Radians that the body turns at most until the time asked for.
+    pub fn turned(&self) -> f64 {
+        (self.time - self.span.0).abs() * self.momentum_unit() / self.spheroid.inertia_xx
+    }
+
+    /// The estimated error at the time asked for, and the true one.
+    ///
+    /// # Errors
+    /// What the motion refuses.
+    pub fn estimated_and_true(&self) -> Result<(f64, f64), String> {
+        let motion = propagate(&self.spheroid, &self.violation, &self.initial, self.span, self.accuracy);
+        let motion = motion.map_err(|error| error.to_string())?;
+        let state = motion.state(self.time).map_err(|error| error.to_string())?;
+        Ok((motion.error_estimate(self.time), largest(self.true_errors(&state))))
+    }
+
     /// True errors of `n`, `L` (in units of its size) and `e_x`, largest components, of `state` at the time asked for. By
     /// another integrator that is much more accurate, with 32 digits where rounding may matter.
     pub fn true_errors(&self, state: &BodyState<f64>) -> [f64; 3] {
         let duration = self.time - self.span.0;
-        let turned = duration.abs() * self.momentum_unit() / self.spheroid.inertia_xx;
-        if self.accuracy > 1e-8 && turned > 5.0 {
+        if self.accuracy > 1e-8 && self.turned() > 5.0 {
             self.differences(
                 state,
                 &state_after::<f64>(&self.spheroid, &self.violation, &self.initial, duration, 1e-16),
