@@ -45,7 +45,8 @@ pub(super) trait Arithmetic: Copy {
     fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     /// `a * b + c`, rounded once or twice.
     fn mul_add(self, a: Self::Vector, b: Self::Vector, c: Self::Vector) -> Self::Vector;
-    fn scale(self, a: Self::Vector, factor: f64) -> Self::Vector;
+    /// A small whole number divides better than its rounded inverse multiplies, for wider numbers.
+    fn divide(self, a: Self::Vector, divisor: f64) -> Self::Vector;
     /// The sum of the three columns multiplied by the components of `v`.
     fn combine(self, columns: &[Self::Vector; 3], v: Self::Vector) -> Self::Vector;
 
@@ -110,8 +111,8 @@ impl<S: Real> Arithmetic for Plain<S> {
     }
 
     #[inline(always)]
-    fn scale(self, a: [S; 3], factor: f64) -> [S; 3] {
-        a.map(|component| component * factor)
+    fn divide(self, a: [S; 3], divisor: f64) -> [S; 3] {
+        a.map(|component| component / S::from_f64(divisor))
     }
 
     #[inline(always)]

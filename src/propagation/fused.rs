@@ -51,8 +51,8 @@ impl Arithmetic for Fused {
     }
 
     #[inline(always)]
-    fn scale(self, a: f64x4, factor: f64) -> f64x4 {
-        self.mul(a, self.splat(factor))
+    fn divide(self, a: f64x4, divisor: f64) -> f64x4 {
+        self.0.div_f64x4(a, self.splat(divisor))
     }
 
     #[inline(always)]

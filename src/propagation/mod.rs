@@ -13,6 +13,6 @@ mod taylor;
 pub use continuous_angles::ContinuousAngles;
 pub use motion::{AxisMotion, AxisState, Motion};
 pub use taylor::{
-    ACCURACY_RANGE, AxisScene, STEP_LIMIT, Samples, TaylorAxisMotion, TaylorMotion, axis_states_at,
+    ACCURACY_RANGE, AxisScene, ErrorEstimates, STEP_LIMIT, Samples, TaylorAxisMotion, TaylorMotion, axis_states_at,
     axis_states_of_many, propagate, propagate_axis, states_at,
 };

@@ -16,6 +16,7 @@ pub(super) trait Register: Copy {
     fn add(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
     fn sub(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
     fn mul(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
+    fn div(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
     fn mul_add(self, a: Self::Lanes, b: Self::Lanes, c: Self::Lanes) -> Self::Lanes;
     /// Larger size of two, lane by lane; NaN in `a` stays.
     fn larger(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
@@ -47,6 +48,11 @@ impl Register for V3 {
     #[inline(always)]
     fn mul(self, a: f64x4, b: f64x4) -> f64x4 {
         self.mul_f64x4(a, b)
+    }
+
+    #[inline(always)]
+    fn div(self, a: f64x4, b: f64x4) -> f64x4 {
+        self.div_f64x4(a, b)
     }
 
     #[inline(always)]
@@ -100,6 +106,11 @@ impl Register for V4 {
     #[inline(always)]
     fn mul(self, a: f64x8, b: f64x8) -> f64x8 {
         self.mul_f64x8(a, b)
+    }
+
+    #[inline(always)]
+    fn div(self, a: f64x8, b: f64x8) -> f64x8 {
+        self.div_f64x8(a, b)
     }
 
     #[inline(always)]
@@ -189,9 +200,9 @@ impl<R: Register> Arithmetic for Lanes<R> {
     }
 
     #[inline(always)]
-    fn scale(self, a: Self::Vector, factor: f64) -> Self::Vector {
-        let factor = self.0.splat(factor);
-        [self.0.mul(a[0], factor), self.0.mul(a[1], factor), self.0.mul(a[2], factor)]
+    fn divide(self, a: Self::Vector, divisor: f64) -> Self::Vector {
+        let divisor = self.0.splat(divisor);
+        [self.0.div(a[0], divisor), self.0.div(a[1], divisor), self.0.div(a[2], divisor)]
     }
 
     #[inline(always)]

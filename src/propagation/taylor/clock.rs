@@ -1,13 +1,11 @@
-//! Where a motion is: time, number of steps and errors made so far.
+//! Where a motion is: time and number of steps.
 
 use crate::error::Error;
 use crate::propagation::taylor::compensated::Compensated;
-use crate::propagation::taylor::error_growth::ErrorGrowth;
 
 /// Time since the start of a motion, positive in either direction, and what has been done to get there.
 pub(super) struct Clock {
     elapsed: Compensated,
-    error: ErrorGrowth,
     pub(super) steps: usize,
 }
 
@@ -20,8 +18,6 @@ pub(super) struct Interval {
     pub(super) end: f64,
     /// Its length.
     pub(super) length: f64,
-    /// Errors made up to its end.
-    pub(super) error: ErrorGrowth,
 }
 
 impl Interval {
@@ -39,19 +35,12 @@ pub(super) struct StepLimit {
 
 impl Clock {
     pub(super) fn new() -> Self {
-        Self { elapsed: Compensated::new(0.0), error: ErrorGrowth::of_rounded_start(), steps: 0 }
+        Self { elapsed: Compensated::new(0.0), steps: 0 }
     }
 
-    /// The next step, of the length `wanted` or what is left of `duration`, with `budget` for the truncation error per unit
-    /// of time.
+    /// The next step, of the length `wanted` or what is left of `duration`.
     #[inline(always)]
-    pub(super) fn advance(
-        &mut self,
-        wanted: f64,
-        duration: f64,
-        budget: f64,
-        limit: StepLimit,
-    ) -> Result<Interval, Error> {
+    pub(super) fn advance(&mut self, wanted: f64, duration: f64, limit: StepLimit) -> Result<Interval, Error> {
         check_length(self.steps, limit, self.elapsed.high, duration)?;
         Error::unless(
             wanted > 0.0,
@@ -63,11 +52,10 @@ impl Clock {
         let remaining = (duration - start.high) - start.low;
         let last = wanted >= remaining;
         let length = if last { remaining } else { wanted };
-        self.error.add(start.high, budget * length);
         self.elapsed.add(length);
         self.steps += 1;
         let end = if last { f64::INFINITY } else { self.elapsed.high };
-        Ok(Interval { start, end, length, error: self.error })
+        Ok(Interval { start, end, length })
     }
 }
 

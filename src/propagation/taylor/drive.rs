@@ -75,7 +75,7 @@ impl<S: Real, const V: usize> Drive<'_, S, V> {
         loop {
             recurrence.expand(&state.high, &mut series);
             let sizes = [order, order - 1].map(|k| scale.size(a, &series[k]));
-            let step = clock.advance(step_size(sizes, order, scale, budget), duration, budget, limit)?;
+            let step = clock.advance(step_size(sizes, order, scale, budget), duration, limit)?;
             visit(&step, &series);
             if step.is_last() {
                 return Ok(());

@@ -97,7 +97,7 @@ fn propagate_alike<R: Register>(a: Lanes<R>, motions: &[Ready<'_>], outcomes: &m
             let sizes = sizes
                 .map(|[axis, momentum]| setup.scale.size_of_both(a.0.get(&axis, place), a.0.get(&momentum, place)));
             let wanted = step_size(sizes, order, &setup.scale, drive.budget);
-            let step = match clock.advance(wanted, drive.duration, drive.budget, LIMIT) {
+            let step = match clock.advance(wanted, drive.duration, LIMIT) {
                 Ok(step) => step,
                 Err(error) => {
                     outcomes[ready.scene] = Err(error);

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::propagation::AxisState;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::taylor::lanes::axis_states_in_lanes;
-use crate::propagation::taylor::samples::{Samples, axis_states_at};
+use crate::propagation::taylor::samples::{ErrorEstimates, Samples, axis_states_at};
 
 /// One of many motions: what [`axis_states_at`] takes.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +29,7 @@ pub struct AxisScene<'t> {
 /// States of many motions at the times asked of each: the numbers of [`axis_states_at`] up to rounding, at a fraction of
 /// the time where the processor has vectors of doubles (AVX2: 4 motions at once, AVX-512: 8).
 ///
-/// Each motion has its own steps, and its numbers do not depend on those beside it, on their order or on their number.
+/// Errors are not estimated. Each motion has its own steps, and its numbers do not depend on those beside it, on their order or on their number.
 ///
 /// # Errors
 /// As for [`axis_states_at`], for each motion on its own.
@@ -45,7 +45,7 @@ pub fn axis_states_of_many(scenes: &[AxisScene<'_>]) -> Vec<Result<Samples<AxisS
     }
     let alone = |scene: &AxisScene| {
         let AxisScene { spheroid, violation, initial, start, times, accuracy } = scene;
-        axis_states_at(spheroid, violation, initial, *start, times, *accuracy)
+        axis_states_at(spheroid, violation, initial, *start, times, *accuracy, ErrorEstimates::NotWanted)
     };
     scenes.iter().map(alone).collect()
 }

@@ -8,6 +8,7 @@ use crate::propagation::AxisState;
 use crate::propagation::arithmetic::{OneMotion, Plain};
 use crate::propagation::fused::run_fused;
 use crate::propagation::taylor::clock::{Interval, StepLimit};
+use crate::propagation::taylor::errors::{StepError, TaylorErrors};
 use crate::propagation::taylor::fused_for;
 use crate::propagation::taylor::setup::Setup;
 use crate::propagation::taylor::step_size::Work;
@@ -22,12 +23,22 @@ pub(super) const LIMIT: StepLimit =
 pub struct Samples<T> {
     /// One state for each time asked, in their order.
     pub states: Vec<T>,
-    /// Estimated error of each, as [`AxisMotion::error_estimate`](crate::propagation::AxisMotion::error_estimate).
+    /// Estimated error of each, as [`AxisMotion::error_estimate`](crate::propagation::AxisMotion::error_estimate); none if not
+    /// wanted.
     pub error_estimates: Vec<f64>,
     /// Number of steps of the motion.
     pub step_count: usize,
     /// Order of its series.
     pub order: usize,
+}
+
+/// Whether errors are estimated, which takes longer than the states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ErrorEstimates {
+    /// Of every state.
+    Wanted,
+    /// None.
+    NotWanted,
 }
 
 /// States of the numerical motion that begins as `initial` at the time `start`, at the `times` asked: the same numbers as
@@ -44,9 +55,10 @@ pub fn states_at<S: Real>(
     start: f64,
     times: &[f64],
     accuracy: f64,
+    estimates: ErrorEstimates,
 ) -> Result<Samples<BodyState<S>>, Error> {
     let vectors = [initial.axis, initial.momentum, initial.equatorial_axis];
-    sampled(spheroid, s, vectors, start, times, accuracy, |setup, vectors, t| setup.body_state(vectors, t))
+    sampled(spheroid, s, vectors, start, times, (accuracy, estimates), |setup, vectors, t| setup.body_state(vectors, t))
 }
 
 /// Axis and angular momentum alone: to [`states_at`] what [`propagate_axis`](crate::propagation::propagate_axis) is to
@@ -61,9 +73,13 @@ pub fn axis_states_at<S: Real>(
     start: f64,
     times: &[f64],
     accuracy: f64,
+    estimates: ErrorEstimates,
 ) -> Result<Samples<AxisState<S>>, Error> {
     let vectors = [initial.axis, initial.momentum];
-    sampled(spheroid, s, vectors, start, times, accuracy, |_, [axis, momentum], _| AxisState { axis, momentum })
+    sampled(spheroid, s, vectors, start, times, (accuracy, estimates), |_, [axis, momentum], _| AxisState {
+        axis,
+        momentum,
+    })
 }
 
 /// The span from the start to the last of the times, which must be in the order in which a motion reaches them.
@@ -86,7 +102,7 @@ fn sampled<S: Real, T, const V: usize>(
     vectors: [Vector3<S>; V],
     start: f64,
     times: &[f64],
-    accuracy: f64,
+    (accuracy, estimates): (f64, ErrorEstimates),
     state: impl Fn(&Setup<S, V>, [Vector3<S>; V], S) -> T,
 ) -> Result<Samples<T>, Error> {
     let span = span_of(start, times)?;
@@ -97,14 +113,14 @@ fn sampled<S: Real, T, const V: usize>(
         let samples = run_fused(
             fused,
             #[inline(always)]
-            || visited(&real, fused, times, |_, vectors, t| (vectors, t)),
+            || visited(&real, fused, times, estimates, |_, vectors, t| (vectors, t)),
         )?;
         let Samples { states, error_estimates, step_count, order } = samples;
         let given =
             |(vectors, t): ([Vector3<f64>; V], f64)| state(&setup, vectors.map(|v| v.map(S::from_f64)), S::from_f64(t));
         return Ok(Samples { states: states.into_iter().map(given).collect(), error_estimates, step_count, order });
     }
-    visited(&setup, Plain::new(), times, state)
+    visited(&setup, Plain::new(), times, estimates, state)
 }
 
 /// Evaluates each step at the times within it.
@@ -113,11 +129,18 @@ fn visited<A: OneMotion, T, const V: usize>(
     setup: &Setup<A::Scalar, V>,
     a: A,
     times: &[f64],
+    estimates: ErrorEstimates,
     state: impl Fn(&Setup<A::Scalar, V>, [Vector3<A::Scalar>; V], A::Scalar) -> T,
 ) -> Result<Samples<T>, Error> {
     let mut samples = Samples::with_room(times.len(), setup.order);
+    let mut errors = (estimates == ErrorEstimates::Wanted).then(|| TaylorErrors::of(setup));
     setup.drive().run(a, LIMIT, |step, series| {
         samples.step_count += 1;
+        if let Some(errors) = &mut errors {
+            let h = step.length * setup.direction() / setup.scale.time;
+            let error = errors.step(series, |v| a.store(*v).vector().map(A::Scalar::re), h);
+            samples.take_errors(setup, times, step, &error);
+        }
         samples.take(setup, times, step, |time| {
             let t = A::Scalar::from_f64(time);
             state(setup, setup.sum(a, |k| series[k], &step.start, t).map(|v| v.vector()), t)
@@ -129,7 +152,7 @@ fn visited<A: OneMotion, T, const V: usize>(
 impl<T> Samples<T> {
     /// No samples yet, but room for `count`.
     pub(super) fn with_room(count: usize, order: usize) -> Self {
-        Self { states: Vec::with_capacity(count), error_estimates: Vec::with_capacity(count), step_count: 0, order }
+        Self { states: Vec::with_capacity(count), error_estimates: Vec::new(), step_count: 0, order }
     }
 
     /// Takes those of the `times` that lie in a step and have not been taken.
@@ -147,7 +170,24 @@ impl<T> Samples<T> {
                 break;
             }
             self.states.push(state_at(time));
-            self.error_estimates.push(step.error.at(elapsed, setup.scale.turning_rate));
+        }
+    }
+
+    /// The errors of what [`take`](Self::take) takes.
+    fn take_errors<S: Real, const V: usize>(
+        &mut self,
+        setup: &Setup<S, V>,
+        times: &[f64],
+        step: &Interval,
+        error: &StepError,
+    ) {
+        while let Some(&time) = times.get(self.error_estimates.len()) {
+            let elapsed = (time - setup.span.0).abs();
+            if elapsed >= step.end {
+                break;
+            }
+            let into = elapsed - step.start.high;
+            self.error_estimates.push(error.at(if into > 0.0 { into / step.length } else { 0.0 }, setup.order));
         }
     }
 }

@@ -112,9 +112,9 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
     #[inline(always)]
     pub(super) fn set_rates(&mut self, axis_rate: A::Vector, momentum_rate: A::Vector) {
         for k in 0..self.order {
-            let share = 1.0 / (k + 1) as f64;
-            self.share_of_axis.put(k, self.arithmetic.scale(axis_rate, share));
-            self.share_of_momentum.put(k, self.arithmetic.scale(momentum_rate, share));
+            let order = (k + 1) as f64;
+            self.share_of_axis.put(k, self.arithmetic.divide(axis_rate, order));
+            self.share_of_momentum.put(k, self.arithmetic.divide(momentum_rate, order));
         }
     }
 

@@ -4,6 +4,7 @@ mod axis_motion;
 mod bound;
 mod elliptic;
 mod equations_of_motion;
+mod error_estimate;
 mod eta;
 mod first_integrals;
 mod fisher;
@@ -45,6 +46,7 @@ pub fn all() -> Vec<Check> {
         elliptic::checks,
         symmetric::checks,
         propagation::checks,
+        error_estimate::checks,
         axis_motion::checks,
         second_integrator::checks,
         regimes::checks,
