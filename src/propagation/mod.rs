@@ -1,5 +1,6 @@
-//! Numerical motion with dense output, and the continuous Euler angles of any motion.
+//! Motions: numerical with dense output or in closed form, and the continuous Euler angles of any.
 
+mod closed;
 mod compensated;
 mod continuous_angles;
 mod error_growth;
@@ -9,6 +10,9 @@ mod series;
 mod step_size;
 mod taylor;
 
+pub use closed::{SymmetricMotion, UniformMotion, largest_torque};
 pub use continuous_angles::ContinuousAngles;
 pub use motion::{AxisMotion, AxisState, Motion};
-pub use taylor::{ACCURACY_RANGE, STEP_LIMIT, TaylorAxisMotion, TaylorMotion, propagate, propagate_axis};
+pub use taylor::{
+    ACCURACY_RANGE, STEP_LIMIT, TaylorAxisMotion, TaylorForecast, TaylorMotion, propagate, propagate_axis, taylor_forecast,
+};

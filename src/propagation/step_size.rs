@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
+use crate::error::Error;
 use crate::propagation::series::{MOMENTUM, Vectors};
 use crate::scalar::{Real, real_part};
 
@@ -39,9 +40,45 @@ impl Scale {
     }
 }
 
+/// What the accuracy asked makes of order and steps.
+pub(super) struct Control {
+    pub(super) scale: Scale,
+    /// Truncation error per unit of time.
+    pub(super) budget: f64,
+    pub(super) order: usize,
+}
+
+impl Control {
+    /// For a motion over `duration` under the trace-free tensor `s`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a turning rate that is not finite.
+    pub(super) fn of<S: Real>(
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        momentum: &Vector3<S>,
+        duration: f64,
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        let scale = Scale::of(spheroid, s, momentum);
+        Error::unless(
+            scale.turning_rate.is_finite(),
+            "rate at which the body turns",
+            scale.turning_rate,
+            "within the range of doubles with the squares of L and s^IJ: choose other units",
+        )?;
+        // An error made at one time turns into a phase error that grows with the rotation: the budget per unit of time is
+        // what is left of the accuracy after that growth over half of the span on average.
+        let growth = 1.0 + scale.turning_rate * duration / 2.0;
+        let budget = if duration > 0.0 { (accuracy / (duration * growth)).min(f64::MAX) } else { accuracy };
+        let order = order_for(budget / scale.turning_rate.max(f64::MIN_POSITIVE));
+        Ok(Self { scale, budget, order })
+    }
+}
+
 /// Order of the series for a relative truncation `budget` per radian: the work per unit of time is least near
 /// `-ln(budget) / 2` (Jorba and Zou 2005).
-pub(super) fn order_for(budget: f64) -> usize {
+fn order_for(budget: f64) -> usize {
     (-budget.ln() / 2.0).ceil().clamp(6.0, 32.0) as usize
 }
 

@@ -8,7 +8,7 @@ use crate::propagation::compensated::{Compensated, CompensatedState};
 use crate::propagation::error_growth::ErrorGrowth;
 use crate::propagation::input::check_input;
 use crate::propagation::series::{AXIS, EQUATORIAL_AXIS, MOMENTUM, Recurrence, Vectors, change};
-use crate::propagation::step_size::{Scale, order_for, step_size};
+use crate::propagation::step_size::{Control, Scale, step_size};
 use crate::propagation::{AxisMotion, AxisState, Motion};
 use crate::scalar::Real;
 
@@ -58,6 +58,44 @@ pub fn propagate_axis<S: Real>(
     TaylorMotion::from_start(spheroid, s, Vectors::from_columns(&[initial.axis, initial.momentum]), span, accuracy)
 }
 
+/// What [`propagate`] will do, from its first step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TaylorForecast {
+    /// Order of the series.
+    pub order: usize,
+    /// Steps, if all are as long as the first; at least one.
+    pub steps: f64,
+    /// Upper bound of the rate at which directions turn, with which errors grow.
+    pub turning_rate: f64,
+}
+
+/// What [`propagate`] and [`propagate_axis`] will do over a `duration`: the work of one step tells it.
+///
+/// # Errors
+/// As for [`propagate`], but for the number of steps.
+pub fn taylor_forecast<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    initial: &AxisState<S>,
+    duration: f64,
+    accuracy: f64,
+) -> Result<TaylorForecast, Error> {
+    let start: Vectors<S, 2> = Vectors::from_columns(&[initial.axis, initial.momentum]);
+    check_input(spheroid, s, &start, (0.0, duration), accuracy)?;
+    let anisotropic = without_trace(s);
+    let Control { scale, budget, order } =
+        Control::of(spheroid, &anisotropic, &initial.momentum, duration.abs(), accuracy)?;
+    let mut series = Vec::with_capacity(order + 1);
+    Recurrence::new(spheroid, &anisotropic, order, scale.time).append(&start, &mut series);
+    let steps = (duration.abs() / step_size(&series, &scale, budget)).ceil().max(1.0);
+    Ok(TaylorForecast { order, steps, turning_rate: scale.turning_rate })
+}
+
+/// An isotropic part of s^IJ exerts no torque; left in, its rounding would.
+fn without_trace<S: Real>(s: &Matrix3<S>) -> Matrix3<S> {
+    s - Matrix3::from_diagonal_element(s.trace() / 3.0)
+}
+
 /// A motion kept as Taylor series on adjoining steps, of the `V` vectors `n`, `L` and, with `V = 3`, `e_x`.
 #[derive(Debug, Clone)]
 pub struct TaylorMotion<S, const V: usize = 3> {
@@ -87,21 +125,9 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
     ) -> Result<Self, Error> {
         check_input(spheroid, s, &start, span, accuracy)?;
         let duration = (span.1 - span.0).abs();
-        // An isotropic part of s^IJ exerts no torque; left in, its rounding would.
-        let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
-        let scale = Scale::of(spheroid, &anisotropic, &start.column(MOMENTUM).into());
-        Error::unless(
-            scale.turning_rate.is_finite(),
-            "rate at which the body turns",
-            scale.turning_rate,
-            "within the range of doubles with the squares of L and s^IJ: choose other units",
-        )?;
-        // An error made at one time turns into a phase error that grows with the rotation: the budget per unit of time is
-        // what is left of the accuracy after that growth over half of the span on average.
-        let growth = 1.0 + scale.turning_rate * duration / 2.0;
-        let budget = if duration > 0.0 { (accuracy / (duration * growth)).min(f64::MAX) } else { accuracy };
-        let order = order_for(budget / scale.turning_rate.max(f64::MIN_POSITIVE));
-
+        let anisotropic = without_trace(s);
+        let Control { scale, budget, order } =
+            Control::of(spheroid, &anisotropic, &start.column(MOMENTUM).into(), duration, accuracy)?;
         let (spheroid, violation) = (*spheroid, *s);
         let (starts, errors, coefficients) = (Vec::new(), Vec::new(), Vec::new());
         let mut motion = Self { spheroid, violation, span, scale, order, starts, errors, coefficients };
