@@ -130,7 +130,8 @@ impl Plan {
         }
         if self.method.is_some_and(Method::is_closed_form) {
             skip("integration", "the motion has a closed form");
-            if !for_events {
+            let counts_turns = self.outputs.contains(&Output::EulerAngles);
+            if !for_events && !counts_turns {
                 skip("times between samples", "a closed form needs no time before the one asked");
             }
         }

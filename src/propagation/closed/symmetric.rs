@@ -111,8 +111,9 @@ impl<S: Real> SymmetricMotion<S> {
         let push = self.neglected_torque / body.inertia_xx;
         let axis = push * ((k * t).cosh() - 1.0) / (k * k);
         let size = self.turning_rate + (self.neglected_torque / body.inertia_xx).sqrt();
-        let momentum = push * (k * t).sinh() / (k * size);
-        momentum.max(axis * (1.0 + self.turning_rate * t))
+        // Nor may L differ by more than the torques of both motions make of it.
+        let momentum = (push * (k * t).sinh() / k).min(2.0 * largest / body.inertia_xx * t) / size;
+        momentum.max((axis * (1.0 + self.turning_rate * t)).min(2.0))
     }
 
     /// Rounding of the initial values and parameters, grown by the derivatives of the solution itself, and of the phase. Where

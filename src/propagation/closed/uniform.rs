@@ -134,7 +134,8 @@ impl<S: Real> UniformMotion<S> {
             return 0.0;
         }
         let axes = self.neglected_torque * t * t / (2.0 * inertia) * (1.0 + self.body_rate.re().abs() * t / 3.0);
-        axes.max(self.neglected_torque * t / size)
+        // Directions are at most two apart.
+        axes.min(2.0).max(self.neglected_torque * t / size)
     }
 
     /// Rounding of the state and of the angles within a time.
