@@ -18,7 +18,7 @@ pub struct Prediction {
     pub order: usize,
     /// Work. Turns and events are counted as they typically are.
     pub work: Work,
-    /// Heap that the motion keeps, in bytes.
+    /// Heap that the motion takes, in bytes; a growing vector takes up to four times as much in all. Evaluations take none.
     pub bytes: f64,
     /// Time in ns on the [machine](super::MACHINE) of the fit.
     pub cost: f64,
@@ -78,7 +78,9 @@ impl Forecast {
         let full = state == State::Orientation;
         let vectors = if full { 3.0 } else { 2.0 };
         // Each step keeps its coefficients, its start and its errors.
-        let bytes = steps * ((order as f64 + 1.0) * 24.0 * vectors + 56.0);
+        let dense_output = steps * ((order as f64 + 1.0) * 24.0 * vectors + 56.0);
+        // The roots of the quartic are sought with a few short lists, once.
+        let bytes = dense_output + if method == Method::Symmetric { 1024.0 } else { 0.0 };
         Prediction {
             truncation,
             rounding,

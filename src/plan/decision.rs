@@ -61,9 +61,8 @@ impl Plan {
         request: &Request,
     ) -> Result<Self, Error> {
         let state = request.outputs.iter().map(|output| output.need().state).max().unwrap_or(State::Nothing);
-        let evaluated = |wanted: fn(Evaluations) -> bool| {
-            request.outputs.iter().any(|output| wanted(output.need().evaluations))
-        };
+        let evaluated =
+            |wanted: fn(Evaluations) -> bool| request.outputs.iter().any(|output| wanted(output.need().evaluations));
         let at_samples = evaluated(|e| matches!(e, Evaluations::AtSamples | Evaluations::CountingTurns { .. }));
         let for_events = evaluated(|e| matches!(e, Evaluations::ForEvents { .. }));
         let end = if for_events { request.span.1 } else { request.samples.last };

@@ -20,13 +20,7 @@ pub trait StateFunction {
     }
 
     /// Writes the values into `values`, [`len`](Self::len) of them. The equatorial axis is zero where the plan does not carry it.
-    fn values<S: Real>(
-        &self,
-        spheroid: &RigidSpheroid<S>,
-        s: &Matrix3<S>,
-        state: &BodyState<S>,
-        values: &mut [S],
-    );
+    fn values<S: Real>(&self, spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]);
 }
 
 /// Values of outputs at samples, and their derivatives.

@@ -14,5 +14,6 @@ pub use closed::{SymmetricMotion, UniformMotion, largest_torque};
 pub use continuous_angles::ContinuousAngles;
 pub use motion::{AxisMotion, AxisState, Motion};
 pub use taylor::{
-    ACCURACY_RANGE, STEP_LIMIT, TaylorAxisMotion, TaylorForecast, TaylorMotion, propagate, propagate_axis, taylor_forecast,
+    ACCURACY_RANGE, STEP_LIMIT, TaylorAxisMotion, TaylorForecast, TaylorMotion, propagate, propagate_axis,
+    taylor_forecast,
 };

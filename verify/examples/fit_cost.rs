@@ -66,24 +66,37 @@ fn taylor(case: &Case, state: State) -> Result<(), Error> {
             let make = || PlannedAxisMotion::by(Method::Taylor, spheroid, s, initial, span, accuracy);
             let motion = make()?;
             let PlannedAxisMotion::Taylor(series) = &motion else { unreachable!("asked for") };
-            let each = time(|| times.iter().map(|&t| motion.axis_state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
+            let each =
+                time(|| times.iter().map(|&t| motion.axis_state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
             (series.order(), series.step_count(), time(make), each)
         };
         let p = order as f64;
         steps.push((vec![1.0, p, p * p], total / count as f64));
         evaluations.push((vec![1.0, p], each));
-        println!("  {} accuracy {accuracy:.0e}: order {order}, {count} steps, {:.0} ns a step, {each:.1} ns an evaluation",
-            state.name(), total / count as f64);
+        println!(
+            "  {} accuracy {accuracy:.0e}: order {order}, {count} steps, {:.0} ns a step, {each:.1} ns an evaluation",
+            state.name(),
+            total / count as f64
+        );
     }
     let (step, evaluation) = (fit(&steps), fit(&evaluations));
     let model = Cost::of(Method::Taylor, state);
     let off = |rows: &[(Vec<f64>, f64)], c: &[f64]| {
         rows.iter().map(|(x, y)| (x.iter().zip(c).map(|(x, c)| x * c).sum::<f64>() / y - 1.0).abs()).fold(0.0, f64::max)
     };
-    println!("taylor, {}: step {step:.2?} (off by {:.0} %), evaluation {evaluation:.2?} (off by {:.0} %)", state.name(),
-        100.0 * off(&steps, &step), 100.0 * off(&evaluations, &evaluation));
-    println!("  in the model: step {:?} (off by {:.0} %), evaluation {:?} (off by {:.0} %)", model.step,
-        100.0 * off(&steps, &model.step), model.evaluation, 100.0 * off(&evaluations, &model.evaluation));
+    println!(
+        "taylor, {}: step {step:.2?} (off by {:.0} %), evaluation {evaluation:.2?} (off by {:.0} %)",
+        state.name(),
+        100.0 * off(&steps, &step),
+        100.0 * off(&evaluations, &evaluation)
+    );
+    println!(
+        "  in the model: step {:?} (off by {:.0} %), evaluation {:?} (off by {:.0} %)",
+        model.step,
+        100.0 * off(&steps, &model.step),
+        model.evaluation,
+        100.0 * off(&evaluations, &model.evaluation)
+    );
     Ok(())
 }
 
@@ -94,8 +107,12 @@ fn closed(case: &Case, method: Method) -> Result<(), Error> {
     let times: Vec<f64> = (0..1000).map(|i| 0.2 * f64::from(i)).collect();
     let axis = time(|| times.iter().map(|&t| motion.axis_state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
     let full = time(|| times.iter().map(|&t| motion.state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
-    println!("{}: setup {:.0}, evaluation {axis:.1} (n, L), {full:.1} (n, L, e_x); in the model {:?}", method.name(), time(make),
-        Cost::of(method, State::Orientation));
+    println!(
+        "{}: setup {:.0}, evaluation {axis:.1} (n, L), {full:.1} (n, L, e_x); in the model {:?}",
+        method.name(),
+        time(make),
+        Cost::of(method, State::Orientation)
+    );
     Ok(())
 }
 

@@ -122,10 +122,8 @@ pub fn reference_gradients() -> Vec<ReferenceGradient> {
     let mut scenes: Vec<ReferenceGradient> = Vec::new();
     for (name, row) in rows(include_str!("../data/reference_gradients.csv")) {
         if scenes.last().is_none_or(|scene| scene.name != name) {
-            let (angles, rates) = (
-                EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 },
-                EulerRates { alpha: 0.0, beta: 0.0, gamma: 0.0 },
-            );
+            let (angles, rates) =
+                (EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 }, EulerRates { alpha: 0.0, beta: 0.0, gamma: 0.0 });
             let spheroid = RigidSpheroid { inertia_xx: 0.0, inertia_zz: 0.0, constant_c: 0.0 };
             let start = Start { spheroid, violation: Matrix3::zeros(), angles, rates };
             scenes.push(ReferenceGradient { name, start, derivatives: Vec::new() });

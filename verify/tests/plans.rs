@@ -82,7 +82,9 @@ fn outputs_carry_what_they_need() {
 /// One far time: a closed form is evaluated once, at that time; a numerical motion goes there and is evaluated once.
 #[test]
 fn one_far_time_does_not_pay_for_those_before() {
-    for (name, method) in [("free", Method::Free), ("axisymmetric-violation", Method::Symmetric), ("tp-2", Method::Taylor)] {
+    for (name, method) in
+        [("free", Method::Free), ("axisymmetric-violation", Method::Symmetric), ("tp-2", Method::Taylor)]
+    {
         for column in ["h", "m.n"] {
             let mut scene = with_columns(name, &[columns::named(column).expect("group")]);
             scene.times = Times::Listed { start: 0.0, times: vec![1000.0] };
@@ -105,7 +107,12 @@ fn pulses_evaluate_as_listed() {
         let listed = plan.prediction.expect("prediction").work;
         assert_eq!(plan.samples, 0);
         let ratio = summary.work.evaluations() / listed.evaluations();
-        assert!((0.25..=2.0).contains(&ratio), "{name}: {} evaluations, listed {}", summary.work.evaluations(), listed.evaluations());
+        assert!(
+            (0.25..=2.0).contains(&ratio),
+            "{name}: {} evaluations, listed {}",
+            summary.work.evaluations(),
+            listed.evaluations()
+        );
         assert!(summary.work.right_hand_sides <= 2.0 * listed.right_hand_sides);
     }
 }
@@ -123,7 +130,9 @@ fn a_method_is_forced_or_refused() {
     let toml = BUILT_IN.iter().find(|scene| scene.name == "tp-2").expect("tp-2").toml;
     let file = |method: &str| Scene::from_toml("file", &format!("{toml}\n[output]\nmethod = \"{method}\"\n"));
     assert_eq!(file("taylor").expect("scene").method, Some(Method::Taylor));
-    for (method, reason) in [("steady", "does not allow"), ("tailor", "one of \"free\", \"steady\", \"symmetric\", \"taylor\"")] {
+    for (method, reason) in
+        [("steady", "does not allow"), ("tailor", "one of \"free\", \"steady\", \"symmetric\", \"taylor\"")]
+    {
         let error = file(method).expect_err("refused").to_string();
         assert!(error.contains("`output.method`") && error.contains(reason), "{error}");
     }

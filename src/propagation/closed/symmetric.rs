@@ -142,13 +142,9 @@ impl<S: Real> SymmetricMotion<S> {
             inertia_zz: dual(spheroid.inertia_zz),
             constant_c: dual(spheroid.constant_c),
         };
-        let s = PrincipalCoefficients {
-            xx: dual(coefficients.xx),
-            yy: dual(coefficients.yy),
-            zz: dual(coefficients.zz),
-        };
-        let mut angles =
-            EulerAngles { alpha: dual(angles.alpha), beta: dual(angles.beta), gamma: dual(angles.gamma) };
+        let s =
+            PrincipalCoefficients { xx: dual(coefficients.xx), yy: dual(coefficients.yy), zz: dual(coefficients.zz) };
+        let mut angles = EulerAngles { alpha: dual(angles.alpha), beta: dual(angles.beta), gamma: dual(angles.gamma) };
         let mut rates = EulerRates { alpha: dual(rates.alpha), beta: dual(rates.beta), gamma: dual(rates.gamma) };
         seed(&mut angles, &mut rates);
         let Ok(solution) = SymmetricSolution::new(&body, &s, &angles, &rates) else { return f64::INFINITY };

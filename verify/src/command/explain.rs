@@ -11,29 +11,42 @@ pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
     let mut text = String::new();
     let time = scene.units.time_name;
     let in_output = |t: f64| scene.times.start() + t * scene.units.time;
-    let mut row = |name: &str, value: String| writeln!(text, "{name:<13}{value}").expect("writing to a string succeeds");
+    let mut row =
+        |name: &str, value: String| writeln!(text, "{name:<13}{value}").expect("writing to a string succeeds");
     row("outputs", plan.outputs.iter().map(|output| output.name()).collect::<Vec<_>>().join(", "));
     row("state", plan.state.name().to_owned());
-    row("method", match plan.method {
-        None => "none: no output needs a motion".to_owned(),
-        Some(method) if plan.forced => format!("{} ({}), as asked", method.name(), method.description()),
-        Some(method) => format!("{} ({})", method.name(), method.description()),
-    });
+    row(
+        "method",
+        match plan.method {
+            None => "none: no output needs a motion".to_owned(),
+            Some(method) if plan.forced => format!("{} ({}), as asked", method.name(), method.description()),
+            Some(method) => format!("{} ({})", method.name(), method.description()),
+        },
+    );
     let (from, to) = (in_output(plan.stretch.0), in_output(plan.stretch.1));
     let closed = plan.method.is_none_or(|method| method.is_closed_form());
-    row("stretch", match plan.state {
-        State::Nothing => "none".to_owned(),
-        _ if closed => format!("none is integrated; times up to {to:?} {time}"),
-        _ => format!("{from:?} to {to:?} {time}"),
-    });
-    row("samples", match plan.samples {
-        0 => "none".to_owned(),
-        samples => samples.to_string(),
-    });
-    row("derivatives", match plan.derivatives.as_slice() {
-        [] => "none".to_owned(),
-        names => names.iter().map(|parameter| parameter.name()).collect::<Vec<_>>().join(", "),
-    });
+    row(
+        "stretch",
+        match plan.state {
+            State::Nothing => "none".to_owned(),
+            _ if closed => format!("none is integrated; times up to {to:?} {time}"),
+            _ => format!("{from:?} to {to:?} {time}"),
+        },
+    );
+    row(
+        "samples",
+        match plan.samples {
+            0 => "none".to_owned(),
+            samples => samples.to_string(),
+        },
+    );
+    row(
+        "derivatives",
+        match plan.derivatives.as_slice() {
+            [] => "none".to_owned(),
+            names => names.iter().map(|parameter| parameter.name()).collect::<Vec<_>>().join(", "),
+        },
+    );
     if let Some(prediction) = &plan.prediction {
         let work = &prediction.work;
         if prediction.order > 0 {
@@ -43,10 +56,13 @@ pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
         row("evaluations", format!("about {:.0} of {}", work.evaluations(), plan.state.name()));
         row("memory", format!("about {}", bytes(prediction.bytes)));
         row("cost", format!("about {} on {MACHINE}", duration(prediction.cost)));
-        row("error", format!(
-            "at most {:.1e} by the method, about {:.1e} by rounding; asked is {:.0e}",
-            prediction.truncation, prediction.rounding, plan.accuracy
-        ));
+        row(
+            "error",
+            format!(
+                "at most {:.1e} by the method, about {:.1e} by rounding; asked is {:.0e}",
+                prediction.truncation, prediction.rounding, plan.accuracy
+            ),
+        );
     }
     let mut line = |line: std::fmt::Arguments<'_>| writeln!(text, "{line}").expect("writing to a string succeeds");
     line(format_args!("\nskipped"));

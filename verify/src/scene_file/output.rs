@@ -61,7 +61,9 @@ impl Scene {
             ));
         };
         self.method = Some(method);
-        self.plan(&[Output::EquatorialAxis]).map(|_| ()).map_err(|why| format!("the scene does not allow this method: {why}"))
+        self.plan(&[Output::EquatorialAxis])
+            .map(|_| ())
+            .map_err(|why| format!("the scene does not allow this method: {why}"))
     }
 
     /// Replaces the columns by the groups called `names`.

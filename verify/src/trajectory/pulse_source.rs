@@ -78,7 +78,11 @@ impl Source {
     }
 
     /// The pulses that are over at the time `to` of a stretch, in the order of the motion, and the times of grazing.
-    pub(super) fn take(&mut self, stretch: &Stretch<PlannedMotion>, to: f64) -> Result<(Vec<Numbered>, Vec<f64>), Error> {
+    pub(super) fn take(
+        &mut self,
+        stretch: &Stretch<PlannedMotion>,
+        to: f64,
+    ) -> Result<(Vec<Numbered>, Vec<f64>), Error> {
         let backwards = to < stretch.from;
         let mut train = pulse_train(&stretch.motion, &self.beam, &self.line_of_sight, (stretch.from, to))?;
         if backwards {

@@ -15,8 +15,13 @@ const ROTATION_PER_STRETCH: f64 = 5e4;
 /// A motion that a plan can make, with as much of the state as it carries.
 pub(super) trait PlannedState: AxisMotion<f64> + Sized {
     /// The motion by a method.
-    fn by(method: Method, scene: &Scene, start: &BodyState<f64>, span: (f64, f64), accuracy: f64)
-    -> Result<Self, Error>;
+    fn by(
+        method: Method,
+        scene: &Scene,
+        start: &BodyState<f64>,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error>;
 
     /// What is carried at a time.
     fn carried(motion: &Counted<Self>, t: f64) -> Result<Carried, Error>;
@@ -39,8 +44,13 @@ pub(super) trait PlannedState: AxisMotion<f64> + Sized {
 }
 
 impl PlannedState for PlannedAxisMotion {
-    fn by(method: Method, scene: &Scene, start: &BodyState<f64>, span: (f64, f64), accuracy: f64)
-    -> Result<Self, Error> {
+    fn by(
+        method: Method,
+        scene: &Scene,
+        start: &BodyState<f64>,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error> {
         PlannedAxisMotion::by(method, &scene.spheroid, &scene.violation, start, span, accuracy)
     }
 
@@ -67,8 +77,13 @@ impl PlannedState for PlannedAxisMotion {
 }
 
 impl PlannedState for PlannedMotion {
-    fn by(method: Method, scene: &Scene, start: &BodyState<f64>, span: (f64, f64), accuracy: f64)
-    -> Result<Self, Error> {
+    fn by(
+        method: Method,
+        scene: &Scene,
+        start: &BodyState<f64>,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error> {
         PlannedMotion::by(method, &scene.spheroid, &scene.violation, start, span, accuracy)
     }
 
