@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use super::{Cost, Method, Output, Parameter, Request, State, Work};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::{AxisState, SymmetricMotion, UniformMotion, largest_torque, taylor_forecast};
+use crate::propagation::{SymmetricMotion, UniformMotion, largest_torque, taylor_forecast};
 
 /// What a method would do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,7 +54,7 @@ impl Candidate {
             Method::Free => free(scene, request, stretch),
             Method::Steady => steady(scene, request, stretch),
             Method::Symmetric => symmetric(scene, request, stretch),
-            Method::Taylor => taylor(scene, request, stretch),
+            Method::Taylor => taylor(scene, request, state, stretch),
         };
         Self { method, prediction: errors.map(|errors| errors.with_work(method, state, evaluations)) }
     }
@@ -141,10 +141,11 @@ fn symmetric(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Resul
     Ok(Forecast::closed(truncation, rounding))
 }
 
-fn taylor(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+fn taylor(scene: &Scene<'_>, request: &Request, state: State, stretch: (f64, f64)) -> Result<Forecast, Error> {
     let duration = (stretch.1 - stretch.0).abs();
-    let start = AxisState::from(scene.initial);
-    let forecast = taylor_forecast(scene.spheroid, scene.violation, &start, duration, request.accuracy)?;
+    let full = state == State::Orientation;
+    let Scene { spheroid, violation, initial } = scene;
+    let forecast = taylor_forecast(spheroid, violation, initial, full, duration, request.accuracy)?;
     // Independent roundings of evenly spaced steps, each grown linearly: the sum over steps of u^2.
     let growth = forecast.turning_rate * duration;
     let squares = 4.0 * (1.0 + growth).powi(2) + forecast.steps * (1.0 + growth + growth * growth / 3.0);

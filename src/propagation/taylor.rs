@@ -69,24 +69,39 @@ pub struct TaylorForecast {
     pub turning_rate: f64,
 }
 
-/// What [`propagate`] and [`propagate_axis`] will do over a `duration`: the work of one step tells it.
+/// What [`propagate`], or without `e_x` [`propagate_axis`], will do over a `duration`: the work of one step tells it.
 ///
 /// # Errors
 /// As for [`propagate`], but for the number of steps.
 pub fn taylor_forecast<S: Real>(
     spheroid: &RigidSpheroid<S>,
     s: &Matrix3<S>,
-    initial: &AxisState<S>,
+    initial: &BodyState<S>,
+    with_equatorial_axis: bool,
     duration: f64,
     accuracy: f64,
 ) -> Result<TaylorForecast, Error> {
-    let start: Vectors<S, 2> = Vectors::from_columns(&[initial.axis, initial.momentum]);
-    check_input(spheroid, s, &start, (0.0, duration), accuracy)?;
+    let [n, l, e_x] = [initial.axis, initial.momentum, initial.equatorial_axis];
+    if with_equatorial_axis {
+        forecast::<S, 3>(spheroid, s, &Vectors::from_columns(&[n, l, e_x]), duration, accuracy)
+    } else {
+        forecast::<S, 2>(spheroid, s, &Vectors::from_columns(&[n, l]), duration, accuracy)
+    }
+}
+
+fn forecast<S: Real, const V: usize>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    start: &Vectors<S, V>,
+    duration: f64,
+    accuracy: f64,
+) -> Result<TaylorForecast, Error> {
+    check_input(spheroid, s, start, (0.0, duration), accuracy)?;
     let anisotropic = without_trace(s);
     let Control { scale, budget, order } =
-        Control::of(spheroid, &anisotropic, &initial.momentum, duration.abs(), accuracy)?;
+        Control::of(spheroid, &anisotropic, &start.column(MOMENTUM).into(), duration.abs(), accuracy)?;
     let mut series = Vec::with_capacity(order + 1);
-    Recurrence::new(spheroid, &anisotropic, order, scale.time).append(&start, &mut series);
+    Recurrence::new(spheroid, &anisotropic, order, scale.time).append(start, &mut series);
     let steps = (duration.abs() / step_size(&series, &scale, budget)).ceil().max(1.0);
     Ok(TaylorForecast { order, steps, turning_rate: scale.turning_rate })
 }

@@ -85,9 +85,11 @@ fn text(error: twofold::Error) -> String {
     error.to_string()
 }
 
-/// Largest component of the difference of two states, `L` in units of its size.
-fn difference(a: &BodyState<f64>, b: &BodyState<f64>) -> f64 {
-    let size = b.momentum.norm().max(f64::MIN_POSITIVE);
+/// Largest component of the difference of two states of a scene in units `I^xx = C = 1`, `L` in units of that at the start and of
+/// what the torque makes of it.
+fn difference(a: &BodyState<f64>, b: &BodyState<f64>, s: &Matrix3<f64>, initial: &BodyState<f64>) -> f64 {
+    let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
+    let size = initial.momentum.norm() + (2.0 * anisotropic.norm()).sqrt();
     largest([
         largest_component(&(a.axis - b.axis)),
         largest_component(&(a.equatorial_axis - b.equatorial_axis)),
@@ -131,7 +133,7 @@ fn scenes_for_plans() -> impl Strategy<Value = RandomScene> {
 
 fn meets_prediction() -> Result<Measured, String> {
     let seen: [Cell<usize>; 4] = Default::default();
-    let strategy = (scenes_for_plans(), -12.0..-3.0f64, 0.0..2.0f64, 1..200_usize);
+    let strategy = (scenes_for_plans(), -12.0..-3.0f64, 0.0..2.0f64, 1..20_usize);
     let measured = worst_over(42, 400, &strategy, |&(scene, accuracy, span, samples)| {
         let (body, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
         let span = (0.0, 10f64.powf(span));
@@ -150,7 +152,7 @@ fn meets_prediction() -> Result<Measured, String> {
         seen[place].set(seen[place].get() + 1);
         let motion = plan.motion(&body, &s, &initial).map_err(text)?;
         let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
-        let off = difference(&motion.state(span.1).map_err(text)?, &exact.state(span.1).map_err(text)?);
+        let off = difference(&motion.state(span.1).map_err(text)?, &exact.state(span.1).map_err(text)?, &s, &initial);
         Ok(off / (prediction.truncation + prediction.rounding + exact.error_estimate(span.1)))
     })?;
     let seen = seen.map(|count| count.get());
@@ -169,7 +171,7 @@ fn free_bound() -> Result<Measured, String> {
         let free = UniformMotion::free(&body, &s, &initial, span);
         let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
         let figure = |t: f64| {
-            let off = difference(&free.state(t).map_err(text)?, &exact.state(t).map_err(text)?);
+            let off = difference(&free.state(t).map_err(text)?, &exact.state(t).map_err(text)?, &s, &initial);
             Ok::<_, String>(off / (free.error_estimate(t) + exact.error_estimate(t)))
         };
         Ok(largest([figure(span.1)?, figure(0.3 * span.1)?]))
@@ -198,7 +200,7 @@ fn symmetric_motion() -> Result<Measured, String> {
         solved.set(solved.get() + 1);
         let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
         let figure = |t: f64| {
-            let off = difference(&motion.state(t).map_err(text)?, &exact.state(t).map_err(text)?);
+            let off = difference(&motion.state(t).map_err(text)?, &exact.state(t).map_err(text)?, &s, &initial);
             Ok::<_, String>(off / (motion.error_estimate(t) + exact.error_estimate(t)))
         };
         Ok(largest([figure(0.0)?, figure(span.1)?, figure(0.37 * span.1)?]))
@@ -224,13 +226,17 @@ fn steady_motion() -> Result<Measured, String> {
         let span = (0.0, 50.0);
         let Ok(motion) = UniformMotion::steady(&body, &s, &initial, span) else { return Ok(0.0) };
         solved.set(solved.get() + 1);
-        let beside = BodyState { momentum: initial.momentum * (1.0 + 1e-9), ..initial };
-        let push = scene.s[2] - scene.s[0];
-        if push.abs() > 1e-4 && UniformMotion::steady(&body, &s, &beside, span).is_ok() {
+        // What turns faster or slower by 1e-6 is not steady, wherever the torque is above rounding.
+        let beside = BodyState { momentum: initial.momentum * (1.0 + 1e-6), ..initial };
+        let pull = scene.s[2] - scene.s[0];
+        let (sin, cos) = angles.beta.sin_cos();
+        let speed = rate.abs() + initial.momentum.norm() + (2.0 * pull.abs()).sqrt();
+        let noticed = 1e-6 * (2.0 * pull * sin * cos).abs() / (speed * speed) > 1e-13;
+        if noticed && UniformMotion::steady(&body, &s, &beside, span).is_ok() {
             return Err("a state beside steady precession was taken for one".into());
         }
         let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
-        let off = difference(&motion.state(50.0).map_err(text)?, &exact.state(50.0).map_err(text)?);
+        let off = difference(&motion.state(50.0).map_err(text)?, &exact.state(50.0).map_err(text)?, &s, &initial);
         Ok(off / (motion.error_estimate(50.0) + exact.error_estimate(50.0)))
     })?;
     if solved.get() < 150 {
