@@ -4,7 +4,7 @@ use super::{Method, State};
 
 /// The machine on which the costs were measured. On another one they are all larger or smaller by about the same factor,
 /// which does not change the choice.
-pub const MACHINE: &str = "AMD EPYC (Zen), one core, rustc 1.89, release";
+pub const MACHINE: &str = "one core of an AMD EPYC, opt-level 2";
 
 /// Costs of a method in ns.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,17 +18,19 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Costs of a method that carries `state`. From `cargo run --release -p twofold-verify --example fit_cost`.
+    /// Costs of a method that carries `state`. From `cargo run -p twofold-verify --example fit_cost`.
     pub fn of(method: Method, state: State) -> Self {
         let closed = |setup, evaluation| Self { setup, step: [0.0; 3], evaluation: [evaluation, 0.0] };
         match (method, state) {
-            (Method::Free | Method::Steady, State::Orientation) => closed(100.0, 75.0),
-            (Method::Free | Method::Steady, _) => closed(100.0, 40.0),
-            (Method::Symmetric, _) => closed(6000.0, 3000.0),
+            (Method::Free, State::Orientation) => closed(50.0, 75.0),
+            (Method::Free, _) => closed(50.0, 33.0),
+            (Method::Steady, State::Orientation) => closed(400.0, 98.0),
+            (Method::Steady, _) => closed(400.0, 57.0),
+            (Method::Symmetric, _) => closed(4000.0, 615.0),
             (Method::Taylor, State::Orientation) => {
-                Self { setup: 300.0, step: [100.0, 20.0, 3.0], evaluation: [30.0, 4.0] }
+                Self { setup: 0.0, step: [78.0, 22.0, 2.24], evaluation: [59.0, 3.04] }
             }
-            (Method::Taylor, _) => Self { setup: 300.0, step: [100.0, 15.0, 2.0], evaluation: [30.0, 2.7] },
+            (Method::Taylor, _) => Self { setup: 0.0, step: [82.0, 15.9, 1.67], evaluation: [49.0, 1.51] },
         }
     }
 
