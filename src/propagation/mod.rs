@@ -1,6 +1,7 @@
-//! Numerical motion with dense output, and the continuous Euler angles of any motion.
+//! Motions: numerical with dense output or in closed form, and the continuous Euler angles of any.
 
 mod arithmetic;
+mod closed;
 mod continuous_angles;
 #[cfg_attr(not(target_arch = "x86_64"), path = "unfused.rs")]
 mod fused;
@@ -10,9 +11,10 @@ mod motion;
 mod registers;
 mod taylor;
 
+pub use closed::{SymmetricMotion, UniformMotion, largest_torque};
 pub use continuous_angles::ContinuousAngles;
 pub use motion::{AxisMotion, AxisState, Motion};
 pub use taylor::{
-    ACCURACY_RANGE, AxisScene, ErrorEstimates, STEP_LIMIT, Samples, TaylorAxisMotion, TaylorMotion, axis_states_at,
-    axis_states_of_many, propagate, propagate_axis, states_at,
+    ACCURACY_RANGE, AxisScene, ErrorEstimates, STEP_LIMIT, Samples, TaylorAxisMotion, TaylorForecast, TaylorMotion,
+    axis_states_at, axis_states_of_many, propagate, propagate_axis, states_at, taylor_forecast,
 };

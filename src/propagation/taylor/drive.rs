@@ -59,6 +59,14 @@ impl<S: Real, const V: usize> Drive<'_, S, V> {
         Recurrence::new(a, self.order, a.splat(rates.axis), momentum_rate, columns)
     }
 
+    /// Length of the first step, were the span long enough.
+    pub(super) fn first_step<A: OneMotion<Scalar = S>>(&self, a: A) -> f64 {
+        let mut series = vec![[a.zero(); V]; self.order + 1];
+        self.recurrence(a).expand(&self.start.map(|v| a.load(&v)), &mut series);
+        let sizes = [self.order, self.order - 1].map(|k| self.scale.size(a, &series[k]));
+        step_size(sizes, self.order, self.scale, self.budget)
+    }
+
     /// Steps from the start to the end of the span, at most `limit`; `visit` is given each with its series.
     #[inline(always)]
     pub(super) fn run<A: OneMotion<Scalar = S>>(

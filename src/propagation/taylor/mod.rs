@@ -5,6 +5,7 @@ mod compensated;
 mod drive;
 mod error_growth;
 mod errors;
+mod forecast;
 mod frame;
 #[cfg(target_arch = "x86_64")]
 mod lanes;
@@ -29,6 +30,7 @@ use crate::scalar::Real;
 use clock::StepLimit;
 use compensated::Compensated;
 use errors::{StepError, TaylorErrors};
+pub use forecast::{TaylorForecast, taylor_forecast};
 pub use many::{AxisScene, axis_states_of_many};
 pub use samples::{ErrorEstimates, Samples, axis_states_at, states_at};
 
@@ -153,6 +155,11 @@ impl<S: Real, const V: usize> Steps<S, V> {
 /// The instructions for doubles, where the processor has them and `S` is `f64`, which is known when this is compiled.
 fn fused_for<S: Real>() -> Option<Fused> {
     if TypeId::of::<S>() == TypeId::of::<f64>() { detect_fused() } else { None }
+}
+
+/// Whether the series is computed in the principal frame, and how its work grows, by those instructions or without.
+fn work_of(fused: Option<Fused>) -> (bool, Work) {
+    if fused.is_some() { (true, Work::Latent) } else { (false, Work::Quadratic) }
 }
 
 impl<S: Real, const V: usize> TaylorMotion<S, V> {

@@ -12,6 +12,7 @@ mod forced_precession;
 mod observer;
 mod orientation;
 mod perturbation_equations;
+mod plans;
 mod potential_energy;
 mod propagation;
 mod pulsar;
@@ -49,6 +50,7 @@ pub fn all() -> Vec<Check> {
         error_estimate::checks,
         axis_motion::checks,
         second_integrator::checks,
+        plans::checks,
         regimes::checks,
         observer::checks,
         spin_axis::checks,

@@ -2,6 +2,7 @@
 
 mod bounds;
 mod compare;
+mod explain;
 mod figures;
 mod output_file;
 mod output_folder;
@@ -39,6 +40,8 @@ Examples:
   twofold run my-star.toml --out my-star.csv
   twofold bounds                    the paper's table of pulsars with uncertainties
   twofold run tp-2 --columns h      only the gravitational wave
+  twofold run tp-1 --columns h --explain
+                                    the plan for it: method, what is skipped, cost
   twofold pulses tp-1               every pulse of the radio beam
   twofold spectrum tp-1 --of m.n --span 4000
                                     the spectral lines of the pulsar signal, identified
@@ -117,6 +120,8 @@ struct RunArgs {
     #[arg(long, value_name = "GROUP,GROUP", value_delimiter = ',')]
     columns: Option<Vec<String>>,
     #[command(flatten)]
+    plan: PlanArgs,
+    #[command(flatten)]
     output: OutputArgs,
 }
 
@@ -127,6 +132,8 @@ struct PulsesArgs {
     /// The opposite beam too, whatever the scene says
     #[arg(long)]
     second_beam: bool,
+    #[command(flatten)]
+    plan: PlanArgs,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -154,6 +161,8 @@ struct SpectrumArgs {
     #[arg(long)]
     unidentified: bool,
     #[command(flatten)]
+    plan: PlanArgs,
+    #[command(flatten)]
     output: OutputArgs,
 }
 
@@ -172,6 +181,16 @@ struct CompareArgs {
     /// Print the comparison as JSON instead of a table
     #[arg(long)]
     json: bool,
+}
+
+#[derive(Args)]
+struct PlanArgs {
+    /// Compute nothing: print the plan, what it skips and why, and what it is expected to cost
+    #[arg(long)]
+    explain: bool,
+    /// The method, instead of the cheapest that meets the accuracy: free, steady, symmetric, taylor
+    #[arg(long, value_name = "NAME")]
+    method: Option<String>,
 }
 
 #[derive(Args)]

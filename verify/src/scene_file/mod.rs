@@ -15,9 +15,11 @@ mod time;
 mod violation;
 
 use nalgebra::Matrix3;
+use twofold::Error;
 use twofold::dynamics::regular_equations::angular_velocity;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::EulerAngles;
+use twofold::plan::{Method, Output, Plan, Request};
 use twofold::solutions::perturbation::Perturbation;
 
 use crate::columns::{self, ColumnGroup};
@@ -63,6 +65,8 @@ pub struct Scene {
     pub columns: Vec<&'static ColumnGroup>,
     /// Truncation error wanted at the end of the span.
     pub accuracy: f64,
+    /// The method of the motion, where one is named.
+    pub method: Option<Method>,
     /// Units of the file and of the output.
     pub units: Units,
 }
@@ -130,6 +134,7 @@ impl Scene {
             perturbation: initial.perturbation,
             columns: columns::of_the_motion(),
             accuracy: output::DEFAULT_ACCURACY,
+            method: None,
             units: star.units,
         };
         if let Some(output) = &output {
@@ -143,6 +148,25 @@ impl Scene {
             "[time] asks for a rotation by {rotation:.1e} rad: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \
              minutes; shorten the span or lower the rates"
         )))
+    }
+
+    /// The plan for some outputs over the span and at the samples of the scene. Times are those since the start, in t_c.
+    ///
+    /// # Errors
+    /// A method that the scene does not allow.
+    pub fn plan(&self, outputs: &[Output]) -> Result<Plan, Error> {
+        let span = (0.0, (self.times.last() - self.times.start()) / self.units.time);
+        let request = Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.accuracy) };
+        Plan::new(&self.spheroid, &self.violation, &self.initial, &request)
+    }
+
+    /// The plan for the columns of the scene.
+    ///
+    /// # Errors
+    /// As for [`Scene::plan`].
+    pub fn plan_of_columns(&self) -> Result<Plan, Error> {
+        let outputs: Vec<_> = self.columns.iter().map(|group| group.output).collect();
+        self.plan(&outputs)
     }
 
     /// Upper estimate of the angle through which the body turns over the span, in rad.

@@ -43,6 +43,14 @@ impl Times {
         }
     }
 
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        match self {
+            Times::Even { samples, .. } => *samples,
+            Times::Listed { times, .. } => times.len(),
+        }
+    }
+
     /// All times in order.
     pub fn iter(&self) -> Box<dyn Iterator<Item = f64> + '_> {
         match self {

@@ -1,0 +1,132 @@
+//! Motions by the method of a plan.
+
+use nalgebra::Matrix3;
+
+use super::{Method, Work};
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::propagation::{
+    AxisMotion, AxisState, Motion, SymmetricMotion, TaylorAxisMotion, TaylorMotion, UniformMotion, propagate,
+    propagate_axis,
+};
+
+/// A motion of the symmetry axis and the angular momentum, by any method.
+#[derive(Debug, Clone)]
+pub enum PlannedAxisMotion {
+    /// [`Method::Free`] or [`Method::Steady`].
+    Uniform(UniformMotion<f64>),
+    /// [`Method::Symmetric`].
+    Symmetric(SymmetricMotion<f64>),
+    /// [`Method::Taylor`].
+    Taylor(TaylorAxisMotion<f64>),
+}
+
+/// A motion of the full orientation, by any method that has it.
+#[derive(Debug, Clone)]
+pub enum PlannedMotion {
+    /// [`Method::Free`] or [`Method::Steady`].
+    Uniform(UniformMotion<f64>),
+    /// [`Method::Symmetric`].
+    Symmetric(SymmetricMotion<f64>),
+    /// [`Method::Taylor`].
+    Taylor(TaylorMotion<f64>),
+}
+
+/// The same arms twice: the enums differ in what the numerical methods carry.
+macro_rules! planned {
+    ($planned:ident, $numerical:expr) => {
+        impl $planned {
+            /// The motion from `initial` at `span.0`, by a given method.
+            ///
+            /// # Errors
+            /// Those of the method.
+            pub fn by(
+                method: Method,
+                spheroid: &RigidSpheroid<f64>,
+                s: &Matrix3<f64>,
+                initial: &BodyState<f64>,
+                span: (f64, f64),
+                accuracy: f64,
+            ) -> Result<Self, Error> {
+                Ok(match method {
+                    Method::Free => Self::Uniform(UniformMotion::free(spheroid, s, initial, span)),
+                    Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
+                    Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
+                    Method::Taylor => Self::Taylor($numerical(spheroid, s, initial, span, accuracy)?),
+                })
+            }
+
+            /// Steps and right-hand sides that it took.
+            pub fn work(&self) -> Work {
+                match self {
+                    Self::Uniform(_) | Self::Symmetric(_) => Work::default(),
+                    Self::Taylor(motion) => {
+                        let steps = motion.step_count() as f64;
+                        Work { steps, right_hand_sides: steps * motion.order() as f64, ..Work::default() }
+                    }
+                }
+            }
+        }
+
+        impl AxisMotion<f64> for $planned {
+            fn spheroid(&self) -> &RigidSpheroid<f64> {
+                match self {
+                    Self::Uniform(motion) => motion.spheroid(),
+                    Self::Symmetric(motion) => motion.spheroid(),
+                    Self::Taylor(motion) => motion.spheroid(),
+                }
+            }
+
+            fn violation(&self) -> &Matrix3<f64> {
+                match self {
+                    Self::Uniform(motion) => motion.violation(),
+                    Self::Symmetric(motion) => motion.violation(),
+                    Self::Taylor(motion) => motion.violation(),
+                }
+            }
+
+            fn span(&self) -> (f64, f64) {
+                match self {
+                    Self::Uniform(motion) => motion.span(),
+                    Self::Symmetric(motion) => motion.span(),
+                    Self::Taylor(motion) => motion.span(),
+                }
+            }
+
+            fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
+                match self {
+                    Self::Uniform(motion) => motion.axis_state(t),
+                    Self::Symmetric(motion) => motion.axis_state(t),
+                    Self::Taylor(motion) => motion.axis_state(t),
+                }
+            }
+
+            fn error_estimate(&self, t: f64) -> f64 {
+                match self {
+                    Self::Uniform(motion) => motion.error_estimate(t),
+                    Self::Symmetric(motion) => motion.error_estimate(t),
+                    Self::Taylor(motion) => motion.error_estimate(t),
+                }
+            }
+        }
+    };
+}
+
+planned!(PlannedAxisMotion, |spheroid, s, initial: &BodyState<f64>, span, accuracy| propagate_axis(
+    spheroid,
+    s,
+    &AxisState::from(initial),
+    span,
+    accuracy
+));
+planned!(PlannedMotion, propagate);
+
+impl Motion<f64> for PlannedMotion {
+    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
+        match self {
+            Self::Uniform(motion) => motion.state(t),
+            Self::Symmetric(motion) => motion.state(t),
+            Self::Taylor(motion) => motion.state(t),
+        }
+    }
+}
