@@ -13,7 +13,7 @@ use std::io::Write;
 pub use error::TrajectoryError;
 pub use pulses::{PulseSummary, write_pulses};
 pub use spectrum::{LinesSummary, LinesWanted, Sampling};
-use stretches::{Stretches, since_start};
+pub(crate) use stretches::{ROTATION_PER_STRETCH, Stretches, since_start};
 use twofold::propagation::{ContinuousAngles, Motion};
 
 use crate::columns::Moment;

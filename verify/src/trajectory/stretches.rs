@@ -7,7 +7,7 @@ use twofold::propagation::{ACCURACY_RANGE, Motion, TaylorMotion, propagate};
 use crate::scene_file::Scene;
 
 /// Rotation per stretch of motion that is kept in memory at a time, in rad.
-const ROTATION_PER_STRETCH: f64 = 5e4;
+pub(crate) const ROTATION_PER_STRETCH: f64 = 5e4;
 
 /// The motion of a scene over its whole span, in order.
 pub struct Stretches<'s> {
