@@ -11,7 +11,7 @@ use super::spool::{Spool, SpoolError};
 use super::Sweep;
 
 /// Time between two marks in the journal: what an interruption costs at most, besides the chunks in work.
-const BETWEEN_MARKS: Duration = Duration::from_secs(1);
+const BETWEEN_MARKS: Duration = Duration::from_millis(250);
 
 /// Chunks in work or waiting for their turn to be written, per thread; it bounds the memory.
 const CHUNKS_PER_THREAD: usize = 8;

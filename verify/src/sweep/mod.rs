@@ -74,7 +74,7 @@ impl Sweep<'_> {
         names
     }
 
-    /// Scene number `number`, with `parameters`.
+    /// The scene with `parameters`.
     ///
     /// # Errors
     /// A sentence about a parameter out of its range.

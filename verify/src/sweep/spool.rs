@@ -253,3 +253,86 @@ impl fmt::Display for SpoolError {
 }
 
 impl std::error::Error for SpoolError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sweep::SweepText;
+
+    const CHUNKS: [[&[u8]; 2]; 4] = [[b"0,1\n1,2\n", b""], [b"2,3\n", b"2,why\n"], [b"3,4\n4,5\n", b""], [b"5,6\n", b""]];
+
+    fn identity(text: &str) -> Identity {
+        Identity::new(&SweepText { file: "a.toml".into(), text: text.into(), scene: None }, &(0..40))
+    }
+
+    /// Continues the table in `folder` up to `chunks` chunks, each of ten scenes, with a mark after each.
+    fn grow(folder: &Path, text: &str, chunks: usize) -> Result<u64, SpoolError> {
+        let files = SpoolFiles::of(&folder.join("a.csv"));
+        let mut spool = Spool::open(files, &identity(text), [b"head\n", b"errors\n"], 0)?;
+        let begun = spool.next();
+        assert_eq!(begun % 10, 0);
+        for chunk in begun / 10..chunks as u64 {
+            spool.append(10 * (chunk + 1), CHUNKS[chunk as usize], u64::from(chunk == 1))?;
+            spool.commit()?;
+        }
+        assert_eq!(spool.failed(), u64::from(chunks > 1));
+        Ok(begun)
+    }
+
+    fn bytes(folder: &Path) -> [Vec<u8>; 2] {
+        let files = SpoolFiles::of(&folder.join("a.csv"));
+        [files.rows, files.errors].map(|path| fs::read(path).expect("a file"))
+    }
+
+    #[test]
+    fn files_torn_or_damaged_at_any_byte_are_continued_to_the_same_bytes() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder.path();
+        assert_eq!(grow(folder, "text", 4).expect("a table"), 0);
+        let files = SpoolFiles::of(&folder.join("a.csv"));
+        let paths = [files.rows, files.errors, files.journal];
+        let whole = bytes(folder);
+        assert_eq!(whole[0], b"head\n0,1\n1,2\n2,3\n3,4\n4,5\n5,6\n");
+        assert_eq!(whole[1], b"errors\n2,why\n");
+        let contents = paths.clone().map(|path| fs::read(path).expect("a file"));
+        let mut continued = 0;
+        for (path, original) in paths.iter().zip(&contents) {
+            for place in 0..original.len() {
+                let mut damaged = original.clone();
+                damaged[place] ^= 0x41;
+                let torn = original[..place].to_vec();
+                let longer = [original.as_slice(), b"garbage"].concat();
+                for version in [damaged, torn, longer] {
+                    for (path, original) in paths.iter().zip(&contents) {
+                        fs::write(path, original).expect("a file");
+                    }
+                    fs::write(path, version).expect("a file");
+                    let begun = grow(folder, "text", 4).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+                    continued += u64::from(begun > 0);
+                    assert_eq!(bytes(folder), whole, "{}, byte {place}", path.display());
+                }
+            }
+        }
+        assert!(continued > 500, "only {continued} were continued and not begun anew");
+    }
+
+    #[test]
+    fn only_the_same_sweep_is_continued_and_by_one_process() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder.path();
+        grow(folder, "one\ntwo", 2).expect("a table");
+        let before = bytes(folder);
+        let refused = grow(folder, "one\nthree", 4).expect_err("another sweep").to_string();
+        assert!(refused.ends_with("the sweep file a.toml has changed since: line 2 was `two` and is `three`"), "{refused}");
+        assert_eq!(bytes(folder), before);
+        let files = SpoolFiles::of(&folder.join("a.csv"));
+        let open = || Spool::open(files.clone(), &identity("one\ntwo"), [b"head\n", b"errors\n"], 0);
+        let first = open().expect("a table");
+        assert!(matches!(open(), Err(SpoolError::InUse)));
+        drop(first);
+        fs::remove_file(&files.journal).expect("a journal");
+        let refused = open().expect_err("a table without a journal").to_string();
+        assert!(refused.contains("no journal") && !files.journal.exists(), "{refused}");
+        assert_eq!(bytes(folder), before);
+    }
+}
