@@ -44,8 +44,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
         let advice = if matches!(error, SpoolError::Different(_)) { "; --restart begins anew" } else { "" };
         Failure::BadInput(format!("{}: {error}{advice}", files.rows.display()))
     };
-    let mut spool =
-        Spool::open(files.clone(), &identity, [&headers[0], &headers[1]], scenes.start).map_err(refuse)?;
+    let mut spool = Spool::open(files.clone(), &identity, [&headers[0], &headers[1]], scenes.start).map_err(refuse)?;
     let (first, count) = (spool.next(), scenes.end - scenes.start);
     if first > scenes.start {
         note(&format!("{} of {count} scenes are there already", first - scenes.start));

@@ -61,7 +61,8 @@ pub(super) fn chunk_text(sweep: &Sweep<'_>, numbers: Range<u64>) -> Result<Chunk
             text.failed += 1;
         }
     }
-    let whole = |writer: csv::Writer<Vec<u8>>| writer.into_inner().map_err(|error| csv::Error::from(error.into_error()));
+    let whole =
+        |writer: csv::Writer<Vec<u8>>| writer.into_inner().map_err(|error| csv::Error::from(error.into_error()));
     (text.rows, text.errors) = (whole(rows)?, whole(errors)?);
     Ok(text)
 }

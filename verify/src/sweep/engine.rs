@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
+use super::Sweep;
 use super::chunk::{ChunkText, chunk_text};
 use super::spool::{Spool, SpoolError};
-use super::Sweep;
 
 /// Time between two marks in the journal: what an interruption costs at most, besides the chunks in work.
 const BETWEEN_MARKS: Duration = Duration::from_millis(250);

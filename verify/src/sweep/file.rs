@@ -38,7 +38,12 @@ impl SweepText {
     pub fn read(path: &str) -> Result<Self, SceneError> {
         let text = SWEEP.read(path)?;
         let name = SWEEP.parse(path, &text, |document| {
-            Ok(document.optional("scene").filter(Entry::is_string).map(|entry| entry.string()).transpose()?.map(String::from))
+            Ok(document
+                .optional("scene")
+                .filter(Entry::is_string)
+                .map(|entry| entry.string())
+                .transpose()?
+                .map(String::from))
         })?;
         let scene = name.map(|name| match BUILT_IN.iter().find(|scene| scene.name == name) {
             Some(built_in) => Ok((name, built_in.toml.to_owned())),
@@ -155,9 +160,7 @@ fn parameters(document: &Section<'_>, known: &[String]) -> Result<Parameters, Fa
     let mut streams = 0;
     for section in document.repeated_section("vary", "a parameter of the scene and its numbers")? {
         section.only(&["parameter", "values", "grid", "random", "together"])?;
-        for (first, second) in
-            [("values", "grid"), ("values", "random"), ("grid", "random"), ("together", "random")]
-        {
+        for (first, second) in [("values", "grid"), ("values", "random"), ("grid", "random"), ("together", "random")] {
             section.not_both(first, second)?;
         }
         let parameter = section.required("parameter", "dotted key of a number of the scene")?;
@@ -218,10 +221,7 @@ fn parameter_key(entry: &Entry<'_>, known: &[String], taken: &[String]) -> Resul
     }
     let known: Vec<_> = known.iter().map(String::as_str).collect();
     let guess = nearest(key, &known).map(|near| format!(" Did you mean `{near}`?")).unwrap_or_default();
-    Err(entry.refuse_because(&format!(
-        "allowed is a number that stands in the scene: {}.{guess}",
-        listed(&known)
-    )))
+    Err(entry.refuse_because(&format!("allowed is a number that stands in the scene: {}.{guess}", listed(&known))))
 }
 
 /// Where the numbers come from, and how many there are; none where they are drawn.

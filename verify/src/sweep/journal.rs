@@ -113,7 +113,13 @@ mod tests {
         let mark = |next| Mark { next, failed: 1, ..Mark::default() };
         let lines = [line(&json!({ "sweep": "text" })), line(&mark(4).to_value()), line(&mark(9).to_value())];
         let whole = lines.concat();
-        let ends: Vec<_> = lines.iter().scan(0, |end, line| { *end += line.len(); Some(*end) }).collect();
+        let ends: Vec<_> = lines
+            .iter()
+            .scan(0, |end, line| {
+                *end += line.len();
+                Some(*end)
+            })
+            .collect();
         for cut in 0..=whole.len() {
             let complete = ends.iter().filter(|end| **end <= cut).count();
             let journal = Journal::read(&whole[..cut]).expect("memory can be read");

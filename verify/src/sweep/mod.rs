@@ -83,10 +83,10 @@ impl Sweep<'_> {
         Ok(Scene { accuracy: self.accuracy, ..scene })
     }
 
-    /// Scenes that are computed together. It decides about speed and memory, not about results: a chunk is a second's work
-    /// or less, and its rows take a few megabytes.
+    /// Scenes that are computed together. It decides about speed and memory, not about results: a chunk is about a quarter of a
+    /// second's work or less, and its rows take a few megabytes.
     fn chunk_length(&self) -> u64 {
-        let by_time = (2e6 / self.rotation.max(1.0)) as usize;
+        let by_time = (5e4 / self.rotation.max(1.0)) as usize;
         let by_memory = 65_536 / self.header().len();
         by_time.min(by_memory).clamp(1, 256).next_multiple_of(8) as u64
     }

@@ -60,7 +60,9 @@ impl Summary {
 
     fn header(self, units: &Units) -> Vec<String> {
         match self {
-            Self::Lambda => ["lambda_least", "lambda_largest", "lambda_mean"].map(|name| format!("{name} [rad]")).to_vec(),
+            Self::Lambda => {
+                ["lambda_least", "lambda_largest", "lambda_mean"].map(|name| format!("{name} [rad]")).to_vec()
+            }
             Self::Pulses => vec!["pulses [1]".to_owned()],
             Self::SlowPrecession => {
                 vec!["slow_precession_axis [1]".to_owned(), format!("slow_precession_rate [rad/{}]", units.time_name)]

@@ -160,3 +160,44 @@ impl From<ParquetError> for ConversionError {
         ConversionError::Parquet(error)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::Field;
+
+    use super::*;
+
+    #[test]
+    fn every_number_comes_back_and_missing_ones_are_missing() {
+        let table =
+            "scene,star.spin,status,e_z_X@1.0 [1]\n0,0.1,ok,-1.5e-300\n1,1e22,failed,\n2,-0.0,ok,0.30000000000000004\n";
+        let write = |table: &str| {
+            let file = tempfile::tempfile().expect("a file");
+            write_parquet(table.as_bytes(), &file).map(|()| file)
+        };
+        let reader = SerializedFileReader::new(write(table).expect("a table")).expect("a Parquet file");
+        let expected = [
+            (0, 0.1, "ok", Field::Double(-1.5e-300)),
+            (1, 1e22, "failed", Field::Null),
+            (2, -0.0, "ok", Field::Double(0.30000000000000004)),
+        ];
+        let rows: Vec<_> = reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row")).collect();
+        assert_eq!(rows.len(), expected.len());
+        for (row, (number, spin, status, value)) in rows.iter().zip(expected) {
+            let fields: Vec<_> = row.get_column_iter().map(|(name, field)| (name.as_str(), field.clone())).collect();
+            let wanted = [
+                ("scene", Field::Long(number)),
+                ("star.spin", Field::Double(spin)),
+                ("status", Field::Str(status.to_owned())),
+                ("e_z_X@1.0 [1]", value),
+            ];
+            assert_eq!(fields, wanted);
+        }
+        let column = reader.metadata().row_group(0).column(1);
+        assert!(column.encodings().any(|encoding| encoding == Encoding::BYTE_STREAM_SPLIT));
+        assert!(matches!(column.compression(), Compression::ZSTD(_)));
+        let bad = write("scene,star.spin,status\n0,x,ok\n").expect_err("no number").to_string();
+        assert_eq!(bad, "line 2 of the table holds no number in the column `star.spin`");
+    }
+}

@@ -259,7 +259,8 @@ mod tests {
     use super::*;
     use crate::sweep::SweepText;
 
-    const CHUNKS: [[&[u8]; 2]; 4] = [[b"0,1\n1,2\n", b""], [b"2,3\n", b"2,why\n"], [b"3,4\n4,5\n", b""], [b"5,6\n", b""]];
+    const CHUNKS: [[&[u8]; 2]; 4] =
+        [[b"0,1\n1,2\n", b""], [b"2,3\n", b"2,why\n"], [b"3,4\n4,5\n", b""], [b"5,6\n", b""]];
 
     fn identity(text: &str) -> Identity {
         Identity::new(&SweepText { file: "a.toml".into(), text: text.into(), scene: None }, &(0..40))
@@ -323,7 +324,10 @@ mod tests {
         grow(folder, "one\ntwo", 2).expect("a table");
         let before = bytes(folder);
         let refused = grow(folder, "one\nthree", 4).expect_err("another sweep").to_string();
-        assert!(refused.ends_with("the sweep file a.toml has changed since: line 2 was `two` and is `three`"), "{refused}");
+        assert!(
+            refused.ends_with("the sweep file a.toml has changed since: line 2 was `two` and is `three`"),
+            "{refused}"
+        );
         assert_eq!(bytes(folder), before);
         let files = SpoolFiles::of(&folder.join("a.csv"));
         let open = || Spool::open(files.clone(), &identity("one\ntwo"), [b"head\n", b"errors\n"], 0);
