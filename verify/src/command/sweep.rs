@@ -28,12 +28,13 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     let target = fs::canonicalize(&args.out).unwrap_or_else(|_| args.out.clone());
     let files = SpoolFiles::of(&target);
     if args.restart {
-        files.remove().map_err(failed)?;
+        files.discard().map_err(|error| Failure::BadInput(format!("{}: {error}", files.rows.display())))?;
     }
     let named_before = files.are_complete(&identity);
     if named_before && !files.rows.exists() && target.exists() {
         // Only the tidying was interrupted.
-        return files.remove().map_err(failed);
+        files.remove().map_err(failed)?;
+        return if errors_beside(&target).exists() { Err(some_failed(&args.out)) } else { Ok(()) };
     }
     let out = free_name(&args.out, args.force || named_before)?;
     let errors = errors_beside(&target);
@@ -54,7 +55,7 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     let threads = threads.map_err(|error| Failure::Failed(format!("no threads can be started: {error}")))?;
     let mut told = Told::new(first - scenes.start, count);
     let done = compute(&sweep, &mut spool, scenes.end, &threads, &stop, |next| told.tell(next - scenes.start));
-    told.end();
+    told.end(spool.failed());
     if done.map_err(failed)? == Done::Stopped {
         return Err(Failure::Interrupted(format!(
             "{} of {count} scenes are in {}; the same command goes on from there",
@@ -63,14 +64,11 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
         )));
     }
     give_names(&mut spool, &out, &errors, (args.force || named_before, format))?;
-    match spool.failed() {
-        0 => Ok(()),
-        failed => Err(Failure::Partly(format!(
-            "{failed} of {count} scenes failed: {} says which and why; all others are in {}",
-            errors.display(),
-            args.out.display()
-        ))),
-    }
+    if spool.failed() == 0 { Ok(()) } else { Err(some_failed(&args.out)) }
+}
+
+fn some_failed(out: &Path) -> Failure {
+    Failure::Partly(format!("some scenes failed: {} says which and why", errors_beside(out).display()))
 }
 
 /// Format of a table.
@@ -208,7 +206,8 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     if any_failed {
         errors_output.complete()?;
     }
-    output.complete()
+    output.complete()?;
+    if any_failed { Err(some_failed(&args.out)) } else { Ok(()) }
 }
 
 /// What a sweep says while it runs: a bar on a terminal, elsewhere a line a minute; and a line at its end.
@@ -245,10 +244,10 @@ impl Told {
         (self.done - self.first) as f64 / self.start.elapsed().as_secs_f64().max(1e-9)
     }
 
-    fn end(self) {
+    fn end(self, failed: u64) {
         let (computed, rate) = (self.done - self.first, self.rate());
         let seconds = self.start.elapsed().as_secs_f64();
         drop(self.bar);
-        note(&format!("{computed} scenes in {seconds:.2} s, {rate:.4e} scenes/s"));
+        note(&format!("{computed} scenes in {seconds:.2} s, {rate:.4e} scenes/s; {failed} of {} failed", self.done));
     }
 }

@@ -44,7 +44,7 @@ mod tests {
                 for part in 1..=parts {
                     let scenes = Shard { part, parts }.scenes(count);
                     assert_eq!(scenes.start, next);
-                    assert!(scenes.end - scenes.start <= count / parts + 1);
+                    assert!((scenes.end - scenes.start).abs_diff(count / parts) <= 1);
                     next = scenes.end;
                 }
                 assert_eq!(next, count);

@@ -1,7 +1,9 @@
 //! Least, largest and mean angle between the spin axis and the direction to the observer over the span of a scene.
 
 use std::f64::consts::TAU;
+use std::num::NonZeroUsize;
 
+use gauss_quad::GaussLegendre;
 use nalgebra::Vector3;
 use twofold::Error;
 use twofold::observables::spin_axis::{cos_lambda, cos_lambda_rate};
@@ -10,19 +12,15 @@ use twofold::propagation::AxisMotion;
 /// Panels of the quadrature per turn at the upper estimate of the turning rate.
 const PANELS_PER_TURN: f64 = 16.0;
 
-/// Nodes and weights of Gauss and Legendre's rule with four nodes on [-1, 1] (Abramowitz and Stegun, table 25.4), whose error
-/// in a sixteenth of a turn is about 1e-11 of the amplitude.
-const GAUSS: [(f64, f64); 4] = [
-    (-0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
-    (-0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
-    (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
-    (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
-];
+/// Nodes of Gauss and Legendre's rule in a panel; its error in a sixteenth of a turn is about 1e-11 of the amplitude.
+const NODES: NonZeroUsize = NonZeroUsize::new(4).unwrap();
 
 /// Follows the angle `lambda` of Eq. (37) along a motion, stretch by stretch.
 pub(super) struct SpinAxisAngle {
     direction: Vector3<f64>,
     turning_rate: f64,
+    /// Nodes on [-1, 1] in order, with their weights.
+    nodes: Vec<(f64, f64)>,
     least: f64,
     largest: f64,
     integral: f64,
@@ -32,7 +30,9 @@ pub(super) struct SpinAxisAngle {
 impl SpinAxisAngle {
     /// For the unit vector `direction` and a motion that turns at most at `turning_rate`.
     pub(super) fn new(direction: Vector3<f64>, turning_rate: f64) -> Self {
-        Self { direction, turning_rate, least: f64::INFINITY, largest: 0.0, integral: 0.0, length: 0.0 }
+        let mut nodes: Vec<_> = GaussLegendre::new(NODES).iter().copied().collect();
+        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self { direction, turning_rate, nodes, least: f64::INFINITY, largest: 0.0, integral: 0.0, length: 0.0 }
     }
 
     /// Least, largest and mean angle (rad) so far. Extrema are found by the sign of the rate at 64 times a turn and then to
@@ -51,7 +51,8 @@ impl SpinAxisAngle {
         let mut last = self.take(motion, from)?;
         for panel in 0..panels as usize {
             let middle = from + (2 * panel + 1) as f64 * half;
-            for (node, weight) in GAUSS {
+            for i in 0..self.nodes.len() {
+                let (node, weight) = self.nodes[i];
                 let next = self.take(motion, middle + node * half)?;
                 self.integral += weight * half * next.angle;
                 self.take_extremum(motion, &last, &next)?;
