@@ -30,6 +30,7 @@ pub mod reference;
 pub mod report;
 pub mod scene_file;
 pub mod second_integrator;
+pub mod sweep;
 pub mod trajectory;
 
 /// The example of the README, run as a documentation test.

@@ -1,30 +1,15 @@
 //! The command `twofold` as a user meets it: status, messages, files.
 
+mod common;
+
 use std::fs;
 use std::io::Read;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use tempfile::{TempDir, tempdir};
-
-fn twofold(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_twofold")).args(args).output().expect("the command starts")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn folder() -> TempDir {
-    tempdir().expect("a temporary folder")
-}
-
-fn names_in(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).expect("folder");
-    entries.map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned()).collect()
-}
+use common::{folder, names_in, stderr, twofold};
 
 /// Status 2, nothing on standard output, one message that contains the fragments, no file.
 fn assert_refused(scene: &Path, fragments: &[&str]) {

@@ -12,6 +12,7 @@ mod report;
 mod run;
 mod scenes;
 mod spectrum;
+mod sweep;
 mod verify;
 
 use std::io::{self, Write};
@@ -20,6 +21,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::sweep::Shard;
 use crate::{claims, equation_table};
 
 /// The rotation of spheroidal stars under Lorentz violation, as verified equations
@@ -45,10 +47,13 @@ Examples:
   twofold pulses tp-1               every pulse of the radio beam
   twofold spectrum tp-1 --of m.n --span 4000
                                     the spectral lines of the pulsar signal, identified
+  twofold sweep grid.toml --out grid.csv
+                                    a table with a row for each of many scenes; goes on where it was interrupted
   twofold figures --out figures     the paper's figures and ours
   twofold report                    everything as one page, report/index.html
 
-Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written; 130 interrupted.";
+Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written;
+3 a sweep is complete but for scenes that failed; 130 interrupted.";
 
 #[derive(Subcommand)]
 enum Command {
@@ -78,6 +83,12 @@ enum Command {
     /// The step of the series follows from the rotation rate, not from the scene's samples. Notes on standard error tell the
     /// step, the fundamental frequencies and the constant term.
     Spectrum(SpectrumArgs),
+    /// Compute many scenes, grids, lists or random draws of the parameters of one, and write a table with a row for each
+    ///
+    /// The table grows in FILE.partial and gets its name when it is complete. Whatever ends the command before, the same command
+    /// goes on where it was, and the table is the same to the byte as without the interruption. A scene that fails is a row
+    /// that says so, and a line in FILE.errors.csv. The format of a sweep file is described in docs/sweep.md.
+    Sweep(SweepArgs),
     /// Compare the data that the paper's authors published with the same numbers computed here
     ///
     /// The files are those of the folder `data3` of github.com/ryxxastroat/lorentz_precession. Each known one in the folder is
@@ -174,6 +185,30 @@ enum SpectrumTable {
 }
 
 #[derive(Args)]
+struct SweepArgs {
+    /// The sweep (TOML)
+    file: String,
+    /// The table: CSV, or Parquet if the name ends in .parquet
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Replace the table if it exists
+    #[arg(long)]
+    force: bool,
+    /// Begin anew, whatever part of the table is there
+    #[arg(long)]
+    restart: bool,
+    /// Compute only part i of n: consecutive scenes, so that the parts' tables one after the other are the whole
+    #[arg(long, value_name = "I/N", conflicts_with = "merge")]
+    shard: Option<Shard>,
+    /// Number of threads; all cores if not given
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    threads: Option<u16>,
+    /// Compute nothing: write the CSV tables of all shards, in their order, as one table
+    #[arg(long, value_name = "PART", num_args = 1..)]
+    merge: Vec<PathBuf>,
+}
+
+#[derive(Args)]
 struct CompareArgs {
     /// Folder with the authors' files: tp1.dat, mntp1.dat, ...
     #[arg(long, value_name = "DIR")]
@@ -247,6 +282,10 @@ enum Failure {
     Failed(String),
     /// The input is not usable: status 2.
     BadInput(String),
+    /// Everything is written, and some of it says that it could not be computed: status 3.
+    Partly(String),
+    /// Ended by a signal, with what is left: status 130.
+    Interrupted(String),
 }
 
 /// Runs the command with the arguments of the process.
@@ -266,6 +305,7 @@ pub fn main() -> ExitCode {
         Command::Bounds(args) => bounds::bounds(&args),
         Command::Pulses(args) => pulses::pulses(&args),
         Command::Spectrum(args) => spectrum::spectrum(&args),
+        Command::Sweep(args) => sweep::sweep(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::Figures(args) => figures::figures(&args),
         Command::Scenes => scenes::scenes(),
@@ -276,6 +316,8 @@ pub fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Failed(message)) => end(1, &message),
         Err(Failure::BadInput(message)) => end(2, &message),
+        Err(Failure::Partly(message)) => end(3, &message),
+        Err(Failure::Interrupted(left)) => end(output_file::INTERRUPTED, &format!("interrupted: {left}")),
     }
 }
 

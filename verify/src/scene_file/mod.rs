@@ -30,9 +30,10 @@ pub(crate) use document::FileKind;
 pub(crate) use error::Fault;
 pub use error::SceneError;
 pub use observer::{Pulsar, Viewer};
-pub(crate) use section::{Entry, Section, listed, nearest};
+pub(crate) use section::{Entry, Replaced, Section, listed, nearest};
 pub use star::Units;
 pub use time::Times;
+pub(crate) use time::read as read_times;
 
 /// Largest scene file that is read, in bytes.
 pub const LARGEST_FILE: u64 = 64 << 20;
@@ -91,8 +92,9 @@ impl Scene {
     }
 
     fn named_with(name_or_path: &str, use_columns: bool) -> Result<Self, SceneError> {
-        let read =
-            |file: &str, text: &str| SCENE.parse(file, text, |document| Self::from_document(document, use_columns));
+        let read = |file: &str, text: &str| {
+            SCENE.parse(file, text, |document| Self::from_document(document, use_columns, None))
+        };
         match BUILT_IN.iter().find(|scene| scene.name == name_or_path) {
             Some(built_in) => read(built_in.name, built_in.toml),
             None => read(name_or_path, &SCENE.read(name_or_path)?),
@@ -105,10 +107,15 @@ impl Scene {
     /// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or exclude one another, and for
     /// values of a wrong type or out of range.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SceneError> {
-        SCENE.parse(file, text, |document| Self::from_document(document, true))
+        SCENE.parse(file, text, |document| Self::from_document(document, true, None))
     }
 
-    fn from_document(document: &Section<'_>, use_columns: bool) -> Result<Self, Fault> {
+    /// The scene of a document, with `times` in place of its own section `[time]` if there are any.
+    pub(crate) fn from_document(
+        document: &Section<'_>,
+        use_columns: bool,
+        times: Option<&Times>,
+    ) -> Result<Self, Fault> {
         document.only(&["about", "star", "lorentz_violation", "initial", "observer", "pulsar", "time", "output"])?;
         let about = document.optional("about").map(|entry| entry.string()).transpose()?.unwrap_or("").to_owned();
         let star_section = document.required_section("star", "the spheroid and its spin")?;
@@ -119,8 +126,14 @@ impl Scene {
         let observer = document.section("observer")?;
         let observer = observer.map(|section| observer::read_observer(&section, &star.units)).transpose()?;
         let pulsar = document.section("pulsar")?.map(|section| observer::read_pulsar(&section)).transpose()?;
-        let time_section = document.required_section("time", "the times of the output")?;
-        let times = time::read(&time_section)?;
+        let (time_section, times) = match times {
+            Some(times) => (None, times.clone()),
+            None => {
+                let section = document.required_section("time", "the times of the output")?;
+                let times = time::read(&section)?;
+                (Some(section), times)
+            }
+        };
         let output = document.section("output")?;
         let mut scene = Scene {
             about,
@@ -144,7 +157,7 @@ impl Scene {
         if rotation <= LARGEST_ROTATION {
             return Ok(scene);
         }
-        Err(time_section.fault(format!(
+        Err(time_section.as_ref().unwrap_or(document).fault(format!(
             "[time] asks for a rotation by {rotation:.1e} rad: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \
              minutes; shorten the span or lower the rates"
         )))
@@ -170,7 +183,7 @@ impl Scene {
     }
 
     /// Upper estimate of the angle through which the body turns over the span, in rad.
-    fn rotation(&self) -> f64 {
+    pub(crate) fn rotation(&self) -> f64 {
         let duration = (self.times.last() - self.times.start()).abs() / self.units.time;
         duration * self.turning_rate()
     }
@@ -184,7 +197,7 @@ impl Scene {
 }
 
 /// A scene, in the words of the messages.
-const SCENE: FileKind = FileKind {
+pub(crate) const SCENE: FileKind = FileKind {
     name: "a scene",
     built_in: Some(BuiltInNames {
         names: || BUILT_IN.iter().map(|scene| scene.name).collect(),

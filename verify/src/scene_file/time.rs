@@ -66,7 +66,7 @@ impl Times {
     }
 }
 
-pub(super) fn read(section: &Section<'_>) -> Result<Times, Fault> {
+pub(crate) fn read(section: &Section<'_>) -> Result<Times, Fault> {
     section.only(&["start", "span", "end", "samples", "times"])?;
     for (first, second) in [("span", "end"), ("times", "span"), ("times", "end"), ("times", "samples")] {
         section.not_both(first, second)?;

@@ -10,10 +10,10 @@ use crate::columns::Carried;
 use crate::scene_file::Scene;
 
 /// Rotation per stretch of motion that is kept in memory at a time, in rad.
-const ROTATION_PER_STRETCH: f64 = 5e4;
+pub(crate) const ROTATION_PER_STRETCH: f64 = 5e4;
 
 /// A motion that a plan can make, with as much of the state as it carries.
-pub(super) trait PlannedState: AxisMotion<f64> + Sized {
+pub(crate) trait PlannedState: AxisMotion<f64> + Sized {
     /// The motion by a method.
     fn by(
         method: Method,
