@@ -3,6 +3,8 @@
 use std::fmt;
 
 use nalgebra::Vector3;
+use twofold::observables::Observer;
+use twofold::observables::pulsar::{Beam, pulse_train};
 use twofold::propagation::{AxisMotion, Motion, propagate, propagate_axis};
 
 use super::runge_kutta;
@@ -74,6 +76,34 @@ pub const METHODS: &[Method] = &[
     Method { name: BASELINE, carries: Carries::Axis, settings: TOLERANCES, run: runge_kutta::axis },
     Method { name: BASELINE, carries: Carries::Orientation, settings: TOLERANCES, run: runge_kutta::orientation },
 ];
+
+/// Motions with the edges of every pulse of the beam of the paper's figures, seen as there.
+pub const WITH_PULSES: &[Method] =
+    &[Method { name: "Taylor", carries: Carries::Orientation, settings: ACCURACIES, run: taylor_with_pulses }];
+
+/// Eight scenes near the one given, which is the first: their `s` differ by parts of 1e-4. The state is that of the first.
+pub const EIGHT_SCENES: &[Method] =
+    &[Method { name: "Taylor", carries: Carries::Axis, settings: ACCURACIES, run: eight_by_taylor }];
+
+fn taylor_with_pulses(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
+    let span = (0.0, duration);
+    let motion = propagate(&scene.spheroid, &scene.violation, &scene.initial, span, accuracy).map_err(text)?;
+    let (beam, observer) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0));
+    std::hint::black_box(pulse_train(&motion, &beam, &observer.direction, span).map_err(text)?);
+    let state = motion.state(duration).map_err(text)?;
+    let (steps, order) = (motion.step_count(), motion.order());
+    let equatorial_axis = Some(state.equatorial_axis);
+    Ok(End { axis: state.axis, momentum: state.momentum, equatorial_axis, steps, evaluations: steps * order })
+}
+
+fn eight_by_taylor(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
+    let first = taylor_axis(scene, duration, accuracy)?;
+    for i in 1..8 {
+        let near = BenchScene { violation: scene.violation * (1.0 + 1e-4 * f64::from(i)), ..scene.clone() };
+        std::hint::black_box(taylor_axis(&near, duration, accuracy)?);
+    }
+    Ok(first)
+}
 
 fn taylor_axis(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
     let start = scene.initial_axis();

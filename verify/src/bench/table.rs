@@ -97,7 +97,7 @@ pub fn work_precision(rows: &[work_precision::Row]) -> String {
         }
         let _ = writeln!(
             text,
-            "Least time [ms] of a motion of 1,000 t_c at equal error, {carries} (in brackets: over {BASELINE})\n\n{}",
+            "Least time of work [ms] of a motion of 1,000 t_c at equal error, {carries} (in brackets: over {BASELINE})\n\n{}",
             markdown(&header, &lines)
         );
     }
@@ -148,7 +148,7 @@ pub fn text(results: &Results) -> String {
     format!(
         "{}Growth of errors along tp-II: energy and K over their terms, phase as error of n\n\n{}\n\
          What comes on top of a motion\n\n{}\n\
-         Cost against the number of outputs of one motion, of scenes, and of cores (400 scenes)\n\n{}\n\
+         Cost against the number of outputs of one motion, of scenes, and of cores (200 scenes)\n\n{}\n\
          Before the first step: {}\n",
         work_precision(wp),
         growth(g),
