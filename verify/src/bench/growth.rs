@@ -99,7 +99,8 @@ fn scales(scene: &BenchScene) -> [f64; 2] {
     [l.dot(&l) / 2.0 + n.dot(&(s * n)), l.dot(&(s * l)) + 2.0 * n.dot(&(adjugate * n))]
 }
 
-/// The exponent `p` of `error ~ time^p` by least squares in logarithms, over the rows of a method from 1,000 t_c on.
+/// The exponent `p` of `error ~ time^p` by least squares in logarithms, over the rows of a method from 1,000 t_c on, if there are three:
+/// a random walk takes longer to show what it is.
 pub fn exponent(rows: &[Row], method: &str, error: impl Fn(&Row) -> f64) -> Option<f64> {
     let of_this = rows.iter().filter(|row| row.method == method && row.time >= 1e3);
     let points: Vec<_> = of_this.map(|row| (row.time.ln(), error(row).ln())).collect();
@@ -108,7 +109,7 @@ pub fn exponent(rows: &[Row], method: &str, error: impl Fn(&Row) -> f64) -> Opti
     let (x, y) = (mean(|p| p.0), mean(|p| p.1));
     let along: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
     let across: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
-    (points.len() > 1).then(|| across / along)
+    (points.len() > 2).then(|| across / along)
 }
 
 #[cfg(test)]

@@ -51,14 +51,14 @@ pub fn work_precision(rows: &[Row]) -> Figure {
                 width,
                 height,
             };
-            let x = Axis::logarithmic("error of *n*, *L*", ERRORS.0, ERRORS.1);
+            let x = Axis::logarithmic("largest error of a component", ERRORS.0, ERRORS.1);
             let x = if down == 0 { x.bare() } else { x };
             let label = Axis::logarithmic("time [ms]", y.0, y.1);
             let panel = Panel::new(frame, x, if across == 0 { label } else { label.bare() });
             for (name, (line, mark)) in names.iter().zip(STYLES.iter().cycle()) {
                 let of_this = |row: &&Row| row.scene == scene && row.carries == carries && row.method == *name;
                 let runs = rows.iter().filter(of_this).map(|row| (row.error.max(ERRORS.0), row.times.least * 1e3));
-                let points: Vec<_> = front(runs).into_iter().filter(|(error, _)| *error <= ERRORS.1).collect();
+                let points: Vec<_> = front(runs).into_iter().filter(|(error, _)| *error < 0.7 * ERRORS.1).collect();
                 panel.curve(&mut page, &points, *line);
                 panel.marks(&mut page, &points, *mark, 1.6, line.colour);
                 let mut table = Table::new(
