@@ -1,5 +1,6 @@
 //! Verification of the model `twofold`: checks, golden numbers, scene files and the command `twofold`.
 
+pub mod bench;
 pub mod check;
 pub mod checks;
 pub mod claims;

@@ -1,5 +1,6 @@
 //! The command `twofold`: verify the paper's equations, run a scene, list the scenes, bounds from pulsars.
 
+mod bench;
 mod bounds;
 mod compare;
 mod explain;
@@ -99,6 +100,12 @@ enum Command {
     /// Writes NAME.svg, NAME.png, NAME.md and NAME.csv (or NAME.TABLE.csv) of each figure; the files appear when all are
     /// complete. With --scene the figures of a motion are drawn for a scene in place of the paper's examples.
     Figures(FiguresArgs),
+    /// Time every method against its true error, and what comes on top of a motion
+    ///
+    /// Seven scenes of 1,000 t_c with references of 30 digits; methods are run in turn, and the least time of each counts. Then
+    /// the growth of errors over long motions, what events, samples, gradients and wider numbers cost, and how the time goes
+    /// with the number of outputs, scenes and cores.
+    Bench(BenchArgs),
     /// List the built-in scenes
     Scenes,
     /// Run every check and write everything as one HTML page: claims, equations, checks, golden tables, figures
@@ -268,6 +275,19 @@ struct FiguresArgs {
 }
 
 #[derive(Args)]
+struct BenchArgs {
+    /// Some ten seconds instead of minutes: fewer repeats, and long motions to 1e4 t_c only
+    #[arg(long)]
+    quick: bool,
+    /// Write the tables, every run as CSV and the work-precision plot into this folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace files that exist
+    #[arg(long, requires = "out")]
+    force: bool,
+}
+
+#[derive(Args)]
 struct BoundsArgs {
     /// A table of pulsars (TOML)
     file: Option<String>,
@@ -308,6 +328,7 @@ pub fn main() -> ExitCode {
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::Figures(args) => figures::figures(&args),
+        Command::Bench(args) => bench::bench(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
         Command::Claims => claims::markdown().map_err(Failure::Failed).and_then(|page| print(&page)),
