@@ -7,6 +7,7 @@ mod input;
 mod motion;
 mod series;
 mod step_size;
+pub mod splitting;
 mod taylor;
 
 pub use continuous_angles::ContinuousAngles;
