@@ -6,8 +6,8 @@ mod error_growth;
 mod input;
 mod motion;
 mod series;
-mod step_size;
 pub mod splitting;
+mod step_size;
 mod taylor;
 
 pub use continuous_angles::ContinuousAngles;

@@ -90,6 +90,17 @@ def eight_six_four(a1, a2, b1, b2, c2, c3):
     )
 
 
+def eight_six_six(a1, b1, b2, b3, c2, c3, c4):
+    """Six rotations, kicks at both ends, the outer ones without gradient; a2 = 0.403 makes the next error nearly least."""
+    a2 = mp.mpf("0.403")
+    return (
+        mirrored([a1, a2, HALF - a1 - a2], False),
+        mirrored([b1, b2, b3, 1 - 2 * (b1 + b2 + b3)], True),
+        mirrored([mp.mpf(0), c2, c3, c4], True),
+        True,
+    )
+
+
 def eight_eight_six(a1, a2, a3, a4, b1, b2, b3, c2, c3, c4):
     """Eight kicks, rotations at both ends, the outer kicks without gradient."""
     return (
@@ -103,6 +114,7 @@ def eight_eight_six(a1, a2, a3, a4, b1, b2, b3, c2, c3, c4):
 PAIRS = [(0, 1), (0, 3), (1, 2), (0, 5), (1, 4), (2, 3)]
 TASKS = [
     ("(8,6,4)", eight_six_four, PAIRS[:3], False, "0.1687 0.3779 0.0491 0.2642 0.00079 0.00212"),
+    ("(8,6,6)", eight_six_six, PAIRS[:3], True, "0.16905 0.04918 0.26463 0.07475 0.00094 -0.00133 0.00659"),
     (
         "(8,8,6)",
         eight_eight_six,

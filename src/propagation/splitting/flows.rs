@@ -160,13 +160,4 @@ impl<S: Scalar> Field<S> {
         let gradient = (c != 0.0).then(|| (self.tensor, self.torque.map(|d| d * tau * inner * 2.0)));
         Kick { plain, gradient }
     }
-
-    /// `n.(s n)` with the traceless `s`.
-    pub(super) fn potential(&self, axis: &[S; 3]) -> S {
-        dot(&self.tensor, &axis.map(|x| x * x))
-    }
-
-    pub(super) fn strength(&self) -> S {
-        self.strength
-    }
 }

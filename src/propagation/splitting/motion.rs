@@ -1,5 +1,7 @@
 //! A motion kept as states at the steps of a splitting scheme.
 
+use std::sync::OnceLock;
+
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
@@ -7,10 +9,11 @@ use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
 use crate::propagation::input::check_input;
 use crate::propagation::series::Vectors;
+use crate::propagation::splitting::error::ErrorEstimate;
 use crate::propagation::splitting::flows::{Field, Pair, dot};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::stepper::Steps;
-use crate::propagation::{AxisMotion, AxisState};
+use crate::propagation::{ACCURACY_RANGE, AxisMotion, AxisState};
 use crate::rounding::two_product;
 
 /// Most steps of one motion.
@@ -27,13 +30,19 @@ pub(super) struct Scene {
     principal_from_given: Matrix3<f64>,
     pub(super) start: Pair<f64>,
     /// `w.n`, constant.
-    casimir: f64,
+    pub(super) casimir: f64,
+    /// `2 |C| (s_max - s_min) / I^xx`, the most that `|w|^2` can change.
+    pub(super) spread: f64,
     /// Bound of `|w|` by the energy.
     pub(super) largest_rate: f64,
 }
 
 impl Scene {
-    fn new(spheroid: &RigidSpheroid<f64>, s: &Matrix3<f64>, initial: &AxisState<f64>) -> Result<Self, Error> {
+    pub(super) fn new(
+        spheroid: &RigidSpheroid<f64>,
+        s: &Matrix3<f64>,
+        initial: &AxisState<f64>,
+    ) -> Result<Self, Error> {
         let frame = principal_frame(s)?;
         let turn = frame.principal_from_given;
         let eigenvalues = [frame.coefficients.xx, frame.coefficients.yy, frame.coefficients.zz];
@@ -41,8 +50,8 @@ impl Scene {
         let strength = 2.0 * spheroid.constant_c / inertia;
         let field = Field::new(strength, eigenvalues);
         let start = Pair::new((turn * initial.axis).into(), (turn * initial.momentum / inertia).into());
-        let spread = eigenvalues[0] - eigenvalues[2];
-        let largest_rate = (dot(&start.rate, &start.rate) + strength.abs() * spread).sqrt();
+        let spread = strength.abs() * (eigenvalues[0] - eigenvalues[2]);
+        let largest_rate = (dot(&start.rate, &start.rate) + spread).sqrt();
         Error::unless(
             largest_rate.is_finite(),
             "rate at which the body turns",
@@ -55,11 +64,12 @@ impl Scene {
             principal_from_given: turn,
             start,
             casimir: dot(&start.rate, &start.axis),
+            spread,
             largest_rate,
         })
     }
 
-    fn state(&self, pair: &Pair<f64>) -> AxisState<f64> {
+    pub(super) fn state(&self, pair: &Pair<f64>) -> AxisState<f64> {
         let back = self.principal_from_given.transpose();
         AxisState { axis: back * Vector3::from(pair.axis), momentum: back * Vector3::from(pair.rate) * self.inertia }
     }
@@ -75,7 +85,7 @@ pub struct SplittingMotion {
     violation: Matrix3<f64>,
     span: (f64, f64),
     scheme: &'static Scheme,
-    scene: Scene,
+    pub(super) scene: Scene,
     step: f64,
     step_count: u64,
     /// Whole steps between two kept states.
@@ -83,10 +93,12 @@ pub struct SplittingMotion {
     steps: Steps<f64>,
     /// Open states, every `stride` steps from the start.
     states: Vec<Pair<f64>>,
+    /// Found when it is first asked for.
+    estimate: OnceLock<ErrorEstimate>,
 }
 
 /// The motion of `n` and `L` from `initial` at `span.0` to `span.1` (forwards or backwards), by equal steps of `scheme` no longer
-/// than `step`.
+/// than `step`; their number is even, for the sake of the error estimate.
 ///
 /// Every step is a composition of exact flows, so that `|n|` and `L.n` keep their values to rounding for any number of
 /// steps and the energy has no secular error. `s` is the tensor `s^IJ` in the inertial frame of `initial`, which may be any.
@@ -103,12 +115,35 @@ pub fn propagate_by_splitting(
     scheme: &'static Scheme,
     step: f64,
 ) -> Result<SplittingMotion, Error> {
-    let start = Vectors::<f64, 2>::from_columns(&[initial.axis, initial.momentum]);
-    check_input(spheroid, s, &start, span, 1e-10)?;
-    Error::unless(step > 0.0 && step.is_finite(), "step", step, "above zero and finite")?;
+    check_splitting_input(spheroid, s, initial, span, ACCURACY_RANGE.0)?;
     let scene = Scene::new(spheroid, s, initial)?;
+    propagate_checked(spheroid, s, span, scheme, scene, step)
+}
+
+/// Refuses what is not finite, not a unit vector or out of range.
+pub(super) fn check_splitting_input(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    initial: &AxisState<f64>,
+    span: (f64, f64),
+    accuracy: f64,
+) -> Result<(), Error> {
+    let start = Vectors::<f64, 2>::from_columns(&[initial.axis, initial.momentum]);
+    check_input(spheroid, s, &start, span, accuracy)
+}
+
+/// The motion from input that has been checked.
+pub(super) fn propagate_checked(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    span: (f64, f64),
+    scheme: &'static Scheme,
+    scene: Scene,
+    step: f64,
+) -> Result<SplittingMotion, Error> {
+    Error::unless(step > 0.0 && step.is_finite(), "step", step, "above zero and finite")?;
     let duration = span.1 - span.0;
-    let count = (duration.abs() / step * (1.0 - 1e-14)).ceil().max(1.0);
+    let count = 2.0 * (duration.abs() / step / 2.0 * (1.0 - 1e-14)).ceil().max(1.0);
     Error::unless(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
     Ok(SplittingMotion::run(spheroid, s, span, scheme, scene, duration / count, count as u64))
 }
@@ -134,7 +169,19 @@ impl SplittingMotion {
             states.push(state);
         }
         let (spheroid, violation) = (*spheroid, *s);
-        Self { spheroid, violation, span, scheme, scene, step, step_count, stride, steps, states }
+        Self {
+            spheroid,
+            violation,
+            span,
+            scheme,
+            scene,
+            step,
+            step_count,
+            stride,
+            steps,
+            states,
+            estimate: OnceLock::new(),
+        }
     }
 
     /// The scheme.
@@ -147,19 +194,25 @@ impl SplittingMotion {
         self.step
     }
 
-    /// Number of steps.
+    /// Number of steps, even.
     pub fn step_count(&self) -> u64 {
         self.step_count
+    }
+
+    /// The state after a number of whole steps.
+    pub(super) fn after(&self, whole: u64) -> Pair<f64> {
+        let kept = whole / self.stride;
+        let mut state = self.states[kept as usize];
+        self.steps.advance(&mut state, self.scene.casimir, whole - kept * self.stride);
+        self.steps.close(&mut state);
+        state
     }
 
     /// The state at time `t` of the span.
     fn at(&self, t: f64) -> Pair<f64> {
         let elapsed = t - self.span.0;
         let whole = ((elapsed / self.step).floor().max(0.0) as u64).min(self.step_count);
-        let kept = whole / self.stride;
-        let mut state = self.states[kept as usize];
-        self.steps.advance(&mut state, self.scene.casimir, whole - kept * self.stride);
-        self.steps.close(&mut state);
+        let mut state = self.after(whole);
         // The time of the step without the rounding of its product.
         let (time, lost) = two_product(whole as f64, self.step);
         let offset = (elapsed - time) - lost;
@@ -197,7 +250,14 @@ impl AxisMotion<f64> for SplittingMotion {
         Ok(self.scene.state(&self.at(t)))
     }
 
-    fn error_estimate(&self, _t: f64) -> f64 {
-        f64::NAN
+    /// Three times the difference from the same scheme with steps of two thirds, found when it is first asked for: that
+    /// motion costs half as much again as this one.
+    fn error_estimate(&self, t: f64) -> f64 {
+        let (first, last) = self.span;
+        if !(first.min(last) <= t && t <= first.max(last)) {
+            return f64::NAN;
+        }
+        let estimate = self.estimate.get_or_init(|| ErrorEstimate::new(self));
+        estimate.at((t - first).abs())
     }
 }

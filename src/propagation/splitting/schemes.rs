@@ -66,7 +66,9 @@ pub static SRKN_14A: Scheme = Scheme {
         0.004914688774712854,
         0.143761127168358,
         0.328567693746804,
-        0.5 - (0.09171915262446165 + 0.183983170005006 - 0.05653436583288827 + 0.004914688774712854 + 0.143761127168358
+        0.5 - (0.09171915262446165 + 0.183983170005006 - 0.05653436583288827
+            + 0.004914688774712854
+            + 0.143761127168358
             + 0.328567693746804),
     ]),
     gradients: &[],
@@ -161,6 +163,27 @@ pub static GRADIENT_8_6_4: Scheme = Scheme {
     source: "order conditions solved in verify/oracle/splitting_schemes.py; the kind is that of Blanes, Casas and Ros 2000",
 };
 
+/// Near-integrable (8,6,6) with force gradients in five of seven kicks.
+pub static GRADIENT_8_6_6: Scheme = Scheme {
+    name: "gradient-8-6-6",
+    orders: [8, 6, 6],
+    ends: Ends::Kicks,
+    rotations: &mirrored::<3, 6>([0.169_053_694_574_513_191_578_6, 0.403, -0.072_053_694_574_513_191_578_6]),
+    kicks: &mirrored::<4, 7>([
+        0.049_175_925_982_128_029_597_75,
+        0.264_632_613_359_064_764_375_8,
+        0.074_864_615_285_368_560_121_84,
+        0.222_653_690_747_677_291_809_2,
+    ]),
+    gradients: &mirrored::<4, 7>([
+        0.0,
+        0.000_905_808_771_085_810_108_441_4,
+        -0.001_347_593_687_505_283_932_062,
+        0.006_653_668_931_390_292_057_946,
+    ]),
+    source: "order conditions solved in verify/oracle/splitting_schemes.py; the kind is that of Blanes, Casas and Ros 2000",
+};
+
 /// Near-integrable (8,8,6) with force gradients in six of eight kicks.
 pub static GRADIENT_8_8_6: Scheme = Scheme {
     name: "gradient-8-8-6",
@@ -189,7 +212,7 @@ pub static GRADIENT_8_8_6: Scheme = Scheme {
 };
 
 /// Every scheme.
-pub static SCHEMES: [&Scheme; 8] = [
+pub static SCHEMES: [&Scheme; 9] = [
     &STRANG,
     &SRKN_6B,
     &SRKN_14A,
@@ -197,5 +220,6 @@ pub static SCHEMES: [&Scheme; 8] = [
     &NEAR_INTEGRABLE_6_2,
     &NEAR_INTEGRABLE_10_4,
     &GRADIENT_8_6_4,
+    &GRADIENT_8_6_6,
     &GRADIENT_8_8_6,
 ];

@@ -31,7 +31,8 @@ enum End<S> {
 impl<S: Real> Steps<S> {
     /// `largest_rate` bounds `|w|` along the motion.
     pub(super) fn new(scheme: &Scheme, field: &Field<S>, step: S, largest_rate: f64) -> Self {
-        let kick = |index: usize, times: f64| field.kick(times * scheme.kicks[index], times * scheme.gradient(index), step);
+        let kick =
+            |index: usize, times: f64| field.kick(times * scheme.kicks[index], times * scheme.gradient(index), step);
         let stages = scheme.stages();
         let still = kick(0, 0.0);
         let mut pairs = [(S::zero(), still); MOST_STAGES];
