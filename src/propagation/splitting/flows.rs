@@ -161,3 +161,50 @@ impl<S: Scalar> Field<S> {
         Kick { plain, gradient }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use num_dual::Dual64;
+
+    use super::*;
+
+    /// `|Gamma|^2 / (I^xx)^2`, for `n` of any length.
+    fn gradient_squared(field: &Field<f64>, n: [Dual64; 3]) -> Dual64 {
+        let torque = [n[1] * n[2] * field.torque[0], n[2] * n[0] * field.torque[1], n[0] * n[1] * field.torque[2]];
+        torque.iter().map(|x| x * x).sum()
+    }
+
+    #[test]
+    fn kick_of_the_force_gradient_is_that_of_its_potential() {
+        let field = Field::new(1.7, [0.3, -0.2, 0.5]);
+        let n = [0.48, 0.6, 0.64];
+        let slope: [f64; 3] = [0, 1, 2].map(|i| {
+            let mut at = n.map(Dual64::from_re);
+            at[i].eps = 1.0;
+            gradient_squared(&field, at).eps
+        });
+        // The potential -c tau^3 |Gamma|^2 / I^xx changes w by +c tau^3 n x d/dn of it over I^xx.
+        let expected = cross(&n, &slope);
+        let mut pair = Pair::new(n, [0.0; 3]);
+        pair.kick(&field.kick(0.0, 0.01, 0.7));
+        for i in 0..3 {
+            assert!((pair.rate[i] - expected[i] * 0.01 * 0.7f64.powi(3)).abs() < 1e-16, "{i}: {pair:?}, {expected:?}");
+        }
+    }
+
+    #[test]
+    fn rotation_is_that_of_rodrigues_at_any_angle() {
+        for angle in [0.0, 1e-9, 0.3, 0.69, 1.4, 3.0, 20.0] {
+            let halvings = (angle / LARGEST_ANGLE).log2().ceil().max(0.0) as u32;
+            let mut pair = Pair::new([0.6, 0.0, 0.8], [0.0, 0.0, 2.0]);
+            pair.rotate(angle / 2.0, halvings);
+            let expected = [0.6 * angle.cos(), 0.6 * angle.sin(), 0.8];
+            for i in 0..3 {
+                assert!(
+                    (pair.axis[i] - expected[i]).abs() < 1e-15 * (1.0 + 4f64.powi(halvings as i32)),
+                    "{angle}: {pair:?}"
+                );
+            }
+        }
+    }
+}

@@ -75,6 +75,13 @@ impl<S: Real> Steps<S> {
         }
     }
 
+    /// One step of a closed state.
+    pub(super) fn single(&self, state: &mut Pair<S>, casimir: S) {
+        self.open(state);
+        self.advance(state, casimir, 1);
+        self.close(state);
+    }
+
     /// Whole steps of an open state.
     pub(super) fn advance(&self, state: &mut Pair<S>, casimir: S, steps: u64) {
         let mut left = steps;

@@ -20,6 +20,7 @@ mod second_integrator;
 mod solutions;
 pub(crate) mod spectrum;
 mod spin_axis;
+mod splitting;
 mod star;
 mod symmetric;
 mod torque;
@@ -46,6 +47,7 @@ pub fn all() -> Vec<Check> {
         symmetric::checks,
         propagation::checks,
         axis_motion::checks,
+        splitting::checks,
         second_integrator::checks,
         regimes::checks,
         observer::checks,
