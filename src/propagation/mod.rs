@@ -9,6 +9,7 @@ mod input;
 mod motion;
 #[cfg(target_arch = "x86_64")]
 mod registers;
+pub mod splitting;
 mod taylor;
 
 pub use closed::{SymmetricMotion, UniformMotion, largest_torque};

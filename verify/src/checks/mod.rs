@@ -22,6 +22,7 @@ mod second_integrator;
 mod solutions;
 pub(crate) mod spectrum;
 mod spin_axis;
+mod splitting;
 mod star;
 mod symmetric;
 mod torque;
@@ -49,6 +50,7 @@ pub fn all() -> Vec<Check> {
         propagation::checks,
         error_estimate::checks,
         axis_motion::checks,
+        splitting::checks,
         second_integrator::checks,
         plans::checks,
         regimes::checks,

@@ -1,0 +1,19 @@
+//! Motion of `(n, L)` by splitting its Hamiltonian into an exact rotation of `n` about `L` and an exact kick of `L` at constant `n`.
+
+mod choice;
+mod error;
+mod flows;
+mod motion;
+mod scheme;
+mod schemes;
+mod stepper;
+mod stepping;
+
+pub use choice::propagate_by_best_splitting;
+pub use motion::{SPLITTING_STEP_LIMIT, SplittingMotion, propagate_by_splitting};
+pub use scheme::{Ends, Scheme};
+pub use schemes::{
+    GRADIENT_8_6_4, GRADIENT_8_6_6, GRADIENT_8_8_6, KAHAN_LI_8, NEAR_INTEGRABLE_6_2, NEAR_INTEGRABLE_10_4, SCHEMES,
+    SRKN_6B, SRKN_14A, STRANG,
+};
+pub use stepping::Splitting;
