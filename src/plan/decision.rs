@@ -102,10 +102,11 @@ impl Plan {
         let mut best: Option<(Method, Prediction)> = None;
         for Candidate { method, prediction } in &self.considered {
             match prediction {
-                Ok(prediction) if self.forced || prediction.truncation <= self.accuracy => {
-                    if best.is_none_or(|(_, best)| prediction.cost < best.cost) {
-                        best = Some((*method, *prediction));
-                    }
+                Ok(prediction)
+                    if (self.forced || prediction.truncation <= self.accuracy)
+                        && best.is_none_or(|(_, best)| prediction.cost < best.cost) =>
+                {
+                    best = Some((*method, *prediction));
                 }
                 Err(error) if self.forced || *method == Method::Taylor => return Err(error.clone()),
                 _ => {}

@@ -12,6 +12,7 @@ use crate::propagation::{
 
 /// A motion of the symmetry axis and the angular momentum, by any method.
 #[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "one motion at a time, and nothing on the heap")]
 pub enum PlannedAxisMotion {
     /// [`Method::Free`] or [`Method::Steady`].
     Uniform(UniformMotion<f64>),
@@ -23,6 +24,7 @@ pub enum PlannedAxisMotion {
 
 /// A motion of the full orientation, by any method that has it.
 #[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "one motion at a time, and nothing on the heap")]
 pub enum PlannedMotion {
     /// [`Method::Free`] or [`Method::Steady`].
     Uniform(UniformMotion<f64>),
@@ -32,42 +34,69 @@ pub enum PlannedMotion {
     Taylor(TaylorMotion<f64>),
 }
 
-/// The same arms twice: the enums differ in what the numerical methods carry.
-macro_rules! planned {
-    ($planned:ident, $numerical:expr) => {
-        impl $planned {
-            /// The motion from `initial` at `span.0`, by a given method.
-            ///
-            /// # Errors
-            /// Those of the method.
-            pub fn by(
-                method: Method,
-                spheroid: &RigidSpheroid<f64>,
-                s: &Matrix3<f64>,
-                initial: &BodyState<f64>,
-                span: (f64, f64),
-                accuracy: f64,
-            ) -> Result<Self, Error> {
-                Ok(match method {
-                    Method::Free => Self::Uniform(UniformMotion::free(spheroid, s, initial, span)),
-                    Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
-                    Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
-                    Method::Taylor => Self::Taylor($numerical(spheroid, s, initial, span, accuracy)?),
-                })
-            }
+impl PlannedAxisMotion {
+    /// The motion from `initial` at `span.0`, by a given method.
+    ///
+    /// # Errors
+    /// Those of the method.
+    pub fn by(
+        method: Method,
+        spheroid: &RigidSpheroid<f64>,
+        s: &Matrix3<f64>,
+        initial: &BodyState<f64>,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        Ok(match method {
+            Method::Free => Self::Uniform(UniformMotion::free(spheroid, s, initial, span)),
+            Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
+            Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
+            Method::Taylor => Self::Taylor(propagate_axis(spheroid, s, &AxisState::from(initial), span, accuracy)?),
+        })
+    }
 
-            /// Steps and right-hand sides that it took.
-            pub fn work(&self) -> Work {
-                match self {
-                    Self::Uniform(_) | Self::Symmetric(_) => Work::default(),
-                    Self::Taylor(motion) => {
-                        let steps = motion.step_count() as f64;
-                        Work { steps, right_hand_sides: steps * motion.order() as f64, ..Work::default() }
-                    }
-                }
-            }
+    /// Steps and right-hand sides that it took.
+    pub fn work(&self) -> Work {
+        match self {
+            Self::Uniform(_) | Self::Symmetric(_) => Work::default(),
+            Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
         }
+    }
+}
 
+impl PlannedMotion {
+    /// The motion from `initial` at `span.0`, by a given method.
+    ///
+    /// # Errors
+    /// Those of the method.
+    pub fn by(
+        method: Method,
+        spheroid: &RigidSpheroid<f64>,
+        s: &Matrix3<f64>,
+        initial: &BodyState<f64>,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        Ok(match method {
+            Method::Free => Self::Uniform(UniformMotion::free(spheroid, s, initial, span)),
+            Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
+            Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
+            Method::Taylor => Self::Taylor(propagate(spheroid, s, initial, span, accuracy)?),
+        })
+    }
+
+    /// Steps and right-hand sides that it took.
+    pub fn work(&self) -> Work {
+        match self {
+            Self::Uniform(_) | Self::Symmetric(_) => Work::default(),
+            Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
+        }
+    }
+}
+
+/// The arms of both: the enums differ in what the numerical methods carry.
+macro_rules! planned {
+    ($planned:ident) => {
         impl AxisMotion<f64> for $planned {
             fn spheroid(&self) -> &RigidSpheroid<f64> {
                 match self {
@@ -112,14 +141,8 @@ macro_rules! planned {
     };
 }
 
-planned!(PlannedAxisMotion, |spheroid, s, initial: &BodyState<f64>, span, accuracy| propagate_axis(
-    spheroid,
-    s,
-    &AxisState::from(initial),
-    span,
-    accuracy
-));
-planned!(PlannedMotion, propagate);
+planned!(PlannedAxisMotion);
+planned!(PlannedMotion);
 
 impl Motion<f64> for PlannedMotion {
     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {

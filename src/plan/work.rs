@@ -22,6 +22,11 @@ pub struct Work {
 }
 
 impl Work {
+    /// Steps by series of an order.
+    pub(super) fn of_series(steps: usize, order: usize) -> Self {
+        Self { steps: steps as f64, right_hand_sides: (steps * order) as f64, ..Self::default() }
+    }
+
     /// Evaluations of either kind.
     pub fn evaluations(&self) -> f64 {
         self.axis_evaluations + self.orientation_evaluations

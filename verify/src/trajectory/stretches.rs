@@ -12,6 +12,9 @@ use crate::scene_file::Scene;
 /// Rotation per stretch of motion that is kept in memory at a time, in rad.
 pub(crate) const ROTATION_PER_STRETCH: f64 = 5e4;
 
+/// The Euler angles at a time, where they exist.
+pub(super) type Angles<'m> = Box<dyn FnMut(f64) -> Option<EulerAngles<f64>> + 'm>;
+
 /// A motion that a plan can make, with as much of the state as it carries.
 pub(crate) trait PlannedState: AxisMotion<f64> + Sized {
     /// The motion by a method.
@@ -33,11 +36,7 @@ pub(crate) trait PlannedState: AxisMotion<f64> + Sized {
     ///
     /// # Errors
     /// A time outside the motion.
-    fn angles<'m>(
-        motion: &'m Counted<Self>,
-        from: f64,
-        start: &EulerAngles<f64>,
-    ) -> Result<Box<dyn FnMut(f64) -> Option<EulerAngles<f64>> + 'm>, Error>;
+    fn angles<'m>(motion: &'m Counted<Self>, from: f64, start: &EulerAngles<f64>) -> Result<Angles<'m>, Error>;
 
     /// Steps and right-hand sides.
     fn work(&self) -> Work;
@@ -63,11 +62,7 @@ impl PlannedState for PlannedAxisMotion {
         Ok(BodyState { axis, momentum, ..*before })
     }
 
-    fn angles<'m>(
-        _: &'m Counted<Self>,
-        _: f64,
-        _: &EulerAngles<f64>,
-    ) -> Result<Box<dyn FnMut(f64) -> Option<EulerAngles<f64>> + 'm>, Error> {
+    fn angles<'m>(_: &'m Counted<Self>, _: f64, _: &EulerAngles<f64>) -> Result<Angles<'m>, Error> {
         Ok(Box::new(|_| None))
     }
 
@@ -95,11 +90,7 @@ impl PlannedState for PlannedMotion {
         self.state(t)
     }
 
-    fn angles<'m>(
-        motion: &'m Counted<Self>,
-        from: f64,
-        start: &EulerAngles<f64>,
-    ) -> Result<Box<dyn FnMut(f64) -> Option<EulerAngles<f64>> + 'm>, Error> {
+    fn angles<'m>(motion: &'m Counted<Self>, from: f64, start: &EulerAngles<f64>) -> Result<Angles<'m>, Error> {
         let mut angles = ContinuousAngles::new(motion, from, start)?;
         Ok(Box::new(move |t| angles.at(t).ok()))
     }

@@ -6,7 +6,7 @@ use twofold::euler_angles::EulerAngles;
 use twofold::plan::{Output, Plan, PlannedAxisMotion, PlannedMotion, State, Work};
 
 use super::TrajectoryError;
-use super::stretches::{PlannedState, Stretches, since_start};
+use super::stretches::{Angles, PlannedState, Stretches, since_start};
 use crate::columns::{Carried, Moment};
 use crate::scene_file::Scene;
 
@@ -79,7 +79,7 @@ impl<'s, W: Write, P: FnMut(f64)> Table<'s, W, P> {
         let mut start_angles = scene.initial_angles;
         while let Some(stretch) = stretches.next()? {
             let (from, to) = (stretch.from, stretch.to);
-            let mut angles: Box<dyn FnMut(f64) -> Option<EulerAngles<f64>>> =
+            let mut angles: Angles<'_> =
                 if counts_turns { M::angles(&stretch.motion, from, &start_angles)? } else { Box::new(|_| None) };
             let within = |time: &f64| stretch.is_last || since_start(scene, *time).abs() <= to.abs();
             while let Some(time) = rows.next_if(within) {
