@@ -16,8 +16,11 @@ pub struct LongMethod {
     /// Name.
     pub name: &'static str,
     /// The state after a duration.
-    pub advance: fn(&BenchScene, &AxisState<f64>, f64) -> Result<AxisState<f64>, String>,
+    pub advance: Advance,
 }
+
+/// From a state of a scene to the one after a duration.
+pub type Advance = fn(&BenchScene, &AxisState<f64>, f64) -> Result<AxisState<f64>, String>;
 
 /// All methods; a further one takes a line.
 pub const METHODS: &[LongMethod] = &[LongMethod { name: "Taylor", advance: taylor }];
