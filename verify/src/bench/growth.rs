@@ -30,7 +30,7 @@ fn taylor(scene: &BenchScene, state: &AxisState<f64>, duration: f64) -> Result<A
     motion.axis_state(duration).map_err(text)
 }
 
-/// Length of a stretch [t_c].
+/// Length of a stretch (t_c).
 const STRETCH: f64 = 1000.0;
 
 /// Errors after a time.
@@ -38,7 +38,7 @@ const STRETCH: f64 = 1000.0;
 pub struct Row {
     /// The method.
     pub method: &'static str,
-    /// Time [t_c].
+    /// Time (t_c).
     pub time: f64,
     /// Largest change of the energy at the end of a stretch so far, over the sum of the magnitudes of its terms.
     pub energy: f64,
