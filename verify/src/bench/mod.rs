@@ -18,7 +18,7 @@ pub mod work_precision;
 pub struct Effort {
     /// Times that each case is run, in turn with the others.
     pub rounds: usize,
-    /// Longest motion whose error growth is measured [t_c].
+    /// Longest motion whose error growth is measured (t_c).
     pub longest: f64,
 }
 

@@ -27,7 +27,7 @@ pub struct Row {
     pub what: &'static str,
     /// What the motion carries.
     pub carries: Carries,
-    /// Times [s].
+    /// Times (s).
     pub times: Times,
     /// Over the least time of the bare motion of the same `carries`.
     pub ratio: f64,

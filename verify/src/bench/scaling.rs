@@ -19,9 +19,9 @@ pub struct Row {
     pub of: &'static str,
     /// How many there are.
     pub count: usize,
-    /// Least time of the whole [s].
+    /// Least time of the whole (s).
     pub least: f64,
-    /// Time of one output, or of one scene on all cores together [s].
+    /// Time of one output, or of one scene on all cores together (s).
     pub each: f64,
 }
 
@@ -108,7 +108,7 @@ fn spread(scene: &BenchScene, count: usize, cores: usize) -> Result<f64, String>
     })
 }
 
-/// Time from nothing to the first state of a motion [s], the least of many: what a method costs before its first step.
+/// Time from nothing to the first state of a motion (s), the least of many: what a method costs before its first step.
 ///
 /// # Errors
 /// What a motion reports.

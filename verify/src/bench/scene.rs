@@ -9,7 +9,7 @@ use super::method::End;
 use crate::check::largest;
 use crate::double_double::DoubleDouble;
 
-/// Length of the motions that are timed [t_c]; the references end there.
+/// Length of the motions that are timed (t_c); the references end there.
 pub const DURATION: f64 = 1000.0;
 
 /// A scene: exact initial values, and states of 30 digits at some later times.
@@ -23,7 +23,7 @@ pub struct BenchScene {
     pub violation: Matrix3<f64>,
     /// State at `t = 0`.
     pub initial: BodyState<f64>,
-    /// Times [t_c] and states.
+    /// Times (t_c) and states.
     pub references: Vec<(f64, BodyState<DoubleDouble>)>,
 }
 

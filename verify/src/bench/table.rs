@@ -17,7 +17,7 @@ pub struct Results {
     pub overhead: Vec<overhead::Row>,
     /// Cost against numbers of outputs, scenes and cores.
     pub scaling: Vec<scaling::Row>,
-    /// Time before the first step [s].
+    /// Time before the first step (s).
     pub set_up: f64,
 }
 
@@ -73,7 +73,7 @@ fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     found
 }
 
-/// Times [ms] at equal errors, and their ratios to the baseline.
+/// Times (ms) at equal errors, and their ratios to the baseline.
 pub fn work_precision(rows: &[work_precision::Row]) -> String {
     let errors: Vec<_> = ERRORS.iter().map(|error| format!("{error:.0e}")).collect();
     let header: Vec<_> = ["scene", "method"].into_iter().chain(errors.iter().map(String::as_str)).collect();
@@ -158,7 +158,7 @@ pub fn text(results: &Results) -> String {
     )
 }
 
-/// Header of [`csv`]; rows of other programs have the same columns.
+/// Header of [`csv()`]; rows of other programs have the same columns.
 pub const COLUMNS: &str = "scene,method,carries,setting,error,least_s,median_s,steps,evaluations";
 
 /// Every run of the work-precision tables.

@@ -18,9 +18,9 @@ pub fn clock() -> f64 {
 /// Times of one case.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Times {
-    /// The least [s]: what others on the machine disturbed least.
+    /// The least (s): what others on the machine disturbed least.
     pub least: f64,
-    /// The median [s].
+    /// The median (s).
     pub median: f64,
 }
 

@@ -18,7 +18,7 @@ pub struct Row {
     pub setting: f64,
     /// Largest error of a component of `n`, `L / |L|` and, where it is carried, `e_x` at the end.
     pub error: f64,
-    /// Times of a run [s].
+    /// Times of a run (s).
     pub times: Times,
     /// Steps.
     pub steps: usize,
@@ -62,7 +62,7 @@ pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, S
     Ok(rows)
 }
 
-/// Least time [s] at which a method reaches an error: on a straight line, in logarithms, between the cheapest runs on either
+/// Least time (s) at which a method reaches an error: on a straight line, in logarithms, between the cheapest runs on either
 /// side of it. None for an error that it does not reach, or one above all its errors.
 pub fn time_at(rows: &[Row], scene: &str, method: &str, carries: Carries, error: f64) -> Option<f64> {
     let of_this = |row: &&Row| row.scene == scene && row.method == method && row.carries == carries;

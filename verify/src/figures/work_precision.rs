@@ -79,10 +79,10 @@ pub fn work_precision(rows: &[Row]) -> Figure {
             .enumerate()
             .map(|(i, name)| {
                 let (style, _) = STYLES[(line * PER_LINE + i) % STYLES.len()];
-                (Sample::Line(style), *name, (PAGE - LEFT) / PER_LINE as f64)
+                (Sample::Line(style), *name, (PAGE - LEGEND_LEFT) / PER_LINE as f64)
             })
             .collect();
-        legend_row(&mut page, [LEFT, bottom + 6.0 + 13.0 * line as f64], &entries);
+        legend_row(&mut page, [LEGEND_LEFT, bottom + 6.0 + 13.0 * line as f64], &entries);
     }
     let svg = page.finish("Time against error");
     Figure {
@@ -97,6 +97,9 @@ pub fn work_precision(rows: &[Row]) -> Figure {
 
 /// Names in a line of the legend.
 const PER_LINE: usize = 4;
+
+/// Where its lines begin.
+const LEGEND_LEFT: f64 = 12.0;
 
 /// All methods, those of `n` and `L` first.
 fn names(rows: &[Row]) -> Vec<&str> {
