@@ -47,7 +47,7 @@ fn plans_take_no_more_than_listed() -> Result<(), Error> {
                 };
                 let place = format!("{name}: {outputs:?} by {:?}", plan.method);
                 let listed = match plan.method {
-                    Some(Method::Taylor) => 8.0 * prediction.bytes + 4096.0,
+                    Some(Method::Taylor | Method::Splitting) => 8.0 * prediction.bytes + 4096.0,
                     _ => prediction.bytes,
                 };
                 assert!(info.bytes_total as f64 <= listed, "{place}: {} bytes, at most {listed}", info.bytes_total);

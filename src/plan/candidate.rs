@@ -5,7 +5,8 @@ use nalgebra::Matrix3;
 use super::{Cost, Method, Output, Parameter, Request, State, Work};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::{SymmetricMotion, UniformMotion, largest_torque, taylor_forecast};
+use crate::propagation::splitting::splitting_forecast;
+use crate::propagation::{AxisState, SymmetricMotion, UniformMotion, largest_torque, taylor_forecast};
 
 /// What a method would do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,6 +55,7 @@ impl Candidate {
             Method::Free => free(scene, request, stretch),
             Method::Steady => steady(scene, request, stretch),
             Method::Symmetric => symmetric(scene, request, stretch),
+            Method::Splitting => splitting(scene, request, state, stretch),
             Method::Taylor => taylor(scene, request, state, stretch),
         };
         Self { method, prediction: errors.map(|errors| errors.with_work(method, state, evaluations)) }
@@ -78,8 +80,10 @@ impl Forecast {
         let full = state == State::Orientation;
         let vectors = if full { 3.0 } else { 2.0 };
         // Each step keeps its coefficients, padded to registers, and its start; there is some room to spare.
-        let dense_output = 1.2 * steps * ((order as f64 + 1.0) * 32.0 * vectors + 16.0);
+        let states = if method == Method::Splitting { 100.0 * steps.min(1e5) } else { 0.0 };
+        let series = 1.2 * steps * ((order as f64 + 1.0) * 32.0 * vectors + 16.0);
         // The roots of the quartic are sought with a few short lists, once.
+        let dense_output = if method == Method::Splitting { states } else { series };
         let bytes = dense_output + if method == Method::Symmetric { 1024.0 } else { 0.0 };
         Prediction {
             truncation,
@@ -139,6 +143,20 @@ fn symmetric(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Resul
     let usable = truncation <= request.accuracy || request.method == Some(Method::Symmetric);
     let rounding = if usable { motion.rounding(elapsed) } else { f64::NAN };
     Ok(Forecast::closed(truncation, rounding))
+}
+
+fn splitting(scene: &Scene<'_>, request: &Request, state: State, stretch: (f64, f64)) -> Result<Forecast, Error> {
+    let vectors = if state == State::Orientation { 3.0 } else { 2.0 };
+    Error::unless(vectors == 2.0, "number of vectors carried", vectors, "two: splitting carries n and L alone")?;
+    let wanted = request.derivatives.len();
+    Error::unless(wanted == 0, "number of derivatives", wanted as f64, "none: splitting is for doubles")?;
+    let Scene { spheroid, violation, initial } = scene;
+    let forecast = splitting_forecast(spheroid, violation, &AxisState::from(*initial), stretch, request.accuracy)?;
+    let growth = forecast.turning_rate * (stretch.1 - stretch.0).abs();
+    // Rotations and kicks; their rounding is independent from one to the next, but for that of the step.
+    let order = 2 * forecast.scheme.stages();
+    let rounding = f64::EPSILON * (1.0 + growth);
+    Ok(Forecast { truncation: request.accuracy, rounding, order, steps: forecast.steps })
 }
 
 fn taylor(scene: &Scene<'_>, request: &Request, state: State, stretch: (f64, f64)) -> Result<Forecast, Error> {

@@ -27,6 +27,7 @@ impl Cost {
             (Method::Steady, State::Orientation) => closed(400.0, 98.0),
             (Method::Steady, _) => closed(400.0, 57.0),
             (Method::Symmetric, _) => closed(4000.0, 615.0),
+            (Method::Splitting, _) => Self { setup: 3000.0, step: [6.0, 12.0, 0.0], evaluation: [60.0, 18.0] },
             (Method::Taylor, State::Orientation) => {
                 Self { setup: 0.0, step: [78.0, 22.0, 2.24], evaluation: [59.0, 3.04] }
             }

@@ -90,10 +90,10 @@ impl<S: Real> SeededMotion<S> {
                 Self::Uniform(UniformMotion::free(spheroid, violation, &initial, span))
             }
             Some(Method::Symmetric) => Self::Symmetric(SymmetricMotion::new(spheroid, violation, &initial, span)?),
-            Some(Method::Taylor) | None if plan.state == State::Orientation => {
+            Some(Method::Taylor | Method::Splitting) | None if plan.state == State::Orientation => {
                 Self::Taylor(propagate(spheroid, violation, &initial, span, plan.accuracy)?)
             }
-            Some(Method::Taylor) | None => {
+            Some(Method::Taylor | Method::Splitting) | None => {
                 let initial = AxisState::from(&initial);
                 Self::TaylorAxis(propagate_axis(spheroid, violation, &initial, span, plan.accuracy)?)
             }

@@ -9,13 +9,15 @@ pub enum Method {
     Steady,
     /// Elliptic functions for two equal eigenvalues of `s^IJ`.
     Symmetric,
+    /// A splitting scheme and a step that suit the accuracy; `n` and `L` alone.
+    Splitting,
     /// Taylor series with adaptive steps and dense output.
     Taylor,
 }
 
 impl Method {
     /// Every method, in the order in which plans list them.
-    pub const ALL: [Self; 4] = [Self::Free, Self::Steady, Self::Symmetric, Self::Taylor];
+    pub const ALL: [Self; 5] = [Self::Free, Self::Steady, Self::Symmetric, Self::Splitting, Self::Taylor];
 
     /// Name for files and commands.
     pub fn name(self) -> &'static str {
@@ -23,6 +25,7 @@ impl Method {
             Self::Free => "free",
             Self::Steady => "steady",
             Self::Symmetric => "symmetric",
+            Self::Splitting => "splitting",
             Self::Taylor => "taylor",
         }
     }
@@ -33,6 +36,7 @@ impl Method {
             Self::Free => "free rotation in closed form",
             Self::Steady => "steady precession in closed form",
             Self::Symmetric => "elliptic functions for two equal eigenvalues of s^IJ",
+            Self::Splitting => "splitting into exact rotations and kicks",
             Self::Taylor => "Taylor series with adaptive steps and dense output",
         }
     }
@@ -44,6 +48,6 @@ impl Method {
 
     /// Whether it gives the state at any time without going through the times before.
     pub fn is_closed_form(self) -> bool {
-        !matches!(self, Self::Taylor)
+        !matches!(self, Self::Splitting | Self::Taylor)
     }
 }

@@ -5,6 +5,7 @@ use nalgebra::Matrix3;
 use super::{Method, Work};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
+use crate::propagation::splitting::{SplittingMotion, propagate_by_best_splitting};
 use crate::propagation::{
     AxisMotion, AxisState, Motion, SymmetricMotion, TaylorAxisMotion, TaylorMotion, UniformMotion, propagate,
     propagate_axis,
@@ -18,6 +19,8 @@ pub enum PlannedAxisMotion {
     Uniform(UniformMotion<f64>),
     /// [`Method::Symmetric`].
     Symmetric(SymmetricMotion<f64>),
+    /// [`Method::Splitting`].
+    Splitting(SplittingMotion),
     /// [`Method::Taylor`].
     Taylor(TaylorAxisMotion<f64>),
 }
@@ -51,6 +54,10 @@ impl PlannedAxisMotion {
             Method::Free => Self::Uniform(UniformMotion::free(spheroid, s, initial, span)),
             Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
             Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
+            Method::Splitting => {
+                let initial = AxisState::from(initial);
+                Self::Splitting(propagate_by_best_splitting(spheroid, s, &initial, span, accuracy)?)
+            }
             Method::Taylor => Self::Taylor(propagate_axis(spheroid, s, &AxisState::from(initial), span, accuracy)?),
         })
     }
@@ -59,6 +66,9 @@ impl PlannedAxisMotion {
     pub fn work(&self) -> Work {
         match self {
             Self::Uniform(_) | Self::Symmetric(_) => Work::default(),
+            Self::Splitting(motion) => {
+                Work::of_series(motion.step_count() as usize, 2 * motion.scheme().stages())
+            }
             Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
         }
     }
@@ -81,6 +91,13 @@ impl PlannedMotion {
             Method::Free => Self::Uniform(UniformMotion::free(spheroid, s, initial, span)),
             Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
             Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
+            Method::Splitting => {
+                return Err(Error::Domain {
+                    quantity: "number of vectors carried",
+                    value: 3.0,
+                    allowed: "two: splitting carries n and L alone",
+                });
+            }
             Method::Taylor => Self::Taylor(propagate(spheroid, s, initial, span, accuracy)?),
         })
     }
@@ -96,53 +113,43 @@ impl PlannedMotion {
 
 /// The arms of both: the enums differ in what the numerical methods carry.
 macro_rules! planned {
-    ($planned:ident) => {
+    ($planned:ident, $($method:ident),+) => {
         impl AxisMotion<f64> for $planned {
             fn spheroid(&self) -> &RigidSpheroid<f64> {
                 match self {
-                    Self::Uniform(motion) => motion.spheroid(),
-                    Self::Symmetric(motion) => motion.spheroid(),
-                    Self::Taylor(motion) => motion.spheroid(),
+                    $(Self::$method(motion) => motion.spheroid(),)+
                 }
             }
 
             fn violation(&self) -> &Matrix3<f64> {
                 match self {
-                    Self::Uniform(motion) => motion.violation(),
-                    Self::Symmetric(motion) => motion.violation(),
-                    Self::Taylor(motion) => motion.violation(),
+                    $(Self::$method(motion) => motion.violation(),)+
                 }
             }
 
             fn span(&self) -> (f64, f64) {
                 match self {
-                    Self::Uniform(motion) => motion.span(),
-                    Self::Symmetric(motion) => motion.span(),
-                    Self::Taylor(motion) => motion.span(),
+                    $(Self::$method(motion) => motion.span(),)+
                 }
             }
 
             fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
                 match self {
-                    Self::Uniform(motion) => motion.axis_state(t),
-                    Self::Symmetric(motion) => motion.axis_state(t),
-                    Self::Taylor(motion) => motion.axis_state(t),
+                    $(Self::$method(motion) => motion.axis_state(t),)+
                 }
             }
 
             fn error_estimate(&self, t: f64) -> f64 {
                 match self {
-                    Self::Uniform(motion) => motion.error_estimate(t),
-                    Self::Symmetric(motion) => motion.error_estimate(t),
-                    Self::Taylor(motion) => motion.error_estimate(t),
+                    $(Self::$method(motion) => motion.error_estimate(t),)+
                 }
             }
         }
     };
 }
 
-planned!(PlannedAxisMotion);
-planned!(PlannedMotion);
+planned!(PlannedAxisMotion, Uniform, Symmetric, Splitting, Taylor);
+planned!(PlannedMotion, Uniform, Symmetric, Taylor);
 
 impl Motion<f64> for PlannedMotion {
     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {

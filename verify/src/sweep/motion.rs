@@ -39,7 +39,7 @@ pub(super) fn instants_of_many(scenes: &[&Scene], asked: &Asked) -> Vec<Option<R
         return found;
     }
     let is_plain =
-        |plan: Plan| matches!(plan.state, State::Axis | State::AxisAndMomentum) && plan.method == Some(Method::Taylor);
+        |plan: Plan| matches!(plan.state, State::Axis | State::AxisAndMomentum) && matches!(plan.method, Some(Method::Taylor | Method::Splitting));
     let plain: Vec<_> = (0..scenes.len()).filter(|&i| scenes[i].plan(&asked.outputs).is_ok_and(is_plain)).collect();
     let times = |&i: &usize| scenes[i].times.iter().map(|time| since_start(scenes[i], time)).collect::<Vec<_>>();
     let times: Vec<_> = plain.iter().map(times).collect();
