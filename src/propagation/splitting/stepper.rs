@@ -99,14 +99,28 @@ impl<S: Real> Steps<S> {
     }
 }
 
+/// Weight of a change of `w` beside one of `n`, where the value of `w.n` is mended.
+const SHARE_OF_RATE: f64 = 1e-4;
+
 /// Takes out what rounding did to `n.n = 1` and `w.n = casimir`, both constant along every flow. First order is enough: the
 /// defects are of the size of rounding.
+///
+/// The rotations round in the same sense step after step, to `n` across `w`. So `n` is mended, in the plane of both; a change of
+/// `w` would feed the energy step by step. Where `n` is nearly along `w` that alone would enlarge the rounding, and `w` takes a share.
 fn project<S: Scalar>(state: &mut Pair<S>, casimir: S) {
-    let shrink = (S::one() - dot(&state.axis, &state.axis)) * 0.5;
-    let missing = casimir - dot(&state.rate, &state.axis);
+    let (n, w) = (state.axis, state.rate);
+    let (n_n, n_w, w_w) = (dot(&n, &n), dot(&n, &w), dot(&w, &w));
+    let grow = (S::one() - n_n) * 0.5;
+    let missing = casimir - n_w * (S::one() + grow);
+    let across = [0, 1, 2].map(|i| w[i] - n[i] * n_w);
+    let share = w_w * SHARE_OF_RATE;
+    let weight = dot(&across, &across) + share;
+    if weight.is_zero() {
+        return;
+    }
+    let part = missing / weight;
     for i in 0..3 {
-        let n = state.axis[i];
-        state.axis_low[i] += n * shrink;
-        state.rate_low[i] += n * missing;
+        state.axis_low[i] += n[i] * grow + across[i] * part;
+        state.rate_low[i] += n[i] * (share * part);
     }
 }
