@@ -6,8 +6,10 @@ use nalgebra::Vector3;
 use twofold::dynamics::BodyState;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, pulse_train};
+use twofold::propagation::splitting::propagate_by_best_splitting;
 use twofold::propagation::{
-    AxisScene, AxisState, ErrorEstimates, Motion, Samples, axis_states_at, axis_states_of_many, propagate, states_at,
+    AxisMotion, AxisScene, AxisState, ErrorEstimates, Motion, Samples, axis_states_at, axis_states_of_many, propagate,
+    states_at,
 };
 
 use super::runge_kutta;
@@ -70,12 +72,16 @@ pub const BASELINE: &str = "numeris RKV98";
 const ACCURACIES: &[f64] =
     &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16];
 
+const SPLITTING_ACCURACIES: &[f64] =
+    &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14];
+
 const TOLERANCES: &[f64] = &[1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15];
 
 /// All methods; a further one takes a line.
 pub const METHODS: &[Method] = &[
     Method { name: "Taylor", carries: Carries::Axis, settings: ACCURACIES, run: taylor_axis },
     Method { name: "Taylor", carries: Carries::Orientation, settings: ACCURACIES, run: taylor },
+    Method { name: "splitting", carries: Carries::Axis, settings: SPLITTING_ACCURACIES, run: splitting },
     Method { name: BASELINE, carries: Carries::Axis, settings: TOLERANCES, run: runge_kutta::axis },
     Method { name: BASELINE, carries: Carries::Orientation, settings: TOLERANCES, run: runge_kutta::orientation },
 ];
@@ -117,6 +123,15 @@ fn taylor_axis(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, 
     let (start, estimates) = (scene.initial_axis(), ErrorEstimates::NotWanted);
     let found = axis_states_at(&scene.spheroid, &scene.violation, &start, 0.0, &[duration], accuracy, estimates);
     end_of_axis(found.map_err(text)?)
+}
+
+fn splitting(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
+    let (spheroid, s, start) = (&scene.spheroid, &scene.violation, scene.initial_axis());
+    let motion = propagate_by_best_splitting(spheroid, s, &start, (0.0, duration), accuracy).map_err(text)?;
+    let AxisState { axis, momentum } = motion.axis_state(duration).map_err(text)?;
+    let steps = motion.step_count() as usize;
+    let evaluations = 2 * steps * motion.scheme().stages();
+    Ok(End { axis, momentum, equatorial_axis: None, steps, evaluations })
 }
 
 fn end_of_axis(Samples { states, step_count, order, .. }: Samples<AxisState<f64>>) -> Result<End, String> {
