@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 use twofold::dynamics::first_integrals::{clebsch_integral, energy};
+use twofold::propagation::splitting::propagate_by_best_splitting;
 use twofold::propagation::{AxisMotion, AxisState, propagate_axis};
 
 use super::Effort;
@@ -23,7 +24,13 @@ pub struct LongMethod {
 pub type Advance = fn(&BenchScene, &AxisState<f64>, f64) -> Result<AxisState<f64>, String>;
 
 /// All methods; a further one takes a line.
-pub const METHODS: &[LongMethod] = &[LongMethod { name: "Taylor", advance: taylor }];
+pub const METHODS: &[LongMethod] =
+    &[LongMethod { name: "Taylor", advance: taylor }, LongMethod { name: "splitting", advance: splitting }];
+
+fn splitting(scene: &BenchScene, state: &AxisState<f64>, duration: f64) -> Result<AxisState<f64>, String> {
+    let motion = propagate_by_best_splitting(&scene.spheroid, &scene.violation, state, (0.0, duration), 1e-14);
+    motion.and_then(|motion| motion.axis_state(duration)).map_err(text)
+}
 
 fn taylor(scene: &BenchScene, state: &AxisState<f64>, duration: f64) -> Result<AxisState<f64>, String> {
     let motion = propagate_axis(&scene.spheroid, &scene.violation, state, (0.0, duration), 1e-16).map_err(text)?;
