@@ -131,7 +131,7 @@ fn a_method_is_forced_or_refused() {
     let file = |method: &str| Scene::from_toml("file", &format!("{toml}\n[output]\nmethod = \"{method}\"\n"));
     assert_eq!(file("taylor").expect("scene").method, Some(Method::Taylor));
     for (method, reason) in
-        [("steady", "does not allow"), ("tailor", "one of \"free\", \"steady\", \"symmetric\", \"taylor\"")]
+        [("steady", "does not allow"), ("tailor", "one of \"free\", \"steady\", \"symmetric\", \"splitting\", \"taylor\"")]
     {
         let error = file(method).expect_err("refused").to_string();
         assert!(error.contains("`output.method`") && error.contains(reason), "{error}");

@@ -132,7 +132,7 @@ fn scenes_for_plans() -> impl Strategy<Value = RandomScene> {
 }
 
 fn meets_prediction() -> Result<Measured, String> {
-    let seen: [Cell<usize>; 4] = Default::default();
+    let seen: [Cell<usize>; Method::ALL.len()] = Default::default();
     let strategy = (scenes_for_plans(), -12.0..-3.0f64, 0.0..2.0f64, 1..20_usize);
     let measured = worst_over(42, 400, &strategy, |&(scene, accuracy, span, samples)| {
         let (body, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
@@ -157,7 +157,7 @@ fn meets_prediction() -> Result<Measured, String> {
     })?;
     let seen = seen.map(|count| count.get());
     // A steady precession is no accident.
-    if seen[0] < 20 || seen[2] < 20 || seen[3] < 20 {
+    if seen[0] < 20 || seen[2] < 20 || seen[4] < 20 {
         return Err(format!("methods {seen:?} in the order of the list: some were hardly chosen"));
     }
     Ok(Measured::new(measured.figure, format!("{}; chosen {seen:?}", measured.detail)))
