@@ -130,7 +130,7 @@ impl ErrorScene {
     /// another integrator that is much more accurate, with 32 digits where rounding may matter.
     pub fn true_errors(&self, state: &BodyState<f64>) -> [f64; 3] {
         let duration = self.time - self.span.0;
-        if self.accuracy > 1e-8 && self.turned() > 5.0 {
+        if self.accuracy > 1e-5 && self.turned() > 5.0 && self.turned() < 300.0 {
             self.differences(
                 state,
                 &state_after::<f64>(&self.spheroid, &self.violation, &self.initial, duration, 1e-16),

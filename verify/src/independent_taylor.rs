@@ -86,8 +86,8 @@ fn dot<S: Real>(a: &Vector<S>, b: &Vector<S>) -> S {
 }
 
 fn add_cross<S: Real>(sum: &mut Vector<S>, a: &Vector<S>, b: &Vector<S>) {
-    for i in 0..3 {
+    for (i, component) in sum.iter_mut().enumerate() {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        sum[i] += a[j] * b[k] - a[k] * b[j];
+        *component += a[j] * b[k] - a[k] * b[j];
     }
 }

@@ -111,8 +111,7 @@ impl ErrorGrowth {
         }
         let known = known.size(self.momentum_unit) + self.drift;
         let error = KNOWN_SAFETY * known + UNKNOWN_SAFETY * variance.max(0.0).sqrt() + READING;
-        // Written so that what is not a number counts as lost.
-        self.lost |= !(error < 1.0);
+        self.lost |= error >= 1.0 || error.is_nan();
         if self.lost { LARGEST } else { error }
     }
 

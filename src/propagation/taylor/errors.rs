@@ -95,9 +95,9 @@ impl<const V: usize> TaylorErrors<V> {
         let turned = (0..V).filter(|column| *column != MOMENTUM).map(|column| changes.column(column).norm());
         let turned = turned.fold(start.1.norm() * h.abs(), f64::max).min(1.0);
         let kicked = (self.flow.strength() * h.abs()).max(changes.column(MOMENTUM).norm() * rate);
-        let left_out = [known.rotation.norm() + known.length.abs() + off_frame, known.momentum.norm()];
-        let rounded = [turned, kicked.min(self.momentum_unit)].map(|change| ROUNDING * f64::EPSILON * change);
-        let deviations = [0, 1].map(|i| rounded[i] + UNCERTAIN * left_out[i]);
+        // Of the momentum too, by the size of the whole: its own defect is small where it averages out, and then less certain.
+        let deviations = [(turned, 1.0), (kicked.min(self.momentum_unit), self.momentum_unit)]
+            .map(|(change, unit)| ROUNDING * f64::EPSILON * change + UNCERTAIN * size * unit);
         let common = COMMON_ROUNDING * f64::EPSILON * (series[0].column(MOMENTUM).norm() * rate * h).abs();
         self.growth.add(&known, deviations, off_frame + common);
         self.before = self.growth.estimate(only_axis);

@@ -54,7 +54,6 @@ fn true_over_estimated() -> Result<Measured, String> {
 
 fn far_above() -> Result<Measured, String> {
     let ratios = ratios().collect::<Result<Vec<_>, _>>()?;
-    // Written so that what is not a number counts.
-    let far = ratios.iter().filter(|(_, ratio)| !(*ratio >= 0.01)).count();
+    let far = ratios.iter().filter(|(_, ratio)| *ratio < 0.01 || ratio.is_nan()).count();
     Ok(Measured::new(far as f64 / ratios.len() as f64, format!("{far} of {} scenes of seed {SEED}", ratios.len())))
 }
