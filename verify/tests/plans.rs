@@ -130,9 +130,10 @@ fn a_method_is_forced_or_refused() {
     let toml = BUILT_IN.iter().find(|scene| scene.name == "tp-2").expect("tp-2").toml;
     let file = |method: &str| Scene::from_toml("file", &format!("{toml}\n[output]\nmethod = \"{method}\"\n"));
     assert_eq!(file("taylor").expect("scene").method, Some(Method::Taylor));
-    for (method, reason) in
-        [("steady", "does not allow"), ("tailor", "one of \"free\", \"steady\", \"symmetric\", \"splitting\", \"taylor\"")]
-    {
+    for (method, reason) in [
+        ("steady", "does not allow"),
+        ("tailor", "one of \"free\", \"steady\", \"symmetric\", \"splitting\", \"taylor\""),
+    ] {
         let error = file(method).expect_err("refused").to_string();
         assert!(error.contains("`output.method`") && error.contains(reason), "{error}");
     }
