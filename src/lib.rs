@@ -10,6 +10,7 @@ pub mod error;
 pub mod euler_angles;
 pub mod lorentz_violation;
 pub mod observables;
+pub mod plan;
 pub mod propagation;
 mod rounding;
 pub mod scalar;

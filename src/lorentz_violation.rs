@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 use crate::error::Error;
+use crate::euler_angles::permuted_from_inertial;
 use crate::scalar::{Real, Scalar};
 
 /// Eigenvalues of `s^IJ` (dimensionless) along the axes X, Y, Z of its principal frame, the inertial frame of the paper.
@@ -88,6 +89,60 @@ pub fn principal_frame(tensor: &Matrix3<f64>) -> Result<PrincipalFrame, Error> {
         coefficients: PrincipalCoefficients::new(order.map(|i| eigen.eigenvalues[i])),
         principal_from_given: Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]),
     })
+}
+
+/// How near a symmetric tensor `s^IJ` is to one with two equal eigenvalues.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SymmetryOfTensor {
+    /// Proper rotation to a principal frame whose third axis is that of the eigenvalue that differs from the two nearest.
+    pub principal_from_given: Matrix3<f64>,
+    /// Third eigenvalue minus the mean of the two nearest.
+    pub difference: f64,
+    /// The tensor minus its symmetric part: `s^IJ - mean (1 - z z) - s_z z z`, in the given frame.
+    pub asymmetry: Matrix3<f64>,
+    size: f64,
+}
+
+impl SymmetryOfTensor {
+    /// The symmetric tensor nearest to `tensor`, with the mean of the two nearest eigenvalues.
+    ///
+    /// # Errors
+    /// As for [`principal_frame`].
+    pub fn of(tensor: &Matrix3<f64>) -> Result<Self, Error> {
+        let frame = principal_frame(tensor)?;
+        let PrincipalCoefficients { xx, yy, zz } = frame.coefficients;
+        let (rotation, values) = if xx - yy <= yy - zz {
+            (frame.principal_from_given, [xx, yy, zz])
+        } else {
+            (permuted_from_inertial::<f64>() * frame.principal_from_given, [yy, zz, xx])
+        };
+        let equal = (values[0] + values[1]) / 2.0;
+        let symmetric = Matrix3::from_diagonal(&Vector3::new(equal, equal, values[2]));
+        Ok(Self {
+            principal_from_given: rotation,
+            difference: values[2] - equal,
+            asymmetry: tensor - rotation.transpose() * symmetric * rotation,
+            size: tensor.norm(),
+        })
+    }
+
+    /// Whether what is not symmetric is below eight roundings of the tensor, to which its entries are known.
+    pub fn is_symmetric_within_rounding(&self) -> bool {
+        self.asymmetry.norm() <= 8.0 * f64::EPSILON * self.size
+    }
+
+    /// Refuses a tensor that is not symmetric within rounding.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] with the part that is not symmetric.
+    pub fn refuse_asymmetry(&self) -> Result<(), Error> {
+        Error::unless(
+            self.is_symmetric_within_rounding(),
+            "part of s^IJ without symmetry about an axis, relative",
+            self.asymmetry.norm() / self.size,
+            "at most 8 roundings: two equal eigenvalues",
+        )
+    }
 }
 
 fn positive_along_largest(axis: Vector3<f64>) -> Vector3<f64> {

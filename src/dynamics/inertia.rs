@@ -40,6 +40,15 @@ impl<S: Scalar> RigidSpheroid<S> {
         Self { inertia_xx: S::one(), inertia_zz: inertia_ratio, constant_c: S::one() }
     }
 
+    /// The same spheroid in another type of numbers.
+    pub(crate) fn map<T>(&self, convert: impl Fn(S) -> T) -> RigidSpheroid<T> {
+        RigidSpheroid {
+            inertia_xx: convert(self.inertia_xx),
+            inertia_zz: convert(self.inertia_zz),
+            constant_c: convert(self.constant_c),
+        }
+    }
+
     /// Oblateness `epsilon = (I^zz - I^xx) / I^xx`, Eq. (19) `[obl]`.
     pub fn oblateness(&self) -> S {
         (self.inertia_zz - self.inertia_xx) / self.inertia_xx

@@ -8,7 +8,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
-use crate::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, body_rates, euler_rates};
+use crate::euler_angles::{
+    EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, body_rates, euler_rates, refuse_pole,
+};
 use crate::scalar::{Real, Scalar};
 
 /// State of rotation of a spheroid in inertial components.
@@ -51,6 +53,27 @@ pub fn angular_velocity<S: Scalar>(
 ) -> Vector3<S> {
     let spin = momentum.dot(axis) / spheroid.inertia_zz;
     (momentum - axis * ((spheroid.inertia_zz - spheroid.inertia_xx) * spin)) / spheroid.inertia_xx
+}
+
+/// Euler rates from the symmetry axis and the angular momentum alone: the rotation about the axis enters no rate.
+///
+/// ```text
+/// a' = (n x n')^Z / sin^2 b,   b' = -n'^Z / sin b,   g' = Omega^z - a' cos b
+/// ```
+///
+/// # Errors
+/// [`Error::Domain`] on the poles, as for [`euler_rates`].
+pub fn euler_rates_of_axis<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    axis: &Vector3<S>,
+    momentum: &Vector3<S>,
+) -> Result<EulerRates<S>, Error> {
+    let sin_squared = axis.x * axis.x + axis.y * axis.y;
+    refuse_pole(sin_squared.re().sqrt())?;
+    let rate = momentum.cross(axis) / spheroid.inertia_xx;
+    let alpha = (axis.x * rate.y - axis.y * rate.x) / sin_squared;
+    let spin = momentum.dot(axis) / spheroid.inertia_zz;
+    Ok(EulerRates { alpha, beta: -(rate.z / sin_squared.sqrt()), gamma: spin - alpha * axis.z })
 }
 
 /// Rates of the full state: [`reduced_rates`] and `d e_x/dt = Omega x e_x`.

@@ -1,18 +1,22 @@
 //! What a motion is not computed from.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
 use crate::propagation::ACCURACY_RANGE;
-use crate::propagation::series::{AXIS, EQUATORIAL_AXIS, MOMENTUM, Vectors};
-use crate::scalar::Real;
+use crate::scalar::{Real, real_part};
+
+/// Places of the vectors of a state.
+const AXIS: usize = 0;
+const MOMENTUM: usize = 1;
+const EQUATORIAL_AXIS: usize = 2;
 
 /// Refuses what is not finite, not a frame, or out of range.
 pub(super) fn check_input<S: Real, const V: usize>(
     spheroid: &RigidSpheroid<S>,
     s: &Matrix3<S>,
-    state: &Vectors<S, V>,
+    vectors: &[Vector3<S>; V],
     span: (f64, f64),
     accuracy: f64,
 ) -> Result<(), Error> {
@@ -29,18 +33,26 @@ pub(super) fn check_input<S: Real, const V: usize>(
     for entry in s.iter() {
         Error::unless(entry.re().is_finite(), "entry of s^IJ", entry.re(), "a finite number")?;
     }
-    let state = state.map(S::re);
-    for component in state.column(MOMENTUM).iter() {
+    let asymmetry = (s - s.transpose()).map(S::re).amax();
+    Error::unless(
+        asymmetry <= 1e-12 * s.map(S::re).amax(),
+        "largest |s^IJ - s^JI|",
+        asymmetry,
+        "at most 1e-12 of the largest entry: s^IJ is symmetric",
+    )?;
+    let vectors = vectors.each_ref().map(real_part);
+    for component in vectors[MOMENTUM].iter() {
         Error::unless(component.is_finite(), "component of L", *component, "a finite number")?;
     }
-    let unit = |column: usize, name| {
-        let length = state.column(column).norm();
+    let unit = |vector: &Vector3<f64>, name| {
+        let length = vector.norm();
         Error::unless((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")
     };
-    unit(AXIS, "length of the axis n")?;
-    if V > EQUATORIAL_AXIS {
-        unit(EQUATORIAL_AXIS, "length of the axis e_x")?;
-        let overlap = state.column(AXIS).dot(&state.column(EQUATORIAL_AXIS));
+    let axis = &vectors[AXIS];
+    unit(axis, "length of the axis n")?;
+    if let Some(equatorial_axis) = vectors.get(EQUATORIAL_AXIS) {
+        unit(equatorial_axis, "length of the axis e_x")?;
+        let overlap = axis.dot(equatorial_axis);
         Error::unless(overlap.abs() < 1e-9, "n . e_x", overlap, "zero, to 1e-9")?;
     }
     Ok(())

@@ -1,15 +1,21 @@
-//! Numerical motion with dense output, and the continuous Euler angles of any motion.
+//! Motions: numerical with dense output or in closed form, and the continuous Euler angles of any.
 
-mod compensated;
+mod arithmetic;
+mod closed;
 mod continuous_angles;
-mod error_growth;
+#[cfg_attr(not(target_arch = "x86_64"), path = "unfused.rs")]
+mod fused;
 mod input;
 mod motion;
-mod series;
+#[cfg(target_arch = "x86_64")]
+mod registers;
 pub mod splitting;
-mod step_size;
 mod taylor;
 
+pub use closed::{SymmetricMotion, UniformMotion, largest_torque};
 pub use continuous_angles::ContinuousAngles;
 pub use motion::{AxisMotion, AxisState, Motion};
-pub use taylor::{ACCURACY_RANGE, STEP_LIMIT, TaylorAxisMotion, TaylorMotion, propagate, propagate_axis};
+pub use taylor::{
+    ACCURACY_RANGE, AxisScene, ErrorEstimates, STEP_LIMIT, Samples, TaylorAxisMotion, TaylorForecast, TaylorMotion,
+    axis_states_at, axis_states_of_many, propagate, propagate_axis, states_at, taylor_forecast,
+};

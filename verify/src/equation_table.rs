@@ -517,7 +517,32 @@ pub const EQUATIONS: &[Equation] = &[
 /// What serves the equations without having a number of its own in the paper.
 pub const AUXILIARY: &[(&str, &[&str])] = &[
     ("number types", &["scalar::constant_vector", "scalar::length", "scalar::real_part"]),
-    ("principal axes of s^IJ", &["lorentz_violation::principal_frame"]),
+    ("principal axes of s^IJ", &["lorentz_violation::principal_frame", "lorentz_violation::SymmetryOfTensor"]),
+    (
+        "plans: what is computed for the outputs asked, by which method",
+        &[
+            "plan::Plan",
+            "plan::Method",
+            "plan::Output",
+            "plan::State",
+            "plan::Request",
+            "plan::Prediction",
+            "plan::Cost",
+            "plan::Counted",
+            "plan::Work",
+            "plan::PlannedMotion",
+            "plan::PlannedAxisMotion",
+            "plan::gradient",
+            "plan::Parameter",
+            "plan::Start",
+            "propagation::taylor_forecast",
+        ],
+    ),
+    (
+        "motions in closed form",
+        &["propagation::SymmetricMotion", "propagation::UniformMotion", "propagation::largest_torque"],
+    ),
+    ("Euler rates of n and L", &["dynamics::regular_equations::euler_rates_of_axis"]),
     (
         "Carlson's symmetric integrals",
         &[

@@ -1,5 +1,6 @@
 //! Verification of the model `twofold`: checks, golden numbers, scene files and the command `twofold`.
 
+pub mod bench;
 pub mod check;
 pub mod checks;
 pub mod claims;
@@ -8,14 +9,17 @@ pub mod command;
 pub mod compare;
 pub mod conditioned;
 pub mod derivation;
+pub mod double_double;
 pub mod dual;
 pub mod equation_table;
+pub mod error_scenes;
 pub mod eta;
 pub mod figures;
 pub mod fit;
 pub mod golden;
 pub mod html_report;
 pub mod identity;
+pub mod independent_taylor;
 mod operators;
 pub mod paper_examples;
 pub mod physical_domain;
@@ -27,6 +31,7 @@ pub mod reference;
 pub mod report;
 pub mod scene_file;
 pub mod second_integrator;
+pub mod sweep;
 pub mod trajectory;
 
 /// The example of the README, run as a documentation test.

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::plan::{Parameter, Start};
 
 /// One reference motion.
 #[derive(Debug, Clone)]
@@ -100,6 +101,50 @@ pub fn reference_pulses(scene: &str) -> Vec<ReferencePulse> {
         .filter(|(name, _)| name == scene)
         .map(|(_, v)| ReferencePulse { start: v[0], end: v[1], closest_approach: v[2] })
         .collect()
+}
+
+/// Derivatives of a motion by the parameters of its scene.
+#[derive(Debug, Clone)]
+pub struct ReferenceGradient {
+    /// Name of the scene.
+    pub name: String,
+    /// The scene.
+    pub start: Start<f64>,
+    /// Times, and at each for every parameter in the order of [`Parameter::ALL`] the derivatives of the components of `n`, `L` and `e_x`.
+    pub derivatives: Vec<(f64, Vec<[f64; 9]>)>,
+}
+
+/// All reference derivatives.
+///
+/// # Panics
+/// If the data compiled into the program are malformed.
+pub fn reference_gradients() -> Vec<ReferenceGradient> {
+    let mut scenes: Vec<ReferenceGradient> = Vec::new();
+    for (name, row) in rows(include_str!("../data/reference_gradients.csv")) {
+        if scenes.last().is_none_or(|scene| scene.name != name) {
+            let (angles, rates) =
+                (EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 }, EulerRates { alpha: 0.0, beta: 0.0, gamma: 0.0 });
+            let spheroid = RigidSpheroid { inertia_xx: 0.0, inertia_zz: 0.0, constant_c: 0.0 };
+            let start = Start { spheroid, violation: Matrix3::zeros(), angles, rates };
+            scenes.push(ReferenceGradient { name, start, derivatives: Vec::new() });
+        }
+        let scene = scenes.last_mut().expect("one was pushed");
+        let (index, value, t) = (row[0] as usize, row[1], row[2]);
+        let at = match scene.derivatives.iter().position(|(time, _)| *time == t) {
+            Some(at) => at,
+            None => {
+                scene.derivatives.push((t, Vec::new()));
+                scene.derivatives.len() - 1
+            }
+        };
+        let derivatives = &mut scene.derivatives[at].1;
+        assert_eq!(derivatives.len(), index, "parameters in order");
+        derivatives.push(core::array::from_fn(|i| row[3 + i]));
+        if at == 0 {
+            Parameter::ALL[index].add(&mut scene.start, value);
+        }
+    }
+    scenes
 }
 
 fn rows(text: &str) -> Vec<(String, Vec<f64>)> {

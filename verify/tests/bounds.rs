@@ -1,12 +1,11 @@
 //! The command `twofold bounds` as a user meets it: status, messages, output.
 
+mod common;
+
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
-fn twofold(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_twofold")).args(args).output().expect("the command starts")
-}
+use common::twofold;
 
 /// Status 2, nothing on standard output, one message that contains the fragments.
 fn assert_refused(table: &Path, fragments: &[&str]) {

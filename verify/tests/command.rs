@@ -1,30 +1,15 @@
 //! The command `twofold` as a user meets it: status, messages, files.
 
+mod common;
+
 use std::fs;
 use std::io::Read;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use tempfile::{TempDir, tempdir};
-
-fn twofold(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_twofold")).args(args).output().expect("the command starts")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn folder() -> TempDir {
-    tempdir().expect("a temporary folder")
-}
-
-fn names_in(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).expect("folder");
-    entries.map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned()).collect()
-}
+use common::{folder, names_in, stderr, twofold};
 
 /// Status 2, nothing on standard output, one message that contains the fragments, no file.
 fn assert_refused(scene: &Path, fragments: &[&str]) {
@@ -102,6 +87,28 @@ fn an_endless_file_is_not_read_to_the_end() {
     assert_refused(Path::new("/dev/zero"), &["is longer than 64 MiB"]);
 }
 
+/// `--explain` prints the plan and computes nothing.
+#[test]
+fn a_plan_is_explained() {
+    let explain = |args: &[&str]| {
+        let output = twofold(args);
+        assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let wave = explain(&["run", "tp-1", "--columns", "h", "--explain"]);
+    for fragment in
+        ["state        n, L\n", "method       taylor", "the third angle (e_x): the outputs depend on n and L alone"]
+    {
+        assert!(wave.contains(fragment), "{fragment}: {wave}");
+    }
+    let free = explain(&["run", "free", "--columns", "h", "--explain"]);
+    assert!(free.contains("method       free") && free.contains("integration: the motion has a closed form"), "{free}");
+    let pulses = explain(&["pulses", "tp-1", "--explain"]);
+    assert!(pulses.contains("samples: events are found on the dense output"), "{pulses}");
+    let forced = explain(&["spectrum", "free", "--of", "h_plus", "--unidentified", "--method", "taylor", "--explain"]);
+    assert!(forced.contains("method       taylor") && forced.contains("as asked"), "{forced}");
+}
+
 #[test]
 fn an_output_file_appears_complete_and_is_not_overwritten() {
     let folder = folder();
@@ -109,7 +116,7 @@ fn an_output_file_appears_complete_and_is_not_overwritten() {
     let out = out.to_str().expect("path in UTF-8");
     let printed = twofold(&["run", "tp-1"]);
     assert_eq!(printed.status.code(), Some(0));
-    assert!(printed.stderr.is_empty(), "{}", stderr(&printed));
+    assert!(stderr(&printed).starts_with("note: estimated error of n, e_x and L / |L| at the end of the span: "));
     assert!(printed.stdout.starts_with(b"t [t_c],alpha [rad],beta [rad],gamma [rad],alpha_rate [rad/t_c],"));
     assert_eq!(printed.stdout.iter().filter(|&&byte| byte == b'\n').count(), 4002);
 

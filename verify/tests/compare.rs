@@ -1,10 +1,13 @@
 //! `twofold compare` on files in the authors' format, made from our own motion, sound and with deliberate defects.
 
+mod common;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
+use common::{stderr, stdout};
 use tempfile::{TempDir, tempdir};
 use twofold_verify::scene_file::{BUILT_IN, Scene};
 use twofold_verify::trajectory;
@@ -12,14 +15,6 @@ use twofold_verify::trajectory;
 fn compare(folder: &Path, extra: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_twofold"));
     command.arg("compare").arg("--authors-data").arg(folder).args(extra).output().expect("the command starts")
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stdout).into_owned()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 /// A built-in scene with other lines.

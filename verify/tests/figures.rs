@@ -1,32 +1,18 @@
 //! `twofold figures` as a user meets it: files, names, refusals.
 
+mod common;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use tempfile::{TempDir, tempdir};
+use common::{folder, names_in, stderr};
 
 fn figures(folder: &Path, args: &[&str]) -> Output {
     let command = Command::new(env!("CARGO_BIN_EXE_twofold")).arg("figures").args(args).current_dir(folder).output();
     command.expect("the command starts")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn folder() -> TempDir {
-    tempdir().expect("a temporary folder")
-}
-
-fn names_in(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).expect("folder");
-    let mut names: Vec<_> =
-        entries.map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
-    names
 }
 
 #[test]

@@ -1,27 +1,12 @@
 //! The command `twofold spectrum` as a user meets it: status, messages, output.
 
+mod common;
+
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
-use tempfile::{TempDir, tempdir};
-
-fn twofold(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_twofold")).args(args).output().expect("the command starts")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn folder() -> TempDir {
-    tempdir().expect("a temporary folder")
-}
-
-fn names_in(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).expect("folder");
-    entries.map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned()).collect()
-}
+use common::{folder, names_in, stderr, twofold};
 
 /// A built-in scene with a text replaced, as a file.
 fn altered(folder: &Path, name: &str, from: &str, to: &str) -> String {

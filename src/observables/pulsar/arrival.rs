@@ -94,7 +94,8 @@ impl<M: Motion<f64>> EdgeSearch<'_, M> {
             return self.maxima(middle, to, report);
         }
         if self.at(from)?[1] > 0.0 && self.at(to)?[1] <= 0.0 {
-            let time = root((from, to), false, |t| self.at(t).map(|[_, rate, second]| (rate, second)))?;
+            let middle = from + (to - from) / 2.0;
+            let time = root((from, to), middle, false, |t| self.at(t).map(|[_, rate, second]| (rate, second)))?;
             report(time, self.at(time)?[0]);
         }
         Ok(())

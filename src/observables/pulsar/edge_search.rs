@@ -68,12 +68,13 @@ impl<'a, M: Motion<f64>> EdgeSearch<'a, M> {
         let rounding = 8.0 * f64::EPSILON;
         let RateBounds { first: w, second: b2, third } = self.bounds;
         let reach = radius * (rate.abs() + radius * (second.abs() / 2.0 + radius * third / 6.0));
+        let jet = Jet { time: middle, margin: [value, rate, second], third };
         if value.abs() > reach + rounding {
             Ok(())
         } else if rate.abs() > radius * (second.abs() + radius * third / 2.0) + rounding * w {
-            self.crossing(from, to, report)
+            self.crossing(&jet, from, to, report)
         } else if second.abs() > radius * third + rounding * b2 {
-            self.around_extremum(from, to, report)
+            self.around_extremum(&jet, from, to, report)
         } else {
             Error::unless(
                 value.abs() + reach > GRAZING && from < middle && middle < to,
@@ -87,28 +88,70 @@ impl<'a, M: Motion<f64>> EdgeSearch<'a, M> {
     }
 
     /// On a piece with a monotonic margin: the root, if its ends differ in sign.
-    fn crossing(&self, from: f64, to: f64, report: &mut impl FnMut(Event)) -> Result<(), Error> {
-        let inside = |t: f64| Ok::<_, Error>(self.at(t)?[0] > 0.0);
+    fn crossing(&self, jet: &Jet, from: f64, to: f64, report: &mut impl FnMut(Event)) -> Result<(), Error> {
+        let inside = |t: f64| jet.is_inside(t).map_or_else(|| Ok::<_, Error>(self.at(t)?[0] > 0.0), Ok);
         let entering = inside(to)?;
         if inside(from)? != entering {
-            let time = root((from, to), entering, |t| self.at(t).map(|[value, rate, _]| (value, rate)))?;
+            let time = root((from, to), jet.root_in(from, to), entering, |t| {
+                self.at(t).map(|[value, rate, _]| (value, rate))
+            })?;
             report(Event::Crossing { time, entering });
         }
         Ok(())
     }
 
     /// On a piece with a monotonic rate: the roots on both sides of the extremum, if there is one.
-    fn around_extremum(&self, from: f64, to: f64, report: &mut impl FnMut(Event)) -> Result<(), Error> {
-        let rising = |t: f64| Ok::<_, Error>(self.at(t)?[1] > 0.0);
+    fn around_extremum(&self, jet: &Jet, from: f64, to: f64, report: &mut impl FnMut(Event)) -> Result<(), Error> {
+        let rising = |t: f64| jet.is_rising(t).map_or_else(|| Ok::<_, Error>(self.at(t)?[1] > 0.0), Ok);
         let to_minimum = rising(to)?;
         if rising(from)? == to_minimum {
-            return self.crossing(from, to, report);
+            return self.crossing(jet, from, to, report);
         }
-        let extremum = root((from, to), to_minimum, |t| self.at(t).map(|[_, rate, second]| (rate, second)))?;
-        self.crossing(from, extremum, report)?;
-        if self.at(extremum)?[0].abs() <= GRAZING {
+        let guess = jet.time - jet.margin[1] / jet.margin[2];
+        let extremum = root((from, to), guess, to_minimum, |t| self.at(t).map(|[_, rate, second]| (rate, second)))?;
+        let margin = self.at(extremum)?;
+        let at_extremum = Jet { time: extremum, margin, third: jet.third };
+        self.crossing(&at_extremum, from, extremum, report)?;
+        if margin[0].abs() <= GRAZING {
             report(Event::Grazing { time: extremum });
         }
-        self.crossing(extremum, to, report)
+        self.crossing(&at_extremum, extremum, to, report)
+    }
+}
+
+/// The margin and its first two derivatives at one time, with a bound of the third anywhere: what they prove of other times
+/// need not be computed there.
+struct Jet {
+    time: f64,
+    margin: [f64; 3],
+    third: f64,
+}
+
+impl Jet {
+    /// Whether the margin is positive at `t`, if that is certain.
+    fn is_inside(&self, t: f64) -> Option<bool> {
+        let (d, [value, rate, second]) = (t - self.time, self.margin);
+        let estimate = value + d * (rate + d * second / 2.0);
+        let rounding = 8.0 * f64::EPSILON * (1.0 + (d * rate).abs() + d * d * second.abs());
+        (estimate.abs() > (d * d * d).abs() * self.third / 6.0 + rounding).then_some(estimate > 0.0)
+    }
+
+    /// Whether its rate is positive at `t`, if that is certain.
+    fn is_rising(&self, t: f64) -> Option<bool> {
+        let (d, [_, rate, second]) = (t - self.time, self.margin);
+        let estimate = rate + d * second;
+        let rounding = 8.0 * f64::EPSILON * (rate.abs() + (d * second).abs() + self.third.cbrt());
+        (estimate.abs() > d * d * self.third / 2.0 + rounding).then_some(estimate > 0.0)
+    }
+
+    /// Where the parabola through the margin crosses zero between two times, or else their middle.
+    fn root_in(&self, from: f64, to: f64) -> f64 {
+        let [value, rate, second] = self.margin;
+        let discriminant = (rate * rate - 2.0 * value * second).max(0.0).sqrt();
+        // Both roots without cancellation.
+        let sum = -(rate + discriminant.copysign(rate));
+        let roots = [2.0 * value / sum, sum / second];
+        let within = |d: &f64| from < self.time + d && self.time + d < to;
+        roots.into_iter().find(within).map_or(from + (to - from) / 2.0, |d| self.time + d)
     }
 }

@@ -5,15 +5,16 @@ use crate::error::Error;
 /// The time in `[low, high]` at which `f` changes its sign, to the spacing of doubles at the larger of it and
 /// of the bracket's width, or to the rounding of `f`.
 ///
-/// `f` gives value and derivative; `rising` says that it is positive at `high` and not at `low`, or the other way round.
+/// The search begins at `guess`, or at the middle if that is outside. `f` gives value and derivative; `rising` says that it is positive at `high` and not at `low`, or the other way round.
 /// Newton's steps, halved to the bracket where they leave it or do not shrink it.
 pub(super) fn root(
     (mut low, mut high): (f64, f64),
+    guess: f64,
     rising: bool,
     f: impl Fn(f64) -> Result<(f64, f64), Error>,
 ) -> Result<f64, Error> {
     let width = high - low;
-    let mut t = low + width / 2.0;
+    let mut t = if low < guess && guess < high { guess } else { low + width / 2.0 };
     let mut last_step = width;
     loop {
         let (value, slope) = f(t)?;

@@ -75,6 +75,44 @@ impl Model {
     }
 }
 
+/// What [`propagate_by_best_splitting`] will do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SplittingForecast {
+    /// The scheme that the model finds cheapest.
+    pub scheme: &'static Scheme,
+    /// Length of its steps, in the unit of time of the scene.
+    pub step: f64,
+    /// Number of its steps.
+    pub steps: f64,
+    /// Largest `|L| / I^xx`, with which errors grow.
+    pub turning_rate: f64,
+}
+
+/// The scheme and the step that a model of cost and error chooses for [`propagate_by_best_splitting`].
+///
+/// # Errors
+/// As for [`propagate_by_best_splitting`].
+pub fn splitting_forecast(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    initial: &AxisState<f64>,
+    span: (f64, f64),
+    accuracy: f64,
+) -> Result<SplittingForecast, Error> {
+    check_splitting_input(spheroid, s, initial, span, accuracy)?;
+    Ok(forecast(&Scene::new(spheroid, s, initial)?, span, accuracy))
+}
+
+fn forecast(scene: &Scene, span: (f64, f64), accuracy: f64) -> SplittingForecast {
+    let (rate, duration) = (scene.largest_rate, (span.1 - span.0).abs());
+    let epsilon = if rate > 0.0 { scene.spread / rate.powi(2) } else { 0.0 };
+    let steps = MODELS.iter().map(|model| (model, model.step(epsilon, rate * duration, accuracy / SAFETY)));
+    let best = steps.min_by(|(a, x), (b, y)| a.cost_per_angle(*x).total_cmp(&b.cost_per_angle(*y)));
+    let (model, step) = best.expect("the list of models is not empty");
+    let step = if rate > 0.0 { step / rate } else { duration.max(1.0) };
+    SplittingForecast { scheme: model.scheme, step, steps: (duration / step).ceil().max(1.0), turning_rate: rate }
+}
+
 /// The motion of `n` and `L` by the scheme and the step that a model of cost and error chooses for `accuracy` at the end of the
 /// span (components of `n`, and of `L` in units of `|L| + sqrt(2 I^xx C |s|)`), between 1e-16 and 1e-2.
 ///
@@ -92,12 +130,6 @@ pub fn propagate_by_best_splitting(
 ) -> Result<SplittingMotion, Error> {
     check_splitting_input(spheroid, s, initial, span, accuracy)?;
     let scene = Scene::new(spheroid, s, initial)?;
-    let rate = scene.largest_rate;
-    let turn = rate * (span.1 - span.0).abs();
-    let epsilon = if rate > 0.0 { scene.spread / rate.powi(2) } else { 0.0 };
-    let steps = MODELS.iter().map(|model| (model, model.step(epsilon, turn, accuracy / SAFETY)));
-    let best = steps.min_by(|(a, x), (b, y)| a.cost_per_angle(*x).total_cmp(&b.cost_per_angle(*y)));
-    let (model, step) = best.expect("the list of models is not empty");
-    let step = if rate > 0.0 { step / rate } else { (span.1 - span.0).abs().max(1.0) };
-    propagate_checked(spheroid, s, span, model.scheme, scene, step)
+    let SplittingForecast { scheme, step, .. } = forecast(&scene, span, accuracy);
+    propagate_checked(spheroid, s, span, scheme, scene, step)
 }

@@ -9,7 +9,7 @@ mod schemes;
 mod stepper;
 mod stepping;
 
-pub use choice::propagate_by_best_splitting;
+pub use choice::{SplittingForecast, propagate_by_best_splitting, splitting_forecast};
 pub use motion::{SPLITTING_STEP_LIMIT, SplittingMotion, propagate_by_splitting};
 pub use scheme::{Ends, Scheme};
 pub use schemes::{

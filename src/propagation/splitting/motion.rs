@@ -8,7 +8,6 @@ use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
 use crate::propagation::input::check_input;
-use crate::propagation::series::Vectors;
 use crate::propagation::splitting::error::ErrorEstimate;
 use crate::propagation::splitting::flows::{Field, Pair, dot};
 use crate::propagation::splitting::scheme::Scheme;
@@ -128,8 +127,7 @@ pub(super) fn check_splitting_input(
     span: (f64, f64),
     accuracy: f64,
 ) -> Result<(), Error> {
-    let start = Vectors::<f64, 2>::from_columns(&[initial.axis, initial.momentum]);
-    check_input(spheroid, s, &start, span, accuracy)
+    check_input(spheroid, s, &[initial.axis, initial.momentum], span, accuracy)
 }
 
 /// The motion from input that has been checked.

@@ -4,6 +4,7 @@ mod axis_motion;
 mod bound;
 mod elliptic;
 mod equations_of_motion;
+mod error_estimate;
 mod eta;
 mod first_integrals;
 mod fisher;
@@ -11,6 +12,7 @@ mod forced_precession;
 mod observer;
 mod orientation;
 mod perturbation_equations;
+mod plans;
 mod potential_energy;
 mod propagation;
 mod pulsar;
@@ -46,9 +48,11 @@ pub fn all() -> Vec<Check> {
         elliptic::checks,
         symmetric::checks,
         propagation::checks,
+        error_estimate::checks,
         axis_motion::checks,
         splitting::checks,
         second_integrator::checks,
+        plans::checks,
         regimes::checks,
         observer::checks,
         spin_axis::checks,

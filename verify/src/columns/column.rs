@@ -1,5 +1,7 @@
 //! One column out of all groups, by its name.
 
+use twofold::plan::Output;
+
 use super::{ALL, ColumnGroup, Moment};
 use crate::scene_file::{Scene, listed, nearest};
 
@@ -39,6 +41,11 @@ impl Column {
         let possible: Vec<_> = possible.map(|column| column.name.as_str()).collect();
         let guess = nearest(name, &possible).map(|near| format!(" Did you mean `{near}`?")).unwrap_or_default();
         Err(format!("`{name}` is no column; this scene has {}.{guess}", listed(&possible)))
+    }
+
+    /// What a plan takes it for. Its angles need not count turns.
+    pub fn output(&self) -> Output {
+        self.group.output
     }
 
     fn of_group(group: &'static ColumnGroup, scene: &Scene) -> impl Iterator<Item = Self> {

@@ -8,6 +8,8 @@ mod observables;
 
 use twofold::dynamics::BodyState;
 use twofold::euler_angles::EulerAngles;
+use twofold::plan::Output;
+use twofold::propagation::AxisState;
 
 use crate::scene_file::{Scene, Units};
 
@@ -20,8 +22,8 @@ pub struct ColumnGroup {
     pub name: &'static str,
     /// What the scene must have.
     needs: &'static [Need],
-    /// Whether it asks for angles that count their turns.
-    pub counts_turns: bool,
+    /// What a plan takes it for: the state and the times that it needs.
+    pub output: Output,
     /// Names of the columns with their units.
     pub header: fn(&Units) -> Vec<String>,
     /// As many values as the header has names, in the units of the output; none where they do not exist.
@@ -38,10 +40,46 @@ impl PartialEq for ColumnGroup {
 pub struct Moment<'m> {
     /// Time since the start, in t_c.
     pub since_start: f64,
-    /// State at that time.
-    pub state: BodyState<f64>,
+    /// State at that time, as far as the plan carries it.
+    pub state: Carried,
     /// The Euler angles with their turns, unless the symmetry axis is on a pole; computed where they are wanted.
     pub angles: &'m mut dyn FnMut() -> Option<EulerAngles<f64>>,
+}
+
+/// As much of a state as a plan carries.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Carried {
+    /// No motion.
+    Nothing,
+    /// Symmetry axis and angular momentum.
+    Axis(AxisState<f64>),
+    /// The whole orientation.
+    Orientation(BodyState<f64>),
+}
+
+impl Moment<'_> {
+    /// Symmetry axis and angular momentum.
+    ///
+    /// # Panics
+    /// For a group whose output does not need them.
+    fn axis(&self) -> AxisState<f64> {
+        match &self.state {
+            Carried::Axis(state) => *state,
+            Carried::Orientation(state) => AxisState::from(state),
+            Carried::Nothing => panic!("the group's output needs no state"),
+        }
+    }
+
+    /// The whole orientation.
+    ///
+    /// # Panics
+    /// For a group whose output does not need it.
+    fn orientation(&self) -> &BodyState<f64> {
+        match &self.state {
+            Carried::Orientation(state) => state,
+            Carried::Nothing | Carried::Axis(_) => panic!("the group's output needs no orientation"),
+        }
+    }
 }
 
 /// An optional part of a scene.

@@ -1,13 +1,16 @@
 //! Columns of the motion itself and of its perturbation solutions.
 
-use twofold::dynamics::first_integrals::first_integrals;
+use twofold::dynamics::first_integrals::{clebsch_integral, energy, spin};
+use twofold::dynamics::regular_equations::euler_rates_of_axis;
+use twofold::plan::Output;
+use twofold::propagation::AxisState;
 
 use super::{ColumnGroup, Need, components, with_unit};
 
 pub(super) const ANGLES: ColumnGroup = ColumnGroup {
     name: "angles",
     needs: &[],
-    counts_turns: true,
+    output: Output::EulerAngles,
     header: |_| with_unit(&["alpha", "beta", "gamma"], "rad"),
     values: |_, moment| (moment.angles)().map(|a| vec![a.alpha, a.beta, a.gamma]),
 };
@@ -15,10 +18,11 @@ pub(super) const ANGLES: ColumnGroup = ColumnGroup {
 pub(super) const RATES: ColumnGroup = ColumnGroup {
     name: "rates",
     needs: &[],
-    counts_turns: false,
+    output: Output::EulerRates,
     header: |units| with_unit(&["alpha_rate", "beta_rate", "gamma_rate"], &format!("rad/{}", units.time_name)),
     values: |scene, moment| {
-        let rates = moment.state.rates(&scene.spheroid).ok()?;
+        let AxisState { axis, momentum } = moment.axis();
+        let rates = euler_rates_of_axis(&scene.spheroid, &axis, &momentum).ok()?;
         Some([rates.alpha, rates.beta, rates.gamma].map(|rate| rate / scene.units.time).to_vec())
     },
 };
@@ -26,31 +30,31 @@ pub(super) const RATES: ColumnGroup = ColumnGroup {
 pub(super) const EQUATORIAL_AXIS: ColumnGroup = ColumnGroup {
     name: "e_x",
     needs: &[],
-    counts_turns: false,
+    output: Output::EquatorialAxis,
     header: |_| components("e_x", "1"),
-    values: |_, moment| Some(moment.state.equatorial_axis.as_slice().to_vec()),
+    values: |_, moment| Some(moment.orientation().equatorial_axis.as_slice().to_vec()),
 };
 
 pub(super) const SYMMETRY_AXIS: ColumnGroup = ColumnGroup {
     name: "e_z",
     needs: &[],
-    counts_turns: false,
+    output: Output::SymmetryAxis,
     header: |_| components("e_z", "1"),
-    values: |_, moment| Some(moment.state.axis.as_slice().to_vec()),
+    values: |_, moment| Some(moment.axis().axis.as_slice().to_vec()),
 };
 
 pub(super) const MOMENTUM: ColumnGroup = ColumnGroup {
     name: "L",
     needs: &[],
-    counts_turns: false,
+    output: Output::AngularMomentum,
     header: |units| components("L", units.momentum_name),
-    values: |scene, moment| Some((moment.state.momentum * scene.units.momentum).as_slice().to_vec()),
+    values: |scene, moment| Some((moment.axis().momentum * scene.units.momentum).as_slice().to_vec()),
 };
 
 pub(super) const INTEGRALS: ColumnGroup = ColumnGroup {
     name: "integrals",
     needs: &[],
-    counts_turns: false,
+    output: Output::FirstIntegrals,
     header: |units| {
         vec![
             format!("E [{}]", units.energy_name),
@@ -59,12 +63,12 @@ pub(super) const INTEGRALS: ColumnGroup = ColumnGroup {
         ]
     },
     values: |scene, moment| {
-        let integrals = first_integrals(&scene.spheroid, &scene.violation, &moment.state);
-        let units = &scene.units;
+        let AxisState { axis, momentum } = moment.axis();
+        let (body, s, units) = (&scene.spheroid, &scene.violation, &scene.units);
         Some(vec![
-            integrals.energy * units.energy,
-            integrals.spin / units.time,
-            integrals.clebsch * units.momentum * units.momentum,
+            energy(body, s, &axis, &momentum) * units.energy,
+            spin(body, &axis, &momentum) / units.time,
+            clebsch_integral(body, s, &axis, &momentum) * units.momentum * units.momentum,
         ])
     },
 };
@@ -73,7 +77,7 @@ pub(super) const INTEGRALS: ColumnGroup = ColumnGroup {
 pub(super) const PERTURBATION: ColumnGroup = ColumnGroup {
     name: "perturbation",
     needs: &[Need::Constants],
-    counts_turns: false,
+    output: Output::PerturbationAngles,
     header: |_| with_unit(&["alpha_printed", "beta_printed"], "rad"),
     values: |scene, moment| {
         let angles = scene.perturbation.as_ref().ok()?.at(moment.since_start);

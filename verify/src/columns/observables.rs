@@ -5,6 +5,8 @@ use twofold::dynamics::regular_equations::angular_velocity;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations, strain_unit};
 use twofold::observables::pulsar::position_angle::{position_angle, position_angle_rate};
 use twofold::observables::spin_axis::{cos_lambda, cos_lambda_rate};
+use twofold::plan::Output;
+use twofold::propagation::AxisState;
 
 use super::{ColumnGroup, Need, with_unit};
 use crate::scene_file::{Scene, Units};
@@ -13,13 +15,13 @@ use crate::scene_file::{Scene, Units};
 pub(super) const LAMBDA: ColumnGroup = ColumnGroup {
     name: "lambda",
     needs: &[Need::Observer],
-    counts_turns: false,
+    output: Output::SpinAxisAngle,
     header: |units| value_and_rate("cos_lambda", units),
     values: |scene, moment| {
         let direction = scene.observer?.basis().direction;
-        let (axis, momentum) = (&moment.state.axis, &moment.state.momentum);
-        let rate = cos_lambda_rate(&scene.spheroid, &direction, axis, momentum);
-        Some(vec![cos_lambda(&direction, axis), rate / scene.units.time])
+        let AxisState { axis, momentum } = moment.axis();
+        let rate = cos_lambda_rate(&scene.spheroid, &direction, &axis, &momentum);
+        Some(vec![cos_lambda(&direction, &axis), rate / scene.units.time])
     },
 };
 
@@ -27,12 +29,12 @@ pub(super) const LAMBDA: ColumnGroup = ColumnGroup {
 pub(super) const LINE_OF_SIGHT: ColumnGroup = ColumnGroup {
     name: "m.n",
     needs: &[Need::Observer, Need::Pulsar],
-    counts_turns: false,
+    output: Output::PulseProfile,
     header: |units| value_and_rate("m.n", units),
     values: |scene, moment| {
         let (beam, direction) = (scene.pulsar?.beam(), scene.observer?.basis().direction);
-        let [_, rate, _] = beam.margin_rates(&scene.spheroid, &scene.violation, &moment.state, &direction);
-        Some(vec![beam.direction(&moment.state).dot(&direction), rate / scene.units.time])
+        let [_, rate, _] = beam.margin_rates(&scene.spheroid, &scene.violation, moment.orientation(), &direction);
+        Some(vec![beam.direction(moment.orientation()).dot(&direction), rate / scene.units.time])
     },
 };
 
@@ -40,10 +42,10 @@ pub(super) const LINE_OF_SIGHT: ColumnGroup = ColumnGroup {
 pub(super) const MAGNETIC_AXIS: ColumnGroup = ColumnGroup {
     name: "magnetic_axis",
     needs: &[Need::Pulsar],
-    counts_turns: false,
+    output: Output::MagneticAxis,
     header: |_| with_unit(&["Theta", "Phi"], "rad"),
     values: |scene, moment| {
-        let m = scene.pulsar?.beam().direction(&moment.state);
+        let m = scene.pulsar?.beam().direction(moment.orientation());
         let across = m.x.hypot(m.y);
         (across > f64::EPSILON).then(|| vec![across.atan2(m.z), m.y.atan2(m.x)])
     },
@@ -53,11 +55,12 @@ pub(super) const MAGNETIC_AXIS: ColumnGroup = ColumnGroup {
 pub(super) const POSITION_ANGLE: ColumnGroup = ColumnGroup {
     name: "position_angle",
     needs: &[Need::Observer, Need::Pulsar],
-    counts_turns: false,
+    output: Output::PositionAngle,
     header: |units| vec!["psi [rad]".to_owned(), format!("psi_rate [rad/{}]", units.time_name)],
     values: |scene, moment| {
-        let (observer, m) = (scene.observer?.basis(), scene.pulsar?.beam().direction(&moment.state));
-        let omega = angular_velocity(&scene.spheroid, &moment.state.axis, &moment.state.momentum);
+        let state = moment.orientation();
+        let (observer, m) = (scene.observer?.basis(), scene.pulsar?.beam().direction(moment.orientation()));
+        let omega = angular_velocity(&scene.spheroid, &state.axis, &state.momentum);
         let rate = position_angle_rate(&m, &omega, &observer).ok()?;
         Some(vec![position_angle(&m, &observer).ok()?, rate / scene.units.time])
     },
@@ -67,12 +70,12 @@ pub(super) const POSITION_ANGLE: ColumnGroup = ColumnGroup {
 pub(super) const STRAIN: ColumnGroup = ColumnGroup {
     name: "h",
     needs: &[Need::Observer, Need::Distance],
-    counts_turns: false,
+    output: Output::GravitationalWave,
     header: |_| with_unit(&["h_plus", "h_cross"], "1"),
     values: |scene, moment| {
         let observer = scene.observer?;
-        let (axis, momentum) = (&moment.state.axis, &moment.state.momentum);
-        let acceleration = spheroid_inertia_acceleration(&scene.spheroid, &scene.violation, axis, momentum);
+        let AxisState { axis, momentum } = moment.axis();
+        let acceleration = spheroid_inertia_acceleration(&scene.spheroid, &scene.violation, &axis, &momentum);
         let h = polarizations(&observer.basis(), &metric_perturbation(1.0, &acceleration));
         let unit = observer.distance.map_or(1.0, |distance| strain_of_scene(scene, distance));
         Some(vec![h.plus * unit, h.cross * unit])

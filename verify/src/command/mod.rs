@@ -1,7 +1,9 @@
 //! The command `twofold`: verify the paper's equations, run a scene, list the scenes, bounds from pulsars.
 
+mod bench;
 mod bounds;
 mod compare;
+mod explain;
 mod figures;
 mod output_file;
 mod output_folder;
@@ -11,6 +13,7 @@ mod report;
 mod run;
 mod scenes;
 mod spectrum;
+mod sweep;
 mod verify;
 
 use std::io::{self, Write};
@@ -19,6 +22,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::sweep::Shard;
 use crate::{claims, equation_table};
 
 /// The rotation of spheroidal stars under Lorentz violation, as verified equations
@@ -39,13 +43,18 @@ Examples:
   twofold run my-star.toml --out my-star.csv
   twofold bounds                    the paper's table of pulsars with uncertainties
   twofold run tp-2 --columns h      only the gravitational wave
+  twofold run tp-1 --columns h --explain
+                                    the plan for it: method, what is skipped, cost
   twofold pulses tp-1               every pulse of the radio beam
   twofold spectrum tp-1 --of m.n --span 4000
                                     the spectral lines of the pulsar signal, identified
+  twofold sweep grid.toml --out grid.csv
+                                    a table with a row for each of many scenes; goes on where it was interrupted
   twofold figures --out figures     the paper's figures and ours
   twofold report                    everything as one page, report/index.html
 
-Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written; 130 interrupted.";
+Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written;
+3 a sweep is complete but for scenes that failed; 130 interrupted.";
 
 #[derive(Subcommand)]
 enum Command {
@@ -75,6 +84,12 @@ enum Command {
     /// The step of the series follows from the rotation rate, not from the scene's samples. Notes on standard error tell the
     /// step, the fundamental frequencies and the constant term.
     Spectrum(SpectrumArgs),
+    /// Compute many scenes, grids, lists or random draws of the parameters of one, and write a table with a row for each
+    ///
+    /// The table grows in FILE.partial and gets its name when it is complete. Whatever ends the command before, the same command
+    /// goes on where it was, and the table is the same to the byte as without the interruption. A scene that fails is a row
+    /// that says so, and a line in FILE.errors.csv. The format of a sweep file is described in docs/sweep.md.
+    Sweep(SweepArgs),
     /// Compare the data that the paper's authors published with the same numbers computed here
     ///
     /// The files are those of the folder `data3` of github.com/ryxxastroat/lorentz_precession. Each known one in the folder is
@@ -85,6 +100,12 @@ enum Command {
     /// Writes NAME.svg, NAME.png, NAME.md and NAME.csv (or NAME.TABLE.csv) of each figure; the files appear when all are
     /// complete. With --scene the figures of a motion are drawn for a scene in place of the paper's examples.
     Figures(FiguresArgs),
+    /// Time every method against its true error, and what comes on top of a motion
+    ///
+    /// Seven scenes of 1,000 t_c with references of 30 digits; methods are run in turn, and the least time of each counts. Then
+    /// the growth of errors over long motions, what events, samples, gradients and wider numbers cost, and how the time goes
+    /// with the number of outputs, scenes and cores.
+    Bench(BenchArgs),
     /// List the built-in scenes
     Scenes,
     /// Run every check and write everything as one HTML page: claims, equations, checks, golden tables, figures
@@ -117,6 +138,8 @@ struct RunArgs {
     #[arg(long, value_name = "GROUP,GROUP", value_delimiter = ',')]
     columns: Option<Vec<String>>,
     #[command(flatten)]
+    plan: PlanArgs,
+    #[command(flatten)]
     output: OutputArgs,
 }
 
@@ -127,6 +150,8 @@ struct PulsesArgs {
     /// The opposite beam too, whatever the scene says
     #[arg(long)]
     second_beam: bool,
+    #[command(flatten)]
+    plan: PlanArgs,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -154,6 +179,8 @@ struct SpectrumArgs {
     #[arg(long)]
     unidentified: bool,
     #[command(flatten)]
+    plan: PlanArgs,
+    #[command(flatten)]
     output: OutputArgs,
 }
 
@@ -165,6 +192,30 @@ enum SpectrumTable {
 }
 
 #[derive(Args)]
+struct SweepArgs {
+    /// The sweep (TOML)
+    file: String,
+    /// The table: CSV, or Parquet if the name ends in .parquet
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Replace the table if it exists
+    #[arg(long)]
+    force: bool,
+    /// Begin anew, whatever part of the table is there
+    #[arg(long)]
+    restart: bool,
+    /// Compute only part i of n: consecutive scenes, so that the parts' tables one after the other are the whole
+    #[arg(long, value_name = "I/N", conflicts_with = "merge")]
+    shard: Option<Shard>,
+    /// Number of threads; all cores if not given
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    threads: Option<u16>,
+    /// Compute nothing: write the CSV tables of all shards, in their order, as one table
+    #[arg(long, value_name = "PART", num_args = 1..)]
+    merge: Vec<PathBuf>,
+}
+
+#[derive(Args)]
 struct CompareArgs {
     /// Folder with the authors' files: tp1.dat, mntp1.dat, ...
     #[arg(long, value_name = "DIR")]
@@ -172,6 +223,16 @@ struct CompareArgs {
     /// Print the comparison as JSON instead of a table
     #[arg(long)]
     json: bool,
+}
+
+#[derive(Args)]
+struct PlanArgs {
+    /// Compute nothing: print the plan, what it skips and why, and what it is expected to cost
+    #[arg(long)]
+    explain: bool,
+    /// The method, instead of the cheapest that meets the accuracy: free, steady, symmetric, taylor
+    #[arg(long, value_name = "NAME")]
+    method: Option<String>,
 }
 
 #[derive(Args)]
@@ -214,6 +275,19 @@ struct FiguresArgs {
 }
 
 #[derive(Args)]
+struct BenchArgs {
+    /// Some ten seconds instead of minutes: fewer repeats, and long motions to 1e4 t_c only
+    #[arg(long)]
+    quick: bool,
+    /// Write the tables, every run as CSV and the work-precision plot into this folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace files that exist
+    #[arg(long, requires = "out")]
+    force: bool,
+}
+
+#[derive(Args)]
 struct BoundsArgs {
     /// A table of pulsars (TOML)
     file: Option<String>,
@@ -228,6 +302,10 @@ enum Failure {
     Failed(String),
     /// The input is not usable: status 2.
     BadInput(String),
+    /// Everything is written, and some of it says that it could not be computed: status 3.
+    Partly(String),
+    /// Ended by a signal, with what is left: status 130.
+    Interrupted(String),
 }
 
 /// Runs the command with the arguments of the process.
@@ -247,8 +325,10 @@ pub fn main() -> ExitCode {
         Command::Bounds(args) => bounds::bounds(&args),
         Command::Pulses(args) => pulses::pulses(&args),
         Command::Spectrum(args) => spectrum::spectrum(&args),
+        Command::Sweep(args) => sweep::sweep(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::Figures(args) => figures::figures(&args),
+        Command::Bench(args) => bench::bench(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
         Command::Claims => claims::markdown().map_err(Failure::Failed).and_then(|page| print(&page)),
@@ -257,6 +337,8 @@ pub fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Failed(message)) => end(1, &message),
         Err(Failure::BadInput(message)) => end(2, &message),
+        Err(Failure::Partly(message)) => end(3, &message),
+        Err(Failure::Interrupted(left)) => end(output_file::INTERRUPTED, &format!("interrupted: {left}")),
     }
 }
 

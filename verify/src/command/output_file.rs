@@ -10,7 +10,7 @@ use tempfile::NamedTempFile;
 use super::Failure;
 
 /// Status of a command ended by an interrupt, by the shells' convention.
-const INTERRUPTED: i32 = 130;
+pub(super) const INTERRUPTED: u8 = 130;
 
 /// On an interrupt (Ctrl-C), hang-up or request to terminate, removes what is not complete, says what is left and ends the
 /// process. Where one of these is ignored already (`nohup`), all are left as they are.
@@ -20,8 +20,25 @@ pub(super) fn on_interrupt(left: &'static str, mut remove: impl FnMut() + Send +
         // The terminal's line has the bar and ^C on it.
         let line_end = if io::stderr().is_terminal() { "\n" } else { "" };
         let _ = writeln!(io::stderr(), "{line_end}error: interrupted: {left}");
-        process::exit(INTERRUPTED);
+        process::exit(INTERRUPTED.into());
     });
+}
+
+/// The path of an output, if nothing stands in the way. A link is followed, so that what it points to is replaced and not the
+/// link.
+pub(super) fn free_name(path: &Path, replace: bool) -> Result<PathBuf, Failure> {
+    let refuse = |why: &str| Err(Failure::BadInput(format!("--out {}: {why}", path.display())));
+    if path == Path::new("-") {
+        return refuse("is not standard output here: leave --out away, or write ./- for a file");
+    }
+    match fs::metadata(path) {
+        Ok(found) if !found.is_file() => return refuse("exists and is not a regular file"),
+        Ok(_) if !replace => return refuse("exists; --force replaces it"),
+        Err(_) if !replace && path.is_symlink() => return refuse("is a link to nothing; --force replaces it"),
+        _ => {}
+    }
+    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if path.file_name().is_none() { refuse("is not the name of a file") } else { Ok(path) }
 }
 
 /// A file that appears under its name only when it is complete.
@@ -35,23 +52,10 @@ impl OutputFile {
     /// Starts a temporary file in the folder of `path`.
     pub(super) fn beside(path: &Path, replace: bool) -> Result<Self, Failure> {
         let refuse = |why: String| Failure::BadInput(format!("--out {}: {why}", path.display()));
-        if path == Path::new("-") {
-            return Err(refuse("is not standard output here: leave --out away, or write ./- for a file".into()));
-        }
-        match fs::metadata(path) {
-            Ok(found) if !found.is_file() => return Err(refuse("exists and is not a regular file".into())),
-            Ok(_) if !replace => return Err(refuse("exists; --force replaces it".into())),
-            Err(_) if !replace && path.is_symlink() => {
-                return Err(refuse("is a link to nothing; --force replaces it".into()));
-            }
-            _ => {}
-        }
-        // A link is followed, so that what it points to is replaced and not the link.
-        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let path = free_name(path, replace)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let Some(name) = path.file_name() else { return Err(refuse("is not the name of a file".into())) };
         let mut prefix = std::ffi::OsString::from(".");
-        prefix.push(name);
+        prefix.push(path.file_name().unwrap_or_default());
         prefix.push(".");
         let temporary = tempfile::Builder::new()
             .prefix(&prefix)

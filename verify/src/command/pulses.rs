@@ -1,11 +1,15 @@
 //! `twofold pulses`.
 
-use super::run::{read_scene, write};
-use super::{Failure, PulsesArgs, note};
+use twofold::plan::Output;
+
+use super::explain::explained;
+use super::run::{failed, force_method, read_scene, write};
+use super::{Failure, PulsesArgs, note, print};
 use crate::trajectory::write_pulses;
 
 pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
-    let scene = read_scene(&args.scene)?;
+    let mut scene = read_scene(&args.scene)?;
+    force_method(&mut scene, &args.plan, &args.scene)?;
     let lacking = |section: &str| {
         Failure::BadInput(format!(
             "{}: the scene lacks the section [{section}], without which it has no pulses (docs/scenes.md describes it)",
@@ -15,6 +19,9 @@ pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
     let viewer = scene.observer.ok_or_else(|| lacking("observer"))?;
     let mut pulsar = scene.pulsar.ok_or_else(|| lacking("pulsar"))?;
     pulsar.second_beam |= args.second_beam;
+    if args.plan.explain {
+        return print(&explained(&scene, &scene.plan(&[Output::Pulses]).map_err(failed)?));
+    }
     let summary =
         write(&args.output, &scene, |writer, progress| write_pulses(&scene, (&viewer, &pulsar), writer, progress))?;
     let Some(summary) = summary else { return Ok(()) };

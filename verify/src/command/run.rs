@@ -2,9 +2,10 @@
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 
+use super::explain::explained;
 use super::output_file::OutputFile;
 use super::progress::Progress;
-use super::{Failure, OutputArgs, RunArgs, note};
+use super::{Failure, OutputArgs, PlanArgs, RunArgs, note, print};
 use crate::scene_file::Scene;
 use crate::trajectory::{self, Summary, TrajectoryError};
 
@@ -19,13 +20,30 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
             .choose_columns(&names)
             .map_err(|why| Failure::BadInput(format!("--columns for {}: {why}", args.scene)))?;
     }
+    force_method(&mut scene, &args.plan, &args.scene)?;
+    if args.plan.explain {
+        return print(&explained(&scene, &scene.plan_of_columns().map_err(failed)?));
+    }
     let Some(summary) =
         write(&args.output, &scene, |writer, progress| trajectory::write_csv(&scene, writer, progress))?
     else {
         return Ok(());
     };
     note_poles(&scene, &summary);
+    if let Some(error) = summary.error {
+        note(&format!("estimated error of n, e_x and L / |L| at the end of the span: {error:.1e}"));
+    }
     Ok(())
+}
+
+/// Uses the method that the arguments name.
+pub(super) fn force_method(scene: &mut Scene, args: &PlanArgs, name: &str) -> Result<(), Failure> {
+    let Some(method) = &args.method else { return Ok(()) };
+    scene.choose_method(method).map_err(|why| Failure::BadInput(format!("--method for {name}: {why}")))
+}
+
+pub(super) fn failed(error: twofold::Error) -> Failure {
+    Failure::Failed(error.to_string())
 }
 
 /// A scene of which the columns that it names are not used.

@@ -2,8 +2,9 @@
 
 use twofold::Error;
 
-use super::run::{read_scene, write};
-use super::{Failure, SpectrumArgs, SpectrumTable, note};
+use super::explain::explained;
+use super::run::{failed, force_method, read_scene, write};
+use super::{Failure, SpectrumArgs, SpectrumTable, note, print};
 use crate::columns::Column;
 use crate::scene_file::{Scene, Times};
 use crate::trajectory::{LinesSummary, LinesWanted, Sampling, TrajectoryError};
@@ -19,6 +20,7 @@ pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
         }
         scene.times = Times::Even { start, end, samples: 2 };
     }
+    force_method(&mut scene, &args.plan, &args.scene)?;
     let column = Column::oscillating(&args.of, &scene)
         .map_err(|why| Failure::BadInput(format!("--of for {}: {why}", args.scene)))?;
     if !(1e-12..=1.0).contains(&args.least) {
@@ -26,8 +28,13 @@ pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
     }
     Sampling::check(&scene).map_err(|why| Failure::BadInput(format!("{}: {why}", args.scene)))?;
     let wanted = LinesWanted { least: args.least, most: usize::from(args.most), identified: !args.unidentified };
+    let identified = wanted.identified && matches!(args.table, SpectrumTable::Lines);
+    let plan = Sampling::plan(&scene, &column, identified).map_err(failed)?;
+    if args.plan.explain {
+        return print(&explained(&scene, &plan));
+    }
     let summary = write(&args.output, &scene, |writer, _| {
-        let sampling = Sampling::of(&scene, &column)?;
+        let sampling = Sampling::of(&scene, &column, &plan)?;
         note_sampling(&scene, &column, &sampling);
         match args.table {
             SpectrumTable::Lines => sampling.write_lines(&scene, &column, &wanted, writer).map(Some).map_err(rounded),

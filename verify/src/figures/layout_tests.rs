@@ -5,7 +5,10 @@ use std::sync::LazyLock;
 use resvg::usvg::{Group, Node};
 
 use super::style::CENTIMETRE;
-use super::{Figure, OF_A_SCENE, Subject, all, html, markup, png};
+use super::{Figure, OF_A_SCENE, Subject, all, html, markup, png, work_precision};
+use crate::bench::method::Carries;
+use crate::bench::timing::Times;
+use crate::bench::work_precision::Row;
 use crate::scene_file::Scene;
 
 /// Points in a CSS pixel, the unit of a resolved SVG.
@@ -21,8 +24,28 @@ static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
         let motion = [Subject::of_scene(name, &Scene::named(name).unwrap()).unwrap()];
         figures.extend(OF_A_SCENE.iter().map(|recipe| recipe.draw(&motion).unwrap()));
     }
+    figures.push(work_precision(&made_up_runs()));
     figures
 });
+
+/// Runs of more methods than there are.
+fn made_up_runs() -> Vec<Row> {
+    let run = |scene: &str, carries, method: usize, i: i32| Row {
+        scene: scene.to_owned(),
+        method: format!("method {method} with a long name"),
+        carries,
+        setting: 0.0,
+        error: 10f64.powi(-2 * i),
+        times: Times { least: 1e-4 * f64::from(i) * (1 + method) as f64, median: 0.0 },
+        steps: 0,
+        evaluations: 0,
+    };
+    let scenes = ["tp-II", "nearly-free", "strongly-violated"];
+    let cases = scenes.iter().flat_map(|scene| Carries::ALL.map(|carries| (scene, carries)));
+    cases
+        .flat_map(|(scene, carries)| (0..9).flat_map(move |m| (1..8).map(move |i| run(scene, carries, m, i))))
+        .collect()
+}
 
 /// Texts with their boxes `[left, top, right, bottom]` in points, and their smallest letters.
 fn texts(group: &Group, found: &mut Vec<(String, [f32; 4], f32)>) {

@@ -30,6 +30,7 @@ mod svg;
 mod table;
 mod wave_spectra;
 mod waves;
+mod work_precision;
 
 pub use examples::examples;
 pub use markup::{html, markdown, plain};
@@ -38,6 +39,7 @@ use recipe::Sheet;
 pub use recipe::{OF_A_SCENE, RECIPES, Recipe};
 pub use subject::{Shown, Start, Subject};
 pub use table::Table;
+pub use work_precision::work_precision;
 
 /// A figure: its drawing, its data and what there is to say about it.
 #[derive(Debug, Clone)]

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use toml::Spanned;
 use toml::de::DeTable;
 
 use super::LARGEST_FILE;
@@ -67,11 +68,16 @@ impl FileKind {
         text: &str,
         read: impl FnOnce(&Section<'_>) -> Result<T, Fault>,
     ) -> Result<T, SceneError> {
-        let in_text = |fault| SceneError::in_text(file, text, fault);
-        let document = DeTable::parse(text).map_err(|syntax| {
+        let table = self.table(file, text)?;
+        read(&Section::document(text, &table, self.name)).map_err(|fault| SceneError::in_text(file, text, fault))
+    }
+
+    /// The document that is the text of `file`.
+    pub(crate) fn table<'t>(&self, file: &str, text: &'t str) -> Result<DeTable<'t>, SceneError> {
+        DeTable::parse(text).map(Spanned::into_inner).map_err(|syntax| {
             let message = syntax.message().trim().replace('\n', ", ");
-            in_text(Fault { span: syntax.span(), message: format!("not TOML: {message}") })
-        })?;
-        read(&Section::document(text, document.get_ref(), self.name)).map_err(in_text)
+            let fault = Fault { span: syntax.span(), message: format!("not TOML: {message}") };
+            SceneError::in_text(file, text, fault)
+        })
     }
 }

@@ -15,9 +15,11 @@ mod time;
 mod violation;
 
 use nalgebra::Matrix3;
+use twofold::Error;
 use twofold::dynamics::regular_equations::angular_velocity;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::EulerAngles;
+use twofold::plan::{Method, Output, Plan, Request};
 use twofold::solutions::perturbation::Perturbation;
 
 use crate::columns::{self, ColumnGroup};
@@ -28,9 +30,10 @@ pub(crate) use document::FileKind;
 pub(crate) use error::Fault;
 pub use error::SceneError;
 pub use observer::{Pulsar, Viewer};
-pub(crate) use section::{Entry, Section, listed, nearest};
+pub(crate) use section::{Entry, Replaced, Section, listed, nearest};
 pub use star::Units;
 pub use time::Times;
+pub(crate) use time::read as read_times;
 
 /// Largest scene file that is read, in bytes.
 pub const LARGEST_FILE: u64 = 64 << 20;
@@ -63,6 +66,8 @@ pub struct Scene {
     pub columns: Vec<&'static ColumnGroup>,
     /// Truncation error wanted at the end of the span.
     pub accuracy: f64,
+    /// The method of the motion, where one is named.
+    pub method: Option<Method>,
     /// Units of the file and of the output.
     pub units: Units,
 }
@@ -87,8 +92,9 @@ impl Scene {
     }
 
     fn named_with(name_or_path: &str, use_columns: bool) -> Result<Self, SceneError> {
-        let read =
-            |file: &str, text: &str| SCENE.parse(file, text, |document| Self::from_document(document, use_columns));
+        let read = |file: &str, text: &str| {
+            SCENE.parse(file, text, |document| Self::from_document(document, use_columns, None))
+        };
         match BUILT_IN.iter().find(|scene| scene.name == name_or_path) {
             Some(built_in) => read(built_in.name, built_in.toml),
             None => read(name_or_path, &SCENE.read(name_or_path)?),
@@ -101,10 +107,15 @@ impl Scene {
     /// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or exclude one another, and for
     /// values of a wrong type or out of range.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SceneError> {
-        SCENE.parse(file, text, |document| Self::from_document(document, true))
+        SCENE.parse(file, text, |document| Self::from_document(document, true, None))
     }
 
-    fn from_document(document: &Section<'_>, use_columns: bool) -> Result<Self, Fault> {
+    /// The scene of a document, with `times` in place of its own section `[time]` if there are any.
+    pub(crate) fn from_document(
+        document: &Section<'_>,
+        use_columns: bool,
+        times: Option<&Times>,
+    ) -> Result<Self, Fault> {
         document.only(&["about", "star", "lorentz_violation", "initial", "observer", "pulsar", "time", "output"])?;
         let about = document.optional("about").map(|entry| entry.string()).transpose()?.unwrap_or("").to_owned();
         let star_section = document.required_section("star", "the spheroid and its spin")?;
@@ -115,8 +126,14 @@ impl Scene {
         let observer = document.section("observer")?;
         let observer = observer.map(|section| observer::read_observer(&section, &star.units)).transpose()?;
         let pulsar = document.section("pulsar")?.map(|section| observer::read_pulsar(&section)).transpose()?;
-        let time_section = document.required_section("time", "the times of the output")?;
-        let times = time::read(&time_section)?;
+        let (time_section, times) = match times {
+            Some(times) => (None, times.clone()),
+            None => {
+                let section = document.required_section("time", "the times of the output")?;
+                let times = time::read(&section)?;
+                (Some(section), times)
+            }
+        };
         let output = document.section("output")?;
         let mut scene = Scene {
             about,
@@ -130,6 +147,7 @@ impl Scene {
             perturbation: initial.perturbation,
             columns: columns::of_the_motion(),
             accuracy: output::DEFAULT_ACCURACY,
+            method: None,
             units: star.units,
         };
         if let Some(output) = &output {
@@ -139,14 +157,33 @@ impl Scene {
         if rotation <= LARGEST_ROTATION {
             return Ok(scene);
         }
-        Err(time_section.fault(format!(
+        Err(time_section.as_ref().unwrap_or(document).fault(format!(
             "[time] asks for a rotation by {rotation:.1e} rad: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \
              minutes; shorten the span or lower the rates"
         )))
     }
 
+    /// The plan for some outputs over the span and at the samples of the scene. Times are those since the start, in t_c.
+    ///
+    /// # Errors
+    /// A method that the scene does not allow.
+    pub fn plan(&self, outputs: &[Output]) -> Result<Plan, Error> {
+        let span = (0.0, (self.times.last() - self.times.start()) / self.units.time);
+        let request = Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.accuracy) };
+        Plan::new(&self.spheroid, &self.violation, &self.initial, &request)
+    }
+
+    /// The plan for the columns of the scene.
+    ///
+    /// # Errors
+    /// As for [`Scene::plan`].
+    pub fn plan_of_columns(&self) -> Result<Plan, Error> {
+        let outputs: Vec<_> = self.columns.iter().map(|group| group.output).collect();
+        self.plan(&outputs)
+    }
+
     /// Upper estimate of the angle through which the body turns over the span, in rad.
-    fn rotation(&self) -> f64 {
+    pub(crate) fn rotation(&self) -> f64 {
         let duration = (self.times.last() - self.times.start()).abs() / self.units.time;
         duration * self.turning_rate()
     }
@@ -160,7 +197,7 @@ impl Scene {
 }
 
 /// A scene, in the words of the messages.
-const SCENE: FileKind = FileKind {
+pub(crate) const SCENE: FileKind = FileKind {
     name: "a scene",
     built_in: Some(BuiltInNames {
         names: || BUILT_IN.iter().map(|scene| scene.name).collect(),

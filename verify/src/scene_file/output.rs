@@ -1,5 +1,7 @@
 //! The section `[output]`.
 
+use twofold::plan::{Method, Output};
+
 use super::Scene;
 use super::error::Fault;
 use super::section::Section;
@@ -10,9 +12,13 @@ pub(super) const DEFAULT_ACCURACY: f64 = 1e-13;
 /// Reads columns and accuracy into a scene that is complete otherwise. Columns that are not `used` need nothing of the
 /// scene, which keeps those it has.
 pub(super) fn read(section: &Section<'_>, scene: &mut Scene, used: bool) -> Result<(), Fault> {
-    section.only(&["columns", "accuracy"])?;
+    section.only(&["columns", "accuracy", "method"])?;
     if let Some(entry) = section.optional("accuracy") {
         scene.accuracy = entry.number_where("a number from 1e-14 to 1e-2", |x| (1e-14..=1e-2).contains(&x))?;
+    }
+    if let Some(entry) = section.optional("method") {
+        let name = entry.word(&Method::ALL.map(Method::name))?;
+        scene.choose_method(name).map_err(|why| entry.refuse_because(&why))?;
     }
     let Some(list) = section.optional("columns") else { return Ok(()) };
     let names: Vec<_> = columns::ALL.iter().map(|group| group.name).collect();
@@ -40,6 +46,26 @@ pub(super) fn read(section: &Section<'_>, scene: &mut Scene, used: bool) -> Resu
 }
 
 impl Scene {
+    /// Forces the method called `name`, in place of the cheapest one.
+    ///
+    /// # Errors
+    /// A sentence about a name that is unknown, or about why the scene does not allow the method.
+    pub fn choose_method(&mut self, name: &str) -> Result<(), String> {
+        let known = Method::ALL.map(Method::name);
+        let Some(method) = Method::named(name) else {
+            let guess = super::nearest(name, &known).map(|near| format!(" Did you mean `{near}`?"));
+            return Err(format!(
+                "`{name}` is no method; allowed are {}.{}",
+                super::section::listed(&known),
+                guess.unwrap_or_default()
+            ));
+        };
+        self.method = Some(method);
+        self.plan(&[Output::EquatorialAxis])
+            .map(|_| ())
+            .map_err(|why| format!("the scene does not allow this method: {why}"))
+    }
+
     /// Replaces the columns by the groups called `names`.
     ///
     /// # Errors

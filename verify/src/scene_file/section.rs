@@ -8,9 +8,28 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::Fault;
 
+/// Numbers that stand in place of those written, each with the dotted key of one, such as `lorentz_violation.w[2]`.
+#[derive(Clone, Copy)]
+pub(crate) struct Replaced<'a> {
+    /// The keys.
+    pub(crate) keys: &'a [String],
+    /// A number for each.
+    pub(crate) numbers: &'a [f64],
+}
+
+impl Replaced<'_> {
+    /// Everything as written.
+    pub(crate) const NOTHING: Self = Self { keys: &[], numbers: &[] };
+
+    fn get(&self, key: &str) -> Option<f64> {
+        self.keys.iter().position(|replaced| replaced == key).map(|i| self.numbers[i])
+    }
+}
+
 /// A table of the document.
 pub(crate) struct Section<'a> {
     text: &'a str,
+    replaced: Replaced<'a>,
     /// What the document is: `a scene`.
     document: &'static str,
     /// Dotted name; empty for the document itself.
@@ -22,6 +41,7 @@ pub(crate) struct Section<'a> {
 /// A value of a section.
 pub(crate) struct Entry<'a> {
     text: &'a str,
+    replaced: Replaced<'a>,
     /// Dotted key.
     key: String,
     span: Range<usize>,
@@ -31,7 +51,12 @@ pub(crate) struct Entry<'a> {
 impl<'a> Section<'a> {
     /// The document itself, which messages call `document`.
     pub(crate) fn document(text: &'a str, table: &'a DeTable<'a>, document: &'static str) -> Self {
-        Self { text, document, name: String::new(), span: 0..0, table }
+        Self { text, replaced: Replaced::NOTHING, document, name: String::new(), span: 0..0, table }
+    }
+
+    /// The same with numbers that stand in place of those written.
+    pub(crate) fn replacing(self, replaced: Replaced<'a>) -> Self {
+        Self { replaced, ..self }
     }
 
     fn dotted(&self, key: &str) -> String {
@@ -69,7 +94,21 @@ impl<'a> Section<'a> {
     /// The value of `key`, if it is there.
     pub(crate) fn optional(&self, key: &str) -> Option<Entry<'a>> {
         let value = self.find(key)?;
-        Some(Entry { text: self.text, key: self.dotted(key), span: value.span(), value: value.get_ref() })
+        Some(self.entry(key, value))
+    }
+
+    fn entry(&self, key: &str, value: &'a Spanned<DeValue<'a>>) -> Entry<'a> {
+        let (text, replaced, key) = (self.text, self.replaced, self.dotted(key));
+        Entry { text, replaced, key, span: value.span(), value: value.get_ref() }
+    }
+
+    /// The dotted keys of all decimal numbers in the section and inside its values.
+    pub(crate) fn numbers(&self) -> Vec<String> {
+        let mut keys = Vec::new();
+        for (key, value) in self.table {
+            self.entry(key.get_ref(), value).numbers(&mut keys);
+        }
+        keys
     }
 
     /// The value of `key`; `meaning` is said where it is missing.
@@ -107,7 +146,15 @@ impl<'a> Section<'a> {
 
     fn of_table(&self, entry: Entry<'a>) -> Option<Section<'a>> {
         let DeValue::Table(table) = entry.value else { return None };
-        Some(Section { text: self.text, document: self.document, name: entry.key, span: entry.span, table })
+        let Entry { text, replaced, key: name, span, .. } = entry;
+        Some(Section { text, replaced, document: self.document, name, span, table })
+    }
+
+    /// The table `key`, written as a section or inside braces, if it is there; `allowed` says of what.
+    pub(crate) fn table(&self, key: &str, allowed: &str) -> Result<Option<Section<'a>>, Fault> {
+        let Some(entry) = self.optional(key) else { return Ok(None) };
+        let refusal = entry.refuse(allowed);
+        self.of_table(entry).map(Some).ok_or(refusal)
     }
 
     /// The sections `key`, each written `[[key]]`, one at least; `meaning` is said where they are missing.
@@ -136,12 +183,16 @@ impl<'a> Entry<'a> {
 
     /// A refusal of the value for a reason that lies elsewhere in the scene.
     pub(crate) fn refuse_because(&self, why: &str) -> Fault {
-        let written = self.text.get(self.span.clone()).unwrap_or("");
-        Fault::at(self.span.clone(), format!("`{}` = {}: {why}", self.key, shortened(written)))
+        let written = shortened(self.text.get(self.span.clone()).unwrap_or(""));
+        let value = self.replaced.get(&self.key).map_or(written, |number| format!("{number:?}"));
+        Fault::at(self.span.clone(), format!("`{}` = {value}: {why}", self.key))
     }
 
     /// A finite number.
     pub(crate) fn number(&self) -> Result<f64, Fault> {
+        if let Some(number) = self.replaced.get(&self.key) {
+            return if number.is_finite() { Ok(number) } else { Err(self.refuse("a finite number")) };
+        }
         match self.value {
             DeValue::Float(float) => float.as_str().parse().ok().filter(|x: &f64| x.is_finite()),
             DeValue::Integer(integer) if integer.radix() == 10 => {
@@ -216,11 +267,27 @@ impl<'a> Entry<'a> {
         let DeValue::Array(array) = self.value else { return Err(self.refuse(allowed)) };
         let entry = |(i, value): (usize, &'a Spanned<DeValue<'a>>)| Entry {
             text: self.text,
+            replaced: self.replaced,
             key: format!("{}[{i}]", self.key),
             span: value.span(),
             value: value.get_ref(),
         };
         Ok(array.iter().enumerate().map(entry).collect())
+    }
+
+    /// Whether the value is a string.
+    pub(crate) fn is_string(&self) -> bool {
+        matches!(self.value, DeValue::String(_))
+    }
+
+    /// Appends the dotted keys of the decimal numbers that the value is or holds.
+    fn numbers(&self, keys: &mut Vec<String>) {
+        match self.value {
+            DeValue::Float(_) => keys.push(self.key.clone()),
+            DeValue::Integer(integer) if integer.radix() == 10 => keys.push(self.key.clone()),
+            DeValue::Array(_) => self.list("").into_iter().flatten().for_each(|entry| entry.numbers(keys)),
+            _ => {}
+        }
     }
 
     /// Three finite numbers.

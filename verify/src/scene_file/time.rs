@@ -43,6 +43,14 @@ impl Times {
         }
     }
 
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        match self {
+            Times::Even { samples, .. } => *samples,
+            Times::Listed { times, .. } => times.len(),
+        }
+    }
+
     /// All times in order.
     pub fn iter(&self) -> Box<dyn Iterator<Item = f64> + '_> {
         match self {
@@ -58,7 +66,7 @@ impl Times {
     }
 }
 
-pub(super) fn read(section: &Section<'_>) -> Result<Times, Fault> {
+pub(crate) fn read(section: &Section<'_>) -> Result<Times, Fault> {
     section.only(&["start", "span", "end", "samples", "times"])?;
     for (first, second) in [("span", "end"), ("times", "span"), ("times", "end"), ("times", "samples")] {
         section.not_both(first, second)?;

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use twofold::Error;
 use twofold::observables::pulsar::{Arrival, Beam, Pulse, PulseTrain, arrivals, pulse_train};
+use twofold::plan::PlannedMotion;
 use twofold::propagation::Motion;
 
 use super::stretches::Stretch;
@@ -68,7 +69,7 @@ impl Source {
 
     /// Whether it is beyond doubt at a time of the stretch if the beam is seen, and which turn it is: the magnetic axis neither
     /// on the edge nor opposite to the line of sight.
-    pub(super) fn is_clear_at(&self, stretch: &Stretch, time: f64) -> Result<(bool, bool), Error> {
+    pub(super) fn is_clear_at(&self, stretch: &Stretch<PlannedMotion>, time: f64) -> Result<(bool, bool), Error> {
         const CLEAR: f64 = 1e-6;
         let state = stretch.motion.state(time)?;
         let (l, n, m) = (state.momentum.normalize(), &self.line_of_sight, self.beam.direction(&state));
@@ -77,7 +78,11 @@ impl Source {
     }
 
     /// The pulses that are over at the time `to` of a stretch, in the order of the motion, and the times of grazing.
-    pub(super) fn take(&mut self, stretch: &Stretch, to: f64) -> Result<(Vec<Numbered>, Vec<f64>), Error> {
+    pub(super) fn take(
+        &mut self,
+        stretch: &Stretch<PlannedMotion>,
+        to: f64,
+    ) -> Result<(Vec<Numbered>, Vec<f64>), Error> {
         let backwards = to < stretch.from;
         let mut train = pulse_train(&stretch.motion, &self.beam, &self.line_of_sight, (stretch.from, to))?;
         if backwards {
@@ -110,7 +115,7 @@ impl Source {
     /// The closest approach in each of the pulses that are wanted, their turns counted on from the stretch before.
     fn approaches(
         &mut self,
-        stretch: &Stretch,
+        stretch: &Stretch<PlannedMotion>,
         to: f64,
         pulses: &[Pulse],
         wanted: &[bool],

@@ -5,7 +5,8 @@ use std::io::Write;
 use twofold::Error;
 use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
-use twofold::propagation::{Motion, TaylorMotion};
+use twofold::plan::{Counted, Output, PlannedMotion, Work};
+use twofold::propagation::Motion;
 
 use super::TrajectoryError;
 use super::pulse_source::{Numbered, Source};
@@ -23,6 +24,8 @@ pub struct PulseSummary {
     pub first_grazing: Option<f64>,
     /// Beams with whole pulses whose turns cannot be counted, how many of them, and why.
     pub without_turn: Vec<(usize, usize, Error)>,
+    /// What it took.
+    pub work: Work,
 }
 
 /// Names of the columns with their units.
@@ -46,13 +49,14 @@ pub fn write_pulses(
     writer: impl Write,
     progress: impl FnMut(f64),
 ) -> Result<PulseSummary, TrajectoryError> {
-    write_by_stretches(scene, (viewer, pulsar), Stretches::new(scene), writer, progress)
+    let plan = scene.plan(&[Output::Pulses])?;
+    write_by_stretches(scene, (viewer, pulsar), Stretches::new(scene, &plan)?, writer, progress)
 }
 
 pub(super) fn write_by_stretches(
     scene: &Scene,
     (viewer, pulsar): (&Viewer, &Pulsar),
-    mut stretches: Stretches<'_>,
+    mut stretches: Stretches<'_, PlannedMotion>,
     writer: impl Write,
     mut progress: impl FnMut(f64),
 ) -> Result<PulseSummary, TrajectoryError> {
@@ -64,7 +68,7 @@ pub(super) fn write_by_stretches(
         sources.push(Source::new(2, pulsar.beam().opposite(), line_of_sight));
     }
     let mut summary = PulseSummary::default();
-    let mut last_motion: Option<TaylorMotion<f64>> = None;
+    let mut last_motion: Option<Counted<PlannedMotion>> = None;
     while let Some(stretch) = stretches.next()? {
         let to = if stretch.is_last { stretch.to } else { cut(scene, &stretch, &sources)? };
         let mut complete = Vec::new();
@@ -91,9 +95,13 @@ pub(super) fn write_by_stretches(
         }
         stretches.resume_at(&stretch, to)?;
         progress(stretches.part_done(to));
-        last_motion = Some(stretch.motion);
+        if let Some(last) = last_motion.replace(stretch.motion) {
+            summary.work += last.evaluations();
+        }
     }
     table.flush()?;
+    summary.work += stretches.work;
+    summary.work += last_motion.map(|last| last.evaluations()).unwrap_or_default();
     summary.pulses = sources.iter().map(|source| source.seen).collect();
     summary.without_turn = sources
         .into_iter()
@@ -105,7 +113,7 @@ pub(super) fn write_by_stretches(
 
 /// A time near the end of the stretch at which every source is clear: cut there, no pulse is torn or counted twice by
 /// rounding, and no turn. If turns are nowhere clear, as of a beam along the axis of rotation, that much is left to rounding.
-fn cut(scene: &Scene, stretch: &Stretch, sources: &[Source]) -> Result<f64, Error> {
+fn cut(scene: &Scene, stretch: &Stretch<PlannedMotion>, sources: &[Source]) -> Result<f64, Error> {
     const TRIES: usize = 1000;
     const ROTATION_PER_TRY: f64 = 0.35;
     let half = (stretch.from - stretch.to) / 2.0;
@@ -159,7 +167,7 @@ fn in_output(scene: &Scene, time: f64) -> f64 {
 
 /// The width of Eq. (56) with the colatitude of the beam at a time that one of the motions holds; none where the formula has
 /// no pulse.
-fn width_at(time: f64, motions: [Option<&TaylorMotion<f64>>; 2], beam: &Beam<f64>, theta_o: f64) -> Option<f64> {
+fn width_at(time: f64, motions: [Option<&Counted<PlannedMotion>>; 2], beam: &Beam<f64>, theta_o: f64) -> Option<f64> {
     let state = motions.into_iter().flatten().find_map(|motion| motion.state(time).ok())?;
     let m = beam.direction(&state);
     match pulse_width(beam.half_opening, m.x.hypot(m.y).atan2(m.z), theta_o) {

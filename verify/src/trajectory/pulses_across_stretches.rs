@@ -1,6 +1,7 @@
 //! A long train, written stretch by stretch, is that of one motion over the whole span.
 
 use twofold::observables::pulsar::{arrivals, pulse_train};
+use twofold::plan::Output;
 use twofold::propagation::propagate;
 
 use super::{PulseSummary, pulses::write_by_stretches, stretches::Stretches};
@@ -17,7 +18,8 @@ fn scene(span: f64, rho: f64) -> Scene {
 
 fn rows_of(scene: &Scene, rotation_per_stretch: f64) -> (Vec<Vec<String>>, PulseSummary) {
     let seen = (&scene.observer.expect("observer"), &scene.pulsar.expect("pulsar"));
-    let stretches = Stretches::of_rotation(scene, rotation_per_stretch);
+    let plan = scene.plan(&[Output::Pulses]).expect("plan");
+    let stretches = Stretches::of_rotation(scene, &plan, rotation_per_stretch).expect("a motion");
     let mut table = Vec::new();
     let summary = write_by_stretches(scene, seen, stretches, &mut table, |_| {}).expect("pulses");
     let text = String::from_utf8(table).expect("text");

@@ -7,11 +7,11 @@ use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::spectrum::{
     FrequencyBasis, Generator, LineList, Series, Window, amplitude_spectrum, spectral_lines,
 };
-use twofold::propagation::{Motion, TaylorMotion, propagate};
+use twofold::plan::{Counted, Output, Plan, PlannedAxisMotion, PlannedMotion, Request, Samples, State, Work};
 
 use super::TrajectoryError;
-use super::stretches::since_start;
-use crate::columns::{Column, Moment};
+use super::stretches::{PlannedState, since_start};
+use crate::columns::{Carried, Column, Moment};
 use crate::scene_file::Scene;
 
 /// Highest frequency of a series over the upper estimate of the rotation rate: what is observed has harmonics.
@@ -25,8 +25,11 @@ const WINDOW: Window = Window::Kaiser { shape: 20.0 };
 
 /// A column in equal steps over the span of a scene. Inside, times are those since the start, in t_c.
 pub struct Sampling {
-    motion: TaylorMotion<f64>,
+    /// The motion, where its fundamental frequencies are wanted.
+    motion: Option<Counted<PlannedMotion>>,
     series: Series,
+    /// What it took.
+    pub work: Work,
 }
 
 /// Most lines that are fitted, however few are written: the error of each counts the strongest one that is left out.
@@ -82,28 +85,47 @@ impl Sampling {
         ))
     }
 
-    /// Computes the motion and samples a column. The step follows from the rotation rate alone, not from the scene's samples.
+    /// The plan for a column, and for the fundamental frequencies of the motion if lines are to be named by them.
+    ///
+    /// # Errors
+    /// A method that the scene does not allow.
+    pub fn plan(scene: &Scene, column: &Column, identified: bool) -> Result<Plan, Error> {
+        let frequencies = identified.then_some(Output::FundamentalFrequencies);
+        let outputs: Vec<_> = [column.output()].into_iter().chain(frequencies).collect();
+        let (intervals, span) = (intervals(scene), (0.0, duration(scene)));
+        let samples = Samples { count: intervals as usize + 1, last: span.1 };
+        let request = Request { method: scene.method, samples, ..Request::new(&outputs, span, 0, scene.accuracy) };
+        Plan::new(&scene.spheroid, &scene.violation, &scene.initial, &request)
+    }
+
+    /// Computes the motion by a [`plan`](Sampling::plan) and samples a column. The step follows from the rotation rate alone, not
+    /// from the scene's samples.
     ///
     /// # Errors
     /// A motion that cannot be computed, and a time at which the column does not exist.
-    pub fn of(scene: &Scene, column: &Column) -> Result<Self, TrajectoryError> {
-        let span = (0.0, duration(scene));
-        let motion = propagate(&scene.spheroid, &scene.violation, &scene.initial, span, scene.accuracy)?;
-        let intervals = (span.1.abs() * scene.turning_rate() * HARMONICS / std::f64::consts::PI).ceil().max(15.0);
-        let start = span.1.min(0.0);
-        let step = span.1.abs() / intervals;
-        let value = |index: usize| {
-            let since_start = (start + step * index as f64).min(start + span.1.abs());
-            let state = motion.state(since_start)?;
-            let mut angles = || state.angles().ok();
-            let mut moment = Moment { since_start, state, angles: &mut angles };
-            column.value(scene, &mut moment).ok_or_else(|| TrajectoryError::Undefined {
-                column: column.name.clone(),
-                time: format!("{:?} {}", since_start * scene.units.time + scene.times.start(), scene.units.time_name),
-            })
-        };
-        let values = (0..=intervals as usize).map(value).collect::<Result<_, _>>()?;
-        Ok(Self { motion, series: Series { start, step, values } })
+    pub fn of(scene: &Scene, column: &Column, plan: &Plan) -> Result<Self, TrajectoryError> {
+        let (body, s, initial) = (&scene.spheroid, &scene.violation, &scene.initial);
+        match plan.state {
+            State::Nothing => Ok(Self {
+                motion: None,
+                series: series(scene, column, |_| Ok(Carried::Nothing))?,
+                work: Work::default(),
+            }),
+            State::Axis | State::AxisAndMomentum => {
+                let motion = Counted::new(plan.axis_motion(body, s, initial)?);
+                let series = series(scene, column, |t| PlannedAxisMotion::carried(&motion, t))?;
+                let mut work = motion.inner().work();
+                work += motion.evaluations();
+                Ok(Self { motion: None, series, work })
+            }
+            State::Orientation => {
+                let motion = Counted::new(plan.motion(body, s, initial)?);
+                let series = series(scene, column, |t| PlannedMotion::carried(&motion, t))?;
+                let mut work = motion.inner().work();
+                work += motion.evaluations();
+                Ok(Self { motion: Some(motion), series, work })
+            }
+        }
     }
 
     /// Number of values, time between two in the unit of the output, and Nyquist's frequency in rad per unit of time.
@@ -196,7 +218,8 @@ impl Sampling {
     /// # Errors
     /// A span too short for them.
     fn basis(&self) -> Result<Result<FrequencyBasis, Error>, TrajectoryError> {
-        match fundamental_frequencies(&self.motion).and_then(|found| found.basis()) {
+        let motion = self.motion.as_ref().expect("names of lines are in the plan");
+        match fundamental_frequencies(motion).and_then(|found| found.basis()) {
             Err(why @ (Error::NotConverged { .. } | Error::Domain { quantity: SHORT_SPAN, .. })) => {
                 Err(TrajectoryError::NoFrequencies(why))
             }
@@ -207,6 +230,37 @@ impl Sampling {
 
 /// The quantity that [`fundamental_frequencies`] refuses in a span of few turns.
 const SHORT_SPAN: &str = "span in turns of n about L";
+
+/// Steps of the series.
+fn intervals(scene: &Scene) -> f64 {
+    (duration(scene).abs() * scene.turning_rate() * HARMONICS / std::f64::consts::PI).ceil().max(15.0)
+}
+
+/// A column in equal steps over the span.
+fn series(
+    scene: &Scene,
+    column: &Column,
+    carried: impl Fn(f64) -> Result<Carried, Error>,
+) -> Result<Series, TrajectoryError> {
+    let (intervals, span) = (intervals(scene), duration(scene));
+    let start = span.min(0.0);
+    let step = span.abs() / intervals;
+    let value = |index: usize| {
+        let since_start = (start + step * index as f64).min(start + span.abs());
+        let state = carried(since_start)?;
+        let mut angles = || match &state {
+            Carried::Orientation(state) => state.angles().ok(),
+            Carried::Nothing | Carried::Axis(_) => None,
+        };
+        let mut moment = Moment { since_start, state, angles: &mut angles };
+        column.value(scene, &mut moment).ok_or_else(|| TrajectoryError::Undefined {
+            column: column.name.clone(),
+            time: format!("{:?} {}", since_start * scene.units.time + scene.times.start(), scene.units.time_name),
+        })
+    };
+    let values = (0..=intervals as usize).map(value).collect::<Result<_, _>>()?;
+    Ok(Series { start, step, values })
+}
 
 /// Length of the span in t_c, negative backwards.
 fn duration(scene: &Scene) -> f64 {

@@ -1,29 +1,124 @@
-//! A long motion stretch by stretch, so that memory does not grow with its span.
+//! A long motion stretch by stretch, so that memory does not grow with its span, by the method of a plan.
 
 use twofold::Error;
 use twofold::dynamics::BodyState;
-use twofold::propagation::{ACCURACY_RANGE, Motion, TaylorMotion, propagate};
+use twofold::euler_angles::EulerAngles;
+use twofold::plan::{Counted, Method, Plan, PlannedAxisMotion, PlannedMotion, Work};
+use twofold::propagation::{ACCURACY_RANGE, AxisMotion, AxisState, ContinuousAngles, Motion};
 
+use crate::columns::Carried;
 use crate::scene_file::Scene;
 
 /// Rotation per stretch of motion that is kept in memory at a time, in rad.
-const ROTATION_PER_STRETCH: f64 = 5e4;
+pub(crate) const ROTATION_PER_STRETCH: f64 = 5e4;
 
-/// The motion of a scene over its whole span, in order.
-pub struct Stretches<'s> {
+/// The Euler angles at a time, where they exist.
+pub(super) type Angles<'m> = Box<dyn FnMut(f64) -> Option<EulerAngles<f64>> + 'm>;
+
+/// A motion that a plan can make, with as much of the state as it carries.
+pub(crate) trait PlannedState: AxisMotion<f64> + Sized {
+    /// The motion by a method.
+    fn by(
+        method: Method,
+        scene: &Scene,
+        start: &BodyState<f64>,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error>;
+
+    /// What is carried at a time.
+    fn carried(motion: &Counted<Self>, t: f64) -> Result<Carried, Error>;
+
+    /// A start for the next stretch; what is not carried is that of `before`.
+    fn start_at(&self, t: f64, before: &BodyState<f64>) -> Result<BodyState<f64>, Error>;
+
+    /// The Euler angles with their turns from the time `from`, where they are `start`; none where they do not exist.
+    ///
+    /// # Errors
+    /// A time outside the motion.
+    fn angles<'m>(motion: &'m Counted<Self>, from: f64, start: &EulerAngles<f64>) -> Result<Angles<'m>, Error>;
+
+    /// Steps and right-hand sides.
+    fn work(&self) -> Work;
+}
+
+impl PlannedState for PlannedAxisMotion {
+    fn by(
+        method: Method,
+        scene: &Scene,
+        start: &BodyState<f64>,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        PlannedAxisMotion::by(method, &scene.spheroid, &scene.violation, start, span, accuracy)
+    }
+
+    fn carried(motion: &Counted<Self>, t: f64) -> Result<Carried, Error> {
+        motion.axis_state(t).map(Carried::Axis)
+    }
+
+    fn start_at(&self, t: f64, before: &BodyState<f64>) -> Result<BodyState<f64>, Error> {
+        let AxisState { axis, momentum } = self.axis_state(t)?;
+        Ok(BodyState { axis, momentum, ..*before })
+    }
+
+    fn angles<'m>(_: &'m Counted<Self>, _: f64, _: &EulerAngles<f64>) -> Result<Angles<'m>, Error> {
+        Ok(Box::new(|_| None))
+    }
+
+    fn work(&self) -> Work {
+        PlannedAxisMotion::work(self)
+    }
+}
+
+impl PlannedState for PlannedMotion {
+    fn by(
+        method: Method,
+        scene: &Scene,
+        start: &BodyState<f64>,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        PlannedMotion::by(method, &scene.spheroid, &scene.violation, start, span, accuracy)
+    }
+
+    fn carried(motion: &Counted<Self>, t: f64) -> Result<Carried, Error> {
+        motion.state(t).map(Carried::Orientation)
+    }
+
+    fn start_at(&self, t: f64, _: &BodyState<f64>) -> Result<BodyState<f64>, Error> {
+        self.state(t)
+    }
+
+    fn angles<'m>(motion: &'m Counted<Self>, from: f64, start: &EulerAngles<f64>) -> Result<Angles<'m>, Error> {
+        let mut angles = ContinuousAngles::new(motion, from, start)?;
+        Ok(Box::new(move |t| angles.at(t).ok()))
+    }
+
+    fn work(&self) -> Work {
+        PlannedMotion::work(self)
+    }
+}
+
+/// The motion of a scene over the stretch of a plan, in order.
+pub struct Stretches<'s, M> {
     scene: &'s Scene,
+    method: Method,
     /// Length of the span in t_c, negative backwards.
     total: f64,
     count: usize,
     next: usize,
     from: f64,
     state: BodyState<f64>,
+    /// Steps and right-hand sides so far.
+    pub(super) work: Work,
+    motion: std::marker::PhantomData<M>,
 }
 
 /// One stretch; times since the start, in t_c.
-pub struct Stretch {
+pub struct Stretch<M> {
     /// The motion from `from` to `to`.
-    pub motion: TaylorMotion<f64>,
+    pub motion: Counted<M>,
     /// First time; later than `to` where the span leads backwards.
     pub from: f64,
     /// Last time.
@@ -32,44 +127,66 @@ pub struct Stretch {
     pub is_last: bool,
 }
 
-impl<'s> Stretches<'s> {
-    /// The stretches of the span of `scene`, one at least.
-    pub fn new(scene: &'s Scene) -> Self {
-        Self::of_rotation(scene, ROTATION_PER_STRETCH)
+impl<'s, M: PlannedState> Stretches<'s, M> {
+    /// The stretches of a plan for `scene`, one at least.
+    ///
+    /// # Errors
+    /// A plan without a motion.
+    pub fn new(scene: &'s Scene, plan: &Plan) -> Result<Self, Error> {
+        Self::of_rotation(scene, plan, ROTATION_PER_STRETCH)
     }
 
-    /// The stretches of the span of `scene` with a rotation of at most `most` rad each.
-    pub(super) fn of_rotation(scene: &'s Scene, most: f64) -> Self {
-        let total = since_start(scene, scene.times.last());
+    /// The stretches of a plan for `scene` with a rotation of at most `most` rad each.
+    pub(super) fn of_rotation(scene: &'s Scene, plan: &Plan, most: f64) -> Result<Self, Error> {
+        let allowed = "at least one";
+        let quantity = "number of outputs that need a motion";
+        let method = plan.method.ok_or(Error::Domain { quantity, value: 0.0, allowed })?;
+        let total = plan.stretch.1;
         let count = (total.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize;
-        Self { scene, total, count, next: 0, from: 0.0, state: scene.initial }
+        let (work, motion) = (Work::default(), std::marker::PhantomData);
+        Ok(Self { scene, method, total, count, next: 0, from: 0.0, state: scene.initial, work, motion })
     }
 
     /// Computes the next stretch, if there is one.
     ///
     /// # Errors
     /// A motion that cannot be computed.
-    pub fn next(&mut self) -> Result<Option<Stretch>, Error> {
+    pub fn next(&mut self) -> Result<Option<Stretch<M>>, Error> {
         if self.next == self.count {
             return Ok(None);
         }
         self.next += 1;
         let (from, to) = (self.from, self.total * (self.next as f64 / self.count as f64));
-        let accuracy = self.share_of_accuracy(to - from);
-        let motion = propagate(&self.scene.spheroid, &self.scene.violation, &self.state, (from, to), accuracy)?;
-        self.state = motion.state(to)?;
+        let motion = if self.method.is_closed_form() {
+            // From the start of the scene: nothing adds up from stretch to stretch.
+            M::by(self.method, self.scene, &self.scene.initial, (0.0, self.total), self.scene.accuracy)?
+        } else {
+            let accuracy = self.share_of_accuracy(to - from);
+            let motion = M::by(self.method, self.scene, &self.state, (from, to), accuracy)?;
+            self.state = motion.start_at(to, &self.state)?;
+            motion
+        };
+        self.work += motion.work();
         self.from = to;
-        Ok(Some(Stretch { motion, from, to, is_last: self.next == self.count }))
+        Ok(Some(Stretch { motion: Counted::new(motion), from, to, is_last: self.next == self.count }))
     }
 
     /// Lets the next stretch begin earlier, at a time of this one.
     ///
     /// # Errors
     /// A time outside the stretch.
-    pub fn resume_at(&mut self, stretch: &Stretch, time: f64) -> Result<(), Error> {
-        self.state = stretch.motion.state(time)?;
+    pub fn resume_at(&mut self, stretch: &Stretch<M>, time: f64) -> Result<(), Error> {
+        self.state = stretch.motion.inner().start_at(time, &self.state)?;
         self.from = time;
         Ok(())
+    }
+
+    /// Estimated error at the end: that of the motion where it is one from the start, otherwise that which the plan foresaw.
+    pub fn error_at_end(&self, last: &Stretch<M>, plan: &Plan) -> f64 {
+        if self.count == 1 || self.method.is_closed_form() {
+            return last.motion.error_estimate(last.to);
+        }
+        plan.prediction.map_or(f64::NAN, |prediction| prediction.truncation + prediction.rounding)
     }
 
     /// The part of the span, from 0 to 1, that lies before a time.

@@ -1,0 +1,193 @@
+//! Each method before it is used: whether it holds for a scene, how large its error and its work will be.
+
+use nalgebra::Matrix3;
+
+use super::{Cost, Method, Output, Parameter, Request, State, Work};
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::propagation::splitting::splitting_forecast;
+use crate::propagation::{AxisState, SymmetricMotion, UniformMotion, largest_torque, taylor_forecast};
+
+/// What a method would do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prediction {
+    /// Bound, or for a numerical method the goal, of its own error at the end: all but rounding.
+    pub truncation: f64,
+    /// Rounding, grown to the end.
+    pub rounding: f64,
+    /// Order of the series; zero without.
+    pub order: usize,
+    /// Work. Turns and events are counted as they typically are.
+    pub work: Work,
+    /// Heap that the motion takes, in bytes; a growing vector takes up to four times as much in all. Evaluations take none.
+    pub bytes: f64,
+    /// Time in ns on the [machine](super::MACHINE) of the fit.
+    pub cost: f64,
+}
+
+/// A method, and what it would do or why it cannot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    /// The method.
+    pub method: Method,
+    /// What it would do.
+    pub prediction: Result<Prediction, Error>,
+}
+
+/// The scene of a plan.
+pub(super) struct Scene<'a> {
+    pub(super) spheroid: &'a RigidSpheroid<f64>,
+    pub(super) violation: &'a Matrix3<f64>,
+    pub(super) initial: &'a BodyState<f64>,
+}
+
+impl Candidate {
+    /// Considers a method for `evaluations` of a `state` up to the end of `stretch`.
+    pub(super) fn of(
+        method: Method,
+        scene: &Scene<'_>,
+        request: &Request,
+        state: State,
+        stretch: (f64, f64),
+        evaluations: f64,
+    ) -> Self {
+        let errors = match method {
+            Method::Free => free(scene, request, stretch),
+            Method::Steady => steady(scene, request, stretch),
+            Method::Symmetric => symmetric(scene, request, stretch),
+            Method::Splitting => splitting(scene, request, state, stretch),
+            Method::Taylor => taylor(scene, request, state, stretch),
+        };
+        Self { method, prediction: errors.map(|errors| errors.with_work(method, state, evaluations)) }
+    }
+}
+
+/// Errors and steps of a method.
+struct Forecast {
+    truncation: f64,
+    rounding: f64,
+    order: usize,
+    steps: f64,
+}
+
+impl Forecast {
+    fn closed(truncation: f64, rounding: f64) -> Self {
+        Self { truncation, rounding, order: 0, steps: 0.0 }
+    }
+
+    fn with_work(self, method: Method, state: State, evaluations: f64) -> Prediction {
+        let Self { truncation, rounding, order, steps } = self;
+        let full = state == State::Orientation;
+        let vectors = if full { 3.0 } else { 2.0 };
+        // Each step keeps its coefficients, padded to registers, and its start; there is some room to spare.
+        let states = if method == Method::Splitting { 100.0 * steps.min(1e5) } else { 0.0 };
+        let series = 1.2 * steps * ((order as f64 + 1.0) * 32.0 * vectors + 16.0);
+        // The roots of the quartic are sought with a few short lists, once.
+        let dense_output = if method == Method::Splitting { states } else { series };
+        let bytes = dense_output + if method == Method::Symmetric { 1024.0 } else { 0.0 };
+        Prediction {
+            truncation,
+            rounding,
+            order,
+            work: Work {
+                steps,
+                right_hand_sides: steps * order as f64,
+                axis_evaluations: if full { 0.0 } else { evaluations },
+                orientation_evaluations: if full { evaluations } else { 0.0 },
+            },
+            bytes,
+            cost: Cost::of(method, state).total(order, steps, evaluations),
+        }
+    }
+}
+
+/// A closed form for a family of tensors has no derivatives out of it.
+fn refuse_derivatives(request: &Request, family: &'static str) -> Result<(), Error> {
+    let by_tensor = request.derivatives.iter().filter(|parameter| matches!(parameter, Parameter::S(..))).count();
+    Error::unless(by_tensor == 0, "number of derivatives by components of s^IJ", by_tensor as f64, family)
+}
+
+fn free(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+    refuse_derivatives(request, "none: free rotation knows no tensor")?;
+    let torque = largest_torque(scene.spheroid, scene.violation);
+    Error::unless(
+        request.derivatives.is_empty() || torque == 0.0,
+        "largest torque C |s^IJ|",
+        torque,
+        "zero, if derivatives are wanted",
+    )?;
+    let motion = UniformMotion::free(scene.spheroid, scene.violation, scene.initial, stretch);
+    let elapsed = stretch.1 - stretch.0;
+    Ok(Forecast::closed(motion.truncation(elapsed), motion.rounding(elapsed)))
+}
+
+fn steady(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+    let wanted = request.derivatives.len();
+    Error::unless(wanted == 0, "number of derivatives", wanted as f64, "none: a steady precession has no neighbours")?;
+    let motion = UniformMotion::steady(scene.spheroid, scene.violation, scene.initial, stretch)?;
+    Ok(Forecast::closed(0.0, motion.rounding(stretch.1 - stretch.0)))
+}
+
+fn symmetric(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+    refuse_derivatives(request, "none: elliptic functions have those within equal eigenvalues only")?;
+    let motion = SymmetricMotion::new(scene.spheroid, scene.violation, scene.initial, stretch)?;
+    let elapsed = stretch.1 - stretch.0;
+    let truncation = motion.truncation(elapsed);
+    Error::unless(
+        request.derivatives.is_empty() || truncation == 0.0,
+        "part of s^IJ without symmetry about an axis",
+        truncation,
+        "zero within rounding, if derivatives are wanted",
+    )?;
+    // The rounding costs more than the motion: only for one that may be used.
+    let usable = truncation <= request.accuracy || request.method == Some(Method::Symmetric);
+    let rounding = if usable { motion.rounding(elapsed) } else { f64::NAN };
+    Ok(Forecast::closed(truncation, rounding))
+}
+
+fn splitting(scene: &Scene<'_>, request: &Request, state: State, stretch: (f64, f64)) -> Result<Forecast, Error> {
+    let vectors = if state == State::Orientation { 3.0 } else { 2.0 };
+    Error::unless(vectors == 2.0, "number of vectors carried", vectors, "two: splitting carries n and L alone")?;
+    let wanted = request.derivatives.len();
+    Error::unless(wanted == 0, "number of derivatives", wanted as f64, "none: splitting is for doubles")?;
+    let Scene { spheroid, violation, initial } = scene;
+    let forecast = splitting_forecast(spheroid, violation, &AxisState::from(*initial), stretch, request.accuracy)?;
+    let growth = forecast.turning_rate * (stretch.1 - stretch.0).abs();
+    // Rotations and kicks; their rounding is independent from one to the next, but for that of the step.
+    let order = 2 * forecast.scheme.stages();
+    let rounding = f64::EPSILON * (1.0 + growth);
+    Ok(Forecast { truncation: request.accuracy, rounding, order, steps: forecast.steps })
+}
+
+fn taylor(scene: &Scene<'_>, request: &Request, state: State, stretch: (f64, f64)) -> Result<Forecast, Error> {
+    let duration = (stretch.1 - stretch.0).abs();
+    let full = state == State::Orientation;
+    let Scene { spheroid, violation, initial } = scene;
+    let forecast = taylor_forecast(spheroid, violation, initial, full, duration, request.accuracy)?;
+    // Independent roundings of evenly spaced steps, each grown linearly: the sum over steps of u^2.
+    let growth = forecast.turning_rate * duration;
+    let squares = 4.0 * (1.0 + growth).powi(2) + forecast.steps * (1.0 + growth + growth * growth / 3.0);
+    Ok(Forecast {
+        truncation: request.accuracy,
+        rounding: f64::EPSILON * squares.sqrt(),
+        order: forecast.order,
+        steps: forecast.steps,
+    })
+}
+
+/// Evaluations that the outputs of a request need over a stretch of rotation by `rotation` rad.
+pub(super) fn evaluations(request: &Request, rotation: f64) -> f64 {
+    use super::Evaluations as E;
+    let needs = || request.outputs.iter().map(|output: &Output| output.need().evaluations);
+    let samples = request.samples.count as f64;
+    let at_samples = needs().any(|e| matches!(e, E::AtSamples | E::CountingTurns { .. }));
+    let beside: f64 = needs()
+        .map(|e| match e {
+            E::Never | E::AtSamples => 0.0,
+            // Two states for each piece between samples, or for each piece that is fine enough.
+            E::CountingTurns { per_radian } => (3.0 * samples).max(rotation * per_radian),
+            E::ForEvents { per_radian } => rotation * per_radian,
+        })
+        .sum();
+    beside + if at_samples { samples } else { 0.0 }
+}

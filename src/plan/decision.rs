@@ -1,0 +1,194 @@
+//! The plan: what is computed, by which method, and what is left out.
+
+use nalgebra::Matrix3;
+
+use super::candidate::{Scene, evaluations};
+use super::{Candidate, Evaluations, Method, Output, Parameter, PlannedAxisMotion, PlannedMotion, Prediction};
+use super::{Request, State};
+use crate::dynamics::regular_equations::angular_velocity;
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::propagation::largest_torque;
+
+/// Something that a plan does not do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Skipped {
+    /// What.
+    pub what: &'static str,
+    /// Why.
+    pub why: &'static str,
+}
+
+/// What is computed for a [`Request`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Outputs.
+    pub outputs: Vec<Output>,
+    /// State carried: what the outputs need.
+    pub state: State,
+    /// The method; none where no output needs a motion.
+    pub method: Option<Method>,
+    /// Whether the method was asked for by name.
+    pub forced: bool,
+    /// From the initial state to the last time that is needed.
+    pub stretch: (f64, f64),
+    /// Samples that are evaluated; zero where only events are asked for.
+    pub samples: usize,
+    /// Parameters by which derivatives are computed.
+    pub derivatives: Vec<Parameter>,
+    /// Accuracy asked.
+    pub accuracy: f64,
+    /// What the method will do; nothing where there is none.
+    pub prediction: Option<Prediction>,
+    /// Every method in the order of [`Method::ALL`], with what it would do or why it cannot.
+    pub considered: Vec<Candidate>,
+    /// What is left out.
+    pub skipped: Vec<Skipped>,
+}
+
+impl Plan {
+    /// The plan for a request: of the methods whose error, rounding apart, is at most the accuracy asked, the cheapest one.
+    ///
+    /// A method asked for by name is taken if it can be used at all, whatever its error: [`prediction`](Plan::prediction) tells it.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a method asked for that the scene does not allow, and for what no method takes (accuracy out of
+    /// range, states and parameters that are not finite).
+    pub fn new(
+        spheroid: &RigidSpheroid<f64>,
+        s: &Matrix3<f64>,
+        initial: &BodyState<f64>,
+        request: &Request,
+    ) -> Result<Self, Error> {
+        let state = request.outputs.iter().map(|output| output.need().state).max().unwrap_or(State::Nothing);
+        let evaluated =
+            |wanted: fn(Evaluations) -> bool| request.outputs.iter().any(|output| wanted(output.need().evaluations));
+        let at_samples = evaluated(|e| matches!(e, Evaluations::AtSamples | Evaluations::CountingTurns { .. }));
+        let for_events = evaluated(|e| matches!(e, Evaluations::ForEvents { .. }));
+        let end = if for_events { request.span.1 } else { request.samples.last };
+        let stretch = (request.span.0, end);
+        let rotation = (end - stretch.0).abs() * turning_rate(spheroid, s, initial);
+        let count = evaluations(request, rotation) * (1 + request.derivatives.len()) as f64;
+        let mut plan = Self {
+            outputs: request.outputs.clone(),
+            state,
+            method: None,
+            forced: request.method.is_some(),
+            stretch,
+            samples: if at_samples { request.samples.count } else { 0 },
+            derivatives: request.derivatives.clone(),
+            accuracy: request.accuracy,
+            prediction: None,
+            considered: Vec::new(),
+            skipped: Vec::new(),
+        };
+        if state != State::Nothing {
+            let scene = Scene { spheroid, violation: s, initial };
+            let wanted = |method: &Method| request.method.is_none_or(|forced| forced == *method);
+            plan.considered = Method::ALL
+                .into_iter()
+                .filter(wanted)
+                .map(|method| Candidate::of(method, &scene, request, state, stretch, count))
+                .collect();
+            let (method, prediction) = plan.choose()?;
+            (plan.method, plan.prediction) = (Some(method), Some(prediction));
+        }
+        plan.skipped = plan.left_out(request, for_events);
+        Ok(plan)
+    }
+
+    /// The cheapest method that meets the accuracy; of methods asked for, the only one.
+    fn choose(&self) -> Result<(Method, Prediction), Error> {
+        let mut best: Option<(Method, Prediction)> = None;
+        for Candidate { method, prediction } in &self.considered {
+            match prediction {
+                Ok(prediction)
+                    if (self.forced || prediction.truncation <= self.accuracy)
+                        && best.is_none_or(|(_, best)| prediction.cost < best.cost) =>
+                {
+                    best = Some((*method, *prediction));
+                }
+                Err(error) if self.forced || *method == Method::Taylor => return Err(error.clone()),
+                _ => {}
+            }
+        }
+        Ok(best.expect("the Taylor series meets any accuracy in its range"))
+    }
+
+    fn left_out(&self, request: &Request, for_events: bool) -> Vec<Skipped> {
+        let mut skipped = Vec::new();
+        let mut skip = |what, why| skipped.push(Skipped { what, why });
+        match self.state {
+            State::Nothing => skip("the motion", "no output depends on it"),
+            State::Axis | State::AxisAndMomentum => {
+                skip("the third angle (e_x)", "the outputs depend on n and L alone, which move by themselves");
+            }
+            State::Orientation => {}
+        }
+        if self.state == State::Axis && self.method.is_some_and(Method::is_closed_form) {
+            skip("the angular momentum at samples", "the outputs depend on n alone");
+        }
+        if self.method.is_some_and(Method::is_closed_form) {
+            skip("integration", "the motion has a closed form");
+            let counts_turns = self.outputs.contains(&Output::EulerAngles);
+            if !for_events && !counts_turns {
+                skip("times between samples", "a closed form needs no time before the one asked");
+            }
+        }
+        if self.state != State::Nothing && self.samples == 0 {
+            skip("samples", "events are found on the dense output, wherever they are");
+        }
+        if self.stretch.1 != request.span.1 {
+            skip("the span after the last sample", "nothing is asked there");
+        }
+        if self.derivatives.is_empty() {
+            skip("derivatives", "none is asked");
+        } else if self.derivatives.len() < Parameter::COUNT {
+            skip("derivatives by the other parameters", "only those named are computed");
+        }
+        skipped
+    }
+
+    /// The motion of `(n, L)`, from the same scene as the plan's or, stretch by stretch, from a later state of it.
+    ///
+    /// # Errors
+    /// As for [`propagate_axis`](crate::propagation::propagate_axis), or for the closed form chosen.
+    pub fn axis_motion(
+        &self,
+        spheroid: &RigidSpheroid<f64>,
+        s: &Matrix3<f64>,
+        initial: &BodyState<f64>,
+    ) -> Result<PlannedAxisMotion, Error> {
+        PlannedAxisMotion::by(self.needed_method()?, spheroid, s, initial, self.stretch, self.accuracy)
+    }
+
+    /// The motion of the full orientation.
+    ///
+    /// # Errors
+    /// As for [`propagate`](crate::propagation::propagate), or for the closed form chosen; [`Error::Domain`] if the plan carries less.
+    pub fn motion(
+        &self,
+        spheroid: &RigidSpheroid<f64>,
+        s: &Matrix3<f64>,
+        initial: &BodyState<f64>,
+    ) -> Result<PlannedMotion, Error> {
+        let vectors = if self.state == State::Orientation { 3.0 } else { 2.0 };
+        Error::unless(vectors == 3.0, "number of vectors carried", vectors, "three: no output of the plan needs e_x")?;
+        PlannedMotion::by(self.needed_method()?, spheroid, s, initial, self.stretch, self.accuracy)
+    }
+
+    fn needed_method(&self) -> Result<Method, Error> {
+        self.method.ok_or(Error::Domain {
+            quantity: "number of outputs that need a motion",
+            value: 0.0,
+            allowed: "at least one",
+        })
+    }
+}
+
+/// Upper estimate of the rate at which directions turn.
+fn turning_rate(spheroid: &RigidSpheroid<f64>, s: &Matrix3<f64>, initial: &BodyState<f64>) -> f64 {
+    let omega = angular_velocity(spheroid, &initial.axis, &initial.momentum).norm();
+    omega.max(initial.momentum.norm() / spheroid.inertia_xx)
+        + (2.0 * largest_torque(spheroid, s) / spheroid.inertia_xx).sqrt()
+}

@@ -1,0 +1,53 @@
+//! The methods that a motion can be computed by.
+
+/// A way to compute a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Method {
+    /// Free rotation in closed form, the torque left out. Exact for isotropic `s^IJ`; otherwise with a rigorous bound.
+    Free,
+    /// Steady precession in closed form, Eq. (26) `[sol1]`, or a body whose axis rests.
+    Steady,
+    /// Elliptic functions for two equal eigenvalues of `s^IJ`.
+    Symmetric,
+    /// A splitting scheme and a step that suit the accuracy; `n` and `L` alone.
+    Splitting,
+    /// Taylor series with adaptive steps and dense output.
+    Taylor,
+}
+
+impl Method {
+    /// Every method, in the order in which plans list them.
+    pub const ALL: [Self; 5] = [Self::Free, Self::Steady, Self::Symmetric, Self::Splitting, Self::Taylor];
+
+    /// Name for files and commands.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Free => "free",
+            Self::Steady => "steady",
+            Self::Symmetric => "symmetric",
+            Self::Splitting => "splitting",
+            Self::Taylor => "taylor",
+        }
+    }
+
+    /// What it is, in a few words.
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Free => "free rotation in closed form",
+            Self::Steady => "steady precession in closed form",
+            Self::Symmetric => "elliptic functions for two equal eigenvalues of s^IJ",
+            Self::Splitting => "splitting into exact rotations and kicks",
+            Self::Taylor => "Taylor series with adaptive steps and dense output",
+        }
+    }
+
+    /// The method called `name`.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.name() == name)
+    }
+
+    /// Whether it gives the state at any time without going through the times before.
+    pub fn is_closed_form(self) -> bool {
+        !matches!(self, Self::Splitting | Self::Taylor)
+    }
+}

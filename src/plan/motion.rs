@@ -1,0 +1,160 @@
+//! Motions by the method of a plan.
+
+use nalgebra::Matrix3;
+
+use super::{Method, Work};
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::propagation::splitting::{SplittingMotion, propagate_by_best_splitting};
+use crate::propagation::{
+    AxisMotion, AxisState, Motion, SymmetricMotion, TaylorAxisMotion, TaylorMotion, UniformMotion, propagate,
+    propagate_axis,
+};
+
+/// A motion of the symmetry axis and the angular momentum, by any method.
+#[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "one motion at a time, and nothing on the heap")]
+pub enum PlannedAxisMotion {
+    /// [`Method::Free`] or [`Method::Steady`].
+    Uniform(UniformMotion<f64>),
+    /// [`Method::Symmetric`].
+    Symmetric(SymmetricMotion<f64>),
+    /// [`Method::Splitting`].
+    Splitting(SplittingMotion),
+    /// [`Method::Taylor`].
+    Taylor(TaylorAxisMotion<f64>),
+}
+
+/// A motion of the full orientation, by any method that has it.
+#[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "one motion at a time, and nothing on the heap")]
+pub enum PlannedMotion {
+    /// [`Method::Free`] or [`Method::Steady`].
+    Uniform(UniformMotion<f64>),
+    /// [`Method::Symmetric`].
+    Symmetric(SymmetricMotion<f64>),
+    /// [`Method::Taylor`].
+    Taylor(TaylorMotion<f64>),
+}
+
+impl PlannedAxisMotion {
+    /// The motion from `initial` at `span.0`, by a given method.
+    ///
+    /// # Errors
+    /// Those of the method.
+    pub fn by(
+        method: Method,
+        spheroid: &RigidSpheroid<f64>,
+        s: &Matrix3<f64>,
+        initial: &BodyState<f64>,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        Ok(match method {
+            Method::Free => Self::Uniform(UniformMotion::free(spheroid, s, initial, span)),
+            Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
+            Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
+            Method::Splitting => {
+                let initial = AxisState::from(initial);
+                Self::Splitting(propagate_by_best_splitting(spheroid, s, &initial, span, accuracy)?)
+            }
+            Method::Taylor => Self::Taylor(propagate_axis(spheroid, s, &AxisState::from(initial), span, accuracy)?),
+        })
+    }
+
+    /// Steps and right-hand sides that it took.
+    pub fn work(&self) -> Work {
+        match self {
+            Self::Uniform(_) | Self::Symmetric(_) => Work::default(),
+            Self::Splitting(motion) => Work::of_series(motion.step_count() as usize, 2 * motion.scheme().stages()),
+            Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
+        }
+    }
+}
+
+impl PlannedMotion {
+    /// The motion from `initial` at `span.0`, by a given method.
+    ///
+    /// # Errors
+    /// Those of the method.
+    pub fn by(
+        method: Method,
+        spheroid: &RigidSpheroid<f64>,
+        s: &Matrix3<f64>,
+        initial: &BodyState<f64>,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        Ok(match method {
+            Method::Free => Self::Uniform(UniformMotion::free(spheroid, s, initial, span)),
+            Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
+            Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
+            Method::Splitting => {
+                return Err(Error::Domain {
+                    quantity: "number of vectors carried",
+                    value: 3.0,
+                    allowed: "two: splitting carries n and L alone",
+                });
+            }
+            Method::Taylor => Self::Taylor(propagate(spheroid, s, initial, span, accuracy)?),
+        })
+    }
+
+    /// Steps and right-hand sides that it took.
+    pub fn work(&self) -> Work {
+        match self {
+            Self::Uniform(_) | Self::Symmetric(_) => Work::default(),
+            Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
+        }
+    }
+}
+
+/// The arms of both: the enums differ in what the numerical methods carry.
+macro_rules! planned {
+    ($planned:ident, $($method:ident),+) => {
+        impl AxisMotion<f64> for $planned {
+            fn spheroid(&self) -> &RigidSpheroid<f64> {
+                match self {
+                    $(Self::$method(motion) => motion.spheroid(),)+
+                }
+            }
+
+            fn violation(&self) -> &Matrix3<f64> {
+                match self {
+                    $(Self::$method(motion) => motion.violation(),)+
+                }
+            }
+
+            fn span(&self) -> (f64, f64) {
+                match self {
+                    $(Self::$method(motion) => motion.span(),)+
+                }
+            }
+
+            fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
+                match self {
+                    $(Self::$method(motion) => motion.axis_state(t),)+
+                }
+            }
+
+            fn error_estimate(&self, t: f64) -> f64 {
+                match self {
+                    $(Self::$method(motion) => motion.error_estimate(t),)+
+                }
+            }
+        }
+    };
+}
+
+planned!(PlannedAxisMotion, Uniform, Symmetric, Splitting, Taylor);
+planned!(PlannedMotion, Uniform, Symmetric, Taylor);
+
+impl Motion<f64> for PlannedMotion {
+    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
+        match self {
+            Self::Uniform(motion) => motion.state(t),
+            Self::Symmetric(motion) => motion.state(t),
+            Self::Taylor(motion) => motion.state(t),
+        }
+    }
+}

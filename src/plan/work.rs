@@ -1,0 +1,102 @@
+//! What a motion cost, counted.
+
+use core::cell::Cell;
+
+use nalgebra::Matrix3;
+
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::propagation::{AxisMotion, AxisState, Motion};
+
+/// Work done or planned.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Work {
+    /// Steps of a numerical motion.
+    pub steps: f64,
+    /// Right-hand sides: coefficients of series, or stages, of all steps.
+    pub right_hand_sides: f64,
+    /// Evaluations of `(n, L)` alone at a time.
+    pub axis_evaluations: f64,
+    /// Evaluations of `(n, L, e_x)` at a time.
+    pub orientation_evaluations: f64,
+}
+
+impl Work {
+    /// Steps by series of an order.
+    pub(super) fn of_series(steps: usize, order: usize) -> Self {
+        Self { steps: steps as f64, right_hand_sides: (steps * order) as f64, ..Self::default() }
+    }
+
+    /// Evaluations of either kind.
+    pub fn evaluations(&self) -> f64 {
+        self.axis_evaluations + self.orientation_evaluations
+    }
+}
+
+impl core::ops::AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.right_hand_sides += other.right_hand_sides;
+        self.axis_evaluations += other.axis_evaluations;
+        self.orientation_evaluations += other.orientation_evaluations;
+    }
+}
+
+/// A motion that counts how often it is evaluated.
+#[derive(Debug)]
+pub struct Counted<M> {
+    motion: M,
+    axis: Cell<u64>,
+    orientation: Cell<u64>,
+}
+
+impl<M> Counted<M> {
+    /// Counts from zero.
+    pub fn new(motion: M) -> Self {
+        Self { motion, axis: Cell::new(0), orientation: Cell::new(0) }
+    }
+
+    /// The motion itself.
+    pub fn inner(&self) -> &M {
+        &self.motion
+    }
+
+    /// Evaluations so far, as [`Work`] without steps.
+    pub fn evaluations(&self) -> Work {
+        Work {
+            axis_evaluations: self.axis.get() as f64,
+            orientation_evaluations: self.orientation.get() as f64,
+            ..Work::default()
+        }
+    }
+}
+
+impl<M: AxisMotion<f64>> AxisMotion<f64> for Counted<M> {
+    fn spheroid(&self) -> &RigidSpheroid<f64> {
+        self.motion.spheroid()
+    }
+
+    fn violation(&self) -> &Matrix3<f64> {
+        self.motion.violation()
+    }
+
+    fn span(&self) -> (f64, f64) {
+        self.motion.span()
+    }
+
+    fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
+        self.axis.set(self.axis.get() + 1);
+        self.motion.axis_state(t)
+    }
+
+    fn error_estimate(&self, t: f64) -> f64 {
+        self.motion.error_estimate(t)
+    }
+}
+
+impl<M: Motion<f64>> Motion<f64> for Counted<M> {
+    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
+        self.orientation.set(self.orientation.get() + 1);
+        self.motion.state(t)
+    }
+}

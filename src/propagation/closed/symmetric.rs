@@ -1,0 +1,199 @@
+//! The exact motion for two equal eigenvalues of `s^IJ`, in the frame of the caller and without Euler angles outside.
+
+use nalgebra::{Matrix3, Vector3};
+use num_dual::Dual64;
+
+use super::uniform::largest_torque;
+use super::within;
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::euler_angles::{EulerAngles, EulerRates};
+use crate::lorentz_violation::{PrincipalCoefficients, SymmetryOfTensor};
+use crate::propagation::{AxisMotion, AxisState, Motion};
+use crate::scalar::{Real, real_part};
+use crate::solutions::symmetric::SymmetricSolution;
+
+/// A motion by [`SymmetricSolution`], whatever the frame in which the tensor is given.
+///
+/// Two eigenvalues that differ are replaced by their mean. What that leaves out of the torque is part of the error estimate.
+/// Derivatives (duals) are those within tensors of the same symmetry axis.
+#[derive(Debug, Clone, Copy)]
+pub struct SymmetricMotion<S> {
+    spheroid: RigidSpheroid<S>,
+    violation: Matrix3<S>,
+    span: (f64, f64),
+    solution: SymmetricSolution<S>,
+    given_from_principal: Matrix3<S>,
+    /// Real parts of the start in the frame of the solution.
+    start: Start,
+    symmetry: SymmetryOfTensor,
+    neglected_torque: f64,
+    turning_rate: f64,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Start {
+    spheroid: RigidSpheroid<f64>,
+    coefficients: PrincipalCoefficients<f64>,
+    angles: EulerAngles<f64>,
+    rates: EulerRates<f64>,
+}
+
+/// Least sine of the inclination along a motion: nearer to a pole the Euler rates lose the digits of `L`.
+const NEAREST_TO_POLE: f64 = 1e-9;
+
+impl<S: Real> SymmetricMotion<S> {
+    /// The motion from `initial` at `span.0`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a tensor that is not symmetric, for a state within 1e-9 of a pole of the symmetry axis at the start or
+    /// at any time, and for what [`SymmetricSolution::new`] refuses. Eigenvalues that differ are not refused: see
+    /// [`truncation`](Self::truncation).
+    pub fn new(
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        initial: &BodyState<S>,
+        span: (f64, f64),
+    ) -> Result<Self, Error> {
+        let symmetry = SymmetryOfTensor::of(&s.map(S::re))?;
+        let principal_from_given = symmetry.principal_from_given.map(S::from_f64);
+        let diagonal = (principal_from_given * s * principal_from_given.transpose()).diagonal();
+        let equal = (diagonal.x + diagonal.y) / 2.0;
+        let coefficients = PrincipalCoefficients { xx: equal, yy: equal, zz: diagonal.z };
+        let state = initial.rotated(&principal_from_given);
+        let (angles, rates) = (state.angles()?, state.rates(spheroid)?);
+        let solution = SymmetricSolution::new(spheroid, &coefficients, &angles, &rates)?;
+        let (low, high) = solution.inclinations();
+        let nearest = low.re().sin().min(high.re().sin()).min(angles.beta.re().sin());
+        Error::unless(
+            nearest >= NEAREST_TO_POLE,
+            "least distance from the symmetry axis of s^IJ (sine)",
+            nearest,
+            "at least 1e-9: nearer to it the Euler angles are singular",
+        )?;
+        let real = RigidSpheroid {
+            inertia_xx: spheroid.inertia_xx.re(),
+            inertia_zz: spheroid.inertia_zz.re(),
+            constant_c: spheroid.constant_c.re(),
+        };
+        let start = Start {
+            spheroid: real,
+            coefficients: PrincipalCoefficients { xx: equal.re(), yy: equal.re(), zz: diagonal.z.re() },
+            angles: EulerAngles { alpha: angles.alpha.re(), beta: angles.beta.re(), gamma: angles.gamma.re() },
+            rates: EulerRates { alpha: rates.alpha.re(), beta: rates.beta.re(), gamma: rates.gamma.re() },
+        };
+        Ok(Self {
+            spheroid: *spheroid,
+            violation: *s,
+            span,
+            solution,
+            given_from_principal: principal_from_given.transpose(),
+            neglected_torque: largest_torque(&real, &symmetry.asymmetry),
+            turning_rate: real_part(&initial.momentum).norm() / real.inertia_xx
+                + (real.oblateness() * (start.rates.alpha * start.angles.beta.cos() + start.rates.gamma)).abs(),
+            start,
+            symmetry,
+        })
+    }
+
+    /// Bound on the components of `n` and `L` of what the difference of the two eigenvalues does within a time; zero where they
+    /// are equal within rounding, which [`AxisMotion::error_estimate`] counts.
+    ///
+    /// With `T` the torque left out and `D` the largest one, `|dn|' <= |dL| / I^xx` and `|dL|' <= 2 D |dn| + T`, hence
+    /// `|dn| <= T (cosh(k t) - 1) / (2 D)` with `k^2 = 2 D / I^xx` (Gronwall): rigorous, and useless over many times `1 / k`.
+    pub fn truncation(&self, elapsed: f64) -> f64 {
+        if self.symmetry.is_symmetric_within_rounding() {
+            return 0.0;
+        }
+        let body = &self.start.spheroid;
+        let largest = largest_torque(body, &self.violation.map(S::re));
+        let (k, t) = ((2.0 * largest / body.inertia_xx).sqrt(), elapsed.abs());
+        let push = self.neglected_torque / body.inertia_xx;
+        let axis = push * ((k * t).cosh() - 1.0) / (k * k);
+        let size = self.turning_rate + (self.neglected_torque / body.inertia_xx).sqrt();
+        // Nor may L differ by more than the torques of both motions make of it.
+        let momentum = (push * (k * t).sinh() / k).min(2.0 * largest / body.inertia_xx * t) / size;
+        momentum.max((axis * (1.0 + self.turning_rate * t)).min(2.0))
+    }
+
+    /// Rounding of the initial values and parameters, grown by the derivatives of the solution itself, and of the phase. Where
+    /// the two eigenvalues are equal within rounding, what is left of their difference counts here.
+    pub fn rounding(&self, elapsed: f64) -> f64 {
+        let by = |seed: fn(&mut EulerAngles<Dual64>, &mut EulerRates<Dual64>)| self.sensitivity(elapsed, seed);
+        let by_angle = by(|angles, _| angles.beta.eps = 1.0);
+        let by_rates = by(|_, rates| rates.beta.eps = 1.0) + by(|_, rates| rates.alpha.eps = 1.0);
+        let size = 1.0 + self.turning_rate;
+        let phase = 1.0 + self.turning_rate * elapsed.abs();
+        let rounding = f64::EPSILON * (8.0 * phase + 4.0 * by_angle + 4.0 * size * by_rates);
+        let left_out = if self.symmetry.is_symmetric_within_rounding() {
+            self.neglected_torque / self.start.spheroid.inertia_xx * elapsed.abs() * by_rates
+        } else {
+            0.0
+        };
+        rounding + left_out
+    }
+
+    /// Largest component of the derivative of `n`, `L` and `e_x` by an initial value; infinite where it does not exist.
+    fn sensitivity(&self, elapsed: f64, seed: fn(&mut EulerAngles<Dual64>, &mut EulerRates<Dual64>)) -> f64 {
+        let Start { spheroid, coefficients, angles, rates } = &self.start;
+        let dual = Dual64::from_re;
+        let body = RigidSpheroid {
+            inertia_xx: dual(spheroid.inertia_xx),
+            inertia_zz: dual(spheroid.inertia_zz),
+            constant_c: dual(spheroid.constant_c),
+        };
+        let s =
+            PrincipalCoefficients { xx: dual(coefficients.xx), yy: dual(coefficients.yy), zz: dual(coefficients.zz) };
+        let mut angles = EulerAngles { alpha: dual(angles.alpha), beta: dual(angles.beta), gamma: dual(angles.gamma) };
+        let mut rates = EulerRates { alpha: dual(rates.alpha), beta: dual(rates.beta), gamma: dual(rates.gamma) };
+        seed(&mut angles, &mut rates);
+        let Ok(solution) = SymmetricSolution::new(&body, &s, &angles, &rates) else { return f64::INFINITY };
+        let state = state_of(&body, &solution, dual(elapsed));
+        let size = real_part(&state.momentum).norm().max(f64::MIN_POSITIVE);
+        let part = |v: &Vector3<Dual64>| v.map(|x| x.eps).amax();
+        let most = [part(&state.axis), part(&state.equatorial_axis), part(&state.momentum) / size];
+        most.into_iter().fold(0.0, |most, x| if x.is_finite() { x.max(most) } else { f64::INFINITY })
+    }
+
+    /// State in the frame of the caller.
+    fn at(&self, t: S) -> Result<BodyState<S>, Error> {
+        within(self.span, t.re())?;
+        let state = state_of(&self.spheroid, &self.solution, t - S::from_f64(self.span.0));
+        Ok(state.rotated(&self.given_from_principal))
+    }
+}
+
+fn state_of<S: Real>(spheroid: &RigidSpheroid<S>, solution: &SymmetricSolution<S>, t: S) -> BodyState<S> {
+    BodyState::from_angles(spheroid, &solution.angles(t), &solution.rates(t))
+}
+
+impl<S: Real> AxisMotion<S> for SymmetricMotion<S> {
+    fn spheroid(&self) -> &RigidSpheroid<S> {
+        &self.spheroid
+    }
+
+    fn violation(&self) -> &Matrix3<S> {
+        &self.violation
+    }
+
+    fn span(&self) -> (f64, f64) {
+        self.span
+    }
+
+    /// The precession angle and the rotation angle are sums of the same two integrals: the third angle costs nothing here.
+    fn axis_state(&self, t: S) -> Result<AxisState<S>, Error> {
+        self.at(t).map(|state| AxisState::from(&state))
+    }
+
+    /// [`truncation`](SymmetricMotion::truncation) and [`rounding`](SymmetricMotion::rounding); some evaluations of the solution.
+    fn error_estimate(&self, t: f64) -> f64 {
+        let elapsed = t - self.span.0;
+        self.truncation(elapsed) + self.rounding(elapsed)
+    }
+}
+
+impl<S: Real> Motion<S> for SymmetricMotion<S> {
+    fn state(&self, t: S) -> Result<BodyState<S>, Error> {
+        self.at(t)
+    }
+}

@@ -1,0 +1,218 @@
+//! Motions in which the symmetry axis and the angular momentum turn uniformly about one direction. Eqs. (26), (48).
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::within;
+use crate::dynamics::regular_equations::{angular_velocity, torque_on_axis};
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::lorentz_violation::SymmetryOfTensor;
+use crate::propagation::{AxisMotion, AxisState, Motion};
+use crate::scalar::{Real, real_part};
+use crate::solutions::free::rotated_by;
+
+/// A motion `n(t) = R(p t) n`, `L(t) = R(p t) L`, `e_x(t) = R(p t) R_n(g t) e_x` with a constant rotation vector `p` and a
+/// constant rate `g` about `n`: free rotation, steady precession, and a body that spins about a principal axis of `s^IJ` or rests.
+#[derive(Debug, Clone, Copy)]
+pub struct UniformMotion<S> {
+    spheroid: RigidSpheroid<S>,
+    violation: Matrix3<S>,
+    span: (f64, f64),
+    start: BodyState<S>,
+    /// The rotation vector `p`.
+    turn: Vector3<S>,
+    /// `g = (Omega - p).n`.
+    body_rate: S,
+    momentum_is_constant: bool,
+    /// Largest torque that the motion leaves out.
+    neglected_torque: f64,
+    /// By how much a rounding of the initial state counts.
+    condition: f64,
+}
+
+impl<S: Real> UniformMotion<S> {
+    /// Free rotation from `initial` at `span.0`, Eq. (48) `[angfreqfre]`: exact where `s^IJ` is isotropic, otherwise an
+    /// approximation that leaves the torque out and bounds what that does.
+    ///
+    /// With `T` the largest torque ([`largest_torque`]), `|dL| <= T t`, and since free rotation keeps the length of what it
+    /// turns, `|dn| <= T t^2 / (2 I^xx)` and `|d e_x| <= T t^2 / (2 I^xx) (1 + |epsilon Omega^z| t / 3)`: these bounds are
+    /// rigorous and part of the error estimate.
+    pub fn free(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, initial: &BodyState<S>, span: (f64, f64)) -> Self {
+        let turn = initial.momentum / spheroid.inertia_xx;
+        let spin = initial.momentum.dot(&initial.axis) / spheroid.inertia_zz;
+        Self {
+            spheroid: *spheroid,
+            violation: *s,
+            span,
+            start: *initial,
+            turn,
+            body_rate: -(spheroid.oblateness() * spin),
+            momentum_is_constant: true,
+            neglected_torque: largest_torque(spheroid, s),
+            condition: 1.0,
+        }
+    }
+
+    /// Steady motion from `initial` at `span.0`: the steady precession of Eq. (26) `[sol1]` about the symmetry axis of a
+    /// tensor with two equal eigenvalues, or, for any tensor, a body whose axis is a principal one and along `L`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless the state satisfies `p x n = L x n / I^xx` and `p x L = Gamma` for some `p` along the symmetry
+    /// axis to 32 roundings of the turning rate, and where that precession is not stable (rounding would grow
+    /// exponentially). A body that neither turns its axis nor feels a torque must do so exactly.
+    pub fn steady(
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        initial: &BodyState<S>,
+        span: (f64, f64),
+    ) -> Result<Self, Error> {
+        let BodyState { axis, momentum, .. } = initial;
+        let axis_rate = momentum.cross(axis) / spheroid.inertia_xx;
+        let torque = torque_on_axis(spheroid.constant_c, s, axis);
+        let at_rest = real_part(&axis_rate).amax() == 0.0 && real_part(&torque).amax() == 0.0;
+        let (turn, condition) = if at_rest {
+            (Vector3::zeros(), 1.0)
+        } else {
+            let (pole, rate) = precession_of(spheroid, s, initial, &axis_rate)?;
+            let turn = pole * rate;
+            let real = RigidSpheroid {
+                inertia_xx: spheroid.inertia_xx.re(),
+                inertia_zz: spheroid.inertia_zz.re(),
+                constant_c: spheroid.constant_c.re(),
+            };
+            let (pole, rate, n) = (real_part(&pole), rate.re(), real_part(axis));
+            let omega = real.free_precession_constant(real_part(momentum).dot(&n) / real.inertia_zz);
+            let pull = real.constant_c * SymmetryOfTensor::of(&s.map(S::re))?.difference * 2.0 / real.inertia_xx;
+            let speed = rate.abs() + omega.abs() + pull.abs().sqrt();
+            let size = real_part(momentum).norm() + real.inertia_xx * pull.abs().sqrt();
+            let residual = [
+                real_part(&(turn.cross(axis) - axis_rate)).norm(),
+                real_part(&(turn.cross(momentum) - torque)).norm() / size,
+            ];
+            let off = residual[0].max(residual[1]) / speed;
+            Error::unless(
+                off <= 32.0 * f64::EPSILON,
+                "distance of the state from a steady precession, relative",
+                off,
+                "at most 32 roundings: Eq. (26) holds for states of constant inclination and rate",
+            )?;
+            let (cos, sin) = (pole.dot(&n), pole.cross(&n).norm());
+            let stiffness = (rate * sin).powi(2) + omega * omega + pull * (sin * sin - 4.0 * cos * cos);
+            Error::unless(
+                stiffness > 0.0,
+                "squared frequency about the steady precession",
+                stiffness,
+                "above zero: where it is unstable rounding grows exponentially",
+            )?;
+            (turn, 1.0 + speed * speed / (stiffness * sin * sin))
+        };
+        let omega = angular_velocity(spheroid, axis, momentum);
+        Ok(Self {
+            spheroid: *spheroid,
+            violation: *s,
+            span,
+            start: *initial,
+            turn,
+            body_rate: (omega - turn).dot(axis),
+            momentum_is_constant: false,
+            neglected_torque: 0.0,
+            condition,
+        })
+    }
+
+    /// Time since the start of the motion.
+    fn elapsed(&self, t: S) -> Result<S, Error> {
+        within(self.span, t.re())?;
+        Ok(t - S::from_f64(self.span.0))
+    }
+
+    /// Bound on the components of `n`, `L` and `e_x` of what the torque left out does within a time.
+    pub fn truncation(&self, elapsed: f64) -> f64 {
+        let (inertia, t) = (self.spheroid.inertia_xx.re(), elapsed.abs());
+        let size = real_part(&self.start.momentum).norm() + (inertia * self.neglected_torque).sqrt();
+        if self.neglected_torque == 0.0 {
+            return 0.0;
+        }
+        let axes = self.neglected_torque * t * t / (2.0 * inertia) * (1.0 + self.body_rate.re().abs() * t / 3.0);
+        // Directions are at most two apart.
+        axes.min(2.0).max(self.neglected_torque * t / size)
+    }
+
+    /// Rounding of the state and of the angles within a time.
+    pub fn rounding(&self, elapsed: f64) -> f64 {
+        let phase = (real_part(&self.turn).norm() + self.body_rate.re().abs()) * elapsed.abs();
+        f64::EPSILON * (4.0 + 3.0 * phase) * self.condition
+    }
+}
+
+/// Upper bound of the torque `2 C |n x (s n)|` for any direction: `C` times the range of the eigenvalues, which is at most the
+/// square root of two times the Frobenius norm of the anisotropic part.
+pub fn largest_torque<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>) -> f64 {
+    let s = s.map(S::re);
+    let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
+    core::f64::consts::SQRT_2 * spheroid.constant_c.re().abs() * anisotropic.norm()
+}
+
+/// Pole and rate of the steady precession that a state may be on.
+fn precession_of<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    initial: &BodyState<S>,
+    axis_rate: &Vector3<S>,
+) -> Result<(Vector3<S>, S), Error> {
+    let symmetry = SymmetryOfTensor::of(&s.map(S::re))?;
+    symmetry.refuse_asymmetry()?;
+    if largest_torque(spheroid, s) == 0.0 {
+        // Without torque any state precesses steadily about L.
+        let length = crate::scalar::length(&initial.momentum);
+        return Ok((initial.momentum / length, length / spheroid.inertia_xx));
+    }
+    let pole = symmetry.principal_from_given.row(2).transpose().map(S::from_f64);
+    let across = pole.cross(&initial.axis);
+    let square = across.dot(&across);
+    Error::unless(
+        square.re() > f64::EPSILON * f64::EPSILON,
+        "sine of the inclination to the symmetry axis of s^IJ, squared",
+        square.re(),
+        "above zero: on the pole there is no precession to be steady",
+    )?;
+    Ok((pole, across.dot(axis_rate) / square))
+}
+
+impl<S: Real> AxisMotion<S> for UniformMotion<S> {
+    fn spheroid(&self) -> &RigidSpheroid<S> {
+        &self.spheroid
+    }
+
+    fn violation(&self) -> &Matrix3<S> {
+        &self.violation
+    }
+
+    fn span(&self) -> (f64, f64) {
+        self.span
+    }
+
+    fn axis_state(&self, t: S) -> Result<AxisState<S>, Error> {
+        let turn = self.turn * self.elapsed(t)?;
+        let momentum = &self.start.momentum;
+        let momentum = if self.momentum_is_constant { *momentum } else { rotated_by(&turn, momentum) };
+        Ok(AxisState { axis: rotated_by(&turn, &self.start.axis), momentum })
+    }
+
+    /// [`truncation`](UniformMotion::truncation) and [`rounding`](UniformMotion::rounding).
+    fn error_estimate(&self, t: f64) -> f64 {
+        let elapsed = t - self.span.0;
+        self.truncation(elapsed) + self.rounding(elapsed)
+    }
+}
+
+impl<S: Real> Motion<S> for UniformMotion<S> {
+    fn state(&self, t: S) -> Result<BodyState<S>, Error> {
+        let elapsed = self.elapsed(t)?;
+        let AxisState { axis, momentum } = self.axis_state(t)?;
+        let (sin, cos) = (self.body_rate * elapsed).sin_cos();
+        let start = &self.start;
+        let turned = start.equatorial_axis * cos + start.axis.cross(&start.equatorial_axis) * sin;
+        Ok(BodyState { axis, momentum, equatorial_axis: rotated_by(&(self.turn * elapsed), &turned) })
+    }
+}

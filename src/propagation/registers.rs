@@ -1,0 +1,228 @@
+//! Vectors of several motions at once: each component is a register with one motion in each of its lanes.
+
+use pulp::x86::{V3, V4};
+use pulp::{f64x4, f64x8};
+
+use crate::propagation::arithmetic::Arithmetic;
+
+/// A register of doubles and what is done with it lane by lane.
+pub(super) trait Register: Copy {
+    /// The register.
+    type Lanes: Copy;
+    /// Number of lanes.
+    const COUNT: usize;
+
+    fn splat(self, value: f64) -> Self::Lanes;
+    fn add(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
+    fn sub(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
+    fn mul(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
+    fn div(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
+    fn mul_add(self, a: Self::Lanes, b: Self::Lanes, c: Self::Lanes) -> Self::Lanes;
+    /// Larger size of two, lane by lane; NaN in `a` stays.
+    fn larger(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
+    fn get(self, a: &Self::Lanes, lane: usize) -> f64;
+    fn set(self, a: &mut Self::Lanes, lane: usize, value: f64);
+    /// Runs `work`, and what is inlined into it, compiled for these instructions.
+    fn run<R>(self, work: impl FnOnce() -> R) -> R;
+}
+
+impl Register for V3 {
+    type Lanes = f64x4;
+    const COUNT: usize = 4;
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> f64x4 {
+        self.splat_f64x4(value)
+    }
+
+    #[inline(always)]
+    fn add(self, a: f64x4, b: f64x4) -> f64x4 {
+        self.add_f64x4(a, b)
+    }
+
+    #[inline(always)]
+    fn sub(self, a: f64x4, b: f64x4) -> f64x4 {
+        self.sub_f64x4(a, b)
+    }
+
+    #[inline(always)]
+    fn mul(self, a: f64x4, b: f64x4) -> f64x4 {
+        self.mul_f64x4(a, b)
+    }
+
+    #[inline(always)]
+    fn div(self, a: f64x4, b: f64x4) -> f64x4 {
+        self.div_f64x4(a, b)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
+        self.mul_add_f64x4(a, b, c)
+    }
+
+    #[inline(always)]
+    fn larger(self, a: f64x4, b: f64x4) -> f64x4 {
+        let (a, b) = (self.abs_f64x4(a), self.abs_f64x4(b));
+        self.select_f64x4(self.cmp_gt_f64x4(b, a), b, a)
+    }
+
+    #[inline(always)]
+    fn get(self, a: &f64x4, lane: usize) -> f64 {
+        pulp::cast::<f64x4, [f64; 4]>(*a)[lane]
+    }
+
+    #[inline(always)]
+    fn set(self, a: &mut f64x4, lane: usize, value: f64) {
+        let mut lanes: [f64; 4] = pulp::cast(*a);
+        lanes[lane] = value;
+        *a = pulp::cast(lanes);
+    }
+
+    #[inline(always)]
+    fn run<R>(self, work: impl FnOnce() -> R) -> R {
+        self.vectorize(work)
+    }
+}
+
+impl Register for V4 {
+    type Lanes = f64x8;
+    const COUNT: usize = 8;
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> f64x8 {
+        self.splat_f64x8(value)
+    }
+
+    #[inline(always)]
+    fn add(self, a: f64x8, b: f64x8) -> f64x8 {
+        self.add_f64x8(a, b)
+    }
+
+    #[inline(always)]
+    fn sub(self, a: f64x8, b: f64x8) -> f64x8 {
+        self.sub_f64x8(a, b)
+    }
+
+    #[inline(always)]
+    fn mul(self, a: f64x8, b: f64x8) -> f64x8 {
+        self.mul_f64x8(a, b)
+    }
+
+    #[inline(always)]
+    fn div(self, a: f64x8, b: f64x8) -> f64x8 {
+        self.div_f64x8(a, b)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: f64x8, b: f64x8, c: f64x8) -> f64x8 {
+        self.mul_add_f64x8(a, b, c)
+    }
+
+    #[inline(always)]
+    fn larger(self, a: f64x8, b: f64x8) -> f64x8 {
+        let (a, b) = (self.abs_f64x8(a), self.abs_f64x8(b));
+        self.select_f64x8(self.cmp_gt_f64x8(b, a), b, a)
+    }
+
+    #[inline(always)]
+    fn get(self, a: &f64x8, lane: usize) -> f64 {
+        pulp::cast::<f64x8, [f64; 8]>(*a)[lane]
+    }
+
+    #[inline(always)]
+    fn set(self, a: &mut f64x8, lane: usize, value: f64) {
+        let mut lanes: [f64; 8] = pulp::cast(*a);
+        lanes[lane] = value;
+        *a = pulp::cast(lanes);
+    }
+
+    #[inline(always)]
+    fn run<R>(self, work: impl FnOnce() -> R) -> R {
+        self.vectorize(work)
+    }
+}
+
+/// Vectors of as many motions as a register has lanes, each in the principal frame of its own tensor `s^IJ`.
+#[derive(Clone, Copy)]
+pub(super) struct Lanes<R>(pub(super) R);
+
+impl<R: Register> Lanes<R> {
+    /// Puts the vector of one motion into its lane.
+    #[inline(always)]
+    pub(super) fn put(self, v: &mut [R::Lanes; 3], lane: usize, components: [f64; 3]) {
+        for (v, component) in v.iter_mut().zip(components) {
+            self.0.set(v, lane, component);
+        }
+    }
+
+    /// The vector of one motion.
+    #[inline(always)]
+    pub(super) fn take(self, v: &[R::Lanes; 3], lane: usize) -> [f64; 3] {
+        [self.0.get(&v[0], lane), self.0.get(&v[1], lane), self.0.get(&v[2], lane)]
+    }
+
+    /// Largest component in size, in each lane; NaN where one is NaN.
+    #[inline(always)]
+    pub(super) fn largest(self, [x, y, z]: [R::Lanes; 3]) -> R::Lanes {
+        self.0.larger(self.0.larger(x, y), z)
+    }
+}
+
+impl<R: Register> Arithmetic for Lanes<R> {
+    type Vector = [R::Lanes; 3];
+    type Turned = [R::Lanes; 3];
+    const PRINCIPAL_FRAME: bool = true;
+    const MANY: bool = true;
+
+    #[inline(always)]
+    fn zero(self) -> Self::Vector {
+        [self.0.splat(0.0); 3]
+    }
+
+    #[inline(always)]
+    fn add(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        [self.0.add(a[0], b[0]), self.0.add(a[1], b[1]), self.0.add(a[2], b[2])]
+    }
+
+    #[inline(always)]
+    fn sub(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        [self.0.sub(a[0], b[0]), self.0.sub(a[1], b[1]), self.0.sub(a[2], b[2])]
+    }
+
+    #[inline(always)]
+    fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
+        [self.0.mul(a[0], b[0]), self.0.mul(a[1], b[1]), self.0.mul(a[2], b[2])]
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: Self::Vector, b: Self::Vector, c: Self::Vector) -> Self::Vector {
+        [self.0.mul_add(a[0], b[0], c[0]), self.0.mul_add(a[1], b[1], c[1]), self.0.mul_add(a[2], b[2], c[2])]
+    }
+
+    #[inline(always)]
+    fn divide(self, a: Self::Vector, divisor: f64) -> Self::Vector {
+        let divisor = self.0.splat(divisor);
+        [self.0.div(a[0], divisor), self.0.div(a[1], divisor), self.0.div(a[2], divisor)]
+    }
+
+    #[inline(always)]
+    fn combine(self, columns: &[Self::Vector; 3], v: Self::Vector) -> Self::Vector {
+        let [a, b, c] = *columns;
+        self.mul_add(a, [v[0]; 3], self.mul_add(b, [v[1]; 3], self.mul(c, [v[2]; 3])))
+    }
+
+    #[inline(always)]
+    fn turned(self, v: Self::Vector) -> Self::Turned {
+        v
+    }
+
+    #[inline(always)]
+    fn yzx(self, [x, y, z]: Self::Turned) -> Self::Vector {
+        [y, z, x]
+    }
+
+    #[inline(always)]
+    fn zxy(self, [x, y, z]: Self::Turned) -> Self::Vector {
+        [z, x, y]
+    }
+}

@@ -1,0 +1,67 @@
+//! Where a motion is: time and number of steps.
+
+use crate::error::Error;
+use crate::propagation::taylor::compensated::Compensated;
+
+/// Time since the start of a motion, positive in either direction, and what has been done to get there.
+pub(super) struct Clock {
+    elapsed: Compensated,
+    pub(super) steps: usize,
+}
+
+/// One step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Interval {
+    /// Time since the start of the motion at which it begins.
+    pub(super) start: Compensated,
+    /// Time since the start of the motion at which the next one begins; infinite for the last.
+    pub(super) end: f64,
+    /// Its length.
+    pub(super) length: f64,
+}
+
+impl Interval {
+    pub(super) fn is_last(&self) -> bool {
+        self.end == f64::INFINITY
+    }
+}
+
+/// Most steps that a motion may have, in numbers and in words.
+#[derive(Clone, Copy)]
+pub(super) struct StepLimit {
+    pub(super) steps: usize,
+    pub(super) allowed: &'static str,
+}
+
+impl Clock {
+    pub(super) fn new() -> Self {
+        Self { elapsed: Compensated::new(0.0), steps: 0 }
+    }
+
+    /// The next step, of the length `wanted` or what is left of `duration`.
+    #[inline(always)]
+    pub(super) fn advance(&mut self, wanted: f64, duration: f64, limit: StepLimit) -> Result<Interval, Error> {
+        check_length(self.steps, limit, self.elapsed.high, duration)?;
+        Error::unless(
+            wanted > 0.0,
+            "step of the motion",
+            wanted,
+            "above zero: in these units the motion is out of range",
+        )?;
+        let start = self.elapsed;
+        let remaining = (duration - start.high) - start.low;
+        let last = wanted >= remaining;
+        let length = if last { remaining } else { wanted };
+        self.elapsed.add(length);
+        self.steps += 1;
+        let end = if last { f64::INFINITY } else { self.elapsed.high };
+        Ok(Interval { start, end, length })
+    }
+}
+
+/// Refuses a motion that has too many steps, or that has shown within its first steps that it will have.
+fn check_length(steps: usize, limit: StepLimit, elapsed: f64, duration: f64) -> Result<(), Error> {
+    let foreseen = steps as f64 * duration / elapsed.max(f64::MIN_POSITIVE);
+    let hopeless = steps >= 256 && foreseen > 2.0 * limit.steps as f64;
+    Error::unless(steps < limit.steps && !hopeless, "length of the motion in its own steps", foreseen, limit.allowed)
+}

@@ -1,0 +1,62 @@
+//! The frame in which a series is computed.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::dynamics::RigidSpheroid;
+use crate::error::Error;
+use crate::lorentz_violation::principal_frame;
+use crate::propagation::arithmetic::{OneMotion, Stored};
+use crate::scalar::{Real, Scalar};
+
+/// The tensor `s^IJ` without its isotropic part, in the frame of a series, and the way back.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SeriesFrame<S> {
+    pub(super) violation: Matrix3<S>,
+    /// Rotation from the principal frame, where that is the frame of the series and not the given one.
+    given_from_series: Option<Matrix3<f64>>,
+}
+
+impl<S: Real> SeriesFrame<S> {
+    /// The principal frame, by real parts, or the given one.
+    pub(super) fn of(anisotropic: &Matrix3<S>, principal: bool) -> Result<Self, Error> {
+        let off_diagonal = [(0, 1), (0, 2), (1, 2)].iter().any(|&place| anisotropic[place].re() != 0.0);
+        if !principal || !off_diagonal {
+            return Ok(Self { violation: *anisotropic, given_from_series: None });
+        }
+        let frame = principal_frame(&anisotropic.map(S::re))?;
+        Ok(Self {
+            violation: frame.coefficients.tensor().map(S::from_f64),
+            given_from_series: Some(frame.principal_from_given.transpose()),
+        })
+    }
+
+    pub(super) fn series_from_given(&self, v: &Vector3<S>) -> Vector3<S> {
+        self.given_from_series.map_or(*v, |back| back.transpose().map(S::from_f64) * v)
+    }
+
+    /// A vector of the series in the given frame.
+    pub(super) fn to_given(&self, v: &Vector3<S>) -> Vector3<S> {
+        self.given_from_series.map_or(*v, |back| back.map(S::from_f64) * v)
+    }
+
+    /// The same, by the instructions of the series.
+    #[inline(always)]
+    pub(super) fn given_from_series<A: OneMotion<Scalar = S>>(&self, a: A, v: A::Vector) -> A::Vector {
+        match &self.given_from_series {
+            None => v,
+            Some(back) => {
+                let column = |i: usize| {
+                    let [x, y, z] = [0, 1, 2].map(|row| S::from_f64(back[(row, i)]));
+                    a.load(&Stored([x, y, z, S::zero()]))
+                };
+                a.combine(&[column(0), column(1), column(2)], v)
+            }
+        }
+    }
+}
+
+/// Rate at which `e_x` turns about `n` against a vector that turns with `L / I^xx`, as `n` does: `-epsilon Omega^z`, from
+/// `Omega = L / I^xx - epsilon Omega^z n`. Constant, since `Omega^z = L.n / I^zz` is.
+pub(super) fn rate_about_axis<S: Scalar>(spheroid: &RigidSpheroid<S>, axis: &Vector3<S>, momentum: &Vector3<S>) -> S {
+    -(spheroid.oblateness() * momentum.dot(axis) / spheroid.inertia_zz)
+}

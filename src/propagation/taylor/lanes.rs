@@ -1,0 +1,126 @@
+//! Many motions at once, one in each lane of the vector registers.
+
+use nalgebra::Vector3;
+
+use crate::error::Error;
+use crate::propagation::AxisState;
+use crate::propagation::arithmetic::Arithmetic;
+use crate::propagation::registers::{Lanes, Register};
+use crate::propagation::taylor::clock::Clock;
+use crate::propagation::taylor::compensated::CompensatedState;
+use crate::propagation::taylor::many::AxisScene;
+use crate::propagation::taylor::samples::{LIMIT, Samples, span_of};
+use crate::propagation::taylor::series::{AXIS, MOMENTUM, Recurrence, change};
+use crate::propagation::taylor::setup::Setup;
+use crate::propagation::taylor::step_size::{Work, step_size};
+
+type Outcome = Result<Samples<AxisState<f64>>, Error>;
+
+/// A motion ready for a lane.
+struct Ready<'t> {
+    scene: usize,
+    times: &'t [f64],
+    setup: Setup<f64, 2>,
+}
+
+/// What `axis_states_of_many` gives, by the lanes of `register`.
+pub(super) fn axis_states_in_lanes<R: Register>(register: R, scenes: &[AxisScene<'_>]) -> Vec<Outcome> {
+    let mut outcomes = Vec::with_capacity(scenes.len());
+    let mut ready = Vec::with_capacity(scenes.len());
+    for (scene, AxisScene { spheroid, violation, initial, start, times, accuracy }) in scenes.iter().enumerate() {
+        let vectors = [initial.axis, initial.momentum];
+        let setup = span_of(*start, times).and_then(|span| {
+            Setup::<f64, 2>::new((true, Work::Quadratic), spheroid, violation, vectors, span, *accuracy)
+        });
+        outcomes.push(setup.map(|setup| {
+            let samples = Samples::with_room(times.len(), setup.order);
+            ready.push(Ready { scene, times, setup });
+            samples
+        }));
+    }
+    // Motions side by side share one order.
+    ready.sort_by_key(|ready| ready.setup.order);
+    for alike in ready.chunk_by(|a, b| a.setup.order == b.setup.order) {
+        register.run(
+            #[inline(always)]
+            || propagate_alike(Lanes(register), alike, &mut outcomes),
+        );
+    }
+    outcomes
+}
+
+/// What a lane is at.
+struct Lane<'r> {
+    ready: &'r Ready<'r>,
+    clock: Clock,
+}
+
+/// Carries motions of one order through the lanes; a lane whose motion has ended takes the next one.
+#[inline(always)]
+fn propagate_alike<R: Register>(a: Lanes<R>, motions: &[Ready<'_>], outcomes: &mut [Outcome]) {
+    let order = motions[0].setup.order;
+    let zero = a.zero();
+    let (mut axis_rate, mut momentum_rate) = (zero, zero);
+    let mut state = CompensatedState::new(a, [zero; 2]);
+    let mut series = vec![[zero; 2]; order + 1];
+    let mut recurrence = Recurrence::<Lanes<R>, 2>::new(a, order, zero, zero, [zero; 3]);
+    let mut waiting = motions.iter();
+    let mut lanes: Vec<Option<Lane>> = (0..R::COUNT).map(|_| None).collect();
+    loop {
+        let mut changed = false;
+        for (place, lane) in lanes.iter_mut().enumerate().filter(|(_, lane)| lane.is_none()) {
+            let Some(ready) = waiting.next() else { break };
+            let drive = ready.setup.drive();
+            let rates = drive.rates();
+            a.put(&mut axis_rate, place, [rates.axis; 3]);
+            a.put(&mut momentum_rate, place, rates.momentum_of_principal);
+            for i in [AXIS, MOMENTUM] {
+                a.put(&mut state.high[i], place, drive.start[i].vector().into());
+                a.put(&mut state.low[i], place, [0.0; 3]);
+            }
+            *lane = Some(Lane { ready, clock: Clock::new() });
+            changed = true;
+        }
+        if lanes.iter().all(Option::is_none) {
+            return;
+        }
+        if changed {
+            recurrence.set_rates(axis_rate, momentum_rate);
+        }
+        recurrence.expand(&state.high, &mut series);
+        let largest = |k: usize| [a.largest(series[k][AXIS]), a.largest(series[k][MOMENTUM])];
+        let sizes = [largest(order), largest(order - 1)];
+        let mut h = zero;
+        for (place, lane) in lanes.iter_mut().enumerate() {
+            let Some(Lane { ready, clock }) = lane else { continue };
+            let (setup, drive) = (&ready.setup, ready.setup.drive());
+            let sizes = sizes
+                .map(|[axis, momentum]| setup.scale.size_of_both(a.0.get(&axis, place), a.0.get(&momentum, place)));
+            let wanted = step_size(sizes, order, &setup.scale, drive.budget);
+            let step = match clock.advance(wanted, drive.duration, LIMIT) {
+                Ok(step) => step,
+                Err(error) => {
+                    outcomes[ready.scene] = Err(error);
+                    *lane = None;
+                    continue;
+                }
+            };
+            if let Ok(samples) = &mut outcomes[ready.scene] {
+                samples.step_count = clock.steps;
+                samples.take(setup, ready.times, &step, |t| {
+                    let h = setup.series_time(&step.start, t);
+                    let change = change(a, order, |k| series[k], [a.0.splat(h); 3]);
+                    let [axis, momentum] = [AXIS, MOMENTUM]
+                        .map(|i| setup.frame.to_given(&Vector3::from(a.take(&a.add(series[0][i], change[i]), place))));
+                    AxisState { axis, momentum }
+                });
+            }
+            if step.is_last() {
+                *lane = None;
+            } else {
+                a.put(&mut h, place, [step.length * drive.direction / setup.scale.time; 3]);
+            }
+        }
+        state.add(a, &change(a, order, |k| series[k], h));
+    }
+}

@@ -1,0 +1,119 @@
+//! The linearised flow of the rotation: what small differences of two motions become over one step.
+//!
+//! A step is split into rotations at constant `L` and kicks of `L` at constant `n`, in the weights of Simpson's rule, so that
+//! the linear map is accurate to some per cent over a radian and keeps the structure of the motion over any time.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::dynamics::RigidSpheroid;
+
+/// Longest part of a step, in radians of the rotation.
+const LONGEST_PART: f64 = 1.0;
+
+/// A linear map of differences `(theta, w, rho)`: the small rotation `theta` of the body, the difference `w` of
+/// `L / I^xx`, and the relative difference `rho` of the length of `n`.
+pub(super) enum LinearMap {
+    /// `w += from_rotation theta + from_length rho`.
+    Kick { from_rotation: Matrix3<f64>, from_length: Vector3<f64> },
+    /// `theta = from_rotation theta + from_momentum w + from_length rho`.
+    Rotation { from_rotation: Matrix3<f64>, from_momentum: Matrix3<f64>, from_length: Vector3<f64> },
+}
+
+/// The linearised equations of motion of one body, in the unit of time of the caller.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LinearisedFlow {
+    /// `2 C s^IJ / I^xx`, in units of the squared rate.
+    pull: Matrix3<f64>,
+    /// `-(I^zz - I^xx) / I^zz`.
+    body_turn: f64,
+}
+
+impl LinearisedFlow {
+    /// For the body in the unit of time `unit`; `violation` is `s^IJ` without its trace.
+    pub(super) fn new(spheroid: &RigidSpheroid<f64>, violation: &Matrix3<f64>, unit: f64) -> Self {
+        let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
+        let pull = violation * (2.0 * unit * (constant_c / inertia_xx) * unit);
+        Self { pull, body_turn: inertia_xx / inertia_zz - 1.0 }
+    }
+
+    /// Largest rate at which `L / I^xx` is turned.
+    pub(super) fn strength(&self) -> f64 {
+        self.pull.norm()
+    }
+
+    /// Calls `apply` with the maps of the time `h` from `start` to `end`, each `(n, L / I^xx)`, in their order.
+    pub(super) fn over(
+        &self,
+        start: (Vector3<f64>, Vector3<f64>),
+        end_axis: &Vector3<f64>,
+        h: f64,
+        mut apply: impl FnMut(&LinearMap),
+    ) {
+        let (mut n, mut w) = start;
+        let rate = w.norm() + self.pull.norm().sqrt();
+        let parts = (rate * h.abs() / LONGEST_PART).ceil().clamp(1.0, 64.0) as usize;
+        let h = h / parts as f64;
+        for part in 0..parts {
+            for (share, correction, is_last) in
+                [(1.0 / 6.0, 0.0, false), (2.0 / 3.0, h * h / 48.0, false), (1.0 / 6.0, 0.0, true)]
+            {
+                if is_last && part + 1 == parts {
+                    n = *end_axis;
+                }
+                let (map, change) = self.kick(&n, h * share, correction);
+                apply(&map);
+                w += change;
+                if !is_last {
+                    let (map, turned) = self.rotation(&n, &w, h / 2.0);
+                    apply(&map);
+                    n = turned;
+                }
+            }
+        }
+    }
+
+    /// The kick of the potential `U = n.(S n) / 2 - correction |S n x n|^2` over the time `h`.
+    fn kick(&self, n: &Vector3<f64>, h: f64, correction: f64) -> (LinearMap, Vector3<f64>) {
+        let pulled = self.pull * n;
+        let (mut gradient, mut curvature) = (pulled, self.pull);
+        if correction > 0.0 {
+            let twice = 2.0 * n.dot(&pulled);
+            let second = self.pull * (2.0 * correction);
+            gradient += pulled * (twice * 2.0 * correction) - second * pulled;
+            curvature += self.pull * (twice * 2.0 * correction) - second * self.pull
+                + pulled * pulled.transpose() * (8.0 * correction);
+        }
+        let across = n.cross_matrix();
+        let map = LinearMap::Kick {
+            from_rotation: (across * curvature - gradient.cross_matrix()) * across * h,
+            from_length: pulled.cross(n) * (2.0 * h),
+        };
+        (map, gradient.cross(n) * h)
+    }
+
+    fn rotation(&self, n: &Vector3<f64>, w: &Vector3<f64>, h: f64) -> (LinearMap, Vector3<f64>) {
+        let angle = w * h;
+        let square = angle.norm_squared();
+        // sin x / x, (1 - cos x) / x^2, (x - sin x) / x^3
+        let [a, b, c] = if square < 1e-6 {
+            [1.0 - square / 6.0, 0.5 - square / 24.0, 1.0 / 6.0 - square / 120.0]
+        } else {
+            let (sin, cos) = square.sqrt().sin_cos();
+            let a = sin / square.sqrt();
+            [a, (1.0 - cos) / square, (1.0 - a) / square]
+        };
+        let first = angle.cross_matrix();
+        let second = angle * angle.transpose() - Matrix3::from_diagonal_element(square);
+        let identity = Matrix3::identity();
+        let turn = identity + first * a + second * b;
+        let average = identity + first * b + second * c;
+        let turned = turn * n;
+        let twist = self.body_turn * h;
+        let map = LinearMap::Rotation {
+            from_rotation: turn + turned * n.cross(w).transpose() * twist,
+            from_momentum: average * h + turned * n.transpose() * twist,
+            from_length: turned * (2.0 * twist * n.dot(w)),
+        };
+        (map, turned)
+    }
+}

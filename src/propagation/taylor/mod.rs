@@ -1,0 +1,293 @@
+//! Numerical motion by Taylor series with adaptive steps and dense output.
+
+mod clock;
+mod compensated;
+mod drive;
+mod error_growth;
+mod errors;
+mod forecast;
+mod frame;
+#[cfg(target_arch = "x86_64")]
+mod lanes;
+mod linearised_flow;
+mod many;
+mod samples;
+mod series;
+mod setup;
+mod step_size;
+
+use core::any::{Any, TypeId};
+use std::sync::OnceLock;
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::propagation::arithmetic::{OneMotion, Plain, Stored};
+use crate::propagation::fused::{Fused, detect_fused, run_fused};
+use crate::propagation::{AxisMotion, AxisState, Motion};
+use crate::scalar::Real;
+use clock::StepLimit;
+use compensated::Compensated;
+use errors::{StepError, TaylorErrors};
+pub use forecast::{TaylorForecast, taylor_forecast};
+pub use many::{AxisScene, axis_states_of_many};
+pub use samples::{ErrorEstimates, Samples, axis_states_at, states_at};
+
+use series::{AXIS, MOMENTUM, Vectors};
+use setup::Setup;
+use step_size::Work;
+
+/// Smallest and largest accuracy that [`propagate`] takes.
+pub const ACCURACY_RANGE: (f64, f64) = (1e-16, 1e-2);
+
+/// Most steps that one motion may keep: each holds about 2 kB of coefficients for `f64`.
+pub const STEP_LIMIT: usize = 500_000;
+
+const LIMIT: StepLimit = StepLimit {
+    steps: STEP_LIMIT,
+    allowed: "at most 500,000 steps: take a shorter span (and go on from its end) or a lower accuracy",
+};
+
+/// The numerical motion of a spheroid from `initial` at `span.0` to `span.1` (forwards or backwards).
+///
+/// `s` is the tensor `s^IJ` in the inertial frame of `initial`, which may be any. `accuracy` is the truncation error wanted
+/// in the components of `n`, `e_x` and of `L` in units of `|L| + sqrt(2 I^xx C |s|)` at the end of the span, in
+/// [`ACCURACY_RANGE`]; rounding adds about `2e-16 sqrt(steps)` and its growth, see [`AxisMotion::error_estimate`]. A
+/// truncation below rounding costs little: the order of the series rises by one for each factor of four.
+///
+/// Step sizes and order follow from the real parts alone, so that derivatives (duals) are those of the motion and not of
+/// the choice of steps. Motion in doubles uses fused multiply-add and vector instructions where the processor has them: the
+/// last digits may differ between processors, never between runs.
+///
+/// # Errors
+/// [`Error::Domain`] for an accuracy out of range, a state, parameter or span that is not finite, an axis that is not a unit
+/// vector or not normal to `e_x` (to 1e-9), moments of inertia that are not positive, a tensor `s^IJ` that is not symmetric
+/// (to 1e-12), and a span that needs more than [`STEP_LIMIT`] steps.
+pub fn propagate<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    initial: &BodyState<S>,
+    span: (f64, f64),
+    accuracy: f64,
+) -> Result<TaylorMotion<S>, Error> {
+    TaylorMotion::from_start(spheroid, s, [initial.axis, initial.momentum, initial.equatorial_axis], span, accuracy)
+}
+
+/// The numerical motion of the symmetry axis and the angular momentum alone: [`propagate`] without `e_x`, which neither
+/// follows nor influences them here. For the spin axis and the gravitational wave; a third of the work is saved.
+///
+/// # Errors
+/// As for [`propagate`].
+pub fn propagate_axis<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    initial: &AxisState<S>,
+    span: (f64, f64),
+    accuracy: f64,
+) -> Result<TaylorAxisMotion<S>, Error> {
+    TaylorMotion::from_start(spheroid, s, [initial.axis, initial.momentum], span, accuracy)
+}
+
+/// A motion kept as Taylor series on adjoining steps, of the `V` vectors `n`, `L` and, with `V = 3`, a vector normal to `n`
+/// from which `e_x` follows by a turn about `n` at a constant rate.
+#[derive(Debug, Clone)]
+pub struct TaylorMotion<S, const V: usize = 3> {
+    setup: Setup<S, V>,
+    /// The instructions by which the series are summed, for doubles.
+    fused: Option<Fused>,
+    steps: Steps<S, V>,
+    /// Estimated error of each step, found when first asked for: most motions never are.
+    errors: OnceLock<Vec<StepError>>,
+}
+
+/// The motion of the symmetry axis and the angular momentum, kept as Taylor series.
+pub type TaylorAxisMotion<S> = TaylorMotion<S, 2>;
+
+/// Adjoining steps with their series.
+#[derive(Debug, Clone)]
+struct Steps<S, const V: usize> {
+    /// Start of each step: time since the start of the motion, positive in either direction.
+    starts: Vec<Compensated>,
+    /// `order + 1` coefficients for each step.
+    coefficients: Vec<Vectors<Stored<S>, V>>,
+}
+
+impl<S: Real, const V: usize> Steps<S, V> {
+    #[inline(always)]
+    fn kept<A: OneMotion<Scalar = S>>(setup: &Setup<S, V>, a: A) -> Result<Self, Error> {
+        let mut steps = Self { starts: Vec::new(), coefficients: Vec::new() };
+        setup.drive().run(a, LIMIT, |step, series| {
+            if let [_] = steps.starts.as_slice() {
+                // Steps of one motion are much alike: room for all of them at once.
+                steps.reserve(setup.duration() / step.start.high, series.len());
+            }
+            steps.starts.push(step.start);
+            steps.coefficients.extend(series.iter().map(|vectors| vectors.map(|v| a.store(v))));
+        })?;
+        Ok(steps)
+    }
+
+    /// Room for some more steps than `count`, if that is not out of proportion.
+    fn reserve(&mut self, count: f64, coefficients: usize) {
+        let count = (1.2 * count).min(STEP_LIMIT as f64 / 50.0) as usize;
+        self.starts.reserve(count);
+        self.coefficients.reserve(count * coefficients);
+    }
+
+    /// Index of the step that holds a time since the start. Steps are much alike, so that it is near to where it would be
+    /// if they were equal; from there it is bracketed by strides that double.
+    fn index_at(&self, elapsed: f64, duration: f64) -> usize {
+        let starts = &self.starts;
+        let guess = ((elapsed / duration * starts.len() as f64) as usize).min(starts.len() - 1);
+        let (mut low, mut high, mut stride) = (guess, guess + 1, 1);
+        while low > 0 && starts[low].high > elapsed {
+            (high, low, stride) = (low, low.saturating_sub(stride), 2 * stride);
+        }
+        stride = 1;
+        while high < starts.len() && starts[high].high <= elapsed {
+            (low, high, stride) = (high, (high + stride).min(starts.len()), 2 * stride);
+        }
+        low + starts[low..high].partition_point(|start| start.high <= elapsed).max(1) - 1
+    }
+}
+
+/// The instructions for doubles, where the processor has them and `S` is `f64`, which is known when this is compiled.
+fn fused_for<S: Real>() -> Option<Fused> {
+    if TypeId::of::<S>() == TypeId::of::<f64>() { detect_fused() } else { None }
+}
+
+/// Whether the series is computed in the principal frame, and how its work grows, by those instructions or without.
+fn work_of(fused: Option<Fused>) -> (bool, Work) {
+    if fused.is_some() { (true, Work::Latent) } else { (false, Work::Quadratic) }
+}
+
+impl<S: Real, const V: usize> TaylorMotion<S, V> {
+    fn from_start(
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        start: [Vector3<S>; V],
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        if let Some(fused) = fused_for::<S>() {
+            let (spheroid, s, start) = (spheroid.map(S::re), s.map(S::re), start.map(|v| v.map(S::re)));
+            let setup = Setup::new((true, Work::Latent), &spheroid, &s, start, span, accuracy)?;
+            let steps = run_fused(
+                fused,
+                #[inline(always)]
+                || Steps::kept(&setup, fused),
+            )?;
+            let motion: Box<dyn Any> =
+                Box::new(TaylorMotion { setup, fused: Some(fused), steps, errors: OnceLock::new() });
+            return Ok(*motion.downcast().expect("the scalar is f64"));
+        }
+        let setup = Setup::new((false, Work::Quadratic), spheroid, s, start, span, accuracy)?;
+        let steps = Steps::kept(&setup, Plain::new())?;
+        Ok(Self { setup, fused: None, steps, errors: OnceLock::new() })
+    }
+
+    /// Number of steps.
+    pub fn step_count(&self) -> usize {
+        self.steps.starts.len()
+    }
+
+    /// Order of the series.
+    pub fn order(&self) -> usize {
+        self.setup.order
+    }
+
+    /// Index of the step that holds the time `t`, and the time since the start.
+    fn step_at(&self, t: f64) -> Result<(usize, f64), Error> {
+        let (first, last) = self.setup.span;
+        Error::unless(
+            first.min(last) <= t && t <= first.max(last),
+            "time t",
+            t,
+            "within the span for which the motion was propagated",
+        )?;
+        let elapsed = (t - first).abs();
+        Ok((self.steps.index_at(elapsed, self.setup.duration()), elapsed))
+    }
+
+    /// The vectors of the series at time `t`, in the given frame.
+    fn at(&self, t: S) -> Result<[Vector3<S>; V], Error> {
+        let (index, _) = self.step_at(t.re())?;
+        if let (Some(fused), Some(motion)) = (self.fused, (self as &dyn Any).downcast_ref::<TaylorMotion<f64, V>>()) {
+            let vectors = run_fused(
+                fused,
+                #[inline(always)]
+                || motion.sum(fused, index, t.re()),
+            );
+            return Ok(vectors.map(|v| v.vector().map(S::from_f64)));
+        }
+        Ok(self.sum(Plain::new(), index, t).map(|v| v.vector()))
+    }
+
+    /// Length of one step, positive in either direction.
+    fn length(&self, step: usize) -> f64 {
+        let Steps { starts, .. } = &self.steps;
+        let end = starts.get(step + 1).copied().unwrap_or(Compensated::new(self.setup.duration()));
+        (end.high - starts[step].high) + (end.low - starts[step].low)
+    }
+
+    /// The estimated errors of all steps.
+    fn step_errors(&self) -> Vec<StepError> {
+        let mut errors = TaylorErrors::of(&self.setup);
+        let steps = (0..self.step_count()).map(|step| {
+            let h = self.length(step) * self.setup.direction() / self.setup.scale.time;
+            errors.step(self.series(step), |v| v.vector().map(S::re), h)
+        });
+        steps.collect()
+    }
+
+    /// The coefficients of one step.
+    fn series(&self, step: usize) -> &[Vectors<Stored<S>, V>] {
+        let length = self.setup.order + 1;
+        &self.steps.coefficients[step * length..][..length]
+    }
+
+    #[inline(always)]
+    fn sum<A: OneMotion<Scalar = S>>(&self, a: A, step: usize, t: S) -> [Stored<S>; V] {
+        let series = self.series(step);
+        self.setup.sum(a, |k| series[k].each_ref().map(|v| a.load(v)), &self.steps.starts[step], t)
+    }
+}
+
+impl<S: Real, const V: usize> AxisMotion<S> for TaylorMotion<S, V> {
+    fn spheroid(&self) -> &RigidSpheroid<S> {
+        &self.setup.spheroid
+    }
+
+    fn violation(&self) -> &Matrix3<S> {
+        &self.setup.violation
+    }
+
+    fn span(&self) -> (f64, f64) {
+        self.setup.span
+    }
+
+    fn axis_state(&self, t: S) -> Result<AxisState<S>, Error> {
+        let vectors = self.at(t)?;
+        Ok(AxisState { axis: vectors[AXIS], momentum: vectors[MOMENTUM] })
+    }
+
+    /// The truncation of each step by its defect, with its sign, and its rounding by its size, carried along the motion by
+    /// the linearised equations: linear growth of phases and exponential growth near the unstable middle axis alike. Found
+    /// for all steps at the first call, which takes longer than the propagation.
+    ///
+    /// Over random motions of every kind it is never below the true error and most often ten to thirty times it
+    /// (`docs/accuracy.md`). Where it reaches one, nothing more is known of the phase and it is 2.5 from there on.
+    fn error_estimate(&self, t: f64) -> f64 {
+        let Ok((index, elapsed)) = self.step_at(t) else { return f64::NAN };
+        let error = self.errors.get_or_init(|| self.step_errors())[index];
+        let (into, length) = (elapsed - self.steps.starts[index].high, self.length(index));
+        error.at(if into > 0.0 { into / length } else { 0.0 }, self.setup.order)
+    }
+}
+
+impl<S: Real> Motion<S> for TaylorMotion<S> {
+    fn state(&self, t: S) -> Result<BodyState<S>, Error> {
+        Ok(self.setup.body_state(self.at(t)?, t))
+    }
+}

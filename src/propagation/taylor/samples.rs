@@ -1,0 +1,193 @@
+//! States at given times, without keeping the motion between them.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::propagation::AxisState;
+use crate::propagation::arithmetic::{OneMotion, Plain};
+use crate::propagation::fused::run_fused;
+use crate::propagation::taylor::clock::{Interval, StepLimit};
+use crate::propagation::taylor::errors::{StepError, TaylorErrors};
+use crate::propagation::taylor::fused_for;
+use crate::propagation::taylor::setup::Setup;
+use crate::propagation::taylor::step_size::Work;
+use crate::scalar::{Real, Scalar};
+
+/// An hour or so.
+pub(super) const LIMIT: StepLimit =
+    StepLimit { steps: 10_000_000_000, allowed: "at most 1e10 steps: take earlier times or a lower accuracy" };
+
+/// States at given times, with what is known of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Samples<T> {
+    /// One state for each time asked, in their order.
+    pub states: Vec<T>,
+    /// Estimated error of each, as [`AxisMotion::error_estimate`](crate::propagation::AxisMotion::error_estimate); none if not
+    /// wanted.
+    pub error_estimates: Vec<f64>,
+    /// Number of steps of the motion.
+    pub step_count: usize,
+    /// Order of its series.
+    pub order: usize,
+}
+
+/// Whether errors are estimated, which takes longer than the states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ErrorEstimates {
+    /// Of every state.
+    Wanted,
+    /// None.
+    NotWanted,
+}
+
+/// States of the numerical motion that begins as `initial` at the time `start`, at the `times` asked: the same numbers as
+/// those of [`propagate`](crate::propagation::propagate) over the span from `start` to the last of them, without keeping the
+/// motion in between. Memory does not grow with the span; a motion may have 1e10 steps.
+///
+/// # Errors
+/// As for [`propagate`](crate::propagation::propagate) but for the number of steps, and [`Error::Domain`] for no times or
+/// times that do not lie on one side of `start`, in the order in which the motion reaches them.
+pub fn states_at<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    initial: &BodyState<S>,
+    start: f64,
+    times: &[f64],
+    accuracy: f64,
+    estimates: ErrorEstimates,
+) -> Result<Samples<BodyState<S>>, Error> {
+    let vectors = [initial.axis, initial.momentum, initial.equatorial_axis];
+    sampled(spheroid, s, vectors, start, times, (accuracy, estimates), |setup, vectors, t| setup.body_state(vectors, t))
+}
+
+/// Axis and angular momentum alone: to [`states_at`] what [`propagate_axis`](crate::propagation::propagate_axis) is to
+/// [`propagate`](crate::propagation::propagate).
+///
+/// # Errors
+/// As for [`states_at`].
+pub fn axis_states_at<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    initial: &AxisState<S>,
+    start: f64,
+    times: &[f64],
+    accuracy: f64,
+    estimates: ErrorEstimates,
+) -> Result<Samples<AxisState<S>>, Error> {
+    let vectors = [initial.axis, initial.momentum];
+    sampled(spheroid, s, vectors, start, times, (accuracy, estimates), |_, [axis, momentum], _| AxisState {
+        axis,
+        momentum,
+    })
+}
+
+/// The span from the start to the last of the times, which must be in the order in which a motion reaches them.
+pub(super) fn span_of(start: f64, times: &[f64]) -> Result<(f64, f64), Error> {
+    let Some(&last) = times.last() else {
+        return Err(Error::Domain { quantity: "number of times", value: 0.0, allowed: "at least one" });
+    };
+    let mut before = start;
+    for &t in times {
+        let onwards = if last >= start { before <= t && t <= last } else { before >= t && t >= last };
+        Error::unless(onwards, "time t", t, "times in the order in which the motion reaches them from its start")?;
+        before = t;
+    }
+    Ok((start, last))
+}
+
+fn sampled<S: Real, T, const V: usize>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    vectors: [Vector3<S>; V],
+    start: f64,
+    times: &[f64],
+    (accuracy, estimates): (f64, ErrorEstimates),
+    state: impl Fn(&Setup<S, V>, [Vector3<S>; V], S) -> T,
+) -> Result<Samples<T>, Error> {
+    let span = span_of(start, times)?;
+    let setup = Setup::new((false, Work::Quadratic), spheroid, s, vectors, span, accuracy)?;
+    if let Some(fused) = fused_for::<S>() {
+        let (spheroid, s) = (spheroid.map(S::re), s.map(S::re));
+        let real = Setup::new((true, Work::Latent), &spheroid, &s, vectors.map(|v| v.map(S::re)), span, accuracy)?;
+        let samples = run_fused(
+            fused,
+            #[inline(always)]
+            || visited(&real, fused, times, estimates, |_, vectors, t| (vectors, t)),
+        )?;
+        let Samples { states, error_estimates, step_count, order } = samples;
+        let given =
+            |(vectors, t): ([Vector3<f64>; V], f64)| state(&setup, vectors.map(|v| v.map(S::from_f64)), S::from_f64(t));
+        return Ok(Samples { states: states.into_iter().map(given).collect(), error_estimates, step_count, order });
+    }
+    visited(&setup, Plain::new(), times, estimates, state)
+}
+
+/// Evaluates each step at the times within it.
+#[inline(always)]
+fn visited<A: OneMotion, T, const V: usize>(
+    setup: &Setup<A::Scalar, V>,
+    a: A,
+    times: &[f64],
+    estimates: ErrorEstimates,
+    state: impl Fn(&Setup<A::Scalar, V>, [Vector3<A::Scalar>; V], A::Scalar) -> T,
+) -> Result<Samples<T>, Error> {
+    let mut samples = Samples::with_room(times.len(), setup.order);
+    let mut errors = (estimates == ErrorEstimates::Wanted).then(|| TaylorErrors::of(setup));
+    setup.drive().run(a, LIMIT, |step, series| {
+        samples.step_count += 1;
+        if let Some(errors) = &mut errors {
+            let h = step.length * setup.direction() / setup.scale.time;
+            let error = errors.step(series, |v| a.store(*v).vector().map(A::Scalar::re), h);
+            samples.take_errors(setup, times, step, &error);
+        }
+        samples.take(setup, times, step, |time| {
+            let t = A::Scalar::from_f64(time);
+            state(setup, setup.sum(a, |k| series[k], &step.start, t).map(|v| v.vector()), t)
+        });
+    })?;
+    Ok(samples)
+}
+
+impl<T> Samples<T> {
+    /// No samples yet, but room for `count`.
+    pub(super) fn with_room(count: usize, order: usize) -> Self {
+        Self { states: Vec::with_capacity(count), error_estimates: Vec::new(), step_count: 0, order }
+    }
+
+    /// Takes those of the `times` that lie in a step and have not been taken.
+    #[inline(always)]
+    pub(super) fn take<S: Real, const V: usize>(
+        &mut self,
+        setup: &Setup<S, V>,
+        times: &[f64],
+        step: &Interval,
+        state_at: impl Fn(f64) -> T,
+    ) {
+        while let Some(&time) = times.get(self.states.len()) {
+            let elapsed = (time - setup.span.0).abs();
+            if elapsed >= step.end {
+                break;
+            }
+            self.states.push(state_at(time));
+        }
+    }
+
+    /// The errors of what [`take`](Self::take) takes.
+    fn take_errors<S: Real, const V: usize>(
+        &mut self,
+        setup: &Setup<S, V>,
+        times: &[f64],
+        step: &Interval,
+        error: &StepError,
+    ) {
+        while let Some(&time) = times.get(self.error_estimates.len()) {
+            let elapsed = (time - setup.span.0).abs();
+            if elapsed >= step.end {
+                break;
+            }
+            let into = elapsed - step.start.high;
+            self.error_estimates.push(error.at(if into > 0.0 { into / step.length } else { 0.0 }, setup.order));
+        }
+    }
+}

@@ -1,0 +1,293 @@
+//! Taylor series of a motion about one time: the recurrences of the quadratic equations of motion.
+
+use crate::propagation::arithmetic::Arithmetic;
+
+/// What a series carries: `n`, `L` and, with `V = 3`, a vector `u` that turns with `L / I^xx` as `n` does.
+pub(super) type Vectors<T, const V: usize> = [T; V];
+
+/// Place of the symmetry axis.
+pub(super) const AXIS: usize = 0;
+
+/// Place of the angular momentum.
+pub(super) const MOMENTUM: usize = 1;
+
+/// Place of the vector carried along, where there is one.
+pub(super) const COMPANION: usize = 2;
+
+/// Largest order of a series.
+pub(super) const MAX_ORDER: usize = 40;
+
+/// Coefficients kept at hand: a power of two, so that a masked index is within bounds without a comparison.
+const PLACES: usize = 64;
+const MASK: usize = PLACES - 1;
+
+/// One factor of the convolutions, for every coefficient so far.
+#[repr(align(64))]
+struct Row<T>([T; PLACES]);
+
+impl<T: Copy> Row<T> {
+    fn filled(value: T) -> Box<Self> {
+        Box::new(Self([value; PLACES]))
+    }
+
+    #[inline(always)]
+    fn at(&self, k: usize) -> T {
+        self.0[k & MASK]
+    }
+
+    #[inline(always)]
+    fn window(&self, from: usize, count: usize) -> &[T] {
+        &self.0[from..][..count]
+    }
+
+    #[inline(always)]
+    fn put(&mut self, k: usize, value: T) {
+        self.0[k & MASK] = value;
+    }
+}
+
+/// The right-hand sides are quadratic, so each order is a convolution of products of the lower ones:
+///
+/// ```text
+/// (k+1) n_{k+1} = sum_j L_j x n_{k-j} / I^xx
+/// (k+1) L_{k+1} = sum_j (s n)_j x n_{k-j} 2 C
+/// (k+1) u_{k+1} = sum_j L_j x u_{k-j} / I^xx
+/// ```
+///
+/// In the principal frame of `s`, `(s n) x n` has the components `(s^YY - s^ZZ) n_Y n_Z` and so on, one product each.
+pub(super) struct Recurrence<A: Arithmetic, const V: usize> {
+    arithmetic: A,
+    order: usize,
+    /// `unit / (I^xx (k+1))`.
+    share_of_axis: Box<Row<A::Vector>>,
+    /// `2 C unit / (k+1)`, in the principal frame times the differences of eigenvalues.
+    share_of_momentum: Box<Row<A::Vector>>,
+    /// Columns of `s`.
+    violation: [A::Vector; 3],
+    axis: Box<Row<A::Turned>>,
+    momentum: Box<Row<A::Turned>>,
+    /// `s n`; unused in the principal frame.
+    pulled: Box<Row<A::Turned>>,
+    companion: Box<Row<A::Turned>>,
+}
+
+/// Sums of one order: the terms of the cross products with either sign.
+#[derive(Clone, Copy)]
+struct Sums<T> {
+    axis: [T; 2],
+    pull: [T; 2],
+    companion: [T; 2],
+}
+
+impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
+    /// The recurrences up to `order`. `axis_rate` is `unit / I^xx` for the unit of time of the series, `momentum_rate` is
+    /// `2 C unit`, in the principal frame times the differences of eigenvalues `s^YY - s^ZZ, s^ZZ - s^XX, s^XX - s^YY`;
+    /// `violation` has the columns of `s`, which are not used there.
+    pub(super) fn new(
+        arithmetic: A,
+        order: usize,
+        axis_rate: A::Vector,
+        momentum_rate: A::Vector,
+        violation: [A::Vector; 3],
+    ) -> Self {
+        let a = arithmetic;
+        let zero = a.zero();
+        let turned = || Row::filled(a.turned(zero));
+        let mut recurrence = Self {
+            arithmetic,
+            order,
+            share_of_axis: Row::filled(zero),
+            share_of_momentum: Row::filled(zero),
+            violation,
+            axis: turned(),
+            momentum: turned(),
+            pulled: turned(),
+            companion: turned(),
+        };
+        recurrence.set_rates(axis_rate, momentum_rate);
+        recurrence
+    }
+
+    /// Other rates from now on.
+    #[inline(always)]
+    pub(super) fn set_rates(&mut self, axis_rate: A::Vector, momentum_rate: A::Vector) {
+        for k in 0..self.order {
+            let order = (k + 1) as f64;
+            self.share_of_axis.put(k, self.arithmetic.divide(axis_rate, order));
+            self.share_of_momentum.put(k, self.arithmetic.divide(momentum_rate, order));
+        }
+    }
+
+    /// Fills `series` (of length `order + 1`) with the coefficients about the state `start`.
+    #[inline(always)]
+    pub(super) fn expand(&mut self, start: &Vectors<A::Vector, V>, series: &mut [Vectors<A::Vector, V>]) {
+        // Several orders at once share what they read. How many the registers hold depends on the sums of each.
+        if A::MANY {
+            self.expand_by::<1>(start, series);
+        } else if V > COMPANION {
+            self.expand_by::<2>(start, series);
+        } else {
+            self.expand_by::<3>(start, series);
+        }
+    }
+
+    #[inline(always)]
+    fn expand_by<const B: usize>(&mut self, start: &Vectors<A::Vector, V>, series: &mut [Vectors<A::Vector, V>]) {
+        let series = &mut series[..self.order + 1];
+        self.put(0, start, series);
+        let mut k = 0;
+        while k < self.order {
+            if k + 2 >= B && k + B <= self.order {
+                // Orders k to k + B - 1, as far as the coefficients up to k go.
+                let mut sums = [self.zero_sums(); B];
+                self.add_common_terms(&mut sums, k);
+                for (r, sum) in sums.iter_mut().enumerate() {
+                    for j in r..B - 1 {
+                        self.add_term(sum, j, k + r - j);
+                    }
+                }
+                // Each order finished adds its terms to the next ones.
+                for (r, sum) in sums.iter_mut().enumerate() {
+                    for newer in k + 1..k + r + 1 {
+                        self.add_term(sum, newer, k + r - newer);
+                        self.add_term(sum, k + r - newer, newer);
+                    }
+                    self.finish(k + r, sum, series);
+                }
+                k += B;
+            } else {
+                let mut sum = self.zero_sums();
+                for j in 0..k + 1 {
+                    self.add_term(&mut sum, j, k - j);
+                }
+                self.finish(k, &sum, series);
+                k += 1;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn zero_sums(&self) -> Sums<A::Vector> {
+        let zero = [self.arithmetic.zero(); 2];
+        Sums { axis: zero, pull: zero, companion: zero }
+    }
+
+    /// Adds to the sums of the orders `k` to `k + B - 1` the terms that turn by the coefficients `B - 1` to `k`.
+    #[inline(always)]
+    fn add_common_terms<const B: usize>(&self, sums: &mut [Sums<A::Vector>; B], k: usize) {
+        let count = k + 2 - B;
+        let pulled = if A::PRINCIPAL_FRAME { &self.axis } else { &self.pulled };
+        let (momentum, pulled) = (self.momentum.window(B - 1, count), pulled.window(B - 1, count));
+        let axis: [_; B] = core::array::from_fn(|r| self.axis.window(r, count));
+        let companion: [_; B] = core::array::from_fn(|r| self.companion.window(r, count));
+        for j in 0..count {
+            let i = count - 1 - j;
+            let (momentum, pulled) = (momentum[j], pulled[j]);
+            for (r, sum) in sums.iter_mut().enumerate() {
+                let companion = if V > COMPANION { companion[r][i] } else { momentum };
+                self.add_products(sum, momentum, pulled, axis[r][i], companion);
+            }
+        }
+    }
+
+    /// Adds the products of coefficient `j` of what turns and coefficient `i` of what is turned.
+    #[inline(always)]
+    fn add_term(&self, sums: &mut Sums<A::Vector>, j: usize, i: usize) {
+        let pulled = if A::PRINCIPAL_FRAME { self.axis.at(j) } else { self.pulled.at(j) };
+        let momentum = self.momentum.at(j);
+        let companion = if V > COMPANION { self.companion.at(i) } else { momentum };
+        self.add_products(sums, momentum, pulled, self.axis.at(i), companion);
+    }
+
+    /// Adds `L_j x n_i`, `(s n)_j x n_i` and `L_j x u_i`, by their terms of either sign.
+    #[inline(always)]
+    fn add_products(
+        &self,
+        sums: &mut Sums<A::Vector>,
+        momentum: A::Turned,
+        pulled: A::Turned,
+        axis: A::Turned,
+        companion: A::Turned,
+    ) {
+        let a = self.arithmetic;
+        let add = |[ahead, behind]: [A::Vector; 2], turning, turned| {
+            [a.mul_add(a.yzx(turning), a.zxy(turned), ahead), a.mul_add(a.zxy(turning), a.yzx(turned), behind)]
+        };
+        sums.axis = add(sums.axis, momentum, axis);
+        if A::PRINCIPAL_FRAME {
+            sums.pull[0] = a.mul_add(a.yzx(pulled), a.zxy(axis), sums.pull[0]);
+        } else {
+            sums.pull = add(sums.pull, pulled, axis);
+        }
+        if V > COMPANION {
+            sums.companion = add(sums.companion, momentum, companion);
+        }
+    }
+
+    /// Makes coefficient `k + 1` of the sums of order `k`.
+    #[inline(always)]
+    fn finish(&mut self, k: usize, sums: &Sums<A::Vector>, series: &mut [Vectors<A::Vector, V>]) {
+        let a = self.arithmetic;
+        let cross = |[ahead, behind]: [A::Vector; 2]| a.sub(ahead, behind);
+        let pull = if A::PRINCIPAL_FRAME { sums.pull[0] } else { cross(sums.pull) };
+        let mut next = [pull; V];
+        next[AXIS] = a.mul(cross(sums.axis), self.share_of_axis.at(k));
+        next[MOMENTUM] = a.mul(pull, self.share_of_momentum.at(k));
+        if V > COMPANION {
+            next[COMPANION] = a.mul(cross(sums.companion), self.share_of_axis.at(k));
+        }
+        self.put(k + 1, &next, series);
+    }
+
+    #[inline(always)]
+    fn put(&mut self, k: usize, coefficient: &Vectors<A::Vector, V>, series: &mut [Vectors<A::Vector, V>]) {
+        let a = self.arithmetic;
+        series[k] = *coefficient;
+        self.axis.put(k, a.turned(coefficient[AXIS]));
+        self.momentum.put(k, a.turned(coefficient[MOMENTUM]));
+        if !A::PRINCIPAL_FRAME {
+            self.pulled.put(k, a.turned(a.combine(&self.violation, coefficient[AXIS])));
+        }
+        if V > COMPANION {
+            self.companion.put(k, a.turned(coefficient[COMPANION]));
+        }
+    }
+}
+
+/// Change of the vectors over the time `h` (the same in each component), in units of the series, by its coefficients: the sum
+/// without its constant term, which the caller adds last. `coefficient` gives those up to `order`.
+#[inline(always)]
+pub(super) fn change<A: Arithmetic, const V: usize>(
+    a: A,
+    order: usize,
+    coefficient: impl Fn(usize) -> Vectors<A::Vector, V>,
+    h: A::Vector,
+) -> Vectors<A::Vector, V> {
+    // Even and odd powers apart: two short chains of products instead of a long one. The largest terms come last.
+    let zero = [a.zero(); V];
+    let (mut even, mut odd) = (zero, zero);
+    let square = a.mul(h, h);
+    let times_square_plus = |sum: &mut Vectors<A::Vector, V>, next: Vectors<A::Vector, V>| {
+        for (sum, next) in sum.iter_mut().zip(next) {
+            *sum = a.mul_add(*sum, square, next);
+        }
+    };
+    let mut k = order;
+    if k % 2 == 0 {
+        even = coefficient(k);
+        k -= 1;
+    }
+    // `k` is odd: pairs of an odd and an even coefficient, down to the third and second.
+    while k > 2 {
+        times_square_plus(&mut odd, coefficient(k));
+        times_square_plus(&mut even, coefficient(k - 1));
+        k -= 2;
+    }
+    let first = coefficient(1);
+    let mut sum = zero;
+    for i in 0..V {
+        let higher = a.mul_add(odd[i], h, even[i]);
+        sum[i] = a.mul(a.mul_add(higher, h, first[i]), h);
+    }
+    sum
+}

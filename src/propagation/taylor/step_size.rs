@@ -1,0 +1,127 @@
+//! Sizes by which a series is measured, its order and its step.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::dynamics::RigidSpheroid;
+use crate::propagation::arithmetic::OneMotion;
+use crate::propagation::taylor::series::{MAX_ORDER, MOMENTUM, Vectors};
+use crate::scalar::{Real, real_part};
+
+/// Sizes by which errors are measured.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scale {
+    /// Size of the angular momentum, or what the torque makes of it within its own time.
+    pub(super) momentum: f64,
+    /// Upper bound of the rate at which directions turn.
+    pub(super) turning_rate: f64,
+    /// A power of two near the inverse of that rate.
+    pub(super) time: f64,
+}
+
+impl Scale {
+    pub(super) fn of<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, momentum: &Vector3<S>) -> Self {
+        let inertia = spheroid.inertia_xx.re();
+        let pull = spheroid.constant_c.re().abs() * s.map(S::re).norm();
+        // Two roots, since the product may be out of range where they are not.
+        let momentum = real_part(momentum).norm() + (2.0 * inertia).sqrt() * pull.sqrt();
+        let body_turn = (1.0 - spheroid.inertia_xx.re() / spheroid.inertia_zz.re()).abs();
+        let turning_rate = momentum / inertia * (1.0 + body_turn);
+        let time = if turning_rate > 0.0 { 2f64.powi(-turning_rate.log2().clamp(-1000.0, 1000.0) as i32) } else { 1.0 };
+        // A body at rest without torque stays so: any unit of momentum does.
+        Self { momentum: if momentum > 0.0 { momentum } else { inertia }, turning_rate, time }
+    }
+
+    /// Largest component of a coefficient, `L` in units of the momentum; NaN if one is NaN.
+    #[inline(always)]
+    pub(super) fn size<A: OneMotion, const V: usize>(&self, a: A, coefficient: &Vectors<A::Vector, V>) -> f64 {
+        let mut sizes = coefficient.map(|v| a.largest(v));
+        sizes[MOMENTUM] /= self.momentum;
+        let mut size = sizes[0];
+        for other in &sizes[1..] {
+            size = if *other <= size { size } else { *other };
+        }
+        size
+    }
+
+    /// The same from the largest components of `n` and of `L`.
+    #[inline(always)]
+    pub(super) fn size_of_both(&self, axis: f64, momentum: f64) -> f64 {
+        let momentum = momentum / self.momentum;
+        if momentum <= axis { axis } else { momentum }
+    }
+}
+
+/// How the series is computed, as far as its order depends on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Work {
+    /// The work grows as the square of the order.
+    Quadratic,
+    /// By instructions that multiply whole vectors: much of the work is waiting for the order before, so that it grows more
+    /// slowly.
+    Latent,
+}
+
+/// Order of the series for a relative truncation `budget` per radian. If the work grows as the square of the order it is least
+/// near `-ln(budget) / 2` (Jorba and Zou 2005), and at a higher order if it grows more slowly.
+pub(super) fn order_for(budget: f64, work: Work) -> usize {
+    let share = match work {
+        Work::Quadratic => 0.5,
+        Work::Latent => 0.75,
+    };
+    // One more than a multiple of three, the number of orders that are worked on at once.
+    let triples = ((-budget.ln() * share - 1.0) / 3.0).round().clamp(2.0, (MAX_ORDER / 3 - 1) as f64);
+    3 * triples as usize + 1
+}
+
+/// Step with truncation error at most `budget` per unit of time, from the sizes of the last coefficient and the one before
+/// (two, since one may vanish by symmetry); zero where the coefficients are out of range.
+#[inline(always)]
+pub(super) fn step_size(sizes: [f64; 2], order: usize, scale: &Scale, budget: f64) -> f64 {
+    // The binary logarithm of the largest step in units of the series.
+    let bound = |size: f64, k: usize| match size {
+        0.0 => f64::INFINITY,
+        size if size.is_finite() => coarse_log2(budget * scale.time / size) / (k as f64 - 1.0),
+        _ => f64::NEG_INFINITY,
+    };
+    // The first omitted term is about the last kept one times (step / radius of convergence), and that ratio is below
+    // one fifth: so the last kept term bounds the whole remainder.
+    let exponent = bound(sizes[0], order).min(bound(sizes[1], order - 1));
+    if exponent == f64::NEG_INFINITY { 0.0 } else { coarse_exp2(exponent) * scale.time }
+}
+
+/// Binary logarithm of a positive number, too small by at most 0.09: what its exponent and the mantissa, taken to be linear,
+/// say. A step needs no more, and the library's logarithm takes as long as a tenth of a step.
+#[inline(always)]
+fn coarse_log2(x: f64) -> f64 {
+    if !(x >= f64::MIN_POSITIVE && x < f64::INFINITY) {
+        return x.log2();
+    }
+    (x.to_bits() as f64) / (1u64 << 52) as f64 - 1023.0
+}
+
+/// Power of two, to 0.3 %.
+#[inline(always)]
+fn coarse_exp2(x: f64) -> f64 {
+    let x = x.clamp(-1020.0, 1020.0);
+    // Positive, so that the conversion rounds down.
+    let whole = (x + 1023.0) as u64;
+    let rest = x + 1023.0 - whole as f64;
+    f64::from_bits(whole << 52) * (1.0 + rest * (0.6565 + 0.3435 * rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coarse_powers_and_logarithms() {
+        for i in -9000..9000 {
+            let x = f64::from(i) * 0.1 + 0.037;
+            let (power, log) = (coarse_exp2(x), coarse_log2(x.exp2()));
+            assert!((power / x.exp2() - 1.0).abs() < 3e-3, "2^{x}: {power}");
+            assert!(log <= x + 1e-12 && log > x - 0.09, "log2 of 2^{x}: {log}");
+        }
+        assert_eq!(coarse_log2(0.0), f64::NEG_INFINITY);
+        assert_eq!(coarse_exp2(0.0), 1.0);
+    }
+}

@@ -1,0 +1,100 @@
+//! What plans take from the heap, counted by an allocator: no more than listed, and nothing inside a step.
+
+use allocation_counter::{AllocationInfo, measure};
+use twofold::Error;
+use twofold::plan::{Method, Output, Plan, Request, State};
+use twofold::propagation::{AxisMotion, Motion, propagate, propagate_axis};
+use twofold_verify::reference::{ReferenceMotion, reference_motion};
+
+/// Makes the motion of a plan and evaluates it at its samples; what that took, the plan apart.
+fn carried_out(scene: &ReferenceMotion, plan: &Plan) -> Result<AllocationInfo, Error> {
+    let (body, s, initial) = (scene.spheroid, scene.violation(), scene.initial());
+    let times = |i: usize| plan.stretch.1 * i as f64 / plan.samples.max(2) as f64;
+    let mut result = Ok(());
+    let info = measure(|| {
+        result = match plan.state {
+            State::Nothing => Ok(()),
+            State::Axis | State::AxisAndMomentum => plan
+                .axis_motion(&body, &s, &initial)
+                .and_then(|motion| (0..plan.samples).try_for_each(|i| motion.axis_state(times(i)).map(drop))),
+            State::Orientation => plan
+                .motion(&body, &s, &initial)
+                .and_then(|motion| (0..plan.samples).try_for_each(|i| motion.state(times(i)).map(drop))),
+        };
+    });
+    result.map(|()| info)
+}
+
+/// Every output alone, and all together, by every method that the scene allows: free rotation and steady precession take nothing from
+/// the heap, elliptic functions some short lists for the roots of a quartic, a numerical motion what the plan foresaw of its dense output, up to a factor of two of the foreseen steps and of four of a
+/// growing vector; samples take nothing.
+#[test]
+fn plans_take_no_more_than_listed() -> Result<(), Error> {
+    let alone = Output::ALL.map(|output| vec![output]);
+    let together = [Output::ALL.to_vec()];
+    for name in ["free", "axisymmetric-violation", "tp-2"] {
+        let scene = reference_motion(name);
+        let (body, s, initial) = (scene.spheroid, scene.violation(), scene.initial());
+        for outputs in alone.iter().chain(&together) {
+            let mut first = None;
+            for samples in [10, 1000] {
+                let request = Request::new(outputs, (0.0, 200.0), samples, 1e-10);
+                let plan = Plan::new(&body, &s, &initial, &request)?;
+                let info = carried_out(&scene, &plan)?;
+                let Some(prediction) = plan.prediction else {
+                    assert_eq!((plan.state, info.count_total), (State::Nothing, 0), "{name}: {outputs:?}");
+                    continue;
+                };
+                let place = format!("{name}: {outputs:?} by {:?}", plan.method);
+                let listed = match plan.method {
+                    Some(Method::Taylor | Method::Splitting) => 8.0 * prediction.bytes + 4096.0,
+                    _ => prediction.bytes,
+                };
+                assert!(info.bytes_total as f64 <= listed, "{place}: {} bytes, at most {listed}", info.bytes_total);
+                assert_eq!(info.count_current, 0, "{place}: all is given back");
+                match first.filter(|(method, _)| *method == plan.method) {
+                    Some((_, first)) => assert_eq!(info.count_total, first, "{place}: samples take nothing"),
+                    None => first = Some((plan.method, info.count_total)),
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Sixteen times as many steps take four more doublings of three vectors: nothing in a step itself.
+#[test]
+fn steps_take_nothing() -> Result<(), Error> {
+    let scene = reference_motion("tp-2");
+    let (body, s, initial) = (scene.spheroid, scene.violation(), scene.initial());
+    let count = |span: f64, full: bool| {
+        let mut steps = Ok(0);
+        let info = measure(|| {
+            steps = if full {
+                propagate(&body, &s, &initial, (0.0, span), 1e-10).map(|motion| motion.step_count())
+            } else {
+                propagate_axis(&body, &s, &(&initial).into(), (0.0, span), 1e-10).map(|motion| motion.step_count())
+            };
+        });
+        steps.map(|steps| (steps, info.count_total))
+    };
+    for full in [false, true] {
+        let ((few_steps, few), (many_steps, many)) = (count(100.0, full)?, count(1600.0, full)?);
+        assert!(many_steps > 15 * few_steps, "{few_steps} and {many_steps} steps");
+        assert!(many <= few + 3 * 6, "{few} allocations in {few_steps} steps, {many} in {many_steps}");
+    }
+    Ok(())
+}
+
+/// A plan itself is a few short lists.
+#[test]
+fn a_plan_is_small() -> Result<(), Error> {
+    let scene = reference_motion("tp-2");
+    let (body, s, initial) = (scene.spheroid, scene.violation(), scene.initial());
+    let request = Request::new(&Output::ALL, (0.0, 1e4), 10_000, 1e-13);
+    let mut made = Err(Error::NotConverged { what: "plan", iterations: 0, residual: 0.0 });
+    let info = measure(|| made = Plan::new(&body, &s, &initial, &request));
+    made?;
+    assert!(info.bytes_total < 16_384, "{} bytes", info.bytes_total);
+    Ok(())
+}

@@ -1,0 +1,32 @@
+//! The estimated error of a numerical motion is never below its true error.
+
+use nalgebra::Matrix3;
+use proptest::prelude::*;
+use twofold_verify::error_scenes::ErrorScene;
+use twofold_verify::physical_domain::scenes;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn an_estimate_is_not_below_the_true_error(
+        scene in scenes(),
+        log_accuracy in -16.0..-2.0f64,
+        end in -30.0..30.0f64,
+        share in 0.0..1.0f64,
+    ) {
+        let violation: Matrix3<f64> = scene.coefficients().tensor();
+        let scene = ErrorScene {
+            spheroid: scene.spheroid(),
+            violation,
+            initial: scene.state(),
+            span: (0.0, end),
+            time: end * share,
+            accuracy: 10f64.powf(log_accuracy),
+            strength: violation.amax(),
+            near_middle_axis: false,
+        };
+        let (estimate, error) = scene.estimated_and_true().map_err(TestCaseError::fail)?;
+        prop_assert!(estimate >= error, "estimated {estimate:e}, true {error:e}");
+    }
+}

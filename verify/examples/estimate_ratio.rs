@@ -1,0 +1,97 @@
+//! Estimated over true error of random motions: its distribution, by class.
+//!
+//! `cargo run --release -p twofold-verify --example estimate_ratio [SCENES] [SEED] [FIRST]`: 10,000 scenes of seed 1 unless
+//! said. Scenes below one, above 100,000 and the lowest are listed with their numbers; `1 SEED NUMBER` runs one again.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use twofold_verify::error_scenes::ErrorScene;
+
+fn main() {
+    let arguments: Vec<u64> = std::env::args().skip(1).filter_map(|text| text.parse().ok()).collect();
+    let argument = |index: usize, otherwise| arguments.get(index).copied().unwrap_or(otherwise);
+    let (scenes, seed, first) = (argument(0, 10_000), argument(1, 1), argument(2, 0));
+    let (next, rows) = (AtomicU64::new(first), Mutex::new(Vec::new()));
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(|| {
+                loop {
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    if number >= first + scenes {
+                        return;
+                    }
+                    let scene = ErrorScene::draw(seed, number);
+                    let found = scene.estimated_and_true();
+                    rows.lock().expect("no worker panics").push((number, scene, found));
+                }
+            });
+        }
+    });
+    let mut rows = rows.into_inner().expect("no worker panics");
+    rows.sort_by_key(|row| row.0);
+    let mut found = Vec::new();
+    for (number, scene, result) in rows {
+        match result {
+            Ok((estimate, error)) => {
+                // What is not a number counts as below.
+                let ratio = if error > 0.0 || error.is_nan() { estimate / error } else { f64::INFINITY };
+                found.push((number, scene, if ratio.is_nan() { 0.0 } else { ratio }, error));
+            }
+            Err(why) => println!("scene {number}: {why}"),
+        }
+    }
+    println!(
+        "{:26} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>6} {:>8}",
+        "class", "scenes", "min", "1 %", "median", "95 %", "99 %", "max", "< 1", "> 100"
+    );
+    let within = |x: f64, low: f64, high: f64| low <= x && x < high;
+    row("all", &found, |_| true);
+    for (low, high) in [(1e-8, 1e-6), (1e-6, 1e-4), (1e-4, 1e-2), (1e-2, 0.1), (0.1, 1.0)] {
+        row(&format!("s from {low:e} to {high:e}"), &found, |scene| within(scene.strength, low, high));
+    }
+    for (low, high) in [(1e-16, 1e-14), (1e-14, 1e-12), (1e-12, 1e-8), (1e-8, 1e-5), (1e-5, 1e-3)] {
+        row(&format!("accuracy {low:e} to {high:e}"), &found, |scene| within(scene.accuracy, low, high));
+    }
+    row("L near the middle axis", &found, |scene| scene.near_middle_axis);
+    row("L = 0", &found, |scene| scene.initial.momentum.norm() == 0.0);
+    for (low, high) in [(0.0, 3.0), (3.0, 30.0), (30.0, 300.0), (300.0, 1e6)] {
+        row(&format!("turned by {low} to {high} rad"), &found, |scene| within(scene.turned(), low, high));
+    }
+    row("backwards", &found, |scene| scene.span.1 < scene.span.0);
+    found.sort_by(|a, b| a.2.total_cmp(&b.2));
+    for (index, (number, scene, ratio, error)) in found.iter().enumerate() {
+        if index < 3 || *ratio < 1.0 || *ratio > 1e5 {
+            println!(
+                "scene {number}: ratio {ratio:.3e}, true error {error:.2e}, accuracy {:.1e}, s {:.1e}, {:.1} rad",
+                scene.accuracy,
+                scene.strength,
+                scene.turned()
+            );
+        }
+    }
+}
+
+fn row(name: &str, found: &[(u64, ErrorScene, f64, f64)], belongs: impl Fn(&ErrorScene) -> bool) {
+    let mut ratios: Vec<f64> = found.iter().filter(|row| belongs(&row.1)).map(|row| row.2).collect();
+    ratios.sort_by(f64::total_cmp);
+    let count = ratios.len();
+    if count == 0 {
+        return;
+    }
+    let quantile = |q: f64| ratios[((count - 1) as f64 * q) as usize];
+    let below = ratios.iter().filter(|ratio| **ratio < 1.0).count();
+    let above = ratios.iter().filter(|ratio| **ratio > 100.0).count();
+    let quantiles = [0.0, 0.01, 0.5, 0.95, 0.99, 1.0].map(|q| format!("{:>9}", Short(quantile(q))));
+    println!("{name:26} {count:>6} {} {below:>6} {:>6.2} %", quantiles.join(" "), 100.0 * above as f64 / count as f64);
+}
+
+struct Short(f64);
+
+impl std::fmt::Display for Short {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let text = if self.0 < 1e4 { format!("{:.2}", self.0) } else { format!("{:.1e}", self.0) };
+        f.pad_integral(true, "", &text)
+    }
+}

@@ -1,0 +1,37 @@
+"""The scenes of `twofold bench` and their reference states."""
+
+import csv
+import os
+from dataclasses import dataclass
+from fractions import Fraction
+
+DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data")
+
+
+@dataclass
+class Scene:
+    """I^zz, s and n, L, e_x at the start, in units I^xx = C = 1; the state at the end in 30 digits."""
+
+    name: str
+    inertia: float
+    s: list
+    start: list
+    end: list
+
+
+def rows(file):
+    with open(os.path.join(DATA, file)) as lines:
+        yield from list(csv.reader(line for line in lines if not line.startswith("#")))[1:]
+
+
+def read_scenes(duration=1000):
+    ends = {row[0]: [Fraction(x) for x in row[2:]] for row in rows("bench_states.csv") if float(row[1]) == duration}
+    numbers = ((row[0], [float(x) for x in row[1:]]) for row in rows("bench_scenes.csv"))
+    return [Scene(name, v[0], v[1:4], v[4:], ends[name]) for name, v in numbers]
+
+
+def error(scene, state):
+    """Largest error of a component of n, L / |L| and e_x, where the state has it."""
+    size = sum(float(x) ** 2 for x in scene.end[3:6]) ** 0.5
+    units = [1.0] * 3 + [size] * 3 + [1.0] * 3
+    return max(abs(float(Fraction(x) - y)) / unit for x, y, unit in zip(state, scene.end, units))

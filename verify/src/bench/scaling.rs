@@ -1,0 +1,127 @@
+//! Cost against the number of outputs, of scenes and of cores.
+
+use std::num::NonZero;
+use std::thread;
+use std::time::Instant;
+
+use twofold::propagation::{AxisMotion, propagate_axis};
+
+use super::Effort;
+use super::method::text;
+use super::overhead::ACCURACY;
+use super::scene::{BenchScene, DURATION};
+use super::timing::in_turn;
+
+/// A cost.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// What is counted: `outputs`, `scenes` or `cores`.
+    pub of: &'static str,
+    /// How many there are.
+    pub count: usize,
+    /// Least time of the whole (s).
+    pub least: f64,
+    /// Time of one output, or of one scene on all cores together (s).
+    pub each: f64,
+}
+
+/// Numbers of outputs of one motion.
+const OUTPUTS: [usize; 6] = [1, 10, 100, 1000, 10_000, 100_000];
+
+/// Numbers of scenes, one after another.
+const SCENES: [usize; 3] = [1, 10, 100];
+
+/// Scenes that are spread over cores.
+const SPREAD: usize = 200;
+
+/// All of them on tp-II and scenes near it; `done` hears which part is over.
+///
+/// # Errors
+/// What a motion reports.
+pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
+    let scene = BenchScene::named("tp-II");
+    let mut outputs: Vec<_> = OUTPUTS.iter().map(|count| || sampled(&scene, *count)).collect();
+    let times = in_turn(&mut outputs, effort.rounds.min(20), |part| done(part / 3.0))?;
+    let mut rows: Vec<_> = OUTPUTS
+        .iter()
+        .zip(times)
+        .map(|(count, times)| Row {
+            of: "outputs",
+            count: *count,
+            least: times.least,
+            each: times.least / *count as f64,
+        })
+        .collect();
+
+    let mut scenes: Vec<_> = SCENES.iter().map(|count| || spread(&scene, *count, 1)).collect();
+    let times = in_turn(&mut scenes, effort.rounds.div_ceil(10), |part| done((1.0 + part) / 3.0))?;
+    let row = |(count, times): (&usize, super::timing::Times)| Row {
+        of: "scenes",
+        count: *count,
+        least: times.least,
+        each: times.least / *count as f64,
+    };
+    rows.extend(SCENES.iter().zip(times).map(row));
+
+    let most = thread::available_parallelism().map_or(1, NonZero::get);
+    let cores: Vec<_> = (1..=most).filter(|n| n.is_power_of_two() || *n == most).collect();
+    let mut least = vec![f64::INFINITY; cores.len()];
+    let rounds = effort.rounds.div_ceil(5);
+    for round in 0..rounds {
+        for (cores, least) in cores.iter().zip(&mut least) {
+            // What several cores gain shows on the wall only.
+            let clock = Instant::now();
+            spread(&scene, SPREAD, *cores)?;
+            *least = least.min(clock.elapsed().as_secs_f64());
+        }
+        done((2.0 + (round + 1) as f64 / rounds as f64) / 3.0);
+    }
+    let row = |(cores, least): (&usize, f64)| Row { of: "cores", count: *cores, least, each: least / SPREAD as f64 };
+    rows.extend(cores.iter().zip(least).map(row));
+    Ok(rows)
+}
+
+fn sampled(scene: &BenchScene, count: usize) -> Result<f64, String> {
+    let span = (0.0, DURATION);
+    let motion =
+        propagate_axis(&scene.spheroid, &scene.violation, &scene.initial_axis(), span, ACCURACY).map_err(text)?;
+    (1..=count).try_fold(0.0, |sum, i| {
+        let state = motion.axis_state(DURATION * i as f64 / count as f64).map_err(text)?;
+        Ok(sum + state.axis.z)
+    })
+}
+
+/// The end states of `count` scenes, whose `s` differ a little, on a number of threads.
+fn spread(scene: &BenchScene, count: usize, cores: usize) -> Result<f64, String> {
+    let one = |i: usize| {
+        let s = scene.violation * (1.0 + 1e-4 * i as f64);
+        let start = scene.initial_axis();
+        let motion = propagate_axis(&scene.spheroid, &s, &start, (0.0, DURATION), ACCURACY).map_err(text)?;
+        Ok::<_, String>(motion.axis_state(DURATION).map_err(text)?.axis.z)
+    };
+    let part = |core: usize| (core..count).step_by(cores).try_fold(0.0, |sum, i| Ok::<_, String>(sum + one(i)?));
+    thread::scope(|scope| {
+        let others: Vec<_> = (1..cores).map(|core| scope.spawn(move || part(core))).collect();
+        let first = part(0)?;
+        let joined = others.into_iter().map(|other| other.join().map_err(|_| "a thread panicked".to_owned())?);
+        joined.sum::<Result<f64, _>>().map(|sum| first + sum)
+    })
+}
+
+/// Time from nothing to the first state of a motion (s), the least of many: what a method costs before its first step.
+///
+/// # Errors
+/// What a motion reports.
+pub fn set_up(effort: &Effort) -> Result<f64, String> {
+    let scene = BenchScene::named("tp-II");
+    let mut least = f64::INFINITY;
+    for _ in 0..100 * effort.rounds {
+        // The clock of the thread's work is too coarse for a microsecond.
+        let clock = Instant::now();
+        let start = scene.initial_axis();
+        let motion = propagate_axis(&scene.spheroid, &scene.violation, &start, (0.0, 1e-3), ACCURACY).map_err(text)?;
+        std::hint::black_box(motion);
+        least = least.min(clock.elapsed().as_secs_f64());
+    }
+    Ok(least)
+}

@@ -1,0 +1,81 @@
+//! Times of several cases, taken in turn.
+
+/// Seconds that this thread has worked: other programs on the machine disturb them less than a clock on the wall. Where there
+/// is no such clock, the one on the wall.
+pub fn clock() -> f64 {
+    #[cfg(unix)]
+    {
+        let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+        time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+    }
+    #[cfg(not(unix))]
+    {
+        static START: std::sync::LazyLock<std::time::Instant> = std::sync::LazyLock::new(std::time::Instant::now);
+        START.elapsed().as_secs_f64()
+    }
+}
+
+/// Times of one case.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Times {
+    /// The least (s): what others on the machine disturbed least.
+    pub least: f64,
+    /// The median (s).
+    pub median: f64,
+}
+
+impl Times {
+    fn of(mut seconds: Vec<f64>) -> Self {
+        seconds.sort_by(f64::total_cmp);
+        Self { least: seconds[0], median: seconds[seconds.len() / 2] }
+    }
+}
+
+/// Runs every case once to warm up, then `rounds` times each, in turn; `done` hears the part of the rounds that is over.
+///
+/// # Errors
+/// What a case reports.
+pub fn in_turn<R>(
+    cases: &mut [impl FnMut() -> Result<R, String>],
+    rounds: usize,
+    mut done: impl FnMut(f64),
+) -> Result<Vec<Times>, String> {
+    let mut seconds = vec![Vec::with_capacity(rounds); cases.len()];
+    for round in 0..=rounds {
+        for (case, seconds) in cases.iter_mut().zip(&mut seconds) {
+            let start = clock();
+            std::hint::black_box(case()?);
+            let elapsed = clock() - start;
+            if round > 0 {
+                seconds.push(elapsed);
+            }
+        }
+        done(round as f64 / rounds as f64);
+    }
+    Ok(seconds.into_iter().map(Times::of).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::*;
+
+    #[test]
+    fn cases_take_turns_after_a_round_that_does_not_count() {
+        let order = RefCell::new(Vec::new());
+        let case = |i: usize| {
+            let order = &order;
+            move || {
+                order.borrow_mut().push(i);
+                let (start, long) = (clock(), if order.borrow().len() <= 2 { 0.1 } else { 1e-3 });
+                while clock() - start < long {}
+                Ok(())
+            }
+        };
+        let times = in_turn(&mut [case(0), case(1)], 2, |_| ()).expect("no case fails");
+        assert_eq!(*order.borrow(), [0, 1, 0, 1, 0, 1]);
+        assert!(times.iter().all(|t| t.least >= 1e-3 && t.median < 0.1), "{times:?}");
+        assert_eq!(in_turn(&mut [|| Err::<(), _>("no".to_owned())], 2, |_| ()), Err("no".to_owned()));
+    }
+}

@@ -1,0 +1,284 @@
+//! Plans: what is forecast against what is counted, motions in closed form against numerical ones, gradients.
+
+use std::cell::Cell;
+
+use nalgebra::Matrix3;
+use proptest::prelude::*;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::plan::{Method, Output, Parameter, Plan, Request, StateFunction, gradient};
+use twofold::propagation::{AxisMotion, Motion, SymmetricMotion, UniformMotion, propagate};
+use twofold::scalar::Real;
+use twofold::solutions::perturbation::Kind as Precession;
+use twofold::solutions::steady::steady_precession_rate;
+
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
+use crate::physical_domain::{RandomScene, scenes, worst_over};
+use crate::reference::reference_gradients;
+
+/// Checks of this subject.
+pub fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "plan-counts",
+            kind: Kind::Property,
+            equations: &[25],
+            statement: "right-hand sides that a plan foresees are those of the motion, at random over accuracies, spans and states carried",
+            figure: "largest ratio of counted to foreseen right-hand sides, or the inverse",
+            bound: Bound::AtMost(2.0),
+            reason: "the plan knows the first step; later ones are longer or shorter as torque and rotation add up or not",
+            measure: counts,
+        },
+        Check {
+            id: "plan-cheapest",
+            kind: Kind::Property,
+            equations: &[25],
+            statement: "at random a plan takes the cheapest of the methods that meet the accuracy, and its motion meets its prediction",
+            figure: "largest difference from a motion of accuracy 1e-15 / (error predicted by the plan + estimate of that motion)",
+            bound: Bound::AtMost(1.0),
+            reason: "the prediction is a bound, or for a numerical motion the accuracy asked and rounding",
+            measure: meets_prediction,
+        },
+        Check {
+            id: "free-motion-bound",
+            kind: Kind::Property,
+            equations: &[48],
+            statement: "free rotation in place of the motion is off by at most its rigorous bound, over 1e-2 to 1e2 t_c",
+            figure: "largest difference of n, L and e_x from the numerical motion / (bound + its error estimate)",
+            bound: Bound::AtMost(1.0),
+            reason: "the bound follows from the largest torque alone",
+            measure: free_bound,
+        },
+        Check {
+            id: "symmetric-motion",
+            kind: Kind::Oracle,
+            equations: &[25],
+            statement: "for two equal eigenvalues of s^IJ in any frame the motion by elliptic functions is the numerical one within both estimates, also where the eigenvalues differ a little",
+            figure: "largest difference of n, L and e_x / sum of the two error estimates",
+            bound: Bound::AtMost(1.0),
+            reason: "the same motion, twice computed; the estimate counts rounding by the derivatives of the solution",
+            measure: symmetric_motion,
+        },
+        Check {
+            id: "steady-motion",
+            kind: Kind::Oracle,
+            equations: &[26],
+            statement: "steady precession about any axis is the numerical motion, and states beside it are refused",
+            figure: "largest difference of n, L and e_x / sum of the two error estimates",
+            bound: Bound::AtMost(1.0),
+            reason: "the same motion, twice computed",
+            measure: steady_motion,
+        },
+        Check {
+            id: "gradient-reference",
+            kind: Kind::Oracle,
+            equations: &[25],
+            statement: "derivatives of n, L and e_x by fifteen parameters are those of 45-digit motions, two scenes",
+            figure: "largest error / largest derivative by the same parameter at the same time",
+            bound: Bound::AtMost(1e-10),
+            reason: "the accuracy of 1e-15 asked of the motion, times the growth of derivatives over 20 t_c; 1e-10 is what is promised",
+            measure: gradients,
+        },
+    ]
+}
+
+fn text(error: twofold::Error) -> String {
+    error.to_string()
+}
+
+/// Largest component of the difference of two states of a scene in units `I^xx = C = 1`, `L` in units of that at the start and of
+/// what the torque makes of it.
+fn difference(a: &BodyState<f64>, b: &BodyState<f64>, s: &Matrix3<f64>, initial: &BodyState<f64>) -> f64 {
+    let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
+    let size = initial.momentum.norm() + (2.0 * anisotropic.norm()).sqrt();
+    largest([
+        largest_component(&(a.axis - b.axis)),
+        largest_component(&(a.equatorial_axis - b.equatorial_axis)),
+        largest_component(&((a.momentum - b.momentum) / size)),
+    ])
+}
+
+fn counts() -> Result<Measured, String> {
+    let strategy = (scenes(), -14.0..-3.0f64, 0.5..2.5f64, any::<bool>());
+    worst_over(41, 200, &strategy, |&(scene, accuracy, span, full)| {
+        let (body, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
+        let output = if full { Output::EquatorialAxis } else { Output::GravitationalWave };
+        let request = Request {
+            method: Some(Method::Taylor),
+            ..Request::new(&[output], (0.0, 10f64.powf(span)), 10, 10f64.powf(accuracy))
+        };
+        let plan = Plan::new(&body, &s, &initial, &request).map_err(text)?;
+        let foreseen = plan.prediction.ok_or("a plan without prediction")?.work.right_hand_sides;
+        let counted = if full {
+            plan.motion(&body, &s, &initial).map_err(text)?.work()
+        } else {
+            plan.axis_motion(&body, &s, &initial).map_err(text)?.work()
+        };
+        let ratio = counted.right_hand_sides / foreseen;
+        Ok(ratio.max(1.0 / ratio))
+    })
+}
+
+/// Scenes without, with little and with much violation, with two equal eigenvalues or not.
+fn scenes_for_plans() -> impl Strategy<Value = RandomScene> {
+    (scenes(), 0..4_u8, -16.0..-6.0f64).prop_map(|(mut scene, kind, log)| {
+        match kind {
+            0 => scene.s = [0.0; 3],
+            1 => scene.s[1] = scene.s[0],
+            2 => scene.s = scene.s.map(|x| x * 10f64.powf(log)),
+            _ => {}
+        }
+        scene
+    })
+}
+
+fn meets_prediction() -> Result<Measured, String> {
+    let seen: [Cell<usize>; 4] = Default::default();
+    let strategy = (scenes_for_plans(), -12.0..-3.0f64, 0.0..2.0f64, 1..20_usize);
+    let measured = worst_over(42, 400, &strategy, |&(scene, accuracy, span, samples)| {
+        let (body, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
+        let span = (0.0, 10f64.powf(span));
+        let request = Request::new(&[Output::EquatorialAxis], span, samples, 10f64.powf(accuracy));
+        let plan = Plan::new(&body, &s, &initial, &request).map_err(text)?;
+        let (method, prediction) = plan.method.zip(plan.prediction).ok_or("a plan without a method")?;
+        for candidate in &plan.considered {
+            if let Ok(other) = &candidate.prediction
+                && other.truncation <= plan.accuracy
+                && other.cost < prediction.cost
+            {
+                return Err(format!("{} is cheaper than {}", candidate.method.name(), method.name()));
+            }
+        }
+        let place = Method::ALL.iter().position(|m| *m == method).ok_or("a method that is none")?;
+        seen[place].set(seen[place].get() + 1);
+        let motion = plan.motion(&body, &s, &initial).map_err(text)?;
+        let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
+        let off = difference(&motion.state(span.1).map_err(text)?, &exact.state(span.1).map_err(text)?, &s, &initial);
+        Ok(off / (prediction.truncation + prediction.rounding + exact.error_estimate(span.1)))
+    })?;
+    let seen = seen.map(|count| count.get());
+    // A steady precession is no accident.
+    if seen[0] < 20 || seen[2] < 20 || seen[3] < 20 {
+        return Err(format!("methods {seen:?} in the order of the list: some were hardly chosen"));
+    }
+    Ok(Measured::new(measured.figure, format!("{}; chosen {seen:?}", measured.detail)))
+}
+
+fn free_bound() -> Result<Measured, String> {
+    let strategy = (scenes_for_plans(), -2.0..2.0f64);
+    worst_over(43, 400, &strategy, |&(scene, log)| {
+        let (body, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
+        let span = (0.0, 10f64.powf(log));
+        let free = UniformMotion::free(&body, &s, &initial, span);
+        let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
+        let figure = |t: f64| {
+            let off = difference(&free.state(t).map_err(text)?, &exact.state(t).map_err(text)?, &s, &initial);
+            Ok::<_, String>(off / (free.error_estimate(t) + exact.error_estimate(t)))
+        };
+        Ok(largest([figure(span.1)?, figure(0.3 * span.1)?]))
+    })
+}
+
+/// A tensor given in a frame turned by three angles.
+fn turned(s: &Matrix3<f64>, initial: &BodyState<f64>, [a, b, c]: [f64; 3]) -> (Matrix3<f64>, BodyState<f64>) {
+    let rotation = nalgebra::Rotation3::from_euler_angles(a, b, c).into_inner();
+    (rotation * s * rotation.transpose(), initial.rotated(&rotation))
+}
+
+fn symmetric_motion() -> Result<Measured, String> {
+    let solved = Cell::new(0);
+    let strategy = (scenes(), prop::array::uniform3(-3.0..3.0f64), 0..3_u8, -12.0..-5.0f64, 0.0..2.0f64);
+    let measured = worst_over(44, 400, &strategy, |&(mut scene, frame, kind, log, span)| {
+        scene.s[1] = scene.s[0];
+        if kind == 0 {
+            scene.s[1] *= 1.0 + 10f64.powf(log);
+        }
+        let (body, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
+        // Axes exchanged, too: the symmetry axis need not be that of the last eigenvalue.
+        let (s, initial) = if kind == 1 { (s, initial) } else { turned(&s, &initial, frame) };
+        let span = (0.0, 10f64.powf(span));
+        let Ok(motion) = SymmetricMotion::new(&body, &s, &initial, span) else { return Ok(0.0) };
+        solved.set(solved.get() + 1);
+        let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
+        let figure = |t: f64| {
+            let off = difference(&motion.state(t).map_err(text)?, &exact.state(t).map_err(text)?, &s, &initial);
+            Ok::<_, String>(off / (motion.error_estimate(t) + exact.error_estimate(t)))
+        };
+        Ok(largest([figure(0.0)?, figure(span.1)?, figure(0.37 * span.1)?]))
+    })?;
+    if solved.get() < 380 {
+        return Err(format!("only {} of 400 scenes were solved", solved.get()));
+    }
+    Ok(measured)
+}
+
+fn steady_motion() -> Result<Measured, String> {
+    let solved = Cell::new(0);
+    let strategy = (scenes(), prop::array::uniform3(-3.0..3.0f64), any::<bool>(), any::<bool>());
+    let measured = worst_over(45, 300, &strategy, |&(mut scene, frame, twofold, is_turned)| {
+        scene.s[1] = scene.s[0];
+        let (body, coefficients, angles) = (scene.spheroid(), scene.coefficients(), scene.angles());
+        let kind = if twofold { Precession::Twofold } else { Precession::Single };
+        let spin = scene.rates[2];
+        let Ok(rate) = steady_precession_rate(kind, &body, &coefficients, spin, angles.beta) else { return Ok(0.0) };
+        scene.rates = [rate, 0.0, spin - rate * angles.beta.cos()];
+        let (s, initial) = (coefficients.tensor(), scene.state());
+        let (s, initial) = if is_turned { turned(&s, &initial, frame) } else { (s, initial) };
+        let span = (0.0, 50.0);
+        let Ok(motion) = UniformMotion::steady(&body, &s, &initial, span) else { return Ok(0.0) };
+        solved.set(solved.get() + 1);
+        // What turns faster or slower by 1e-6 is not steady, wherever the torque is above rounding.
+        let beside = BodyState { momentum: initial.momentum * (1.0 + 1e-6), ..initial };
+        let pull = scene.s[2] - scene.s[0];
+        let (sin, cos) = angles.beta.sin_cos();
+        let speed = rate.abs() + initial.momentum.norm() + (2.0 * pull.abs()).sqrt();
+        let noticed = 1e-6 * (2.0 * pull * sin * cos).abs() / (speed * speed) > 1e-13;
+        if noticed && UniformMotion::steady(&body, &s, &beside, span).is_ok() {
+            return Err("a state beside steady precession was taken for one".into());
+        }
+        let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
+        let off = difference(&motion.state(50.0).map_err(text)?, &exact.state(50.0).map_err(text)?, &s, &initial);
+        Ok(off / (motion.error_estimate(50.0) + exact.error_estimate(50.0)))
+    })?;
+    if solved.get() < 150 {
+        return Err(format!("only {} of 300 scenes are steady", solved.get()));
+    }
+    Ok(measured)
+}
+
+/// Every component of the state.
+struct Components;
+
+impl StateFunction for Components {
+    fn len(&self) -> usize {
+        9
+    }
+
+    fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
+        let BodyState { axis, momentum, equatorial_axis } = state;
+        for (value, component) in values.iter_mut().zip(axis.iter().chain(momentum).chain(equatorial_axis)) {
+            *value = *component;
+        }
+    }
+}
+
+fn gradients() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for scene in reference_gradients() {
+        let request = Request {
+            derivatives: Parameter::ALL.to_vec(),
+            ..Request::new(&[Output::EquatorialAxis], (0.0, 20.0), 2, 1e-15)
+        };
+        let start = &scene.start;
+        let plan = Plan::new(&start.spheroid, &start.violation, &start.state(), &request).map_err(text)?;
+        let times: Vec<f64> = scene.derivatives.iter().map(|(t, _)| *t).collect();
+        let found = gradient(&plan, start, &Components, &times).map_err(text)?;
+        for ((t, expected), found) in scene.derivatives.iter().zip(&found.jacobians) {
+            for (i, parameter) in Parameter::ALL.iter().enumerate() {
+                let size = largest(expected[i].iter().map(|x| x.abs())).max(f64::MIN_POSITIVE);
+                let errors = expected[i].iter().enumerate().map(|(row, x)| (found[(row, i)] - x).abs());
+                worst.see(largest(errors) / size, || format!("{} by {} at t = {t}", scene.name, parameter.name()));
+            }
+        }
+    }
+    worst.finish()
+}

@@ -1,0 +1,51 @@
+//! `twofold bench`.
+
+use super::output_folder::OutputFolder;
+use super::progress::Progress;
+use super::{BenchArgs, Failure, note, print};
+use crate::bench::table::{self, Results};
+use crate::bench::{Effort, growth, overhead, scaling, work_precision};
+use crate::figures;
+
+/// Parts of the time that the sections take, roughly.
+const SHARES: [f64; 4] = [0.55, 0.25, 0.1, 0.1];
+
+pub(super) fn bench(args: &BenchArgs) -> Result<(), Failure> {
+    if cfg!(debug_assertions) {
+        note("this program was built without optimisation: build it with --release to time it");
+    }
+    let effort = if args.quick { Effort::QUICK } else { Effort::FULL };
+    let folder = args.out.as_ref().map(|path| OutputFolder::at(path, args.force, is_ours)).transpose()?;
+    let results = measure(&effort).map_err(Failure::Failed)?;
+    print(&table::text(&results))?;
+    let Some(folder) = folder else { return Ok(()) };
+    let figure = figures::work_precision(&results.work_precision);
+    let png = figures::png(&figure.svg).map_err(Failure::Failed)?;
+    folder.write("bench.md", table::text(&results).as_bytes())?;
+    folder.write("work-precision.csv", table::csv(&results.work_precision).as_bytes())?;
+    folder.write("work-precision.svg", figure.svg.as_bytes())?;
+    folder.write("work-precision.png", &png)?;
+    folder.complete().map(drop)
+}
+
+fn is_ours(name: &str) -> bool {
+    name == "bench.md" || name.starts_with("work-precision.")
+}
+
+fn measure(effort: &Effort) -> Result<Results, String> {
+    let mut progress = Progress::new(true);
+    let mut from = 0.0;
+    let mut section = |share: f64| {
+        let start = from;
+        from += share;
+        move |part: f64| start + share * part
+    };
+    let [a, b, c, d] = SHARES.map(&mut section);
+    Ok(Results {
+        work_precision: work_precision::measure(effort, |part| progress.show(a(part)))?,
+        growth: growth::measure(effort, |part| progress.show(b(part)))?,
+        overhead: overhead::measure(effort, |part| progress.show(c(part)))?,
+        scaling: scaling::measure(effort, |part| progress.show(d(part)))?,
+        set_up: scaling::set_up(effort)?,
+    })
+}

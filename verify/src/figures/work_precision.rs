@@ -1,0 +1,129 @@
+//! Time against error of every method on some scenes.
+
+use super::axes::{Axis, BELOW, LEFT, Mark, Panel};
+use super::legend::{Sample, legend_row};
+use super::style::{
+    BLACK, BLUE, GREEN, GREY, Line, ORANGE, PAGE, PURPLE, VERMILION, dash_dotted, dashed, dotted, solid,
+};
+use super::svg::{Page, Rectangle};
+use super::table::Table;
+use super::{Caption, Figure};
+use crate::bench::method::Carries;
+use crate::bench::table::methods;
+use crate::bench::work_precision::{Row, front};
+
+/// Name of the figure.
+const NAME: &str = "work-precision";
+
+/// The scenes that are drawn, from left to right.
+const SCENES: [&str; 3] = ["tp-II", "nearly-free", "strongly-violated"];
+
+/// Errors that are shown.
+const ERRORS: (f64, f64) = (1e-15, 1e-2);
+
+/// Lines and marks of the methods, in order of appearance; further ones begin again.
+const STYLES: [(Line, Mark); 8] = [
+    (solid(BLACK, 1.5), Mark::Disc),
+    (dashed(VERMILION, 1.1), Mark::Ring),
+    (solid(BLUE, 1.1), Mark::Disc),
+    (dash_dotted(GREEN, 1.1), Mark::Ring),
+    (dotted(PURPLE, 1.4), Mark::Disc),
+    (solid(ORANGE, 1.1), Mark::Ring),
+    (dashed(GREY, 1.1), Mark::Disc),
+    (dotted(BLUE, 1.4), Mark::Ring),
+];
+
+/// Time of a motion of 1,000 t_c against its error: the best runs of each method, `n` and `L` above, with `e_x` below.
+pub fn work_precision(rows: &[Row]) -> Figure {
+    let (top, gap, between) = (16.0, 22.0, 14.0);
+    let (width, height) = ((PAGE - LEFT - 6.0 - 2.0 * between) / 3.0, 118.0);
+    let names = names(rows);
+    let legend_lines = names.len().div_ceil(PER_LINE);
+    let bottom = top + 2.0 * height + gap + BELOW;
+    let mut page = Page::new(NAME, PAGE, bottom + 6.0 + 13.0 * legend_lines as f64);
+    let y = times(rows);
+    let mut tables = Vec::new();
+    for (down, carries) in Carries::ALL.into_iter().enumerate() {
+        for (across, scene) in SCENES.into_iter().enumerate() {
+            let frame = Rectangle {
+                left: LEFT + (width + between) * across as f64,
+                top: top + (height + gap) * down as f64,
+                width,
+                height,
+            };
+            let x = Axis::logarithmic("largest error of a component", ERRORS.0, ERRORS.1);
+            let x = if down == 0 { x.bare() } else { x };
+            let label = Axis::logarithmic("time [ms]", y.0, y.1);
+            let panel = Panel::new(frame, x, if across == 0 { label } else { label.bare() });
+            for (name, (line, mark)) in names.iter().zip(STYLES.iter().cycle()) {
+                let of_this = |row: &&Row| row.scene == scene && row.carries == carries && row.method == *name;
+                let runs = rows.iter().filter(of_this).map(|row| (row.error.max(ERRORS.0), row.times.least * 1e3));
+                let points: Vec<_> = front(runs).into_iter().filter(|(error, _)| *error < 0.7 * ERRORS.1).collect();
+                panel.curve(&mut page, &points, *line);
+                panel.marks(&mut page, &points, *mark, 1.6, line.colour);
+                let mut table = Table::new(
+                    format!("{scene}.{}.{name}", carries.to_string().replace(' ', "-")),
+                    ["error [1]", "time [ms]"],
+                );
+                points.iter().for_each(|(error, time)| table.push([*error, *time]));
+                tables.push(table);
+            }
+            panel.draw_frame(&mut page);
+            let carried = if carries == Carries::Axis { "*n*, *L*" } else { "*n*, *L*, *e*_{x}" };
+            panel.letter(&mut page, 3 * down + across, 6, &format!("{scene}: {carried}"));
+        }
+    }
+    for (line, chunk) in names.chunks(PER_LINE).enumerate() {
+        let entries: Vec<_> = chunk
+            .iter()
+            .enumerate()
+            .map(|(i, name)| {
+                let (style, _) = STYLES[(line * PER_LINE + i) % STYLES.len()];
+                (Sample::Line(style), *name, (PAGE - LEGEND_LEFT) / PER_LINE as f64)
+            })
+            .collect();
+        legend_row(&mut page, [LEGEND_LEFT, bottom + 6.0 + 13.0 * line as f64], &entries);
+    }
+    let svg = page.finish("Time against error");
+    Figure {
+        name: NAME.to_owned(),
+        paper_figure: None,
+        summary: "Time of a motion against its error, by method".to_owned(),
+        caption: caption(),
+        tables,
+        svg,
+    }
+}
+
+/// Names in a line of the legend.
+const PER_LINE: usize = 4;
+
+/// Where its lines begin.
+const LEGEND_LEFT: f64 = 12.0;
+
+/// All methods, those of `n` and `L` first.
+fn names(rows: &[Row]) -> Vec<&str> {
+    let mut names = methods(rows, Carries::Axis);
+    for name in methods(rows, Carries::Orientation) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// The decades of milliseconds that hold all times.
+fn times(rows: &[Row]) -> (f64, f64) {
+    let shown = rows.iter().filter(|row| row.error <= ERRORS.1).map(|row| row.times.least * 1e3);
+    let (low, high) = shown.fold((f64::INFINITY, 0.0_f64), |(l, h), t| (l.min(t), h.max(t)));
+    (low / 1.5, high * 1.5)
+}
+
+fn caption() -> Caption {
+    Caption {
+        shows: "Least time of a motion of 1,000 *t*_{c} on one core against the largest error of a component at its end.".to_owned(),
+        parameters: "tp-II; tp-II with *s* scaled by 2.5 × 10^{−5}; *s* = diag(0.3, 0.1, −0.4).".to_owned(),
+        method: "Runs in turn; of each method those that no other of its runs beats in both. Errors against motions of 50 digits.".to_owned(),
+        says: "Lower and further left is better.".to_owned(),
+    }
+}

@@ -1,0 +1,85 @@
+//! The chunks of a sweep on all cores, written in order.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::channel;
+use std::time::{Duration, Instant};
+
+use super::Sweep;
+use super::chunk::{ChunkText, chunk_text};
+use super::spool::{Spool, SpoolError};
+
+/// Time between two marks in the journal: what an interruption costs at most, besides the chunks in work.
+const BETWEEN_MARKS: Duration = Duration::from_millis(250);
+
+/// Chunks in work or waiting for their turn to be written, per thread; it bounds the memory.
+const CHUNKS_PER_THREAD: usize = 8;
+
+/// How a computation ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Done {
+    /// All scenes are in the table.
+    All,
+    /// It was stopped, and the table holds a part.
+    Stopped,
+}
+
+/// Computes the scenes up to `end` that the table does not hold and appends them, in order, until all are there or `stop` is
+/// set; chunks in work are then finished. `progress` is told the first scene that is not written.
+///
+/// # Errors
+/// A table that cannot be written.
+pub fn compute(
+    sweep: &Sweep<'_>,
+    spool: &mut Spool,
+    end: u64,
+    threads: &rayon::ThreadPool,
+    stop: &AtomicBool,
+    mut progress: impl FnMut(u64),
+) -> Result<Done, SpoolError> {
+    let length = sweep.chunk_length();
+    let most = CHUNKS_PER_THREAD * threads.current_num_threads();
+    let (mut dispatched, mut written) = (spool.next(), spool.next());
+    let (results, finished) = channel();
+    let mut waiting = BTreeMap::new();
+    let mut last_mark = Instant::now();
+    threads.in_place_scope(|scope| {
+        let mut in_work = 0;
+        loop {
+            while dispatched < end && in_work + waiting.len() < most && !stop.load(Ordering::Relaxed) {
+                let chunk = next_chunk(dispatched, length, end);
+                dispatched = chunk.end;
+                in_work += 1;
+                let results = results.clone();
+                // The receiver lives as long as the scope, unless writing has failed: then nobody waits.
+                scope.spawn(move |_| drop(results.send((chunk.clone(), chunk_text(sweep, chunk)))));
+            }
+            if in_work == 0 {
+                break;
+            }
+            let Ok((chunk, text)) = finished.recv() else { break };
+            in_work -= 1;
+            waiting.insert(chunk.start, (chunk.end, text));
+            while let Some((next, text)) = waiting.remove(&written) {
+                let ChunkText { rows, errors, failed } =
+                    text.map_err(|error| SpoolError::File(spool.files().rows.clone(), error.into()))?;
+                spool.append(next, [&rows, &errors], failed)?;
+                written = next;
+                progress(written);
+            }
+            if last_mark.elapsed() > BETWEEN_MARKS {
+                spool.commit()?;
+                last_mark = Instant::now();
+            }
+        }
+        Ok(())
+    })?;
+    spool.commit()?;
+    Ok(if written == end { Done::All } else { Done::Stopped })
+}
+
+/// The scenes from `first` up to the next multiple of `length`.
+fn next_chunk(first: u64, length: u64, end: u64) -> Range<u64> {
+    first..end.min((first / length + 1) * length)
+}

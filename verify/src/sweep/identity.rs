@@ -1,0 +1,58 @@
+//! What a sweep's table follows from, to tell whether a part of one can be continued.
+
+use std::ops::Range;
+
+use serde_json::{Value, json};
+
+use super::SweepText;
+
+/// Everything that the bytes of a table depend on: the program, the texts and the range of scenes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identity {
+    file: String,
+    facts: Value,
+}
+
+impl Identity {
+    /// Of the scenes `scenes` of a sweep, computed by this program.
+    pub fn new(text: &SweepText, scenes: &Range<u64>) -> Self {
+        let facts = json!({
+            "journal": 1,
+            "program": concat!("twofold ", env!("CARGO_PKG_VERSION"), " for ", env!("TWOFOLD_TARGET")),
+            "scenes": [scenes.start, scenes.end],
+            "sweep": text.text,
+            "scene": text.scene.as_ref().map(|(_, text)| text),
+        });
+        Self { file: text.file.clone(), facts }
+    }
+
+    /// As a line of a journal holds it.
+    pub(super) fn facts(&self) -> &Value {
+        &self.facts
+    }
+
+    /// The difference of a journal's sweep from this one, in words, if there is any.
+    pub(super) fn difference_from(&self, journal: &Value) -> Option<String> {
+        if *journal == self.facts {
+            return None;
+        }
+        let differs = |key: &str| journal[key] != self.facts[key];
+        Some(if differs("journal") || differs("program") {
+            format!("it was begun by {}, and this is {}", journal["program"], self.facts["program"])
+        } else if differs("sweep") {
+            changed_line(&format!("the sweep file {}", self.file), &journal["sweep"], &self.facts["sweep"])
+        } else if differs("scene") {
+            changed_line("the scene", &journal["scene"], &self.facts["scene"])
+        } else {
+            format!("it holds the scenes {} (from, to) and not {}", journal["scenes"], self.facts["scenes"])
+        })
+    }
+}
+
+/// Names the first line in which two texts differ.
+fn changed_line(what: &str, then: &Value, now: &Value) -> String {
+    let (then, now) = (then.as_str().unwrap_or(""), now.as_str().unwrap_or(""));
+    let same = then.lines().zip(now.lines()).take_while(|(then, now)| then == now).count();
+    let line = |text: &str| text.lines().nth(same).map_or("missing".to_owned(), |line| format!("`{}`", line.trim()));
+    format!("{what} has changed since: line {} was {} and is {}", same + 1, line(then), line(now))
+}

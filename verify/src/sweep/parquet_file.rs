@@ -1,0 +1,203 @@
+//! A finished table as a Parquet file: `scene` an integer, `status` a text, every other column doubles that may be missing,
+//! stored as split streams of bytes under zstd.
+
+use std::fmt;
+use std::fs::File;
+use std::io::Read;
+use std::sync::Arc;
+
+use parquet::basic::{Compression, ConvertedType, Encoding, Repetition, Type as Physical, ZstdLevel};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::{ColumnPath, Type};
+
+use super::{NUMBER, STATUS};
+
+/// Numbers in a row group: 32 MB before they are compressed.
+const NUMBERS_PER_GROUP: usize = 4 << 20;
+
+/// Why a table could not be written as Parquet.
+#[derive(Debug)]
+pub enum ConversionError {
+    /// The table cannot be read.
+    Table(csv::Error),
+    /// A field that is not what its column holds.
+    Field {
+        /// Line of the table.
+        line: u64,
+        /// Name of the column.
+        column: String,
+    },
+    /// The file cannot be written.
+    Parquet(ParquetError),
+}
+
+/// The columns of a row group.
+struct Group {
+    numbers: Vec<i64>,
+    statuses: Vec<ByteArray>,
+    /// Of each other column its values and, for each row, whether there is one.
+    columns: Vec<(Vec<f64>, Vec<i16>)>,
+}
+
+/// Writes the CSV table `table` to `file`. The same table gives the same bytes.
+///
+/// # Errors
+/// See [`ConversionError`].
+pub fn write_parquet(table: impl Read, file: &File) -> Result<(), ConversionError> {
+    let mut table = csv::Reader::from_reader(table);
+    let header: Vec<_> = table.headers()?.iter().map(str::to_owned).collect();
+    let fields = header.iter().map(|name| field(name).map(Arc::new)).collect::<Result<Vec<_>, _>>()?;
+    let schema = Type::group_type_builder("sweep").with_fields(fields).build()?;
+    let mut properties = WriterProperties::builder()
+        .set_created_by(concat!("twofold ", env!("CARGO_PKG_VERSION")).to_owned())
+        .set_compression(Compression::ZSTD(ZstdLevel::try_new(1)?));
+    for name in header.iter().filter(|name| *name != NUMBER && *name != STATUS) {
+        let column = ColumnPath::new(vec![name.clone()]);
+        properties = properties
+            .set_column_dictionary_enabled(column.clone(), false)
+            .set_column_encoding(column, Encoding::BYTE_STREAM_SPLIT);
+    }
+    let mut writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties.build()))?;
+    let rows_per_group = (NUMBERS_PER_GROUP / header.len()).max(1);
+    let mut group = Group::new(header.len());
+    let mut record = csv::StringRecord::new();
+    while table.read_record(&mut record)? {
+        let line = record.position().map_or(0, csv::Position::line);
+        group.take(&record, &header).map_err(|column| ConversionError::Field { line, column })?;
+        if group.numbers.len() == rows_per_group {
+            group.write(&header, &mut writer)?;
+            group = Group::new(header.len());
+        }
+    }
+    if !group.numbers.is_empty() {
+        group.write(&header, &mut writer)?;
+    }
+    writer.close()?;
+    Ok(())
+}
+
+fn field(name: &str) -> Result<Type, ParquetError> {
+    let (physical, repetition, converted) = match name {
+        NUMBER => (Physical::INT64, Repetition::REQUIRED, ConvertedType::NONE),
+        STATUS => (Physical::BYTE_ARRAY, Repetition::REQUIRED, ConvertedType::UTF8),
+        _ => (Physical::DOUBLE, Repetition::OPTIONAL, ConvertedType::NONE),
+    };
+    Type::primitive_type_builder(name, physical).with_repetition(repetition).with_converted_type(converted).build()
+}
+
+impl Group {
+    fn new(columns: usize) -> Self {
+        let columns = vec![(Vec::new(), Vec::new()); columns.saturating_sub(2)];
+        Self { numbers: Vec::new(), statuses: Vec::new(), columns }
+    }
+
+    /// Takes a row, or names the column that does not hold what it should.
+    fn take(&mut self, record: &csv::StringRecord, header: &[String]) -> Result<(), String> {
+        let mut columns = self.columns.iter_mut();
+        for (name, text) in header.iter().zip(record) {
+            let wrong = || name.clone();
+            match name.as_str() {
+                NUMBER => self.numbers.push(text.parse().map_err(|_| wrong())?),
+                STATUS => self.statuses.push(text.into()),
+                _ => {
+                    let (values, present) = columns.next().ok_or_else(wrong)?;
+                    present.push(i16::from(!text.is_empty()));
+                    if !text.is_empty() {
+                        values.push(text.parse().map_err(|_| wrong())?);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn write(&self, header: &[String], writer: &mut SerializedFileWriter<&File>) -> Result<(), ParquetError> {
+        let mut group = writer.next_row_group()?;
+        let mut columns = self.columns.iter();
+        for name in header {
+            let Some(mut column) = group.next_column()? else { break };
+            match (name.as_str(), columns.as_slice().first()) {
+                (NUMBER, _) => column.typed::<Int64Type>().write_batch(&self.numbers, None, None)?,
+                (STATUS, _) => column.typed::<ByteArrayType>().write_batch(&self.statuses, None, None)?,
+                (_, Some((values, present))) => {
+                    columns.next();
+                    column.typed::<DoubleType>().write_batch(values, Some(present), None)?
+                }
+                (_, None) => 0,
+            };
+            column.close()?;
+        }
+        group.close()?;
+        Ok(())
+    }
+}
+
+impl fmt::Display for ConversionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ConversionError::Table(error) => write!(f, "the table cannot be read: {error}"),
+            ConversionError::Field { line, column } => {
+                write!(f, "line {line} of the table holds no number in the column `{column}`")
+            }
+            ConversionError::Parquet(error) => write!(f, "the Parquet file cannot be written: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for ConversionError {}
+
+impl From<csv::Error> for ConversionError {
+    fn from(error: csv::Error) -> Self {
+        ConversionError::Table(error)
+    }
+}
+
+impl From<ParquetError> for ConversionError {
+    fn from(error: ParquetError) -> Self {
+        ConversionError::Parquet(error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::Field;
+
+    use super::*;
+
+    #[test]
+    fn every_number_comes_back_and_missing_ones_are_missing() {
+        let table =
+            "scene,star.spin,status,e_z_X@1.0 [1]\n0,0.1,ok,-1.5e-300\n1,1e22,failed,\n2,-0.0,ok,0.30000000000000004\n";
+        let write = |table: &str| {
+            let file = tempfile::tempfile().expect("a file");
+            write_parquet(table.as_bytes(), &file).map(|()| file)
+        };
+        let reader = SerializedFileReader::new(write(table).expect("a table")).expect("a Parquet file");
+        let expected = [
+            (0, 0.1, "ok", Field::Double(-1.5e-300)),
+            (1, 1e22, "failed", Field::Null),
+            (2, -0.0, "ok", Field::Double(0.30000000000000004)),
+        ];
+        let rows: Vec<_> = reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row")).collect();
+        assert_eq!(rows.len(), expected.len());
+        for (row, (number, spin, status, value)) in rows.iter().zip(expected) {
+            let fields: Vec<_> = row.get_column_iter().map(|(name, field)| (name.as_str(), field.clone())).collect();
+            let wanted = [
+                ("scene", Field::Long(number)),
+                ("star.spin", Field::Double(spin)),
+                ("status", Field::Str(status.to_owned())),
+                ("e_z_X@1.0 [1]", value),
+            ];
+            assert_eq!(fields, wanted);
+        }
+        let column = reader.metadata().row_group(0).column(1);
+        assert!(column.encodings().any(|encoding| encoding == Encoding::BYTE_STREAM_SPLIT));
+        assert!(matches!(column.compression(), Compression::ZSTD(_)));
+        let bad = write("scene,star.spin,status\n0,x,ok\n").expect_err("no number").to_string();
+        assert_eq!(bad, "line 2 of the table holds no number in the column `star.spin`");
+    }
+}

@@ -1,0 +1,102 @@
+//! Least, largest and mean angle between the spin axis and the direction to the observer over the span of a scene.
+
+use std::f64::consts::TAU;
+use std::num::NonZeroUsize;
+
+use gauss_quad::GaussLegendre;
+use nalgebra::Vector3;
+use twofold::Error;
+use twofold::observables::spin_axis::{cos_lambda, cos_lambda_rate};
+use twofold::propagation::AxisMotion;
+
+/// Panels of the quadrature per turn at the upper estimate of the turning rate.
+const PANELS_PER_TURN: f64 = 16.0;
+
+/// Nodes of Gauss and Legendre's rule in a panel; its error in a sixteenth of a turn is about 1e-11 of the amplitude.
+const NODES: NonZeroUsize = NonZeroUsize::new(4).unwrap();
+
+/// Follows the angle `lambda` of Eq. (37) along a motion, stretch by stretch.
+pub(super) struct SpinAxisAngle {
+    direction: Vector3<f64>,
+    turning_rate: f64,
+    /// Nodes on [-1, 1] in order, with their weights.
+    nodes: Vec<(f64, f64)>,
+    least: f64,
+    largest: f64,
+    integral: f64,
+    length: f64,
+}
+
+impl SpinAxisAngle {
+    /// For the unit vector `direction` and a motion that turns at most at `turning_rate`.
+    pub(super) fn new(direction: Vector3<f64>, turning_rate: f64) -> Self {
+        let mut nodes: Vec<_> = GaussLegendre::new(NODES).iter().copied().collect();
+        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self { direction, turning_rate, nodes, least: f64::INFINITY, largest: 0.0, integral: 0.0, length: 0.0 }
+    }
+
+    /// Least, largest and mean angle (rad) so far. Extrema are found by the sign of the rate at 64 times a turn and then to
+    /// rounding; two that lie between neighbouring times, a plateau, are missed, which shifts the result by less than 1e-4.
+    pub(super) fn least_largest_mean(&self) -> [f64; 3] {
+        [self.least, self.largest, self.integral / self.length]
+    }
+
+    /// Takes the motion from `from` to `to` into account.
+    ///
+    /// # Errors
+    /// A time that the motion does not hold.
+    pub(super) fn add<M: AxisMotion<f64>>(&mut self, motion: &M, from: f64, to: f64) -> Result<(), Error> {
+        let panels = ((to - from).abs() * self.turning_rate / TAU * PANELS_PER_TURN).ceil().max(1.0);
+        let half = (to - from) / panels / 2.0;
+        let mut last = self.take(motion, from)?;
+        for panel in 0..panels as usize {
+            let middle = from + (2 * panel + 1) as f64 * half;
+            for i in 0..self.nodes.len() {
+                let (node, weight) = self.nodes[i];
+                let next = self.take(motion, middle + node * half)?;
+                self.integral += weight * half * next.angle;
+                self.take_extremum(motion, &last, &next)?;
+                last = next;
+            }
+        }
+        let end = self.take(motion, to)?;
+        self.take_extremum(motion, &last, &end)?;
+        self.length += to - from;
+        Ok(())
+    }
+
+    fn take<M: AxisMotion<f64>>(&mut self, motion: &M, time: f64) -> Result<Place, Error> {
+        let state = motion.axis_state(time)?;
+        let across = self.direction.cross(&state.axis).norm();
+        let angle = across.atan2(cos_lambda(&self.direction, &state.axis));
+        self.least = self.least.min(angle);
+        self.largest = self.largest.max(angle);
+        let rate = cos_lambda_rate(motion.spheroid(), &self.direction, &state.axis, &state.momentum);
+        Ok(Place { time, angle, rate })
+    }
+
+    /// Takes the extremum between two times at which the rate has different signs, by the rule of false position and halving in
+    /// turn. The angle is flat there: a rate of 1e-8 of those around it is as good as none.
+    fn take_extremum<M: AxisMotion<f64>>(&mut self, motion: &M, a: &Place, b: &Place) -> Result<(), Error> {
+        let (mut a, mut b) = (*a, *b);
+        let enough = 1e-8 * (a.rate.abs() + b.rate.abs());
+        let mut halve = false;
+        while a.rate * b.rate < 0.0 {
+            let part = if halve { 0.5 } else { a.rate / (a.rate - b.rate) };
+            let middle = self.take(motion, a.time + (b.time - a.time) * part)?;
+            if middle.rate.abs() <= enough || middle.time == a.time || middle.time == b.time {
+                break;
+            }
+            *(if (middle.rate < 0.0) == (a.rate < 0.0) { &mut a } else { &mut b }) = middle;
+            halve = !halve;
+        }
+        Ok(())
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Place {
+    time: f64,
+    angle: f64,
+    rate: f64,
+}

@@ -1,0 +1,354 @@
+//! A table that grows beside its final name and can be continued after any interruption.
+
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use crc32fast::Hasher;
+
+use super::identity::Identity;
+use super::journal::{self, Journal, Mark, Stretch};
+
+/// Names of the files of a table that is not complete.
+#[derive(Debug, Clone)]
+pub struct SpoolFiles {
+    /// The table so far.
+    pub rows: PathBuf,
+    /// The table of errors so far.
+    pub errors: PathBuf,
+    /// Which part of both counts.
+    pub journal: PathBuf,
+}
+
+/// Why a table cannot be begun or continued.
+#[derive(Debug)]
+pub enum SpoolError {
+    /// The part that is there belongs to something else, described.
+    Different(String),
+    /// Another process is writing it.
+    InUse,
+    /// A file cannot be read or written.
+    File(PathBuf, io::Error),
+}
+
+/// A table that grows.
+#[derive(Debug)]
+pub struct Spool {
+    files: SpoolFiles,
+    rows: Growing,
+    errors: Growing,
+    journal: File,
+    mark: Mark,
+    /// Whether everything was written before, and only the name is missing.
+    pub complete: bool,
+}
+
+#[derive(Debug)]
+struct Growing {
+    file: File,
+    length: u64,
+    /// Of the bytes since the last mark.
+    checksum: Hasher,
+}
+
+impl SpoolFiles {
+    /// Those of the table `out`.
+    pub fn of(out: &Path) -> Self {
+        let with = |extension: &str| {
+            let mut name = out.as_os_str().to_owned();
+            name.push(extension);
+            PathBuf::from(name)
+        };
+        Self { rows: with(".partial"), errors: with(".partial.errors"), journal: with(".partial.journal") }
+    }
+
+    /// Whether there is a table, with the given identity, that was complete and about to get its name.
+    pub fn are_complete(&self, identity: &Identity) -> bool {
+        let Ok(Ok(journal)) = File::open(&self.journal).map(Journal::read) else { return false };
+        journal.complete && journal.identity.as_ref() == Some(identity.facts())
+    }
+
+    /// Removes what an interrupted process has left.
+    ///
+    /// # Errors
+    /// A file that is there and stays, and a process that is writing it.
+    pub fn discard(&self) -> Result<(), SpoolError> {
+        let in_use = |journal: File| matches!(journal.try_lock(), Err(fs::TryLockError::WouldBlock));
+        if File::open(&self.journal).is_ok_and(in_use) { Err(SpoolError::InUse) } else { self.remove() }
+    }
+
+    /// Removes what is there.
+    ///
+    /// # Errors
+    /// A file that is there and stays.
+    pub fn remove(&self) -> Result<(), SpoolError> {
+        // The journal last: without it the others would not be known.
+        for path in [&self.rows, &self.errors, &self.journal] {
+            match fs::remove_file(path) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(refused(path)(error)),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Spool {
+    /// Begins a table with two headers, or continues the part of it that is there: up to the last mark at which both files are
+    /// as the journal says. The files are locked for other processes, where the file system can do that.
+    ///
+    /// # Errors
+    /// See [`SpoolError`].
+    pub fn open(files: SpoolFiles, identity: &Identity, headers: [&[u8]; 2], first: u64) -> Result<Self, SpoolError> {
+        let unknown = !files.journal.exists();
+        let mut journal_file = open(&files.journal)?;
+        if matches!(journal_file.try_lock(), Err(fs::TryLockError::WouldBlock)) {
+            return Err(SpoolError::InUse);
+        }
+        if unknown && files.rows.exists() {
+            let _ = fs::remove_file(&files.journal);
+            return Err(SpoolError::Different("it has no journal beside it".to_owned()));
+        }
+        let journal = Journal::read(&journal_file).map_err(refused(&files.journal))?;
+        let difference = journal.identity.as_ref().and_then(|there| identity.difference_from(there));
+        if let Some(difference) = difference {
+            return Err(SpoolError::Different(difference));
+        }
+        let (rows, errors) = (open(&files.rows)?, open(&files.errors)?);
+        let intact = [(&rows, &files.rows), (&errors, &files.errors)].map(|(file, path)| (file, refused(path)));
+        let [(rows_file, rows_refused), (errors_file, errors_refused)] = intact;
+        let lengths = |of: fn(&Mark) -> Stretch| journal.marks.iter().map(|(mark, _)| of(mark)).collect::<Vec<_>>();
+        let good = intact_stretches(rows_file, &lengths(|mark| mark.rows))
+            .map_err(rows_refused)?
+            .min(intact_stretches(errors_file, &lengths(|mark| mark.errors)).map_err(errors_refused)?);
+        let complete = journal.complete && good == journal.marks.len();
+        let last = good.checked_sub(1).map(|last| journal.marks[last]);
+        let (mark, journal_length) = last.unwrap_or((Mark { next: first, ..Mark::default() }, 0));
+        let rows = Growing::from(rows, &files.rows, mark.rows.length)?;
+        let errors = Growing::from(errors, &files.errors, mark.errors.length)?;
+        truncate(&mut journal_file, journal_length).map_err(refused(&files.journal))?;
+        let mut spool = Self { files, rows, errors, journal: journal_file, mark, complete: false };
+        if last.is_none() {
+            spool.write_line(identity.facts())?;
+            spool.append(first, headers, 0)?;
+            spool.commit()?;
+        }
+        if complete {
+            spool.completed()?;
+        }
+        Ok(spool)
+    }
+
+    /// First scene that is not in the table.
+    pub fn next(&self) -> u64 {
+        self.mark.next
+    }
+
+    /// Number of scenes in the table that failed.
+    pub fn failed(&self) -> u64 {
+        self.mark.failed
+    }
+
+    /// The files.
+    pub fn files(&self) -> &SpoolFiles {
+        &self.files
+    }
+
+    /// Appends lines to the table and to that of errors; `next` is the first scene that is then not in them.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn append(&mut self, next: u64, [rows, errors]: [&[u8]; 2], failed: u64) -> Result<(), SpoolError> {
+        self.rows.append(rows).map_err(refused(&self.files.rows))?;
+        self.errors.append(errors).map_err(refused(&self.files.errors))?;
+        self.mark.next = next;
+        self.mark.failed += failed;
+        Ok(())
+    }
+
+    /// Makes sure that what was appended outlives the process and the machine's power: first the tables, then the journal.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn commit(&mut self) -> Result<(), SpoolError> {
+        self.mark.rows = self.rows.mark().map_err(refused(&self.files.rows))?;
+        self.mark.errors = self.errors.mark().map_err(refused(&self.files.errors))?;
+        self.write_line(&self.mark.to_value())
+    }
+
+    /// Notes that the table is complete.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn completed(&mut self) -> Result<(), SpoolError> {
+        self.complete = true;
+        self.write_line(&journal::completion())
+    }
+
+    fn write_line(&mut self, value: &serde_json::Value) -> Result<(), SpoolError> {
+        let write = |file: &mut File| file.write_all(&journal::line(value)).and_then(|()| file.sync_data());
+        write(&mut self.journal).map_err(refused(&self.files.journal))
+    }
+}
+
+impl Growing {
+    fn from(mut file: File, path: &Path, length: u64) -> Result<Self, SpoolError> {
+        truncate(&mut file, length).map_err(refused(path))?;
+        Ok(Self { file, length, checksum: Hasher::new() })
+    }
+
+    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.file.write_all(bytes)?;
+        self.length += bytes.len() as u64;
+        self.checksum.update(bytes);
+        Ok(())
+    }
+
+    fn mark(&mut self) -> io::Result<Stretch> {
+        self.file.sync_data()?;
+        let checksum = std::mem::take(&mut self.checksum).finalize();
+        Ok(Stretch { length: self.length, checksum })
+    }
+}
+
+fn open(path: &Path) -> Result<File, SpoolError> {
+    File::options().read(true).write(true).create(true).truncate(false).open(path).map_err(refused(path))
+}
+
+fn truncate(file: &mut File, length: u64) -> io::Result<()> {
+    file.set_len(length)?;
+    file.seek(SeekFrom::Start(length)).map(|_| ())
+}
+
+/// How many of the stretches, from the first on, the file holds unchanged.
+fn intact_stretches(mut file: &File, stretches: &[Stretch]) -> io::Result<usize> {
+    const PIECE: usize = 1 << 16;
+    let mut piece = vec![0; PIECE];
+    let mut position = 0;
+    for (i, stretch) in stretches.iter().enumerate() {
+        let mut checksum = Hasher::new();
+        let Some(mut missing) = stretch.length.checked_sub(position) else { return Ok(i) };
+        while missing > 0 {
+            let wanted = missing.min(PIECE as u64) as usize;
+            let read = file.read(&mut piece[..wanted])?;
+            if read == 0 {
+                return Ok(i);
+            }
+            checksum.update(&piece[..read]);
+            missing -= read as u64;
+        }
+        if checksum.finalize() != stretch.checksum {
+            return Ok(i);
+        }
+        position = stretch.length;
+    }
+    Ok(stretches.len())
+}
+
+fn refused(path: &Path) -> impl FnOnce(io::Error) -> SpoolError + use<> {
+    let path = path.to_owned();
+    |error| SpoolError::File(path, error)
+}
+
+impl fmt::Display for SpoolError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SpoolError::Different(why) => write!(f, "the part that is there cannot be continued: {why}"),
+            SpoolError::InUse => write!(f, "another process is writing it"),
+            SpoolError::File(path, error) => write!(f, "{} cannot be written: {error}", path.display()),
+        }
+    }
+}
+
+impl std::error::Error for SpoolError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sweep::SweepText;
+
+    const CHUNKS: [[&[u8]; 2]; 4] =
+        [[b"0,1\n1,2\n", b""], [b"2,3\n", b"2,why\n"], [b"3,4\n4,5\n", b""], [b"5,6\n", b""]];
+
+    fn identity(text: &str) -> Identity {
+        Identity::new(&SweepText { file: "a.toml".into(), text: text.into(), scene: None }, &(0..40))
+    }
+
+    /// Continues the table in `folder` up to `chunks` chunks, each of ten scenes, with a mark after each.
+    fn grow(folder: &Path, text: &str, chunks: usize) -> Result<u64, SpoolError> {
+        let files = SpoolFiles::of(&folder.join("a.csv"));
+        let mut spool = Spool::open(files, &identity(text), [b"head\n", b"errors\n"], 0)?;
+        let begun = spool.next();
+        assert_eq!(begun % 10, 0);
+        for chunk in begun / 10..chunks as u64 {
+            spool.append(10 * (chunk + 1), CHUNKS[chunk as usize], u64::from(chunk == 1))?;
+            spool.commit()?;
+        }
+        assert_eq!(spool.failed(), u64::from(chunks > 1));
+        Ok(begun)
+    }
+
+    fn bytes(folder: &Path) -> [Vec<u8>; 2] {
+        let files = SpoolFiles::of(&folder.join("a.csv"));
+        [files.rows, files.errors].map(|path| fs::read(path).expect("a file"))
+    }
+
+    #[test]
+    fn files_torn_or_damaged_anywhere_are_continued_to_the_same_bytes() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder.path();
+        assert_eq!(grow(folder, "text", 4).expect("a table"), 0);
+        let files = SpoolFiles::of(&folder.join("a.csv"));
+        let paths = [files.rows, files.errors, files.journal];
+        let whole = bytes(folder);
+        assert_eq!(whole[0], b"head\n0,1\n1,2\n2,3\n3,4\n4,5\n5,6\n");
+        assert_eq!(whole[1], b"errors\n2,why\n");
+        let contents = paths.clone().map(|path| fs::read(path).expect("a file"));
+        let mut continued = 0;
+        for (path, original) in paths.iter().zip(&contents) {
+            // Every byte of a journal is tried where it is read; here each costs a table on the disk.
+            let step = if path.ends_with("a.csv.partial.journal") { 7 } else { 1 };
+            for place in (0..original.len()).step_by(step) {
+                let mut damaged = original.clone();
+                damaged[place] ^= 0x41;
+                let torn = original[..place].to_vec();
+                let longer = [original.as_slice(), b"garbage"].concat();
+                for version in [damaged, torn, longer] {
+                    for (path, original) in paths.iter().zip(&contents) {
+                        fs::write(path, original).expect("a file");
+                    }
+                    fs::write(path, version).expect("a file");
+                    let begun = grow(folder, "text", 4).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+                    continued += u64::from(begun > 0);
+                    assert_eq!(bytes(folder), whole, "{}, byte {place}", path.display());
+                }
+            }
+        }
+        assert!(continued > 150, "only {continued} were continued and not begun anew");
+    }
+
+    #[test]
+    fn only_the_same_sweep_is_continued_and_by_one_process() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder.path();
+        grow(folder, "one\ntwo", 2).expect("a table");
+        let before = bytes(folder);
+        let refused = grow(folder, "one\nthree", 4).expect_err("another sweep").to_string();
+        assert!(
+            refused.ends_with("the sweep file a.toml has changed since: line 2 was `two` and is `three`"),
+            "{refused}"
+        );
+        assert_eq!(bytes(folder), before);
+        let files = SpoolFiles::of(&folder.join("a.csv"));
+        let open = || Spool::open(files.clone(), &identity("one\ntwo"), [b"head\n", b"errors\n"], 0);
+        let first = open().expect("a table");
+        assert!(matches!(open(), Err(SpoolError::InUse)));
+        assert!(matches!(files.discard(), Err(SpoolError::InUse)));
+        drop(first);
+        fs::remove_file(&files.journal).expect("a journal");
+        let refused = open().expect_err("a table without a journal").to_string();
+        assert!(refused.contains("no journal") && !files.journal.exists(), "{refused}");
+        assert_eq!(bytes(folder), before);
+    }
+}
