@@ -51,8 +51,8 @@ fn main() {
     for (name, figures) in [("estimate / true error", &mut ratios), ("true error / accuracy asked", &mut reached)] {
         figures.sort_by(|a, b| a.0.total_cmp(&b.0));
         let at = |quantile: f64| figures[((figures.len() - 1) as f64 * quantile) as usize].0;
-        let below = figures.iter().filter(|(x, _)| !(*x >= 1.0)).count();
-        let above = figures.iter().filter(|(x, _)| !(*x <= 100.0)).count();
+        let below = figures.iter().filter(|(x, _)| x.is_nan() || *x < 1.0).count();
+        let above = figures.iter().filter(|(x, _)| x.is_nan() || *x > 100.0).count();
         println!("{name}: {} figures, {below} below 1, {above} above 100, least {:?}", figures.len(), figures[0]);
         println!(
             "  quantiles 1 % {:.2e}, 5 % {:.2e}, 50 % {:.2e}, 95 % {:.2e}, 99 % {:.2e}, most {:.2e}",

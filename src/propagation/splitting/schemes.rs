@@ -1,5 +1,8 @@
 //! The schemes, from the cheapest per step to the highest order.
 
+// The weights stand with the digits that were published or computed.
+#![allow(clippy::excessive_precision)]
+
 use crate::propagation::splitting::scheme::{Ends, Scheme};
 
 /// A symmetric list of `N` weights from its first `(N + 1) / 2`.

@@ -101,7 +101,7 @@ fn tp_2() -> (RigidSpheroid<f64>, Matrix3<f64>, AxisState<f64>) {
 }
 
 fn difference(a: &AxisState<f64>, b: &AxisState<f64>) -> f64 {
-    largest([&a.axis - &b.axis, &a.momentum - &b.momentum].iter().map(largest_component))
+    largest([a.axis - b.axis, a.momentum - b.momentum].iter().map(largest_component))
 }
 
 /// The largest error of `scheme` at 20 times up to 10 t_c of tp-II with s multiplied by `factor`.
@@ -221,7 +221,7 @@ fn against_taylor_motion() -> Result<Measured, String> {
                     let t = part * end;
                     let (ours, theirs) = (motion.axis_state(t).map_err(text)?, taylor.axis_state(t).map_err(text)?);
                     let size = start.momentum.norm().max(1.0);
-                    let apart = [&ours.axis - &theirs.axis, (&ours.momentum - &theirs.momentum) / size];
+                    let apart = [ours.axis - theirs.axis, (ours.momentum - theirs.momentum) / size];
                     let estimates = motion.error_estimate(t) + taylor.error_estimate(t);
                     most = largest([most, largest(apart.iter().map(largest_component)) / estimates]);
                 }

@@ -58,7 +58,7 @@ impl Series {
     }
 
     fn exp(&self) -> Self {
-        let mut factorial = vec![1.0; LENGTH + 1];
+        let mut factorial = [1.0; LENGTH + 1];
         (1..=LENGTH).for_each(|k| factorial[k] = factorial[k - 1] * k as f64);
         self.sum_of_powers(|k| 1.0 / factorial[k])
     }
