@@ -16,8 +16,11 @@ type Columns<const V: usize> = SMatrix<f64, 3, V>;
 /// Standard deviation of what rounding makes of a change of the state, in units in the last place of the change.
 const ROUNDING: f64 = 0.5;
 
+/// Standard deviation of what turning the start into the principal frame of `s` rounds, in units in the last place of one.
+const TURNED: f64 = 1.0;
+
 /// Part of the truncation of a step that its leading term misses.
-const UNCERTAIN: f64 = 0.1;
+const UNCERTAIN: f64 = 0.02;
 
 /// Rounding of the constants (`1 / I^xx`, the oblateness, the body's turn) that all steps have in common: a phase, in units
 /// in the last place of one per radian.
@@ -63,6 +66,11 @@ impl<const V: usize> TaylorErrors<V> {
         let momentum_unit = scale.momentum / spheroid.inertia_xx * unit;
         let flow = LinearisedFlow::new(&spheroid, &violation, unit);
         let mut growth = ErrorGrowth::none(momentum_unit);
+        if setup.frame.is_turned() {
+            // The start is rounded when it is turned, and so are the principal axes.
+            let deviations = [1.0, momentum_unit].map(|unit| TURNED * f64::EPSILON * unit);
+            growth.add(&Difference::default(), deviations, 2.0 * TURNED * f64::EPSILON);
+        }
         let before = growth.estimate(None);
         let series = Vec::with_capacity(setup.order + 1);
         Self { spheroid, violation, flow, growth, unit, momentum_unit, before, series }

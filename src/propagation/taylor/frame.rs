@@ -24,10 +24,15 @@ impl<S: Real> SeriesFrame<S> {
             return Ok(Self { violation: *anisotropic, given_from_series: None });
         }
         let frame = principal_frame(&anisotropic.map(S::re))?;
-        Ok(Self {
-            violation: frame.coefficients.tensor().map(S::from_f64),
-            given_from_series: Some(frame.principal_from_given.transpose()),
-        })
+        // A step of Newton's method makes the axes orthonormal to rounding: what goes in by them comes out by them.
+        let back = frame.principal_from_given.transpose();
+        let back = back * (Matrix3::identity() * 1.5 - back.transpose() * back * 0.5);
+        Ok(Self { violation: frame.coefficients.tensor().map(S::from_f64), given_from_series: Some(back) })
+    }
+
+    /// Whether the frame of the series is not the given one.
+    pub(super) fn is_turned(&self) -> bool {
+        self.given_from_series.is_some()
     }
 
     pub(super) fn series_from_given(&self, v: &Vector3<S>) -> Vector3<S> {

@@ -13,10 +13,6 @@ use crate::propagation::taylor::series::{AXIS, MOMENTUM, Vectors, change};
 use crate::propagation::taylor::step_size::{Scale, Work, order_for};
 use crate::scalar::Real;
 
-/// The growth of errors over that of their sum: those of neighbouring steps cancel, and what is left of a step is the first term
-/// omitted, not the last one kept. By this factor the sum would be smaller in all but unstable motions.
-const CANCELLATION: f64 = 100.0;
-
 /// Body, tensor, start and span of a motion, with the order and the error allowed per unit of time.
 #[derive(Debug, Clone)]
 pub(super) struct Setup<S, const V: usize> {
@@ -57,11 +53,7 @@ impl<S: Real, const V: usize> Setup<S, V> {
         // An error made at one time turns into a phase error that grows with the rotation: the budget per unit of time is
         // what is left of the accuracy after that growth over half of the span on average.
         let growth = 1.0 + scale.turning_rate * duration / 2.0;
-        let budget = if duration > 0.0 {
-            (accuracy / duration * (CANCELLATION / growth).min(1.0)).min(f64::MAX)
-        } else {
-            accuracy
-        };
+        let budget = if duration > 0.0 { (accuracy / (duration * growth)).min(f64::MAX) } else { accuracy };
         let order = order_for(budget / scale.turning_rate.max(f64::MIN_POSITIVE), work);
         let frame = SeriesFrame::of(&anisotropic, principal_frame)?;
         let rate_about_axis = rate_about_axis(spheroid, &start[AXIS], &start[MOMENTUM]);
