@@ -66,9 +66,7 @@ impl PlannedAxisMotion {
     pub fn work(&self) -> Work {
         match self {
             Self::Uniform(_) | Self::Symmetric(_) => Work::default(),
-            Self::Splitting(motion) => {
-                Work::of_series(motion.step_count() as usize, 2 * motion.scheme().stages())
-            }
+            Self::Splitting(motion) => Work::of_series(motion.step_count() as usize, 2 * motion.scheme().stages()),
             Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
         }
     }
