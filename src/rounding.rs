@@ -3,10 +3,13 @@
 //! Both are identities of real numbers whose second part is zero, so that they act on duals as well: what is lost carries no
 //! derivative beyond rounding.
 
+use core::ops::{Add, Sub};
+
 use crate::scalar::Scalar;
 
 /// Knuth's exact sum: `a + b = sum + lost`.
-pub(crate) fn two_sum<S: Scalar>(a: S, b: S) -> (S, S) {
+#[inline(always)]
+pub(crate) fn two_sum<S: Copy + Add<Output = S> + Sub<Output = S>>(a: S, b: S) -> (S, S) {
     let sum = a + b;
     let b_part = sum - a;
     (sum, (a - (sum - b_part)) + (b - b_part))

@@ -6,6 +6,7 @@ mod continuous_angles;
 #[cfg_attr(not(target_arch = "x86_64"), path = "unfused.rs")]
 mod fused;
 mod input;
+mod many;
 mod motion;
 #[cfg(target_arch = "x86_64")]
 mod registers;
@@ -14,8 +15,9 @@ mod taylor;
 
 pub use closed::{SymmetricMotion, UniformMotion, largest_torque};
 pub use continuous_angles::ContinuousAngles;
+pub use many::{AxisScene, axis_states_of_many};
 pub use motion::{AxisMotion, AxisState, Motion};
 pub use taylor::{
-    ACCURACY_RANGE, AxisScene, ErrorEstimates, STEP_LIMIT, Samples, TaylorAxisMotion, TaylorForecast, TaylorMotion,
-    axis_states_at, axis_states_of_many, propagate, propagate_axis, states_at, taylor_forecast,
+    ACCURACY_RANGE, ErrorEstimates, STEP_LIMIT, Samples, TaylorAxisMotion, TaylorForecast, TaylorMotion,
+    axis_states_at, propagate, propagate_axis, states_at, taylor_forecast,
 };

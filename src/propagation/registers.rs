@@ -18,6 +18,10 @@ pub(super) trait Register: Copy {
     fn mul(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
     fn div(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
     fn mul_add(self, a: Self::Lanes, b: Self::Lanes, c: Self::Lanes) -> Self::Lanes;
+    /// `a * b - c`, rounded once.
+    fn mul_sub(self, a: Self::Lanes, b: Self::Lanes, c: Self::Lanes) -> Self::Lanes;
+    /// `a / b`, and zero where `b` is zero.
+    fn div_or_zero(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
     /// Larger size of two, lane by lane; NaN in `a` stays.
     fn larger(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
     fn get(self, a: &Self::Lanes, lane: usize) -> f64;
@@ -58,6 +62,17 @@ impl Register for V3 {
     #[inline(always)]
     fn mul_add(self, a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
         self.mul_add_f64x4(a, b, c)
+    }
+
+    #[inline(always)]
+    fn mul_sub(self, a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
+        self.mul_sub_f64x4(a, b, c)
+    }
+
+    #[inline(always)]
+    fn div_or_zero(self, a: f64x4, b: f64x4) -> f64x4 {
+        let zero = self.splat_f64x4(0.0);
+        self.select_f64x4(self.cmp_eq_f64x4(b, zero), zero, self.div_f64x4(a, b))
     }
 
     #[inline(always)]
@@ -116,6 +131,17 @@ impl Register for V4 {
     #[inline(always)]
     fn mul_add(self, a: f64x8, b: f64x8, c: f64x8) -> f64x8 {
         self.mul_add_f64x8(a, b, c)
+    }
+
+    #[inline(always)]
+    fn mul_sub(self, a: f64x8, b: f64x8, c: f64x8) -> f64x8 {
+        self.mul_sub_f64x8(a, b, c)
+    }
+
+    #[inline(always)]
+    fn div_or_zero(self, a: f64x8, b: f64x8) -> f64x8 {
+        let zero = self.splat_f64x8(0.0);
+        self.select_f64x8(self.cmp_eq_f64x8(b, zero), zero, self.div_f64x8(a, b))
     }
 
     #[inline(always)]

@@ -5,7 +5,9 @@ use nalgebra::Matrix3;
 use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
 use crate::propagation::AxisState;
-use crate::propagation::splitting::motion::{Scene, SplittingMotion, check_splitting_input, propagate_checked};
+use crate::propagation::splitting::motion::{
+    SPLITTING_STEP_LIMIT, Scene, SplittingMotion, check_splitting_input, propagate_checked,
+};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::schemes::{
     GRADIENT_8_6_4, GRADIENT_8_6_6, GRADIENT_8_8_6, KAHAN_LI_8, NEAR_INTEGRABLE_6_2, NEAR_INTEGRABLE_10_4, SRKN_6B,
@@ -132,4 +134,51 @@ pub fn propagate_by_best_splitting(
     let scene = Scene::new(spheroid, s, initial)?;
     let SplittingForecast { scheme, step, .. } = forecast(&scene, span, accuracy);
     propagate_checked(spheroid, s, span, scheme, scene, step)
+}
+
+/// How splitting would reach the samples of a motion.
+#[cfg(target_arch = "x86_64")]
+pub(super) struct SampledForecast {
+    pub(super) scheme: &'static Scheme,
+    /// Largest step.
+    pub(super) step: f64,
+    /// Number of steps, cut so that every sample is at one.
+    pub(super) steps: u64,
+}
+
+/// Smallest accuracy over the angle turned (rad) at which truncation, not rounding, is the error of splitting.
+#[cfg(target_arch = "x86_64")]
+const LEAST_ACCURACY_PER_ANGLE: f64 = 1e-16;
+
+/// Most stages per radian at which splitting takes less time than series do.
+#[cfg(target_arch = "x86_64")]
+const MOST_STAGES_PER_ANGLE: f64 = 100.0;
+
+/// The cheapest scheme and step for samples at `times`, none where a Taylor series is better.
+#[cfg(target_arch = "x86_64")]
+pub(super) fn sampled_forecast(scene: &Scene, start: f64, times: &[f64], accuracy: f64) -> Option<SampledForecast> {
+    let duration = (times.last()? - start).abs();
+    let rate = scene.largest_rate;
+    let turn = rate * duration;
+    if !(turn > 0.0 && turn.is_finite()) || accuracy < LEAST_ACCURACY_PER_ANGLE * turn {
+        return None;
+    }
+    let epsilon = scene.spread / rate.powi(2);
+    let cut = |step: f64| {
+        let mut before = start;
+        let mut steps = 0.0;
+        for &time in times {
+            steps += ((time - before).abs() / step).ceil();
+            before = time;
+        }
+        steps
+    };
+    let candidates = MODELS.iter().map(|model| {
+        let step = model.step(epsilon, turn, accuracy / SAFETY) / rate;
+        let steps = cut(step);
+        (model, step, steps, model.stage_cost * model.scheme.stages() as f64 * steps)
+    });
+    let (model, step, steps, cost) = candidates.min_by(|a, b| a.3.total_cmp(&b.3))?;
+    let worth = step > 0.0 && cost <= MOST_STAGES_PER_ANGLE * turn && steps <= SPLITTING_STEP_LIMIT;
+    worth.then_some(SampledForecast { scheme: model.scheme, step, steps: steps as u64 })
 }

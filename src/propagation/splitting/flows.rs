@@ -22,8 +22,8 @@
 //!
 //! which costs eight products more than the plain one.
 
+use crate::propagation::splitting::ring::Ring;
 use crate::rounding::two_sum;
-use crate::scalar::Scalar;
 
 /// `n` and `w = L / I^xx` in the principal frame, with what their last additions lost.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,11 +34,11 @@ pub(super) struct Pair<S> {
     pub(super) rate_low: [S; 3],
 }
 
-/// The kick of one stage: `w_x += n_y n_z (plain_x + gradient_x n.(s n))`, with the eigenvalues of `s` beside the gradient.
+/// The kick of one stage: `w_x += n_y n_z (plain_x + gradient_x n.(s n))`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Kick<S> {
     plain: [S; 3],
-    gradient: Option<([S; 3], [S; 3])>,
+    gradient: Option<[S; 3]>,
 }
 
 /// Largest angle (rad) at which the series below are full: their first omitted terms are `x^8 / 17!`, 1e-17 at `x = 0.49`.
@@ -70,24 +70,25 @@ const VERSINE: [f64; 8] = [
 
 /// A polynomial with seven powers of `x`, in pairs (Estrin): a chain of operations half as long as Horner's.
 #[inline(always)]
-fn polynomial<S: Scalar>(c: &[f64; 8], x: S, x2: S, x4: S) -> S {
-    let pair = |k: usize| S::from_f64(c[k]) + x * c[k + 1];
-    (pair(0) + x2 * pair(2)) + x4 * (pair(4) + x2 * pair(6))
+fn polynomial<S: Ring>(c: &[f64; 8], x: S, x2: S, x4: S) -> S {
+    let low = x2.mul_add(x.mul_add(x.like(c[3]), x.like(c[2])), x.mul_add(x.like(c[1]), x.like(c[0])));
+    let high = x2.mul_add(x.mul_add(x.like(c[7]), x.like(c[6])), x.mul_add(x.like(c[5]), x.like(c[4])));
+    x4.mul_add(high, low)
 }
 
 #[inline(always)]
-fn cross<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+fn cross<S: Ring>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
+    [a[1].mul_sub(b[2], a[2] * b[1]), a[2].mul_sub(b[0], a[0] * b[2]), a[0].mul_sub(b[1], a[1] * b[0])]
 }
 
 #[inline(always)]
-pub(super) fn dot<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> S {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+pub(super) fn dot<S: Ring>(a: &[S; 3], b: &[S; 3]) -> S {
+    a[2].mul_add(b[2], a[1].mul_add(b[1], a[0] * b[0]))
 }
 
-impl<S: Scalar> Pair<S> {
+impl<S: Ring> Pair<S> {
     pub(super) fn new(axis: [S; 3], rate: [S; 3]) -> Self {
-        let zero = [S::zero(); 3];
+        let zero = [axis[0].like(0.0); 3];
         Self { axis, rate, axis_low: zero, rate_low: zero }
     }
 
@@ -96,43 +97,42 @@ impl<S: Scalar> Pair<S> {
     #[inline(always)]
     pub(super) fn rotate(&mut self, tau: S, halvings: u32) {
         let w = &self.rate;
-        let part = 0.5f64.powi(halvings as i32);
-        let mut x = dot(w, w) * (tau * tau * (part * part));
+        let part = 0.25f64.powi(halvings as i32);
+        let tau2 = tau * tau;
+        let mut x = dot(w, w) * (tau2 * tau.like(part));
         let x2 = x * x;
         let x4 = x2 * x2;
         let mut sine = polynomial(&SINE, x, x2, x4);
         let mut versine = polynomial(&VERSINE, x, x2, x4);
         for _ in 0..halvings {
             // Double angle: cos = 1 - x versine.
-            (sine, versine) = (sine * (S::one() - x * versine), sine * sine * 0.5);
-            x = x * 4.0;
+            (sine, versine) = (sine * (x.like(1.0) - x * versine), sine * sine * x.like(0.5));
+            x = x * x.like(4.0);
         }
-        let (sine, versine) = (sine * tau, versine * (tau * tau));
+        let (sine, versine) = (sine * tau, versine * tau2);
         let turn = cross(w, &self.axis);
         let bend = cross(w, &turn);
         for i in 0..3 {
-            let change = turn[i] * sine + bend[i] * versine;
-            (self.axis[i], self.axis_low[i]) = two_sum(self.axis[i], change + self.axis_low[i]);
+            let change = turn[i].mul_add(sine, bend[i].mul_add(versine, self.axis_low[i]));
+            (self.axis[i], self.axis_low[i]) = two_sum(self.axis[i], change);
         }
     }
-}
 
-impl<S: Scalar> Pair<S> {
-    /// Kicks `w` at constant `n`.
+    /// Kicks `w` at constant `n`; `tensor` has the traceless eigenvalues of `s^IJ`.
     #[inline(always)]
-    pub(super) fn kick(&mut self, kick: &Kick<S>) {
+    pub(super) fn kick(&mut self, kick: &Kick<S>, tensor: &[S; 3]) {
         let [x, y, z] = self.axis;
         let products = [y * z, z * x, x * y];
-        let factors = match &kick.gradient {
-            None => kick.plain,
-            Some((tensor, gradient)) => {
-                let potential = (x * x) * tensor[0] + (y * y) * tensor[1] + (z * z) * tensor[2];
-                [0, 1, 2].map(|i| kick.plain[i] + gradient[i] * potential)
+        let mut factors = kick.plain;
+        if let Some(gradient) = &kick.gradient {
+            let potential = dot(&[x * x, y * y, z * z], tensor);
+            for i in 0..3 {
+                factors[i] = gradient[i].mul_add(potential, factors[i]);
             }
-        };
+        }
         for i in 0..3 {
-            let change = products[i] * factors[i];
-            (self.rate[i], self.rate_low[i]) = two_sum(self.rate[i], change + self.rate_low[i]);
+            let change = products[i].mul_add(factors[i], self.rate_low[i]);
+            (self.rate[i], self.rate_low[i]) = two_sum(self.rate[i], change);
         }
     }
 }
@@ -140,25 +140,32 @@ impl<S: Scalar> Pair<S> {
 /// What the motion depends on: `2 C / I^xx`, the traceless eigenvalues of `s^IJ`, and `d`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Field<S> {
-    strength: S,
-    tensor: [S; 3],
-    torque: [S; 3],
+    pub(super) strength: S,
+    pub(super) tensor: [S; 3],
+    pub(super) torque: [S; 3],
 }
 
-impl<S: Scalar> Field<S> {
+impl Field<f64> {
     /// From `2 C / I^xx` and the eigenvalues of `s^IJ`. An isotropic part exerts no torque and is taken off.
-    pub(super) fn new(strength: S, s: [S; 3]) -> Self {
+    pub(super) fn new(strength: f64, s: [f64; 3]) -> Self {
         let mean = (s[0] + s[1] + s[2]) / 3.0;
         let torque = [s[1] - s[2], s[2] - s[0], s[0] - s[1]].map(|difference| difference * strength);
         Self { strength, tensor: s.map(|value| value - mean), torque }
     }
+}
 
+impl<S: Ring> Field<S> {
     /// The kick by `b V - c tau^2 Gamma.Gamma / I^xx` over the time `tau`.
+    #[inline(always)]
     pub(super) fn kick(&self, b: f64, c: f64, tau: S) -> Kick<S> {
-        let inner = tau * tau * self.strength * (2.0 * c);
-        let plain = [0, 1, 2].map(|i| self.torque[i] * tau * (inner * self.tensor[i] + S::from_f64(b)));
-        let gradient = (c != 0.0).then(|| (self.tensor, self.torque.map(|d| d * tau * inner * 2.0)));
-        Kick { plain, gradient }
+        let inner = tau * tau * self.strength * tau.like(2.0 * c);
+        let mut plain = self.torque;
+        let mut gradient = self.torque;
+        for i in 0..3 {
+            plain[i] = self.torque[i] * tau * (inner * self.tensor[i] + tau.like(b));
+            gradient[i] = self.torque[i] * tau * inner * tau.like(2.0);
+        }
+        Kick { plain, gradient: if c != 0.0 { Some(gradient) } else { None } }
     }
 }
 
@@ -186,7 +193,7 @@ mod tests {
         // The potential -c tau^3 |Gamma|^2 / I^xx changes w by +c tau^3 n x d/dn of it over I^xx.
         let expected = cross(&n, &slope);
         let mut pair = Pair::new(n, [0.0; 3]);
-        pair.kick(&field.kick(0.0, 0.01, 0.7));
+        pair.kick(&field.kick(0.0, 0.01, 0.7), &field.tensor);
         for i in 0..3 {
             assert!((pair.rate[i] - expected[i] * 0.01 * 0.7f64.powi(3)).abs() < 1e-16, "{i}: {pair:?}, {expected:?}");
         }

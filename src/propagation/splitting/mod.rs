@@ -3,9 +3,14 @@
 mod choice;
 mod error;
 mod flows;
+#[cfg(target_arch = "x86_64")]
+pub(super) mod lanes;
 mod motion;
+pub(super) mod ring;
 mod scheme;
 mod schemes;
+#[cfg(target_arch = "x86_64")]
+mod side_by_side;
 mod stepper;
 mod stepping;
 

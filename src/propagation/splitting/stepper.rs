@@ -1,14 +1,14 @@
 //! Steps of a splitting scheme, without allocation.
 
 use crate::propagation::splitting::flows::{Field, Kick, LARGEST_ANGLE, Pair, dot};
+use crate::propagation::splitting::ring::Ring;
 use crate::propagation::splitting::scheme::{Ends, Scheme};
-use crate::scalar::{Real, Scalar};
 
 /// Most rotations of a scheme, its ends taken together.
 pub(super) const MOST_STAGES: usize = 17;
 
 /// Whole steps after which the rounding of the Casimirs `n.n` and `L.n` is taken out.
-const STEPS_BETWEEN_PROJECTIONS: u64 = 64;
+pub(super) const STEPS_BETWEEN_PROJECTIONS: u64 = 64;
 
 /// A scheme made ready for one body, one `s^IJ` and one step.
 ///
@@ -19,59 +19,73 @@ pub(super) struct Steps<S> {
     pairs: [(S, Kick<S>); MOST_STAGES],
     stages: usize,
     end: End<S>,
+    tensor: [S; 3],
     halvings: u32,
 }
 
 #[derive(Debug, Clone, Copy)]
 enum End<S> {
-    Rotation(S),
+    Rotation { forth: S, back: S },
     Kick { forth: Kick<S>, back: Kick<S> },
 }
 
-impl<S: Real> Steps<S> {
+/// Halvings of the angle of a rotation that the steps of a scheme need where a whole step turns by at most `turn`.
+pub(super) fn halvings(scheme: &Scheme, turn: f64) -> u32 {
+    let at_ends = if scheme.ends == Ends::Rotations { 2.0 * scheme.rotations[0].abs() } else { 0.0 };
+    let longest = scheme.rotations.iter().fold(at_ends, |most, rotation| most.max(rotation.abs()));
+    (longest * turn / LARGEST_ANGLE).log2().ceil().max(0.0) as u32
+}
+
+impl Steps<f64> {
     /// `largest_rate` bounds `|w|` along the motion.
-    pub(super) fn new(scheme: &Scheme, field: &Field<S>, step: S, largest_rate: f64) -> Self {
-        let kick =
-            |index: usize, times: f64| field.kick(times * scheme.kicks[index], times * scheme.gradient(index), step);
+    pub(super) fn new(scheme: &Scheme, field: &Field<f64>, step: f64, largest_rate: f64) -> Self {
+        Self::halved(scheme, field, step, halvings(scheme, step.abs() * largest_rate))
+    }
+}
+
+impl<S: Ring> Steps<S> {
+    /// With that many [`halvings`].
+    #[inline(always)]
+    pub(super) fn halved(scheme: &Scheme, field: &Field<S>, step: S, halvings: u32) -> Self {
         let stages = scheme.stages();
-        let still = kick(0, 0.0);
-        let mut pairs = [(S::zero(), still); MOST_STAGES];
+        let still = field.kick(0.0, 0.0, step);
+        let mut pairs = [(step, still); MOST_STAGES];
+        // With kicks at the ends the first is half of the last.
+        let offset = if scheme.ends == Ends::Kicks { 1 } else { 0 };
+        for index in 0..stages {
+            let kick = field.kick(scheme.kicks[index + offset], scheme.gradient(index + offset), step);
+            pairs[index] = (step * step.like(scheme.rotations[index]), kick);
+        }
         let end = match scheme.ends {
             Ends::Rotations => {
-                for (index, pair) in pairs[..stages].iter_mut().enumerate() {
-                    *pair = (step * scheme.rotations[index], kick(index, 1.0));
-                }
-                pairs[0].0 = pairs[0].0 * 2.0;
-                End::Rotation(step * scheme.rotations[0])
+                let half = step * step.like(scheme.rotations[0]);
+                pairs[0].0 = half * half.like(2.0);
+                End::Rotation { forth: half * half.like(-1.0), back: half }
             }
             Ends::Kicks => {
-                for (index, pair) in pairs[..stages].iter_mut().enumerate() {
-                    *pair = (step * scheme.rotations[index], kick(index + 1, 1.0));
-                }
-                pairs[stages - 1].1 = kick(0, 2.0);
-                End::Kick { forth: kick(0, 1.0), back: kick(0, -1.0) }
+                let kick = |times: f64| field.kick(times * scheme.kicks[0], times * scheme.gradient(0), step);
+                pairs[stages - 1].1 = kick(2.0);
+                End::Kick { forth: kick(1.0), back: kick(-1.0) }
             }
         };
-        let longest = pairs.iter().fold(0.0_f64, |most, (tau, _)| most.max(tau.re().abs()));
-        let halvings = (longest * largest_rate / LARGEST_ANGLE).log2().ceil().max(0.0) as u32;
-        Self { pairs, stages, end, halvings }
+        Self { pairs, stages, end, tensor: field.tensor, halvings }
     }
 
     /// Shifts a state at a step into the middle of its first flow.
-    #[inline]
+    #[inline(always)]
     pub(super) fn open(&self, state: &mut Pair<S>) {
         match &self.end {
-            End::Rotation(tau) => state.rotate(-*tau, self.halvings),
-            End::Kick { forth, .. } => state.kick(forth),
+            End::Rotation { forth, .. } => state.rotate(*forth, self.halvings),
+            End::Kick { forth, .. } => state.kick(forth, &self.tensor),
         }
     }
 
     /// The inverse of [`open`](Self::open).
-    #[inline]
+    #[inline(always)]
     pub(super) fn close(&self, state: &mut Pair<S>) {
         match &self.end {
-            End::Rotation(tau) => state.rotate(*tau, self.halvings),
-            End::Kick { back, .. } => state.kick(back),
+            End::Rotation { back, .. } => state.rotate(*back, self.halvings),
+            End::Kick { back, .. } => state.kick(back, &self.tensor),
         }
     }
 
@@ -87,15 +101,23 @@ impl<S: Real> Steps<S> {
         let mut left = steps;
         while left > 0 {
             let now = left.min(STEPS_BETWEEN_PROJECTIONS);
-            for _ in 0..now {
-                for (tau, kick) in &self.pairs[..self.stages] {
-                    state.rotate(*tau, self.halvings);
-                    state.kick(kick);
-                }
-            }
+            self.run(state, now);
             project(state, casimir);
             left -= now;
         }
+    }
+
+    /// Whole steps of an open state, without taking out rounding.
+    #[inline(always)]
+    pub(super) fn run(&self, state: &mut Pair<S>, steps: u64) {
+        let mut moving = *state;
+        for _ in 0..steps {
+            for (tau, kick) in &self.pairs[..self.stages] {
+                moving.rotate(*tau, self.halvings);
+                moving.kick(kick, &self.tensor);
+            }
+        }
+        *state = moving;
     }
 }
 
@@ -107,20 +129,22 @@ const SHARE_OF_RATE: f64 = 1e-4;
 ///
 /// The rotations round in the same sense step after step, to `n` across `w`. So `n` is mended, in the plane of both; a change of
 /// `w` would feed the energy step by step. Where `n` is nearly along `w` that alone would enlarge the rounding, and `w` takes a share.
-fn project<S: Scalar>(state: &mut Pair<S>, casimir: S) {
+#[inline(always)]
+pub(super) fn project<S: Ring>(state: &mut Pair<S>, casimir: S) {
     let (n, w) = (state.axis, state.rate);
     let (n_n, n_w, w_w) = (dot(&n, &n), dot(&n, &w), dot(&w, &w));
-    let grow = (S::one() - n_n) * 0.5;
-    let missing = casimir - n_w * (S::one() + grow);
-    let across = [0, 1, 2].map(|i| w[i] - n[i] * n_w);
-    let share = w_w * SHARE_OF_RATE;
-    let weight = dot(&across, &across) + share;
-    if weight.is_zero() {
-        return;
-    }
-    let part = missing / weight;
+    let one = casimir.like(1.0);
+    let grow = (one - n_n) * casimir.like(0.5);
+    let missing = casimir - n_w * (one + grow);
+    let mut across = w;
     for i in 0..3 {
-        state.axis_low[i] += n[i] * grow + across[i] * part;
-        state.rate_low[i] += n[i] * (share * part);
+        across[i] = w[i] - n[i] * n_w;
+    }
+    let share = w_w * casimir.like(SHARE_OF_RATE);
+    // Nothing to mend where the body does not turn.
+    let part = missing.over(dot(&across, &across) + share);
+    for i in 0..3 {
+        state.axis_low[i] = state.axis_low[i] + (n[i] * grow + across[i] * part);
+        state.rate_low[i] = state.rate_low[i] + n[i] * (share * part);
     }
 }

@@ -3,16 +3,15 @@
 use nalgebra::Vector3;
 
 use crate::error::Error;
-use crate::propagation::AxisState;
 use crate::propagation::arithmetic::Arithmetic;
 use crate::propagation::registers::{Lanes, Register};
 use crate::propagation::taylor::clock::Clock;
 use crate::propagation::taylor::compensated::CompensatedState;
-use crate::propagation::taylor::many::AxisScene;
 use crate::propagation::taylor::samples::{LIMIT, Samples, span_of};
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Recurrence, change};
 use crate::propagation::taylor::setup::Setup;
 use crate::propagation::taylor::step_size::{Work, step_size};
+use crate::propagation::{AxisScene, AxisState};
 
 type Outcome = Result<Samples<AxisState<f64>>, Error>;
 
@@ -23,8 +22,8 @@ struct Ready<'t> {
     setup: Setup<f64, 2>,
 }
 
-/// What `axis_states_of_many` gives, by the lanes of `register`.
-pub(super) fn axis_states_in_lanes<R: Register>(register: R, scenes: &[AxisScene<'_>]) -> Vec<Outcome> {
+/// States of motions at their times, by Taylor series in the lanes of `register`.
+pub(in crate::propagation) fn axis_states_in_lanes<R: Register>(register: R, scenes: &[AxisScene<'_>]) -> Vec<Outcome> {
     let mut outcomes = Vec::with_capacity(scenes.len());
     let mut ready = Vec::with_capacity(scenes.len());
     for (scene, AxisScene { spheroid, violation, initial, start, times, accuracy }) in scenes.iter().enumerate() {

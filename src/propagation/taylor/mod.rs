@@ -10,7 +10,6 @@ mod frame;
 #[cfg(target_arch = "x86_64")]
 mod lanes;
 mod linearised_flow;
-mod many;
 mod samples;
 mod series;
 mod setup;
@@ -31,7 +30,10 @@ use clock::StepLimit;
 use compensated::Compensated;
 use errors::{StepError, TaylorErrors};
 pub use forecast::{TaylorForecast, taylor_forecast};
-pub use many::{AxisScene, axis_states_of_many};
+#[cfg(target_arch = "x86_64")]
+pub(super) use lanes::axis_states_in_lanes;
+#[cfg(target_arch = "x86_64")]
+pub(super) use samples::span_of;
 pub use samples::{ErrorEstimates, Samples, axis_states_at, states_at};
 
 use series::{AXIS, MOMENTUM, Vectors};

@@ -28,7 +28,7 @@ pub struct Samples<T> {
     pub error_estimates: Vec<f64>,
     /// Number of steps of the motion.
     pub step_count: usize,
-    /// Order of its series.
+    /// Order of its series, or of its splitting scheme.
     pub order: usize,
 }
 
@@ -83,7 +83,7 @@ pub fn axis_states_at<S: Real>(
 }
 
 /// The span from the start to the last of the times, which must be in the order in which a motion reaches them.
-pub(super) fn span_of(start: f64, times: &[f64]) -> Result<(f64, f64), Error> {
+pub(in crate::propagation) fn span_of(start: f64, times: &[f64]) -> Result<(f64, f64), Error> {
     let Some(&last) = times.last() else {
         return Err(Error::Domain { quantity: "number of times", value: 0.0, allowed: "at least one" });
     };

@@ -1,0 +1,154 @@
+//! Many motions at once by splitting, one in each lane of the vector registers.
+
+use crate::error::Error;
+use crate::propagation::registers::Register;
+use crate::propagation::splitting::choice::{SampledForecast, sampled_forecast};
+use crate::propagation::splitting::flows::{Field, Pair};
+use crate::propagation::splitting::motion::{Scene, check_splitting_input};
+use crate::propagation::splitting::scheme::Scheme;
+use crate::propagation::splitting::side_by_side::SideBySide;
+use crate::propagation::splitting::stepper::{STEPS_BETWEEN_PROJECTIONS, Steps, halvings, project};
+use crate::propagation::{AxisScene, AxisState, Samples};
+
+type Outcome = Result<Samples<AxisState<f64>>, Error>;
+
+/// A motion ready for a lane.
+pub(in crate::propagation) struct Ready<'t> {
+    /// Its place among the outcomes.
+    index: usize,
+    scene: Scene,
+    start: f64,
+    times: &'t [f64],
+    scheme: &'static Scheme,
+    /// Largest step.
+    step: f64,
+    steps: u64,
+    halvings: u32,
+}
+
+impl<'t> Ready<'t> {
+    /// The motion of a scene whose times are in order, where splitting reaches its accuracy.
+    ///
+    /// # Errors
+    /// What is wrong with the scene.
+    pub(in crate::propagation) fn new(index: usize, scene: &AxisScene<'t>) -> Result<Option<Self>, Error> {
+        let AxisScene { spheroid, violation, initial, start, times, accuracy } = scene;
+        let span = (*start, times.last().copied().unwrap_or(*start));
+        check_splitting_input(spheroid, violation, initial, span, *accuracy)?;
+        let scene = Scene::new(spheroid, violation, initial)?;
+        let Some(SampledForecast { scheme, step, steps }) = sampled_forecast(&scene, *start, times, *accuracy) else {
+            return Ok(None);
+        };
+        let halvings = halvings(scheme, step * scene.largest_rate);
+        Ok(Some(Self { index, scene, start: *start, times, scheme, step, steps, halvings }))
+    }
+
+    /// Length and number of the equal steps to the time of a sample from the one before it.
+    fn steps_to(&self, sample: usize) -> (f64, u64) {
+        let before = if sample == 0 { self.start } else { self.times[sample - 1] };
+        let interval = self.times[sample] - before;
+        let count = (interval.abs() / self.step).ceil();
+        if count > 0.0 { (interval / count, count as u64) } else { (0.0, 0) }
+    }
+}
+
+/// Carries the motions to their times by the lanes of `register` and writes down their states.
+pub(in crate::propagation) fn propagate_in_lanes<R: Register>(
+    register: R,
+    mut ready: Vec<Ready<'_>>,
+    outcomes: &mut [Option<Outcome>],
+) {
+    // Motions side by side share the scheme and take about as many steps.
+    ready.sort_by_key(|ready| (ready.scheme.name, ready.halvings, ready.steps));
+    for alike in ready.chunk_by(|a, b| a.scheme == b.scheme && a.halvings == b.halvings) {
+        for motions in alike.chunks(SideBySide::<R>::count()) {
+            register.run(
+                #[inline(always)]
+                || propagate_side_by_side(register, motions, outcomes),
+            );
+        }
+    }
+}
+
+/// Where a motion is.
+struct Progress<'r, 't> {
+    ready: &'r Ready<'t>,
+    states: Vec<AxisState<f64>>,
+    /// Steps to the next sample.
+    left: u64,
+}
+
+/// Carries at most as many motions as there are lanes; a lane that has arrived runs on unheeded.
+///
+/// A motion's steps, and the steps after which its rounding is taken out, are counted from its own start, which is that of all.
+#[inline(always)]
+fn propagate_side_by_side<R: Register>(register: R, motions: &[Ready<'_>], outcomes: &mut [Option<Outcome>]) {
+    // A lane without a motion has a copy of the first.
+    let at = |place: usize| motions.get(place).unwrap_or(&motions[0]);
+    let (scheme, halvings) = (motions[0].scheme, motions[0].halvings);
+    let field = Field::gather(register, |place| &at(place).scene.field);
+    let casimir = SideBySide::gather(register, |place| at(place).scene.casimir);
+    let mut step = SideBySide::gather(register, |place| at(place).steps_to(0).0);
+    let mut steps = Steps::halved(scheme, &field, step, halvings);
+    let mut state = Pair::gather(register, |place| &at(place).scene.start);
+    steps.open(&mut state);
+    let mut progress: Vec<_> = motions
+        .iter()
+        .map(|ready| Progress { ready, states: Vec::with_capacity(ready.times.len()), left: ready.steps_to(0).1 })
+        .collect();
+    let mut since_projection = 0;
+    loop {
+        let underway = progress.iter().filter(|motion| motion.states.len() < motion.ready.times.len());
+        let Some(to_event) = underway.map(|motion| motion.left).min() else { break };
+        let now = to_event.min(STEPS_BETWEEN_PROJECTIONS - since_projection);
+        steps.run(&mut state, now);
+        since_projection += now;
+        if since_projection == STEPS_BETWEEN_PROJECTIONS {
+            project(&mut state, casimir);
+            since_projection = 0;
+        }
+        if now < to_event {
+            for motion in &mut progress {
+                motion.left = motion.left.saturating_sub(now);
+            }
+            continue;
+        }
+        // Every motion at a sample is written down, and begins the steps to its next one.
+        let mut opened = state;
+        steps.close(&mut opened);
+        let mut turning = Vec::new();
+        for (place, motion) in progress.iter_mut().enumerate() {
+            let Progress { ready, states, left } = motion;
+            if states.len() == ready.times.len() {
+                continue;
+            }
+            *left -= now;
+            if *left > 0 {
+                continue;
+            }
+            let closed = ready.scene.state(&opened.take(place));
+            while *left == 0 && states.len() < ready.times.len() {
+                states.push(closed.clone());
+                if states.len() < ready.times.len() {
+                    let (length, count) = ready.steps_to(states.len());
+                    step.set(place, length);
+                    *left = count;
+                }
+            }
+            if *left > 0 {
+                turning.push(place);
+            }
+        }
+        if !turning.is_empty() {
+            steps = Steps::halved(scheme, &field, step, halvings);
+            steps.open(&mut opened);
+            for place in turning {
+                state.put(place, &opened.take(place));
+            }
+        }
+    }
+    for Progress { ready, states, .. } in progress {
+        let (step_count, order) = (ready.steps as usize, scheme.order() as usize);
+        outcomes[ready.index] = Some(Ok(Samples { states, error_estimates: Vec::new(), step_count, order }));
+    }
+}

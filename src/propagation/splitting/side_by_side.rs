@@ -1,0 +1,148 @@
+//! Numbers of several motions side by side, one in each lane of a few registers.
+
+use core::ops::{Add, Mul, Sub};
+
+use crate::propagation::registers::Register;
+use crate::propagation::splitting::flows::{Field, Pair};
+use crate::propagation::splitting::ring::Ring;
+
+/// Registers whose operations take turns: the next one starts while the first waits for its result.
+const REGISTERS: usize = 2;
+
+/// One number for each of [`count`](Self::count) motions.
+#[derive(Clone, Copy)]
+pub(super) struct SideBySide<R: Register> {
+    register: R,
+    lanes: [R::Lanes; REGISTERS],
+}
+
+impl<R: Register> SideBySide<R> {
+    /// Number of motions.
+    pub(super) const fn count() -> usize {
+        REGISTERS * R::COUNT
+    }
+
+    /// The same number for every motion.
+    #[inline(always)]
+    pub(super) fn splat(register: R, value: f64) -> Self {
+        Self { register, lanes: [register.splat(value); REGISTERS] }
+    }
+
+    #[inline(always)]
+    pub(super) fn get(&self, place: usize) -> f64 {
+        self.register.get(&self.lanes[place / R::COUNT], place % R::COUNT)
+    }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, place: usize, value: f64) {
+        self.register.set(&mut self.lanes[place / R::COUNT], place % R::COUNT, value);
+    }
+
+    /// The numbers of motions, by their places.
+    #[inline(always)]
+    pub(super) fn gather(register: R, value: impl Fn(usize) -> f64) -> Self {
+        let mut all = Self::splat(register, 0.0);
+        for place in 0..Self::count() {
+            all.set(place, value(place));
+        }
+        all
+    }
+
+    #[inline(always)]
+    fn gather_vector(register: R, value: impl Fn(usize) -> [f64; 3]) -> [Self; 3] {
+        let component = |i: usize| Self::gather(register, |place| value(place)[i]);
+        [component(0), component(1), component(2)]
+    }
+}
+
+macro_rules! operator {
+    ($operator:ident, $method:ident, $instruction:ident) => {
+        impl<R: Register> $operator for SideBySide<R> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(mut self, other: Self) -> Self {
+                for i in 0..REGISTERS {
+                    self.lanes[i] = self.register.$instruction(self.lanes[i], other.lanes[i]);
+                }
+                self
+            }
+        }
+    };
+}
+
+operator!(Add, add, add);
+operator!(Sub, sub, sub);
+operator!(Mul, mul, mul);
+
+impl<R: Register> Ring for SideBySide<R> {
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        Self::splat(self.register, value)
+    }
+
+    #[inline(always)]
+    fn mul_add(mut self, a: Self, b: Self) -> Self {
+        for i in 0..REGISTERS {
+            self.lanes[i] = self.register.mul_add(self.lanes[i], a.lanes[i], b.lanes[i]);
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn mul_sub(mut self, a: Self, b: Self) -> Self {
+        for i in 0..REGISTERS {
+            self.lanes[i] = self.register.mul_sub(self.lanes[i], a.lanes[i], b.lanes[i]);
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn over(mut self, divisor: Self) -> Self {
+        for i in 0..REGISTERS {
+            self.lanes[i] = self.register.div_or_zero(self.lanes[i], divisor.lanes[i]);
+        }
+        self
+    }
+}
+
+impl<R: Register> Pair<SideBySide<R>> {
+    /// The states of motions, by their places.
+    #[inline(always)]
+    pub(super) fn gather<'p>(register: R, pair: impl Fn(usize) -> &'p Pair<f64>) -> Self {
+        Pair::new(
+            SideBySide::gather_vector(register, |place| pair(place).axis),
+            SideBySide::gather_vector(register, |place| pair(place).rate),
+        )
+    }
+
+    /// The state of one motion.
+    #[inline(always)]
+    pub(super) fn take(&self, place: usize) -> Pair<f64> {
+        let of = |v: &[SideBySide<R>; 3]| [v[0].get(place), v[1].get(place), v[2].get(place)];
+        Pair { axis: of(&self.axis), rate: of(&self.rate), axis_low: of(&self.axis_low), rate_low: of(&self.rate_low) }
+    }
+
+    /// Replaces the state of one motion.
+    #[inline(always)]
+    pub(super) fn put(&mut self, place: usize, pair: &Pair<f64>) {
+        for i in 0..3 {
+            self.axis[i].set(place, pair.axis[i]);
+            self.rate[i].set(place, pair.rate[i]);
+            self.axis_low[i].set(place, pair.axis_low[i]);
+            self.rate_low[i].set(place, pair.rate_low[i]);
+        }
+    }
+}
+
+impl<R: Register> Field<SideBySide<R>> {
+    /// The fields of motions, by their places.
+    #[inline(always)]
+    pub(super) fn gather<'f>(register: R, field: impl Fn(usize) -> &'f Field<f64>) -> Self {
+        Field {
+            strength: SideBySide::gather(register, |place| field(place).strength),
+            tensor: SideBySide::gather_vector(register, |place| field(place).tensor),
+            torque: SideBySide::gather_vector(register, |place| field(place).torque),
+        }
+    }
+}
