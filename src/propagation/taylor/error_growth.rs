@@ -79,9 +79,9 @@ impl ErrorGrowth {
                 *momentum += from_rotation * *rotation + from_length * *length;
                 self.covariance.kick(from_rotation, from_length);
             }
-            LinearMap::Rotation { from_rotation, from_momentum, from_length } => {
-                *rotation = from_rotation * *rotation + from_momentum * *momentum + from_length * *length;
-                self.covariance.rotate(from_rotation, from_momentum, from_length);
+            LinearMap::Rotation { from_rotation, from_momentum } => {
+                *rotation = from_rotation * *rotation + from_momentum * *momentum;
+                self.covariance.rotate(from_rotation, from_momentum);
             }
         }
     }
@@ -134,16 +134,13 @@ impl Covariance {
         *momentum += change;
     }
 
-    /// Of `A theta + B w + b rho` instead of `theta`.
-    fn rotate(&mut self, from_rotation: &Matrix3<f64>, from_momentum: &Matrix3<f64>, from_length: &Vector3<f64>) {
+    /// Of `A theta + B w` instead of `theta`.
+    fn rotate(&mut self, from_rotation: &Matrix3<f64>, from_momentum: &Matrix3<f64>) {
         let [rotation, momentum] = &mut self.with_length;
-        let turned =
-            from_rotation * self.rotation + from_momentum * self.mixed.transpose() + from_length * rotation.transpose();
-        let mixed = from_rotation * self.mixed + from_momentum * self.momentum + from_length * momentum.transpose();
-        let change = from_rotation * *rotation + from_momentum * *momentum + from_length * self.length;
-        self.rotation =
-            turned * from_rotation.transpose() + mixed * from_momentum.transpose() + change * from_length.transpose();
+        let turned = from_rotation * self.rotation + from_momentum * self.mixed.transpose();
+        let mixed = from_rotation * self.mixed + from_momentum * self.momentum;
+        *rotation = from_rotation * *rotation + from_momentum * *momentum;
+        self.rotation = turned * from_rotation.transpose() + mixed * from_momentum.transpose();
         self.mixed = mixed;
-        *rotation = change;
     }
 }

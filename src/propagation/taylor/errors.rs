@@ -20,7 +20,7 @@ const ROUNDING: f64 = 0.5;
 const TURNED: f64 = 1.0;
 
 /// Part of the truncation of a step that its leading term misses.
-const UNCERTAIN: f64 = 0.02;
+const UNCERTAIN: f64 = 0.04;
 
 /// Rounding of the constants (`1 / I^xx`, the oblateness, the body's turn) that all steps have in common: a phase, in units
 /// in the last place of one per radian.

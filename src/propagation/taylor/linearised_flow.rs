@@ -10,13 +10,14 @@ use crate::dynamics::RigidSpheroid;
 /// Longest part of a step, in radians of the rotation.
 const LONGEST_PART: f64 = 1.0;
 
-/// A linear map of differences `(theta, w, rho)`: the small rotation `theta` of the body, the difference `w` of
+/// A linear map of differences `(theta, w, rho)`: the small rotation `theta` of what turns with
+/// `L / I^xx` (`n`, and the vector from which `e_x` follows at a constant rate), the difference `w` of
 /// `L / I^xx`, and the relative difference `rho` of the length of `n`.
 pub(super) enum LinearMap {
     /// `w += from_rotation theta + from_length rho`.
     Kick { from_rotation: Matrix3<f64>, from_length: Vector3<f64> },
-    /// `theta = from_rotation theta + from_momentum w + from_length rho`.
-    Rotation { from_rotation: Matrix3<f64>, from_momentum: Matrix3<f64>, from_length: Vector3<f64> },
+    /// `theta = from_rotation theta + from_momentum w`.
+    Rotation { from_rotation: Matrix3<f64>, from_momentum: Matrix3<f64> },
 }
 
 /// The linearised equations of motion of one body, in the unit of time of the caller.
@@ -24,16 +25,14 @@ pub(super) enum LinearMap {
 pub(super) struct LinearisedFlow {
     /// `2 C s^IJ / I^xx`, in units of the squared rate.
     pull: Matrix3<f64>,
-    /// `-(I^zz - I^xx) / I^zz`.
-    body_turn: f64,
 }
 
 impl LinearisedFlow {
     /// For the body in the unit of time `unit`; `violation` is `s^IJ` without its trace.
     pub(super) fn new(spheroid: &RigidSpheroid<f64>, violation: &Matrix3<f64>, unit: f64) -> Self {
-        let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
+        let RigidSpheroid { inertia_xx, constant_c, .. } = *spheroid;
         let pull = violation * (2.0 * unit * (constant_c / inertia_xx) * unit);
-        Self { pull, body_turn: inertia_xx / inertia_zz - 1.0 }
+        Self { pull }
     }
 
     /// Largest rate at which `L / I^xx` is turned.
@@ -108,12 +107,7 @@ impl LinearisedFlow {
         let turn = identity + first * a + second * b;
         let average = identity + first * b + second * c;
         let turned = turn * n;
-        let twist = self.body_turn * h;
-        let map = LinearMap::Rotation {
-            from_rotation: turn + turned * n.cross(w).transpose() * twist,
-            from_momentum: average * h + turned * n.transpose() * twist,
-            from_length: turned * (2.0 * twist * n.dot(w)),
-        };
+        let map = LinearMap::Rotation { from_rotation: turn, from_momentum: average * h };
         (map, turned)
     }
 }
