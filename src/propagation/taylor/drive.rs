@@ -80,10 +80,13 @@ impl<S: Real, const V: usize> Drive<'_, S, V> {
         let mut series = vec![[a.zero(); V]; order + 1];
         let mut state = CompensatedState::new(a, self.start.map(|v| a.load(&v)));
         let mut clock = Clock::new();
+        // Where real parts alone choose the steps, derivatives have more and faster terms than they show: near free rotation
+        // those of the derivative by `s` turn twice as fast.
+        let longest = if A::PRINCIPAL_FRAME { f64::INFINITY } else { 1.0 / scale.turning_rate };
         loop {
             recurrence.expand(&state.high, &mut series);
             let sizes = [order, order - 1].map(|k| scale.size(a, &series[k]));
-            let step = clock.advance(step_size(sizes, order, scale, budget), duration, limit)?;
+            let step = clock.advance(step_size(sizes, order, scale, budget).min(longest), duration, limit)?;
             visit(&step, &series);
             if step.is_last() {
                 return Ok(());

@@ -16,6 +16,10 @@ type Columns<const V: usize> = SMatrix<f64, 3, V>;
 /// Standard deviation of what rounding makes of a change of the state, in units in the last place of the change.
 const ROUNDING: f64 = 0.5;
 
+/// Rounding of the constant rate at which `e_x` turns about `n`, from a sum of products that may cancel: a phase, in units in
+/// the last place of one per radian.
+const RATE_ROUNDING: f64 = 1.0;
+
 /// Standard deviation of what turning the start into the principal frame of `s` rounds, in units in the last place of one.
 const TURNED: f64 = 1.0;
 
@@ -53,6 +57,8 @@ pub(super) struct TaylorErrors<const V: usize> {
     /// `L / I^xx` of the momentum's unit, in the unit of time.
     momentum_unit: f64,
     before: f64,
+    /// Of `e_x` about `n`, in the unit of time of the series; zero where only the axis is followed.
+    rate_about_axis: f64,
     /// The step at work.
     series: Vec<Columns<V>>,
 }
@@ -73,7 +79,8 @@ impl<const V: usize> TaylorErrors<V> {
         }
         let before = growth.estimate(None);
         let series = Vec::with_capacity(setup.order + 1);
-        Self { spheroid, violation, flow, growth, unit, momentum_unit, before, series }
+        let rate_about_axis = if V > COMPANION { setup.rate_about_axis.re() * unit } else { 0.0 };
+        Self { spheroid, violation, flow, growth, unit, momentum_unit, before, rate_about_axis, series }
     }
 
     /// The next step, of signed length `h` in units of its series. `vector` makes the vectors of the coefficients real.
@@ -106,7 +113,8 @@ impl<const V: usize> TaylorErrors<V> {
         // Of the momentum too, by the size of the whole: its own defect is small where it averages out, and then less certain.
         let deviations = [(turned, 1.0), (kicked.min(self.momentum_unit), self.momentum_unit)]
             .map(|(change, unit)| ROUNDING * f64::EPSILON * change + UNCERTAIN * size * unit);
-        let common = COMMON_ROUNDING * f64::EPSILON * (series[0].column(MOMENTUM).norm() * rate * h).abs();
+        let common = COMMON_ROUNDING * f64::EPSILON * (series[0].column(MOMENTUM).norm() * rate * h).abs()
+            + RATE_ROUNDING * f64::EPSILON * (self.rate_about_axis * h).abs();
         self.growth.add(&known, deviations, off_frame + common);
         self.before = self.growth.estimate(only_axis);
         StepError { carried, local: ErrorGrowth::counted(size) }

@@ -26,7 +26,7 @@ pub(super) struct Setup<S, const V: usize> {
     /// In the frame of the series.
     start: Vectors<Stored<S>, V>,
     /// Rate at which `e_x` turns about `n` against the vector carried along.
-    rate_about_axis: S,
+    pub(super) rate_about_axis: S,
 }
 
 impl<S: Real, const V: usize> Setup<S, V> {
