@@ -152,7 +152,7 @@ const LEAST_ACCURACY_PER_ANGLE: f64 = 1e-16;
 
 /// Most stages per radian at which splitting takes less time than series do.
 #[cfg(target_arch = "x86_64")]
-const MOST_STAGES_PER_ANGLE: f64 = 100.0;
+const MOST_STAGES_PER_ANGLE: f64 = 150.0;
 
 /// The cheapest scheme and step for samples at `times`, none where a Taylor series is better.
 #[cfg(target_arch = "x86_64")]
