@@ -38,8 +38,10 @@ pub(super) fn instants_of_many(scenes: &[&Scene], asked: &Asked) -> Vec<Option<R
     if asked.errors {
         return found;
     }
-    let is_plain =
-        |plan: Plan| matches!(plan.state, State::Axis | State::AxisAndMomentum) && matches!(plan.method, Some(Method::Taylor | Method::Splitting));
+    let is_plain = |plan: Plan| {
+        matches!(plan.state, State::Axis | State::AxisAndMomentum)
+            && matches!(plan.method, Some(Method::Taylor | Method::Splitting))
+    };
     let plain: Vec<_> = (0..scenes.len()).filter(|&i| scenes[i].plan(&asked.outputs).is_ok_and(is_plain)).collect();
     let times = |&i: &usize| scenes[i].times.iter().map(|time| since_start(scenes[i], time)).collect::<Vec<_>>();
     let times: Vec<_> = plain.iter().map(times).collect();
