@@ -61,10 +61,13 @@ pub(in crate::propagation) fn propagate_in_lanes<R: Register>(
     // Motions side by side share the scheme and take about as many steps.
     ready.sort_by_key(|ready| (ready.scheme.name, ready.angles, ready.steps));
     for alike in ready.chunk_by(|a, b| a.scheme == b.scheme && a.angles == b.angles) {
-        for motions in alike.chunks(SideBySide::<R>::count()) {
+        for motions in alike.chunks(SideBySide::<R, 2>::COUNT) {
             register.run(
                 #[inline(always)]
-                || propagate_side_by_side(register, motions, outcomes),
+                || match motions.len() <= R::COUNT {
+                    true => propagate_side_by_side::<R, 1>(register, motions, outcomes),
+                    false => propagate_side_by_side::<R, 2>(register, motions, outcomes),
+                },
             );
         }
     }
@@ -82,11 +85,15 @@ struct Progress<'r, 't> {
 ///
 /// A motion's steps, and the steps after which its rounding is taken out, are counted from its own start, which is that of all.
 #[inline(always)]
-fn propagate_side_by_side<R: Register>(register: R, motions: &[Ready<'_>], outcomes: &mut [Option<Outcome>]) {
+fn propagate_side_by_side<R: Register, const N: usize>(
+    register: R,
+    motions: &[Ready<'_>],
+    outcomes: &mut [Option<Outcome>],
+) {
     // A lane without a motion has a copy of the first.
     let at = |place: usize| motions.get(place).unwrap_or(&motions[0]);
     let (scheme, angles) = (motions[0].scheme, motions[0].angles);
-    let field = Field::gather(register, |place| &at(place).scene.field);
+    let field = Field::<SideBySide<R, N>>::gather(register, |place| &at(place).scene.field);
     let casimir = SideBySide::gather(register, |place| at(place).scene.casimir);
     let mut step = SideBySide::gather(register, |place| at(place).steps_to(0).0);
     let mut steps = Steps::turning(scheme, &field, step, angles);
