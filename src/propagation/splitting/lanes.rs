@@ -135,7 +135,7 @@ fn propagate_side_by_side<R: Register, const N: usize>(
             }
             let closed = ready.scene.state(&opened.take(place));
             while *left == 0 && states.len() < ready.times.len() {
-                states.push(closed.clone());
+                states.push(closed);
                 if states.len() < ready.times.len() {
                     let (length, count) = ready.steps_to(states.len());
                     step.set(place, length);
