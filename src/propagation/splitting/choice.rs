@@ -170,7 +170,8 @@ pub(super) fn sampled_forecast(scene: &Scene, start: f64, times: &[f64], accurac
     let duration = (times.last()? - start).abs();
     let rate = scene.largest_rate;
     let turn = rate * duration;
-    if !(turn > 0.0 && turn.is_finite()) || accuracy < LEAST_ACCURACY_PER_ANGLE * turn {
+    let moves = turn > 0.0 && turn.is_finite();
+    if !moves || accuracy < LEAST_ACCURACY_PER_ANGLE * turn {
         return None;
     }
     let epsilon = scene.spread / rate.powi(2);

@@ -52,9 +52,9 @@ impl<S: Ring> Steps<S> {
         let mut pairs = [(step, still); MOST_STAGES];
         // With kicks at the ends the first is half of the last.
         let offset = if scheme.ends == Ends::Kicks { 1 } else { 0 };
-        for index in 0..stages {
+        for (index, pair) in pairs[..stages].iter_mut().enumerate() {
             let kick = field.kick(scheme.kicks[index + offset], scheme.gradient(index + offset), step);
-            pairs[index] = (step * step.like(scheme.rotations[index]), kick);
+            *pair = (step * step.like(scheme.rotations[index]), kick);
         }
         let end = match scheme.ends {
             Ends::Rotations => {
