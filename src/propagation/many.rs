@@ -35,6 +35,7 @@ pub struct AxisScene<'t> {
 /// There each motion goes by the splitting scheme that a model of cost and error chooses for it, as in
 /// [`propagate_by_best_splitting`](crate::propagation::splitting::propagate_by_best_splitting), and by Taylor series where
 /// rounding would spoil that or samples lie close together. Elsewhere all go by Taylor series.
+/// The model holds for about 99 motions in 100; one near the unstable middle axis may miss the accuracy by a factor of ten.
 ///
 /// Errors are not estimated. Each motion has its own steps, and its numbers do not depend on those beside it, on their order or on their number.
 ///
@@ -74,4 +75,27 @@ fn in_lanes<R: Register>(register: R, scenes: &[AxisScene<'_>]) -> Vec<Result<Sa
         outcomes[index] = Some(outcome);
     }
     outcomes.into_iter().map(|outcome| outcome.expect("every motion is split or expanded")).collect()
+}
+
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+
+    #[test]
+    fn both_register_widths_give_the_same_bits() {
+        let (Some(four), Some(eight)) = (pulp::x86::V3::try_new(), pulp::x86::V4::try_new()) else { return };
+        let times = [3.0, 3.0, 40.0, 47.5];
+        let scene = |i: usize| AxisScene {
+            spheroid: RigidSpheroid::in_units_of_tc(1.1),
+            violation: Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03)) * (1.0 + 0.1 * i as f64),
+            initial: AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, 0.2, 1.1) },
+            start: 0.0,
+            times: &times,
+            accuracy: 10f64.powi(-3 - (i % 12) as i32),
+        };
+        let scenes: Vec<_> = (0..31).map(scene).collect();
+        assert_eq!(in_lanes(four, &scenes), in_lanes(eight, &scenes));
+    }
 }

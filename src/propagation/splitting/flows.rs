@@ -42,7 +42,7 @@ pub(super) struct Kick<S> {
 }
 
 /// Largest angle (rad) at which the series below are full: their first omitted terms are `x^8 / 17!`, 1e-17 at `x = 0.49`.
-pub(super) const LARGEST_ANGLE: f64 = 0.7;
+const LARGEST_ANGLE: f64 = 0.7;
 
 /// Inverse factorials `1 / (2k+1)!` with alternating signs: `sin(theta) / theta` in powers of `theta^2`.
 const SINE: [f64; 8] = [
@@ -68,11 +68,37 @@ const VERSINE: [f64; 8] = [
     -1.0 / 20_922_789_888_000.0,
 ];
 
-/// A polynomial with seven powers of `x`, in pairs (Estrin): a chain of operations half as long as Horner's.
+/// How rotations find sine and cosine: alike for all motions side by side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Angles {
+    /// Halvings of the angle before the series, and doublings after them.
+    halvings: u32,
+    /// Terms of the series: 5, 6 or 8.
+    terms: u32,
+}
+
+impl Angles {
+    /// For angles up to `longest` (rad). Five and six terms are taken where what they omit is below 1e-19.
+    pub(super) fn up_to(longest: f64) -> Self {
+        let halvings = (longest / LARGEST_ANGLE).log2().ceil().max(0.0) as u32;
+        let terms = match longest {
+            ..0.09 => 5,
+            0.09..0.19 => 6,
+            _ => 8,
+        };
+        Self { halvings, terms }
+    }
+}
+
+/// A polynomial in `x`, in pairs of its powers (Estrin): a chain of operations half as long as Horner's.
 #[inline(always)]
-fn polynomial<S: Ring>(c: &[f64; 8], x: S, x2: S, x4: S) -> S {
+fn polynomial<S: Ring>(c: &[f64; 8], terms: u32, x: S, x2: S, x4: S) -> S {
     let low = x2.mul_add(x.mul_add(x.like(c[3]), x.like(c[2])), x.mul_add(x.like(c[1]), x.like(c[0])));
-    let high = x2.mul_add(x.mul_add(x.like(c[7]), x.like(c[6])), x.mul_add(x.like(c[5]), x.like(c[4])));
+    let high = match terms {
+        5 => x.like(c[4]),
+        6 => x.mul_add(x.like(c[5]), x.like(c[4])),
+        _ => x2.mul_add(x.mul_add(x.like(c[7]), x.like(c[6])), x.mul_add(x.like(c[5]), x.like(c[4]))),
+    };
     x4.mul_add(high, low)
 }
 
@@ -92,18 +118,20 @@ impl<S: Ring> Pair<S> {
         Self { axis, rate, axis_low: zero, rate_low: zero }
     }
 
-    /// Turns `n` about `w` by the angle `|w| tau`. The series of sine and cosine hold for an angle up to
-    /// [`LARGEST_ANGLE`]` 2^halvings`: they are taken of the halved angle and doubled.
+    /// Turns `n` about `w` by the angle `|w| tau`, which must be among the `angles`.
     #[inline(always)]
-    pub(super) fn rotate(&mut self, tau: S, halvings: u32) {
+    pub(super) fn rotate(&mut self, tau: S, angles: Angles) {
         let w = &self.rate;
-        let part = 0.25f64.powi(halvings as i32);
+        let Angles { halvings, terms } = angles;
         let tau2 = tau * tau;
-        let mut x = dot(w, w) * (tau2 * tau.like(part));
+        let mut x = dot(w, w) * tau2;
+        if halvings > 0 {
+            x = x * tau.like(0.25f64.powi(halvings as i32));
+        }
         let x2 = x * x;
         let x4 = x2 * x2;
-        let mut sine = polynomial(&SINE, x, x2, x4);
-        let mut versine = polynomial(&VERSINE, x, x2, x4);
+        let mut sine = polynomial(&SINE, terms, x, x2, x4);
+        let mut versine = polynomial(&VERSINE, terms, x, x2, x4);
         for _ in 0..halvings {
             // Double angle: cos = 1 - x versine.
             (sine, versine) = (sine * (x.like(1.0) - x * versine), sine * sine * x.like(0.5));
@@ -201,14 +229,14 @@ mod tests {
 
     #[test]
     fn rotation_is_that_of_rodrigues_at_any_angle() {
-        for angle in [0.0, 1e-9, 0.3, 0.69, 1.4, 3.0, 20.0] {
-            let halvings = (angle / LARGEST_ANGLE).log2().ceil().max(0.0) as u32;
+        for angle in [0.0, 1e-9, 0.089, 0.189, 0.3, 0.69, 1.4, 3.0, 20.0] {
+            let angles = Angles::up_to(angle);
             let mut pair = Pair::new([0.6, 0.0, 0.8], [0.0, 0.0, 2.0]);
-            pair.rotate(angle / 2.0, halvings);
+            pair.rotate(angle / 2.0, angles);
             let expected = [0.6 * angle.cos(), 0.6 * angle.sin(), 0.8];
             for i in 0..3 {
                 assert!(
-                    (pair.axis[i] - expected[i]).abs() < 1e-15 * (1.0 + 4f64.powi(halvings as i32)),
+                    (pair.axis[i] - expected[i]).abs() < 1e-15 * (1.0 + 4f64.powi(angles.halvings as i32)),
                     "{angle}: {pair:?}"
                 );
             }

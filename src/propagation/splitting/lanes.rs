@@ -3,11 +3,11 @@
 use crate::error::Error;
 use crate::propagation::registers::Register;
 use crate::propagation::splitting::choice::{SampledForecast, sampled_forecast};
-use crate::propagation::splitting::flows::{Field, Pair};
+use crate::propagation::splitting::flows::{Angles, Field, Pair};
 use crate::propagation::splitting::motion::{Scene, check_splitting_input};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::side_by_side::SideBySide;
-use crate::propagation::splitting::stepper::{STEPS_BETWEEN_PROJECTIONS, Steps, halvings, project};
+use crate::propagation::splitting::stepper::{STEPS_BETWEEN_PROJECTIONS, Steps, angles, project};
 use crate::propagation::{AxisScene, AxisState, Samples};
 
 type Outcome = Result<Samples<AxisState<f64>>, Error>;
@@ -23,7 +23,7 @@ pub(in crate::propagation) struct Ready<'t> {
     /// Largest step.
     step: f64,
     steps: u64,
-    halvings: u32,
+    angles: Angles,
 }
 
 impl<'t> Ready<'t> {
@@ -39,8 +39,8 @@ impl<'t> Ready<'t> {
         let Some(SampledForecast { scheme, step, steps }) = sampled_forecast(&scene, *start, times, *accuracy) else {
             return Ok(None);
         };
-        let halvings = halvings(scheme, step * scene.largest_rate);
-        Ok(Some(Self { index, scene, start: *start, times, scheme, step, steps, halvings }))
+        let angles = angles(scheme, step * scene.largest_rate);
+        Ok(Some(Self { index, scene, start: *start, times, scheme, step, steps, angles }))
     }
 
     /// Length and number of the equal steps to the time of a sample from the one before it.
@@ -59,12 +59,15 @@ pub(in crate::propagation) fn propagate_in_lanes<R: Register>(
     outcomes: &mut [Option<Outcome>],
 ) {
     // Motions side by side share the scheme and take about as many steps.
-    ready.sort_by_key(|ready| (ready.scheme.name, ready.halvings, ready.steps));
-    for alike in ready.chunk_by(|a, b| a.scheme == b.scheme && a.halvings == b.halvings) {
-        for motions in alike.chunks(SideBySide::<R>::count()) {
+    ready.sort_by_key(|ready| (ready.scheme.name, ready.angles, ready.steps));
+    for alike in ready.chunk_by(|a, b| a.scheme == b.scheme && a.angles == b.angles) {
+        for motions in alike.chunks(SideBySide::<R, 2>::COUNT) {
             register.run(
                 #[inline(always)]
-                || propagate_side_by_side(register, motions, outcomes),
+                || match motions.len() <= R::COUNT {
+                    true => propagate_side_by_side::<R, 1>(register, motions, outcomes),
+                    false => propagate_side_by_side::<R, 2>(register, motions, outcomes),
+                },
             );
         }
     }
@@ -82,14 +85,18 @@ struct Progress<'r, 't> {
 ///
 /// A motion's steps, and the steps after which its rounding is taken out, are counted from its own start, which is that of all.
 #[inline(always)]
-fn propagate_side_by_side<R: Register>(register: R, motions: &[Ready<'_>], outcomes: &mut [Option<Outcome>]) {
+fn propagate_side_by_side<R: Register, const N: usize>(
+    register: R,
+    motions: &[Ready<'_>],
+    outcomes: &mut [Option<Outcome>],
+) {
     // A lane without a motion has a copy of the first.
     let at = |place: usize| motions.get(place).unwrap_or(&motions[0]);
-    let (scheme, halvings) = (motions[0].scheme, motions[0].halvings);
-    let field = Field::gather(register, |place| &at(place).scene.field);
+    let (scheme, angles) = (motions[0].scheme, motions[0].angles);
+    let field = Field::<SideBySide<R, N>>::gather(register, |place| &at(place).scene.field);
     let casimir = SideBySide::gather(register, |place| at(place).scene.casimir);
     let mut step = SideBySide::gather(register, |place| at(place).steps_to(0).0);
-    let mut steps = Steps::halved(scheme, &field, step, halvings);
+    let mut steps = Steps::turning(scheme, &field, step, angles);
     let mut state = Pair::gather(register, |place| &at(place).scene.start);
     steps.open(&mut state);
     let mut progress: Vec<_> = motions
@@ -128,7 +135,7 @@ fn propagate_side_by_side<R: Register>(register: R, motions: &[Ready<'_>], outco
             }
             let closed = ready.scene.state(&opened.take(place));
             while *left == 0 && states.len() < ready.times.len() {
-                states.push(closed.clone());
+                states.push(closed);
                 if states.len() < ready.times.len() {
                     let (length, count) = ready.steps_to(states.len());
                     step.set(place, length);
@@ -140,7 +147,7 @@ fn propagate_side_by_side<R: Register>(register: R, motions: &[Ready<'_>], outco
             }
         }
         if !turning.is_empty() {
-            steps = Steps::halved(scheme, &field, step, halvings);
+            steps = Steps::turning(scheme, &field, step, angles);
             steps.open(&mut opened);
             for place in turning {
                 state.put(place, &opened.take(place));

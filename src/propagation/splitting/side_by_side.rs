@@ -6,26 +6,22 @@ use crate::propagation::registers::Register;
 use crate::propagation::splitting::flows::{Field, Pair};
 use crate::propagation::splitting::ring::Ring;
 
-/// Registers whose operations take turns: the next one starts while the first waits for its result.
-const REGISTERS: usize = 2;
-
-/// One number for each of [`count`](Self::count) motions.
+/// One number for each of [`COUNT`](Self::COUNT) motions, in `N` registers whose operations take turns: one starts while the other
+/// waits for its result.
 #[derive(Clone, Copy)]
-pub(super) struct SideBySide<R: Register> {
+pub(super) struct SideBySide<R: Register, const N: usize> {
     register: R,
-    lanes: [R::Lanes; REGISTERS],
+    lanes: [R::Lanes; N],
 }
 
-impl<R: Register> SideBySide<R> {
+impl<R: Register, const N: usize> SideBySide<R, N> {
     /// Number of motions.
-    pub(super) const fn count() -> usize {
-        REGISTERS * R::COUNT
-    }
+    pub(super) const COUNT: usize = N * R::COUNT;
 
     /// The same number for every motion.
     #[inline(always)]
     pub(super) fn splat(register: R, value: f64) -> Self {
-        Self { register, lanes: [register.splat(value); REGISTERS] }
+        Self { register, lanes: [register.splat(value); N] }
     }
 
     #[inline(always)]
@@ -42,7 +38,7 @@ impl<R: Register> SideBySide<R> {
     #[inline(always)]
     pub(super) fn gather(register: R, value: impl Fn(usize) -> f64) -> Self {
         let mut all = Self::splat(register, 0.0);
-        for place in 0..Self::count() {
+        for place in 0..Self::COUNT {
             all.set(place, value(place));
         }
         all
@@ -57,12 +53,12 @@ impl<R: Register> SideBySide<R> {
 
 macro_rules! operator {
     ($operator:ident, $method:ident, $instruction:ident) => {
-        impl<R: Register> $operator for SideBySide<R> {
+        impl<R: Register, const N: usize> $operator for SideBySide<R, N> {
             type Output = Self;
 
             #[inline(always)]
             fn $method(mut self, other: Self) -> Self {
-                for i in 0..REGISTERS {
+                for i in 0..N {
                     self.lanes[i] = self.register.$instruction(self.lanes[i], other.lanes[i]);
                 }
                 self
@@ -75,7 +71,7 @@ operator!(Add, add, add);
 operator!(Sub, sub, sub);
 operator!(Mul, mul, mul);
 
-impl<R: Register> Ring for SideBySide<R> {
+impl<R: Register, const N: usize> Ring for SideBySide<R, N> {
     #[inline(always)]
     fn like(self, value: f64) -> Self {
         Self::splat(self.register, value)
@@ -83,7 +79,7 @@ impl<R: Register> Ring for SideBySide<R> {
 
     #[inline(always)]
     fn mul_add(mut self, a: Self, b: Self) -> Self {
-        for i in 0..REGISTERS {
+        for i in 0..N {
             self.lanes[i] = self.register.mul_add(self.lanes[i], a.lanes[i], b.lanes[i]);
         }
         self
@@ -91,7 +87,7 @@ impl<R: Register> Ring for SideBySide<R> {
 
     #[inline(always)]
     fn mul_sub(mut self, a: Self, b: Self) -> Self {
-        for i in 0..REGISTERS {
+        for i in 0..N {
             self.lanes[i] = self.register.mul_sub(self.lanes[i], a.lanes[i], b.lanes[i]);
         }
         self
@@ -99,14 +95,14 @@ impl<R: Register> Ring for SideBySide<R> {
 
     #[inline(always)]
     fn over(mut self, divisor: Self) -> Self {
-        for i in 0..REGISTERS {
+        for i in 0..N {
             self.lanes[i] = self.register.div_or_zero(self.lanes[i], divisor.lanes[i]);
         }
         self
     }
 }
 
-impl<R: Register> Pair<SideBySide<R>> {
+impl<R: Register, const N: usize> Pair<SideBySide<R, N>> {
     /// The states of motions, by their places.
     #[inline(always)]
     pub(super) fn gather<'p>(register: R, pair: impl Fn(usize) -> &'p Pair<f64>) -> Self {
@@ -119,7 +115,7 @@ impl<R: Register> Pair<SideBySide<R>> {
     /// The state of one motion.
     #[inline(always)]
     pub(super) fn take(&self, place: usize) -> Pair<f64> {
-        let of = |v: &[SideBySide<R>; 3]| [v[0].get(place), v[1].get(place), v[2].get(place)];
+        let of = |v: &[SideBySide<R, N>; 3]| [v[0].get(place), v[1].get(place), v[2].get(place)];
         Pair { axis: of(&self.axis), rate: of(&self.rate), axis_low: of(&self.axis_low), rate_low: of(&self.rate_low) }
     }
 
@@ -135,7 +131,7 @@ impl<R: Register> Pair<SideBySide<R>> {
     }
 }
 
-impl<R: Register> Field<SideBySide<R>> {
+impl<R: Register, const N: usize> Field<SideBySide<R, N>> {
     /// The fields of motions, by their places.
     #[inline(always)]
     pub(super) fn gather<'f>(register: R, field: impl Fn(usize) -> &'f Field<f64>) -> Self {

@@ -1,6 +1,6 @@
 //! Steps of a splitting scheme, without allocation.
 
-use crate::propagation::splitting::flows::{Field, Kick, LARGEST_ANGLE, Pair, dot};
+use crate::propagation::splitting::flows::{Angles, Field, Kick, Pair, dot};
 use crate::propagation::splitting::ring::Ring;
 use crate::propagation::splitting::scheme::{Ends, Scheme};
 
@@ -20,7 +20,7 @@ pub(super) struct Steps<S> {
     stages: usize,
     end: End<S>,
     tensor: [S; 3],
-    halvings: u32,
+    angles: Angles,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -29,32 +29,32 @@ enum End<S> {
     Kick { forth: Kick<S>, back: Kick<S> },
 }
 
-/// Halvings of the angle of a rotation that the steps of a scheme need where a whole step turns by at most `turn`.
-pub(super) fn halvings(scheme: &Scheme, turn: f64) -> u32 {
+/// The angles of the rotations of a scheme where a whole step turns by at most `turn`.
+pub(super) fn angles(scheme: &Scheme, turn: f64) -> Angles {
     let at_ends = if scheme.ends == Ends::Rotations { 2.0 * scheme.rotations[0].abs() } else { 0.0 };
     let longest = scheme.rotations.iter().fold(at_ends, |most, rotation| most.max(rotation.abs()));
-    (longest * turn / LARGEST_ANGLE).log2().ceil().max(0.0) as u32
+    Angles::up_to(longest * turn)
 }
 
 impl Steps<f64> {
     /// `largest_rate` bounds `|w|` along the motion.
     pub(super) fn new(scheme: &Scheme, field: &Field<f64>, step: f64, largest_rate: f64) -> Self {
-        Self::halved(scheme, field, step, halvings(scheme, step.abs() * largest_rate))
+        Self::turning(scheme, field, step, angles(scheme, step.abs() * largest_rate))
     }
 }
 
 impl<S: Ring> Steps<S> {
-    /// With that many [`halvings`].
+    /// With those [`angles`] of its rotations, or smaller ones.
     #[inline(always)]
-    pub(super) fn halved(scheme: &Scheme, field: &Field<S>, step: S, halvings: u32) -> Self {
+    pub(super) fn turning(scheme: &Scheme, field: &Field<S>, step: S, angles: Angles) -> Self {
         let stages = scheme.stages();
         let still = field.kick(0.0, 0.0, step);
         let mut pairs = [(step, still); MOST_STAGES];
         // With kicks at the ends the first is half of the last.
         let offset = if scheme.ends == Ends::Kicks { 1 } else { 0 };
-        for index in 0..stages {
+        for (index, pair) in pairs[..stages].iter_mut().enumerate() {
             let kick = field.kick(scheme.kicks[index + offset], scheme.gradient(index + offset), step);
-            pairs[index] = (step * step.like(scheme.rotations[index]), kick);
+            *pair = (step * step.like(scheme.rotations[index]), kick);
         }
         let end = match scheme.ends {
             Ends::Rotations => {
@@ -68,14 +68,14 @@ impl<S: Ring> Steps<S> {
                 End::Kick { forth: kick(1.0), back: kick(-1.0) }
             }
         };
-        Self { pairs, stages, end, tensor: field.tensor, halvings }
+        Self { pairs, stages, end, tensor: field.tensor, angles }
     }
 
     /// Shifts a state at a step into the middle of its first flow.
     #[inline(always)]
     pub(super) fn open(&self, state: &mut Pair<S>) {
         match &self.end {
-            End::Rotation { forth, .. } => state.rotate(*forth, self.halvings),
+            End::Rotation { forth, .. } => state.rotate(*forth, self.angles),
             End::Kick { forth, .. } => state.kick(forth, &self.tensor),
         }
     }
@@ -84,7 +84,7 @@ impl<S: Ring> Steps<S> {
     #[inline(always)]
     pub(super) fn close(&self, state: &mut Pair<S>) {
         match &self.end {
-            End::Rotation { back, .. } => state.rotate(*back, self.halvings),
+            End::Rotation { back, .. } => state.rotate(*back, self.angles),
             End::Kick { back, .. } => state.kick(back, &self.tensor),
         }
     }
@@ -113,7 +113,7 @@ impl<S: Ring> Steps<S> {
         let mut moving = *state;
         for _ in 0..steps {
             for (tau, kick) in &self.pairs[..self.stages] {
-                moving.rotate(*tau, self.halvings);
+                moving.rotate(*tau, self.angles);
                 moving.kick(kick, &self.tensor);
             }
         }

@@ -1,5 +1,6 @@
 //! Splitting schemes: order conditions, measured orders, what they conserve, agreement with the Taylor motion, estimates.
 
+mod many;
 mod order_conditions;
 
 use nalgebra::Matrix3;
@@ -87,6 +88,26 @@ pub fn checks() -> Vec<Check> {
             bound: Bound::AtMost(1.0),
             reason: "the same motion, computed in two ways; each states its error",
             measure: against_taylor_motion,
+        },
+        Check {
+            id: "splitting-many-motions",
+            kind: Kind::Property,
+            equations: &[25],
+            statement: "the numbers and errors of 90 random motions side by side do not depend on their neighbours: alone, in other company, in another order, at several times, backwards",
+            figure: "number of motions with other bits",
+            bound: Bound::AtMost(0.0),
+            reason: "no operation mixes two lanes",
+            measure: many::neighbours,
+        },
+        Check {
+            id: "splitting-many-accuracy",
+            kind: Kind::Oracle,
+            equations: &[25],
+            statement: "90 random motions side by side are those of the Taylor motion to the accuracies asked, from 1e-3 to 1e-14",
+            figure: "largest difference / (accuracy + error estimate of the Taylor motion)",
+            bound: Bound::AtMost(1.0),
+            reason: "the accuracy asked; below rounding, the rounding that the Taylor motion states, which is alike",
+            measure: many::accuracy,
         },
     ]
 }

@@ -1,0 +1,109 @@
+//! Many motions side by side.
+
+use proptest::strategy::{Strategy, ValueTree};
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use twofold::propagation::{AxisScene, AxisState, ErrorEstimates, Samples, axis_states_at, axis_states_of_many};
+
+use super::{difference, text};
+use crate::check::{Measured, Worst, largest};
+use crate::physical_domain::{RandomScene, scenes};
+
+const SEED: u8 = 31;
+const COUNT: usize = 90;
+
+/// Times of the samples of one motion: of one to four intervals, every third motion backwards, some times twice or at the start.
+fn times(i: usize) -> Vec<f64> {
+    let sign = if i.is_multiple_of(3) { -1.0 } else { 1.0 };
+    let mut times: Vec<_> = (0..1 + i % 4).map(|k| 0.5 + sign * (3.0 + 11.3 * k as f64 + 0.37 * i as f64)).collect();
+    if i.is_multiple_of(5) {
+        times.insert(0, times[0]);
+    }
+    if i.is_multiple_of(7) {
+        times.insert(0, 0.5);
+    }
+    times
+}
+
+fn random_scenes() -> Result<Vec<RandomScene>, String> {
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[SEED; 32]);
+    let mut runner = TestRunner::new_with_rng(Config::default(), rng);
+    let scene = |_| Ok(scenes().new_tree(&mut runner).map_err(|reason| reason.to_string())?.current());
+    (0..COUNT).map(scene).collect()
+}
+
+/// Random motions at accuracies from 1e-3 to 1e-14, among them one with a bad axis, one without times and one at a bad accuracy.
+fn motions<'t>(scenes: &[RandomScene], times: &'t [Vec<f64>]) -> Vec<AxisScene<'t>> {
+    let motion = |(i, (scene, times)): (usize, (&RandomScene, &'t Vec<f64>))| {
+        let mut initial = AxisState::from(&scene.state());
+        if i == 17 {
+            initial.axis *= 2.0;
+        }
+        AxisScene {
+            spheroid: scene.spheroid(),
+            violation: scene.coefficients().tensor(),
+            initial,
+            start: 0.5,
+            times: if i == 29 { &[] } else { times },
+            accuracy: if i == 41 { 1.0 } else { 10f64.powi(-3 - (i % 12) as i32) },
+        }
+    };
+    scenes.iter().zip(times).enumerate().map(motion).collect()
+}
+
+fn same(
+    a: &Result<Samples<AxisState<f64>>, twofold::Error>,
+    b: &Result<Samples<AxisState<f64>>, twofold::Error>,
+) -> bool {
+    match (a, b) {
+        (Ok(a), Ok(b)) => {
+            let bits = |s: &AxisState<f64>| [s.axis, s.momentum].map(|v| [v.x, v.y, v.z].map(f64::to_bits));
+            a.step_count == b.step_count && a.states.iter().map(bits).eq(b.states.iter().map(bits))
+        }
+        (Err(a), Err(b)) => a.to_string() == b.to_string(),
+        _ => false,
+    }
+}
+
+/// Number of motions that are others alone, in reversed order, or among every third.
+pub(super) fn neighbours() -> Result<Measured, String> {
+    let (scenes, times) = (random_scenes()?, (0..COUNT).map(times).collect::<Vec<_>>());
+    let all = motions(&scenes, &times);
+    let whole = axis_states_of_many(&all);
+    let everyone: Vec<usize> = (0..COUNT).collect();
+    let mut parts: Vec<Vec<usize>> = everyone.iter().map(|&i| vec![i]).collect();
+    parts.push(everyone.iter().rev().copied().collect());
+    parts.extend((0..3).map(|k| everyone.iter().copied().filter(|i| i % 3 == k).collect()));
+    let mut different = 0;
+    for part in parts {
+        let some: Vec<_> = part.iter().map(|&i| all[i]).collect();
+        let found = axis_states_of_many(&some);
+        different += part.iter().zip(&found).filter(|(i, found)| !same(&whole[**i], found)).count();
+    }
+    Ok(Measured::new(f64::from(different as u32), format!("{COUNT} motions of seed {SEED}")))
+}
+
+/// The largest difference from the Taylor motion over the accuracy asked and that motion's estimate. A motion that only one of both
+/// refuses fails.
+pub(super) fn accuracy() -> Result<Measured, String> {
+    let (scenes, times) = (random_scenes()?, (0..COUNT).map(times).collect::<Vec<_>>());
+    let all = motions(&scenes, &times);
+    let mut worst = Worst::default();
+    for (i, (motion, found)) in all.iter().zip(axis_states_of_many(&all)).enumerate() {
+        let AxisScene { spheroid, violation, initial, start, times, accuracy } = motion;
+        let finest = if *accuracy < 0.1 { 1e-15 } else { *accuracy };
+        let truth = axis_states_at(spheroid, violation, initial, *start, times, finest, ErrorEstimates::Wanted);
+        let truth = match (&found, truth) {
+            (Err(ours), Err(theirs)) if ours.to_string() == theirs.to_string() => continue,
+            (_, truth) => truth.map_err(text)?,
+        };
+        let found = found.map_err(text)?;
+        if found.states.len() != times.len() {
+            return Err(format!("{} states of motion {i}", found.states.len()));
+        }
+        let unit = initial.momentum.norm().max(1.0);
+        let apart = found.states.iter().zip(&truth.states).zip(&truth.error_estimates);
+        let figure = largest(apart.map(|((a, b), estimate)| difference(a, b) / unit / (accuracy + estimate)));
+        worst.see(figure, || format!("motion {i} of seed {SEED}, {:?}", scenes[i]));
+    }
+    worst.finish()
+}
