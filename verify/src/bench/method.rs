@@ -92,7 +92,7 @@ pub const WITH_PULSES: &[Method] =
 
 /// Eight scenes near the one given, which is the first: their `s` differ by parts of 1e-4. The state is that of the first.
 pub const EIGHT_SCENES: &[Method] =
-    &[Method { name: "Taylor", carries: Carries::Axis, settings: ACCURACIES, run: eight_by_taylor }];
+    &[Method { name: "lanes", carries: Carries::Axis, settings: ACCURACIES, run: eight_in_lanes }];
 
 fn taylor_with_pulses(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
     let span = (0.0, duration);
@@ -105,7 +105,7 @@ fn taylor_with_pulses(scene: &BenchScene, duration: f64, accuracy: f64) -> Resul
     Ok(End { axis: state.axis, momentum: state.momentum, equatorial_axis, steps, evaluations: steps * order })
 }
 
-fn eight_by_taylor(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
+fn eight_in_lanes(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
     let times = [duration];
     let near = |i| AxisScene {
         spheroid: scene.spheroid,

@@ -82,7 +82,7 @@ pub fn checks() -> Vec<Check> {
             statement: "a random motion propagated over 30 t_c and back returns to its start",
             figure: "largest error / sum of the two error estimates",
             bound: Bound::AtMost(1.0),
-            reason: "the equations are reversible; what remains is the error that both ways estimate",
+            reason: "the equations are reversible; what remains is the error that both ways estimate, and the other rate at which the way back turns e_x about n",
             measure: time_reversal,
         },
         Check {
@@ -287,7 +287,10 @@ fn time_reversal() -> Result<Measured, String> {
         let (spheroid, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
         let (end, there) = end_of(&spheroid, &s, &initial, (0.0, 30.0))?;
         let (back, back_again) = end_of(&spheroid, &s, &end, (30.0, 0.0))?;
-        Ok(largest_difference(&back, &initial) / (there + back_again))
+        // The way back turns e_x about n at the rate of its own start: by what rounding has made of L.n there.
+        let spin = |state: &BodyState<f64>| state.momentum.dot(&state.axis) / spheroid.inertia_zz;
+        let turned = 30.0 * (spheroid.oblateness() * (spin(&end) - spin(&initial))).abs();
+        Ok(largest_difference(&back, &initial) / (there + back_again + turned))
     })
 }
 
