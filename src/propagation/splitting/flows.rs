@@ -234,11 +234,9 @@ mod tests {
             let mut pair = Pair::new([0.6, 0.0, 0.8], [0.0, 0.0, 2.0]);
             pair.rotate(angle / 2.0, angles);
             let expected = [0.6 * angle.cos(), 0.6 * angle.sin(), 0.8];
-            for i in 0..3 {
-                assert!(
-                    (pair.axis[i] - expected[i]).abs() < 1e-15 * (1.0 + 4f64.powi(angles.halvings as i32)),
-                    "{angle}: {pair:?}"
-                );
+            let allowed = 1e-15 * (1.0 + 4f64.powi(angles.halvings as i32));
+            for (component, expected) in pair.axis.iter().zip(expected) {
+                assert!((component - expected).abs() < allowed, "{angle}: {pair:?}");
             }
         }
     }

@@ -40,7 +40,7 @@ impl<S: Real> SeriesFrame<S> {
     }
 
     /// A vector of the series in the given frame.
-    pub(super) fn to_given(&self, v: &Vector3<S>) -> Vector3<S> {
+    pub(super) fn turned_back(&self, v: &Vector3<S>) -> Vector3<S> {
         self.given_from_series.map_or(*v, |back| back.map(S::from_f64) * v)
     }
 

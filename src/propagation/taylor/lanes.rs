@@ -109,8 +109,9 @@ fn propagate_alike<R: Register>(a: Lanes<R>, motions: &[Ready<'_>], outcomes: &m
                 samples.take(setup, ready.times, &step, |t| {
                     let h = setup.series_time(&step.start, t);
                     let change = change(a, order, |k| series[k], [a.0.splat(h); 3]);
-                    let [axis, momentum] = [AXIS, MOMENTUM]
-                        .map(|i| setup.frame.to_given(&Vector3::from(a.take(&a.add(series[0][i], change[i]), place))));
+                    let [axis, momentum] = [AXIS, MOMENTUM].map(|i| {
+                        setup.frame.turned_back(&Vector3::from(a.take(&a.add(series[0][i], change[i]), place)))
+                    });
                     AxisState { axis, momentum }
                 });
             }

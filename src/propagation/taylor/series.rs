@@ -273,7 +273,7 @@ pub(super) fn change<A: Arithmetic, const V: usize>(
         }
     };
     let mut k = order;
-    if k % 2 == 0 {
+    if k.is_multiple_of(2) {
         even = coefficient(k);
         k -= 1;
     }

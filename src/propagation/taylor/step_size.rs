@@ -93,7 +93,7 @@ pub(super) fn step_size(sizes: [f64; 2], order: usize, scale: &Scale, budget: f6
 /// say. A step needs no more, and the library's logarithm takes as long as a tenth of a step.
 #[inline(always)]
 fn coarse_log2(x: f64) -> f64 {
-    if !(x >= f64::MIN_POSITIVE && x < f64::INFINITY) {
+    if !(f64::MIN_POSITIVE..f64::INFINITY).contains(&x) {
         return x.log2();
     }
     (x.to_bits() as f64) / (1u64 << 52) as f64 - 1023.0
