@@ -9,6 +9,7 @@ use crate::propagation::arithmetic::{OneMotion, Plain};
 use crate::propagation::fused::run_fused;
 use crate::propagation::taylor::clock::{Interval, StepLimit};
 use crate::propagation::taylor::errors::{StepError, TaylorErrors};
+use crate::propagation::taylor::frame::{body_state, rate_about_axis};
 use crate::propagation::taylor::fused_for;
 use crate::propagation::taylor::setup::Setup;
 use crate::propagation::taylor::step_size::Work;
@@ -58,7 +59,9 @@ pub fn states_at<S: Real>(
     estimates: ErrorEstimates,
 ) -> Result<Samples<BodyState<S>>, Error> {
     let vectors = [initial.axis, initial.momentum, initial.equatorial_axis];
-    sampled(spheroid, s, vectors, start, times, (accuracy, estimates), |setup, vectors, t| setup.body_state(vectors, t))
+    let rate = rate_about_axis(spheroid, &initial.axis, &initial.momentum);
+    let state = |vectors, t| body_state(vectors, rate * (t - S::from_f64(start)));
+    sampled(spheroid, s, vectors, start, times, (accuracy, estimates), state)
 }
 
 /// Axis and angular momentum alone: to [`states_at`] what [`propagate_axis`](crate::propagation::propagate_axis) is to
@@ -76,7 +79,7 @@ pub fn axis_states_at<S: Real>(
     estimates: ErrorEstimates,
 ) -> Result<Samples<AxisState<S>>, Error> {
     let vectors = [initial.axis, initial.momentum];
-    sampled(spheroid, s, vectors, start, times, (accuracy, estimates), |_, [axis, momentum], _| AxisState {
+    sampled(spheroid, s, vectors, start, times, (accuracy, estimates), |[axis, momentum], _| AxisState {
         axis,
         momentum,
     })
@@ -103,23 +106,22 @@ fn sampled<S: Real, T, const V: usize>(
     start: f64,
     times: &[f64],
     (accuracy, estimates): (f64, ErrorEstimates),
-    state: impl Fn(&Setup<S, V>, [Vector3<S>; V], S) -> T,
+    state: impl Fn([Vector3<S>; V], S) -> T,
 ) -> Result<Samples<T>, Error> {
     let span = span_of(start, times)?;
-    let setup = Setup::new((false, Work::Quadratic), spheroid, s, vectors, span, accuracy)?;
     if let Some(fused) = fused_for::<S>() {
         let (spheroid, s) = (spheroid.map(S::re), s.map(S::re));
         let real = Setup::new((true, Work::Latent), &spheroid, &s, vectors.map(|v| v.map(S::re)), span, accuracy)?;
         let samples = run_fused(
             fused,
             #[inline(always)]
-            || visited(&real, fused, times, estimates, |_, vectors, t| (vectors, t)),
+            || visited(&real, fused, times, estimates, |vectors, t| (vectors, t)),
         )?;
         let Samples { states, error_estimates, step_count, order } = samples;
-        let given =
-            |(vectors, t): ([Vector3<f64>; V], f64)| state(&setup, vectors.map(|v| v.map(S::from_f64)), S::from_f64(t));
+        let given = |(vectors, t): ([Vector3<f64>; V], f64)| state(vectors.map(|v| v.map(S::from_f64)), S::from_f64(t));
         return Ok(Samples { states: states.into_iter().map(given).collect(), error_estimates, step_count, order });
     }
+    let setup = Setup::new((false, Work::Quadratic), spheroid, s, vectors, span, accuracy)?;
     visited(&setup, Plain::new(), times, estimates, state)
 }
 
@@ -130,7 +132,7 @@ fn visited<A: OneMotion, T, const V: usize>(
     a: A,
     times: &[f64],
     estimates: ErrorEstimates,
-    state: impl Fn(&Setup<A::Scalar, V>, [Vector3<A::Scalar>; V], A::Scalar) -> T,
+    state: impl Fn([Vector3<A::Scalar>; V], A::Scalar) -> T,
 ) -> Result<Samples<T>, Error> {
     let mut samples = Samples::with_room(times.len(), setup.order);
     let mut errors = (estimates == ErrorEstimates::Wanted).then(|| TaylorErrors::of(setup));
@@ -143,7 +145,7 @@ fn visited<A: OneMotion, T, const V: usize>(
         }
         samples.take(setup, times, step, |time| {
             let t = A::Scalar::from_f64(time);
-            state(setup, setup.sum(a, |k| series[k], &step.start, t).map(|v| v.vector()), t)
+            state(setup.sum(a, |k| series[k], &step.start, t).map(|v| v.vector()), t)
         });
     })?;
     Ok(samples)

@@ -8,7 +8,7 @@ use crate::propagation::arithmetic::{OneMotion, Stored};
 use crate::propagation::input::check_input;
 use crate::propagation::taylor::compensated::Compensated;
 use crate::propagation::taylor::drive::Drive;
-use crate::propagation::taylor::frame::{SeriesFrame, rate_about_axis};
+use crate::propagation::taylor::frame::{SeriesFrame, body_state, rate_about_axis};
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Vectors, change};
 use crate::propagation::taylor::step_size::{Scale, Work, order_for};
 use crate::scalar::Real;
@@ -119,8 +119,6 @@ impl<S: Real, const V: usize> Setup<S, V> {
 impl<S: Real> Setup<S, 3> {
     /// The state of the body from the vectors of the series at time `t`.
     pub(super) fn body_state(&self, vectors: [Vector3<S>; 3], t: S) -> BodyState<S> {
-        let [axis, momentum, companion] = vectors;
-        let (sin, cos) = (self.rate_about_axis * (t - S::from_f64(self.span.0))).sin_cos();
-        BodyState { axis, momentum, equatorial_axis: companion * cos + axis.cross(&companion) * sin }
+        body_state(vectors, self.rate_about_axis * (t - S::from_f64(self.span.0)))
     }
 }
