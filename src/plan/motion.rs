@@ -1,14 +1,14 @@
 //! Motions by the method of a plan.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::{Method, Work};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::splitting::{SplittingMotion, propagate_by_best_splitting};
 use crate::propagation::{
-    AxisMotion, AxisState, Motion, SymmetricMotion, TaylorAxisMotion, TaylorMotion, UniformMotion, propagate,
-    propagate_axis,
+    AxisMotion, AxisState, Motion, SeriesProjection, SymmetricMotion, TaylorAxisMotion, TaylorMotion, UniformMotion,
+    propagate, propagate_axis,
 };
 
 /// A motion of the symmetry axis and the angular momentum, by any method.
@@ -155,6 +155,14 @@ impl Motion<f64> for PlannedMotion {
             Self::Uniform(motion) => motion.state(t),
             Self::Symmetric(motion) => motion.state(t),
             Self::Taylor(motion) => motion.state(t),
+        }
+    }
+
+    fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
+        match self {
+            Self::Uniform(motion) => motion.projection(in_body, direction),
+            Self::Symmetric(motion) => motion.projection(in_body, direction),
+            Self::Taylor(motion) => motion.projection(in_body, direction),
         }
     }
 }

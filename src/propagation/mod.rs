@@ -18,6 +18,6 @@ pub use continuous_angles::ContinuousAngles;
 pub use many::{AxisScene, axis_states_of_many};
 pub use motion::{AxisMotion, AxisState, Motion};
 pub use taylor::{
-    ACCURACY_RANGE, ErrorEstimates, STEP_LIMIT, Samples, TaylorAxisMotion, TaylorForecast, TaylorMotion,
-    axis_states_at, propagate, propagate_axis, states_at, taylor_forecast,
+    ACCURACY_RANGE, ErrorEstimates, STEP_LIMIT, Samples, SeriesProjection, TaylorAxisMotion, TaylorForecast,
+    TaylorMotion, axis_states_at, propagate, propagate_axis, states_at, taylor_forecast,
 };

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
+use crate::propagation::SeriesProjection;
 use crate::scalar::Scalar;
 
 /// State of the reduced motion of a spheroid in inertial components: what its potential energy, its spin axis and its
@@ -60,4 +61,10 @@ pub trait Motion<S: Scalar>: AxisMotion<S> {
     /// # Errors
     /// [`Error::Domain`] for a time outside [`span`](AxisMotion::span).
     fn state(&self, t: S) -> Result<BodyState<S>, Error>;
+
+    /// What gives the component along a fixed `direction` of a vector fixed in the body (its components there) for less than a
+    /// state, if the motion has it: one that is kept as Taylor series in doubles, on a processor with vector instructions.
+    fn projection(&self, _in_body: &Vector3<f64>, _direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
+        None
+    }
 }

@@ -4,7 +4,8 @@ use core::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use super::edge_search::EdgeSearch;
+use super::edge_search::{BySeries, ByStates, EdgeSearch, Margin};
+use super::rate_bounds::rate_bounds;
 use super::root::root;
 use super::turns::Turns;
 use super::{Beam, PulseTrain};
@@ -47,26 +48,35 @@ pub fn arrivals<M: Motion<f64>>(
     line_of_sight: &Vector3<f64>,
     train: &PulseTrain,
 ) -> Result<Vec<Arrival>, Error> {
-    let mut found: Vec<Arrival> = Vec::new();
-    let mut turns = None;
-    let mut first_number = 0;
-    for pulse in train.pulses.iter().filter(|pulse| pulse.is_whole()) {
-        let search = EdgeSearch::new(motion, beam, line_of_sight, pulse.start)?;
-        let closest_approach = search.highest(pulse.start, pulse.end)?;
-        let turns = match &mut turns {
-            Some(turns) => turns,
-            None => turns.insert(Turns::new(motion, beam, line_of_sight, search.bounds.first, pulse.start)?),
-        };
-        let number = (turns.at(closest_approach)? / TAU).round() as i64;
-        if found.is_empty() {
-            first_number = number;
-        }
-        found.push(Arrival { number: number - first_number, midpoint: pulse.midpoint(), closest_approach });
+    let Some(first) = train.pulses.iter().find(|pulse| pulse.is_whole()) else { return Ok(Vec::new()) };
+    let bounds = rate_bounds(motion.spheroid(), motion.violation(), &motion.state(first.start)?);
+    let mut turns = Turns::new(motion, beam, line_of_sight, bounds.first, first.start)?;
+    let mut turn_at = |t| turns.at(t).map(|phase| (phase / TAU).round() as i64);
+    match BySeries::of(motion, beam, line_of_sight) {
+        Some(margin) => EdgeSearch { margin, bounds }.arrivals(train, &mut turn_at),
+        None => EdgeSearch { margin: ByStates { motion, beam, line_of_sight }, bounds }.arrivals(train, &mut turn_at),
     }
-    Ok(found)
 }
 
-impl<M: Motion<f64>> EdgeSearch<'_, M> {
+impl<P: Margin> EdgeSearch<P> {
+    fn arrivals(
+        &self,
+        train: &PulseTrain,
+        turn_at: &mut impl FnMut(f64) -> Result<i64, Error>,
+    ) -> Result<Vec<Arrival>, Error> {
+        let mut found: Vec<Arrival> = Vec::new();
+        let mut first_number = 0;
+        for pulse in train.pulses.iter().filter(|pulse| pulse.is_whole()) {
+            let closest_approach = self.highest(pulse.start, pulse.end)?;
+            let number = turn_at(closest_approach)?;
+            if found.is_empty() {
+                first_number = number;
+            }
+            found.push(Arrival { number: number - first_number, midpoint: pulse.midpoint(), closest_approach });
+        }
+        Ok(found)
+    }
+
     /// Time of the largest `m.n` between two times at which it is lower and rises or falls inwards.
     fn highest(&self, from: f64, to: f64) -> Result<f64, Error> {
         let mut best = (f64::NEG_INFINITY, from);
@@ -83,7 +93,7 @@ impl<M: Motion<f64>> EdgeSearch<'_, M> {
     fn maxima(&self, from: f64, to: f64, report: &mut impl FnMut(f64, f64)) -> Result<(), Error> {
         let middle = from + (to - from) / 2.0;
         let radius = (middle - from).max(to - middle);
-        let [_, rate, second] = self.at(middle)?;
+        let [_, rate, second, _] = self.at(middle)?;
         let (w, third) = (self.bounds.first, self.bounds.third);
         if rate.abs() > radius * (second.abs() + radius * third / 2.0) {
             return Ok(());
@@ -95,7 +105,7 @@ impl<M: Motion<f64>> EdgeSearch<'_, M> {
         }
         if self.at(from)?[1] > 0.0 && self.at(to)?[1] <= 0.0 {
             let middle = from + (to - from) / 2.0;
-            let time = root((from, to), middle, false, |t| self.at(t).map(|[_, rate, second]| (rate, second)))?;
+            let time = root((from, to), middle, false, |t| self.look_for_extremum(t))?;
             report(time, self.at(time)?[0]);
         }
         Ok(())

@@ -43,11 +43,11 @@ impl<S: Scalar> Beam<S> {
         self.direction(state).dot(line_of_sight) - edge
     }
 
-    /// The [`margin`](Self::margin) and its first and second time derivatives, for a spheroid under the tensor `s^IJ`.
+    /// The [`margin`](Self::margin) and its first three time derivatives, for a spheroid under the tensor `s^IJ`.
     ///
     /// ```text
-    /// dm/dt = Omega x m,   d2m/dt2 = Omega' x m + Omega x (Omega x m),
-    /// I^xx Omega' = -2 C n x (s n) - (I^zz - I^xx) Omega^z dn/dt        (here n = e_z)
+    /// dm/dt = Omega x m,   d2m/dt2 = Omega' x m + Omega x dm/dt,   d3m/dt3 = Omega'' x m + 2 Omega' x dm/dt + Omega x d2m/dt2,
+    /// I^xx Omega' = dL/dt - (I^zz - I^xx) Omega^z dn/dt,   dL/dt = -2 C n x (s n),   I^xx dn/dt = L x n        (here n = e_z)
     /// ```
     pub fn margin_rates(
         &self,
@@ -55,16 +55,23 @@ impl<S: Scalar> Beam<S> {
         s: &Matrix3<S>,
         state: &BodyState<S>,
         line_of_sight: &Vector3<S>,
-    ) -> [S; 3] {
+    ) -> [S; 4] {
+        let (n, xx) = (&state.axis, spheroid.inertia_xx);
         let m = self.direction(state);
-        let omega = angular_velocity(spheroid, &state.axis, &state.momentum);
-        let (axis_rate, torque) = reduced_rates(spheroid, s, &state.axis, &state.momentum);
-        let spin = state.momentum.dot(&state.axis) / spheroid.inertia_zz;
-        let along_axis = axis_rate * ((spheroid.inertia_zz - spheroid.inertia_xx) * spin);
-        let acceleration = (torque - along_axis) / spheroid.inertia_xx;
+        let omega = angular_velocity(spheroid, n, &state.momentum);
+        let (axis_rate, torque) = reduced_rates(spheroid, s, n, &state.momentum);
+        let axis_second = (torque.cross(n) + state.momentum.cross(&axis_rate)) / xx;
+        let pulls = axis_rate.cross(&(s * n)) + n.cross(&(s * axis_rate));
+        let torque_rate = pulls * (spheroid.constant_c * -2.0);
+        let spin = state.momentum.dot(n) / spheroid.inertia_zz;
+        let along_axis = (spheroid.inertia_zz - xx) * spin;
+        let acceleration = (torque - axis_rate * along_axis) / xx;
+        let jerk = (torque_rate - axis_second * along_axis) / xx;
         let rate = omega.cross(&m);
         let second = acceleration.cross(&m) + omega.cross(&rate);
-        [self.margin(state, line_of_sight), rate.dot(line_of_sight), second.dot(line_of_sight)]
+        let third = jerk.cross(&m) + acceleration.cross(&rate) * S::from_f64(2.0) + omega.cross(&second);
+        let along = |v: &Vector3<S>| v.dot(line_of_sight);
+        [self.margin(state, line_of_sight), along(&rate), along(&second), along(&third)]
     }
 }
 

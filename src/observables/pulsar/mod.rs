@@ -4,6 +4,7 @@ pub mod arrival;
 pub mod beam;
 pub mod direction;
 mod edge_search;
+mod hermite;
 pub mod period;
 pub mod position_angle;
 pub mod rate_bounds;

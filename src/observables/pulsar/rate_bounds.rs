@@ -6,8 +6,8 @@ use crate::dynamics::regular_equations::angular_velocity;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::scalar::{Real, real_part};
 
-/// Bounds on the first three time derivatives of any unit vector fixed in the body, hence of `m.n`, that hold at all times
-/// of the motion through a state.
+/// Bounds on time derivatives of any unit vector fixed in the body, hence of `m.n`, that hold at all times of the motion
+/// through a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateBounds {
     /// Bound on `|dm/dt|`, the largest `|Omega|`.
@@ -16,18 +16,28 @@ pub struct RateBounds {
     pub second: f64,
     /// Bound on `|d3m/dt3|`.
     pub third: f64,
+    /// Bound on the fourth derivative.
+    pub fourth: f64,
+    /// Bound on the sixth derivative.
+    pub sixth: f64,
 }
+
+/// Highest derivative that is bounded.
+const HIGHEST: usize = 6;
 
 /// The bounds from one state of the motion, by its energy and spin.
 ///
 /// With `T = |C| (largest - smallest eigenvalue of s) / I^xx`, bounded by the Frobenius norm of its anisotropic part, the
-/// torque is at most `I^xx T` and its rate `2 I^xx T |dn/dt|`; the energy keeps `|dn/dt|^2 <= |dn/dt|^2(now) + 2 T = v^2`, and
-/// the spin `Omega^z` is constant. Hence, with `w = sqrt(v^2 + Omega^z^2)`, `e = |I^zz - I^xx| |Omega^z| / I^xx` and
-/// `g = sqrt(v^2 + (I^zz Omega^z / I^xx)^2) >= |L| / I^xx`,
+/// torque is at most `I^xx T`; the energy keeps `|dn/dt|^2 <= |dn/dt|^2(now) + 2 T = v^2`, and the spin `Omega^z` is constant.
+/// Hence, with `w = sqrt(v^2 + Omega^z^2)`, `e = |I^zz - I^xx| |Omega^z| / I^xx` and
+/// `g = sqrt(v^2 + (I^zz Omega^z / I^xx)^2) >= |L| / I^xx`, the derivatives of order `k` of `L / I^xx`, `n`, `Omega` and `m` are at
+/// most `l_k`, `n_k`, `w_k` and `m_k`:
 ///
 /// ```text
-/// |Omega| <= w,   |Omega'| <= a = T + e v,   |Omega''| <= 2 T v + e (T + g v),
-/// |m'| <= w,      |m''| <= a + w^2,          |m'''| <= |Omega''| + 3 a w + w^3
+/// l_0 = g,   l_(k+1) = T sum_j (k over j) n_j n_(k-j)          L' = 2 C (s n) x n, to s any multiple of 1 may be added
+/// n_0 = 1,   n_1 = v,   n_(k+1) = sum_j (k over j) l_j n_(k-j)   I^xx n' = L x n
+/// w_0 = w,   w_k = l_k + e n_k                                 Omega = L / I^xx - (I^zz - I^xx) Omega^z n / I^xx
+/// m_0 = 1,   m_(k+1) = sum_j (k over j) w_j m_(k-j)              m' = Omega x m
 /// ```
 pub fn rate_bounds<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: &BodyState<S>) -> RateBounds {
     let (xx, zz) = (spheroid.inertia_xx.re(), spheroid.inertia_zz.re());
@@ -41,13 +51,28 @@ pub fn rate_bounds<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: 
     let w = v.hypot(spin);
     let e = ((zz - xx) / xx).abs() * spin;
     let g = v.hypot(zz / xx * spin);
-    let angular_acceleration = torque + e * v;
-    let angular_jerk = 2.0 * torque * v + e * (torque + g * v);
+
+    let ([mut l, mut n], [mut omega, mut m]) = ([[0.0; HIGHEST + 1]; 2], [[0.0; HIGHEST + 1]; 2]);
+    (l[0], n[0], omega[0], m[0]) = (g, 1.0, w, 1.0);
+    for k in 0..HIGHEST {
+        l[k + 1] = torque * leibniz(k, &n, &n);
+        n[k + 1] = if k == 0 { v } else { leibniz(k, &l, &n) };
+        omega[k + 1] = l[k + 1] + e * n[k + 1];
+        m[k + 1] = leibniz(k, &omega, &m);
+    }
     // Unit vectors are such to 1e-9.
     let slack = 1.0 + 1e-7;
-    RateBounds {
-        first: w * slack,
-        second: (angular_acceleration + w * w) * slack,
-        third: (angular_jerk + 3.0 * angular_acceleration * w + w * w * w) * slack,
+    let [_, first, second, third, fourth, _, sixth] = m.map(|bound| bound * slack);
+    RateBounds { first, second, third, fourth, sixth }
+}
+
+/// Derivative of order `k` of a product from those of its factors.
+fn leibniz(k: usize, a: &[f64], b: &[f64]) -> f64 {
+    let mut binomial = 1.0;
+    let mut sum = 0.0;
+    for j in 0..=k {
+        sum += binomial * a[j] * b[k - j];
+        binomial *= (k - j) as f64 / (j + 1) as f64;
     }
+    sum
 }

@@ -3,7 +3,8 @@
 use nalgebra::Vector3;
 
 use super::Beam;
-use super::edge_search::{EdgeSearch, Event};
+use super::edge_search::{BySeries, ByStates, EdgeSearch, Event, Margin};
+use super::rate_bounds::rate_bounds;
 use crate::error::Error;
 use crate::propagation::Motion;
 
@@ -82,8 +83,8 @@ impl PulseTrain {
 /// `line_of_sight` is the unit vector `n` towards the observer in the frame of the motion; `span` is within that of the
 /// motion, its ends in either order. The second beam of the star is that of [`Beam::opposite`].
 ///
-/// The span is halved until bounds on the derivatives of `m.n`, from energy and spin, prove that a piece holds no edge, or one
-/// at most, or one extremum; the edges are then roots between two times of different sign. This holds for the exact motion;
+/// The span is divided until `m.n` and its derivatives at the ends of a piece, and bounds on the sixth derivative from energy and
+/// spin, prove that it holds no edge, or one, or one extremum; an edge is then a root between two times of different sign. This holds for the exact motion;
 /// a numerical one adds its error, see [`error_estimate`](crate::propagation::AxisMotion::error_estimate). Edges are as exact as `m.n` allows: its error divided by
 /// its rate, about 1e-16 over the rotation rate plus the rounding of `t`, more for a short pulse, whose `m.n` is slow at the
 /// edges (a pulse of the length `w` radian multiplies the error by about `2 / w`).
@@ -103,25 +104,34 @@ pub fn pulse_train<M: Motion<f64>>(
     let opening = beam.half_opening;
     Error::unless(0.0 < opening && opening < core::f64::consts::PI, "semi-open angle rho", opening, "in (0, pi) rad")?;
     let (from, to) = if span.0 <= span.1 { span } else { (span.1, span.0) };
-    let search = EdgeSearch::new(motion, beam, line_of_sight, from)?;
-    let mut open = (search.at(from)?[0] > 0.0).then_some((from, true));
-    // So that a motion that does not reach so far is refused before the work.
-    search.at(to)?;
-
-    let mut train = PulseTrain { pulses: Vec::new(), grazings: Vec::new() };
-    search.events(from, to, &mut |event| match event {
-        Event::Grazing { time } => train.grazings.push(time),
-        Event::Crossing { time, entering: true } => open = Some((time, false)),
-        Event::Crossing { time, entering: false } => {
-            if let Some((start, cut_at_start)) = open.take() {
-                train.pulses.push(Pulse { start, end: time, cut_at_start, cut_at_end: false });
-            }
-        }
-    })?;
-    if let Some((start, cut_at_start)) = open {
-        train.pulses.push(Pulse { start, end: to, cut_at_start, cut_at_end: true });
+    let bounds = rate_bounds(motion.spheroid(), motion.violation(), &motion.state(from)?);
+    match BySeries::of(motion, beam, line_of_sight) {
+        Some(margin) => EdgeSearch { margin, bounds }.train(from, to),
+        None => EdgeSearch { margin: ByStates { motion, beam, line_of_sight }, bounds }.train(from, to),
     }
-    Ok(train)
+}
+
+impl<P: Margin> EdgeSearch<P> {
+    fn train(&self, from: f64, to: f64) -> Result<PulseTrain, Error> {
+        let start = self.jet(from)?;
+        // So that a motion that does not reach so far is refused before the work.
+        self.at(to)?;
+        let mut open = start.is_inside().then_some((from, true));
+        let mut train = PulseTrain { pulses: Vec::new(), grazings: Vec::new() };
+        self.events(start, to, &mut |event| match event {
+            Event::Grazing { time } => train.grazings.push(time),
+            Event::Crossing { time, entering: true } => open = Some((time, false)),
+            Event::Crossing { time, entering: false } => {
+                if let Some((start, cut_at_start)) = open.take() {
+                    train.pulses.push(Pulse { start, end: time, cut_at_start, cut_at_end: false });
+                }
+            }
+        })?;
+        if let Some((start, cut_at_start)) = open {
+            train.pulses.push(Pulse { start, end: to, cut_at_start, cut_at_end: true });
+        }
+        Ok(train)
+    }
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ mod frame;
 #[cfg(target_arch = "x86_64")]
 mod lanes;
 mod linearised_flow;
+mod projection;
 mod samples;
 mod series;
 mod setup;
@@ -32,6 +33,7 @@ use errors::{StepError, TaylorErrors};
 pub use forecast::{TaylorForecast, taylor_forecast};
 #[cfg(target_arch = "x86_64")]
 pub(super) use lanes::axis_states_in_lanes;
+pub use projection::SeriesProjection;
 #[cfg(target_arch = "x86_64")]
 pub(super) use samples::span_of;
 pub use samples::{ErrorEstimates, Samples, axis_states_at, states_at};
@@ -212,6 +214,21 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
         Ok((self.steps.index_at(elapsed, self.setup.duration()), elapsed))
     }
 
+    /// As [`step_at`](Self::step_at), where it is the step `near` or one of the next.
+    fn step_near(&self, t: f64, near: usize) -> Result<(usize, f64), Error> {
+        let starts = &self.steps.starts;
+        let elapsed = (t - self.setup.span.0) * self.setup.direction();
+        let is_in = |step: usize| starts.get(step + 1).is_some_and(|next| elapsed < next.high);
+        if starts[near].high <= elapsed {
+            for step in near..near + 4 {
+                if is_in(step) {
+                    return Ok((step, elapsed));
+                }
+            }
+        }
+        self.step_at(t)
+    }
+
     /// The vectors of the series at time `t`, in the given frame.
     fn at(&self, t: S) -> Result<[Vector3<S>; V], Error> {
         let (index, _) = self.step_at(t.re())?;
@@ -292,5 +309,10 @@ impl<S: Real, const V: usize> AxisMotion<S> for TaylorMotion<S, V> {
 impl<S: Real> Motion<S> for TaylorMotion<S> {
     fn state(&self, t: S) -> Result<BodyState<S>, Error> {
         Ok(self.setup.body_state(self.at(t)?, t))
+    }
+
+    fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
+        let motion = (self as &dyn Any).downcast_ref::<TaylorMotion<f64>>()?;
+        Some(SeriesProjection::new(motion, motion.fused?, in_body, direction))
     }
 }

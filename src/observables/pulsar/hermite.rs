@@ -1,0 +1,131 @@
+//! The polynomial of fifth degree between two times at which a function and its derivatives are known, and what it proves.
+
+use super::rate_bounds::RateBounds;
+use super::train::GRAZING;
+
+/// A time with the margin `m.n - cos rho` and its first three time derivatives.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Jet {
+    pub(super) time: f64,
+    pub(super) margin: [f64; 4],
+}
+
+impl Jet {
+    pub(super) fn is_inside(&self) -> bool {
+        self.margin[0] > 0.0
+    }
+
+    pub(super) fn is_rising(&self) -> bool {
+        self.margin[1] > 0.0
+    }
+}
+
+/// Hermite's polynomial `H` that has value and first two derivatives of the margin `f` at both ends of a piece of length `h`.
+///
+/// With a bound `M` on the sixth derivative, everywhere in the piece (G. Birkhoff and A. Priver, J. Math. Phys. 46, 440 (1967))
+///
+/// ```text
+/// |f - H| <= M h^6 / 46080,   |f' - H'| <= sqrt(5) M h^5 / 30000,   |f'' - H''| <= M h^4 / 1920
+/// ```
+///
+/// A polynomial lies between the least and the largest of its Bernstein coefficients, which are kept here, of `H`, `h H'` and
+/// `h^2 H''`.
+pub(super) struct Quintic {
+    value: [f64; 6],
+    rate: [f64; 5],
+    second: [f64; 4],
+    /// `M h^6`, and what is allowed for rounding.
+    remainder: f64,
+    rounding: f64,
+}
+
+impl Quintic {
+    #[inline]
+    pub(super) fn between(a: &Jet, b: &Jet, bounds: &RateBounds) -> Self {
+        let h = b.time - a.time;
+        let square = h * h;
+        let ([f, df, ddf, _], [g, dg, ddg, _]) = (a.margin, b.margin);
+        let (df, dg, ddf, ddg) = (df * h, dg * h, ddf * square, ddg * square);
+        let (c1, c2) = (f + df / 5.0, f + df * 0.4 + ddf / 20.0);
+        let (c4, c3) = (g - dg / 5.0, g - dg * 0.4 + ddg / 20.0);
+        let (r1, r3) = (df + ddf / 4.0, dg - ddg / 4.0);
+        let r2 = 5.0 * (c3 - c2);
+        Self {
+            value: [f, c1, c2, c3, c4, g],
+            rate: [df, r1, r2, r3, dg],
+            second: [ddf, 4.0 * (r2 - r1), 4.0 * (r3 - r2), ddg],
+            remainder: bounds.sixth * square * square * square,
+            rounding: 8.0 * f64::EPSILON * (1.0 + h * bounds.first + square * bounds.second),
+        }
+    }
+
+    /// Whether the margin has one sign, and no extremum within [`GRAZING`] of zero.
+    #[inline]
+    pub(super) fn is_clear(&self) -> bool {
+        one_sign(&self.value, self.remainder / 46080.0 + self.rounding + 2.0 * GRAZING).is_some()
+    }
+
+    /// Whether the margin rises or falls all the way.
+    #[inline]
+    pub(super) fn is_monotonic(&self) -> bool {
+        // Each coefficient is a difference of two values, five times.
+        one_sign(&self.rate, self.remainder * 7.46e-5 + 10.0 * self.rounding).is_some()
+    }
+
+    /// Whether its graph is convex (`Some(true)`) or concave all the way.
+    #[inline]
+    pub(super) fn convexity(&self) -> Option<bool> {
+        one_sign(&self.second, self.remainder / 1920.0 + 80.0 * self.rounding)
+    }
+
+    /// Where the polynomial crosses zero, as a share of the piece; the signs at its ends differ. Close, not exact.
+    #[inline]
+    pub(super) fn root(&self) -> f64 {
+        let [c0, c1, c2, c3, c4, c5] = self.value;
+        // Powers of the share.
+        let [p1, p2] = [5.0 * (c1 - c0), 10.0 * (c0 - 2.0 * c1 + c2)];
+        let p3 = 10.0 * (c3 - c0 + 3.0 * (c1 - c2));
+        let p4 = 5.0 * (c0 + c4 - 4.0 * (c1 + c3) + 6.0 * c2);
+        let p5 = c5 - c0 + 5.0 * (c1 - c4) + 10.0 * (c3 - c2);
+        let (mut low, mut high, mut x) = (0.0, 1.0, c0 / (c0 - c5));
+        for _ in 0..8 {
+            let value = c0 + x * (p1 + x * (p2 + x * (p3 + x * (p4 + x * p5))));
+            let rate = p1 + x * (2.0 * p2 + x * (3.0 * p3 + x * (4.0 * p4 + x * (5.0 * p5))));
+            let half_second = p2 + x * (3.0 * p3 + x * (6.0 * p4 + x * (10.0 * p5)));
+            if (value > 0.0) == (c5 > 0.0) {
+                high = x;
+            } else {
+                low = x;
+            }
+            // Halley's step.
+            let step = value * rate / (rate * rate - value * half_second);
+            let next = x - step;
+            if !(low < next && next < high) {
+                x = low + (high - low) / 2.0;
+                continue;
+            }
+            x = next;
+            if step.abs() < 1e-2 {
+                break;
+            }
+        }
+        x
+    }
+}
+
+/// The common sign of numbers that are all further from zero than `error`.
+#[inline]
+fn one_sign(values: &[f64], error: f64) -> Option<bool> {
+    let (mut least, mut most) = (values[0], values[0]);
+    for &value in &values[1..] {
+        least = if value < least { value } else { least };
+        most = if value > most { value } else { most };
+    }
+    if least > error {
+        Some(true)
+    } else if most < -error {
+        Some(false)
+    } else {
+        None
+    }
+}
