@@ -214,19 +214,23 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
         Ok((self.steps.index_at(elapsed, self.setup.duration()), elapsed))
     }
 
-    /// As [`step_at`](Self::step_at), where it is the step `near` or one of the next.
-    fn step_near(&self, t: f64, near: usize) -> Result<(usize, f64), Error> {
+    /// The step that holds the time `t`, which is `near` or one of its neighbours if it is quick to find.
+    fn step_near(&self, t: f64, near: usize) -> Result<usize, Error> {
         let starts = &self.steps.starts;
         let elapsed = (t - self.setup.span.0) * self.setup.direction();
-        let is_in = |step: usize| starts.get(step + 1).is_some_and(|next| elapsed < next.high);
-        if starts[near].high <= elapsed {
-            for step in near..near + 4 {
-                if is_in(step) {
-                    return Ok((step, elapsed));
-                }
+        let is_behind = |step: usize| starts.get(step + 1).is_some_and(|next| next.high <= elapsed);
+        let mut step = near;
+        for _ in 0..6 {
+            if starts[step].high > elapsed && step > 0 {
+                step -= 1;
+            } else if is_behind(step) {
+                step += 1;
+            } else {
+                break;
             }
         }
-        self.step_at(t)
+        let is_found = starts[step].high <= elapsed && starts.get(step + 1).is_some_and(|next| elapsed < next.high);
+        if is_found { Ok(step) } else { self.step_at(t).map(|(step, _)| step) }
     }
 
     /// The vectors of the series at time `t`, in the given frame.

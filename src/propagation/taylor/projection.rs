@@ -58,7 +58,7 @@ impl<'a> SeriesProjection<'a> {
     /// # Errors
     /// [`Error::Domain`] for a time outside the span of the motion.
     pub fn at(&self, t: f64) -> Result<[f64; 4], Error> {
-        let (step, _) = self.motion.step_near(t, self.step.get())?;
+        let step = self.motion.step_near(t, self.step.get())?;
         self.step.set(step);
         Ok(run_fused(
             self.fused,
@@ -69,7 +69,7 @@ impl<'a> SeriesProjection<'a> {
 
     /// The latest time in `(after, t]` at which a series starts, where it takes least work.
     pub fn step_start(&self, after: f64, t: f64) -> Option<f64> {
-        let (step, _) = self.motion.step_near(t, self.step.get()).ok()?;
+        let step = self.motion.step_near(t, self.step.get()).ok()?;
         let forwards = self.motion.setup.direction() > 0.0;
         let start = self.motion.steps.starts.get(if forwards { step } else { step + 1 })?;
         let time = self.motion.setup.span.0 + start.high * self.motion.setup.direction();

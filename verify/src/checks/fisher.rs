@@ -286,7 +286,7 @@ fn edges(scene: &Scene<f64>) -> Result<Vec<(f64, f64)>, String> {
         .flat_map(|pulse: &Pulse| [pulse.start, pulse.end])
         .map(|t| {
             let state = motion.state(t).map_err(|e| e.to_string())?;
-            let [_, rate, _] = beam.margin_rates(motion.spheroid(), motion.violation(), &state, line_of_sight);
+            let [_, rate, ..] = beam.margin_rates(motion.spheroid(), motion.violation(), &state, line_of_sight);
             Ok((t, rate))
         })
         .collect()

@@ -33,7 +33,7 @@ pub(super) const LINE_OF_SIGHT: ColumnGroup = ColumnGroup {
     header: |units| value_and_rate("m.n", units),
     values: |scene, moment| {
         let (beam, direction) = (scene.pulsar?.beam(), scene.observer?.basis().direction);
-        let [_, rate, _] = beam.margin_rates(&scene.spheroid, &scene.violation, moment.orientation(), &direction);
+        let [_, rate, ..] = beam.margin_rates(&scene.spheroid, &scene.violation, moment.orientation(), &direction);
         Some(vec![beam.direction(moment.orientation()).dot(&direction), rate / scene.units.time])
     },
 };

@@ -170,7 +170,7 @@ pub(super) fn train(start: &Start, table: &Table) -> Result<(PulseTrain, f64), E
     let mut slowest = f64::INFINITY;
     for pulse in train.pulses.iter().filter(|pulse| pulse.is_whole()) {
         for edge in [pulse.start, pulse.end] {
-            let [_, rate, _] = beam.margin_rates(motion.spheroid(), motion.violation(), &motion.state(edge)?, &n);
+            let [_, rate, ..] = beam.margin_rates(motion.spheroid(), motion.violation(), &motion.state(edge)?, &n);
             slowest = slowest.min(rate.abs());
         }
     }

@@ -21,7 +21,7 @@ pub(super) struct Case {
 }
 
 impl Case {
-    pub(super) fn margin(&self, t: f64) -> [f64; 3] {
+    pub(super) fn margin(&self, t: f64) -> [f64; 4] {
         let motion = &self.motion;
         let state = motion.state(t).expect("a time of the span");
         self.beam.margin_rates(motion.spheroid(), motion.violation(), &state, &self.observer)

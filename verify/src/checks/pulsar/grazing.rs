@@ -35,7 +35,7 @@ fn grazing_by_construction() -> Result<Measured, String> {
                 let middle = (low + high) / 2.0;
                 if (case.margin(middle)[1] > 0.0) == rising { low = middle } else { high = middle }
             }
-            let [margin, _, second] = case.margin(low);
+            let [margin, _, second, _] = case.margin(low);
             let product = margin + case.beam.half_opening.cos();
             // A flat extremum, or a beam whose cosine rounds its angle, makes another test.
             if second.abs() < 1e-2 || product.abs() > 0.95 {

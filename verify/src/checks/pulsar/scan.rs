@@ -96,7 +96,7 @@ impl<'a> Scan<'a> {
 
     /// Counts the edges between neighbours: one where the sides differ, two where an extremum between them is on the other side.
     fn count(&mut self, mut low: f64, mut high: f64) {
-        let ([first, rate, _], [second, next_rate, _]) = (self.case.margin(low), self.case.margin(high));
+        let ([first, rate, ..], [second, next_rate, ..]) = (self.case.margin(low), self.case.margin(high));
         if (first > 0.0) != (second > 0.0) {
             self.edges += 1;
         } else if (rate > 0.0) != (next_rate > 0.0) {
