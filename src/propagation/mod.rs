@@ -17,6 +17,7 @@ pub use closed::{SymmetricMotion, UniformMotion, largest_torque};
 pub use continuous_angles::ContinuousAngles;
 pub use many::{AxisScene, axis_states_of_many};
 pub use motion::{AxisMotion, AxisState, Motion};
+pub(crate) use taylor::projected_by_stretches;
 pub use taylor::{
     ACCURACY_RANGE, ErrorEstimates, STEP_LIMIT, Samples, SeriesProjection, TaylorAxisMotion, TaylorForecast,
     TaylorMotion, axis_states_at, propagate, propagate_axis, states_at, taylor_forecast,

@@ -32,16 +32,15 @@ pub(super) trait Margin {
 
 /// From the series of a motion, which are cheapest where they start.
 pub(super) struct BySeries<'a> {
-    pub(super) projection: SeriesProjection<'a>,
+    projection: &'a SeriesProjection<'a>,
     /// `cos rho`.
-    pub(super) edge: f64,
+    edge: f64,
 }
 
 impl<'a> BySeries<'a> {
-    /// If the motion has series.
-    pub(super) fn of<M: Motion<f64>>(motion: &'a M, beam: &Beam<f64>, line_of_sight: &Vector3<f64>) -> Option<Self> {
-        let projection = motion.projection(&beam.axis, line_of_sight)?;
-        Some(Self { projection, edge: beam.half_opening.cos() })
+    /// `projection` is that of the axis of the beam on the line of sight.
+    pub(super) fn new(projection: &'a SeriesProjection<'a>, beam: &Beam<f64>) -> Self {
+        Self { projection, edge: beam.half_opening.cos() }
     }
 }
 

@@ -17,7 +17,7 @@ pub mod width;
 pub use arrival::{Arrival, arrivals};
 pub use beam::Beam;
 pub use timing::ConstantPeriod;
-pub use train::{Pulse, PulseTrain, Stamped, pulse_train};
+pub use train::{Pulse, PulseTrain, Stamped, propagated_pulse_train, pulse_train};
 
 use crate::scalar::Scalar;
 

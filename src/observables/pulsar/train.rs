@@ -1,12 +1,14 @@
 //! The pulse train of a motion: every stretch of time with the line of sight inside the beam. Eq. (44).
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::Beam;
 use super::edge_search::{BySeries, ByStates, EdgeSearch, Event, Margin};
+use super::hermite::Jet;
 use super::rate_bounds::rate_bounds;
+use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::Motion;
+use crate::propagation::{Motion, Samples, projected_by_stretches, propagate};
 
 /// An extremum of `m.n` this near to `cos rho` is a grazing: whether the line of sight passes the edge there is beyond
 /// doubles, whose `m.n` along a numerical motion is in error by about as much.
@@ -98,40 +100,109 @@ pub fn pulse_train<M: Motion<f64>>(
     line_of_sight: &Vector3<f64>,
     span: (f64, f64),
 ) -> Result<PulseTrain, Error> {
-    for (length, name) in [(beam.axis.norm(), "length of the magnetic axis m"), (line_of_sight.norm(), "length of n")] {
-        Error::unless((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")?;
-    }
-    let opening = beam.half_opening;
-    Error::unless(0.0 < opening && opening < core::f64::consts::PI, "semi-open angle rho", opening, "in (0, pi) rad")?;
+    check_beam(beam, line_of_sight)?;
     let (from, to) = if span.0 <= span.1 { span } else { (span.1, span.0) };
     let bounds = rate_bounds(motion.spheroid(), motion.violation(), &motion.state(from)?);
-    match BySeries::of(motion, beam, line_of_sight) {
-        Some(margin) => EdgeSearch { margin, bounds }.train(from, to),
+    match motion.projection(&beam.axis, line_of_sight) {
+        Some(projection) => EdgeSearch { margin: BySeries::new(&projection, beam), bounds }.train(from, to),
         None => EdgeSearch { margin: ByStates { motion, beam, line_of_sight }, bounds }.train(from, to),
+    }
+}
+
+/// The pulse train of the numerical motion from `initial`, without keeping the motion: the edges of [`pulse_train`] of the motion by
+/// [`propagate`], to rounding. Also the state at the end of the span, with the number and order of the steps.
+///
+/// # Errors
+/// As for [`pulse_train`] and [`propagate`], but for the number of steps.
+#[allow(clippy::too_many_arguments, reason = "those of propagate and of pulse_train")]
+pub fn propagated_pulse_train(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    initial: &BodyState<f64>,
+    span: (f64, f64),
+    accuracy: f64,
+    beam: &Beam<f64>,
+    line_of_sight: &Vector3<f64>,
+) -> Result<(PulseTrain, Samples<BodyState<f64>>), Error> {
+    check_beam(beam, line_of_sight)?;
+    let bounds = rate_bounds(spheroid, s, initial);
+    let (mut train, mut node) = (Unfinished::default(), None);
+    let end = projected_by_stretches(
+        (spheroid, s, initial),
+        span,
+        accuracy,
+        (&beam.axis, line_of_sight),
+        |projection, end| {
+            let search = EdgeSearch { margin: BySeries::new(projection, beam), bounds };
+            let start = match node {
+                Some(start) => start,
+                None => train.begin(search.jet(span.0)?),
+            };
+            node = Some(search.events(start, end, &mut |event| train.take(event))?);
+            Ok(())
+        },
+    )?;
+    if let Some(end) = end {
+        return Ok((train.finished(span.1), end));
+    }
+    let motion = propagate(spheroid, s, initial, span, accuracy)?;
+    let train = pulse_train(&motion, beam, line_of_sight, span)?;
+    let (step_count, order) = (motion.step_count(), motion.order());
+    Ok((train, Samples { states: vec![motion.state(span.1)?], error_estimates: Vec::new(), step_count, order }))
+}
+
+/// A train in the making.
+#[derive(Default)]
+struct Unfinished {
+    pulses: Vec<Pulse>,
+    grazings: Vec<f64>,
+    /// Where the pulse that is not over began, and whether it was cut there.
+    open: Option<(f64, bool)>,
+}
+
+impl Unfinished {
+    fn begin(&mut self, start: Jet) -> Jet {
+        self.open = start.is_inside().then_some((start.time, true));
+        start
+    }
+
+    fn take(&mut self, event: Event) {
+        match event {
+            Event::Grazing { time } => self.grazings.push(time),
+            Event::Crossing { time, entering: true } => self.open = Some((time, false)),
+            Event::Crossing { time, entering: false } => {
+                if let Some((start, cut_at_start)) = self.open.take() {
+                    self.pulses.push(Pulse { start, end: time, cut_at_start, cut_at_end: false });
+                }
+            }
+        }
+    }
+
+    fn finished(mut self, end: f64) -> PulseTrain {
+        if let Some((start, cut_at_start)) = self.open {
+            self.pulses.push(Pulse { start, end, cut_at_start, cut_at_end: true });
+        }
+        PulseTrain { pulses: self.pulses, grazings: self.grazings }
     }
 }
 
 impl<P: Margin> EdgeSearch<P> {
     fn train(&self, from: f64, to: f64) -> Result<PulseTrain, Error> {
-        let start = self.jet(from)?;
+        let mut train = Unfinished::default();
+        let start = train.begin(self.jet(from)?);
         // So that a motion that does not reach so far is refused before the work.
         self.at(to)?;
-        let mut open = start.is_inside().then_some((from, true));
-        let mut train = PulseTrain { pulses: Vec::new(), grazings: Vec::new() };
-        self.events(start, to, &mut |event| match event {
-            Event::Grazing { time } => train.grazings.push(time),
-            Event::Crossing { time, entering: true } => open = Some((time, false)),
-            Event::Crossing { time, entering: false } => {
-                if let Some((start, cut_at_start)) = open.take() {
-                    train.pulses.push(Pulse { start, end: time, cut_at_start, cut_at_end: false });
-                }
-            }
-        })?;
-        if let Some((start, cut_at_start)) = open {
-            train.pulses.push(Pulse { start, end: to, cut_at_start, cut_at_end: true });
-        }
-        Ok(train)
+        self.events(start, to, &mut |event| train.take(event))?;
+        Ok(train.finished(to))
     }
+}
+
+fn check_beam(beam: &Beam<f64>, line_of_sight: &Vector3<f64>) -> Result<(), Error> {
+    for (length, name) in [(beam.axis.norm(), "length of the magnetic axis m"), (line_of_sight.norm(), "length of n")] {
+        Error::unless((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")?;
+    }
+    let opening = beam.half_opening;
+    Error::unless(0.0 < opening && opening < core::f64::consts::PI, "semi-open angle rho", opening, "in (0, pi) rad")
 }
 
 #[cfg(test)]

@@ -73,7 +73,7 @@ impl<S: Real, const V: usize> Drive<'_, S, V> {
         &self,
         a: A,
         limit: StepLimit,
-        mut visit: impl FnMut(&Interval, &[Vectors<A::Vector, V>]),
+        mut visit: impl FnMut(&Interval, &[Vectors<A::Vector, V>]) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let Drive { scale, order, duration, direction, budget, .. } = *self;
         let mut recurrence = self.recurrence(a);
@@ -85,9 +85,10 @@ impl<S: Real, const V: usize> Drive<'_, S, V> {
         let longest = if A::PRINCIPAL_FRAME { f64::INFINITY } else { 1.0 / scale.turning_rate };
         loop {
             recurrence.expand(&state.high, &mut series);
-            let sizes = [order, order - 1].map(|k| scale.size(a, &series[k]));
+            // Not by `map`, which is not always inlined and then leaves the instructions of `a`.
+            let sizes = [scale.size(a, &series[order]), scale.size(a, &series[order - 1])];
             let step = clock.advance(step_size(sizes, order, scale, budget).min(longest), duration, limit)?;
-            visit(&step, &series);
+            visit(&step, &series)?;
             if step.is_last() {
                 return Ok(());
             }

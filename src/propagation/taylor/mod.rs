@@ -15,6 +15,7 @@ mod samples;
 mod series;
 mod setup;
 mod step_size;
+mod stretches;
 
 use core::any::{Any, TypeId};
 use std::sync::OnceLock;
@@ -37,6 +38,7 @@ pub use projection::SeriesProjection;
 #[cfg(target_arch = "x86_64")]
 pub(super) use samples::span_of;
 pub use samples::{ErrorEstimates, Samples, axis_states_at, states_at};
+pub(crate) use stretches::projected_by_stretches;
 
 use series::{AXIS, MOMENTUM, Vectors};
 use setup::Setup;
@@ -126,10 +128,46 @@ impl<S: Real, const V: usize> Steps<S, V> {
                 // Steps of one motion are much alike: room for all of them at once.
                 steps.reserve(setup.duration() / step.start.high, series.len());
             }
-            steps.starts.push(step.start);
-            steps.coefficients.extend(series.iter().map(|vectors| vectors.map(|v| a.store(v))));
+            steps.keep(a, step.start, series);
+            Ok(())
         })?;
         Ok(steps)
+    }
+
+    #[inline(always)]
+    fn keep<A: OneMotion<Scalar = S>>(&mut self, a: A, start: Compensated, series: &[Vectors<A::Vector, V>]) {
+        self.starts.push(start);
+        // A loop rather than `map`, which is not always inlined and then leaves the instructions of `a`.
+        self.coefficients.extend(series.iter().map(
+            #[inline(always)]
+            |vectors| {
+                let mut stored = [Stored::zero(); V];
+                for i in 0..V {
+                    stored[i] = a.store(vectors[i]);
+                }
+                stored
+            },
+        ));
+    }
+
+    /// None, with room for `count`.
+    fn with_room(count: usize, order: usize) -> Self {
+        Self { starts: Vec::with_capacity(count), coefficients: Vec::with_capacity(count * (order + 1)) }
+    }
+
+    fn clear(&mut self) {
+        self.starts.clear();
+        self.coefficients.clear();
+    }
+
+    fn count(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// The coefficients of one step.
+    fn series(&self, step: usize) -> &[Vectors<Stored<S>, V>] {
+        let length = self.coefficients.len() / self.starts.len();
+        &self.coefficients[step * length..][..length]
     }
 
     /// Room for some more steps than `count`, if that is not out of proportion.
@@ -137,6 +175,13 @@ impl<S: Real, const V: usize> Steps<S, V> {
         let count = (1.2 * count).min(STEP_LIMIT as f64 / 50.0) as usize;
         self.starts.reserve(count);
         self.coefficients.reserve(count * coefficients);
+    }
+
+    /// The vectors at the time `t` by the series of one step, in the given frame.
+    #[inline(always)]
+    fn sum<A: OneMotion<Scalar = S>>(&self, setup: &Setup<S, V>, a: A, step: usize, t: S) -> [Stored<S>; V] {
+        let series = self.series(step);
+        setup.sum(a, |k| series[k].each_ref().map(|v| a.load(v)), &self.starts[step], t)
     }
 
     /// Index of the step that holds a time since the start. Steps are much alike, so that it is near to where it would be
@@ -153,6 +198,22 @@ impl<S: Real, const V: usize> Steps<S, V> {
             (low, high, stride) = (high, (high + stride).min(starts.len()), 2 * stride);
         }
         low + starts[low..high].partition_point(|start| start.high <= elapsed).max(1) - 1
+    }
+
+    /// The same, quick where it is the step `near` or one not far from it.
+    fn index_near(&self, near: usize, elapsed: f64, duration: f64) -> usize {
+        let starts = &self.starts;
+        let mut step = near;
+        for _ in 0..6 {
+            if starts[step].high > elapsed && step > 0 {
+                step -= 1;
+            } else if starts.get(step + 1).is_some_and(|next| next.high <= elapsed) {
+                step += 1;
+            } else {
+                return step;
+            }
+        }
+        self.index_at(elapsed, duration)
     }
 }
 
@@ -203,34 +264,8 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
 
     /// Index of the step that holds the time `t`, and the time since the start.
     fn step_at(&self, t: f64) -> Result<(usize, f64), Error> {
-        let (first, last) = self.setup.span;
-        Error::unless(
-            first.min(last) <= t && t <= first.max(last),
-            "time t",
-            t,
-            "within the span for which the motion was propagated",
-        )?;
-        let elapsed = (t - first).abs();
+        let elapsed = self.setup.elapsed(t)?;
         Ok((self.steps.index_at(elapsed, self.setup.duration()), elapsed))
-    }
-
-    /// The step that holds the time `t`, which is `near` or one of its neighbours if it is quick to find.
-    fn step_near(&self, t: f64, near: usize) -> Result<usize, Error> {
-        let starts = &self.steps.starts;
-        let elapsed = (t - self.setup.span.0) * self.setup.direction();
-        let is_behind = |step: usize| starts.get(step + 1).is_some_and(|next| next.high <= elapsed);
-        let mut step = near;
-        for _ in 0..6 {
-            if starts[step].high > elapsed && step > 0 {
-                step -= 1;
-            } else if is_behind(step) {
-                step += 1;
-            } else {
-                break;
-            }
-        }
-        let is_found = starts[step].high <= elapsed && starts.get(step + 1).is_some_and(|next| elapsed < next.high);
-        if is_found { Ok(step) } else { self.step_at(t).map(|(step, _)| step) }
     }
 
     /// The vectors of the series at time `t`, in the given frame.
@@ -240,11 +275,11 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
             let vectors = run_fused(
                 fused,
                 #[inline(always)]
-                || motion.sum(fused, index, t.re()),
+                || motion.steps.sum(&motion.setup, fused, index, t.re()),
             );
             return Ok(vectors.map(|v| v.vector().map(S::from_f64)));
         }
-        Ok(self.sum(Plain::new(), index, t).map(|v| v.vector()))
+        Ok(self.steps.sum(&self.setup, Plain::new(), index, t).map(|v| v.vector()))
     }
 
     /// Length of one step, positive in either direction.
@@ -259,21 +294,9 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
         let mut errors = TaylorErrors::of(&self.setup);
         let steps = (0..self.step_count()).map(|step| {
             let h = self.length(step) * self.setup.direction() / self.setup.scale.time;
-            errors.step(self.series(step), |v| v.vector().map(S::re), h)
+            errors.step(self.steps.series(step), |v| v.vector().map(S::re), h)
         });
         steps.collect()
-    }
-
-    /// The coefficients of one step.
-    fn series(&self, step: usize) -> &[Vectors<Stored<S>, V>] {
-        let length = self.setup.order + 1;
-        &self.steps.coefficients[step * length..][..length]
-    }
-
-    #[inline(always)]
-    fn sum<A: OneMotion<Scalar = S>>(&self, a: A, step: usize, t: S) -> [Stored<S>; V] {
-        let series = self.series(step);
-        self.setup.sum(a, |k| series[k].each_ref().map(|v| a.load(v)), &self.steps.starts[step], t)
     }
 }
 
@@ -317,6 +340,6 @@ impl<S: Real> Motion<S> for TaylorMotion<S> {
 
     fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
         let motion = (self as &dyn Any).downcast_ref::<TaylorMotion<f64>>()?;
-        Some(SeriesProjection::new(motion, motion.fused?, in_body, direction))
+        Some(SeriesProjection::new(&motion.setup, &motion.steps, motion.fused?, in_body, direction))
     }
 }

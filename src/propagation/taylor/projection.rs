@@ -7,8 +7,9 @@ use nalgebra::Vector3;
 use crate::error::Error;
 use crate::propagation::arithmetic::{OneMotion, Stored};
 use crate::propagation::fused::{Fused, run_fused};
-use crate::propagation::taylor::TaylorMotion;
+use crate::propagation::taylor::Steps;
 use crate::propagation::taylor::series::{AXIS, COMPANION, MOMENTUM, change};
+use crate::propagation::taylor::setup::Setup;
 
 /// `m.o` of a vector `m` fixed in the body and a fixed direction `o`, with its time derivatives, at any time of a motion that is
 /// kept as Taylor series in doubles. See [`Motion::projection`](crate::propagation::Motion::projection).
@@ -17,7 +18,8 @@ use crate::propagation::taylor::series::{AXIS, COMPANION, MOMENTUM, change};
 /// once, instead of every state out of it.
 #[derive(Debug, Clone)]
 pub struct SeriesProjection<'a> {
-    motion: &'a TaylorMotion<f64>,
+    setup: &'a Setup<f64, 3>,
+    steps: &'a Steps<f64, 3>,
     fused: Fused,
     /// `o` in the frame of the series.
     direction: Stored<f64>,
@@ -29,27 +31,31 @@ pub struct SeriesProjection<'a> {
     pull: Stored<f64>,
     /// The step that was asked for last: the next is often the same or one near by.
     step: Cell<usize>,
+    /// A time that was asked for, with the components of `m` along the vector carried by the series and across it.
+    turned: Cell<(f64, [f64; 2])>,
 }
 
 impl<'a> SeriesProjection<'a> {
     pub(super) fn new(
-        motion: &'a TaylorMotion<f64>,
+        setup: &'a Setup<f64, 3>,
+        steps: &'a Steps<f64, 3>,
         fused: Fused,
         in_body: &Vector3<f64>,
         direction: &Vector3<f64>,
     ) -> Self {
-        let setup = &motion.setup;
         let rates = setup.drive().rates();
         let unit = setup.scale.time;
         let axis_rate = rates.axis / unit;
         Self {
-            motion,
+            setup,
+            steps,
             fused,
             direction: Stored::from(setup.frame.series_from_given(direction)),
             in_body: *in_body,
             axis_rate,
             pull: Stored::from(Vector3::from(rates.momentum_of_principal) * (axis_rate / unit)),
             step: Cell::new(0),
+            turned: Cell::new((f64::INFINITY, [0.0; 2])),
         }
     }
 
@@ -58,7 +64,7 @@ impl<'a> SeriesProjection<'a> {
     /// # Errors
     /// [`Error::Domain`] for a time outside the span of the motion.
     pub fn at(&self, t: f64) -> Result<[f64; 4], Error> {
-        let step = self.motion.step_near(t, self.step.get())?;
+        let step = self.step_near(t)?;
         self.step.set(step);
         Ok(run_fused(
             self.fused,
@@ -69,11 +75,38 @@ impl<'a> SeriesProjection<'a> {
 
     /// The latest time in `(after, t]` at which a series starts, where it takes least work.
     pub fn step_start(&self, after: f64, t: f64) -> Option<f64> {
-        let step = self.motion.step_near(t, self.step.get()).ok()?;
-        let forwards = self.motion.setup.direction() > 0.0;
-        let start = self.motion.steps.starts.get(if forwards { step } else { step + 1 })?;
-        let time = self.motion.setup.span.0 + start.high * self.motion.setup.direction();
+        let step = self.step_near(t).ok()?;
+        let direction = self.setup.direction();
+        let start = self.steps.starts.get(if direction > 0.0 { step } else { step + 1 })?;
+        let time = self.setup.span.0 + start.high * direction;
         (after < time && time <= t).then_some(time)
+    }
+
+    fn step_near(&self, t: f64) -> Result<usize, Error> {
+        let elapsed = self.setup.elapsed(t)?;
+        Ok(self.steps.index_near(self.step.get(), elapsed, self.setup.duration()))
+    }
+
+    /// The components of `m` along the vector carried by the series and across it and `n`, at the time `t`. Sine and cosine are
+    /// found anew only where the angle has changed by a quarter; up to there their series need six terms.
+    #[inline(always)]
+    fn about_axis(&self, t: f64) -> [f64; 2] {
+        let rate = self.setup.rate_about_axis;
+        let (anchor, [x, y]) = self.turned.get();
+        let angle = rate * (t - anchor);
+        if angle.abs() <= 0.25 {
+            let q = angle * angle;
+            let sin =
+                angle * (1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0 * (1.0 - q / 110.0)))));
+            let less =
+                q / 2.0 * (1.0 - q / 12.0 * (1.0 - q / 30.0 * (1.0 - q / 56.0 * (1.0 - q / 90.0 * (1.0 - q / 132.0)))));
+            // The small parts first.
+            return [x - (y * sin + x * less), y + (x * sin - y * less)];
+        }
+        let (sin, cos) = (rate * (t - self.setup.span.0)).sin_cos();
+        let turned = [self.in_body.x * cos - self.in_body.y * sin, self.in_body.x * sin + self.in_body.y * cos];
+        self.turned.set((t, turned));
+        turned
     }
 
     /// By the derivatives of `o` as the body sees it, `a_0 = o`, `a_(k+1) = a_k' + a_k x Omega`, those of `m.o` are `a_k . m`:
@@ -85,25 +118,29 @@ impl<'a> SeriesProjection<'a> {
     /// They need not wait for `m`, as the derivatives of `m` would.
     #[inline(always)]
     fn by_step<A: OneMotion<Scalar = f64>>(&self, a: A, step: usize, t: f64) -> [f64; 4] {
-        let setup = &self.motion.setup;
-        let turned = setup.rate_about_axis * (t - setup.span.0);
-        let (sin, cos) = turned.sin_cos();
-        let (along_companion, across) =
-            (self.in_body.x * cos - self.in_body.y * sin, self.in_body.x * sin + self.in_body.y * cos);
-
-        let series = self.motion.series(step);
-        let coefficient = |k: usize| series[k].each_ref().map(|v| a.load(v));
-        let h = setup.series_time(&self.motion.steps.starts[step], t);
+        let setup = self.setup;
+        let [along_companion, across] = self.about_axis(t);
+        let series = self.steps.series(step);
+        // Loops rather than `map`, which is not always inlined and then leaves the instructions of `a`.
+        let coefficient = |k: usize| {
+            let [n, l, u] = &series[k];
+            [a.load(n), a.load(l), a.load(u)]
+        };
+        let h = setup.series_time(&self.steps.starts[step], t);
         let first = coefficient(0);
         // Where a series starts, to the rounding of the time, two of its terms are enough.
         let change = if h.abs() < 1e-9 {
-            coefficient(1).map(|rate| a.mul(rate, a.splat(h)))
+            let [n, l, u] = coefficient(1);
+            let h = a.splat(h);
+            [a.mul(n, h), a.mul(l, h), a.mul(u, h)]
         } else {
             change(a, setup.order, coefficient, a.splat(h))
         };
-        let [axis, momentum, companion] = [AXIS, MOMENTUM, COMPANION].map(|i| a.add(first[i], change[i]));
+        let axis = a.add(first[AXIS], change[AXIS]);
+        let momentum = a.add(first[MOMENTUM], change[MOMENTUM]);
+        let companion = a.add(first[COMPANION], change[COMPANION]);
 
-        let cross = |u: A::Turned, v: A::Turned| a.sub(a.mul(a.yzx(u), a.zxy(v)), a.mul(a.zxy(u), a.yzx(v)));
+        let cross = |u, v| cross(a, u, v);
         let (pull, about) = (a.load(&self.pull), a.splat(setup.rate_about_axis));
         // What turns n: L / I^xx, and its derivatives.
         let n = a.turned(axis);
@@ -132,9 +169,17 @@ impl<'a> SeriesProjection<'a> {
             a.splat(self.in_body.z),
             a.mul_add(companion, a.splat(along_companion), a.mul(third, a.splat(across))),
         );
-        [direction, a_1, a_2, a_3].map(|v| {
-            let Stored([x, y, z, _]) = a.store(a.mul(v, m));
-            x + y + z
-        })
+        [dot(a, direction, m), dot(a, a_1, m), dot(a, a_2, m), dot(a, a_3, m)]
     }
+}
+
+#[inline(always)]
+fn cross<A: OneMotion>(a: A, u: A::Turned, v: A::Turned) -> A::Vector {
+    a.sub(a.mul(a.yzx(u), a.zxy(v)), a.mul(a.zxy(u), a.yzx(v)))
+}
+
+#[inline(always)]
+fn dot<A: OneMotion<Scalar = f64>>(a: A, u: A::Vector, v: A::Vector) -> f64 {
+    let Stored([x, y, z, _]) = a.store(a.mul(u, v));
+    x + y + z
 }

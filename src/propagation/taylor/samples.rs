@@ -147,6 +147,7 @@ fn visited<A: OneMotion, T, const V: usize>(
             let t = A::Scalar::from_f64(time);
             state(setup.sum(a, |k| series[k], &step.start, t).map(|v| v.vector()), t)
         });
+        Ok(())
     })?;
     Ok(samples)
 }

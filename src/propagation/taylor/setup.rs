@@ -72,6 +72,18 @@ impl<S: Real, const V: usize> Setup<S, V> {
         (self.span.1 - self.span.0).abs()
     }
 
+    /// Time since the start, at a time `t` of the span.
+    pub(super) fn elapsed(&self, t: f64) -> Result<f64, Error> {
+        let (first, last) = self.span;
+        Error::unless(
+            first.min(last) <= t && t <= first.max(last),
+            "time t",
+            t,
+            "within the span for which the motion was propagated",
+        )?;
+        Ok((t - first).abs())
+    }
+
     /// The steps of the motion, and its start.
     #[inline(always)]
     pub(super) fn drive(&self) -> Drive<'_, S, V> {

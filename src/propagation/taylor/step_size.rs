@@ -34,7 +34,10 @@ impl Scale {
     /// Largest component of a coefficient, `L` in units of the momentum; NaN if one is NaN.
     #[inline(always)]
     pub(super) fn size<A: OneMotion, const V: usize>(&self, a: A, coefficient: &Vectors<A::Vector, V>) -> f64 {
-        let mut sizes = coefficient.map(|v| a.largest(v));
+        let mut sizes = [0.0; V];
+        for i in 0..V {
+            sizes[i] = a.largest(coefficient[i]);
+        }
         sizes[MOMENTUM] /= self.momentum;
         let mut size = sizes[0];
         for other in &sizes[1..] {

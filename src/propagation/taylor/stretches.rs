@@ -1,0 +1,59 @@
+//! The projection of a direction in the body, stretch by stretch, without keeping the motion.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::propagation::fused::run_fused;
+use crate::propagation::taylor::projection::SeriesProjection;
+use crate::propagation::taylor::samples::{LIMIT, Samples};
+use crate::propagation::taylor::setup::Setup;
+use crate::propagation::taylor::step_size::Work;
+use crate::propagation::taylor::{Steps, fused_for};
+
+/// Steps of one stretch: few enough that their series stay in the fast memory in which they were made.
+const STEPS: usize = 16;
+
+/// Follows the numerical motion from `initial` over a span forwards in time, and gives `visit` the projection on `direction` of the
+/// vector `in_body` over one stretch after another, with the time at which it ends. Returns the state at the end of the span.
+///
+/// `None` where the series has no projection: on a processor without vector instructions, and backwards in time.
+pub(crate) fn projected_by_stretches(
+    (spheroid, s, initial): (&RigidSpheroid<f64>, &Matrix3<f64>, &BodyState<f64>),
+    span: (f64, f64),
+    accuracy: f64,
+    (in_body, direction): (&Vector3<f64>, &Vector3<f64>),
+    mut visit: impl FnMut(&SeriesProjection<'_>, f64) -> Result<(), Error>,
+) -> Result<Option<Samples<BodyState<f64>>>, Error> {
+    let Some(fused) = fused_for::<f64>().filter(|_| span.0 <= span.1) else { return Ok(None) };
+    let start = [initial.axis, initial.momentum, initial.equatorial_axis];
+    let setup = Setup::new((true, Work::Latent), spheroid, s, start, span, accuracy)?;
+    let mut kept = Steps::with_room(STEPS, setup.order);
+    let mut step_count = 0;
+    // Not inlined: what is done with a stretch would take registers from the series.
+    let visit: &mut dyn FnMut(&Steps<f64, 3>, f64) -> Result<(), Error> =
+        &mut |steps, end| visit(&SeriesProjection::new(&setup, steps, fused, in_body, direction), end);
+    run_fused(
+        fused,
+        #[inline(always)]
+        || {
+            setup.drive().run(fused, LIMIT, |step, series| {
+                step_count += 1;
+                if kept.count() == STEPS {
+                    visit(&kept, span.0 + step.start.high)?;
+                    kept.clear();
+                }
+                kept.keep(fused, step.start, series);
+                Ok(())
+            })
+        },
+    )?;
+    visit(&kept, span.1)?;
+    let vectors = run_fused(
+        fused,
+        #[inline(always)]
+        || kept.sum(&setup, fused, kept.count() - 1, span.1),
+    );
+    let end = setup.body_state(vectors.map(|v| v.vector()), span.1);
+    Ok(Some(Samples { states: vec![end], error_estimates: Vec::new(), step_count, order: setup.order }))
+}
