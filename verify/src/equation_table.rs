@@ -336,6 +336,8 @@ pub const EQUATIONS: &[Equation] = &[
             "observables::pulsar::Beam::margin",
             "observables::pulsar::Beam::margin_rates",
             "observables::pulsar::train::pulse_train",
+            "observables::pulsar::train::propagated_pulse_train",
+            "propagation::SeriesProjection",
             "observables::pulsar::Pulse",
             "observables::pulsar::PulseTrain",
             "observables::pulsar::Stamped",

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::propagation::{Motion, SeriesProjection};
 
 /// Rotation (rad) in a piece to begin with, and in one so short that an extremum near the edge is worth finding exactly.
-const PIECE: f64 = 2.0;
+const PIECE: f64 = 2.4;
 const SHORT: f64 = 0.05;
 
 /// What the search reports, in order of time.

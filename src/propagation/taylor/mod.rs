@@ -115,14 +115,16 @@ pub type TaylorAxisMotion<S> = TaylorMotion<S, 2>;
 struct Steps<S, const V: usize> {
     /// Start of each step: time since the start of the motion, positive in either direction.
     starts: Vec<Compensated>,
-    /// `order + 1` coefficients for each step.
+    /// Those of each step, and places for more.
     coefficients: Vec<Vectors<Stored<S>, V>>,
+    /// Coefficients of one step, `order + 1`.
+    length: usize,
 }
 
 impl<S: Real, const V: usize> Steps<S, V> {
     #[inline(always)]
     fn kept<A: OneMotion<Scalar = S>>(setup: &Setup<S, V>, a: A) -> Result<Self, Error> {
-        let mut steps = Self { starts: Vec::new(), coefficients: Vec::new() };
+        let mut steps = Self { starts: Vec::new(), coefficients: Vec::new(), length: setup.order + 1 };
         setup.drive().run(a, LIMIT, |step, series| {
             if let [_] = steps.starts.as_slice() {
                 // Steps of one motion are much alike: room for all of them at once.
@@ -136,28 +138,35 @@ impl<S: Real, const V: usize> Steps<S, V> {
 
     #[inline(always)]
     fn keep<A: OneMotion<Scalar = S>>(&mut self, a: A, start: Compensated, series: &[Vectors<A::Vector, V>]) {
+        // Loops rather than `map`, which is not always inlined and then leaves the instructions of `a`.
+        let stored = |vectors: &Vectors<A::Vector, V>| {
+            let mut stored = [Stored::zero(); V];
+            for i in 0..V {
+                stored[i] = a.store(vectors[i]);
+            }
+            stored
+        };
+        let from = self.starts.len() * series.len();
         self.starts.push(start);
-        // A loop rather than `map`, which is not always inlined and then leaves the instructions of `a`.
-        self.coefficients.extend(series.iter().map(
-            #[inline(always)]
-            |vectors| {
-                let mut stored = [Stored::zero(); V];
-                for i in 0..V {
-                    stored[i] = a.store(vectors[i]);
+        match self.coefficients.get_mut(from..from + series.len()) {
+            Some(place) => {
+                for (place, vectors) in place.iter_mut().zip(series) {
+                    *place = stored(vectors);
                 }
-                stored
-            },
-        ));
+            }
+            None => self.coefficients.extend(series.iter().map(stored)),
+        }
     }
 
-    /// None, with room for `count`.
-    fn with_room(count: usize, order: usize) -> Self {
-        Self { starts: Vec::with_capacity(count), coefficients: Vec::with_capacity(count * (order + 1)) }
+    /// None, with places for `count`.
+    fn with_places(count: usize, order: usize) -> Self {
+        let length = order + 1;
+        Self { starts: Vec::with_capacity(count), coefficients: vec![[Stored::zero(); V]; count * length], length }
     }
 
+    /// Forgets the steps, and keeps the places.
     fn clear(&mut self) {
         self.starts.clear();
-        self.coefficients.clear();
     }
 
     fn count(&self) -> usize {
@@ -166,8 +175,7 @@ impl<S: Real, const V: usize> Steps<S, V> {
 
     /// The coefficients of one step.
     fn series(&self, step: usize) -> &[Vectors<Stored<S>, V>] {
-        let length = self.coefficients.len() / self.starts.len();
-        &self.coefficients[step * length..][..length]
+        &self.coefficients[step * self.length..][..self.length]
     }
 
     /// Room for some more steps than `count`, if that is not out of proportion.

@@ -88,18 +88,21 @@ impl<'a> SeriesProjection<'a> {
     }
 
     /// The components of `m` along the vector carried by the series and across it and `n`, at the time `t`. Sine and cosine are
-    /// found anew only where the angle has changed by a quarter; up to there their series need six terms.
+    /// found anew only where the angle has changed by half a radian; up to there their series need seven terms.
     #[inline(always)]
     fn about_axis(&self, t: f64) -> [f64; 2] {
         let rate = self.setup.rate_about_axis;
         let (anchor, [x, y]) = self.turned.get();
         let angle = rate * (t - anchor);
-        if angle.abs() <= 0.25 {
-            let q = angle * angle;
-            let sin =
-                angle * (1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0 * (1.0 - q / 110.0)))));
-            let less =
-                q / 2.0 * (1.0 - q / 12.0 * (1.0 - q / 30.0 * (1.0 - q / 56.0 * (1.0 - q / 90.0 * (1.0 - q / 132.0)))));
+        if angle.abs() <= 0.5 {
+            let square = angle * angle;
+            // From the last term to the first, each with those after it.
+            let (mut sine, mut less) = (1.0, 1.0);
+            for k in [12.0, 10.0, 8.0, 6.0, 4.0, 2.0] {
+                sine = 1.0 - square * (1.0 / (k * (k + 1.0))) * sine;
+                less = 1.0 - square * (1.0 / ((k + 1.0) * (k + 2.0))) * less;
+            }
+            let (sin, less) = (angle * sine, square / 2.0 * less);
             // The small parts first.
             return [x - (y * sin + x * less), y + (x * sin - y * less)];
         }

@@ -12,7 +12,7 @@ use crate::propagation::taylor::step_size::Work;
 use crate::propagation::taylor::{Steps, fused_for};
 
 /// Steps of one stretch: few enough that their series stay in the fast memory in which they were made.
-const STEPS: usize = 16;
+const STEPS: usize = 32;
 
 /// Follows the numerical motion from `initial` over a span forwards in time, and gives `visit` the projection on `direction` of the
 /// vector `in_body` over one stretch after another, with the time at which it ends. Returns the state at the end of the span.
@@ -28,7 +28,7 @@ pub(crate) fn projected_by_stretches(
     let Some(fused) = fused_for::<f64>().filter(|_| span.0 <= span.1) else { return Ok(None) };
     let start = [initial.axis, initial.momentum, initial.equatorial_axis];
     let setup = Setup::new((true, Work::Latent), spheroid, s, start, span, accuracy)?;
-    let mut kept = Steps::with_room(STEPS, setup.order);
+    let mut kept = Steps::with_places(STEPS, setup.order);
     let mut step_count = 0;
     // Not inlined: what is done with a stretch would take registers from the series.
     let visit: &mut dyn FnMut(&Steps<f64, 3>, f64) -> Result<(), Error> =

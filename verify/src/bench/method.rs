@@ -5,11 +5,10 @@ use std::fmt;
 use nalgebra::Vector3;
 use twofold::dynamics::BodyState;
 use twofold::observables::Observer;
-use twofold::observables::pulsar::{Beam, pulse_train};
+use twofold::observables::pulsar::{Beam, propagated_pulse_train};
 use twofold::propagation::splitting::propagate_by_best_splitting;
 use twofold::propagation::{
-    AxisMotion, AxisScene, AxisState, ErrorEstimates, Motion, Samples, axis_states_at, axis_states_of_many, propagate,
-    states_at,
+    AxisMotion, AxisScene, AxisState, ErrorEstimates, Samples, axis_states_at, axis_states_of_many, states_at,
 };
 
 use super::runge_kutta;
@@ -95,14 +94,16 @@ pub const EIGHT_SCENES: &[Method] =
     &[Method { name: "lanes", carries: Carries::Axis, settings: ACCURACIES, run: eight_in_lanes }];
 
 fn taylor_with_pulses(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
-    let span = (0.0, duration);
-    let motion = propagate(&scene.spheroid, &scene.violation, &scene.initial, span, accuracy).map_err(text)?;
+    let BenchScene { spheroid, violation, initial, .. } = scene;
     let (beam, observer) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0));
-    std::hint::black_box(pulse_train(&motion, &beam, &observer.direction, span).map_err(text)?);
-    let state = motion.state(duration).map_err(text)?;
-    let (steps, order) = (motion.step_count(), motion.order());
+    let span = (0.0, duration);
+    let found = propagated_pulse_train(spheroid, violation, initial, span, accuracy, &beam, &observer.direction);
+    let (train, end) = found.map_err(text)?;
+    std::hint::black_box(train);
+    let state = end.states[0];
     let equatorial_axis = Some(state.equatorial_axis);
-    Ok(End { axis: state.axis, momentum: state.momentum, equatorial_axis, steps, evaluations: steps * order })
+    let (steps, evaluations) = (end.step_count, end.step_count * end.order);
+    Ok(End { axis: state.axis, momentum: state.momentum, equatorial_axis, steps, evaluations })
 }
 
 fn eight_in_lanes(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {

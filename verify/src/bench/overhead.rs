@@ -4,7 +4,7 @@ use nalgebra::SVector;
 use num_dual::{Derivative, Dual, Dual2_64, Dual64, DualSVec64, HyperDual64};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::observables::Observer;
-use twofold::observables::pulsar::{Beam, pulse_train};
+use twofold::observables::pulsar::{Beam, propagated_pulse_train, pulse_train};
 use twofold::propagation::{AxisMotion, AxisState, Motion, propagate, propagate_axis};
 use twofold::scalar::Real;
 
@@ -60,9 +60,18 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
         ("the motion alone", n, Box::new(|| axis().map(drop))),
         ("the motion alone", full, Box::new(|| whole().map(drop))),
         (
-            "323 pulses, both edges of each",
+            "162 pulses, both edges of each",
             full,
             Box::new(|| pulse_train(&whole()?, &beam, &observer.direction, span).map(drop).map_err(text)),
+        ),
+        (
+            "162 pulses, the motion not kept",
+            full,
+            Box::new(|| {
+                let BenchScene { spheroid, violation, initial, .. } = scene;
+                let n = &observer.direction;
+                propagated_pulse_train(spheroid, violation, initial, span, ACCURACY, &beam, n).map(drop).map_err(text)
+            }),
         ),
         ("1,000 samples", n, Box::new(sampled(1000))),
         ("10,000 samples", n, Box::new(sampled(10_000))),

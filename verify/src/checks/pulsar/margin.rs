@@ -34,6 +34,16 @@ pub(super) fn checks() -> Vec<Check> {
             reason: "a bound is a bound",
             measure: rates_within_bounds,
         },
+        Check {
+            id: "beam-margin-high-bounds",
+            kind: Kind::Property,
+            equations: &[44],
+            statement: "so do the fourth and the sixth, by their mean values: the first and third divided differences of the third derivative",
+            figure: "largest mean value / its bound, 40 random motions, steps of 0.04 t_c",
+            bound: Bound::AtMost(1.0),
+            reason: "a bound is a bound of every mean value; rounding of a third difference is 1e-11",
+            measure: high_rates_within_bounds,
+        },
     ]
 }
 
@@ -46,6 +56,26 @@ fn rates_by_duals() -> Result<Measured, String> {
 
 fn rates_within_bounds() -> Result<Measured, String> {
     along_motions(|bounds, _, duals| largest([1, 2, 3].map(|k| duals[k].abs() / bounds[k - 1])))
+}
+
+fn high_rates_within_bounds() -> Result<Measured, String> {
+    const STEP: f64 = 0.04;
+    worst_over(45, 40, &scenes(), |scene| {
+        let (spheroid, s, start) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
+        let bounds = rate_bounds(&spheroid, &s, &start);
+        let motion = propagate(&spheroid, &s, &start, (0.0, 20.0), 1e-15).map_err(|e| e.to_string())?;
+        let [chi, theta, azimuth] = scene.angles;
+        let beam = Beam::new(chi, azimuth, 0.7);
+        let observer = Vector3::new(theta.sin() * chi.cos(), theta.sin() * chi.sin(), theta.cos());
+        let third = |i: u32| {
+            let state = motion.state(STEP * f64::from(i)).map_err(|e| e.to_string())?;
+            Ok::<_, String>(beam.margin_rates(&spheroid, &s, &state, &observer)[3])
+        };
+        let thirds = (0..500).map(third).collect::<Result<Vec<_>, _>>()?;
+        let fourth = largest(thirds.windows(2).map(|f| (f[1] - f[0]).abs())) / STEP;
+        let sixth = largest(thirds.windows(4).map(|f| (f[3] - f[0] - 3.0 * (f[2] - f[1])).abs())) / STEP.powi(3);
+        Ok(largest([fourth / bounds.fourth, sixth / bounds.sixth]))
+    })
 }
 
 /// The largest figure of the three bounds at the start, the margin and its rates by the kernel, and its first derivatives by

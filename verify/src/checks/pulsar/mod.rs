@@ -16,6 +16,7 @@ mod published;
 mod pulse_numbers;
 mod scan;
 mod train;
+mod ways;
 
 use crate::check::Check;
 
@@ -27,6 +28,7 @@ pub fn checks() -> Vec<Check> {
         margin::checks(),
         scan::checks(),
         train::checks(),
+        ways::checks(),
         grazing::checks(),
         edges_reference::checks(),
         published::checks(),

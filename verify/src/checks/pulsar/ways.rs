@@ -1,0 +1,120 @@
+//! The same pulse train by every way of looking at the magnetic axis. Eq. (44).
+
+use nalgebra::{Matrix3, Vector3};
+use twofold::Error;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::observables::pulsar::{PulseTrain, propagated_pulse_train, pulse_train};
+use twofold::propagation::{AxisMotion, AxisState, Motion, TaylorMotion};
+
+use super::cases::{Case, edges, for_random_cases};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "pulse-train-ways",
+            kind: Kind::Property,
+            equations: &[44],
+            statement: "the pulses of 600 random trains are the same from the series of the motion, from its states, and from series that \
+                        are not kept",
+            figure: "largest difference of an edge times the slope of m.n; infinite for a wrong number",
+            bound: Bound::AtMost(1e-13),
+            reason: "the same roots from other brackets: rounding of t up to 20 t_c, 4e-15, and of m.n over its slope",
+            measure: ways_agree,
+        },
+        Check {
+            id: "series-projection",
+            kind: Kind::Property,
+            equations: &[44],
+            statement: "m.n and its first three time derivatives from the series of a motion are those from its states",
+            figure: "largest difference / (2.2e-16 (4 + t |Omega|), power of the fastest |Omega|), 25 times of 600 random trains",
+            bound: Bound::AtMost(8.0),
+            reason: "some roundings of vectors and, for the third angle, of t times its rate; each derivative adds products",
+            measure: projection_against_states,
+        },
+    ]
+}
+
+const END: f64 = 20.0;
+
+/// A motion that has states and nothing else.
+struct StatesAlone<'a>(&'a TaylorMotion<f64>);
+
+impl AxisMotion<f64> for StatesAlone<'_> {
+    fn spheroid(&self) -> &RigidSpheroid<f64> {
+        self.0.spheroid()
+    }
+
+    fn violation(&self) -> &Matrix3<f64> {
+        self.0.violation()
+    }
+
+    fn span(&self) -> (f64, f64) {
+        self.0.span()
+    }
+
+    fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
+        self.0.axis_state(t)
+    }
+
+    fn error_estimate(&self, t: f64) -> f64 {
+        self.0.error_estimate(t)
+    }
+}
+
+impl Motion<f64> for StatesAlone<'_> {
+    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
+        self.0.state(t)
+    }
+}
+
+fn ways_agree() -> Result<Measured, String> {
+    const ACCURACY: f64 = 1e-14;
+    let mut worst = Worst::default();
+    for_random_cases(48, 300, (END, ACCURACY), |case| {
+        let Case { motion, beam, observer, .. } = case;
+        let message = |e: Error| format!("{}: {e}", case.name);
+        let (spheroid, s, start) = (motion.spheroid(), motion.violation(), motion.state(0.0).map_err(message)?);
+        let by_series = case.train()?;
+        let by_states = pulse_train(&StatesAlone(motion), beam, observer, (0.0, END)).map_err(message)?;
+        let (not_kept, end) =
+            propagated_pulse_train(spheroid, s, &start, (0.0, END), ACCURACY, beam, observer).map_err(message)?;
+        let compare = |other: &PulseTrain| {
+            let (ours, theirs) = (edges(&by_series), edges(other));
+            let cut =
+                |train: &PulseTrain| train.pulses.iter().map(|p| (p.cut_at_start, p.cut_at_end)).collect::<Vec<_>>();
+            if ours.len() != theirs.len() || cut(&by_series) != cut(other) {
+                return f64::INFINITY;
+            }
+            largest(ours.iter().zip(&theirs).map(|(a, b)| (a - b).abs() * case.margin(*a)[1].abs().min(1.0)))
+        };
+        let last: Vector3<f64> = end.states[0].equatorial_axis - motion.state(END).map_err(message)?.equatorial_axis;
+        worst.see(largest([compare(&by_states), compare(&not_kept), last.amax()]), || case.name.clone());
+        Ok(())
+    })?;
+    worst.finish()
+}
+
+fn projection_against_states() -> Result<Measured, String> {
+    let (mut worst, mut looked) = (Worst::default(), 0);
+    for_random_cases(49, 300, (END, 1e-15), |case| {
+        // A processor without vector instructions has none: nothing to compare.
+        let Some(projection) = case.motion.projection(&case.beam.axis, &case.observer) else { return Ok(()) };
+        let edge = case.beam.half_opening.cos();
+        for i in 0..25_u32 {
+            // Not in order, so that steps behind are looked for as well.
+            let t = 0.3 + 0.8 * f64::from((7 * i) % 25);
+            let by_states = case.margin(t);
+            let mut by_series = projection.at(t).map_err(|e| format!("{}: {e}", case.name))?;
+            by_series[0] -= edge;
+            let state = case.motion.state(t).map_err(|e| format!("{}: {e}", case.name))?;
+            let turning = state.momentum.norm() / case.motion.spheroid().inertia_zz.min(1.0);
+            let scale = |k: i32| f64::EPSILON * (4.0 + t * turning) * (1.0 + turning).powi(k);
+            let figure = largest((0..4).map(|k| (by_series[k] - by_states[k]).abs() / scale(k as i32)));
+            worst.see(figure, || format!("t = {t}, {}", case.name));
+            looked += 1;
+        }
+        Ok(())
+    })?;
+    if looked == 0 { Ok(Measured::new(0.0, "no vector instructions".to_owned())) } else { worst.finish() }
+}
