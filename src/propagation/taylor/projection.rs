@@ -14,8 +14,8 @@ use crate::propagation::taylor::setup::Setup;
 /// `m.o` of a vector `m` fixed in the body and a fixed direction `o`, with its time derivatives, at any time of a motion that is
 /// kept as Taylor series in doubles. See [`Motion::projection`](crate::propagation::Motion::projection).
 ///
-/// The same numbers as those from the states, to rounding, in less than half the time: `o` is turned into the frame of the series
-/// once, instead of every state out of it.
+/// The same numbers as those from the states, to rounding, for less work: `o` is turned into the frame of the series once, instead
+/// of every state out of it. The same time gives the same digits, whatever was asked for before.
 #[derive(Debug, Clone)]
 pub struct SeriesProjection<'a> {
     setup: &'a Setup<f64, 3>,
@@ -31,7 +31,8 @@ pub struct SeriesProjection<'a> {
     pull: Stored<f64>,
     /// The step that was asked for last: the next is often the same or one near by.
     step: Cell<usize>,
-    /// A time that was asked for, with the components of `m` along the vector carried by the series and across it.
+    /// Whole radians that the body has turned about `n` against the vector carried by the series, and the components of `m` along that
+    /// vector and across it after such a turn.
     turned: Cell<(f64, [f64; 2])>,
 }
 
@@ -55,7 +56,7 @@ impl<'a> SeriesProjection<'a> {
             axis_rate,
             pull: Stored::from(Vector3::from(rates.momentum_of_principal) * (axis_rate / unit)),
             step: Cell::new(0),
-            turned: Cell::new((f64::INFINITY, [0.0; 2])),
+            turned: Cell::new((0.0, [in_body.x, in_body.y])),
         }
     }
 
@@ -87,29 +88,31 @@ impl<'a> SeriesProjection<'a> {
         Ok(self.steps.index_near(self.step.get(), elapsed, self.setup.duration()))
     }
 
-    /// The components of `m` along the vector carried by the series and across it and `n`, at the time `t`. Sine and cosine are
-    /// found anew only where the angle has changed by half a radian; up to there their series need seven terms.
+    /// The components of `m` along the vector carried by the series and across it and `n`, at the time `t`. Sine and cosine of the
+    /// angle are kept for the nearest whole radian, and found anew where that is another one; from there to the angle their series need
+    /// seven terms. The same time gives the same numbers, whatever was asked for before.
     #[inline(always)]
     fn about_axis(&self, t: f64) -> [f64; 2] {
-        let rate = self.setup.rate_about_axis;
-        let (anchor, [x, y]) = self.turned.get();
-        let angle = rate * (t - anchor);
-        if angle.abs() <= 0.5 {
-            let square = angle * angle;
-            // From the last term to the first, each with those after it.
-            let (mut sine, mut less) = (1.0, 1.0);
-            for k in [12.0, 10.0, 8.0, 6.0, 4.0, 2.0] {
-                sine = 1.0 - square * (1.0 / (k * (k + 1.0))) * sine;
-                less = 1.0 - square * (1.0 / ((k + 1.0) * (k + 2.0))) * less;
-            }
-            let (sin, less) = (angle * sine, square / 2.0 * less);
-            // The small parts first.
-            return [x - (y * sin + x * less), y + (x * sin - y * less)];
+        let angle = self.setup.rate_about_axis * (t - self.setup.span.0);
+        let whole = angle.round_ties_even();
+        let (kept, mut turned) = self.turned.get();
+        if kept != whole {
+            let (sin, cos) = whole.sin_cos();
+            turned = [self.in_body.x * cos - self.in_body.y * sin, self.in_body.x * sin + self.in_body.y * cos];
+            self.turned.set((whole, turned));
         }
-        let (sin, cos) = (rate * (t - self.setup.span.0)).sin_cos();
-        let turned = [self.in_body.x * cos - self.in_body.y * sin, self.in_body.x * sin + self.in_body.y * cos];
-        self.turned.set((t, turned));
-        turned
+        let rest = angle - whole;
+        let square = rest * rest;
+        // From the last term to the first, each with those after it.
+        let (mut sine, mut less) = (1.0, 1.0);
+        for k in [12.0, 10.0, 8.0, 6.0, 4.0, 2.0] {
+            sine = 1.0 - square * (1.0 / (k * (k + 1.0))) * sine;
+            less = 1.0 - square * (1.0 / ((k + 1.0) * (k + 2.0))) * less;
+        }
+        let (sin, less) = (rest * sine, square / 2.0 * less);
+        let [x, y] = turned;
+        // The small parts first.
+        [x - (y * sin + x * less), y + (x * sin - y * less)]
     }
 
     /// By the derivatives of `o` as the body sees it, `a_0 = o`, `a_(k+1) = a_k' + a_k x Omega`, those of `m.o` are `a_k . m`:
