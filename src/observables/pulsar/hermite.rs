@@ -165,6 +165,26 @@ mod tests {
         assert!(10 * proved > 8 * pieces, "{proved} of {pieces}");
     }
 
+    /// `f = (t (t - h))^3 / 720` has the sixth derivative one and vanishes with two derivatives at both ends, so that `H = 0`; the
+    /// largest `-f`, `|f'|` and `|f''|` are the three bounds.
+    #[test]
+    fn remainder_is_neither_less_nor_much_more_than_it_can_be() {
+        let h: f64 = 1.5;
+        let bounds = RateBounds { sixth: 1.0, ..BOUNDS };
+        let between = |[value, rate, second]: [f64; 3]| {
+            let jet = |time: f64| {
+                let margin = [value + time * (rate + time * second / 2.0), rate + time * second, second, 0.0];
+                Jet { time, margin }
+            };
+            Quintic::between(&jet(0.0), &jet(h), &bounds)
+        };
+        let (dip, slope, bend) = (h.powi(6) / 46080.0, h.powi(5) * 5_f64.sqrt() / 30000.0, h.powi(4) / 1920.0);
+        assert!(!between([0.99 * dip, 0.0, 0.0]).is_clear() && between([1.01 * dip, 0.0, 0.0]).is_clear());
+        assert!(!between([0.0, 0.99 * slope, 0.0]).is_monotonic() && between([0.0, 1.01 * slope, 0.0]).is_monotonic());
+        assert!(between([0.0, 0.0, 0.99 * bend]).convexity().is_none());
+        assert_eq!(between([0.0, 0.0, 1.01 * bend]).convexity(), Some(true));
+    }
+
     #[test]
     fn root_of_the_polynomial_is_close() {
         for i in 1..40 {
