@@ -28,12 +28,12 @@ impl Jet {
 /// |f - H| <= M h^6 / 46080,   |f' - H'| <= sqrt(5) M h^5 / 30000,   |f'' - H''| <= M h^4 / 1920
 /// ```
 ///
-/// A polynomial lies between the least and the largest of its Bernstein coefficients, which are kept here, of `H`, `h H'` and
-/// `h^2 H''`.
+/// A polynomial lies between the least and the largest of its Bernstein coefficients: those of `H`, `h H'` and `h^2 H''`.
 pub(super) struct Quintic {
     value: [f64; 6],
-    rate: [f64; 5],
-    second: [f64; 4],
+    /// `h f'` and `h^2 f''` at both ends.
+    rates: [f64; 2],
+    seconds: [f64; 2],
     /// `M h^6`, and what is allowed for rounding.
     remainder: f64,
     rounding: f64,
@@ -48,15 +48,19 @@ impl Quintic {
         let (df, dg, ddf, ddg) = (df * h, dg * h, ddf * square, ddg * square);
         let (c1, c2) = (f + df / 5.0, f + df * 0.4 + ddf / 20.0);
         let (c4, c3) = (g - dg / 5.0, g - dg * 0.4 + ddg / 20.0);
-        let (r1, r3) = (df + ddf / 4.0, dg - ddg / 4.0);
-        let r2 = 5.0 * (c3 - c2);
         Self {
             value: [f, c1, c2, c3, c4, g],
-            rate: [df, r1, r2, r3, dg],
-            second: [ddf, 4.0 * (r2 - r1), 4.0 * (r3 - r2), ddg],
+            rates: [df, dg],
+            seconds: [ddf, ddg],
             remainder: bounds.sixth * square * square * square,
             rounding: 8.0 * f64::EPSILON * (1.0 + h * bounds.first + square * bounds.second),
         }
+    }
+
+    #[inline]
+    fn rate(&self) -> [f64; 5] {
+        let ([df, dg], [ddf, ddg]) = (self.rates, self.seconds);
+        [df, df + ddf / 4.0, 5.0 * (self.value[3] - self.value[2]), dg - ddg / 4.0, dg]
     }
 
     /// Whether the margin has one sign, and no extremum within [`GRAZING`] of zero.
@@ -69,13 +73,14 @@ impl Quintic {
     #[inline]
     pub(super) fn is_monotonic(&self) -> bool {
         // Each coefficient is a difference of two values, five times.
-        one_sign(&self.rate, self.remainder * 7.46e-5 + 10.0 * self.rounding).is_some()
+        one_sign(&self.rate(), self.remainder * 7.46e-5 + 10.0 * self.rounding).is_some()
     }
 
     /// Whether its graph is convex (`Some(true)`) or concave all the way.
     #[inline]
     pub(super) fn convexity(&self) -> Option<bool> {
-        one_sign(&self.second, self.remainder / 1920.0 + 80.0 * self.rounding)
+        let ([ddf, ddg], [_, r1, r2, r3, _]) = (self.seconds, self.rate());
+        one_sign(&[ddf, 4.0 * (r2 - r1), 4.0 * (r3 - r2), ddg], self.remainder / 1920.0 + 80.0 * self.rounding)
     }
 
     /// Where the polynomial crosses zero, as a share of the piece; the signs at its ends differ. Close, not exact.

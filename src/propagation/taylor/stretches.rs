@@ -14,6 +14,9 @@ use crate::propagation::taylor::{Steps, fused_for};
 /// Steps of one stretch: few enough that their series stay in the fast memory in which they were made.
 const STEPS: usize = 32;
 
+/// Takes the steps of a stretch and the time at which it ends.
+type Visit<'a> = dyn FnMut(&Steps<f64, 3>, f64) -> Result<(), Error> + 'a;
+
 /// Follows the numerical motion from `initial` over a span forwards in time, and gives `visit` the projection on `direction` of the
 /// vector `in_body` over one stretch after another, with the time at which it ends. Returns the state at the end of the span.
 ///
@@ -31,7 +34,7 @@ pub(crate) fn projected_by_stretches(
     let mut kept = Steps::with_places(STEPS, setup.order);
     let mut step_count = 0;
     // Not inlined: what is done with a stretch would take registers from the series.
-    let visit: &mut dyn FnMut(&Steps<f64, 3>, f64) -> Result<(), Error> =
+    let visit: &mut Visit =
         &mut |steps, end| visit(&SeriesProjection::new(&setup, steps, fused, in_body, direction), end);
     run_fused(
         fused,
