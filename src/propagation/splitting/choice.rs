@@ -1,12 +1,13 @@
 //! Which scheme, and which step, for an accuracy asked.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
-use crate::dynamics::RigidSpheroid;
+use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::AxisState;
+use crate::propagation::input::check_input;
 use crate::propagation::splitting::motion::{
-    SPLITTING_STEP_LIMIT, Scene, SplittingMotion, check_splitting_input, propagate_checked,
+    SPLITTING_STEP_LIMIT, Scene, SplittingMotion, propagate_checked, vectors_of_axis, vectors_of_body,
 };
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::schemes::{
@@ -111,11 +112,12 @@ pub fn splitting_forecast(
     span: (f64, f64),
     accuracy: f64,
 ) -> Result<SplittingForecast, Error> {
-    check_splitting_input(spheroid, s, initial, span, accuracy)?;
-    Ok(forecast(&Scene::new(spheroid, s, initial)?, span, accuracy))
+    let initial = vectors_of_axis(initial);
+    check_input(spheroid, s, &initial, span, accuracy)?;
+    Ok(forecast(&Scene::new(spheroid, s, &initial)?, span, accuracy))
 }
 
-fn forecast(scene: &Scene, span: (f64, f64), accuracy: f64) -> SplittingForecast {
+fn forecast<const V: usize>(scene: &Scene<V>, span: (f64, f64), accuracy: f64) -> SplittingForecast {
     let (rate, duration) = (scene.largest_rate, (span.1 - span.0).abs());
     let epsilon = if rate > 0.0 { scene.spread / rate.powi(2) } else { 0.0 };
     let steps = MODELS.iter().map(|model| (model, model.step(epsilon, rate * duration, accuracy / SAFETY)));
@@ -140,10 +142,49 @@ pub fn propagate_by_best_splitting(
     span: (f64, f64),
     accuracy: f64,
 ) -> Result<SplittingMotion, Error> {
-    check_splitting_input(spheroid, s, initial, span, accuracy)?;
+    propagate_by_best(spheroid, s, &vectors_of_axis(initial), span, accuracy)
+}
+
+/// The whole rotation by the scheme and the step that the model chooses for `accuracy`, as [`propagate_by_best_splitting`].
+///
+/// # Errors
+/// As for [`propagate_orientation_by_splitting`](crate::propagation::splitting::propagate_orientation_by_splitting), and for an
+/// accuracy out of range.
+pub fn propagate_orientation_by_best_splitting(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    initial: &BodyState<f64>,
+    span: (f64, f64),
+    accuracy: f64,
+) -> Result<SplittingMotion<3>, Error> {
+    propagate_by_best(spheroid, s, &vectors_of_body(initial), span, accuracy)
+}
+
+fn propagate_by_best<const V: usize>(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    initial: &[Vector3<f64>; V],
+    span: (f64, f64),
+    accuracy: f64,
+) -> Result<SplittingMotion<V>, Error> {
+    check_input(spheroid, s, initial, span, accuracy)?;
     let scene = Scene::new(spheroid, s, initial)?;
     let SplittingForecast { scheme, step, .. } = forecast(&scene, span, accuracy);
     propagate_checked(spheroid, s, span, scheme, scene, step)
+}
+
+/// Scheme and largest step for a motion with its derivatives: where rounding spoils the accuracy asked, that which rounding allows.
+/// Derivatives cost several times what the motion does: the error of the model, which few motions exceed, is the accuracy itself.
+#[cfg(target_arch = "x86_64")]
+pub(super) fn derivatives_forecast<const V: usize>(
+    scene: &Scene<V>,
+    span: (f64, f64),
+    accuracy: f64,
+) -> (&'static Scheme, f64) {
+    let turn = scene.largest_rate * (span.1 - span.0).abs();
+    let SplittingForecast { scheme, step, .. } =
+        forecast(scene, span, SAFETY * accuracy.max(LEAST_ACCURACY_PER_ANGLE * turn));
+    (scheme, step)
 }
 
 /// How splitting would reach the samples of a motion.
@@ -166,7 +207,12 @@ const MOST_STAGES_PER_ANGLE: f64 = 150.0;
 
 /// The cheapest scheme and step for samples at `times`, none where a Taylor series is better.
 #[cfg(target_arch = "x86_64")]
-pub(super) fn sampled_forecast(scene: &Scene, start: f64, times: &[f64], accuracy: f64) -> Option<SampledForecast> {
+pub(super) fn sampled_forecast<const V: usize>(
+    scene: &Scene<V>,
+    start: f64,
+    times: &[f64],
+    accuracy: f64,
+) -> Option<SampledForecast> {
     let duration = (times.last()? - start).abs();
     let rate = scene.largest_rate;
     let turn = rate * duration;
