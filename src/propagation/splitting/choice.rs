@@ -69,16 +69,36 @@ impl Model {
         turn * (0..3).map(|k| self.constants[k] * epsilon.powi(k as i32 + 1) * step.powi(orders[k] as i32)).sum::<f64>()
     }
 
+    /// Error of a derivative by `epsilon`, over the angle by which the derivative itself grows: the slope of [`error`](Self::error) over
+    /// the turn. It does not vanish with `epsilon`. Over few turns it is larger: what oscillates has not averaged out.
+    fn error_of_derivative(&self, epsilon: f64, step: f64) -> f64 {
+        let orders = self.scheme.orders;
+        (0..3).map(|k| (k + 1) as f64 * self.constants[k] * epsilon.powi(k as i32) * step.powi(orders[k] as i32)).sum()
+    }
+
     /// Largest step, as an angle (rad), whose error over `turn` is at most `error`.
     fn step(&self, epsilon: f64, turn: f64, error: f64) -> f64 {
+        self.longest(|step| self.error(epsilon, turn, step) <= error)
+    }
+
+    /// Largest step at which, in addition, derivatives have at most that error.
+    fn step_with_derivatives(&self, epsilon: f64, turn: f64, error: f64) -> f64 {
+        let within = |step| {
+            self.error(epsilon, turn, step) <= error && self.error_of_derivative(epsilon, step) <= error / SAFETY
+        };
+        self.longest(within)
+    }
+
+    /// Largest step, as an angle (rad), that is good enough: errors rise with it.
+    fn longest(&self, is_good: impl Fn(f64) -> bool) -> f64 {
         let largest = self.largest_turn * self.scheme.stages() as f64;
-        if self.error(epsilon, turn, largest) <= error {
+        if is_good(largest) {
             return largest;
         }
         let (mut low, mut high) = (0.0, largest);
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            if self.error(epsilon, turn, middle) <= error { low = middle } else { high = middle }
+            if is_good(middle) { low = middle } else { high = middle }
         }
         low
     }
@@ -118,9 +138,18 @@ pub fn splitting_forecast(
 }
 
 fn forecast<const V: usize>(scene: &Scene<V>, span: (f64, f64), accuracy: f64) -> SplittingForecast {
+    cheapest(scene, span, |model, epsilon, turn| model.step(epsilon, turn, accuracy / SAFETY))
+}
+
+/// The scheme that costs least with the largest step that `largest` gives for it, as an angle.
+fn cheapest<const V: usize>(
+    scene: &Scene<V>,
+    span: (f64, f64),
+    largest: impl Fn(&Model, f64, f64) -> f64,
+) -> SplittingForecast {
     let (rate, duration) = (scene.largest_rate, (span.1 - span.0).abs());
     let epsilon = if rate > 0.0 { scene.spread / rate.powi(2) } else { 0.0 };
-    let steps = MODELS.iter().map(|model| (model, model.step(epsilon, rate * duration, accuracy / SAFETY)));
+    let steps = MODELS.iter().map(|model| (model, largest(model, epsilon, rate * duration)));
     let best = steps.min_by(|(a, x), (b, y)| a.cost_per_angle(*x).total_cmp(&b.cost_per_angle(*y)));
     let (model, step) = best.expect("the list of models is not empty");
     let step = if rate > 0.0 { step / rate } else { duration.max(1.0) };
@@ -182,9 +211,9 @@ pub(super) fn derivatives_forecast<const V: usize>(
     accuracy: f64,
 ) -> (&'static Scheme, f64) {
     let turn = scene.largest_rate * (span.1 - span.0).abs();
-    let SplittingForecast { scheme, step, .. } =
-        forecast(scene, span, SAFETY * accuracy.max(LEAST_ACCURACY_PER_ANGLE * turn));
-    (scheme, step)
+    let accuracy = accuracy.max(LEAST_ACCURACY_PER_ANGLE * turn);
+    let forecast = cheapest(scene, span, |model, epsilon, turn| model.step_with_derivatives(epsilon, turn, accuracy));
+    (forecast.scheme, forecast.step)
 }
 
 /// How splitting would reach the samples of a motion.
