@@ -55,7 +55,7 @@ impl Candidate {
             Method::Free => free(scene, request, stretch),
             Method::Steady => steady(scene, request, stretch),
             Method::Symmetric => symmetric(scene, request, stretch),
-            Method::Splitting => splitting(scene, request, state, stretch),
+            Method::Splitting => splitting(scene, request, stretch),
             Method::Taylor => taylor(scene, request, state, stretch),
         };
         Self { method, prediction: errors.map(|errors| errors.with_work(method, state, evaluations)) }
@@ -80,7 +80,7 @@ impl Forecast {
         let full = state == State::Orientation;
         let vectors = if full { 3.0 } else { 2.0 };
         // Each step keeps its coefficients, padded to registers, and its start; there is some room to spare.
-        let states = if method == Method::Splitting { 100.0 * steps.min(1e5) } else { 0.0 };
+        let states = if method == Method::Splitting { (4.0 + 48.0 * vectors) * steps.min(1e5) } else { 0.0 };
         let series = 1.2 * steps * ((order as f64 + 1.0) * 32.0 * vectors + 16.0);
         // The roots of the quartic are sought with a few short lists, once.
         let dense_output = if method == Method::Splitting { states } else { series };
@@ -145,11 +145,7 @@ fn symmetric(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Resul
     Ok(Forecast::closed(truncation, rounding))
 }
 
-fn splitting(scene: &Scene<'_>, request: &Request, state: State, stretch: (f64, f64)) -> Result<Forecast, Error> {
-    let vectors = if state == State::Orientation { 3.0 } else { 2.0 };
-    Error::unless(vectors == 2.0, "number of vectors carried", vectors, "two: splitting carries n and L alone")?;
-    let wanted = request.derivatives.len();
-    Error::unless(wanted == 0, "number of derivatives", wanted as f64, "none: splitting is for doubles")?;
+fn splitting(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
     let Scene { spheroid, violation, initial } = scene;
     let forecast = splitting_forecast(spheroid, violation, &AxisState::from(*initial), stretch, request.accuracy)?;
     let growth = forecast.turning_rate * (stretch.1 - stretch.0).abs();

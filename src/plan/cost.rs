@@ -22,16 +22,19 @@ impl Cost {
     pub fn of(method: Method, state: State) -> Self {
         let closed = |setup, evaluation| Self { setup, step: [0.0; 3], evaluation: [evaluation, 0.0] };
         match (method, state) {
-            (Method::Free, State::Orientation) => closed(50.0, 75.0),
-            (Method::Free, _) => closed(50.0, 33.0),
-            (Method::Steady, State::Orientation) => closed(400.0, 98.0),
-            (Method::Steady, _) => closed(400.0, 57.0),
-            (Method::Symmetric, _) => closed(4000.0, 615.0),
-            (Method::Splitting, _) => Self { setup: 3000.0, step: [6.0, 12.0, 0.0], evaluation: [60.0, 18.0] },
-            (Method::Taylor, State::Orientation) => {
-                Self { setup: 0.0, step: [78.0, 22.0, 2.24], evaluation: [59.0, 3.04] }
+            (Method::Free, State::Orientation) => closed(60.0, 111.0),
+            (Method::Free, _) => closed(60.0, 53.0),
+            (Method::Steady, State::Orientation) => closed(400.0, 133.0),
+            (Method::Steady, _) => closed(400.0, 75.0),
+            (Method::Symmetric, _) => closed(3900.0, 622.0),
+            (Method::Splitting, State::Orientation) => {
+                Self { setup: 2500.0, step: [6.0, 10.5, 0.0], evaluation: [240.0, 6.0] }
             }
-            (Method::Taylor, _) => Self { setup: 0.0, step: [82.0, 15.9, 1.67], evaluation: [49.0, 1.51] },
+            (Method::Splitting, _) => Self { setup: 2500.0, step: [6.0, 9.2, 0.0], evaluation: [187.0, 4.6] },
+            (Method::Taylor, State::Orientation) => {
+                Self { setup: 2500.0, step: [39.0, 12.8, 0.61], evaluation: [47.0, 1.31] }
+            }
+            (Method::Taylor, _) => Self { setup: 2500.0, step: [-13.0, 18.0, 0.21], evaluation: [22.0, 0.49] },
         }
     }
 

@@ -3,9 +3,11 @@
 use nalgebra::{DMatrix, Matrix3};
 use num_dual::Dual64;
 
-use super::{Method, Plan, Start, State};
+use super::{Method, Parameter, Plan, Start, State};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
+#[cfg(target_arch = "x86_64")]
+use crate::propagation::splitting::derivatives::{Seeded, states_with_derivatives};
 use crate::propagation::{AxisMotion, AxisState, Motion, SymmetricMotion, UniformMotion, propagate, propagate_axis};
 use crate::scalar::Real;
 
@@ -34,8 +36,10 @@ pub struct Gradient {
 
 /// Values of `outputs` at `times` and their derivatives by the [`derivatives`](Plan::derivatives) of a plan, and by no others.
 ///
-/// A forward dual through the motion that the plan chose for each parameter; the steps are those of the motion itself, so that
-/// the derivatives are those of the solution: as accurate as it is, relative to the largest one.
+/// Where the motion is numerical and its method was not asked for by name, it goes by a splitting scheme with the tangent map of each
+/// of its flows, for all parameters at once; the outputs then follow by forward duals. Otherwise (and on processors without vectors
+/// of doubles) by a forward dual through the motion for each parameter, with the steps of the motion itself. The derivatives are those
+/// of the numerical solution either way: as accurate as it is, relative to the largest one.
 ///
 /// # Errors
 /// As for the motion; [`Error::Domain`] for times outside its stretch.
@@ -46,31 +50,100 @@ pub fn gradient(
     times: &[f64],
 ) -> Result<Gradient, Error> {
     let (width, count) = (outputs.len(), plan.derivatives.len());
-    let mut values = DMatrix::zeros(times.len(), width);
-    let mut jacobians = vec![DMatrix::zeros(width, count); times.len()];
+    let mut found = Gradient {
+        values: DMatrix::zeros(times.len(), width),
+        jacobians: vec![DMatrix::zeros(width, count); times.len()],
+    };
     if count == 0 {
         let motion = SeededMotion::new(plan, start)?;
         let mut here = vec![0.0; width];
         for (row, &t) in times.iter().enumerate() {
             outputs.values(&start.spheroid, &start.violation, &motion.state(t)?, &mut here);
-            values.row_mut(row).iter_mut().zip(&here).for_each(|(value, here)| *value = *here);
+            found.values.row_mut(row).iter_mut().zip(&here).for_each(|(value, here)| *value = *here);
         }
+        return Ok(found);
     }
+    let seeded: Vec<Start<Dual64>> = plan.derivatives.iter().map(|parameter| start.seeded(*parameter)).collect();
     let mut here = vec![Dual64::from_re(0.0); width];
-    for (index, parameter) in plan.derivatives.iter().enumerate() {
-        let mut seeded = start.lifted::<Dual64>();
-        parameter.add(&mut seeded, Dual64::new(0.0, 1.0));
-        let motion = SeededMotion::new(plan, &seeded)?;
-        for (row, &t) in times.iter().enumerate() {
-            let state = motion.state(Dual64::from_re(t))?;
-            outputs.values(&seeded.spheroid, &seeded.violation, &state, &mut here);
-            for (column, value) in here.iter().enumerate() {
-                values[(row, column)] = value.re;
-                jacobians[row][(column, index)] = value.eps;
+    let mut write = |row: usize, index: usize, seeded: &Start<Dual64>, state: &BodyState<Dual64>| {
+        outputs.values(&seeded.spheroid, &seeded.violation, state, &mut here);
+        for (column, value) in here.iter().enumerate() {
+            found.values[(row, column)] = value.re;
+            found.jacobians[row][(column, index)] = value.eps;
+        }
+    };
+    if let Some(states) = states_by_splitting(plan, &seeded, times)? {
+        for (row, states) in states.iter().enumerate() {
+            for (index, (seeded, state)) in seeded.iter().zip(states).enumerate() {
+                write(row, index, seeded, state);
             }
         }
+        return Ok(found);
     }
-    Ok(Gradient { values, jacobians })
+    for (index, seeded) in seeded.iter().enumerate() {
+        let motion = SeededMotion::new(plan, seeded)?;
+        for (row, &t) in times.iter().enumerate() {
+            write(row, index, seeded, &motion.state(Dual64::from_re(t))?);
+        }
+    }
+    Ok(found)
+}
+
+impl Start<f64> {
+    /// The scene as a function of one parameter, at the value it has.
+    fn seeded(&self, parameter: Parameter) -> Start<Dual64> {
+        let mut seeded = self.lifted();
+        parameter.add(&mut seeded, Dual64::new(0.0, 1.0));
+        seeded
+    }
+}
+
+/// The state at each time as a function of each parameter, where splitting gives it.
+#[cfg(target_arch = "x86_64")]
+fn states_by_splitting(
+    plan: &Plan,
+    seeded: &[Start<Dual64>],
+    times: &[f64],
+) -> Result<Option<Vec<Vec<BodyState<Dual64>>>>, Error> {
+    if plan.forced || !matches!(plan.method, Some(Method::Taylor | Method::Splitting)) {
+        return Ok(None);
+    }
+    let (first, last) = plan.stretch;
+    for &t in times {
+        Error::unless(
+            first.min(last) <= t && t <= first.max(last),
+            "time t",
+            t,
+            "within the stretch of the plan: from its start to its last sample",
+        )?;
+    }
+    let mut order: Vec<usize> = (0..times.len()).collect();
+    order.sort_by(|&a, &b| (times[a] - first).abs().total_cmp(&(times[b] - first).abs()));
+    let sorted: Vec<f64> = order.iter().map(|&place| times[place]).collect();
+    let found = if plan.state == State::Orientation {
+        let seeded = seeded.iter().map(|start| {
+            let BodyState { axis, momentum, equatorial_axis } = start.state();
+            Seeded { spheroid: start.spheroid, violation: start.violation, initial: [axis, momentum, equatorial_axis] }
+        });
+        states_with_derivatives(&seeded.collect::<Vec<_>>(), first, &sorted, plan.accuracy)?
+    } else {
+        let seeded = seeded.iter().map(|start| {
+            let BodyState { axis, momentum, .. } = start.state();
+            Seeded { spheroid: start.spheroid, violation: start.violation, initial: [axis, momentum] }
+        });
+        states_with_derivatives(&seeded.collect::<Vec<_>>(), first, &sorted, plan.accuracy)?
+    };
+    let Some(found) = found else { return Ok(None) };
+    let mut states = vec![Vec::new(); times.len()];
+    for (place, state) in order.into_iter().zip(found) {
+        states[place] = state;
+    }
+    Ok(Some(states))
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn states_by_splitting(_: &Plan, _: &[Start<Dual64>], _: &[f64]) -> Result<Option<Vec<Vec<BodyState<Dual64>>>>, Error> {
+    Ok(None)
 }
 
 /// The motion of a plan for duals.

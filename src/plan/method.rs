@@ -9,7 +9,7 @@ pub enum Method {
     Steady,
     /// Elliptic functions for two equal eigenvalues of `s^IJ`.
     Symmetric,
-    /// A splitting scheme and a step that suit the accuracy; `n` and `L` alone.
+    /// A splitting scheme and a step that suit the accuracy.
     Splitting,
     /// Taylor series with adaptive steps and dense output.
     Taylor,

@@ -5,7 +5,9 @@ use nalgebra::{Matrix3, Vector3};
 use super::{Method, Work};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::splitting::{SplittingMotion, propagate_by_best_splitting};
+use crate::propagation::splitting::{
+    SplittingMotion, propagate_by_best_splitting, propagate_orientation_by_best_splitting,
+};
 use crate::propagation::{
     AxisMotion, AxisState, Motion, SeriesProjection, SymmetricMotion, TaylorAxisMotion, TaylorMotion, UniformMotion,
     propagate, propagate_axis,
@@ -33,6 +35,8 @@ pub enum PlannedMotion {
     Uniform(UniformMotion<f64>),
     /// [`Method::Symmetric`].
     Symmetric(SymmetricMotion<f64>),
+    /// [`Method::Splitting`].
+    Splitting(SplittingMotion<3>),
     /// [`Method::Taylor`].
     Taylor(TaylorMotion<f64>),
 }
@@ -66,7 +70,7 @@ impl PlannedAxisMotion {
     pub fn work(&self) -> Work {
         match self {
             Self::Uniform(_) | Self::Symmetric(_) => Work::default(),
-            Self::Splitting(motion) => Work::of_series(motion.step_count() as usize, 2 * motion.scheme().stages()),
+            Self::Splitting(motion) => Work::of_splitting(motion),
             Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
         }
     }
@@ -90,11 +94,7 @@ impl PlannedMotion {
             Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
             Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
             Method::Splitting => {
-                return Err(Error::Domain {
-                    quantity: "number of vectors carried",
-                    value: 3.0,
-                    allowed: "two: splitting carries n and L alone",
-                });
+                Self::Splitting(propagate_orientation_by_best_splitting(spheroid, s, initial, span, accuracy)?)
             }
             Method::Taylor => Self::Taylor(propagate(spheroid, s, initial, span, accuracy)?),
         })
@@ -104,6 +104,7 @@ impl PlannedMotion {
     pub fn work(&self) -> Work {
         match self {
             Self::Uniform(_) | Self::Symmetric(_) => Work::default(),
+            Self::Splitting(motion) => Work::of_splitting(motion),
             Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
         }
     }
@@ -147,13 +148,14 @@ macro_rules! planned {
 }
 
 planned!(PlannedAxisMotion, Uniform, Symmetric, Splitting, Taylor);
-planned!(PlannedMotion, Uniform, Symmetric, Taylor);
+planned!(PlannedMotion, Uniform, Symmetric, Splitting, Taylor);
 
 impl Motion<f64> for PlannedMotion {
     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
         match self {
             Self::Uniform(motion) => motion.state(t),
             Self::Symmetric(motion) => motion.state(t),
+            Self::Splitting(motion) => motion.state(t),
             Self::Taylor(motion) => motion.state(t),
         }
     }
@@ -162,6 +164,7 @@ impl Motion<f64> for PlannedMotion {
         match self {
             Self::Uniform(motion) => motion.projection(in_body, direction),
             Self::Symmetric(motion) => motion.projection(in_body, direction),
+            Self::Splitting(motion) => motion.projection(in_body, direction),
             Self::Taylor(motion) => motion.projection(in_body, direction),
         }
     }

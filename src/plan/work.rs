@@ -6,6 +6,7 @@ use nalgebra::Matrix3;
 
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
+use crate::propagation::splitting::SplittingMotion;
 use crate::propagation::{AxisMotion, AxisState, Motion};
 
 /// Work done or planned.
@@ -25,6 +26,11 @@ impl Work {
     /// Steps by series of an order.
     pub(super) fn of_series(steps: usize, order: usize) -> Self {
         Self { steps: steps as f64, right_hand_sides: (steps * order) as f64, ..Self::default() }
+    }
+
+    /// Steps of a splitting scheme, each of so many rotations and kicks.
+    pub(super) fn of_splitting<const V: usize>(motion: &SplittingMotion<V>) -> Self {
+        Self::of_series(motion.step_count() as usize, 2 * motion.scheme().stages())
     }
 
     /// Evaluations of either kind.

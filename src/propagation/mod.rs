@@ -9,9 +9,10 @@ mod input;
 mod many;
 mod motion;
 #[cfg(target_arch = "x86_64")]
-mod registers;
+pub(crate) mod registers;
 pub mod splitting;
 mod taylor;
+mod third_angle;
 
 pub use closed::{SymmetricMotion, UniformMotion, largest_torque};
 pub use continuous_angles::ContinuousAngles;

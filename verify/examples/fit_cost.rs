@@ -100,6 +100,38 @@ fn taylor(case: &Case, state: State) -> Result<(), Error> {
     Ok(())
 }
 
+fn splitting(case: &Case, state: State) -> Result<(), Error> {
+    let Case { spheroid, s, initial } = case;
+    let span = (0.0, 200.0);
+    for exponent in [-2, -4, -6, -8, -10, -12] {
+        let accuracy = 10f64.powi(exponent);
+        let times: Vec<f64> = (0..1000).map(|i| 0.2 * f64::from(i)).collect();
+        let (work, total, each) = if state == State::Orientation {
+            let make = || PlannedMotion::by(Method::Splitting, spheroid, s, initial, span, accuracy);
+            let motion = make()?;
+            let each = time(|| times.iter().map(|&t| motion.state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
+            (motion.work(), time(make), each)
+        } else {
+            let make = || PlannedAxisMotion::by(Method::Splitting, spheroid, s, initial, span, accuracy);
+            let motion = make()?;
+            let each =
+                time(|| times.iter().map(|&t| motion.axis_state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
+            (motion.work(), time(make), each)
+        };
+        let flows = work.right_hand_sides / work.steps;
+        let model = Cost::of(Method::Splitting, state);
+        println!(
+            "  splitting, {}, accuracy {accuracy:.0e}: {flows} flows, {} steps, {:.1} ns a flow, {each:.0} ns an evaluation; in the model {:.1} and {:.0}",
+            state.name(),
+            work.steps,
+            total / work.right_hand_sides,
+            (model.setup / work.steps + model.step[0] + model.step[1] * flows) / flows,
+            model.evaluation[0] + model.evaluation[1] * flows,
+        );
+    }
+    Ok(())
+}
+
 fn closed(case: &Case, method: Method) -> Result<(), Error> {
     let Case { spheroid, s, initial } = case;
     let make = || PlannedMotion::by(method, spheroid, s, initial, (0.0, 200.0), 1e-12);
@@ -124,6 +156,8 @@ fn main() -> Result<(), Error> {
     closed(&case("free"), Method::Free)?;
     closed(&case("free"), Method::Steady)?;
     closed(&case("axisymmetric-violation"), Method::Symmetric)?;
+    splitting(&case("tp-2"), State::AxisAndMomentum)?;
+    splitting(&case("tp-2"), State::Orientation)?;
     taylor(&case("tp-2"), State::AxisAndMomentum)?;
     taylor(&case("tp-2"), State::Orientation)
 }

@@ -1,12 +1,13 @@
 //! Which scheme, and which step, for an accuracy asked.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
-use crate::dynamics::RigidSpheroid;
+use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::AxisState;
+use crate::propagation::input::check_input;
 use crate::propagation::splitting::motion::{
-    SPLITTING_STEP_LIMIT, Scene, SplittingMotion, check_splitting_input, propagate_checked,
+    SPLITTING_STEP_LIMIT, Scene, SplittingMotion, propagate_checked, vectors_of_axis, vectors_of_body,
 };
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::schemes::{
@@ -68,16 +69,36 @@ impl Model {
         turn * (0..3).map(|k| self.constants[k] * epsilon.powi(k as i32 + 1) * step.powi(orders[k] as i32)).sum::<f64>()
     }
 
+    /// Error of a derivative by `epsilon`, over the angle by which the derivative itself grows: the slope of [`error`](Self::error) over
+    /// the turn. It does not vanish with `epsilon`. Over few turns it is larger: what oscillates has not averaged out.
+    fn error_of_derivative(&self, epsilon: f64, step: f64) -> f64 {
+        let orders = self.scheme.orders;
+        (0..3).map(|k| (k + 1) as f64 * self.constants[k] * epsilon.powi(k as i32) * step.powi(orders[k] as i32)).sum()
+    }
+
     /// Largest step, as an angle (rad), whose error over `turn` is at most `error`.
     fn step(&self, epsilon: f64, turn: f64, error: f64) -> f64 {
+        self.longest(|step| self.error(epsilon, turn, step) <= error)
+    }
+
+    /// Largest step at which, in addition, derivatives have at most that error.
+    fn step_with_derivatives(&self, epsilon: f64, turn: f64, error: f64) -> f64 {
+        let within = |step| {
+            self.error(epsilon, turn, step) <= error && self.error_of_derivative(epsilon, step) <= error / SAFETY
+        };
+        self.longest(within)
+    }
+
+    /// Largest step, as an angle (rad), that is good enough: errors rise with it.
+    fn longest(&self, is_good: impl Fn(f64) -> bool) -> f64 {
         let largest = self.largest_turn * self.scheme.stages() as f64;
-        if self.error(epsilon, turn, largest) <= error {
+        if is_good(largest) {
             return largest;
         }
         let (mut low, mut high) = (0.0, largest);
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            if self.error(epsilon, turn, middle) <= error { low = middle } else { high = middle }
+            if is_good(middle) { low = middle } else { high = middle }
         }
         low
     }
@@ -111,14 +132,24 @@ pub fn splitting_forecast(
     span: (f64, f64),
     accuracy: f64,
 ) -> Result<SplittingForecast, Error> {
-    check_splitting_input(spheroid, s, initial, span, accuracy)?;
-    Ok(forecast(&Scene::new(spheroid, s, initial)?, span, accuracy))
+    let initial = vectors_of_axis(initial);
+    check_input(spheroid, s, &initial, span, accuracy)?;
+    Ok(forecast(&Scene::new(spheroid, s, &initial)?, span, accuracy))
 }
 
-fn forecast(scene: &Scene, span: (f64, f64), accuracy: f64) -> SplittingForecast {
+fn forecast<const V: usize>(scene: &Scene<V>, span: (f64, f64), accuracy: f64) -> SplittingForecast {
+    cheapest(scene, span, |model, epsilon, turn| model.step(epsilon, turn, accuracy / SAFETY))
+}
+
+/// The scheme that costs least with the largest step that `largest` gives for it, as an angle.
+fn cheapest<const V: usize>(
+    scene: &Scene<V>,
+    span: (f64, f64),
+    largest: impl Fn(&Model, f64, f64) -> f64,
+) -> SplittingForecast {
     let (rate, duration) = (scene.largest_rate, (span.1 - span.0).abs());
     let epsilon = if rate > 0.0 { scene.spread / rate.powi(2) } else { 0.0 };
-    let steps = MODELS.iter().map(|model| (model, model.step(epsilon, rate * duration, accuracy / SAFETY)));
+    let steps = MODELS.iter().map(|model| (model, largest(model, epsilon, rate * duration)));
     let best = steps.min_by(|(a, x), (b, y)| a.cost_per_angle(*x).total_cmp(&b.cost_per_angle(*y)));
     let (model, step) = best.expect("the list of models is not empty");
     let step = if rate > 0.0 { step / rate } else { duration.max(1.0) };
@@ -140,10 +171,49 @@ pub fn propagate_by_best_splitting(
     span: (f64, f64),
     accuracy: f64,
 ) -> Result<SplittingMotion, Error> {
-    check_splitting_input(spheroid, s, initial, span, accuracy)?;
+    propagate_by_best(spheroid, s, &vectors_of_axis(initial), span, accuracy)
+}
+
+/// The whole rotation by the scheme and the step that the model chooses for `accuracy`, as [`propagate_by_best_splitting`].
+///
+/// # Errors
+/// As for [`propagate_orientation_by_splitting`](crate::propagation::splitting::propagate_orientation_by_splitting), and for an
+/// accuracy out of range.
+pub fn propagate_orientation_by_best_splitting(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    initial: &BodyState<f64>,
+    span: (f64, f64),
+    accuracy: f64,
+) -> Result<SplittingMotion<3>, Error> {
+    propagate_by_best(spheroid, s, &vectors_of_body(initial), span, accuracy)
+}
+
+fn propagate_by_best<const V: usize>(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    initial: &[Vector3<f64>; V],
+    span: (f64, f64),
+    accuracy: f64,
+) -> Result<SplittingMotion<V>, Error> {
+    check_input(spheroid, s, initial, span, accuracy)?;
     let scene = Scene::new(spheroid, s, initial)?;
     let SplittingForecast { scheme, step, .. } = forecast(&scene, span, accuracy);
     propagate_checked(spheroid, s, span, scheme, scene, step)
+}
+
+/// Scheme and largest step for a motion with its derivatives: where rounding spoils the accuracy asked, that which rounding allows.
+/// Derivatives cost several times what the motion does: the error of the model, which few motions exceed, is the accuracy itself.
+#[cfg(target_arch = "x86_64")]
+pub(super) fn derivatives_forecast<const V: usize>(
+    scene: &Scene<V>,
+    span: (f64, f64),
+    accuracy: f64,
+) -> (&'static Scheme, f64) {
+    let turn = scene.largest_rate * (span.1 - span.0).abs();
+    let accuracy = accuracy.max(LEAST_ACCURACY_PER_ANGLE * turn);
+    let forecast = cheapest(scene, span, |model, epsilon, turn| model.step_with_derivatives(epsilon, turn, accuracy));
+    (forecast.scheme, forecast.step)
 }
 
 /// How splitting would reach the samples of a motion.
@@ -166,7 +236,12 @@ const MOST_STAGES_PER_ANGLE: f64 = 150.0;
 
 /// The cheapest scheme and step for samples at `times`, none where a Taylor series is better.
 #[cfg(target_arch = "x86_64")]
-pub(super) fn sampled_forecast(scene: &Scene, start: f64, times: &[f64], accuracy: f64) -> Option<SampledForecast> {
+pub(super) fn sampled_forecast<const V: usize>(
+    scene: &Scene<V>,
+    start: f64,
+    times: &[f64],
+    accuracy: f64,
+) -> Option<SampledForecast> {
     let duration = (times.last()? - start).abs();
     let rate = scene.largest_rate;
     let turn = rate * duration;

@@ -1,7 +1,7 @@
 //! The error of a motion by splitting, from the same motion by a better scheme.
 
-use crate::propagation::splitting::flows::Pair;
-use crate::propagation::splitting::stepper::Steps;
+use crate::propagation::splitting::flows::{Moving, RATE};
+use crate::propagation::splitting::one_motion::OneMotion;
 use crate::propagation::splitting::{GRADIENT_8_8_6, SplittingMotion};
 
 /// Most times at which the two motions are compared.
@@ -26,15 +26,15 @@ pub(super) struct ErrorEstimate {
 }
 
 impl ErrorEstimate {
-    pub(super) fn new(motion: &SplittingMotion) -> Self {
+    pub(super) fn new<const V: usize>(motion: &SplittingMotion<V>) -> Self {
         let scene = &motion.scene;
         let twos = motion.step_count() / 2;
         let stride = twos.div_ceil(COMPARISONS);
         let per_two = (4 * motion.scheme().stages()).div_ceil(GRADIENT_8_8_6.stages()) as u64;
-        let other = |step| Steps::new(&GRADIENT_8_8_6, &scene.field, step, scene.largest_rate);
+        let other = |step| OneMotion::new(&GRADIENT_8_8_6, &scene.field, step, scene.largest_rate);
         let finer = other(2.0 * motion.step() / per_two as f64);
         let half_back = other(-0.5 * motion.step());
-        let half_forth = Steps::new(motion.scheme(), &scene.field, 0.5 * motion.step(), scene.largest_rate);
+        let half_forth = OneMotion::new(motion.scheme(), &scene.field, 0.5 * motion.step(), scene.largest_rate);
         let mut state = scene.start;
         finer.open(&mut state);
         let (mut largest, mut most, mut done) = (Vec::new(), 0.0_f64, 0);
@@ -70,11 +70,16 @@ impl ErrorEstimate {
     }
 }
 
-/// Largest difference of a component of `n`, and of `w` in units of `rate`.
-fn largest_difference(a: &Pair<f64>, b: &Pair<f64>, rate: f64) -> f64 {
+/// Largest difference of a component of `n` and the vector carried along, and of `w` in units of `rate`.
+fn largest_difference<const V: usize>(a: &Moving<f64, V>, b: &Moving<f64, V>, rate: f64) -> f64 {
     let unit = if rate > 0.0 { rate } else { 1.0 };
-    (0..3).fold(0.0, |most: f64, i| {
-        let difference = (a.axis[i] - b.axis[i]).abs().max((a.rate[i] - b.rate[i]).abs() / unit);
-        if difference > most || difference.is_nan() { difference } else { most }
-    })
+    let mut most = 0.0_f64;
+    for v in 0..V {
+        let unit = if v == RATE { unit } else { 1.0 };
+        for i in 0..3 {
+            let difference = (a.vectors[v][i] - b.vectors[v][i]).abs() / unit;
+            most = if difference > most || difference.is_nan() { difference } else { most };
+        }
+    }
+    most
 }

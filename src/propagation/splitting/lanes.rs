@@ -1,13 +1,14 @@
 //! Many motions at once by splitting, one in each lane of the vector registers.
 
 use crate::error::Error;
+use crate::propagation::input::check_input;
 use crate::propagation::registers::Register;
 use crate::propagation::splitting::choice::{SampledForecast, sampled_forecast};
-use crate::propagation::splitting::flows::{Angles, Field, Pair};
-use crate::propagation::splitting::motion::{Scene, check_splitting_input};
+use crate::propagation::splitting::flows::{Angles, Field, Moved, Moving};
+use crate::propagation::splitting::motion::{Scene, vectors_of_axis};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::side_by_side::SideBySide;
-use crate::propagation::splitting::stepper::{STEPS_BETWEEN_PROJECTIONS, Steps, angles, project};
+use crate::propagation::splitting::stepper::{STEPS_BETWEEN_PROJECTIONS, Steps, angles};
 use crate::propagation::{AxisScene, AxisState, Samples};
 
 type Outcome = Result<Samples<AxisState<f64>>, Error>;
@@ -34,8 +35,9 @@ impl<'t> Ready<'t> {
     pub(in crate::propagation) fn new(index: usize, scene: &AxisScene<'t>) -> Result<Option<Self>, Error> {
         let AxisScene { spheroid, violation, initial, start, times, accuracy } = scene;
         let span = (*start, times.last().copied().unwrap_or(*start));
-        check_splitting_input(spheroid, violation, initial, span, *accuracy)?;
-        let scene = Scene::new(spheroid, violation, initial)?;
+        let initial = vectors_of_axis(initial);
+        check_input(spheroid, violation, &initial, span, *accuracy)?;
+        let scene = Scene::new(spheroid, violation, &initial)?;
         let Some(SampledForecast { scheme, step, steps }) = sampled_forecast(&scene, *start, times, *accuracy) else {
             return Ok(None);
         };
@@ -97,7 +99,7 @@ fn propagate_side_by_side<R: Register, const N: usize>(
     let casimir = SideBySide::gather(register, |place| at(place).scene.casimir);
     let mut step = SideBySide::gather(register, |place| at(place).steps_to(0).0);
     let mut steps = Steps::turning(scheme, &field, step, angles);
-    let mut state = Pair::gather(register, |place| &at(place).scene.start);
+    let mut state = Moving::gather(register, |place| &at(place).scene.start);
     steps.open(&mut state);
     let mut progress: Vec<_> = motions
         .iter()
@@ -111,7 +113,7 @@ fn propagate_side_by_side<R: Register, const N: usize>(
         steps.run(&mut state, now);
         since_projection += now;
         if since_projection == STEPS_BETWEEN_PROJECTIONS {
-            project(&mut state, casimir);
+            state.project(casimir);
             since_projection = 0;
         }
         if now < to_event {

@@ -4,15 +4,16 @@ use std::sync::OnceLock;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::dynamics::RigidSpheroid;
+use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
 use crate::propagation::input::check_input;
 use crate::propagation::splitting::error::ErrorEstimate;
-use crate::propagation::splitting::flows::{Field, Pair, dot};
+use crate::propagation::splitting::flows::{AXIS, Field, Moving, RATE, dot};
+use crate::propagation::splitting::one_motion::OneMotion;
 use crate::propagation::splitting::scheme::Scheme;
-use crate::propagation::splitting::stepper::Steps;
-use crate::propagation::{ACCURACY_RANGE, AxisMotion, AxisState};
+use crate::propagation::third_angle::{body_state, rate_about_axis};
+use crate::propagation::{ACCURACY_RANGE, AxisMotion, AxisState, Motion};
 use crate::rounding::two_product;
 
 /// Most steps of one motion.
@@ -23,11 +24,13 @@ const MOST_STATES: u64 = 100_000;
 
 /// The body and its surroundings in the principal frame of `s^IJ`.
 #[derive(Debug, Clone)]
-pub(super) struct Scene {
+pub(super) struct Scene<const V: usize = 2> {
     pub(super) field: Field<f64>,
-    inertia: f64,
-    principal_from_given: Matrix3<f64>,
-    pub(super) start: Pair<f64>,
+    pub(super) inertia: f64,
+    pub(super) principal_from_given: Matrix3<f64>,
+    pub(super) start: Moving<f64, V>,
+    /// Rate at which `e_x` turns about `n` against the vector carried along.
+    pub(super) rate_about_axis: f64,
     /// `w.n`, constant.
     pub(super) casimir: f64,
     /// `2 |C| (s_max - s_min) / I^xx`, the most that `|w|^2` can change.
@@ -36,11 +39,12 @@ pub(super) struct Scene {
     pub(super) largest_rate: f64,
 }
 
-impl Scene {
+impl<const V: usize> Scene<V> {
+    /// `initial` has `n`, `L` and, with `V = 3`, `e_x`.
     pub(super) fn new(
         spheroid: &RigidSpheroid<f64>,
         s: &Matrix3<f64>,
-        initial: &AxisState<f64>,
+        initial: &[Vector3<f64>; V],
     ) -> Result<Self, Error> {
         let frame = principal_frame(s)?;
         let turn = frame.principal_from_given;
@@ -48,9 +52,12 @@ impl Scene {
         let inertia = spheroid.inertia_xx;
         let strength = 2.0 * spheroid.constant_c / inertia;
         let field = Field::new(strength, eigenvalues);
-        let start = Pair::new((turn * initial.axis).into(), (turn * initial.momentum / inertia).into());
+        let mut start = initial.map(|v| (turn * v).into());
+        start[RATE] = (turn * initial[RATE] / inertia).into();
+        let start = Moving::new(start);
+        let [axis, rate] = [start.vectors[AXIS], start.vectors[RATE]];
         let spread = strength.abs() * (eigenvalues[0] - eigenvalues[2]);
-        let largest_rate = (dot(&start.rate, &start.rate) + spread).sqrt();
+        let largest_rate = (dot(&rate, &rate) + spread).sqrt();
         Error::unless(
             largest_rate.is_finite(),
             "rate at which the body turns",
@@ -62,36 +69,52 @@ impl Scene {
             inertia,
             principal_from_given: turn,
             start,
-            casimir: dot(&start.rate, &start.axis),
+            rate_about_axis: rate_about_axis(spheroid, &initial[AXIS], &initial[RATE]),
+            casimir: dot(&rate, &axis),
             spread,
             largest_rate,
         })
     }
 
-    pub(super) fn state(&self, pair: &Pair<f64>) -> AxisState<f64> {
+    /// `n`, `L` and the vector carried along, in the frame of the tensor given.
+    fn given(&self, moving: &Moving<f64, V>) -> [Vector3<f64>; V] {
         let back = self.principal_from_given.transpose();
-        AxisState { axis: back * Vector3::from(pair.axis), momentum: back * Vector3::from(pair.rate) * self.inertia }
+        let mut vectors = moving.vectors.map(|v| back * Vector3::from(v));
+        vectors[RATE] *= self.inertia;
+        vectors
+    }
+
+    pub(super) fn state(&self, moving: &Moving<f64, V>) -> AxisState<f64> {
+        let vectors = self.given(moving);
+        AxisState { axis: vectors[AXIS], momentum: vectors[RATE] }
     }
 }
 
-/// The motion of `n` and `L` by a splitting scheme, kept as states at its steps.
+impl Scene<3> {
+    /// The state of the body at a time since the start.
+    pub(super) fn body_state(&self, moving: &Moving<f64, 3>, elapsed: f64) -> BodyState<f64> {
+        body_state(self.given(moving), self.rate_about_axis * elapsed)
+    }
+}
+
+/// The motion of `n`, `L` and, with `V = 3`, `e_x` by a splitting scheme, kept as states at its steps.
 ///
 /// Between two kept states the motion is found by whole steps and one partial step of the same scheme; no more than one
 /// whole step for spans below 100,000 steps, and in any case a number that does not depend on the time asked.
 #[derive(Debug, Clone)]
-pub struct SplittingMotion {
+pub struct SplittingMotion<const V: usize = 2> {
     spheroid: RigidSpheroid<f64>,
     violation: Matrix3<f64>,
     span: (f64, f64),
     scheme: &'static Scheme,
-    pub(super) scene: Scene,
+    pub(super) scene: Scene<V>,
     step: f64,
     step_count: u64,
     /// Whole steps between two kept states.
     stride: u64,
-    steps: Steps<f64>,
+    steps: OneMotion,
     /// Open states, every `stride` steps from the start.
-    states: Vec<Pair<f64>>,
+    states: Vec<Moving<f64, V>>,
     /// Found when it is first asked for.
     estimate: OnceLock<ErrorEstimate>,
 }
@@ -114,31 +137,55 @@ pub fn propagate_by_splitting(
     scheme: &'static Scheme,
     step: f64,
 ) -> Result<SplittingMotion, Error> {
-    check_splitting_input(spheroid, s, initial, span, ACCURACY_RANGE.0)?;
+    propagate_by(spheroid, s, &vectors_of_axis(initial), span, scheme, step)
+}
+
+/// The whole rotation by equal steps of `scheme` no longer than `step`, as [`propagate_by_splitting`]: the third angle costs little
+/// beside the axis, which does not wait for it.
+///
+/// # Errors
+/// As for [`propagate_by_splitting`], and for `e_x` that is not a unit vector normal to the axis (to 1e-9).
+pub fn propagate_orientation_by_splitting(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    initial: &BodyState<f64>,
+    span: (f64, f64),
+    scheme: &'static Scheme,
+    step: f64,
+) -> Result<SplittingMotion<3>, Error> {
+    propagate_by(spheroid, s, &vectors_of_body(initial), span, scheme, step)
+}
+
+pub(super) fn vectors_of_axis(state: &AxisState<f64>) -> [Vector3<f64>; 2] {
+    [state.axis, state.momentum]
+}
+
+pub(super) fn vectors_of_body(state: &BodyState<f64>) -> [Vector3<f64>; 3] {
+    [state.axis, state.momentum, state.equatorial_axis]
+}
+
+fn propagate_by<const V: usize>(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    initial: &[Vector3<f64>; V],
+    span: (f64, f64),
+    scheme: &'static Scheme,
+    step: f64,
+) -> Result<SplittingMotion<V>, Error> {
+    check_input(spheroid, s, initial, span, ACCURACY_RANGE.0)?;
     let scene = Scene::new(spheroid, s, initial)?;
     propagate_checked(spheroid, s, span, scheme, scene, step)
 }
 
-/// Refuses what is not finite, not a unit vector or out of range.
-pub(super) fn check_splitting_input(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &AxisState<f64>,
-    span: (f64, f64),
-    accuracy: f64,
-) -> Result<(), Error> {
-    check_input(spheroid, s, &[initial.axis, initial.momentum], span, accuracy)
-}
-
 /// The motion from input that has been checked.
-pub(super) fn propagate_checked(
+pub(super) fn propagate_checked<const V: usize>(
     spheroid: &RigidSpheroid<f64>,
     s: &Matrix3<f64>,
     span: (f64, f64),
     scheme: &'static Scheme,
-    scene: Scene,
+    scene: Scene<V>,
     step: f64,
-) -> Result<SplittingMotion, Error> {
+) -> Result<SplittingMotion<V>, Error> {
     Error::unless(step > 0.0 && step.is_finite(), "step", step, "above zero and finite")?;
     let duration = span.1 - span.0;
     let count = 2.0 * (duration.abs() / step / 2.0 * (1.0 - 1e-14)).ceil().max(1.0);
@@ -146,26 +193,23 @@ pub(super) fn propagate_checked(
     Ok(SplittingMotion::run(spheroid, s, span, scheme, scene, duration / count, count as u64))
 }
 
-impl SplittingMotion {
+impl<const V: usize> SplittingMotion<V> {
     fn run(
         spheroid: &RigidSpheroid<f64>,
         s: &Matrix3<f64>,
         span: (f64, f64),
         scheme: &'static Scheme,
-        scene: Scene,
+        scene: Scene<V>,
         step: f64,
         step_count: u64,
     ) -> Self {
         let stride = step_count.div_ceil(MOST_STATES);
-        let steps = Steps::new(scheme, &scene.field, step, scene.largest_rate);
+        let steps = OneMotion::new(scheme, &scene.field, step, scene.largest_rate);
         let mut states = Vec::with_capacity((step_count / stride + 1) as usize);
         let mut state = scene.start;
         steps.open(&mut state);
         states.push(state);
-        for _ in 0..step_count / stride {
-            steps.advance(&mut state, scene.casimir, stride);
-            states.push(state);
-        }
+        steps.keep(&mut state, scene.casimir, (stride, step_count / stride), &mut states);
         let (spheroid, violation) = (*spheroid, *s);
         Self {
             spheroid,
@@ -198,7 +242,7 @@ impl SplittingMotion {
     }
 
     /// The state after a number of whole steps.
-    pub(super) fn after(&self, whole: u64) -> Pair<f64> {
+    pub(super) fn after(&self, whole: u64) -> Moving<f64, V> {
         let kept = whole / self.stride;
         let mut state = self.states[kept as usize];
         self.steps.advance(&mut state, self.scene.casimir, whole - kept * self.stride);
@@ -207,22 +251,29 @@ impl SplittingMotion {
     }
 
     /// The state at time `t` of the span.
-    fn at(&self, t: f64) -> Pair<f64> {
-        let elapsed = t - self.span.0;
+    fn at(&self, t: f64) -> Result<Moving<f64, V>, Error> {
+        let (first, last) = self.span;
+        Error::unless(
+            first.min(last) <= t && t <= first.max(last),
+            "time t",
+            t,
+            "within the span for which the motion was propagated",
+        )?;
+        let elapsed = t - first;
         let whole = ((elapsed / self.step).floor().max(0.0) as u64).min(self.step_count);
         let mut state = self.after(whole);
         // The time of the step without the rounding of its product.
         let (time, lost) = two_product(whole as f64, self.step);
         let offset = (elapsed - time) - lost;
         if offset != 0.0 {
-            let partial = Steps::new(self.scheme, &self.scene.field, offset, self.scene.largest_rate);
+            let partial = OneMotion::new(self.scheme, &self.scene.field, offset, self.scene.largest_rate);
             partial.single(&mut state, self.scene.casimir);
         }
-        state
+        Ok(state)
     }
 }
 
-impl AxisMotion<f64> for SplittingMotion {
+impl<const V: usize> AxisMotion<f64> for SplittingMotion<V> {
     fn spheroid(&self) -> &RigidSpheroid<f64> {
         &self.spheroid
     }
@@ -236,14 +287,7 @@ impl AxisMotion<f64> for SplittingMotion {
     }
 
     fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
-        let (first, last) = self.span;
-        Error::unless(
-            first.min(last) <= t && t <= first.max(last),
-            "time t",
-            t,
-            "within the span for which the motion was propagated",
-        )?;
-        Ok(self.scene.state(&self.at(t)))
+        Ok(self.scene.state(&self.at(t)?))
     }
 
     /// Three times the difference from a motion by a better scheme, found when it is first asked for: that motion takes about
@@ -255,5 +299,11 @@ impl AxisMotion<f64> for SplittingMotion {
         }
         let estimate = self.estimate.get_or_init(|| ErrorEstimate::new(self));
         estimate.at((t - first).abs())
+    }
+}
+
+impl Motion<f64> for SplittingMotion<3> {
+    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
+        Ok(self.scene.body_state(&self.at(t)?, t - self.span.0))
     }
 }

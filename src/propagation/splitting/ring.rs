@@ -1,4 +1,4 @@
-//! The operations of the flows, for one motion or for one in each lane of the vector registers.
+//! The operations of the flows: for one motion, with or without fused multiply-add, or for one in each lane of the vector registers.
 
 use core::ops::{Add, Mul, Sub};
 
@@ -35,5 +35,79 @@ impl Ring for f64 {
     #[inline(always)]
     fn over(self, divisor: f64) -> f64 {
         if divisor == 0.0 { 0.0 } else { self / divisor }
+    }
+}
+
+/// A double, one way or the other.
+pub(super) trait Double: Ring {
+    fn of(value: f64) -> Self;
+    fn value(self) -> f64;
+}
+
+impl Double for f64 {
+    #[inline(always)]
+    fn of(value: f64) -> f64 {
+        value
+    }
+
+    #[inline(always)]
+    fn value(self) -> f64 {
+        self
+    }
+}
+
+impl Double for FusedDouble {
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        Self(value)
+    }
+
+    #[inline(always)]
+    fn value(self) -> f64 {
+        self.0
+    }
+}
+
+/// A double whose products and sums are fused: fast only where the code is compiled for processors that have the instruction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(transparent)]
+pub(super) struct FusedDouble(pub(super) f64);
+
+macro_rules! operator {
+    ($operator:ident, $method:ident) => {
+        impl $operator for FusedDouble {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(self.0.$method(other.0))
+            }
+        }
+    };
+}
+
+operator!(Add, add);
+operator!(Sub, sub);
+operator!(Mul, mul);
+
+impl Ring for FusedDouble {
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        Self(value)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        Self(self.0.mul_add(a.0, b.0))
+    }
+
+    #[inline(always)]
+    fn mul_sub(self, a: Self, b: Self) -> Self {
+        Self(self.0.mul_add(a.0, -b.0))
+    }
+
+    #[inline(always)]
+    fn over(self, divisor: Self) -> Self {
+        Self(self.0.over(divisor.0))
     }
 }

@@ -3,7 +3,7 @@
 use core::ops::{Add, Mul, Sub};
 
 use crate::propagation::registers::Register;
-use crate::propagation::splitting::flows::{Field, Pair};
+use crate::propagation::splitting::flows::{Field, Moving};
 use crate::propagation::splitting::ring::Ring;
 
 /// One number for each of [`COUNT`](Self::COUNT) motions, in `N` registers whose operations take turns: one starts while the other
@@ -102,31 +102,29 @@ impl<R: Register, const N: usize> Ring for SideBySide<R, N> {
     }
 }
 
-impl<R: Register, const N: usize> Pair<SideBySide<R, N>> {
+impl<R: Register, const N: usize, const V: usize> Moving<SideBySide<R, N>, V> {
     /// The states of motions, by their places.
     #[inline(always)]
-    pub(super) fn gather<'p>(register: R, pair: impl Fn(usize) -> &'p Pair<f64>) -> Self {
-        Pair::new(
-            SideBySide::gather_vector(register, |place| pair(place).axis),
-            SideBySide::gather_vector(register, |place| pair(place).rate),
-        )
+    pub(super) fn gather<'m>(register: R, state: impl Fn(usize) -> &'m Moving<f64, V>) -> Self {
+        let vector = |v: usize| SideBySide::gather_vector(register, |place| state(place).vectors[v]);
+        Moving::new(core::array::from_fn(vector))
     }
 
     /// The state of one motion.
     #[inline(always)]
-    pub(super) fn take(&self, place: usize) -> Pair<f64> {
-        let of = |v: &[SideBySide<R, N>; 3]| [v[0].get(place), v[1].get(place), v[2].get(place)];
-        Pair { axis: of(&self.axis), rate: of(&self.rate), axis_low: of(&self.axis_low), rate_low: of(&self.rate_low) }
+    pub(super) fn take(&self, place: usize) -> Moving<f64, V> {
+        let of = |v: &[SideBySide<R, N>; 3]| v.each_ref().map(|component| component.get(place));
+        Moving { vectors: self.vectors.each_ref().map(of), low: self.low.each_ref().map(of) }
     }
 
     /// Replaces the state of one motion.
     #[inline(always)]
-    pub(super) fn put(&mut self, place: usize, pair: &Pair<f64>) {
-        for i in 0..3 {
-            self.axis[i].set(place, pair.axis[i]);
-            self.rate[i].set(place, pair.rate[i]);
-            self.axis_low[i].set(place, pair.axis_low[i]);
-            self.rate_low[i].set(place, pair.rate_low[i]);
+    pub(super) fn put(&mut self, place: usize, state: &Moving<f64, V>) {
+        for v in 0..V {
+            for i in 0..3 {
+                self.vectors[v][i].set(place, state.vectors[v][i]);
+                self.low[v][i].set(place, state.low[v][i]);
+            }
         }
     }
 }

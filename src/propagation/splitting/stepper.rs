@@ -1,6 +1,6 @@
 //! Steps of a splitting scheme, without allocation.
 
-use crate::propagation::splitting::flows::{Angles, Field, Kick, Pair, dot};
+use crate::propagation::splitting::flows::{Angles, Field, Kick, Moved};
 use crate::propagation::splitting::ring::Ring;
 use crate::propagation::splitting::scheme::{Ends, Scheme};
 
@@ -19,7 +19,6 @@ pub(super) struct Steps<S> {
     pairs: [(S, Kick<S>); MOST_STAGES],
     stages: usize,
     end: End<S>,
-    tensor: [S; 3],
     angles: Angles,
 }
 
@@ -34,13 +33,6 @@ pub(super) fn angles(scheme: &Scheme, turn: f64) -> Angles {
     let at_ends = if scheme.ends == Ends::Rotations { 2.0 * scheme.rotations[0].abs() } else { 0.0 };
     let longest = scheme.rotations.iter().fold(at_ends, |most, rotation| most.max(rotation.abs()));
     Angles::up_to(longest * turn)
-}
-
-impl Steps<f64> {
-    /// `largest_rate` bounds `|w|` along the motion.
-    pub(super) fn new(scheme: &Scheme, field: &Field<f64>, step: f64, largest_rate: f64) -> Self {
-        Self::turning(scheme, field, step, angles(scheme, step.abs() * largest_rate))
-    }
 }
 
 impl<S: Ring> Steps<S> {
@@ -68,83 +60,57 @@ impl<S: Ring> Steps<S> {
                 End::Kick { forth: kick(1.0), back: kick(-1.0) }
             }
         };
-        Self { pairs, stages, end, tensor: field.tensor, angles }
+        Self { pairs, stages, end, angles }
     }
 
     /// Shifts a state at a step into the middle of its first flow.
     #[inline(always)]
-    pub(super) fn open(&self, state: &mut Pair<S>) {
+    pub(super) fn open<M: Moved<S>>(&self, state: &mut M) {
         match &self.end {
             End::Rotation { forth, .. } => state.rotate(*forth, self.angles),
-            End::Kick { forth, .. } => state.kick(forth, &self.tensor),
+            End::Kick { forth, .. } => state.kick(forth),
         }
     }
 
     /// The inverse of [`open`](Self::open).
     #[inline(always)]
-    pub(super) fn close(&self, state: &mut Pair<S>) {
+    pub(super) fn close<M: Moved<S>>(&self, state: &mut M) {
         match &self.end {
             End::Rotation { back, .. } => state.rotate(*back, self.angles),
-            End::Kick { back, .. } => state.kick(back, &self.tensor),
+            End::Kick { back, .. } => state.kick(back),
         }
     }
 
     /// One step of a closed state.
-    pub(super) fn single(&self, state: &mut Pair<S>, casimir: S) {
+    #[inline(always)]
+    pub(super) fn single<M: Moved<S>>(&self, state: &mut M, casimir: S) {
         self.open(state);
         self.advance(state, casimir, 1);
         self.close(state);
     }
 
     /// Whole steps of an open state.
-    pub(super) fn advance(&self, state: &mut Pair<S>, casimir: S, steps: u64) {
+    #[inline(always)]
+    pub(super) fn advance<M: Moved<S>>(&self, state: &mut M, casimir: S, steps: u64) {
         let mut left = steps;
         while left > 0 {
             let now = left.min(STEPS_BETWEEN_PROJECTIONS);
             self.run(state, now);
-            project(state, casimir);
+            state.project(casimir);
             left -= now;
         }
     }
 
     /// Whole steps of an open state, without taking out rounding.
     #[inline(always)]
-    pub(super) fn run(&self, state: &mut Pair<S>, steps: u64) {
+    pub(super) fn run<M: Moved<S>>(&self, state: &mut M, steps: u64) {
         let mut moving = *state;
         for _ in 0..steps {
             for (tau, kick) in &self.pairs[..self.stages] {
                 moving.rotate(*tau, self.angles);
-                moving.kick(kick, &self.tensor);
+                moving.kick(kick);
             }
         }
         *state = moving;
-    }
-}
-
-/// Weight of a change of `w` beside one of `n`, where the value of `w.n` is mended.
-const SHARE_OF_RATE: f64 = 1e-4;
-
-/// Takes out what rounding did to `n.n = 1` and `w.n = casimir`, both constant along every flow. First order is enough: the
-/// defects are of the size of rounding.
-///
-/// The rotations round in the same sense step after step, to `n` across `w`. So `n` is mended, in the plane of both; a change of
-/// `w` would feed the energy step by step. Where `n` is nearly along `w` that alone would enlarge the rounding, and `w` takes a share.
-#[inline(always)]
-pub(super) fn project<S: Ring>(state: &mut Pair<S>, casimir: S) {
-    let (n, w) = (state.axis, state.rate);
-    let (n_n, n_w, w_w) = (dot(&n, &n), dot(&n, &w), dot(&w, &w));
-    let one = casimir.like(1.0);
-    let grow = (one - n_n) * casimir.like(0.5);
-    let missing = casimir - n_w * (one + grow);
-    let mut across = w;
-    for i in 0..3 {
-        across[i] = w[i] - n[i] * n_w;
-    }
-    let share = w_w * casimir.like(SHARE_OF_RATE);
-    // Nothing to mend where the body does not turn.
-    let part = missing.over(dot(&across, &across) + share);
-    for i in 0..3 {
-        state.axis_low[i] = state.axis_low[i] + (n[i] * grow + across[i] * part);
-        state.rate_low[i] = state.rate_low[i] + n[i] * (share * part);
     }
 }

@@ -4,10 +4,11 @@ use nalgebra::Matrix3;
 
 use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
-use crate::propagation::splitting::flows::Pair;
-use crate::propagation::splitting::motion::{Scene, check_splitting_input};
+use crate::propagation::input::check_input;
+use crate::propagation::splitting::flows::Moving;
+use crate::propagation::splitting::motion::{Scene, vectors_of_axis};
+use crate::propagation::splitting::one_motion::OneMotion;
 use crate::propagation::splitting::scheme::Scheme;
-use crate::propagation::splitting::stepper::Steps;
 use crate::propagation::{ACCURACY_RANGE, AxisState};
 
 /// A motion of `n` and `L` that keeps its present state only: equal steps of one scheme, without allocation.
@@ -28,9 +29,9 @@ use crate::propagation::{ACCURACY_RANGE, AxisState};
 #[derive(Debug, Clone)]
 pub struct Splitting {
     scene: Scene,
-    steps: Steps<f64>,
+    steps: OneMotion,
     /// Open.
-    state: Pair<f64>,
+    state: Moving<f64>,
 }
 
 impl Splitting {
@@ -46,10 +47,11 @@ impl Splitting {
         scheme: &Scheme,
         step: f64,
     ) -> Result<Self, Error> {
-        check_splitting_input(spheroid, s, initial, (0.0, step), ACCURACY_RANGE.0)?;
+        let initial = vectors_of_axis(initial);
+        check_input(spheroid, s, &initial, (0.0, step), ACCURACY_RANGE.0)?;
         Error::unless(step != 0.0, "step", step, "not zero")?;
-        let scene = Scene::new(spheroid, s, initial)?;
-        let steps = Steps::new(scheme, &scene.field, step, scene.largest_rate);
+        let scene = Scene::new(spheroid, s, &initial)?;
+        let steps = OneMotion::new(scheme, &scene.field, step, scene.largest_rate);
         let mut state = scene.start;
         steps.open(&mut state);
         Ok(Self { scene, steps, state })

@@ -9,10 +9,10 @@ use crate::propagation::arithmetic::{OneMotion, Plain};
 use crate::propagation::fused::run_fused;
 use crate::propagation::taylor::clock::{Interval, StepLimit};
 use crate::propagation::taylor::errors::{StepError, TaylorErrors};
-use crate::propagation::taylor::frame::{body_state, rate_about_axis};
 use crate::propagation::taylor::fused_for;
 use crate::propagation::taylor::setup::Setup;
 use crate::propagation::taylor::step_size::Work;
+use crate::propagation::third_angle::{body_state, rate_about_axis};
 use crate::scalar::{Real, Scalar};
 
 /// An hour or so.

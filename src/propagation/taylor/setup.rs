@@ -8,9 +8,10 @@ use crate::propagation::arithmetic::{OneMotion, Stored};
 use crate::propagation::input::check_input;
 use crate::propagation::taylor::compensated::Compensated;
 use crate::propagation::taylor::drive::Drive;
-use crate::propagation::taylor::frame::{SeriesFrame, body_state, rate_about_axis};
+use crate::propagation::taylor::frame::SeriesFrame;
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Vectors, change};
 use crate::propagation::taylor::step_size::{Scale, Work, order_for};
+use crate::propagation::third_angle::{body_state, rate_about_axis};
 use crate::scalar::Real;
 
 /// Body, tensor, start and span of a motion, with the order and the error allowed per unit of time.

@@ -6,9 +6,9 @@ use nalgebra::Vector3;
 use twofold::dynamics::BodyState;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, propagated_pulse_train};
-use twofold::propagation::splitting::propagate_by_best_splitting;
+use twofold::propagation::splitting::{propagate_by_best_splitting, propagate_orientation_by_best_splitting};
 use twofold::propagation::{
-    AxisMotion, AxisScene, AxisState, ErrorEstimates, Samples, axis_states_at, axis_states_of_many, states_at,
+    AxisMotion, AxisScene, AxisState, ErrorEstimates, Motion, Samples, axis_states_at, axis_states_of_many, states_at,
 };
 
 use super::runge_kutta;
@@ -81,6 +81,12 @@ pub const METHODS: &[Method] = &[
     Method { name: "Taylor", carries: Carries::Axis, settings: ACCURACIES, run: taylor_axis },
     Method { name: "Taylor", carries: Carries::Orientation, settings: ACCURACIES, run: taylor },
     Method { name: "splitting", carries: Carries::Axis, settings: SPLITTING_ACCURACIES, run: splitting },
+    Method {
+        name: "splitting",
+        carries: Carries::Orientation,
+        settings: SPLITTING_ACCURACIES,
+        run: splitting_orientation,
+    },
     Method { name: BASELINE, carries: Carries::Axis, settings: TOLERANCES, run: runge_kutta::axis },
     Method { name: BASELINE, carries: Carries::Orientation, settings: TOLERANCES, run: runge_kutta::orientation },
 ];
@@ -133,6 +139,16 @@ fn splitting(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, St
     let steps = motion.step_count() as usize;
     let evaluations = 2 * steps * motion.scheme().stages();
     Ok(End { axis, momentum, equatorial_axis: None, steps, evaluations })
+}
+
+fn splitting_orientation(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
+    let (spheroid, s, start) = (&scene.spheroid, &scene.violation, &scene.initial);
+    let motion = propagate_orientation_by_best_splitting(spheroid, s, start, (0.0, duration), accuracy);
+    let motion = motion.map_err(text)?;
+    let BodyState { axis, momentum, equatorial_axis } = motion.state(duration).map_err(text)?;
+    let steps = motion.step_count() as usize;
+    let evaluations = 2 * steps * motion.scheme().stages();
+    Ok(End { axis, momentum, equatorial_axis: Some(equatorial_axis), steps, evaluations })
 }
 
 fn end_of_axis(Samples { states, step_count, order, .. }: Samples<AxisState<f64>>) -> Result<End, String> {

@@ -1,11 +1,16 @@
 //! What events, dense output, gradients, nested duals and wider numbers cost on top of a motion.
 
-use nalgebra::SVector;
+use std::hint::black_box;
+
+use nalgebra::{Matrix3, SVector};
 use num_dual::{Derivative, Dual, Dual2_64, Dual64, DualSVec64, HyperDual64};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, propagated_pulse_train, pulse_train};
-use twofold::propagation::{AxisMotion, AxisState, Motion, propagate, propagate_axis};
+use twofold::plan::{Output, Parameter, Plan, Request, Start, StateFunction, gradient};
+use twofold::propagation::{
+    AxisMotion, AxisState, ErrorEstimates, Motion, axis_states_at, propagate, propagate_axis, states_at,
+};
 use twofold::scalar::Real;
 
 use super::Effort;
@@ -17,8 +22,19 @@ use crate::double_double::DoubleDouble;
 /// Accuracy of the motions.
 pub const ACCURACY: f64 = 1e-12;
 
-/// Number of parameters of the gradient: the inertias, C, the eigenvalues of `s`, `L` and a tilt of `n`.
-const PARAMETERS: usize = 10;
+/// Parameters of the gradient.
+const PARAMETERS: [Parameter; 10] = [
+    Parameter::InertiaXx,
+    Parameter::InertiaZz,
+    Parameter::ConstantC,
+    Parameter::S(0, 0),
+    Parameter::S(1, 1),
+    Parameter::S(2, 2),
+    Parameter::Beta,
+    Parameter::AlphaRate,
+    Parameter::BetaRate,
+    Parameter::GammaRate,
+];
 
 /// Something beside a motion, or a motion over other numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +45,7 @@ pub struct Row {
     pub carries: Carries,
     /// Times (s).
     pub times: Times,
-    /// Over the least time of the bare motion of the same `carries`.
+    /// Over the least time of the bare motion of the same `carries`, or of the state at its end where that is what the row is of.
     pub ratio: f64,
 }
 
@@ -50,7 +66,7 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
         move || {
             let motion = axis()?;
             for i in 0..count {
-                std::hint::black_box(motion.axis_state(DURATION * i as f64 / count as f64).map_err(text)?);
+                black_box(motion.axis_state(DURATION * i as f64 / count as f64).map_err(text)?);
             }
             Ok(())
         }
@@ -81,11 +97,15 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
             Box::new(|| {
                 let motion = whole()?;
                 for i in 0..1000 {
-                    std::hint::black_box(motion.state(f64::from(i)).map_err(text)?);
+                    black_box(motion.state(f64::from(i)).map_err(text)?);
                 }
                 Ok(())
             }),
         ),
+        ("the state at the end alone", n, Box::new(|| at_end(scene, n))),
+        ("the state at the end alone", full, Box::new(|| at_end(scene, full))),
+        ("its gradient by 10 parameters", n, Box::new(|| gradient_at_end(scene, n))),
+        ("its gradient by 10 parameters", full, Box::new(|| gradient_at_end(scene, full))),
         ("derivative by one parameter (Dual64)", n, Box::new(|| over(scene, Dual64::from_re, n))),
         ("gradient by 10 parameters (DualSVec64)", n, Box::new(|| over(scene, seeded(), n))),
         ("gradient by 10 parameters (DualSVec64)", full, Box::new(|| over(scene, seeded(), full))),
@@ -100,20 +120,62 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
     ];
     let mut runs: Vec<_> = cases.iter_mut().map(|(_, _, run)| run).collect();
     let times = in_turn(&mut runs, effort.rounds, done)?;
-    let bare = |carries: Carries| times[usize::from(carries == full)].least;
+    let all = &times;
+    // The first two rows keep the motion, as what follows on them needs; a gradient does not.
+    let place = |sought: &str| cases.iter().position(|(what, ..)| *what == sought).unwrap_or_default();
+    let (kept, at_end) = (place("the motion alone"), place("the state at the end alone"));
+    let base = |what: &str| if what.starts_with("its gradient") { at_end } else { kept };
     let row = |(&(what, carries, _), times): (&Case, &Times)| Row {
         what,
         carries,
         times: *times,
-        ratio: times.least / bare(carries),
+        ratio: times.least / all[base(what) + usize::from(carries == full)].least,
     };
-    Ok(cases.iter().zip(&times).map(row).collect())
+    Ok(cases.iter().zip(all).map(row).collect())
 }
 
 /// Numbers that carry a derivative by each of the parameters. What the derivatives are does not matter to the time; that none
 /// is known to be zero does.
-fn seeded() -> impl Fn(f64) -> DualSVec64<PARAMETERS> {
+fn seeded() -> impl Fn(f64) -> DualSVec64<{ PARAMETERS.len() }> {
     |x| DualSVec64::new(x, Derivative::some(SVector::from_element(x)))
+}
+
+/// The state after the motion, of which nothing else is kept.
+fn at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
+    let (spheroid, s, none) = (&scene.spheroid, &scene.violation, ErrorEstimates::NotWanted);
+    match carries {
+        Carries::Axis => axis_states_at(spheroid, s, &scene.initial_axis(), 0.0, &[DURATION], ACCURACY, none)
+            .map(|x| drop(black_box(x))),
+        Carries::Orientation => {
+            states_at(spheroid, s, &scene.initial, 0.0, &[DURATION], ACCURACY, none).map(|x| drop(black_box(x)))
+        }
+    }
+    .map_err(text)
+}
+
+/// The components of a state.
+struct Components(Carries);
+
+impl StateFunction for Components {
+    fn len(&self) -> usize {
+        if self.0 == Carries::Axis { 6 } else { 9 }
+    }
+
+    fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
+        let components = state.axis.iter().chain(&state.momentum).chain(&state.equatorial_axis);
+        values.iter_mut().zip(components).for_each(|(value, component)| *value = *component);
+    }
+}
+
+/// That state with its derivatives.
+fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
+    let BenchScene { spheroid, violation, initial, .. } = scene;
+    let output = if carries == Carries::Axis { Output::AngularMomentum } else { Output::EquatorialAxis };
+    let request = Request { derivatives: PARAMETERS.to_vec(), ..Request::new(&[output], (0.0, DURATION), 1, ACCURACY) };
+    let plan = Plan::new(spheroid, violation, initial, &request).map_err(text)?;
+    let (angles, rates) = (initial.angles().map_err(text)?, initial.rates(spheroid).map_err(text)?);
+    let start = Start { spheroid: *spheroid, violation: *violation, angles, rates };
+    gradient(&plan, &start, &Components(carries), &[DURATION]).map(|found| drop(black_box(found))).map_err(text)
 }
 
 /// The motion over another scalar.

@@ -1,0 +1,169 @@
+//! States at given times with their derivatives by parameters of the scene.
+
+use nalgebra::{Matrix3, Vector3};
+use num_dual::Dual64;
+
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::propagation::input::check_input;
+use crate::propagation::registers::Register;
+use crate::propagation::splitting::choice::derivatives_forecast;
+use crate::propagation::splitting::flows::{AXIS, COMPANION, Moving, RATE};
+use crate::propagation::splitting::motion::Scene;
+use crate::propagation::splitting::ring::FusedDouble;
+use crate::propagation::splitting::scheme::Scheme;
+use crate::propagation::splitting::side_by_side::SideBySide;
+use crate::propagation::splitting::stepper::{Steps, angles};
+use crate::propagation::splitting::tangents::{Tangents, WithTangents};
+use crate::propagation::third_angle::{body_state, rate_about_axis};
+
+/// A scene as a function of one parameter: body, tensor and initial vectors `n`, `L` and, with `V = 3`, `e_x`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Seeded<const V: usize> {
+    pub(crate) spheroid: RigidSpheroid<Dual64>,
+    pub(crate) violation: Matrix3<Dual64>,
+    pub(crate) initial: [Vector3<Dual64>; V],
+}
+
+/// What the flows need of the derivatives of a scene, in the principal frame.
+struct Seed<const V: usize> {
+    vectors: [Vector3<f64>; V],
+    tensor: Matrix3<f64>,
+}
+
+/// Register for four directions; the number of registers follows from that of the directions.
+const LANES: usize = 4;
+
+/// Most directions at once.
+const MOST: usize = 4 * LANES;
+
+/// The states at `times` (in the order in which the motion reaches them) with their derivatives by the parameter of each of the `seeded`
+/// scenes, which have the same values; `e_x` is zero where it is not carried. None where the processor lacks the instructions.
+///
+/// One motion by splitting is done for every [`MOST`] parameters, with the tangent map of each of its flows: its derivatives are
+/// those of the numerical motion to rounding.
+///
+/// # Errors
+/// As for [`propagate_by_best_splitting`](crate::propagation::splitting::propagate_by_best_splitting).
+pub(crate) fn states_with_derivatives<const V: usize>(
+    seeded: &[Seeded<V>],
+    start: f64,
+    times: &[f64],
+    accuracy: f64,
+) -> Result<Option<Vec<Vec<BodyState<Dual64>>>>, Error> {
+    let (Some(register), Some(first), Some(last)) = (pulp::x86::V3::try_new(), seeded.first(), times.last()) else {
+        return Ok(None);
+    };
+    let (spheroid, violation) = (first.spheroid.map(|value| value.re), first.violation.map(|value| value.re));
+    let initial = first.initial.map(|v| v.map(|value| value.re));
+    check_input(&spheroid, &violation, &initial, (start, *last), accuracy)?;
+    let scene = Scene::new(&spheroid, &violation, &initial)?;
+    let (scheme, step) = derivatives_forecast(&scene, (start, *last), accuracy);
+    let mut found = vec![Vec::with_capacity(seeded.len()); times.len()];
+    for seeded in seeded.chunks(MOST) {
+        let moving = Derivatives { scene: &scene, scheme, step, start, times, seeded };
+        register.run(
+            #[inline(always)]
+            || match seeded.len().div_ceil(LANES) {
+                1 => moving.follow::<_, 1>(register, &mut found),
+                2 => moving.follow::<_, 2>(register, &mut found),
+                3 => moving.follow::<_, 3>(register, &mut found),
+                _ => moving.follow::<_, 4>(register, &mut found),
+            },
+        );
+    }
+    Ok(Some(found))
+}
+
+/// A motion to be followed with its derivatives.
+struct Derivatives<'a, const V: usize> {
+    scene: &'a Scene<V>,
+    scheme: &'static Scheme,
+    /// Longest step.
+    step: f64,
+    start: f64,
+    times: &'a [f64],
+    seeded: &'a [Seeded<V>],
+}
+
+impl<const V: usize> Derivatives<'_, V> {
+    #[inline(always)]
+    fn follow<R: Register, const N: usize>(&self, register: R, found: &mut [Vec<BodyState<Dual64>>]) {
+        let scene = self.scene;
+        let mut moving = WithTangents {
+            state: scene.start.convert(),
+            tangents: self.tangents::<R, N>(register),
+            sigma: scene.field.tensor.map(|value| value * scene.field.strength),
+        };
+        let mut before = self.start;
+        for (&time, found) in self.times.iter().zip(found) {
+            let interval = time - before;
+            let count = (interval.abs() / self.step).ceil();
+            if count > 0.0 {
+                let steps = {
+                    let step = interval / count;
+                    let angles = angles(self.scheme, step.abs() * scene.largest_rate);
+                    Steps::turning(self.scheme, &scene.field.convert(), FusedDouble(step), angles)
+                };
+                steps.open(&mut moving);
+                steps.advance(&mut moving, FusedDouble(scene.casimir), count as u64);
+                steps.close(&mut moving);
+            }
+            let states = self.seeded.iter().enumerate().map(|(place, seeded)| {
+                let derivative = |v: &[SideBySide<R, N>; 3]| v.each_ref().map(|component| component.get(place));
+                let derivatives = moving.tangents.vectors.each_ref().map(derivative);
+                self.body_state(seeded, &moving.state.convert(), derivatives, time - self.start)
+            });
+            found.extend(states);
+            before = time;
+        }
+    }
+
+    /// The derivatives at the start.
+    #[inline(always)]
+    fn tangents<R: Register, const N: usize>(&self, register: R) -> Tangents<SideBySide<R, N>, V> {
+        let seeds: Vec<Seed<V>> = self.seeded.iter().map(|seeded| self.seed(seeded)).collect();
+        let gather = |value: &dyn Fn(&Seed<V>) -> f64| {
+            SideBySide::<R, N>::gather(register, |place| seeds.get(place).map_or(0.0, value))
+        };
+        let vector = |v: usize| [0, 1, 2].map(|i| gather(&|seed| seed.vectors[v][i]));
+        let places = [(0, 0), (1, 1), (2, 2), (1, 2), (2, 0), (0, 1)];
+        Tangents {
+            vectors: core::array::from_fn(vector),
+            tensor: places.map(|place| gather(&|seed| seed.tensor[place])),
+        }
+    }
+
+    fn seed(&self, seeded: &Seeded<V>) -> Seed<V> {
+        let turn = self.scene.principal_from_given;
+        let Seeded { spheroid, violation, initial } = seeded;
+        let sigma = violation * (spheroid.constant_c * 2.0 / spheroid.inertia_xx);
+        let mut vectors = *initial;
+        vectors[RATE] = initial[RATE] / spheroid.inertia_xx;
+        Seed {
+            vectors: vectors.map(|v| turn * v.map(|value| value.eps)),
+            tensor: turn * sigma.map(|value| value.eps) * turn.transpose(),
+        }
+    }
+
+    /// The state of the body, as a function of the parameter of a seeded scene.
+    fn body_state(
+        &self,
+        seeded: &Seeded<V>,
+        state: &Moving<f64, V>,
+        derivatives: [[f64; 3]; V],
+        elapsed: f64,
+    ) -> BodyState<Dual64> {
+        let back = self.scene.principal_from_given.transpose();
+        let vector = |v: usize| {
+            let (value, derivative) = (back * Vector3::from(state.vectors[v]), back * Vector3::from(derivatives[v]));
+            value.zip_map(&derivative, Dual64::new)
+        };
+        let (axis, momentum) = (vector(AXIS), vector(RATE) * seeded.spheroid.inertia_xx);
+        if V <= COMPANION {
+            return BodyState { axis, momentum, equatorial_axis: Vector3::zeros() };
+        }
+        let rate = rate_about_axis(&seeded.spheroid, &seeded.initial[AXIS], &seeded.initial[RATE]);
+        body_state([axis, momentum, vector(COMPANION)], rate * elapsed)
+    }
+}
