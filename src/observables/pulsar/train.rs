@@ -114,7 +114,6 @@ pub fn pulse_train<M: Motion<f64>>(
 ///
 /// # Errors
 /// As for [`pulse_train`] and [`propagate`], but for the number of steps.
-#[allow(clippy::too_many_arguments, reason = "those of propagate and of pulse_train")]
 pub fn propagated_pulse_train(
     spheroid: &RigidSpheroid<f64>,
     s: &Matrix3<f64>,
