@@ -13,6 +13,7 @@ mod linearised_flow;
 mod samples;
 mod series;
 mod setup;
+mod shared_rounding;
 mod step_size;
 
 use core::any::{Any, TypeId};
