@@ -8,7 +8,7 @@ use crate::propagation::taylor::linearised_flow::LinearMap;
 const KNOWN_SAFETY: f64 = 3.0;
 
 /// Standard deviations of what is known by its size alone.
-const UNKNOWN_SAFETY: f64 = 4.0;
+const UNKNOWN_SAFETY: f64 = 6.0;
 
 /// What a step rounds of the covariance, relative.
 const COVARIANCE_ROUNDING: f64 = 32.0 * f64::EPSILON;
@@ -145,6 +145,11 @@ impl ErrorGrowth {
     /// An error of this size, added now, as [`estimate`](Self::estimate) would count it.
     pub(super) fn counted(size: f64) -> f64 {
         KNOWN_SAFETY * size
+    }
+
+    /// The same of one with this standard deviation.
+    pub(super) fn counted_deviation(deviation: f64) -> f64 {
+        UNKNOWN_SAFETY * deviation
     }
 }
 

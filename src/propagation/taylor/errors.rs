@@ -8,7 +8,7 @@ use crate::propagation::taylor::error_growth::{Difference, ErrorGrowth};
 use crate::propagation::taylor::linearised_flow::LinearisedFlow;
 use crate::propagation::taylor::series::{AXIS, COMPANION, MOMENTUM};
 use crate::propagation::taylor::setup::Setup;
-use crate::propagation::taylor::shared_rounding::SharedRounding;
+use crate::propagation::taylor::shared_rounding::{SHARES, SharedRounding, excess_of_shares};
 use crate::scalar::Real;
 
 /// The vectors of a series in real numbers, by columns.
@@ -28,14 +28,16 @@ const ANGLE_ROUNDING: f64 = 0.5 * f64::EPSILON;
 pub(super) struct StepError {
     /// Of what was made before it, the larger of both ends.
     carried: f64,
-    /// Of what the step makes by its end.
+    /// Of what the step leaves out by its end.
     local: f64,
+    /// Of what it rounds by its end.
+    rounded: f64,
 }
 
 impl StepError {
     /// The error after the given fraction of the step, by a series of the given order.
     pub(super) fn at(&self, fraction: f64, order: usize) -> f64 {
-        self.carried + self.local * fraction.powi(order as i32 + 1)
+        self.carried + self.rounded * fraction + self.local * fraction.powi(order as i32 + 1)
     }
 }
 
@@ -45,6 +47,8 @@ pub(super) struct TaylorErrors<const V: usize> {
     violation: Matrix3<f64>,
     flow: LinearisedFlow,
     shared: SharedRounding,
+    /// Relative, of each coefficient from the first on.
+    excess: [Columns<V>; SHARES],
     growth: ErrorGrowth,
     /// Unit of time of the series.
     unit: f64,
@@ -68,6 +72,9 @@ impl<const V: usize> TaylorErrors<V> {
         let rate = unit / spheroid.inertia_xx;
         let (shared, at_start) = SharedRounding::of(setup);
         let flow = LinearisedFlow::new(&spheroid, &violation, unit, shared);
+        let excess = excess_of_shares(setup).map(|[axis, momentum]| {
+            Columns::from_columns(&core::array::from_fn::<_, V, _>(|i| if i == MOMENTUM { momentum } else { axis }))
+        });
         let mut growth = ErrorGrowth::none(scale.momentum * rate);
         let start = setup.start.map(|v| v.vector().map(S::re));
         let mut known = difference::<V>(&Columns::from_columns(&start), &Columns::from_columns(&at_start), rate);
@@ -82,6 +89,7 @@ impl<const V: usize> TaylorErrors<V> {
             violation,
             flow,
             shared,
+            excess,
             growth,
             unit,
             momentum_unit,
@@ -122,16 +130,17 @@ impl<const V: usize> TaylorErrors<V> {
         let kicked = (self.flow.strength() * h.abs()).max(changes.column(MOMENTUM).norm() * rate);
         // Within a step the momentum feels what the torque makes of the defect of the axis, too.
         let uncertain = UNCERTAIN * (known.momentum.norm() + size * kicked.min(self.momentum_unit));
-        let deviations =
-            [ROUNDING * f64::EPSILON * turned + UNCERTAIN * size, ROUNDING * f64::EPSILON * kicked + uncertain];
+        let [turned, kicked] = [turned, kicked].map(|change| ROUNDING * f64::EPSILON * change);
+        let deviations = [turned + UNCERTAIN * size, kicked + uncertain];
         let mut added = known;
         added.rotation += axis * (self.shared.rate_about_axis * h);
         self.growth.add(&added, deviations);
         self.before = self.growth.estimate(only_axis) + self.of_angle;
-        StepError { carried, local: ErrorGrowth::counted(size) }
+        let rounded = ErrorGrowth::counted_deviation(turned.hypot(kicked / self.momentum_unit));
+        StepError { carried, local: ErrorGrowth::counted(size), rounded }
     }
 
-    /// What the step leaves out.
+    /// What the step leaves out, and what rounding of the factors of its recurrences makes of it.
     ///
     /// It is the integral of the defect `d = x' - f(x)` of the series, which grows as `tau^order`, carried to the end of the
     /// step: the Gauss-Jacobi rule of one node for that weight, and the linearised flow from the node on.
@@ -144,7 +153,11 @@ impl<const V: usize> TaylorErrors<V> {
             value = value * (h * node) + term;
         }
         let weight = h / ((order + 1) as f64 * node.powi(order as i32));
-        let error = (slope - self.rates(&value)) * weight;
+        let truncated = (slope - self.rates(&value)) * weight;
+        // The factors of the recurrences are rounded, too. Most of what they make comes from late in the step as well.
+        let terms = series[1..].iter().zip(&self.excess).rev();
+        let rounded = terms.fold(Columns::zeros(), |sum, (term, excess)| (sum + term.component_mul(excess)) * h);
+        let error = truncated + rounded;
         let rate = self.unit / self.spheroid.inertia_xx;
         let mut made = difference(&value, &error, rate);
         let ends = [&value, end].map(|state| (state.column(AXIS).into(), state.column(MOMENTUM) * rate));

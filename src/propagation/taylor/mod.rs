@@ -286,7 +286,8 @@ impl<S: Real, const V: usize> AxisMotion<S> for TaylorMotion<S, V> {
         let Ok((index, elapsed)) = self.step_at(t) else { return f64::NAN };
         let error = self.errors.get_or_init(|| self.step_errors())[index];
         let (into, length) = (elapsed - self.steps.starts[index].high, self.length(index));
-        error.at(if into > 0.0 { into / length } else { 0.0 }, self.setup.order)
+        let into = if into > 0.0 { into / length } else { 0.0 };
+        error.at(into, self.setup.order) + self.setup.error_of_time(t)
     }
 }
 

@@ -11,6 +11,7 @@ use crate::propagation::taylor::drive::Drive;
 use crate::propagation::taylor::frame::{SeriesFrame, body_state, rate_about_axis};
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Vectors, change};
 use crate::propagation::taylor::step_size::{Scale, Work, order_for};
+use crate::rounding::two_sum;
 use crate::scalar::Real;
 
 /// Body, tensor, start and span of a motion, with the order and the error allowed per unit of time.
@@ -67,6 +68,11 @@ impl<S: Real, const V: usize> Setup<S, V> {
     /// `1` forwards in time, `-1` backwards.
     pub(super) fn direction(&self) -> f64 {
         if self.span.1 >= self.span.0 { 1.0 } else { -1.0 }
+    }
+
+    /// Error of the vectors for what rounding makes of the time `t` since the start.
+    pub(super) fn error_of_time(&self, t: f64) -> f64 {
+        two_sum(t, -self.span.0).1.abs() * self.scale.turning_rate
     }
 
     /// Length of the span.

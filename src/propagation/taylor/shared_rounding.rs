@@ -12,6 +12,9 @@ use crate::propagation::taylor::setup::Setup;
 use crate::rounding::{two_product, two_sum};
 use crate::scalar::Real;
 
+/// Coefficients of which the rounding of the factors matters: the terms of the later ones are small.
+pub(super) const SHARES: usize = 12;
+
 /// What the equations and the start that the series solve are more than those given, by real parts, in the frame and the unit
 /// of time of the series.
 #[derive(Debug, Clone, Copy)]
@@ -91,6 +94,23 @@ impl SharedRounding {
         let products = Vector3::new(n.y * n.z, n.z * n.x, n.x * n.y);
         (self.tensor * n).cross(n) + self.differences.component_mul(&products)
     }
+}
+
+/// What the rounded factors of the recurrences, `rate / (k + 1)`, are more than that, relative: of `n` (and the vector carried
+/// along) and of the components of `L`, for the coefficients `k + 1 = 1, 2, ...`.
+pub(super) fn excess_of_shares<S: Real, const V: usize>(setup: &Setup<S, V>) -> [[Vector3<f64>; 2]; SHARES] {
+    let rates = setup.drive().rates();
+    let of_momentum = if setup.frame.is_principal() { rates.momentum_of_principal } else { [rates.momentum; 3] };
+    let rates = [[rates.axis; 3], of_momentum].map(|rates| Vector3::from(rates.map(S::re)));
+    core::array::from_fn(|k| {
+        let divisor = (k + 1) as f64;
+        rates.map(|rates| {
+            rates.map(|rate| {
+                let (product, lost) = two_product(rate / divisor, divisor);
+                if rate == 0.0 { 0.0 } else { (product - rate + lost) / rate }
+            })
+        })
+    })
 }
 
 /// What the rounded `rate` is more than `-(1 / I^xx - 1 / I^zz) L.n`.
