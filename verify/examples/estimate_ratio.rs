@@ -62,7 +62,7 @@ fn main() {
     row("backwards", &found, |scene| scene.span.1 < scene.span.0);
     found.sort_by(|a, b| a.2.total_cmp(&b.2));
     for (index, (number, scene, ratio, error)) in found.iter().enumerate() {
-        if index < 3 || *ratio < 1.0 || *ratio > std::env::var("ABOVE").map_or(1e5, |x| x.parse().unwrap()) {
+        if index < 3 || *ratio < 1.0 || *ratio > 1e5 {
             println!(
                 "scene {number}: ratio {ratio:.3e}, true error {error:.2e}, accuracy {:.1e}, s {:.1e}, {:.1} rad",
                 scene.accuracy,

@@ -7,7 +7,8 @@ use crate::propagation::taylor::linearised_flow::LinearMap;
 /// Factor of safety on what is known: the defects are their leading term, the linearised flow is good to some per cent.
 const KNOWN_SAFETY: f64 = 3.0;
 
-/// Standard deviations of what is known by its size alone.
+/// Standard deviations of what is known by its size alone: 2e-9 is the probability of more for an error in one direction, which is what
+/// a growing one becomes.
 const UNKNOWN_SAFETY: f64 = 6.0;
 
 /// What a step rounds of the covariance, relative.
