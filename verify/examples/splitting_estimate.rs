@@ -1,6 +1,6 @@
 //! Error estimate over true error of splitting motions, and true error over the accuracy asked, in random scenes.
 //!
-//!     cargo run --release -p twofold-verify --example splitting_estimate [SCENES, default 3000]
+//!     cargo run --release -p twofold-verify --example splitting_estimate [SCENES, default 3000] [SEED, default 777]
 //!
 //! Half of the scenes leave the choice of scheme to the accuracy, the others go through all schemes. True errors by the Taylor
 //! motion at accuracy 1e-15.
@@ -14,7 +14,7 @@ use twofold_verify::random::Random;
 
 fn main() {
     let cases: usize = std::env::args().nth(1).map_or(3000, |text| text.parse().expect("a number of scenes"));
-    let mut random = Random::with_seed(777);
+    let mut random = Random::with_seed(std::env::args().nth(2).map_or(777, |text| text.parse().expect("a seed")));
     let body = RigidSpheroid::in_units_of_tc(1.1);
     let (mut ratios, mut reached) = (Vec::new(), Vec::new());
     for case in 0..cases {

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::propagation::{AxisMotion, Motion, propagate};
-use twofold::scalar::Real;
+use twofold::scalar::{Real, Scalar};
 
 use crate::check::{largest, largest_component};
 use crate::double_double::DoubleDouble;
@@ -129,11 +129,12 @@ impl ErrorScene {
     /// True errors of `n`, `L` (in units of its size) and `e_x`, largest components, of `state` at the time asked for. By
     /// another integrator that is much more accurate, with 32 digits where rounding may matter.
     pub fn true_errors(&self, state: &BodyState<f64>) -> [f64; 3] {
-        let duration = self.time - self.span.0;
+        // Exactly: that the motion rounds it is part of its error.
+        let duration = DoubleDouble::from_f64(self.time) - DoubleDouble::from_f64(self.span.0);
         if self.accuracy > 1e-5 && self.turned() > 5.0 && self.turned() < 300.0 {
             self.differences(
                 state,
-                &state_after::<f64>(&self.spheroid, &self.violation, &self.initial, duration, 1e-16),
+                &state_after::<f64>(&self.spheroid, &self.violation, &self.initial, duration.high(), 1e-16),
             )
         } else {
             let end = state_after::<DoubleDouble>(&self.spheroid, &self.violation, &self.initial, duration, 1e-22);

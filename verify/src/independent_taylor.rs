@@ -14,7 +14,7 @@ pub fn state_after<S: Real>(
     spheroid: &RigidSpheroid<f64>,
     s: &nalgebra::Matrix3<f64>,
     initial: &BodyState<f64>,
-    duration: f64,
+    duration: S,
     tolerance: f64,
 ) -> BodyState<S> {
     let exact = |v: &nalgebra::Vector3<f64>| -> Vector<S> { [v.x, v.y, v.z].map(S::from_f64) };
@@ -28,7 +28,7 @@ pub fn state_after<S: Real>(
         .sqrt();
     let momentum_scale = (initial.momentum.norm() + pull).max(f64::MIN_POSITIVE);
     let mut state = [exact(&initial.axis), exact(&initial.momentum), exact(&initial.equatorial_axis)];
-    let mut left = S::from_f64(duration);
+    let mut left = duration;
     while left.re() != 0.0 {
         let series = coefficients(&s, [xx, zz, c], &state, order);
         let size = |k: usize| {
@@ -36,7 +36,7 @@ pub fn state_after<S: Real>(
             largest(&series[k][0]).max(largest(&series[k][1]) / momentum_scale).max(largest(&series[k][2]))
         };
         let bound = |k: usize| (tolerance / size(k)).powf(1.0 / k as f64);
-        let step = bound(order).min(bound(order - 1)).min(left.re().abs()).copysign(duration);
+        let step = bound(order).min(bound(order - 1)).min(left.re().abs()).copysign(duration.re());
         let step = if step.abs() < left.re().abs() { S::from_f64(step) } else { left };
         let mut next = series[order];
         for term in series[..order].iter().rev() {

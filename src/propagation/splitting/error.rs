@@ -7,10 +7,14 @@ use crate::propagation::splitting::{GRADIENT_8_8_6, SplittingMotion};
 /// Most times at which the two motions are compared.
 const COMPARISONS: u64 = 256;
 
-/// Estimate over difference.
-const SAFETY: f64 = 3.0;
+/// Estimate over difference. Where the leading terms of the two errors nearly cancel, or the error has another size between the
+/// times compared, the difference is less than the error: by a factor of 3.4 at most in 160,000 random comparisons.
+const SAFETY: f64 = 6.0;
 
-/// Three times the difference from the motion by [`GRADIENT_8_8_6`] with stages half as long or shorter, the largest so far, at
+/// Longest step of the better motion, in radians of the rotation: beyond, the orders of a scheme do not say how its error falls.
+const LONGEST_STEP: f64 = 1.0;
+
+/// Six times the difference from the motion by [`GRADIENT_8_8_6`] with stages half as long or shorter, the largest so far, at
 /// equal distances in time.
 ///
 /// That motion is far more accurate than those of the other schemes, so that the difference is their error. For the scheme
@@ -30,7 +34,9 @@ impl ErrorEstimate {
         let scene = &motion.scene;
         let twos = motion.step_count() / 2;
         let stride = twos.div_ceil(COMPARISONS);
-        let per_two = (4 * motion.scheme().stages()).div_ceil(GRADIENT_8_8_6.stages()) as u64;
+        let by_stages = (4 * motion.scheme().stages()).div_ceil(GRADIENT_8_8_6.stages()) as u64;
+        let by_angle = (2.0 * motion.step().abs() * scene.largest_rate / LONGEST_STEP).ceil() as u64;
+        let per_two = by_stages.max(by_angle);
         let other = |step| OneMotion::new(&GRADIENT_8_8_6, &scene.field, step, scene.largest_rate);
         let finer = other(2.0 * motion.step() / per_two as f64);
         let half_back = other(-0.5 * motion.step());

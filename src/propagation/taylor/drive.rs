@@ -32,7 +32,7 @@ pub(super) struct Rates<S> {
     /// `unit / I^xx`.
     pub(super) axis: S,
     /// `2 C unit`.
-    momentum: S,
+    pub(super) momentum: S,
     /// `2 C unit (s^YY - s^ZZ, s^ZZ - s^XX, s^XX - s^YY)`, for a tensor that is diagonal.
     pub(super) momentum_of_principal: [S; 3],
 }

@@ -7,8 +7,12 @@ use crate::propagation::taylor::linearised_flow::LinearMap;
 /// Factor of safety on what is known: the defects are their leading term, the linearised flow is good to some per cent.
 const KNOWN_SAFETY: f64 = 3.0;
 
-/// Standard deviations of what is known by its size alone.
-const UNKNOWN_SAFETY: f64 = 4.0;
+/// Standard deviations of what is known by its size alone: 2e-9 is the probability of more for an error in one direction, which is what
+/// a growing one becomes.
+const UNKNOWN_SAFETY: f64 = 6.0;
+
+/// What a step rounds of the covariance, relative.
+const COVARIANCE_ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// What reading the state off rounds: some units in the last place of one.
 const READING: f64 = 4.0 * f64::EPSILON;
@@ -26,13 +30,29 @@ pub(super) struct Difference {
     pub(super) momentum: Vector3<f64>,
     /// Relative difference of the length of `n`.
     pub(super) length: f64,
+    /// Relative difference of the length of the vector carried along, and of its cosine with `n`: both are constant.
+    pub(super) off_frame: [f64; 2],
 }
 
 impl Difference {
     /// Its size, the momentum in the given unit.
     pub(super) fn size(&self, momentum_unit: f64) -> f64 {
         let momentum = self.momentum / momentum_unit;
-        (self.rotation.norm_squared() + self.length * self.length + momentum.norm_squared()).sqrt()
+        let lengths = self.length * self.length + self.off_frame.iter().map(|x| x * x).sum::<f64>();
+        (self.rotation.norm_squared() + momentum.norm_squared() + lengths).sqrt()
+    }
+
+    /// Carried along by a map.
+    pub(super) fn carry(&mut self, map: &LinearMap) {
+        let Self { rotation, momentum, length, .. } = self;
+        match map {
+            LinearMap::Kick { from_rotation, from_length, .. } => {
+                *momentum += from_rotation * *rotation + from_length * *length;
+            }
+            LinearMap::Rotation { from_rotation, from_momentum, .. } => {
+                *rotation = from_rotation * *rotation + from_momentum * *momentum;
+            }
+        }
     }
 }
 
@@ -47,7 +67,6 @@ pub(super) struct ErrorGrowth {
     momentum_unit: f64,
     known: Difference,
     covariance: Covariance,
-    drift: f64,
     /// Once an error is of order one the linearised flow says no more about what becomes of it.
     lost: bool,
 }
@@ -62,54 +81,63 @@ struct Covariance {
     /// `<theta rho>` and `<w rho>`.
     with_length: [Vector3<f64>; 2],
     length: f64,
+    /// Of both of what is off the frame.
+    off_frame: f64,
 }
 
 impl ErrorGrowth {
     /// No error yet; `momentum_unit` is that of `L / I^xx` in which errors count.
     pub(super) fn none(momentum_unit: f64) -> Self {
         let (known, covariance) = (Difference::default(), Covariance::default());
-        Self { momentum_unit, known, covariance, drift: 0.0, lost: false }
+        Self { momentum_unit, known, covariance, lost: false }
     }
 
     /// Carries the errors made so far along the motion.
     pub(super) fn carry(&mut self, map: &LinearMap) {
-        let Difference { rotation, momentum, length } = &mut self.known;
+        self.known.carry(map);
         match map {
-            LinearMap::Kick { from_rotation, from_length } => {
-                *momentum += from_rotation * *rotation + from_length * *length;
+            LinearMap::Kick { from_rotation, from_length, made } => {
+                self.known.momentum += made;
                 self.covariance.kick(from_rotation, from_length);
             }
-            LinearMap::Rotation { from_rotation, from_momentum } => {
-                *rotation = from_rotation * *rotation + from_momentum * *momentum;
+            LinearMap::Rotation { from_rotation, from_momentum, made } => {
+                self.known.rotation += made;
                 self.covariance.rotate(from_rotation, from_momentum);
             }
         }
     }
 
     /// Adds an error made now: `known` with its sign; one of unknown sign and direction with standard deviations
-    /// `[rotation, momentum]` of each component, the rotation's for the length of `n` as well; and `drift`, the size of
-    /// one that adds up and does not grow.
-    pub(super) fn add(&mut self, known: &Difference, deviations: [f64; 2], drift: f64) {
+    /// `[rotation, momentum]` of each component, the rotation's for the lengths as well.
+    pub(super) fn add(&mut self, known: &Difference, deviations: [f64; 2]) {
         self.known.rotation += known.rotation;
         self.known.momentum += known.momentum;
         self.known.length += known.length;
-        let [rotation, momentum] = deviations.map(|x| Matrix3::from_diagonal_element(x * x));
-        self.covariance.rotation += rotation;
-        self.covariance.momentum += momentum;
-        self.covariance.length += deviations[0] * deviations[0];
-        self.drift += drift;
+        for (sum, made) in self.known.off_frame.iter_mut().zip(known.off_frame) {
+            *sum += made;
+        }
+        let squared_unit = self.momentum_unit * self.momentum_unit;
+        let Covariance { rotation, momentum, length, off_frame, .. } = &mut self.covariance;
+        // What rounding makes of the covariance itself must not outweigh what is left after a contraction.
+        let rounded = COVARIANCE_ROUNDING * (rotation.trace() + momentum.trace() / squared_unit);
+        let variances = deviations.map(|x| x * x);
+        *rotation += Matrix3::from_diagonal_element(variances[0] + rounded);
+        *momentum += Matrix3::from_diagonal_element(variances[1] + rounded * squared_unit);
+        *length += variances[0];
+        *off_frame += 2.0 * variances[0];
     }
 
     /// The estimated error by now. Where only the `axis` is followed, a rotation about it is no error.
     pub(super) fn estimate(&mut self, axis: Option<&Vector3<f64>>) -> f64 {
-        let Covariance { rotation, momentum, length, .. } = &self.covariance;
+        let Covariance { rotation, momentum, length, off_frame, .. } = &self.covariance;
         let mut known = self.known;
-        let mut variance = rotation.trace() + length + momentum.trace() / self.momentum_unit / self.momentum_unit;
+        let mut variance = rotation.trace() + length + off_frame;
+        variance += momentum.trace() / self.momentum_unit / self.momentum_unit;
         if let Some(n) = axis {
             known.rotation -= n * n.dot(&known.rotation);
-            variance -= n.dot(&(rotation * n));
+            variance -= n.dot(&(rotation * n)) + off_frame;
         }
-        let known = known.size(self.momentum_unit) + self.drift;
+        let known = known.size(self.momentum_unit);
         let error = KNOWN_SAFETY * known + UNKNOWN_SAFETY * variance.max(0.0).sqrt() + READING;
         self.lost |= error >= 1.0 || error.is_nan();
         if self.lost { LARGEST } else { error }
@@ -118,6 +146,11 @@ impl ErrorGrowth {
     /// An error of this size, added now, as [`estimate`](Self::estimate) would count it.
     pub(super) fn counted(size: f64) -> f64 {
         KNOWN_SAFETY * size
+    }
+
+    /// The same of one with this standard deviation.
+    pub(super) fn counted_deviation(deviation: f64) -> f64 {
+        UNKNOWN_SAFETY * deviation
     }
 }
 
@@ -128,8 +161,8 @@ impl Covariance {
         let across = from_rotation * self.mixed + from_length * momentum.transpose();
         let kicked = from_rotation * self.rotation + from_length * rotation.transpose();
         let change = from_rotation * *rotation + from_length * self.length;
-        self.momentum +=
-            across + across.transpose() + kicked * from_rotation.transpose() + change * from_length.transpose();
+        let half = across + (kicked * from_rotation.transpose() + change * from_length.transpose()) * 0.5;
+        self.momentum += half + half.transpose();
         self.mixed += kicked.transpose();
         *momentum += change;
     }
@@ -140,7 +173,9 @@ impl Covariance {
         let turned = from_rotation * self.rotation + from_momentum * self.mixed.transpose();
         let mixed = from_rotation * self.mixed + from_momentum * self.momentum;
         *rotation = from_rotation * *rotation + from_momentum * *momentum;
-        self.rotation = turned * from_rotation.transpose() + mixed * from_momentum.transpose();
+        let rotation = turned * from_rotation.transpose() + mixed * from_momentum.transpose();
+        // What rounding makes asymmetric would be kicked with the wrong sign by `kick`, and grow exponentially.
+        self.rotation = (rotation + rotation.transpose()) * 0.5;
         self.mixed = mixed;
     }
 }

@@ -8,6 +8,7 @@ use crate::propagation::taylor::error_growth::{Difference, ErrorGrowth};
 use crate::propagation::taylor::linearised_flow::LinearisedFlow;
 use crate::propagation::taylor::series::{AXIS, COMPANION, MOMENTUM};
 use crate::propagation::taylor::setup::Setup;
+use crate::propagation::taylor::shared_rounding::{SHARES, SharedRounding, excess_of_shares};
 use crate::scalar::Real;
 
 /// The vectors of a series in real numbers, by columns.
@@ -16,33 +17,27 @@ type Columns<const V: usize> = SMatrix<f64, 3, V>;
 /// Standard deviation of what rounding makes of a change of the state, in units in the last place of the change.
 const ROUNDING: f64 = 0.5;
 
-/// Rounding of the constant rate at which `e_x` turns about `n`, from a sum of products that may cancel: a phase, in units in
-/// the last place of one per radian.
-const RATE_ROUNDING: f64 = 1.0;
-
-/// Standard deviation of what turning the start into the principal frame of `s` rounds, in units in the last place of one.
-const TURNED: f64 = 1.0;
-
 /// Part of the truncation of a step that its leading term misses.
 const UNCERTAIN: f64 = 0.04;
 
-/// Rounding of the constants (`1 / I^xx`, the oblateness, the body's turn) that all steps have in common: a phase, in units
-/// in the last place of one per radian.
-const COMMON_ROUNDING: f64 = 0.5;
+/// Rounding of the angle by which `e_x` has turned about `n`, when it is read off, relative: half a unit in the last place.
+const ANGLE_ROUNDING: f64 = 0.5 * f64::EPSILON;
 
 /// The estimated error within one step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StepError {
     /// Of what was made before it, the larger of both ends.
     carried: f64,
-    /// Of what the step makes by its end.
+    /// Of what the step leaves out by its end.
     local: f64,
+    /// Of what it rounds by its end.
+    rounded: f64,
 }
 
 impl StepError {
     /// The error after the given fraction of the step, by a series of the given order.
     pub(super) fn at(&self, fraction: f64, order: usize) -> f64 {
-        self.carried + self.local * fraction.powi(order as i32 + 1)
+        self.carried + self.rounded * fraction + self.local * fraction.powi(order as i32 + 1)
     }
 }
 
@@ -51,12 +46,17 @@ pub(super) struct TaylorErrors<const V: usize> {
     spheroid: RigidSpheroid<f64>,
     violation: Matrix3<f64>,
     flow: LinearisedFlow,
+    shared: SharedRounding,
+    /// Relative, of each coefficient from the first on.
+    excess: [Columns<V>; SHARES],
     growth: ErrorGrowth,
     /// Unit of time of the series.
     unit: f64,
     /// `L / I^xx` of the momentum's unit, in the unit of time.
     momentum_unit: f64,
     before: f64,
+    /// Bound of what the angle of `e_x` about `n` rounds.
+    of_angle: f64,
     /// Of `e_x` about `n`, in the unit of time of the series; zero where only the axis is followed.
     rate_about_axis: f64,
     /// The step at work.
@@ -69,18 +69,35 @@ impl<const V: usize> TaylorErrors<V> {
         let (scale, spheroid) = (&setup.scale, setup.spheroid.map(S::re));
         let violation = setup.frame.violation.map(S::re);
         let unit = scale.time;
-        let momentum_unit = scale.momentum / spheroid.inertia_xx * unit;
-        let flow = LinearisedFlow::new(&spheroid, &violation, unit);
-        let mut growth = ErrorGrowth::none(momentum_unit);
-        if setup.frame.is_turned() {
-            // The start is rounded when it is turned, and so are the principal axes.
-            let deviations = [1.0, momentum_unit].map(|unit| TURNED * f64::EPSILON * unit);
-            growth.add(&Difference::default(), deviations, 2.0 * TURNED * f64::EPSILON);
-        }
+        let rate = unit / spheroid.inertia_xx;
+        let (shared, at_start) = SharedRounding::of(setup);
+        let flow = LinearisedFlow::new(&spheroid, &violation, unit, shared);
+        let excess = excess_of_shares(setup).map(|[axis, momentum]| {
+            Columns::from_columns(&core::array::from_fn::<_, V, _>(|i| if i == MOMENTUM { momentum } else { axis }))
+        });
+        let mut growth = ErrorGrowth::none(scale.momentum * rate);
+        let start = setup.start.map(|v| v.vector().map(S::re));
+        let mut known = difference::<V>(&Columns::from_columns(&start), &Columns::from_columns(&at_start), rate);
+        known.off_frame[0] += shared.off_frame;
+        growth.add(&known, [0.0; 2]);
         let before = growth.estimate(None);
         let series = Vec::with_capacity(setup.order + 1);
         let rate_about_axis = if V > COMPANION { setup.rate_about_axis.re() * unit } else { 0.0 };
-        Self { spheroid, violation, flow, growth, unit, momentum_unit, before, rate_about_axis, series }
+        let momentum_unit = scale.momentum * rate;
+        Self {
+            spheroid,
+            violation,
+            flow,
+            shared,
+            excess,
+            growth,
+            unit,
+            momentum_unit,
+            before,
+            of_angle: 0.0,
+            rate_about_axis,
+            series,
+        }
     }
 
     /// The next step, of signed length `h` in units of its series. `vector` makes the vectors of the coefficients real.
@@ -101,31 +118,33 @@ impl<const V: usize> TaylorErrors<V> {
         let start = (series[0].column(AXIS).into(), series[0].column(MOMENTUM) * rate);
         let growth = &mut self.growth;
         self.flow.over(start, &axis, h, |map| growth.carry(map));
-        let carried = self.growth.estimate(only_axis).max(self.before);
+        self.of_angle += ANGLE_ROUNDING * (self.rate_about_axis * h).abs();
+        let carried = (self.growth.estimate(only_axis) + self.of_angle).max(self.before);
 
-        let (known, off_frame) = self.truncation(series, h, end);
-        let size = known.size(self.momentum_unit) + off_frame;
+        let known = self.truncation(series, h, end);
+        let size = known.size(self.momentum_unit);
         // What is rounded is the changes without the cancellation between their first two terms or within a cross product.
         let changes = (series[1].abs() + series[2].abs() * h.abs()) * h.abs();
         let turned = (0..V).filter(|column| *column != MOMENTUM).map(|column| changes.column(column).norm());
-        let turned = turned.fold(start.1.norm() * h.abs(), f64::max).min(1.0);
+        let turned = turned.fold(start.1.norm() * h.abs(), f64::max);
         let kicked = (self.flow.strength() * h.abs()).max(changes.column(MOMENTUM).norm() * rate);
-        // Of the momentum too, by the size of the whole: its own defect is small where it averages out, and then less certain.
-        let deviations = [(turned, 1.0), (kicked.min(self.momentum_unit), self.momentum_unit)]
-            .map(|(change, unit)| ROUNDING * f64::EPSILON * change + UNCERTAIN * size * unit);
-        let common = COMMON_ROUNDING * f64::EPSILON * (series[0].column(MOMENTUM).norm() * rate * h).abs()
-            + RATE_ROUNDING * f64::EPSILON * (self.rate_about_axis * h).abs();
-        self.growth.add(&known, deviations, off_frame + common);
-        self.before = self.growth.estimate(only_axis);
-        StepError { carried, local: ErrorGrowth::counted(size) }
+        // Within a step the momentum feels what the torque makes of the defect of the axis, too.
+        let uncertain = UNCERTAIN * (known.momentum.norm() + size * kicked.min(self.momentum_unit));
+        let [turned, kicked] = [turned, kicked].map(|change| ROUNDING * f64::EPSILON * change);
+        let deviations = [turned + UNCERTAIN * size, kicked + uncertain];
+        let mut added = known;
+        added.rotation += axis * (self.shared.rate_about_axis * h);
+        self.growth.add(&added, deviations);
+        self.before = self.growth.estimate(only_axis) + self.of_angle;
+        let rounded = ErrorGrowth::counted_deviation(turned.hypot(kicked / self.momentum_unit));
+        StepError { carried, local: ErrorGrowth::counted(size), rounded }
     }
 
-    /// What the step leaves out: the difference that it makes of the motion, and what it makes of the length of the vector
-    /// carried along and its angle to `n`, which do not influence anything.
+    /// What the step leaves out, and what rounding of the factors of its recurrences makes of it.
     ///
-    /// It is `integral of d(tau) dtau` with the defect `d = x' - f(x)` of the series, which grows as `tau^order`: the
-    /// Gauss-Jacobi rule of one node for that weight.
-    fn truncation(&self, series: &[Columns<V>], h: f64, end: &Columns<V>) -> (Difference, f64) {
+    /// It is the integral of the defect `d = x' - f(x)` of the series, which grows as `tau^order`, carried to the end of the
+    /// step: the Gauss-Jacobi rule of one node for that weight, and the linearised flow from the node on.
+    fn truncation(&self, series: &[Columns<V>], h: f64, end: &Columns<V>) -> Difference {
         let order = series.len() - 1;
         let node = (order + 1) as f64 / (order + 2) as f64;
         let (mut value, mut slope) = (series[order], Columns::<V>::zeros());
@@ -134,18 +153,16 @@ impl<const V: usize> TaylorErrors<V> {
             value = value * (h * node) + term;
         }
         let weight = h / ((order + 1) as f64 * node.powi(order as i32));
-        let error = (slope - self.rates(&value)) * weight;
-        let vector = |of: &Columns<V>, column: usize| -> Vector3<f64> { of.column(column).into() };
-        let (n, of_axis) = (vector(end, AXIS), vector(&error, AXIS));
-        let momentum = vector(&error, MOMENTUM) * (self.unit / self.spheroid.inertia_xx);
-        let mut known = Difference { rotation: n.cross(&of_axis), momentum, length: n.dot(&of_axis) };
-        let mut off_frame = 0.0;
-        if V > COMPANION {
-            let (x, of_x) = (vector(end, COMPANION), vector(&error, COMPANION));
-            known.rotation += n * n.cross(&x).dot(&of_x);
-            off_frame = of_x.dot(&x).abs() + (of_x.dot(&n) + of_axis.dot(&x)).abs();
-        }
-        (known, off_frame)
+        let truncated = (slope - self.rates(&value)) * weight;
+        // The factors of the recurrences are rounded, too. Most of what they make comes from late in the step as well.
+        let terms = series[1..].iter().zip(&self.excess).rev();
+        let rounded = terms.fold(Columns::zeros(), |sum, (term, excess)| (sum + term.component_mul(excess)) * h);
+        let error = truncated + rounded;
+        let rate = self.unit / self.spheroid.inertia_xx;
+        let mut made = difference(&value, &error, rate);
+        let ends = [&value, end].map(|state| (state.column(AXIS).into(), state.column(MOMENTUM) * rate));
+        self.flow.over_little(ends, h * (1.0 - node), |map| made.carry(map));
+        made
     }
 
     /// Right-hand sides of the equations of motion in the unit of time of the series.
@@ -161,4 +178,18 @@ impl<const V: usize> TaylorErrors<V> {
         }
         rates * self.unit
     }
+}
+
+/// Small differences of the vectors at `state` as one of motions; `rate` is `1 / I^xx` in the unit of time.
+fn difference<const V: usize>(state: &Columns<V>, small: &Columns<V>, rate: f64) -> Difference {
+    let vector = |of: &Columns<V>, column: usize| -> Vector3<f64> { of.column(column).into() };
+    let (n, of_axis) = (vector(state, AXIS), vector(small, AXIS));
+    let momentum = vector(small, MOMENTUM) * rate;
+    let mut made = Difference { rotation: n.cross(&of_axis), momentum, length: n.dot(&of_axis), off_frame: [0.0; 2] };
+    if V > COMPANION {
+        let (x, of_x) = (vector(state, COMPANION), vector(small, COMPANION));
+        made.rotation += n * n.cross(&x).dot(&of_x);
+        made.off_frame = [of_x.dot(&x), of_x.dot(&n) + of_axis.dot(&x)];
+    }
+    made
 }

@@ -11,6 +11,7 @@ use crate::scalar::Real;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SeriesFrame<S> {
     pub(super) violation: Matrix3<S>,
+    is_principal: bool,
     /// Rotation from the principal frame, where that is the frame of the series and not the given one.
     given_from_series: Option<Matrix3<f64>>,
 }
@@ -20,18 +21,24 @@ impl<S: Real> SeriesFrame<S> {
     pub(super) fn of(anisotropic: &Matrix3<S>, principal: bool) -> Result<Self, Error> {
         let off_diagonal = [(0, 1), (0, 2), (1, 2)].iter().any(|&place| anisotropic[place].re() != 0.0);
         if !principal || !off_diagonal {
-            return Ok(Self { violation: *anisotropic, given_from_series: None });
+            return Ok(Self { violation: *anisotropic, is_principal: principal, given_from_series: None });
         }
         let frame = principal_frame(&anisotropic.map(S::re))?;
         // A step of Newton's method makes the axes orthonormal to rounding: what goes in by them comes out by them.
         let back = frame.principal_from_given.transpose();
         let back = back * (Matrix3::identity() * 1.5 - back.transpose() * back * 0.5);
-        Ok(Self { violation: frame.coefficients.tensor().map(S::from_f64), given_from_series: Some(back) })
+        let violation = frame.coefficients.tensor().map(S::from_f64);
+        Ok(Self { violation, is_principal: true, given_from_series: Some(back) })
     }
 
-    /// Whether the frame of the series is not the given one.
-    pub(super) fn is_turned(&self) -> bool {
-        self.given_from_series.is_some()
+    /// Whether it is the principal frame that is computed in, or the given one by whole tensors.
+    pub(super) fn is_principal(&self) -> bool {
+        self.is_principal
+    }
+
+    /// Rotation from the frame of the series, where that is not the given one.
+    pub(super) fn given_from_series(&self) -> Option<Matrix3<f64>> {
+        self.given_from_series
     }
 
     pub(super) fn series_from_given(&self, v: &Vector3<S>) -> Vector3<S> {
@@ -45,7 +52,7 @@ impl<S: Real> SeriesFrame<S> {
 
     /// The same, by the instructions of the series.
     #[inline(always)]
-    pub(super) fn given_from_series<A: OneMotion<Scalar = S>>(&self, a: A, v: A::Vector) -> A::Vector {
+    pub(super) fn turned_to_given<A: OneMotion<Scalar = S>>(&self, a: A, v: A::Vector) -> A::Vector {
         match &self.given_from_series {
             None => v,
             Some(back) => {

@@ -6,18 +6,19 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
+use crate::propagation::taylor::shared_rounding::SharedRounding;
 
 /// Longest part of a step, in radians of the rotation.
-const LONGEST_PART: f64 = 1.0;
+const LONGEST_PART: f64 = 0.5;
 
 /// A linear map of differences `(theta, w, rho)`: the small rotation `theta` of what turns with
 /// `L / I^xx` (`n`, and the vector from which `e_x` follows at a constant rate), the difference `w` of
 /// `L / I^xx`, and the relative difference `rho` of the length of `n`.
 pub(super) enum LinearMap {
-    /// `w += from_rotation theta + from_length rho`.
-    Kick { from_rotation: Matrix3<f64>, from_length: Vector3<f64> },
-    /// `theta = from_rotation theta + from_momentum w`.
-    Rotation { from_rotation: Matrix3<f64>, from_momentum: Matrix3<f64> },
+    /// `w += from_rotation theta + from_length rho`; `made` is added to what is known.
+    Kick { from_rotation: Matrix3<f64>, from_length: Vector3<f64>, made: Vector3<f64> },
+    /// `theta = from_rotation theta + from_momentum w`, and the same.
+    Rotation { from_rotation: Matrix3<f64>, from_momentum: Matrix3<f64>, made: Vector3<f64> },
 }
 
 /// The linearised equations of motion of one body, in the unit of time of the caller.
@@ -25,14 +26,23 @@ pub(super) enum LinearMap {
 pub(super) struct LinearisedFlow {
     /// `2 C s^IJ / I^xx`, in units of the squared rate.
     pull: Matrix3<f64>,
+    /// What the motion itself follows differs from the equations by this.
+    shared: SharedRounding,
+    /// `L / I^xx` of a unit of `L`, in the unit of time.
+    rate: f64,
 }
 
 impl LinearisedFlow {
     /// For the body in the unit of time `unit`; `violation` is `s^IJ` without its trace.
-    pub(super) fn new(spheroid: &RigidSpheroid<f64>, violation: &Matrix3<f64>, unit: f64) -> Self {
+    pub(super) fn new(
+        spheroid: &RigidSpheroid<f64>,
+        violation: &Matrix3<f64>,
+        unit: f64,
+        shared: SharedRounding,
+    ) -> Self {
         let RigidSpheroid { inertia_xx, constant_c, .. } = *spheroid;
         let pull = violation * (2.0 * unit * (constant_c / inertia_xx) * unit);
-        Self { pull }
+        Self { pull, shared, rate: unit / inertia_xx }
     }
 
     /// Largest rate at which `L / I^xx` is turned.
@@ -50,7 +60,7 @@ impl LinearisedFlow {
     ) {
         let (mut n, mut w) = start;
         let rate = w.norm() + self.pull.norm().sqrt();
-        let parts = (rate * h.abs() / LONGEST_PART).ceil().clamp(1.0, 64.0) as usize;
+        let parts = (rate * h.abs() / LONGEST_PART).ceil().clamp(1.0, 128.0) as usize;
         let h = h / parts as f64;
         for part in 0..parts {
             for (share, correction, is_last) in
@@ -71,6 +81,19 @@ impl LinearisedFlow {
         }
     }
 
+    /// The same for a small part of a step, between two states at hand.
+    pub(super) fn over_little(
+        &self,
+        ends: [(Vector3<f64>, Vector3<f64>); 2],
+        h: f64,
+        mut apply: impl FnMut(&LinearMap),
+    ) {
+        let [(n, w), (end_axis, end_w)] = ends;
+        apply(&self.kick(&n, h / 2.0, 0.0).0);
+        apply(&self.rotation(&n, &((w + end_w) / 2.0), h).0);
+        apply(&self.kick(&end_axis, h / 2.0, 0.0).0);
+    }
+
     /// The kick of the potential `U = n.(S n) / 2 - correction |S n x n|^2` over the time `h`.
     fn kick(&self, n: &Vector3<f64>, h: f64, correction: f64) -> (LinearMap, Vector3<f64>) {
         let pulled = self.pull * n;
@@ -86,6 +109,7 @@ impl LinearisedFlow {
         let map = LinearMap::Kick {
             from_rotation: (across * curvature - gradient.cross_matrix()) * across * h,
             from_length: pulled.cross(n) * (2.0 * h),
+            made: self.shared.torque(n) * (self.rate * h),
         };
         (map, gradient.cross(n) * h)
     }
@@ -107,7 +131,11 @@ impl LinearisedFlow {
         let turn = identity + first * a + second * b;
         let average = identity + first * b + second * c;
         let turned = turn * n;
-        let map = LinearMap::Rotation { from_rotation: turn, from_momentum: average * h };
+        let map = LinearMap::Rotation {
+            from_rotation: turn,
+            from_momentum: average * h,
+            made: angle * self.shared.inverse_inertia,
+        };
         (map, turned)
     }
 }

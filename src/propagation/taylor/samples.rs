@@ -190,7 +190,8 @@ impl<T> Samples<T> {
                 break;
             }
             let into = elapsed - step.start.high;
-            self.error_estimates.push(error.at(if into > 0.0 { into / step.length } else { 0.0 }, setup.order));
+            let into = if into > 0.0 { into / step.length } else { 0.0 };
+            self.error_estimates.push(error.at(into, setup.order) + setup.error_of_time(time));
         }
     }
 }

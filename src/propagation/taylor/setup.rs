@@ -12,6 +12,7 @@ use crate::propagation::taylor::frame::SeriesFrame;
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Vectors, change};
 use crate::propagation::taylor::step_size::{Scale, Work, order_for};
 use crate::propagation::third_angle::{body_state, rate_about_axis};
+use crate::rounding::two_sum;
 use crate::scalar::Real;
 
 /// Body, tensor, start and span of a motion, with the order and the error allowed per unit of time.
@@ -24,8 +25,9 @@ pub(super) struct Setup<S, const V: usize> {
     pub(super) order: usize,
     budget: f64,
     pub(super) frame: SeriesFrame<S>,
+    pub(super) given_start: [Vector3<S>; V],
     /// In the frame of the series.
-    start: Vectors<Stored<S>, V>,
+    pub(super) start: Vectors<Stored<S>, V>,
     /// Rate at which `e_x` turns about `n` against the vector carried along.
     pub(super) rate_about_axis: S,
 }
@@ -58,14 +60,20 @@ impl<S: Real, const V: usize> Setup<S, V> {
         let order = order_for(budget / scale.turning_rate.max(f64::MIN_POSITIVE), work);
         let frame = SeriesFrame::of(&anisotropic, principal_frame)?;
         let rate_about_axis = rate_about_axis(spheroid, &start[AXIS], &start[MOMENTUM]);
+        let given_start = start;
         let start = start.map(|v| Stored::from(frame.series_from_given(&v)));
         let (spheroid, violation) = (*spheroid, *s);
-        Ok(Self { spheroid, violation, span, scale, order, budget, frame, start, rate_about_axis })
+        Ok(Self { spheroid, violation, span, scale, order, budget, frame, given_start, start, rate_about_axis })
     }
 
     /// `1` forwards in time, `-1` backwards.
     pub(super) fn direction(&self) -> f64 {
         if self.span.1 >= self.span.0 { 1.0 } else { -1.0 }
+    }
+
+    /// Error of the vectors for what rounding makes of the time `t` since the start.
+    pub(super) fn error_of_time(&self, t: f64) -> f64 {
+        two_sum(t, -self.span.0).1.abs() * self.scale.turning_rate
     }
 
     /// Length of the span.
@@ -123,7 +131,7 @@ impl<S: Real, const V: usize> Setup<S, V> {
         let mut vectors = [Stored::zero(); V];
         for i in 0..V {
             let v = a.add(first[i], change[i]);
-            vectors[i] = a.store(self.frame.given_from_series(a, v));
+            vectors[i] = a.store(self.frame.turned_to_given(a, v));
         }
         vectors
     }
