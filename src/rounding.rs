@@ -15,6 +15,13 @@ pub(crate) fn two_sum<S: Copy + Add<Output = S> + Sub<Output = S>>(a: S, b: S) -
     (sum, (a - (sum - b_part)) + (b - b_part))
 }
 
+/// Dekker's sum: exact where `|a| >= |b|`, as where `b` is a small change of `a`. Elsewhere what it loses is below the rounding of `b`.
+#[inline(always)]
+pub(crate) fn quick_two_sum<S: Copy + Add<Output = S> + Sub<Output = S>>(a: S, b: S) -> (S, S) {
+    let sum = a + b;
+    (sum, b - (sum - a))
+}
+
 /// Dekker's exact product: `a b = product + lost`, for factors below 1e300.
 pub(crate) fn two_product<S: Scalar>(a: S, b: S) -> (S, S) {
     let product = a * b;
@@ -37,6 +44,7 @@ mod tests {
     #[test]
     fn nothing_is_lost() {
         assert_eq!(two_sum(1.0, 1e-20), (1.0, 1e-20));
+        assert_eq!(quick_two_sum(1.0, 1e-20), (1.0, 1e-20));
         let (product, lost) = two_product(1.0 + f64::EPSILON, 1.0 + f64::EPSILON);
         assert_eq!((product, lost), (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON));
         let (product, lost) = two_product(0.1, 0.3);

@@ -3,7 +3,7 @@
 
 use std::io::{self, BufRead as _, Write as _};
 
-use twofold_verify::bench::method::{EIGHT_SCENES, METHODS, Method, WITH_PULSES};
+use twofold_verify::bench::method::{MANY_SCENES, METHODS, Method, WITH_PULSES};
 use twofold_verify::bench::scaling::set_up;
 use twofold_verify::bench::scene::{BenchScene, DURATION};
 use twofold_verify::bench::{Effort, timing::clock};
@@ -12,8 +12,8 @@ use twofold_verify::bench::{Effort, timing::clock};
 fn all() -> Vec<(String, f64, Method)> {
     let plain = METHODS.iter().map(|method| (method.carries.to_string(), 1.0, *method));
     let pulses = WITH_PULSES.iter().map(|method| ("pulses".to_owned(), 1.0, *method));
-    let eight = EIGHT_SCENES.iter().map(|method| ("8 scenes".to_owned(), 8.0, *method));
-    plain.chain(pulses).chain(eight).collect()
+    let many = MANY_SCENES.iter().map(|(method, count)| ("many scenes".to_owned(), *count as f64, *method));
+    plain.chain(pulses).chain(many).collect()
 }
 
 fn main() -> Result<(), String> {

@@ -12,7 +12,7 @@ use std::hint::black_box;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, pulse_train};
 use twofold::propagation::{AxisMotion, Motion, TaylorMotion, propagate, propagate_axis};
-use twofold_verify::bench::method::{EIGHT_SCENES, METHODS};
+use twofold_verify::bench::method::{MANY_SCENES, METHODS};
 use twofold_verify::bench::scene::BenchScene;
 
 /// Length of the motions [t_c], and their accuracy.
@@ -39,7 +39,7 @@ const KERNELS: [(&str, Kernel); 6] = [
         let (beam, observer) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0));
         drop(black_box(pulse_train(motion, &beam, &observer.direction, (0.0, DURATION))));
     }),
-    ("eight-scenes", |scene, _, _| drop(black_box((EIGHT_SCENES[0].run)(scene, DURATION, ACCURACY)))),
+    ("eight-scenes", |scene, _, _| drop(black_box((MANY_SCENES[0].0.run)(scene, DURATION, ACCURACY)))),
 ];
 
 fn motion(scene: &BenchScene) -> TaylorMotion<f64> {

@@ -26,7 +26,7 @@ TARGETS = [
     ("n L", "SciPy", (5, 10), 1 / 300),
     ("n L", "Rust", (5, 10), 1 / 3),
     ("n L e_x", "Rust", (5, 10), 1 / 3),
-    ("8 scenes", "heyoka, batch of 8", (5, 12), 1 / 3.5),
+    ("many scenes", "heyoka, batch of 8", (5, 12), 1 / 3.5),
 ]
 RUST = ("numeris", "ode_solvers", "differential-equations")
 

@@ -111,7 +111,7 @@ def makers():
         for task in ("n L", "n L e_x", "pulses"):
             found[name, task] = lambda tol, task=task, high=high: heyoka(tol, task, high)
     for lanes in (4, 8):
-        found[f"heyoka, batch of {lanes}", "8 scenes"] = lambda tol, lanes=lanes: heyoka_batch(tol, lanes, False)
+        found[f"heyoka, batch of {lanes}", "many scenes"] = lambda tol, lanes=lanes: heyoka_batch(tol, lanes, False)
     for task in ("n L", "n L e_x"):
         found["SciPy DOP853", task] = lambda tol, task=task: scipy(tol, task)
     return found

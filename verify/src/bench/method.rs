@@ -95,9 +95,12 @@ pub const METHODS: &[Method] = &[
 pub const WITH_PULSES: &[Method] =
     &[Method { name: "Taylor", carries: Carries::Orientation, settings: ACCURACIES, run: taylor_with_pulses }];
 
-/// Eight scenes near the one given, which is the first: their `s` differ by parts of 1e-4. The state is that of the first.
-pub const EIGHT_SCENES: &[Method] =
-    &[Method { name: "lanes", carries: Carries::Axis, settings: ACCURACIES, run: eight_in_lanes }];
+/// Scenes near the one given, which is the first: their `s` differ by parts of 1e-4. The state is that of the first; the second number is
+/// how many there are.
+pub const MANY_SCENES: &[(Method, usize)] = &[
+    (Method { name: "lanes, 8 scenes", carries: Carries::Axis, settings: ACCURACIES, run: in_lanes::<8> }, 8),
+    (Method { name: "lanes, 16 scenes", carries: Carries::Axis, settings: ACCURACIES, run: in_lanes::<16> }, 16),
+];
 
 fn taylor_with_pulses(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
     let BenchScene { spheroid, violation, initial, .. } = scene;
@@ -112,17 +115,17 @@ fn taylor_with_pulses(scene: &BenchScene, duration: f64, accuracy: f64) -> Resul
     Ok(End { axis: state.axis, momentum: state.momentum, equatorial_axis, steps, evaluations })
 }
 
-fn eight_in_lanes(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
+fn in_lanes<const COUNT: usize>(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
     let times = [duration];
-    let near = |i| AxisScene {
+    let near = |i: usize| AxisScene {
         spheroid: scene.spheroid,
-        violation: scene.violation * (1.0 + 1e-4 * f64::from(i)),
+        violation: scene.violation * (1.0 + 1e-4 * i as f64),
         initial: scene.initial_axis(),
         start: 0.0,
         times: &times,
         accuracy,
     };
-    let mut found = axis_states_of_many(&[0, 1, 2, 3, 4, 5, 6, 7].map(near));
+    let mut found = axis_states_of_many(&core::array::from_fn::<_, COUNT, _>(near));
     end_of_axis(found.swap_remove(0).map_err(text)?)
 }
 
