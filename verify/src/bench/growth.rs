@@ -37,6 +37,9 @@ fn taylor(scene: &BenchScene, state: &AxisState<f64>, duration: f64) -> Result<A
     motion.axis_state(duration).map_err(text)
 }
 
+/// Times beyond the longest reference: the integrals need none.
+const WITHOUT_REFERENCE: [f64; 1] = [1e7];
+
 /// Length of a stretch (t_c).
 const STRETCH: f64 = 1000.0;
 
@@ -51,8 +54,8 @@ pub struct Row {
     pub energy: f64,
     /// The same of the third integral K.
     pub clebsch: f64,
-    /// Largest error of a component of `n`: the phase.
-    pub phase: f64,
+    /// Largest error of a component of `n`: the phase. None beyond the longest reference.
+    pub phase: Option<f64>,
 }
 
 /// Reference states of tp-II: times and `n`.
@@ -75,7 +78,9 @@ pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, S
     let mut measured = Vec::new();
     for (i, method) in METHODS.iter().enumerate() {
         let (mut state, mut time, mut drift) = (scene.initial_axis(), 0.0, [0.0; 2]);
-        for (end, axis) in references().into_iter().filter(|(end, _)| *end <= effort.longest) {
+        let references = references().into_iter().map(|(end, axis)| (end, Some(axis)));
+        let beyond = WITHOUT_REFERENCE.map(|end| (end, None));
+        for (end, axis) in references.chain(beyond).filter(|(end, _)| *end <= effort.longest) {
             while time < end {
                 let step = STRETCH.min(end - time);
                 state = (method.advance)(&scene, &state, step)?;
@@ -85,7 +90,7 @@ pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, S
                 done((i as f64 + time / effort.longest) / METHODS.len() as f64);
             }
             let lifted = state.axis.map(twofold::Scalar::from_f64);
-            let phase = largest((lifted - axis).iter().map(|x: &DoubleDouble| x.high().abs()));
+            let phase = axis.map(|axis| largest((lifted - axis).iter().map(|x: &DoubleDouble| x.high().abs())));
             measured.push(Row { method: method.name, time, energy: drift[0], clebsch: drift[1], phase });
         }
     }
@@ -113,9 +118,9 @@ fn scales(scene: &BenchScene) -> [f64; 2] {
 
 /// The exponent `p` of `error ~ time^p` by least squares in logarithms, over the rows of a method from 1,000 t_c on, if there are three:
 /// a random walk takes longer to show what it is.
-pub fn exponent(rows: &[Row], method: &str, error: impl Fn(&Row) -> f64) -> Option<f64> {
+pub fn exponent(rows: &[Row], method: &str, error: impl Fn(&Row) -> Option<f64>) -> Option<f64> {
     let of_this = rows.iter().filter(|row| row.method == method && row.time >= 1e3);
-    let points: Vec<_> = of_this.map(|row| (row.time.ln(), error(row).ln())).collect();
+    let points: Vec<_> = of_this.filter_map(|row| Some((row.time.ln(), error(row)?.ln()))).collect();
     let count = points.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
     let (x, y) = (mean(|p| p.0), mean(|p| p.1));
@@ -130,9 +135,10 @@ mod tests {
 
     #[test]
     fn the_exponent_of_a_power_is_found() {
-        let row = |time: f64| Row { method: "m", time, energy: 3e-16 * time.powf(0.5), clebsch: 1.0, phase: time };
+        let row =
+            |time: f64| Row { method: "m", time, energy: 3e-16 * time.powf(0.5), clebsch: 1.0, phase: Some(time) };
         let rows: Vec<_> = [1e2, 1e3, 1e4, 1e5].map(row).into();
-        assert!((exponent(&rows, "m", |row| row.energy).expect("points") - 0.5).abs() < 1e-12);
+        assert!((exponent(&rows, "m", |row| Some(row.energy)).expect("points") - 0.5).abs() < 1e-12);
         assert!((exponent(&rows, "m", |row| row.phase).expect("points") - 1.0).abs() < 1e-12);
         assert_eq!(exponent(&rows, "other", |row| row.phase), None);
     }

@@ -109,14 +109,15 @@ pub fn growth(rows: &[growth::Row]) -> String {
     let mut lines: Vec<_> = rows
         .iter()
         .map(|row| {
-            let errors = [row.energy, row.clebsch, row.phase].map(|error| format!("{error:.1e}"));
+            let errors = [Some(row.energy), Some(row.clebsch), row.phase];
+            let errors = errors.map(|error| error.map_or("-".to_owned(), |error| format!("{error:.1e}")));
             [row.method.to_owned(), format!("{:.0e}", row.time)].into_iter().chain(errors).collect::<Vec<_>>()
         })
         .collect();
     for method in distinct(rows.iter().map(|row| row.method)) {
         let exponents = [
-            growth::exponent(rows, method, |row| row.energy),
-            growth::exponent(rows, method, |row| row.clebsch),
+            growth::exponent(rows, method, |row| Some(row.energy)),
+            growth::exponent(rows, method, |row| Some(row.clebsch)),
             growth::exponent(rows, method, |row| row.phase),
         ];
         let cells = exponents.map(|p| p.map_or("-".to_owned(), |p| format!("{p:.2}")));
