@@ -2,3 +2,4 @@
 
 pub mod carlson;
 pub mod jacobi;
+pub mod theta;

@@ -9,6 +9,7 @@ mod eta;
 mod first_integrals;
 mod fisher;
 mod forced_precession;
+mod mean_motion;
 mod observer;
 mod orientation;
 mod perturbation_equations;
@@ -61,6 +62,7 @@ pub fn all() -> Vec<Check> {
         pulsar_table::checks,
         fisher::checks,
         waves::checks,
+        mean_motion::checks,
         spectrum::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()

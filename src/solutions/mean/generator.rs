@@ -1,0 +1,69 @@
+//! The near-identity transformation between the mean motion and the motion itself.
+//!
+//! It is the flow, for the time one, of the generator
+//!
+//! ```text
+//! W = -(C I^xx / (2 G)) [3 c l + n] . s (l x n),    l = L / G,  G = |L|,  c = n.l
+//! ```
+//!
+//! whose bracket with the kinetic energy takes the part of the potential away that depends on the fast angle: `{W, L.L / (2 I^xx)} = V - <V>`. It
+//! is regular at `c = 1`. A function `F` of `n` and `L` moves them by `dn = F_L x n`, `dL = F_L x L + F_n x n`, and every other axis of
+//! the body by `F_L`.
+
+use nalgebra::Vector3;
+
+use crate::dynamics::RigidSpheroid;
+
+use crate::scalar::{Real, length};
+
+/// Symmetry axis, angular momentum and an equatorial axis of the body.
+pub(super) type Axes<S> = [Vector3<S>; 3];
+
+/// The generator `W`, in the principal frame of `s`, which has the principal values `s`. Units of an action.
+pub fn generator<S: Real>(spheroid: &RigidSpheroid<S>, s: &Vector3<S>, axis: &Vector3<S>, momentum: &Vector3<S>) -> S {
+    let size = length(momentum);
+    let l = momentum / size;
+    let along = l * (axis.dot(&l) * 3.0) + axis;
+    -(spheroid.constant_c * spheroid.inertia_xx / size) * along.dot(&s.component_mul(&l.cross(axis))) * 0.5
+}
+
+/// `W_n` and `W_L`, the slopes of the [`generator`] by `n` and `L`.
+pub fn generator_slopes<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Vector3<S>,
+    axis: &Vector3<S>,
+    momentum: &Vector3<S>,
+) -> [Vector3<S>; 2] {
+    slopes(spheroid.constant_c * spheroid.inertia_xx, s, &[*axis, *momentum, *axis])
+}
+
+/// `W_n` and `W_L`, for `strength = C I^xx` and a diagonal `s`.
+fn slopes<S: Real>(strength: S, s: &Vector3<S>, [n, momentum, _]: &Axes<S>) -> [Vector3<S>; 2] {
+    let size = length(momentum);
+    let l = momentum / size;
+    let c = n.dot(&l);
+    let across = l.cross(n);
+    let along = l * (c * 3.0) + n;
+    let (pulled, pulled_along) = (s.component_mul(&across), s.component_mul(&along));
+    let factor = -(strength / size) * 0.5;
+    let share = l.dot(&pulled) * 3.0;
+    let by_axis = (l * share + pulled + pulled_along.cross(&l)) * factor;
+    let by_direction = (n * share + pulled * (c * 3.0) + n.cross(&pulled_along)) * factor;
+    let value = along.dot(&pulled) * factor;
+    let by_momentum = (by_direction - l * (l.dot(&by_direction) + value)) / size;
+    [by_axis, by_momentum]
+}
+
+fn rates<S: Real>(strength: S, s: &Vector3<S>, axes: &Axes<S>) -> Axes<S> {
+    let [by_axis, by_momentum] = slopes(strength, s, axes);
+    let [n, momentum, equatorial] = axes;
+    [by_momentum.cross(n), by_momentum.cross(momentum) + by_axis.cross(n), by_momentum.cross(equatorial)]
+}
+
+/// The flow of `W` for the `time` 1, from mean to osculating axes, or -1, back: one step of the midpoint rule, whose error is of third order
+/// in `s`.
+pub(super) fn transformed<S: Real>(strength: S, s: &Vector3<S>, axes: &Axes<S>, time: f64) -> Axes<S> {
+    let moved = |by: &Axes<S>, part: f64| core::array::from_fn(|i| axes[i] + by[i] * S::from_f64(part * time));
+    let first = rates(strength, s, axes);
+    moved(&rates(strength, s, &moved(&first, 0.5)), 1.0)
+}

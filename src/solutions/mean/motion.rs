@@ -1,0 +1,201 @@
+//! The mean motion in closed form, and the motion that follows from it.
+
+use nalgebra::Vector3;
+
+use super::generator::{Axes, transformed};
+use super::hamiltonian::{MeanOrder, MeanPotential};
+use super::top::{Top, TopPhases, TopShape};
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::lorentz_violation::PrincipalCoefficients;
+use crate::scalar::{Real, length};
+
+/// Most corrections of `G`: each squares its error.
+const MOST_CORRECTIONS: usize = 12;
+
+/// A motion of a spheroid to a given order in `s^IJ`, at any time at the same cost.
+///
+/// Averaged over the fast rotation of `n` about `L` the direction `l` of `L` moves as that of a free asymmetric top with the tensor
+/// `(2 / G) (by_h s + by_m s^2)`, the slopes of the mean potential by `h = l.(s l)` and `m = |s l|^2`; the body turns as the frame that
+/// `l` carries along, about `l` and about `n`. To second order this is still exact for the mean Hamiltonian: what is left out, `(h - <h>)^2`, is of
+/// fourth order. All is in the principal frame of `s`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeanMotion<S> {
+    /// `C I^xx`.
+    strength: S,
+    /// Traceless principal values of `s`.
+    s: Vector3<S>,
+    momentum: S,
+    top: Top<S>,
+    /// At the start, in the frame of the shape there.
+    axis: Vector3<S>,
+    equatorial_axis: Vector3<S>,
+    start: TopShape<S>,
+    rates: MeanRates<S>,
+    /// Of the angles about `l` and about `n`, by the integrals of `h` and `m` about their means.
+    periodic: [[S; 2]; 2],
+    order: MeanOrder,
+    relative_strength: S,
+}
+
+/// Mean rates of a motion (rad per unit of time).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeanRates<S> {
+    /// Of the phase of the slow precession: half the azimuth of `L` about the axis that it goes round; `lambda` on a separatrix.
+    pub slow: S,
+    /// Of the frame about `L`, but for its periodic part.
+    pub about_momentum: S,
+    /// Of the body about its symmetry axis against the frame.
+    pub about_axis: S,
+}
+
+/// Phases of a motion at a time (rad), each modulo a turn if that suits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeanPhases<S> {
+    /// As [`MeanRates::slow`], with its start.
+    pub slow: S,
+    /// As [`MeanRates::about_momentum`].
+    pub about_momentum: S,
+    /// As [`MeanRates::about_axis`].
+    pub about_axis: S,
+}
+
+fn squared<S: Real>(v: &Vector3<S>) -> S {
+    v.dot(v)
+}
+
+fn rotated_about<S: Real>(axis: &Vector3<S>, v: &Vector3<S>, angle: S) -> Vector3<S> {
+    let (sin, cos) = angle.sin_cos();
+    v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (S::one() - cos))
+}
+
+impl<S: Real> MeanMotion<S> {
+    /// The motion from `initial`, in the principal frame of `s`, at the time zero.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] where `L` is zero or so small that the motion is not a fast rotation with a slow precession:
+    /// `C (s_max - s_min) I^xx / G^2` must be below 1.
+    pub fn new(
+        spheroid: &RigidSpheroid<S>,
+        s: &PrincipalCoefficients<S>,
+        initial: &BodyState<S>,
+        order: MeanOrder,
+    ) -> Result<Self, Error> {
+        let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
+        let values = Vector3::new(s.xx, s.yy, s.zz);
+        let s = values.map(|value| value - (values.x + values.y + values.z) / 3.0);
+        let size = length(&initial.momentum);
+        let spread = [s.x - s.y, s.y - s.z, s.z - s.x].map(S::abs);
+        let spread = spread.into_iter().max_by(|a, b| a.re().total_cmp(&b.re())).unwrap_or_else(S::zero);
+        Error::unless(size.re() > 0.0, "angular momentum |L|", size.re(), "above zero")?;
+        let relative_strength = constant_c.abs() * spread * inertia_xx / (size * size);
+        Error::unless(
+            relative_strength.re() < 1.0,
+            "C (s_max - s_min) I^xx / |L|^2",
+            relative_strength.re(),
+            "below one: the body must turn fast against the torque",
+        )?;
+        let strength = constant_c * inertia_xx;
+        let n_s_n = initial.axis.dot(&s.component_mul(&initial.axis));
+        let energy = size * size / (inertia_xx * 2.0) + constant_c * n_s_n;
+        let along_axis = initial.momentum.dot(&initial.axis);
+        let axes = transformed(strength, &s, &[initial.axis, initial.momentum, initial.equatorial_axis], -1.0);
+        let l = axes[1] / length(&axes[1]);
+        let (h, m) = (l.dot(&s.component_mul(&l)), squared(&s.component_mul(&l)));
+        let potential = MeanPotential { order, constant_c, inertia: inertia_xx, square: squared(&s) };
+        // The mean energy is that of the motion, and tells G one order better than the transformation does. To first order that would
+        // only bring in what the mean energy lacks.
+        let mut momentum = length(&axes[1]);
+        let corrections = if order == MeanOrder::First { 0 } else { MOST_CORRECTIONS };
+        for _ in 0..corrections {
+            let c = along_axis / momentum;
+            let slopes = potential.at(momentum, c, h, m);
+            let off = momentum * momentum / (inertia_xx * 2.0) + slopes.value - energy;
+            let by_size = momentum / inertia_xx + slopes.by_size - slopes.by_c * c / momentum;
+            momentum = momentum - off / by_size;
+        }
+        let c = along_axis / momentum;
+        let here = potential.at(momentum, c, h, m);
+        let tensor = s.map(|value| (here.by_h * value + here.by_m * value * value) * 2.0 / momentum);
+        let top = Top::new(tensor.into(), &l);
+        let squares = top.mean_squares();
+        let (mean_h, mean_m) = (s.dot(&squares), s.component_mul(&s).dot(&squares));
+        let mean = potential.at(momentum, c, mean_h, mean_m);
+        let energy_of_top = tensor.dot(&l.component_mul(&l));
+        let TopPhases { slow, about } = top.rates();
+        let rates = MeanRates {
+            slow,
+            about_momentum: about + momentum / inertia_xx + mean.by_size - mean.by_c * c / momentum - energy_of_top,
+            about_axis: mean.by_c / momentum - spheroid.oblateness() * along_axis / inertia_zz,
+        };
+        let periodic = [
+            [-(mean.by_c_h * c / momentum), mean.by_size_m - mean.by_c_m * c / momentum],
+            [mean.by_c_h / momentum, mean.by_c_m / momentum],
+        ];
+        let start = top.at(top.start());
+        let to_shape = start.frame.transpose();
+        let [n, _, equatorial] = axes;
+        let [n, equatorial_axis] = [n, equatorial].map(|v| to_shape * v);
+        let axis = n / length(&n);
+        Ok(Self { strength, s, momentum, top, axis, equatorial_axis, start, rates, periodic, order, relative_strength })
+    }
+
+    /// Mean rates.
+    pub fn rates(&self) -> &MeanRates<S> {
+        &self.rates
+    }
+
+    /// The order.
+    pub fn order(&self) -> MeanOrder {
+        self.order
+    }
+
+    /// `C (s_max - s_min) I^xx / G^2`, whose powers the orders are in: errors are of its size (first order) or of its square (second), and
+    /// grow with its square, or its cube, times the angle turned.
+    pub fn relative_strength(&self) -> S {
+        self.relative_strength
+    }
+
+    /// Phases at the time `t`.
+    pub fn phases(&self, t: S) -> MeanPhases<S> {
+        MeanPhases {
+            slow: self.top.start() + self.rates.slow * t,
+            about_momentum: self.rates.about_momentum * t,
+            about_axis: self.rates.about_axis * t,
+        }
+    }
+
+    /// The mean state at given phases, in the principal frame of `s`.
+    fn mean_axes(&self, phases: &MeanPhases<S>) -> Axes<S> {
+        let shape = self.top.at(phases.slow);
+        let MeanPhases { mut about_momentum, mut about_axis, .. } = *phases;
+        if self.order == MeanOrder::Second {
+            let change = shape.squares - self.start.squares;
+            let of_square = self.s.component_mul(&self.s);
+            let integrals = [self.s.dot(&change), of_square.dot(&change)];
+            let [about_l, about_n] = self.periodic.map(|[by_h, by_m]| by_h * integrals[0] + by_m * integrals[1]);
+            (about_momentum, about_axis) = (about_momentum + about_l, about_axis + about_n);
+        }
+        // The turn of the frame since the start: the quotient of two complex numbers, times that of the angle.
+        let ([x, y], [x0, y0]) = (shape.turned, self.start.turned);
+        let turn = [x * x0 + y * y0, y * x0 - x * y0];
+        let size = (turn[0] * turn[0] + turn[1] * turn[1]).sqrt();
+        let (sin, cos) = about_momentum.sin_cos();
+        let (cos, sin) = ((cos * turn[0] - sin * turn[1]) / size, (sin * turn[0] + cos * turn[1]) / size);
+        let placed = |v: &Vector3<S>| shape.frame * Vector3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z);
+        let equatorial = rotated_about(&self.axis, &self.equatorial_axis, about_axis);
+        let l: Vector3<S> = shape.frame.column(2).into();
+        [placed(&self.axis), l * self.momentum, placed(&equatorial)]
+    }
+
+    /// The state of the body at given phases, in the principal frame of `s`.
+    pub fn state_at(&self, phases: &MeanPhases<S>) -> BodyState<S> {
+        let [axis, momentum, equatorial_axis] = transformed(self.strength, &self.s, &self.mean_axes(phases), 1.0);
+        BodyState { axis, momentum, equatorial_axis }
+    }
+
+    /// The state of the body at the time `t`, in the principal frame of `s`.
+    pub fn state(&self, t: S) -> BodyState<S> {
+        self.state_at(&self.phases(t))
+    }
+}

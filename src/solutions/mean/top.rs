@@ -1,0 +1,274 @@
+//! A direction that moves as the angular velocity of a free asymmetric top, and the frame that it carries along.
+//!
+//! ```text
+//! dl/dt = (k l) x l,    dA/dt = [k l] A,    A(0) = 1,    l(t) = A(t) l(0)
+//! ```
+//!
+//! for a diagonal tensor `k`: the problem of Euler and Jacobi, with `l` for the angular momentum in the body and `A` for the inverse of
+//! the attitude. With `m_3` along the principal axis that `l` goes round and `a = k_1 - k_2`, `b = k_2 - k_3`, of one sign,
+//!
+//! ```text
+//! m = (A_1 cn u, -+ A_2 sn u, +- A_3 dn u),    u = u_0 + lambda t,    lambda = b A_2 A_3 / A_1,    k^2 = a A_1^2 / (b A_3^2)
+//! ```
+//!
+//! and the frame turns about `l`, against the meridian of `m_3`, at the rate `k_3 + (a + b) / (1 + (a/b) sn^2 u)`. Its integral, of the third
+//! kind, has a mean growth and the angle of `theta_1(z + i eta)`, `z = pi u / (2 K)`, `sc(2 K eta / pi, k')^2 = b / a`. No
+//! coordinate is singular: where `A_1` vanishes the meridian is that of `m / A_1`.
+
+use core::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::elliptic::carlson::rf;
+use crate::elliptic::theta::{Nome, ThetaSeries};
+use crate::scalar::{Real, length};
+
+/// `k'^2` up to which a motion is on the separatrix: it is there within the rounding of its start.
+const SEPARATRIX: f64 = 1e-32;
+
+/// The course of a top.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Top<S> {
+    course: Course<S>,
+    /// Principal axes in the order of `m`.
+    places: [usize; 3],
+    /// Signs of `m_2`, for a right-handed order, of the side of `m_3` on which `l` is, and on a separatrix of `m_1`.
+    signs: [f64; 3],
+    amplitudes: [S; 3],
+    /// `A_2 / A_1`.
+    elongation: S,
+    /// Mean rate of the frame about `l` and of the phase, and the phase at the start.
+    rates: TopPhases<S>,
+    start: S,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "one top at a time, and nothing on the heap")]
+enum Course<S> {
+    /// Neither `l` nor what it depends on moves.
+    Still { direction: Vector3<S> },
+    /// With `pi / (2 K)`, the mean of `sn^2` and `k^2`.
+    Round { theta: ThetaSeries<S>, nome: Nome<S>, parameter: S, mean: S, mean_sn2: S },
+    /// From one end of the middle axis to the other; `sqrt(a / b)`.
+    Separatrix { root_ratio: S },
+}
+
+/// What grows with time: the phase `z` (on a separatrix `u`), and the angle about `l` but for its periodic part (rad).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TopPhases<S> {
+    /// `z`, half the azimuth of `l` in its mean.
+    pub slow: S,
+    /// About `l`.
+    pub about: S,
+}
+
+/// A top at a phase.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TopShape<S> {
+    /// Columns: along the meridian of the axis that is gone round, along its parallel, `l`.
+    pub frame: Matrix3<S>,
+    /// Cosine and sine of the periodic part of the angle about `l`, times a positive number.
+    pub turned: [S; 2],
+    /// Periodic part of the integral of the squares of the components of `l` over time.
+    pub squares: Vector3<S>,
+}
+
+/// `AGM(1, k')` and the mean of `sn^2`, from `k^2` and `k'`.
+fn mean_and_sn2<S: Real>(parameter: S, complement: S) -> (S, S) {
+    let (mut a, mut b) = (S::one(), complement);
+    // c_n / k of the ladder: c_1 = k^2 / (2 (1 + k')).
+    let mut c_over_k = parameter.sqrt() / ((S::one() + complement) * 2.0);
+    let (mut sum, mut weight) = (S::from_f64(0.5), 1.0);
+    let root = parameter.sqrt();
+    for _ in 0..40 {
+        (a, b) = ((a + b) * 0.5, (a * b).sqrt());
+        let share = c_over_k * c_over_k * weight;
+        sum += share;
+        if share.re() <= 1e-40 {
+            break;
+        }
+        // c_(n+1) = c_n^2 / (4 a_(n+1))
+        let next_a = (a + b) * 0.5;
+        c_over_k = c_over_k * c_over_k * root / (next_a * 4.0);
+        weight *= 2.0;
+    }
+    ((a + b) * 0.5, sum)
+}
+
+impl<S: Real> Top<S> {
+    /// The motion from the unit vector `l`, for the principal values `k` of the tensor.
+    pub fn new(k: [S; 3], l: &Vector3<S>) -> Self {
+        let mut order = [0, 1, 2];
+        order.sort_by(|&i, &j| k[j].re().total_cmp(&k[i].re()));
+        let [x, _, z] = order.map(|i| l[i]);
+        let (upper, lower) = (k[order[0]] - k[order[1]], k[order[1]] - k[order[2]]);
+        // k_2 - l.(k l): positive round the axis of the smallest value.
+        let margin = lower * z * z - upper * x * x;
+        let round_third = margin.re() > 0.0;
+        let (places, a, b) =
+            if round_third { (order, upper, lower) } else { ([order[2], order[1], order[0]], -lower, -upper) };
+        let odd = [[0, 2, 1], [2, 1, 0], [1, 0, 2]].contains(&places);
+        let handed = if odd { -1.0 } else { 1.0 };
+        let m = [l[places[0]], l[places[1]] * handed, l[places[2]]];
+        let side = if m[2].re() < 0.0 { -1.0 } else { 1.0 };
+        let energy = k[0] * l.x * l.x + k[1] * l.y * l.y + k[2] * l.z * l.z;
+        let still = Self {
+            course: Course::Still { direction: *l },
+            places,
+            signs: [handed, side, 1.0],
+            amplitudes: m,
+            elongation: S::one(),
+            rates: TopPhases { slow: S::zero(), about: energy },
+            start: S::zero(),
+        };
+        let whole = a + b;
+        let on_middle = m[0].re() == 0.0 && m[2].re() == 0.0;
+        if whole.re() == 0.0 || on_middle || (margin.re() == 0.0 && b.re() == 0.0) {
+            return still;
+        }
+        let amplitudes_squared =
+            [m[0] * m[0] + m[1] * m[1] * (b / whole), S::zero(), m[2] * m[2] + m[1] * m[1] * (a / whole)];
+        let elongation = (whole / b).sqrt();
+        if amplitudes_squared[2].re() <= 0.0 {
+            return still;
+        }
+        let first = if amplitudes_squared[0].re() > 0.0 { amplitudes_squared[0].sqrt() } else { S::zero() };
+        let third = amplitudes_squared[2].sqrt();
+        let amplitudes = [first, first * elongation, third];
+        let sense = if b.re() < 0.0 { -1.0 } else { 1.0 };
+        let lambda = (b * whole).sqrt() * third * sense;
+        let complement_squared = margin.abs() / (b.abs() * amplitudes_squared[2]);
+        let parameter = a * amplitudes_squared[0] / (b * amplitudes_squared[2]);
+        // Where the amplitude vanishes, any phase will do.
+        let (cn, sn) =
+            if first.re() > 0.0 { (m[0] / first, m[1] / amplitudes[1] * -side) } else { (S::one(), S::zero()) };
+        let dn = m[2].abs() / third;
+        let moving = Self { amplitudes, elongation, ..still };
+        if complement_squared.re() <= SEPARATRIX {
+            let root_ratio = (a / b).sqrt();
+            // sn = tanh u, dn = 1 / cosh u; cn as well, which does not change its sign: m_1 and m_2 have another one behind.
+            let front = if m[0].re() < 0.0 { -1.0 } else { 1.0 };
+            let u = ((S::one() + sn.abs()) / dn).ln() * if sn.re() < 0.0 { -front } else { front };
+            return Self {
+                course: Course::Separatrix { root_ratio },
+                rates: TopPhases { slow: lambda, about: k[places[1]] },
+                start: u,
+                signs: [handed, side, front],
+                ..moving
+            };
+        }
+        let complement = complement_squared.sqrt();
+        let (mean, mean_sn2) = mean_and_sn2(parameter, complement);
+        let nome = Nome::new(parameter, complement_squared);
+        // r = exp(-pi v / K), v = F(arctan sqrt(b/a), k').
+        let r = if a.re() == 0.0 {
+            S::zero()
+        } else {
+            let v = (b / whole).sqrt() * rf(a / whole, (a + b * parameter) / whole, S::one());
+            (v * mean * -2.0).exp()
+        };
+        let theta = ThetaSeries::new(nome.q, r);
+        let quarter = S::from_f64(FRAC_PI_2) / mean;
+        let first_half = sn * rf(cn * cn, dn * dn, S::one());
+        let u = if cn.re() < 0.0 { quarter * 2.0 - first_half } else { first_half };
+        let slow = lambda * mean;
+        Self {
+            course: Course::Round { theta, nome, parameter, mean, mean_sn2 },
+            rates: TopPhases { slow, about: k[places[0]] + slow * theta.slope_of_shifted() },
+            start: u * mean,
+            ..moving
+        }
+    }
+
+    /// Mean rates of the phases (rad per unit of time).
+    pub fn rates(&self) -> TopPhases<S> {
+        self.rates
+    }
+
+    /// The phase `z` at the start.
+    pub fn start(&self) -> S {
+        self.start
+    }
+
+    /// Index of the principal axis that `l` goes round, and the sense of its mean azimuth about the positive end.
+    pub fn axis(&self) -> usize {
+        self.places[2]
+    }
+
+    /// Whether `l` goes to the middle axis without end.
+    pub fn is_separatrix(&self) -> bool {
+        matches!(self.course, Course::Separatrix { .. })
+    }
+
+    /// Mean of the squares of the components of `l`.
+    pub fn mean_squares(&self) -> Vector3<S> {
+        match &self.course {
+            Course::Still { direction } => direction.component_mul(direction),
+            Course::Round { mean_sn2, parameter, .. } => {
+                self.in_places([S::one() - *mean_sn2, *mean_sn2, S::one() - *parameter * *mean_sn2])
+            }
+            Course::Separatrix { .. } => self.in_places([S::zero(), S::one(), S::zero()]),
+        }
+    }
+
+    /// Multiples of the squares of the amplitudes, in the given order of axes.
+    fn in_places(&self, factors: [S; 3]) -> Vector3<S> {
+        let mut squares = Vector3::zeros();
+        for ((place, factor), amplitude) in self.places.into_iter().zip(factors).zip(self.amplitudes) {
+            squares[place] = amplitude * amplitude * factor;
+        }
+        squares
+    }
+
+    /// The top at a phase `z`, on a separatrix `u`; any for one that is still.
+    pub fn at(&self, phase: S) -> TopShape<S> {
+        let (sn, cn, dn, turned, sn2_integral) = match &self.course {
+            Course::Still { direction } => return still_shape(direction),
+            Course::Round { theta, nome, parameter, mean, .. } => {
+                let (sin, cos) = phase.sin_cos();
+                let at = theta.at(sin, cos);
+                let zeta_over_m =
+                    if parameter.re() > 0.0 { at.slope / *parameter } else { nome.q_over_m * sin * cos * 8.0 };
+                // The angle is minus that of the shifted function.
+                (at.sn, at.cn, at.dn, [at.shifted[0], -at.shifted[1]], -(zeta_over_m * *mean * *mean / self.rates.slow))
+            }
+            Course::Separatrix { root_ratio } => {
+                let sign = if phase.re() < 0.0 { -1.0 } else { 1.0 };
+                let down = (phase * -sign).exp();
+                let whole = S::one() + down * down;
+                let (sech, tanh) = (down * 2.0 / whole, (S::one() - down * down) / whole * sign);
+                (tanh, sech, sech, [S::one(), *root_ratio * tanh], -tanh / self.rates.slow)
+            }
+        };
+        let [handed, side, front] = self.signs;
+        let across = [cn * front, sn * self.elongation * -side * front];
+        let size = (across[0] * across[0] + across[1] * across[1]).sqrt();
+        let (x, y) = (across[0] / size, across[1] / size);
+        let (rho, height) = (self.amplitudes[0] * size, self.amplitudes[2] * dn * side);
+        let columns = [[height * x, height * y, -rho], [-y, x, S::zero()], [rho * x, rho * y, height]];
+        let mut frame = Matrix3::zeros();
+        for (j, column) in columns.into_iter().enumerate() {
+            for (i, component) in column.into_iter().enumerate() {
+                frame[(self.places[i], j)] = if i == 1 { component * handed } else { component };
+            }
+        }
+        let squares = match &self.course {
+            Course::Round { parameter, .. } => {
+                self.in_places([-sn2_integral, sn2_integral, -*parameter * sn2_integral])
+            }
+            _ => self.in_places([-sn2_integral, sn2_integral, -sn2_integral]),
+        };
+        TopShape { frame, turned, squares }
+    }
+}
+
+/// Any frame with `l` for its third axis.
+fn still_shape<S: Real>(l: &Vector3<S>) -> TopShape<S> {
+    let least = (0..3).min_by(|&i, &j| l[i].re().abs().total_cmp(&l[j].re().abs())).unwrap_or_default();
+    let mut pole = Vector3::zeros();
+    pole[least] = S::one();
+    let parallel = pole.cross(l);
+    let parallel = parallel / length(&parallel);
+    let frame = Matrix3::from_columns(&[parallel.cross(l), parallel, *l]);
+    TopShape { frame, turned: [S::one(), S::zero()], squares: Vector3::zeros() }
+}
