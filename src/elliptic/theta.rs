@@ -103,9 +103,9 @@ impl<S: Real> ThetaSeries<S> {
             series.terms = n + 1;
             // To n + 1: q^(2n+1) more in the squares, q^(2n+2) in the oblongs.
             let odd_power = q_power * q;
-            square = square * odd_power;
+            square *= odd_power;
             q_power = odd_power * q;
-            oblong = oblong * q_power;
+            oblong *= q_power;
             weight = if r.re() > 0.0 { weight * (q_power / r) } else { zero };
             r_power = r_power * r * r;
             sign = -sign;

@@ -204,11 +204,10 @@ impl<T: Ring, const V: usize> Tangents<T, V> {
             }
         }
         // dP x n + P x dn.
-        let rate = &mut self.vectors[RATE];
-        for i in 0..3 {
+        for (i, rate) in self.vectors[RATE].iter_mut().enumerate() {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let of_pull = y[k].mul_add(xx.like(-n[j]), y[j].mul_add(xx.like(n[k]), rate[i]));
-            rate[i] = axis[j].mul_add(xx.like(-pull[k]), axis[k].mul_add(xx.like(pull[j]), of_pull));
+            let of_pull = y[k].mul_add(xx.like(-n[j]), y[j].mul_add(xx.like(n[k]), *rate));
+            *rate = axis[j].mul_add(xx.like(-pull[k]), axis[k].mul_add(xx.like(pull[j]), of_pull));
         }
     }
 }

@@ -112,7 +112,7 @@ impl<S: Real> MeanMotion<S> {
             let slopes = potential.at(momentum, c, h, m);
             let off = momentum * momentum / (inertia_xx * 2.0) + slopes.value - energy;
             let by_size = momentum / inertia_xx + slopes.by_size - slopes.by_c * c / momentum;
-            momentum = momentum - off / by_size;
+            momentum -= off / by_size;
         }
         let c = along_axis / momentum;
         let here = potential.at(momentum, c, h, m);
