@@ -2,7 +2,7 @@
 //!
 //! Their series converge as `q^(n^2)`: three terms serve most parameters, a dozen those within rounding of `k = 1`.
 //!
-//! Written here because derivatives are needed, and theta functions of complex argument without overflow.
+//! Written here because no maintained Rust crate has them at complex arguments, without overflow.
 
 use core::f64::consts::PI;
 

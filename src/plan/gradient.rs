@@ -36,10 +36,11 @@ pub struct Gradient {
 
 /// Values of `outputs` at `times` and their derivatives by the [`derivatives`](Plan::derivatives) of a plan, and by no others.
 ///
-/// Where the motion is numerical and its method was not asked for by name, it goes by a splitting scheme with the tangent map of each
-/// of its flows, for all parameters at once; the outputs then follow by forward duals. Otherwise (and on processors without vectors
-/// of doubles) by a forward dual through the motion for each parameter, with the steps of the motion itself. The derivatives are those
-/// of the numerical solution either way: as accurate as it is, relative to the largest one.
+/// Where the motion is numerical and the Taylor series was not asked for by name, it goes by a splitting scheme with the tangent map of
+/// each of its flows, for all parameters at once, and the outputs follow by forward duals: values and derivatives of one numerical
+/// motion, made for the accuracy of the plan, relative to the largest derivative. Otherwise (and on processors without vectors of
+/// doubles, and for values without derivatives) by the closed form or the series, with a forward dual through it for each parameter; steps
+/// follow from real parts alone, and the error of derivatives through the series can be some hundred times that of the motion.
 ///
 /// # Errors
 /// As for the motion; [`Error::Domain`] for times outside its stretch.
@@ -54,6 +55,9 @@ pub fn gradient(
         values: DMatrix::zeros(times.len(), width),
         jacobians: vec![DMatrix::zeros(width, count); times.len()],
     };
+    if times.is_empty() {
+        return Ok(found);
+    }
     if count == 0 {
         let motion = SeededMotion::new(plan, start)?;
         let mut here = vec![0.0; width];
@@ -105,7 +109,8 @@ fn states_by_splitting(
     seeded: &[Start<Dual64>],
     times: &[f64],
 ) -> Result<Option<Vec<Vec<BodyState<Dual64>>>>, Error> {
-    if plan.forced || !matches!(plan.method, Some(Method::Taylor | Method::Splitting)) {
+    let by_series = plan.forced && plan.method == Some(Method::Taylor);
+    if by_series || !matches!(plan.method, Some(Method::Taylor | Method::Splitting)) {
         return Ok(None);
     }
     let (first, last) = plan.stretch;

@@ -13,7 +13,7 @@ const MOMENTUM: usize = 1;
 const EQUATORIAL_AXIS: usize = 2;
 
 /// Refuses what is not finite, not a frame, or out of range.
-pub(super) fn check_input<S: Real, const V: usize>(
+pub(crate) fn check_input<S: Real, const V: usize>(
     spheroid: &RigidSpheroid<S>,
     s: &Matrix3<S>,
     vectors: &[Vector3<S>; V],

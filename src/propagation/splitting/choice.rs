@@ -134,7 +134,9 @@ pub fn splitting_forecast(
 ) -> Result<SplittingForecast, Error> {
     let initial = vectors_of_axis(initial);
     check_input(spheroid, s, &initial, span, accuracy)?;
-    Ok(forecast(&Scene::new(spheroid, s, &initial)?, span, accuracy))
+    let forecast = forecast(&Scene::new(spheroid, s, &initial)?, span, accuracy);
+    Error::unless(forecast.steps <= SPLITTING_STEP_LIMIT, "number of steps", forecast.steps, "at most 1e10")?;
+    Ok(forecast)
 }
 
 fn forecast<const V: usize>(scene: &Scene<V>, span: (f64, f64), accuracy: f64) -> SplittingForecast {

@@ -9,7 +9,7 @@ use crate::propagation::input::check_input;
 use crate::propagation::registers::Register;
 use crate::propagation::splitting::choice::derivatives_forecast;
 use crate::propagation::splitting::flows::{AXIS, COMPANION, Moving, RATE};
-use crate::propagation::splitting::motion::Scene;
+use crate::propagation::splitting::motion::{SPLITTING_STEP_LIMIT, Scene};
 use crate::propagation::splitting::ring::FusedDouble;
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::side_by_side::SideBySide;
@@ -59,6 +59,8 @@ pub(crate) fn states_with_derivatives<const V: usize>(
     check_input(&spheroid, &violation, &initial, (start, *last), accuracy)?;
     let scene = Scene::new(&spheroid, &violation, &initial)?;
     let (scheme, step) = derivatives_forecast(&scene, (start, *last), accuracy);
+    let count = (last - start).abs() / step + times.len() as f64;
+    Error::unless(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
     let mut found = vec![Vec::with_capacity(seeded.len()); times.len()];
     for seeded in seeded.chunks(MOST) {
         let moving = Derivatives { scene: &scene, scheme, step, start, times, seeded };

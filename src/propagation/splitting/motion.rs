@@ -290,8 +290,8 @@ impl<const V: usize> AxisMotion<f64> for SplittingMotion<V> {
         Ok(self.scene.state(&self.at(t)?))
     }
 
-    /// Three times the difference from a motion by a better scheme, found when it is first asked for: that motion takes about
-    /// two and a half times as long as this one, five times for the scheme of order 2.
+    /// Six times the difference from a motion by a better scheme, found when it is first asked for: that motion takes at least
+    /// two and a half times as long as this one.
     fn error_estimate(&self, t: f64) -> f64 {
         let (first, last) = self.span;
         if !(first.min(last) <= t && t <= first.max(last)) {

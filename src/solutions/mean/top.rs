@@ -56,7 +56,7 @@ enum Course<S> {
 /// What grows with time: the phase `z` (on a separatrix `u`), and the angle about `l` but for its periodic part (rad).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TopPhases<S> {
-    /// `z`, half the azimuth of `l` in its mean.
+    /// `z`, which grows by a turn when `l` goes once round its axis, in either sense.
     pub slow: S,
     /// About `l`.
     pub about: S,
@@ -76,79 +76,80 @@ pub struct TopShape<S> {
 /// `AGM(1, k')` and the mean of `sn^2`, from `k^2` and `k'`.
 fn mean_and_sn2<S: Real>(parameter: S, complement: S) -> (S, S) {
     let (mut a, mut b) = (S::one(), complement);
-    // c_n / k of the ladder: c_1 = k^2 / (2 (1 + k')).
-    let mut c_over_k = parameter.sqrt() / ((S::one() + complement) * 2.0);
+    // (c_n / k)^2 of the ladder: c_1 = k^2 / (2 (1 + k')).
+    let first = (S::one() + complement) * 2.0;
+    let mut square = parameter / (first * first);
     let (mut sum, mut weight) = (S::from_f64(0.5), 1.0);
-    let root = parameter.sqrt();
     for _ in 0..40 {
         (a, b) = ((a + b) * 0.5, (a * b).sqrt());
-        let share = c_over_k * c_over_k * weight;
+        let share = square * weight;
         sum += share;
         if share.re() <= 1e-40 {
             break;
         }
         // c_(n+1) = c_n^2 / (4 a_(n+1))
         let next_a = (a + b) * 0.5;
-        c_over_k = c_over_k * c_over_k * root / (next_a * 4.0);
+        square = square * square * parameter / (next_a * next_a * 16.0);
         weight *= 2.0;
     }
     ((a + b) * 0.5, sum)
 }
 
-impl<S: Real> Top<S> {
+impl Top<f64> {
     /// The motion from the unit vector `l`, for the principal values `k` of the tensor.
-    pub fn new(k: [S; 3], l: &Vector3<S>) -> Self {
+    ///
+    /// Near the separatrix the functions lose digits: 6e-13 at `k'^2 = 1e-16`, 1e-9 at 1e-31, below which it is taken for the separatrix.
+    pub fn new(k: [f64; 3], l: &Vector3<f64>) -> Self {
         let mut order = [0, 1, 2];
-        order.sort_by(|&i, &j| k[j].re().total_cmp(&k[i].re()));
+        order.sort_by(|&i, &j| k[j].total_cmp(&k[i]));
         let [x, _, z] = order.map(|i| l[i]);
         let (upper, lower) = (k[order[0]] - k[order[1]], k[order[1]] - k[order[2]]);
         // k_2 - l.(k l): positive round the axis of the smallest value.
         let margin = lower * z * z - upper * x * x;
-        let round_third = margin.re() > 0.0;
+        let round_third = margin > 0.0;
         let (places, a, b) =
             if round_third { (order, upper, lower) } else { ([order[2], order[1], order[0]], -lower, -upper) };
         let odd = [[0, 2, 1], [2, 1, 0], [1, 0, 2]].contains(&places);
         let handed = if odd { -1.0 } else { 1.0 };
         let m = [l[places[0]], l[places[1]] * handed, l[places[2]]];
-        let side = if m[2].re() < 0.0 { -1.0 } else { 1.0 };
+        let side = if m[2] < 0.0 { -1.0 } else { 1.0 };
         let energy = k[0] * l.x * l.x + k[1] * l.y * l.y + k[2] * l.z * l.z;
         let still = Self {
             course: Course::Still { direction: *l },
             places,
             signs: [handed, side, 1.0],
             amplitudes: m,
-            elongation: S::one(),
-            rates: TopPhases { slow: S::zero(), about: energy },
-            start: S::zero(),
+            elongation: 1.0,
+            rates: TopPhases { slow: 0.0, about: energy },
+            start: 0.0,
         };
         let whole = a + b;
-        let on_middle = m[0].re() == 0.0 && m[2].re() == 0.0;
-        if whole.re() == 0.0 || on_middle || (margin.re() == 0.0 && b.re() == 0.0) {
+        let on_middle = m[0] * m[0] == 0.0 && m[2] * m[2] == 0.0;
+        if whole == 0.0 || on_middle || (margin == 0.0 && b == 0.0) {
             return still;
         }
         let amplitudes_squared =
-            [m[0] * m[0] + m[1] * m[1] * (b / whole), S::zero(), m[2] * m[2] + m[1] * m[1] * (a / whole)];
+            [m[0] * m[0] + m[1] * m[1] * (b / whole), 0.0, m[2] * m[2] + m[1] * m[1] * (a / whole)];
         let elongation = (whole / b).sqrt();
-        if amplitudes_squared[2].re() <= 0.0 {
+        if amplitudes_squared[2] <= 0.0 {
             return still;
         }
-        let first = if amplitudes_squared[0].re() > 0.0 { amplitudes_squared[0].sqrt() } else { S::zero() };
+        let first = if amplitudes_squared[0] > 0.0 { amplitudes_squared[0].sqrt() } else { 0.0 };
         let third = amplitudes_squared[2].sqrt();
         let amplitudes = [first, first * elongation, third];
-        let sense = if b.re() < 0.0 { -1.0 } else { 1.0 };
+        let sense = if b < 0.0 { -1.0 } else { 1.0 };
         let lambda = (b * whole).sqrt() * third * sense;
         let complement_squared = margin.abs() / (b.abs() * amplitudes_squared[2]);
         let parameter = a * amplitudes_squared[0] / (b * amplitudes_squared[2]);
         // Where the amplitude vanishes, any phase will do.
-        let (cn, sn) =
-            if first.re() > 0.0 { (m[0] / first, m[1] / amplitudes[1] * -side) } else { (S::one(), S::zero()) };
+        let (cn, sn) = if first > 0.0 { (m[0] / first, m[1] / amplitudes[1] * -side) } else { (1.0, 0.0) };
         let dn = m[2].abs() / third;
         let moving = Self { amplitudes, elongation, ..still };
-        if complement_squared.re() <= SEPARATRIX {
+        if complement_squared <= SEPARATRIX {
             let root_ratio = (a / b).sqrt();
             // sn = tanh u, dn = 1 / cosh u; cn as well, which does not change its sign: m_1 and m_2 have another one behind.
-            let front = if m[0].re() < 0.0 { -1.0 } else { 1.0 };
-            let u = ((S::one() + sn.abs()) / dn).ln() * if sn.re() < 0.0 { -front } else { front };
+            let front = if m[0] < 0.0 { -1.0 } else { 1.0 };
+            let u = ((1.0 + sn.abs()) / dn).ln() * if sn < 0.0 { -front } else { front };
             return Self {
                 course: Course::Separatrix { root_ratio },
                 rates: TopPhases { slow: lambda, about: k[places[1]] },
@@ -161,16 +162,16 @@ impl<S: Real> Top<S> {
         let (mean, mean_sn2) = mean_and_sn2(parameter, complement);
         let nome = Nome::new(parameter, complement_squared);
         // r = exp(-pi v / K), v = F(arctan sqrt(b/a), k').
-        let r = if a.re() == 0.0 {
-            S::zero()
+        let r = if a == 0.0 {
+            0.0
         } else {
-            let v = (b / whole).sqrt() * rf(a / whole, (a + b * parameter) / whole, S::one());
+            let v = (b / whole).sqrt() * rf(a / whole, (a + b * parameter) / whole, 1.0);
             (v * mean * -2.0).exp()
         };
         let theta = ThetaSeries::new(nome.q, r);
-        let quarter = S::from_f64(FRAC_PI_2) / mean;
-        let first_half = sn * rf(cn * cn, dn * dn, S::one());
-        let u = if cn.re() < 0.0 { quarter * 2.0 - first_half } else { first_half };
+        let quarter = FRAC_PI_2 / mean;
+        let first_half = sn * rf(cn * cn, dn * dn, 1.0);
+        let u = if cn < 0.0 { quarter * 2.0 - first_half } else { first_half };
         let slow = lambda * mean;
         Self {
             course: Course::Round { theta, nome, parameter, mean, mean_sn2 },
@@ -179,7 +180,9 @@ impl<S: Real> Top<S> {
             ..moving
         }
     }
+}
 
+impl<S: Real> Top<S> {
     /// Mean rates of the phases (rad per unit of time).
     pub fn rates(&self) -> TopPhases<S> {
         self.rates
@@ -190,7 +193,7 @@ impl<S: Real> Top<S> {
         self.start
     }
 
-    /// Index of the principal axis that `l` goes round, and the sense of its mean azimuth about the positive end.
+    /// Index of the principal axis that `l` goes round.
     pub fn axis(&self) -> usize {
         self.places[2]
     }

@@ -62,10 +62,10 @@ pub fn checks() -> Vec<Check> {
             id: "mean-motion-first-order",
             kind: Kind::Regime,
             equations: &[25, 57],
-            statement: "with tp-II's geometry and s scaled by k from 1e-1 to 1e-3 n of the first-order mean motion is off by at most 0.03 k over 30/k t_c",
+            statement: "with tp-II's geometry and s scaled by k from 1e-1 to 1e-3 n, L and e_x of the first-order mean motion are off by at most 0.03 k over 30/k t_c",
             figure: "largest error of a component of n, L or e_x over k",
             bound: Bound::AtMost(0.03),
-            reason: "0.022 k (n) and 0.027 k (L, e_x) were seen: the periodic part of second order, and the rates of second order over a time 1/k",
+            reason: "asked of it: the periodic part of second order, and the rates of second order over a time 1/k",
             measure: || tp_2(MeanOrder::First).map(|(measured, _)| measured),
         },
         Check {
@@ -298,34 +298,33 @@ fn tops() -> Result<Measured, String> {
 
 const SCALES: [f64; 5] = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3];
 
-/// Errors of n and of the worst of n, L and e_x over 30/k t_c.
-fn error_of_tp_2(order: MeanOrder, k: f64) -> Result<(f64, f64), String> {
+/// Largest error of n, L and e_x over 30/k t_c.
+fn error_of_tp_2(order: MeanOrder, k: f64) -> Result<f64, String> {
     let scene = reference_motion("tp-2");
     let values = [scene.coefficients.xx, scene.coefficients.yy, scene.coefficients.zz].map(|value| value * k);
     let coefficients = PrincipalCoefficients::new(values);
     let initial = scene.initial();
     let exact = propagate(&scene.spheroid, &coefficients.tensor(), &initial, (0.0, 30.0 / k), 1e-13).map_err(text)?;
     let mean = MeanMotion::new(&scene.spheroid, &coefficients, &initial, order).map_err(text)?;
-    let (mut of_axis, mut of_all) = (0.0, 0.0);
+    let mut most = 0.0;
     for i in 0..=200 {
         let t = 30.0 / k * f64::from(i) / 200.0;
-        let [axis, all] = difference(&mean.state(t), &exact.state(t).map_err(text)?);
-        (of_axis, of_all) = (largest([of_axis, axis]), largest([of_all, all]));
+        most = largest([most, difference(&mean.state(t), &exact.state(t).map_err(text)?)]);
     }
-    Ok((of_axis, of_all))
+    Ok(most)
 }
 
-fn difference(a: &BodyState<f64>, b: &BodyState<f64>) -> [f64; 2] {
+fn difference(a: &BodyState<f64>, b: &BodyState<f64>) -> f64 {
     let axis = largest_component(&(a.axis - b.axis));
     let momentum = largest_component(&((a.momentum - b.momentum) / b.momentum.norm()));
-    [axis, largest([axis, momentum, largest_component(&(a.equatorial_axis - b.equatorial_axis))])]
+    largest([axis, momentum, largest_component(&(a.equatorial_axis - b.equatorial_axis))])
 }
 
 fn tp_2(order: MeanOrder) -> Result<(Measured, Vec<(f64, f64)>), String> {
     let mut worst = Worst::default();
     let mut errors = Vec::new();
     for k in SCALES {
-        let (_, all) = error_of_tp_2(order, k)?;
+        let all = error_of_tp_2(order, k)?;
         worst.see(all / k, || format!("k = {k}"));
         errors.push((k.log10(), all.log10()));
     }
@@ -334,7 +333,7 @@ fn tp_2(order: MeanOrder) -> Result<(Measured, Vec<(f64, f64)>), String> {
 
 fn gain_of_second_order() -> Result<Measured, String> {
     let mut worst = Worst::default();
-    let ratio = error_of_tp_2(MeanOrder::Second, 0.1)?.1 / error_of_tp_2(MeanOrder::First, 0.1)?.1;
+    let ratio = error_of_tp_2(MeanOrder::Second, 0.1)? / error_of_tp_2(MeanOrder::First, 0.1)?;
     worst.see(ratio, || "k = 0.1".to_owned());
     worst.finish()
 }
@@ -351,6 +350,7 @@ fn slopes_of_errors() -> Result<Measured, String> {
 fn random_geometries() -> Result<Measured, String> {
     let mut random = Random::with_seed(59);
     let mut worst = Worst::default();
+    let mut followed = 0;
     for case in 0..40 {
         let State { mut s, n, momentum, .. } = random_state(&mut random);
         s *= 3e-3;
@@ -376,6 +376,7 @@ fn random_geometries() -> Result<Measured, String> {
         if distance < 0.1 {
             continue;
         }
+        followed += 1;
         let equatorial_axis = n.cross(&Vector3::new(0.3, -0.5, 0.8)).normalize();
         let initial = BodyState { axis: n, momentum, equatorial_axis };
         let mean = MeanMotion::new(&body, &coefficients, &initial, MeanOrder::Second).map_err(text)?;
@@ -384,12 +385,15 @@ fn random_geometries() -> Result<Measured, String> {
         let exact = propagate(&body, &coefficients.tensor(), &initial, (0.0, end), 1e-13).map_err(text)?;
         for i in 0..=20 {
             let t = (end * f64::from(i) / 20.0).min(end);
-            let [_, off] = difference(&mean.state(t), &exact.state(t).map_err(text)?);
+            let off = difference(&mean.state(t), &exact.state(t).map_err(text)?);
             let allowed = x * x * (1.0 + x * rate * t);
             worst.see(off / allowed, || {
                 format!("case {case} of seed 59 at t = {t}: s = {s:?}, n = {n:?}, L = {momentum:?}")
             });
         }
+    }
+    if followed < 25 {
+        return Err(format!("only {followed} of 40 motions are away from the separatrix"));
     }
     worst.finish()
 }
