@@ -127,8 +127,8 @@ pub struct SplittingMotion<const V: usize = 2> {
 ///
 /// # Errors
 /// [`Error::Domain`] for a state, parameter or span that is not finite, an axis that is not a unit vector (to 1e-9), moments of
-/// inertia that are not positive, a tensor that is not symmetric, a step that is not above zero, and more than
-/// [`SPLITTING_STEP_LIMIT`] steps.
+/// inertia that are not positive, a tensor that is not symmetric, a step that is not above zero, or so long that the numbers of the
+/// motion overflow (several radians), and more than [`SPLITTING_STEP_LIMIT`] steps.
 pub fn propagate_by_splitting(
     spheroid: &RigidSpheroid<f64>,
     s: &Matrix3<f64>,
@@ -190,7 +190,10 @@ pub(super) fn propagate_checked<const V: usize>(
     let duration = span.1 - span.0;
     let count = 2.0 * (duration.abs() / step / 2.0 * (1.0 - 1e-14)).ceil().max(1.0);
     Error::unless(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
-    Ok(SplittingMotion::run(spheroid, s, span, scheme, scene, duration / count, count as u64))
+    let motion = SplittingMotion::run(spheroid, s, span, scheme, scene, duration / count, count as u64);
+    let end = motion.states.last().map_or(0.0, |state| state.vectors.iter().flatten().sum());
+    Error::unless(end.is_finite(), "step", step, "shorter: with this one the motion leaves the range of numbers")?;
+    Ok(motion)
 }
 
 impl<const V: usize> SplittingMotion<V> {

@@ -4,7 +4,7 @@ use std::num::NonZero;
 use std::thread;
 use std::time::Instant;
 
-use twofold::propagation::{AxisMotion, propagate_axis};
+use twofold::propagation::{AxisMotion, AxisScene, axis_states_of_many, propagate_axis};
 
 use super::Effort;
 use super::method::text;
@@ -32,7 +32,10 @@ const OUTPUTS: [usize; 6] = [1, 10, 100, 1000, 10_000, 100_000];
 const SCENES: [usize; 3] = [1, 10, 100];
 
 /// Scenes that are spread over cores.
-const SPREAD: usize = 200;
+const SPREAD: usize = 1600;
+
+/// Scenes that a core does side by side, as a sweep does.
+const TOGETHER: usize = 16;
 
 /// All of them on tp-II and scenes near it; `done` hears which part is over.
 ///
@@ -93,13 +96,20 @@ fn sampled(scene: &BenchScene, count: usize) -> Result<f64, String> {
 
 /// The end states of `count` scenes, whose `s` differ a little, on a number of threads.
 fn spread(scene: &BenchScene, count: usize, cores: usize) -> Result<f64, String> {
-    let one = |i: usize| {
-        let s = scene.violation * (1.0 + 1e-4 * i as f64);
-        let start = scene.initial_axis();
-        let motion = propagate_axis(&scene.spheroid, &s, &start, (0.0, DURATION), ACCURACY).map_err(text)?;
-        Ok::<_, String>(motion.axis_state(DURATION).map_err(text)?.axis.z)
+    let one = |i: usize| AxisScene {
+        spheroid: scene.spheroid,
+        violation: scene.violation * (1.0 + 1e-5 * i as f64),
+        initial: scene.initial_axis(),
+        start: 0.0,
+        times: &[DURATION],
+        accuracy: ACCURACY,
     };
-    let part = |core: usize| (core..count).step_by(cores).try_fold(0.0, |sum, i| Ok::<_, String>(sum + one(i)?));
+    let some = |first: usize| {
+        let scenes: Vec<_> = (first..count.min(first + TOGETHER)).map(one).collect();
+        let ends = axis_states_of_many(&scenes).into_iter();
+        ends.map(|found| found.map(|found| found.states[0].axis.z).map_err(text)).sum::<Result<f64, String>>()
+    };
+    let part = |core: usize| (core * TOGETHER..count).step_by(cores * TOGETHER).map(some).sum::<Result<f64, String>>();
     thread::scope(|scope| {
         let others: Vec<_> = (1..cores).map(|core| scope.spawn(move || part(core))).collect();
         let first = part(0)?;
