@@ -1,11 +1,13 @@
 //! Outputs and their derivatives by named parameters of a scene.
 
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 use num_dual::Dual64;
 
 use super::{Method, Parameter, Plan, Start, State};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
+#[cfg(target_arch = "x86_64")]
+use crate::propagation::check_time;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::splitting::derivatives::{Seeded, states_with_derivatives};
 use crate::propagation::{AxisMotion, AxisState, Motion, SymmetricMotion, UniformMotion, propagate, propagate_axis};
@@ -113,30 +115,17 @@ fn states_by_splitting(
     if by_series || !matches!(plan.method, Some(Method::Taylor | Method::Splitting)) {
         return Ok(None);
     }
-    let (first, last) = plan.stretch;
-    for &t in times {
-        Error::unless(
-            first.min(last) <= t && t <= first.max(last),
-            "time t",
-            t,
-            "within the stretch of the plan: from its start to its last sample",
-        )?;
-    }
+    let (first, _) = plan.stretch;
+    times.iter().try_for_each(|&t| check_time(plan.stretch, t))?;
     let mut order: Vec<usize> = (0..times.len()).collect();
     order.sort_by(|&a, &b| (times[a] - first).abs().total_cmp(&(times[b] - first).abs()));
     let sorted: Vec<f64> = order.iter().map(|&place| times[place]).collect();
     let found = if plan.state == State::Orientation {
-        let seeded = seeded.iter().map(|start| {
-            let BodyState { axis, momentum, equatorial_axis } = start.state();
-            Seeded { spheroid: start.spheroid, violation: start.violation, initial: [axis, momentum, equatorial_axis] }
-        });
-        states_with_derivatives(&seeded.collect::<Vec<_>>(), first, &sorted, plan.accuracy)?
+        let vectors = |state: BodyState<_>| [state.axis, state.momentum, state.equatorial_axis];
+        states_with_derivatives(&carrying(seeded, vectors), first, &sorted, plan.accuracy)?
     } else {
-        let seeded = seeded.iter().map(|start| {
-            let BodyState { axis, momentum, .. } = start.state();
-            Seeded { spheroid: start.spheroid, violation: start.violation, initial: [axis, momentum] }
-        });
-        states_with_derivatives(&seeded.collect::<Vec<_>>(), first, &sorted, plan.accuracy)?
+        let vectors = |state: BodyState<_>| [state.axis, state.momentum];
+        states_with_derivatives(&carrying(seeded, vectors), first, &sorted, plan.accuracy)?
     };
     let Some(found) = found else { return Ok(None) };
     let mut states = vec![Vec::new(); times.len()];
@@ -144,6 +133,19 @@ fn states_by_splitting(
         states[place] = state;
     }
     Ok(Some(states))
+}
+
+/// The scenes with those vectors of their initial states that a motion carries.
+#[cfg(target_arch = "x86_64")]
+fn carrying<const V: usize>(
+    starts: &[Start<Dual64>],
+    vectors: impl Fn(BodyState<Dual64>) -> [Vector3<Dual64>; V],
+) -> Vec<Seeded<V>> {
+    let seeded = |start: &Start<Dual64>| {
+        let Start { spheroid, violation, .. } = *start;
+        Seeded { spheroid, violation, initial: vectors(start.state()) }
+    };
+    starts.iter().map(seeded).collect()
 }
 
 #[cfg(not(target_arch = "x86_64"))]
@@ -185,7 +187,7 @@ impl<S: Real> SeededMotion<S> {
             Self::Taylor(motion) => motion.state(t),
             Self::TaylorAxis(motion) => {
                 let AxisState { axis, momentum } = motion.axis_state(t)?;
-                Ok(BodyState { axis, momentum, equatorial_axis: nalgebra::Vector3::zeros() })
+                Ok(BodyState { axis, momentum, equatorial_axis: Vector3::zeros() })
             }
         }
     }

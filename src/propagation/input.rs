@@ -57,3 +57,13 @@ pub(crate) fn check_input<S: Real, const V: usize>(
     }
     Ok(())
 }
+
+/// Refuses a time outside the span of a motion, whose ends may be in either order.
+pub(crate) fn check_time((first, last): (f64, f64), t: f64) -> Result<(), Error> {
+    Error::unless(
+        first.min(last) <= t && t <= first.max(last),
+        "time t",
+        t,
+        "within the span for which the motion was asked",
+    )
+}

@@ -5,7 +5,7 @@ mod closed;
 mod continuous_angles;
 #[cfg_attr(not(target_arch = "x86_64"), path = "unfused.rs")]
 mod fused;
-pub(crate) mod input;
+mod input;
 mod many;
 mod motion;
 #[cfg(target_arch = "x86_64")]
@@ -16,7 +16,7 @@ mod third_angle;
 
 pub use closed::{SymmetricMotion, UniformMotion, largest_torque};
 pub use continuous_angles::ContinuousAngles;
-pub(crate) use input::check_input;
+pub(crate) use input::{check_input, check_time};
 pub use many::{AxisScene, axis_states_of_many};
 pub use motion::{AxisMotion, AxisState, Motion};
 pub(crate) use taylor::projected_by_stretches;

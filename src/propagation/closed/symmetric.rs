@@ -4,11 +4,11 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 
 use super::uniform::largest_torque;
-use super::within;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::lorentz_violation::{PrincipalCoefficients, SymmetryOfTensor};
+use crate::propagation::input::check_time;
 use crate::propagation::{AxisMotion, AxisState, Motion};
 use crate::scalar::{Real, real_part};
 use crate::solutions::symmetric::SymmetricSolution;
@@ -157,7 +157,7 @@ impl<S: Real> SymmetricMotion<S> {
 
     /// State in the frame of the caller.
     fn at(&self, t: S) -> Result<BodyState<S>, Error> {
-        within(self.span, t.re())?;
+        check_time(self.span, t.re())?;
         let state = state_of(&self.spheroid, &self.solution, t - S::from_f64(self.span.0));
         Ok(state.rotated(&self.given_from_principal))
     }

@@ -2,11 +2,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::within;
 use crate::dynamics::regular_equations::{angular_velocity, torque_on_axis};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::SymmetryOfTensor;
+use crate::propagation::input::check_time;
 use crate::propagation::{AxisMotion, AxisState, Motion};
 use crate::scalar::{Real, real_part};
 use crate::solutions::free::rotated_by;
@@ -122,7 +122,7 @@ impl<S: Real> UniformMotion<S> {
 
     /// Time since the start of the motion.
     fn elapsed(&self, t: S) -> Result<S, Error> {
-        within(self.span, t.re())?;
+        check_time(self.span, t.re())?;
         Ok(t - S::from_f64(self.span.0))
     }
 

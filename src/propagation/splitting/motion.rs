@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
-use crate::propagation::input::check_input;
+use crate::propagation::input::{check_input, check_time};
 use crate::propagation::splitting::error::ErrorEstimate;
 use crate::propagation::splitting::flows::{AXIS, Field, Moving, RATE, dot};
 use crate::propagation::splitting::one_motion::OneMotion;
@@ -255,14 +255,8 @@ impl<const V: usize> SplittingMotion<V> {
 
     /// The state at time `t` of the span.
     fn at(&self, t: f64) -> Result<Moving<f64, V>, Error> {
-        let (first, last) = self.span;
-        Error::unless(
-            first.min(last) <= t && t <= first.max(last),
-            "time t",
-            t,
-            "within the span for which the motion was propagated",
-        )?;
-        let elapsed = t - first;
+        check_time(self.span, t)?;
+        let elapsed = t - self.span.0;
         let whole = ((elapsed / self.step).floor().max(0.0) as u64).min(self.step_count);
         let mut state = self.after(whole);
         // The time of the step without the rounding of its product.
@@ -296,12 +290,11 @@ impl<const V: usize> AxisMotion<f64> for SplittingMotion<V> {
     /// Six times the difference from a motion by a better scheme, found when it is first asked for: that motion takes at least
     /// two and a half times as long as this one.
     fn error_estimate(&self, t: f64) -> f64 {
-        let (first, last) = self.span;
-        if !(first.min(last) <= t && t <= first.max(last)) {
+        if check_time(self.span, t).is_err() {
             return f64::NAN;
         }
         let estimate = self.estimate.get_or_init(|| ErrorEstimate::new(self));
-        estimate.at((t - first).abs())
+        estimate.at((t - self.span.0).abs())
     }
 }
 

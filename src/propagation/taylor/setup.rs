@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::arithmetic::{OneMotion, Stored};
-use crate::propagation::input::check_input;
+use crate::propagation::input::{check_input, check_time};
 use crate::propagation::taylor::compensated::Compensated;
 use crate::propagation::taylor::drive::Drive;
 use crate::propagation::taylor::frame::SeriesFrame;
@@ -83,14 +83,8 @@ impl<S: Real, const V: usize> Setup<S, V> {
 
     /// Time since the start, at a time `t` of the span.
     pub(super) fn elapsed(&self, t: f64) -> Result<f64, Error> {
-        let (first, last) = self.span;
-        Error::unless(
-            first.min(last) <= t && t <= first.max(last),
-            "time t",
-            t,
-            "within the span for which the motion was propagated",
-        )?;
-        Ok((t - first).abs())
+        check_time(self.span, t)?;
+        Ok((t - self.span.0).abs())
     }
 
     /// The steps of the motion, and its start.

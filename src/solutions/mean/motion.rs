@@ -66,10 +66,6 @@ pub struct MeanPhases<S> {
     pub about_axis: S,
 }
 
-fn squared<S: Real>(v: &Vector3<S>) -> S {
-    v.dot(v)
-}
-
 fn rotated_about<S: Real>(axis: &Vector3<S>, v: &Vector3<S>, angle: S) -> Vector3<S> {
     let (sin, cos) = angle.sin_cos();
     v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (S::one() - cos))
@@ -110,8 +106,8 @@ impl MeanMotion<f64> {
         let along_axis = initial.momentum.dot(&initial.axis);
         let axes = transformed(strength, &s, &[initial.axis, initial.momentum, initial.equatorial_axis], -1.0);
         let l = axes[1] / length(&axes[1]);
-        let (h, m) = (l.dot(&s.component_mul(&l)), squared(&s.component_mul(&l)));
-        let potential = MeanPotential { order, constant_c, inertia: inertia_xx, square: squared(&s) };
+        let (h, m) = (l.dot(&s.component_mul(&l)), s.component_mul(&l).norm_squared());
+        let potential = MeanPotential { order, constant_c, inertia: inertia_xx, square: s.norm_squared() };
         // The mean energy is that of the motion, and tells G one order better than the transformation does. To first order that would
         // only bring in what the mean energy lacks.
         let mut momentum = length(&axes[1]);
@@ -162,11 +158,6 @@ impl<S: Real> MeanMotion<S> {
     /// Mean rates.
     pub fn rates(&self) -> &MeanRates<S> {
         &self.rates
-    }
-
-    /// The order.
-    pub fn order(&self) -> MeanOrder {
-        self.order
     }
 
     /// `|C| (s_max - s_min) I^xx / |L|^2` at the start, whose powers the orders are in: errors are of its size (first order) or of its square (second), and

@@ -128,19 +128,19 @@ impl Top<f64> {
         if whole == 0.0 || on_middle || (margin == 0.0 && b == 0.0) {
             return still;
         }
-        let amplitudes_squared =
-            [m[0] * m[0] + m[1] * m[1] * (b / whole), 0.0, m[2] * m[2] + m[1] * m[1] * (a / whole)];
+        let [first_squared, third_squared] =
+            [m[0] * m[0] + m[1] * m[1] * (b / whole), m[2] * m[2] + m[1] * m[1] * (a / whole)];
         let elongation = (whole / b).sqrt();
-        if amplitudes_squared[2] <= 0.0 {
+        if third_squared <= 0.0 {
             return still;
         }
-        let first = if amplitudes_squared[0] > 0.0 { amplitudes_squared[0].sqrt() } else { 0.0 };
-        let third = amplitudes_squared[2].sqrt();
+        let first = if first_squared > 0.0 { first_squared.sqrt() } else { 0.0 };
+        let third = third_squared.sqrt();
         let amplitudes = [first, first * elongation, third];
         let sense = if b < 0.0 { -1.0 } else { 1.0 };
         let lambda = (b * whole).sqrt() * third * sense;
-        let complement_squared = margin.abs() / (b.abs() * amplitudes_squared[2]);
-        let parameter = a * amplitudes_squared[0] / (b * amplitudes_squared[2]);
+        let complement_squared = margin.abs() / (b.abs() * third_squared);
+        let parameter = a * first_squared / (b * third_squared);
         // Where the amplitude vanishes, any phase will do.
         let (cn, sn) = if first > 0.0 { (m[0] / first, m[1] / amplitudes[1] * -side) } else { (1.0, 0.0) };
         let dn = m[2].abs() / third;
@@ -191,16 +191,6 @@ impl<S: Real> Top<S> {
     /// The phase `z` at the start.
     pub fn start(&self) -> S {
         self.start
-    }
-
-    /// Index of the principal axis that `l` goes round.
-    pub fn axis(&self) -> usize {
-        self.places[2]
-    }
-
-    /// Whether `l` goes to the middle axis without end.
-    pub fn is_separatrix(&self) -> bool {
-        matches!(self.course, Course::Separatrix { .. })
     }
 
     /// Mean of the squares of the components of `l`.
