@@ -83,6 +83,14 @@ impl<S: Real> AveragedMotion<S> {
         [sum.high, sum.low]
     }
 
+    /// Refuses a motion of which no derivatives could be had: by any parameter, whichever comes.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] where `L` rests or is on a separatrix, and for two equal eigenvalues, whose axes a derivative by `s^IJ` may turn.
+    pub fn require_derivatives(&self) -> Result<(), Error> {
+        self.mean.require_derivatives()
+    }
+
     /// Of what the order leaves out, at the time `t`: see [`MeanMotion::truncation`].
     pub fn truncation(&self, t: f64) -> f64 {
         self.mean.truncation(self.shift + (t - self.origin[0]))

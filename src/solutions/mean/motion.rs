@@ -86,6 +86,16 @@ impl<S: Real> MeanPhases<S> {
     }
 }
 
+fn require_round<S: Real>(top: &Top<S>) -> Result<(), Error> {
+    let complement = if top.goes_round() { top.complement() } else { 0.0 };
+    Error::unless(
+        complement > 0.0,
+        "distance k' of L from rest and from the separatrix",
+        complement,
+        "above zero, if derivatives are wanted",
+    )
+}
+
 /// What Lorentz violation adds to the rates of free rotation, and the slow rate.
 struct Added<S> {
     slow: S,
@@ -191,12 +201,9 @@ impl<S: Real> MeanMotion<S> {
         let here = potential.at(g, c, h, m);
         let tensor = s.map(|value| (here.by_h * value + here.by_m * value * value) * 2.0 / g);
         let top = Top::new(tensor.into(), &l);
-        Error::unless(
-            !S::HAS_DERIVATIVES || top.goes_round(),
-            "distance of L from rest or from the separatrix",
-            0.0,
-            "above zero, if derivatives are wanted",
-        )?;
+        if S::HAS_DERIVATIVES {
+            require_round(&top)?;
+        }
         let squares = top.mean_squares();
         let (mean_h, mean_m) = (s.dot(&squares), s.component_mul(&s).dot(&squares));
         let mean = potential.at(g, c, mean_h, mean_m);
@@ -256,6 +263,23 @@ impl<S: Real> MeanMotion<S> {
     /// grow with its square, or its cube, times the angle turned.
     pub fn relative_strength(&self) -> S {
         self.relative_strength
+    }
+
+    /// Refuses a motion that has no derivatives by some of its parameters.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] where `L` rests or is on a separatrix, and for two equal eigenvalues of `s`, whose axes a derivative may turn.
+    pub fn require_derivatives(&self) -> Result<(), Error> {
+        let [x, y, z] = self.s.map(S::re).into();
+        let gap = (x - y).abs().min((y - z).abs()).min((z - x).abs());
+        let size = x.abs().max(y.abs()).max(z.abs());
+        Error::unless(
+            gap > 1e-12 * size,
+            "least difference of two eigenvalues of s^IJ",
+            gap,
+            "above 1e-12 of the largest, if derivatives are wanted",
+        )?;
+        require_round(&self.top)
     }
 
     /// How many orders are taken along.
