@@ -145,6 +145,12 @@ macro_rules! planned {
                 }
             }
 
+            fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<f64>, Error> {
+                match self {
+                    $(Self::$method(motion) => motion.axis_state_in_parts(t),)+
+                }
+            }
+
             fn error_estimate(&self, t: f64) -> f64 {
                 match self {
                     $(Self::$method(motion) => motion.error_estimate(t),)+
@@ -165,6 +171,13 @@ impl Motion<f64> for PlannedMotion {
             Self::Mean(motion) => motion.state(t),
             Self::Splitting(motion) => motion.state(t),
             Self::Taylor(motion) => motion.state(t),
+        }
+    }
+
+    fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<f64>, Error> {
+        match self {
+            Self::Mean(motion) => motion.state_in_parts(t),
+            _ => self.state(t[0] + t[1]),
         }
     }
 

@@ -119,6 +119,10 @@ impl<S: Real> AxisMotion<S> for AveragedMotion<S> {
         self.state(t).map(|state| AxisState::from(&state))
     }
 
+    fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<S>, Error> {
+        self.state_in_parts(t).map(|state| AxisState::from(&state))
+    }
+
     /// [`truncation`](AveragedMotion::truncation) and [`rounding`](AveragedMotion::rounding), and the rounding of the time.
     fn error_estimate(&self, t: f64) -> f64 {
         self.mean.error_estimate(self.shift + (t - self.origin[0]))
@@ -132,6 +136,12 @@ impl<S: Real> Motion<S> for AveragedMotion<S> {
         if S::HAS_DERIVATIVES {
             phases = phases.later(self.mean.rates(), t - S::from_f64(t.re()));
         }
+        Ok(self.mean.state_at(&phases).rotated(&self.given_from_principal))
+    }
+
+    fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<S>, Error> {
+        check_time(self.span, t[0] + t[1])?;
+        let phases = self.mean.phases_at(self.elapsed(t));
         Ok(self.mean.state_at(&phases).rotated(&self.given_from_principal))
     }
 }
