@@ -19,8 +19,7 @@ pub enum Method {
 
 impl Method {
     /// Every method, in the order in which plans list them.
-    pub const ALL: [Self; 6] =
-        [Self::Free, Self::Steady, Self::Symmetric, Self::Mean, Self::Splitting, Self::Taylor];
+    pub const ALL: [Self; 6] = [Self::Free, Self::Steady, Self::Symmetric, Self::Mean, Self::Splitting, Self::Taylor];
 
     /// Name for files and commands.
     pub fn name(self) -> &'static str {

@@ -9,8 +9,8 @@ use crate::propagation::splitting::{
     SplittingMotion, propagate_by_best_splitting, propagate_orientation_by_best_splitting,
 };
 use crate::propagation::{
-    AveragedMotion, AxisMotion, AxisState, Motion, SeriesProjection, SymmetricMotion, TaylorAxisMotion, TaylorMotion, UniformMotion,
-    propagate, propagate_axis,
+    AveragedMotion, AxisMotion, AxisState, Motion, SeriesProjection, SymmetricMotion, TaylorAxisMotion, TaylorMotion,
+    UniformMotion, propagate, propagate_axis,
 };
 use crate::solutions::mean::MeanOrder;
 

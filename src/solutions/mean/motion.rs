@@ -109,7 +109,8 @@ fn turning<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S>, added: 
     let [n, momentum] = [&initial.axis, &initial.momentum].map(|v| real_part(v).into());
     let about_momentum = DoubleDouble::dot(&momentum, &momentum).sqrt().over(inertia_xx.into());
     let difference = DoubleDouble::sum(inertia_xx, -inertia_zz);
-    let about_axis = (difference * DoubleDouble::dot(&momentum, &n)).over(DoubleDouble::product(inertia_xx, inertia_zz));
+    let about_axis =
+        (difference * DoubleDouble::dot(&momentum, &n)).over(DoubleDouble::product(inertia_xx, inertia_zz));
     let with = |free: DoubleDouble, added: S| (free + added.re().into()).over(DoubleDouble::TAU);
     [
         with(DoubleDouble::default(), added.slow),
@@ -215,11 +216,8 @@ impl<S: Real> MeanMotion<S> {
             about_axis: mean.by_c / g,
         };
         let free = [size / inertia_xx, -(spheroid.oblateness() * along_axis / inertia_zz)];
-        let rates = MeanRates {
-            slow,
-            about_momentum: free[0] + added.about_momentum,
-            about_axis: free[1] + added.about_axis,
-        };
+        let rates =
+            MeanRates { slow, about_momentum: free[0] + added.about_momentum, about_axis: free[1] + added.about_axis };
         // dh and dm are those of the integral of the top, times v_m and -v_h and the product: their own sums cancel where v_m is small.
         let product = top.product_of_differences(&s) * 2.0 / g;
         let (by_h, by_m) = (here.by_m * product, -(here.by_h * product));

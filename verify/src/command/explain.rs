@@ -103,7 +103,9 @@ fn why(plan: &Plan) -> Option<String> {
     let next = usable.min_by(|a, b| a.1.total_cmp(&b.1));
     let found = format!("the cheapest of those whose error is below {:.0e}", plan.accuracy);
     Some(match next {
-        Some((other, cost)) => format!("{found}; next is {}, {:.1} times the cost", other.name(), cost / prediction.cost),
+        Some((other, cost)) => {
+            format!("{found}; next is {}, {:.1} times the cost", other.name(), cost / prediction.cost)
+        }
         None => format!("{found}, and the only one"),
     })
 }
