@@ -611,6 +611,7 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
         "the mean motion in closed form: mean Hamiltonian, generator, top, theta functions",
         &[
             "solutions::mean::mean_potential",
+            "solutions::mean::mean_angular_velocity",
             "solutions::mean::generator",
             "solutions::mean::generator_slopes",
             "solutions::mean::MeanOrder",

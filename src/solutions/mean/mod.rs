@@ -9,7 +9,7 @@ pub mod slow_precession;
 mod top;
 
 pub use generator::{generator, generator_slopes};
-pub use hamiltonian::{MeanOrder, mean_potential};
-pub use motion::{MeanMotion, MeanPhases, MeanRates};
-pub use phases::{MeanTurns, Turns};
+pub use hamiltonian::{MeanOrder, mean_angular_velocity, mean_potential};
+pub use motion::MeanMotion;
+pub use phases::{MeanPhases, MeanRates, MeanTurns, Turns};
 pub use top::{Top, TopPhases, TopShape};

@@ -6,14 +6,14 @@ use nalgebra::Vector3;
 
 use super::generator::{Axes, transformation};
 use super::hamiltonian::{MeanOrder, MeanPotential};
-use super::phases::{MeanTurns, Turns};
+use super::phases::{Added, MeanPhases, MeanRates, MeanTurns, Turns, turning};
 use super::top::{Top, TopPhases, TopShape};
 use crate::double_double::DoubleDouble;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
 use crate::propagation::{ACCURACY_RANGE, check_input};
-use crate::scalar::{Real, length, real_part};
+use crate::scalar::{Real, length};
 
 /// Largest strength of the torque: up to it the energy determined `G` for 4,000 random scenes; at 0.3 it failed for 7.
 const LARGEST_STRENGTH: f64 = 0.2;
@@ -52,40 +52,6 @@ pub struct MeanMotion<S> {
     relative_strength: S,
 }
 
-/// Mean rates of a motion (rad per unit of time).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeanRates<S> {
-    /// Of the phase of the slow precession, which grows by a turn when `L` goes once round its axis, in either sense; `lambda` on a
-    /// separatrix.
-    pub slow: S,
-    /// Of the frame about `L`, but for its periodic part.
-    pub about_momentum: S,
-    /// Of the body about its symmetry axis against the frame.
-    pub about_axis: S,
-}
-
-/// Phases of a motion at a time (rad), each modulo a turn if that suits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeanPhases<S> {
-    /// As [`MeanRates::slow`], with its start.
-    pub slow: S,
-    /// As [`MeanRates::about_momentum`].
-    pub about_momentum: S,
-    /// As [`MeanRates::about_axis`].
-    pub about_axis: S,
-}
-
-impl<S: Real> MeanPhases<S> {
-    /// After some more time.
-    pub(crate) fn later(&self, rates: &MeanRates<S>, time: S) -> Self {
-        Self {
-            slow: self.slow + rates.slow * time,
-            about_momentum: self.about_momentum + rates.about_momentum * time,
-            about_axis: self.about_axis + rates.about_axis * time,
-        }
-    }
-}
-
 fn require_round<S: Real>(top: &Top<S>) -> Result<(), Error> {
     let complement = if top.goes_round() { top.complement() } else { 0.0 };
     Error::unless(
@@ -94,29 +60,6 @@ fn require_round<S: Real>(top: &Top<S>) -> Result<(), Error> {
         complement,
         "above zero, if derivatives are wanted",
     )
-}
-
-/// What Lorentz violation adds to the rates of free rotation, and the slow rate.
-struct Added<S> {
-    slow: S,
-    about_momentum: S,
-    about_axis: S,
-}
-
-/// Rates in turns: `|L| / I^xx` and `-epsilon Omega^z` to 32 digits, and what is added to them.
-fn turning<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S>, added: &Added<S>) -> [DoubleDouble; 3] {
-    let [inertia_xx, inertia_zz] = [spheroid.inertia_xx, spheroid.inertia_zz].map(S::re);
-    let [n, momentum] = [&initial.axis, &initial.momentum].map(|v| real_part(v).into());
-    let about_momentum = DoubleDouble::dot(&momentum, &momentum).sqrt().over(inertia_xx.into());
-    let difference = DoubleDouble::sum(inertia_xx, -inertia_zz);
-    let about_axis =
-        (difference * DoubleDouble::dot(&momentum, &n)).over(DoubleDouble::product(inertia_xx, inertia_zz));
-    let with = |free: DoubleDouble, added: S| (free + added.re().into()).over(DoubleDouble::TAU);
-    [
-        with(DoubleDouble::default(), added.slow),
-        with(about_momentum, added.about_momentum),
-        with(about_axis, added.about_axis),
-    ]
 }
 
 fn rotated_about<S: Real>(axis: &Vector3<S>, v: &Vector3<S>, angle: S) -> Vector3<S> {
@@ -188,7 +131,7 @@ impl<S: Real> MeanMotion<S> {
             let c = along_axis / g;
             let slopes = potential.at(g, c, h, m);
             let off = excess * (size + g) / (inertia_xx * 2.0) + slopes.value - pull;
-            last = off / (g / inertia_xx + slopes.by_size - slopes.by_c * c / g);
+            last = off / (g / inertia_xx + slopes.about_momentum(g, c));
             excess -= last;
         }
         let g = size + excess;
@@ -200,7 +143,7 @@ impl<S: Real> MeanMotion<S> {
         )?;
         let c = along_axis / g;
         let here = potential.at(g, c, h, m);
-        let tensor = s.map(|value| (here.by_h * value + here.by_m * value * value) * 2.0 / g);
+        let tensor = here.tensor(&s, g);
         let top = Top::new(tensor.into(), &l);
         if S::HAS_DERIVATIVES {
             require_round(&top)?;
@@ -212,8 +155,8 @@ impl<S: Real> MeanMotion<S> {
         let TopPhases { slow, about } = top.rates();
         let added = Added {
             slow,
-            about_momentum: excess / inertia_xx + about + mean.by_size - mean.by_c * c / g - energy_of_top,
-            about_axis: mean.by_c / g,
+            about_momentum: excess / inertia_xx + about + mean.about_momentum(g, c) - energy_of_top,
+            about_axis: mean.about_axis(g),
         };
         let free = [size / inertia_xx, -(spheroid.oblateness() * along_axis / inertia_zz)];
         let rates =
