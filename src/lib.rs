@@ -6,6 +6,7 @@
 
 pub mod dynamics;
 pub mod elliptic;
+pub mod epoch;
 pub mod error;
 pub mod euler_angles;
 pub mod lorentz_violation;
@@ -16,6 +17,7 @@ mod rounding;
 pub mod scalar;
 pub mod solutions;
 pub mod star;
+mod two_part;
 pub mod units;
 
 pub use error::Error;
