@@ -3,10 +3,12 @@
 mod generator;
 mod hamiltonian;
 mod motion;
+mod phases;
 pub mod slow_precession;
 mod top;
 
 pub use generator::{generator, generator_slopes};
 pub use hamiltonian::{MeanOrder, mean_potential};
 pub use motion::{MeanMotion, MeanPhases, MeanRates};
+pub use phases::{MeanTurns, Turns};
 pub use top::{Top, TopPhases, TopShape};

@@ -1,15 +1,19 @@
 //! The mean motion in closed form, and the motion that follows from it.
 
+use core::f64::consts::TAU;
+
 use nalgebra::Vector3;
 
-use super::generator::{Axes, transformed};
+use super::generator::{Axes, transformation};
 use super::hamiltonian::{MeanOrder, MeanPotential};
+use super::phases::{MeanTurns, Turns};
 use super::top::{Top, TopPhases, TopShape};
+use crate::double_double::DoubleDouble;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
 use crate::propagation::{ACCURACY_RANGE, check_input};
-use crate::scalar::{Real, length};
+use crate::scalar::{Real, length, real_part};
 
 /// Largest strength of the torque: up to it the energy determined `G` for 4,000 random scenes; at 0.3 it failed for 7.
 const LARGEST_STRENGTH: f64 = 0.2;
@@ -36,6 +40,9 @@ pub struct MeanMotion<S> {
     axis: Vector3<S>,
     equatorial_axis: Vector3<S>,
     start: TopShape<S>,
+    starts: MeanPhases<S>,
+    /// Rates of the phases (turns per unit of time), the free rotation in 32 digits.
+    turning: [DoubleDouble; 3],
     rates: MeanRates<S>,
     /// Of the angles about `l` and about `n`, by the integrals of `h` and `m` about their means.
     periodic: [[S; 2]; 2],
@@ -66,23 +73,45 @@ pub struct MeanPhases<S> {
     pub about_axis: S,
 }
 
+/// What Lorentz violation adds to the rates of free rotation, and the slow rate.
+struct Added<S> {
+    slow: S,
+    about_momentum: S,
+    about_axis: S,
+}
+
+/// Rates in turns: `|L| / I^xx` and `-epsilon Omega^z` to 32 digits, and what is added to them.
+fn turning<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S>, added: &Added<S>) -> [DoubleDouble; 3] {
+    let [inertia_xx, inertia_zz] = [spheroid.inertia_xx, spheroid.inertia_zz].map(S::re);
+    let [n, momentum] = [&initial.axis, &initial.momentum].map(|v| real_part(v).into());
+    let about_momentum = DoubleDouble::dot(&momentum, &momentum).sqrt().over(inertia_xx.into());
+    let difference = DoubleDouble::sum(inertia_xx, -inertia_zz);
+    let about_axis = (difference * DoubleDouble::dot(&momentum, &n)).over(DoubleDouble::product(inertia_xx, inertia_zz));
+    let with = |free: DoubleDouble, added: S| (free + added.re().into()).over(DoubleDouble::TAU);
+    [
+        with(DoubleDouble::default(), added.slow),
+        with(about_momentum, added.about_momentum),
+        with(about_axis, added.about_axis),
+    ]
+}
+
 fn rotated_about<S: Real>(axis: &Vector3<S>, v: &Vector3<S>, angle: S) -> Vector3<S> {
     let (sin, cos) = angle.sin_cos();
     v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (S::one() - cos))
 }
 
-impl MeanMotion<f64> {
-    /// The motion from `initial`, in the principal frame of `s`, at the time zero. In doubles: at symmetric tensors and steady motions
-    /// derivatives have other forms.
+impl<S: Real> MeanMotion<S> {
+    /// The motion from `initial`, in the principal frame of `s`, at the time zero.
     ///
     /// # Errors
     /// [`Error::Domain`] for a state or parameter that is not finite, axes that are not orthonormal (to 1e-9), moments of inertia that are
     /// not positive; and where the motion is not a fast rotation with a slow precession: `|C| (s_max - s_min) I^xx / |L|^2` must be
-    /// below 0.2, and the mean energy must determine `G`.
+    /// below 0.2, and the mean energy must determine `G`. With derivatives (duals), also where `L` rests or is on a separatrix: there the
+    /// elliptic functions have none.
     pub fn new(
-        spheroid: &RigidSpheroid<f64>,
-        s: &PrincipalCoefficients<f64>,
-        initial: &BodyState<f64>,
+        spheroid: &RigidSpheroid<S>,
+        s: &PrincipalCoefficients<S>,
+        initial: &BodyState<S>,
         order: MeanOrder,
     ) -> Result<Self, Error> {
         let vectors = [initial.axis, initial.momentum, initial.equatorial_axis];
@@ -91,70 +120,101 @@ impl MeanMotion<f64> {
         let values = Vector3::new(s.xx, s.yy, s.zz);
         let s = values.map(|value| value - (values.x + values.y + values.z) / 3.0);
         let size = length(&initial.momentum);
-        let spread = s.max() - s.min();
-        Error::unless(size > 0.0, "angular momentum |L|", size, "above zero")?;
+        let reals = s.map(S::re);
+        let spread = reals.max() - reals.min();
+        Error::unless(size.re() > 0.0, "angular momentum |L|", size.re(), "above zero")?;
         let relative_strength = constant_c.abs() * spread * inertia_xx / (size * size);
         Error::unless(
-            relative_strength < LARGEST_STRENGTH,
+            relative_strength.re() < LARGEST_STRENGTH,
             "|C| (s_max - s_min) I^xx / |L|^2",
-            relative_strength,
+            relative_strength.re(),
             "below 0.2: the body must turn fast against the torque",
         )?;
         let strength = constant_c * inertia_xx;
-        let n_s_n = initial.axis.dot(&s.component_mul(&initial.axis));
-        let energy = size * size / (inertia_xx * 2.0) + constant_c * n_s_n;
+        let pull = constant_c * initial.axis.dot(&s.component_mul(&initial.axis));
         let along_axis = initial.momentum.dot(&initial.axis);
-        let axes = transformed(strength, &s, &[initial.axis, initial.momentum, initial.equatorial_axis], -1.0);
-        let l = axes[1] / length(&axes[1]);
-        let (h, m) = (l.dot(&s.component_mul(&l)), s.component_mul(&l).norm_squared());
-        let potential = MeanPotential { order, constant_c, inertia: inertia_xx, square: s.norm_squared() };
-        // The mean energy is that of the motion, and tells G one order better than the transformation does. To first order that would
-        // only bring in what the mean energy lacks.
-        let mut momentum = length(&axes[1]);
+        let start = [initial.axis, initial.momentum, initial.equatorial_axis];
+        let change = transformation(strength, &s, &start, -1.0);
+        let [n, momentum, equatorial] = [0, 1, 2].map(|i| start[i] + change[i]);
+        let l = momentum / length(&momentum);
+        let (h, m) = (l.dot(&s.component_mul(&l)), s.component_mul(&l).dot(&s.component_mul(&l)));
+        let potential = MeanPotential { order, constant_c, inertia: inertia_xx, square: s.dot(&s) };
+        // G - |L|: small, and known to its own digits. The mean energy is that of the motion, and tells G one order better than the
+        // transformation does. To first order that would only bring in what the mean energy lacks.
+        let mut excess = change[1].dot(&(initial.momentum * S::from_f64(2.0) + change[1])) / (length(&momentum) + size);
         let corrections = if order == MeanOrder::First { 0 } else { MOST_CORRECTIONS };
-        let mut change = 0.0_f64;
+        let mut last = S::zero();
         for _ in 0..corrections {
-            let c = along_axis / momentum;
-            let slopes = potential.at(momentum, c, h, m);
-            let off = momentum * momentum / (inertia_xx * 2.0) + slopes.value - energy;
-            let by_size = momentum / inertia_xx + slopes.by_size - slopes.by_c * c / momentum;
-            change = off / by_size;
-            momentum -= change;
+            let g = size + excess;
+            let c = along_axis / g;
+            let slopes = potential.at(g, c, h, m);
+            let off = excess * (size + g) / (inertia_xx * 2.0) + slopes.value - pull;
+            last = off / (g / inertia_xx + slopes.by_size - slopes.by_c * c / g);
+            excess -= last;
         }
+        let g = size + excess;
         Error::unless(
-            momentum > 0.0 && change.abs() <= 1e-12 * momentum,
+            g.re() > 0.0 && last.re().abs() <= 1e-12 * g.re(),
             "last correction of the mean |L|, relative",
-            change / momentum,
+            last.re() / g.re(),
             "below 1e-12: the mean energy must determine it",
         )?;
-        let c = along_axis / momentum;
-        let here = potential.at(momentum, c, h, m);
-        let tensor = s.map(|value| (here.by_h * value + here.by_m * value * value) * 2.0 / momentum);
+        let c = along_axis / g;
+        let here = potential.at(g, c, h, m);
+        let tensor = s.map(|value| (here.by_h * value + here.by_m * value * value) * 2.0 / g);
         let top = Top::new(tensor.into(), &l);
+        Error::unless(
+            !S::HAS_DERIVATIVES || top.goes_round(),
+            "distance of L from rest or from the separatrix",
+            0.0,
+            "above zero, if derivatives are wanted",
+        )?;
         let squares = top.mean_squares();
         let (mean_h, mean_m) = (s.dot(&squares), s.component_mul(&s).dot(&squares));
-        let mean = potential.at(momentum, c, mean_h, mean_m);
+        let mean = potential.at(g, c, mean_h, mean_m);
         let energy_of_top = tensor.dot(&l.component_mul(&l));
         let TopPhases { slow, about } = top.rates();
+        let added = Added {
+            slow,
+            about_momentum: excess / inertia_xx + about + mean.by_size - mean.by_c * c / g - energy_of_top,
+            about_axis: mean.by_c / g,
+        };
+        let free = [size / inertia_xx, -(spheroid.oblateness() * along_axis / inertia_zz)];
         let rates = MeanRates {
             slow,
-            about_momentum: about + momentum / inertia_xx + mean.by_size - mean.by_c * c / momentum - energy_of_top,
-            about_axis: mean.by_c / momentum - spheroid.oblateness() * along_axis / inertia_zz,
+            about_momentum: free[0] + added.about_momentum,
+            about_axis: free[1] + added.about_axis,
         };
         let periodic = [
-            [-(mean.by_c_h * c / momentum), mean.by_size_m - mean.by_c_m * c / momentum],
-            [mean.by_c_h / momentum, mean.by_c_m / momentum],
+            [-(mean.by_c_h * c / g), mean.by_size_m - mean.by_c_m * c / g],
+            [mean.by_c_h / g, mean.by_c_m / g],
         ];
-        let start = top.at(top.start());
-        let to_shape = start.frame.transpose();
-        let [n, _, equatorial] = axes;
+        let shape = top.at(top.start());
+        let to_shape = shape.frame.transpose();
         let [n, equatorial_axis] = [n, equatorial].map(|v| to_shape * v);
-        let axis = n / length(&n);
-        Ok(Self { strength, s, momentum, top, axis, equatorial_axis, start, rates, periodic, order, relative_strength })
+        let starts = MeanPhases { slow: top.start(), about_momentum: S::zero(), about_axis: S::zero() };
+        Ok(Self {
+            strength,
+            s,
+            momentum: g,
+            axis: n / length(&n),
+            equatorial_axis,
+            start: shape,
+            starts,
+            turning: turning(spheroid, initial, &added),
+            rates,
+            periodic,
+            order,
+            relative_strength,
+            top,
+        })
     }
-}
 
-impl<S: Real> MeanMotion<S> {
+    /// The same motion with the time counted from `t` (see [`turns`](Self::turns)): for many states near an epoch after many turns.
+    pub fn near(&self, t: [f64; 2]) -> Self {
+        Self { starts: self.phases_at(t), ..*self }
+    }
+
     /// Mean rates.
     pub fn rates(&self) -> &MeanRates<S> {
         &self.rates
@@ -166,12 +226,49 @@ impl<S: Real> MeanMotion<S> {
         self.relative_strength
     }
 
-    /// Phases at the time `t`.
-    pub fn phases(&self, t: S) -> MeanPhases<S> {
+    /// Phases at the time `t[0] + t[1]`, a sum of two doubles: to some 1e-16 turn, and to 1e-16 of what Lorentz violation adds to them,
+    /// after any number of turns.
+    pub fn turns(&self, t: [f64; 2]) -> MeanTurns {
+        let time = DoubleDouble::sum(t[0], t[1]);
+        let starts = [self.starts.slow, self.starts.about_momentum, self.starts.about_axis];
+        let at = |i: usize| Turns::at(starts[i].re() / TAU, self.turning[i], time);
+        MeanTurns { slow: at(0), about_momentum: at(1), about_axis: at(2) }
+    }
+
+    /// Phases at the time `t[0] + t[1]`, modulo a turn.
+    pub fn phases_at(&self, t: [f64; 2]) -> MeanPhases<S> {
+        let MeanTurns { slow, about_momentum, about_axis } = self.turns(t);
+        let slow = if self.top.is_periodic() { slow.angle() } else { slow.angle() + slow.whole as f64 * TAU };
+        let angles = [slow, about_momentum.angle(), about_axis.angle()];
+        let [slow, about_momentum, about_axis] = angles.map(S::from_f64);
+        let real = MeanPhases { slow, about_momentum, about_axis };
+        if !S::HAS_DERIVATIVES {
+            return real;
+        }
+        let t = S::from_f64(t[0]) + S::from_f64(t[1]);
+        let with = |angle: S, start: S, rate: S| {
+            let whole = start + rate * t;
+            angle + (whole - S::from_f64(whole.re()))
+        };
+        let (starts, rates) = (&self.starts, &self.rates);
         MeanPhases {
-            slow: self.top.start() + self.rates.slow * t,
-            about_momentum: self.rates.about_momentum * t,
-            about_axis: self.rates.about_axis * t,
+            slow: with(real.slow, starts.slow, rates.slow),
+            about_momentum: with(real.about_momentum, starts.about_momentum, rates.about_momentum),
+            about_axis: with(real.about_axis, starts.about_axis, rates.about_axis),
+        }
+    }
+
+    /// Phases at the time `t`, modulo a turn.
+    pub fn phases(&self, t: S) -> MeanPhases<S> {
+        let MeanPhases { slow, about_momentum, about_axis } = self.phases_at([t.re(), 0.0]);
+        if !S::HAS_DERIVATIVES {
+            return MeanPhases { slow, about_momentum, about_axis };
+        }
+        let later = t - S::from_f64(t.re());
+        MeanPhases {
+            slow: slow + self.rates.slow * later,
+            about_momentum: about_momentum + self.rates.about_momentum * later,
+            about_axis: about_axis + self.rates.about_axis * later,
         }
     }
 
@@ -200,7 +297,9 @@ impl<S: Real> MeanMotion<S> {
 
     /// The state of the body at given phases, in the principal frame of `s`.
     pub fn state_at(&self, phases: &MeanPhases<S>) -> BodyState<S> {
-        let [axis, momentum, equatorial_axis] = transformed(self.strength, &self.s, &self.mean_axes(phases), 1.0);
+        let mean = self.mean_axes(phases);
+        let change = transformation(self.strength, &self.s, &mean, 1.0);
+        let [axis, momentum, equatorial_axis] = [0, 1, 2].map(|i| mean[i] + change[i]);
         BodyState { axis, momentum, equatorial_axis }
     }
 
