@@ -17,9 +17,8 @@
 use core::fmt;
 use core::str::FromStr;
 
+use crate::double_double::DoubleDouble;
 use crate::error::Error;
-use crate::rounding::two_product;
-use crate::two_part::{TwoPart, difference, quotient, sum};
 
 /// Day in s.
 pub const DAY: f64 = 86_400.0;
@@ -45,7 +44,7 @@ impl Epoch {
     pub fn new(day: i64, fraction: f64) -> Result<Self, Error> {
         let date = day as f64 + fraction;
         Error::unless((0.0..=LAST_DAY).contains(&date), "epoch (MJD)", date, ALLOWED)?;
-        Ok(Self { day, fraction: 0.0 }.with_days([fraction, 0.0]))
+        Ok(Self { day, fraction: 0.0 }.with_days(fraction.into()))
     }
 
     /// Whole days.
@@ -60,22 +59,20 @@ impl Epoch {
 
     /// Time from `other` to this epoch in s, as the unevaluated sum of two doubles, of 32 digits.
     pub fn seconds_since(&self, other: &Self) -> [f64; 2] {
-        let days = (self.day - other.day) as f64;
-        let fraction = difference([self.fraction, 0.0], [other.fraction, 0.0]);
-        let (seconds, lost) = two_product(fraction[0], DAY);
-        sum([days * DAY, 0.0], [seconds, lost + fraction[1] * DAY])
+        let days = DoubleDouble::product((self.day - other.day) as f64, DAY);
+        (days + DoubleDouble::sum(self.fraction, -other.fraction) * DAY.into()).into()
     }
 
     /// The epoch a time later (s, the unevaluated sum of two doubles), rounded to 1e-16 day.
     pub fn after(&self, seconds: [f64; 2]) -> Self {
-        self.with_days(quotient(seconds, [DAY, 0.0]))
+        self.with_days(DoubleDouble::from(seconds).over(DAY.into()))
     }
 
-    fn with_days(self, days: TwoPart) -> Self {
-        let whole = days[0].floor();
-        let fraction = sum(difference(days, [whole, 0.0]), [self.fraction, 0.0]);
-        let more = (fraction[0] + fraction[1]).floor();
-        let fraction = (fraction[0] - more) + fraction[1];
+    fn with_days(self, days: DoubleDouble) -> Self {
+        let whole = days.high.floor();
+        let fraction = DoubleDouble::sum(days.high - whole, self.fraction) + days.low.into();
+        let more = (fraction.high + fraction.low).floor();
+        let fraction = (fraction.high - more) + fraction.low;
         let day = self.day + whole as i64 + more as i64;
         // A negative remainder below the rounding of one.
         if fraction >= 1.0 { Self { day: day + 1, fraction: 0.0 } } else { Self { day, fraction: fraction.max(0.0) } }
@@ -122,7 +119,9 @@ mod tests {
 
     #[test]
     fn text_is_read_and_written_without_loss() {
-        for text in ["0.0", "55321.0", "51544.5", "59999.9999999999999999", "55321.1234567890123456", "60000.000000000000001"] {
+        for text in
+            ["0.0", "55321.0", "51544.5", "59999.9999999999999999", "55321.1234567890123456", "60000.000000000000001"]
+        {
             let read = epoch(text);
             assert_eq!(epoch(&read.to_string()), read, "{text}");
         }
@@ -136,7 +135,8 @@ mod tests {
 
     #[test]
     fn what_is_no_date_is_refused() {
-        for text in ["", ".5", "5.", "-1", "+5", "1e5", "nan", "inf", "5.5.5", "10000001", "99999999999999999999", " 1"] {
+        for text in ["", ".5", "5.", "-1", "+5", "1e5", "nan", "inf", "5.5.5", "10000001", "99999999999999999999", " 1"]
+        {
             assert!(text.parse::<Epoch>().is_err(), "{text}");
         }
         assert!(Epoch::new(0, f64::NAN).is_err() && Epoch::new(0, -0.5).is_err());
@@ -146,10 +146,12 @@ mod tests {
     #[test]
     fn ten_picoseconds_are_kept_over_decades() {
         let start = epoch("47000.3712345678901234");
-        for seconds in [[0.0, 0.0], [1e-11, 0.0], [6.3e8, 1.25e-9], [-4e8, 3e-9], [0.001_557, 1e-20], [43_199.999_999_999_99, 0.0]] {
+        for seconds in
+            [[0.0, 0.0], [1e-11, 0.0], [6.3e8, 1.25e-9], [-4e8, 3e-9], [0.001_557, 1e-20], [43_199.999_999_999_99, 0.0]]
+        {
             let there = start.after(seconds);
-            let off = difference(there.seconds_since(&start), seconds);
-            assert!(off[0].abs() < 1e-11, "{seconds:?}: {off:?}");
+            let off = DoubleDouble::from(there.seconds_since(&start)) - seconds.into();
+            assert!(off.high.abs() < 1e-11, "{seconds:?}: {off:?}");
             assert!((0.0..1.0).contains(&there.fraction()));
             let back = there.after([-seconds[0], -seconds[1]]).seconds_since(&start);
             assert!(back[0].abs() < 2e-11, "{seconds:?}: {back:?}");

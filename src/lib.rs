@@ -18,7 +18,6 @@ mod rounding;
 pub mod scalar;
 pub mod solutions;
 pub mod star;
-mod two_part;
 pub mod units;
 
 pub use error::Error;

@@ -86,7 +86,8 @@ fn turning<S: Real>(spheroid: &RigidSpheroid<S>, initial: &BodyState<S>, added: 
     let [n, momentum] = [&initial.axis, &initial.momentum].map(|v| real_part(v).into());
     let about_momentum = DoubleDouble::dot(&momentum, &momentum).sqrt().over(inertia_xx.into());
     let difference = DoubleDouble::sum(inertia_xx, -inertia_zz);
-    let about_axis = (difference * DoubleDouble::dot(&momentum, &n)).over(DoubleDouble::product(inertia_xx, inertia_zz));
+    let about_axis =
+        (difference * DoubleDouble::dot(&momentum, &n)).over(DoubleDouble::product(inertia_xx, inertia_zz));
     let with = |free: DoubleDouble, added: S| (free + added.re().into()).over(DoubleDouble::TAU);
     [
         with(DoubleDouble::default(), added.slow),
@@ -180,15 +181,10 @@ impl<S: Real> MeanMotion<S> {
             about_axis: mean.by_c / g,
         };
         let free = [size / inertia_xx, -(spheroid.oblateness() * along_axis / inertia_zz)];
-        let rates = MeanRates {
-            slow,
-            about_momentum: free[0] + added.about_momentum,
-            about_axis: free[1] + added.about_axis,
-        };
-        let periodic = [
-            [-(mean.by_c_h * c / g), mean.by_size_m - mean.by_c_m * c / g],
-            [mean.by_c_h / g, mean.by_c_m / g],
-        ];
+        let rates =
+            MeanRates { slow, about_momentum: free[0] + added.about_momentum, about_axis: free[1] + added.about_axis };
+        let periodic =
+            [[-(mean.by_c_h * c / g), mean.by_size_m - mean.by_c_m * c / g], [mean.by_c_h / g, mean.by_c_m / g]];
         let shape = top.at(top.start());
         let to_shape = shape.frame.transpose();
         let [n, equatorial_axis] = [n, equatorial].map(|v| to_shape * v);
