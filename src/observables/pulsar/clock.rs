@@ -69,6 +69,20 @@ pub struct ClockPulse {
     pub state: BodyState<f64>,
 }
 
+/// States near a time, in the frame of the initial state.
+#[derive(Debug, Clone, Copy)]
+pub struct NearState {
+    mean: MeanMotion<f64>,
+    given_from_principal: Matrix3<f64>,
+}
+
+impl NearState {
+    /// The state a time `t` later.
+    pub fn state(&self, t: f64) -> BodyState<f64> {
+        self.mean.state(t).rotated(&self.given_from_principal)
+    }
+}
+
 /// The motion near a time.
 struct Near<'a> {
     clock: &'a PulsarClock,
@@ -145,9 +159,9 @@ impl PulsarClock {
         core::f64::consts::TAU / self.turns.rate(&self.mean)
     }
 
-    /// The state at the time `t[0] + t[1]`, in the frame of the initial state.
-    pub fn state(&self, t: [f64; 2]) -> BodyState<f64> {
-        self.mean.near(t).state(0.0).rotated(&self.given_from_principal)
+    /// The motion with the time counted from `t[0] + t[1]`, for states in the frame of the initial one.
+    pub fn near(&self, t: [f64; 2]) -> NearState {
+        NearState { mean: self.mean.near(t), given_from_principal: self.given_from_principal }
     }
 
     /// The pulse of the turn nearest to the time `t[0] + t[1]`, of its pulses that nearest to the middle of the turn; none if that turn
