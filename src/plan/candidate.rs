@@ -6,7 +6,8 @@ use super::{Cost, Method, Output, Parameter, Request, State, Work};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::splitting::splitting_forecast;
-use crate::propagation::{AxisState, SymmetricMotion, UniformMotion, largest_torque, taylor_forecast};
+use crate::propagation::{AveragedMotion, AxisState, SymmetricMotion, UniformMotion, largest_torque, taylor_forecast};
+use crate::solutions::mean::MeanOrder;
 
 /// What a method would do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,6 +56,7 @@ impl Candidate {
             Method::Free => free(scene, request, stretch),
             Method::Steady => steady(scene, request, stretch),
             Method::Symmetric => symmetric(scene, request, stretch),
+            Method::Mean => mean(scene, request, stretch),
             Method::Splitting => splitting(scene, request, stretch),
             Method::Taylor => taylor(scene, request, state, stretch),
         };
@@ -143,6 +145,15 @@ fn symmetric(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Resul
     let usable = truncation <= request.accuracy || request.method == Some(Method::Symmetric);
     let rounding = if usable { motion.rounding(elapsed) } else { f64::NAN };
     Ok(Forecast::closed(truncation, rounding))
+}
+
+fn mean(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+    let Scene { spheroid, violation, initial } = scene;
+    let motion = AveragedMotion::new(spheroid, violation, initial, stretch, MeanOrder::Second)?;
+    if !request.derivatives.is_empty() {
+        motion.require_derivatives()?;
+    }
+    Ok(Forecast::closed(motion.truncation(stretch.1), motion.rounding(stretch.1)))
 }
 
 fn splitting(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {

@@ -106,8 +106,8 @@ impl AxisMotion<f64> for Near<'_> {
         Ok(AxisState::from(&self.mean.state(t)))
     }
 
-    fn error_estimate(&self, _: f64) -> f64 {
-        f64::NAN
+    fn error_estimate(&self, t: f64) -> f64 {
+        self.mean.error_estimate(t)
     }
 }
 
@@ -133,8 +133,8 @@ impl PulsarClock {
     ) -> Result<Self, Error> {
         check_beam(beam, &observer.direction)?;
         let frame = principal_frame(s)?;
-        let mean =
-            MeanMotion::new(spheroid, &frame.coefficients, &initial.rotated(&frame.principal_from_given), order)?;
+        let turned = initial.rotated(&frame.principal_from_given);
+        let mean = MeanMotion::with_free_rotation_of(initial, spheroid, &frame.coefficients, &turned, order)?;
         let observer = observer.rotated(&frame.principal_from_given);
         let violation = frame.coefficients.tensor();
         Ok(Self {
@@ -157,6 +157,11 @@ impl PulsarClock {
     /// Mean time between two pulses.
     pub fn period(&self) -> f64 {
         core::f64::consts::TAU / self.turns.rate(&self.mean)
+    }
+
+    /// Error of a midpoint at the time `t` by what the order of the mean motion leaves out: that of directions over the rate of turns.
+    pub fn truncation(&self, t: f64) -> f64 {
+        self.mean.truncation(t) / self.turns.rate(&self.mean)
     }
 
     /// The motion with the time counted from `t[0] + t[1]`, for states in the frame of the initial one.

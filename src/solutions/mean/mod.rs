@@ -1,5 +1,6 @@
 //! Motion averaged over the fast rotation of the symmetry axis about the angular momentum.
 
+mod error;
 mod generator;
 mod hamiltonian;
 mod motion;

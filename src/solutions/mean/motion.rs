@@ -44,9 +44,11 @@ pub struct MeanMotion<S> {
     /// Rates of the phases (turns per unit of time), the free rotation in 32 digits.
     turning: [DoubleDouble; 3],
     rates: MeanRates<S>,
-    /// Of the angles about `l` and about `n`, by the integrals of `h` and `m` about their means.
-    periodic: [[S; 2]; 2],
+    /// Of the angles about `l` and about `n`, by the integral of the top.
+    periodic: [S; 2],
     order: MeanOrder,
+    /// That moves `l`.
+    tensor: Vector3<S>,
     relative_strength: S,
 }
 
@@ -71,6 +73,27 @@ pub struct MeanPhases<S> {
     pub about_momentum: S,
     /// As [`MeanRates::about_axis`].
     pub about_axis: S,
+}
+
+impl<S: Real> MeanPhases<S> {
+    /// After some more time.
+    pub(crate) fn later(&self, rates: &MeanRates<S>, time: S) -> Self {
+        Self {
+            slow: self.slow + rates.slow * time,
+            about_momentum: self.about_momentum + rates.about_momentum * time,
+            about_axis: self.about_axis + rates.about_axis * time,
+        }
+    }
+}
+
+fn require_round<S: Real>(top: &Top<S>) -> Result<(), Error> {
+    let complement = if top.goes_round() { top.complement() } else { 0.0 };
+    Error::unless(
+        complement > 0.0,
+        "distance k' of L from rest and from the separatrix",
+        complement,
+        "above zero, if derivatives are wanted",
+    )
 }
 
 /// What Lorentz violation adds to the rates of free rotation, and the slow rate.
@@ -110,6 +133,21 @@ impl<S: Real> MeanMotion<S> {
     /// below 0.2, and the mean energy must determine `G`. With derivatives (duals), also where `L` rests or is on a separatrix: there the
     /// elliptic functions have none.
     pub fn new(
+        spheroid: &RigidSpheroid<S>,
+        s: &PrincipalCoefficients<S>,
+        initial: &BodyState<S>,
+        order: MeanOrder,
+    ) -> Result<Self, Error> {
+        Self::with_free_rotation_of(initial, spheroid, s, initial, order)
+    }
+
+    /// As [`new`](Self::new), for an initial state that was `given` in another frame. There `|L|` and `L.n` have all their digits, of which a
+    /// rotation loses the last one, and 1e10 turns ten more.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn with_free_rotation_of(
+        given: &BodyState<S>,
         spheroid: &RigidSpheroid<S>,
         s: &PrincipalCoefficients<S>,
         initial: &BodyState<S>,
@@ -164,12 +202,9 @@ impl<S: Real> MeanMotion<S> {
         let here = potential.at(g, c, h, m);
         let tensor = s.map(|value| (here.by_h * value + here.by_m * value * value) * 2.0 / g);
         let top = Top::new(tensor.into(), &l);
-        Error::unless(
-            !S::HAS_DERIVATIVES || top.goes_round(),
-            "distance of L from rest or from the separatrix",
-            0.0,
-            "above zero, if derivatives are wanted",
-        )?;
+        if S::HAS_DERIVATIVES {
+            require_round(&top)?;
+        }
         let squares = top.mean_squares();
         let (mean_h, mean_m) = (s.dot(&squares), s.component_mul(&s).dot(&squares));
         let mean = potential.at(g, c, mean_h, mean_m);
@@ -183,8 +218,13 @@ impl<S: Real> MeanMotion<S> {
         let free = [size / inertia_xx, -(spheroid.oblateness() * along_axis / inertia_zz)];
         let rates =
             MeanRates { slow, about_momentum: free[0] + added.about_momentum, about_axis: free[1] + added.about_axis };
-        let periodic =
-            [[-(mean.by_c_h * c / g), mean.by_size_m - mean.by_c_m * c / g], [mean.by_c_h / g, mean.by_c_m / g]];
+        // dh and dm are those of the integral of the top, times v_m and -v_h and the product: their own sums cancel where v_m is small.
+        let product = top.product_of_differences(&s) * 2.0 / g;
+        let (by_h, by_m) = (here.by_m * product, -(here.by_h * product));
+        let periodic = [
+            -(mean.by_c_h * c / g) * by_h + (mean.by_size_m - mean.by_c_m * c / g) * by_m,
+            (mean.by_c_h * by_h + mean.by_c_m * by_m) / g,
+        ];
         let shape = top.at(top.start());
         let to_shape = shape.frame.transpose();
         let [n, equatorial_axis] = [n, equatorial].map(|v| to_shape * v);
@@ -197,10 +237,11 @@ impl<S: Real> MeanMotion<S> {
             equatorial_axis,
             start: shape,
             starts,
-            turning: turning(spheroid, initial, &added),
+            turning: turning(spheroid, given, &added),
             rates,
             periodic,
             order,
+            tensor,
             relative_strength,
             top,
         })
@@ -220,6 +261,46 @@ impl<S: Real> MeanMotion<S> {
     /// grow with its square, or its cube, times the angle turned.
     pub fn relative_strength(&self) -> S {
         self.relative_strength
+    }
+
+    /// Refuses a motion that has no derivatives by some of its parameters.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] where `L` rests or is on a separatrix, and for two equal eigenvalues of `s`, whose axes a derivative may turn.
+    pub fn require_derivatives(&self) -> Result<(), Error> {
+        let [x, y, z] = self.s.map(S::re).into();
+        let gap = (x - y).abs().min((y - z).abs()).min((z - x).abs());
+        let size = x.abs().max(y.abs()).max(z.abs());
+        Error::unless(
+            gap > 1e-12 * size,
+            "least difference of two eigenvalues of s^IJ",
+            gap,
+            "above 1e-12 of the largest, if derivatives are wanted",
+        )?;
+        require_round(&self.top)
+    }
+
+    /// How many orders are taken along.
+    pub fn order(&self) -> MeanOrder {
+        self.order
+    }
+
+    /// `G / I^xx`, at which the axis turns.
+    pub(super) fn turning_rate(&self) -> f64 {
+        self.turning[1].high.abs() * TAU
+    }
+
+    pub(super) fn tensor(&self) -> &Vector3<S> {
+        &self.tensor
+    }
+
+    pub(super) fn top(&self) -> &Top<S> {
+        &self.top
+    }
+
+    /// `l` at the start.
+    pub(super) fn direction(&self) -> Vector3<S> {
+        self.start.frame.column(2).into()
     }
 
     /// Phases at the time `t[0] + t[1]`, a sum of two doubles: to some 1e-16 turn, and to 1e-16 of what Lorentz violation adds to them,
@@ -256,16 +337,8 @@ impl<S: Real> MeanMotion<S> {
 
     /// Phases at the time `t`, modulo a turn.
     pub fn phases(&self, t: S) -> MeanPhases<S> {
-        let MeanPhases { slow, about_momentum, about_axis } = self.phases_at([t.re(), 0.0]);
-        if !S::HAS_DERIVATIVES {
-            return MeanPhases { slow, about_momentum, about_axis };
-        }
-        let later = t - S::from_f64(t.re());
-        MeanPhases {
-            slow: slow + self.rates.slow * later,
-            about_momentum: about_momentum + self.rates.about_momentum * later,
-            about_axis: about_axis + self.rates.about_axis * later,
-        }
+        let phases = self.phases_at([t.re(), 0.0]);
+        if S::HAS_DERIVATIVES { phases.later(&self.rates, t - S::from_f64(t.re())) } else { phases }
     }
 
     /// The mean state at given phases, in the principal frame of `s`.
@@ -273,10 +346,8 @@ impl<S: Real> MeanMotion<S> {
         let shape = self.top.at(phases.slow);
         let MeanPhases { mut about_momentum, mut about_axis, .. } = *phases;
         if self.order == MeanOrder::Second {
-            let change = shape.squares - self.start.squares;
-            let of_square = self.s.component_mul(&self.s);
-            let integrals = [self.s.dot(&change), of_square.dot(&change)];
-            let [about_l, about_n] = self.periodic.map(|[by_h, by_m]| by_h * integrals[0] + by_m * integrals[1]);
+            let change = shape.integral - self.start.integral;
+            let [about_l, about_n] = self.periodic.map(|rate| rate * change);
             (about_momentum, about_axis) = (about_momentum + about_l, about_axis + about_n);
         }
         // The turn of the frame since the start: the quotient of two complex numbers, times that of the angle.

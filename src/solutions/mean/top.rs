@@ -37,6 +37,10 @@ pub struct Top<S> {
     amplitudes: [S; 3],
     /// `A_2 / A_1`.
     elongation: S,
+    /// `a` and `b`.
+    differences: [S; 2],
+    /// `A_1^2 / b`.
+    share: S,
     /// Mean rate of the frame about `l` and of the phase, and the phase at the start.
     rates: TopPhases<S>,
     start: S,
@@ -69,8 +73,8 @@ pub struct TopShape<S> {
     pub frame: Matrix3<S>,
     /// Cosine and sine of the periodic part of the angle about `l`, times a positive number.
     pub turned: [S; 2],
-    /// Periodic part of the integral of the squares of the components of `l` over time.
-    pub squares: Vector3<S>,
+    /// Periodic part of the integral of `(A_1^2 / b) sn^2 u` over time: see [`Top::squares`].
+    pub integral: S,
 }
 
 /// `AGM(1, k')` and the mean of `sn^2`, from `k^2` and `k'`.
@@ -139,6 +143,8 @@ impl<S: Real> Top<S> {
             signs: [handed, side, 1.0],
             amplitudes: m,
             elongation: one,
+            differences: [a, b],
+            share: zero,
             rates: TopPhases { slow: zero, about: energy },
             start: zero,
         };
@@ -164,7 +170,8 @@ impl<S: Real> Top<S> {
         // Where the amplitude vanishes, any phase will do.
         let (cn, sn) = if first.re() > 0.0 { (m[0] / first, m[1] / amplitudes[1] * -side) } else { (one, zero) };
         let dn = m[2].abs() / third;
-        let moving = Self { amplitudes, elongation, ..still };
+        let share = if first.re() > 0.0 { first_squared / b } else { zero };
+        let moving = Self { amplitudes, elongation, share, ..still };
         if complement_squared.re() <= SEPARATRIX {
             let root_ratio = (a / b).sqrt();
             // sn = tanh u, dn = 1 / cosh u; cn as well, which does not change its sign: m_1 and m_2 have another one behind.
@@ -200,6 +207,37 @@ impl<S: Real> Top<S> {
         matches!(self.course, Course::Round { .. }) && self.amplitudes[0].re() > 0.0
     }
 
+    /// `k'`, zero on the separatrix and one where the phase grows evenly.
+    pub fn complement(&self) -> f64 {
+        match &self.course {
+            Course::Still { .. } => 1.0,
+            Course::Round { parameter, .. } => (1.0 - parameter.re()).max(0.0).sqrt(),
+            Course::Separatrix { .. } => 0.0,
+        }
+    }
+
+    /// Whether both go round the same axis on the same side, or rest.
+    pub(super) fn is_beside(&self, other: &Self) -> bool {
+        let same_side = self.places[2] == other.places[2] && self.signs[1] == other.signs[1];
+        match (&self.course, &other.course) {
+            (Course::Round { .. }, Course::Round { .. }) => same_side,
+            (Course::Still { .. }, Course::Still { .. }) => true,
+            _ => false,
+        }
+    }
+
+    /// Largest speed of `l`: where it crosses the plane of `m_2` and `m_3`, or of `m_1` and `m_3`.
+    pub(super) fn largest_speed(&self) -> f64 {
+        let rates = self.rates.slow.re().abs();
+        let [first, second, _] = self.amplitudes.map(S::re);
+        match &self.course {
+            Course::Still { .. } => 0.0,
+            // |dm/du| is at most A_2 for sn, A_1 for cn and k^2 A_3 / 2 for dn, which is less.
+            Course::Round { mean, .. } => rates / mean.re() * (first * first + second * second).sqrt(),
+            Course::Separatrix { .. } => rates * (first * first + second * second).sqrt(),
+        }
+    }
+
     /// Whether the phase repeats itself after a turn, as it does but on a separatrix.
     pub fn is_periodic(&self) -> bool {
         !matches!(self.course, Course::Separatrix { .. })
@@ -224,6 +262,22 @@ impl<S: Real> Top<S> {
             }
             Course::Separatrix { .. } => self.in_places([S::zero(), S::one(), S::zero()]),
         }
+    }
+
+    /// Periodic part of the integral of the squares of the components of `l` over time, from that of a [shape](TopShape::integral).
+    pub fn squares(&self, integral: S) -> Vector3<S> {
+        let [a, b] = self.differences;
+        let mut squares = Vector3::zeros();
+        for (place, factor) in self.places.into_iter().zip([-b, a + b, -a]) {
+            squares[place] = integral * factor;
+        }
+        squares
+    }
+
+    /// The product of the differences of values along the principal axes, in the order of `m`: `(v_1 - v_2) (v_2 - v_3) (v_1 - v_3)`.
+    pub(super) fn product_of_differences(&self, values: &Vector3<S>) -> S {
+        let [first, second, third] = self.places.map(|place| values[place]);
+        (first - second) * (second - third) * (first - third)
     }
 
     /// Multiples of the squares of the amplitudes, in the given order of axes.
@@ -271,13 +325,7 @@ impl<S: Real> Top<S> {
                 frame[(self.places[i], j)] = if i == 1 { component * handed } else { component };
             }
         }
-        let squares = match &self.course {
-            Course::Round { parameter, .. } => {
-                self.in_places([-sn2_integral, sn2_integral, -*parameter * sn2_integral])
-            }
-            _ => self.in_places([-sn2_integral, sn2_integral, -sn2_integral]),
-        };
-        TopShape { frame, turned, squares }
+        TopShape { frame, turned, integral: sn2_integral * self.share }
     }
 }
 
@@ -289,5 +337,5 @@ fn still_shape<S: Real>(l: &Vector3<S>) -> TopShape<S> {
     let parallel = pole.cross(l);
     let parallel = parallel / length(&parallel);
     let frame = Matrix3::from_columns(&[parallel.cross(l), parallel, *l]);
-    TopShape { frame, turned: [S::one(), S::zero()], squares: Vector3::zeros() }
+    TopShape { frame, turned: [S::one(), S::zero()], integral: S::zero() }
 }

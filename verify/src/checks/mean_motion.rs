@@ -284,7 +284,7 @@ fn tops() -> Result<Measured, String> {
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), about);
         let frame = end.frame * turn * start.frame.transpose();
         // What enters a phase is this times rates as small as the slow one.
-        let squares = top.mean_squares() * time + end.squares - start.squares;
+        let squares = top.mean_squares() * time + top.squares(end.integral - start.integral);
         let (direction, by_steps, integral) = integrated(&k, l);
         let off = largest([
             (frame - by_steps).amax(),

@@ -38,6 +38,11 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     }
     let files = folder.complete()?;
     note_dark(&timing, epochs.len());
+    let farthest = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0].abs()).fold(0.0, f64::max);
+    note(&format!(
+        "the mean motion of second order leaves out at most {:.1e} s at the farthest epoch",
+        pulsar.clock.truncation(farthest)
+    ));
     print(&format!(
         "{}: {} arrival times, {files} files\n{}",
         args.out.display(),

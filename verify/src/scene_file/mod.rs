@@ -178,31 +178,30 @@ impl Scene {
             output::read(output, &mut scene, use_columns)?;
         }
         let rotation = scene.rotation();
-        // A scene with an epoch is one over decades: what is integrated is limited by the plan.
-        if rotation <= LARGEST_ROTATION || (scene.epoch.is_some() && rotation.is_finite()) {
+        if rotation <= LARGEST_ROTATION || !use_columns || scene.plan_of_columns().is_ok() {
             return Ok(scene);
         }
         Err(time_section.as_ref().unwrap_or(document).fault(format!(
             "[time] asks for a rotation by {rotation:.1e} rad: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \
-             minutes; shorten the span or lower the rates"
+             minutes, for pulses, angles that count their turns and motions without a closed form; shorten the span, lower the rates \
+             or choose other columns"
         )))
     }
 
     /// The plan for some outputs over the span and at the samples of the scene. Times are those since the start, in t_c.
     ///
     /// # Errors
-    /// A method that the scene does not allow, and one that would integrate over more than [`LARGEST_ROTATION`].
+    /// A method that the scene does not allow, and a span too long for what goes through every turn.
     pub fn plan(&self, outputs: &[Output]) -> Result<Plan, Error> {
         let span = (0.0, (self.times.last() - self.times.start()) / self.units.time);
         let request = Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.accuracy) };
         let plan = Plan::new(&self.spheroid, &self.violation, &self.initial, &request)?;
-        let integrated = plan.method.is_some_and(|method| !method.is_closed_form());
-        let rotation = if integrated { self.rotation() } else { 0.0 };
+        let rotation = self.rotation();
         Error::unless(
-            rotation <= LARGEST_ROTATION,
-            "rotation over the span [rad]",
+            rotation <= LARGEST_ROTATION || plan.costs_the_same_at_any_time(),
+            "rotation over the span (rad)",
             rotation,
-            "at most 1e8 for a method that integrates, which takes minutes",
+            "at most 1e8 for pulses, angles that count their turns and motions without a closed form",
         )?;
         Ok(plan)
     }
