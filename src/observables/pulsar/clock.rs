@@ -172,10 +172,10 @@ impl PulsarClock {
     /// The pulse of the turn nearest to the time `t[0] + t[1]`, of its pulses that nearest to the middle of the turn; none if that turn
     /// is dark, or if the line of sight is inside the beam for more than a turn.
     ///
-    /// A pulse is a stretch of time with `m.n > cos rho`; that of the turn is not missed if the derivatives of the mean motion keep the
-    /// bounds of the exact one, as they do but for the square of `C |s| I^xx / |L|^2`. Edges are as exact as those of
-    /// [`pulse_train`](super::pulse_train). The cost does not depend on `t`, but the slow precession since the last call is followed in
-    /// steps of a quarter radian, so that numbers have no break.
+    /// A pulse is a stretch of time with `m.n > cos rho`. The search takes derivatives and their bounds from the exact equations of motion; those
+    /// of the mean motion differ by `x^2`, `x = C |s| I^xx / |L|^2`, as the mean motion itself does. For `x` below 1e-6 edges are as exact as
+    /// those of [`pulse_train`](super::pulse_train), else to some `1e-4 x^2` rad. The cost does not depend on `t`, but the slow precession
+    /// since the last call is followed in steps of a quarter radian, so that numbers have no break.
     ///
     /// # Errors
     /// [`Error::Domain`] where turns cannot be counted, and for times that are not finite.
