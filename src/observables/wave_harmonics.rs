@@ -88,7 +88,7 @@ mod tests {
                     .polarizations();
                 let source = spheroid_inertia_acceleration(&spheroid, &Matrix3::zeros(), &state.axis, &momentum);
                 let exact = polarizations(&observer, &metric_perturbation(1.0, &source));
-                let error = (found.plus - exact.plus).abs().max((found.cross - exact.cross).abs());
+                let error = f64::abs(found.plus - exact.plus).max(f64::abs(found.cross - exact.cross));
                 assert!(error < 1e-14, "{found:?} {exact:?}");
             }
         }
