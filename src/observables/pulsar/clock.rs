@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::edge_search::{ByStates, EdgeSearch};
+use super::edge_search::{ByStates, EdgeSearch, Event, Margin};
 use super::position_angle::{position_angle, position_angle_rate};
 use super::rate_bounds::{RateBounds, rate_bounds};
 use super::train::{PulseTrain, check_beam};
@@ -190,6 +190,9 @@ impl PulsarClock {
             margin: ByStates { motion: &near, beam: &self.beam, line_of_sight: &self.observer.direction },
             bounds: self.bounds,
         };
+        if let Some(pulse) = around(&search, middle, period)? {
+            return self.described(&near, t, look.number, &pulse).map(Some);
+        }
         for reach in [0.5, 1.5] {
             let train = search.train(middle - reach * period, middle + reach * period)?;
             match nearest(&train, middle) {
@@ -219,6 +222,31 @@ impl PulsarClock {
             state: state.rotated(&self.given_from_principal),
         })
     }
+}
+
+/// The pulse that holds a time, if the line of sight is inside the beam then and m.n is bent downwards: nothing is nearer, and the rest of
+/// the turn need not be looked at.
+fn around<P: Margin>(search: &EdgeSearch<P>, time: f64, period: f64) -> Result<Option<Pulse>, Error> {
+    let middle = search.jet(time)?;
+    let [margin, _, curvature, _] = middle.margin;
+    if margin <= 0.0 || curvature >= 0.0 {
+        return Ok(None);
+    }
+    let reach = (1.25 * (-2.0 * margin / curvature).sqrt()).min(0.5 * period);
+    let (before, after) = (search.jet(time - reach)?, search.jet(time + reach)?);
+    let (mut start, mut end) = (None, None);
+    search.search(&before, &middle, &mut |event| {
+        if let Event::Crossing { time, entering } = event {
+            start = entering.then_some(time);
+        }
+    })?;
+    search.search(&middle, &after, &mut |event| {
+        if let Event::Crossing { time, entering: false } = event {
+            end.get_or_insert(time);
+        }
+    })?;
+    let whole = start.zip(end);
+    Ok(whole.map(|(start, end)| Pulse { start, end, cut_at_start: false, cut_at_end: false }))
 }
 
 /// The pulse that holds a time or is nearest to it.
