@@ -95,8 +95,8 @@ pub fn principal_frame(tensor: &Matrix3<f64>) -> Result<PrincipalFrame, Error> {
 /// [`principal_frame`], and small rotations take away what derivatives leave beside the diagonal.
 ///
 /// # Errors
-/// As for [`principal_frame`], and [`Error::Domain`] where a derivative turns the axes of two eigenvalues that are equal (to 1e-12 of the
-/// largest).
+/// As for [`principal_frame`], and with derivatives [`Error::Domain`] where two eigenvalues are equal (to 1e-12 of the largest): their axes
+/// turn with any change.
 pub fn principal_frame_with_derivatives<S: Real>(
     tensor: &Matrix3<S>,
 ) -> Result<(PrincipalCoefficients<S>, Matrix3<S>), Error> {
@@ -115,14 +115,11 @@ pub fn principal_frame_with_derivatives<S: Real>(
         for (axis, i, j, gap) in [(0, 1, 2, yy - zz), (1, 2, 0, zz - xx), (2, 0, 1, xx - yy)] {
             let off = (turned[(i, j)] + turned[(j, i)]) / 2.0;
             let off = off - S::from_f64(off.re());
-            if off == S::zero() {
-                continue;
-            }
             Error::unless(
                 gap.abs() > 1e-12 * size,
                 "difference of two eigenvalues of s^IJ",
                 gap,
-                "above 1e-12 of the largest, for a derivative that turns their axes",
+                "above 1e-12 of the largest, if derivatives are wanted",
             )?;
             turn[axis] = off / (turned[(i, i)] - turned[(j, j)]);
         }

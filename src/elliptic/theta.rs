@@ -109,7 +109,8 @@ impl<S: Real> ThetaSeries<S> {
             weight *= odd_power * q_over_r;
             r_power = r_power * r * r;
             sign = -sign;
-            if square.re() < NEGLIGIBLE && weight.re() < NEGLIGIBLE {
+            // Where q vanishes its derivatives are in the second term.
+            if n > 0 && square.re() < NEGLIGIBLE && weight.re() < NEGLIGIBLE {
                 break;
             }
         }

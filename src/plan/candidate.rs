@@ -150,10 +150,13 @@ fn symmetric(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Resul
 fn mean(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
     let Scene { spheroid, violation, initial } = scene;
     let motion = AveragedMotion::new(spheroid, violation, initial, stretch, MeanOrder::Second)?;
+    let (mut truncation, rounding) = (motion.truncation(stretch.1), motion.rounding(stretch.1));
     if !request.derivatives.is_empty() {
         motion.require_derivatives()?;
+        // A derivative by s^IJ has one order less, in its own unit.
+        truncation /= motion.mean().relative_strength();
     }
-    Ok(Forecast::closed(motion.truncation(stretch.1), motion.rounding(stretch.1)))
+    Ok(Forecast::closed(truncation, rounding))
 }
 
 fn splitting(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {

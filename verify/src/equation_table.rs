@@ -528,7 +528,14 @@ pub const EQUATIONS: &[Equation] = &[
 /// What serves the equations without having a number of its own in the paper.
 pub const AUXILIARY: &[(&str, &[&str])] = &[
     ("number types", &["scalar::constant_vector", "scalar::length", "scalar::real_part"]),
-    ("principal axes of s^IJ", &["lorentz_violation::principal_frame", "lorentz_violation::SymmetryOfTensor"]),
+    (
+        "principal axes of s^IJ",
+        &[
+            "lorentz_violation::principal_frame",
+            "lorentz_violation::principal_frame_with_derivatives",
+            "lorentz_violation::SymmetryOfTensor",
+        ],
+    ),
     (
         "plans: what is computed for the outputs asked, by which method",
         &[
@@ -610,6 +617,9 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
             "solutions::mean::MeanMotion",
             "solutions::mean::MeanRates",
             "solutions::mean::MeanPhases",
+            "solutions::mean::MeanTurns",
+            "solutions::mean::Turns",
+            "propagation::AveragedMotion",
             "solutions::mean::Top",
             "solutions::mean::TopPhases",
             "solutions::mean::TopShape",

@@ -9,7 +9,7 @@ mod eta;
 mod first_integrals;
 mod fisher;
 mod forced_precession;
-mod mean_motion;
+mod mean;
 mod observer;
 mod orientation;
 mod perturbation_equations;
@@ -62,7 +62,7 @@ pub fn all() -> Vec<Check> {
         pulsar_table::checks,
         fisher::checks,
         waves::checks,
-        mean_motion::checks,
+        mean::checks,
         spectrum::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()

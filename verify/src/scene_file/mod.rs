@@ -177,15 +177,25 @@ impl Scene {
         if let Some(output) = &output {
             output::read(output, &mut scene, use_columns)?;
         }
-        let rotation = scene.rotation();
-        if rotation <= LARGEST_ROTATION || !use_columns || scene.plan_of_columns().is_ok() {
-            return Ok(scene);
+        if use_columns {
+            let outputs: Vec<_> = scene.columns.iter().map(|group| group.output).collect();
+            let section = time_section.as_ref().unwrap_or(document);
+            scene.check_rotation(&outputs).map_err(|why| section.fault(why))?;
         }
-        Err(time_section.as_ref().unwrap_or(document).fault(format!(
+        Ok(scene)
+    }
+
+    /// Refuses a span of too many turns for what goes through all of them.
+    pub(crate) fn check_rotation(&self, outputs: &[Output]) -> Result<(), String> {
+        let rotation = self.rotation();
+        if rotation <= LARGEST_ROTATION || self.plan(outputs).is_ok() {
+            return Ok(());
+        }
+        Err(format!(
             "[time] asks for a rotation by {rotation:.1e} rad: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \
              minutes, for pulses, angles that count their turns and motions without a closed form; shorten the span, lower the rates \
              or choose other columns"
-        )))
+        ))
     }
 
     /// The plan for some outputs over the span and at the samples of the scene. Times are those since the start, in t_c.
