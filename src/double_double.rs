@@ -1,7 +1,7 @@
 //! Sums of two doubles, of some 32 digits: for phases over many turns, and no more than those need.
 
 use core::f64::consts::TAU;
-use core::ops::{Add, Mul};
+use core::ops::{Add, Mul, Sub};
 
 use crate::rounding::{quick_two_sum, two_product, two_sum};
 
@@ -71,6 +71,27 @@ impl Add for DoubleDouble {
         let (high, lost) = quick_two_sum(high, lost + low);
         let (high, low) = quick_two_sum(high, lost + lost_low);
         Self { high, low }
+    }
+}
+
+impl Sub for DoubleDouble {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + Self { high: -other.high, low: -other.low }
+    }
+}
+
+impl From<[f64; 2]> for DoubleDouble {
+    /// Of an unevaluated sum in any order.
+    fn from([a, b]: [f64; 2]) -> Self {
+        Self::sum(a, b)
+    }
+}
+
+impl From<DoubleDouble> for [f64; 2] {
+    fn from(DoubleDouble { high, low }: DoubleDouble) -> Self {
+        [high, low]
     }
 }
 

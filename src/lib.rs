@@ -7,6 +7,7 @@
 mod double_double;
 pub mod dynamics;
 pub mod elliptic;
+pub mod epoch;
 pub mod error;
 pub mod euler_angles;
 pub mod lorentz_violation;

@@ -642,6 +642,17 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "pulses over decades: epochs, numbers without a break, fits of frequency",
+        &[
+            "epoch::Epoch",
+            "observables::pulsar::PulsarClock",
+            "observables::pulsar::ClockPulse",
+            "observables::pulsar::NearState",
+            "observables::pulsar::SpinFit",
+        ],
+    ),
+    ("harmonics of the wave over a turn", &["observables::wave_harmonics::WaveHarmonics"]),
+    (
         "position angle of the polarization, rotating-vector model",
         &[
             "observables::pulsar::position_angle::sky_from_inertial",

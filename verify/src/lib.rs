@@ -26,6 +26,7 @@ pub mod paper_examples;
 pub mod physical_domain;
 pub mod prime_field;
 pub mod pulsar_table;
+pub mod pulsar_timing;
 pub(crate) mod pulse_series;
 pub mod random;
 pub mod reference;
