@@ -20,6 +20,7 @@ pub mod golden;
 pub mod html_report;
 pub mod identity;
 pub mod independent_taylor;
+pub mod inference;
 mod operators;
 pub mod paper_examples;
 pub mod physical_domain;

@@ -4,6 +4,7 @@ pub mod arrival;
 pub mod beam;
 pub mod direction;
 mod edge_search;
+pub mod event_time;
 mod hermite;
 pub mod period;
 pub mod position_angle;
