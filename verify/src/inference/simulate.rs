@@ -7,7 +7,7 @@ use rand_distr::{Distribution, StandardNormal};
 use nalgebra::{DMatrix, DVector, Matrix3};
 use twofold::euler_angles::EulerAngles;
 
-use super::{Datum, Fisher, Fit, InferenceError, Model, Observable, Signal, Unknown, data_of, fit};
+use super::{Datum, Fisher, Fit, InferenceError, Model, Observable, Signal, Unknown, data_of, fit, nonlinearity};
 
 /// The same data with an error each, normal with its standard deviation.
 pub fn with_noise(data: &[Datum], random: &mut ChaCha8Rng) -> Vec<Datum> {
@@ -68,9 +68,8 @@ pub struct Simulation {
 /// Fewest pulses of a simulated measurement.
 const FEWEST: usize = 12;
 
-/// Largest standard deviation of an unknown, in its range, for a measurement to determine it well: with ten times as much, `chi^2` is
-/// no parabola over the error bars.
-const DETERMINED: f64 = 3e-3;
+/// Largest [`nonlinearity`] of a measurement whose error bars are tried: those of others are not promised to hold.
+const LINEAR: f64 = 0.1;
 
 impl Simulation {
     /// The measurement with a number. Scenes are drawn until one is determined by data without errors; the errors come after, and
@@ -107,7 +106,8 @@ impl Simulation {
 
 type Determined = (Vec<Unknown>, Vec<Datum>, DMatrix<f64>);
 
-/// Unknowns, exact data and covariance, if the scene has enough pulses, none of them short, and the data determine it well.
+/// Unknowns, exact data and covariance, if the scene has enough pulses, none of them short, and the data
+/// determine it so well that `chi^2` is a parabola over the error bars.
 fn determined(
     truth: &Model<f64>,
     campaign: Campaign,
@@ -143,14 +143,18 @@ fn determined(
         }
         Campaign::Both => (Unknown::OF_PULSES.to_vec(), [&[(Observable::Arrivals, sigma)][..], &strain].concat()),
     };
-    let samples: Vec<f64> = (0..40).map(|k| end * f64::from(k) / 39.0).collect();
+    let samples: Vec<f64> = (0..40).map(|k| end * (f64::from(k) / 39.0)).collect();
     let data = data_of(&signal, &events, &samples, &noise)?;
     if data.len() < 2 * unknowns.len() {
         return Ok(None);
     }
     let fisher = Fisher::of(truth, &events, &data, &unknowns)?;
-    let well = fisher.sigmas().iter().zip(&unknowns).all(|(sigma, unknown)| *sigma < DETERMINED * unknown.range(truth));
-    Ok((fisher.degenerate.is_empty() && well).then_some((unknowns, data, fisher.covariance)))
+    if !fisher.degenerate.is_empty() || !fisher.weak.is_empty() {
+        return Ok(None);
+    }
+    // A model beside the truth without the pulses of the data is far from linear too.
+    let linear = nonlinearity(truth, &unknowns, &fisher.covariance, &data, end).is_ok_and(|found| found < LINEAR);
+    Ok(linear.then_some((unknowns, data, fisher.covariance)))
 }
 
 /// A star in any motion between both kinds of precession, seen from anywhere but the poles.
