@@ -43,6 +43,9 @@ fn rounded(x: f64) -> String {
 /// from the space, by the rounding of the smallest singular values over that of the next.
 const NEAR: f64 = 1e-5;
 
+/// Sine of the least angle between a symmetry and the sums of those before it.
+const INDEPENDENT: f64 = 1e-4;
+
 /// The degenerate directions: one for each symmetry that is among them, and what is left.
 pub(super) fn directions(scaled: &ScaledJacobian, unknowns: &[Unknown], model: &Model<f64>) -> Vec<Direction> {
     let nullity = scaled.nullity();
@@ -57,20 +60,21 @@ pub(super) fn directions(scaled: &ScaledJacobian, unknowns: &[Unknown], model: &
             ratio: 0.0,
         });
     }
-    let mut space: DMatrix<f64> = scaled.vectors.columns(rank, nullity).into_owned();
+    let null: DMatrix<f64> = scaled.vectors.columns(rank, nullity).into_owned();
+    let mut left = null.clone();
     for symmetry in &named {
-        if space.ncols() == 0 {
-            break;
-        }
         let Some(vector) = in_scaled(&symmetry.change, unknowns, &scaled.lengths) else { continue };
-        let within = &space * (space.transpose() * &vector);
-        if (&vector - &within).norm() > NEAR {
+        if (&vector - &null * (null.transpose() * &vector)).norm() > NEAR {
             continue;
         }
-        found.push(direction(&vector, scaled, unknowns, model, Some(symmetry.words)));
-        space = without(&space, &within.normalize());
+        // Of the part that those before do not have. One that is a sum of them says nothing new.
+        let new = &left * (left.transpose() * &vector);
+        if left.ncols() > 0 && new.norm() > INDEPENDENT {
+            found.push(direction(&vector, scaled, unknowns, model, Some(symmetry.words)));
+            left = without(&left, &new.normalize());
+        }
     }
-    found.extend(space.column_iter().map(|vector| direction(&vector.into_owned(), scaled, unknowns, model, None)));
+    found.extend(left.column_iter().map(|vector| direction(&vector.into_owned(), scaled, unknowns, model, None)));
     found
 }
 

@@ -137,10 +137,7 @@ fn determined(
         Campaign::Pulses => {
             (Unknown::OF_PULSES.to_vec(), vec![(Observable::Arrivals, sigma), (Observable::Widths, sigma)])
         }
-        Campaign::Strain => {
-            let known = Unknown::StrainScale;
-            (Unknown::OF_STRAIN.into_iter().filter(|unknown| *unknown != known).collect(), strain.to_vec())
-        }
+        Campaign::Strain => (Unknown::OF_STRAIN.to_vec(), strain.to_vec()),
         Campaign::Both => (Unknown::OF_PULSES.to_vec(), [&[(Observable::Arrivals, sigma)][..], &strain].concat()),
     };
     let samples: Vec<f64> = (0..40).map(|k| end * (f64::from(k) / 39.0)).collect();

@@ -95,8 +95,8 @@ impl Unknown {
         Self::PhiO,
     ];
 
-    /// Those that the strain determines in the same frame: it knows no beam and no third angle.
-    pub const OF_STRAIN: [Self; 11] = [
+    /// Those that the strain determines in the same frame, the distance known: it knows no beam and no third angle.
+    pub const OF_STRAIN: [Self; 10] = [
         Self::Oblateness,
         Self::Spin,
         Self::SAxial,
@@ -107,7 +107,6 @@ impl Unknown {
         Self::BetaRate,
         Self::ThetaO,
         Self::PhiO,
-        Self::StrainScale,
     ];
 
     /// Name for commands and files.
