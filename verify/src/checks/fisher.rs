@@ -183,7 +183,8 @@ fn rank_of_formulas() -> Result<Measured, String> {
 fn null_direction() -> Result<Measured, String> {
     let found = fisher_of_formulas()?.degenerate;
     let [direction] = &found[..] else { return Err(format!("{} directions", found.len())) };
-    let change = |wanted: Unknown| direction.change.iter().find(|(unknown, _)| *unknown == wanted).map(|(_, size)| *size);
+    let change =
+        |wanted: Unknown| direction.change.iter().find(|(unknown, _)| *unknown == wanted).map(|(_, size)| *size);
     let (Some(oblateness), Some(combination), 2) =
         (change(Unknown::Oblateness), change(Unknown::SAxial), direction.change.len())
     else {

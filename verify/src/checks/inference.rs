@@ -94,7 +94,13 @@ fn tp_1() -> Result<Model<f64>, String> {
 }
 
 /// Values of the data `wanted` of a model: of the same turns, counted from the pulse nearest to the first.
-fn values(model: &Model<f64>, end: f64, events: &[Event], wanted: &[Datum], noise: &[Noise]) -> Result<Vec<f64>, String> {
+fn values(
+    model: &Model<f64>,
+    end: f64,
+    events: &[Event],
+    wanted: &[Datum],
+    noise: &[Noise],
+) -> Result<Vec<f64>, String> {
     let signal = Signal::new(model, end).map_err(text)?;
     let mut moved = signal.events().map_err(text)?;
     if let Some(first) = events.first() {
@@ -145,9 +151,8 @@ fn derivatives() -> Result<Measured, String> {
                 let rows = || (0..data.len()).filter(|row| data[*row].observable == observable);
                 // One for an unknown that changes nothing.
                 let scale = largest(rows().map(|row| exact[(row, column)].abs())).max(1.0);
-                let difference = |row: usize| {
-                    (8.0 * (one[row] - minus_one[row]) - (two[row] - minus_two[row])) / (12.0 * STEP)
-                };
+                let difference =
+                    |row: usize| (8.0 * (one[row] - minus_one[row]) - (two[row] - minus_two[row])) / (12.0 * STEP);
                 let error = largest(rows().map(|row| (exact[(row, column)] - difference(row)).abs())) / scale;
                 worst.see(error, || format!("{name}: {} by {}", observable.key(), unknown.key()));
             }
@@ -181,8 +186,18 @@ fn directions() -> Result<Measured, String> {
         ("sp-1", &pulses, &Unknown::OF_PULSES, &[]),
         ("tp-1", &strain, &Unknown::OF_STRAIN, &[]),
         ("tp-1", &both, &[Oblateness, Spin, SAxial, SAsymmetry, Alpha, Beta, AlphaRate, StrainScale], &[]),
-        ("tp-1", &pulses, &[ConstantC, SScale, Oblateness, Spin, STrace], &["the trace of s^IJ", "C against the size of s"]),
-        ("tp-2", &pulses, &[ConstantC, SAxial, SAsymmetry, SXy, SXz, SYz, Gamma, Delta], &["C against s^IJ", "gamma against delta"]),
+        (
+            "tp-1",
+            &pulses,
+            &[ConstantC, SScale, Oblateness, Spin, STrace],
+            &["the trace of s^IJ", "C against the size of s"],
+        ),
+        (
+            "tp-2",
+            &pulses,
+            &[ConstantC, SAxial, SAsymmetry, SXy, SXz, SYz, Gamma, Delta],
+            &["C against s^IJ", "gamma against delta"],
+        ),
         ("tp-2", &pulses, &frame, &["Z: no direction", "Y: no direction", "X: no direction"]),
         ("tp-2", &strain, &frame, &["gamma: a spheroid", "Z: no direction", "Y: no direction"]),
         ("sp-1", &strain, &[Oblateness, Spin, StrainScale, SAxial], &["eps against Omega^z"]),
@@ -258,7 +273,8 @@ fn unknown_frame() -> Result<Measured, String> {
 fn size_scaling() -> Result<Measured, String> {
     let sigma = |scale: f64| {
         let unknowns = Unknown::OF_PULSES;
-        forecast(&scaled("sp-1", scale)?, &TIMES_AND_WIDTHS, &unknowns, Unknown::SAxial, &[8000.0], &[1000]).map_err(text)
+        forecast(&scaled("sp-1", scale)?, &TIMES_AND_WIDTHS, &unknowns, Unknown::SAxial, &[8000.0], &[1000])
+            .map_err(text)
     };
     let (small, large) = (sigma(1.0 / 8000.0)?[0].sigma, sigma(1.0 / 4000.0)?[0].sigma);
     Ok(Measured::new(small / large, format!("{small:.2e} over {large:.2e}")))

@@ -6,7 +6,8 @@ use rand::rngs::ChaCha8Rng;
 use super::measurement::{Measurement, readable, uncertainties, write_csv};
 use super::{Failure, FitArgs, note, print};
 use crate::inference::{
-    Datum, Fisher, InferenceError, Place, Signal, beside, data_of, fit, is_of_pulses, read_pulses, read_strain, with_noise,
+    Datum, Fisher, InferenceError, Place, Signal, beside, data_of, fit, is_of_pulses, read_pulses, read_strain,
+    with_noise,
 };
 
 pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
@@ -54,6 +55,13 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
         found.chi_squared,
         found.degrees
     ));
+    // Six standard deviations of chi^2, which is nearly normal.
+    let degrees = found.degrees as f64;
+    if (found.chi_squared - degrees).abs() > 6.0 * (2.0 * degrees).sqrt() {
+        note(
+            "chi^2 is not what errors of these sizes give: the scene is no model of the data, or the errors have other sizes",
+        );
+    }
     match found.nonlinearity(&data, *end) {
         Ok(nonlinearity) if nonlinearity < 0.3 => {}
         Ok(nonlinearity) => note(&format!(
@@ -107,7 +115,10 @@ fn read(measurement: &Measurement, files: &[String]) -> Result<Vec<Datum>, Failu
     let before = data.len();
     data.retain(|datum| !matches!(datum.place, Place::Turn { near, .. } if near < signal.turn()));
     if data.len() < before {
-        note(&format!("{} data of the first turn are left out: their pulse may be cut in another model", before - data.len()));
+        note(&format!(
+            "{} data of the first turn are left out: their pulse may be cut in another model",
+            before - data.len()
+        ));
     }
     Ok(data)
 }

@@ -31,8 +31,8 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     }
     let in_tc: Vec<f64> = spans.iter().map(|span| span / unit).collect();
     let Measurement { model, noise, unknowns, .. } = &measurement;
-    let found = forecast(model, noise, unknowns, target, &in_tc, &args.epochs)
-        .map_err(|error| measurement.refused(error))?;
+    let found =
+        forecast(model, noise, unknowns, target, &in_tc, &args.epochs).map_err(|error| measurement.refused(error))?;
     let (factor, target_unit) = measurement.unit(target);
     let time = measurement.scene.units.time_name;
     let header = [format!("span [{time}]"), "epochs".to_owned(), format!("sigma_{} [{target_unit}]", target.key())];

@@ -133,7 +133,8 @@ pub(super) fn write_csv(args: &TableArgs, rows: &[Vec<String>]) -> Result<(), Fa
     let Some(path) = &args.out else { return Ok(()) };
     let output = OutputFile::beside(path, args.force)?;
     output.remove_on_interrupt();
-    let cannot = |error: &dyn std::fmt::Display| Failure::Failed(format!("{} cannot be written: {error}", path.display()));
+    let cannot =
+        |error: &dyn std::fmt::Display| Failure::Failed(format!("{} cannot be written: {error}", path.display()));
     let mut table = csv::Writer::from_writer(output.file());
     for row in rows {
         table.write_record(row).map_err(|error| cannot(&error))?;
@@ -180,7 +181,14 @@ pub(super) fn uncertainties(
         let most = most.map_or(String::new(), |j| format!("{:+.4} {}", correlation(i, j), unknowns[j].symbol()));
         short.push(if sigma.is_finite() {
             let relative = if value.abs() < 1e-12 { String::new() } else { format!("{:.1e}", sigma / value.abs()) };
-            vec![unknown.symbol().to_owned(), format!("{value:.10}"), format!("{sigma:.2e}"), relative, unit.clone(), most]
+            vec![
+                unknown.symbol().to_owned(),
+                format!("{value:.10}"),
+                format!("{sigma:.2e}"),
+                relative,
+                unit.clone(),
+                most,
+            ]
         } else {
             let symbol = unknown.symbol().to_owned();
             vec![symbol, format!("{value:.10}"), "not determined".into(), String::new(), unit.clone(), most]

@@ -319,7 +319,7 @@ struct ForecastArgs {
     #[arg(long, value_name = "NAME", default_value = "s_axial")]
     of: String,
     /// Spans in the scene's unit of time; if not given, that of the scene and twice, four and eight times as much
-    #[arg(long, value_name = "TIME,TIME", value_delimiter = ',')]
+    #[arg(long, value_name = "TIME,TIME", value_delimiter = ',', allow_hyphen_values = true)]
     spans: Option<Vec<f64>>,
     /// Numbers of epochs, equally spaced over the span, with one pulse and one sample of the strain each
     #[arg(long, value_name = "NUMBER,NUMBER", value_delimiter = ',', default_value = "25,50,100")]

@@ -39,8 +39,13 @@ impl Case {
         let found = simulation.fit()?;
         let truth = simulation.truth.values(&simulation.unknowns);
         let sigmas = DVector::from_vec(found.sigmas());
-        let pulls: Vec<f64> =
-            found.values.iter().zip(&truth).zip(&sigmas).map(|((value, truth), sigma)| (value - truth) / sigma).collect();
+        let pulls: Vec<f64> = found
+            .values
+            .iter()
+            .zip(&truth)
+            .zip(&sigmas)
+            .map(|((value, truth), sigma)| (value - truth) / sigma)
+            .collect();
         // In units of the standard deviations, where the matrix is best conditioned.
         let correlation = nalgebra::DMatrix::from_fn(pulls.len(), pulls.len(), |i, j| {
             found.covariance[(i, j)] / (sigmas[i] * sigmas[j])
@@ -90,9 +95,7 @@ impl Coverage {
     /// one case are not, so that counts take one unknown of each case, a different one from case to case.
     pub fn scores(&self) -> Vec<Score> {
         let count = self.cases.len() as f64;
-        let one_each = || {
-            self.cases.iter().map(|case| case.pulls[(case.seed as usize / 3) % case.pulls.len()])
-        };
+        let one_each = || self.cases.iter().map(|case| case.pulls[(case.seed as usize / 3) % case.pulls.len()]);
         let within = |what, limit: f64, part: f64| {
             let found = one_each().filter(|pull| pull.abs() <= limit).count() as f64;
             let deviation = (count * part * (1.0 - part)).sqrt();

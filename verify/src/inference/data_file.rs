@@ -74,9 +74,9 @@ pub fn read_pulses(path: &str, scene: &Scene, noise: &[Noise]) -> Result<Vec<Dat
         if fields[0] != "1" || fields[1].is_empty() {
             continue;
         }
-        let turn: i64 = fields[1].parse().map_err(|_| {
-            format!("{path}:{line}: `turn` is `{}`: allowed is a whole number, or nothing", fields[1])
-        })?;
+        let turn: i64 = fields[1]
+            .parse()
+            .map_err(|_| format!("{path}:{line}: `turn` is `{}`: allowed is a whole number, or nothing", fields[1]))?;
         rows.push((line, turn, fields));
     }
     let single = |turn: i64| rows.iter().filter(|(_, other, _)| *other == turn).count() == 1;

@@ -138,7 +138,8 @@ fn direction(
     let unit = vector.normalize();
     let coordinates = scaled.vectors.transpose() * &unit;
     let moved = coordinates.component_mul(&scaled.values).norm();
-    let places: Vec<usize> = (0..unknowns.len()).filter(|&j| unit[j].abs() > 1e-3 || words.is_some() && unit[j].abs() > 1e-9).collect();
+    let places: Vec<usize> =
+        (0..unknowns.len()).filter(|&j| unit[j].abs() > 1e-3 || words.is_some() && unit[j].abs() > 1e-9).collect();
     let changes: Vec<f64> = places.iter().map(|&j| unit[j] / scaled.lengths[j]).collect();
     // In units of the ranges, the largest one and positive.
     let in_range = |place: usize| changes[place] / unknowns[places[place]].range(model);

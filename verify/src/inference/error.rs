@@ -70,10 +70,9 @@ impl fmt::Display for InferenceError {
                 "the fit ended off a minimum ({why}; the residuals have a cosine of {cosine:.1e} with a derivative): a start \
                  nearer to the data may help"
             ),
-            Self::OnLimit { unknown, value } => write!(
-                f,
-                "the fit ended at {unknown} = {value}, a limit of what it can be: no error bar holds there"
-            ),
+            Self::OnLimit { unknown, value } => {
+                write!(f, "the fit ended at {unknown} = {value}, a limit of what it can be: no error bar holds there")
+            }
             Self::Model(error) => error.fmt(f),
         }
     }

@@ -144,9 +144,11 @@ pub fn fit(start: &Model<f64>, data: &[Datum], unknowns: &[Unknown], end: f64) -
     let weighted = jacobian(&model, &events, data, unknowns)?.weighted(data);
     let chi_squared: f64 = residuals.iter().map(|residual| residual * residual).sum();
     let gradient = weighted.matrix.transpose() * DVector::from_column_slice(&residuals);
-    let cosine = weighted.matrix.column_iter().zip(&gradient).fold(0.0, |most: f64, (column, product)| {
-        most.max((product / (column.norm() * chi_squared.sqrt())).abs())
-    });
+    let cosine = weighted
+        .matrix
+        .column_iter()
+        .zip(&gradient)
+        .fold(0.0, |most: f64, (column, product)| most.max((product / (column.norm() * chi_squared.sqrt())).abs()));
     let fisher = Fisher::of_jacobian(&weighted, unknowns, &model);
     if !fisher.degenerate.is_empty() || !fisher.weak.is_empty() {
         return Err(InferenceError::Degenerate([fisher.degenerate, fisher.weak].concat()));

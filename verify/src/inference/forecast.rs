@@ -72,8 +72,7 @@ pub fn scaling(forecasts: &[Forecast]) -> [Option<Slope>; 2] {
                 .map(|forecast| (x(forecast).log10(), forecast.sigma.log10()))
                 .collect();
             let count = of_group.len().max(1) as f64;
-            let (x_mean, y_mean) =
-                of_group.iter().fold((0.0, 0.0), |(a, b), (x, y)| (a + x / count, b + y / count));
+            let (x_mean, y_mean) = of_group.iter().fold((0.0, 0.0), |(a, b), (x, y)| (a + x / count, b + y / count));
             points.extend(of_group.into_iter().map(|(x, y)| (x - x_mean, y - y_mean)));
         }
         slope(&points).ok().filter(|slope| slope.value.is_finite())

@@ -127,11 +127,7 @@ impl<S: Scalar> Model<S> {
         let one = S::one();
         let (_, cos) = self.angles.beta.sin_cos();
         Start {
-            spheroid: RigidSpheroid {
-                inertia_xx: one,
-                inertia_zz: one + self.oblateness,
-                constant_c: self.constant_c,
-            },
+            spheroid: RigidSpheroid { inertia_xx: one, inertia_zz: one + self.oblateness, constant_c: self.constant_c },
             violation: self.violation(),
             angles: self.angles,
             rates: EulerRates {

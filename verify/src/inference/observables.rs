@@ -25,14 +25,8 @@ pub enum Observable {
 
 impl Observable {
     /// Every kind.
-    pub const ALL: [Self; 6] = [
-        Self::Arrivals,
-        Self::ClosestApproaches,
-        Self::Widths,
-        Self::Periods,
-        Self::StrainPlus,
-        Self::StrainCross,
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::Arrivals, Self::ClosestApproaches, Self::Widths, Self::Periods, Self::StrainPlus, Self::StrainCross];
 
     /// Name for commands.
     pub fn key(self) -> &'static str {

@@ -48,18 +48,9 @@ pub(super) fn symmetries(model: &Model<f64>) -> Vec<Symmetry> {
             words: "gamma: a spheroid looks alike from all sides, and no beam is seen",
             change: vec![(Unknown::Gamma, 1.0)],
         },
-        Symmetry {
-            words: "chi: no pulses are among the data",
-            change: vec![(Unknown::Chi, 1.0)],
-        },
-        Symmetry {
-            words: "delta: no pulses are among the data",
-            change: vec![(Unknown::Delta, 1.0)],
-        },
-        Symmetry {
-            words: "rho: no pulses are among the data",
-            change: vec![(Unknown::Rho, 1.0)],
-        },
+        Symmetry { words: "chi: no pulses are among the data", change: vec![(Unknown::Chi, 1.0)] },
+        Symmetry { words: "delta: no pulses are among the data", change: vec![(Unknown::Delta, 1.0)] },
+        Symmetry { words: "rho: no pulses are among the data", change: vec![(Unknown::Rho, 1.0)] },
         Symmetry {
             words: "eps against Omega^z and the strain scale: the axis moves by I^zz Omega^z, and h is in proportion to eps I^xx / r",
             change: vec![
