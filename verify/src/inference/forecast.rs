@@ -10,7 +10,8 @@ pub struct Forecast {
     pub span: f64,
     /// Epochs, equally spaced: a pulse at each, and a sample of the strain.
     pub epochs: usize,
-    /// Standard deviation of the unknown for the errors given, all others unknown as well; NaN where the data do not determine it.
+    /// Standard deviation of the target for the errors given, all others unknown as well; NaN where the data do not determine it, and
+    /// where it is none of the unknowns.
     /// It is proportional to the errors.
     pub sigma: f64,
 }
@@ -18,7 +19,7 @@ pub struct Forecast {
 /// The standard deviation of `target` for every pair of a span and a number of epochs.
 ///
 /// # Errors
-/// A motion that cannot be computed, and a target that is none of the unknowns.
+/// A motion that cannot be computed, and periods, for which an epoch has one pulse too few.
 pub fn forecast(
     model: &Model<f64>,
     noise: &[Noise],
@@ -27,6 +28,10 @@ pub fn forecast(
     spans: &[f64],
     epochs: &[usize],
 ) -> Result<Vec<Forecast>, InferenceError> {
+    if noise.iter().any(|(observable, _)| *observable == Observable::Periods) {
+        let (quantity, allowed) = ("pulses at an epoch", "two for a period: arrivals or widths are forecast");
+        return Err(twofold::Error::Domain { quantity, value: 1.0, allowed }.into());
+    }
     let mut found = Vec::new();
     for &span in spans {
         let signal = Signal::new(model, span)?;
@@ -36,15 +41,6 @@ pub fn forecast(
             let times: Vec<f64> = (0..count).map(|k| last * k as f64 / (count - 1).max(1) as f64).collect();
             let has_pulses = noise.iter().any(|(observable, _)| observable.is_of_pulses());
             let events = if has_pulses { signal.events_after(&times)? } else { Vec::new() };
-            let periods = noise.iter().any(|(observable, _)| *observable == Observable::Periods);
-            if periods {
-                return Err(twofold::Error::Domain {
-                    quantity: "number of pulses at an epoch",
-                    value: 1.0,
-                    allowed: "two for a period: arrivals or widths are forecast",
-                }
-                .into());
-            }
             let data: Vec<Datum> = data_of(&signal, &events, &times, noise)?;
             let sigma = match Fisher::of(model, &events, &data, unknowns) {
                 Ok(fisher) => fisher.sigma(target).unwrap_or(f64::NAN),

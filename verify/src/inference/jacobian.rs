@@ -13,7 +13,7 @@ use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
 use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::event_time::{closest_approach_time, edge_time};
-use twofold::plan::{Gradient, Method, Output, Parameter, Plan, Request, Start, StateFunction, gradient};
+use twofold::plan::{Gradient, Output, Parameter, Plan, Request, Start, StateFunction, gradient};
 use twofold::{Error, Real};
 
 use super::signal::ACCURACY;
@@ -160,8 +160,6 @@ impl States {
         let output = if needs_beam { Output::PulseProfile } else { Output::GravitationalWave };
         let request = Request {
             derivatives: parameters.to_vec(),
-            // A closed form that leaves a small torque out, or an asymmetry of s, has no derivatives by them.
-            method: Some(Method::Splitting),
             ..Request::new(&[output], (0.0, times.last().copied().unwrap_or(0.0)), times.len(), ACCURACY)
         };
         let plan = Plan::new(&start.spheroid, &start.violation, &start.state(), &request)?;
