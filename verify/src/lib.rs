@@ -20,6 +20,7 @@ pub mod golden;
 pub mod html_report;
 pub mod identity;
 pub mod independent_taylor;
+pub mod inference;
 pub mod mean_scenes;
 mod operators;
 pub mod paper_examples;

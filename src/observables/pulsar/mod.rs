@@ -5,6 +5,7 @@ pub mod beam;
 pub mod clock;
 pub mod direction;
 mod edge_search;
+pub mod event_time;
 mod hermite;
 pub mod period;
 pub mod position_angle;

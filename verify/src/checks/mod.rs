@@ -9,6 +9,7 @@ mod eta;
 mod first_integrals;
 mod fisher;
 mod forced_precession;
+mod inference;
 mod mean;
 mod observer;
 mod orientation;
@@ -61,6 +62,7 @@ pub fn all() -> Vec<Check> {
         eta::checks,
         pulsar_table::checks,
         fisher::checks,
+        inference::checks,
         waves::checks,
         mean::checks,
         spectrum::checks,

@@ -14,6 +14,7 @@ use twofold::propagation::AxisState;
 use crate::scene_file::{Scene, Units};
 
 pub use column::Column;
+pub(crate) use observables::strain_of_scene;
 
 /// Columns that belong together.
 #[derive(Debug)]

@@ -83,7 +83,7 @@ pub(super) const STRAIN: ColumnGroup = ColumnGroup {
 };
 
 /// The strain of `h = 1` at a distance in m. The unit of angular momentum of a physical star is `I^xx / t_c` in g cm^2/s.
-fn strain_of_scene(scene: &Scene, distance: f64) -> f64 {
+pub(crate) fn strain_of_scene(scene: &Scene, distance: f64) -> f64 {
     let units = &scene.units;
     strain_unit(units.momentum * units.time * 1e-7, units.time, distance)
 }

@@ -5,6 +5,10 @@ mod bounds;
 mod compare;
 mod explain;
 mod figures;
+mod fisher;
+mod fit;
+mod forecast;
+mod measurement;
 mod output_file;
 mod output_folder;
 mod progress;
@@ -50,6 +54,8 @@ Examples:
   twofold pulses tp-1               every pulse of the radio beam
   twofold spectrum tp-1 --of m.n --span 4000
                                     the spectral lines of the pulsar signal, identified
+  twofold fisher tp-1 --observe arrivals:1e-4,widths:1e-4
+                                    how well such pulses would tell the star and s
   twofold sweep grid.toml --out grid.csv
                                     a table with a row for each of many scenes; goes on where it was interrupted
   twofold timing b1937+21 --out timing
@@ -110,6 +116,19 @@ enum Command {
     /// Writes NAME.svg, NAME.png, NAME.md and NAME.csv (or NAME.TABLE.csv) of each figure; the files appear when all are
     /// complete. With --scene the figures of a motion are drawn for a scene in place of the paper's examples.
     Figures(FiguresArgs),
+    /// Tell how well measurements of a scene would determine its parameters, and what they cannot determine at all
+    ///
+    /// The Fisher matrix of pulse times, widths or strains with independent errors, by exact derivatives. Prints the standard
+    /// deviation of each parameter with all others unknown; notes on standard error name every combination of parameters that
+    /// the data leave open, with the reason where it is a symmetry. docs/inference.md describes parameters and method.
+    Fisher(FisherArgs),
+    /// Fit the parameters of a scene to measured series, by least squares, with error bars
+    ///
+    /// Data are tables of `twofold pulses` or of `twofold run --columns h`. The fit begins at the scene, which must be near enough
+    /// that its pulses are those of the data. Parameters that the data do not determine are refused, with the reason.
+    Fit(FitArgs),
+    /// Tell how the uncertainty of one parameter goes with the span, the number and the errors of measurements
+    Forecast(ForecastArgs),
     /// Time every method against its true error, and what comes on top of a motion
     ///
     /// Seven scenes of 1,000 t_c with references of 30 digits; methods are run in turn, and the least time of each counts. Then
@@ -282,6 +301,16 @@ struct PlanArgs {
 }
 
 #[derive(Args)]
+struct TableArgs {
+    /// Write the table, with every digit and all correlations, to this file as CSV too
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Replace the file if it exists
+    #[arg(long, requires = "out")]
+    force: bool,
+}
+
+#[derive(Args)]
 struct OutputArgs {
     /// Write the table to this file instead of standard output; appears only when it is complete
     #[arg(long, value_name = "FILE")]
@@ -289,6 +318,58 @@ struct OutputArgs {
     /// Replace the file if it exists
     #[arg(long, requires = "out")]
     force: bool,
+}
+
+#[derive(Args)]
+struct MeasurementArgs {
+    /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
+    scene: String,
+    /// What is measured, each with the standard deviation of its independent errors in the scene's unit: arrivals,
+    /// closest_approaches, widths, periods (of pulses); h_plus, h_cross or strain for both (at the samples of the scene)
+    #[arg(long, value_name = "NAME:SIGMA,NAME:SIGMA")]
+    observe: String,
+    /// What is not known: eps, spin, c, s_scale, s_axial, s_asymmetry, s_trace, s_xy, s_xz, s_yz, alpha, beta, gamma, alpha_rate,
+    /// beta_rate, chi, delta, rho, theta_o, phi_o, strain_scale; or all. If not given, what such data can determine
+    #[arg(long, value_name = "NAME,NAME")]
+    parameters: Option<String>,
+}
+
+#[derive(Args)]
+struct FisherArgs {
+    #[command(flatten)]
+    measurement: MeasurementArgs,
+    #[command(flatten)]
+    output: TableArgs,
+}
+
+#[derive(Args)]
+struct FitArgs {
+    #[command(flatten)]
+    measurement: MeasurementArgs,
+    /// Tables of `twofold pulses` or of `twofold run --columns h`, with the same unit and zero of time as the scene
+    #[arg(value_name = "DATA")]
+    data: Vec<String>,
+    /// Add random errors of the sizes in --observe to the data; without DATA to those of the scene itself, and begin the fit
+    /// beside it
+    #[arg(long, value_name = "SEED")]
+    simulate: Option<u64>,
+    #[command(flatten)]
+    output: TableArgs,
+}
+
+#[derive(Args)]
+struct ForecastArgs {
+    #[command(flatten)]
+    fisher: FisherArgs,
+    /// The parameter
+    #[arg(long, value_name = "NAME", default_value = "s_axial")]
+    of: String,
+    /// Spans in the scene's unit of time; if not given, that of the scene and twice, four and eight times as much
+    #[arg(long, value_name = "TIME,TIME", value_delimiter = ',', allow_hyphen_values = true)]
+    spans: Option<Vec<f64>>,
+    /// Numbers of epochs, equally spaced over the span, with one pulse and one sample of the strain each
+    #[arg(long, value_name = "NUMBER,NUMBER", value_delimiter = ',', default_value = "25,50,100")]
+    epochs: Vec<usize>,
 }
 
 #[derive(Args)]
@@ -374,6 +455,9 @@ pub fn main() -> ExitCode {
         Command::Spectrum(args) => spectrum::spectrum(&args),
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Compare(args) => compare::compare(&args),
+        Command::Fisher(args) => fisher::fisher(&args),
+        Command::Fit(args) => fit::run(&args),
+        Command::Forecast(args) => forecast::run(&args),
         Command::Figures(args) => figures::figures(&args),
         Command::Bench(args) => bench::bench(&args),
         Command::Scenes => scenes::scenes(),

@@ -1,0 +1,124 @@
+//! `twofold fit`.
+
+use rand::SeedableRng;
+use rand::rngs::ChaCha8Rng;
+
+use super::measurement::{Measurement, readable, uncertainties, write_csv};
+use super::{Failure, FitArgs, note, print};
+use crate::inference::{
+    Datum, Fisher, InferenceError, Place, Signal, beside, data_of, fit, is_of_pulses, read_pulses, read_strain,
+    with_noise,
+};
+
+pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
+    let measurement = Measurement::read(&args.measurement)?;
+    let refused = |error: InferenceError| measurement.refused(error);
+    let Measurement { model, unknowns, end, .. } = &measurement;
+    let mut data = if args.data.is_empty() {
+        if args.simulate.is_none() {
+            return Err(Failure::BadInput(format!(
+                "{}: no data: allowed are files of data, or --simulate SEED, or both",
+                measurement.name
+            )));
+        }
+        simulated(&measurement)?
+    } else {
+        read(&measurement, &args.data)?
+    };
+    let mut start = *model;
+    if let Some(seed) = args.simulate {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        data = with_noise(&data, &mut random);
+        if args.data.is_empty() {
+            let signal = Signal::new(model, *end).map_err(|error| refused(error.into()))?;
+            let events = if data.iter().any(|datum| datum.observable.is_of_pulses()) {
+                signal.events().map_err(|error| refused(error.into()))?
+            } else {
+                Vec::new()
+            };
+            let fisher = Fisher::of(model, &events, &data, unknowns).map_err(refused)?;
+            if !fisher.degenerate.is_empty() || !fisher.weak.is_empty() {
+                return Err(refused(InferenceError::Degenerate([fisher.degenerate, fisher.weak].concat())));
+            }
+            start = beside(model, unknowns, &fisher.covariance, 3.0, &mut random);
+            note("simulated: the fit begins three standard deviations beside the scene");
+        }
+    }
+    let found = fit(&start, &data, unknowns, *end).map_err(refused)?;
+    let [short, all] = uncertainties(&measurement, &found.values, &found.covariance);
+    write_csv(&args.output, &all)?;
+    note(&format!(
+        "{} data, {} unknowns, {} steps; chi^2 = {:.1} of {} degrees of freedom",
+        data.len(),
+        unknowns.len(),
+        found.iterations,
+        found.chi_squared,
+        found.degrees
+    ));
+    // Six standard deviations of chi^2, which is nearly normal.
+    let degrees = found.degrees as f64;
+    if (found.chi_squared - degrees).abs() > 6.0 * (2.0 * degrees).sqrt() {
+        note(
+            "chi^2 is not what errors of these sizes give: the scene is no model of the data, or the errors have other sizes",
+        );
+    }
+    match found.nonlinearity(&data, *end) {
+        Ok(nonlinearity) if nonlinearity < 0.3 => {}
+        Ok(nonlinearity) => note(&format!(
+            "chi^2 is off its parabola by {nonlinearity:.1} at one standard deviation: the error bars are rough"
+        )),
+        Err(why) => note(&format!("the error bars are rough: a standard deviation away, {why}")),
+    }
+    print(&readable(&short))
+}
+
+/// The data of the scene itself, without errors. A pulse in the first turn may be cut in a model beside the scene.
+fn simulated(measurement: &Measurement) -> Result<Vec<Datum>, Failure> {
+    let refused = |error: twofold::Error| measurement.refused(error.into());
+    let signal = Signal::new(&measurement.model, measurement.end).map_err(refused)?;
+    let sees_pulses = measurement.noise.iter().any(|(observable, _)| observable.is_of_pulses());
+    let mut events = if sees_pulses { signal.events().map_err(refused)? } else { Vec::new() };
+    events.retain(|event| event.start > signal.turn());
+    data_of(&signal, &events, &measurement.samples()?, &measurement.noise).map_err(refused)
+}
+
+/// The data in files that lie within the span of the scene.
+fn read(measurement: &Measurement, files: &[String]) -> Result<Vec<Datum>, Failure> {
+    let mut data = Vec::new();
+    for file in files {
+        let of_pulses = is_of_pulses(file).map_err(Failure::BadInput)?;
+        let read = if of_pulses { read_pulses } else { read_strain };
+        data.extend(read(file, &measurement.scene, &measurement.noise).map_err(Failure::BadInput)?);
+    }
+    for (observable, _) in &measurement.noise {
+        if data.iter().all(|datum| datum.observable != *observable) {
+            return Err(Failure::BadInput(format!(
+                "--observe {}: there is no such datum in {}: allowed are tables of `twofold pulses` and of `twofold run --columns h`",
+                observable.key(),
+                files.join(", ")
+            )));
+        }
+    }
+    for datum in &data {
+        let (Place::Time(time) | Place::Turn { near: time, .. }) = datum.place;
+        if !(0.0..=measurement.end).contains(&time) {
+            return Err(Failure::BadInput(format!(
+                "{}: a datum at t = {time:?} t_c after the start: allowed is the span of the scene {}, 0 to {:?} t_c",
+                files.join(", "),
+                measurement.name,
+                measurement.end
+            )));
+        }
+    }
+    // A pulse in the first turn may be cut in a model beside that of the data.
+    let signal = Signal::new(&measurement.model, measurement.end).map_err(|error| measurement.refused(error.into()))?;
+    let before = data.len();
+    data.retain(|datum| !matches!(datum.place, Place::Turn { near, .. } if near < signal.turn()));
+    if data.len() < before {
+        note(&format!(
+            "{} data of the first turn are left out: their pulse may be cut in another model",
+            before - data.len()
+        ));
+    }
+    Ok(data)
+}

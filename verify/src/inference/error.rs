@@ -1,0 +1,81 @@
+//! Why data and a model do not go together.
+
+use std::fmt;
+
+use twofold::Error;
+
+use super::Direction;
+
+/// Why nothing can be inferred.
+#[derive(Debug, Clone, PartialEq)]
+pub enum InferenceError {
+    /// The data do not determine the unknowns: each direction along which they do not change.
+    Degenerate(Vec<Direction>),
+    /// Fewer data than unknowns.
+    TooFew {
+        /// Data.
+        data: usize,
+        /// Unknowns.
+        unknowns: usize,
+    },
+    /// A datum of a turn in which the model has no pulse, or two.
+    NoPulse {
+        /// The turn.
+        turn: i64,
+        /// Time of the datum.
+        near: f64,
+    },
+    /// The least-squares fit did not end at a minimum.
+    NotConverged {
+        /// Why the fit ended.
+        why: &'static str,
+        /// Largest cosine of the angle between the residuals and the derivative by an unknown: zero at a minimum.
+        cosine: f64,
+    },
+    /// The fit ended on a limit of an unknown, where its error bars say nothing.
+    OnLimit {
+        /// The unknown.
+        unknown: &'static str,
+        /// Its limit.
+        value: f64,
+    },
+    /// The model cannot be computed.
+    Model(Error),
+}
+
+impl From<Error> for InferenceError {
+    fn from(error: Error) -> Self {
+        Self::Model(error)
+    }
+}
+
+impl fmt::Display for InferenceError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Degenerate(directions) => {
+                write!(f, "the data do not determine all unknowns; they do not change along")?;
+                directions.iter().try_for_each(|direction| write!(f, "\n  {direction}"))?;
+                write!(f, "\nleave out one of each, or add data of another kind")
+            }
+            Self::TooFew { data, unknowns } => {
+                write!(f, "{data} data: allowed are more than the {unknowns} unknowns")
+            }
+            Self::NoPulse { turn, near } => write!(
+                f,
+                "datum of turn {turn} near t = {near} t_c: the model has no whole pulse there that is the only one of its turn; \
+                 allowed are data of pulses that the model has at the start of the fit"
+            ),
+            Self::NotConverged { why, cosine } => write!(
+                f,
+                "the fit ended off a minimum ({why}; the residuals have a cosine of {cosine:.1e} with a derivative): a start \
+                 nearer to the data may help"
+            ),
+            Self::OnLimit { unknown, value } => {
+                write!(f, "the fit ended at {unknown} = {value}, a limit of what it can be: no error bar holds there")
+            }
+            Self::Model(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for InferenceError {}

@@ -1,0 +1,142 @@
+//! What is measured: kinds of data, and single ones.
+
+use twofold::Error;
+
+use super::{Event, Signal};
+use crate::scene_file::Scene;
+
+/// A kind of data, each with errors that are independent of one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Observable {
+    /// Times of the midpoints of whole pulses.
+    Arrivals,
+    /// Times at which the magnetic axis is nearest to the line of sight.
+    ClosestApproaches,
+    /// Lengths of whole pulses in time.
+    Widths,
+    /// Times between the midpoints of pulses of consecutive turns, as measured alone: not differences of arrivals measured, whose
+    /// errors are correlated and which say less than these arrivals do.
+    Periods,
+    /// `h_+` at samples.
+    StrainPlus,
+    /// `h_x` at samples.
+    StrainCross,
+}
+
+impl Observable {
+    /// Every kind.
+    pub const ALL: [Self; 6] =
+        [Self::Arrivals, Self::ClosestApproaches, Self::Widths, Self::Periods, Self::StrainPlus, Self::StrainCross];
+
+    /// Name for commands.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Arrivals => "arrivals",
+            Self::ClosestApproaches => "closest_approaches",
+            Self::Widths => "widths",
+            Self::Periods => "periods",
+            Self::StrainPlus => "h_plus",
+            Self::StrainCross => "h_cross",
+        }
+    }
+
+    /// Whether it is one of the pulses of a beam, and a time.
+    pub fn is_of_pulses(self) -> bool {
+        !matches!(self, Self::StrainPlus | Self::StrainCross)
+    }
+
+    /// The section that a scene lacks for this to be observed.
+    pub fn missing_section(self, scene: &Scene) -> Option<&'static str> {
+        if scene.observer.is_none() {
+            return Some("observer");
+        }
+        (self.is_of_pulses() && scene.pulsar.is_none()).then_some("pulsar")
+    }
+}
+
+/// A kind of data with the standard deviation of each: of times in `t_c`, of strains in the unit of the model.
+pub type Noise = (Observable, f64);
+
+/// What `name:sigma,name:sigma` says, in units of the scene's output; `strain` is both polarizations.
+///
+/// # Errors
+/// A name that is none, twice the same, and a standard deviation that is not above zero; the value and what is allowed are named.
+pub fn parse_noise(text: &str, time_unit: f64) -> Result<Vec<Noise>, String> {
+    let mut found: Vec<Noise> = Vec::new();
+    for part in text.split(',') {
+        let (name, sigma) = part.trim().split_once(':').ok_or_else(|| {
+            format!("`{part}` is no NAME:SIGMA: allowed is a name, a colon and a standard deviation, as arrivals:1e-6")
+        })?;
+        let kinds: Vec<Observable> = match name {
+            "strain" => vec![Observable::StrainPlus, Observable::StrainCross],
+            name => Observable::ALL.into_iter().filter(|kind| kind.key() == name).collect(),
+        };
+        if kinds.is_empty() {
+            let names: Vec<_> = Observable::ALL.iter().map(|kind| kind.key()).collect();
+            return Err(format!("`{name}` is no observable: allowed are {}, strain", names.join(", ")));
+        }
+        let sigma: f64 = match sigma.parse() {
+            Ok(sigma) if sigma > 0.0 && f64::is_finite(sigma) => sigma,
+            _ => return Err(format!("`{part}` has the standard deviation {sigma}: allowed is a number above zero")),
+        };
+        for kind in kinds {
+            if found.iter().any(|(other, _)| *other == kind) {
+                return Err(format!("`{}` is named twice: allowed is once", kind.key()));
+            }
+            found.push((kind, if kind.is_of_pulses() { sigma / time_unit } else { sigma }));
+        }
+    }
+    Ok(found)
+}
+
+/// Where in a signal a datum is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Place {
+    /// The pulse of a turn, counted from any one, that was seen near a time.
+    Turn {
+        /// Number of the turn.
+        number: i64,
+        /// About when, to the tenth of a turn.
+        near: f64,
+    },
+    /// A time.
+    Time(f64),
+}
+
+/// One measured number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Datum {
+    /// Of which kind.
+    pub observable: Observable,
+    /// Where.
+    pub place: Place,
+    /// What.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+}
+
+/// The data without errors that `noise` asks for: of the pulses `events`, and of the strain at `samples`.
+///
+/// # Errors
+/// A motion that cannot be evaluated at a sample.
+pub fn data_of(signal: &Signal, events: &[Event], samples: &[f64], noise: &[Noise]) -> Result<Vec<Datum>, Error> {
+    let mut data = Vec::new();
+    for &(observable, sigma) in noise {
+        if observable.is_of_pulses() {
+            for (i, event) in events.iter().enumerate() {
+                let before = i.checked_sub(1).map(|before| events[before]);
+                if let Some(value) = event.value(before.as_ref(), observable) {
+                    let place = Place::Turn { number: event.turn, near: event.midpoint() };
+                    data.push(Datum { observable, place, value, sigma });
+                }
+            }
+        } else {
+            for &time in samples {
+                let value = signal.strain(observable, time)?;
+                data.push(Datum { observable, place: Place::Time(time), value, sigma });
+            }
+        }
+    }
+    Ok(data)
+}

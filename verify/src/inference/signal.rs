@@ -1,0 +1,140 @@
+//! What a model gives: its motion, pulses and strain.
+
+use nalgebra::Vector3;
+use twofold::Error;
+use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
+use twofold::observables::pulsar::{Beam, Pulse, arrivals, pulse_train};
+use twofold::plan::{Output, Plan, PlannedMotion, Request};
+use twofold::propagation::AxisMotion;
+
+use super::{Model, Observable};
+
+/// A whole pulse.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// Turn that it belongs to, counted from some one.
+    pub turn: i64,
+    /// Time at which the line of sight enters the beam.
+    pub start: f64,
+    /// Time at which it leaves.
+    pub end: f64,
+    /// Time of the closest approach.
+    pub closest: f64,
+}
+
+impl Event {
+    /// The middle between the edges.
+    pub fn midpoint(&self) -> f64 {
+        self.start + (self.end - self.start) / 2.0
+    }
+
+    /// What is observed of it, given the pulse before: none for a period without a pulse in the turn before.
+    pub fn value(&self, before: Option<&Event>, observable: Observable) -> Option<f64> {
+        match observable {
+            Observable::Arrivals => Some(self.midpoint()),
+            Observable::ClosestApproaches => Some(self.closest),
+            Observable::Widths => Some(self.end - self.start),
+            Observable::Periods => {
+                let before = before.filter(|before| before.turn + 1 == self.turn)?;
+                Some(self.midpoint() - before.midpoint())
+            }
+            Observable::StrainPlus | Observable::StrainCross => None,
+        }
+    }
+}
+
+/// The motion of a model over a span that begins at its start.
+pub struct Signal {
+    /// The model.
+    pub model: Model<f64>,
+    /// Last time.
+    pub end: f64,
+    motion: PlannedMotion,
+    beam: Beam<f64>,
+    line_of_sight: Vector3<f64>,
+}
+
+/// Truncation error of motions and of their derivatives. Enough for times to 1e-12 of a turn.
+pub(super) const ACCURACY: f64 = 1e-13;
+
+impl Signal {
+    /// The signal from time zero to `end`.
+    ///
+    /// # Errors
+    /// A motion that cannot be computed.
+    pub fn new(model: &Model<f64>, end: f64) -> Result<Self, Error> {
+        let start = model.start();
+        let request = Request::new(&[Output::Pulses], (0.0, end), 2, ACCURACY);
+        let state = start.state();
+        let plan = Plan::new(&start.spheroid, &start.violation, &state, &request)?;
+        Ok(Self {
+            model: *model,
+            end,
+            motion: plan.motion(&start.spheroid, &start.violation, &state)?,
+            beam: model.beam(),
+            line_of_sight: model.observer().direction,
+        })
+    }
+
+    /// Every whole pulse that is the only one of its turn.
+    ///
+    /// # Errors
+    /// A beam or line of sight that has no pulses to be counted.
+    pub fn events(&self) -> Result<Vec<Event>, Error> {
+        let found = self.events_in((0.0, self.end))?;
+        let once = |turn: i64| found.iter().filter(|event| event.turn == turn).count() == 1;
+        Ok(if found.windows(2).all(|pair| pair[0].turn < pair[1].turn) {
+            found
+        } else {
+            found.iter().filter(|event| once(event.turn)).copied().collect()
+        })
+    }
+
+    /// The first whole pulse after each of some times, within two turns; `turn` is the place of the time. For spans with more pulses
+    /// than can be looked for.
+    ///
+    /// # Errors
+    /// As for [`events`](Self::events).
+    pub fn events_after(&self, times: &[f64]) -> Result<Vec<Event>, Error> {
+        let mut found = Vec::new();
+        let window = 2.2 * self.turn();
+        for (place, &time) in times.iter().enumerate() {
+            let events = self.events_in((time, (time + window).min(self.end)))?;
+            found.extend(events.first().map(|event| Event { turn: place as i64, ..*event }));
+        }
+        Ok(found)
+    }
+
+    /// About the time of a turn: that of a rotation at the rate `|L| / I^xx`.
+    pub fn turn(&self) -> f64 {
+        let start = self.model.start();
+        std::f64::consts::TAU / (start.state().momentum.norm() / start.spheroid.inertia_xx)
+    }
+
+    fn events_in(&self, span: (f64, f64)) -> Result<Vec<Event>, Error> {
+        let train = pulse_train(&self.motion, &self.beam, &self.line_of_sight, span)?;
+        let numbered = arrivals(&self.motion, &self.beam, &self.line_of_sight, &train)?;
+        let whole = train.pulses.iter().filter(|pulse| pulse.is_whole());
+        let event = |(&Pulse { start, end, .. }, arrival): (&Pulse, &twofold::observables::pulsar::Arrival)| Event {
+            turn: arrival.number,
+            start,
+            end,
+            closest: arrival.closest_approach,
+        };
+        Ok(whole.zip(&numbered).map(event).collect())
+    }
+
+    /// A polarization at a time.
+    ///
+    /// # Errors
+    /// A time outside the span.
+    pub fn strain(&self, observable: Observable, t: f64) -> Result<f64, Error> {
+        let state = self.motion.axis_state(t)?;
+        let (spheroid, s) = (self.motion.spheroid(), self.motion.violation());
+        let acceleration = spheroid_inertia_acceleration(spheroid, s, &state.axis, &state.momentum);
+        let h = polarizations(&self.model.observer(), &metric_perturbation(1.0, &acceleration));
+        let h = if observable == Observable::StrainPlus { h.plus } else { h.cross };
+        Ok(h * self.model.strain_scale * self.model.strain_unit)
+    }
+}
