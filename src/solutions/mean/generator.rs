@@ -12,7 +12,7 @@
 
 use nalgebra::Vector3;
 
-use crate::dynamics::RigidSpheroid;
+use crate::dynamics::{BodyState, RigidSpheroid};
 
 use crate::scalar::{Real, length};
 
@@ -66,4 +66,15 @@ pub(super) fn transformed<S: Real>(strength: S, s: &Vector3<S>, axes: &Axes<S>, 
     let moved = |by: &Axes<S>, part: f64| core::array::from_fn(|i| axes[i] + by[i] * S::from_f64(part * time));
     let first = rates(strength, s, axes);
     moved(&rates(strength, s, &moved(&first, 0.5)), 1.0)
+}
+
+/// Direction of the angular momentum of the mean motion, from a state in the principal frame of `s`, for traceless principal values.
+pub(in crate::solutions) fn mean_direction<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Vector3<S>,
+    state: &BodyState<S>,
+) -> Vector3<S> {
+    let strength = spheroid.constant_c * spheroid.inertia_xx;
+    let [_, momentum, _] = transformed(strength, s, &[state.axis, state.momentum, state.equatorial_axis], -1.0);
+    momentum / length(&momentum)
 }

@@ -7,6 +7,7 @@ pub mod slow_precession;
 mod top;
 
 pub use generator::{generator, generator_slopes};
+pub(in crate::solutions) use generator::mean_direction;
 pub use hamiltonian::{MeanOrder, mean_potential};
 pub use motion::{MeanMotion, MeanPhases, MeanRates};
 pub use top::{Top, TopPhases, TopShape};
