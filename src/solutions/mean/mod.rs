@@ -2,12 +2,14 @@
 
 mod generator;
 mod hamiltonian;
+mod middle_axis;
 mod motion;
 pub mod slow_precession;
 mod top;
 
-pub use generator::{generator, generator_slopes};
 pub(in crate::solutions) use generator::mean_direction;
+pub use generator::{generator, generator_slopes};
 pub use hamiltonian::{MeanOrder, mean_potential};
+pub use middle_axis::{middle_axis_growth, period_near_separatrix};
 pub use motion::{MeanMotion, MeanPhases, MeanRates};
 pub use top::{Top, TopPhases, TopShape};

@@ -8,14 +8,25 @@ use super::flow::{Axes, Integrals};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
-use crate::solutions::mean::slow_precession::slow_precession;
 use crate::solutions::mean::{MeanMotion, MeanOrder, Top, mean_direction};
 
 /// Newton steps.
 const MOST_CORRECTIONS: usize = 30;
 
-/// Parts of a turn of `n` about `L` at which the way round the slow circle is closed at best.
+/// Newton steps along the fast angle alone.
+const FAST_CORRECTIONS: usize = 4;
+
+/// Parts of a turn, fast or slow, that are looked at.
 const PARTS_OF_TURN: usize = 48;
+
+/// A slow turn may take so many times what the mean motion says, near the separatrix.
+const LONGEST_TURN: usize = 5;
+
+/// Difference from the rates of the mean motion, in slow ones, up to which it names the others.
+const CLEAREST: f64 = 0.2;
+
+/// A torus whose two flows differ by less than this, relative, is a circle or a point.
+const THINNEST: f64 = 1e-8;
 
 /// Rounding of a flow for a period.
 const ROUNDING: f64 = 1e-15;
@@ -27,10 +38,11 @@ pub struct TorusFrequencies {
     pub axis: usize,
     /// Mean rate of the azimuth of `L`, averaged over the fast rotation, about the positive end of that axis.
     pub slow: f64,
-    /// Of the body about `L`: for twofold precession that of `alpha`, where `L` is near the third axis.
-    pub about_momentum: f64,
-    /// Of the body about its symmetry axis.
-    pub about_axis: f64,
+    /// Of the body about `L`. None where the mean motion is not near enough to tell it from its sums with the slow one, as close to the
+    /// separatrix.
+    pub about_momentum: Option<f64>,
+    /// Of the body about its symmetry axis. None with `about_momentum`.
+    pub about_axis: Option<f64>,
     /// Estimated errors of the three.
     pub uncertainty: [f64; 3],
 }
@@ -66,6 +78,9 @@ impl Torus {
         let columns: SMatrix<f64, 6, 2> = SMatrix::from_columns(&rates);
         let svd = columns.svd(true, true);
         let least = svd.singular_values.min();
+        if least <= THINNEST * svd.singular_values.max() || !least.is_finite() {
+            return None;
+        }
         let mut best = (f64::INFINITY, times, self.start);
         let mut worse = 0;
         for _ in 0..MOST_CORRECTIONS {
@@ -98,6 +113,34 @@ impl Torus {
     }
 }
 
+impl Torus {
+    /// Once round the slow circle, near the time `k` along `K`: where along a turn of `n` about `L` that comes nearest to the start is tried.
+    fn slow_period(&self, fast: &Period, k: f64) -> Option<Period> {
+        let mut at = self.integrals.moved([0.0, k], &self.start);
+        let part = fast.times.map(|time| time / PARTS_OF_TURN as f64);
+        let mut nearest = (f64::INFINITY, 0);
+        for parts in 0..PARTS_OF_TURN {
+            let off = self.distance(&at).norm();
+            if off < nearest.0 {
+                nearest = (off, parts);
+            }
+            at = self.integrals.moved(part, &at);
+        }
+        let turned = nearest.1 as f64;
+        let mut times = [part[0] * turned, k + part[1] * turned];
+        // First the fast angle alone: the slow circle may be much smaller.
+        let along = self.vector(self.integrals.rates(fast.times, &self.start));
+        for _ in 0..FAST_CORRECTIONS {
+            let off = self.distance(&self.integrals.moved(times, &self.start));
+            let turn = along.dot(&off) / along.norm_squared();
+            times = [0, 1].map(|i| times[i] - turn * fast.times[i]);
+        }
+        let found = self.period(times)?;
+        let once = (found.times[1] - fast.times[1] * found.times[0] / fast.times[0]) / k;
+        (0.7..1.4).contains(&once).then_some(found)
+    }
+}
+
 /// Exact frequencies of the motion from `initial`, in the principal frame of `s`, which turns fast against the torque.
 ///
 /// `H` and `K` have commuting flows on the torus of `(n, L)`. The times `(t, k)` along both that lead back to the start form a lattice; two of
@@ -114,7 +157,7 @@ impl Torus {
 ///
 /// # Errors
 /// [`Error::Domain`] as for [`MeanMotion::new`], and for isotropic `s`. [`Error::NotConverged`] where the torus is thin or no torus: `n` on `L`, `L` on an axis, the
-/// separatrix; and where the mean motion is not near enough to name the frequencies.
+/// separatrix.
 pub fn torus_frequencies(
     spheroid: &RigidSpheroid<f64>,
     s: &PrincipalCoefficients<f64>,
@@ -126,43 +169,19 @@ pub fn torus_frequencies(
     let spread = values.max() - values.min();
     Error::unless(spread > 0.0, "s_max - s_min", spread, "above zero: without it there is no torque")?;
     let integrals = Integrals::new(spheroid, &values, spread);
-    let start = [initial.axis, initial.momentum, initial.equatorial_axis];
     let size = initial.momentum.norm();
-    let torus = Torus { integrals, start, size };
     let not_closed = |what| Error::NotConverged { what, iterations: MOST_CORRECTIONS, residual: f64::NAN };
 
     let (fast_rate, c) = (size / spheroid.inertia_xx, initial.axis.dot(&initial.momentum) / size);
+    let course = SlowCourse::along(&integrals, spheroid, &values, initial)?;
+    let torus = Torus { integrals, start: course.fastest, size };
     let p2 = (3.0 * c * c - 1.0) / 2.0;
     let t = TAU / fast_rate;
     let k = -t * spheroid.constant_c * p2 * spread * spheroid.inertia_xx / (size * size);
     let fast = torus.period([t, k]).ok_or(not_closed("way of n round L on the torus: n is on L, or L on an axis"))?;
-
-    let l = mean_direction(spheroid, &values, initial);
-    let top = Top::new((values * (2.0 * fast_rate / spread)).into(), &l);
-    let guess = TAU / top.rates().slow.abs();
-    let mut slow = None;
-    for factor in [1.0, 0.9, 1.1, 0.8, 1.25] {
-        let half_way = [0.0, guess * factor];
-        let mut at = integrals.moved(half_way, &torus.start);
-        let part = fast.times.map(|time| time / PARTS_OF_TURN as f64);
-        let mut nearest = (f64::INFINITY, 0);
-        for parts in 0..PARTS_OF_TURN {
-            let off = torus.distance(&at).norm();
-            if off < nearest.0 {
-                nearest = (off, parts);
-            }
-            at = integrals.moved(part, &at);
-        }
-        let times = [0, 1].map(|i| half_way[i] + part[i] * nearest.1 as f64);
-        slow = torus.period(times).filter(|found| {
-            let whole = (found.times[1] - fast.times[1] * found.times[0] / fast.times[0]) / guess;
-            (0.6..1.6).contains(&whole)
-        });
-        if slow.is_some() {
-            break;
-        }
-    }
-    let slow = slow.ok_or(not_closed("way of L round its axis on the torus: L is on an axis, or this is the separatrix"))?;
+    let slow = torus
+        .slow_period(&fast, course.period)
+        .ok_or(not_closed("way of L round its axis on the torus: L is on an axis, or this is the separatrix"))?;
 
     let periods = Matrix2::new(fast.times[0], slow.times[0], fast.times[1], slow.times[1]);
     let inverse = periods.try_inverse().ok_or(not_closed("periods of the torus"))?;
@@ -178,53 +197,132 @@ pub fn torus_frequencies(
     let turned = turned - spheroid.oblateness() * initial.momentum.dot(&initial.axis) / spheroid.inertia_zz;
     let about_axis = by_whole(by_whole(turned, about_momentum, rates.about_axis), round_axis, rates.about_axis);
     let unclear = (about_momentum - rates.about_momentum).abs().max((about_axis - rates.about_axis).abs());
-    if !(unclear < 0.2 * round_axis.abs()) {
-        return Err(Error::NotConverged {
-            what: "names of the frequencies: the rates of the mean motion are not near enough",
-            iterations: 1,
-            residual: unclear,
-        });
-    }
-    // Along the flow of K the averaged L turns as by the torque of a star that spins about it.
-    let spinning = RigidSpheroid { constant_c: 1.0, ..*spheroid };
-    let around = slow_precession(&spinning, &PrincipalCoefficients::new(values.into()), &l, &l)?;
-    let sense = around.rate.signum();
+    let named = unclear < CLEAREST * round_axis.abs();
     let uncertainty = [errors[1], errors[0] + errors[1], errors[0] + errors[1] + ROUNDING * fast_rate];
-    Ok(TorusFrequencies { axis: around.axis, slow: round_axis * sense, about_momentum, about_axis, uncertainty })
+    Ok(TorusFrequencies {
+        axis: course.axis,
+        slow: round_axis * course.sense,
+        about_momentum: named.then_some(about_momentum),
+        about_axis: named.then_some(about_axis),
+        uncertainty,
+    })
+}
+
+/// The averaged `L` along the flow of `K`, once round its axis.
+struct SlowCourse {
+    /// Time along `K` of a turn.
+    period: f64,
+    /// Where it moves fastest.
+    fastest: Axes<f64>,
+    /// The axis that it goes round, and in which sense about its positive end.
+    axis: usize,
+    sense: f64,
+}
+
+impl SlowCourse {
+    fn along(
+        integrals: &Integrals<f64>,
+        spheroid: &RigidSpheroid<f64>,
+        values: &Vector3<f64>,
+        initial: &BodyState<f64>,
+    ) -> Result<Self, Error> {
+        let spread = values.max() - values.min();
+        let direction = |[axis, momentum, equatorial_axis]: Axes<f64>| {
+            mean_direction(spheroid, values, &BodyState { axis, momentum, equatorial_axis })
+        };
+        // Averaged, the flow of K turns l as a top with the tensor 2 s L.
+        let tensor = values * (2.0 * initial.momentum.norm() / (spheroid.inertia_xx * spread));
+        let rate = |l: &Vector3<f64>| tensor.component_mul(l).cross(l);
+        let mut axes = [initial.axis, initial.momentum, initial.equatorial_axis];
+        let guess = TAU / Top::new(tensor.into(), &direction(axes)).rates().slow.abs();
+        let part = guess / PARTS_OF_TURN as f64;
+        let still = Error::NotConverged {
+            what: "way of L round its axis: L is on an axis, or this is the separatrix",
+            iterations: LONGEST_TURN * PARTS_OF_TURN,
+            residual: guess,
+        };
+        if !guess.is_finite() {
+            return Err(still);
+        }
+        // Near the separatrix L lingers by the middle axis, where nothing tells how far it has come.
+        let mut best = (0.0, axes);
+        for _ in 0..PARTS_OF_TURN {
+            let speed = rate(&direction(axes)).norm();
+            if speed > best.0 {
+                best = (speed, axes);
+            }
+            axes = integrals.moved([0.0, part], &axes);
+        }
+        let fastest = best.1;
+        let first = direction(fastest);
+        let tangent = rate(&first);
+        axes = fastest;
+        let (mut least, mut before, mut turned) = (first.abs(), 0.0, false);
+        for step in 1..=LONGEST_TURN * PARTS_OF_TURN {
+            axes = integrals.moved([0.0, part], &axes);
+            let l = direction(axes);
+            let ahead = (l - first).dot(&tangent);
+            least = least.zip_map(&l.abs(), f64::min);
+            // Behind the start after half a turn, in front of it again after a whole one.
+            turned |= ahead < 0.0;
+            if turned && ahead >= 0.0 {
+                let period = part * (step as f64 - ahead / (ahead - before));
+                let (high, low) = (values.imax(), values.imin());
+                let axis = if least[high] > least[low] { high } else { low };
+                let sense = if axis == high { l[axis].signum() } else { -l[axis].signum() };
+                return Ok(Self { period, fastest, axis, sense });
+            }
+            before = ahead;
+        }
+        Err(still)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::euler_angles::{EulerAngles, EulerRates};
-    use crate::dynamics::first_integrals::first_integrals;
-    use crate::solutions::torus::states_with_integrals;
+    use crate::dynamics::first_integrals::{FirstIntegrals, first_integrals};
+    use crate::solutions::torus::{separatrix_motion, states_with_integrals};
+
+    fn scene(direction: Vector3<f64>) -> (RigidSpheroid<f64>, PrincipalCoefficients<f64>, BodyState<f64>) {
+        let axis = Vector3::new(0.6, 0.0, 0.8);
+        let state = BodyState { axis, momentum: direction * 1.4, equatorial_axis: Vector3::y() };
+        (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new([0.02, 0.01, -0.04]), state)
+    }
 
     #[test]
-    fn proto() {
-        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-        for k in [1.0, 0.3, 0.1, 0.01, 1e-4, 1e-6] {
-            let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]).scaled(k);
-            for beta_rates in [(0.7, 1.438, 0.05), (0.7, 1.0, 0.0), (0.9, -0.07, 0.1), (1.4,-0.02,0.1)] {
-            let angles = EulerAngles { alpha: 1.5, beta: beta_rates.0, gamma: 0.0 };
-            let rates = EulerRates { alpha: beta_rates.1, beta: beta_rates.2, gamma: 1.0 - beta_rates.1 * f64::cos(beta_rates.0) };
-            let start = BodyState::from_angles(&spheroid, &angles, &rates);
-            let clock = std::time::Instant::now();
-            let found = torus_frequencies(&spheroid, &s, &start);
-            println!("{k} {beta_rates:?} {:?} {found:?}", clock.elapsed());
-            let mean = MeanMotion::new(&spheroid, &s, &start, MeanOrder::Second).unwrap();
-            println!("   mean {:?}", mean.rates());
-            let integrals = first_integrals(&spheroid, &s.tensor(), &start);
-            let states = states_with_integrals(&spheroid, &s, &integrals).unwrap();
-            println!("  {:?} {}", states.round, states.states.len());
-            for state in states.states {
-                let again = first_integrals(&spheroid, &s.tensor(), &state);
-                println!("   {:e} {:e} {:e}", again.energy-integrals.energy, again.spin-integrals.spin, again.clebsch-integrals.clebsch);
-                if let Ok(f)=torus_frequencies(&spheroid, &s, &state) {
-                    println!("    {:.16} {:.16} {:.16} {:?}", f.slow, f.about_momentum, f.about_axis, f.uncertainty);
-                } else { println!("    {:?}", torus_frequencies(&spheroid, &s, &state)); }
-            }
-            }
-        }
+    fn components_are_images_with_the_same_frequencies() {
+        let (body, s, state) = scene(Vector3::new(0.0, 0.28, 0.96));
+        let integrals = first_integrals(&body, &s.tensor(), &state);
+        let found = states_with_integrals(&body, &s, &integrals).unwrap();
+        let ends = found.components().unwrap().map(|state| torus_frequencies(&body, &s, &state).unwrap());
+        assert_eq!(found.round, Some(ends[0].axis));
+        assert!((ends[0].slow + ends[1].slow).abs() < 1e-14 && ends[0].slow.abs() > 1e-3);
+        let off = |a: Option<f64>, b: Option<f64>| (a.unwrap() - b.unwrap()).abs();
+        assert!(off(ends[0].about_momentum, ends[1].about_momentum) < 1e-14);
+        assert!(off(ends[0].about_axis, ends[1].about_axis) < 1e-14);
+    }
+
+    #[test]
+    fn what_is_no_torus_is_refused() {
+        let (body, s, state) = scene(Vector3::z());
+        let isotropic = PrincipalCoefficients::new([0.01; 3]);
+        assert!(matches!(torus_frequencies(&body, &isotropic, &state), Err(Error::Domain { .. })));
+        let spin = BodyState { axis: Vector3::z(), equatorial_axis: Vector3::x(), ..state };
+        assert!(matches!(torus_frequencies(&body, &s, &spin), Err(Error::NotConverged { .. })));
+        let integrals = first_integrals(&body, &s.tensor(), &state);
+        let refused = |change: &dyn Fn(&mut FirstIntegrals<f64>)| {
+            let mut integrals = integrals;
+            change(&mut integrals);
+            assert!(matches!(states_with_integrals(&body, &s, &integrals), Err(Error::Domain { .. })));
+        };
+        refused(&|integrals| integrals.clebsch += 0.2);
+        refused(&|integrals| integrals.clebsch -= 0.2);
+        refused(&|integrals| integrals.energy = 0.1);
+        refused(&|integrals| integrals.spin = f64::NAN);
+        assert!(states_with_integrals(&body, &isotropic, &integrals).is_err());
+        assert!(separatrix_motion(&body, &isotropic, integrals.energy, integrals.spin).is_err());
+        let unstable = separatrix_motion(&body, &s, integrals.energy, integrals.spin).unwrap();
+        assert!(torus_frequencies(&body, &s, &unstable).is_err());
     }
 }

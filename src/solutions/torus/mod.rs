@@ -9,4 +9,4 @@ mod polynomial;
 mod states;
 
 pub use frequencies::{TorusFrequencies, torus_frequencies};
-pub use states::{TorusStates, states_with_integrals};
+pub use states::{TorusStates, separatrix_motion, states_with_integrals};

@@ -45,7 +45,7 @@ impl TorusStates {
     }
 }
 
-/// What is asked of a state in a principal plane.
+/// What is asked of a state.
 struct Wanted {
     constant_c: f64,
     inertia: f64,
@@ -75,10 +75,17 @@ pub fn states_with_integrals(
     let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
     let FirstIntegrals { energy, spin, clebsch } = *integrals;
     let values = Vector3::new(s.xx, s.yy, s.zz);
-    for (name, value) in [("energy E", energy), ("spin Omega^z", spin), ("third integral K", clebsch), ("C", constant_c)] {
+    for (name, value) in
+        [("energy E", energy), ("spin Omega^z", spin), ("third integral K", clebsch), ("C", constant_c)]
+    {
         Error::unless(value.is_finite(), name, value, "a finite number")?;
     }
-    Error::unless(inertia_xx > 0.0 && inertia_zz > 0.0, "moments of inertia", inertia_xx.min(inertia_zz), "above zero")?;
+    Error::unless(
+        inertia_xx > 0.0 && inertia_zz > 0.0,
+        "moments of inertia",
+        inertia_xx.min(inertia_zz),
+        "above zero",
+    )?;
     let spread = values.max() - values.min();
     Error::unless(spread > 0.0, "s_max - s_min", spread, "above zero: without it K says no more than E and Omega^z")?;
     let along = inertia_zz * spin;
@@ -113,67 +120,115 @@ pub fn states_with_integrals(
     Ok(TorusStates { round: normal.filter(|_| fast), states })
 }
 
+/// `n` and `L` in a principal plane: `n = (cos b, sin b)`, `L = p n + u (-sin b, cos b)` in the axes `axes`.
+struct Plane {
+    axes: [usize; 2],
+    along: f64,
+    /// `(s_i - s_j) / 2`.
+    half: f64,
+    /// `L.L = m0 + m1 x`, `x = cos 2b`.
+    square: [f64; 2],
+    /// `K - K_0 = q(x) - 2 half p u sin 2b`.
+    q: [f64; 3],
+}
+
+impl Plane {
+    fn momentum_across(&self, b: f64) -> f64 {
+        (self.square[0] + self.square[1] * (2.0 * b).cos() - self.along * self.along).max(0.0).sqrt()
+    }
+
+    /// `K - K_0`.
+    fn miss(&self, b: f64) -> f64 {
+        let ((y, x), u) = ((2.0 * b).sin_cos(), self.momentum_across(b));
+        (self.q[2] * x + self.q[1]) * x + self.q[0] - 2.0 * self.half * self.along * u * y
+    }
+
+    /// `dK / db`.
+    fn slope(&self, b: f64) -> f64 {
+        let ((y, x), u) = ((2.0 * b).sin_cos(), self.momentum_across(b));
+        let turn = 2.0 * u * x - self.square[1] * y * y / u;
+        -2.0 * y * (2.0 * self.q[2] * x + self.q[1]) - 2.0 * self.half * self.along * turn
+    }
+
+    fn state(&self, b: f64) -> BodyState<f64> {
+        let ([i, j], p, u) = (self.axes, self.along, self.momentum_across(b));
+        let (sin, cos) = b.sin_cos();
+        let (mut axis, mut momentum, mut equatorial_axis) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
+        (axis[i], axis[j]) = (cos, sin);
+        (momentum[i], momentum[j]) = (p * cos - u * sin, p * sin + u * cos);
+        equatorial_axis[3 - i - j] = 1.0;
+        BodyState { axis, momentum, equatorial_axis }
+    }
+
+    /// `x` between -1 and 1 where `u^2 >= 0`.
+    fn range(&self) -> Option<(f64, f64)> {
+        let ([m0, m1], square) = (self.square, self.along * self.along);
+        let (mut low, mut high) = (-1.0_f64, 1.0_f64);
+        if m1 == 0.0 {
+            return (m0 >= square).then_some((low, high));
+        }
+        let edge = (square - m0) / m1;
+        if m1 > 0.0 {
+            low = low.max(edge);
+        } else {
+            high = high.min(edge);
+        }
+        (low <= high).then_some((low, high))
+    }
+
+    /// Places where `K = K_0` or may touch it.
+    fn candidates(&self) -> Vec<f64> {
+        let Some((low, high)) = self.range().filter(|_| self.half != 0.0) else { return Vec::new() };
+        let ([q0, q1, q2], [m0, m1]) = (self.q, self.square);
+        let f = 4.0 * self.half * self.half * self.along * self.along;
+        if f == 0.0 {
+            return roots_and_touches(&self.q, low, high);
+        }
+        let (r0, r1) = (f * (m0 - self.along * self.along), f * m1);
+        let quartic = [q0 * q0 - r0, 2.0 * q0 * q1 - r1, q1 * q1 + 2.0 * q0 * q2 + r0, 2.0 * q1 * q2 + r1, q2 * q2];
+        roots_and_touches(&quartic, low, high)
+    }
+}
+
 impl Wanted {
-    /// States with `n` and `L` in the plane normal to the axis `normal`, but for half turns about the axes.
-    fn in_plane(&self, s: &Vector3<f64>, normal: usize) -> Vec<BodyState<f64>> {
-        let (i, j) = ((normal + 1) % 3, (normal + 2) % 3);
-        let (middle, half) = ((s[i] + s[j]) / 2.0, (s[i] - s[j]) / 2.0);
-        let Self { constant_c: c, inertia, hamiltonian, along: p, third } = *self;
-        // L.L = m0 + m1 x; K - K_0 = q(x) - 2 half p u sin 2b.
-        let (m0, m1) = (2.0 * inertia * (hamiltonian - c * middle), -2.0 * inertia * c * half);
-        let normal_pull = 2.0 * c * inertia * s[normal];
+    fn plane(&self, s: &Vector3<f64>, axes: [usize; 2]) -> Plane {
+        let [si, sj] = axes.map(|i| s[i]);
+        let (middle, half) = ((si + sj) / 2.0, (si - sj) / 2.0);
+        let Self { constant_c: c, inertia, hamiltonian, along, third } = *self;
+        let square @ [m0, m1] = [2.0 * inertia * (hamiltonian - c * middle), -2.0 * inertia * c * half];
+        let normal_pull = 2.0 * c * inertia * s[3 - axes[0] - axes[1]];
         let q = [
             middle * m0 - normal_pull * middle - third,
-            middle * m1 + half * (2.0 * p * p - m0) + normal_pull * half,
+            middle * m1 + half * (2.0 * along * along - m0) + normal_pull * half,
             -half * m1,
         ];
-        let off = |x: f64, y: f64, u: f64| (q[2] * x + q[1]) * x + q[0] - 2.0 * half * p * u * y;
-        // Where u^2 >= 0.
-        let edge = (p * p - m0) / m1;
-        let (mut low, mut high) = (-1.0, 1.0);
-        if m1 > 0.0 {
-            low = edge.max(low);
-        } else if m1 < 0.0 {
-            high = edge.min(high);
-        }
-        if low > high || half == 0.0 || (m1 == 0.0 && m0 < p * p) {
-            return Vec::new();
-        }
-        let f = 4.0 * half * half * p * p;
-        let (r0, r1) = (f * (m0 - p * p), f * m1);
-        let quartic = [
-            q[0] * q[0] - r0,
-            2.0 * q[0] * q[1] - r1,
-            q[1] * q[1] + 2.0 * q[0] * q[2] + r0,
-            2.0 * q[1] * q[2] + r1,
-            q[2] * q[2],
-        ];
-        let roots = if p == 0.0 { roots_and_touches(&q, low, high) } else { roots_and_touches(&quartic, low, high) };
+        Plane { axes, along, half, square, q }
+    }
+
+    /// States with `n` and `L` in the plane normal to the axis `normal`, but for half turns about the axes.
+    fn in_plane(&self, s: &Vector3<f64>, normal: usize) -> Vec<BodyState<f64>> {
+        let plane = self.plane(s, [(normal + 1) % 3, (normal + 2) % 3]);
+        let size = plane.square[0].abs() + plane.square[1].abs() + self.constant_c.abs() * self.inertia;
+        let allowed = TOLERANCE * size * s.amax();
         let mut states: Vec<BodyState<f64>> = Vec::new();
-        for x in roots {
+        for x in plane.candidates() {
             for side in [1.0, -1.0] {
                 let mut b = 0.5 * x.clamp(-1.0, 1.0).acos() * side;
-                let momentum = |b: f64| (m0 + m1 * (2.0 * b).cos() - p * p).max(0.0).sqrt();
-                let miss = |b: f64| off((2.0 * b).cos(), (2.0 * b).sin(), momentum(b));
                 for _ in 0..CORRECTIONS {
-                    let ((y, x), u) = ((2.0 * b).sin_cos(), momentum(b));
-                    let slope = -2.0 * y * (2.0 * q[2] * x + q[1]) - 2.0 * half * p * (2.0 * u * x - m1 * y * y / u);
-                    let next = b - miss(b) / slope;
-                    if !(miss(next).abs() < miss(b).abs()) {
+                    let next = b - plane.miss(b) / plane.slope(b);
+                    // Not a number on the edge, where the slope has a pole.
+                    if plane.miss(next).abs() >= plane.miss(b).abs() || next.is_nan() {
                         break;
                     }
                     b = next;
                 }
-                let u = momentum(b);
-                let (sin, cos) = b.sin_cos();
-                let (mut axis, mut l, mut equatorial_axis) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
-                (axis[i], axis[j]) = (cos, sin);
-                (l[i], l[j]) = (p * cos - u * sin, p * sin + u * cos);
-                equatorial_axis[normal] = 1.0;
-                let allowed = TOLERANCE * (m0.abs() + m1.abs() + c.abs() * inertia) * s.amax();
-                let known = |other: &BodyState<f64>| (other.axis - axis).norm() + (other.momentum - l).norm() / l.norm() < 1e-9;
-                if miss(b).abs() <= allowed && !states.iter().any(known) {
-                    states.push(BodyState { axis, momentum: l, equatorial_axis });
+                let state = plane.state(b);
+                let size = state.momentum.norm();
+                let known = |other: &BodyState<f64>| {
+                    (other.axis - state.axis).norm() + (other.momentum - state.momentum).norm() / size < 1e-9
+                };
+                if plane.miss(b).abs() <= allowed && !states.iter().any(known) {
+                    states.push(state);
                 }
             }
         }
@@ -195,4 +250,58 @@ impl Wanted {
         (momentum[i], momentum[j]) = (squares[0].sqrt(), squares[1].sqrt());
         Some(BodyState { axis, momentum, equatorial_axis })
     }
+}
+
+/// The unstable periodic motion of given energy and spin, in which `L` swings about the middle principal axis of `s`: a state in which `n` and `L`
+/// lie in the plane of the axes of the largest and the middle eigenvalue, where its `K` is an extremum. That is the `K` of the separatrix.
+///
+/// A spin along the axis itself, `L = L.n n`, is another one, with `E` fixed by the spin.
+///
+/// # Errors
+/// [`Error::Domain`] for what is not finite or positive, two equal eigenvalues, and an energy at which no extremum of `K` lies near: `n` must turn
+/// about `L`, and fast against the torque.
+pub fn separatrix_motion(
+    spheroid: &RigidSpheroid<f64>,
+    s: &PrincipalCoefficients<f64>,
+    energy: f64,
+    spin: f64,
+) -> Result<BodyState<f64>, Error> {
+    let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
+    let values = Vector3::new(s.xx, s.yy, s.zz);
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| values[j].total_cmp(&values[i]));
+    let gap = (values[order[0]] - values[order[1]]).min(values[order[1]] - values[order[2]]);
+    Error::unless(
+        gap > 0.0,
+        "least difference of two eigenvalues of s",
+        gap,
+        "above zero: else there is no separatrix",
+    )?;
+    Error::unless(
+        inertia_xx > 0.0 && inertia_zz > 0.0,
+        "moments of inertia",
+        inertia_xx.min(inertia_zz),
+        "above zero",
+    )?;
+    let along = inertia_zz * spin;
+    let hamiltonian = energy - along * spin / 2.0 + along * along / (2.0 * inertia_xx);
+    let wanted = Wanted { constant_c, inertia: inertia_xx, hamiltonian, along, third: 0.0 };
+    let plane = wanted.plane(&values, [order[0], order[1]]);
+    // L is near the second axis of the plane.
+    let start = along.atan2((2.0 * inertia_xx * hamiltonian - along * along).max(0.0).sqrt());
+    let size = (2.0 * inertia_xx * hamiltonian).sqrt();
+    let reach = 0.1_f64.min(4.0 * constant_c.abs() * (values.max() - values.min()) * inertia_xx / (size * size));
+    let (mut left, mut right) = (start - reach, start + reach);
+    let (sign, end) = (plane.slope(left), plane.slope(right));
+    Error::unless(
+        sign * end < 0.0,
+        "slope of K along the plane of the largest and the middle eigenvalue, product at both ends",
+        sign * end,
+        "below zero: n turns fast about an L near the middle axis",
+    )?;
+    for _ in 0..80 {
+        let middle = 0.5 * (left + right);
+        if plane.slope(middle) * sign > 0.0 { left = middle } else { right = middle }
+    }
+    Ok(plane.state(0.5 * (left + right)))
 }

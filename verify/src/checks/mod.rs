@@ -9,6 +9,7 @@ mod eta;
 mod first_integrals;
 mod fisher;
 mod forced_precession;
+mod mean_frequencies;
 mod mean_motion;
 mod observer;
 mod orientation;
@@ -63,6 +64,7 @@ pub fn all() -> Vec<Check> {
         fisher::checks,
         waves::checks,
         mean_motion::checks,
+        mean_frequencies::checks,
         spectrum::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()
