@@ -28,6 +28,9 @@ const CLEAREST: f64 = 0.2;
 /// A torus whose two flows differ by less than this, relative, is a circle or a point.
 const THINNEST: f64 = 1e-8;
 
+/// Gap at which a way still counts as closed, near the separatrix, where rounding grows.
+const WIDEST_GAP: f64 = 1e-9;
+
 /// Rounding of a flow for a period.
 const ROUNDING: f64 = 1e-15;
 
@@ -68,59 +71,54 @@ impl Torus {
         SVector::from([n.x, n.y, n.z, l.x, l.y, l.z])
     }
 
-    fn distance(&self, axes: &Axes<f64>) -> SVector<f64, 6> {
-        self.vector([axes[0] - self.start[0], axes[1] - self.start[1]])
+    /// How far apart the ends of a way are of which the start is the middle.
+    fn gap(&self, times: [f64; 2]) -> (SVector<f64, 6>, [Axes<f64>; 2]) {
+        let ends = [0.5, -0.5].map(|half| self.integrals.moved(times.map(|time| time * half), &self.start));
+        let [a, b] = &ends;
+        (self.vector([a[0] - b[0], a[1] - b[1]]), ends)
     }
 
-    /// The period near given times. Flows commute, so the distance from the start is closed by the rates at the start.
+    /// The period near given times. Flows commute, so that the rates at an end close the gap.
     fn period(&self, mut times: [f64; 2]) -> Option<Period> {
-        let rates = [[1.0, 0.0], [0.0, 1.0]].map(|unit| self.vector(self.integrals.rates(unit, &self.start)));
-        let columns: SMatrix<f64, 6, 2> = SMatrix::from_columns(&rates);
-        let svd = columns.svd(true, true);
-        let least = svd.singular_values.min();
-        if least <= THINNEST * svd.singular_values.max() || !least.is_finite() {
-            return None;
-        }
-        let mut best = (f64::INFINITY, times, self.start);
+        let mut best: Option<(f64, Period)> = None;
         let mut worse = 0;
         for _ in 0..MOST_CORRECTIONS {
-            let axes = self.integrals.moved(times, &self.start);
-            let off = self.distance(&axes);
-            let change: Vector2<f64> = svd.solve(&off, 0.0).ok()?;
-            let step = (columns * change).norm();
-            if step < best.0 {
-                best = (step, times, axes);
+            let (gap, [end, other]) = self.gap(times);
+            let rates = [[1.0, 0.0], [0.0, 1.0]].map(|unit| self.vector(self.integrals.rates(unit, &end)));
+            let columns: SMatrix<f64, 6, 2> = SMatrix::from_columns(&rates);
+            let svd = columns.svd(true, true);
+            let least = svd.singular_values.min();
+            if least <= THINNEST * svd.singular_values.max() || !least.is_finite() {
+                return None;
+            }
+            let change: Vector2<f64> = svd.solve(&gap, 0.0).ok()?;
+            let size = gap.norm();
+            if best.as_ref().is_none_or(|(smallest, _)| size < *smallest) {
+                let [n, _, after] = end;
+                let turn = n.dot(&other[2].cross(&after)).atan2(other[2].dot(&after));
+                best = Some((size, Period { times, turn, error: (size + ROUNDING) / least }));
                 worse = 0;
             } else {
                 worse += 1;
-                if worse > 2 || !step.is_finite() {
-                    break;
-                }
             }
-            if step < 0.1 * ROUNDING {
+            if worse > 1 || size < 0.1 * ROUNDING {
                 break;
             }
-            (times[0], times[1]) = (times[0] - change.x, times[1] - change.y);
+            times = [times[0] - change.x, times[1] - change.y];
         }
-        let (_, times, axes) = best;
-        let off = self.distance(&axes).norm();
-        if !(off < 1e-9) {
-            return None;
-        }
-        let [n, _, before] = self.start;
-        let turn = n.dot(&before.cross(&axes[2])).atan2(before.dot(&axes[2]));
-        Some(Period { times, turn, error: (off + ROUNDING) / least })
+        best.filter(|(gap, _)| *gap < WIDEST_GAP).map(|(_, period)| period)
     }
 }
 
 impl Torus {
-    /// Once round the slow circle, near the time `k` along `K`: where along a turn of `n` about `L` that comes nearest to the start is tried.
-    fn slow_period(&self, fast: &Period, k: f64) -> Option<Period> {
+    /// Once round the slow circle, from a time `k` along `K`: where along a turn of `n` about `L`, the time `fast`, that nearly leads back.
+    fn slow_period(&self, fast: [f64; 2], k: f64) -> Option<Period> {
+        let distance = |at: &Axes<f64>| self.vector([at[0] - self.start[0], at[1] - self.start[1]]);
         let mut at = self.integrals.moved([0.0, k], &self.start);
-        let part = fast.times.map(|time| time / PARTS_OF_TURN as f64);
+        let part = fast.map(|time| time / PARTS_OF_TURN as f64);
         let mut nearest = (f64::INFINITY, 0);
         for parts in 0..PARTS_OF_TURN {
-            let off = self.distance(&at).norm();
+            let off = distance(&at).norm();
             if off < nearest.0 {
                 nearest = (off, parts);
             }
@@ -129,15 +127,12 @@ impl Torus {
         let turned = nearest.1 as f64;
         let mut times = [part[0] * turned, k + part[1] * turned];
         // First the fast angle alone: the slow circle may be much smaller.
-        let along = self.vector(self.integrals.rates(fast.times, &self.start));
+        let along = self.vector(self.integrals.rates(fast, &self.start));
         for _ in 0..FAST_CORRECTIONS {
-            let off = self.distance(&self.integrals.moved(times, &self.start));
-            let turn = along.dot(&off) / along.norm_squared();
-            times = [0, 1].map(|i| times[i] - turn * fast.times[i]);
+            let turn = along.dot(&distance(&self.integrals.moved(times, &self.start))) / along.norm_squared();
+            times = [0, 1].map(|i| times[i] - turn * fast[i]);
         }
-        let found = self.period(times)?;
-        let once = (found.times[1] - fast.times[1] * found.times[0] / fast.times[0]) / k;
-        (0.7..1.4).contains(&once).then_some(found)
+        self.period(times)
     }
 }
 
@@ -179,9 +174,23 @@ pub fn torus_frequencies(
     let t = TAU / fast_rate;
     let k = -t * spheroid.constant_c * p2 * spread * spheroid.inertia_xx / (size * size);
     let fast = torus.period([t, k]).ok_or(not_closed("way of n round L on the torus: n is on L, or L on an axis"))?;
-    let slow = torus
-        .slow_period(&fast, course.period)
+    // The time along K for a turn is well known from the mean motion away from the separatrix, and from the course near it.
+    let once = |found: &Period| {
+        let area = fast.times[0] * found.times[1] - fast.times[1] * found.times[0];
+        (0.7..1.4).contains(&(area / (t * course.period)))
+    };
+    let starts = [course.guess, course.period, 0.9 * course.period, 1.1 * course.period];
+    let slow = starts
+        .into_iter()
+        .find_map(|start| torus.slow_period([t, k], start).filter(once))
         .ok_or(not_closed("way of L round its axis on the torus: L is on an axis, or this is the separatrix"))?;
+    // Where the slow circle is small the fast way may have gone round it as well.
+    let besides = ((fast.times[1] - k) / slow.times[1]).round();
+    let fast = Period {
+        times: [0, 1].map(|i| fast.times[i] - besides * slow.times[i]),
+        turn: fast.turn - besides * slow.turn,
+        error: fast.error + besides.abs() * slow.error,
+    };
 
     let periods = Matrix2::new(fast.times[0], slow.times[0], fast.times[1], slow.times[1]);
     let inverse = periods.try_inverse().ok_or(not_closed("periods of the torus"))?;
@@ -210,8 +219,9 @@ pub fn torus_frequencies(
 
 /// The averaged `L` along the flow of `K`, once round its axis.
 struct SlowCourse {
-    /// Time along `K` of a turn.
+    /// Time along `K` of a turn, from what is seen and from the top that the averaged `L` is.
     period: f64,
+    guess: f64,
     /// Where it moves fastest.
     fastest: Axes<f64>,
     /// The axis that it goes round, and in which sense about its positive end.
@@ -270,7 +280,7 @@ impl SlowCourse {
                 let (high, low) = (values.imax(), values.imin());
                 let axis = if least[high] > least[low] { high } else { low };
                 let sense = if axis == high { l[axis].signum() } else { -l[axis].signum() };
-                return Ok(Self { period, fastest, axis, sense });
+                return Ok(Self { period, guess, fastest, axis, sense });
             }
             before = ahead;
         }
