@@ -619,6 +619,18 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "invariant tori: states with given E, Omega^z and K, exact frequencies, the separatrix",
+        &[
+            "solutions::torus::states_with_integrals",
+            "solutions::torus::TorusStates",
+            "solutions::torus::torus_frequencies",
+            "solutions::torus::TorusFrequencies",
+            "solutions::torus::separatrix_motion",
+            "solutions::mean::middle_axis_growth",
+            "solutions::mean::period_near_separatrix",
+        ],
+    ),
+    (
         "slow precession of the averaged angular momentum",
         &["solutions::mean::slow_precession::slow_precession", "solutions::mean::slow_precession::SlowPrecession"],
     ),

@@ -29,12 +29,16 @@ const CLEAREST: f64 = 0.2;
 const THINNEST: f64 = 1e-8;
 
 /// Gap at which a way still counts as closed, near the separatrix, where rounding grows.
-const WIDEST_GAP: f64 = 1e-9;
+const WIDEST_GAP: f64 = 1e-8;
 
 /// Rounding of a flow for a period.
 const ROUNDING: f64 = 1e-15;
 
-/// Exact frequencies of a motion (rad per unit of time), with the names of [`MeanRates`](crate::solutions::mean::MeanRates), and estimates of their errors.
+/// Exact frequencies of a motion (rad per unit of time), named as in [`MeanRates`](crate::solutions::mean::MeanRates).
+///
+/// Where `L` goes round the positive end of Z: in twofold precession `alpha' = about_momentum`, `gamma' = about_axis`; in single precession
+/// `alpha' = slow`, `gamma' = about_momentum + about_axis - slow`; the nutation, `n` about `L` from the plane of `L` and Z, is `about_momentum - slow`. (With
+/// `n` nearer to Z than `L`'s circle is wide, or about other axes, other whole sums.)
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorusFrequencies {
     /// The principal axis that `L` goes round.
@@ -138,17 +142,18 @@ impl Torus {
 
 /// Exact frequencies of the motion from `initial`, in the principal frame of `s`, which turns fast against the torque.
 ///
-/// `H` and `K` have commuting flows on the torus of `(n, L)`. The times `(t, k)` along both that lead back to the start form a lattice; two of
-/// its vectors, once round `L` and once round the slow circle of `L`, are found by Newton steps, and
+/// `H` and `K` have commuting flows on the torus of `(n, L)`. The times `(t_i, k_i)` along both that lead back to the start form a lattice; a basis
+/// of it, once round `L` and once round the slow circle of `L`, is found by Newton steps, which need no derivatives of the flow: what is left to
+/// close lies in the torus. The frequencies solve
 ///
 /// ```text
-/// w_1 t_1 + w_2 t_2 = 2 pi,    w_1 k_1 + w_2 k_2 = 0    with (w_1, w_2) read as turns along each:   sum w_i (t_i, k_i) = 2 pi (1, 0)
+/// w_1 (t_1, k_1) + w_2 (t_2, k_2) = 2 pi (1, 0)
 /// ```
 ///
-/// are the frequencies of the flow of `H`. The body comes back turned about `n` by `psi_i`, and the third frequency is `sum w_i psi_i / (2 pi)`
-/// and the constant rate `-epsilon Omega^z`. Nothing is averaged and no time is long: exact but for rounding, about `1e-15` for the fast rates and `1e-15` over
-/// the strength of the torque, relative, for the slow one. Which multiples of the others a frequency takes along is a matter of names: those nearest
-/// to the rates of the mean motion are taken.
+/// The body comes back turned about `n` by `psi_i`, and the third frequency is `(w_1 psi_1 + w_2 psi_2) / (2 pi)` and the constant rate
+/// `-epsilon Omega^z`. Nothing is averaged and no way is long, however slow the precession: exact but for rounding, about 1e-15 of the rotation rate for
+/// all three. (So where the strength of the torque is below 1e-5 the mean motion to second order has the better slow rate.) Which whole sums of them the
+/// frequencies are is a matter of names: those nearest to the rates of the mean motion are taken.
 ///
 /// # Errors
 /// [`Error::Domain`] as for [`MeanMotion::new`], and for isotropic `s`. [`Error::NotConverged`] where the torus is thin or no torus: `n` on `L`, `L` on an axis, the

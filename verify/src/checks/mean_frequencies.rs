@@ -46,7 +46,7 @@ pub fn checks() -> Vec<Check> {
             id: "torus-frequencies-symmetric",
             kind: Kind::Oracle,
             equations: &[25, 26],
-            statement: "with two equal eigenvalues the exact frequencies are those of the exact solution in elliptic functions",
+            statement: "with two equal eigenvalues the exact frequencies are those of the exact solution in elliptic functions: slow and about_axis are alpha' and gamma' but for whole turns of the nutation, which is about_momentum less the slow one",
             figure: "largest difference / rotation rate, 12 random motions of both kinds",
             bound: Bound::AtMost(1e-12),
             reason: "asked of them; both sides lose some digits where the torus is thin",
@@ -68,8 +68,8 @@ pub fn checks() -> Vec<Check> {
             equations: &[57],
             statement: "the exact frequencies of tp-II are weighted averages over 4,800 and 9,600 t_c of numerical motion",
             figure: "largest difference, relative, of the slow frequency",
-            bound: Bound::AtMost(1e-11),
-            reason: "the averages over 4,800 t_c differ from those over twice the time by less",
+            bound: Bound::AtMost(1e-12),
+            reason: "asked of it; windowed averages leak less than that",
             measure: averages,
         },
         Check {
@@ -147,7 +147,7 @@ pub fn checks() -> Vec<Check> {
             kind: Kind::Regime,
             equations: &[36],
             statement: "towards the separatrix the exact slow period grows by (2 / mu) ln 10 per tenth of the distance in K, with the exact mu",
-            figure: "largest relative difference, both sides, from k'^2 = 1e-3 to 1e-7",
+            figure: "largest relative difference, both sides, from k'^2 = 1e-3 to 1e-6",
             bound: Bound::AtMost(1e-3),
             reason: "the next term is k'^2 ln k' / 2, over 2.3",
             measure: separatrix_logarithm,
@@ -157,7 +157,7 @@ pub fn checks() -> Vec<Check> {
             kind: Kind::Regime,
             equations: &[36],
             statement: "the slow period near the separatrix is (4 / mu) ln(4 / k') with mu of second order and k' from K",
-            figure: "largest relative difference / strength of the torque, both sides, k'^2 from 1e-3 to 1e-7, s of the examples scaled by 1, 0.3, 0.1",
+            figure: "largest relative difference / strength of the torque, both sides, k'^2 from 1e-2 to 1e-6, s of the examples scaled by 1, 0.3, 0.1",
             bound: Bound::AtMost(1.0),
             reason: "k' is of first order in the strength, as the logarithm's constant",
             measure: separatrix_formula,
@@ -335,14 +335,9 @@ fn symmetric() -> Result<Measured, String> {
             let turns = ((value - expected) / nutation).round();
             (value - expected - turns * nutation).abs()
         };
-        let differences = [
-            off(exact[0], mean.alpha),
-            off(exact[1] + exact[0], 0.0).min(off(exact[1], 0.0)).min(off(exact[1] - exact[0], 0.0)),
-            [-1.0, 0.0, 1.0]
-                .map(|turns| off(exact[2] + turns * exact[0], mean.gamma))
-                .into_iter()
-                .fold(f64::INFINITY, f64::min),
-        ];
+        let side = scene.start.momentum.z.signum();
+        let differences =
+            [off(exact[0], mean.alpha), (exact[1] - side * exact[0] - nutation).abs(), off(exact[2], mean.gamma)];
         worst.see(largest(differences) / scene.rotation(), || {
             format!("case {case} of seed 72: {differences:?}, {exact:?}, {mean:?}, nutation {nutation}")
         });
@@ -560,7 +555,7 @@ fn separatrix_logarithm() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for side in [1.0, -1.0] {
         let mut last: Option<f64> = None;
-        for power in -7..=-3 {
+        for power in -6..=-3 {
             let (period, growth, _) = near_separatrix(0.3, side * 10f64.powi(power))?;
             if let Some(last) = last {
                 let expected = 2.0 / growth * 10f64.ln();
@@ -578,7 +573,7 @@ fn separatrix_formula() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for k in [1.0, 0.3, 0.1] {
         for side in [1.0, -1.0] {
-            for power in [-3, -5, -7] {
+            for power in [-2, -4, -6] {
                 let complement = 10f64.powi(power);
                 let (period, _, torus) = near_separatrix(k, side * complement)?;
                 let FirstIntegrals { energy, spin, .. } = torus.integrals();
