@@ -215,7 +215,7 @@ impl Scene {
         body.constant_c = random.within(0.5, 2.0);
         let mut direction = || Vector3::from_fn(|_, _| random.within(-1.0, 1.0)).normalize();
         let (l, other) = (direction(), direction());
-        let n = if case % 4 == 0 { (l + other * 0.05).normalize() } else { other };
+        let n = if case.is_multiple_of(4) { (l + other * 0.05).normalize() } else { other };
         let momentum = l * random.within(0.5, 3.0);
         let values = [1.0, random.within(-0.7, 0.7), -1.0];
         let at = case % 3;
@@ -478,7 +478,7 @@ fn unstable(k: f64, nutation: f64) -> Result<(Scene, f64), String> {
     let period = 0.5 * (left + right);
     let back = motion.state(period).map_err(text)?;
     let off = largest([(back.axis - start.axis).norm(), (back.momentum - start.momentum).norm()]);
-    if !(off < 1e-9) {
+    if off.is_nan() || off > 1e-9 {
         return Err(format!("the motion about the middle axis is not periodic: {off:e}"));
     }
     // Trace of the monodromy matrix of (n, L): four of its eigenvalues are one, two exp(+-mu T).
