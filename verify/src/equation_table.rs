@@ -246,7 +246,7 @@ pub const EQUATIONS: &[Equation] = &[
         "sol3",
         "first-order angles",
         &["solutions::perturbation::Perturbation::first_order"],
-        &["twofold_regimes", "single_regimes", "figure_perturbation_regimes"],
+        &["twofold_regimes", "single_regimes", "figure_perturbation_regimes", "figure_method_regimes"],
     ),
     row(
         34,

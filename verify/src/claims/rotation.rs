@@ -180,7 +180,12 @@ pub(super) const CLAIMS: &[Claim] = &[
         statement: "There are motions, those of a large tilt of L, that perturbation solutions cannot describe even at the leading order of Lorentz violation.",
         verdict: Corrected,
         finding: "An expansion about Z cannot. Averaged over the fast rotation the motion has a closed form that describes them at leading order, n, L and e_x, over the whole slow precession, and at the next order as well.",
-        checks: &["twofold-fails-for-large-tilt", "mean-motion-first-order", "mean-motion-slopes", "mean-motion-regimes"],
+        checks: &[
+            "twofold-fails-for-large-tilt",
+            "mean-motion-first-order",
+            "mean-motion-slopes",
+            "mean-motion-regimes",
+        ],
         golden: &[],
     },
     Claim {
