@@ -8,7 +8,7 @@ use super::{Caption, Sheet};
 use crate::checks::regimes::method_errors::{Errors, Geometry, errors};
 
 /// Powers of ten of the strength, two each decade.
-const STRENGTHS: (f64, f64, usize) = (-6.0, -1.5, 10);
+const STRENGTHS: (f64, f64, usize) = (-6.5, -1.5, 11);
 
 /// Powers of ten of the time in `t_c`, four each decade.
 const TIMES: (f64, f64, usize) = (0.0, 3.5, 15);
