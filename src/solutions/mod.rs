@@ -5,3 +5,4 @@ pub mod mean;
 pub mod perturbation;
 pub mod steady;
 pub mod symmetric;
+pub mod torus;

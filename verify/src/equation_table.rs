@@ -246,7 +246,7 @@ pub const EQUATIONS: &[Equation] = &[
         "sol3",
         "first-order angles",
         &["solutions::perturbation::Perturbation::first_order"],
-        &["twofold_regimes", "single_regimes", "figure_perturbation_regimes"],
+        &["twofold_regimes", "single_regimes", "figure_perturbation_regimes", "figure_method_regimes"],
     ),
     row(
         34,
@@ -630,6 +630,18 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
             "elliptic::theta::Nome",
             "elliptic::theta::ThetaSeries",
             "elliptic::theta::AtPhase",
+        ],
+    ),
+    (
+        "invariant tori: states with given E, Omega^z and K, exact frequencies, the separatrix",
+        &[
+            "solutions::torus::states_with_integrals",
+            "solutions::torus::TorusStates",
+            "solutions::torus::torus_frequencies",
+            "solutions::torus::TorusFrequencies",
+            "solutions::torus::separatrix_motion",
+            "solutions::mean::middle_axis_growth",
+            "solutions::mean::period_near_separatrix",
         ],
     ),
     (

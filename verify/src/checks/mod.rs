@@ -11,6 +11,7 @@ mod fisher;
 mod forced_precession;
 mod inference;
 mod mean;
+mod mean_frequencies;
 mod observer;
 mod orientation;
 mod perturbation_equations;
@@ -65,6 +66,7 @@ pub fn all() -> Vec<Check> {
         inference::checks,
         waves::checks,
         mean::checks,
+        mean_frequencies::checks,
         spectrum::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()

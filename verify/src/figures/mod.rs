@@ -15,6 +15,7 @@ mod examples;
 mod layout_tests;
 mod legend;
 mod markup;
+mod method_map;
 mod momentum_sphere;
 mod motion;
 mod parameters;

@@ -1,7 +1,7 @@
 //! Which figures there are, and what each is drawn from.
 
 use super::{
-    Caption, Figure, Subject, Table, alignment, alignment_spectra, beam_cone, bound_factor, euler_angles,
+    Caption, Figure, Subject, Table, alignment, alignment_spectra, beam_cone, bound_factor, euler_angles, method_map,
     momentum_sphere, motion, pulse_series, regime_map, wave_spectra, waves,
 };
 
@@ -126,6 +126,12 @@ pub const RECIPES: &[Recipe] = &[
         paper_figure: None,
         summary: "Error of the perturbation solutions over their parameters",
         maker: Maker::Alone(regime_map::sheet),
+    },
+    Recipe {
+        name: "method-regimes",
+        paper_figure: None,
+        summary: "Which approximate motion meets a given error, by strength of the torque and time",
+        maker: Maker::Alone(method_map::sheet),
     },
     Recipe {
         name: "momentum-sphere",

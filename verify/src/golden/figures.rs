@@ -111,6 +111,33 @@ const NUMBERS: &[(&str, &str, &[Numbers])] = &[
         ],
     ),
     (
+        "method-regimes",
+        "figure_method_regimes",
+        &[
+            ("near-axis", 2, REGIMES),
+            ("near-axis", 3, REGIMES),
+            ("near-axis", 4, REGIMES),
+            ("near-axis", 5, REGIMES),
+            ("near-axis", 6, REGIMES),
+            ("near-axis", 7, REGIMES),
+            ("tilted", 2, REGIMES),
+            ("tilted", 3, REGIMES),
+            ("tilted", 4, REGIMES),
+            ("tilted", 5, REGIMES),
+            ("tilted", 6, REGIMES),
+            ("tilted", 7, REGIMES),
+            ("single", 2, REGIMES),
+            ("single", 3, REGIMES),
+            ("single", 4, REGIMES),
+            ("single", 5, REGIMES),
+            ("single", 6, REGIMES),
+            ("near-separatrix", 2, REGIMES),
+            ("near-separatrix", 3, REGIMES),
+            ("near-separatrix", 4, REGIMES),
+            ("near-separatrix", 5, REGIMES),
+        ],
+    ),
+    (
         "momentum-sphere",
         "figure_momentum_sphere",
         &[
@@ -127,6 +154,8 @@ const NUMBERS: &[(&str, &str, &[Numbers])] = &[
         ],
     ),
 ];
+
+const REGIMES: &[Pick] = &[Of(1e-4, 10.0), Of(1e-3, 10.0), Of(1e-3, 1000.0), Of(1e-2, 100.0)];
 
 const GEOMETRY: &[Numbers] = &[("", 0, &[First, Last]), ("", 1, &[First, Last]), ("", 2, &[First, Last])];
 
@@ -177,7 +206,7 @@ fn table(
     }
     // Errors of approximations to three digits, as in the tables of regimes; lines, which are fitted, to six.
     let digits = match name {
-        "perturbation-regimes" => 3,
+        "perturbation-regimes" | "method-regimes" => 3,
         "beam-alignment-spectra" | "wave-spectra" => 6,
         _ => 9,
     };

@@ -24,6 +24,7 @@ const SHOWN: &[(&str, &[&str])] = &[
         "perturbation-regimes",
         &["twofold-leading-order", "single-leading-order", "single-one-period", "single-right-angle"],
     ),
+    ("method-regimes", &["beyond-leading-order", "twofold-large-tilt", "single-leading-order"]),
     ("momentum-sphere", &["two-first-integrals", "opposite-forced-precession", "middle-axis"]),
 ];
 

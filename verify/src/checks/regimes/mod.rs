@@ -1,5 +1,6 @@
 //! Where the approximations hold: their errors against the numerical motion.
 
+pub mod method_errors;
 mod middle_axis;
 pub mod perturbation_error;
 mod precession_rates;
@@ -10,6 +11,12 @@ use crate::check::Check;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {
-    [twofold_precession::checks(), single_precession::checks(), precession_rates::checks(), middle_axis::checks()]
-        .concat()
+    [
+        twofold_precession::checks(),
+        single_precession::checks(),
+        precession_rates::checks(),
+        middle_axis::checks(),
+        method_errors::checks(),
+    ]
+    .concat()
 }

@@ -1,0 +1,72 @@
+//! Motion about the middle principal axis, and near the separatrix through it.
+
+use nalgebra::Vector3;
+
+use super::hamiltonian::{MeanOrder, MeanPotential};
+use crate::dynamics::RigidSpheroid;
+use crate::error::Error;
+use crate::lorentz_violation::PrincipalCoefficients;
+
+/// Most corrections of `G`.
+const MOST_CORRECTIONS: usize = 20;
+
+/// Rate at which `L` leaves the middle principal axis, for an energy `E` and a spin `Omega^z`.
+///
+/// ```text
+/// mu = (2 / G) sqrt((S1 - S2)(S2 - S3)),    S = v_h s + v_m s^2 with the slopes v_h, v_m of the mean potential at h = s2, m = s2^2
+/// ```
+///
+/// for traceless `s1 > s2 > s3`; `G` is that of the mean energy. To first order it is `(2 C |P2| / G) sqrt((s1 - s2)(s2 - s3))`.
+///
+/// # Errors
+/// [`Error::Domain`] where the mean energy determines no `G`, or where `L` does not leave the axis: at and near `P2 = 0`, and for two equal eigenvalues.
+pub fn middle_axis_growth(
+    spheroid: &RigidSpheroid<f64>,
+    s: &PrincipalCoefficients<f64>,
+    energy: f64,
+    spin: f64,
+    order: MeanOrder,
+) -> Result<f64, Error> {
+    let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
+    let values = Vector3::new(s.xx, s.yy, s.zz);
+    let mean = values.mean();
+    let mut s = values.map(|value| value - mean);
+    s.as_mut_slice().sort_by(f64::total_cmp);
+    let along = inertia_zz * spin;
+    let hamiltonian = energy - constant_c * mean - along * spin / 2.0 + along * along / (2.0 * inertia_xx);
+    let potential = MeanPotential { order, constant_c, inertia: inertia_xx, square: s.norm_squared() };
+    let (h, m) = (s.y, s.y * s.y);
+    let mut size = (2.0 * inertia_xx * (hamiltonian - constant_c * h)).sqrt();
+    let mut change = f64::NAN;
+    for _ in 0..MOST_CORRECTIONS {
+        let c = along / size;
+        let slopes = potential.at(size, c, h, m);
+        let off = size * size / (2.0 * inertia_xx) + slopes.value - hamiltonian;
+        change = off / (size / inertia_xx + slopes.by_size - slopes.by_c * c / size);
+        size -= change;
+    }
+    Error::unless(
+        size > 0.0 && change.abs() <= 1e-12 * size,
+        "mean |L| of this energy on the middle axis",
+        size,
+        "above zero and determined by the mean energy",
+    )?;
+    let slopes = potential.at(size, along / size, h, m);
+    let pulled = s.map(|value| slopes.by_h * value + slopes.by_m * value * value);
+    let product = (pulled.z - pulled.y) * (pulled.y - pulled.x);
+    Error::unless(product > 0.0, "(S1 - S2)(S2 - S3)", product, "above zero: else L stays near the middle axis")?;
+    Ok(2.0 / size * product.sqrt())
+}
+
+/// Time in which `L` goes once round its axis, near the separatrix: `(4 / mu) ln(4 / k')`.
+///
+/// `growth` is `mu`, that of [`middle_axis_growth`]; `complement` is `k'^2 = (s1 - s3) |h - s2| / ((s1 - s2)(s2 - s3))`, the distance of `h = l.(s l)` from the
+/// separatrix. The next term is smaller by `k'^2`.
+///
+/// # Errors
+/// [`Error::Domain`] unless the growth is above zero and `k'^2` within (0, 1].
+pub fn period_near_separatrix(growth: f64, complement: f64) -> Result<f64, Error> {
+    Error::unless(growth > 0.0 && growth.is_finite(), "growth rate", growth, "above zero and finite")?;
+    Error::unless(complement > 0.0 && complement <= 1.0, "k'^2", complement, "above zero, at most 1")?;
+    Ok(4.0 / growth * (4.0 / complement.sqrt()).ln())
+}

@@ -1,0 +1,191 @@
+//! Errors of the approximate motions against the numerical one, by strength of the torque and by time.
+
+use nalgebra::Vector3;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::propagation::{Motion, propagate};
+use twofold::solutions::mean::{MeanMotion, MeanOrder};
+use twofold::solutions::perturbation::{Kind, Perturbation};
+
+use super::perturbation_error::{Case, Form};
+use crate::check::{Bound, Check, Kind as Checked, Measured, Worst, largest};
+
+/// Accuracy of the numerical motion.
+const ACCURACY: f64 = 1e-13;
+
+/// `s_max - s_min` of the examples.
+const SPREAD: f64 = 0.06;
+
+/// Steps towards a strength: each is nearer by the strength.
+const ITERATIONS: usize = 8;
+
+/// Samples between two times.
+const SAMPLES: u32 = 10;
+
+pub(super) fn checks() -> Vec<Check> {
+    vec![Check {
+        id: "mean-motion-regimes",
+        kind: Checked::Regime,
+        equations: &[25, 57],
+        statement: "n, L and e_x of the mean motion are off by less than 3 x^2 + 1.5 x^2 t to first order and 3 x^2 + 5 x^3 t to second, t in t_c: L near Z and tilted, single precession, near the separatrix",
+        figure: "largest error over that, x from 1e-5 to 1e-2, t to 3,000 t_c",
+        bound: Bound::AtMost(1.0),
+        reason: "the periodic part of second order, and rates of the order after the last, with coefficients of order one",
+        measure: mean_motions,
+    }]
+}
+
+fn mean_motions() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for geometry in Geometry::ALL {
+        for x in [1e-5, 1e-4, 1e-3, 1e-2] {
+            for Errors { time, mean_state, .. } in errors(geometry, x, &[1.0, 10.0, 100.0, 1000.0, 3000.0])? {
+                let allowed = [3.0 * x * x + 1.5 * x * x * time, 3.0 * x * x + 5.0 * x.powi(3) * time];
+                for order in 0..2 {
+                    worst.see(mean_state[order] / allowed[order], || {
+                        format!("{geometry:?}, order {}, x = {x:e}, t = {time}: {:.2e}", order + 1, mean_state[order])
+                    });
+                }
+            }
+        }
+    }
+    worst.finish()
+}
+
+/// What a motion is like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Geometry {
+    /// Twofold precession with the angular momentum near Z, as tp-I.
+    NearAxis,
+    /// With the angular momentum tilted, as tp-II.
+    Tilted,
+    /// Single precession, as sp-I.
+    Single,
+    /// Twofold precession, `k'^2` of 1e-3 from the separatrix through the middle axis.
+    NearSeparatrix,
+}
+
+impl Geometry {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::NearAxis, Self::Tilted, Self::Single, Self::NearSeparatrix];
+
+    /// Perturbation solutions that are about such motions.
+    fn forms(self) -> &'static [Form] {
+        match self {
+            Self::NearAxis | Self::Tilted => &[Form::Printed(Kind::Twofold), Form::CorrectedTwofold],
+            Self::Single => &[Form::Printed(Kind::Single)],
+            Self::NearSeparatrix => &[],
+        }
+    }
+
+    /// The comparison of a perturbation solution, for the examples' `s` scaled by `k`. The amplitude `A` of single precession is of the order of `s`.
+    fn case(self, form: Form, k: f64) -> Case {
+        let amplitude = match self {
+            Self::Tilted => 0.4,
+            Self::Single => 0.01 * k,
+            Self::NearAxis | Self::NearSeparatrix => 0.0,
+        };
+        Case::paper(form, k, 0.7, amplitude)
+    }
+}
+
+/// Errors up to a time; none for a solution that is not about such motions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Errors {
+    /// The time.
+    pub time: f64,
+    /// Largest distance between the heads of the true axis and of that by the printed and the corrected perturbation solution.
+    pub printed: Option<f64>,
+    /// As `printed`.
+    pub corrected: Option<f64>,
+    /// By the mean motion of first and second order: of the axis.
+    pub mean: [f64; 2],
+    /// And the largest distance of `n`, `L / |L|` or `e_x`.
+    pub mean_state: [f64; 2],
+}
+
+/// Errors up to given times, for the examples' `s` scaled so that the strength of the torque, `C (s_max - s_min) I^xx / L.L`, is the given one.
+pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Errors>, String> {
+    let body = RigidSpheroid::in_units_of_tc(1.1);
+    let start = |k: f64| match geometry.forms().first() {
+        Some(form) => Ok(initial(&body, &geometry.case(*form, k).solution()?)),
+        None => Ok::<_, String>(by_separatrix()),
+    };
+    // The initial L depends on s a little.
+    let mut k = strength;
+    for _ in 0..ITERATIONS {
+        k = strength * start(k)?.momentum.norm_squared() / SPREAD;
+    }
+    let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]).scaled(k);
+    let start = start(k)?;
+    let last = *times.last().ok_or("no times")?;
+    let exact = propagate(&body, &s.tensor(), &start, (0.0, last), ACCURACY).map_err(text)?;
+    let means =
+        [MeanOrder::First, MeanOrder::Second].map(|order| MeanMotion::new(&body, &s, &start, order).map_err(text));
+    let [first, second] = means;
+    let means = [first?, second?];
+    // Each perturbation solution against the motion from its own initial values.
+    let mut solutions = Vec::new();
+    for (i, form) in geometry.forms().iter().enumerate() {
+        let solution = geometry.case(*form, k).solution()?;
+        let own = if i == 0 {
+            None
+        } else {
+            let start = initial(&body, &solution);
+            Some(propagate(&body, &s.tensor(), &start, (0.0, last), ACCURACY).map_err(text)?)
+        };
+        solutions.push((solution, own, 0.0));
+    }
+    let (mut rows, mut from) = (Vec::new(), 0.0);
+    let (mut mean, mut mean_state) = ([0.0; 2], [0.0; 2]);
+    for &time in times {
+        for sample in 1..=SAMPLES {
+            let t = (from + (time - from) * f64::from(sample) / f64::from(SAMPLES)).min(last);
+            let state = exact.state(t).map_err(text)?;
+            for (i, motion) in means.iter().enumerate() {
+                let BodyState { axis, momentum, equatorial_axis } = motion.state(t);
+                let off = (axis - state.axis).norm();
+                let direction = (momentum - state.momentum).norm() / state.momentum.norm();
+                mean[i] = largest([mean[i], off]);
+                mean_state[i] =
+                    largest([mean_state[i], off, direction, (equatorial_axis - state.equatorial_axis).norm()]);
+            }
+            for (solution, own, error) in &mut solutions {
+                let axis = match own {
+                    Some(own) => own.state(t).map_err(text)?.axis,
+                    None => state.axis,
+                };
+                let at = solution.at(t);
+                *error = largest([*error, (axis - symmetry_axis(at.alpha, at.beta)).norm()]);
+            }
+        }
+        let of = |i: usize| solutions.get(i).map(|(.., error)| *error);
+        rows.push(Errors { time, printed: of(0), corrected: of(1), mean, mean_state });
+        from = time;
+    }
+    Ok(rows)
+}
+
+fn text(error: twofold::Error) -> String {
+    error.to_string()
+}
+
+/// The state from which a perturbation solution starts.
+fn initial(body: &RigidSpheroid<f64>, solution: &Perturbation<f64>) -> BodyState<f64> {
+    let start = solution.at(0.0);
+    let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
+    let gamma = 1.0 - start.alpha_rate * start.beta.cos();
+    let rates = EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma };
+    BodyState::from_angles(body, &angles, &rates)
+}
+
+/// `L` near the middle axis, on the side of the third, and the axis at 0.7 rad from it.
+fn by_separatrix() -> BodyState<f64> {
+    // k'^2 = 6 l_3^2 for the examples' s.
+    let third = (1e-3_f64 / 6.0).sqrt();
+    let l = Vector3::new(0.0, (1.0 - third * third).sqrt(), third);
+    let across = Vector3::x();
+    let axis = l * f64::cos(0.7) + across * f64::sin(0.7);
+    BodyState { axis, momentum: l * 1.5, equatorial_axis: l.cross(&across) }
+}
