@@ -4,8 +4,10 @@
 //! neutron stars*: every equation is a function, generic over the scalar type, with the equation's number and LaTeX label.
 //! Nothing here reads a file, prints or starts a thread.
 
+mod double_double;
 pub mod dynamics;
 pub mod elliptic;
+pub mod epoch;
 pub mod error;
 pub mod euler_angles;
 pub mod lorentz_violation;

@@ -91,6 +91,50 @@ pub fn principal_frame(tensor: &Matrix3<f64>) -> Result<PrincipalFrame, Error> {
     })
 }
 
+/// Eigenvalues in descending order and the proper rotation to the principal frame, with their derivatives: the real parts are those of
+/// [`principal_frame`], and small rotations take away what derivatives leave beside the diagonal.
+///
+/// # Errors
+/// As for [`principal_frame`], and with derivatives [`Error::Domain`] where two eigenvalues are equal (to 1e-12 of the largest): their axes
+/// turn with any change.
+pub fn principal_frame_with_derivatives<S: Real>(
+    tensor: &Matrix3<S>,
+) -> Result<(PrincipalCoefficients<S>, Matrix3<S>), Error> {
+    let frame = principal_frame(&tensor.map(S::re))?;
+    let mut rotation = frame.principal_from_given.map(S::from_f64);
+    if !S::HAS_DERIVATIVES {
+        let PrincipalCoefficients { xx, yy, zz } = frame.coefficients;
+        return Ok((PrincipalCoefficients::new([xx, yy, zz].map(S::from_f64)), rotation));
+    }
+    let PrincipalCoefficients { xx, yy, zz } = frame.coefficients;
+    let size = xx.abs().max(zz.abs());
+    // Each pass doubles the order of the derivatives that are right.
+    for _ in 0..3 {
+        let turned = rotation * tensor * rotation.transpose();
+        let mut turn = Vector3::zeros();
+        for (axis, i, j, gap) in [(0, 1, 2, yy - zz), (1, 2, 0, zz - xx), (2, 0, 1, xx - yy)] {
+            let off = (turned[(i, j)] + turned[(j, i)]) / 2.0;
+            let off = off - S::from_f64(off.re());
+            Error::unless(
+                gap.abs() > 1e-12 * size,
+                "difference of two eigenvalues of s^IJ",
+                gap,
+                "above 1e-12 of the largest, if derivatives are wanted",
+            )?;
+            turn[axis] = off / (turned[(i, i)] - turned[(j, j)]);
+        }
+        // Cayley's form of the rotation by the vector `turn`: regular where that is zero.
+        let half = turn / S::from_f64(2.0);
+        let scale = S::one() + half.dot(&half);
+        let zero = S::zero();
+        let cross = Matrix3::new(zero, -half.z, half.y, half.z, zero, -half.x, -half.y, half.x, zero);
+        let small = Matrix3::identity() - (cross - cross * cross) * S::from_f64(2.0) / scale;
+        rotation = small * rotation;
+    }
+    let values = (rotation * tensor * rotation.transpose()).diagonal();
+    Ok((PrincipalCoefficients { xx: values.x, yy: values.y, zz: values.z }, rotation))
+}
+
 /// How near a symmetric tensor `s^IJ` is to one with two equal eigenvalues.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SymmetryOfTensor {

@@ -56,6 +56,9 @@ pub trait Scalar:
 ///
 /// Order and branches go by the real part; derivatives never choose a branch.
 pub trait Real: Scalar {
+    /// Whether numbers carry derivatives.
+    const HAS_DERIVATIVES: bool;
+
     /// The real part, without derivatives.
     fn re(self) -> f64;
 
@@ -96,6 +99,8 @@ impl<T> Real for T
 where
     T: DualNum<Primitive = f64> + Copy,
 {
+    const HAS_DERIVATIVES: bool = T::NDERIV > 0;
+
     #[inline]
     fn re(self) -> f64 {
         num_dual::DualStruct::re(&self)

@@ -77,8 +77,8 @@ pub struct AtPhase<S> {
 }
 
 impl<S: Real> ThetaSeries<S> {
-    /// For the nome `q`, and for `theta_1(z + i eta)` with `r = exp(-2 eta)` between `q` and one.
-    pub fn new(q: S, r: S) -> Self {
+    /// For the nome `q`, and for `theta_1(z + i eta)` with `r = exp(-2 eta)` between `q` and one, given with `q / r`.
+    pub fn new(q: S, r: S, q_over_r: S) -> Self {
         let zero = S::zero();
         let mut series = Self {
             terms: 0,
@@ -106,10 +106,11 @@ impl<S: Real> ThetaSeries<S> {
             square *= odd_power;
             q_power = odd_power * q;
             oblong *= q_power;
-            weight = if r.re() > 0.0 { weight * (q_power / r) } else { zero };
+            weight *= odd_power * q_over_r;
             r_power = r_power * r * r;
             sign = -sign;
-            if square.re() < NEGLIGIBLE && weight.re() < NEGLIGIBLE {
+            // Where q vanishes its derivatives are in the second term.
+            if n > 0 && square.re() < NEGLIGIBLE && weight.re() < NEGLIGIBLE {
                 break;
             }
         }

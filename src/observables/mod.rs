@@ -9,5 +9,6 @@ pub mod observer;
 pub mod pulsar;
 pub mod spectrum;
 pub mod spin_axis;
+pub mod wave_harmonics;
 
 pub use observer::Observer;

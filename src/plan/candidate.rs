@@ -6,7 +6,8 @@ use super::{Cost, Method, Output, Parameter, Request, State, Work};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::splitting::splitting_forecast;
-use crate::propagation::{AxisState, SymmetricMotion, UniformMotion, largest_torque, taylor_forecast};
+use crate::propagation::{AveragedMotion, AxisState, SymmetricMotion, UniformMotion, largest_torque, taylor_forecast};
+use crate::solutions::mean::MeanOrder;
 
 /// What a method would do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,6 +56,7 @@ impl Candidate {
             Method::Free => free(scene, request, stretch),
             Method::Steady => steady(scene, request, stretch),
             Method::Symmetric => symmetric(scene, request, stretch),
+            Method::Mean => mean(scene, request, stretch),
             Method::Splitting => splitting(scene, request, stretch),
             Method::Taylor => taylor(scene, request, state, stretch),
         };
@@ -142,6 +144,18 @@ fn symmetric(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Resul
     // The rounding costs more than the motion: only for one that may be used.
     let usable = truncation <= request.accuracy || request.method == Some(Method::Symmetric);
     let rounding = if usable { motion.rounding(elapsed) } else { f64::NAN };
+    Ok(Forecast::closed(truncation, rounding))
+}
+
+fn mean(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+    let Scene { spheroid, violation, initial } = scene;
+    let motion = AveragedMotion::new(spheroid, violation, initial, stretch, MeanOrder::Second)?;
+    let (mut truncation, rounding) = (motion.truncation(stretch.1), motion.rounding(stretch.1));
+    if !request.derivatives.is_empty() {
+        motion.require_derivatives()?;
+        // A derivative by s^IJ has one order less, in its own unit.
+        truncation /= motion.mean().relative_strength();
+    }
     Ok(Forecast::closed(truncation, rounding))
 }
 

@@ -97,13 +97,21 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The cheapest method that meets the accuracy; of methods asked for, the only one.
+    /// The cheapest method that meets the accuracy; of methods asked for, the only one. One whose rounding is above the accuracy is left
+    /// if another one loses a hundred times less: phases after 1e12 turns are in doubles no longer what was asked.
     fn choose(&self) -> Result<(Method, Prediction), Error> {
+        let usable = |prediction: &Prediction| self.forced || prediction.truncation <= self.accuracy;
+        let roundings = self.considered.iter().filter_map(|candidate| {
+            candidate.prediction.as_ref().ok().filter(|prediction| usable(prediction)).map(|found| found.rounding)
+        });
+        let most = roundings.fold(f64::INFINITY, f64::min) * 100.0;
+        let precise = |prediction: &Prediction| self.forced || prediction.rounding <= most.max(self.accuracy);
         let mut best: Option<(Method, Prediction)> = None;
         for Candidate { method, prediction } in &self.considered {
             match prediction {
                 Ok(prediction)
-                    if (self.forced || prediction.truncation <= self.accuracy)
+                    if usable(prediction)
+                        && precise(prediction)
                         && best.is_none_or(|(_, best)| prediction.cost < best.cost) =>
                 {
                     best = Some((*method, *prediction));
@@ -175,6 +183,14 @@ impl Plan {
         let vectors = if self.state == State::Orientation { 3.0 } else { 2.0 };
         Error::unless(vectors == 3.0, "number of vectors carried", vectors, "three: no output of the plan needs e_x")?;
         PlannedMotion::by(self.needed_method()?, spheroid, s, initial, self.stretch, self.accuracy)
+    }
+
+    /// Whether a time costs the same however many turns lie before it: in closed form, and without events or turns to be counted.
+    pub fn costs_the_same_at_any_time(&self) -> bool {
+        let counts = |output: &Output| {
+            matches!(output.need().evaluations, Evaluations::CountingTurns { .. } | Evaluations::ForEvents { .. })
+        };
+        self.method.is_none_or(Method::is_closed_form) && !self.outputs.iter().any(counts)
     }
 
     fn needed_method(&self) -> Result<Method, Error> {

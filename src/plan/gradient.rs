@@ -10,8 +10,11 @@ use crate::error::Error;
 use crate::propagation::check_time;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::splitting::derivatives::{Seeded, states_with_derivatives};
-use crate::propagation::{AxisMotion, AxisState, Motion, SymmetricMotion, UniformMotion, propagate, propagate_axis};
+use crate::propagation::{
+    AveragedMotion, AxisMotion, AxisState, Motion, SymmetricMotion, UniformMotion, propagate, propagate_axis,
+};
 use crate::scalar::Real;
+use crate::solutions::mean::MeanOrder;
 
 /// Functions of the state at one time, for any scalar. How the derivatives of the state are made is not their concern.
 pub trait StateFunction {
@@ -157,6 +160,7 @@ fn states_by_splitting(_: &Plan, _: &[Start<Dual64>], _: &[f64]) -> Result<Optio
 enum SeededMotion<S> {
     Uniform(UniformMotion<S>),
     Symmetric(SymmetricMotion<S>),
+    Mean(AveragedMotion<S>),
     Taylor(crate::propagation::TaylorMotion<S>),
     TaylorAxis(crate::propagation::TaylorAxisMotion<S>),
 }
@@ -170,6 +174,9 @@ impl<S: Real> SeededMotion<S> {
                 Self::Uniform(UniformMotion::free(spheroid, violation, &initial, span))
             }
             Some(Method::Symmetric) => Self::Symmetric(SymmetricMotion::new(spheroid, violation, &initial, span)?),
+            Some(Method::Mean) => {
+                Self::Mean(AveragedMotion::new(spheroid, violation, &initial, span, MeanOrder::Second)?)
+            }
             Some(Method::Taylor | Method::Splitting) | None if plan.state == State::Orientation => {
                 Self::Taylor(propagate(spheroid, violation, &initial, span, plan.accuracy)?)
             }
@@ -184,6 +191,7 @@ impl<S: Real> SeededMotion<S> {
         match self {
             Self::Uniform(motion) => motion.state(t),
             Self::Symmetric(motion) => motion.state(t),
+            Self::Mean(motion) => motion.state(t),
             Self::Taylor(motion) => motion.state(t),
             Self::TaylorAxis(motion) => {
                 let AxisState { axis, momentum } = motion.axis_state(t)?;

@@ -9,6 +9,8 @@ pub enum Method {
     Steady,
     /// Elliptic functions for two equal eigenvalues of `s^IJ`.
     Symmetric,
+    /// The mean motion to second order in `s^IJ`, for bodies that turn fast against the torque.
+    Mean,
     /// A splitting scheme and a step that suit the accuracy.
     Splitting,
     /// Taylor series with adaptive steps and dense output.
@@ -17,7 +19,7 @@ pub enum Method {
 
 impl Method {
     /// Every method, in the order in which plans list them.
-    pub const ALL: [Self; 5] = [Self::Free, Self::Steady, Self::Symmetric, Self::Splitting, Self::Taylor];
+    pub const ALL: [Self; 6] = [Self::Free, Self::Steady, Self::Symmetric, Self::Mean, Self::Splitting, Self::Taylor];
 
     /// Name for files and commands.
     pub fn name(self) -> &'static str {
@@ -25,6 +27,7 @@ impl Method {
             Self::Free => "free",
             Self::Steady => "steady",
             Self::Symmetric => "symmetric",
+            Self::Mean => "mean",
             Self::Splitting => "splitting",
             Self::Taylor => "taylor",
         }
@@ -36,6 +39,7 @@ impl Method {
             Self::Free => "free rotation in closed form",
             Self::Steady => "steady precession in closed form",
             Self::Symmetric => "elliptic functions for two equal eigenvalues of s^IJ",
+            Self::Mean => "mean motion to second order in s^IJ",
             Self::Splitting => "splitting into exact rotations and kicks",
             Self::Taylor => "Taylor series with adaptive steps and dense output",
         }

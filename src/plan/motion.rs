@@ -9,9 +9,10 @@ use crate::propagation::splitting::{
     SplittingMotion, propagate_by_best_splitting, propagate_orientation_by_best_splitting,
 };
 use crate::propagation::{
-    AxisMotion, AxisState, Motion, SeriesProjection, SymmetricMotion, TaylorAxisMotion, TaylorMotion, UniformMotion,
-    propagate, propagate_axis,
+    AveragedMotion, AxisMotion, AxisState, Motion, SeriesProjection, SymmetricMotion, TaylorAxisMotion, TaylorMotion,
+    UniformMotion, propagate, propagate_axis,
 };
+use crate::solutions::mean::MeanOrder;
 
 /// A motion of the symmetry axis and the angular momentum, by any method.
 #[derive(Debug, Clone)]
@@ -21,6 +22,8 @@ pub enum PlannedAxisMotion {
     Uniform(UniformMotion<f64>),
     /// [`Method::Symmetric`].
     Symmetric(SymmetricMotion<f64>),
+    /// [`Method::Mean`].
+    Mean(AveragedMotion<f64>),
     /// [`Method::Splitting`].
     Splitting(SplittingMotion),
     /// [`Method::Taylor`].
@@ -35,6 +38,8 @@ pub enum PlannedMotion {
     Uniform(UniformMotion<f64>),
     /// [`Method::Symmetric`].
     Symmetric(SymmetricMotion<f64>),
+    /// [`Method::Mean`].
+    Mean(AveragedMotion<f64>),
     /// [`Method::Splitting`].
     Splitting(SplittingMotion<3>),
     /// [`Method::Taylor`].
@@ -58,6 +63,7 @@ impl PlannedAxisMotion {
             Method::Free => Self::Uniform(UniformMotion::free(spheroid, s, initial, span)),
             Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
             Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
+            Method::Mean => Self::Mean(AveragedMotion::new(spheroid, s, initial, span, MeanOrder::Second)?),
             Method::Splitting => {
                 let initial = AxisState::from(initial);
                 Self::Splitting(propagate_by_best_splitting(spheroid, s, &initial, span, accuracy)?)
@@ -69,7 +75,7 @@ impl PlannedAxisMotion {
     /// Steps and right-hand sides that it took.
     pub fn work(&self) -> Work {
         match self {
-            Self::Uniform(_) | Self::Symmetric(_) => Work::default(),
+            Self::Uniform(_) | Self::Symmetric(_) | Self::Mean(_) => Work::default(),
             Self::Splitting(motion) => Work::of_splitting(motion),
             Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
         }
@@ -93,6 +99,7 @@ impl PlannedMotion {
             Method::Free => Self::Uniform(UniformMotion::free(spheroid, s, initial, span)),
             Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
             Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
+            Method::Mean => Self::Mean(AveragedMotion::new(spheroid, s, initial, span, MeanOrder::Second)?),
             Method::Splitting => {
                 Self::Splitting(propagate_orientation_by_best_splitting(spheroid, s, initial, span, accuracy)?)
             }
@@ -103,7 +110,7 @@ impl PlannedMotion {
     /// Steps and right-hand sides that it took.
     pub fn work(&self) -> Work {
         match self {
-            Self::Uniform(_) | Self::Symmetric(_) => Work::default(),
+            Self::Uniform(_) | Self::Symmetric(_) | Self::Mean(_) => Work::default(),
             Self::Splitting(motion) => Work::of_splitting(motion),
             Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
         }
@@ -138,6 +145,12 @@ macro_rules! planned {
                 }
             }
 
+            fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<f64>, Error> {
+                match self {
+                    $(Self::$method(motion) => motion.axis_state_in_parts(t),)+
+                }
+            }
+
             fn error_estimate(&self, t: f64) -> f64 {
                 match self {
                     $(Self::$method(motion) => motion.error_estimate(t),)+
@@ -147,16 +160,24 @@ macro_rules! planned {
     };
 }
 
-planned!(PlannedAxisMotion, Uniform, Symmetric, Splitting, Taylor);
-planned!(PlannedMotion, Uniform, Symmetric, Splitting, Taylor);
+planned!(PlannedAxisMotion, Uniform, Symmetric, Mean, Splitting, Taylor);
+planned!(PlannedMotion, Uniform, Symmetric, Mean, Splitting, Taylor);
 
 impl Motion<f64> for PlannedMotion {
     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
         match self {
             Self::Uniform(motion) => motion.state(t),
             Self::Symmetric(motion) => motion.state(t),
+            Self::Mean(motion) => motion.state(t),
             Self::Splitting(motion) => motion.state(t),
             Self::Taylor(motion) => motion.state(t),
+        }
+    }
+
+    fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<f64>, Error> {
+        match self {
+            Self::Mean(motion) => motion.state_in_parts(t),
+            _ => self.state(t[0] + t[1]),
         }
     }
 
@@ -164,6 +185,7 @@ impl Motion<f64> for PlannedMotion {
         match self {
             Self::Uniform(motion) => motion.projection(in_body, direction),
             Self::Symmetric(motion) => motion.projection(in_body, direction),
+            Self::Mean(motion) => motion.projection(in_body, direction),
             Self::Splitting(motion) => motion.projection(in_body, direction),
             Self::Taylor(motion) => motion.projection(in_body, direction),
         }

@@ -95,6 +95,11 @@ impl<M: AxisMotion<f64>> AxisMotion<f64> for Counted<M> {
         self.motion.axis_state(t)
     }
 
+    fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<f64>, Error> {
+        self.axis.set(self.axis.get() + 1);
+        self.motion.axis_state_in_parts(t)
+    }
+
     fn error_estimate(&self, t: f64) -> f64 {
         self.motion.error_estimate(t)
     }
@@ -104,5 +109,10 @@ impl<M: Motion<f64>> Motion<f64> for Counted<M> {
     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
         self.orientation.set(self.orientation.get() + 1);
         self.motion.state(t)
+    }
+
+    fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<f64>, Error> {
+        self.orientation.set(self.orientation.get() + 1);
+        self.motion.state_in_parts(t)
     }
 }

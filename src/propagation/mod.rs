@@ -14,7 +14,7 @@ pub mod splitting;
 mod taylor;
 mod third_angle;
 
-pub use closed::{SymmetricMotion, UniformMotion, largest_torque};
+pub use closed::{AveragedMotion, SymmetricMotion, UniformMotion, largest_torque};
 pub use continuous_angles::ContinuousAngles;
 pub(crate) use input::{check_input, check_time};
 pub use many::{AxisScene, axis_states_of_many};

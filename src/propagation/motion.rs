@@ -49,6 +49,14 @@ pub trait AxisMotion<S: Scalar> {
     /// [`Error::Domain`] for a time outside [`span`](AxisMotion::span).
     fn axis_state(&self, t: S) -> Result<AxisState<S>, Error>;
 
+    /// As [`axis_state`](Self::axis_state), at the time `t[0] + t[1]`: a motion that keeps its phases in 32 digits uses both.
+    ///
+    /// # Errors
+    /// As for [`axis_state`](AxisMotion::axis_state).
+    fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<S>, Error> {
+        self.axis_state(S::from_f64(t[0] + t[1]))
+    }
+
     /// Estimated error of the components of `n` and, where it is known, `e_x`, and of those of `L` in units of its size (that
     /// of `L` at the start and what the torque makes of it), at time `t` of the span.
     fn error_estimate(&self, t: f64) -> f64;
@@ -61,6 +69,14 @@ pub trait Motion<S: Scalar>: AxisMotion<S> {
     /// # Errors
     /// [`Error::Domain`] for a time outside [`span`](AxisMotion::span).
     fn state(&self, t: S) -> Result<BodyState<S>, Error>;
+
+    /// As [`state`](Self::state), at the time `t[0] + t[1]`.
+    ///
+    /// # Errors
+    /// As for [`state`](Motion::state).
+    fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<S>, Error> {
+        self.state(S::from_f64(t[0] + t[1]))
+    }
 
     /// What gives the component along a fixed `direction` of a vector fixed in the body (its components there) for less than a
     /// state, if the motion has it: one that is kept as Taylor series in doubles, on a processor with vector instructions.

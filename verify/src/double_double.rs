@@ -100,6 +100,8 @@ impl Scalar for DoubleDouble {
 }
 
 impl Real for DoubleDouble {
+    const HAS_DERIVATIVES: bool = false;
+
     #[inline]
     fn re(self) -> f64 {
         self.high()

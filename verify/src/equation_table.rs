@@ -528,7 +528,14 @@ pub const EQUATIONS: &[Equation] = &[
 /// What serves the equations without having a number of its own in the paper.
 pub const AUXILIARY: &[(&str, &[&str])] = &[
     ("number types", &["scalar::constant_vector", "scalar::length", "scalar::real_part"]),
-    ("principal axes of s^IJ", &["lorentz_violation::principal_frame", "lorentz_violation::SymmetryOfTensor"]),
+    (
+        "principal axes of s^IJ",
+        &[
+            "lorentz_violation::principal_frame",
+            "lorentz_violation::principal_frame_with_derivatives",
+            "lorentz_violation::SymmetryOfTensor",
+        ],
+    ),
     (
         "plans: what is computed for the outputs asked, by which method",
         &[
@@ -604,12 +611,16 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
         "the mean motion in closed form: mean Hamiltonian, generator, top, theta functions",
         &[
             "solutions::mean::mean_potential",
+            "solutions::mean::mean_angular_velocity",
             "solutions::mean::generator",
             "solutions::mean::generator_slopes",
             "solutions::mean::MeanOrder",
             "solutions::mean::MeanMotion",
             "solutions::mean::MeanRates",
             "solutions::mean::MeanPhases",
+            "solutions::mean::MeanTurns",
+            "solutions::mean::Turns",
+            "propagation::AveragedMotion",
             "solutions::mean::Top",
             "solutions::mean::TopPhases",
             "solutions::mean::TopShape",
@@ -642,6 +653,17 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
             "observables::pulsar::ConstantPeriod",
         ],
     ),
+    (
+        "pulses over decades: epochs, numbers without a break, fits of frequency",
+        &[
+            "epoch::Epoch",
+            "observables::pulsar::PulsarClock",
+            "observables::pulsar::ClockPulse",
+            "observables::pulsar::NearState",
+            "observables::pulsar::SpinFit",
+        ],
+    ),
+    ("harmonics of the wave over a turn", &["observables::wave_harmonics::WaveHarmonics"]),
     (
         "position angle of the polarization, rotating-vector model",
         &[

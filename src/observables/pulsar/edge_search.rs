@@ -109,7 +109,7 @@ impl<P: Margin> EdgeSearch<P> {
 
     /// Divides a piece until the polynomial through its ends and the bounds of what that leaves out prove that the margin
     /// has no root there, or one.
-    fn search(&self, from: &Jet, to: &Jet, report: &mut impl FnMut(Event)) -> Result<(), Error> {
+    pub(super) fn search(&self, from: &Jet, to: &Jet, report: &mut impl FnMut(Event)) -> Result<(), Error> {
         let polynomial = Quintic::between(from, to, &self.bounds);
         if polynomial.is_clear() {
             return Ok(());

@@ -2,6 +2,7 @@
 
 pub mod arrival;
 pub mod beam;
+pub mod clock;
 pub mod direction;
 mod edge_search;
 mod hermite;
@@ -9,13 +10,17 @@ pub mod period;
 pub mod position_angle;
 pub mod rate_bounds;
 mod root;
+pub mod spin_fit;
 pub mod timing;
 pub mod train;
+mod turn_count;
 mod turns;
 pub mod width;
 
 pub use arrival::{Arrival, arrivals};
 pub use beam::Beam;
+pub use clock::{ClockPulse, NearState, PulsarClock};
+pub use spin_fit::SpinFit;
 pub use timing::ConstantPeriod;
 pub use train::{Pulse, PulseTrain, Stamped, propagated_pulse_train, pulse_train};
 

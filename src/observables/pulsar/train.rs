@@ -186,7 +186,8 @@ impl Unfinished {
 }
 
 impl<P: Margin> EdgeSearch<P> {
-    fn train(&self, from: f64, to: f64) -> Result<PulseTrain, Error> {
+    /// The pulses between two times in order.
+    pub(super) fn train(&self, from: f64, to: f64) -> Result<PulseTrain, Error> {
         let mut train = Unfinished::default();
         let start = train.begin(self.jet(from)?);
         // So that a motion that does not reach so far is refused before the work.
@@ -196,7 +197,7 @@ impl<P: Margin> EdgeSearch<P> {
     }
 }
 
-fn check_beam(beam: &Beam<f64>, line_of_sight: &Vector3<f64>) -> Result<(), Error> {
+pub(super) fn check_beam(beam: &Beam<f64>, line_of_sight: &Vector3<f64>) -> Result<(), Error> {
     for (length, name) in [(beam.axis.norm(), "length of the magnetic axis m"), (line_of_sight.norm(), "length of n")] {
         Error::unless((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")?;
     }

@@ -5,6 +5,7 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use nalgebra::Vector3;
 
 use super::Beam;
+use crate::dynamics::BodyState;
 use crate::error::Error;
 use crate::propagation::Motion;
 
@@ -65,16 +66,20 @@ impl<'a, M: Motion<f64>> Turns<'a, M> {
 
     /// The phase at `t` in (-pi, pi].
     fn phase_at(&self, t: f64) -> Result<f64, Error> {
-        let state = self.motion.state(t)?;
-        let (l, n, m) = (state.momentum.normalize(), self.line_of_sight, self.beam.direction(&state));
-        let (x, y) = (n.dot(&m) - l.dot(n) * l.dot(&m), l.dot(&n.cross(&m)));
-        let allowed = "above 2.2e-16: along L neither m nor n has an azimuth about it";
-        Error::unless(
-            x.hypot(y) > f64::EPSILON,
-            "product of the sines of the angles of m and n with L",
-            x.hypot(y),
-            allowed,
-        )?;
-        Ok(y.atan2(x))
+        phase(self.beam, self.line_of_sight, &self.motion.state(t)?)
     }
+}
+
+/// Azimuth of the magnetic axis about the angular momentum of a state, from that of the line of sight, in (-pi, pi].
+pub(super) fn phase(beam: &Beam<f64>, n: &Vector3<f64>, state: &BodyState<f64>) -> Result<f64, Error> {
+    let (l, m) = (state.momentum.normalize(), beam.direction(state));
+    let (x, y) = (n.dot(&m) - l.dot(n) * l.dot(&m), l.dot(&n.cross(&m)));
+    let allowed = "above 2.2e-16: along L neither m nor n has an azimuth about it";
+    Error::unless(
+        x.hypot(y) > f64::EPSILON,
+        "product of the sines of the angles of m and n with L",
+        x.hypot(y),
+        allowed,
+    )?;
+    Ok(y.atan2(x))
 }

@@ -60,12 +60,12 @@ fn rates<S: Real>(strength: S, s: &Vector3<S>, axes: &Axes<S>) -> Axes<S> {
     [by_momentum.cross(n), by_momentum.cross(momentum) + by_axis.cross(n), by_momentum.cross(equatorial)]
 }
 
-/// The flow of `W` for the `time` 1, from mean to osculating axes, or -1, back: one step of the midpoint rule, whose error is of third order
-/// in `s`.
-pub(super) fn transformed<S: Real>(strength: S, s: &Vector3<S>, axes: &Axes<S>, time: f64) -> Axes<S> {
-    let moved = |by: &Axes<S>, part: f64| core::array::from_fn(|i| axes[i] + by[i] * S::from_f64(part * time));
-    let first = rates(strength, s, axes);
-    moved(&rates(strength, s, &moved(&first, 0.5)), 1.0)
+/// By how much the flow of `W` moves the axes in the `time` 1, from mean to osculating ones, or -1, back: one step of the midpoint rule, whose
+/// error is of third order in `s`.
+pub(super) fn transformation<S: Real>(strength: S, s: &Vector3<S>, axes: &Axes<S>, time: f64) -> Axes<S> {
+    let half = rates(strength, s, axes);
+    let middle = core::array::from_fn(|i| axes[i] + half[i] * S::from_f64(0.5 * time));
+    rates(strength, s, &middle).map(|rate| rate * S::from_f64(time))
 }
 
 /// Direction of the angular momentum of the mean motion, from a state in the principal frame of `s`, for traceless principal values.
@@ -75,6 +75,7 @@ pub(in crate::solutions) fn mean_direction<S: Real>(
     state: &BodyState<S>,
 ) -> Vector3<S> {
     let strength = spheroid.constant_c * spheroid.inertia_xx;
-    let [_, momentum, _] = transformed(strength, s, &[state.axis, state.momentum, state.equatorial_axis], -1.0);
+    let [_, moved, _] = transformation(strength, s, &[state.axis, state.momentum, state.equatorial_axis], -1.0);
+    let momentum = state.momentum + moved;
     momentum / length(&momentum)
 }

@@ -41,6 +41,31 @@ pub fn mean_potential<S: Real>(
     potential.at(size, c, direction.dot(&pulled), pulled.dot(&pulled)).value
 }
 
+/// The angular velocity `w = <H>_L` at which the mean motion turns every axis of the body but for the spin about `n`, of the components of `l`
+/// in the principal frame of `s`, as its share along `l`, the tensor (principal values) that is applied to `l`, and its share along `n`:
+///
+/// ```text
+/// w = Lambda l + k l + nu n,    k = (2 / G) (v_h s + v_m s^2),    nu = v_c / G,    Lambda = G / I^xx + v_G - c v_c / G - l.(k l)
+/// ```
+///
+/// with `v` the [`mean_potential`], `v_G` its slope by `G` where `l` and `c` stay. So `dl/dt = (k l) x l`.
+pub fn mean_angular_velocity<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Vector3<S>,
+    size: S,
+    c: S,
+    direction: &Vector3<S>,
+    order: MeanOrder,
+) -> (S, Vector3<S>, S) {
+    let pulled = s.component_mul(direction);
+    let potential =
+        MeanPotential { order, constant_c: spheroid.constant_c, inertia: spheroid.inertia_xx, square: s.dot(s) };
+    let slopes = potential.at(size, c, direction.dot(&pulled), pulled.dot(&pulled));
+    let tensor = slopes.tensor(s, size);
+    let carried = tensor.dot(&direction.component_mul(direction));
+    (size / spheroid.inertia_xx + slopes.about_momentum(size, c) - carried, tensor, slopes.about_axis(size))
+}
+
 /// What the mean potential depends on besides `l`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MeanPotential<S> {
@@ -106,5 +131,22 @@ impl<S: Real> MeanPotential<S> {
             by_size: -(second * 2.0 / size),
             by_size_m: -(strength * a2 * 2.0 / size),
         }
+    }
+}
+
+impl<S: Real> MeanSlopes<S> {
+    /// `(2 / G) (v_h s + v_m s^2)`.
+    pub(super) fn tensor(&self, s: &Vector3<S>, size: S) -> Vector3<S> {
+        s.map(|value| (self.by_h * value + self.by_m * value * value) * 2.0 / size)
+    }
+
+    /// `v_G - c v_c / G`.
+    pub(super) fn about_momentum(&self, size: S, c: S) -> S {
+        self.by_size - self.by_c * c / size
+    }
+
+    /// `v_c / G`.
+    pub(super) fn about_axis(&self, size: S) -> S {
+        self.by_c / size
     }
 }

@@ -1,10 +1,14 @@
 //! The mean motion in closed form, and the motion that follows from it.
 
+use core::f64::consts::TAU;
+
 use nalgebra::Vector3;
 
-use super::generator::{Axes, transformed};
+use super::generator::{Axes, transformation};
 use super::hamiltonian::{MeanOrder, MeanPotential};
+use super::phases::{Added, MeanPhases, MeanRates, MeanTurns, Turns, turning};
 use super::top::{Top, TopPhases, TopShape};
+use crate::double_double::DoubleDouble;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
@@ -36,34 +40,26 @@ pub struct MeanMotion<S> {
     axis: Vector3<S>,
     equatorial_axis: Vector3<S>,
     start: TopShape<S>,
+    starts: MeanPhases<S>,
+    /// Rates of the phases (turns per unit of time), the free rotation in 32 digits.
+    turning: [DoubleDouble; 3],
     rates: MeanRates<S>,
-    /// Of the angles about `l` and about `n`, by the integrals of `h` and `m` about their means.
-    periodic: [[S; 2]; 2],
+    /// Of the angles about `l` and about `n`, by the integral of the top.
+    periodic: [S; 2],
     order: MeanOrder,
+    /// That moves `l`.
+    tensor: Vector3<S>,
     relative_strength: S,
 }
 
-/// Mean rates of a motion (rad per unit of time).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeanRates<S> {
-    /// Of the phase of the slow precession, which grows by a turn when `L` goes once round its axis, in either sense; `lambda` on a
-    /// separatrix.
-    pub slow: S,
-    /// Of the frame about `L`, but for its periodic part.
-    pub about_momentum: S,
-    /// Of the body about its symmetry axis against the frame.
-    pub about_axis: S,
-}
-
-/// Phases of a motion at a time (rad), each modulo a turn if that suits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeanPhases<S> {
-    /// As [`MeanRates::slow`], with its start.
-    pub slow: S,
-    /// As [`MeanRates::about_momentum`].
-    pub about_momentum: S,
-    /// As [`MeanRates::about_axis`].
-    pub about_axis: S,
+fn require_round<S: Real>(top: &Top<S>) -> Result<(), Error> {
+    let complement = if top.goes_round() { top.complement() } else { 0.0 };
+    Error::unless(
+        complement > 0.0,
+        "distance k' of L from rest and from the separatrix",
+        complement,
+        "above zero, if derivatives are wanted",
+    )
 }
 
 fn rotated_about<S: Real>(axis: &Vector3<S>, v: &Vector3<S>, angle: S) -> Vector3<S> {
@@ -71,18 +67,33 @@ fn rotated_about<S: Real>(axis: &Vector3<S>, v: &Vector3<S>, angle: S) -> Vector
     v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (S::one() - cos))
 }
 
-impl MeanMotion<f64> {
-    /// The motion from `initial`, in the principal frame of `s`, at the time zero. In doubles: at symmetric tensors and steady motions
-    /// derivatives have other forms.
+impl<S: Real> MeanMotion<S> {
+    /// The motion from `initial`, in the principal frame of `s`, at the time zero.
     ///
     /// # Errors
     /// [`Error::Domain`] for a state or parameter that is not finite, axes that are not orthonormal (to 1e-9), moments of inertia that are
     /// not positive; and where the motion is not a fast rotation with a slow precession: `|C| (s_max - s_min) I^xx / |L|^2` must be
-    /// below 0.2, and the mean energy must determine `G`.
+    /// below 0.2, and the mean energy must determine `G`. With derivatives (duals), also where `L` rests or is on a separatrix: there the
+    /// elliptic functions have none.
     pub fn new(
-        spheroid: &RigidSpheroid<f64>,
-        s: &PrincipalCoefficients<f64>,
-        initial: &BodyState<f64>,
+        spheroid: &RigidSpheroid<S>,
+        s: &PrincipalCoefficients<S>,
+        initial: &BodyState<S>,
+        order: MeanOrder,
+    ) -> Result<Self, Error> {
+        Self::with_free_rotation_of(initial, spheroid, s, initial, order)
+    }
+
+    /// As [`new`](Self::new), for an initial state that was `given` in another frame. There `|L|` and `L.n` have all their digits, of which a
+    /// rotation loses the last one, and 1e10 turns ten more.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn with_free_rotation_of(
+        given: &BodyState<S>,
+        spheroid: &RigidSpheroid<S>,
+        s: &PrincipalCoefficients<S>,
+        initial: &BodyState<S>,
         order: MeanOrder,
     ) -> Result<Self, Error> {
         let vectors = [initial.axis, initial.momentum, initial.equatorial_axis];
@@ -91,70 +102,99 @@ impl MeanMotion<f64> {
         let values = Vector3::new(s.xx, s.yy, s.zz);
         let s = values.map(|value| value - (values.x + values.y + values.z) / 3.0);
         let size = length(&initial.momentum);
-        let spread = s.max() - s.min();
-        Error::unless(size > 0.0, "angular momentum |L|", size, "above zero")?;
+        let reals = s.map(S::re);
+        let spread = reals.max() - reals.min();
+        Error::unless(size.re() > 0.0, "angular momentum |L|", size.re(), "above zero")?;
         let relative_strength = constant_c.abs() * spread * inertia_xx / (size * size);
         Error::unless(
-            relative_strength < LARGEST_STRENGTH,
+            relative_strength.re() < LARGEST_STRENGTH,
             "|C| (s_max - s_min) I^xx / |L|^2",
-            relative_strength,
+            relative_strength.re(),
             "below 0.2: the body must turn fast against the torque",
         )?;
         let strength = constant_c * inertia_xx;
-        let n_s_n = initial.axis.dot(&s.component_mul(&initial.axis));
-        let energy = size * size / (inertia_xx * 2.0) + constant_c * n_s_n;
+        let pull = constant_c * initial.axis.dot(&s.component_mul(&initial.axis));
         let along_axis = initial.momentum.dot(&initial.axis);
-        let axes = transformed(strength, &s, &[initial.axis, initial.momentum, initial.equatorial_axis], -1.0);
-        let l = axes[1] / length(&axes[1]);
-        let (h, m) = (l.dot(&s.component_mul(&l)), s.component_mul(&l).norm_squared());
-        let potential = MeanPotential { order, constant_c, inertia: inertia_xx, square: s.norm_squared() };
-        // The mean energy is that of the motion, and tells G one order better than the transformation does. To first order that would
-        // only bring in what the mean energy lacks.
-        let mut momentum = length(&axes[1]);
+        let start = [initial.axis, initial.momentum, initial.equatorial_axis];
+        let change = transformation(strength, &s, &start, -1.0);
+        let [n, momentum, equatorial] = [0, 1, 2].map(|i| start[i] + change[i]);
+        let l = momentum / length(&momentum);
+        let (h, m) = (l.dot(&s.component_mul(&l)), s.component_mul(&l).dot(&s.component_mul(&l)));
+        let potential = MeanPotential { order, constant_c, inertia: inertia_xx, square: s.dot(&s) };
+        // G - |L|: small, and known to its own digits. The mean energy is that of the motion, and tells G one order better than the
+        // transformation does. To first order that would only bring in what the mean energy lacks.
+        let mut excess = change[1].dot(&(initial.momentum * S::from_f64(2.0) + change[1])) / (length(&momentum) + size);
         let corrections = if order == MeanOrder::First { 0 } else { MOST_CORRECTIONS };
-        let mut change = 0.0_f64;
+        let mut last = S::zero();
         for _ in 0..corrections {
-            let c = along_axis / momentum;
-            let slopes = potential.at(momentum, c, h, m);
-            let off = momentum * momentum / (inertia_xx * 2.0) + slopes.value - energy;
-            let by_size = momentum / inertia_xx + slopes.by_size - slopes.by_c * c / momentum;
-            change = off / by_size;
-            momentum -= change;
+            let g = size + excess;
+            let c = along_axis / g;
+            let slopes = potential.at(g, c, h, m);
+            let off = excess * (size + g) / (inertia_xx * 2.0) + slopes.value - pull;
+            last = off / (g / inertia_xx + slopes.about_momentum(g, c));
+            excess -= last;
         }
+        let g = size + excess;
         Error::unless(
-            momentum > 0.0 && change.abs() <= 1e-12 * momentum,
+            g.re() > 0.0 && last.re().abs() <= 1e-12 * g.re(),
             "last correction of the mean |L|, relative",
-            change / momentum,
+            last.re() / g.re(),
             "below 1e-12: the mean energy must determine it",
         )?;
-        let c = along_axis / momentum;
-        let here = potential.at(momentum, c, h, m);
-        let tensor = s.map(|value| (here.by_h * value + here.by_m * value * value) * 2.0 / momentum);
+        let c = along_axis / g;
+        let here = potential.at(g, c, h, m);
+        let tensor = here.tensor(&s, g);
         let top = Top::new(tensor.into(), &l);
+        if S::HAS_DERIVATIVES {
+            require_round(&top)?;
+        }
         let squares = top.mean_squares();
         let (mean_h, mean_m) = (s.dot(&squares), s.component_mul(&s).dot(&squares));
-        let mean = potential.at(momentum, c, mean_h, mean_m);
+        let mean = potential.at(g, c, mean_h, mean_m);
         let energy_of_top = tensor.dot(&l.component_mul(&l));
         let TopPhases { slow, about } = top.rates();
-        let rates = MeanRates {
+        let added = Added {
             slow,
-            about_momentum: about + momentum / inertia_xx + mean.by_size - mean.by_c * c / momentum - energy_of_top,
-            about_axis: mean.by_c / momentum - spheroid.oblateness() * along_axis / inertia_zz,
+            about_momentum: excess / inertia_xx + about + mean.about_momentum(g, c) - energy_of_top,
+            about_axis: mean.about_axis(g),
         };
+        let free = [size / inertia_xx, -(spheroid.oblateness() * along_axis / inertia_zz)];
+        let rates =
+            MeanRates { slow, about_momentum: free[0] + added.about_momentum, about_axis: free[1] + added.about_axis };
+        // dh and dm are those of the integral of the top, times v_m and -v_h and the product: their own sums cancel where v_m is small.
+        let product = top.product_of_differences(&s) * 2.0 / g;
+        let (by_h, by_m) = (here.by_m * product, -(here.by_h * product));
         let periodic = [
-            [-(mean.by_c_h * c / momentum), mean.by_size_m - mean.by_c_m * c / momentum],
-            [mean.by_c_h / momentum, mean.by_c_m / momentum],
+            -(mean.by_c_h * c / g) * by_h + (mean.by_size_m - mean.by_c_m * c / g) * by_m,
+            (mean.by_c_h * by_h + mean.by_c_m * by_m) / g,
         ];
-        let start = top.at(top.start());
-        let to_shape = start.frame.transpose();
-        let [n, _, equatorial] = axes;
+        let shape = top.at(top.start());
+        let to_shape = shape.frame.transpose();
         let [n, equatorial_axis] = [n, equatorial].map(|v| to_shape * v);
-        let axis = n / length(&n);
-        Ok(Self { strength, s, momentum, top, axis, equatorial_axis, start, rates, periodic, order, relative_strength })
+        let starts = MeanPhases { slow: top.start(), about_momentum: S::zero(), about_axis: S::zero() };
+        Ok(Self {
+            strength,
+            s,
+            momentum: g,
+            axis: n / length(&n),
+            equatorial_axis,
+            start: shape,
+            starts,
+            turning: turning(spheroid, given, &added),
+            rates,
+            periodic,
+            order,
+            tensor,
+            relative_strength,
+            top,
+        })
     }
-}
 
-impl<S: Real> MeanMotion<S> {
+    /// The same motion with the time counted from `t` (see [`turns`](Self::turns)): for many states near an epoch after many turns.
+    pub fn near(&self, t: [f64; 2]) -> Self {
+        Self { starts: self.phases_at(t), ..*self }
+    }
+
     /// Mean rates.
     pub fn rates(&self) -> &MeanRates<S> {
         &self.rates
@@ -166,13 +206,82 @@ impl<S: Real> MeanMotion<S> {
         self.relative_strength
     }
 
-    /// Phases at the time `t`.
-    pub fn phases(&self, t: S) -> MeanPhases<S> {
-        MeanPhases {
-            slow: self.top.start() + self.rates.slow * t,
-            about_momentum: self.rates.about_momentum * t,
-            about_axis: self.rates.about_axis * t,
+    /// Refuses a motion that has no derivatives by some of its parameters.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] where `L` rests or is on a separatrix, and for two equal eigenvalues of `s`, whose axes a derivative may turn.
+    pub fn require_derivatives(&self) -> Result<(), Error> {
+        let [x, y, z] = self.s.map(S::re).into();
+        let gap = (x - y).abs().min((y - z).abs()).min((z - x).abs());
+        let size = x.abs().max(y.abs()).max(z.abs());
+        Error::unless(
+            gap > 1e-12 * size,
+            "least difference of two eigenvalues of s^IJ",
+            gap,
+            "above 1e-12 of the largest, if derivatives are wanted",
+        )?;
+        require_round(&self.top)
+    }
+
+    /// How many orders are taken along.
+    pub fn order(&self) -> MeanOrder {
+        self.order
+    }
+
+    /// `G / I^xx`, at which the axis turns.
+    pub(super) fn turning_rate(&self) -> f64 {
+        self.turning[1].high.abs() * TAU
+    }
+
+    pub(super) fn tensor(&self) -> &Vector3<S> {
+        &self.tensor
+    }
+
+    pub(super) fn top(&self) -> &Top<S> {
+        &self.top
+    }
+
+    /// `l` at the start.
+    pub(super) fn direction(&self) -> Vector3<S> {
+        self.start.frame.column(2).into()
+    }
+
+    /// Phases at the time `t[0] + t[1]`, a sum of two doubles: to some 1e-16 turn, and to 1e-16 of what Lorentz violation adds to them,
+    /// after any number of turns.
+    pub fn turns(&self, t: [f64; 2]) -> MeanTurns {
+        let time = DoubleDouble::sum(t[0], t[1]);
+        let starts = [self.starts.slow, self.starts.about_momentum, self.starts.about_axis];
+        let at = |i: usize| Turns::at(starts[i].re() / TAU, self.turning[i], time);
+        MeanTurns { slow: at(0), about_momentum: at(1), about_axis: at(2) }
+    }
+
+    /// Phases at the time `t[0] + t[1]`, modulo a turn.
+    pub fn phases_at(&self, t: [f64; 2]) -> MeanPhases<S> {
+        let MeanTurns { slow, about_momentum, about_axis } = self.turns(t);
+        let slow = if self.top.is_periodic() { slow.angle() } else { slow.angle() + slow.whole as f64 * TAU };
+        let angles = [slow, about_momentum.angle(), about_axis.angle()];
+        let [slow, about_momentum, about_axis] = angles.map(S::from_f64);
+        let real = MeanPhases { slow, about_momentum, about_axis };
+        if !S::HAS_DERIVATIVES {
+            return real;
         }
+        let t = S::from_f64(t[0]) + S::from_f64(t[1]);
+        let with = |angle: S, start: S, rate: S| {
+            let whole = start + rate * t;
+            angle + (whole - S::from_f64(whole.re()))
+        };
+        let (starts, rates) = (&self.starts, &self.rates);
+        MeanPhases {
+            slow: with(real.slow, starts.slow, rates.slow),
+            about_momentum: with(real.about_momentum, starts.about_momentum, rates.about_momentum),
+            about_axis: with(real.about_axis, starts.about_axis, rates.about_axis),
+        }
+    }
+
+    /// Phases at the time `t`, modulo a turn.
+    pub fn phases(&self, t: S) -> MeanPhases<S> {
+        let phases = self.phases_at([t.re(), 0.0]);
+        if S::HAS_DERIVATIVES { phases.later(&self.rates, t - S::from_f64(t.re())) } else { phases }
     }
 
     /// The mean state at given phases, in the principal frame of `s`.
@@ -180,10 +289,8 @@ impl<S: Real> MeanMotion<S> {
         let shape = self.top.at(phases.slow);
         let MeanPhases { mut about_momentum, mut about_axis, .. } = *phases;
         if self.order == MeanOrder::Second {
-            let change = shape.squares - self.start.squares;
-            let of_square = self.s.component_mul(&self.s);
-            let integrals = [self.s.dot(&change), of_square.dot(&change)];
-            let [about_l, about_n] = self.periodic.map(|[by_h, by_m]| by_h * integrals[0] + by_m * integrals[1]);
+            let change = shape.integral - self.start.integral;
+            let [about_l, about_n] = self.periodic.map(|rate| rate * change);
             (about_momentum, about_axis) = (about_momentum + about_l, about_axis + about_n);
         }
         // The turn of the frame since the start: the quotient of two complex numbers, times that of the angle.
@@ -200,7 +307,9 @@ impl<S: Real> MeanMotion<S> {
 
     /// The state of the body at given phases, in the principal frame of `s`.
     pub fn state_at(&self, phases: &MeanPhases<S>) -> BodyState<S> {
-        let [axis, momentum, equatorial_axis] = transformed(self.strength, &self.s, &self.mean_axes(phases), 1.0);
+        let mean = self.mean_axes(phases);
+        let change = transformation(self.strength, &self.s, &mean, 1.0);
+        let [axis, momentum, equatorial_axis] = [0, 1, 2].map(|i| mean[i] + change[i]);
         BodyState { axis, momentum, equatorial_axis }
     }
 

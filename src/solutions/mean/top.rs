@@ -19,7 +19,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::elliptic::carlson::rf;
+use crate::elliptic::carlson::{rf, rf_of_roots};
 use crate::elliptic::theta::{Nome, ThetaSeries};
 use crate::scalar::{Real, length};
 
@@ -37,6 +37,10 @@ pub struct Top<S> {
     amplitudes: [S; 3],
     /// `A_2 / A_1`.
     elongation: S,
+    /// `a` and `b`.
+    differences: [S; 2],
+    /// `A_1^2 / b`.
+    share: S,
     /// Mean rate of the frame about `l` and of the phase, and the phase at the start.
     rates: TopPhases<S>,
     start: S,
@@ -69,8 +73,8 @@ pub struct TopShape<S> {
     pub frame: Matrix3<S>,
     /// Cosine and sine of the periodic part of the angle about `l`, times a positive number.
     pub turned: [S; 2],
-    /// Periodic part of the integral of the squares of the components of `l` over time.
-    pub squares: Vector3<S>,
+    /// Periodic part of the integral of `(A_1^2 / b) sn^2 u` over time: see [`Top::squares`].
+    pub integral: S,
 }
 
 /// `AGM(1, k')` and the mean of `sn^2`, from `k^2` and `k'`.
@@ -95,61 +99,84 @@ fn mean_and_sn2<S: Real>(parameter: S, complement: S) -> (S, S) {
     ((a + b) * 0.5, sum)
 }
 
-impl Top<f64> {
+/// The theta functions of a motion, shifted by `r = exp(-pi v / K)`, `v = F(arctan sqrt(b/a), k')`; for small `a` and with
+/// `elongated = A_1^2 / A_3^2` that is `a (1 + sqrt(1 + elongated))^2 / (16 b)`.
+fn series<S: Real>(nome: &Nome<S>, mean: S, a: S, b: S, elongated: S) -> ThetaSeries<S> {
+    let one = S::one();
+    if a.re() == 0.0 {
+        let root = one + (one + elongated).sqrt();
+        let square = root * root;
+        return ThetaSeries::new(nome.q, a / b * square / 16.0, elongated / square);
+    }
+    let whole = a + b;
+    let v = (b / whole).sqrt() * rf(a / whole, (a + a * elongated) / whole, one);
+    let r = (v * mean * -2.0).exp();
+    ThetaSeries::new(nome.q, r, nome.q / r)
+}
+
+impl<S: Real> Top<S> {
     /// The motion from the unit vector `l`, for the principal values `k` of the tensor.
     ///
     /// Near the separatrix the functions lose digits: 6e-13 at `k'^2 = 1e-16`, 1e-9 at 1e-31, below which it is taken for the separatrix.
-    pub fn new(k: [f64; 3], l: &Vector3<f64>) -> Self {
+    ///
+    /// First derivatives exist where `l` goes round an axis at a distance ([`goes_round`](Self::goes_round)), two equal principal values
+    /// included; on an axis, at rest and on the separatrix there are none.
+    pub fn new(k: [S; 3], l: &Vector3<S>) -> Self {
+        let (zero, one) = (S::zero(), S::one());
         let mut order = [0, 1, 2];
-        order.sort_by(|&i, &j| k[j].total_cmp(&k[i]));
+        order.sort_by(|&i, &j| k[j].re().total_cmp(&k[i].re()));
         let [x, _, z] = order.map(|i| l[i]);
         let (upper, lower) = (k[order[0]] - k[order[1]], k[order[1]] - k[order[2]]);
         // k_2 - l.(k l): positive round the axis of the smallest value.
         let margin = lower * z * z - upper * x * x;
-        let round_third = margin > 0.0;
+        let round_third = margin.re() > 0.0;
         let (places, a, b) =
             if round_third { (order, upper, lower) } else { ([order[2], order[1], order[0]], -lower, -upper) };
         let odd = [[0, 2, 1], [2, 1, 0], [1, 0, 2]].contains(&places);
         let handed = if odd { -1.0 } else { 1.0 };
         let m = [l[places[0]], l[places[1]] * handed, l[places[2]]];
-        let side = if m[2] < 0.0 { -1.0 } else { 1.0 };
+        let side = if m[2].re() < 0.0 { -1.0 } else { 1.0 };
         let energy = k[0] * l.x * l.x + k[1] * l.y * l.y + k[2] * l.z * l.z;
         let still = Self {
             course: Course::Still { direction: *l },
             places,
             signs: [handed, side, 1.0],
             amplitudes: m,
-            elongation: 1.0,
-            rates: TopPhases { slow: 0.0, about: energy },
-            start: 0.0,
+            elongation: one,
+            differences: [a, b],
+            share: zero,
+            rates: TopPhases { slow: zero, about: energy },
+            start: zero,
         };
         let whole = a + b;
-        let on_middle = m[0] * m[0] == 0.0 && m[2] * m[2] == 0.0;
-        if whole == 0.0 || on_middle || (margin == 0.0 && b == 0.0) {
+        let on_middle = m[0].re() * m[0].re() == 0.0 && m[2].re() * m[2].re() == 0.0;
+        if whole.re() == 0.0 || on_middle || (margin.re() == 0.0 && b.re() == 0.0) {
             return still;
         }
         let [first_squared, third_squared] =
             [m[0] * m[0] + m[1] * m[1] * (b / whole), m[2] * m[2] + m[1] * m[1] * (a / whole)];
         let elongation = (whole / b).sqrt();
-        if third_squared <= 0.0 {
+        if third_squared.re() <= 0.0 {
             return still;
         }
-        let first = if first_squared > 0.0 { first_squared.sqrt() } else { 0.0 };
+        let first = if first_squared.re() > 0.0 { first_squared.sqrt() } else { zero };
         let third = third_squared.sqrt();
         let amplitudes = [first, first * elongation, third];
-        let sense = if b < 0.0 { -1.0 } else { 1.0 };
+        let sense = if b.re() < 0.0 { -1.0 } else { 1.0 };
         let lambda = (b * whole).sqrt() * third * sense;
         let complement_squared = margin.abs() / (b.abs() * third_squared);
-        let parameter = a * first_squared / (b * third_squared);
+        let elongated = first_squared / third_squared;
+        let parameter = a / b * elongated;
         // Where the amplitude vanishes, any phase will do.
-        let (cn, sn) = if first > 0.0 { (m[0] / first, m[1] / amplitudes[1] * -side) } else { (1.0, 0.0) };
+        let (cn, sn) = if first.re() > 0.0 { (m[0] / first, m[1] / amplitudes[1] * -side) } else { (one, zero) };
         let dn = m[2].abs() / third;
-        let moving = Self { amplitudes, elongation, ..still };
-        if complement_squared <= SEPARATRIX {
+        let share = if first.re() > 0.0 { first_squared / b } else { zero };
+        let moving = Self { amplitudes, elongation, share, ..still };
+        if complement_squared.re() <= SEPARATRIX {
             let root_ratio = (a / b).sqrt();
             // sn = tanh u, dn = 1 / cosh u; cn as well, which does not change its sign: m_1 and m_2 have another one behind.
-            let front = if m[0] < 0.0 { -1.0 } else { 1.0 };
-            let u = ((1.0 + sn.abs()) / dn).ln() * if sn < 0.0 { -front } else { front };
+            let front = if m[0].re() < 0.0 { -1.0 } else { 1.0 };
+            let u = ((one + sn.abs()) / dn).ln() * if sn.re() < 0.0 { -front } else { front };
             return Self {
                 course: Course::Separatrix { root_ratio },
                 rates: TopPhases { slow: lambda, about: k[places[1]] },
@@ -161,17 +188,11 @@ impl Top<f64> {
         let complement = complement_squared.sqrt();
         let (mean, mean_sn2) = mean_and_sn2(parameter, complement);
         let nome = Nome::new(parameter, complement_squared);
-        // r = exp(-pi v / K), v = F(arctan sqrt(b/a), k').
-        let r = if a == 0.0 {
-            0.0
-        } else {
-            let v = (b / whole).sqrt() * rf(a / whole, (a + b * parameter) / whole, 1.0);
-            (v * mean * -2.0).exp()
-        };
-        let theta = ThetaSeries::new(nome.q, r);
-        let quarter = FRAC_PI_2 / mean;
-        let first_half = sn * rf(cn * cn, dn * dn, 1.0);
-        let u = if cn < 0.0 { quarter * 2.0 - first_half } else { first_half };
+        let theta = series(&nome, mean, a, b, elongated);
+        let quarter = S::from_f64(FRAC_PI_2) / mean;
+        // F(u) by its sine, with the root of cn^2 known.
+        let first_half = sn * rf_of_roots(cn.abs(), dn + one, dn);
+        let u = if cn.re() < 0.0 { quarter * 2.0 - first_half } else { first_half };
         let slow = lambda * mean;
         Self {
             course: Course::Round { theta, nome, parameter, mean, mean_sn2 },
@@ -180,9 +201,48 @@ impl Top<f64> {
             ..moving
         }
     }
-}
 
-impl<S: Real> Top<S> {
+    /// Whether `l` goes round an axis, at a distance from it and from the separatrix.
+    pub fn goes_round(&self) -> bool {
+        matches!(self.course, Course::Round { .. }) && self.amplitudes[0].re() > 0.0
+    }
+
+    /// `k'`, zero on the separatrix and one where the phase grows evenly.
+    pub fn complement(&self) -> f64 {
+        match &self.course {
+            Course::Still { .. } => 1.0,
+            Course::Round { parameter, .. } => (1.0 - parameter.re()).max(0.0).sqrt(),
+            Course::Separatrix { .. } => 0.0,
+        }
+    }
+
+    /// Whether both go round the same axis on the same side, or rest.
+    pub(super) fn is_beside(&self, other: &Self) -> bool {
+        let same_side = self.places[2] == other.places[2] && self.signs[1] == other.signs[1];
+        match (&self.course, &other.course) {
+            (Course::Round { .. }, Course::Round { .. }) => same_side,
+            (Course::Still { .. }, Course::Still { .. }) => true,
+            _ => false,
+        }
+    }
+
+    /// Largest speed of `l`: where it crosses the plane of `m_2` and `m_3`, or of `m_1` and `m_3`.
+    pub(super) fn largest_speed(&self) -> f64 {
+        let rates = self.rates.slow.re().abs();
+        let [first, second, _] = self.amplitudes.map(S::re);
+        match &self.course {
+            Course::Still { .. } => 0.0,
+            // |dm/du| is at most A_2 for sn, A_1 for cn and k^2 A_3 / 2 for dn, which is less.
+            Course::Round { mean, .. } => rates / mean.re() * (first * first + second * second).sqrt(),
+            Course::Separatrix { .. } => rates * (first * first + second * second).sqrt(),
+        }
+    }
+
+    /// Whether the phase repeats itself after a turn, as it does but on a separatrix.
+    pub fn is_periodic(&self) -> bool {
+        !matches!(self.course, Course::Separatrix { .. })
+    }
+
     /// Mean rates of the phases (rad per unit of time).
     pub fn rates(&self) -> TopPhases<S> {
         self.rates
@@ -204,6 +264,22 @@ impl<S: Real> Top<S> {
         }
     }
 
+    /// Periodic part of the integral of the squares of the components of `l` over time, from that of a [shape](TopShape::integral).
+    pub fn squares(&self, integral: S) -> Vector3<S> {
+        let [a, b] = self.differences;
+        let mut squares = Vector3::zeros();
+        for (place, factor) in self.places.into_iter().zip([-b, a + b, -a]) {
+            squares[place] = integral * factor;
+        }
+        squares
+    }
+
+    /// The product of the differences of values along the principal axes, in the order of `m`: `(v_1 - v_2) (v_2 - v_3) (v_1 - v_3)`.
+    pub(super) fn product_of_differences(&self, values: &Vector3<S>) -> S {
+        let [first, second, third] = self.places.map(|place| values[place]);
+        (first - second) * (second - third) * (first - third)
+    }
+
     /// Multiples of the squares of the amplitudes, in the given order of axes.
     fn in_places(&self, factors: [S; 3]) -> Vector3<S> {
         let mut squares = Vector3::zeros();
@@ -220,8 +296,12 @@ impl<S: Real> Top<S> {
             Course::Round { theta, nome, parameter, mean, .. } => {
                 let (sin, cos) = phase.sin_cos();
                 let at = theta.at(sin, cos);
-                let zeta_over_m =
-                    if parameter.re() > 0.0 { at.slope / *parameter } else { nome.q_over_m * sin * cos * 8.0 };
+                let zeta_over_m = if parameter.re() > 0.0 {
+                    at.slope / *parameter
+                } else {
+                    // 4 (q sin 2z + q^2 sin 4z) / m, which has the first derivative by m.
+                    nome.q_over_m * sin * cos * (S::one() + nome.q * (cos * cos - sin * sin) * 2.0) * 8.0
+                };
                 // The angle is minus that of the shifted function.
                 (at.sn, at.cn, at.dn, [at.shifted[0], -at.shifted[1]], -(zeta_over_m * *mean * *mean / self.rates.slow))
             }
@@ -245,13 +325,7 @@ impl<S: Real> Top<S> {
                 frame[(self.places[i], j)] = if i == 1 { component * handed } else { component };
             }
         }
-        let squares = match &self.course {
-            Course::Round { parameter, .. } => {
-                self.in_places([-sn2_integral, sn2_integral, -*parameter * sn2_integral])
-            }
-            _ => self.in_places([-sn2_integral, sn2_integral, -sn2_integral]),
-        };
-        TopShape { frame, turned, squares }
+        TopShape { frame, turned, integral: sn2_integral * self.share }
     }
 }
 
@@ -263,5 +337,5 @@ fn still_shape<S: Real>(l: &Vector3<S>) -> TopShape<S> {
     let parallel = pole.cross(l);
     let parallel = parallel / length(&parallel);
     let frame = Matrix3::from_columns(&[parallel.cross(l), parallel, *l]);
-    TopShape { frame, turned: [S::one(), S::zero()], squares: Vector3::zeros() }
+    TopShape { frame, turned: [S::one(), S::zero()], integral: S::zero() }
 }

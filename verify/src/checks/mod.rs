@@ -9,8 +9,8 @@ mod eta;
 mod first_integrals;
 mod fisher;
 mod forced_precession;
+mod mean;
 mod mean_frequencies;
-mod mean_motion;
 mod observer;
 mod orientation;
 mod perturbation_equations;
@@ -63,7 +63,7 @@ pub fn all() -> Vec<Check> {
         pulsar_table::checks,
         fisher::checks,
         waves::checks,
-        mean_motion::checks,
+        mean::checks,
         mean_frequencies::checks,
         spectrum::checks,
     ];

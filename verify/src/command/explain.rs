@@ -23,6 +23,9 @@ pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
             Some(method) => format!("{} ({})", method.name(), method.description()),
         },
     );
+    if let Some(why) = why(plan) {
+        row("why", why);
+    }
     let (from, to) = (in_output(plan.stretch.0), in_output(plan.stretch.1));
     let closed = plan.method.is_none_or(|method| method.is_closed_form());
     row(
@@ -85,6 +88,26 @@ pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
         }
     }
     text
+}
+
+/// Why the method was taken, against the next best that meets the accuracy.
+fn why(plan: &Plan) -> Option<String> {
+    let (method, prediction) = (plan.method?, plan.prediction?);
+    if plan.forced {
+        return None;
+    }
+    let usable = plan.considered.iter().filter(|candidate| candidate.method != method).filter_map(|candidate| {
+        let other = candidate.prediction.as_ref().ok()?;
+        (other.truncation <= plan.accuracy).then_some((candidate.method, other.cost))
+    });
+    let next = usable.min_by(|a, b| a.1.total_cmp(&b.1));
+    let found = format!("the cheapest of those whose error is below {:.0e}", plan.accuracy);
+    Some(match next {
+        Some((other, cost)) => {
+            format!("{found}; next is {}, {:.1} times the cost", other.name(), cost / prediction.cost)
+        }
+        None => format!("{found}, and the only one"),
+    })
 }
 
 fn duration(ns: f64) -> String {

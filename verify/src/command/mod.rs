@@ -14,6 +14,7 @@ mod run;
 mod scenes;
 mod spectrum;
 mod sweep;
+mod timing;
 mod verify;
 
 use std::io::{self, Write};
@@ -21,6 +22,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
+use twofold::epoch::Epoch;
 
 use crate::sweep::Shard;
 use crate::{claims, equation_table};
@@ -50,6 +52,8 @@ Examples:
                                     the spectral lines of the pulsar signal, identified
   twofold sweep grid.toml --out grid.csv
                                     a table with a row for each of many scenes; goes on where it was interrupted
+  twofold timing b1937+21 --out timing
+                                    arrival times over decades, as .csv, .par and .tim, and the strain
   twofold figures --out figures     the paper's figures and ours
   twofold report                    everything as one page, report/index.html
 
@@ -79,6 +83,12 @@ enum Command {
     /// A pulse is a stretch of time in which the line of sight is inside the beam, m.n > cos(rho). The scene must have the
     /// sections [observer] and [pulsar]; the samples of its [time] do not matter, its span does.
     Pulses(PulsesArgs),
+    /// Compute arrival times of a pulsar over decades, and what they are late by against a constant frequency
+    ///
+    /// Writes SCENE.csv, SCENE.par and SCENE.tim (FORMAT 1, barycentre), and the strain at the beginning as SCENE.h_plus.txt and
+    /// SCENE.h_cross.txt. Pulses are those nearest to the epochs asked for; without options, to the times of the scene. The motion is
+    /// the mean motion of second order (docs/mean-motion.md), the files are described in docs/pulsars.md.
+    Timing(TimingArgs),
     /// Find the spectral lines of what a scene gives, name them by the fundamental frequencies of the motion, write them as CSV
     ///
     /// The step of the series follows from the rotation rate, not from the scene's samples. Notes on standard error tell the
@@ -154,6 +164,42 @@ struct PulsesArgs {
     plan: PlanArgs,
     #[command(flatten)]
     output: OutputArgs,
+}
+
+#[derive(Args)]
+struct TimingArgs {
+    /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML), with `time.epoch`, [observer] and [pulsar]
+    scene: String,
+    /// First epoch (MJD, TDB); if not given, that of the scene
+    #[arg(long, value_name = "MJD", value_parser = timing::date)]
+    from: Option<Epoch>,
+    /// Last epoch; if not given, the end of the scene's span
+    #[arg(long, value_name = "MJD", value_parser = timing::date)]
+    to: Option<Epoch>,
+    /// Days between epochs
+    #[arg(long, value_name = "DAYS", conflicts_with = "epochs", allow_hyphen_values = true)]
+    every: Option<f64>,
+    /// Number of epochs, both ends included
+    #[arg(long, value_name = "NUMBER")]
+    epochs: Option<usize>,
+    /// Fit F1 beside F0: what a spin-down absorbs is no signature
+    #[arg(long)]
+    f1: bool,
+    /// Uncertainty of the arrival times that the .tim states, in microseconds
+    #[arg(long, value_name = "US", default_value = "1", allow_hyphen_values = true)]
+    uncertainty: f64,
+    /// Length of the strain series in seconds, from the first epoch on; 64 turns if not given
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    strain_span: Option<f64>,
+    /// Samples of strain in a second; a power of two if not given
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true)]
+    strain_rate: Option<f64>,
+    /// Folder for the files, made if it is not there
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Replace files that exist
+    #[arg(long)]
+    force: bool,
 }
 
 #[derive(Args)]
@@ -324,6 +370,7 @@ pub fn main() -> ExitCode {
         Command::Report(args) => report::report(&args),
         Command::Bounds(args) => bounds::bounds(&args),
         Command::Pulses(args) => pulses::pulses(&args),
+        Command::Timing(args) => timing::timing(&args),
         Command::Spectrum(args) => spectrum::spectrum(&args),
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Compare(args) => compare::compare(&args),

@@ -1,4 +1,4 @@
-//! Scenes that come with the command: the paper's four examples and six other kinds of motion.
+//! Scenes that come with the command: the paper's four examples, six other kinds of motion, and pulsars.
 
 /// A scene inside the program.
 #[derive(Debug, Clone, Copy)]
@@ -15,7 +15,7 @@ macro_rules! built_in {
     };
 }
 
-/// All built-in scenes.
+/// The scenes of the paper, and others in its units.
 pub const BUILT_IN: &[BuiltIn] = built_in![
     "tp-1",
     "tp-2",
@@ -28,3 +28,20 @@ pub const BUILT_IN: &[BuiltIn] = built_in![
     "free",
     "through-the-pole",
 ];
+
+/// Pulsars, over decades.
+pub const PULSARS: &[BuiltIn] = built_in!["b1937+21", "j1744-1134", "b1828-11", "b1642-03"];
+
+/// The built-in scene of a name.
+pub fn built_in(name: &str) -> Option<&'static BuiltIn> {
+    all().find(|scene| scene.name == name)
+}
+
+/// The names of all of them.
+pub(super) fn names() -> Vec<&'static str> {
+    all().map(|scene| scene.name).collect()
+}
+
+fn all() -> impl Iterator<Item = &'static BuiltIn> {
+    BUILT_IN.iter().chain(PULSARS)
+}

@@ -18,18 +18,19 @@ use nalgebra::Matrix3;
 use twofold::Error;
 use twofold::dynamics::regular_equations::angular_velocity;
 use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::epoch::Epoch;
 use twofold::euler_angles::EulerAngles;
 use twofold::plan::{Method, Output, Plan, Request};
 use twofold::solutions::perturbation::Perturbation;
 
 use crate::columns::{self, ColumnGroup};
 
-pub use built_in::{BUILT_IN, BuiltIn};
+pub use built_in::{BUILT_IN, BuiltIn, PULSARS, built_in};
 use document::BuiltInNames;
 pub(crate) use document::FileKind;
 pub(crate) use error::Fault;
 pub use error::SceneError;
-pub use observer::{Pulsar, Viewer};
+pub use observer::{Catalogued, Pulsar, Viewer};
 pub(crate) use section::{Entry, Replaced, Section, listed, nearest};
 pub use star::Units;
 pub use time::Times;
@@ -56,10 +57,16 @@ pub struct Scene {
     pub initial_angles: EulerAngles<f64>,
     /// Times of the output, in units of the output.
     pub times: Times,
+    /// Modified Julian date (TDB at the barycentre) of the time `times.start()`, where the file says so.
+    pub epoch: Option<Epoch>,
+    /// Where the numbers of the file come from.
+    pub sources: Vec<String>,
     /// Who looks on, where the file says so.
     pub observer: Option<Viewer>,
     /// What shines, where the file says so.
     pub pulsar: Option<Pulsar>,
+    /// What the pulsar is called and where it is, where the file says so.
+    pub catalogued: Option<Catalogued>,
     /// The perturbation solution of the scene's constants as printed, with time from the start in t_c, or why there is none.
     pub perturbation: Result<Perturbation<f64>, &'static str>,
     /// Columns of the output, in its order.
@@ -95,7 +102,7 @@ impl Scene {
         let read = |file: &str, text: &str| {
             SCENE.parse(file, text, |document| Self::from_document(document, use_columns, None))
         };
-        match BUILT_IN.iter().find(|scene| scene.name == name_or_path) {
+        match built_in(name_or_path) {
             Some(built_in) => read(built_in.name, built_in.toml),
             None => read(name_or_path, &SCENE.read(name_or_path)?),
         }
@@ -116,8 +123,19 @@ impl Scene {
         use_columns: bool,
         times: Option<&Times>,
     ) -> Result<Self, Fault> {
-        document.only(&["about", "star", "lorentz_violation", "initial", "observer", "pulsar", "time", "output"])?;
+        document.only(&[
+            "about",
+            "sources",
+            "star",
+            "lorentz_violation",
+            "initial",
+            "observer",
+            "pulsar",
+            "time",
+            "output",
+        ])?;
         let about = document.optional("about").map(|entry| entry.string()).transpose()?.unwrap_or("").to_owned();
+        let sources = document.optional("sources").map(|entry| sources(&entry)).transpose()?.unwrap_or_default();
         let star_section = document.required_section("star", "the spheroid and its spin")?;
         let star = star::read(&star_section)?;
         let violation = violation::read(&document.required_section("lorentz_violation", "the coefficients s^IJ")?)?;
@@ -125,13 +143,16 @@ impl Scene {
         let initial = initial::read(&initial_section, &star, &violation)?;
         let observer = document.section("observer")?;
         let observer = observer.map(|section| observer::read_observer(&section, &star.units)).transpose()?;
-        let pulsar = document.section("pulsar")?.map(|section| observer::read_pulsar(&section)).transpose()?;
-        let (time_section, times) = match times {
-            Some(times) => (None, times.clone()),
+        let pulsar_section = document.section("pulsar")?;
+        let pulsar = pulsar_section.as_ref().map(observer::read_pulsar).transpose()?;
+        let catalogued = pulsar_section.as_ref().map(observer::read_catalogued).transpose()?.flatten();
+        let (time_section, times, epoch) = match times {
+            Some(times) => (None, times.clone(), None),
             None => {
                 let section = document.required_section("time", "the times of the output")?;
-                let times = time::read(&section)?;
-                (Some(section), times)
+                let times = time::read_with_years(&section, &star.units)?;
+                let epoch = time::read_epoch(&section, &star.units)?;
+                (Some(section), times, epoch)
             }
         };
         let output = document.section("output")?;
@@ -142,8 +163,11 @@ impl Scene {
             initial: initial.state,
             initial_angles: initial.angles,
             times,
+            epoch,
+            sources,
             observer,
             pulsar,
+            catalogued,
             perturbation: initial.perturbation,
             columns: columns::of_the_motion(),
             accuracy: output::DEFAULT_ACCURACY,
@@ -153,24 +177,43 @@ impl Scene {
         if let Some(output) = &output {
             output::read(output, &mut scene, use_columns)?;
         }
-        let rotation = scene.rotation();
-        if rotation <= LARGEST_ROTATION {
-            return Ok(scene);
+        if use_columns {
+            let outputs: Vec<_> = scene.columns.iter().map(|group| group.output).collect();
+            let section = time_section.as_ref().unwrap_or(document);
+            scene.check_rotation(&outputs).map_err(|why| section.fault(why))?;
         }
-        Err(time_section.as_ref().unwrap_or(document).fault(format!(
+        Ok(scene)
+    }
+
+    /// Refuses a span of too many turns for what goes through all of them.
+    pub(crate) fn check_rotation(&self, outputs: &[Output]) -> Result<(), String> {
+        let rotation = self.rotation();
+        if rotation <= LARGEST_ROTATION || self.plan(outputs).is_ok() {
+            return Ok(());
+        }
+        Err(format!(
             "[time] asks for a rotation by {rotation:.1e} rad: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \
-             minutes; shorten the span or lower the rates"
-        )))
+             minutes, for pulses, angles that count their turns and motions without a closed form; shorten the span, lower the rates \
+             or choose other columns"
+        ))
     }
 
     /// The plan for some outputs over the span and at the samples of the scene. Times are those since the start, in t_c.
     ///
     /// # Errors
-    /// A method that the scene does not allow.
+    /// A method that the scene does not allow, and a span too long for what goes through every turn.
     pub fn plan(&self, outputs: &[Output]) -> Result<Plan, Error> {
         let span = (0.0, (self.times.last() - self.times.start()) / self.units.time);
         let request = Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.accuracy) };
-        Plan::new(&self.spheroid, &self.violation, &self.initial, &request)
+        let plan = Plan::new(&self.spheroid, &self.violation, &self.initial, &request)?;
+        let rotation = self.rotation();
+        Error::unless(
+            rotation <= LARGEST_ROTATION || plan.costs_the_same_at_any_time(),
+            "rotation over the span (rad)",
+            rotation,
+            "at most 1e8 for pulses, angles that count their turns and motions without a closed form",
+        )?;
+        Ok(plan)
     }
 
     /// The plan for the columns of the scene.
@@ -196,11 +239,11 @@ impl Scene {
     }
 }
 
+fn sources(entry: &Entry<'_>) -> Result<Vec<String>, Fault> {
+    let list = entry.list("a list of strings")?;
+    list.iter().map(|source| source.string().map(str::to_owned)).collect()
+}
+
 /// A scene, in the words of the messages.
-pub(crate) const SCENE: FileKind = FileKind {
-    name: "a scene",
-    built_in: Some(BuiltInNames {
-        names: || BUILT_IN.iter().map(|scene| scene.name).collect(),
-        listed_by: "twofold scenes",
-    }),
-};
+pub(crate) const SCENE: FileKind =
+    FileKind { name: "a scene", built_in: Some(BuiltInNames { names: built_in::names, listed_by: "twofold scenes" }) };

@@ -48,6 +48,15 @@ impl Pulsar {
     }
 }
 
+/// A pulsar in the catalogues.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Catalogued {
+    /// Name.
+    pub name: String,
+    /// Right ascension (J2000), as `19:39:38.56`, and declination, as `+21:34:59.1`.
+    pub position: Option<(String, String)>,
+}
+
 pub(super) fn read_observer(section: &Section<'_>, units: &Units) -> Result<Viewer, Fault> {
     section.only(&["theta_o", "phi_o", "distance"])?;
     let theta_o = section
@@ -67,7 +76,7 @@ pub(super) fn read_observer(section: &Section<'_>, units: &Units) -> Result<View
 }
 
 pub(super) fn read_pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
-    section.only(&["chi", "delta", "rho", "second_beam"])?;
+    section.only(&["chi", "delta", "rho", "second_beam", "name", "right_ascension", "declination"])?;
     Ok(Pulsar {
         chi: section
             .required("chi", "angle of the magnetic axis to the symmetry axis [rad]")?
@@ -78,4 +87,37 @@ pub(super) fn read_pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
             .number_where("an angle above 0 and below pi [rad]", |x| x > 0.0 && x < PI)?,
         second_beam: section.optional("second_beam").map_or(Ok(false), |entry| entry.boolean())?,
     })
+}
+
+pub(super) fn read_catalogued(section: &Section<'_>) -> Result<Option<Catalogued>, Fault> {
+    let Some(name) = section.optional("name") else { return Ok(None) };
+    let is_name = |name: &str| !name.is_empty() && name.chars().all(|c| c.is_ascii_graphic());
+    if !is_name(name.string()?) {
+        return Err(name.refuse("a name without spaces"));
+    }
+    let position = match (section.optional("right_ascension"), section.optional("declination")) {
+        (None, None) => None,
+        (Some(_), None) => return Err(section.missing("`pulsar.declination` beside `pulsar.right_ascension`")),
+        (None, Some(_)) => return Err(section.missing("`pulsar.right_ascension` beside `pulsar.declination`")),
+        (Some(ascension), Some(declination)) => {
+            if !is_sexagesimal(ascension.string()?, 24) {
+                return Err(ascension.refuse("hours, minutes and seconds as \"19:39:38.56\""));
+            }
+            let angle = declination.string()?;
+            if !is_sexagesimal(angle.strip_prefix(['+', '-']).unwrap_or(angle), 90) {
+                return Err(declination.refuse("degrees, minutes and seconds as \"+21:34:59.1\""));
+            }
+            Some((ascension.string()?.to_owned(), angle.to_owned()))
+        }
+    };
+    Ok(Some(Catalogued { name: name.string()?.to_owned(), position }))
+}
+
+/// Whether a text is a whole number up to `most`, minutes and decimal seconds.
+fn is_sexagesimal(text: &str, most: u8) -> bool {
+    let parts: Vec<_> = text.split(':').collect();
+    let [whole, minutes, seconds] = parts[..] else { return false };
+    let plain = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+    let below = |part: &str| plain(part) && part.parse::<f64>().is_ok_and(|x| x < 60.0);
+    whole.parse::<u8>().is_ok_and(|x| x <= most) && minutes.len() == 2 && below(minutes) && below(seconds)
 }

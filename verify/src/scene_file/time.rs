@@ -1,7 +1,11 @@
 //! The section `[time]`.
 
+use twofold::epoch::Epoch;
+use twofold::units::JULIAN_YEAR;
+
 use super::error::Fault;
 use super::section::Section;
+use super::star::Units;
 
 /// Most rows of output.
 pub(crate) const MOST_SAMPLES: usize = 10_000_000;
@@ -66,8 +70,40 @@ impl Times {
     }
 }
 
+/// As [`read`], with an epoch, and a span in years, for a physical star.
+pub(super) fn read_with_years(section: &Section<'_>, units: &Units) -> Result<Times, Fault> {
+    section.only(&["epoch", "start", "years", "span", "end", "samples", "times"])?;
+    let Some(years) = section.optional("years") else { return read_listed_or_even(section) };
+    for other in ["span", "end", "times"] {
+        section.not_both(other, "years")?;
+    }
+    if !units.are_physical() {
+        return Err(years.refuse("a span in years only for a physical star; `time.span` is in t_c"));
+    }
+    let start = section.optional("start").map_or(Ok(0.0), |entry| entry.number())?;
+    let span =
+        years.number_where("a number of Julian years from -1e6 to 1e6, not zero", |x| x != 0.0 && x.abs() <= 1e6)?;
+    let samples = section.required("samples", "number of rows, both ends included")?.whole_number(2, MOST_SAMPLES)?;
+    Ok(Times::Even { start, end: start + span * JULIAN_YEAR, samples })
+}
+
+/// The epoch of the start: a modified Julian date, a number or a string with all its digits.
+pub(super) fn read_epoch(section: &Section<'_>, units: &Units) -> Result<Option<Epoch>, Fault> {
+    let Some(entry) = section.optional("epoch") else { return Ok(None) };
+    if !units.are_physical() {
+        return Err(entry.refuse("an epoch only for a physical star, whose times are in seconds"));
+    }
+    let allowed = "a modified Julian date from 0 to 1e7, as 55321.25 or in quotes with more digits";
+    let text = if entry.is_string() { entry.string()?.to_owned() } else { entry.number()?.to_string() };
+    text.parse().map(Some).map_err(|_| entry.refuse(allowed))
+}
+
 pub(crate) fn read(section: &Section<'_>) -> Result<Times, Fault> {
     section.only(&["start", "span", "end", "samples", "times"])?;
+    read_listed_or_even(section)
+}
+
+fn read_listed_or_even(section: &Section<'_>) -> Result<Times, Fault> {
     for (first, second) in [("span", "end"), ("times", "span"), ("times", "end"), ("times", "samples")] {
         section.not_both(first, second)?;
     }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use rand_distr::Normal;
 use toml::de::{DeTable, DeValue};
+use twofold::plan::Output;
 
 use super::outputs::{ERRORS, Outputs, Summary};
 use super::parameters::{Law, Parameters, Source};
@@ -109,6 +110,12 @@ impl<'t> Sweep<'t> {
         let known: Vec<_> = varied.flat_map(|section| section.numbers()).collect();
         let parameters = parameters(&section, &known).map_err(in_sweep)?;
         let outputs = outputs(&section, &mut scene, times).map_err(in_sweep)?;
+        // Means over the span and pulses go through every turn.
+        let mut needed = outputs.asked().outputs;
+        if outputs.summaries.iter().any(|summary| matches!(summary, Summary::Lambda | Summary::Pulses)) {
+            needed.push(Output::Pulses);
+        }
+        scene.check_rotation(&needed).map_err(|why| in_sweep(section.fault(why)))?;
         let count = parameters.count().filter(|count| *count <= MOST_SCENES);
         let scenes = count.ok_or_else(|| {
             in_sweep(section.fault(format!("the sweep has too many scenes: allowed are {MOST_SCENES:.0e}")))

@@ -8,7 +8,7 @@ use twofold::propagation::{AxisMotion, AxisScene, AxisState, axis_states_of_many
 use super::spin_axis_angle::SpinAxisAngle;
 use crate::columns::Carried;
 use crate::scene_file::Scene;
-use crate::trajectory::{PlannedState, Stretches, since_start};
+use crate::trajectory::{PlannedState, Stretches, since_start, since_start_in_parts};
 
 /// One of the times.
 pub(super) struct Instant {
@@ -94,7 +94,7 @@ fn instants_along<M: PlannedState>(
     mut angle: Option<&mut SpinAxisAngle>,
 ) -> Result<Vec<Instant>, Error> {
     let mut instants = Vec::new();
-    let mut times = scene.times.iter().map(|time| since_start(scene, time)).peekable();
+    let mut times = scene.times.iter().map(|time| since_start_in_parts(scene, time)).peekable();
     let counts_turns = plan.outputs.contains(&Output::EulerAngles);
     let mut stretches = Stretches::<M>::new(scene, plan)?;
     let mut start_angles = scene.initial_angles;
@@ -106,12 +106,13 @@ fn instants_along<M: PlannedState>(
         }
         let mut angles: Box<dyn FnMut(f64) -> Option<EulerAngles<f64>>> =
             if counts_turns { M::angles(motion, from, &start_angles)? } else { Box::new(|_| None) };
-        while let Some(t) = times.next_if(|t| stretch.is_last || t.abs() <= to.abs()) {
-            let t = t.clamp(from.min(to), from.max(to));
+        while let Some(parts) = times.next_if(|t| stretch.is_last || t[0].abs() <= to.abs()) {
+            let t = parts[0].clamp(from.min(to), from.max(to));
+            let parts = if t == parts[0] { parts } else { [t, 0.0] };
             let error = || earlier.at(t, scene.turning_rate()) + motion.error_estimate(t);
             instants.push(Instant {
                 since_start: t,
-                state: M::carried(motion, t)?,
+                state: M::carried(motion, parts)?,
                 angles: angles(t),
                 error_estimate: asked.errors.then(error),
             });

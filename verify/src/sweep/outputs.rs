@@ -128,7 +128,7 @@ impl Outputs {
     }
 
     /// What the columns need of the motion.
-    fn asked(&self) -> Asked {
+    pub(super) fn asked(&self) -> Asked {
         let of_groups = self.groups.iter().map(|group| group.output);
         let of_errors = self.errors.then_some(Output::FirstIntegrals);
         let of_summary = self.summaries.contains(&Summary::Lambda).then_some(Output::SpinAxisAngle);

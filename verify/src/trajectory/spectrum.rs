@@ -113,14 +113,14 @@ impl Sampling {
             }),
             State::Axis | State::AxisAndMomentum => {
                 let motion = Counted::new(plan.axis_motion(body, s, initial)?);
-                let series = series(scene, column, |t| PlannedAxisMotion::carried(&motion, t))?;
+                let series = series(scene, column, |t| PlannedAxisMotion::carried(&motion, [t, 0.0]))?;
                 let mut work = motion.inner().work();
                 work += motion.evaluations();
                 Ok(Self { motion: None, series, work })
             }
             State::Orientation => {
                 let motion = Counted::new(plan.motion(body, s, initial)?);
-                let series = series(scene, column, |t| PlannedMotion::carried(&motion, t))?;
+                let series = series(scene, column, |t| PlannedMotion::carried(&motion, [t, 0.0]))?;
                 let mut work = motion.inner().work();
                 work += motion.evaluations();
                 Ok(Self { motion: Some(motion), series, work })

@@ -26,8 +26,8 @@ pub(crate) trait PlannedState: AxisMotion<f64> + Sized {
         accuracy: f64,
     ) -> Result<Self, Error>;
 
-    /// What is carried at a time.
-    fn carried(motion: &Counted<Self>, t: f64) -> Result<Carried, Error>;
+    /// What is carried at the time `t[0] + t[1]`.
+    fn carried(motion: &Counted<Self>, t: [f64; 2]) -> Result<Carried, Error>;
 
     /// A start for the next stretch; what is not carried is that of `before`.
     fn start_at(&self, t: f64, before: &BodyState<f64>) -> Result<BodyState<f64>, Error>;
@@ -53,8 +53,8 @@ impl PlannedState for PlannedAxisMotion {
         PlannedAxisMotion::by(method, &scene.spheroid, &scene.violation, start, span, accuracy)
     }
 
-    fn carried(motion: &Counted<Self>, t: f64) -> Result<Carried, Error> {
-        motion.axis_state(t).map(Carried::Axis)
+    fn carried(motion: &Counted<Self>, t: [f64; 2]) -> Result<Carried, Error> {
+        motion.axis_state_in_parts(t).map(Carried::Axis)
     }
 
     fn start_at(&self, t: f64, before: &BodyState<f64>) -> Result<BodyState<f64>, Error> {
@@ -82,8 +82,8 @@ impl PlannedState for PlannedMotion {
         PlannedMotion::by(method, &scene.spheroid, &scene.violation, start, span, accuracy)
     }
 
-    fn carried(motion: &Counted<Self>, t: f64) -> Result<Carried, Error> {
-        motion.state(t).map(Carried::Orientation)
+    fn carried(motion: &Counted<Self>, t: [f64; 2]) -> Result<Carried, Error> {
+        motion.state_in_parts(t).map(Carried::Orientation)
     }
 
     fn start_at(&self, t: f64, _: &BodyState<f64>) -> Result<BodyState<f64>, Error> {
@@ -142,7 +142,8 @@ impl<'s, M: PlannedState> Stretches<'s, M> {
         let quantity = "number of outputs that need a motion";
         let method = plan.method.ok_or(Error::Domain { quantity, value: 0.0, allowed })?;
         let total = plan.stretch.1;
-        let count = (total.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize;
+        let whole = plan.costs_the_same_at_any_time();
+        let count = if whole { 1 } else { (total.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize };
         let (work, motion) = (Work::default(), std::marker::PhantomData);
         Ok(Self { scene, method, total, count, next: 0, from: 0.0, state: scene.initial, work, motion })
     }
@@ -208,4 +209,16 @@ impl<'s, M: PlannedState> Stretches<'s, M> {
 /// A time of the output as time since the start, in t_c.
 pub fn since_start(scene: &Scene, time: f64) -> f64 {
     (time - scene.times.start()) / scene.units.time
+}
+
+/// The same as a sum of two doubles: after 1e10 turns the rounding of one is part of a turn.
+pub fn since_start_in_parts(scene: &Scene, time: f64) -> [f64; 2] {
+    let (start, unit) = (scene.times.start(), scene.units.time);
+    // Knuth's exact difference, then what is left of the quotient.
+    let difference = time - start;
+    let part = difference - time;
+    let lost = (time - (difference - part)) - (start + part);
+    let quotient = difference / unit;
+    let rest = ((-quotient).mul_add(unit, difference) + lost) / unit;
+    [quotient, if rest.is_finite() { rest } else { 0.0 }]
 }

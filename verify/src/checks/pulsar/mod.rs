@@ -5,6 +5,7 @@ mod absorbed_angles;
 mod approximations;
 mod arrivals;
 mod cases;
+mod clock;
 mod edges_reference;
 mod formulas;
 mod functions_of_gamma;
@@ -34,6 +35,7 @@ pub fn checks() -> Vec<Check> {
         published::checks(),
         arrivals::checks(),
         pulse_numbers::checks(),
+        clock::checks(),
         position_angle::checks(),
         approximations::checks(),
         functions_of_gamma::checks(),

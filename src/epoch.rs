@@ -1,0 +1,162 @@
+//! Epochs as modified Julian dates of two parts: a whole day and a fraction, so that a date of today keeps 1e-16 day (10 ps).
+//!
+//! A single double holds MJD 55000 to 7e-12 day, 0.6 microseconds. The time scale is whatever the dates are in; for arrival times at
+//! the barycentre of the solar system it is TDB.
+//!
+//! ```
+//! use twofold::epoch::{Epoch, DAY};
+//!
+//! let start: Epoch = "55321.1234567890123456".parse()?;
+//! let later = start.after([20.0 * 365.25 * DAY, 1e-9]);
+//! let [seconds, rest] = later.seconds_since(&start);
+//! assert!((seconds - 631_152_000.0) + (rest - 1e-9) < 1e-11);
+//! assert_eq!(start.to_string().parse::<Epoch>()?, start);
+//! # Ok::<(), twofold::Error>(())
+//! ```
+
+use core::fmt;
+use core::str::FromStr;
+
+use crate::double_double::DoubleDouble;
+use crate::error::Error;
+
+/// Day in s.
+pub const DAY: f64 = 86_400.0;
+
+/// Latest day, some 27,000 years from the first.
+const LAST_DAY: f64 = 1e7;
+
+const ALLOWED: &str = "a decimal number from 0 to 1e7, without exponent: a modified Julian date";
+
+/// A modified Julian date.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub struct Epoch {
+    day: i64,
+    /// In [0, 1).
+    fraction: f64,
+}
+
+impl Epoch {
+    /// The date `day + fraction`, any finite fraction.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] unless the date is from 0 to 1e7.
+    pub fn new(day: i64, fraction: f64) -> Result<Self, Error> {
+        let date = day as f64 + fraction;
+        Error::unless((0.0..=LAST_DAY).contains(&date), "epoch (MJD)", date, ALLOWED)?;
+        Ok(Self { day, fraction: 0.0 }.with_days(fraction.into()))
+    }
+
+    /// Whole days.
+    pub fn day(&self) -> i64 {
+        self.day
+    }
+
+    /// Fraction of the day, in [0, 1).
+    pub fn fraction(&self) -> f64 {
+        self.fraction
+    }
+
+    /// Time from `other` to this epoch in s, as the unevaluated sum of two doubles, of 32 digits.
+    pub fn seconds_since(&self, other: &Self) -> [f64; 2] {
+        let days = DoubleDouble::product((self.day - other.day) as f64, DAY);
+        (days + DoubleDouble::sum(self.fraction, -other.fraction) * DAY.into()).into()
+    }
+
+    /// The epoch a time later (s, the unevaluated sum of two doubles), rounded to 1e-16 day.
+    pub fn after(&self, seconds: [f64; 2]) -> Self {
+        self.with_days(DoubleDouble::from(seconds).over(DAY.into()))
+    }
+
+    fn with_days(self, days: DoubleDouble) -> Self {
+        let whole = days.high.floor();
+        let fraction = DoubleDouble::sum(days.high - whole, self.fraction) + days.low.into();
+        let more = (fraction.high + fraction.low).floor();
+        let fraction = (fraction.high - more) + fraction.low;
+        let day = self.day + whole as i64 + more as i64;
+        // A negative remainder below the rounding of one.
+        if fraction >= 1.0 { Self { day: day + 1, fraction: 0.0 } } else { Self { day, fraction: fraction.max(0.0) } }
+    }
+}
+
+impl fmt::Display for Epoch {
+    /// The shortest decimal number that identifies the epoch. Dates before 0, which come of [`Epoch::after`] alone, are rounded.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (sign, day, fraction) = match (self.day, self.fraction) {
+            (day, 0.0) if day < 0 => ("-", -day, 0.0),
+            (day, fraction) if day < 0 => ("-", -day - 1, 1.0 - fraction),
+            (day, fraction) => ("", day, fraction),
+        };
+        // Without an exponent, as `0.25`.
+        let fraction = format!("{fraction}");
+        write!(f, "{sign}{day}.{}", fraction.split_once('.').map_or("0", |(_, digits)| digits))
+    }
+}
+
+impl FromStr for Epoch {
+    type Err = Error;
+
+    /// Reads `55321.25` or `55321`, the fraction rounded to the nearest double.
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let malformed = || Error::Domain { quantity: "epoch (MJD)", value: f64::NAN, allowed: ALLOWED };
+        let (day, fraction) = text.split_once('.').unwrap_or((text, "0"));
+        let digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+        if !digits(day) || !digits(fraction) {
+            return Err(malformed());
+        }
+        let day = day.parse().map_err(|_| malformed())?;
+        Self::new(day, format!("0.{fraction}").parse().map_err(|_| malformed())?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn epoch(text: &str) -> Epoch {
+        text.parse().expect("a date")
+    }
+
+    #[test]
+    fn text_is_read_and_written_without_loss() {
+        for text in
+            ["0.0", "55321.0", "51544.5", "59999.9999999999999999", "55321.1234567890123456", "60000.000000000000001"]
+        {
+            let read = epoch(text);
+            assert_eq!(epoch(&read.to_string()), read, "{text}");
+        }
+        assert_eq!(epoch("55321.25").to_string(), "55321.25");
+        assert_eq!(epoch("55321").to_string(), "55321.0");
+        let read = epoch("55321.1234567890123456");
+        assert!((read.fraction() - 0.123_456_789_012_345_6).abs() < 1e-17 && read.day() == 55321);
+        // The last digits of a day round to the next one.
+        assert_eq!(epoch("59999.99999999999999999").to_string(), "60000.0");
+    }
+
+    #[test]
+    fn what_is_no_date_is_refused() {
+        for text in ["", ".5", "5.", "-1", "+5", "1e5", "nan", "inf", "5.5.5", "10000001", "99999999999999999999", " 1"]
+        {
+            assert!(text.parse::<Epoch>().is_err(), "{text}");
+        }
+        assert!(Epoch::new(0, f64::NAN).is_err() && Epoch::new(0, -0.5).is_err());
+        assert_eq!(Epoch::new(5, -0.25).expect("a date"), Epoch::new(4, 0.75).expect("a date"));
+    }
+
+    #[test]
+    fn ten_picoseconds_are_kept_over_decades() {
+        let start = epoch("47000.3712345678901234");
+        for seconds in
+            [[0.0, 0.0], [1e-11, 0.0], [6.3e8, 1.25e-9], [-4e8, 3e-9], [0.001_557, 1e-20], [43_199.999_999_999_99, 0.0]]
+        {
+            let there = start.after(seconds);
+            let off = DoubleDouble::from(there.seconds_since(&start)) - seconds.into();
+            assert!(off.high.abs() < 1e-11, "{seconds:?}: {off:?}");
+            assert!((0.0..1.0).contains(&there.fraction()));
+            let back = there.after([-seconds[0], -seconds[1]]).seconds_since(&start);
+            assert!(back[0].abs() < 2e-11, "{seconds:?}: {back:?}");
+        }
+        assert_eq!(epoch("1.0").after([-172_800.0, 0.0]).to_string(), "-1.0");
+        assert_eq!(epoch("1.25").after([-172_800.0, 0.0]).to_string(), "-0.75");
+    }
+}

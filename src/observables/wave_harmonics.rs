@@ -1,0 +1,98 @@
+//! The gravitational wave of a star over a turn: two harmonics of the rotation of its axis about the angular momentum. Eqs. (59), (68),
+//! (71).
+
+use crate::dynamics::RigidSpheroid;
+use crate::error::Error;
+use crate::observables::Observer;
+use crate::observables::gravitational_wave::Polarizations;
+use crate::observables::pulsar::position_angle::position_angle;
+use crate::propagation::AxisState;
+use crate::scalar::{Real, length};
+
+/// Amplitudes and phase of the wave while `L` is constant, as it nearly is over a turn:
+///
+/// ```text
+/// h_+' = -(1/2) h_1 sin 2i cos Phi + (1/2) h_2 (1 + cos^2 i) cos 2 Phi
+/// h_x' =      -h_1 sin i sin Phi   +      h_2 cos i sin 2 Phi
+/// h_1 = 2 (I^zz - I^xx) (|L| / I^xx)^2 sin theta cos theta,    h_2 = 4 (I^zz - I^xx) (|L| / I^xx)^2 sin^2 theta
+/// ```
+///
+/// at the distance one, with the primed polarizations along the projection of `L` on the sky (M. Zimmermann and E. Szedenits, Phys. Rev. D
+/// 20, 351 (1979)).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WaveHarmonics<S> {
+    /// `h_1`, once a turn of the symmetry axis about `L`.
+    pub once: S,
+    /// `h_2`, twice a turn.
+    pub twice: S,
+    /// `Phi`, azimuth of the symmetry axis about `L` from that of the observer, in (-pi, pi] (rad).
+    pub phase: S,
+    /// `i`, angle of `L` to the direction to the observer (rad).
+    pub inclination: S,
+    /// Position angle of `L` on the sky (rad), as that of [`position_angle`].
+    pub orientation: S,
+    /// `theta`, angle of the symmetry axis to `L` (rad): the wobble.
+    pub wobble: S,
+}
+
+impl<S: Real> WaveHarmonics<S> {
+    /// Those of a state.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] where `L` is along the line of sight.
+    pub fn of(spheroid: &RigidSpheroid<S>, state: &AxisState<S>, observer: &Observer<S>) -> Result<Self, Error> {
+        let size = length(&state.momentum);
+        let (l, n, o) = (state.momentum / size, &state.axis, &observer.direction);
+        let across = l.cross(n);
+        let (sin, cos) = (length(&across), l.dot(n));
+        let rate = size / spheroid.inertia_xx;
+        let scale = (spheroid.inertia_zz - spheroid.inertia_xx) * rate * rate * 2.0;
+        Ok(Self {
+            once: scale * sin * cos,
+            twice: scale * sin * sin * 2.0,
+            phase: l.dot(&o.cross(n)).atan2(o.dot(n) - o.dot(&l) * cos),
+            inclination: length(&l.cross(o)).atan2(l.dot(o)),
+            orientation: position_angle(&l, observer)?,
+            wobble: sin.atan2(cos),
+        })
+    }
+
+    /// `h_+` and `h_x` at the observer, at the distance one.
+    pub fn polarizations(&self) -> Polarizations<S> {
+        let ((s, c), (s_i, c_i)) = (self.phase.sin_cos(), self.inclination.sin_cos());
+        let (cos_2, sin_2) = (c * c - s * s, s * c * 2.0);
+        let plus = self.twice * (c_i * c_i + S::one()) * cos_2 / 2.0 - self.once * s_i * c_i * c;
+        let cross = self.twice * c_i * sin_2 - self.once * s_i * s;
+        let (sin, cos) = (self.orientation * 2.0).sin_cos();
+        Polarizations { plus: plus * cos - cross * sin, cross: plus * sin + cross * cos }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, Vector3};
+
+    use super::*;
+    use crate::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+    use crate::observables::gravitational_wave::{metric_perturbation, polarizations};
+
+    #[test]
+    fn harmonics_add_up_to_the_wave() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.7, constant_c: 1.0 };
+        let momentum = Vector3::new(0.3, -1.1, 0.8);
+        for axis in [Vector3::new(0.1, 0.7, -0.4), Vector3::new(-0.9, 0.2, 0.3), Vector3::new(0.3, -1.1, 0.7)] {
+            let state = AxisState { axis: axis.normalize(), momentum };
+            for observer in [Observer::at(0.8, 0.3), Observer::at(2.4, -1.9), Observer::at(0.0, 0.4)] {
+                let found = WaveHarmonics::of(&spheroid, &state, &observer)
+                    .expect("L is off the line of sight")
+                    .polarizations();
+                let source = spheroid_inertia_acceleration(&spheroid, &Matrix3::zeros(), &state.axis, &momentum);
+                let exact = polarizations(&observer, &metric_perturbation(1.0, &source));
+                let error = f64::abs(found.plus - exact.plus).max(f64::abs(found.cross - exact.cross));
+                assert!(error < 1e-14, "{found:?} {exact:?}");
+            }
+        }
+        let along = AxisState { axis: Vector3::x(), momentum: Vector3::z() };
+        assert!(WaveHarmonics::of(&spheroid, &along, &Observer::at(0.0, 0.0)).is_err());
+    }
+}

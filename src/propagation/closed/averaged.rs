@@ -1,0 +1,147 @@
+//! The mean motion in any frame and over any span.
+
+use nalgebra::Matrix3;
+
+use crate::double_double::DoubleDouble;
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::lorentz_violation::principal_frame_with_derivatives;
+use crate::propagation::input::check_time;
+use crate::propagation::{AxisMotion, AxisState, Motion};
+use crate::scalar::Real;
+use crate::solutions::mean::{MeanMotion, MeanOrder, MeanTurns};
+
+/// A motion by [`MeanMotion`], whatever the frame in which the tensor is given: for a body that turns fast against the torque, over any
+/// number of turns.
+#[derive(Debug, Clone, Copy)]
+pub struct AveragedMotion<S> {
+    spheroid: RigidSpheroid<S>,
+    violation: Matrix3<S>,
+    span: (f64, f64),
+    /// Time of the initial state, in two parts.
+    origin: [f64; 2],
+    /// Time since the initial state at which the phases of `mean` are counted.
+    shift: f64,
+    mean: MeanMotion<S>,
+    given_from_principal: Matrix3<S>,
+}
+
+impl<S: Real> AveragedMotion<S> {
+    /// The motion from `initial` at `span.0`.
+    ///
+    /// # Errors
+    /// As for [`MeanMotion::new`] and [`principal_frame_with_derivatives`].
+    pub fn new(
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        initial: &BodyState<S>,
+        span: (f64, f64),
+        order: MeanOrder,
+    ) -> Result<Self, Error> {
+        let (coefficients, principal_from_given) = principal_frame_with_derivatives(s)?;
+        let turned = initial.rotated(&principal_from_given);
+        Ok(Self {
+            spheroid: *spheroid,
+            violation: *s,
+            span,
+            origin: [span.0, 0.0],
+            shift: 0.0,
+            mean: MeanMotion::with_free_rotation_of(initial, spheroid, &coefficients, &turned, order)?,
+            given_from_principal: principal_from_given.transpose(),
+        })
+    }
+
+    /// The same motion with the time counted from `epoch[0] + epoch[1]`: near it a double is enough for a time, after any number of turns.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for an epoch outside the span.
+    pub fn near(&self, epoch: [f64; 2]) -> Result<Self, Error> {
+        check_time(self.span, epoch[0] + epoch[1])?;
+        let elapsed = self.elapsed(epoch);
+        Ok(Self {
+            span: (self.span.0 - epoch[0] - epoch[1], self.span.1 - epoch[0] - epoch[1]),
+            origin: [0.0; 2],
+            shift: self.shift + elapsed[0],
+            mean: self.mean.near(elapsed),
+            ..*self
+        })
+    }
+
+    /// Phases at the time `t[0] + t[1]`: whole turns since the initial state or the epoch of [`near`](Self::near), and the rest.
+    pub fn turns(&self, t: [f64; 2]) -> MeanTurns {
+        self.mean.turns(self.elapsed(t))
+    }
+
+    /// The motion in the principal frame of `s`, and its rates.
+    pub fn mean(&self) -> &MeanMotion<S> {
+        &self.mean
+    }
+
+    /// Time since that from which phases are counted.
+    fn elapsed(&self, t: [f64; 2]) -> [f64; 2] {
+        let sum = DoubleDouble::sum(t[0], t[1]) + DoubleDouble::sum(-self.origin[0], -self.origin[1]);
+        [sum.high, sum.low]
+    }
+
+    /// Refuses a motion of which no derivatives could be had: by any parameter, whichever comes.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] where `L` rests or is on a separatrix, and for two equal eigenvalues, whose axes a derivative by `s^IJ` may turn.
+    pub fn require_derivatives(&self) -> Result<(), Error> {
+        self.mean.require_derivatives()
+    }
+
+    /// Of what the order leaves out, at the time `t`: see [`MeanMotion::truncation`].
+    pub fn truncation(&self, t: f64) -> f64 {
+        self.mean.truncation(self.shift + (t - self.origin[0]))
+    }
+
+    /// See [`MeanMotion::rounding`].
+    pub fn rounding(&self, t: f64) -> f64 {
+        self.mean.rounding(self.shift + (t - self.origin[0]))
+    }
+}
+
+impl<S: Real> AxisMotion<S> for AveragedMotion<S> {
+    fn spheroid(&self) -> &RigidSpheroid<S> {
+        &self.spheroid
+    }
+
+    fn violation(&self) -> &Matrix3<S> {
+        &self.violation
+    }
+
+    fn span(&self) -> (f64, f64) {
+        self.span
+    }
+
+    fn axis_state(&self, t: S) -> Result<AxisState<S>, Error> {
+        self.state(t).map(|state| AxisState::from(&state))
+    }
+
+    fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<S>, Error> {
+        self.state_in_parts(t).map(|state| AxisState::from(&state))
+    }
+
+    /// [`truncation`](AveragedMotion::truncation) and [`rounding`](AveragedMotion::rounding), and the rounding of the time.
+    fn error_estimate(&self, t: f64) -> f64 {
+        self.mean.error_estimate(self.shift + (t - self.origin[0]))
+    }
+}
+
+impl<S: Real> Motion<S> for AveragedMotion<S> {
+    fn state(&self, t: S) -> Result<BodyState<S>, Error> {
+        check_time(self.span, t.re())?;
+        let mut phases = self.mean.phases_at(self.elapsed([t.re(), 0.0]));
+        if S::HAS_DERIVATIVES {
+            phases = phases.later(self.mean.rates(), t - S::from_f64(t.re()));
+        }
+        Ok(self.mean.state_at(&phases).rotated(&self.given_from_principal))
+    }
+
+    fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<S>, Error> {
+        check_time(self.span, t[0] + t[1])?;
+        let phases = self.mean.phases_at(self.elapsed(t));
+        Ok(self.mean.state_at(&phases).rotated(&self.given_from_principal))
+    }
+}

@@ -1,0 +1,24 @@
+//! The mean motion in closed form.
+
+mod averaging;
+mod decades;
+mod derivatives;
+mod estimates;
+mod orders;
+mod scenes;
+mod top;
+
+use crate::check::Check;
+
+/// Checks of this subject.
+pub fn checks() -> Vec<Check> {
+    [
+        averaging::checks(),
+        top::checks(),
+        orders::checks(),
+        estimates::checks(),
+        derivatives::checks(),
+        decades::checks(),
+    ]
+    .concat()
+}

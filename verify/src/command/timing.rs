@@ -1,0 +1,133 @@
+//! `twofold timing`.
+
+use std::path::Path;
+
+use twofold::epoch::Epoch;
+
+use super::output_folder::OutputFolder;
+use super::run::{failed, read_scene};
+use super::{Failure, TimingArgs, note, print};
+use crate::pulsar_timing::{PulsarScene, Series, Timing, csv, par, strain_series, tim};
+use crate::scene_file::Scene;
+
+/// Most arrival times, and most samples of strain.
+const MOST: usize = 10_000_000;
+
+pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
+    let scene = read_scene(&args.scene)?;
+    let refused = |why: String| Failure::BadInput(format!("{}: {why}", args.scene));
+    let mut pulsar = PulsarScene::new(&scene).map_err(refused)?;
+    let epochs = epochs(args, &scene, &pulsar.epoch)?;
+    positive("--uncertainty", args.uncertainty)?;
+    let series = series(args, &epochs, pulsar.clock.period())?;
+    let name =
+        Path::new(&args.scene).file_stem().map_or_else(|| args.scene.clone(), |stem| stem.to_string_lossy().into());
+    let file = |ending: &str| format!("{name}.{ending}");
+    let endings = ["csv", "par", "tim", "h_plus.txt", "h_cross.txt"];
+    let folder = OutputFolder::at(&args.out, args.force, |found| endings.iter().any(|ending| found == file(ending)))?;
+    let timing = pulsar.timed(&epochs, args.f1).map_err(failed)?;
+    folder.write(&file("csv"), csv(&pulsar, &timing).as_bytes())?;
+    folder.write(&file("par"), par(&scene, &timing).as_bytes())?;
+    folder.write(&file("tim"), tim(&timing, args.uncertainty * 1e-6).as_bytes())?;
+    match strain_series(&pulsar, &series) {
+        Some([plus, cross]) => {
+            folder.write(&file("h_plus.txt"), plus.as_bytes())?;
+            folder.write(&file("h_cross.txt"), cross.as_bytes())?;
+        }
+        None => note("no strain: the scene lacks `observer.distance`"),
+    }
+    let files = folder.complete()?;
+    note_dark(&timing, epochs.len());
+    let farthest = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0].abs()).fold(0.0, f64::max);
+    note(&format!(
+        "the mean motion of second order leaves out at most {:.1e} s at the farthest epoch",
+        pulsar.clock.truncation(farthest)
+    ));
+    print(&format!(
+        "{}: {} arrival times, {files} files\n{}",
+        args.out.display(),
+        timing.pulses.len(),
+        summary(&timing)
+    ))
+}
+
+fn summary(timing: &Timing) -> String {
+    let (fit, first) = (&timing.fit, &timing.pulses[0]);
+    let rate = if timing.with_rate { format!(", F1 = {:e} Hz/s", fit.frequency_rate) } else { String::new() };
+    let sizes = fit.residuals.iter().map(|residual| residual.abs());
+    format!(
+        "F0 = {:.15} Hz at MJD {}{rate}; residuals: rms {:.3e} s, largest {:.3e} s\nfirst pulse {} at MJD {}\n",
+        fit.frequency[0],
+        timing.epoch,
+        timing.root_mean_square(),
+        sizes.fold(0.0, f64::max),
+        first.pulse.number,
+        first.arrival,
+    )
+}
+
+fn note_dark(timing: &Timing, asked: usize) {
+    if timing.dark > 0 {
+        note(&format!(
+            "{} of {asked} epochs have no pulse: the line of sight stays outside the beam in that turn",
+            timing.dark
+        ));
+    }
+}
+
+/// The epochs asked for: of the scene, or of the options.
+fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>, Failure> {
+    let start = scene.times.start();
+    let of_time = |t: f64| epoch.after([t - start, 0.0]);
+    if args.from.is_none() && args.to.is_none() && args.every.is_none() && args.epochs.is_none() {
+        return Ok(scene.times.iter().map(of_time).collect());
+    }
+    let from = args.from.unwrap_or_else(|| of_time(start));
+    let to = args.to.unwrap_or_else(|| of_time(scene.times.last()));
+    let [seconds, _] = to.seconds_since(&from);
+    if seconds <= 0.0 {
+        return Err(Failure::BadInput(format!("--from {from} --to {to}: allowed is a later date for --to")));
+    }
+    let days = seconds / 86_400.0;
+    let (count, step) = match args.every {
+        Some(every) => {
+            positive("--every", every)?;
+            ((days / every).floor() + 1.0, every)
+        }
+        None => {
+            let count = args.epochs.unwrap_or(scene.times.count());
+            (count as f64, days / (count.max(2) - 1) as f64)
+        }
+    };
+    if !(2.0..=MOST as f64).contains(&count) {
+        return Err(Failure::BadInput(format!("{count} epochs are asked for: allowed are from 2 to {MOST}")));
+    }
+    Ok((0..count as usize).map(|k| from.after([k as f64 * step * 86_400.0, 0.0])).collect())
+}
+
+fn series(args: &TimingArgs, epochs: &[Epoch], period: f64) -> Result<Series, Failure> {
+    // Sixteen samples in the shorter of the wave's two periods, rounded up to a power of two.
+    let rate = args.strain_rate.unwrap_or_else(|| (32.0 / period).log2().ceil().exp2());
+    let span = args.strain_span.unwrap_or(64.0 * period);
+    positive("--strain-rate", rate)?;
+    positive("--strain-span", span)?;
+    let samples = (rate * span).ceil();
+    if !(2.0..=MOST as f64).contains(&samples) {
+        return Err(Failure::BadInput(format!(
+            "{samples} samples of strain are asked for: allowed are from 2 to {MOST}"
+        )));
+    }
+    Ok(Series { start: epochs[0], rate, samples: samples as usize })
+}
+
+fn positive(option: &str, value: f64) -> Result<(), Failure> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(Failure::BadInput(format!("{option} {value}: allowed is a number above zero")))
+}
+
+/// A date from the command line.
+pub(super) fn date(text: &str) -> Result<Epoch, String> {
+    text.parse().map_err(|_| "allowed is a modified Julian date from 0 to 1e7, as 55321.25".to_owned())
+}

@@ -1,0 +1,46 @@
+//! The strain of a pulsar as series in equal steps, in the two columns that readers of strain take.
+
+use std::fmt::Write;
+
+use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::epoch::Epoch;
+use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
+use twofold::propagation::AxisState;
+
+use super::PulsarScene;
+
+/// When a series begins, its steps and how many.
+#[derive(Debug, Clone, Copy)]
+pub struct Series {
+    /// Time of the first sample.
+    pub start: Epoch,
+    /// Samples in a second.
+    pub rate: f64,
+    /// Number of samples.
+    pub samples: usize,
+}
+
+impl PulsarScene {
+    /// The wave at the observer, at the scene's distance, of a state.
+    pub fn wave(&self, state: &AxisState<f64>) -> Option<Polarizations<f64>> {
+        let unit = self.strain_unit?;
+        let source = spheroid_inertia_acceleration(&self.spheroid, &self.violation, &state.axis, &state.momentum);
+        let wave = polarizations(&self.observer, &metric_perturbation(1.0, &source));
+        Some(Polarizations { plus: wave.plus * unit, cross: wave.cross * unit })
+    }
+}
+
+/// Texts of `h_+` and `h_x`: a line for each sample, seconds from the start and strain. Nothing if the scene has no distance.
+pub fn strain_series(pulsar: &PulsarScene, series: &Series) -> Option<[String; 2]> {
+    let header = |name: &str| format!("# {name} [1] against time [s] from MJD {} (TDB, barycentre)\n", series.start);
+    let mut texts = ["h_plus", "h_cross"].map(header);
+    let mean = pulsar.clock.near(series.start.seconds_since(&pulsar.epoch));
+    for k in 0..series.samples {
+        let time = k as f64 / series.rate;
+        let wave = pulsar.wave(&AxisState::from(&mean.state(time)))?;
+        for (text, h) in texts.iter_mut().zip([wave.plus, wave.cross]) {
+            writeln!(text, "{time:?} {h:?}").expect("writing to a string succeeds");
+        }
+    }
+    Some(texts)
+}
