@@ -275,7 +275,7 @@ fn scenes_are_listed_and_each_listed_name_runs() {
     assert_eq!(output.status.code(), Some(0));
     let text = String::from_utf8(output.stdout).expect("text");
     let names: Vec<_> = text.lines().filter_map(|line| line.strip_prefix("  ")?.split("  ").next()).collect();
-    assert_eq!(names.len(), 10, "{text}");
+    assert_eq!(names.len(), 14, "{text}");
     for name in names {
         assert_eq!(twofold(&["run", name]).status.code(), Some(0), "{name}");
     }

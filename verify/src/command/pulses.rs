@@ -5,6 +5,7 @@ use twofold::plan::Output;
 use super::explain::explained;
 use super::run::{failed, force_method, read_scene, write};
 use super::{Failure, PulsesArgs, note, print};
+use crate::scene_file::LARGEST_ROTATION;
 use crate::trajectory::write_pulses;
 
 pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
@@ -19,6 +20,14 @@ pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
     let viewer = scene.observer.ok_or_else(|| lacking("observer"))?;
     let mut pulsar = scene.pulsar.ok_or_else(|| lacking("pulsar"))?;
     pulsar.second_beam |= args.second_beam;
+    let rotation = scene.rotation();
+    if rotation > LARGEST_ROTATION {
+        return Err(Failure::BadInput(format!(
+            "{}: [time] holds a rotation by {rotation:.1e} rad: allowed for a list of every pulse is at most {LARGEST_ROTATION:.0e} rad; \
+             shorten the span, or `twofold timing` computes the pulses near given epochs",
+            args.scene
+        )));
+    }
     if args.plan.explain {
         return print(&explained(&scene, &scene.plan(&[Output::Pulses]).map_err(failed)?));
     }
