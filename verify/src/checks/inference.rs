@@ -173,14 +173,16 @@ fn fisher(scene: &str, noise: &[Noise], unknowns: &[Unknown]) -> Result<Fisher, 
     Fisher::of(&model, &events, &data, unknowns).map_err(text)
 }
 
+/// A built-in scene, what is measured of it, what is unknown, and pieces of the words of every degenerate direction.
+type Case<'a> = (&'a str, &'a [Noise], &'a [Unknown], &'a [&'a str]);
+
 fn directions() -> Result<Measured, String> {
     use Unknown::*;
     let pulses = [(Observable::Arrivals, 1e-3), (Observable::Widths, 1e-3)];
     let strain = [(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 1e-3)];
     let both = [pulses, strain].concat();
     let frame = [SAxial, SAsymmetry, SXy, SXz, SYz, Alpha, Beta, Gamma, AlphaRate, BetaRate, ThetaO, PhiO];
-    // Beginnings of the words of every direction.
-    let cases: [(&str, &[Noise], &[Unknown], &[&str]); 11] = [
+    let cases: [Case<'_>; 11] = [
         ("tp-1", &pulses, &Unknown::OF_PULSES, &[]),
         ("tp-2", &pulses, &Unknown::OF_PULSES, &[]),
         ("sp-1", &pulses, &Unknown::OF_PULSES, &[]),

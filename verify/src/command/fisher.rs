@@ -2,7 +2,7 @@
 
 use super::measurement::{Measurement, readable, uncertainties, write_csv};
 use super::{Failure, FisherArgs, note, print};
-use crate::inference::{Fisher, InferenceError, Observable, Signal, data_of};
+use crate::inference::{Direction, Fisher, InferenceError, Observable, Signal, data_of};
 
 pub(super) fn fisher(args: &FisherArgs) -> Result<(), Failure> {
     let measurement = Measurement::read(&args.measurement)?;
@@ -29,10 +29,14 @@ pub(super) fn fisher(args: &FisherArgs) -> Result<(), Failure> {
             fisher.rounding
         ));
     }
-    for direction in &fisher.degenerate {
+    let in_units = |direction: &Direction| {
+        let change = direction.change.iter().map(|(unknown, size)| (*unknown, size * measurement.unit(*unknown).0));
+        Direction { change: change.collect(), ..direction.clone() }
+    };
+    for direction in fisher.degenerate.iter().map(in_units) {
         note(&format!("not determined: {direction}"));
     }
-    for direction in &fisher.weak {
+    for direction in fisher.weak.iter().map(in_units) {
         note(&format!("less than one standard deviation over the whole range: {direction}"));
     }
     print(&readable(&short))

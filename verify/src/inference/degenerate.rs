@@ -104,13 +104,17 @@ pub(super) fn weak_directions(
         .collect()
 }
 
-/// A change of unknowns in columns of unit length, normalised; none if it changes something that is not unknown, or nothing.
+/// A change of unknowns in columns of unit length, normalised; none if it changes something that is not unknown by more than
+/// [`NEAR`] of the largest change (as components of an `s^IJ` that is hardly there), or nothing.
 fn in_scaled(change: &[(Unknown, f64)], unknowns: &[Unknown], lengths: &DVector<f64>) -> Option<DVector<f64>> {
     let size = change.iter().fold(0.0, |most: f64, (_, part)| most.max(part.abs()));
     let mut vector = DVector::zeros(unknowns.len());
     for (unknown, part) in change.iter().filter(|(_, part)| part.abs() > 1e-14 * size) {
-        let place = unknowns.iter().position(|other| other == unknown)?;
-        vector[place] = part * lengths[place];
+        match unknowns.iter().position(|other| other == unknown) {
+            Some(place) => vector[place] = part * lengths[place],
+            None if part.abs() <= NEAR * size => {}
+            None => return None,
+        }
     }
     let norm = vector.norm();
     (norm > 0.0).then(|| vector / norm)

@@ -5,6 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 
 use nalgebra::{DMatrix, DVector, Matrix3};
+use twofold::Error;
 use twofold::euler_angles::EulerAngles;
 
 use super::{Datum, Fisher, Fit, InferenceError, Model, Observable, Signal, Unknown, data_of, fit, nonlinearity};
@@ -68,6 +69,9 @@ pub struct Simulation {
 /// Fewest pulses of a simulated measurement.
 const FEWEST: usize = 12;
 
+/// Most scenes that are drawn for one measurement.
+const MOST_DRAWN: usize = 1000;
+
 /// Largest [`nonlinearity`] of a measurement whose error bars are tried: those of others are not promised to hold.
 const LINEAR: f64 = 0.1;
 
@@ -76,23 +80,25 @@ impl Simulation {
     /// what they are decides nothing.
     ///
     /// # Errors
-    /// A motion that cannot be computed.
+    /// A motion that cannot be computed, and a thousand scenes in vain, where eight are enough.
     pub fn new(seed: u64) -> Result<Self, InferenceError> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let campaign = [Campaign::Pulses, Campaign::Strain, Campaign::Both][(seed % 3) as usize];
-        let mut refused = 0;
-        loop {
+        for refused in 0..MOST_DRAWN {
             let truth = random_model(&mut random);
             let end = random.random_range(60.0..120.0);
             let sigma = 10.0_f64.powf(random.random_range(-5.5..-4.5));
-            let Some((unknowns, exact, covariance)) = determined(&truth, campaign, end, sigma)? else {
-                refused += 1;
-                continue;
-            };
+            let Some((unknowns, exact, covariance)) = determined(&truth, campaign, end, sigma)? else { continue };
             let data = with_noise(&exact, &mut random);
             let start = beside(&truth, &unknowns, &covariance, 3.0, &mut random);
             return Ok(Self { seed, campaign, truth, unknowns, data, start, end, refused });
         }
+        Err(Error::NotConverged {
+            what: "draw of a scene that its data determine",
+            iterations: MOST_DRAWN,
+            residual: f64::NAN,
+        }
+        .into())
     }
 
     /// The fit.
