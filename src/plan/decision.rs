@@ -97,21 +97,22 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The cheapest method that meets the accuracy; of methods asked for, the only one. One whose rounding is above the accuracy is left
-    /// if another one loses a hundred times less: phases after 1e12 turns are in doubles no longer what was asked.
+    /// Whether a method meets the accuracy by what it leaves out, and by rounding: above the accuracy, rounding must not be a hundred times that
+    /// of another method. Phases after 1e12 turns are in doubles no longer what was asked.
+    pub fn admits(&self, prediction: &Prediction) -> bool {
+        let meets = |prediction: &Prediction| prediction.truncation <= self.accuracy;
+        let predictions = self.considered.iter().filter_map(|candidate| candidate.prediction.as_ref().ok());
+        let least = predictions.filter(|other| meets(other)).map(|other| other.rounding).fold(f64::INFINITY, f64::min);
+        meets(prediction) && prediction.rounding <= (100.0 * least).max(self.accuracy)
+    }
+
+    /// The cheapest method that is admitted; of methods asked for, the only one.
     fn choose(&self) -> Result<(Method, Prediction), Error> {
-        let usable = |prediction: &Prediction| self.forced || prediction.truncation <= self.accuracy;
-        let roundings = self.considered.iter().filter_map(|candidate| {
-            candidate.prediction.as_ref().ok().filter(|prediction| usable(prediction)).map(|found| found.rounding)
-        });
-        let most = roundings.fold(f64::INFINITY, f64::min) * 100.0;
-        let precise = |prediction: &Prediction| self.forced || prediction.rounding <= most.max(self.accuracy);
         let mut best: Option<(Method, Prediction)> = None;
         for Candidate { method, prediction } in &self.considered {
             match prediction {
                 Ok(prediction)
-                    if usable(prediction)
-                        && precise(prediction)
+                    if (self.forced || self.admits(prediction))
                         && best.is_none_or(|(_, best)| prediction.cost < best.cost) =>
                 {
                     best = Some((*method, *prediction));

@@ -152,7 +152,7 @@ fn meets_prediction() -> Result<Measured, String> {
         let (method, prediction) = plan.method.zip(plan.prediction).ok_or("a plan without a method")?;
         for candidate in &plan.considered {
             if let Ok(other) = &candidate.prediction
-                && other.truncation <= plan.accuracy
+                && plan.admits(other)
                 && other.cost < prediction.cost
             {
                 return Err(format!("{} is cheaper than {}", candidate.method.name(), method.name()));

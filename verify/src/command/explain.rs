@@ -78,8 +78,14 @@ pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
     for Candidate { method, prediction } in &plan.considered {
         let name = method.name();
         match prediction {
-            Ok(prediction) if prediction.truncation <= plan.accuracy => {
+            Ok(prediction) if plan.admits(prediction) => {
                 line(format_args!("  {name}: {}, error {:.1e}", duration(prediction.cost), prediction.truncation));
+            }
+            Ok(prediction) if prediction.truncation <= plan.accuracy => {
+                line(format_args!(
+                    "  {name}: loses digits that another keeps, {:.1e} by rounding",
+                    prediction.rounding
+                ));
             }
             Ok(prediction) => {
                 line(format_args!("  {name}: not accurate enough, error up to {:.1e}", prediction.truncation));
@@ -98,7 +104,7 @@ fn why(plan: &Plan) -> Option<String> {
     }
     let usable = plan.considered.iter().filter(|candidate| candidate.method != method).filter_map(|candidate| {
         let other = candidate.prediction.as_ref().ok()?;
-        (other.truncation <= plan.accuracy).then_some((candidate.method, other.cost))
+        plan.admits(other).then_some((candidate.method, other.cost))
     });
     let next = usable.min_by(|a, b| a.1.total_cmp(&b.1));
     let found = format!("the cheapest of those whose error is below {:.0e}", plan.accuracy);
