@@ -100,8 +100,10 @@ pub(super) const CLAIMS: &[Claim] = &[
         statement: "The twofold solution is right at the leading order of Lorentz violation.",
         verdict: Corrected,
         finding: "(29) lacks the term a^2 sin^2(beta_0) beta1, which is of first order. The error of the printed solution is of \
-                  first order in s, that of the corrected one of second. The mean rates (32), (57) do not change.",
+                  first order in s, that of the corrected one of second. The mean rates (32), (57) do not change. Both hold the \
+                  direction of L fixed, which turns slowly: half such a turn later it is on the other side, however small s is.",
         checks: &[
+            "small-s-twofold",
             "missing-first-order-term",
             "twofold-printed-order",
             "twofold-corrected-order",
@@ -161,8 +163,8 @@ pub(super) const CLAIMS: &[Claim] = &[
         place: "Sec. II B, below Eq. (34)",
         statement: "The single-precession solution mimics the motion in one forced period for beta_0 <~ 1.",
         verdict: Confirmed,
-        finding: "For the examples' s, to a third of a radian.",
-        checks: &["single-mimics-small-inclination"],
+        finding: "For the examples' s, to a third of a radian; and to a tenth for s of 1e-6 to 1e-14, over the 1e5 to 1e13 turns of that period.",
+        checks: &["single-mimics-small-inclination", "small-s-single"],
         golden: &["single_regimes"],
     },
     Claim {
@@ -170,8 +172,8 @@ pub(super) const CLAIMS: &[Claim] = &[
         place: "Sec. II B, below Eq. (34)",
         statement: "Near beta_0 = pi/2 the approximation fails completely.",
         verdict: Confirmed,
-        finding: "However small s is.",
-        checks: &["single-fails-near-right-angle"],
+        finding: "However small s is, to 1e-14.",
+        checks: &["single-fails-near-right-angle", "small-s-single-right-angle"],
         golden: &["single_regimes"],
     },
     Claim {

@@ -5,6 +5,7 @@ mod middle_axis;
 pub mod perturbation_error;
 mod precession_rates;
 mod single_precession;
+mod small_s;
 mod twofold_precession;
 
 use crate::check::Check;
@@ -17,6 +18,7 @@ pub fn checks() -> Vec<Check> {
         precession_rates::checks(),
         middle_axis::checks(),
         method_errors::checks(),
+        small_s::checks(),
     ]
     .concat()
 }
