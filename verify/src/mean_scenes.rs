@@ -129,8 +129,8 @@ fn near_separatrix(random: &mut Random, s: &Vector3<f64>) -> Option<Vector3<f64>
     let across = (1.0 - along * along).sqrt() / (upper + lower).sqrt();
     let mut l = Vector3::zeros();
     (l[middle], l[high], l[low]) = (along, across * lower.sqrt(), across * upper.sqrt());
-    l[low] += from_to(random, 1e-12, 0.3) * if random.word() % 2 == 0 { 1.0 } else { -1.0 };
-    if random.word() % 2 == 0 {
+    l[low] += from_to(random, 1e-12, 0.3) * if random.word().is_multiple_of(2) { 1.0 } else { -1.0 };
+    if random.word().is_multiple_of(2) {
         l[high] = -l[high];
     }
     Some(l.normalize())
