@@ -7,7 +7,7 @@
 //! use twofold::epoch::{Epoch, DAY};
 //!
 //! let start: Epoch = "55321.1234567890123456".parse()?;
-//! let later = start.after([20.0 * 365.25 * DAY, 1e-9]);
+//! let later = start.after([20.0 * 365.25 * DAY, 1e-9])?;
 //! let [seconds, rest] = later.seconds_since(&start);
 //! assert!((seconds - 631_152_000.0) + (rest - 1e-9) < 1e-11);
 //! assert_eq!(start.to_string().parse::<Epoch>()?, start);
@@ -43,7 +43,9 @@ impl Epoch {
     /// [`Error::Domain`] unless the date is from 0 to 1e7.
     pub fn new(day: i64, fraction: f64) -> Result<Self, Error> {
         let date = day as f64 + fraction;
-        Error::unless((0.0..=LAST_DAY).contains(&date), "epoch (MJD)", date, ALLOWED)?;
+        // The parts as well: large ones of opposite signs lose the date.
+        let near = day.unsigned_abs() <= 2 * LAST_DAY as u64;
+        Error::unless(near && (0.0..=LAST_DAY).contains(&date), "epoch (MJD)", date, ALLOWED)?;
         Ok(Self { day, fraction: 0.0 }.with_days(fraction.into()))
     }
 
@@ -63,9 +65,14 @@ impl Epoch {
         (days + DoubleDouble::sum(self.fraction, -other.fraction) * DAY.into()).into()
     }
 
-    /// The epoch a time later (s, the unevaluated sum of two doubles), rounded to 1e-16 day.
-    pub fn after(&self, seconds: [f64; 2]) -> Self {
-        self.with_days(DoubleDouble::from(seconds).over(DAY.into()))
+    /// The epoch a time later (s, the unevaluated sum of two doubles), rounded to 1e-16 day. It may lie before the date 0.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a time that is not finite or longer than 1e8 days.
+    pub fn after(&self, seconds: [f64; 2]) -> Result<Self, Error> {
+        let days = (seconds[0] + seconds[1]) / DAY;
+        Error::unless(days.abs() <= 10.0 * LAST_DAY, "time from an epoch (d)", days, "at most 1e8 days, either way")?;
+        Ok(self.with_days(DoubleDouble::from(seconds).over(DAY.into())))
     }
 
     fn with_days(self, days: DoubleDouble) -> Self {
@@ -140,6 +147,10 @@ mod tests {
             assert!(text.parse::<Epoch>().is_err(), "{text}");
         }
         assert!(Epoch::new(0, f64::NAN).is_err() && Epoch::new(0, -0.5).is_err());
+        assert!(Epoch::new(i64::MAX, -9.223_372_036_854_776e18).is_err());
+        for seconds in [f64::NAN, f64::INFINITY, 1e300, -1e300] {
+            assert!(epoch("0.5").after([seconds, 0.0]).is_err(), "{seconds}");
+        }
         assert_eq!(Epoch::new(5, -0.25).expect("a date"), Epoch::new(4, 0.75).expect("a date"));
     }
 
@@ -149,14 +160,14 @@ mod tests {
         for seconds in
             [[0.0, 0.0], [1e-11, 0.0], [6.3e8, 1.25e-9], [-4e8, 3e-9], [0.001_557, 1e-20], [43_199.999_999_999_99, 0.0]]
         {
-            let there = start.after(seconds);
+            let there = start.after(seconds).expect("near");
             let off = DoubleDouble::from(there.seconds_since(&start)) - seconds.into();
             assert!(off.high.abs() < 1e-11, "{seconds:?}: {off:?}");
             assert!((0.0..1.0).contains(&there.fraction()));
-            let back = there.after([-seconds[0], -seconds[1]]).seconds_since(&start);
+            let back = there.after([-seconds[0], -seconds[1]]).expect("near").seconds_since(&start);
             assert!(back[0].abs() < 2e-11, "{seconds:?}: {back:?}");
         }
-        assert_eq!(epoch("1.0").after([-172_800.0, 0.0]).to_string(), "-1.0");
-        assert_eq!(epoch("1.25").after([-172_800.0, 0.0]).to_string(), "-0.75");
+        assert_eq!(epoch("1.0").after([-172_800.0, 0.0]).expect("near").to_string(), "-1.0");
+        assert_eq!(epoch("1.25").after([-172_800.0, 0.0]).expect("near").to_string(), "-0.75");
     }
 }

@@ -25,7 +25,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let scene = Scene::named(built_in.name)?;
         let pulsar = PulsarScene::new(&scene)?;
         let step = 15.0 * 31_557_600.0 / f64::from(EPOCHS);
-        let epochs: Vec<_> = (0..EPOCHS).map(|k| pulsar.epoch.after([f64::from(k) * step, 0.0])).collect();
+        let epochs = (0..EPOCHS).map(|k| pulsar.epoch.after([f64::from(k) * step, 0.0]));
+        let epochs: Vec<_> = epochs.collect::<Result<_, _>>()?;
         let times: Vec<_> = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)).collect();
         let set_up = least(|| drop(black_box(PulsarScene::new(&scene))));
         let mean = pulsar.clock.mean_motion();

@@ -174,8 +174,8 @@ impl PulsarClock {
     ///
     /// A pulse is a stretch of time with `m.n > cos rho`. The search takes derivatives and their bounds from the exact equations of motion; those
     /// of the mean motion differ by `x^2`, `x = C |s| I^xx / |L|^2`, as the mean motion itself does. For `x` below 1e-6 edges are as exact as
-    /// those of [`pulse_train`](super::pulse_train), else to some `1e-4 x^2` rad. The cost does not depend on `t`, but the slow precession
-    /// since the last call is followed in steps of a quarter radian, so that numbers have no break.
+    /// those of [`pulse_train`](super::pulse_train), else to some `1e-4 x^2` rad. The cost does not depend on the turns before `t`, but the slow
+    /// precession since the last call is followed in steps of a quarter radian, a microsecond each, so that numbers have no break.
     ///
     /// # Errors
     /// [`Error::Domain`] where turns cannot be counted, and for times that are not finite.

@@ -36,6 +36,12 @@ impl SpinFit {
         let count = different.len() as f64;
         Error::unless(count >= wanted, "number of different times", count, "at least two, or three with F1")?;
 
+        let mut numbers: Vec<_> = points.iter().map(|(number, _)| *number).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let pulses = numbers.len() as f64;
+        Error::unless(pulses >= wanted, "number of different pulses", pulses, "at least two, or three with F1")?;
+
         let (first, start) = points[0];
         let start = DoubleDouble::from(start);
         let since = |time: [f64; 2]| DoubleDouble::from(time) - start;
@@ -159,5 +165,6 @@ mod tests {
         assert!(SpinFit::new(&points, false).is_ok() && SpinFit::new(&points, true).is_err());
         assert!(SpinFit::new(&points[..1], false).is_err() && SpinFit::new(&[], false).is_err());
         assert!(SpinFit::new(&[(0, [0.0; 2]), (1, [f64::NAN, 0.0])], false).is_err());
+        assert!(SpinFit::new(&[(3, [0.0; 2]), (3, [1.0, 0.0])], false).is_err());
     }
 }

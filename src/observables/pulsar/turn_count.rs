@@ -25,6 +25,9 @@ use crate::solutions::mean::{MeanMotion, MeanTurns};
 /// Slow precession (rad) between two looks.
 const STRIDE: f64 = 0.25;
 
+/// Most strides from one pulse to the next: a second of work.
+const MOST_STRIDES: f64 = 1e6;
+
 /// Follows the turns of a magnetic axis in the principal frame of `s`.
 #[derive(Debug, Clone)]
 pub(super) struct TurnCount {
@@ -66,6 +69,15 @@ impl TurnCount {
         let start = motion.state(0.0);
         let c = start.axis.dot(&start.momentum.normalize());
         let (theta, chi) = (c.abs().min(1.0).acos(), beam.axis.z.clamp(-1.0, 1.0).acos());
+        // The wobble changes by some x along the motion: nearer than that the axis of the beam goes now round L, now round n.
+        let nearest = (theta - chi).abs().min((core::f64::consts::PI - theta - chi).abs());
+        let changes = 4.0 * motion.relative_strength();
+        Error::unless(
+            nearest > changes || motion.relative_strength() == 0.0,
+            "distance of the wobble from the angle of the beam (rad)",
+            nearest,
+            "above 4 C |s| I^xx / |L|^2: nearer to it turns change their number",
+        )?;
         let mut count = Self {
             beam: *beam,
             line_of_sight: *line_of_sight,
@@ -113,6 +125,13 @@ impl TurnCount {
     /// Follows the slow part to the time `t`.
     fn follow(&mut self, motion: &MeanMotion<f64>, t: [f64; 2], parts: &Parts) -> Result<(), Error> {
         let step = STRIDE / motion.rates().slow.abs();
+        let strides = ((t[0] - self.last.0[0]) + (t[1] - self.last.0[1])).abs() / step;
+        Error::unless(
+            strides <= MOST_STRIDES,
+            "slow precession since the last pulse, in quarter radians",
+            strides,
+            "at most 1e6: to count turns it is followed; ask for pulses between, or for weaker violation",
+        )?;
         loop {
             let left = (t[0] - self.last.0[0]) + (t[1] - self.last.0[1]);
             if left.abs() <= step {

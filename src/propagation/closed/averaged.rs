@@ -20,8 +20,6 @@ pub struct AveragedMotion<S> {
     span: (f64, f64),
     /// Time of the initial state, in two parts.
     origin: [f64; 2],
-    /// Time since the initial state at which the phases of `mean` are counted.
-    shift: f64,
     mean: MeanMotion<S>,
     given_from_principal: Matrix3<S>,
 }
@@ -45,7 +43,6 @@ impl<S: Real> AveragedMotion<S> {
             violation: *s,
             span,
             origin: [span.0, 0.0],
-            shift: 0.0,
             mean: MeanMotion::with_free_rotation_of(initial, spheroid, &coefficients, &turned, order)?,
             given_from_principal: principal_from_given.transpose(),
         })
@@ -61,7 +58,6 @@ impl<S: Real> AveragedMotion<S> {
         Ok(Self {
             span: (self.span.0 - epoch[0] - epoch[1], self.span.1 - epoch[0] - epoch[1]),
             origin: [0.0; 2],
-            shift: self.shift + elapsed[0],
             mean: self.mean.near(elapsed),
             ..*self
         })
@@ -93,12 +89,12 @@ impl<S: Real> AveragedMotion<S> {
 
     /// Of what the order leaves out, at the time `t`: see [`MeanMotion::truncation`].
     pub fn truncation(&self, t: f64) -> f64 {
-        self.mean.truncation(self.shift + (t - self.origin[0]))
+        self.mean.truncation(t - self.origin[0])
     }
 
     /// See [`MeanMotion::rounding`].
     pub fn rounding(&self, t: f64) -> f64 {
-        self.mean.rounding(self.shift + (t - self.origin[0]))
+        self.mean.rounding(t - self.origin[0])
     }
 }
 
@@ -123,9 +119,9 @@ impl<S: Real> AxisMotion<S> for AveragedMotion<S> {
         self.state_in_parts(t).map(|state| AxisState::from(&state))
     }
 
-    /// [`truncation`](AveragedMotion::truncation) and [`rounding`](AveragedMotion::rounding), and the rounding of the time.
+    /// [`truncation`](AveragedMotion::truncation) and [`rounding`](AveragedMotion::rounding); the rounding of `t` itself is not counted.
     fn error_estimate(&self, t: f64) -> f64 {
-        self.mean.error_estimate(self.shift + (t - self.origin[0]))
+        self.mean.error_estimate(t - self.origin[0])
     }
 }
 

@@ -35,16 +35,16 @@ struct Fault {
 }
 
 impl<S: Real> MeanMotion<S> {
-    /// Estimated largest error of `n`, `e_x` and `L / G` at a time since the initial state: [`truncation`](Self::truncation) and
-    /// [`rounding`](Self::rounding).
-    pub fn error_estimate(&self, elapsed: f64) -> f64 {
+    /// Estimated largest error of `n`, `e_x` and `L / G` at the time `t`: [`truncation`](Self::truncation) and
+    /// [`rounding`](Self::rounding). It grows from the initial state on, also after [`near`](Self::near).
+    pub fn error_estimate(&self, t: f64) -> f64 {
         // Directions are at most two apart, and G is off by less than the strength.
         let most = 2.0 * (1.0 + self.relative_strength().re());
-        (self.truncation(elapsed) + self.rounding(elapsed)).min(most)
+        (self.truncation(t) + self.rounding(t)).min(most)
     }
 
-    /// What the order leaves out, at a time since the initial state.
-    pub fn truncation(&self, elapsed: f64) -> f64 {
+    /// What the order leaves out, at the time `t`.
+    pub fn truncation(&self, t: f64) -> f64 {
         let x = self.relative_strength().re();
         // The terms of higher order as a geometric series.
         let x = x / (1.0 - x);
@@ -57,12 +57,12 @@ impl<S: Real> MeanMotion<S> {
             rate: SECULAR * power * x * self.turning_rate(),
             neighbour: TENSOR * power,
         };
-        self.consequence(&fault, elapsed.abs())
+        self.consequence(&fault, self.elapsed(t))
     }
 
-    /// Rounding of the initial state and of what Lorentz violation adds to the phases, at a time since the initial state. The free rotation
-    /// itself is known to 32 digits.
-    pub fn rounding(&self, elapsed: f64) -> f64 {
+    /// Rounding of the initial state and of what Lorentz violation adds to the phases, at the time `t`. The free rotation itself is known to 32
+    /// digits.
+    pub fn rounding(&self, t: f64) -> f64 {
         let slow = self.tensor().map(S::re).amax();
         // Theta functions lose half the digits of k'.
         let lost = self.top().complement().sqrt().max(1e-8);
@@ -71,7 +71,7 @@ impl<S: Real> MeanMotion<S> {
             rate: 8.0 * f64::EPSILON * slow,
             neighbour: 8.0 * f64::EPSILON,
         };
-        self.consequence(&fault, elapsed.abs())
+        self.consequence(&fault, self.elapsed(t))
     }
 
     fn consequence(&self, fault: &Fault, elapsed: f64) -> f64 {

@@ -50,6 +50,8 @@ pub struct MeanMotion<S> {
     /// That moves `l`.
     tensor: Vector3<S>,
     relative_strength: S,
+    /// Time from the initial state to the time zero.
+    since_start: f64,
 }
 
 fn require_round<S: Real>(top: &Top<S>) -> Result<(), Error> {
@@ -186,13 +188,14 @@ impl<S: Real> MeanMotion<S> {
             order,
             tensor,
             relative_strength,
+            since_start: 0.0,
             top,
         })
     }
 
     /// The same motion with the time counted from `t` (see [`turns`](Self::turns)): for many states near an epoch after many turns.
     pub fn near(&self, t: [f64; 2]) -> Self {
-        Self { starts: self.phases_at(t), ..*self }
+        Self { starts: self.phases_at(t), since_start: self.since_start + (t[0] + t[1]), ..*self }
     }
 
     /// Mean rates.
@@ -231,6 +234,11 @@ impl<S: Real> MeanMotion<S> {
     /// `G / I^xx`, at which the axis turns.
     pub(super) fn turning_rate(&self) -> f64 {
         self.turning[1].high.abs() * TAU
+    }
+
+    /// Time from the initial state to the time `t`, without a sign.
+    pub(super) fn elapsed(&self, t: f64) -> f64 {
+        (self.since_start + t).abs()
     }
 
     pub(super) fn tensor(&self) -> &Vector3<S> {

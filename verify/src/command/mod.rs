@@ -295,7 +295,7 @@ struct PlanArgs {
     /// Compute nothing: print the plan, what it skips and why, and what it is expected to cost
     #[arg(long)]
     explain: bool,
-    /// The method, instead of the cheapest that meets the accuracy: free, steady, symmetric, taylor
+    /// The method, instead of the cheapest that meets the accuracy: free, steady, symmetric, mean, splitting, taylor
     #[arg(long, value_name = "NAME")]
     method: Option<String>,
 }

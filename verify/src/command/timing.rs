@@ -27,20 +27,28 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let folder = OutputFolder::at(&args.out, args.force, |found| endings.iter().any(|ending| found == file(ending)))?;
     let timing = pulsar.timed(&epochs, args.f1).map_err(failed)?;
     folder.write(&file("csv"), csv(&pulsar, &timing).as_bytes())?;
-    folder.write(&file("par"), par(&scene, &timing).as_bytes())?;
+    folder.write(&file("par"), par(&scene, &timing).map_err(failed)?.as_bytes())?;
     folder.write(&file("tim"), tim(&timing, args.uncertainty * 1e-6).as_bytes())?;
     match strain_series(&pulsar, &series) {
         Some([plus, cross]) => {
             folder.write(&file("h_plus.txt"), plus.as_bytes())?;
             folder.write(&file("h_cross.txt"), cross.as_bytes())?;
         }
-        None => note("no strain: the scene lacks `observer.distance`"),
+        None => {
+            note("no strain: the scene lacks `observer.distance`");
+            // Of another scene of this name: they do not belong to what is beside them now.
+            if args.force {
+                for old in ["h_plus.txt", "h_cross.txt"] {
+                    let _ = std::fs::remove_file(args.out.join(file(old)));
+                }
+            }
+        }
     }
     let files = folder.complete()?;
     note_dark(&timing, epochs.len());
     let farthest = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0].abs()).fold(0.0, f64::max);
     note(&format!(
-        "the mean motion of second order leaves out at most {:.1e} s at the farthest epoch",
+        "estimated error of the mean motion at the farthest epoch: {:.1e} s; arrival times are rounded to 1e-16 d, 9e-12 s",
         pulsar.clock.truncation(farthest)
     ));
     print(&format!(
@@ -80,13 +88,15 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
     let start = scene.times.start();
     let of_time = |t: f64| epoch.after([t - start, 0.0]);
     if args.from.is_none() && args.to.is_none() && args.every.is_none() && args.epochs.is_none() {
-        return Ok(scene.times.iter().map(of_time).collect());
+        return scene.times.iter().map(of_time).collect::<Result<_, _>>().map_err(failed);
     }
-    let from = args.from.unwrap_or_else(|| of_time(start));
-    let to = args.to.unwrap_or_else(|| of_time(scene.times.last()));
+    let from = args.from.map_or_else(|| of_time(start), Ok).map_err(failed)?;
+    let to = args.to.map_or_else(|| of_time(scene.times.last()), Ok).map_err(failed)?;
     let [seconds, _] = to.seconds_since(&from);
     if seconds <= 0.0 {
-        return Err(Failure::BadInput(format!("--from {from} --to {to}: allowed is a later date for --to")));
+        return Err(Failure::BadInput(format!(
+            "epochs from {from} to {to}: allowed is a later date for the last (--from, --to, or the scene's span)"
+        )));
     }
     let days = seconds / 86_400.0;
     let (count, step) = match args.every {
@@ -102,7 +112,8 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
     if !(2.0..=MOST as f64).contains(&count) {
         return Err(Failure::BadInput(format!("{count} epochs are asked for: allowed are from 2 to {MOST}")));
     }
-    Ok((0..count as usize).map(|k| from.after([k as f64 * step * 86_400.0, 0.0])).collect())
+    let epochs = (0..count as usize).map(|k| from.after([k as f64 * step * 86_400.0, 0.0]));
+    epochs.collect::<Result<_, _>>().map_err(failed)
 }
 
 fn series(args: &TimingArgs, epochs: &[Epoch], period: f64) -> Result<Series, Failure> {

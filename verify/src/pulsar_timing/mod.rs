@@ -6,6 +6,8 @@ mod parameters;
 mod strain;
 mod table;
 
+use std::collections::HashSet;
+
 use nalgebra::Matrix3;
 use twofold::Error;
 use twofold::dynamics::{BodyState, RigidSpheroid};
@@ -78,22 +80,29 @@ impl PulsarScene {
     /// As for [`PulsarClock::pulse_near`] and [`SpinFit::new`].
     pub fn timed(&mut self, epochs: &[Epoch], with_rate: bool) -> Result<Timing, Error> {
         let mut pulses = Vec::with_capacity(epochs.len());
+        let (mut seen, mut dark) = (HashSet::new(), 0);
         for at in epochs {
-            if let Some(pulse) = self.clock.pulse_near(at.seconds_since(&self.epoch))? {
-                pulses.push(TimedPulse { arrival: self.epoch.after(pulse.midpoint), pulse });
+            match self.clock.pulse_near(at.seconds_since(&self.epoch))? {
+                // Epochs nearer than a turn have one pulse between them.
+                Some(pulse) if seen.insert(pulse.number) => {
+                    pulses.push(TimedPulse { arrival: self.epoch.after(pulse.midpoint)?, pulse });
+                }
+                Some(_) => {}
+                None => dark += 1,
             }
         }
+        let shines = pulses.len() as f64;
+        Error::unless(
+            shines > 0.0,
+            "number of epochs at which the beam passes the line of sight",
+            shines,
+            "above zero",
+        )?;
         let middle = epochs.iter().map(|at| at.day() as f64).sum::<f64>() / epochs.len() as f64;
         let epoch = Epoch::new(middle.round() as i64, 0.0)?;
         let points: Vec<_> =
             pulses.iter().map(|timed| (timed.pulse.number, timed.arrival.seconds_since(&epoch))).collect();
-        Ok(Timing {
-            dark: epochs.len() - pulses.len(),
-            fit: SpinFit::new(&points, with_rate)?,
-            with_rate,
-            epoch,
-            pulses,
-        })
+        Ok(Timing { dark, fit: SpinFit::new(&points, with_rate)?, with_rate, epoch, pulses })
     }
 }
 

@@ -1,6 +1,7 @@
 //! The files of timing programs: a `.par` of the fit and a `.tim` of the arrival times (FORMAT 1, barycentre).
 
 use std::fmt::Write;
+use twofold::Error;
 
 use super::Timing;
 use super::decimal::decimal;
@@ -12,7 +13,11 @@ fn reference(timing: &Timing) -> i64 {
 }
 
 /// The `.par`: the fitted frequency in TDB. Nothing in it needs an ephemeris or a clock file, since the site is the barycentre.
-pub fn par(scene: &Scene, timing: &Timing) -> String {
+///
+/// # Errors
+/// A fit whose pulse nearest to `PEPOCH` is far from it.
+pub fn par(scene: &Scene, timing: &Timing) -> Result<String, Error> {
+    let at_reference = timing.epoch.after(timing.fit.time_of(reference(timing)))?;
     let mut text = String::new();
     let mut line = |key: &str, value: &str| writeln!(text, "{key:<10}{value}").expect("writing to a string succeeds");
     for source in &scene.sources {
@@ -30,12 +35,12 @@ pub fn par(scene: &Scene, timing: &Timing) -> String {
         line("F1", &format!("{:e}", timing.fit.frequency_rate));
     }
     line("PEPOCH", &timing.epoch.to_string());
-    line("TZRMJD", &timing.epoch.after(timing.fit.time_of(reference(timing))).to_string());
+    line("TZRMJD", &at_reference.to_string());
     line("TZRSITE", "@");
     line("TZRFRQ", "0.0");
     line("UNITS", "TDB");
     line("TRACK", "-2");
-    text
+    Ok(text)
 }
 
 /// The `.tim`: one line for each pulse, of infinite frequency, with its number from that of `TZRMJD` and the uncertainty (s).
