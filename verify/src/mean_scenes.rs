@@ -3,11 +3,11 @@
 use core::f64::consts::TAU;
 
 use nalgebra::Vector3;
-use twofold::Error;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{AxisMotion, Motion, propagate};
 use twofold::solutions::mean::{MeanMotion, MeanOrder};
+use twofold::{Error, Real};
 
 use crate::check::{largest, largest_component};
 use crate::random::Random;
@@ -89,6 +89,55 @@ impl MeanScene {
         let equatorial_axis = (equatorial - axis * axis.dot(&equatorial)).normalize();
         let end = from_to(random, 3.0, turned) * spheroid.inertia_xx / size;
         Self { spheroid, s, initial: BodyState { axis, momentum: l * size, equatorial_axis }, end }
+    }
+
+    /// A scene whose `L` begins beside the separatrix, nearer to it than a few times what the first order leaves out, and goes round a few times:
+    /// where neighbours part.
+    pub fn beside_separatrix(seed: u64, number: u64) -> Self {
+        // Three distinct principal values.
+        let mut scene = Self::draw(seed, 6 * number + 4, 10.0);
+        let mut random = Random::with_seed(seed ^ number.wrapping_mul(0x2545_f491_4f6c_dd1d));
+        let size = scene.initial.momentum.norm();
+        let strength = from_to(&mut random, 3e-3, 0.05);
+        let spread = scene.s.max() - scene.s.min();
+        scene.s *= strength * size * size / (scene.spheroid.constant_c.abs() * scene.spheroid.inertia_xx * spread);
+        let (low, high) = (scene.s.imin(), scene.s.imax());
+        let (upper, lower) = (scene.s[high] - scene.s[3 - low - high], scene.s[3 - low - high] - scene.s[low]);
+        let mut l = Vector3::zeros();
+        let along = random.within(-0.95, 0.95);
+        let across = f64::sqrt(1.0 - along * along) / (upper + lower).sqrt();
+        (l[3 - low - high], l[high], l[low]) = (along, across * lower.sqrt(), across * upper.sqrt());
+        l[low] += from_to(&mut random, 0.1 * strength * strength, 3.0 * strength)
+            * if random.word().is_multiple_of(2) { 1.0 } else { -1.0 };
+        let l = l.normalize();
+        // n at its angle to L.
+        let c = scene.initial.axis.dot(&scene.initial.momentum) / size;
+        let across = direction(&mut random).cross(&l).normalize();
+        let axis = (l * c + across * (1.0 - c * c).max(0.0).sqrt()).normalize();
+        let equatorial = axis.cross(&direction(&mut random)).normalize();
+        let equatorial_axis = (equatorial - axis * axis.dot(&equatorial)).normalize();
+        scene.initial = BodyState { axis, momentum: l * size, equatorial_axis };
+        scene.end = from_to(&mut random, 3.0, 60.0) / strength * scene.spheroid.inertia_xx / size;
+        scene
+    }
+
+    /// The mean motion over any scalar.
+    ///
+    /// # Errors
+    /// A motion that is refused.
+    pub fn motion<S: Real>(&self, order: MeanOrder) -> Result<MeanMotion<S>, Error> {
+        let lift = |v: &Vector3<f64>| v.map(S::from_f64);
+        let spheroid = RigidSpheroid {
+            inertia_xx: S::from_f64(self.spheroid.inertia_xx),
+            inertia_zz: S::from_f64(self.spheroid.inertia_zz),
+            constant_c: S::from_f64(self.spheroid.constant_c),
+        };
+        let initial = BodyState {
+            axis: lift(&self.initial.axis),
+            momentum: lift(&self.initial.momentum),
+            equatorial_axis: lift(&self.initial.equatorial_axis),
+        };
+        MeanMotion::new(&spheroid, &PrincipalCoefficients::new(lift(&self.s).into()), &initial, order)
     }
 
     /// True error over estimate of an order, at random times and the end. What the numerical motion may be off does not count.

@@ -63,12 +63,13 @@ impl<S: Real> MeanMotion<S> {
     /// Rounding of the initial state and of what Lorentz violation adds to the phases, at the time `t`. The free rotation itself is known to 32
     /// digits.
     pub fn rounding(&self, t: f64) -> f64 {
-        let slow = self.tensor().map(S::re).amax();
+        // What is added to the phases, of which the slow rate is a part; at c^2 = 1/3 a small one.
+        let added = self.tensor().map(S::re).amax() + self.relative_strength().re() * self.turning_rate();
         // Theta functions lose half the digits of k'.
         let lost = self.top().complement().sqrt().max(1e-8);
         let fault = Fault {
             constant: 16.0 * f64::EPSILON / lost,
-            rate: 8.0 * f64::EPSILON * slow,
+            rate: 8.0 * f64::EPSILON * added,
             neighbour: 8.0 * f64::EPSILON,
         };
         self.consequence(&fault, self.elapsed(t))

@@ -104,6 +104,10 @@ impl ScaledJacobian {
         let lengths = DVector::from_fn(columns, |j, _| matrix.column(j).norm());
         let errors: Vec<f64> = (0..columns).map(|j| relative_error * magnitudes.column(j).norm()).collect();
         let (idle, used): (Vec<usize>, Vec<usize>) = (0..columns).partition(|&j| lengths[j] <= errors[j]);
+        if used.is_empty() {
+            let (values, vectors) = (DVector::zeros(0), DMatrix::zeros(columns, 0));
+            return Self { lengths, idle, values, vectors, rounding: 0.0 };
+        }
         let mut scaled = matrix.select_columns(&used);
         for (mut column, &j) in scaled.column_iter_mut().zip(&used) {
             column /= lengths[j];
