@@ -152,7 +152,8 @@ const TAKEN_FOR_EQUAL: f64 = 1e-8;
 pub fn principal_frame_along(
     tensor: &Matrix3<Dual64>,
 ) -> Result<(PrincipalCoefficients<Dual64>, Matrix3<Dual64>), Error> {
-    let PrincipalFrame { coefficients, principal_from_given: mut frame } = principal_frame(&tensor.map(|entry| entry.re))?;
+    let PrincipalFrame { coefficients, principal_from_given: mut frame } =
+        principal_frame(&tensor.map(|entry| entry.re))?;
     let PrincipalCoefficients { xx, yy, zz } = coefficients;
     Error::unless(
         xx - zz > 1e-12 * xx.abs().max(zz.abs()),

@@ -116,7 +116,7 @@ fn data_that_are_too_few_or_of_no_pulse_are_refused() {
     assert_eq!(too_few, InferenceError::TooFew { data: 13, unknowns: 13 });
     let mut strange = all.clone();
     let place = Place::Turn { number: 4000, near: 50.0 };
-    strange.push(Datum { observable: Observable::Arrivals, place, value: 50.0, sigma: 1e-5 });
+    strange.push(Datum { observable: Observable::Arrivals, place, epoch: 0.0, value: 50.0, sigma: 1e-5 });
     let error = fit(&truth, &strange, &Unknown::OF_PULSES, 100.0).expect_err("no such turn");
     assert!(matches!(error, InferenceError::NoPulse { turn: 4000, .. }), "{error}");
     assert!(error.to_string().contains("turn 4000"), "{error}");
@@ -206,7 +206,10 @@ fn bad_arguments_are_refused() {
         (&["fit", "tp-1", "--observe", "widths:1"], &["no data", "--simulate SEED"]),
         (&["fit", "tp-1", "none.csv", "--observe", "widths:1"], &["none.csv"]),
         (&["forecast", "tp-1", "--observe", "widths:1", "--of", "delta"], &["--of delta", "s_axial"]),
-        (&["forecast", "tp-1", "--observe", "widths:1", "--spans", "1e9"], &["rotation", "1e5 rad"]),
+        (
+            &["forecast", "tp-1", "--observe", "widths:1", "--spans", "1e9"],
+            &["more than 1e5 rad", "a weaker violation or a shorter span"],
+        ),
         (&["forecast", "tp-1", "--observe", "widths:1", "--spans", "-1"], &["--spans"]),
         (&["forecast", "tp-1", "--observe", "widths:1", "--epochs", "1"], &["--epochs 1"]),
         (&["forecast", "tp-1", "--observe", "periods:1"], &["--observe periods"]),

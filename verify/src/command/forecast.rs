@@ -24,7 +24,6 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
         if !(span > 0.0 && span.is_finite()) {
             return Err(refuse(format!("--spans {span:?}: allowed are numbers above zero")));
         }
-        measurement.check_rotation(span / unit)?;
     }
     if let Some(count) = args.epochs.iter().find(|count| !(2..=100_000).contains(*count)) {
         return Err(refuse(format!("--epochs {count}: allowed is from 2 to 100000")));

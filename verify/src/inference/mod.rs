@@ -16,6 +16,7 @@ mod fisher;
 mod fit;
 mod forecast;
 mod jacobian;
+mod long_span;
 mod model;
 mod observables;
 mod signal;
