@@ -101,7 +101,8 @@ impl<S: Real> MeanMotion<S> {
         let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
         let values = Vector3::new(s.xx, s.yy, s.zz);
         let s = values.map(|value| value - (values.x + values.y + values.z) / 3.0);
-        let size = length(&initial.momentum);
+        // The rotation from the frame given would bring in its rounding, and that of its derivatives, which are as large as the inverse of `s`.
+        let size = length(&given.momentum);
         let reals = s.map(S::re);
         let spread = reals.max() - reals.min();
         Error::unless(size.re() > 0.0, "angular momentum |L|", size.re(), "above zero")?;
@@ -114,7 +115,7 @@ impl<S: Real> MeanMotion<S> {
         )?;
         let strength = constant_c * inertia_xx;
         let pull = constant_c * initial.axis.dot(&s.component_mul(&initial.axis));
-        let along_axis = initial.momentum.dot(&initial.axis);
+        let along_axis = given.momentum.dot(&given.axis);
         let start = [initial.axis, initial.momentum, initial.equatorial_axis];
         let change = transformation(strength, &s, &start, -1.0);
         let [n, momentum, equatorial] = [0, 1, 2].map(|i| start[i] + change[i]);

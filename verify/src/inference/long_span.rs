@@ -51,7 +51,8 @@ fn event(pulse: &ClockPulse) -> Event {
     Event { turn: pulse.number, epoch, start: rest - half, end: rest + half, closest: f64::NAN }
 }
 
-/// The pulse of the turn nearest to each of some times, in their order; dark turns have none, and a turn is taken once.
+/// The pulse of the turn nearest to each of some times, in their order; dark turns have none, a turn is taken once, and no pulse before
+/// the start.
 ///
 /// # Errors
 /// As for [`PulsarClock`].
@@ -61,6 +62,7 @@ pub(super) fn pulses_near(model: &Model<f64>, times: &[f64]) -> Result<Vec<Event
     for &time in times {
         if let Some(pulse) = clock.pulse_near([time, 0.0])?
             && found.last().is_none_or(|last| last.turn < pulse.number)
+            && pulse.midpoint[0] - pulse.duration / 2.0 > 0.0
         {
             found.push(event(&pulse));
         }

@@ -137,7 +137,9 @@ pub fn data_of(signal: &Signal, events: &[Event], samples: &[f64], noise: &[Nois
                 let before = i.checked_sub(1).map(|before| events[before]);
                 if let Some(value) = event.value(before.as_ref(), observable) {
                     let place = Place::Turn { number: event.turn, near: event.epoch + event.midpoint() };
-                    data.push(Datum { observable, place, epoch: event.epoch, value, sigma });
+                    let is_time = matches!(observable, Observable::Arrivals | Observable::ClosestApproaches);
+                    let epoch = if is_time { event.epoch } else { 0.0 };
+                    data.push(Datum { observable, place, epoch, value, sigma });
                 }
             }
         } else {

@@ -111,7 +111,7 @@ fn derivatives() -> Result<Measured, String> {
             let found = family.components(Dual64::new(0.0, 1.0), principal_frame_along).map_err(text)?;
             // The state changes by a part of itself while the parameter changes by this much.
             let size = largest(found.iter().map(|x| x.eps.abs())).max(1.0);
-            let step = 1e-3 / size;
+            let step = 5e-4 / size;
             let at = |x: f64| family.components(x * step, principal_frame_with_derivatives).map_err(text);
             let [a, b, c, d] = [at(-2.0)?, at(-1.0)?, at(1.0)?, at(2.0)?];
             let off = (0..9).map(|i| {
