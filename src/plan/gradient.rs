@@ -102,9 +102,7 @@ pub fn gradient_in_parts(
         return Ok(found);
     }
     for (index, seeded) in seeded.iter().enumerate() {
-        // The real part is that of the plain scene to the bit: 1e10 turns make of a last digit of L ten more.
-        let initial = with_real_part(&seeded.state(), &start.state());
-        let motion = SeededMotion::new(plan, seeded, &initial, principal_frame_along)?;
+        let motion = SeededMotion::new(plan, seeded, principal_frame_along)?;
         for (row, &t) in times.iter().enumerate() {
             write(row, index, seeded, &motion.state(t)?);
         }
@@ -122,7 +120,7 @@ fn values(
     outputs: &impl StateFunction,
     times: &[[f64; 2]],
 ) -> Result<DMatrix<f64>, Error> {
-    let motion = SeededMotion::new(plan, start, &start.state(), principal_frame_with_derivatives)?;
+    let motion = SeededMotion::new(plan, start, principal_frame_with_derivatives)?;
     let mut found = DMatrix::zeros(times.len(), outputs.len());
     let mut here = vec![0.0; outputs.len()];
     for (row, &t) in times.iter().enumerate() {
@@ -130,15 +128,6 @@ fn values(
         found.row_mut(row).iter_mut().zip(&here).for_each(|(value, here)| *value = *here);
     }
     Ok(found)
-}
-
-fn with_real_part(state: &BodyState<Dual64>, real: &BodyState<f64>) -> BodyState<Dual64> {
-    let joined = |dual: &Vector3<Dual64>, real: &Vector3<f64>| dual.zip_map(real, |dual, re| Dual64::new(re, dual.eps));
-    BodyState {
-        axis: joined(&state.axis, &real.axis),
-        momentum: joined(&state.momentum, &real.momentum),
-        equatorial_axis: joined(&state.equatorial_axis, &real.equatorial_axis),
-    }
 }
 
 impl Start<f64> {
@@ -212,9 +201,9 @@ enum SeededMotion<S> {
 }
 
 impl<S: Real> SeededMotion<S> {
-    fn new(plan: &Plan, start: &Start<S>, initial: &BodyState<S>, frame: Frame<S>) -> Result<Self, Error> {
+    fn new(plan: &Plan, start: &Start<S>, frame: Frame<S>) -> Result<Self, Error> {
         let Start { spheroid, violation, .. } = start;
-        let span = plan.stretch;
+        let (initial, span) = (&start.state(), plan.stretch);
         Ok(match plan.method {
             Some(Method::Free | Method::Steady) => {
                 Self::Uniform(UniformMotion::free(spheroid, violation, initial, span))

@@ -6,7 +6,8 @@ use std::fs;
 
 use common::{folder, stderr, stdout, twofold};
 use twofold_verify::inference::{
-    Datum, InferenceError, Model, Noise, Observable, Place, Signal, Simulation, Unknown, data_of, fit, with_noise,
+    Datum, Fisher, InferenceError, Model, Noise, Observable, Place, Signal, Simulation, Unknown, beside, data_of, fit,
+    with_noise,
 };
 use twofold_verify::scene_file::Scene;
 
@@ -68,6 +69,31 @@ fn error_bars_are_in_proportion_to_the_errors() {
     assert!(noisy.nonlinearity(&measured, 100.0).expect("motions") < 0.1);
     for (with, without) in noisy.sigmas().iter().zip(sigmas(&exact)) {
         assert!((with / without - 1.0).abs() < 0.05, "{with} {without}");
+    }
+}
+
+/// After 1e9 turns exact data lead back to s of 1e-9, beam, observer and phase, the wobble known: its derivatives cancel to 1e-13, below their rounding.
+#[test]
+fn decades_give_the_truth() {
+    let near = model("tp-2");
+    let truth = Model { s: near.s * 1e-9, phi_o: 1.0, ..near };
+    use Unknown::{Chi, Gamma, PhiO, Rho, SAsymmetry, SAxial, Spin, ThetaO};
+    let (unknowns, end) = (&[SAxial, SAsymmetry, Spin, Gamma, Chi, Rho, ThetaO, PhiO], 6e9);
+    let signal = Signal::new(&truth, end).expect("signal");
+    assert!(signal.is_long() && signal.events().is_err());
+    let times: Vec<f64> = (1..60).map(|k| end * f64::from(k) / 60.0).collect();
+    let events = signal.events_after(&times).expect("pulses");
+    let data =
+        data_of(&signal, &events, &[], &[(Observable::Arrivals, 1e-3), (Observable::Widths, 1e-3)]).expect("data");
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let fisher = Fisher::of(&truth, &events, &data, unknowns).expect("Fisher matrix");
+    assert!(fisher.degenerate.is_empty() && fisher.weak.is_empty(), "{:?} {:?}", fisher.degenerate, fisher.weak);
+    let start = beside(&truth, unknowns, &fisher.covariance, 0.3, &mut random);
+    let found = fit(&start, &data, unknowns, end).expect("fit");
+    // A last digit of L is 1e-6 rad, a thousandth of an error.
+    assert!(found.chi_squared < 1e-3, "chi^2 = {}", found.chi_squared);
+    for ((value, truth), sigma) in found.values.iter().zip(truth.values(unknowns)).zip(found.sigmas()) {
+        assert!((value - truth).abs() < 0.05 * sigma, "{value} for {truth} +- {sigma}");
     }
 }
 

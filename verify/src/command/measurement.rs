@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use super::output_file::OutputFile;
 use super::run::{failed, read_scene};
 use super::{Failure, MeasurementArgs, TableArgs, note};
-use crate::inference::{Event, InferenceError, Model, Noise, Signal, Unknown, parse_noise};
+use crate::inference::{Event, InferenceError, Model, Noise, Signal, Unknown, check_span, parse_noise};
 use crate::scene_file::{Scene, nearest};
 
 /// A scene, what is measured of it and what is not known of it.
@@ -46,6 +46,7 @@ impl Measurement {
             return Err(refuse(format!("[time] has a span of {end:?} t_c: allowed here is one forwards, above zero")));
         }
         let model = Model::of_scene(&scene).map_err(failed)?;
+        check_span(&model, end).map_err(|why| refuse(why.to_string()))?;
         Ok(Self { name: args.scene.clone(), scene, model, noise, unknowns, end })
     }
 

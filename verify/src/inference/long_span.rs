@@ -22,11 +22,14 @@ pub(super) fn is_long(model: &Model<f64>, end: f64) -> bool {
     end * start.state().momentum.norm() / start.spheroid.inertia_xx > LARGEST_FOLLOWED
 }
 
-/// Refuses a motion that the mean motion does not hold for up to `end`.
+/// Refuses a span to `end` that can neither be followed turn by turn nor by the mean motion.
 ///
 /// # Errors
 /// [`Error::Domain`] as for [`AveragedMotion::new`], and for what it leaves out.
-pub(super) fn check(model: &Model<f64>, end: f64) -> Result<(), Error> {
+pub fn check_span(model: &Model<f64>, end: f64) -> Result<(), Error> {
+    if !is_long(model, end) {
+        return Ok(());
+    }
     let start = model.start();
     let (spheroid, s) = (&start.spheroid, &start.violation);
     let motion = AveragedMotion::new(spheroid, s, &start.state(), (0.0, end), MeanOrder::Second)?;

@@ -32,6 +32,7 @@ pub use fisher::Fisher;
 pub use fit::{Fit, fit, nonlinearity};
 pub use forecast::{Forecast, forecast, scaling};
 pub use jacobian::{Jacobian, jacobian};
+pub use long_span::check_span;
 pub use model::Model;
 pub use observables::{Datum, Noise, Observable, Place, data_of, parse_noise};
 pub use signal::{Event, Signal};

@@ -70,7 +70,7 @@ impl Signal {
         let start = model.start();
         let is_long = long_span::is_long(model, end);
         let request = if is_long {
-            long_span::check(model, end)?;
+            long_span::check_span(model, end)?;
             let request = Request::new(&[Output::PulseProfile], (0.0, end), 2, ACCURACY);
             Request { method: Some(Method::Mean), ..request }
         } else {
