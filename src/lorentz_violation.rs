@@ -1,6 +1,7 @@
 //! Coefficients for Lorentz violation `s^IJ`: principal values, principal frame, PPN replacement. Eqs. (3), (5), (36).
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use num_dual::Dual64;
 
 use crate::error::Error;
 use crate::euler_angles::permuted_from_inertial;
@@ -133,6 +134,57 @@ pub fn principal_frame_with_derivatives<S: Real>(
     }
     let values = (rotation * tensor * rotation.transpose()).diagonal();
     Ok((PrincipalCoefficients { xx: values.x, yy: values.y, zz: values.z }, rotation))
+}
+
+/// Difference of two eigenvalues over the spread of all, up to which derivatives take them for equal. That changes the tensor by this
+/// much; axes of distinct ones turn at a rate that rounding, over their difference, is part of. Both errors are 1e-8 here.
+const TAKEN_FOR_EQUAL: f64 = 1e-8;
+
+/// Eigenvalues in descending order and the proper rotation to the principal frame, with their derivatives by one parameter, also where
+/// two eigenvalues are equal: perturbation theory with a degenerate pair.
+///
+/// Axes of distinct eigenvalues turn at the rate `s'_ij / (s_i - s_j)`. In the plane of two equal ones (to 1e-8 of the spread; both become their mean)
+/// any axes are principal ones, and those are chosen between which the derivative `s'` is diagonal: they stay principal ones as the
+/// eigenvalues part, and need not turn to first order. So the choice depends on the parameter, and there is none for two at once.
+///
+/// # Errors
+/// As for [`principal_frame`], and [`Error::Domain`] where all three eigenvalues are equal (to 1e-12 of the largest).
+pub fn principal_frame_along(
+    tensor: &Matrix3<Dual64>,
+) -> Result<(PrincipalCoefficients<Dual64>, Matrix3<Dual64>), Error> {
+    let PrincipalFrame { coefficients, principal_from_given: mut frame } =
+        principal_frame(&tensor.map(|entry| entry.re))?;
+    let PrincipalCoefficients { xx, yy, zz } = coefficients;
+    Error::unless(
+        xx - zz > 1e-12 * xx.abs().max(zz.abs()),
+        "difference of two eigenvalues of s^IJ",
+        xx - zz,
+        "above 1e-12 of the largest, if derivatives are wanted",
+    )?;
+    let slope = tensor.map(|entry| entry.eps);
+    let slope_in = |frame: &Matrix3<f64>| frame * (slope + slope.transpose()) * 0.5 * frame.transpose();
+    let mut values = Vector3::new(xx, yy, zz);
+    let pair = [(0, 1), (1, 2)].into_iter().find(|&(i, j)| values[i] - values[j] <= TAKEN_FOR_EQUAL * (xx - zz));
+    if let Some((i, j)) = pair {
+        let slope = slope_in(&frame);
+        let (sin, cos) = (0.5 * (2.0 * slope[(i, j)]).atan2(slope[(i, i)] - slope[(j, j)])).sin_cos();
+        let (first, second) = (frame.row(i).into_owned(), frame.row(j).into_owned());
+        frame.set_row(i, &(first * cos + second * sin));
+        frame.set_row(j, &(second * cos - first * sin));
+        let mean = (values[i] + values[j]) / 2.0;
+        (values[i], values[j]) = (mean, mean);
+    }
+    let slope = slope_in(&frame);
+    let turn = |i: usize, j: usize| if Some((i, j)) == pair { 0.0 } else { slope[(i, j)] / (values[i] - values[j]) };
+    let rates = -(Vector3::new(turn(1, 2), -turn(0, 2), turn(0, 1)).cross_matrix() * frame);
+    let value = |i: usize| Dual64::new(values[i], slope[(i, i)]);
+    Ok((PrincipalCoefficients::new([0, 1, 2].map(value)), frame.zip_map(&rates, Dual64::new)))
+}
+
+/// Relative error of derivatives by what [`principal_frame_along`] makes of the eigenvalues: see there.
+pub(crate) fn error_of_principal_frame_along(PrincipalCoefficients { xx, yy, zz }: PrincipalCoefficients<f64>) -> f64 {
+    let (gap, spread) = ((xx - yy).min(yy - zz), xx - zz);
+    if gap <= TAKEN_FOR_EQUAL * spread { gap / spread } else { f64::EPSILON * xx.abs().max(zz.abs()) / gap }
 }
 
 /// How near a symmetric tensor `s^IJ` is to one with two equal eigenvalues.

@@ -5,6 +5,7 @@ use nalgebra::Matrix3;
 use super::{Cost, Method, Output, Parameter, Request, State, Work};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
+use crate::lorentz_violation::{error_of_principal_frame_along, principal_frame};
 use crate::propagation::splitting::splitting_forecast;
 use crate::propagation::{AveragedMotion, AxisState, SymmetricMotion, UniformMotion, largest_torque, taylor_forecast};
 use crate::solutions::mean::MeanOrder;
@@ -155,6 +156,7 @@ fn mean(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<For
         motion.require_derivatives()?;
         // A derivative by s^IJ has one order less, in its own unit.
         truncation /= motion.mean().relative_strength();
+        truncation += error_of_principal_frame_along(principal_frame(violation)?.coefficients);
     }
     Ok(Forecast::closed(truncation, rounding))
 }

@@ -6,6 +6,7 @@ use num_dual::Dual64;
 use super::{Method, Parameter, Plan, Start, State};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
+use crate::lorentz_violation::{PrincipalCoefficients, principal_frame_along, principal_frame_with_derivatives};
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::check_time;
 #[cfg(target_arch = "x86_64")]
@@ -55,6 +56,21 @@ pub fn gradient(
     outputs: &impl StateFunction,
     times: &[f64],
 ) -> Result<Gradient, Error> {
+    let in_parts: Vec<[f64; 2]> = times.iter().map(|&t| [t, 0.0]).collect();
+    gradient_in_parts(plan, start, outputs, &in_parts)
+}
+
+/// As [`gradient`], at times that are sums of two doubles. The mean motion uses both: after 1e10 turns a double does not hold where in its
+/// turn a body is. Other motions take the sum.
+///
+/// # Errors
+/// As for [`gradient`].
+pub fn gradient_in_parts(
+    plan: &Plan,
+    start: &Start<f64>,
+    outputs: &impl StateFunction,
+    times: &[[f64; 2]],
+) -> Result<Gradient, Error> {
     let (width, count) = (outputs.len(), plan.derivatives.len());
     let mut found = Gradient {
         values: DMatrix::zeros(times.len(), width),
@@ -64,12 +80,7 @@ pub fn gradient(
         return Ok(found);
     }
     if count == 0 {
-        let motion = SeededMotion::new(plan, start)?;
-        let mut here = vec![0.0; width];
-        for (row, &t) in times.iter().enumerate() {
-            outputs.values(&start.spheroid, &start.violation, &motion.state(t)?, &mut here);
-            found.values.row_mut(row).iter_mut().zip(&here).for_each(|(value, here)| *value = *here);
-        }
+        found.values = values(plan, start, outputs, times)?;
         return Ok(found);
     }
     let seeded: Vec<Start<Dual64>> = plan.derivatives.iter().map(|parameter| start.seeded(*parameter)).collect();
@@ -81,7 +92,8 @@ pub fn gradient(
             found.jacobians[row][(column, index)] = value.eps;
         }
     };
-    if let Some(states) = states_by_splitting(plan, &seeded, times)? {
+    let sums: Vec<f64> = times.iter().map(|t| t[0] + t[1]).collect();
+    if let Some(states) = states_by_splitting(plan, &seeded, &sums)? {
         for (row, states) in states.iter().enumerate() {
             for (index, (seeded, state)) in seeded.iter().zip(states).enumerate() {
                 write(row, index, seeded, state);
@@ -90,10 +102,30 @@ pub fn gradient(
         return Ok(found);
     }
     for (index, seeded) in seeded.iter().enumerate() {
-        let motion = SeededMotion::new(plan, seeded)?;
+        let motion = SeededMotion::new(plan, seeded, principal_frame_along)?;
         for (row, &t) in times.iter().enumerate() {
-            write(row, index, seeded, &motion.state(Dual64::from_re(t))?);
+            write(row, index, seeded, &motion.state(t)?);
         }
+    }
+    if plan.method == Some(Method::Mean) {
+        // Derivatives take nearly equal eigenvalues for equal: values do not.
+        found.values = values(plan, start, outputs, times)?;
+    }
+    Ok(found)
+}
+
+fn values(
+    plan: &Plan,
+    start: &Start<f64>,
+    outputs: &impl StateFunction,
+    times: &[[f64; 2]],
+) -> Result<DMatrix<f64>, Error> {
+    let motion = SeededMotion::new(plan, start, principal_frame_with_derivatives)?;
+    let mut found = DMatrix::zeros(times.len(), outputs.len());
+    let mut here = vec![0.0; outputs.len()];
+    for (row, &t) in times.iter().enumerate() {
+        outputs.values(&start.spheroid, &start.violation, &motion.state(t)?, &mut here);
+        found.row_mut(row).iter_mut().zip(&here).for_each(|(value, here)| *value = *here);
     }
     Ok(found)
 }
@@ -156,6 +188,9 @@ fn states_by_splitting(_: &Plan, _: &[Start<Dual64>], _: &[f64]) -> Result<Optio
     Ok(None)
 }
 
+/// Eigenvalues of `s^IJ` and the rotation to its principal frame.
+type Frame<S> = fn(&Matrix3<S>) -> Result<(PrincipalCoefficients<S>, Matrix3<S>), Error>;
+
 /// The motion of a plan for duals.
 enum SeededMotion<S> {
     Uniform(UniformMotion<S>),
@@ -166,35 +201,36 @@ enum SeededMotion<S> {
 }
 
 impl<S: Real> SeededMotion<S> {
-    fn new(plan: &Plan, start: &Start<S>) -> Result<Self, Error> {
+    fn new(plan: &Plan, start: &Start<S>, frame: Frame<S>) -> Result<Self, Error> {
         let Start { spheroid, violation, .. } = start;
-        let (initial, span) = (start.state(), plan.stretch);
+        let (initial, span) = (&start.state(), plan.stretch);
         Ok(match plan.method {
             Some(Method::Free | Method::Steady) => {
-                Self::Uniform(UniformMotion::free(spheroid, violation, &initial, span))
+                Self::Uniform(UniformMotion::free(spheroid, violation, initial, span))
             }
-            Some(Method::Symmetric) => Self::Symmetric(SymmetricMotion::new(spheroid, violation, &initial, span)?),
+            Some(Method::Symmetric) => Self::Symmetric(SymmetricMotion::new(spheroid, violation, initial, span)?),
             Some(Method::Mean) => {
-                Self::Mean(AveragedMotion::new(spheroid, violation, &initial, span, MeanOrder::Second)?)
+                let frame = frame(violation)?;
+                Self::Mean(AveragedMotion::in_frame(spheroid, violation, initial, span, MeanOrder::Second, frame)?)
             }
             Some(Method::Taylor | Method::Splitting) | None if plan.state == State::Orientation => {
-                Self::Taylor(propagate(spheroid, violation, &initial, span, plan.accuracy)?)
+                Self::Taylor(propagate(spheroid, violation, initial, span, plan.accuracy)?)
             }
             Some(Method::Taylor | Method::Splitting) | None => {
-                let initial = AxisState::from(&initial);
+                let initial = AxisState::from(initial);
                 Self::TaylorAxis(propagate_axis(spheroid, violation, &initial, span, plan.accuracy)?)
             }
         })
     }
 
-    fn state(&self, t: S) -> Result<BodyState<S>, Error> {
+    fn state(&self, t: [f64; 2]) -> Result<BodyState<S>, Error> {
         match self {
-            Self::Uniform(motion) => motion.state(t),
-            Self::Symmetric(motion) => motion.state(t),
-            Self::Mean(motion) => motion.state(t),
-            Self::Taylor(motion) => motion.state(t),
+            Self::Uniform(motion) => motion.state_in_parts(t),
+            Self::Symmetric(motion) => motion.state_in_parts(t),
+            Self::Mean(motion) => motion.state_in_parts(t),
+            Self::Taylor(motion) => motion.state_in_parts(t),
             Self::TaylorAxis(motion) => {
-                let AxisState { axis, momentum } = motion.axis_state(t)?;
+                let AxisState { axis, momentum } = motion.axis_state_in_parts(t)?;
                 Ok(BodyState { axis, momentum, equatorial_axis: Vector3::zeros() })
             }
         }

@@ -23,7 +23,7 @@ mod work;
 pub use candidate::{Candidate, Prediction};
 pub use cost::{Cost, MACHINE};
 pub use decision::{Plan, Skipped};
-pub use gradient::{Gradient, StateFunction, gradient};
+pub use gradient::{Gradient, StateFunction, gradient, gradient_in_parts};
 pub use method::Method;
 pub use motion::{PlannedAxisMotion, PlannedMotion};
 pub use output::{Evaluations, Need, Output, State};

@@ -536,6 +536,7 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
         &[
             "lorentz_violation::principal_frame",
             "lorentz_violation::principal_frame_with_derivatives",
+            "lorentz_violation::principal_frame_along",
             "lorentz_violation::SymmetryOfTensor",
         ],
     ),
@@ -554,6 +555,7 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
             "plan::PlannedMotion",
             "plan::PlannedAxisMotion",
             "plan::gradient",
+            "plan::gradient_in_parts",
             "plan::Parameter",
             "plan::Start",
             "propagation::taylor_forecast",

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use crate::double_double::DoubleDouble;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::lorentz_violation::principal_frame_with_derivatives;
+use crate::lorentz_violation::{PrincipalCoefficients, principal_frame_with_derivatives};
 use crate::propagation::input::check_time;
 use crate::propagation::{AxisMotion, AxisState, Motion};
 use crate::scalar::Real;
@@ -36,7 +36,22 @@ impl<S: Real> AveragedMotion<S> {
         span: (f64, f64),
         order: MeanOrder,
     ) -> Result<Self, Error> {
-        let (coefficients, principal_from_given) = principal_frame_with_derivatives(s)?;
+        Self::in_frame(spheroid, s, initial, span, order, principal_frame_with_derivatives(s)?)
+    }
+
+    /// As [`new`](Self::new), with the eigenvalues of `s` and the proper rotation to its principal frame: for derivatives, of which those of the
+    /// frame are part (see [`principal_frame_along`](crate::lorentz_violation::principal_frame_along)).
+    ///
+    /// # Errors
+    /// As for [`MeanMotion::new`].
+    pub fn in_frame(
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        initial: &BodyState<S>,
+        span: (f64, f64),
+        order: MeanOrder,
+        (coefficients, principal_from_given): (PrincipalCoefficients<S>, Matrix3<S>),
+    ) -> Result<Self, Error> {
         let turned = initial.rotated(&principal_from_given);
         Ok(Self {
             spheroid: *spheroid,
@@ -82,7 +97,7 @@ impl<S: Real> AveragedMotion<S> {
     /// Refuses a motion of which no derivatives could be had: by any parameter, whichever comes.
     ///
     /// # Errors
-    /// [`Error::Domain`] where `L` rests or is on a separatrix, and for two equal eigenvalues, whose axes a derivative by `s^IJ` may turn.
+    /// [`Error::Domain`] where `L` rests or is on a separatrix, and for three equal eigenvalues.
     pub fn require_derivatives(&self) -> Result<(), Error> {
         self.mean.require_derivatives()
     }

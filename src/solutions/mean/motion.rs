@@ -103,7 +103,8 @@ impl<S: Real> MeanMotion<S> {
         let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
         let values = Vector3::new(s.xx, s.yy, s.zz);
         let s = values.map(|value| value - (values.x + values.y + values.z) / 3.0);
-        let size = length(&initial.momentum);
+        // The rotation from the frame given would bring in its rounding, and that of its derivatives, which are as large as the inverse of `s`.
+        let size = length(&given.momentum);
         let reals = s.map(S::re);
         let spread = reals.max() - reals.min();
         Error::unless(size.re() > 0.0, "angular momentum |L|", size.re(), "above zero")?;
@@ -116,7 +117,7 @@ impl<S: Real> MeanMotion<S> {
         )?;
         let strength = constant_c * inertia_xx;
         let pull = constant_c * initial.axis.dot(&s.component_mul(&initial.axis));
-        let along_axis = initial.momentum.dot(&initial.axis);
+        let along_axis = given.momentum.dot(&given.axis);
         let start = [initial.axis, initial.momentum, initial.equatorial_axis];
         let change = transformation(strength, &s, &start, -1.0);
         let [n, momentum, equatorial] = [0, 1, 2].map(|i| start[i] + change[i]);
@@ -212,16 +213,15 @@ impl<S: Real> MeanMotion<S> {
     /// Refuses a motion that has no derivatives by some of its parameters.
     ///
     /// # Errors
-    /// [`Error::Domain`] where `L` rests or is on a separatrix, and for two equal eigenvalues of `s`, whose axes a derivative may turn.
+    /// [`Error::Domain`] where `L` rests or is on a separatrix, and for three equal eigenvalues of `s`.
     pub fn require_derivatives(&self) -> Result<(), Error> {
-        let [x, y, z] = self.s.map(S::re).into();
-        let gap = (x - y).abs().min((y - z).abs()).min((z - x).abs());
-        let size = x.abs().max(y.abs()).max(z.abs());
+        let s = self.s.map(S::re);
+        let spread = s.max() - s.min();
         Error::unless(
-            gap > 1e-12 * size,
-            "least difference of two eigenvalues of s^IJ",
-            gap,
-            "above 1e-12 of the largest, if derivatives are wanted",
+            spread > 0.0,
+            "largest difference of two eigenvalues of s^IJ",
+            spread,
+            "above zero, if derivatives are wanted",
         )?;
         require_round(&self.top)
     }

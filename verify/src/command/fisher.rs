@@ -8,8 +8,7 @@ pub(super) fn fisher(args: &FisherArgs) -> Result<(), Failure> {
     let measurement = Measurement::read(&args.measurement)?;
     let refused = |error: InferenceError| measurement.refused(error);
     let signal = Signal::new(&measurement.model, measurement.end).map_err(|error| refused(error.into()))?;
-    let sees_pulses = measurement.noise.iter().any(|(observable, _)| observable.is_of_pulses());
-    let events = if sees_pulses { signal.events().map_err(|error| refused(error.into()))? } else { Vec::new() };
+    let events = measurement.events(&signal)?;
     let data = data_of(&signal, &events, &measurement.samples()?, &measurement.noise)
         .map_err(|error| refused(error.into()))?;
     let fisher = Fisher::of(&measurement.model, &events, &data, &measurement.unknowns).map_err(refused)?;

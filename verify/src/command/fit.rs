@@ -31,11 +31,7 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
         data = with_noise(&data, &mut random);
         if args.data.is_empty() {
             let signal = Signal::new(model, *end).map_err(|error| refused(error.into()))?;
-            let events = if data.iter().any(|datum| datum.observable.is_of_pulses()) {
-                signal.events().map_err(|error| refused(error.into()))?
-            } else {
-                Vec::new()
-            };
+            let events = measurement.events(&signal)?;
             let fisher = Fisher::of(model, &events, &data, unknowns).map_err(refused)?;
             if !fisher.degenerate.is_empty() || !fisher.weak.is_empty() {
                 return Err(refused(InferenceError::Degenerate([fisher.degenerate, fisher.weak].concat())));
@@ -76,17 +72,23 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
 fn simulated(measurement: &Measurement) -> Result<Vec<Datum>, Failure> {
     let refused = |error: twofold::Error| measurement.refused(error.into());
     let signal = Signal::new(&measurement.model, measurement.end).map_err(refused)?;
-    let sees_pulses = measurement.noise.iter().any(|(observable, _)| observable.is_of_pulses());
-    let mut events = if sees_pulses { signal.events().map_err(refused)? } else { Vec::new() };
-    events.retain(|event| event.start > signal.turn());
+    let mut events = measurement.events(&signal)?;
+    events.retain(|event| event.epoch + event.start > signal.turn());
     data_of(&signal, &events, &measurement.samples()?, &measurement.noise).map_err(refused)
 }
 
 /// The data in files that lie within the span of the scene.
 fn read(measurement: &Measurement, files: &[String]) -> Result<Vec<Datum>, Failure> {
     let mut data = Vec::new();
+    let signal = Signal::new(&measurement.model, measurement.end).map_err(|error| measurement.refused(error.into()))?;
+    let is_long = signal.is_long();
     for file in files {
         let of_pulses = is_of_pulses(file).map_err(Failure::BadInput)?;
+        if of_pulses && is_long {
+            return Err(Failure::BadInput(format!(
+                "{file}: arrival times of one double each, for a span of more than 1e5 rad of rotation: allowed are --simulate and strains"
+            )));
+        }
         let read = if of_pulses { read_pulses } else { read_strain };
         data.extend(read(file, &measurement.scene, &measurement.noise).map_err(Failure::BadInput)?);
     }

@@ -2,7 +2,7 @@
 
 use super::measurement::{Measurement, readable, write_csv};
 use super::{Failure, FisherArgs, ForecastArgs, note, print};
-use crate::inference::{Observable, Unknown, forecast, scaling};
+use crate::inference::{Observable, Unknown, check_span, forecast, scaling};
 
 pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     let FisherArgs { measurement, output } = &args.fisher;
@@ -24,7 +24,7 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
         if !(span > 0.0 && span.is_finite()) {
             return Err(refuse(format!("--spans {span:?}: allowed are numbers above zero")));
         }
-        measurement.check_rotation(span / unit)?;
+        check_span(&measurement.model, span / unit).map_err(|why| refuse(format!("--spans {span:?}: {why}")))?;
     }
     if let Some(count) = args.epochs.iter().find(|count| !(2..=100_000).contains(*count)) {
         return Err(refuse(format!("--epochs {count}: allowed is from 2 to 100000")));

@@ -6,12 +6,9 @@ use nalgebra::DMatrix;
 
 use super::output_file::OutputFile;
 use super::run::{failed, read_scene};
-use super::{Failure, MeasurementArgs, TableArgs};
-use crate::inference::{InferenceError, Model, Noise, Unknown, parse_noise};
+use super::{Failure, MeasurementArgs, TableArgs, note};
+use crate::inference::{Event, InferenceError, Model, Noise, Signal, Unknown, check_span, parse_noise};
 use crate::scene_file::{Scene, nearest};
-
-/// Largest rotation over a span, in rad: the motion is kept in memory, with its derivatives at every datum.
-const LARGEST_ROTATION: f64 = 1e5;
 
 /// A scene, what is measured of it and what is not known of it.
 pub(super) struct Measurement {
@@ -49,35 +46,40 @@ impl Measurement {
             return Err(refuse(format!("[time] has a span of {end:?} t_c: allowed here is one forwards, above zero")));
         }
         let model = Model::of_scene(&scene).map_err(failed)?;
-        let measurement = Self { name: args.scene.clone(), scene, model, noise, unknowns, end };
-        measurement.check_rotation(end)?;
-        Ok(measurement)
+        check_span(&model, end).map_err(|why| refuse(why.to_string()))?;
+        Ok(Self { name: args.scene.clone(), scene, model, noise, unknowns, end })
     }
 
-    /// Refuses a span, in t_c, that is too long to be kept.
-    pub(super) fn check_rotation(&self, span: f64) -> Result<(), Failure> {
-        let rotation = span * self.scene.turning_rate();
-        if rotation <= LARGEST_ROTATION {
-            return Ok(());
+    /// The pulses of a signal that are data: all of them, or of a long span those near the samples of the scene.
+    pub(super) fn events(&self, signal: &Signal) -> Result<Vec<Event>, Failure> {
+        let refused = |error: twofold::Error| self.refused(error.into());
+        if self.noise.iter().all(|(observable, _)| !observable.is_of_pulses()) {
+            return Ok(Vec::new());
         }
-        Err(Failure::BadInput(format!(
-            "{}: a span of {:?} {} has a rotation by {rotation:.1e} rad: allowed here is at most {LARGEST_ROTATION:.0e} rad",
-            self.name,
-            span * self.scene.units.time,
-            self.scene.units.time_name
-        )))
+        if !signal.is_long() {
+            return signal.events().map_err(refused);
+        }
+        note(
+            "a span of more than 1e5 rad of rotation: the pulses nearest to the samples of the scene, by the mean motion",
+        );
+        signal.events_after(&self.sample_times()?).map_err(refused)
     }
 
     /// Samples of the strain: those of the scene.
     pub(super) fn samples(&self) -> Result<Vec<f64>, Failure> {
-        const MOST: usize = 100_000;
         if self.noise.iter().all(|(observable, _)| observable.is_of_pulses()) {
             return Ok(Vec::new());
         }
+        self.sample_times()
+    }
+
+    /// The samples of the scene.
+    fn sample_times(&self) -> Result<Vec<f64>, Failure> {
+        const MOST: usize = 100_000;
         let count = self.scene.times.count();
         if count > MOST {
             return Err(Failure::BadInput(format!(
-                "{}: `time.samples` = {count}: allowed for strains here are at most {MOST}",
+                "{}: `time.samples` = {count}: allowed here are at most {MOST}",
                 self.name
             )));
         }

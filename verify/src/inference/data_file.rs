@@ -94,7 +94,7 @@ pub fn read_pulses(path: &str, scene: &Scene, noise: &[Noise]) -> Result<Vec<Dat
                 Observable::Periods if !fields[5].is_empty() && single(turn - 1) => field(5)? / time,
                 _ => continue,
             };
-            data.push(Datum { observable, place: Place::Turn { number: *turn, near }, value, sigma });
+            data.push(Datum { observable, place: Place::Turn { number: *turn, near }, epoch: 0.0, value, sigma });
         }
     }
     Ok(data)
@@ -117,7 +117,7 @@ pub fn read_strain(path: &str, scene: &Scene, noise: &[Noise]) -> Result<Vec<Dat
                 Observable::StrainCross => field(2)?,
                 _ => continue,
             };
-            data.push(Datum { observable, place, value, sigma });
+            data.push(Datum { observable, place, epoch: 0.0, value, sigma });
         }
     }
     Ok(data)

@@ -1,9 +1,11 @@
 //! Weighted least squares: the unknowns that data are most likely of, by Levenberg and Marquardt's method with exact derivatives.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{DMatrix, DVector};
 use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPSide, MPSuccess};
 
-use super::{Datum, Event, Fisher, InferenceError, Model, Place, Signal, Unknown, jacobian};
+use super::{Datum, Event, Fisher, InferenceError, Model, Observable, Place, Signal, Unknown, jacobian};
 
 /// What a fit found.
 #[derive(Debug, Clone)]
@@ -91,14 +93,25 @@ fn events_as_counted(signal: &Signal, data: &[Datum]) -> Result<Vec<Event>, Infe
 /// The data that a model has, less those measured, in standard deviations; and its pulses.
 fn compared(model: &Model<f64>, data: &[Datum], end: f64) -> Result<(Vec<f64>, Vec<Event>), InferenceError> {
     let signal = Signal::new(model, end + 2.0 * turn(model))?;
-    let events = events_as_counted(&signal, data)?;
+    let events = if signal.is_long() {
+        let turns = data.iter().filter_map(|datum| match datum.place {
+            Place::Turn { number, near } => Some((number, near)),
+            Place::Time(_) => None,
+        });
+        signal.events_of_turns(&turns.collect::<BTreeMap<_, _>>().into_iter().collect::<Vec<_>>())?
+    } else {
+        events_as_counted(&signal, data)?
+    };
     let find = |turn: i64| events.binary_search_by_key(&turn, |event| event.turn).ok().map(|place| events[place]);
     let compare = |datum: &Datum| {
         let value = match datum.place {
             Place::Time(t) => signal.strain(datum.observable, t)?,
             Place::Turn { number, near } => {
                 let event = find(number).and_then(|event| event.value(find(number - 1).as_ref(), datum.observable));
-                event.ok_or(InferenceError::NoPulse { turn: number, near })?
+                let value = event.ok_or(InferenceError::NoPulse { turn: number, near })?;
+                let is_time = matches!(datum.observable, Observable::Arrivals | Observable::ClosestApproaches);
+                let epoch = find(number).map_or(0.0, |event| event.epoch);
+                if is_time { (epoch - datum.epoch) + value } else { value }
             }
         };
         Ok((value - datum.value) / datum.sigma)

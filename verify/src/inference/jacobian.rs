@@ -3,6 +3,7 @@
 //! The states and their derivatives by the parameters of [`plan::gradient`](twofold::plan::gradient) come of one motion. A column
 //! by an unknown is a sum of columns by such parameters, and of what is explicit in the unknown: beam, line of sight, scale.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector, Matrix3};
@@ -13,11 +14,11 @@ use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
 use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::event_time::{closest_approach_time, edge_time};
-use twofold::plan::{Gradient, Output, Parameter, Plan, Request, Start, StateFunction, gradient};
+use twofold::plan::{Gradient, Method, Output, Parameter, Plan, Request, Start, StateFunction, gradient_in_parts};
 use twofold::{Error, Real};
 
 use super::signal::ACCURACY;
-use super::{Datum, Event, InferenceError, Model, Observable, Place, Unknown};
+use super::{Datum, Event, InferenceError, Model, Observable, Place, Unknown, long_span};
 
 /// Derivatives of data by unknowns.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +49,7 @@ pub fn jacobian(
     let terms = data.iter().map(|datum| Term::of(datum, &by_turn)).collect::<Result<Vec<_>, _>>()?;
     let start = model.start();
     let (parameters, weights) = weights(model, unknowns);
-    let states = States::new(&start, &terms, &parameters)?;
+    let states = States::new(model, &start, &terms, &parameters)?;
     let (rows, base) = (data.len(), parameters.len());
     // By the parameters of the motion, at constant beam and line of sight.
     let mut by_parameters = DMatrix::zeros(rows, base);
@@ -56,7 +57,7 @@ pub fn jacobian(
         let seeded = seeded_start(&start, *parameter);
         let fixed = model.lifted();
         for (row, (datum, term)) in data.iter().zip(&terms).enumerate() {
-            let state = |t: f64| states.at(t, Some(column));
+            let state = |t: [f64; 2]| states.at(t, Some(column));
             by_parameters[(row, column)] =
                 term.value(&fixed, (&seeded.spheroid, &seeded.violation), datum.observable, &state)?.eps;
         }
@@ -68,12 +69,14 @@ pub fn jacobian(
         unknown.add(&mut seeded, Dual64::new(0.0, 1.0));
         let still = start.lifted();
         for (row, (datum, term)) in data.iter().zip(&terms).enumerate() {
-            let state = |t: f64| states.at(t, None);
+            let state = |t: [f64; 2]| states.at(t, None);
             explicit[(row, column)] =
                 term.value(&seeded, (&still.spheroid, &still.violation), datum.observable, &state)?.eps;
         }
     }
-    let rotation = states.end() * start.state().momentum.norm() / start.spheroid.inertia_xx;
+    // The mean motion keeps its phases in 32 digits.
+    let rotation = if states.is_long { 0.0 } else { 1.0 } * states.end() * start.state().momentum.norm()
+        / start.spheroid.inertia_xx;
     let found = Jacobian {
         matrix: &by_parameters * &weights + &explicit,
         magnitudes: by_parameters.abs() * weights.abs() + explicit.abs(),
@@ -145,36 +148,45 @@ impl StateFunction for Vectors {
     }
 }
 
+/// Times in two parts, in some order.
+fn order(a: &[f64; 2], b: &[f64; 2]) -> Ordering {
+    a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
+}
+
 /// States with derivatives at the times of the data.
 struct States {
-    times: Vec<f64>,
+    times: Vec<[f64; 2]>,
     found: Gradient,
+    is_long: bool,
 }
 
 impl States {
-    fn new(start: &Start<f64>, terms: &[Term], parameters: &[Parameter]) -> Result<Self, Error> {
-        let mut times: Vec<f64> = terms.iter().flat_map(|term| term.times()).collect();
-        times.sort_by(f64::total_cmp);
+    fn new(model: &Model<f64>, start: &Start<f64>, terms: &[Term], parameters: &[Parameter]) -> Result<Self, Error> {
+        let mut times: Vec<[f64; 2]> = terms.iter().flat_map(|term| term.times()).collect();
+        times.sort_by(order);
         times.dedup();
+        let end = times.iter().fold(0.0, |last: f64, [epoch, t]| last.max(epoch + t));
+        let is_long = long_span::is_long(model, end);
         let needs_beam = terms.iter().any(|term| !matches!(term, Term::Sample(_)));
         let output = if needs_beam { Output::PulseProfile } else { Output::GravitationalWave };
         let request = Request {
             derivatives: parameters.to_vec(),
-            ..Request::new(&[output], (0.0, times.last().copied().unwrap_or(0.0)), times.len(), ACCURACY)
+            method: is_long.then_some(Method::Mean),
+            ..Request::new(&[output], (0.0, end), times.len(), ACCURACY)
         };
         let plan = Plan::new(&start.spheroid, &start.violation, &start.state(), &request)?;
-        let found = gradient(&plan, start, &Vectors, &times)?;
-        Ok(Self { times, found })
+        let found = gradient_in_parts(&plan, start, &Vectors, &times)?;
+        Ok(Self { times, found, is_long })
     }
 
     /// The last time.
     fn end(&self) -> f64 {
-        self.times.last().copied().unwrap_or(0.0)
+        self.times.iter().fold(0.0, |last, [epoch, t]| last.max(epoch + t))
     }
 
     /// The state at a time with its derivative by the parameter with a number, or with none.
-    fn at(&self, t: f64, parameter: Option<usize>) -> BodyState<Dual64> {
-        let row = self.times.partition_point(|time| *time < t);
+    fn at(&self, t: [f64; 2], parameter: Option<usize>) -> BodyState<Dual64> {
+        let row = self.times.partition_point(|time| order(time, &t).is_lt());
         let component = |place: usize| {
             let derivative = parameter.map_or(0.0, |column| self.found.jacobians[row][(place, column)]);
             Dual64::new(self.found.values[(row, place)], derivative)
@@ -211,11 +223,17 @@ impl Term {
         }
     }
 
-    fn times(&self) -> Vec<f64> {
+    fn times(&self) -> Vec<[f64; 2]> {
         match self {
-            Self::Pulse(event) => vec![event.start, event.end, event.closest],
-            Self::Pulses(before, event) => vec![before.start, before.end, event.start, event.end],
-            Self::Sample(t) => vec![*t],
+            Self::Pulse(event) => {
+                let sought = [event.start, event.end, event.closest].into_iter().filter(|t| t.is_finite());
+                sought.map(|t| [event.epoch, t]).collect()
+            }
+            Self::Pulses(before, event) => {
+                let of = |event: &Event| [[event.epoch, event.start], [event.epoch, event.end]];
+                [of(before), of(event)].concat()
+            }
+            Self::Sample(t) => vec![[*t, 0.0]],
         }
     }
 
@@ -225,22 +243,22 @@ impl Term {
         model: &Model<Dual64>,
         (spheroid, s): (&RigidSpheroid<Dual64>, &Matrix3<Dual64>),
         observable: Observable,
-        state: &impl Fn(f64) -> BodyState<Dual64>,
+        state: &impl Fn([f64; 2]) -> BodyState<Dual64>,
     ) -> Result<Dual64, Error> {
         let observer: Observer<Dual64> = model.observer();
         let beam: Beam<Dual64> = model.beam();
         let n = &observer.direction;
-        let edge = |t: f64| edge_time(t, &beam, n, (spheroid, s), &state(t));
-        let midpoint = |event: &Event| Ok((edge(event.start)? + edge(event.end)?) / 2.0);
+        let edge = |event: &Event, t: f64| edge_time(t, &beam, n, (spheroid, s), &state([event.epoch, t]));
+        let midpoint = |event: &Event| Ok((edge(event, event.start)? + edge(event, event.end)?) / 2.0);
         match (self, observable) {
-            (Self::Pulse(event), Observable::Widths) => Ok(edge(event.end)? - edge(event.start)?),
+            (Self::Pulse(event), Observable::Widths) => Ok(edge(event, event.end)? - edge(event, event.start)?),
             (Self::Pulse(event), Observable::ClosestApproaches) => {
-                closest_approach_time(event.closest, &beam, n, (spheroid, s), &state(event.closest))
+                closest_approach_time(event.closest, &beam, n, (spheroid, s), &state([event.epoch, event.closest]))
             }
             (Self::Pulse(event), _) => midpoint(event),
             (Self::Pulses(before, event), _) => Ok(midpoint(event)? - midpoint(before)?),
             (Self::Sample(t), _) => {
-                let BodyState { axis, momentum, .. } = state(*t);
+                let BodyState { axis, momentum, .. } = state([*t, 0.0]);
                 let acceleration = spheroid_inertia_acceleration(spheroid, s, &axis, &momentum);
                 let h = polarizations(&observer, &metric_perturbation(Dual64::from_re(1.0), &acceleration));
                 let h = if observable == Observable::StrainPlus { h.plus } else { h.cross };

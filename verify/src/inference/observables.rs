@@ -110,6 +110,8 @@ pub struct Datum {
     pub observable: Observable,
     /// Where.
     pub place: Place,
+    /// Time from which an arrival or a closest approach is counted: see [`Event::epoch`].
+    pub epoch: f64,
     /// What.
     pub value: f64,
     /// Its standard deviation.
@@ -119,22 +121,31 @@ pub struct Datum {
 /// The data without errors that `noise` asks for: of the pulses `events`, and of the strain at `samples`.
 ///
 /// # Errors
-/// A motion that cannot be evaluated at a sample.
+/// A motion that cannot be evaluated at a sample; closest approaches and periods of a [long](Signal::is_long) span.
 pub fn data_of(signal: &Signal, events: &[Event], samples: &[f64], noise: &[Noise]) -> Result<Vec<Datum>, Error> {
     let mut data = Vec::new();
+    let whole_turns = [Observable::ClosestApproaches, Observable::Periods];
+    Error::unless(
+        !(signal.is_long() && noise.iter().any(|(kind, _)| whole_turns.contains(kind))),
+        "span for closest approaches and periods",
+        signal.end,
+        "one of at most 1e5 rad of rotation; arrivals and widths may have any",
+    )?;
     for &(observable, sigma) in noise {
         if observable.is_of_pulses() {
             for (i, event) in events.iter().enumerate() {
                 let before = i.checked_sub(1).map(|before| events[before]);
                 if let Some(value) = event.value(before.as_ref(), observable) {
-                    let place = Place::Turn { number: event.turn, near: event.midpoint() };
-                    data.push(Datum { observable, place, value, sigma });
+                    let place = Place::Turn { number: event.turn, near: event.epoch + event.midpoint() };
+                    let is_time = matches!(observable, Observable::Arrivals | Observable::ClosestApproaches);
+                    let epoch = if is_time { event.epoch } else { 0.0 };
+                    data.push(Datum { observable, place, epoch, value, sigma });
                 }
             }
         } else {
             for &time in samples {
                 let value = signal.strain(observable, time)?;
-                data.push(Datum { observable, place: Place::Time(time), value, sigma });
+                data.push(Datum { observable, place: Place::Time(time), epoch: 0.0, value, sigma });
             }
         }
     }

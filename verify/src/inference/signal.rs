@@ -5,16 +5,18 @@ use twofold::Error;
 use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
 use twofold::observables::pulsar::{Beam, Pulse, arrivals, pulse_train};
-use twofold::plan::{Output, Plan, PlannedMotion, Request};
+use twofold::plan::{Method, Output, Plan, PlannedMotion, Request};
 use twofold::propagation::AxisMotion;
 
-use super::{Model, Observable};
+use super::{Model, Observable, long_span};
 
 /// A whole pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
     /// Turn that it belongs to, counted from some one.
     pub turn: i64,
+    /// Time from which the others are counted: zero, but for a pulse of a span so long that one double holds no time well enough.
+    pub epoch: f64,
     /// Time at which the line of sight enters the beam.
     pub start: f64,
     /// Time at which it leaves.
@@ -24,7 +26,7 @@ pub struct Event {
 }
 
 impl Event {
-    /// The middle between the edges.
+    /// The middle between the edges, since the epoch.
     pub fn midpoint(&self) -> f64 {
         self.start + (self.end - self.start) / 2.0
     }
@@ -51,6 +53,7 @@ pub struct Signal {
     /// Last time.
     pub end: f64,
     motion: PlannedMotion,
+    is_long: bool,
     beam: Beam<f64>,
     line_of_sight: Vector3<f64>,
 }
@@ -65,23 +68,37 @@ impl Signal {
     /// A motion that cannot be computed.
     pub fn new(model: &Model<f64>, end: f64) -> Result<Self, Error> {
         let start = model.start();
-        let request = Request::new(&[Output::Pulses], (0.0, end), 2, ACCURACY);
+        let is_long = long_span::is_long(model, end);
+        let request = if is_long {
+            long_span::check_span(model, end)?;
+            let request = Request::new(&[Output::PulseProfile], (0.0, end), 2, ACCURACY);
+            Request { method: Some(Method::Mean), ..request }
+        } else {
+            Request::new(&[Output::Pulses], (0.0, end), 2, ACCURACY)
+        };
         let state = start.state();
         let plan = Plan::new(&start.spheroid, &start.violation, &state, &request)?;
         Ok(Self {
             model: *model,
             end,
             motion: plan.motion(&start.spheroid, &start.violation, &state)?,
+            is_long,
             beam: model.beam(),
             line_of_sight: model.observer().direction,
         })
     }
 
+    /// Whether the span is one of more than 1e5 rad of rotation. Its pulses are those near given times, by the mean motion of second order.
+    pub fn is_long(&self) -> bool {
+        self.is_long
+    }
+
     /// Every whole pulse that is the only one of its turn.
     ///
     /// # Errors
-    /// A beam or line of sight that has no pulses to be counted.
+    /// A beam or line of sight that has no pulses to be counted, and a long span.
     pub fn events(&self) -> Result<Vec<Event>, Error> {
+        Error::unless(!self.is_long, "span for every pulse", self.end, "one of at most 1e5 rad of rotation")?;
         let found = self.events_in((0.0, self.end))?;
         let once = |turn: i64| found.iter().filter(|event| event.turn == turn).count() == 1;
         Ok(if found.windows(2).all(|pair| pair[0].turn < pair[1].turn) {
@@ -92,11 +109,14 @@ impl Signal {
     }
 
     /// The first whole pulse after each of some times, within two turns; `turn` is the place of the time. For spans with more pulses
-    /// than can be looked for.
+    /// than can be looked for. Of a [long](Self::is_long) span the pulse of the turn nearest to each, with the number of the turn.
     ///
     /// # Errors
     /// As for [`events`](Self::events).
     pub fn events_after(&self, times: &[f64]) -> Result<Vec<Event>, Error> {
+        if self.is_long {
+            return long_span::pulses_near(&self.model, times);
+        }
         let mut found = Vec::new();
         let window = 2.2 * self.turn();
         for (place, &time) in times.iter().enumerate() {
@@ -104,6 +124,14 @@ impl Signal {
             found.extend(events.first().map(|event| Event { turn: place as i64, ..*event }));
         }
         Ok(found)
+    }
+
+    /// The pulses of turns with given numbers in a [long](Self::is_long) span, each looked for from a time near it; dark ones are left out.
+    ///
+    /// # Errors
+    /// A beam or line of sight that has no pulses to be counted.
+    pub fn events_of_turns(&self, turns: &[(i64, f64)]) -> Result<Vec<Event>, Error> {
+        long_span::pulses_numbered(&self.model, turns)
     }
 
     /// About the time of a turn: that of a rotation at the rate `|L| / I^xx`.
@@ -118,6 +146,7 @@ impl Signal {
         let whole = train.pulses.iter().filter(|pulse| pulse.is_whole());
         let event = |(&Pulse { start, end, .. }, arrival): (&Pulse, &twofold::observables::pulsar::Arrival)| Event {
             turn: arrival.number,
+            epoch: 0.0,
             start,
             end,
             closest: arrival.closest_approach,
