@@ -78,6 +78,11 @@ fn simulated(measurement: &Measurement) -> Result<Vec<Datum>, Failure> {
 }
 
 /// The data in files that lie within the span of the scene.
+/// Whether two data are one: of the same kind, number and time, to the last digit.
+fn same(a: &Datum, b: &Datum) -> bool {
+    a.observable == b.observable && a.value == b.value && a.place == b.place
+}
+
 fn read(measurement: &Measurement, files: &[String]) -> Result<Vec<Datum>, Failure> {
     let mut data = Vec::new();
     let signal = Signal::new(&measurement.model, measurement.end).map_err(|error| measurement.refused(error.into()))?;
@@ -90,7 +95,16 @@ fn read(measurement: &Measurement, files: &[String]) -> Result<Vec<Datum>, Failu
             )));
         }
         let read = if of_pulses { read_pulses } else { read_strain };
-        data.extend(read(file, &measurement.scene, &measurement.noise).map_err(Failure::BadInput)?);
+        let more = read(file, &measurement.scene, &measurement.noise).map_err(Failure::BadInput)?;
+        let first = more.first().copied();
+        if let Some(again) = first.filter(|datum| data.iter().any(|other| same(other, datum))) {
+            return Err(Failure::BadInput(format!(
+                "{file}: {} = {:?} is in a file before it: allowed are data measured once",
+                again.observable.key(),
+                again.value
+            )));
+        }
+        data.extend(more);
     }
     for (observable, _) in &measurement.noise {
         if data.iter().all(|datum| datum.observable != *observable) {

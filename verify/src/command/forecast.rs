@@ -35,16 +35,26 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
         forecast(model, noise, unknowns, target, &in_tc, &args.epochs).map_err(|error| measurement.refused(error))?;
     let (factor, target_unit) = measurement.unit(target);
     let time = measurement.scene.units.time_name;
-    let header = [format!("span [{time}]"), "epochs".to_owned(), format!("sigma_{} [{target_unit}]", target.key())];
+    let header = [
+        format!("span [{time}]"),
+        "epochs".to_owned(),
+        "data of each".to_owned(),
+        format!("sigma_{} [{target_unit}]", target.key()),
+    ];
     let mut rows = vec![header.to_vec()];
     for (row, forecast) in found.iter().enumerate() {
         let sigma = forecast.sigma * factor;
         let sigma = if sigma.is_finite() { format!("{sigma:.6e}") } else { String::new() };
-        rows.push(vec![format!("{:?}", spans[row / args.epochs.len()]), forecast.epochs.to_string(), sigma]);
+        rows.push(vec![
+            format!("{:?}", spans[row / args.epochs.len()]),
+            forecast.epochs.to_string(),
+            forecast.data.to_string(),
+            sigma,
+        ]);
     }
     write_csv(output, &rows)?;
     let [by_span, by_epochs] = scaling(&found);
-    for (what, slope) in [("span", by_span), ("number of epochs", by_epochs)] {
+    for (what, slope) in [("span", by_span), ("number of data", by_epochs)] {
         if let Some(slope) = slope {
             note(&format!("sigma goes as the {what} to the power of {:.3} +- {:.3}", slope.value, slope.error));
         }

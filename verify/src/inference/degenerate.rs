@@ -86,6 +86,9 @@ pub(super) fn weak_directions(
     ranges: &[f64],
 ) -> Vec<Direction> {
     let rank = scaled.values.len() - scaled.nullity();
+    if rank == 0 {
+        return Vec::new();
+    }
     // J = U S V^T D with the lengths D: J times the ranges has the singular values and vectors of S V^T D R.
     let mut rows = DMatrix::zeros(rank, unknowns.len());
     for k in 0..rank {

@@ -8,8 +8,10 @@ use crate::fit::{Slope, slope};
 pub struct Forecast {
     /// Time from the start to the last datum.
     pub span: f64,
-    /// Epochs, equally spaced: a pulse at each, and a sample of the strain.
+    /// Epochs, equally spaced: the next pulse of each, and a sample of the strain.
     pub epochs: usize,
+    /// Different pulses that these are, where pulses are observed; otherwise the epochs.
+    pub data: usize,
     /// Standard deviation of the target for the errors given, all others unknown as well; NaN where the data do not determine it, and
     /// where it is none of the unknowns.
     /// It is proportional to the errors.
@@ -47,7 +49,8 @@ pub fn forecast(
                 Err(InferenceError::TooFew { .. }) => f64::NAN,
                 Err(error) => return Err(error),
             };
-            found.push(Forecast { span, epochs: count, sigma });
+            let different = if has_pulses { events.len() } else { count };
+            found.push(Forecast { span, epochs: count, data: different, sigma });
         }
     }
     Ok(found)
@@ -75,6 +78,6 @@ pub fn scaling(forecasts: &[Forecast]) -> [Option<Slope>; 2] {
     };
     [
         mean_slope(|forecast| forecast.epochs as u64, |forecast| forecast.span),
-        mean_slope(|forecast| forecast.span.to_bits(), |forecast| forecast.epochs as f64),
+        mean_slope(|forecast| forecast.span.to_bits(), |forecast| forecast.data as f64),
     ]
 }

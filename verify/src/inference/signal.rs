@@ -117,10 +117,17 @@ impl Signal {
         if self.is_long {
             return long_span::pulses_near(&self.model, times);
         }
-        let mut found = Vec::new();
+        let mut found: Vec<Event> = Vec::new();
         let window = 2.2 * self.turn();
         for (place, &time) in times.iter().enumerate() {
             let events = self.events_in((time, (time + window).min(self.end)))?;
+            // One pulse is one datum, however many epochs it is the next of.
+            let again = |event: &Event| {
+                found.last().is_some_and(|last| (event.closest - last.closest).abs() < 0.25 * self.turn())
+            };
+            if events.first().is_some_and(again) {
+                continue;
+            }
             found.extend(events.first().map(|event| Event { turn: place as i64, ..*event }));
         }
         Ok(found)
