@@ -71,12 +71,12 @@ impl TurnCount {
         let (theta, chi) = (c.abs().min(1.0).acos(), beam.axis.z.clamp(-1.0, 1.0).acos());
         // The wobble changes by some x along the motion: nearer than that the axis of the beam goes now round L, now round n.
         let nearest = (theta - chi).abs().min((core::f64::consts::PI - theta - chi).abs());
-        let changes = 4.0 * motion.relative_strength();
+        let changes = motion.relative_strength();
         Error::unless(
             nearest > changes || motion.relative_strength() == 0.0,
             "distance of the wobble from the angle of the beam (rad)",
             nearest,
-            "above 4 C |s| I^xx / |L|^2: nearer to it turns change their number",
+            "above C |s| I^xx / |L|^2: nearer to it turns change their number",
         )?;
         let mut count = Self {
             beam: *beam,

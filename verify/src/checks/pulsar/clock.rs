@@ -9,7 +9,7 @@ use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame};
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Arrival, Beam, PulsarClock, arrivals, pulse_train};
 use twofold::propagation::{AveragedMotion, AxisMotion};
-use twofold::scalar::{Scalar, length};
+use twofold::scalar::Scalar;
 use twofold::solutions::mean::{MeanMotion, MeanOrder, MeanPhases, MeanRates};
 
 use super::arrivals::text;
@@ -170,18 +170,8 @@ impl Exact {
         let (given, turned) = (lifted(&pulsar.initial), lifted(&turned));
         let mean =
             MeanMotion::with_free_rotation_of(&given, &spheroid, &s, &turned, MeanOrder::Second).map_err(text)?;
-        // The free rotation is that of the given state: turning it in doubles has changed |L| and L.n by a rounding.
-        let free = |state: &BodyState<DoubleDouble>| {
-            let along_axis = state.momentum.dot(&state.axis);
-            [length(&state.momentum) / spheroid.inertia_xx, -(spheroid.oblateness() * along_axis / spheroid.inertia_zz)]
-        };
-        let (wanted, used, rates) = (free(&given), free(&turned), mean.rates());
         Ok(Self {
-            rates: MeanRates {
-                slow: rates.slow,
-                about_momentum: rates.about_momentum + (wanted[0] - used[0]),
-                about_axis: rates.about_axis + (wanted[1] - used[1]),
-            },
+            rates: *mean.rates(),
             start: mean.phases_at([0.0; 2]),
             mean,
             beam: Beam { axis: lift(&beam.axis), half_opening: number(beam.half_opening) },
