@@ -176,7 +176,10 @@ fn what_cannot_be_timed_is_refused_and_nothing_is_written() {
             &["b1828-11", "--from", "yesterday"],
             &["'yesterday' for '--from <MJD>'", "a modified Julian date from 0 to 1e7"],
         ),
-        (&["b1828-11", "--from", "50000", "--to", "50000"], &["--from 50000.0 --to 50000.0", "later date"]),
+        (
+            &["b1828-11", "--from", "50000", "--to", "50000"],
+            &["epochs from 50000.0 to 50000.0", "later date", "--from, --to"],
+        ),
         (&["b1828-11", "--every", "0"], &["--every 0: allowed is a number above zero"]),
         (&["b1828-11", "--every", "1e-9"], &["allowed are from 2 to 10000000"]),
         (&["b1828-11", "--epochs", "1"], &["1 epochs are asked for"]),
