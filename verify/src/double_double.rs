@@ -23,6 +23,11 @@ impl DoubleDouble {
         Self(Df64::new(high) + Df64::new(low))
     }
 
+    /// `2 pi`, to its last digit.
+    pub fn tau() -> Self {
+        Self::sum_of(core::f64::consts::TAU, 2.449_293_598_294_706_4e-16)
+    }
+
     /// The double nearest to it.
     pub fn high(self) -> f64 {
         self.0.hi()

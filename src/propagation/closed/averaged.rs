@@ -9,7 +9,7 @@ use crate::lorentz_violation::{PrincipalCoefficients, principal_frame_with_deriv
 use crate::propagation::input::check_time;
 use crate::propagation::{AxisMotion, AxisState, Motion};
 use crate::scalar::Real;
-use crate::solutions::mean::{MeanMotion, MeanOrder, MeanTurns};
+use crate::solutions::mean::{MeanMotion, MeanOrder, MeanPhases, MeanTurns};
 
 /// A motion by [`MeanMotion`], whatever the frame in which the tensor is given: for a body that turns fast against the torque, over any
 /// number of turns.
@@ -94,6 +94,15 @@ impl<S: Real> AveragedMotion<S> {
         [sum.high, sum.low]
     }
 
+    fn phases(&self, t: [f64; 2]) -> Result<MeanPhases<S>, Error> {
+        check_time(self.span, t[0] + t[1])?;
+        Ok(self.mean.phases_at(self.elapsed(t)))
+    }
+
+    fn state_of(&self, phases: &MeanPhases<S>) -> BodyState<S> {
+        self.mean.state_at(phases).rotated(&self.given_from_principal)
+    }
+
     /// Refuses a motion of which no derivatives could be had: by any parameter, whichever comes.
     ///
     /// # Errors
@@ -142,17 +151,12 @@ impl<S: Real> AxisMotion<S> for AveragedMotion<S> {
 
 impl<S: Real> Motion<S> for AveragedMotion<S> {
     fn state(&self, t: S) -> Result<BodyState<S>, Error> {
-        check_time(self.span, t.re())?;
-        let mut phases = self.mean.phases_at(self.elapsed([t.re(), 0.0]));
-        if S::HAS_DERIVATIVES {
-            phases = phases.later(self.mean.rates(), t - S::from_f64(t.re()));
-        }
-        Ok(self.mean.state_at(&phases).rotated(&self.given_from_principal))
+        let phases = self.phases([t.re(), 0.0])?;
+        let later = |phases: MeanPhases<S>| phases.later(self.mean.rates(), t - S::from_f64(t.re()));
+        Ok(self.state_of(&if S::HAS_DERIVATIVES { later(phases) } else { phases }))
     }
 
     fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<S>, Error> {
-        check_time(self.span, t[0] + t[1])?;
-        let phases = self.mean.phases_at(self.elapsed(t));
-        Ok(self.mean.state_at(&phases).rotated(&self.given_from_principal))
+        Ok(self.state_of(&self.phases(t)?))
     }
 }

@@ -35,10 +35,7 @@ pub fn mean_potential<S: Real>(
     direction: &Vector3<S>,
     order: MeanOrder,
 ) -> S {
-    let pulled = s.component_mul(direction);
-    let potential =
-        MeanPotential { order, constant_c: spheroid.constant_c, inertia: spheroid.inertia_xx, square: s.dot(s) };
-    potential.at(size, c, direction.dot(&pulled), pulled.dot(&pulled)).value
+    slopes_along(spheroid, s, size, c, direction, order).value
 }
 
 /// The angular velocity `w = <H>_L` at which the mean motion turns every axis of the body but for the spin about `n`, of the components of `l`
@@ -57,13 +54,24 @@ pub fn mean_angular_velocity<S: Real>(
     direction: &Vector3<S>,
     order: MeanOrder,
 ) -> (S, Vector3<S>, S) {
-    let pulled = s.component_mul(direction);
-    let potential =
-        MeanPotential { order, constant_c: spheroid.constant_c, inertia: spheroid.inertia_xx, square: s.dot(s) };
-    let slopes = potential.at(size, c, direction.dot(&pulled), pulled.dot(&pulled));
+    let slopes = slopes_along(spheroid, s, size, c, direction, order);
     let tensor = slopes.tensor(s, size);
     let carried = tensor.dot(&direction.component_mul(direction));
     (size / spheroid.inertia_xx + slopes.about_momentum(size, c) - carried, tensor, slopes.about_axis(size))
+}
+
+fn slopes_along<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Vector3<S>,
+    size: S,
+    c: S,
+    direction: &Vector3<S>,
+    order: MeanOrder,
+) -> MeanSlopes<S> {
+    let pulled = s.component_mul(direction);
+    let potential =
+        MeanPotential { order, constant_c: spheroid.constant_c, inertia: spheroid.inertia_xx, square: s.dot(s) };
+    potential.at(size, c, direction.dot(&pulled), pulled.dot(&pulled))
 }
 
 /// What the mean potential depends on besides `l`.

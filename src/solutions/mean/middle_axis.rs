@@ -13,7 +13,7 @@ const MOST_CORRECTIONS: usize = 20;
 /// Rate at which `L` leaves the middle principal axis, for an energy `E` and a spin `Omega^z`.
 ///
 /// ```text
-/// mu = (2 / G) sqrt((S1 - S2)(S2 - S3)),    S = v_h s + v_m s^2 with the slopes v_h, v_m of the mean potential at h = s2, m = s2^2
+/// mu = sqrt((k1 - k2)(k2 - k3)),    k = (2 / G) (v_h s + v_m s^2) with the slopes v_h, v_m of the mean potential at h = s2, m = s2^2
 /// ```
 ///
 /// for traceless `s1 > s2 > s3`; `G` is that of the mean energy. To first order it is `(2 C |P2| / G) sqrt((s1 - s2)(s2 - s3))`.
@@ -42,7 +42,7 @@ pub fn middle_axis_growth(
         let c = along / size;
         let slopes = potential.at(size, c, h, m);
         let off = size * size / (2.0 * inertia_xx) + slopes.value - hamiltonian;
-        change = off / (size / inertia_xx + slopes.by_size - slopes.by_c * c / size);
+        change = off / (size / inertia_xx + slopes.about_momentum(size, c));
         size -= change;
     }
     Error::unless(
@@ -51,11 +51,10 @@ pub fn middle_axis_growth(
         size,
         "above zero and determined by the mean energy",
     )?;
-    let slopes = potential.at(size, along / size, h, m);
-    let pulled = s.map(|value| slopes.by_h * value + slopes.by_m * value * value);
-    let product = (pulled.z - pulled.y) * (pulled.y - pulled.x);
-    Error::unless(product > 0.0, "(S1 - S2)(S2 - S3)", product, "above zero: else L stays near the middle axis")?;
-    Ok(2.0 / size * product.sqrt())
+    let k = potential.at(size, along / size, h, m).tensor(&s, size);
+    let square = (k.z - k.y) * (k.y - k.x);
+    Error::unless(square > 0.0, "(k1 - k2)(k2 - k3)", square, "above zero: else L stays near the middle axis")?;
+    Ok(square.sqrt())
 }
 
 /// Time in which `L` goes once round its axis, near the separatrix: `(4 / mu) ln(4 / k')`.

@@ -8,7 +8,7 @@ use twofold::propagation::{AxisMotion, AxisScene, AxisState, axis_states_of_many
 use super::spin_axis_angle::SpinAxisAngle;
 use crate::columns::Carried;
 use crate::scene_file::Scene;
-use crate::trajectory::{PlannedState, Stretches, since_start, since_start_in_parts};
+use crate::trajectory::{PlannedState, Stretches, since_start, since_start_within};
 
 /// One of the times.
 pub(super) struct Instant {
@@ -94,7 +94,7 @@ fn instants_along<M: PlannedState>(
     mut angle: Option<&mut SpinAxisAngle>,
 ) -> Result<Vec<Instant>, Error> {
     let mut instants = Vec::new();
-    let mut times = scene.times.iter().map(|time| since_start_in_parts(scene, time)).peekable();
+    let mut times = scene.times.iter().peekable();
     let counts_turns = plan.outputs.contains(&Output::EulerAngles);
     let mut stretches = Stretches::<M>::new(scene, plan)?;
     let mut start_angles = scene.initial_angles;
@@ -106,9 +106,9 @@ fn instants_along<M: PlannedState>(
         }
         let mut angles: Box<dyn FnMut(f64) -> Option<EulerAngles<f64>>> =
             if counts_turns { M::angles(motion, from, &start_angles)? } else { Box::new(|_| None) };
-        while let Some(parts) = times.next_if(|t| stretch.is_last || t[0].abs() <= to.abs()) {
-            let t = parts[0].clamp(from.min(to), from.max(to));
-            let parts = if t == parts[0] { parts } else { [t, 0.0] };
+        while let Some(time) = times.next_if(|time| stretch.is_last || since_start(scene, *time).abs() <= to.abs()) {
+            let parts = since_start_within(scene, time, from, to);
+            let t = parts[0];
             let error = || earlier.at(t, scene.turning_rate()) + motion.error_estimate(t);
             instants.push(Instant {
                 since_start: t,

@@ -211,8 +211,15 @@ pub fn since_start(scene: &Scene, time: f64) -> f64 {
     (time - scene.times.start()) / scene.units.time
 }
 
+/// The same as a sum of two doubles, kept within a stretch, whose ends rounding may pass by.
+pub fn since_start_within(scene: &Scene, time: f64, from: f64, to: f64) -> [f64; 2] {
+    let parts = since_start_in_parts(scene, time);
+    let t = parts[0].clamp(from.min(to), from.max(to));
+    if t == parts[0] { parts } else { [t, 0.0] }
+}
+
 /// The same as a sum of two doubles: after 1e10 turns the rounding of one is part of a turn.
-pub fn since_start_in_parts(scene: &Scene, time: f64) -> [f64; 2] {
+fn since_start_in_parts(scene: &Scene, time: f64) -> [f64; 2] {
     let (start, unit) = (scene.times.start(), scene.units.time);
     // Knuth's exact difference, then what is left of the quotient.
     let difference = time - start;

@@ -6,7 +6,7 @@ use twofold::euler_angles::EulerAngles;
 use twofold::plan::{Output, Plan, PlannedAxisMotion, PlannedMotion, State, Work};
 
 use super::TrajectoryError;
-use super::stretches::{Angles, PlannedState, Stretches, since_start, since_start_in_parts};
+use super::stretches::{Angles, PlannedState, Stretches, since_start, since_start_within};
 use crate::columns::{Carried, Moment};
 use crate::scene_file::Scene;
 
@@ -83,9 +83,8 @@ impl<'s, W: Write, P: FnMut(f64)> Table<'s, W, P> {
                 if counts_turns { M::angles(&stretch.motion, from, &start_angles)? } else { Box::new(|_| None) };
             let within = |time: &f64| stretch.is_last || since_start(scene, *time).abs() <= to.abs();
             while let Some(time) = rows.next_if(within) {
-                let parts = since_start_in_parts(scene, time);
-                let t = parts[0].clamp(from.min(to), from.max(to));
-                let parts = if t == parts[0] { parts } else { [t, 0.0] };
+                let parts = since_start_within(scene, time, from, to);
+                let t = parts[0];
                 self.row(time, t, M::carried(&stretch.motion, parts)?, &mut angles)?;
                 (self.progress)(stretches.part_done(t));
             }

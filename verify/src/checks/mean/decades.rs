@@ -65,8 +65,7 @@ fn phases() -> Result<Measured, String> {
         let turns = 4e11;
         let time = [turns / mean.rates().about_momentum * core::f64::consts::TAU, 1e-9 * random.within(-1.0, 1.0)];
         let found = mean.turns(time);
-        // 2 pi to 32 digits.
-        let tau = DoubleDouble::sum_of(core::f64::consts::TAU, 2.449_293_598_294_706_4e-16);
+        let tau = DoubleDouble::tau();
         let time = DoubleDouble::sum_of(time[0], time[1]);
         let rates = exact.rates();
         for (name, turns, rate) in

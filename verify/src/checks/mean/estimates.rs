@@ -60,9 +60,6 @@ pub(super) fn checks() -> Vec<Check> {
 
 const SCENES: u64 = 400;
 
-/// `2 pi - TAU`.
-const TAU_LOW: f64 = 2.449_293_598_294_706_4e-16;
-
 fn seen(order: MeanOrder) -> Result<Vec<(u64, crate::mean_scenes::EstimateSeen)>, String> {
     (0..SCENES)
         .map(|number| {
@@ -111,7 +108,7 @@ fn rounding() -> Result<Measured, String> {
         // Only the part that grows with the slow phase: in double-double numbers phases are not reduced, and the fast ones are the same theory.
         let rates = exact.rates();
         let phases = [rates.slow, rates.about_momentum, rates.about_axis].map(|rate| rate * DoubleDouble::from_f64(t));
-        let tau = DoubleDouble::sum_of(TAU, TAU_LOW);
+        let tau = DoubleDouble::tau();
         let reduced = phases.map(|phase| phase - tau * DoubleDouble::from_f64((phase.high() / TAU).round()));
         let start = exact.phases(DoubleDouble::from_f64(0.0));
         let right = exact.state_at(&MeanPhases {

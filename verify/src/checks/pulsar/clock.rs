@@ -176,7 +176,7 @@ impl Exact {
             mean,
             beam: Beam { axis: lift(&beam.axis), half_opening: number(beam.half_opening) },
             line_of_sight: lift(&pulsar.observer.rotated(&frame.principal_from_given).direction),
-            turn: "6.283185307179586476925286766559005768".parse()?,
+            turn: DoubleDouble::tau(),
         })
     }
 
