@@ -4,7 +4,12 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::propagation::{AxisMotion, Motion, propagate};
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::plan::{Method, PlannedMotion};
+use twofold::propagation::{AxisMotion, Motion};
+use twofold::solutions::perturbation::Kind;
+use twofold::solutions::steady::steady_precession_rate;
 use twofold::scalar::{Real, Scalar};
 
 use crate::check::{largest, largest_component};
@@ -115,12 +120,63 @@ impl ErrorScene {
         (self.time - self.span.0).abs() * self.momentum_unit() / self.spheroid.inertia_xx
     }
 
-    /// The estimated error at the time asked for, and the true one.
+    /// A scene like this one that a method is made for: [`Method::Symmetric`] takes a tensor symmetric about an axis, [`Method::Steady`] a
+    /// state that precesses steadily about it, [`Method::Mean`] a weaker torque. `None` where there is no such state.
+    pub fn for_method(mut self, method: Method, seed: u64) -> Option<Self> {
+        let random = &mut Random::with_seed(seed);
+        let frame = Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(unit_vector(random)), random.within(0.0, TAU));
+        let frame = frame.into_inner();
+        let [equal, other] = [random.within(-1.0, 1.0), 1.0].map(|x| x * self.strength);
+        match method {
+            Method::Taylor | Method::Splitting => {}
+            // Weak torques over spans that they are nearly nothing in, and none at all.
+            Method::Free => {
+                let weaker = [0.0, 1e-12, 1e-6, 1.0][(random.word() % 4) as usize];
+                self.violation = self.violation * weaker + Matrix3::from_diagonal_element(equal);
+            }
+            Method::Mean => {
+                let weakest = self.initial.momentum.norm_squared() / (self.spheroid.inertia_xx * self.spheroid.constant_c.abs());
+                self.violation *= (10f64.powf(random.within(-8.0, -0.5)) * weakest / self.strength).min(1.0);
+            }
+            Method::Symmetric | Method::Steady => {
+                let tensor = frame * Matrix3::from_diagonal(&Vector3::new(equal, equal, other)) * frame.transpose();
+                self.violation = (tensor + tensor.transpose()) / 2.0;
+            }
+        }
+        if method == Method::Steady {
+            self.initial = self.steady_state(&frame, equal, other, random)?;
+        }
+        self.strength = self.violation.amax();
+        self.accuracy = if method.is_closed_form() { 1e-16 } else { self.accuracy };
+        Some(self)
+    }
+
+    /// Steady precession, Eq. (26), about the third axis of a frame (its rows in the given one are columns here).
+    fn steady_state(&self, frame: &Matrix3<f64>, equal: f64, other: f64, random: &mut Random) -> Option<BodyState<f64>> {
+        let s = PrincipalCoefficients { xx: equal, yy: equal, zz: other };
+        let spin = self.initial.momentum.norm() / self.spheroid.inertia_zz * if random.word() % 2 == 0 { 1.0 } else { -1.0 };
+        let kind = if random.word() % 2 == 0 { Kind::Single } else { Kind::Twofold };
+        let (alpha, beta, gamma) = (random.within(0.0, TAU), random.within(0.01, PI - 0.01), random.within(0.0, TAU));
+        let rate = steady_precession_rate(kind, &self.spheroid, &s, spin, beta).ok()?;
+        let rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
+        Some(BodyState::from_angles(&self.spheroid, &EulerAngles { alpha, beta, gamma }, &rates).rotated(frame))
+    }
+
+    /// The estimated error at the time asked for, and the true one, of the Taylor series.
     ///
     /// # Errors
     /// What the motion refuses.
     pub fn estimated_and_true(&self) -> Result<(f64, f64), String> {
-        let motion = propagate(&self.spheroid, &self.violation, &self.initial, self.span, self.accuracy);
+        self.estimated_and_true_by(Method::Taylor)
+    }
+
+    /// The same by any method.
+    ///
+    /// # Errors
+    /// What the motion refuses.
+    pub fn estimated_and_true_by(&self, method: Method) -> Result<(f64, f64), String> {
+        let motion =
+            PlannedMotion::by(method, &self.spheroid, &self.violation, &self.initial, self.span, self.accuracy);
         let motion = motion.map_err(|error| error.to_string())?;
         let state = motion.state(self.time).map_err(|error| error.to_string())?;
         Ok((motion.error_estimate(self.time), largest(self.true_errors(&state))))

@@ -21,6 +21,7 @@ mod propagation;
 mod pulsar;
 mod pulsar_table;
 pub mod regimes;
+mod same_bits;
 mod second_integrator;
 mod solutions;
 pub(crate) mod spectrum;
@@ -51,6 +52,7 @@ pub fn all() -> Vec<Check> {
         elliptic::checks,
         symmetric::checks,
         propagation::checks,
+        same_bits::checks,
         error_estimate::checks,
         axis_motion::checks,
         splitting::checks,

@@ -1,0 +1,216 @@
+//! Which tests reach which mutant, and which mutants they catch.
+
+mod record;
+mod suite;
+
+use std::collections::HashMap;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use serde_json::{Value, json};
+
+use suite::{Outcome, Suite, Test};
+
+/// Tests of one process together take about this long without a mutant (s).
+const BATCH: f64 = 0.4;
+
+/// Runs the campaign. `rest`: seconds of tests for each mutant, then a file prefix that limits the mutants.
+///
+/// Reads `mutants.json`, keeps `coverage.json` and appends to `results.jsonl`, all in the tree; goes on where it stopped.
+pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
+    let budget: f64 = rest.first().map_or(Ok(10.0), |s| s.parse()).map_err(|_| "seconds per mutant: not a number")?;
+    let prefix = rest.get(1).copied().unwrap_or("src/");
+    let mutants = lines(&tree.join("mutants.json"))?;
+    let suite = Suite::build(tree)?;
+    let tests = record::coverage(tree, &suite)?;
+    let mut reaching: HashMap<u64, Vec<usize>> = HashMap::new();
+    for (index, test) in tests.iter().enumerate() {
+        for number in &test.reached {
+            reaching.entry(*number).or_default().push(index);
+        }
+    }
+    let results = tree.join("results.jsonl");
+    let done: HashMap<u64, f64> = lines(&results)
+        .unwrap_or_default()
+        .iter()
+        .map(|r| (r["number"].as_u64().unwrap_or(0), settled(r)))
+        .collect();
+    let open: Vec<&Value> = mutants
+        .iter()
+        .filter(|m| m["file"].as_str().unwrap_or("").starts_with(prefix))
+        .filter(|m| done.get(&m["number"].as_u64().unwrap_or(0)).is_none_or(|spent| *spent < budget))
+        .collect();
+    eprintln!("{} mutants, {} to do, {} tests", mutants.len(), open.len(), tests.len());
+    let file = Mutex::new(
+        fs::OpenOptions::new().create(true).append(true).open(&results).map_err(|e| format!("{}: {e}", results.display()))?,
+    );
+    // How often a test caught a mutant of a function: those are tried first.
+    let kills: Mutex<HashMap<(String, usize), u32>> = Mutex::new(HashMap::new());
+    let (next, missed, started) = (AtomicUsize::new(0), AtomicUsize::new(0), Instant::now());
+    let workers = std::env::var("WORKERS").ok().and_then(|v| v.parse().ok()).unwrap_or(2_usize);
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(|| {
+                loop {
+                    let k = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(mutant) = open.get(k) else { return };
+                    let number = mutant["number"].as_u64().unwrap_or(0);
+                    let places = [
+                        format!("{}::{}", mutant["file"], mutant["function"]),
+                        mutant["file"].to_string(),
+                    ];
+                    let order = ordered(reaching.get(&number), &tests, &places, &kills);
+                    let begun = Instant::now();
+                    let (outcome, by, complete) = judge(tree, &suite, &tests, &order, number, budget);
+                    if let Some(index) = by {
+                        let mut kills = kills.lock().expect("no panic");
+                        for place in places {
+                            *kills.entry((place, index)).or_default() += 1;
+                        }
+                    } else if outcome != "caught" {
+                        missed.fetch_add(1, Ordering::Relaxed);
+                    }
+                    let line = json!({
+                        "number": number, "outcome": outcome, "by": by.map(|k| tests[k].name.clone()),
+                        "seconds": begun.elapsed().as_secs_f64(), "budget": budget, "complete": complete,
+                        "tests": order.len(), "file": mutant["file"], "line": mutant["line"],
+                        "function": mutant["function"], "change": mutant["change"], "code": mutant["code"],
+                    });
+                    writeln!(file.lock().expect("no panic"), "{line}").expect("results can be written");
+                    if k % 100 == 99 {
+                        let left = started.elapsed().as_secs_f64() / (k + 1) as f64 * (open.len() - k - 1) as f64;
+                        eprintln!("{} of {}, {} not caught, {:.0} s to go", k + 1, open.len(), missed.load(Ordering::Relaxed), left);
+                    }
+                }
+            });
+        }
+    });
+    summary(tree, &mutants)
+}
+
+/// Seconds of tests after which a result need not be sought again.
+fn settled(result: &Value) -> f64 {
+    let open = result["outcome"] == "survived" && result["complete"] == false;
+    if open { result["budget"].as_f64().unwrap_or(0.0) } else { f64::INFINITY }
+}
+
+/// Tests that reach the mutant: those that caught others near it, then the quick ones.
+fn ordered(
+    reaching: Option<&Vec<usize>>,
+    tests: &[Test],
+    places: &[String],
+    kills: &Mutex<HashMap<(String, usize), u32>>,
+) -> Vec<usize> {
+    let kills = kills.lock().expect("no panic");
+    let mut order = reaching.cloned().unwrap_or_default();
+    let score = |k: usize| {
+        let near = kills.get(&(places[0].clone(), k)).copied().unwrap_or(0) as f64;
+        let far = kills.get(&(places[1].clone(), k)).copied().unwrap_or(0) as f64;
+        (near + 0.2 * far) / (tests[k].seconds + 0.03)
+    };
+    order.sort_by(|a, b| score(*b).total_cmp(&score(*a)).then(tests[*a].seconds.total_cmp(&tests[*b].seconds)));
+    order
+}
+
+/// Outcome, the test that caught it, and whether every test that reaches it was run.
+fn judge(
+    tree: &Path,
+    suite: &Suite,
+    tests: &[Test],
+    order: &[usize],
+    number: u64,
+    budget: f64,
+) -> (&'static str, Option<usize>, bool) {
+    if order.is_empty() {
+        return ("unreached", None, true);
+    }
+    let (mut spent, mut at) = (0.0, 0);
+    while at < order.len() {
+        if spent > budget {
+            return ("survived", None, false);
+        }
+        // One binary per process; the first two tests alone, since one of them most often catches it.
+        let binary = tests[order[at]].binary;
+        let mut batch = vec![order[at]];
+        let mut time = tests[order[at]].seconds;
+        at += 1;
+        while at >= 2 && at < order.len() && tests[order[at]].binary == binary && time + tests[order[at]].seconds < BATCH {
+            time += tests[order[at]].seconds;
+            batch.push(order[at]);
+            at += 1;
+        }
+        spent += time + 0.02;
+        let names: Vec<&str> = batch.iter().map(|k| tests[*k].name.as_str()).collect();
+        match suite.run(tree, binary, &names, number, 5.0 + 20.0 * time) {
+            Outcome::Passed => {}
+            Outcome::Failed(output) => return ("caught", Some(blame(&batch, &names, &output)), true),
+            Outcome::TimedOut => return ("caught", Some(batch[0]), true),
+        }
+    }
+    ("survived", None, true)
+}
+
+/// The test of a batch that failed, as its output tells.
+fn blame(batch: &[usize], names: &[&str], output: &str) -> usize {
+    let failed = |name: &str| {
+        output.lines().any(|line| {
+            line.starts_with(&format!("{name}:")) || (line.contains("FAILED") && line.split_whitespace().any(|w| w == name))
+        })
+    };
+    batch[names.iter().position(|name| failed(name)).unwrap_or(0)]
+}
+
+fn lines(path: &Path) -> Result<Vec<Value>, String> {
+    let text = fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
+    // A last line that was cut off is no result.
+    Ok(text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect())
+}
+
+/// The score by file, and every mutant that was not caught.
+fn summary(tree: &Path, mutants: &[Value]) -> Result<(), String> {
+    let mut last: HashMap<u64, Value> = HashMap::new();
+    for result in lines(&tree.join("results.jsonl"))? {
+        last.insert(result["number"].as_u64().unwrap_or(0), result);
+    }
+    let mut by_file: Vec<(String, [usize; 4])> = Vec::new();
+    for mutant in mutants {
+        let file = mutant["file"].as_str().unwrap_or("").to_string();
+        if by_file.last().is_none_or(|(name, _)| *name != file) {
+            by_file.push((file, [0; 4]));
+        }
+        let counts = &mut by_file.last_mut().expect("pushed").1;
+        match last.get(&mutant["number"].as_u64().unwrap_or(0)).map(|r| r["outcome"].as_str().unwrap_or("").to_string()) {
+            Some(o) if o == "caught" => counts[0] += 1,
+            Some(o) if o == "survived" => counts[1] += 1,
+            Some(_) => counts[2] += 1,
+            None => counts[3] += 1,
+        }
+    }
+    println!("{:<56} {:>7} {:>8} {:>9} {:>8}", "file", "caught", "survived", "unreached", "not run");
+    let mut total = [0; 4];
+    for (file, counts) in &by_file {
+        println!("{file:<56} {:>7} {:>8} {:>9} {:>8}", counts[0], counts[1], counts[2], counts[3]);
+        for (sum, count) in total.iter_mut().zip(counts) {
+            *sum += count;
+        }
+    }
+    println!("{:<56} {:>7} {:>8} {:>9} {:>8}", "all", total[0], total[1], total[2], total[3]);
+    let mut missed: Vec<&Value> = last.values().filter(|r| r["outcome"] != "caught").collect();
+    missed.sort_by_key(|r| (r["file"].as_str().unwrap_or("").to_string(), r["line"].as_u64(), r["number"].as_u64()));
+    let mut text = String::new();
+    for r in missed {
+        let part = if r["complete"] == false { "survived the quick tests" } else { r["outcome"].as_str().unwrap_or("") };
+        text += &format!(
+            "{}:{} {} [{}] {}: {}\n",
+            r["file"].as_str().unwrap_or(""), r["line"], r["function"].as_str().unwrap_or(""), part,
+            r["change"].as_str().unwrap_or(""), r["code"].as_str().unwrap_or("")
+        );
+    }
+    fs::write(tree.join("missed.txt"), text).map_err(|e| e.to_string())?;
+    println!("those not caught: {}", tree.join("missed.txt").display());
+    Ok(())
+}

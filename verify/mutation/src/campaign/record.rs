@@ -1,0 +1,82 @@
+//! One run of each test without a mutant: how long it takes and what it reaches.
+
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use serde_json::{Value, json};
+
+use super::suite::{Suite, Test};
+
+/// Tests that pass without a mutant; kept in `coverage.json`, which is taken as it is if there.
+pub fn coverage(tree: &Path, suite: &Suite) -> Result<Vec<Test>, String> {
+    let file = tree.join("coverage.json");
+    if let Ok(text) = fs::read_to_string(&file) {
+        return text.lines().map(|line| read(line, suite)).collect();
+    }
+    let mut all = Vec::new();
+    for binary in 0..suite.binaries.len() {
+        all.extend(suite.names(binary)?.into_iter().map(|name| (binary, name)));
+    }
+    let (next, tests) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    std::thread::scope(|scope| {
+        for worker in 0..2 {
+            let (next, tests, all) = (&next, &tests, &all);
+            scope.spawn(move || {
+                let reached = tree.join(format!("reached-{worker}.txt"));
+                while let Some((binary, name)) = all.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let _ = fs::remove_file(&reached);
+                    let started = Instant::now();
+                    let passed = suite
+                        .command(*binary, &[name])
+                        .env("REACHED", &reached)
+                        .stdout(Stdio::null())
+                        .stderr(Stdio::null())
+                        .status()
+                        .is_ok_and(|s| s.success());
+                    let seconds = started.elapsed().as_secs_f64();
+                    let text = fs::read_to_string(&reached).unwrap_or_default();
+                    let mut numbers: Vec<u64> = text.lines().filter_map(|l| l.parse().ok()).collect();
+                    numbers.sort_unstable();
+                    numbers.dedup();
+                    if passed {
+                        let test = Test { binary: *binary, name: name.clone(), seconds, reached: numbers };
+                        tests.lock().expect("no panic").push(test);
+                    } else {
+                        eprintln!("fails or takes too much without a mutant, left out: {name}");
+                    }
+                }
+                let _ = fs::remove_file(&reached);
+            });
+        }
+    });
+    let tests = tests.into_inner().expect("no panic");
+    let text: Vec<String> = tests
+        .iter()
+        .map(|t| {
+            let path = suite.binaries[t.binary].path.to_string_lossy();
+            json!({"binary": path, "name": t.name, "seconds": t.seconds, "reached": t.reached}).to_string()
+        })
+        .collect();
+    fs::write(&file, text.join("\n") + "\n").map_err(|e| format!("{}: {e}", file.display()))?;
+    Ok(tests)
+}
+
+fn read(line: &str, suite: &Suite) -> Result<Test, String> {
+    let value: Value = serde_json::from_str(line).map_err(|e| format!("coverage.json: {e}"))?;
+    let path = Path::new(value["binary"].as_str().unwrap_or(""));
+    let binary = suite
+        .binaries
+        .iter()
+        .position(|b| b.path == path)
+        .ok_or_else(|| format!("coverage.json is of other binaries ({}): remove it", path.display()))?;
+    Ok(Test {
+        binary,
+        name: value["name"].as_str().unwrap_or("").to_string(),
+        seconds: value["seconds"].as_f64().unwrap_or(1.0),
+        reached: value["reached"].as_array().map(|a| a.iter().filter_map(Value::as_u64).collect()).unwrap_or_default(),
+    })
+}

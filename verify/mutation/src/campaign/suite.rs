@@ -1,0 +1,149 @@
+//! The test binaries of the rewritten tree, and how one is run with a mutant.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+/// A test with what it reaches.
+pub struct Test {
+    /// Index of its binary.
+    pub binary: usize,
+    /// Its name.
+    pub name: String,
+    /// How long it takes without a mutant (s).
+    pub seconds: f64,
+    /// Mutants that it reaches.
+    pub reached: Vec<u64>,
+}
+
+/// A binary of tests with the folder it is run in.
+pub struct Binary {
+    /// The file.
+    pub path: PathBuf,
+    /// The package's folder.
+    pub folder: PathBuf,
+}
+
+/// All binaries.
+pub struct Suite {
+    /// In the order they were built.
+    pub binaries: Vec<Binary>,
+}
+
+/// How a run ended.
+pub enum Outcome {
+    /// All tests passed.
+    Passed,
+    /// One failed; its output.
+    Failed(String),
+    /// Not ended in time.
+    TimedOut,
+}
+
+/// No mutant may take more memory than this (KiB).
+const MEMORY: u64 = 4_000_000;
+
+impl Suite {
+    /// Compiles the tests of the packages named in PACKAGES (`twofold` if unset).
+    pub fn build(tree: &Path) -> Result<Self, String> {
+        let packages = std::env::var("PACKAGES").unwrap_or_else(|_| "twofold".into());
+        let mut command = Command::new("cargo");
+        command.args(["test", "--no-run", "--profile", "mutants", "--message-format", "json", "--lib", "--tests"]);
+        for package in packages.split_whitespace() {
+            command.args(["-p", package]);
+        }
+        let output = command
+            .env("RUSTFLAGS", "--cap-lints=allow")
+            .current_dir(tree)
+            .stderr(Stdio::inherit())
+            .output()
+            .map_err(|e| format!("cargo: {e}"))?;
+        if !output.status.success() {
+            return Err("the tests do not compile".into());
+        }
+        let mut binaries = Vec::new();
+        for line in String::from_utf8_lossy(&output.stdout).lines() {
+            let Ok(message) = serde_json::from_str::<Value>(line) else { continue };
+            let is_test = message["profile"]["test"] == true || message["target"]["kind"][0] == "test";
+            if let (Some(path), true) = (message["executable"].as_str(), is_test) {
+                let manifest = Path::new(message["manifest_path"].as_str().unwrap_or(""));
+                let folder = manifest.parent().unwrap_or(tree).to_path_buf();
+                binaries.push(Binary { path: path.into(), folder });
+            }
+        }
+        Ok(Self { binaries })
+    }
+
+    /// Names of the tests of a binary.
+    pub fn names(&self, binary: usize) -> Result<Vec<String>, String> {
+        let binary = &self.binaries[binary];
+        let output = Command::new(&binary.path)
+            .args(["--list", "--format", "terse"])
+            .current_dir(&binary.folder)
+            .output()
+            .map_err(|e| format!("{}: {e}", binary.path.display()))?;
+        let text = String::from_utf8_lossy(&output.stdout).to_string();
+        Ok(text.lines().filter_map(|line| line.strip_suffix(": test")).map(|n| n.rsplit("] ").next().unwrap_or(n).to_string()).collect())
+    }
+
+    /// The command for tests of a binary.
+    pub fn command(&self, binary: usize, names: &[&str]) -> Command {
+        let binary = &self.binaries[binary];
+        let mut command = Command::new("sh");
+        command
+            .arg("-c")
+            .arg(format!("ulimit -v {MEMORY}; exec \"$0\" \"$@\""))
+            .arg(&binary.path)
+            .args(["--exact", "--test-threads", "1"])
+            .args(names)
+            .current_dir(&binary.folder)
+            .env("FAIL_FAST", "1")
+            .env("INSTA_UPDATE", "no")
+            .env("RUST_BACKTRACE", "0")
+            .env("PROPTEST_FAILURE_PERSISTENCE", "off")
+            .stdin(Stdio::null());
+        command
+    }
+
+    /// Runs tests with a mutant.
+    pub fn run(&self, _tree: &Path, binary: usize, names: &[&str], mutant: u64, limit: f64) -> Outcome {
+        let mut child = self
+            .command(binary, names)
+            .env("MUTANT", mutant.to_string())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("a process can be started");
+        let readers = [
+            child.stdout.take().map(|mut s| std::thread::spawn(move || text_of(&mut s))),
+            child.stderr.take().map(|mut s| std::thread::spawn(move || text_of(&mut s))),
+        ];
+        let started = Instant::now();
+        let status = loop {
+            if let Some(status) = child.try_wait().expect("the child is ours") {
+                break Some(status);
+            }
+            if started.elapsed().as_secs_f64() > limit {
+                let _ = child.kill();
+                let _ = child.wait();
+                break None;
+            }
+            std::thread::sleep(Duration::from_millis(3));
+        };
+        let output: String = readers.into_iter().flatten().map(|r| r.join().unwrap_or_default()).collect();
+        match status {
+            None => Outcome::TimedOut,
+            Some(status) if status.success() => Outcome::Passed,
+            Some(_) => Outcome::Failed(output),
+        }
+    }
+}
+
+fn text_of(stream: &mut impl Read) -> String {
+    let mut bytes = Vec::new();
+    let _ = stream.read_to_end(&mut bytes);
+    String::from_utf8_lossy(&bytes).to_string()
+}

@@ -1,0 +1,107 @@
+//! The same bits: backwards as forwards with the momentum reversed, and in every run, order and thread.
+
+use twofold::dynamics::BodyState;
+use twofold::plan::{Method, PlannedMotion};
+use twofold::propagation::{AxisMotion, Motion};
+
+use crate::check::{Bound, Check, Kind, Measured};
+use crate::error_scenes::ErrorScene;
+
+const METHODS: [Method; 6] =
+    [Method::Free, Method::Steady, Method::Symmetric, Method::Mean, Method::Splitting, Method::Taylor];
+
+const SCENES: u64 = 60;
+const SEED: u64 = 11;
+
+pub fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "reversal-same-bits",
+            kind: Kind::Property,
+            equations: &[25],
+            statement: "free rotation, splitting and Taylor series at -t are at t with L reversed, to the last bit",
+            figure: "states of random scenes that differ in a bit",
+            bound: Bound::AtMost(0.0),
+            reason: "the equations are reversible, and rounding does not know signs: any difference is a step, a threshold or a branch that does",
+            measure: reversal,
+        },
+        Check {
+            id: "threads-same-bits",
+            kind: Kind::Property,
+            equations: &[25],
+            statement: "every method gives the same states and error estimates again, in the other order and on two threads, to the last bit",
+            figure: "states of random scenes that differ in a bit",
+            bound: Bound::AtMost(0.0),
+            reason: "nothing is kept between motions",
+            measure: threads,
+        },
+    ]
+}
+
+fn scene(method: Method, number: u64) -> Option<ErrorScene> {
+    let mut scene = ErrorScene::draw(SEED, number).for_method(method, number)?;
+    let [duration, elapsed] = [scene.span.1, scene.time].map(|t| t - scene.span.0);
+    (scene.span, scene.time) = ((0.0, duration), elapsed);
+    Some(scene)
+}
+
+fn text(error: twofold::Error) -> String {
+    error.to_string()
+}
+
+/// State and estimate, or what the method refuses.
+fn state_of(method: Method, scene: &ErrorScene) -> Result<(BodyState<f64>, f64), String> {
+    let motion = PlannedMotion::by(method, &scene.spheroid, &scene.violation, &scene.initial, scene.span, scene.accuracy);
+    let motion = motion.map_err(text)?;
+    Ok((motion.state(scene.time).map_err(text)?, motion.error_estimate(scene.time)))
+}
+
+fn reversal() -> Result<Measured, String> {
+    let (mut different, mut seen, mut first) = (0, 0, String::new());
+    for method in [Method::Free, Method::Splitting, Method::Taylor] {
+        for number in 0..SCENES {
+            let Some(forwards) = scene(method, number) else { continue };
+            let mut backwards = forwards;
+            backwards.initial.momentum = -forwards.initial.momentum;
+            (backwards.span.1, backwards.time) = (-forwards.span.1, -forwards.time);
+            let (Ok((one, _)), Ok((other, _))) = (state_of(method, &forwards), state_of(method, &backwards)) else {
+                return Err(format!("{} refuses scene {number} of seed {SEED}", method.name()));
+            };
+            let reversed = BodyState { momentum: -other.momentum, ..other };
+            seen += 1;
+            if one != reversed {
+                different += 1;
+                first = if first.is_empty() { format!("{} in scene {number} of seed {SEED}", method.name()) } else { first };
+            }
+        }
+    }
+    Ok(Measured::new(f64::from(different), format!("of {seen}; {first}")))
+}
+
+fn threads() -> Result<Measured, String> {
+    let all: Vec<(Method, u64)> = METHODS.iter().flat_map(|m| (0..SCENES).map(move |number| (*m, number))).collect();
+    let bits = |(method, number): &(Method, u64)| -> Option<Vec<u64>> {
+        let (state, estimate) = state_of(*method, &scene(*method, *number)?).ok()?;
+        let BodyState { axis, momentum, equatorial_axis } = state;
+        Some(axis.iter().chain(&momentum).chain(&equatorial_axis).chain([&estimate]).map(|x| x.to_bits()).collect())
+    };
+    let once: Vec<_> = all.iter().map(bits).collect();
+    let (even, odd): (Vec<_>, Vec<_>) = all.iter().rev().partition(|(_, number)| number % 2 == 0);
+    let worker = |part: Vec<&(Method, u64)>| part.into_iter().map(|which| (*which, bits(which))).collect::<Vec<_>>();
+    let again = std::thread::scope(|scope| {
+        let one = scope.spawn(|| worker(even.iter().collect()));
+        let mut found = worker(odd.iter().collect());
+        found.extend(one.join().map_err(|_| "a thread panicked".to_string())?);
+        Ok::<_, String>(found)
+    })?;
+    let mut different = 0;
+    for (which, bits) in again {
+        let place = all.iter().position(|known| *known == which).ok_or("a scene that was not there")?;
+        different += usize::from(once[place] != bits);
+    }
+    let judged = once.iter().filter(|bits| bits.is_some()).count();
+    if judged < all.len() / 2 {
+        return Err(format!("only {judged} of {} scenes were not refused", all.len()));
+    }
+    Ok(Measured::new(different as f64, format!("of {judged}")))
+}
