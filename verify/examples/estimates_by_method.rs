@@ -72,7 +72,8 @@ fn judge(method: Method, scenes: u64, seed: u64) -> bool {
     }
     ratios.sort_by(f64::total_cmp);
     let below = ratios.iter().filter(|ratio| **ratio < 1.0).count();
-    let at = |part: f64| ratios.get((ratios.len().saturating_sub(1) as f64 * part) as usize).copied().unwrap_or(f64::NAN);
+    let at =
+        |part: f64| ratios.get((ratios.len().saturating_sub(1) as f64 * part) as usize).copied().unwrap_or(f64::NAN);
     println!(
         "{:<10} {:>7} {:>8} {:>8} {:>8} {:>9.2} {:>9.2} {:>9.1} {:>9.1e}",
         method.name(),

@@ -8,9 +8,9 @@ use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::plan::{Method, PlannedMotion};
 use twofold::propagation::{AxisMotion, Motion};
+use twofold::scalar::{Real, Scalar};
 use twofold::solutions::perturbation::Kind;
 use twofold::solutions::steady::steady_precession_rate;
-use twofold::scalar::{Real, Scalar};
 
 use crate::check::{largest, largest_component};
 use crate::double_double::DoubleDouble;
@@ -124,18 +124,23 @@ impl ErrorScene {
     /// state that precesses steadily about it, [`Method::Mean`] a weaker torque. `None` where there is no such state.
     pub fn for_method(mut self, method: Method, seed: u64) -> Option<Self> {
         let random = &mut Random::with_seed(seed);
-        let frame = Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(unit_vector(random)), random.within(0.0, TAU));
+        let frame =
+            Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(unit_vector(random)), random.within(0.0, TAU));
         let frame = frame.into_inner();
         let [equal, other] = [random.within(-1.0, 1.0), 1.0].map(|x| x * self.strength);
         match method {
             Method::Taylor | Method::Splitting => {}
             // Weak torques over spans that they are nearly nothing in, and none at all.
             Method::Free => {
+                if self.initial.momentum.norm() == 0.0 {
+                    return None;
+                }
                 let weaker = [0.0, 1e-12, 1e-6, 1.0][(random.word() % 4) as usize];
                 self.violation = self.violation * weaker + Matrix3::from_diagonal_element(equal);
             }
             Method::Mean => {
-                let weakest = self.initial.momentum.norm_squared() / (self.spheroid.inertia_xx * self.spheroid.constant_c.abs());
+                let weakest =
+                    self.initial.momentum.norm_squared() / (self.spheroid.inertia_xx * self.spheroid.constant_c.abs());
                 self.violation *= (10f64.powf(random.within(-8.0, -0.5)) * weakest / self.strength).min(1.0);
             }
             Method::Symmetric | Method::Steady => {
@@ -152,9 +157,16 @@ impl ErrorScene {
     }
 
     /// Steady precession, Eq. (26), about the third axis of a frame (its rows in the given one are columns here).
-    fn steady_state(&self, frame: &Matrix3<f64>, equal: f64, other: f64, random: &mut Random) -> Option<BodyState<f64>> {
+    fn steady_state(
+        &self,
+        frame: &Matrix3<f64>,
+        equal: f64,
+        other: f64,
+        random: &mut Random,
+    ) -> Option<BodyState<f64>> {
         let s = PrincipalCoefficients { xx: equal, yy: equal, zz: other };
-        let spin = self.initial.momentum.norm() / self.spheroid.inertia_zz * if random.word() % 2 == 0 { 1.0 } else { -1.0 };
+        let spin =
+            self.initial.momentum.norm() / self.spheroid.inertia_zz * if random.word() % 2 == 0 { 1.0 } else { -1.0 };
         let kind = if random.word() % 2 == 0 { Kind::Single } else { Kind::Twofold };
         let (alpha, beta, gamma) = (random.within(0.0, TAU), random.within(0.01, PI - 0.01), random.within(0.0, TAU));
         let rate = steady_precession_rate(kind, &self.spheroid, &s, spin, beta).ok()?;

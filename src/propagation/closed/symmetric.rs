@@ -29,6 +29,8 @@ pub struct SymmetricMotion<S> {
     symmetry: SymmetryOfTensor,
     neglected_torque: f64,
     turning_rate: f64,
+    /// `sqrt(2 D / I^xx)` with the largest torque `D`: the rate at which the torque turns a body at rest.
+    swing_rate: f64,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -89,6 +91,7 @@ impl<S: Real> SymmetricMotion<S> {
             solution,
             given_from_principal: principal_from_given.transpose(),
             neglected_torque: largest_torque(&real, &symmetry.asymmetry),
+            swing_rate: (2.0 * largest_torque(&real, &s.map(S::re)) / real.inertia_xx).sqrt(),
             turning_rate: real_part(&initial.momentum).norm() / real.inertia_xx
                 + (real.oblateness() * (start.rates.alpha * start.angles.beta.cos() + start.rates.gamma)).abs(),
             start,
@@ -116,15 +119,19 @@ impl<S: Real> SymmetricMotion<S> {
         momentum.max((axis * (1.0 + self.turning_rate * t)).min(2.0))
     }
 
-    /// Rounding of the initial values and parameters, grown by the derivatives of the solution itself, and of the phase. Where
-    /// the two eigenvalues are equal within rounding, what is left of their difference counts here.
+    /// Rounding of the initial values and parameters, grown by the derivatives of the solution itself, and of the phase, with what
+    /// cancels in the turning points of the inclination. Where the two eigenvalues are equal within rounding, what is left of their
+    /// difference counts here.
     pub fn rounding(&self, elapsed: f64) -> f64 {
         let by = |seed: fn(&mut EulerAngles<Dual64>, &mut EulerRates<Dual64>)| self.sensitivity(elapsed, seed);
         let by_angle = by(|angles, _| angles.beta.eps = 1.0);
         let by_rates = by(|_, rates| rates.beta.eps = 1.0) + by(|_, rates| rates.alpha.eps = 1.0);
-        let size = 1.0 + self.turning_rate;
-        let phase = 1.0 + self.turning_rate * elapsed.abs();
-        let rounding = f64::EPSILON * (8.0 * phase + 4.0 * by_angle + 4.0 * size * by_rates);
+        // Initial rates are rounded by their own size, and by that of what they are differences of.
+        let rates = &self.start.rates;
+        let size = self.turning_rate + self.swing_rate + rates.alpha.abs() + rates.beta.abs();
+        let phase = (self.turning_rate + self.swing_rate) * elapsed.abs();
+        let lost = self.solution.condition();
+        let rounding = f64::EPSILON * (8.0 + 8.0 * phase * lost + 4.0 * by_angle + 4.0 * size * by_rates);
         let left_out = if self.symmetry.is_symmetric_within_rounding() {
             self.neglected_torque / self.start.spheroid.inertia_xx * elapsed.abs() * by_rates
         } else {

@@ -28,6 +28,8 @@ pub struct UniformMotion<S> {
     neglected_torque: f64,
     /// By how much a rounding of the initial state counts.
     condition: f64,
+    /// Rate at which the state leaves the uniform motion: what a steady one was accepted with.
+    residual: f64,
 }
 
 impl<S: Real> UniformMotion<S> {
@@ -50,6 +52,7 @@ impl<S: Real> UniformMotion<S> {
             momentum_is_constant: true,
             neglected_torque: largest_torque(spheroid, s),
             condition: 1.0,
+            residual: 0.0,
         }
     }
 
@@ -70,8 +73,8 @@ impl<S: Real> UniformMotion<S> {
         let axis_rate = momentum.cross(axis) / spheroid.inertia_xx;
         let torque = torque_on_axis(spheroid.constant_c, s, axis);
         let at_rest = real_part(&axis_rate).amax() == 0.0 && real_part(&torque).amax() == 0.0;
-        let (turn, condition) = if at_rest {
-            (Vector3::zeros(), 1.0)
+        let (turn, condition, residual) = if at_rest {
+            (Vector3::zeros(), 1.0, 0.0)
         } else {
             let (pole, rate) = precession_of(spheroid, s, initial, &axis_rate)?;
             let turn = pole * rate;
@@ -104,7 +107,7 @@ impl<S: Real> UniformMotion<S> {
                 stiffness,
                 "above zero: where it is unstable rounding grows exponentially",
             )?;
-            (turn, 1.0 + speed * speed / (stiffness * sin * sin))
+            (turn, 1.0 + speed * speed / (stiffness * sin * sin), off * speed)
         };
         let omega = angular_velocity(spheroid, axis, momentum);
         Ok(Self {
@@ -117,6 +120,7 @@ impl<S: Real> UniformMotion<S> {
             momentum_is_constant: false,
             neglected_torque: 0.0,
             condition,
+            residual,
         })
     }
 
@@ -138,10 +142,10 @@ impl<S: Real> UniformMotion<S> {
         axes.min(2.0).max(self.neglected_torque * t / size)
     }
 
-    /// Rounding of the state and of the angles within a time.
+    /// Rounding of the state and of the angles within a time, and the distance of the state from a steady one.
     pub fn rounding(&self, elapsed: f64) -> f64 {
         let phase = (real_part(&self.turn).norm() + self.body_rate.re().abs()) * elapsed.abs();
-        f64::EPSILON * (4.0 + 3.0 * phase) * self.condition
+        (f64::EPSILON * (4.0 + 4.0 * phase) + self.residual * elapsed.abs()) * self.condition
     }
 }
 

@@ -74,6 +74,8 @@ impl<S: Real> SymmetricSolution<S> {
         let k = spheroid.constant_c * (s.zz - s.xx) * 2.0 / spheroid.inertia_xx;
         // About u0 the coefficients are sums of the initial values, without the cancellation of P(u) itself near a pole.
         let sin2 = sin * sin;
+        let (sin_half, cos_half) = (angles.beta * 0.5).sin_cos();
+        let (north, south) = (sin_half * sin_half * 2.0, cos_half * cos_half * 2.0);
         let speed2 = rates.beta * rates.beta + rates.alpha * rates.alpha * sin2;
         let g = rates.alpha * sin2;
         let slope = [-(cos * speed2 * 2.0), -(k * cos * sin2 * 2.0), omega * g * 2.0];
@@ -85,6 +87,13 @@ impl<S: Real> SymmetricSolution<S> {
                 k * cos * 4.0,
                 k,
             ],
+            cos,
+            north,
+            south,
+            speed_squared: speed2,
+            g,
+            omega,
+            k,
         };
         let rounding = 8.0 * f64::EPSILON * slope.iter().map(|x| x.re().abs()).sum::<f64>();
         let [p0, p1, p2, ..] = quartic.coefficients;
@@ -92,9 +101,17 @@ impl<S: Real> SymmetricSolution<S> {
             Error::unless(p2.re() < 0.0, "half of P'' at the steady inclination", p2.re(), "below zero: stable")?;
             Motion::Steady(Steady { rates: *rates, frequency: (-p2).sqrt(), sin, cos, acceleration: p1 * 0.5 })
         } else {
-            Motion::Nutating(Nutating::new(&quartic, angles, rates, omega, g)?)
+            Motion::Nutating(Nutating::new(&quartic, angles, rates)?)
         };
         Ok(Self { initial: *angles, spin, omega, motion })
+    }
+
+    /// By how much the turning points of the inclination magnify roundings, at least 1.
+    pub(crate) fn condition(&self) -> f64 {
+        match &self.motion {
+            Motion::Steady(_) => 1.0,
+            Motion::Nutating(nutating) => nutating.condition,
+        }
     }
 
     /// Euler angles at time `t`, `beta` in [0, pi], `alpha` and `gamma` continuous in `t`.

@@ -21,6 +21,8 @@ pub(super) struct Nutating<S> {
     /// Integrals at `t = 0`.
     pub(super) north_start: S,
     pub(super) south_start: S,
+    /// See [`TurningPoints`](super::quartic::TurningPoints).
+    pub(super) condition: f64,
 }
 
 impl<S: Real> Nutating<S> {
@@ -29,11 +31,8 @@ impl<S: Real> Nutating<S> {
         quartic: &InclinationQuartic<S>,
         angles: &EulerAngles<S>,
         rates: &EulerRates<S>,
-        omega: S,
-        g: S,
     ) -> Result<Self, Error> {
-        let (sin_half, cos_half) = (angles.beta * 0.5).sin_cos();
-        let (north, south) = (sin_half * sin_half * 2.0, cos_half * cos_half * 2.0);
+        let InclinationQuartic { north, south, omega, g, .. } = *quartic;
         let points = quartic.turning_points(-south.re(), north.re());
         let (sin, _) = angles.beta.sin_cos();
         let oscillation = Oscillation::new(&points, -(sin * rates.beta))?;
@@ -75,6 +74,7 @@ impl<S: Real> Nutating<S> {
             north: north_term,
             south: south_term,
             oscillation,
+            condition: points.condition,
         })
     }
 

@@ -81,8 +81,8 @@ impl<S: Real> Oscillation<S> {
     /// [`Error::Domain`] on the separatrix.
     pub(super) fn new(points: &TurningPoints<S>, initial_rate: S) -> Result<Self, Error> {
         let TurningPoints { low, high, .. } = *points;
-        let d_low = points.quotient(low, low) * 0.25;
-        let d_high = points.quotient(high, high) * 0.25;
+        let d_low = points.at_low * 0.25;
+        let d_high = points.at_high * 0.25;
         let mean = points.quotient(low, high) * 0.25;
         let root_of_product = (d_low * d_high).sqrt();
         // Near the separatrix a turning point nearly meets another root (H -> 0), or a conjugate pair comes close to the

@@ -3,9 +3,25 @@
 use crate::scalar::Real;
 
 /// `u'^2 = P(u0 + v) = p0 + p1 v + p2 v^2 + p3 v^3 + p4 v^4` for `u = cos beta`, about the initial `u0`.
+///
+/// With `w2 = b'^2 + a'^2 sin^2 b` and `g = a' sin^2 b` at the start, `P(u0 + v) = p0 + v B(v)`,
+///
+/// ```text
+/// B(v) = -(2 u0 + v) (w2 + k sin^2 b) + omega (2 g - omega v),    sin^2 b = (1 - u0 - v) (1 + u0 + v).
+/// ```
+///
+/// Far from `u0` the powers of `v` cancel and this does not.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct InclinationQuartic<S> {
     pub(super) coefficients: [S; 5],
+    /// `u0`, `1 - u0` and `1 + u0`.
+    pub(super) cos: S,
+    pub(super) north: S,
+    pub(super) south: S,
+    pub(super) speed_squared: S,
+    pub(super) g: S,
+    pub(super) omega: S,
+    pub(super) k: S,
 }
 
 /// Turning points `low <= 0 <= high` of `v` and the quotient `Q = q0 + q1 v + q2 v^2` in
@@ -15,6 +31,11 @@ pub(super) struct TurningPoints<S> {
     pub(super) low: S,
     pub(super) high: S,
     quotient: [S; 3],
+    /// `Q(low)` and `Q(high)`.
+    pub(super) at_low: S,
+    pub(super) at_high: S,
+    /// Sum of the magnitudes of the terms of each over their sum, the larger one: by how much they lose roundings.
+    pub(super) condition: f64,
 }
 
 impl<S: Real> InclinationQuartic<S> {
@@ -39,16 +60,47 @@ impl<S: Real> InclinationQuartic<S> {
         // Where the axis lingers near its start, the initial rate alone tells how slowly: P(0) = -low high q0.
         let cancels = deflated.re().abs() < 0.1 * ((sum * q1).re().abs() + (product * q2).re().abs() + p2.re().abs());
         let q0 = if cancels && p[0] > 0.0 { -(p0 / product) } else { deflated };
-        TurningPoints { low, high, quotient: [q0, q1, q2] }
+        let mut points = TurningPoints { low, high, quotient: [q0, q1, q2], at_low: q0, at_high: q0, condition: 1.0 };
+        let (at_low, lost_low) = self.quotient_at(&points, low, false);
+        let (at_high, lost_high) = self.quotient_at(&points, high, true);
+        (points.at_low, points.at_high, points.condition) = (at_low, at_high, lost_low.max(lost_high));
+        points
+    }
+
+    /// `Q` at a turning point, from its coefficients or as `P'(low) / (high - low)`, `-P'(high) / (high - low)`, whichever cancels
+    /// less; and the sum of magnitudes over the sum.
+    fn quotient_at(&self, points: &TurningPoints<S>, v: S, is_high: bool) -> (S, f64) {
+        let [q0, q1, q2] = points.quotient;
+        let of_powers = points.quotient(v, v);
+        let powers = (q0.re().abs() + (q1 * v).re().abs() + (q2 * v * v).re().abs()) / of_powers.re().abs();
+        let (_, slope, terms) = self.value_and_slope(v);
+        let of_slope = (if is_high { -slope } else { slope }) / (points.high - points.low);
+        let slopes = terms / slope.re().abs();
+        // One that is not a number is not taken.
+        if slopes < powers { (of_slope, slopes) } else { (of_powers, powers) }
+    }
+
+    /// `P`, `P'` and the sum of the magnitudes of the terms of `P'` at `u0 + v`.
+    fn value_and_slope(&self, v: S) -> (S, S, f64) {
+        let twice_mean = self.cos * 2.0 + v;
+        let sin_squared = (self.north - v) * (self.south + v);
+        let speed = self.speed_squared + self.k * sin_squared;
+        let by_spin = self.omega * (self.g * 2.0 - self.omega * v);
+        let terms = -(twice_mean * speed) + by_spin;
+        let bent = twice_mean * (self.cos + v) * self.k * 2.0;
+        let twisted = self.omega * self.omega;
+        let terms_slope = bent - speed - twisted;
+        let size = |x: S| x.re().abs();
+        let speed_size = size(self.speed_squared) + size(self.k * sin_squared);
+        let sum = size(twice_mean) * speed_size + size(by_spin) + size(v) * (size(bent) + speed_size + size(twisted));
+        (self.coefficients[0] + v * terms, terms + v * terms_slope, sum)
     }
 
     /// Newton steps: each doubles the number of orders of derivatives that are right.
     fn polished(&self, root: f64) -> S {
-        let [p0, p1, p2, p3, p4] = self.coefficients;
         let mut v = S::from_f64(root);
         for _ in 0..3 {
-            let value = (((p4 * v + p3) * v + p2) * v + p1) * v + p0;
-            let slope = ((p4 * v * 4.0 + p3 * 3.0) * v + p2 * 2.0) * v + p1;
+            let (value, slope, _) = self.value_and_slope(v);
             v -= value / slope;
         }
         v

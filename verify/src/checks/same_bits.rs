@@ -51,7 +51,8 @@ fn text(error: twofold::Error) -> String {
 
 /// State and estimate, or what the method refuses.
 fn state_of(method: Method, scene: &ErrorScene) -> Result<(BodyState<f64>, f64), String> {
-    let motion = PlannedMotion::by(method, &scene.spheroid, &scene.violation, &scene.initial, scene.span, scene.accuracy);
+    let motion =
+        PlannedMotion::by(method, &scene.spheroid, &scene.violation, &scene.initial, scene.span, scene.accuracy);
     let motion = motion.map_err(text)?;
     Ok((motion.state(scene.time).map_err(text)?, motion.error_estimate(scene.time)))
 }
@@ -71,7 +72,11 @@ fn reversal() -> Result<Measured, String> {
             seen += 1;
             if one != reversed {
                 different += 1;
-                first = if first.is_empty() { format!("{} in scene {number} of seed {SEED}", method.name()) } else { first };
+                first = if first.is_empty() {
+                    format!("{} in scene {number} of seed {SEED}", method.name())
+                } else {
+                    first
+                };
             }
         }
     }
