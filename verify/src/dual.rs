@@ -5,7 +5,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use twofold::Scalar;
+use twofold::{Real, Scalar};
 
 use crate::operators::complete_operators;
 
@@ -78,5 +78,32 @@ impl<F: Scalar> Scalar for Dual<F> {
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.re.sin_cos();
         (Self::new(sin, cos * self.eps), Self::new(cos, -(sin * self.eps)))
+    }
+}
+
+impl<F: Real> Real for Dual<F> {
+    const HAS_DERIVATIVES: bool = true;
+
+    fn re(self) -> f64 {
+        self.re.re()
+    }
+
+    fn sqrt(self) -> Self {
+        let root = self.re.sqrt();
+        Self::new(root, self.eps / (root * 2.0))
+    }
+
+    fn exp(self) -> Self {
+        let exp = self.re.exp();
+        Self::new(exp, exp * self.eps)
+    }
+
+    fn ln(self) -> Self {
+        Self::new(self.re.ln(), self.eps / self.re)
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        let square = self.re * self.re + x.re * x.re;
+        Self::new(self.re.atan2(x.re), (x.re * self.eps - self.re * x.eps) / square)
     }
 }
