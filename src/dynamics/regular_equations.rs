@@ -8,9 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
-use crate::euler_angles::{
-    EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, refuse_pole,
-};
+use crate::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, refuse_pole};
 use crate::scalar::{Real, Scalar};
 
 /// State of rotation of a spheroid in inertial components.

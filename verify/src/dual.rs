@@ -64,7 +64,8 @@ impl<F: Scalar> Div for Dual<F> {
 
     fn div(self, rhs: Self) -> Self {
         let over = F::one() / rhs.re;
-        Self::new(self.re * over, (self.eps * rhs.re - self.re * rhs.eps) * over * over)
+        // Without the square of `over`, which overflows where the quotient does not.
+        Self::new(self.re / rhs.re, (self.eps - self.re * over * rhs.eps) * over)
     }
 }
 

@@ -26,6 +26,7 @@ mod solutions;
 pub(crate) mod spectrum;
 mod spin_axis;
 mod splitting;
+mod stability;
 mod star;
 mod symmetric;
 mod torque;
@@ -68,6 +69,7 @@ pub fn all() -> Vec<Check> {
         mean::checks,
         mean_frequencies::checks,
         spectrum::checks,
+        stability::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()
 }

@@ -43,8 +43,9 @@ impl Errors {
             (self.ulp, self.place, self.component) = (ulp, x.to_vec(), component);
         }
         let value = exact.high().abs();
+        // Of a zero there is no digit.
         let digits = (error / spacing(value)).log10().clamp(0.0, 17.0);
-        if digits > self.digits {
+        if value > 0.0 && digits > self.digits {
             (self.digits, self.condition) = (digits, scale / value);
         }
     }
@@ -88,7 +89,7 @@ impl Case {
     fn see(&self, x: &[f64], found: &mut Found) {
         let exact = (self.oracle)(&x.iter().map(|&x| Wide::from_f64(x)).collect::<Vec<_>>());
         let scales = self.scales(x, &exact);
-        let mut compare = |errors: &mut Errors, values: Vec<f64>| {
+        let compare = |errors: &mut Errors, values: Vec<f64>| {
             assert_eq!(values.len(), exact.len(), "as many results as the oracle has: {:?}", self.items);
             for (i, value) in values.into_iter().enumerate() {
                 errors.see(value, exact[i], scales[i], x, i);
@@ -116,7 +117,8 @@ impl Case {
     fn slopes(&self, x: &[f64], by: usize, moved: Option<usize>) -> Vec<Wide> {
         let inputs: Vec<WideDual> = (0..x.len())
             .map(|i| {
-                let change = if moved == Some(i) { Wide::from_f64(x[i]) * Wide::from_f64(CHANGE) } else { Wide::from_f64(0.0) };
+                let change =
+                    if moved == Some(i) { Wide::from_f64(x[i]) * Wide::from_f64(CHANGE) } else { Wide::from_f64(0.0) };
                 let unit = if i == by { 1.0 } else { 0.0 };
                 WideDual::new(Wide::from_f64(x[i]) + change, Wide::from_f64(unit))
             })
@@ -151,6 +153,7 @@ impl Case {
     fn shared(&self, scales: Vec<f64>) -> Vec<f64> {
         match self.scale {
             Scale::Each => scales,
+            Scale::Unit => vec![1.0; scales.len()],
             Scale::Vector => {
                 let largest = crate::check::largest(scales.iter().copied());
                 vec![largest; scales.len()]

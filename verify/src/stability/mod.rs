@@ -71,6 +71,8 @@ impl Class {
 pub enum Scale {
     /// Each by its own.
     Each,
+    /// All by one: they are parts of a turn, whatever the size of the inputs.
+    Unit,
     /// All by the largest: they are the components of a vector, in whatever frame.
     Vector,
 }
@@ -107,11 +109,7 @@ pub struct Case {
 
 impl Case {
     /// A scalar kernel that is its own oracle on double-double numbers: it has no constant, threshold or iteration meant for doubles.
-    pub fn new<K: Function>(
-        items: &'static [&'static str],
-        limit: &'static str,
-        inputs: &[Input],
-    ) -> Self {
+    pub fn new<K: Function>(items: &'static [&'static str], limit: &'static str, inputs: &[Input]) -> Self {
         Self {
             items,
             limit,
@@ -141,6 +139,12 @@ impl Case {
         case.kernel = kernel;
         case.derivative = None;
         case
+    }
+
+    /// With derivatives of a function that is not generic.
+    pub fn with_derivatives(mut self, derivative: fn(&[Dual64]) -> Vec<Dual64>) -> Self {
+        self.derivative = Some(derivative);
+        self
     }
 
     /// With another formula for oracle.
@@ -185,6 +189,12 @@ impl Case {
     /// the derivative itself, which is a difference of terms of that size.
     pub fn natural_derivatives(mut self) -> Self {
         self.natural_derivatives = true;
+        self
+    }
+
+    /// Whose results are parts of a whole.
+    pub fn unit(mut self) -> Self {
+        self.scale = Scale::Unit;
         self
     }
 

@@ -27,7 +27,9 @@ pub fn markdown(rounds: u64) -> String {
     let add = |page: &mut String, text: String| page.write_str(&text).expect("writing to a string succeeds");
     for family in FAMILIES {
         add(&mut page, format!("\n## {}: {}\n\n", family.name, family.subject));
-        page.push_str("| kernel | limit | ulp | bound | digits | cond. | other formula: ulp, digits | derivative: ulp, bound |\n");
+        page.push_str(
+            "| kernel | limit | ulp | bound | digits | cond. | other formula: ulp, digits | derivative: ulp, bound |\n",
+        );
         page.push_str("|---|---|---|---|---|---|---|---|\n");
         let mut reasons = Vec::new();
         for case in (family.cases)() {
@@ -83,9 +85,10 @@ fn short(case: &Case) -> String {
 fn row(case: &Case, found: &Found) -> String {
     let marked = |class: Class| if matches!(class, Class::Exception { .. }) { " *" } else { "" };
     let Errors { ulp, digits, condition, .. } = &found.kernel;
-    let naive = found.naive.as_ref().map_or("".into(), |errors| {
-        format!("{}: {}, {:.1}", case.naive_formula, stated(errors.ulp), errors.digits)
-    });
+    let naive = found
+        .naive
+        .as_ref()
+        .map_or("".into(), |errors| format!("{}: {}, {:.1}", case.naive_formula, stated(errors.ulp), errors.digits));
     let derivative = found.derivative.as_ref().map_or("".into(), |errors| {
         format!("{}, {}{}", stated(errors.ulp), case.class_of_derivatives.bound(), marked(case.class_of_derivatives))
     });

@@ -20,8 +20,8 @@ use twofold::dynamics::regular_equations::{body_state_rates, reduced_rates, torq
 use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
 use twofold::dynamics::{BodyState, PrincipalInertia, RigidSpheroid};
 use twofold::lorentz_violation::{coefficients_from_preferred_frame, preferred_frame_parameter};
-use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
 use twofold::observables::Observer;
+use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
 
 use super::parts::{angles, body, entries, joined, none, principal, rates, symmetric, vector};
 use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
@@ -255,13 +255,36 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new::<Energy>(
             &["dynamics::first_integrals::energy"],
             "L along n, I^zz -> infinity",
-            &[Signed(-12.0, 0.0), Signed(-12.0, 0.0), RATE, INERTIA, Log(0.0, 20.0), INERTIA, Fixed(0.0), Fixed(0.0), SMALL, Fixed(0.0), Fixed(0.0), Fixed(0.0)],
+            &[
+                Signed(-12.0, 0.0),
+                Signed(-12.0, 0.0),
+                RATE,
+                INERTIA,
+                Log(0.0, 20.0),
+                INERTIA,
+                Fixed(0.0),
+                Fixed(0.0),
+                SMALL,
+                Fixed(0.0),
+                Fixed(0.0),
+                Fixed(0.0),
+            ],
         )
         .beside::<NaiveEnergy>("L.L / (2 I^xx) and the rest"),
         Case::new::<Spin>(
             &["dynamics::first_integrals::spin"],
             "Omega^z -> 0, L normal to n",
-            &[Signed(-300.0, 0.0), COMPONENT, Fixed(0.0), COMPONENT, Signed(-300.0, 0.0), COMPONENT, INERTIA, INERTIA, INERTIA],
+            &[
+                Signed(-300.0, 0.0),
+                COMPONENT,
+                Fixed(0.0),
+                COMPONENT,
+                Signed(-300.0, 0.0),
+                COMPONENT,
+                INERTIA,
+                INERTIA,
+                INERTIA,
+            ],
         ),
         Case::new::<Acceleration>(
             &["dynamics::angular_acceleration::angular_acceleration"],
@@ -288,9 +311,17 @@ pub(super) fn cases() -> Vec<Case> {
             "rates from 1e-100 to 1e100",
             &[Signed(-100.0, 100.0), RATE, RATE, INERTIA, INERTIA, INERTIA],
         ),
-        Case::new::<Body>(BODY, "I^zz -> I^xx", &[Near(1.0, -15.5, -0.1), Fixed(1.0), Log(-20.0, 20.0), Signed(-300.0, 3.0)]),
-        Case::new::<BodyInUnits>(BODY, "units from 1e-100 to 1e100", &[Log(-100.0, 100.0), In(0.2, 2.0), Log(-100.0, 100.0), Signed(-50.0, 50.0)])
-            .natural_derivatives(),
+        Case::new::<Body>(
+            BODY,
+            "I^zz -> I^xx",
+            &[Near(1.0, -15.5, -0.1), Fixed(1.0), Log(-20.0, 20.0), Signed(-300.0, 3.0)],
+        ),
+        Case::new::<BodyInUnits>(
+            BODY,
+            "units from 1e-100 to 1e100",
+            &[Log(-100.0, 100.0), In(0.2, 2.0), Log(-100.0, 100.0), Signed(-50.0, 50.0)],
+        )
+        .natural_derivatives(),
         Case::new::<Nordtvedt>(
             &["dynamics::potential::nordtvedt_potential"],
             "alpha_2 from 1e-200 to 1",
@@ -311,13 +342,33 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new::<Strain>(
             STRAIN,
             "theta_o -> 0",
-            &[Log(-300.0, 0.4), TURN, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, Log(-20.0, 20.0)],
+            &[
+                Log(-300.0, 0.4),
+                TURN,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                Log(-20.0, 20.0),
+            ],
         )
         .composite(),
         Case::new::<Strain>(
             STRAIN,
             "theta_o -> pi",
-            &[Near(PI, -15.0, -0.3), TURN, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, Log(-20.0, 20.0)],
+            &[
+                Near(PI, -15.0, -0.3),
+                TURN,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                Log(-20.0, 20.0),
+            ],
         )
         .composite(),
     ]);

@@ -6,9 +6,11 @@ mod mean;
 mod observables;
 mod orientation;
 mod parts;
+mod remaining;
 mod solutions;
 mod star;
 mod symmetric;
+mod tensor;
 
 use super::Case;
 
@@ -74,5 +76,17 @@ pub const FAMILIES: &[Family] = &[
         subject: "spin axis, bounds, beam, pulses, position angle, harmonics, eta, units",
         equations: &[35, 37, 38, 40, 41, 42, 44, 45, 47, 49, 50, 51, 52, 53, 54, 55, 56, 71],
         cases: observables::cases,
+    },
+    Family {
+        name: "tensor",
+        subject: "principal axes and the nearest symmetric tensor",
+        equations: &[31, 36],
+        cases: tensor::cases,
+    },
+    Family {
+        name: "remaining",
+        subject: "multipoles of any star, states on tori, exact frequencies, distribution of eta, epochs",
+        equations: &[12, 17, 24, 41],
+        cases: remaining::cases,
     },
 ];

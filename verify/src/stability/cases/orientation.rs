@@ -3,7 +3,6 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Matrix3;
-use twofold::Real;
 use twofold::dynamics::BodyState;
 use twofold::dynamics::inertia_tensor_rate::{rotation_rate, tensor_in_inertial_frame};
 use twofold::dynamics::regular_equations::{angular_velocity, euler_rates_of_axis};
@@ -107,7 +106,11 @@ const OBSERVER: &[&str] = &["observables::Observer::at"];
 pub(super) fn cases() -> Vec<Case> {
     let (north, south) = (Log(-300.0, 0.0), Near(PI, -15.0, -0.5));
     let mut cases = Vec::new();
-    for (limit, beta) in [("sin b -> 0 at beta = 0", north), ("sin b -> 0 at beta = pi", south), ("cos b -> 0", Near(FRAC_PI_2, -15.0, -0.3))] {
+    for (limit, beta) in [
+        ("sin b -> 0 at beta = 0", north),
+        ("sin b -> 0 at beta = pi", south),
+        ("cos b -> 0", Near(FRAC_PI_2, -15.0, -0.3)),
+    ] {
         let sweep = &[beta, TURN, TURN, RATE, RATE, RATE, INERTIA, INERTIA, Fixed(1.0)];
         let off_pole = if beta == north { Log(-15.0, 0.0) } else { beta };
         let off_pole = [off_pole, TURN, TURN, RATE, RATE, RATE];
@@ -151,19 +154,154 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new::<RatesOfAxis>(
             OF_AXIS,
             "axis to either pole",
-            &[Signed(-15.0, -0.5), Signed(-15.0, -0.5), Signed(-0.3, 0.0), COMPONENT, COMPONENT, COMPONENT, INERTIA, INERTIA, Fixed(1.0)],
+            &[
+                Signed(-15.0, -0.5),
+                Signed(-15.0, -0.5),
+                Signed(-0.3, 0.0),
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                INERTIA,
+                INERTIA,
+                Fixed(1.0),
+            ],
         )
         .natural_derivatives(),
-        Case::new::<TensorInBody>(&["euler_angles::tensor_in_body_frame"], "s -> 0 from 1e-300 to 1", &[Signed(-300.0, 0.0), Signed(-300.0, 0.0), Signed(-300.0, 0.0), Signed(-300.0, 0.0), Signed(-300.0, 0.0), Signed(-300.0, 0.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT]),
-        Case::new::<TensorInInertial>(&["dynamics::inertia_tensor_rate::tensor_in_inertial_frame"], "entries from 1e-300 to 1", &[Signed(-300.0, 0.0), Signed(-300.0, 0.0), Signed(-300.0, 0.0), Signed(-300.0, 0.0), Signed(-300.0, 0.0), Signed(-300.0, 0.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT]),
-        Case::new::<RotationRate>(&["dynamics::inertia_tensor_rate::rotation_rate"], "rates from 1e-300 to 1e300", &[Signed(-300.0, 299.0), Signed(-3.0, 3.0), Signed(-3.0, 3.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT]),
-        Case::new::<AngularVelocityInUnits>(VELOCITY, "units: I^xx from 1e-100 to 1e100", &[Log(-100.0, 100.0), In(0.2, 2.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT]),
-        Case::new::<AngularVelocity>(VELOCITY, "I^zz -> I^xx", &[Near(1.0, -15.5, -0.5), Fixed(1.0), Fixed(1.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT]),
-        Case::new::<RotationOfState>(&["dynamics::BodyState::body_from_inertial"], "a component of n -> 0", &[Signed(-300.0, 0.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT]),
-        Case::new::<StateRotated>(&["dynamics::BodyState::rotated"], "a component of n -> 0", &[Signed(-300.0, 0.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT]),
+        Case::new::<TensorInBody>(
+            &["euler_angles::tensor_in_body_frame"],
+            "s -> 0 from 1e-300 to 1",
+            &[
+                Signed(-300.0, 0.0),
+                Signed(-300.0, 0.0),
+                Signed(-300.0, 0.0),
+                Signed(-300.0, 0.0),
+                Signed(-300.0, 0.0),
+                Signed(-300.0, 0.0),
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+            ],
+        ),
+        Case::new::<TensorInInertial>(
+            &["dynamics::inertia_tensor_rate::tensor_in_inertial_frame"],
+            "entries from 1e-300 to 1",
+            &[
+                Signed(-300.0, 0.0),
+                Signed(-300.0, 0.0),
+                Signed(-300.0, 0.0),
+                Signed(-300.0, 0.0),
+                Signed(-300.0, 0.0),
+                Signed(-300.0, 0.0),
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+            ],
+        ),
+        Case::new::<RotationRate>(
+            &["dynamics::inertia_tensor_rate::rotation_rate"],
+            "rates from 1e-300 to 1e300",
+            &[
+                Signed(-300.0, 299.0),
+                Signed(-3.0, 3.0),
+                Signed(-3.0, 3.0),
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+            ],
+        ),
+        Case::new::<AngularVelocityInUnits>(
+            VELOCITY,
+            "units: I^xx from 1e-100 to 1e100",
+            &[Log(-100.0, 100.0), In(0.2, 2.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT],
+        ),
+        Case::new::<AngularVelocity>(
+            VELOCITY,
+            "I^zz -> I^xx",
+            &[
+                Near(1.0, -15.5, -0.5),
+                Fixed(1.0),
+                Fixed(1.0),
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+            ],
+        ),
+        Case::new::<RotationOfState>(
+            &["dynamics::BodyState::body_from_inertial"],
+            "a component of n -> 0",
+            &[Signed(-300.0, 0.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT],
+        ),
+        Case::new::<StateRotated>(
+            &["dynamics::BodyState::rotated"],
+            "a component of n -> 0",
+            &[
+                Signed(-300.0, 0.0),
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+            ],
+        ),
         Case::new::<ObserverBasis>(OBSERVER, "theta_o -> 0", &[Log(-300.0, 0.0), TURN]),
         Case::new::<ObserverBasis>(OBSERVER, "theta_o -> pi", &[south, TURN]),
-        Case::new::<ObserverRotated>(&["observables::Observer::rotated", "observables::pulsar::position_angle::sky_from_inertial"], "a component -> 0", &[Signed(-300.0, 0.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT]),
+        Case::new::<ObserverRotated>(
+            &["observables::Observer::rotated", "observables::pulsar::position_angle::sky_from_inertial"],
+            "a component -> 0",
+            &[
+                Signed(-300.0, 0.0),
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+            ],
+        ),
     ]);
     cases
 }

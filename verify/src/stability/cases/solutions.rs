@@ -141,9 +141,8 @@ fn by_time<S: Real>(x: &[S]) -> Vec<S> {
 fn found_constants<S: Real>(kind: Kind, x: &[S]) -> Vec<S> {
     let s = PrincipalCoefficients { xx: x[1], yy: x[2], zz: x[0] };
     let initial = AxisAngles { alpha: x[4], beta: x[5], alpha_rate: x[6], beta_rate: x[7] };
-    constants_from_initial_values(kind, &body(&x[8..]), &s, x[3], &initial).map_or(none(4), |found| {
-        vec![found.alpha_0, found.beta_0, found.amplitude, found.phase]
-    })
+    constants_from_initial_values(kind, &body(&x[8..]), &s, x[3], &initial)
+        .map_or(none(4), |found| vec![found.alpha_0, found.beta_0, found.amplitude, found.phase])
 }
 
 /// Without a series for small angles.
@@ -179,9 +178,17 @@ const CONSTANTS: &[&str] = &["solutions::perturbation::constants_from_initial_va
 pub(super) fn cases() -> Vec<Case> {
     let (i, c) = (INERTIA, COMPONENT);
     let mut cases = vec![
-        Case::new::<SteadyTwofold>(STEADY, "s -> 0", &[Signed(-300.0, -2.5), Signed(-6.0, -2.5), SPIN, BETA, i, i, In(0.1, 0.5)]),
-        Case::new::<SteadySingle>(STEADY, "s -> 0", &[Signed(-300.0, -2.5), Signed(-6.0, -2.5), SPIN, BETA, i, i, In(0.1, 0.5)])
-            .beside::<PrintedSingle>("Eq. (26) as printed"),
+        Case::new::<SteadyTwofold>(
+            STEADY,
+            "s -> 0",
+            &[Signed(-300.0, -2.5), Signed(-6.0, -2.5), SPIN, BETA, i, i, In(0.1, 0.5)],
+        ),
+        Case::new::<SteadySingle>(
+            STEADY,
+            "s -> 0",
+            &[Signed(-300.0, -2.5), Signed(-6.0, -2.5), SPIN, BETA, i, i, In(0.1, 0.5)],
+        )
+        .beside::<PrintedSingle>("Eq. (26) as printed"),
         Case::new::<SteadySingle>(
             STEADY,
             "the two roots meet",
@@ -199,10 +206,14 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new::<Rotated>(ROTATED, "angle to 1e15", &[Log(0.0, 15.0), c, c, c, c, c, c])
             .against::<ExactRotated>()
             .vector(),
-        Case::new::<FreeRotation>(FREE, "t from 1e-150 to 1e15", &[Log(-150.0, 15.0), c, c, c, c, c, c, c, c, c, i, i, i])
-            .against::<ExactFreeRotation>()
-            .composite()
-            .vector(),
+        Case::new::<FreeRotation>(
+            FREE,
+            "t from 1e-150 to 1e15",
+            &[Log(-150.0, 15.0), c, c, c, c, c, c, c, c, c, i, i, i],
+        )
+        .against::<ExactFreeRotation>()
+        .composite()
+        .vector(),
         Case::new::<Parts>(
             &[
                 "solutions::perturbation::Perturbation::first_order",
@@ -247,14 +258,38 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new::<ConstantsTwofold>(
             CONSTANTS,
             "s -> 0, twofold",
-            &[Signed(-300.0, -3.0), Signed(-6.0, -3.0), Signed(-6.0, -3.0), SPIN, TURN, In(0.4, 1.0), In(1.4, 2.0), AMPLITUDE, Fixed(1.0), In(1.0, 1.2), Fixed(1.0)],
+            &[
+                Signed(-300.0, -3.0),
+                Signed(-6.0, -3.0),
+                Signed(-6.0, -3.0),
+                SPIN,
+                TURN,
+                In(0.4, 1.0),
+                In(1.4, 2.0),
+                AMPLITUDE,
+                Fixed(1.0),
+                In(1.0, 1.2),
+                Fixed(1.0),
+            ],
         )
         .composite()
         .with_points(10),
         Case::new::<ConstantsSingle>(
             CONSTANTS,
             "single, asymmetry -> 0",
-            &[In(0.01, 0.05), Fixed(0.02), Near(0.02, -15.0, -3.0), SPIN, TURN, In(0.4, 1.0), Signed(-9.0, -2.0), AMPLITUDE, Fixed(1.0), In(1.0, 1.2), Fixed(1.0)],
+            &[
+                In(0.01, 0.05),
+                Fixed(0.02),
+                Near(0.02, -15.0, -3.0),
+                SPIN,
+                TURN,
+                In(0.4, 1.0),
+                Signed(-9.0, -2.0),
+                AMPLITUDE,
+                Fixed(1.0),
+                In(1.0, 1.2),
+                Fixed(1.0),
+            ],
         )
         .composite()
         .with_points(10),

@@ -142,7 +142,16 @@ functions! {
     }
     ShapeByEpsilon(x) { shape(&SpheroidShape::from_oblateness(x[0]).expect("a shape")) }
     ExactShapeByEpsilon(x) { exact_shape(by_epsilon(x[0])) }
-    ShapeByAxes(x) { shape(&SpheroidShape::from_semi_axes(x[1], x[1] * x[0]).expect("a shape")) }
+    // a3, a1
+    ShapeByAxes(x) {
+        let body = UniformSpheroid::from_semi_axes(x[1], x[0], S::one()).expect("a spheroid");
+        shape(body.shape())
+    }
+    ExactShapeByAxes(x) {
+        let q = x[0] / x[1];
+        let e2 = (x[1] - x[0]) * (x[1] + x[0]) / (x[1] * x[1]);
+        exact_shape([q, q * q, e2])
+    }
     CoefficientsByE(x) { coefficients(&SpheroidShape::from_eccentricity(x[0]).expect("a shape")) }
     ExactCoefficientsByE(x) { exact_coefficients(by_e(x[0])) }
     PrintedCoefficientsByE(x) { printed_coefficients(x[0]) }
@@ -324,6 +333,16 @@ pub(super) fn cases() -> Vec<Case> {
             &[Below(1.0, -15.5, -0.3)],
         )
         .against::<ExactShapeByEpsilon>(),
+        Case::new::<ShapeByAxes>(
+            &[
+                "star::spheroid_shape::SpheroidShape::from_semi_axes",
+                "star::uniform_spheroid::UniformSpheroid::from_semi_axes",
+            ],
+            "a3 -> a1",
+            &[Near(1.0, -15.5, -0.3), In(0.9, 1.1)],
+        )
+        .against::<ExactShapeByAxes>()
+        .composite(),
         Case::new::<CoefficientsByE>(COEFFICIENTS, "e -> 0", &[Log(-12.0, -0.01)])
             .against::<ExactCoefficientsByE>()
             .beside::<PrintedCoefficientsByE>(printed),
@@ -342,9 +361,13 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new::<SpheroidByE>(SPHEROID, "e -> 1", &[Below(1.0, -15.5, -0.3), In(0.5, 2.0), In(0.5, 2.0)])
             .against::<ExactSpheroidByE>()
             .composite(),
-        Case::new::<SpheroidByQ>(SPHEROID, "prolate, q -> 1 and beyond", &[Above(1.0, -15.5, 3.0), In(0.5, 2.0), In(0.5, 2.0)])
-            .against::<ExactSpheroidByQ>()
-            .composite(),
+        Case::new::<SpheroidByQ>(
+            SPHEROID,
+            "prolate, q -> 1 and beyond",
+            &[Above(1.0, -15.5, 3.0), In(0.5, 2.0), In(0.5, 2.0)],
+        )
+        .against::<ExactSpheroidByQ>()
+        .composite(),
         Case::new::<SpheroidByE>(
             SPHEROID,
             "units: a1 from 1e-30 to 1e30, rho from 1e-40 to 1e40",
@@ -370,7 +393,10 @@ pub(super) fn cases() -> Vec<Case> {
         .against::<ExactFromMass>()
         .composite(),
         Case::new::<MassOf>(
-            &["star::uniform_spheroid::UniformSpheroid::from_mass", "star::uniform_spheroid::UniformSpheroid::mean_radius"],
+            &[
+                "star::uniform_spheroid::UniformSpheroid::from_mass",
+                "star::uniform_spheroid::UniformSpheroid::mean_radius",
+            ],
             "mass and mean radius there and back, q from 1e-90 to 1e90",
             &[Log(-90.0, 90.0), In(0.5, 2.0), In(0.5, 2.0)],
         )
@@ -380,9 +406,13 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new::<Maclaurin>(MACLAURIN, "e -> 0", &[Log(-12.0, -0.01), In(0.5, 2.0), In(0.5, 2.0), In(0.0, 0.9)])
             .against::<ExactMaclaurin>()
             .composite(),
-        Case::new::<Maclaurin>(MACLAURIN, "e -> 1", &[Below(1.0, -15.5, -0.3), In(0.5, 2.0), In(0.5, 2.0), In(0.0, 0.9)])
-            .against::<ExactMaclaurin>()
-            .composite(),
+        Case::new::<Maclaurin>(
+            MACLAURIN,
+            "e -> 1",
+            &[Below(1.0, -15.5, -0.3), In(0.5, 2.0), In(0.5, 2.0), In(0.0, 0.9)],
+        )
+        .against::<ExactMaclaurin>()
+        .composite(),
         Case::new::<Ellipsoid>(
             ELLIPSOID,
             "one axis -> 0 and to infinity",

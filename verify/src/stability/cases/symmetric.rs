@@ -7,7 +7,7 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::symmetric::SymmetricSolution;
 
 use super::parts::{angles, body, none, of_angles, of_rates, rates};
-use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
+use crate::stability::Input::{self, Below, Fixed, In, Log, Near, Signed};
 use crate::stability::{Case, functions};
 
 /// `s^ZZ - s^XX`, beta, alpha, gamma, rates (3), body.
@@ -36,6 +36,11 @@ functions! {
     AtBySpin(x) { at(&[&x[1..6], &x[..1], &x[6..]].concat(), S::one()) }
 }
 
+const DERIVATIVES: f64 = 128.0;
+const REASON: &str = "They go through the turning points, two integrals of the third kind and their differences: a dozen composites, \
+                      each with the condition number of a root of the quartic.";
+const POLE: &str =
+    "By `beta` itself, which near `pi` has not the digits of its distance from there: condition number 1 / sin b.";
 const TURN: Input = In(-3.1, 3.1);
 const BETA: Input = In(0.3, 1.2);
 const RATE: Input = In(0.5, 1.5);
@@ -55,13 +60,26 @@ pub(super) fn cases() -> Vec<Case> {
     let scene = |s: Input| [s, BETA, TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one];
     vec![
         Case::new::<AtByS>(AT, "s -> 0", &scene(Signed(-300.0, -1.0))).composite(),
-        Case::new::<WholeByS>(WHOLE, "s -> 0", &scene(Signed(-300.0, -1.0))).composite(),
+        Case::new::<WholeByS>(WHOLE, "s -> 0, relative to the rotation", &scene(Signed(-300.0, -1.0)))
+            .composite()
+            .vector(),
         Case::new::<AtByS>(AT, "s to 1", &scene(In(0.1, 1.0))).composite(),
-        Case::new::<WholeByS>(WHOLE, "s to 1", &scene(In(0.1, 1.0))).composite(),
+        Case::new::<WholeByS>(WHOLE, "s to 1, relative to the rotation", &scene(In(0.1, 1.0))).composite().vector(),
         Case::new::<AtByBeta>(
             AT,
             "cos b -> 0",
-            &[Near(FRAC_PI_2, -15.0, -0.5), Signed(-6.0, -1.0), TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one],
+            &[
+                Near(FRAC_PI_2, -15.0, -0.5),
+                Signed(-6.0, -1.0),
+                TURN,
+                TURN,
+                RATE,
+                Signed(-3.0, -0.3),
+                RATE,
+                one,
+                i,
+                one,
+            ],
         )
         .composite(),
         Case::new::<AtByBeta>(
@@ -73,7 +91,7 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new::<AtByBeta>(
             AT,
             "sin b -> 0 at beta = pi",
-            &[Near(PI - 1e-12, -6.0, -0.5), Signed(-6.0, -1.0), TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one],
+            &[Below(PI, -6.0, -0.5), Signed(-6.0, -1.0), TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one],
         )
         .composite(),
         Case::new::<AtByTime>(
@@ -89,4 +107,11 @@ pub(super) fn cases() -> Vec<Case> {
         )
         .composite(),
     ]
+    .into_iter()
+    .map(|case| {
+        let south = case.limit.ends_with("pi");
+        let case = case.natural_derivatives();
+        if south { case.derivatives_except(1e8, POLE) } else { case.derivatives_except(DERIVATIVES, REASON) }
+    })
+    .collect()
 }
