@@ -47,7 +47,7 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
         ],
         "estimates and bounds: they must not be too small, and no digit of theirs counts; checks of estimates and coverage",
     ),
-    (&["plan"], "decides what is computed, by integers and estimates; derivatives of motions in `plans-*`"),
+    (&["plan"], "decides what is computed, by integers and estimates; derivatives of motions in `gradient-*`"),
     (
         &[
             "observables::pulsar::train",
@@ -57,7 +57,7 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
             "observables::pulsar::PulsarClock",
             "observables::pulsar::NearState",
         ],
-        "searches for edges, made of `Beam::margin_rates` here; their times against 30 digits in `pulse-edges-*`, grazing included",
+        "searches for edges, made of `Beam::margin_rates` here; their times against 30 digits in `pulse-edges-reference`, grazing in `pulse-train-grazing`",
     ),
     (
         &["observables::pulsar::ConstantPeriod", "observables::pulsar::SpinFit"],
@@ -65,7 +65,7 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
     ),
     (
         &["observables::spectrum", "observables::fundamental_frequencies"],
-        "estimates from samples, whose error is that of the window; against exact frequencies in `frequencies-*` and `lines-*`",
+        "estimates from samples, whose error is that of the window; against exact frequencies in `mean-frequency-*` and `line-*`",
     ),
     (
         &[
@@ -109,5 +109,5 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
         ],
         "one product, one root, or a product with a matrix as in `BodyState::rotated`",
     ),
-    (&["star::maclaurin::MaclaurinSpheroid::virial_residual"], "zero but for rounding, see `maclaurin-*`"),
+    (&["star::maclaurin::MaclaurinSpheroid::virial_residual"], "zero but for rounding, see `star-tensor-virial`"),
 ];

@@ -218,6 +218,7 @@ pub(super) fn cases() -> Vec<Case> {
             "a time from 1e-12 s to 1e11 s",
             &[Signed(-12.0, 9.0), In(0.0, 0.999)],
             fraction,
-        ),
+        )
+        .unit(),
     ]
 }

@@ -154,6 +154,8 @@ fn rotation<S: Real>(turn: &Vector3<S>, v: &Vector3<S>) -> Vector3<S> {
     v + across * (sin / angle) + turn.cross(&across) * (sin_half * sin_half * 2.0 / square)
 }
 
+const PHASES: &str = "Two phases that grow together, each with a rounding of its own: where the slopes of their terms cancel, the scale does not see it, \
+                      condition number t a over the rest.";
 const TURN: Input = In(-3.1, 3.1);
 const BETA: Input = In(0.2, 1.4);
 const SPIN: Input = In(0.5, 2.0);
@@ -321,8 +323,12 @@ pub(super) fn cases() -> Vec<Case> {
     );
     let over_time = [Log(-3.0, 15.0), TURN, BETA, AMPLITUDE, TURN, SMALL, SMALL, SMALL, SPIN, i, i, i];
     cases.extend([
-        Case::new::<SingleByTime>(PRINTED, "t to 1e15", &over_time).composite(),
-        Case::new::<CorrectedByTime>(CORRECTED, "t to 1e15", &over_time).composite(),
+        Case::new::<SingleByTime>(PRINTED, "t to 1e15", &over_time)
+            .except(1e3, PHASES)
+            .derivatives_except(1e3, PHASES),
+        Case::new::<CorrectedByTime>(CORRECTED, "t to 1e15", &over_time)
+            .except(1e3, PHASES)
+            .derivatives_except(1e3, PHASES),
     ]);
     cases
 }

@@ -90,6 +90,8 @@ fn along_with_derivatives(x: &[Dual64]) -> Vec<Dual64> {
     principal_frame_along(&symmetric(x)).map_or(none(3), |(s, _)| values(&s))
 }
 
+const ANY: &str = "entries from 1e-290 to 1";
+const SYMMETRY: &[&str] = &["lorentz_violation::SymmetryOfTensor::of"];
 const FRAME: &[&str] = &["lorentz_violation::principal_frame"];
 const DERIVATIVES: &[&str] = &["lorentz_violation::principal_frame_with_derivatives"];
 const ALONG: &[&str] = &["lorentz_violation::principal_frame_along"];
@@ -109,16 +111,21 @@ pub(super) fn cases() -> Vec<Case> {
     let general: [Input; 6] = [c, c, c, c, c, c];
     let mut cases = Vec::new();
     for (limit, inputs) in [
-        ("entries from 1e-290 to 1", any),
+        (ANY, any),
         ("all eigenvalues nearly equal", isotropic),
         ("two eigenvalues nearly equal", pair),
         ("any tensor", general),
     ] {
         cases.push(Case::of_doubles::<ExactFrame>(FRAME, limit, &inputs, frame).composite().vector());
-        cases.push(
-            Case::of_doubles::<ExactSymmetry>(&["lorentz_violation::SymmetryOfTensor::of"], limit, &inputs, symmetry)
-                .composite(),
-        );
+        // Of entries of any sizes two gaps are equal within rounding, and which pair is nearest is open.
+        if limit != ANY {
+            cases.push(
+                Case::of_doubles::<ExactSymmetry>(SYMMETRY, limit, &inputs, symmetry).except(
+                    64.0,
+                    "A difference of eigenvalues, each found by iteration to a few ulp of the largest one: condition number s / difference.",
+                ),
+            );
+        }
     }
     cases.extend([
         Case::new::<WithDerivatives>(DERIVATIVES, "any tensor", &general).against::<ExactValues>().composite().vector(),
