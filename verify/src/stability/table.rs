@@ -7,7 +7,7 @@ use super::measure::{Errors, Found};
 use super::{Case, Class, ELSEWHERE};
 
 /// Rounds of the page: the first is that of the checks.
-pub const ROUNDS: u64 = 25;
+pub const ROUNDS: u64 = 10;
 
 const HEAD: &str = "# Digits lost: stability tables
 

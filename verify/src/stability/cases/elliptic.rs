@@ -197,12 +197,12 @@ pub(super) fn cases() -> Vec<Case> {
                 1e3,
                 "They are 4 sin z cos z times cosine and sine of z, made of terms of the size 4: condition number 1 / sin z.",
             ),
-        Case::new::<ThetaShifted>(THETA, "q -> 0", &[Log(-100.0, -1.0), In(0.1, 0.9), In(-1.0, 1.0)]).composite(),
+        Case::new::<ThetaShifted>(THETA, "q -> 0, zeta and shifted", &[Log(-100.0, -1.0), In(0.1, 0.9), In(-1.0, 1.0)]).composite(),
         Case::new::<Theta>(THETA, "q -> 0.87, the separatrix", &separatrix)
             .vector()
             .except(1e7, SEPARATRIX)
             .derivatives_except(1e13, SEPARATRIX),
-        Case::new::<ThetaShifted>(THETA, "q -> 0.87, the separatrix", &separatrix)
+        Case::new::<ThetaShifted>(THETA, "q -> 0.87, zeta and shifted", &separatrix)
             .except(1e7, SEPARATRIX)
             .derivatives_except(1e13, SEPARATRIX),
     ]
