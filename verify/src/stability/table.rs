@@ -19,6 +19,8 @@ arithmetic of 31 digits with derivatives by duals. The first input is swept on a
 others are drawn at random (seeded). *digits* are decimal digits lost of the value itself, kernel and conditioning together; *cond.* is the
 condition number (scale over value) there. The bound is 4 ulp for a formula of one step and 16 for a composite; derivatives (duals, by the
 swept input) are composites and have 16. Exceptions are marked `*` and explained below each table.
+Derivatives marked `n` count against their natural size, the scale of the value over the swept input, as well: they are differences of terms of
+that size, near a pole or in a limit where the function becomes constant.
 
 ## What was found, and mended
 
@@ -105,7 +107,9 @@ fn row(case: &Case, found: &Found) -> String {
         .as_ref()
         .map_or("".into(), |errors| format!("{}: {}, {:.1}", case.naive_formula, stated(errors.ulp), errors.digits));
     let derivative = found.derivative.as_ref().map_or("".into(), |errors| {
-        format!("{}, {}{}", stated(errors.ulp), case.class_of_derivatives.bound(), marked(case.class_of_derivatives))
+        let natural = if case.natural_derivatives { " n" } else { "" };
+        let class = case.class_of_derivatives;
+        format!("{}, {}{natural}{}", stated(errors.ulp), class.bound(), marked(class))
     });
     format!(
         "{} {} | {}{} | {digits:.1} | {condition:.1e} | {naive} | {derivative} |\n",

@@ -36,9 +36,6 @@ functions! {
     AtBySpin(x) { at(&[&x[1..6], &x[..1], &x[6..]].concat(), S::one()) }
 }
 
-const DERIVATIVES: f64 = 128.0;
-const REASON: &str = "They go through the turning points, two integrals of the third kind and their differences: a dozen composites, \
-                      each with the condition number of a root of the quartic.";
 const POLE: &str =
     "By `beta` itself, which near `pi` has not the digits of its distance from there: condition number 1 / sin b.";
 const TURN: Input = In(-3.1, 3.1);
@@ -114,7 +111,7 @@ pub(super) fn cases() -> Vec<Case> {
     .map(|case| {
         let south = case.limit.ends_with("pi");
         let case = case.natural_derivatives();
-        if south { case.derivatives_except(1e8, POLE) } else { case.derivatives_except(DERIVATIVES, REASON) }
+        if south { case.derivatives_except(1e8, POLE) } else { case }
     })
     .collect()
 }
