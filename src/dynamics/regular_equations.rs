@@ -8,9 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
-use crate::euler_angles::{
-    EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, body_rates, euler_rates, refuse_pole,
-};
+use crate::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, refuse_pole};
 use crate::scalar::{Real, Scalar};
 
 /// State of rotation of a spheroid in inertial components.
@@ -62,7 +60,7 @@ pub fn angular_velocity<S: Scalar>(
 /// ```
 ///
 /// # Errors
-/// [`Error::Domain`] on the poles, as for [`euler_rates`].
+/// [`Error::Domain`] on the poles, as for [`euler_rates`](crate::euler_angles::euler_rates).
 pub fn euler_rates_of_axis<S: Real>(
     spheroid: &RigidSpheroid<S>,
     axis: &Vector3<S>,
@@ -86,14 +84,22 @@ pub fn body_state_rates<S: Scalar>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, 
 impl<S: Scalar> BodyState<S> {
     /// The state with given Euler angles and rates: Eqs. (9) `[trans]` and (22) `[angvel1]` and `L = I Omega`. Regular at
     /// the poles.
+    ///
+    /// ```text
+    /// L = I^xx [b' (cos a, sin a, 0) + a' sin b (-cos b sin a, cos b cos a, sin b)] + I^zz Omega^z n
+    /// ```
     pub fn from_angles(spheroid: &RigidSpheroid<S>, angles: &EulerAngles<S>, rates: &EulerRates<S>) -> Self {
         let rotation = body_from_inertial(angles);
-        let omega = body_rates(angles, rates);
-        let momentum_body =
-            Vector3::new(omega.x * spheroid.inertia_xx, omega.y * spheroid.inertia_xx, omega.z * spheroid.inertia_zz);
+        let ((sa, ca), (sb, cb)) = (angles.alpha.sin_cos(), angles.beta.sin_cos());
+        let axis = rotation.row(2).transpose();
+        // Along the line of nodes and across it in the equatorial plane: by way of the body frame `gamma` would leave its rounding in `L`.
+        let nodes = Vector3::new(ca, sa, S::zero());
+        let across = Vector3::new(-(cb * sa), cb * ca, sb);
+        let transverse = nodes * rates.beta + across * (rates.alpha * sb);
+        let spin = rates.alpha * cb + rates.gamma;
         Self {
-            axis: rotation.row(2).transpose(),
-            momentum: rotation.transpose() * momentum_body,
+            axis,
+            momentum: transverse * spheroid.inertia_xx + axis * (spheroid.inertia_zz * spin),
             equatorial_axis: rotation.row(0).transpose(),
         }
     }
@@ -123,12 +129,12 @@ impl<S: Real> BodyState<S> {
         angles_from_rotation(&self.body_from_inertial())
     }
 
-    /// Euler rates of the state, the inverse of Eq. (22) `[angvel1]`.
+    /// Euler rates of the state, the inverse of Eq. (22) `[angvel1]`: [`euler_rates_of_axis`]. By way of the angles and the body frame they
+    /// would lose another factor `1 / sin b` near the poles.
     ///
     /// # Errors
-    /// [`Error::Domain`] on the poles, see [`euler_rates`].
+    /// [`Error::Domain`] on the poles, see [`euler_rates_of_axis`].
     pub fn rates(&self, spheroid: &RigidSpheroid<S>) -> Result<EulerRates<S>, Error> {
-        let omega = angular_velocity(spheroid, &self.axis, &self.momentum);
-        euler_rates(&self.angles()?, &(self.body_from_inertial() * omega))
+        euler_rates_of_axis(spheroid, &self.axis, &self.momentum)
     }
 }

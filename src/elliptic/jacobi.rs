@@ -14,6 +14,9 @@ const NEARLY_EQUAL: f64 = 1e-9;
 /// Steps after that: their derivatives of the first three orders become equal too.
 const STEPS_FOR_DERIVATIVES: usize = 2;
 
+/// Below it `1 - share` keeps its digits, in a step with `dn = (1 - share) / (1 + share)`.
+const SMALL_SHARE: f64 = 0.5;
+
 /// More steps than any start needs: the ratio of the means goes to its square root, then their difference to its square.
 const MOST_STEPS: usize = 20;
 
@@ -76,9 +79,15 @@ impl<S: Real> ArithmeticGeometricMean<S> {
         let mut f = JacobiFunctions { sn: sin / self.limit(), cn: cos, dn: S::one() };
         for &(a, b) in self.steps[..self.used - 1].iter().rev() {
             let c2 = (a - b) * (a + b);
-            let denominator = S::one() + c2 * f.sn * f.sn * 0.25;
+            let share = c2 * f.sn * f.sn * 0.25;
+            let denominator = S::one() + share;
             let (sn, cn) = (f.sn / denominator, f.cn * f.dn / denominator);
-            let dn = (b * b + c2 * cn * cn).sqrt() / a;
+            // By `cn`, which has a factor `dn` of the step before, an error would double at each step; but for small `dn` the other form cancels.
+            let dn = if share.re() < SMALL_SHARE {
+                (S::one() - share) / denominator
+            } else {
+                (b * b + c2 * cn * cn).sqrt() / a
+            };
             f = JacobiFunctions { sn, cn, dn };
         }
         if self.negative_parameter {

@@ -43,15 +43,16 @@ impl<S: Real> WaveHarmonics<S> {
     pub fn of(spheroid: &RigidSpheroid<S>, state: &AxisState<S>, observer: &Observer<S>) -> Result<Self, Error> {
         let size = length(&state.momentum);
         let (l, n, o) = (state.momentum / size, &state.axis, &observer.direction);
-        let across = l.cross(n);
+        let (across, beside) = (l.cross(n), l.cross(o));
         let (sin, cos) = (length(&across), l.dot(n));
         let rate = size / spheroid.inertia_xx;
         let scale = (spheroid.inertia_zz - spheroid.inertia_xx) * rate * rate * 2.0;
         Ok(Self {
             once: scale * sin * cos,
             twice: scale * sin * sin * 2.0,
-            phase: l.dot(&o.cross(n)).atan2(o.dot(n) - o.dot(&l) * cos),
-            inclination: length(&l.cross(o)).atan2(l.dot(o)),
+            // Both by `l x n`, so that nothing cancels however small the wobble is.
+            phase: (-o.dot(&across)).atan2(across.dot(&beside)),
+            inclination: length(&beside).atan2(l.dot(o)),
             orientation: position_angle(&l, observer)?,
             wobble: sin.atan2(cos),
         })

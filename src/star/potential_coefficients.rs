@@ -16,6 +16,12 @@
 //!
 //! Every term is positive for every shape, so nothing cancels; every step is analytic, so derivatives are as regular as
 //! values; and a step brings the spheroid four times closer to the sphere, where a short series ends the recursion.
+//!
+//! For a needle, `q > 64`, the closed form loses nothing, and no rounding of some ten steps adds up:
+//!
+//! ```text
+//! A_1 - q^2 A_3 = 3 (1 + u) - (2 + 3 u) p,   A_0 = 2 p,   p = sqrt(1 + u) ln(q + sqrt(q^2 - 1)),   u = 1 / (q^2 - 1)
+//! ```
 
 use crate::rounding::{two_product, two_sum};
 use crate::scalar::Real;
@@ -25,6 +31,9 @@ use crate::star::spheroid_shape::SpheroidShape;
 /// after two differentiations.
 const SERIES_RADIUS: f64 = 1.0 / 64.0;
 const SERIES_TERMS: usize = 12;
+
+/// Axis ratio of a needle.
+const NEEDLE: f64 = 64.0;
 
 /// Coefficients of `Phi = -pi rho (A_0 - A_1 (x^2 + y^2) - A_3 z^2)` inside a uniform spheroid, Eq. (73).
 ///
@@ -46,22 +55,35 @@ pub struct PotentialCoefficients<S> {
 /// Coefficients of Eq. (74) for any shape, with full precision and regular derivatives at the sphere.
 ///
 /// With `D = A_1 - q^2 A_3` and the sum rule `2 A_1 + A_3 = 2`, all are sums of terms of one sign:
-/// `A_1 = (2 q^2 + D) / (1 + 2 q^2)`, `A_3 = 2 (1 - D) / (1 + 2 q^2)`, `A_0 = 2 (3 q^2 + e^2 D) / (1 + 2 q^2)`.
+/// `A_1 = (2 q^2 + D) / (1 + 2 q^2)`, `A_3 = 2 (1 - D) / (1 + 2 q^2)`, `A_0 = 2 (3 q^2 + e^2 D) / (1 + 2 q^2)`. For a
+/// prolate one `A_1 = 1 - A_3 / 2`, of which the derivatives do not cancel.
 pub fn potential_coefficients<S: Real>(shape: &SpheroidShape<S>) -> PotentialCoefficients<S> {
-    let (q2, e2) = (shape.axis_ratio_squared(), shape.eccentricity_squared());
-    let difference = e2 * reduced_difference(shape) * shape.axis_ratio();
+    let (q, q2, e2) = (shape.axis_ratio(), shape.axis_ratio_squared(), shape.eccentricity_squared());
     let sum = q2 * 2.0 + S::one();
-    PotentialCoefficients {
-        a0: (q2 * 3.0 + e2 * difference) * 2.0 / sum,
-        a1: (q2 * 2.0 + difference) / sum,
-        a3: (S::one() - difference) * 2.0 / sum,
-        difference,
+    if q.re() > NEEDLE {
+        let (difference, a0) = needle(q, q2);
+        let a3 = (S::one() - difference) * 2.0 / sum;
+        return PotentialCoefficients { a0, a1: S::one() - a3 * 0.5, a3, difference };
     }
+    let difference = e2 * reduced_difference(shape) * q;
+    let a3 = (S::one() - difference) * 2.0 / sum;
+    let a1 = if q2.re() > 1.0 { S::one() - a3 * 0.5 } else { (q2 * 2.0 + difference) / sum };
+    PotentialCoefficients { a0: (q2 * 3.0 + e2 * difference) * 2.0 / sum, a1, a3, difference }
+}
+
+/// `A_1 - q^2 A_3` and `A_0` of a needle: see the module.
+fn needle<S: Real>(q: S, q2: S) -> (S, S) {
+    let u = S::one() / (q2 - S::one());
+    let root = (u + S::one()).sqrt();
+    // q + sqrt(q^2 - 1) = q (1 + 1 / root).
+    let p = root * (q * (S::one() + S::one() / root)).ln();
+    ((u + S::one()) * 3.0 - (u * 3.0 + S::from_f64(2.0)) * p, p * 2.0)
 }
 
 /// The function `beta = (A_1 - q^2 A_3) / (q e^2)` of the module: positive, analytic, 4/15 for the sphere.
 pub fn reduced_difference<S: Real>(shape: &SpheroidShape<S>) -> S {
-    half_angle_step(shape.axis_ratio(), shape.axis_ratio_squared(), shape.eccentricity_squared())
+    let (q, q2, e2) = (shape.axis_ratio(), shape.axis_ratio_squared(), shape.eccentricity_squared());
+    if q.re() > NEEDLE { needle(q, q2).0 / (q * e2) } else { half_angle_step(q, q2, e2) }
 }
 
 fn half_angle_step<S: Real>(q: S, q2: S, e2: S) -> S {

@@ -101,7 +101,12 @@ impl<S: Real> SpheroidShape<S> {
 
     /// Oblateness `epsilon = e^2 / (2 - e^2)` of the uniform spheroid, Eq. (79).
     pub fn oblateness(&self) -> S {
-        self.eccentricity_squared / (self.axis_ratio_squared + S::one())
+        let sum = self.axis_ratio_squared + S::one();
+        if self.eccentricity_squared.re() < -2.0 {
+            // Towards -1: the quotient has a derivative that is the difference of two terms larger by `q^2`.
+            return S::from_f64(2.0) / sum - S::one();
+        }
+        self.eccentricity_squared / sum
     }
 }
 

@@ -158,6 +158,9 @@ fn positive(value: f64, quantity: &'static str) -> Result<(), Error> {
     Error::unless(value > 0.0 && value.is_finite(), quantity, value, "positive and finite")
 }
 
+/// Of a number above zero. The exponential has the rounding of its argument, a hundred ulp for `x = 1e90`; Newton's step takes it away.
 fn cube_root<S: Real>(x: S) -> S {
-    (x.ln() / 3.0).exp()
+    let root = (x.ln() / 3.0).exp();
+    let square = root * root;
+    root - (square * root - x) / (square * 3.0)
 }

@@ -5,7 +5,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use twofold::Scalar;
+use twofold::{Real, Scalar};
 
 use crate::operators::complete_operators;
 
@@ -64,7 +64,8 @@ impl<F: Scalar> Div for Dual<F> {
 
     fn div(self, rhs: Self) -> Self {
         let over = F::one() / rhs.re;
-        Self::new(self.re * over, (self.eps * rhs.re - self.re * rhs.eps) * over * over)
+        // Without the square of `over`, which overflows where the quotient does not.
+        Self::new(self.re / rhs.re, (self.eps - self.re * over * rhs.eps) * over)
     }
 }
 
@@ -78,5 +79,32 @@ impl<F: Scalar> Scalar for Dual<F> {
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.re.sin_cos();
         (Self::new(sin, cos * self.eps), Self::new(cos, -(sin * self.eps)))
+    }
+}
+
+impl<F: Real> Real for Dual<F> {
+    const HAS_DERIVATIVES: bool = true;
+
+    fn re(self) -> f64 {
+        self.re.re()
+    }
+
+    fn sqrt(self) -> Self {
+        let root = self.re.sqrt();
+        Self::new(root, self.eps / (root * 2.0))
+    }
+
+    fn exp(self) -> Self {
+        let exp = self.re.exp();
+        Self::new(exp, exp * self.eps)
+    }
+
+    fn ln(self) -> Self {
+        Self::new(self.re.ln(), self.eps / self.re)
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        let square = self.re * self.re + x.re * x.re;
+        Self::new(self.re.atan2(x.re), (x.re * self.eps - self.re * x.eps) / square)
     }
 }

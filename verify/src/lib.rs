@@ -26,6 +26,7 @@ mod operators;
 pub mod paper_examples;
 pub mod physical_domain;
 pub mod prime_field;
+pub mod public_items;
 pub mod pulsar_table;
 pub mod pulsar_timing;
 pub(crate) mod pulse_series;
@@ -34,6 +35,7 @@ pub mod reference;
 pub mod report;
 pub mod scene_file;
 pub mod second_integrator;
+pub mod stability;
 pub mod sweep;
 pub mod trajectory;
 

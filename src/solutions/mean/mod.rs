@@ -15,4 +15,5 @@ pub use hamiltonian::{MeanOrder, mean_angular_velocity, mean_potential};
 pub use middle_axis::{middle_axis_growth, period_near_separatrix};
 pub use motion::MeanMotion;
 pub use phases::{MeanPhases, MeanRates, MeanTurns, Turns};
+pub(crate) use top::mean_and_sn2;
 pub use top::{Top, TopPhases, TopShape};

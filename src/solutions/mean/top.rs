@@ -78,7 +78,7 @@ pub struct TopShape<S> {
 }
 
 /// `AGM(1, k')` and the mean of `sn^2`, from `k^2` and `k'`.
-fn mean_and_sn2<S: Real>(parameter: S, complement: S) -> (S, S) {
+pub(crate) fn mean_and_sn2<S: Real>(parameter: S, complement: S) -> (S, S) {
     let (mut a, mut b) = (S::one(), complement);
     // (c_n / k)^2 of the ladder: c_1 = k^2 / (2 (1 + k')).
     let first = (S::one() + complement) * 2.0;

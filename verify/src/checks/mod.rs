@@ -27,6 +27,7 @@ mod solutions;
 pub(crate) mod spectrum;
 mod spin_axis;
 mod splitting;
+mod stability;
 mod star;
 mod symmetric;
 mod torque;
@@ -70,6 +71,7 @@ pub fn all() -> Vec<Check> {
         mean::checks,
         mean_frequencies::checks,
         spectrum::checks,
+        stability::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()
 }

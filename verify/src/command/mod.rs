@@ -29,7 +29,7 @@ use clap::{Args, Parser, Subcommand};
 use twofold::epoch::Epoch;
 
 use crate::sweep::Shard;
-use crate::{claims, equation_table};
+use crate::{claims, equation_table, stability};
 
 /// The rotation of spheroidal stars under Lorentz violation, as verified equations
 ///
@@ -146,6 +146,16 @@ enum Command {
     Equations,
     /// Print the paper's statements, each with a verdict and what the checks behind it measured (Markdown)
     Claims,
+    /// Print the tables of digits lost by every kernel, as Markdown
+    #[command(hide = true)]
+    Stability(StabilityArgs),
+}
+
+#[derive(Args)]
+struct StabilityArgs {
+    /// Rounds of points, 40 in each case and round as a rule
+    #[arg(long, value_name = "COUNT", default_value_t = stability::table::ROUNDS)]
+    rounds: u64,
 }
 
 #[derive(Args, Default)]
@@ -462,6 +472,7 @@ pub fn main() -> ExitCode {
         Command::Bench(args) => bench::bench(&args),
         Command::Scenes => scenes::scenes(),
         Command::Equations => print(&equation_table::markdown()),
+        Command::Stability(args) => print(&stability::table::markdown(args.rounds)),
         Command::Claims => claims::markdown().map_err(Failure::Failed).and_then(|page| print(&page)),
     };
     match result {

@@ -1,0 +1,68 @@
+//! Keeps `docs/reliability/stability.md` true, and every public function in a case or in the list of those without one.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use twofold_verify::checks;
+use twofold_verify::public_items::public_items;
+use twofold_verify::stability::cases::FAMILIES;
+use twofold_verify::stability::{Case, ELSEWHERE, table};
+
+fn cases() -> Vec<Case> {
+    FAMILIES.iter().flat_map(|family| (family.cases)()).collect()
+}
+
+#[test]
+fn every_public_function_has_a_case_or_a_reason() {
+    let items = public_items(Path::new("src"));
+    let functions: BTreeSet<&str> =
+        items.iter().map(String::as_str).filter(|item| !item.ends_with("::<type>")).collect();
+    let measured: BTreeSet<&str> = cases().iter().flat_map(|case| case.items.iter().copied()).collect();
+    let unknown: Vec<_> = measured.difference(&functions).collect();
+    assert!(unknown.is_empty(), "cases of what is no public function: {unknown:#?}");
+    let listed = |function: &str| {
+        ELSEWHERE
+            .iter()
+            .flat_map(|(paths, _)| *paths)
+            .any(|path| function == *path || function.strip_prefix(path).is_some_and(|rest| rest.starts_with("::")))
+    };
+    let missing: Vec<_> = functions.iter().filter(|f| !measured.contains(**f) && !listed(f)).collect();
+    assert!(missing.is_empty(), "neither measured nor listed: {missing:#?}");
+    for (paths, _) in ELSEWHERE {
+        for path in *paths {
+            let prefix = format!("{path}::");
+            let exists = functions.iter().any(|f| f == path || f.starts_with(&prefix));
+            assert!(exists, "listed, but no public function: {path}");
+        }
+    }
+}
+
+#[test]
+fn maxima_are_at_most_those_stated() {
+    let page = fs::read_to_string("docs/reliability/stability.md").expect("the page is there");
+    for case in cases() {
+        let label = table::label(&case);
+        let rows: Vec<&str> = page.lines().filter(|line| line.starts_with(&label)).collect();
+        assert_eq!(rows.len(), 1, "one row for {label}: run `cargo run --release -q -- stability`");
+        let cells: Vec<&str> = rows[0].split('|').map(str::trim).collect();
+        let found = case.measure(1);
+        // Another C library may round a sine differently.
+        let allowed = |stated: &str| stated.parse::<f64>().expect("a number") + 0.5;
+        assert!(found.kernel.ulp <= allowed(cells[3]), "{label}: {} ulp, stated {}", found.kernel.ulp, cells[3]);
+        if let Some(errors) = found.derivative {
+            let stated = cells[8].split(',').next().expect("a cell");
+            assert!(errors.ulp <= allowed(stated), "{label} derivative: {} ulp, stated {stated}", errors.ulp);
+        }
+    }
+}
+
+#[test]
+fn families_and_checks_are_the_same() {
+    let ids: BTreeSet<&str> = checks::all().iter().map(|check| check.id).collect();
+    for family in FAMILIES {
+        assert!(ids.contains(format!("stability-{}", family.name).as_str()), "{}", family.name);
+    }
+    let checks = ids.iter().filter(|id| id.starts_with("stability-")).count();
+    assert_eq!(checks, FAMILIES.len(), "one check for each family");
+}

@@ -1,0 +1,376 @@
+//! Potential, torque, energies, equations of motion, integrals, the source of the wave.
+
+use core::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::Vector3;
+use twofold::Real;
+use twofold::dynamics::angular_acceleration::angular_acceleration;
+use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations, euler_angle_residuals};
+use twofold::dynamics::first_integrals::{
+    clebsch_integral, energy, energy_in_angles, first_integrals, spin, spin_in_angles, symmetric_adjugate,
+};
+use twofold::dynamics::inertia_tensor_rate::{free_inertia_acceleration, spheroid_inertia_acceleration, wave_tensor};
+use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
+use twofold::dynamics::lagrangian::lagrangian;
+use twofold::dynamics::potential::{
+    anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body, nordtvedt_potential,
+    potential_gradient_in_angles,
+};
+use twofold::dynamics::regular_equations::{body_state_rates, reduced_rates, torque_on_axis};
+use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
+use twofold::dynamics::{BodyState, PrincipalInertia, RigidSpheroid};
+use twofold::lorentz_violation::{coefficients_from_preferred_frame, preferred_frame_parameter};
+use twofold::observables::Observer;
+use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
+
+use super::parts::{angles, body, entries, joined, none, principal, rates, symmetric, vector};
+use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
+use crate::stability::{Case, functions};
+
+fn inertia<S: Real>(x: &[S]) -> PrincipalInertia<S> {
+    PrincipalInertia { xx: x[0], yy: x[1], zz: x[2] }
+}
+
+fn axis_angles<S: Real>(x: &[S]) -> AxisAngles<S> {
+    AxisAngles { beta: x[0], alpha: x[1], alpha_rate: x[2], beta_rate: x[3] }
+}
+
+fn state<S: Real>(x: &[S]) -> BodyState<S> {
+    BodyState { axis: vector(x), momentum: vector(&x[3..]), equatorial_axis: vector(&x[6..]) }
+}
+
+functions! {
+    // beta, alpha, C, s (3)
+    PotentialInAngles(x) { vec![anisotropic_potential_in_angles(x[2], &principal(&x[3..]), x[1], x[0])] }
+    Gradient(x) {
+        let (by_alpha, by_beta) = potential_gradient_in_angles(x[2], &principal(&x[3..]), x[1], x[0]);
+        vec![by_alpha, by_beta]
+    }
+    // s (6), n (3), C
+    PotentialOfAxis(x) { vec![anisotropic_potential_of_axis(x[9], &symmetric(x), &vector(&x[6..]))] }
+    TorqueOnAxis(x) { joined(&[torque_on_axis(x[9], &symmetric(x), &vector(&x[6..]))]) }
+    // As a product of the matrix with the axis normal to it.
+    PotentialOfBody(x) { vec![anisotropic_potential_of_body(&symmetric(x), &symmetric(&x[6..]))] }
+    TorqueOnBody(x) { joined(&[torque_on_body(&symmetric(x), &symmetric(&x[6..]))]) }
+    Nordtvedt(x) { vec![nordtvedt_potential(x[0], x[1], &vector(&x[2..]), &vector(&x[5..]))] }
+    FromPreferredFrame(x) { entries(&coefficients_from_preferred_frame(x[0], &vector(&x[1..]))) }
+    PreferredFrameParameter(x) {
+        let w = vector(&x[1..]);
+        preferred_frame_parameter(&coefficients_from_preferred_frame(x[0], &w), &w).map_or(none(1), |alpha| vec![alpha])
+    }
+    ThePreferredFrameParameter(x) { vec![x[0]] }
+    // beta, gamma, gradient (3)
+    TorqueFromGradient(x) {
+        torque_from_gradient(&angles(&[S::zero(), x[0], x[1]]), &vector(&x[2..])).map_or(none(3), |torque| joined(&[torque]))
+    }
+    // omega (3), torque (3), inertia (3)
+    Acceleration(x) { joined(&[angular_acceleration(&inertia(&x[6..]), &vector(x), &vector(&x[3..]))]) }
+    Differences(x) { inertia(x).differences().to_vec() }
+    EnergyOfBody(x) { vec![kinetic_energy_of_body(&inertia(&x[3..]), &vector(x))] }
+    WaveTensor(x) { entries(&wave_tensor(&inertia(&x[6..]), &vector(x), &vector(&x[3..]))) }
+    // beta, alpha, gamma, rates (3), body (3), s (3)
+    KineticEnergy(x) { vec![kinetic_energy(&body(&x[6..]), x[0], &rates(&x[3..]))] }
+    EnergyInAngles(x) {
+        let angles = angles(&[x[1], x[0], x[2]]);
+        vec![
+            energy_in_angles(&body(&x[6..]), &principal(&x[9..]), &angles, &rates(&x[3..])),
+            lagrangian(&body(&x[6..]), &principal(&x[9..]), &angles, &rates(&x[3..])),
+            spin_in_angles(&angles, &rates(&x[3..])),
+        ]
+    }
+    // beta, alpha, rates (2), spin, body (3), s (3)
+    Accelerations(x) {
+        let (alpha, beta) = euler_angle_accelerations(&body(&x[5..]), &principal(&x[8..]), x[4], &axis_angles(x));
+        vec![alpha, beta]
+    }
+    /// With the force along alpha divided by the square of the sine, as Eq. (25) has it.
+    NaiveAccelerations(x) {
+        let (spheroid, q) = (body(&x[5..]), axis_angles(x));
+        let (sb, cb) = q.beta.sin_cos();
+        let omega = spheroid.free_precession_constant(x[4]);
+        let (by_alpha, by_beta) = potential_gradient_in_angles(spheroid.constant_c, &principal(&x[8..]), q.alpha, q.beta);
+        let sine2 = sb * sb;
+        vec![
+            (omega * sb * q.beta_rate - sb * cb * q.alpha_rate * q.beta_rate * 2.0 - by_alpha / spheroid.inertia_xx) / sine2,
+            sb * cb * q.alpha_rate * q.alpha_rate - omega * sb * q.alpha_rate - by_beta / spheroid.inertia_xx,
+        ]
+    }
+    Residuals(x) {
+        let (alpha, beta) =
+            euler_angle_residuals(&body(&x[5..]), &principal(&x[8..]), x[4], &axis_angles(x), (x[11], x[12]));
+        vec![alpha, beta]
+    }
+    // s (6), n, L, e_x (9), body (3)
+    ReducedRates(x) {
+        let (axis, momentum) = reduced_rates(&body(&x[15..]), &symmetric(x), &vector(&x[6..]), &vector(&x[9..]));
+        joined(&[axis, momentum])
+    }
+    StateRates(x) {
+        let rates = body_state_rates(&body(&x[15..]), &symmetric(x), &state(&x[6..]));
+        joined(&[rates.axis, rates.momentum, rates.equatorial_axis])
+    }
+    Integrals(x) {
+        let all = first_integrals(&body(&x[15..]), &symmetric(x), &state(&x[6..]));
+        vec![all.energy, all.spin, all.clebsch]
+    }
+    Energy(x) {
+        let spheroid = body(&x[3..]);
+        vec![energy(&spheroid, &symmetric(&x[6..]), &Vector3::z(), &vector(x))]
+    }
+    /// `L.L / (2 I^xx) + (1 / I^zz - 1 / I^xx) (L.n)^2 / 2 + C n.(s n)`.
+    NaiveEnergy(x) {
+        let (RigidSpheroid { inertia_xx, inertia_zz, constant_c }, momentum) = (body(&x[3..]), vector(x));
+        let along = momentum.z;
+        let spinning = (S::one() / inertia_zz - S::one() / inertia_xx) * along * along / 2.0;
+        vec![momentum.dot(&momentum) / (inertia_xx * 2.0) + spinning + constant_c * x[8]]
+    }
+    Spin(x) { vec![spin(&body(&x[6..]), &vector(x), &vector(&x[3..]))] }
+    Adjugate(x) { entries(&symmetric_adjugate(&symmetric(x))) }
+    Clebsch(x) { vec![clebsch_integral(&body(&x[15..]), &symmetric(x), &vector(&x[6..]), &vector(&x[9..]))] }
+    InertiaAcceleration(x) {
+        entries(&spheroid_inertia_acceleration(&body(&x[15..]), &symmetric(x), &vector(&x[6..]), &vector(&x[9..])))
+    }
+    // beta, alpha, rate, body (3)
+    FreeWave(x) { entries(&free_inertia_acceleration(&body(&x[3..]), x[1], x[0], x[2])) }
+    /// With `sin 2b tan b`, as Eq. (68) has it.
+    NaiveFreeWave(x) {
+        let spheroid = body(&x[3..]);
+        let (sb, cb) = x[0].sin_cos();
+        let (sa, ca) = x[1].sin_cos();
+        let tangent = sb / cb;
+        let size = (spheroid.inertia_zz - spheroid.inertia_xx) * x[2] * x[2] * sb * cb;
+        let (cos_2a, sin_2a) = (ca * ca - sa * sa, sa * ca * 2.0);
+        let wide = tangent * 2.0 * size;
+        let (xz, yz) = (-(size * sa), size * ca);
+        vec![wide * cos_2a, wide * sin_2a, xz, wide * sin_2a, -(wide * cos_2a), yz, xz, yz, S::zero()]
+    }
+    Body(x) {
+        let spheroid = body(x);
+        vec![spheroid.oblateness(), spheroid.free_precession_constant(x[3]), spheroid.time_unit().unwrap_or(S::from_f64(f64::NAN))]
+    }
+    // I^xx, I^zz / I^xx, C, Omega^z
+    BodyInUnits(x) { Body::of(&[x[0], x[0] * x[1], x[2], x[3]]) }
+    // theta_o, phi_o, ddot I (6), distance
+    Strain(x) {
+        let h = polarizations(&Observer::at(x[0], x[1]), &metric_perturbation(x[8], &symmetric(&x[2..])));
+        vec![h.plus, h.cross]
+    }
+}
+
+const TURN: Input = In(-3.1, 3.1);
+const RATE: Input = Signed(-3.0, 1.0);
+const COMPONENT: Input = In(-1.0, 1.0);
+const INERTIA: Input = In(0.5, 2.0);
+const SMALL: Input = Signed(-9.0, -0.5);
+
+/// A tensor of the given input and the state and body after it.
+const fn with_tensor(s: Input) -> [Input; 18] {
+    let (c, i) = (COMPONENT, INERTIA);
+    [s, s, s, s, s, s, c, c, c, c, c, c, c, c, c, i, i, i]
+}
+
+const TENSOR: [Input; 18] = with_tensor(Signed(-300.0, 0.0));
+const ISOTROPIC: [Input; 18] = {
+    let mut inputs = with_tensor(Signed(-15.0, -3.0));
+    inputs[0] = Near(0.1, -15.0, -1.1);
+    inputs[1] = Fixed(0.1);
+    inputs[2] = Fixed(0.1);
+    inputs
+};
+const POTENTIAL: &[&str] = &["dynamics::potential::anisotropic_potential_in_angles"];
+const GRADIENT: &[&str] = &["dynamics::potential::potential_gradient_in_angles"];
+const ACCELERATIONS: &[&str] = &["dynamics::euler_angle_equations::euler_angle_accelerations"];
+const ENERGIES: &[&str] = &[
+    "dynamics::first_integrals::energy_in_angles",
+    "dynamics::lagrangian::lagrangian",
+    "dynamics::first_integrals::spin_in_angles",
+];
+const FREE_WAVE: &[&str] = &["dynamics::inertia_tensor_rate::free_inertia_acceleration"];
+const STRAIN: &[&str] = &[
+    "observables::gravitational_wave::metric_perturbation",
+    "observables::gravitational_wave::polarizations",
+    "observables::gravitational_wave::polarization_tensors",
+];
+const BODY: &[&str] = &[
+    "dynamics::RigidSpheroid::oblateness",
+    "dynamics::RigidSpheroid::free_precession_constant",
+    "dynamics::RigidSpheroid::time_unit",
+];
+
+pub(super) fn cases() -> Vec<Case> {
+    let mut cases = Vec::new();
+    let sweeps = [
+        ("sin b -> 0 at beta = 0", Log(-300.0, 0.0), Log(-15.0, 0.0)),
+        ("sin b -> 0 at beta = pi", Near(PI, -15.0, -0.5), Near(PI, -15.0, -0.5)),
+        ("cos b -> 0", Near(FRAC_PI_2, -15.0, -0.3), Near(FRAC_PI_2, -15.0, -0.3)),
+    ];
+    for (limit, beta, off_pole) in sweeps {
+        let sweep = |rest: &[Input]| [&[beta], rest].concat();
+        let off_pole = |rest: &[Input]| [&[off_pole], rest].concat();
+        let in_angles = sweep(&[TURN, INERTIA, SMALL, SMALL, SMALL]);
+        let moving = [TURN, TURN, RATE, RATE, RATE, INERTIA, INERTIA, INERTIA, SMALL, SMALL, SMALL];
+        let axis = [TURN, RATE, RATE, RATE, INERTIA, INERTIA, INERTIA, SMALL, SMALL, SMALL];
+        cases.extend([
+            Case::new::<PotentialInAngles>(POTENTIAL, limit, &in_angles),
+            Case::new::<Gradient>(GRADIENT, limit, &in_angles),
+            Case::new::<TorqueFromGradient>(
+                &["dynamics::torque::torque_from_gradient", "dynamics::torque::torque_from_gradient_off_pole"],
+                limit,
+                &off_pole(&[TURN, COMPONENT, COMPONENT, COMPONENT]),
+            ),
+            Case::new::<KineticEnergy>(&["dynamics::kinetic_energy::kinetic_energy"], limit, &sweep(&moving)),
+            Case::new::<EnergyInAngles>(ENERGIES, limit, &sweep(&moving)).composite(),
+            Case::new::<Accelerations>(ACCELERATIONS, limit, &off_pole(&axis))
+                .beside::<NaiveAccelerations>("Eq. (25) over sin^2 b"),
+            Case::new::<Residuals>(
+                &["dynamics::euler_angle_equations::euler_angle_residuals"],
+                limit,
+                &sweep(&[&axis[..], &[RATE, RATE]].concat()),
+            )
+            .composite(),
+            Case::new::<FreeWave>(FREE_WAVE, limit, &sweep(&[TURN, RATE, INERTIA, INERTIA, Fixed(1.0)]))
+                .beside::<NaiveFreeWave>("sin 2b tan b"),
+        ]);
+    }
+    for (limit, inputs) in [("s from 1e-300 to 1", &TENSOR), ("equal and nearly equal eigenvalues", &ISOTROPIC)] {
+        cases.extend([
+            Case::new::<PotentialOfAxis>(&["dynamics::potential::anisotropic_potential_of_axis"], limit, &inputs[..10]),
+            Case::new::<TorqueOnAxis>(&["dynamics::regular_equations::torque_on_axis"], limit, &inputs[..10]),
+            Case::new::<PotentialOfBody>(&["dynamics::potential::anisotropic_potential_of_body"], limit, &inputs[..12]),
+            Case::new::<TorqueOnBody>(&["dynamics::torque::torque_on_body"], limit, &inputs[..12]),
+            Case::new::<ReducedRates>(&["dynamics::regular_equations::reduced_rates"], limit, inputs).composite(),
+            Case::new::<StateRates>(&["dynamics::regular_equations::body_state_rates"], limit, inputs).composite(),
+            Case::new::<Integrals>(&["dynamics::first_integrals::first_integrals"], limit, inputs).composite(),
+            Case::new::<Clebsch>(&["dynamics::first_integrals::clebsch_integral"], limit, inputs),
+            Case::new::<Adjugate>(&["dynamics::first_integrals::symmetric_adjugate"], limit, &inputs[..6]),
+            Case::new::<InertiaAcceleration>(
+                &["dynamics::inertia_tensor_rate::spheroid_inertia_acceleration"],
+                limit,
+                inputs,
+            )
+            .composite(),
+        ]);
+    }
+    cases.extend([
+        Case::new::<Energy>(
+            &["dynamics::first_integrals::energy"],
+            "L along n, I^zz -> infinity",
+            &[
+                Signed(-12.0, 0.0),
+                Signed(-12.0, 0.0),
+                RATE,
+                INERTIA,
+                Log(0.0, 20.0),
+                INERTIA,
+                Fixed(0.0),
+                Fixed(0.0),
+                SMALL,
+                Fixed(0.0),
+                Fixed(0.0),
+                Fixed(0.0),
+            ],
+        )
+        .beside::<NaiveEnergy>("L.L / (2 I^xx) and the rest"),
+        Case::new::<Spin>(
+            &["dynamics::first_integrals::spin"],
+            "Omega^z -> 0, L normal to n",
+            &[
+                Signed(-300.0, 0.0),
+                COMPONENT,
+                Fixed(0.0),
+                COMPONENT,
+                Signed(-300.0, 0.0),
+                COMPONENT,
+                INERTIA,
+                INERTIA,
+                INERTIA,
+            ],
+        ),
+        Case::new::<Acceleration>(
+            &["dynamics::angular_acceleration::angular_acceleration"],
+            "rates from 1e-100 to 1e100",
+            &[Signed(-100.0, 100.0), RATE, RATE, COMPONENT, COMPONENT, COMPONENT, INERTIA, INERTIA, INERTIA],
+        ),
+        Case::new::<WaveTensor>(
+            &["dynamics::inertia_tensor_rate::wave_tensor"],
+            "rates from 1e-100 to 1e100",
+            &[Signed(-100.0, 100.0), RATE, RATE, COMPONENT, COMPONENT, COMPONENT, INERTIA, INERTIA, INERTIA],
+        ),
+        Case::new::<WaveTensor>(
+            &["dynamics::inertia_tensor_rate::wave_tensor"],
+            "equal moments of inertia",
+            &[RATE, RATE, RATE, SMALL, SMALL, SMALL, Near(1.0, -15.5, -0.5), Near(1.0, -15.5, -0.5), Fixed(1.0)],
+        ),
+        Case::new::<Differences>(
+            &["dynamics::PrincipalInertia::differences"],
+            "equal moments of inertia",
+            &[Near(1.0, -15.5, -0.5), Near(1.0, -15.5, -0.5), Fixed(1.0)],
+        ),
+        Case::new::<EnergyOfBody>(
+            &["dynamics::kinetic_energy::kinetic_energy_of_body"],
+            "rates from 1e-100 to 1e100",
+            &[Signed(-100.0, 100.0), RATE, RATE, INERTIA, INERTIA, INERTIA],
+        ),
+        Case::new::<Body>(
+            BODY,
+            "I^zz -> I^xx",
+            &[Near(1.0, -15.5, -0.1), Fixed(1.0), Log(-20.0, 20.0), Signed(-300.0, 3.0)],
+        ),
+        Case::new::<BodyInUnits>(
+            BODY,
+            "units from 1e-100 to 1e100",
+            &[Log(-100.0, 100.0), In(0.2, 2.0), Log(-100.0, 100.0), Signed(-50.0, 50.0)],
+        )
+        .natural_derivatives(),
+        Case::new::<Nordtvedt>(
+            &["dynamics::potential::nordtvedt_potential"],
+            "alpha_2 from 1e-200 to 1",
+            &[Signed(-200.0, 0.0), Log(-10.0, 10.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT],
+        ),
+        Case::new::<FromPreferredFrame>(
+            &["lorentz_violation::coefficients_from_preferred_frame"],
+            "alpha_2 from 1e-200 to 1",
+            &[Signed(-200.0, 0.0), Signed(-5.0, -2.0), Signed(-5.0, -2.0), Signed(-5.0, -2.0)],
+        ),
+        Case::new::<PreferredFrameParameter>(
+            &["lorentz_violation::preferred_frame_parameter"],
+            "alpha_2 from 1e-200 to 1",
+            &[Signed(-200.0, 0.0), Signed(-5.0, -2.0), Signed(-5.0, -2.0), Signed(-5.0, -2.0)],
+        )
+        .against::<ThePreferredFrameParameter>()
+        .composite(),
+        Case::new::<Strain>(
+            STRAIN,
+            "theta_o -> 0",
+            &[
+                Log(-300.0, 0.4),
+                TURN,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                Log(-20.0, 20.0),
+            ],
+        )
+        .composite(),
+        Case::new::<Strain>(
+            STRAIN,
+            "theta_o -> pi",
+            &[
+                Near(PI, -15.0, -0.3),
+                TURN,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                Log(-20.0, 20.0),
+            ],
+        )
+        .composite(),
+    ]);
+    cases
+}

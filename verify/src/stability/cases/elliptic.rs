@@ -1,0 +1,209 @@
+//! Carlson's integrals, Jacobi's functions, theta functions.
+
+use core::f64::consts::FRAC_PI_2;
+
+use twofold::Real;
+use twofold::elliptic::carlson::{rc, rd, rf, rf_of_roots, rj, rj_of_roots};
+use twofold::elliptic::jacobi::{ArithmeticGeometricMean, JacobiFunctions, complete_integral, jacobi};
+use twofold::elliptic::theta::{Nome, ThetaSeries};
+
+use crate::stability::Input::{Above, Below, Fixed, In, Log, Near, Signed};
+use crate::stability::oracle::{self, pi};
+use crate::stability::{Case, functions};
+
+fn joined<S: Real>(f: JacobiFunctions<S>) -> Vec<S> {
+    vec![f.sn, f.cn, f.dn]
+}
+
+/// Quarter period with `pi` to 32 digits.
+fn quarter_period<S: Real>(m1: S) -> S {
+    pi::<S>() / (ArithmeticGeometricMean::new(S::one(), m1.sqrt()).limit() * 2.0)
+}
+
+/// Roots of the pair `y`, `z`, conjugate where `im` is not zero: their sum and their product.
+fn pair<S: Real>(re: S, im: S) -> (S, S) {
+    let product = (re * re + im * im).sqrt();
+    (((product + re) * 2.0).sqrt(), product)
+}
+
+functions! {
+    Rf(x) { vec![rf(x[0], x[1], x[2])] }
+    ExactRf(x) { vec![oracle::rf(x[0], x[1], x[2])] }
+    Rc(x) { vec![rc(x[0], x[1])] }
+    ExactRc(x) { vec![oracle::rc(x[0], x[1])] }
+    /// By logarithm and arc tangent.
+    NaiveRc(x) {
+        let difference = x[1] - x[0];
+        let root = difference.abs().sqrt();
+        vec![if difference.re() > 0.0 {
+            root.atan2(x[0].sqrt()) / root
+        } else {
+            ((x[0].sqrt() + root) / x[1].sqrt()).ln() / root
+        }]
+    }
+    Rd(x) { vec![rd(x[0], x[1], x[2])] }
+    ExactRd(x) { vec![oracle::rd(x[0], x[1], x[2])] }
+    Rj(x) { vec![rj(x[0], x[1], x[2], x[3])] }
+    ExactRj(x) { vec![oracle::rj(x[0], x[1], x[2], x[3])] }
+    RfOfPair(x) {
+        let (sum, product) = pair(x[1], x[0]);
+        vec![rf_of_roots(x[2], sum, product)]
+    }
+    RjOfPair(x) {
+        let (sum, product) = pair(x[1], x[0]);
+        vec![rj_of_roots(x[2], sum, product, x[3])]
+    }
+    /// `u` in quarter periods times the complementary parameter.
+    Jacobi(x) { joined(jacobi(x[1], x[0])) }
+    ExactJacobi(x) {
+        let (m1, u) = (x[0], x[1]);
+        let quarter = quarter_period(m1);
+        let halves = (u.re() / (quarter.re() * 2.0)).round();
+        let sign = if halves.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 };
+        let u = u - quarter * (halves * 2.0);
+        let complement = m1.sqrt();
+        let ladder = ArithmeticGeometricMean::new(S::one(), complement);
+        let f = if u.re().abs() <= 0.5 * quarter.re() {
+            ladder.functions(u)
+        } else {
+            let side = if u.re() < 0.0 { -1.0 } else { 1.0 };
+            let f = ladder.functions(quarter - u * side);
+            JacobiFunctions { sn: f.cn / f.dn * side, cn: complement * f.sn / f.dn, dn: complement / f.dn }
+        };
+        vec![f.sn * sign, f.cn * sign, f.dn]
+    }
+    JacobiOfLargeArgument(x) { joined(jacobi(x[0], x[1])) }
+    ExactJacobiOfLargeArgument(x) { ExactJacobi::of(&[x[1], x[0]]) }
+    CompleteIntegral(x) { vec![complete_integral(x[0])] }
+    ExactCompleteIntegral(x) { vec![quarter_period(x[0])] }
+    Functions(x) {
+        let ladder = ArithmeticGeometricMean::new(x[0], x[1]);
+        let quarter = S::from_f64(FRAC_PI_2) / ladder.limit();
+        let at = ladder.functions(quarter * x[2]);
+        vec![ladder.limit(), at.sn, at.cn, at.dn]
+    }
+    OfNome(x) {
+        let nome = Nome::new(x[0], S::one() - x[0]);
+        vec![nome.q, nome.q_over_m]
+    }
+    ExactOfNome(x) {
+        let (k, complement) = (x[0].sqrt(), (S::one() - x[0]).sqrt());
+        let mean = |b: S| ArithmeticGeometricMean::new(S::one(), b).limit();
+        let q = (-(pi::<S>() * mean(complement) / mean(k))).exp();
+        vec![q, q / x[0]]
+    }
+    NomeNearOne(x) {
+        let nome = Nome::new(S::one() - x[0], x[0]);
+        vec![nome.q, nome.q_over_m]
+    }
+    ExactNomeNearOne(x) {
+        let (k, complement) = ((S::one() - x[0]).sqrt(), x[0].sqrt());
+        let mean = |b: S| ArithmeticGeometricMean::new(S::one(), b).limit();
+        let q = (-(pi::<S>() * mean(complement) / mean(k))).exp();
+        vec![q, q / (S::one() - x[0])]
+    }
+    /// `q`, `r / q` as a power of `q`, sine and cosine.
+    Theta(x) {
+        let r = (x[0].ln() * x[1]).exp();
+        let series = ThetaSeries::new(x[0], r, x[0] / r);
+        let at = series.at(x[2], (S::one() - x[2] * x[2]).sqrt());
+        vec![at.sn, at.cn, at.dn]
+    }
+    ThetaShifted(x) {
+        let r = (x[0].ln() * x[1]).exp();
+        let series = ThetaSeries::new(x[0], r, x[0] / r);
+        let at = series.at(x[2], (S::one() - x[2] * x[2]).sqrt());
+        vec![at.slope, at.shifted[0], at.shifted[1], series.slope_of_shifted()]
+    }
+}
+
+const SEPARATRIX: &str = "`theta_4` is an alternating sum of terms of the size one: condition number 1 / theta_4(0), 3e6 at q = 0.865, that is k'^2 = 1e-29.";
+const RF: &[&str] = &["elliptic::carlson::rf"];
+const RC: &[&str] = &["elliptic::carlson::rc"];
+const RD: &[&str] = &["elliptic::carlson::rd"];
+const RJ: &[&str] = &["elliptic::carlson::rj"];
+const JACOBI: &[&str] = &["elliptic::jacobi::jacobi"];
+const LADDER: &[&str] = &[
+    "elliptic::jacobi::ArithmeticGeometricMean::new",
+    "elliptic::jacobi::ArithmeticGeometricMean::limit",
+    "elliptic::jacobi::ArithmeticGeometricMean::functions",
+];
+const COMPLETE: &[&str] =
+    &["elliptic::jacobi::complete_integral", "elliptic::jacobi::ArithmeticGeometricMean::quarter_period"];
+const NOME: &[&str] = &["elliptic::theta::Nome::new"];
+const THETA: &[&str] = &[
+    "elliptic::theta::ThetaSeries::new",
+    "elliptic::theta::ThetaSeries::at",
+    "elliptic::theta::ThetaSeries::slope_of_shifted",
+];
+
+pub(super) fn cases() -> Vec<Case> {
+    let some = In(0.5, 2.0);
+    let separatrix = [Below(0.88, -2.0, -0.2), In(0.1, 0.9), In(-1.0, 1.0)];
+    vec![
+        Case::new::<Rf>(RF, "one argument -> 0", &[Log(-300.0, 0.0), some, some]).against::<ExactRf>(),
+        Case::new::<Rf>(RF, "one argument -> infinity", &[Log(0.0, 70.0), some, some]).against::<ExactRf>(),
+        Case::new::<Rf>(RF, "equal arguments", &[Near(1.0, -15.0, -0.1), Near(1.0, -15.0, -0.1), Fixed(1.0)])
+            .against::<ExactRf>(),
+        Case::new::<Rc>(RC, "x -> 0", &[Log(-300.0, 0.0), some]).against::<ExactRc>(),
+        Case::new::<Rc>(RC, "y -> 0", &[some, Log(-140.0, 0.0)]).against::<ExactRc>(),
+        Case::new::<Rc>(RC, "equal arguments", &[Near(1.0, -15.0, -0.1), Fixed(1.0)])
+            .against::<ExactRc>()
+            .beside::<NaiveRc>("arc tangent or logarithm"),
+        Case::new::<Rd>(RD, "x -> 0", &[Log(-300.0, 0.0), some, some]).against::<ExactRd>(),
+        Case::new::<Rd>(RD, "z -> 0", &[some, some, Log(-90.0, 0.0)]).against::<ExactRd>(),
+        Case::new::<Rd>(RD, "equal arguments", &[Near(1.0, -15.0, -0.1), Near(1.0, -15.0, -0.1), Fixed(1.0)])
+            .against::<ExactRd>(),
+        Case::new::<Rj>(RJ, "x -> 0", &[Log(-300.0, 0.0), some, some, some]).against::<ExactRj>(),
+        Case::new::<Rj>(RJ, "p -> 0", &[some, some, some, Log(-60.0, 0.0)]).against::<ExactRj>(),
+        Case::new::<Rj>(
+            RJ,
+            "equal arguments",
+            &[Near(1.0, -15.0, -0.1), Near(1.0, -15.0, -0.1), Fixed(1.0), Near(1.0, -15.0, -0.1)],
+        )
+        .against::<ExactRj>(),
+        Case::new::<RfOfPair>(&["elliptic::carlson::rf_of_roots"], "conjugate pair that meets", &[Log(-15.0, 1.0), some, some])
+            .composite(),
+        Case::new::<RjOfPair>(
+            &["elliptic::carlson::rj_of_roots"],
+            "conjugate pair that meets",
+            &[Log(-15.0, 1.0), some, some, some],
+        )
+        .composite(),
+        Case::new::<Jacobi>(JACOBI, "m -> 1", &[Log(-300.0, 0.0), In(-2.0, 2.0)]).against::<ExactJacobi>().composite().vector().natural_derivatives(),
+        Case::new::<Jacobi>(JACOBI, "m -> 0, both signs", &[Near(1.0, -15.5, -0.1), In(-10.0, 10.0)])
+            .against::<ExactJacobi>()
+            .composite()
+            .vector()
+            .natural_derivatives(),
+        Case::new::<Jacobi>(JACOBI, "negative parameter to -1e10", &[Above(1.0, -3.0, 10.0), In(-1e-4, 1e-4)])
+            .against::<ExactJacobi>()
+            .composite()
+            .vector()
+            .natural_derivatives(),
+        Case::new::<JacobiOfLargeArgument>(JACOBI, "u to 1e15", &[Signed(-300.0, 15.0), In(0.05, 3.0)])
+            .against::<ExactJacobiOfLargeArgument>()
+            .vector(),
+        Case::new::<CompleteIntegral>(COMPLETE, "m -> 1", &[Log(-300.0, 0.0)]).against::<ExactCompleteIntegral>(),
+        Case::new::<CompleteIntegral>(COMPLETE, "m -> -infinity", &[Log(0.0, 300.0)]).against::<ExactCompleteIntegral>(),
+        Case::new::<Functions>(LADDER, "b / a -> 0", &[some, Log(-300.0, 0.0), In(-0.5, 0.5)]).vector(),
+        Case::new::<OfNome>(NOME, "m -> 0", &[Log(-11.0, -0.4)]).against::<ExactOfNome>(),
+        Case::new::<OfNome>(NOME, "m -> 0, values", &[Log(-300.0, -0.4)]).against::<ExactOfNome>().values_only(),
+        Case::new::<NomeNearOne>(NOME, "m -> 1", &[Log(-32.0, -0.4)]).against::<ExactNomeNearOne>(),
+        Case::new::<Theta>(THETA, "q -> 0", &[Log(-100.0, -1.0), In(0.1, 0.9), In(-1.0, 1.0)])
+            .composite()
+            .vector()
+            .derivatives_except(
+                1e3,
+                "They are 4 sin z cos z times cosine and sine of z, made of terms of the size 4: condition number 1 / sin z.",
+            ),
+        Case::new::<ThetaShifted>(THETA, "q -> 0, zeta and shifted", &[Log(-100.0, -1.0), In(0.1, 0.9), In(-1.0, 1.0)]).composite(),
+        Case::new::<Theta>(THETA, "q -> 0.87, the separatrix", &separatrix)
+            .vector()
+            .except(1e7, SEPARATRIX)
+            .derivatives_except(1e13, SEPARATRIX),
+        Case::new::<ThetaShifted>(THETA, "q -> 0.87, zeta and shifted", &separatrix)
+            .except(1e7, SEPARATRIX)
+            .derivatives_except(1e13, SEPARATRIX),
+    ]
+}

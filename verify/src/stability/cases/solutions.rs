@@ -1,0 +1,336 @@
+//! Free rotation, steady precession, perturbation solutions.
+
+use core::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::Vector3;
+use twofold::Real;
+use twofold::dynamics::BodyState;
+use twofold::dynamics::euler_angle_equations::AxisAngles;
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::observables::spin_axis::changes_from_start;
+use twofold::solutions::free::{free_precession_rates, free_rotation, rotated_by};
+use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
+use twofold::solutions::perturbation::{
+    Constants, Kind, Perturbation, constants_from_initial_values, initial_values, shifted_rates,
+};
+use twofold::solutions::steady::steady_precession_rate;
+
+use super::parts::{body, joined, none, of_rates, principal, vector};
+use crate::stability::Input::{self, Below, Fixed, In, Log, Near, Signed};
+use crate::stability::{Case, functions};
+
+fn axis_angles<S: Real>(q: &AxisAngles<S>) -> Vec<S> {
+    vec![q.alpha, q.beta, q.alpha_rate, q.beta_rate]
+}
+
+fn constants<S: Real>(x: &[S]) -> Constants<S> {
+    Constants { alpha_0: x[0], beta_0: x[1], amplitude: x[2], phase: x[3] }
+}
+
+/// `s^ZZ`, `s^XX = s^YY`, spin, `beta`, body.
+fn steady<S: Real>(kind: Kind, x: &[S]) -> Vec<S> {
+    let s = PrincipalCoefficients { xx: x[1], yy: x[1], zz: x[0] };
+    steady_precession_rate(kind, &body(&x[4..]), &s, x[2], x[3]).map_or(none(1), |rate| vec![rate])
+}
+
+/// Constants (4), `s` (3), spin, time, body.
+fn perturbation<S: Real>(kind: Option<Kind>, x: &[S]) -> Option<Perturbation<S>> {
+    let (spheroid, s, constants) = (body(&x[9..]), principal(&x[4..]), constants(x));
+    match kind {
+        Some(kind) => Perturbation::printed(kind, &spheroid, &s, x[7], &constants).ok(),
+        None => Perturbation::corrected_twofold(&spheroid, &s, x[7], &constants).ok(),
+    }
+}
+
+fn all_of<S: Real>(solution: Option<Perturbation<S>>, t: S) -> Vec<S> {
+    solution.map_or(none(11), |p| {
+        let mut all = vec![p.omega, p.rate, p.forced_rate, p.c_tilde, p.eta_alpha, p.eta_beta, p.homogeneous_ratio];
+        all.extend(axis_angles(&p.at(t)));
+        all
+    })
+}
+
+functions! {
+    SteadyTwofold(x) { steady(Kind::Twofold, x) }
+    SteadySingle(x) { steady(Kind::Single, x) }
+    /// Eq. (26) as printed, lower sign.
+    PrintedSingle(x) {
+        let (_, cb) = x[3].sin_cos();
+        let (inertia, momentum) = (x[4], x[5] * x[2]);
+        let root = (momentum * momentum - (x[0] - x[1]) * x[6] * inertia * cb * cb * 8.0).sqrt();
+        vec![(if momentum.re() < 0.0 { momentum + root } else { momentum - root }) / (inertia * cb * 2.0)]
+    }
+    FreeRates(x) {
+        free_precession_rates(&body(&x[2..]), x[1], x[0]).map_or(none(3), |rates| of_rates(&rates))
+    }
+    // t, n, L, e_x, body
+    FreeRotation(x) {
+        let state = BodyState { axis: vector(&x[1..]), momentum: vector(&x[4..]), equatorial_axis: vector(&x[7..]) };
+        let after = free_rotation(&body(&x[10..]), &state, x[0]);
+        joined(&[after.axis, after.momentum, after.equatorial_axis])
+    }
+    ExactFreeRotation(x) {
+        let (spheroid, t) = (body(&x[10..]), x[0]);
+        let (n, momentum, e) = (vector(&x[1..]), vector(&x[4..]), vector(&x[7..]));
+        let spin = momentum.dot(&n) / spheroid.inertia_zz;
+        let (sin, cos) = (-(spheroid.oblateness() * spin * t)).sin_cos();
+        let turned = e * cos + n.cross(&e) * sin;
+        let turn = momentum * (t / spheroid.inertia_xx);
+        joined(&[rotation(&turn, &n), momentum, rotation(&turn, &turned)])
+    }
+    Rotated(x) { joined(&[rotated_by(&(vector(&x[1..]) * x[0]), &vector(&x[4..]))]) }
+    ExactRotated(x) { joined(&[rotation(&(vector(&x[1..]) * x[0]), &vector(&x[4..]))]) }
+    /// With `1 - cos`.
+    NaiveRotated(x) {
+        let turn = vector(&x[1..]) * x[0];
+        let v = vector(&x[4..]);
+        let angle = turn.dot(&turn).sqrt();
+        let (sin, cos) = angle.sin_cos();
+        let across = turn.cross(&v);
+        joined(&[v + across * (sin / angle) + turn.cross(&across) * ((S::one() - cos) / (angle * angle))])
+    }
+    Twofold(x) { all_of(perturbation(Some(Kind::Twofold), x), x[8]) }
+    Single(x) { all_of(perturbation(Some(Kind::Single), x), x[8]) }
+    Corrected(x) { all_of(perturbation(None, x), x[8]) }
+    /// With `s^ZZ` first, then `s^XX`, `s^YY`, constants, spin, time, body.
+    SingleByZ(x) { Single::of(&by_z(x)) }
+    TwofoldByZ(x) { Twofold::of(&by_z(x)) }
+    CorrectedByZ(x) { Corrected::of(&by_z(x)) }
+    SingleByTime(x) { Single::of(&by_time(x)) }
+    CorrectedByTime(x) { Corrected::of(&by_time(x)) }
+    Parts(x) {
+        perturbation(Some(Kind::Twofold), x).map_or(none(6), |p| {
+            let (first, rates) = (p.first_order(x[8], x[0]), p.first_order_rates(x[8], x[0]));
+            let change = changes_from_start(&p, x[8]);
+            vec![first.0, first.1, rates.0, rates.1, change.0, change.1]
+        })
+    }
+    Shifted(x) {
+        shifted_rates(&body(&x[5..]), &principal(&x[1..]), x[4], x[0]).map_or(none(2), |rates| vec![rates.alpha, rates.gamma])
+    }
+    // beta_0, s (3), spin, alpha_0, A, phi, body
+    InitialValues(x) {
+        let constants = Constants { alpha_0: x[5], beta_0: x[0], amplitude: x[6], phase: x[7] };
+        initial_values(Kind::Twofold, &body(&x[8..]), &principal(&x[1..]), x[4], &constants)
+            .map_or(none(4), |initial| axis_angles(&initial))
+    }
+    // s^ZZ, s^XX, s^YY, spin, alpha, beta, their rates, body
+    ConstantsTwofold(x) { found_constants(Kind::Twofold, x) }
+    ConstantsSingle(x) { found_constants(Kind::Single, x) }
+    // beta, alpha, spin, first-order motion (5), s, body
+    Linearised(x) {
+        let zeroth = |kind| ZerothOrder { kind, spin: x[2], alpha: x[1], beta: x[0] };
+        let first = FirstOrderMotion {
+            beta: x[3], alpha_rate: x[4], beta_rate: x[5], alpha_acceleration: x[6], beta_acceleration: x[7],
+        };
+        let (spheroid, s) = (body(&x[11..]), principal(&x[8..]));
+        let printed = printed_residuals(&spheroid, &s, &zeroth(Kind::Single), &first);
+        let full = full_residuals(&spheroid, &s, &zeroth(Kind::Twofold), &first);
+        vec![printed.0, printed.1, full.0, full.1]
+    }
+}
+
+fn by_z<S: Real>(x: &[S]) -> Vec<S> {
+    [&x[3..7], &x[1..3], &x[..1], &x[7..]].concat()
+}
+
+fn by_time<S: Real>(x: &[S]) -> Vec<S> {
+    [&x[1..9], &x[..1], &x[9..]].concat()
+}
+
+fn found_constants<S: Real>(kind: Kind, x: &[S]) -> Vec<S> {
+    let s = PrincipalCoefficients { xx: x[1], yy: x[2], zz: x[0] };
+    let initial = AxisAngles { alpha: x[4], beta: x[5], alpha_rate: x[6], beta_rate: x[7] };
+    constants_from_initial_values(kind, &body(&x[8..]), &s, x[3], &initial)
+        .map_or(none(4), |found| vec![found.alpha_0, found.beta_0, found.amplitude, found.phase])
+}
+
+/// Without a series for small angles.
+fn rotation<S: Real>(turn: &Vector3<S>, v: &Vector3<S>) -> Vector3<S> {
+    let square = turn.dot(turn);
+    let angle = square.sqrt();
+    let ((sin, _), (sin_half, _)) = (angle.sin_cos(), (angle / 2.0).sin_cos());
+    let across = turn.cross(v);
+    v + across * (sin / angle) + turn.cross(&across) * (sin_half * sin_half * 2.0 / square)
+}
+
+const PHASES: &str = "Two phases that grow together, each with a rounding of its own: where the slopes of their terms cancel, the scale does not see it, \
+                      condition number t a over the rest.";
+const TURN: Input = In(-3.1, 3.1);
+const BETA: Input = In(0.2, 1.4);
+const SPIN: Input = In(0.5, 2.0);
+const COMPONENT: Input = In(-1.0, 1.0);
+const INERTIA: Input = In(0.5, 2.0);
+const SMALL: Input = Signed(-6.0, -1.0);
+const AMPLITUDE: Input = Signed(-9.0, -1.0);
+const STEADY: &[&str] = &["solutions::steady::steady_precession_rate"];
+const ROTATED: &[&str] = &["solutions::free::rotated_by"];
+const FREE: &[&str] = &["solutions::free::free_rotation"];
+const PRINTED: &[&str] = &[
+    "solutions::perturbation::Perturbation::printed",
+    "solutions::perturbation::Perturbation::printed_unchecked",
+    "solutions::perturbation::Perturbation::at",
+];
+const CORRECTED: &[&str] = &[
+    "solutions::perturbation::Perturbation::corrected_twofold",
+    "solutions::perturbation::Perturbation::corrected_twofold_unchecked",
+];
+const CONSTANTS: &[&str] = &["solutions::perturbation::constants_from_initial_values"];
+
+pub(super) fn cases() -> Vec<Case> {
+    let (i, c) = (INERTIA, COMPONENT);
+    let mut cases = vec![
+        Case::new::<SteadyTwofold>(
+            STEADY,
+            "s -> 0, twofold",
+            &[Signed(-300.0, -2.5), Signed(-6.0, -2.5), SPIN, BETA, i, i, In(0.1, 0.5)],
+        ),
+        Case::new::<SteadySingle>(
+            STEADY,
+            "s -> 0, single",
+            &[Signed(-300.0, -2.5), Signed(-6.0, -2.5), SPIN, BETA, i, i, In(0.1, 0.5)],
+        )
+        .beside::<PrintedSingle>("Eq. (26) as printed"),
+        Case::new::<SteadySingle>(
+            STEADY,
+            "the two roots meet",
+            &[Below(0.125, -15.0, -3.0), Fixed(0.0), Fixed(1.0), Fixed(0.0), Fixed(1.0), Fixed(1.0), Fixed(1.0)],
+        ),
+        Case::new::<FreeRates>(
+            &["solutions::free::free_precession_rates"],
+            "cos b -> 0",
+            &[Near(FRAC_PI_2, -15.0, -0.5), SPIN, i, i, Fixed(1.0)],
+        ),
+        Case::new::<Rotated>(ROTATED, "angle -> 0", &[Log(-150.0, 0.0), c, c, c, c, c, c])
+            .against::<ExactRotated>()
+            .beside::<NaiveRotated>("1 - cos")
+            .vector(),
+        Case::new::<Rotated>(ROTATED, "angle to 1e15", &[Log(0.0, 15.0), c, c, c, c, c, c])
+            .against::<ExactRotated>()
+            .vector(),
+        Case::new::<FreeRotation>(
+            FREE,
+            "t from 1e-150 to 1e15",
+            &[Log(-150.0, 15.0), c, c, c, c, c, c, c, c, c, i, i, i],
+        )
+        .against::<ExactFreeRotation>()
+        .composite()
+        .vector(),
+        Case::new::<Parts>(
+            &[
+                "solutions::perturbation::Perturbation::first_order",
+                "solutions::perturbation::Perturbation::first_order_rates",
+                "observables::spin_axis::changes_from_start",
+            ],
+            "alpha_0 -> 0",
+            &[Signed(-300.0, 0.5), BETA, AMPLITUDE, TURN, SMALL, SMALL, SMALL, SPIN, TURN, i, i, i],
+        )
+        .composite(),
+        Case::new::<Linearised>(
+            &[
+                "solutions::perturbation::linearised::printed_residuals",
+                "solutions::perturbation::linearised::full_residuals",
+            ],
+            "sin b -> 0",
+            &[Log(-15.0, 0.0), TURN, SPIN, c, c, c, c, c, SMALL, SMALL, SMALL, i, i, i],
+        )
+        .composite(),
+        Case::new::<InitialValues>(
+            &["solutions::perturbation::initial_values"],
+            "sin b -> 0",
+            &[Log(-15.0, 0.0), SMALL, SMALL, SMALL, SPIN, TURN, AMPLITUDE, TURN, i, i, i],
+        )
+        .composite(),
+        Case::new::<InitialValues>(
+            &["solutions::perturbation::initial_values"],
+            "cos b -> 0",
+            &[Near(FRAC_PI_2, -12.0, -0.5), SMALL, SMALL, SMALL, SPIN, TURN, AMPLITUDE, TURN, i, i, i],
+        )
+        .composite(),
+        Case::new::<Shifted>(
+            &["solutions::perturbation::shifted_rates"],
+            "cos b -> 0",
+            &[Near(FRAC_PI_2, -15.0, -0.5), SMALL, SMALL, SMALL, SPIN, i, i, i],
+        ),
+        Case::new::<Shifted>(
+            &["solutions::perturbation::shifted_rates"],
+            "sin b -> 0",
+            &[Near(PI, -15.0, -0.5), SMALL, SMALL, SMALL, SPIN, i, i, i],
+        ),
+        Case::new::<ConstantsTwofold>(
+            CONSTANTS,
+            "s -> 0, twofold",
+            &[
+                Signed(-300.0, -3.0),
+                Signed(-6.0, -3.0),
+                Signed(-6.0, -3.0),
+                SPIN,
+                TURN,
+                In(0.4, 1.0),
+                In(1.4, 2.0),
+                AMPLITUDE,
+                Fixed(1.0),
+                In(1.0, 1.2),
+                Fixed(1.0),
+            ],
+        )
+        .composite()
+        .with_points(10),
+        Case::new::<ConstantsSingle>(
+            CONSTANTS,
+            "single, asymmetry -> 0",
+            &[
+                In(0.01, 0.05),
+                Fixed(0.02),
+                Near(0.02, -15.0, -3.0),
+                SPIN,
+                TURN,
+                In(0.4, 1.0),
+                Signed(-9.0, -2.0),
+                AMPLITUDE,
+                Fixed(1.0),
+                In(1.0, 1.2),
+                Fixed(1.0),
+            ],
+        )
+        .composite()
+        .with_points(10),
+    ];
+    // Constants, s, spin, time, body; by z: s^ZZ, s^XX, s^YY, constants, spin, time, body.
+    let rest = [In(0.5, 3.0), BETA, AMPLITUDE, TURN, SPIN, TURN, i, i, i];
+    let a1_vanishes = [&[Near(0.02, -15.0, -2.0), Fixed(0.01), Fixed(0.03)], &rest[..]].concat();
+    let s_vanishes = [&[Signed(-300.0, -1.0), Signed(-300.0, -1.0), Signed(-300.0, -1.0)], &rest[..]].concat();
+    let equal = [&[SMALL, Near(0.1, -15.0, -3.0), Fixed(0.1)], &rest[..]].concat();
+    for (limit, single, inputs) in [
+        ("a^(1) -> 0", "a^(1) -> 0, single", &a1_vanishes),
+        ("s -> 0", "s -> 0, single", &s_vanishes),
+        ("s^XX -> s^YY", "s^XX -> s^YY, single", &equal),
+    ] {
+        cases.extend([
+            Case::new::<TwofoldByZ>(PRINTED, limit, inputs).composite(),
+            Case::new::<SingleByZ>(PRINTED, single, inputs).composite(),
+            Case::new::<CorrectedByZ>(CORRECTED, limit, inputs).composite(),
+        ]);
+    }
+    cases.push(
+        Case::new::<Single>(
+            PRINTED,
+            "alpha_0 -> 0 with s^XX alone",
+            &[Log(-6.0, -1.0), BETA, Fixed(0.0), Fixed(0.0), In(0.01, 0.1), Fixed(0.0), Fixed(0.0), SPIN, Fixed(0.0), i, i, i],
+        )
+        .except(
+            1e14,
+            "`alpha = alpha_0 - (1/2) sin 2 alpha_0` for an asymmetry as large as the combination: a condition number of alpha_0^-2 of the sum \
+             of the mean angle and the first-order one, where that is no small part.",
+        )
+        .derivatives_except(1e14, "As for the value."),
+    );
+    let over_time = [Log(-3.0, 15.0), TURN, BETA, AMPLITUDE, TURN, SMALL, SMALL, SMALL, SPIN, i, i, i];
+    cases.extend([
+        Case::new::<SingleByTime>(PRINTED, "t to 1e15", &over_time).except(1e3, PHASES).derivatives_except(1e3, PHASES),
+        Case::new::<CorrectedByTime>(CORRECTED, "t to 1e15", &over_time)
+            .except(1e3, PHASES)
+            .derivatives_except(1e3, PHASES),
+    ]);
+    cases
+}

@@ -1,0 +1,449 @@
+//! Uniform spheroids and ellipsoids.
+
+use nalgebra::Vector3;
+use twofold::Real;
+use twofold::star::deformation::{centrifugal_oblateness, centrifugal_oblateness_scaled};
+use twofold::star::ellipsoid::UniformEllipsoid;
+use twofold::star::estimates::{inertia_over_c_estimate, time_unit_estimate};
+use twofold::star::maclaurin::MaclaurinSpheroid;
+use twofold::star::potential_coefficients::{potential_coefficients, reduced_difference};
+use twofold::star::spheroid_shape::SpheroidShape;
+use twofold::star::uniform_spheroid::UniformSpheroid;
+use twofold::units::si;
+
+use crate::stability::Input::{Above, Below, Fixed, In, Log, Near, Signed};
+use crate::stability::oracle::{self, pi, ratio};
+use crate::stability::{Case, functions};
+
+/// Semi-axis ratio, its square and the squared eccentricity, to 31 digits.
+fn by_e<S: Real>(e: S) -> [S; 3] {
+    let q2 = (S::one() - e) * (S::one() + e);
+    [q2.sqrt(), q2, e * e]
+}
+
+fn by_q<S: Real>(q: S) -> [S; 3] {
+    [q, q * q, (S::one() - q) * (S::one() + q)]
+}
+
+fn by_e2<S: Real>(e2: S) -> [S; 3] {
+    [(S::one() - e2).sqrt(), S::one() - e2, e2]
+}
+
+fn by_epsilon<S: Real>(epsilon: S) -> [S; 3] {
+    let sum = S::one() + epsilon;
+    let q2 = (S::one() - epsilon) / sum;
+    [q2.sqrt(), q2, epsilon * 2.0 / sum]
+}
+
+fn shape<S: Real>(shape: &SpheroidShape<S>) -> Vec<S> {
+    vec![shape.axis_ratio(), shape.axis_ratio_squared(), shape.eccentricity_squared(), shape.oblateness()]
+}
+
+fn exact_shape<S: Real>([q, q2, e2]: [S; 3]) -> Vec<S> {
+    vec![q, q2, e2, exact_oblateness(q2, e2)]
+}
+
+fn exact_oblateness<S: Real>(q2: S, e2: S) -> S {
+    if q2.re() > 1e3 { S::from_f64(2.0) / (q2 + S::one()) - S::one() } else { e2 / (q2 + S::one()) }
+}
+
+fn coefficients<S: Real>(shape: &SpheroidShape<S>) -> Vec<S> {
+    let a = potential_coefficients(shape);
+    vec![a.a0, a.a1, a.a3, a.difference, reduced_difference(shape)]
+}
+
+fn exact_coefficients<S: Real>([q, q2, e2]: [S; 3]) -> Vec<S> {
+    let mut all = oracle::potential_coefficients(q, q2, e2).to_vec();
+    all.push(oracle::reduced_difference(q, q2, e2));
+    all
+}
+
+/// Eq. (74) as printed.
+fn printed_coefficients<S: Real>(e: S) -> Vec<S> {
+    let q = (S::one() - e * e).sqrt();
+    let arc = e.atan2(q) / e;
+    let a1 = q / (e * e) * (arc - q);
+    let a3 = (S::one() - q * arc) * 2.0 / (e * e);
+    let difference = a1 - q * q * a3;
+    vec![q * arc * 2.0, a1, a3, difference, difference / (q * e * e)]
+}
+
+fn exact_c<S: Real>([q, q2, e2]: [S; 3], a1: S, density: S) -> S {
+    let a = density * a1 * a1;
+    q2 * e2 * oracle::reduced_difference(q, q2, e2) * pi::<S>() * pi::<S>() * ratio::<S>(4.0, 15.0) * a * a * a1
+}
+
+fn spheroid<S: Real>(body: &UniformSpheroid<S>) -> Vec<S> {
+    let (moments, inertia, energy) = (body.second_moments(), body.moment_of_inertia(), body.potential_energy_tensor());
+    vec![
+        body.polar_radius(),
+        body.volume(),
+        body.mass(),
+        moments.xx,
+        moments.zz,
+        inertia.xx,
+        inertia.zz,
+        energy.xx,
+        energy.zz,
+        body.c(),
+        body.c_over_polar_inertia(),
+        body.oblateness(),
+        body.mean_radius(),
+    ]
+}
+
+fn exact_spheroid<S: Real>([q, q2, e2]: [S; 3], a1: S, density: S) -> Vec<S> {
+    let [_, c1, c3, difference] = oracle::potential_coefficients(q, q2, e2);
+    let volume = a1 * a1 * a1 * q * pi::<S>() * ratio::<S>(4.0, 3.0);
+    let mass = density * volume;
+    let xx = mass * a1 * a1 / 5.0;
+    let two_pi_rho = density * pi::<S>() * 2.0;
+    vec![
+        a1 * q,
+        volume,
+        mass,
+        xx,
+        xx * q2,
+        xx + xx * q2,
+        xx * 2.0,
+        two_pi_rho * c1 * xx,
+        two_pi_rho * c3 * xx * q2,
+        exact_c([q, q2, e2], a1, density),
+        two_pi_rho * difference / 4.0,
+        exact_oblateness(q2, e2),
+        a1 * cube_root(q),
+    ]
+}
+
+/// Newton's method from the double.
+fn cube_root<S: Real>(x: S) -> S {
+    let mut root = S::from_f64(x.re().cbrt());
+    for _ in 0..4 {
+        root = (root * 2.0 + x / (root * root)) / 3.0;
+    }
+    root
+}
+
+functions! {
+    ShapeByE(x) { SpheroidShape::from_eccentricity(x[0]).map_or(vec![S::from_f64(f64::NAN); 4], |s| shape(&s)) }
+    ExactShapeByE(x) { exact_shape(by_e(x[0])) }
+    NaiveShapeByE(x) {
+        let q = (S::one() - x[0] * x[0]).sqrt();
+        let e2 = S::one() - q * q;
+        vec![q, q * q, e2, e2 / (S::one() + S::one() - e2)]
+    }
+    ShapeByE2(x) { shape(&SpheroidShape::from_eccentricity_squared(x[0]).expect("a shape")) }
+    ExactShapeByE2(x) { exact_shape(by_e2(x[0])) }
+    ShapeByQ(x) { shape(&SpheroidShape::from_axis_ratio(x[0]).expect("a shape")) }
+    ExactShapeByQ(x) { exact_shape(by_q(x[0])) }
+    NaiveShapeByQ(x) {
+        let e2 = S::one() - x[0] * x[0];
+        vec![x[0], x[0] * x[0], e2, e2 / (S::one() + S::one() - e2)]
+    }
+    ShapeByEpsilon(x) { shape(&SpheroidShape::from_oblateness(x[0]).expect("a shape")) }
+    ExactShapeByEpsilon(x) { exact_shape(by_epsilon(x[0])) }
+    // a3, a1
+    ShapeByAxes(x) {
+        let body = UniformSpheroid::from_semi_axes(x[1], x[0], S::one()).expect("a spheroid");
+        shape(body.shape())
+    }
+    ExactShapeByAxes(x) {
+        let q = x[0] / x[1];
+        let e2 = (x[1] - x[0]) * (x[1] + x[0]) / (x[1] * x[1]);
+        exact_shape([q, q * q, e2])
+    }
+    CoefficientsByE(x) { coefficients(&SpheroidShape::from_eccentricity(x[0]).expect("a shape")) }
+    ExactCoefficientsByE(x) { exact_coefficients(by_e(x[0])) }
+    PrintedCoefficientsByE(x) { printed_coefficients(x[0]) }
+    CoefficientsByE2(x) { coefficients(&SpheroidShape::from_eccentricity_squared(x[0]).expect("a shape")) }
+    ExactCoefficientsByE2(x) { exact_coefficients(by_e2(x[0])) }
+    CoefficientsByQ(x) { coefficients(&SpheroidShape::from_axis_ratio(x[0]).expect("a shape")) }
+    ExactCoefficientsByQ(x) { exact_coefficients(by_q(x[0])) }
+    SpheroidByE(x) {
+        let shape = SpheroidShape::from_eccentricity(x[0]).expect("a shape");
+        spheroid(&UniformSpheroid::new(x[1], x[2], shape).expect("a spheroid"))
+    }
+    ExactSpheroidByE(x) { exact_spheroid(by_e(x[0]), x[1], x[2]) }
+    SpheroidByQ(x) {
+        let shape = SpheroidShape::from_axis_ratio(x[0]).expect("a shape");
+        spheroid(&UniformSpheroid::new(x[1], x[2], shape).expect("a spheroid"))
+    }
+    ExactSpheroidByQ(x) { exact_spheroid(by_q(x[0]), x[1], x[2]) }
+    Periods(x) {
+        let shape = SpheroidShape::from_eccentricity(x[0]).expect("a shape");
+        let body = UniformSpheroid::new(S::one(), x[1], shape).expect("a spheroid");
+        vec![body.polar_inertia_over_c().expect("oblate"), body.time_unit().expect("oblate").seconds()]
+    }
+    ExactPeriods(x) {
+        let [q, q2, e2] = by_e(x[0]);
+        let [.., difference] = oracle::potential_coefficients(q, q2, e2);
+        let ratio = S::from_f64(2.0) / (x[1] * pi::<S>() * difference);
+        vec![ratio, (ratio * (S::one() + q2) / 2.0).sqrt()]
+    }
+    FromMass(x) {
+        let shape = SpheroidShape::from_axis_ratio(x[0]).expect("a shape");
+        let body = UniformSpheroid::from_mass(x[1], x[2], shape).expect("a spheroid");
+        vec![body.equatorial_radius(), body.polar_radius()]
+    }
+    ExactFromMass(x) {
+        let radius = x[2];
+        vec![radius / cube_root(x[0]), radius / cube_root(x[0]) * x[0]]
+    }
+    /// The mass and the mean radius that were given, and the density.
+    MassOf(x) {
+        let shape = SpheroidShape::from_axis_ratio(x[0]).expect("a shape");
+        let body = UniformSpheroid::from_mass(x[1], x[2], shape).expect("a spheroid");
+        vec![body.mass(), body.mean_radius(), body.density()]
+    }
+    ExactMassOf(x) {
+        vec![x[1], x[2], x[1] * ratio::<S>(3.0, 4.0) / (pi::<S>() * x[2] * x[2] * x[2])]
+    }
+    Maclaurin(x) {
+        let shape = SpheroidShape::from_eccentricity(x[0]).expect("a shape");
+        let body = MaclaurinSpheroid::new(UniformSpheroid::new(x[1], x[2], shape).expect("a spheroid")).expect("oblate");
+        vec![
+            body.rotation_rate_squared(),
+            body.rotation_rate(),
+            body.rotational_energy(),
+            body.kinetic_tensor().xx,
+            body.central_pressure(),
+            body.pressure_integral(),
+            body.pressure(x[3] * x[1], S::zero()),
+        ]
+    }
+    ExactMaclaurin(x) {
+        let [q, q2, e2] = by_e(x[0]);
+        let [_, _, c3, difference] = oracle::potential_coefficients(q, q2, e2);
+        let (a1, density) = (x[1], x[2]);
+        let square = density * pi::<S>() * 2.0 * difference;
+        let volume = a1 * a1 * a1 * q * pi::<S>() * ratio::<S>(4.0, 3.0);
+        let moment = density * volume * a1 * a1 / 5.0;
+        let pressure = pi::<S>() * density * density * c3 * a1 * a1 * q2;
+        vec![
+            square,
+            square.sqrt(),
+            moment * square,
+            moment * square,
+            pressure,
+            pressure * volume * ratio::<S>(2.0, 5.0),
+            pressure * (S::one() - x[3]) * (S::one() + x[3]),
+        ]
+    }
+    Ellipsoid(x) {
+        let body = UniformEllipsoid::new(Vector3::new(x[1], x[2], x[0]), x[3]).expect("an ellipsoid");
+        let (a, u, i) = (body.coefficients(), body.potential_energy_tensor(), body.moments_of_inertia());
+        vec![body.mass(), body.central_coefficient(), a.x, a.y, a.z, u.x, u.y, u.z, i.x, i.y, i.z]
+    }
+    ExactEllipsoid(x) {
+        let (a, density) = ([x[1], x[2], x[0]], x[3]);
+        let [p, q, r] = a.map(|a| a * a);
+        let product = a[0] * a[1] * a[2];
+        let mass = density * product * pi::<S>() * ratio::<S>(4.0, 3.0);
+        let coefficients = [oracle::rd(q, r, p), oracle::rd(r, p, q), oracle::rd(p, q, r)].map(|rd| rd * product * ratio::<S>(2.0, 3.0));
+        let [mx, my, mz] = [p, q, r].map(|square| mass * square / 5.0);
+        let factor = density * pi::<S>() * 2.0;
+        let [cx, cy, cz] = coefficients;
+        vec![
+            mass, product * oracle::rf(p, q, r) * 2.0, cx, cy, cz, factor * cx * mx, factor * cy * my, factor * cz * mz,
+            my + mz, mz + mx, mx + my,
+        ]
+    }
+    Estimates(x) { vec![inertia_over_c_estimate(x[1], x[0]), time_unit_estimate(x[1], x[0]).expect("oblate").seconds()] }
+    ExactEstimates(x) {
+        let estimate = S::from_f64(15.0) / (pi::<S>() * x[1] * x[0] * 4.0);
+        vec![estimate, estimate.sqrt()]
+    }
+    Deformation(x) { vec![centrifugal_oblateness(x[0], x[1], x[2])] }
+    DeformationScaled(x) { vec![centrifugal_oblateness_scaled(x[0], x[1], x[2])] }
+    ExactDeformationScaled(x) {
+        let (omega, radius) = (pi::<S>() * x[0] * 2.0, x[1] * 1000.0);
+        vec![omega * omega * radius * radius * radius / (x[2] * si::SOLAR_MASS_PARAMETER)]
+    }
+}
+
+const SHAPE: &[&str] = &[
+    "star::spheroid_shape::SpheroidShape::from_eccentricity",
+    "star::spheroid_shape::SpheroidShape::axis_ratio",
+    "star::spheroid_shape::SpheroidShape::axis_ratio_squared",
+    "star::spheroid_shape::SpheroidShape::eccentricity_squared",
+    "star::spheroid_shape::SpheroidShape::oblateness",
+];
+const BY_E2: &[&str] = &["star::spheroid_shape::SpheroidShape::from_eccentricity_squared"];
+const BY_Q: &[&str] = &["star::spheroid_shape::SpheroidShape::from_axis_ratio"];
+const COEFFICIENTS: &[&str] =
+    &["star::potential_coefficients::potential_coefficients", "star::potential_coefficients::reduced_difference"];
+const SPHEROID: &[&str] = &[
+    "star::uniform_spheroid::UniformSpheroid::new",
+    "star::uniform_spheroid::UniformSpheroid::polar_radius",
+    "star::uniform_spheroid::UniformSpheroid::volume",
+    "star::uniform_spheroid::UniformSpheroid::mass",
+    "star::uniform_spheroid::UniformSpheroid::second_moments",
+    "star::uniform_spheroid::UniformSpheroid::moment_of_inertia",
+    "star::uniform_spheroid::UniformSpheroid::potential_energy_tensor",
+    "star::uniform_spheroid::UniformSpheroid::c",
+    "star::uniform_spheroid::UniformSpheroid::c_over_polar_inertia",
+    "star::uniform_spheroid::UniformSpheroid::oblateness",
+    "star::uniform_spheroid::UniformSpheroid::mean_radius",
+];
+const MACLAURIN: &[&str] = &[
+    "star::maclaurin::MaclaurinSpheroid::new",
+    "star::maclaurin::MaclaurinSpheroid::rotation_rate_squared",
+    "star::maclaurin::MaclaurinSpheroid::rotation_rate",
+    "star::maclaurin::MaclaurinSpheroid::rotational_energy",
+    "star::maclaurin::MaclaurinSpheroid::kinetic_tensor",
+    "star::maclaurin::MaclaurinSpheroid::central_pressure",
+    "star::maclaurin::MaclaurinSpheroid::pressure_integral",
+    "star::maclaurin::MaclaurinSpheroid::pressure",
+];
+const ELLIPSOID: &[&str] = &[
+    "star::ellipsoid::UniformEllipsoid::new",
+    "star::ellipsoid::UniformEllipsoid::mass",
+    "star::ellipsoid::UniformEllipsoid::central_coefficient",
+    "star::ellipsoid::UniformEllipsoid::coefficients",
+    "star::ellipsoid::UniformEllipsoid::second_moments",
+    "star::ellipsoid::UniformEllipsoid::moments_of_inertia",
+    "star::ellipsoid::UniformEllipsoid::potential_energy_tensor",
+];
+
+pub(super) fn cases() -> Vec<Case> {
+    let printed = "Eq. (74) as printed";
+    vec![
+        Case::new::<ShapeByE>(SHAPE, "e -> 0", &[Log(-12.0, -0.01)])
+            .against::<ExactShapeByE>()
+            .beside::<NaiveShapeByE>("e^2 from q"),
+        Case::new::<ShapeByE>(SHAPE, "e -> 1", &[Below(1.0, -15.5, -0.3)])
+            .against::<ExactShapeByE>()
+            .beside::<NaiveShapeByE>("q^2 = 1 - e e"),
+        Case::new::<ShapeByE2>(BY_E2, "e^2 -> 0, both signs", &[Signed(-300.0, -0.1)]).against::<ExactShapeByE2>(),
+        Case::new::<ShapeByE2>(BY_E2, "e^2 -> 1", &[Below(1.0, -15.5, -0.3)]).against::<ExactShapeByE2>(),
+        Case::new::<ShapeByQ>(BY_Q, "sphere, q -> 1, both sides", &[Near(1.0, -15.5, -0.3)])
+            .against::<ExactShapeByQ>()
+            .beside::<NaiveShapeByQ>("1 - q q"),
+        Case::new::<ShapeByQ>(BY_Q, "disc to needle, q from 1e-100 to 1e100", &[Log(-99.9, 99.9)])
+            .against::<ExactShapeByQ>(),
+        Case::new::<ShapeByEpsilon>(
+            &["star::spheroid_shape::SpheroidShape::from_oblateness"],
+            "oblateness -> 0, both signs",
+            &[Signed(-300.0, -0.01)],
+        )
+        .against::<ExactShapeByEpsilon>(),
+        Case::new::<ShapeByEpsilon>(
+            &["star::spheroid_shape::SpheroidShape::from_oblateness"],
+            "oblateness -> 1",
+            &[Below(1.0, -15.5, -0.3)],
+        )
+        .against::<ExactShapeByEpsilon>(),
+        Case::new::<ShapeByAxes>(
+            &[
+                "star::spheroid_shape::SpheroidShape::from_semi_axes",
+                "star::uniform_spheroid::UniformSpheroid::from_semi_axes",
+            ],
+            "a3 -> a1",
+            &[Near(1.0, -15.5, -0.3), In(0.9, 1.1)],
+        )
+        .against::<ExactShapeByAxes>()
+        .composite(),
+        Case::new::<CoefficientsByE>(COEFFICIENTS, "e -> 0", &[Log(-12.0, -0.01)])
+            .against::<ExactCoefficientsByE>()
+            .beside::<PrintedCoefficientsByE>(printed),
+        Case::new::<CoefficientsByE>(COEFFICIENTS, "e -> 1", &[Below(1.0, -15.5, -0.3)])
+            .against::<ExactCoefficientsByE>()
+            .beside::<PrintedCoefficientsByE>(printed),
+        Case::new::<CoefficientsByE2>(COEFFICIENTS, "e^2 -> 0, both signs", &[Signed(-300.0, -0.1)])
+            .against::<ExactCoefficientsByE2>(),
+        Case::new::<CoefficientsByQ>(COEFFICIENTS, "sphere, q -> 1, both sides", &[Near(1.0, -15.5, -0.3)])
+            .against::<ExactCoefficientsByQ>(),
+        Case::new::<CoefficientsByQ>(COEFFICIENTS, "disc to needle, q from 1e-50 to 1e50", &[Log(-49.9, 49.9)])
+            .against::<ExactCoefficientsByQ>(),
+        Case::new::<SpheroidByE>(SPHEROID, "e -> 0", &[Log(-12.0, -0.01), In(0.5, 2.0), In(0.5, 2.0)])
+            .against::<ExactSpheroidByE>()
+            .composite(),
+        Case::new::<SpheroidByE>(SPHEROID, "e -> 1", &[Below(1.0, -15.5, -0.3), In(0.5, 2.0), In(0.5, 2.0)])
+            .against::<ExactSpheroidByE>()
+            .composite(),
+        Case::new::<SpheroidByQ>(
+            SPHEROID,
+            "prolate, q -> 1 and beyond",
+            &[Above(1.0, -15.5, 3.0), In(0.5, 2.0), In(0.5, 2.0)],
+        )
+        .against::<ExactSpheroidByQ>()
+        .composite(),
+        Case::new::<SpheroidByE>(
+            SPHEROID,
+            "units: a1 from 1e-30 to 1e30, rho from 1e-40 to 1e40",
+            &[In(0.1, 0.9), Log(-30.0, 30.0), Log(-40.0, 40.0)],
+        )
+        .against::<ExactSpheroidByE>()
+        .composite(),
+        Case::new::<Periods>(
+            &[
+                "star::uniform_spheroid::UniformSpheroid::polar_inertia_over_c",
+                "star::uniform_spheroid::UniformSpheroid::time_unit",
+            ],
+            "e -> 0",
+            &[Log(-12.0, -0.01), Log(-10.0, 10.0)],
+        )
+        .against::<ExactPeriods>()
+        .composite(),
+        Case::new::<FromMass>(
+            &["star::uniform_spheroid::UniformSpheroid::from_mass"],
+            "disc to needle, q from 1e-90 to 1e90",
+            &[Log(-90.0, 90.0), In(0.5, 2.0), In(0.5, 2.0)],
+        )
+        .against::<ExactFromMass>()
+        .composite(),
+        Case::new::<MassOf>(
+            &[
+                "star::uniform_spheroid::UniformSpheroid::from_mass",
+                "star::uniform_spheroid::UniformSpheroid::mean_radius",
+            ],
+            "mass and mean radius there and back, q from 1e-90 to 1e90",
+            &[Log(-90.0, 90.0), In(0.5, 2.0), In(0.5, 2.0)],
+        )
+        .against::<ExactMassOf>()
+        .composite()
+        .values_only(),
+        Case::new::<Maclaurin>(MACLAURIN, "e -> 0", &[Log(-12.0, -0.01), In(0.5, 2.0), In(0.5, 2.0), In(0.0, 0.9)])
+            .against::<ExactMaclaurin>()
+            .composite(),
+        Case::new::<Maclaurin>(
+            MACLAURIN,
+            "e -> 1",
+            &[Below(1.0, -15.5, -0.3), In(0.5, 2.0), In(0.5, 2.0), In(0.0, 0.9)],
+        )
+        .against::<ExactMaclaurin>()
+        .composite(),
+        Case::new::<Ellipsoid>(
+            ELLIPSOID,
+            "one axis -> 0 and to infinity",
+            &[Log(-12.0, 12.0), In(0.5, 2.0), In(0.5, 2.0), In(0.5, 2.0)],
+        )
+        .against::<ExactEllipsoid>()
+        .composite()
+        .natural_derivatives(),
+        Case::new::<Ellipsoid>(
+            ELLIPSOID,
+            "sphere: all axes -> 1",
+            &[Near(1.0, -15.5, -1.0), Near(1.0, -15.5, -1.0), Fixed(1.0), In(0.5, 2.0)],
+        )
+        .against::<ExactEllipsoid>()
+        .composite(),
+        Case::new::<Estimates>(
+            &["star::estimates::inertia_over_c_estimate", "star::estimates::time_unit_estimate"],
+            "oblateness -> 0",
+            &[Log(-60.0, 0.0), Log(-60.0, 60.0)],
+        )
+        .against::<ExactEstimates>(),
+        Case::new::<Deformation>(
+            &["star::deformation::centrifugal_oblateness"],
+            "rate -> 0 and large, any units",
+            &[Log(-60.0, 60.0), Log(-40.0, 40.0), Log(-40.0, 40.0)],
+        ),
+        Case::new::<DeformationScaled>(
+            &["star::deformation::centrifugal_oblateness_scaled", "star::deformation::centrifugal_coefficient"],
+            "frequency from 1e-5 to 1e5 Hz",
+            &[Log(-5.0, 5.0), In(5.0, 20.0), In(0.5, 3.0)],
+        )
+        .against::<ExactDeformationScaled>(),
+    ]
+}

@@ -1,0 +1,113 @@
+//! Public functions without a case, with the reason.
+
+/// Paths (a type for all of its methods) and the reason why no sweep measures them.
+pub const ELSEWHERE: &[(&[&str], &str)] = &[
+    (
+        &[
+            "propagation::propagate",
+            "propagation::propagate_axis",
+            "propagation::states_at",
+            "propagation::axis_states_at",
+            "propagation::axis_states_of_many",
+            "propagation::TaylorMotion",
+            "propagation::splitting",
+            "propagation::ContinuousAngles",
+            "propagation::SeriesProjection",
+        ],
+        "numerical motion: its error grows with time and is that of a method, not of a formula; against 34 digits in `propagation-*`, `splitting-*` \
+         and in the tables of long times",
+    ),
+    (
+        &[
+            "propagation::AveragedMotion",
+            "propagation::SymmetricMotion",
+            "propagation::UniformMotion",
+            "solutions::mean::MeanMotion::near",
+            "solutions::mean::MeanMotion::with_free_rotation_of",
+            "solutions::mean::MeanMotion::phases",
+            "solutions::mean::MeanMotion::phases_at",
+            "solutions::mean::MeanMotion::state",
+            "solutions::mean::MeanMotion::state_at",
+        ],
+        "closed motions over a span, made of the kernels `free_rotation`, `SymmetricSolution`, `Top`, `MeanMotion::rates` and `turns` here; as \
+         motions against 34 digits in `mean-*` and `propagation-*`",
+    ),
+    (
+        &[
+            "solutions::mean::MeanMotion::order",
+            "solutions::mean::MeanMotion::relative_strength",
+            "solutions::mean::MeanMotion::require_derivatives",
+            "solutions::mean::MeanMotion::error_estimate",
+            "solutions::mean::MeanMotion::rounding",
+            "solutions::mean::MeanMotion::truncation",
+            "propagation::largest_torque",
+            "propagation::taylor_forecast",
+            "observables::pulsar::rate_bounds::rate_bounds",
+            "observables::pulsar::PulsarClock::truncation",
+        ],
+        "estimates and bounds: they must not be too small, and no digit of theirs counts; checks of estimates and coverage",
+    ),
+    (&["plan"], "decides what is computed, by integers and estimates; derivatives of motions in `gradient-*`"),
+    (
+        &[
+            "observables::pulsar::train",
+            "observables::pulsar::arrival::arrivals",
+            "observables::pulsar::Pulse",
+            "observables::pulsar::PulseTrain",
+            "observables::pulsar::PulsarClock",
+            "observables::pulsar::NearState",
+        ],
+        "searches for edges, made of `Beam::margin_rates` here; their times against 30 digits in `pulse-edges-reference`, grazing in `pulse-train-grazing`",
+    ),
+    (
+        &["observables::pulsar::ConstantPeriod", "observables::pulsar::SpinFit"],
+        "least squares: the error is that of the data",
+    ),
+    (
+        &["observables::spectrum", "observables::fundamental_frequencies"],
+        "estimates from samples, whose error is that of the window; against exact frequencies in `mean-frequency-*` and `line-*`",
+    ),
+    (
+        &[
+            "observables::eta_distribution::EtaDistribution::at_inclination",
+            "observables::eta_distribution::EtaDistribution::at_constant",
+            "observables::eta_distribution::EtaDistribution::of_unknown_axis",
+            "observables::eta_distribution::root_mean_square_along_motion",
+        ],
+        "averages over 256 nodes of kernels here: the error is that of the rule, see `eta-*`",
+    ),
+    (
+        &[
+            "dynamics::RigidSpheroid::in_units_of_tc",
+            "dynamics::RigidSpheroid::inertia",
+            "euler_angles::permuted_from_inertial",
+            "scalar::constant_vector",
+            "scalar::real_part",
+            "solutions::mean::Top::goes_round",
+            "solutions::mean::Top::is_periodic",
+            "solutions::perturbation::Kind::sign",
+            "star::ellipsoid::UniformEllipsoid::density",
+            "star::ellipsoid::UniformEllipsoid::semi_axes",
+            "star::maclaurin::MaclaurinSpheroid::spheroid",
+            "star::uniform_spheroid::UniformSpheroid::density",
+            "star::uniform_spheroid::UniformSpheroid::equatorial_radius",
+            "star::uniform_spheroid::UniformSpheroid::shape",
+            "lorentz_violation::SymmetryOfTensor::is_symmetric_within_rounding",
+            "lorentz_violation::SymmetryOfTensor::refuse_asymmetry",
+            "Error",
+        ],
+        "no arithmetic: what was given, signs, yes or no",
+    ),
+    (
+        &[
+            "dynamics::potential::anisotropic_potential",
+            "propagation::AxisState",
+            "scalar::length",
+            "solutions::mean::Top::complement",
+            "solutions::mean::Top::squares",
+            "solutions::mean::Turns",
+        ],
+        "one product, one root, or a product with a matrix as in `BodyState::rotated`",
+    ),
+    (&["star::maclaurin::MaclaurinSpheroid::virial_residual"], "zero but for rounding, see `star-tensor-virial`"),
+];

@@ -1,0 +1,228 @@
+//! Digits lost by every public kernel and solver, against an oracle of 31 digits, on logarithmic sweeps into its limits.
+//!
+//! A [`Case`] is data: what is measured, the inputs and the limit that the first of them is swept into, the kernel in doubles, an oracle
+//! in double-double arithmetic, the formula of the paper where that is another one. One [runner](measure) serves all.
+//!
+//! The error of a number `f(x)` is counted in ulp of its *conditioned scale*
+//!
+//! ```text
+//! |f| + sum_i |x_i df/dx_i|
+//! ```
+//!
+//! with the derivatives from duals over double-double numbers: as much as inputs that are right to rounding leave of it, so that a loss is
+//! blamed on the kernel only where its inputs do not excuse it. Inputs are exact doubles for kernel and oracle alike. An ulp is the distance to
+//! the next double at the scale.
+
+pub mod cases;
+mod elsewhere;
+mod input;
+pub mod measure;
+pub mod oracle;
+pub mod table;
+
+use num_dual::Dual64;
+use twofold::Real;
+
+pub use elsewhere::ELSEWHERE;
+pub use input::Input;
+
+use crate::double_double::DoubleDouble;
+use crate::dual::Dual;
+
+/// A function of several numbers with several results, over any scalar.
+pub trait Function {
+    /// The results at `x`; not a number where there are none.
+    fn of<S: Real>(x: &[S]) -> Vec<S>;
+}
+
+/// A number with 31 digits, and its derivative.
+pub(crate) type Wide = DoubleDouble;
+pub(crate) type WideDual = Dual<DoubleDouble>;
+
+/// How much error is allowed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Class {
+    /// A formula of one step: 4 ulp of the conditioned scale.
+    Scalar,
+    /// Made of several kernels, or of iterations: 16 ulp.
+    Composite,
+    /// More than that, for a reason.
+    Exception {
+        /// Bound in ulp of the conditioned scale.
+        bound: f64,
+        /// Why, with the condition number that the scale does not see.
+        reason: &'static str,
+    },
+}
+
+impl Class {
+    /// Bound in ulp of the conditioned scale.
+    pub fn bound(self) -> f64 {
+        match self {
+            Class::Scalar => 4.0,
+            Class::Composite => 16.0,
+            Class::Exception { bound, .. } => bound,
+        }
+    }
+}
+
+/// Which scale the error of one of several results is measured by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Each by its own.
+    Each,
+    /// All by one: they are parts of a turn, whatever the size of the inputs.
+    Unit,
+    /// All by the largest: they are the components of a vector, in whatever frame.
+    Vector,
+}
+
+type Evaluate<T> = fn(&[T]) -> Vec<T>;
+
+/// One sweep of one kernel.
+#[derive(Clone)]
+pub struct Case {
+    /// Paths in the crate `twofold` of what is measured, as in the table of equations.
+    pub items: &'static [&'static str],
+    /// The limit of the sweep, in words.
+    pub limit: &'static str,
+    /// Where inputs are drawn from; the first is swept.
+    pub inputs: Vec<Input>,
+    /// Allowed error of the values.
+    pub class: Class,
+    /// Allowed error of the derivatives by the first input.
+    pub class_of_derivatives: Class,
+    /// Scale of several results.
+    pub scale: Scale,
+    /// Points of a round.
+    pub points: usize,
+    /// Whether derivatives `df/dx` count against `f / x` too.
+    pub natural_derivatives: bool,
+    /// The formula beside it, in words.
+    pub naive_formula: &'static str,
+    kernel: Evaluate<f64>,
+    derivative: Option<Evaluate<Dual64>>,
+    oracle: Evaluate<Wide>,
+    oracle_slope: Evaluate<WideDual>,
+    naive: Option<Evaluate<f64>>,
+}
+
+impl Case {
+    /// A scalar kernel that is its own oracle on double-double numbers: it has no constant, threshold or iteration meant for doubles.
+    pub fn new<K: Function>(items: &'static [&'static str], limit: &'static str, inputs: &[Input]) -> Self {
+        Self {
+            items,
+            limit,
+            inputs: inputs.to_vec(),
+            class: Class::Scalar,
+            class_of_derivatives: Class::Composite,
+            scale: Scale::Each,
+            points: measure::POINTS,
+            natural_derivatives: false,
+            naive_formula: "",
+            kernel: K::of::<f64>,
+            derivative: Some(K::of::<Dual64>),
+            oracle: K::of::<Wide>,
+            oracle_slope: K::of::<WideDual>,
+            naive: None,
+        }
+    }
+
+    /// A kernel in doubles alone, with its oracle.
+    pub fn of_doubles<O: Function>(
+        items: &'static [&'static str],
+        limit: &'static str,
+        inputs: &[Input],
+        kernel: fn(&[f64]) -> Vec<f64>,
+    ) -> Self {
+        let mut case = Self::new::<O>(items, limit, inputs);
+        case.kernel = kernel;
+        case.derivative = None;
+        case
+    }
+
+    /// With derivatives of a function that is not generic.
+    pub fn with_derivatives(mut self, derivative: fn(&[Dual64]) -> Vec<Dual64>) -> Self {
+        self.derivative = Some(derivative);
+        self
+    }
+
+    /// With another formula for oracle.
+    pub fn against<O: Function>(mut self) -> Self {
+        self.oracle = O::of::<Wide>;
+        self.oracle_slope = O::of::<WideDual>;
+        self
+    }
+
+    /// With another formula beside it, in doubles.
+    pub fn beside<N: Function>(mut self, formula: &'static str) -> Self {
+        self.naive = Some(N::of::<f64>);
+        self.naive_formula = formula;
+        self
+    }
+
+    /// A composite.
+    pub fn composite(mut self) -> Self {
+        self.class = Class::Composite;
+        self
+    }
+
+    /// Whose results are the components of a vector.
+    pub fn vector(mut self) -> Self {
+        self.scale = Scale::Vector;
+        self
+    }
+
+    /// With so many points in a round: it is slow.
+    pub fn with_points(mut self, points: usize) -> Self {
+        self.points = points;
+        self
+    }
+
+    /// Without derivatives.
+    pub fn values_only(mut self) -> Self {
+        self.derivative = None;
+        self
+    }
+
+    /// Whose derivatives count against their natural size as well, the scale of the value over the swept input: where that is much larger than
+    /// the derivative itself, which is a difference of terms of that size.
+    pub fn natural_derivatives(mut self) -> Self {
+        self.natural_derivatives = true;
+        self
+    }
+
+    /// Whose results are parts of a whole.
+    pub fn unit(mut self) -> Self {
+        self.scale = Scale::Unit;
+        self
+    }
+
+    /// With an exception for the values.
+    pub fn except(mut self, bound: f64, reason: &'static str) -> Self {
+        self.class = Class::Exception { bound, reason };
+        self
+    }
+
+    /// With an exception for the derivatives.
+    pub fn derivatives_except(mut self, bound: f64, reason: &'static str) -> Self {
+        self.class_of_derivatives = Class::Exception { bound, reason };
+        self
+    }
+}
+
+/// Functions generic over the scalar, as types.
+macro_rules! functions {
+    ($($(#[$doc:meta])* $name:ident($x:ident) $body:block)*) => {
+        $(
+            $(#[$doc])*
+            struct $name;
+
+            impl $crate::stability::Function for $name {
+                fn of<S: twofold::Real>($x: &[S]) -> Vec<S> $body
+            }
+        )*
+    };
+}
+
+pub(crate) use functions;
