@@ -35,6 +35,7 @@ pub mod report;
 pub mod scene_file;
 pub mod second_integrator;
 pub mod sweep;
+pub mod symbolic;
 pub mod trajectory;
 
 /// The example of the README, run as a documentation test.

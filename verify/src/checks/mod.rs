@@ -27,6 +27,7 @@ pub(crate) mod spectrum;
 mod spin_axis;
 mod splitting;
 mod star;
+mod symbolic;
 mod symmetric;
 mod torque;
 mod wave_tensor;
@@ -58,6 +59,7 @@ pub fn all() -> Vec<Check> {
         plans::checks,
         regimes::checks,
         observer::checks,
+        symbolic::checks,
         spin_axis::checks,
         bound::checks,
         eta::checks,
