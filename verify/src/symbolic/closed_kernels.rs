@@ -25,10 +25,11 @@ use super::{ClosedKernel, RationalPoint};
 
 type Point = RationalPoint<f64>;
 type Components = Result<Vec<f64>, Error>;
+type Values = fn(&Point) -> Components;
 
 /// All of them.
 pub(super) fn all() -> Vec<ClosedKernel> {
-    let kernels: [(&str, fn(&Point) -> Components); 14] = [
+    let kernels: [(&str, Values); 14] = [
         ("potential-coefficients", coefficients),
         ("uniform-spheroid", spheroid),
         ("inertia-over-c", inertia_over_c),
