@@ -1,4 +1,10 @@
-//! The paper's numbers beside ours, as snapshots for review in `golden/`.
+//! The paper's numbers beside ours, as snapshots for review in `golden/`, and their digits against rigorous enclosures.
+
+use std::sync::LazyLock;
+
+use twofold_verify::golden::{Certainty, Enclosures, GoldenTable, tables};
+
+static TABLES: LazyLock<Vec<GoldenTable>> = LazyLock::new(|| tables().expect("the golden numbers can be computed"));
 
 #[test]
 fn golden_tables_are_as_reviewed() {
@@ -7,8 +13,31 @@ fn golden_tables_are_as_reviewed() {
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
     settings.bind(|| {
-        for table in twofold_verify::golden::tables().expect("the golden numbers can be computed") {
+        for table in &*TABLES {
             insta::assert_snapshot!(table.name, table.to_string());
         }
     });
+}
+
+/// Every number is certified or listed, and `docs/reliability/certified.md` says how many are.
+#[test]
+fn digits_are_certified_or_listed_with_a_reason() {
+    let file = |name| std::fs::read_to_string(name).expect("the file is there");
+    let texts =
+        ["verify/data/certified.csv", "verify/data/not_enclosed.csv", "docs/reliability/certified.md"].map(file);
+    let enclosures = Enclosures::parse(&texts[0], &texts[1]).expect("the enclosures are readable");
+    let (mut certified, mut listed, mut wrong) = (0, 0, Vec::new());
+    for table in &*TABLES {
+        for line in &table.lines {
+            match enclosures.certainty(table, line) {
+                Certainty::Certified => certified += 1,
+                Certainty::NotEnclosed(_) => listed += 1,
+                Certainty::Wrong(how) => wrong.push(format!("{}: {}: {how}", table.name, line.label)),
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} numbers:\n{}", wrong.len(), wrong.join("\n"));
+    assert_eq!(certified, enclosures.count(), "there are enclosures of numbers that no golden table has");
+    let counts = format!("| all | {certified} | {listed} |");
+    assert!(texts[2].contains(&counts), "docs/reliability/certified.md has no line {counts}");
 }

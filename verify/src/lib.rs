@@ -37,6 +37,7 @@ pub mod scene_file;
 pub mod second_integrator;
 pub mod stability;
 pub mod sweep;
+pub mod symbolic;
 pub mod trajectory;
 
 /// The example of the README, run as a documentation test.

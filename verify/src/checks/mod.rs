@@ -29,6 +29,7 @@ mod spin_axis;
 mod splitting;
 mod stability;
 mod star;
+mod symbolic;
 mod symmetric;
 mod torque;
 mod wave_tensor;
@@ -61,6 +62,7 @@ pub fn all() -> Vec<Check> {
         plans::checks,
         regimes::checks,
         observer::checks,
+        symbolic::checks,
         spin_axis::checks,
         bound::checks,
         eta::checks,

@@ -1,6 +1,7 @@
 //! The paper's numbers beside ours, one table per figure, table or passage of the paper.
 
 pub(crate) mod captions;
+mod certified;
 mod eta;
 mod figures;
 mod line;
@@ -9,6 +10,7 @@ mod regimes;
 mod spectral_lines;
 mod star;
 
+pub use certified::{Certainty, Enclosures};
 pub use line::{GoldenLine, Printed};
 
 /// One golden table.

@@ -1,0 +1,105 @@
+//! Rigorous enclosures of golden numbers, made in ball arithmetic independently of the Rust code (`verify/certified`,
+//! docs/reliability/certified.md). A number whose enclosure lies within what rounds to its printed digits is certified to the last one.
+
+use std::collections::BTreeMap;
+
+use super::{GoldenLine, GoldenTable};
+
+/// What is known of a golden number.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Certainty {
+    /// The enclosure lies within what rounds to the printed digits.
+    Certified,
+    /// There is no enclosure, for this reason.
+    NotEnclosed(String),
+    /// The enclosure does not lie within it, or there is none and no reason.
+    Wrong(String),
+}
+
+/// Enclosures by table and label, and what has none.
+#[derive(Debug, Clone)]
+pub struct Enclosures {
+    ends: BTreeMap<(String, String), (f64, f64)>,
+    /// Table, part of the label, reason.
+    without: Vec<[String; 3]>,
+}
+
+impl Enclosures {
+    /// From the texts of `verify/data/certified.csv` and `verify/data/not_enclosed.csv`.
+    ///
+    /// # Errors
+    /// A line that is no enclosure, or a second one of a number.
+    pub fn parse(certified: &str, not_enclosed: &str) -> Result<Self, String> {
+        let mut ends = BTreeMap::new();
+        for [table, label, lower, upper] in rows(certified)? {
+            let end = |text: &str| text.parse::<f64>().map_err(|error| format!("certified.csv: {text}: {error}"));
+            // Parsing rounds to nearest: one step outwards holds the decimal.
+            let outwards = (end(&lower)?.next_down(), end(&upper)?.next_up());
+            if ends.insert((table.clone(), label.clone()), outwards).is_some() {
+                return Err(format!("certified.csv has two enclosures of {table}: {label}"));
+            }
+        }
+        Ok(Self { ends, without: rows(not_enclosed)? })
+    }
+
+    /// What is known of a line of a table.
+    pub fn certainty(&self, table: &GoldenTable, line: &GoldenLine) -> Certainty {
+        let printed = line.ours_text();
+        if let Some(&(lower, upper)) = self.ends.get(&(table.name.to_owned(), line.label.clone())) {
+            return match rounds_to(&printed, lower, upper) {
+                true => Certainty::Certified,
+                false => Certainty::Wrong(format!("{printed} printed, enclosed in [{lower:e}, {upper:e}]")),
+            };
+        }
+        let reason = self.without.iter().find(|[name, part, _]| name == table.name && line.label.contains(part));
+        reason.map_or_else(
+            || Certainty::Wrong("neither enclosed nor listed as not enclosed".into()),
+            |[_, _, reason]| Certainty::NotEnclosed(reason.clone()),
+        )
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.ends.len()
+    }
+}
+
+/// The rows of a table after its header, all of `N` columns.
+fn rows<const N: usize>(text: &str) -> Result<Vec<[String; N]>, String> {
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+    let row = |record: csv::StringRecord| {
+        let columns: Vec<String> = record.iter().map(str::to_owned).collect();
+        columns.try_into().map_err(|columns| format!("{columns:?} has not {N} columns"))
+    };
+    reader.records().map(|record| record.map_err(|error| error.to_string()).and_then(row)).collect()
+}
+
+/// Whether all of `[lower, upper]` rounds to the printed number.
+fn rounds_to(printed: &str, lower: f64, upper: f64) -> bool {
+    let within = |from: f64, to: f64| from <= lower && lower <= upper && upper <= to;
+    let Some((mantissa, exponent)) = printed.split_once('e') else {
+        // Written as `0`: below 1e-15.
+        return printed == "0" && within(-1e-15, 1e-15);
+    };
+    let decimals = mantissa.split_once('.').map_or(0, |(_, digits)| digits.len() as i32);
+    let (Ok(value), Ok(exponent)) = (printed.parse::<f64>(), exponent.parse::<i32>()) else { return false };
+    let half_unit = 0.5 * 10f64.powi(exponent - decimals);
+    // Inwards by what forming the ends may have rounded.
+    let slack = 4.0 * f64::EPSILON * value.abs();
+    within(value - half_unit + slack, value + half_unit - slack)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounds_to;
+
+    #[test]
+    fn an_enclosure_beside_the_printed_digits_is_seen() {
+        assert!(rounds_to("7.00993479e-1", 0.700_993_478_6, 0.700_993_479_4));
+        assert!(!rounds_to("7.00993479e-1", 0.700_993_478_4, 0.700_993_479_4));
+        assert!(!rounds_to("7.00993479e-1", 0.700_993_478_6, 0.700_993_479_6));
+        assert!(!rounds_to("-1e-3", f64::NAN, 1.0) && !rounds_to("1e-3", 1e-3, f64::NAN));
+        assert!(!rounds_to("5.14e-4", 5.145e-4, 5.145e-4));
+        assert!(rounds_to("0", -1e-50, 1e-50) && !rounds_to("0", -1e-50, 1e-14) && !rounds_to("NaN", 0.0, 0.0));
+    }
+}

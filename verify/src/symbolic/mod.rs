@@ -1,0 +1,54 @@
+//! Comparison with a second derivation: SymPy derives the equations from the Lagrangian (`verify/symbolic/`), and its exact values at rational
+//! points stand in `verify/data/symbolic.json`. Python is not needed to compare.
+//!
+//! An angle of a point is given by `t = tan(angle / 2)`, so that all that is rational in sines and cosines is rational in `t`. Such kernels are
+//! compared twice: in the prime field, where a rational number has an exact image and nothing is rounded, and in doubles, in units of the last
+//! place of the sum of the magnitudes of their terms. What takes roots or inverse functions is compared in doubles alone.
+
+mod closed_kernels;
+mod compare;
+mod document;
+mod kernels;
+mod point;
+
+pub use compare::{Comparison, compare_doubles, compare_field};
+pub use document::{Document, Layout};
+pub use point::{Coded, RationalPoint};
+
+use crate::conditioned::Conditioned;
+use crate::prime_field::Fp;
+
+/// The file that `verify/symbolic` writes.
+pub const DATA: &str = include_str!("../../data/symbolic.json");
+
+/// A kernel whose values are rational functions of its input, over the three types of numbers that it is compared in.
+#[derive(Clone, Copy)]
+pub struct RationalKernel {
+    /// Name of the quantity in the file.
+    pub name: &'static str,
+    /// Over the prime field.
+    pub field: fn(&RationalPoint<Fp>) -> Vec<Fp>,
+    /// In doubles.
+    pub doubles: fn(&RationalPoint<f64>) -> Vec<f64>,
+    /// With the magnitudes of the terms.
+    pub conditioned: fn(&RationalPoint<Conditioned>) -> Vec<Conditioned>,
+}
+
+/// A kernel with roots or inverse functions: in doubles alone. An error of a kernel is a failure of the comparison.
+#[derive(Clone, Copy)]
+pub struct ClosedKernel {
+    /// Name of the quantity in the file.
+    pub name: &'static str,
+    /// Its components at a point.
+    pub values: fn(&RationalPoint<f64>) -> Result<Vec<f64>, twofold::Error>,
+}
+
+/// All kernels with rational values.
+pub fn rational_kernels() -> Vec<RationalKernel> {
+    kernels::all()
+}
+
+/// All others.
+pub fn closed_kernels() -> Vec<ClosedKernel> {
+    closed_kernels::all()
+}
