@@ -15,7 +15,7 @@ mod taylor;
 mod third_angle;
 
 pub use closed::{AveragedMotion, SymmetricMotion, UniformMotion, largest_torque};
-pub use continuous_angles::ContinuousAngles;
+pub use continuous_angles::{ContinuousAngles, MOST_COUNTED};
 pub(crate) use input::{check_input, check_time};
 pub use many::{AxisScene, axis_states_of_many};
 pub use motion::{AxisMotion, AxisState, Motion};
