@@ -92,7 +92,7 @@ fn is_little_work(command: &Command) -> bool {
         Command::Timing(args) => {
             let samples = args.strain_span.unwrap_or(1.0).abs() * args.strain_rate.unwrap_or(1e3).abs();
             let every = args.every.is_none_or(|days| !(0.0..1.0).contains(&days));
-            let is_refused = |number: f64| !(number <= 1e7);
+            let is_refused = |number: f64| number.is_nan() || number > 1e7;
             let few = args.epochs.is_none_or(|count| count <= 100 || is_refused(count as f64));
             few && every && (samples < 1e4 || is_refused(samples))
         }

@@ -124,9 +124,7 @@ fn numerical(asked: &Asked) {
         return;
     }
     if let Ok(motion) = propagate(body, tensor, state, *span, *accuracy) {
-        if span.0 != span.1 {
-            look_within(&motion, asked);
-        }
+        look_within(&motion, asked);
     }
     let _ = black_box(states_at(body, tensor, state, span.0, &asked.times(), *accuracy, ErrorEstimates::Wanted));
 }
