@@ -48,7 +48,8 @@ fn entry_points(text: &str) -> Vec<String> {
             let function = name(rest);
             // Over several lines `self` may follow.
             let signature = text.split(line).nth(1).unwrap_or("").split(')').next().unwrap_or("");
-            if !signature.contains("self,") && (function == "new" || function == "of" || function.starts_with("from_")) {
+            if !signature.contains("self,") && (function == "new" || function == "of" || function.starts_with("from_"))
+            {
                 found.push(format!("{of}::{function}("));
             }
         }
@@ -82,7 +83,11 @@ fn every_entry_point_is_called_in_an_example() {
         for call in entry_points(text) {
             all += 1;
             if !is_called(&call.replace("::<", "")) && !is_called(&call.replace('(', "::<")) {
-                missing.push(format!("{}: {}", path.strip_prefix(env!("CARGO_MANIFEST_DIR")).expect("inside").display(), call));
+                missing.push(format!(
+                    "{}: {}",
+                    path.strip_prefix(env!("CARGO_MANIFEST_DIR")).expect("inside").display(),
+                    call
+                ));
             }
         }
     }

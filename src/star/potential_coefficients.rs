@@ -16,6 +16,19 @@
 //!
 //! Every term is positive for every shape, so nothing cancels; every step is analytic, so derivatives are as regular as
 //! values; and a step brings the spheroid four times closer to the sphere, where a short series ends the recursion.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::star::potential_coefficients::{potential_coefficients, reduced_difference};
+//! use twofold::star::spheroid_shape::SpheroidShape;
+//!
+//! let shape = SpheroidShape::from_axis_ratio(0.9_f64)?;
+//! let a = potential_coefficients(&shape);
+//! assert!((2.0 * a.a1 + a.a3 - 2.0).abs() < 1e-15 && (a.a1 - 0.81 * a.a3 - a.difference).abs() < 1e-14);
+//! assert!((reduced_difference(&shape) * 0.9 * shape.eccentricity_squared() / a.difference - 1.0).abs() < 1e-14);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use crate::rounding::{two_product, two_sum};
 use crate::scalar::Real;

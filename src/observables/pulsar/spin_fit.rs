@@ -1,4 +1,17 @@
 //! A constant frequency, with or without a spin-down, fitted to numbered arrival times over decades.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::observables::pulsar::SpinFit;
+//!
+//! // Every hundredth of a thousand pulses, 0.1 s apart.
+//! let points: Vec<_> = (0..10).map(|k| (100 * k, [10.0 * k as f64, 0.0])).collect();
+//! let fit = SpinFit::new(&points, false)?;
+//! assert!((fit.frequency[0] - 10.0).abs() < 1e-14 && fit.residuals.iter().all(|late| late.abs() < 1e-14));
+//! assert!((fit.time_of(50)[0] - 5.0).abs() < 1e-14);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use super::timing::check_number;
 use crate::double_double::DoubleDouble;
