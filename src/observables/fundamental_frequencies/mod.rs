@@ -26,7 +26,7 @@
 //! use twofold::observables::fundamental_frequencies::{fundamental_frequencies, mean_rate, mean_rates_about};
 //! use twofold::propagation::propagate;
 //!
-//! let motion = propagate(&star, &s.tensor(), &state, (0.0, 600.0), 1e-9)?;
+//! let motion = propagate(&star, &s.tensor(), &state, (0.0, 3000.0), 1e-12)?;
 //! let found = fundamental_frequencies(&motion)?;
 //! assert!(found.basis()?.generators().len() >= 2);
 //! let same = mean_rates_about(&motion, &found.frame)?;

@@ -202,7 +202,7 @@ impl PulsarClock {
     /// precession since the last call is followed in steps of a quarter radian, a microsecond each, so that numbers have no break.
     ///
     /// # Errors
-    /// [`Error::Domain`] where turns cannot be counted, and for times that are not finite.
+    /// [`Error::Domain`] where turns cannot be counted, for times that are not finite, and after 4e18 turns.
     pub fn pulse_near(&mut self, t: [f64; 2]) -> Result<Option<ClockPulse>, Error> {
         Error::unless((t[0] + t[1]).is_finite(), "time t", t[0] + t[1], "a finite number")?;
         let mean = self.mean.near(t);
