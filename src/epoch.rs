@@ -13,6 +13,18 @@
 //! assert_eq!(start.to_string().parse::<Epoch>()?, start);
 //! # Ok::<(), twofold::Error>(())
 //! ```
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::epoch::Epoch;
+//!
+//! let epoch: Epoch = "55321.25".parse()?;
+//! assert_eq!(epoch, Epoch::new(55321, 0.25)?);
+//! let later = epoch.after([86_400.0, 0.0])?;
+//! assert_eq!((later.day(), later.fraction(), later.seconds_since(&epoch)), (55322, 0.25, [86_400.0, 0.0]));
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use core::fmt;
 use core::str::FromStr;

@@ -2,6 +2,29 @@
 //!
 //! `alpha` is the precession angle (from X to the line of nodes), `beta` the inclination of the symmetry axis to Z,
 //! `gamma` the rotation about the symmetry axis (Landau & Lifshitz, Mechanics, section 35). All in rad.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::euler_angles::{
+//!     EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, body_rates, euler_rates, permuted_from_inertial,
+//!     symmetry_axis, tensor_in_body_frame,
+//! };
+//!
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rotation = body_from_inertial(&angles);
+//! // Rows are the body axes.
+//! assert!((rotation.row(2).transpose() - symmetry_axis(angles.alpha, angles.beta)).amax() < 1e-16);
+//! assert!((angles_from_rotation(&rotation)?.gamma - 0.1).abs() < 1e-15);
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! let omega = body_rates(&angles, &rates);
+//! assert!((euler_rates(&angles, &omega)?.alpha - 1.4).abs() < 1e-14);
+//! // Isotropic tensors are the same in every frame.
+//! let isotropic = nalgebra::Matrix3::identity();
+//! assert!((tensor_in_body_frame(&rotation, &isotropic) - isotropic).amax() < 1e-15);
+//! assert_eq!(permuted_from_inertial::<f64>().determinant(), 1.0);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use nalgebra::{Matrix3, Vector3};
 

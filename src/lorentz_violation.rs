@@ -1,4 +1,31 @@
 //! Coefficients for Lorentz violation `s^IJ`: principal values, principal frame, PPN replacement. Eqs. (3), (5), (36).
+//!
+//! # Example
+//!
+//! ```
+//! use nalgebra::Vector3;
+//! use num_dual::Dual64;
+//! use twofold::lorentz_violation::{
+//!     PrincipalCoefficients, SymmetryOfTensor, coefficients_from_preferred_frame, preferred_frame_parameter, principal_frame,
+//!     principal_frame_along, principal_frame_with_derivatives,
+//! };
+//!
+//! // Eq. (5): a preferred frame that the star moves through at w.
+//! let w = Vector3::new(0.0, 0.0, 1.2e-3);
+//! let s = coefficients_from_preferred_frame(0.1_f64, &w);
+//! assert!((preferred_frame_parameter(&s, &w)? - 0.1).abs() < 1e-12);
+//! assert!(SymmetryOfTensor::of(&s)?.is_symmetric_within_rounding());
+//! // Descending values, and the axes they belong to.
+//! let given = PrincipalCoefficients::new([-0.04, 0.02, 0.01]).tensor();
+//! let frame = principal_frame(&given)?;
+//! assert_eq!(frame.coefficients, PrincipalCoefficients::new([0.02, 0.01, -0.04]));
+//! let (coefficients, _) = principal_frame_with_derivatives(&given)?;
+//! assert_eq!(coefficients, frame.coefficients);
+//! let moving = given.map(Dual64::from_re) * Dual64::new(1.0, 1.0);
+//! let (scaled, _) = principal_frame_along(&moving)?;
+//! assert!((scaled.zz.eps + 0.04).abs() < 1e-15);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use num_dual::Dual64;

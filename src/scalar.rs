@@ -21,6 +21,21 @@
 //! assert_eq!(value, tilt(0.7));
 //! assert!((slope - 2.0 * (2.0 * 0.7_f64).cos()).abs() < 1e-15);
 //! ```
+//!
+//! # Example
+//!
+//! ```
+//! use nalgebra::Vector3;
+//! use num_dual::Dual64;
+//! use twofold::scalar::{constant_vector, length, real_part};
+//!
+//! // The length of (3, 4 + x, 0) and its derivative at x = 0.
+//! let mut v = constant_vector::<Dual64>(&Vector3::new(3.0, 4.0, 0.0));
+//! v.y.eps = 1.0;
+//! let found = length(&v);
+//! assert_eq!((found.re, found.eps), (5.0, 0.8));
+//! assert_eq!(real_part(&v), Vector3::new(3.0, 4.0, 0.0));
+//! ```
 
 use core::ops::{Div, Mul, Neg};
 

@@ -10,6 +10,16 @@
 //! let compactness = (1.4 * SOLAR_MASS) / (10.0 * KILOMETRE); // dimensionless
 //! assert!((compactness - 0.2067).abs() < 1e-4);
 //! ```
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::units::TimeUnit;
+//!
+//! let unit = TimeUnit::new(4.0_f64)?;
+//! assert_eq!((unit.seconds(), unit.in_seconds(3.0), unit.in_t_c(6.0)), (2.0, 6.0, 3.0));
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use crate::error::Error;
 use crate::scalar::Real;

@@ -1,4 +1,17 @@
 //! Euler's equations of a rigid body with any torque. Eq. (63).
+//!
+//! # Example
+//!
+//! ```
+//! use nalgebra::Vector3;
+//! use twofold::dynamics::RigidSpheroid;
+//! use twofold::dynamics::angular_acceleration::angular_acceleration;
+//!
+//! // Free: the angular velocity turns about the symmetry axis at the rate epsilon Omega^z.
+//! let inertia = RigidSpheroid::in_units_of_tc(1.1_f64).inertia();
+//! let rate = angular_acceleration(&inertia, &Vector3::new(0.2, 0.0, 3.0), &Vector3::zeros());
+//! assert!((rate.y - 0.1 * 3.0 * 0.2).abs() < 1e-15 && rate.z == 0.0);
+//! ```
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,24 @@
 //! Equations of motion in Euler angles. Eq. (25).
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations, euler_angle_residuals};
+//!
+//! let spin = rates.gamma + rates.alpha * angles.beta.cos();
+//! let q = AxisAngles { alpha: angles.alpha, beta: angles.beta, alpha_rate: rates.alpha, beta_rate: rates.beta };
+//! let accelerations = euler_angle_accelerations(&star, &s, spin, &q);
+//! let (a, b) = euler_angle_residuals(&star, &s, spin, &q, accelerations);
+//! assert!(a.abs() < 1e-14 && b.abs() < 1e-14);
+//! ```
 
 use crate::dynamics::RigidSpheroid;
 use crate::dynamics::potential::potential_gradient_in_angles;

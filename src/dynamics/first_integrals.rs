@@ -1,4 +1,31 @@
 //! What a motion conserves: the energy, the spin component and a third, quadratic integral. Eq. (24) and beyond.
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use twofold::dynamics::first_integrals::{
+//!     clebsch_integral, energy, energy_in_angles, first_integrals, spin, spin_in_angles, symmetric_adjugate,
+//! };
+//!
+//! let tensor = s.tensor();
+//! let found = first_integrals(&star, &tensor, &state);
+//! assert!((found.energy - energy_in_angles(&star, &s, &angles, &rates)).abs() < 1e-14);
+//! assert!((found.spin - spin_in_angles(&angles, &rates)).abs() < 1e-14);
+//! assert_eq!(found.energy, energy(&star, &tensor, &state.axis, &state.momentum));
+//! assert_eq!(found.spin, spin(&star, &state.axis, &state.momentum));
+//! assert_eq!(found.clebsch, clebsch_integral(&star, &tensor, &state.axis, &state.momentum));
+//! // adj(s) s = det(s).
+//! assert!((symmetric_adjugate(&tensor) * tensor - Matrix3::identity() * tensor.determinant()).amax() < 1e-18);
+//! ```
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -1,4 +1,32 @@
 //! Torque of the anisotropic self-energy. Eq. (66).
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use twofold::dynamics::potential::potential_gradient_in_angles;
+//! use twofold::dynamics::torque::{torque_from_gradient, torque_from_gradient_off_pole, torque_on_body};
+//! use twofold::euler_angles::tensor_in_body_frame;
+//!
+//! let (by_alpha, by_beta) = potential_gradient_in_angles(star.constant_c, &s, angles.alpha, angles.beta);
+//! let gradient = Vector3::new(by_alpha, by_beta, 0.0);
+//! let torque = torque_from_gradient(&angles, &gradient)?;
+//! assert_eq!(torque, torque_from_gradient_off_pole(&angles, &gradient));
+//! assert!(torque_from_gradient(&EulerAngles { beta: 0.0, ..angles }, &gradient).is_err());
+//! // From the tensor U^ij in the body, whose difference U^zz - U^xx is -2 C.
+//! let in_body = tensor_in_body_frame(&state.body_from_inertial(), &s.tensor());
+//! let energies = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, -2.0 * star.constant_c));
+//! assert!((torque_on_body(&in_body, &energies) - torque).amax() < 1e-15);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use nalgebra::{Matrix3, Vector3};
 

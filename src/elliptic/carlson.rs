@@ -11,6 +11,21 @@
 //! Accuracy: a few ulp (2.2e-16) relative to the value, and as much for the first three derivatives relative to their
 //! natural size (value over powers of the argument). Squares of arguments must neither overflow nor underflow. Outside the
 //! domain the result is NaN.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::elliptic::carlson::{rc, rd, rf, rf_of_roots, rj, rj_of_roots};
+//!
+//! // The period of a pendulum of 90 degrees: K(k) = R_F(0, 1 - k^2, 1) with k^2 = 1/2.
+//! assert!((rf(0.0, 0.5, 1.0) - 1.854_074_677_301_372_f64).abs() < 1e-15);
+//! assert!((rc(0.0, 0.25) - core::f64::consts::PI).abs() < 1e-15);
+//! // Equal arguments x give x^(-1/2) and x^(-3/2).
+//! assert!((rd(4.0, 4.0, 4.0_f64) - 0.125).abs() < 1e-16 && (rj(4.0, 4.0, 4.0, 4.0_f64) - 0.125).abs() < 1e-16);
+//! // Arguments 9, 4, 4 by sqrt(x), sqrt(y) + sqrt(z) and sqrt(y z), which stay real where y and z do not.
+//! assert!((rf_of_roots(3.0, 4.0, 4.0) - rf(9.0, 4.0, 4.0_f64)).abs() < 1e-15);
+//! assert!((rj_of_roots(3.0, 4.0, 4.0, 2.0) - rj(9.0, 4.0, 4.0, 2.0_f64)).abs() < 1e-15);
+//! ```
 
 use crate::scalar::Real;
 

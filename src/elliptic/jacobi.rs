@@ -3,6 +3,20 @@
 //!
 //! Written here because no maintained Rust crate has them. The complementary parameter `m1 = 1 - m = k'^2` is the argument,
 //! so that nothing is lost as `m -> 1`; `m1 > 1`, a negative parameter, is allowed.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::elliptic::jacobi::{ArithmeticGeometricMean, complete_integral, jacobi};
+//!
+//! // By the complementary parameter m1 = 1 - k^2, which keeps its digits near the separatrix.
+//! let quarter: f64 = complete_integral(0.5);
+//! assert!((quarter - 1.854_074_677_301_372).abs() < 1e-15);
+//! let end = jacobi(quarter, 0.5);
+//! assert!((end.sn - 1.0).abs() < 1e-15 && end.cn.abs() < 1e-15 && (end.dn - 0.5_f64.sqrt()).abs() < 1e-15);
+//! let mean = ArithmeticGeometricMean::new(1.0, 2.0_f64.sqrt());
+//! assert!((mean.limit() - 1.198_140_234_735_592_f64).abs() < 1e-15);
+//! ```
 
 use core::f64::consts::FRAC_PI_2;
 

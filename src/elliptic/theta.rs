@@ -3,6 +3,22 @@
 //! Their series converge as `q^(n^2)`: three terms serve most parameters, a dozen those within rounding of `k = 1`.
 //!
 //! Written here because no maintained Rust crate has them at complex arguments, without overflow.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::elliptic::jacobi::{complete_integral, jacobi};
+//! use twofold::elliptic::theta::{Nome, ThetaSeries};
+//!
+//! let (m, m1) = (0.3, 0.7_f64);
+//! let nome = Nome::new(m, m1);
+//! let series = ThetaSeries::new(nome.q, 0.5, nome.q / 0.5);
+//! // At z = pi u / (2 K).
+//! let z = 0.4_f64;
+//! let at = series.at(z.sin(), z.cos());
+//! let same = jacobi(z * complete_integral(m1) * core::f64::consts::FRAC_2_PI, m1);
+//! assert!((at.sn - same.sn).abs() < 1e-15 && (at.dn - same.dn).abs() < 1e-15);
+//! ```
 
 use core::f64::consts::PI;
 

@@ -1,4 +1,29 @@
 //! Bounds on Lorentz violation from a spin axis that does not move. Eqs. (40)-(42).
+//!
+//! # Example
+//!
+//! ```
+//! use nalgebra::Vector3;
+//! use twofold::observables::bound::{
+//!     SpinAxisDrift, cos_opening_angle, eta_from_inclination, fluid_inertia_over_c, lambda_change, lambda_change_terms,
+//!     preferred_frame_bound, zeta_change, zeta_change_terms,
+//! };
+//!
+//! // A spin axis that has moved by less than 1e-4 in cos(lambda) over 15 years.
+//! let spin = 4e3_f64;
+//! let drift = SpinAxisDrift { polar_inertia_over_c: fluid_inertia_over_c(spin), spin, interval: 4.7e8, cos_lambda_change: 1e-4 };
+//! let bound = drift.combination_bound(eta_from_inclination(2.5)?)?;
+//! assert!((bound / drift.combination_bound_at(2.5)? - 1.0).abs() < 1e-14);
+//! assert!(preferred_frame_bound(bound, &Vector3::new(0.0, 0.0, 1.2e-3))? > bound);
+//! // What a change of the pulse width says of the line of sight.
+//! let (zeta, chi, width, change) = (1.0_f64, 0.8, 0.3, 1e-4);
+//! let moved = zeta_change(zeta, chi, width, change)?;
+//! assert!((cos_opening_angle(zeta + moved, chi, width + change) - cos_opening_angle(zeta, chi, width)).abs() < 1e-8);
+//! assert!((lambda_change(core::f64::consts::PI - zeta, chi, width, change)? + moved).abs() < 1e-15);
+//! let ([a, b], [c, d]) = (zeta_change_terms(zeta, chi, width), lambda_change_terms(core::f64::consts::PI - zeta, chi, width));
+//! assert!([a, b, c, d].iter().all(|term| term.is_finite()));
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use nalgebra::Vector3;
 

@@ -11,6 +11,29 @@
 //! the asymmetry ratio `r = (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)`: 0 for a tensor symmetric about Z, 1/3 in size for the
 //! most asymmetric one (`s^YY` midway between the others), 1 for one symmetric about X or Y. It does not depend on the size
 //! of `s`. Speeds here are in units of `C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z)`.
+//!
+//! # Example
+//!
+//! ```
+//! use nalgebra::Vector3;
+//! use twofold::lorentz_violation::PrincipalCoefficients;
+//! use twofold::observables::eta::{
+//!     mean_squared_speed, root_mean_square_eta, secular_axis_rate, single_precession_start, squared_speed,
+//!     squared_speed_along_motion,
+//! };
+//!
+//! // About Z alone the axis goes round at constant inclination, and its speed is sin(beta) cos(beta).
+//! let beta = 0.7_f64;
+//! let speed = (beta.sin() * beta.cos()).powi(2);
+//! assert!((squared_speed(0.0, 0.3, beta) - speed).abs() < 1e-15);
+//! assert!((mean_squared_speed(0.0, beta) - speed).abs() < 1e-15);
+//! assert!((squared_speed_along_motion(0.0, 0.3, beta) - speed).abs() < 1e-12);
+//! assert!((root_mean_square_eta(0.0, beta)? - (3.0 / speed).sqrt()).abs() < 1e-14);
+//! assert_eq!(single_precession_start(0.0, 0.3, beta), (0.3, beta));
+//! let s = PrincipalCoefficients::new([0.0, 0.0, 0.02]).tensor();
+//! assert!(secular_axis_rate(1.0, 1.0, &s, &Vector3::new(beta.sin(), 0.0, beta.cos())).z == 0.0);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use nalgebra::{Matrix3, Vector3};
 

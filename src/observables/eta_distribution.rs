@@ -1,4 +1,18 @@
 //! How `eta` of Eq. (41) `[est1]` is distributed over observers and over what is not known of the spin axis.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
+//!
+//! // One speed: eta is uniform in 1/eta.
+//! let one = EtaDistribution::from_speeds([(0.5, 1.0)])?;
+//! assert!((one.probability_above(4.0) - 0.5).abs() < 1e-15 && (one.quantile(0.5)? - 4.0).abs() < 1e-12);
+//! assert!(EtaDistribution::of_unknown_axis(0.0)?.quantile(0.9)? > 10.0);
+//! let beta = 0.7_f64;
+//! assert!((root_mean_square_along_motion(0.0, beta) - 3.0_f64.sqrt() / (beta.sin() * beta.cos())).abs() < 1e-9);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use core::f64::consts::FRAC_PI_2;
 

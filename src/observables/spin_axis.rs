@@ -2,6 +2,36 @@
 //!
 //! The fixed direction is any: from the star to the observer, as `n-hat` in Eq. (46), or the opposite one, from which the
 //! paper counts `lambda` in Eq. (42) `[dela]`. Reversed, `cos lambda` and all its changes reverse their sign.
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use twofold::observables::Observer;
+//! use twofold::observables::spin_axis::{
+//!     changes_from_start, cos_lambda, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
+//! };
+//! use twofold::solutions::perturbation::{Constants, Kind, Perturbation};
+//!
+//! let direction = Observer::at(0.8, 0.4).direction;
+//! let found = cos_lambda(&direction, &state.axis);
+//! assert!((found - cos_lambda_in_angles(0.8, 0.4, angles.alpha, angles.beta)).abs() < 1e-15);
+//! // Eq. (38), to first order in the changes, and per unit of time.
+//! let change = cos_lambda_change(0.8, 0.4, (angles.alpha, angles.beta), (rates.alpha, rates.beta));
+//! assert!((change - cos_lambda_rate(&star, &direction, &state.axis, &state.momentum)).abs() < 1e-14);
+//! let constants = Constants { alpha_0: 0.3, beta_0: 0.7, amplitude: 0.01, phase: 0.0 };
+//! let solution = Perturbation::printed(Kind::Single, &star, &s, 1.0, &constants)?;
+//! assert_eq!(changes_from_start(&solution, 0.0), (0.0, 0.0));
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use nalgebra::Vector3;
 

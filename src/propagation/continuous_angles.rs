@@ -11,6 +11,9 @@ use crate::euler_angles::EulerAngles;
 use crate::propagation::Motion;
 use crate::scalar::{Real, real_part};
 
+/// Largest rotation (rad) of which the turns are counted in one call; it takes minutes.
+pub const MOST_COUNTED: f64 = 1e9;
+
 /// Follows the Euler angles of a motion so that `alpha` and `gamma` count their turns.
 ///
 /// Between two times the motion is halved until neither the symmetry axis, seen from the Z axis, nor the Z axis, seen from
@@ -38,11 +41,20 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
     /// Angles at the time `t`, continued from the last call; `t` may lie on either side of it.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a time outside the span, or on a pole, where the angles do not exist; the next call
-    /// continues.
+    /// [`Error::Domain`] for a time outside the span, for a rotation of more than [`MOST_COUNTED`] since the last call, or on a
+    /// pole, where the angles do not exist; the next call continues.
     pub fn at(&mut self, t: S) -> Result<EulerAngles<S>, Error> {
         let target = t.re();
         let (mut from_time, mut from) = (self.time, self.real_state(self.time)?);
+        let rotation = self.rotation(&from, target - from_time);
+        // Not a number: the states that it comes of are refused below.
+        let countable = rotation.is_nan() || rotation <= MOST_COUNTED;
+        Error::unless(
+            countable,
+            "rotation (rad)",
+            rotation,
+            "at most 1e9 from call to call: turns are counted one by one",
+        )?;
         let mut ends = vec![(target, self.real_state(target)?)];
         while let Some((to_time, to)) = ends.pop() {
             Error::unless(
@@ -72,6 +84,15 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
             beta: angles.beta,
             gamma: angles.gamma + S::from_f64(turns(self.last.gamma - angles.gamma.re())),
         })
+    }
+
+    /// Upper estimate of the rotation (rad) over a time from a state.
+    fn rotation(&self, state: &BodyState<f64>, duration: f64) -> f64 {
+        let spheroid = self.motion.spheroid();
+        let (xx, zz) = (spheroid.inertia_xx.re().abs(), spheroid.inertia_zz.re().abs());
+        let by_violation =
+            (4.0 * spheroid.constant_c.re().abs() * self.motion.violation().map(S::re).norm() / xx).sqrt();
+        (state.momentum.norm() / xx.min(zz) + by_violation) * duration.abs()
     }
 
     fn real_state(&self, t: f64) -> Result<BodyState<f64>, Error> {

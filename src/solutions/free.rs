@@ -1,4 +1,26 @@
 //! Rotation without Lorentz violation, exact at any time. Eq. (48).
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! use twofold::solutions::free::{free_precession_rates, free_rotation, rotated_by};
+//!
+//! // L along Z: alpha and gamma advance steadily.
+//! let rates = free_precession_rates(&star, 1.0, angles.beta)?;
+//! let start = BodyState::from_angles(&star, &angles, &rates);
+//! let later = free_rotation(&star, &start, 2.0);
+//! assert!((later.angles()?.alpha - (angles.alpha + 2.0 * rates.alpha)).sin().abs() < 1e-14);
+//! assert!((rotated_by(&Vector3::new(0.0, 0.0, 1.0), &Vector3::x()).y - 1.0_f64.sin()).abs() < 1e-15);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use nalgebra::Vector3;
 

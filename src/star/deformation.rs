@@ -1,4 +1,16 @@
 //! Centrifugal deformation of a rotating star. Eq. (20).
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::star::deformation::{centrifugal_coefficient, centrifugal_oblateness, centrifugal_oblateness_scaled};
+//! use twofold::units::geometrised::{HERTZ, KILOMETRE, SOLAR_MASS};
+//!
+//! // 1.4 solar masses, 10 km, 100 Hz: in units with G = c = 1, and by the scaled form.
+//! let oblateness = centrifugal_oblateness(100.0 * HERTZ, 10.0 * KILOMETRE, 1.4 * SOLAR_MASS);
+//! assert!((oblateness / centrifugal_coefficient() - 1.0).abs() < 1e-14);
+//! assert!((centrifugal_oblateness_scaled(100.0, 10.0, 1.4) / oblateness - 1.0).abs() < 1e-14);
+//! ```
 
 use core::f64::consts::PI;
 

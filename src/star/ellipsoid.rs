@@ -2,6 +2,19 @@
 //!
 //! The paper treats spheroids. The anisotropic energy `-(1/2) s^ij U^ij` holds for any body; this is the simplest one
 //! without a symmetry axis. Reference: Chandrasekhar, *Ellipsoidal Figures of Equilibrium*, chapter 3.
+//!
+//! # Example
+//!
+//! ```
+//! use nalgebra::Vector3;
+//! use twofold::star::ellipsoid::UniformEllipsoid;
+//!
+//! let body = UniformEllipsoid::new(Vector3::new(1.0, 0.9, 0.8_f64), 1.0)?;
+//! assert!((body.coefficients().sum() - 2.0).abs() < 1e-14);
+//! let inertia = body.moments_of_inertia();
+//! assert!(inertia.x < inertia.y && inertia.y < inertia.z);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use core::f64::consts::PI;
 

@@ -3,6 +3,18 @@
 //! Both are the uniform spheroid at first order in the oblateness. The exact counterparts are
 //! [`UniformSpheroid::polar_inertia_over_c`](crate::star::uniform_spheroid::UniformSpheroid::polar_inertia_over_c) and
 //! [`UniformSpheroid::time_unit`](crate::star::uniform_spheroid::UniformSpheroid::time_unit).
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::star::estimates::{inertia_over_c_estimate, time_unit_estimate};
+//! use twofold::units::geometrised::GRAM_PER_CUBIC_CENTIMETRE;
+//!
+//! let (density, oblateness) = (3e14 * GRAM_PER_CUBIC_CENTIMETRE, 1e-6_f64);
+//! let unit = time_unit_estimate(density, oblateness)?;
+//! assert!((unit.seconds().powi(2) / inertia_over_c_estimate(density, oblateness) - 1.0).abs() < 1e-12);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use core::f64::consts::PI;
 

@@ -1,4 +1,16 @@
 //! Maclaurin spheroid: a uniform fluid in equilibrium, rotating about its axis. Eqs. (14)-(18), (76)-(78).
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::star::maclaurin::MaclaurinSpheroid;
+//! use twofold::star::uniform_spheroid::UniformSpheroid;
+//!
+//! let star = MaclaurinSpheroid::new(UniformSpheroid::from_semi_axes(1.0_f64, 0.9, 1.0)?)?;
+//! assert!(star.rotation_rate() > 0.0 && star.virial_residual().xx.abs() < 1e-13);
+//! assert!(star.pressure(1.0, 0.0).abs() < 1e-15 && star.pressure(0.0, 0.0) == star.central_pressure());
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use core::f64::consts::PI;
 

@@ -22,6 +22,19 @@
 //! ```text
 //! A_1 - q^2 A_3 = 3 (1 + u) - (2 + 3 u) p,   A_0 = 2 p,   p = sqrt(1 + u) ln(q + sqrt(q^2 - 1)),   u = 1 / (q^2 - 1)
 //! ```
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::star::potential_coefficients::{potential_coefficients, reduced_difference};
+//! use twofold::star::spheroid_shape::SpheroidShape;
+//!
+//! let shape = SpheroidShape::from_axis_ratio(0.9_f64)?;
+//! let a = potential_coefficients(&shape);
+//! assert!((2.0 * a.a1 + a.a3 - 2.0).abs() < 1e-15 && (a.a1 - 0.81 * a.a3 - a.difference).abs() < 1e-14);
+//! assert!((reduced_difference(&shape) * 0.9 * shape.eccentricity_squared() / a.difference - 1.0).abs() < 1e-14);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use crate::rounding::{two_product, two_sum};
 use crate::scalar::Real;

@@ -1,4 +1,21 @@
 //! Shape of a spheroid: axis ratio, eccentricity, oblateness. Eqs. (10), (72), (79).
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::star::spheroid_shape::SpheroidShape;
+//!
+//! let shape = SpheroidShape::from_semi_axes(1.0_f64, 0.8)?;
+//! for same in [
+//!     SpheroidShape::from_axis_ratio(0.8)?,
+//!     SpheroidShape::from_eccentricity(0.6)?,
+//!     SpheroidShape::from_eccentricity_squared(0.36)?,
+//!     SpheroidShape::from_oblateness(shape.oblateness())?,
+//! ] {
+//!     assert!((same.axis_ratio() - 0.8).abs() < 1e-14);
+//! }
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use crate::error::Error;
 use crate::rounding::{two_product, two_sum};

@@ -1,4 +1,21 @@
 //! Uniform spheroid: mass, inertia, tensor of the gravitational energy and the constant C. Eqs. (10), (12), (17), (19), (75).
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::star::spheroid_shape::SpheroidShape;
+//! use twofold::star::uniform_spheroid::UniformSpheroid;
+//! use twofold::units::geometrised::{KILOMETRE, SOLAR_MASS};
+//!
+//! let shape = SpheroidShape::from_oblateness(1e-3_f64)?;
+//! let star = UniformSpheroid::from_mass(1.4 * SOLAR_MASS, 12.0 * KILOMETRE, shape)?;
+//! assert!((star.mass() / (1.4 * SOLAR_MASS) - 1.0).abs() < 1e-14 && star.c() > 0.0);
+//! assert!(star.time_unit()?.seconds() > 1e-3);
+//! let same = UniformSpheroid::new(star.equatorial_radius(), star.density(), shape)?;
+//! let again = UniformSpheroid::from_semi_axes(star.equatorial_radius(), star.polar_radius(), star.density())?;
+//! assert!((same.c() / star.c() - 1.0).abs() < 1e-12 && (again.c() / star.c() - 1.0).abs() < 1e-11);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use core::f64::consts::PI;
 

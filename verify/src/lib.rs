@@ -16,6 +16,7 @@ pub mod error_scenes;
 pub mod eta;
 pub mod figures;
 pub mod fit;
+pub mod fuzzing;
 pub mod golden;
 pub mod html_report;
 pub mod identity;

@@ -10,6 +10,32 @@
 //! * `L` itself oscillates with `n`. Where that is more than its own slow circle (tp-I), the azimuth of `L` counts turns of
 //!   `alpha`: its mean rate is that of `alpha`, as the paper says. The slow frequency is there all the same; it is that of `L` averaged
 //!   over the fast rotation.
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use twofold::observables::fundamental_frequencies::{fundamental_frequencies, mean_rate, mean_rates_about};
+//! use twofold::propagation::propagate;
+//!
+//! let motion = propagate(&star, &s.tensor(), &state, (0.0, 3000.0), 1e-12)?;
+//! let found = fundamental_frequencies(&motion)?;
+//! assert!(found.basis()?.generators().len() >= 2);
+//! let same = mean_rates_about(&motion, &found.frame)?;
+//! assert_eq!(same.alpha, found.alpha);
+//! // Of any angle in equal steps.
+//! let steps: Vec<f64> = (0..2000).map(|k| 0.3 * f64::from(k) + (0.1 * f64::from(k)).sin()).collect();
+//! assert!((mean_rate(&steps, 1.0)?.value - 0.3).abs() < 1e-6);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 mod angles;
 mod mean_rate;

@@ -1,4 +1,37 @@
 //! The pulsar period from the rate of the magnetic axis' azimuth. Eqs. (51), (52).
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use twofold::dynamics::regular_equations::angular_velocity;
+//! use twofold::observables::pulsar::Beam;
+//! use twofold::observables::pulsar::period::{
+//!     approximate_period, azimuth_offset_rate, azimuth_offset_rate_off_pole, azimuth_rate, azimuth_rate_off_pole,
+//!     instantaneous_period,
+//! };
+//!
+//! let (chi, delta) = (0.5, 0.2);
+//! let m = Beam::new(chi, delta, 0.6).direction(&state);
+//! let omega = angular_velocity(&star, &state.axis, &state.momentum);
+//! let rate = azimuth_rate(&m, &omega)?;
+//! assert_eq!(rate, azimuth_rate_off_pole(&m, &omega));
+//! assert!(azimuth_rate(&Vector3::z(), &omega).is_err());
+//! assert!((instantaneous_period(rate) - core::f64::consts::TAU / rate.abs()).abs() < 1e-14);
+//! // Eq. (51), for constant inclination.
+//! let offset = azimuth_offset_rate(angles.beta, angles.gamma, rates.gamma, chi, delta)?;
+//! assert_eq!(offset, azimuth_offset_rate_off_pole(angles.beta, angles.gamma, rates.gamma, chi, delta));
+//! assert!(approximate_period(rates.alpha, offset) > 0.0);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use core::f64::consts::TAU;
 

@@ -12,6 +12,43 @@
 //! The printed formula of that model counts clockwise: its angle is `-psi` (J. E. Everett and J. M. Weisberg, Astrophys. J. 553,
 //! 341 (2001)). For a line, such as a polarization, `psi` is known up to half a turn. Nothing in the model asks the star to spin
 //! about a fixed axis: with `Theta(t)` and `Phi(t)` of Eq. (49) `[tranang]` it holds for any motion.
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use twofold::dynamics::regular_equations::angular_velocity;
+//! use twofold::observables::Observer;
+//! use twofold::observables::pulsar::Beam;
+//! use twofold::observables::pulsar::position_angle::{
+//!     position_angle, position_angle_rate, position_angle_rate_off_line_of_sight, rotating_vector_gradient,
+//!     rotating_vector_point, rotating_vector_position_angle, sky_from_inertial,
+//! };
+//!
+//! let observer = Observer::at(0.8, 0.4);
+//! let m = Beam::new(0.5, 0.2, 0.6).direction(&state);
+//! let psi = position_angle(&m, &observer)?;
+//! // In the rotating vector model, from colatitude and azimuth.
+//! let (theta, phi) = (m.z.acos(), m.y.atan2(m.x));
+//! assert!((rotating_vector_position_angle(theta, phi, 0.8, 0.4)? - psi).sin().abs() < 1e-14);
+//! let (x, y) = rotating_vector_point(theta, phi, 0.8, 0.4);
+//! assert!((y.atan2(x) - psi).sin().abs() < 1e-14);
+//! let omega = angular_velocity(&star, &state.axis, &state.momentum);
+//! assert_eq!(position_angle_rate(&m, &omega, &observer)?, position_angle_rate_off_line_of_sight(&m, &omega, &observer));
+//! let (by_theta, by_phi) = rotating_vector_gradient(theta, phi, 0.8, 0.4);
+//! assert!(by_theta.is_finite() && by_phi.is_finite());
+//! // The line of sight is the third axis of the sky.
+//! assert!((sky_from_inertial(&observer) * observer.direction - Vector3::z()).amax() < 1e-15);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -1,4 +1,24 @@
 //! How fast a direction fixed in the body can turn, at any time of a motion.
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use twofold::observables::pulsar::rate_bounds::rate_bounds;
+//!
+//! // No component of a vector of the body changes faster, ever.
+//! let bounds = rate_bounds(&star, &s.tensor(), &state);
+//! let omega = twofold::dynamics::regular_equations::angular_velocity(&star, &state.axis, &state.momentum);
+//! assert!(bounds.first >= omega.norm() && bounds.second >= omega.norm_squared());
+//! ```
 
 use nalgebra::Matrix3;
 

@@ -1,5 +1,19 @@
 //! A constant frequency, with or without a spin-down, fitted to numbered arrival times over decades.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::observables::pulsar::SpinFit;
+//!
+//! // Every hundredth of a thousand pulses, 0.1 s apart.
+//! let points: Vec<_> = (0..10).map(|k| (100 * k, [10.0 * k as f64, 0.0])).collect();
+//! let fit = SpinFit::new(&points, false)?;
+//! assert!((fit.frequency[0] - 10.0).abs() < 1e-14 && fit.residuals.iter().all(|late| late.abs() < 1e-14));
+//! assert!((fit.time_of(50)[0] - 5.0).abs() < 1e-14);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
+use super::timing::check_number;
 use crate::double_double::DoubleDouble;
 use crate::error::Error;
 
@@ -24,10 +38,13 @@ impl SpinFit {
     /// points: residuals have rounding errors of some 1e-16 of the largest distance from the chord.
     ///
     /// # Errors
-    /// [`Error::Domain`] for times that are not finite, or fewer different ones than are fitted.
+    /// [`Error::Domain`] for times that are not finite, numbers above 2^53 in size, or fewer different ones than are fitted.
     pub fn new(points: &[(i64, [f64; 2])], with_rate: bool) -> Result<Self, Error> {
         let wanted = if with_rate { 3.0 } else { 2.0 };
         let mut different: Vec<_> = points.iter().map(|(_, time)| time[0] + time[1]).collect();
+        for &(number, _) in points {
+            check_number(number)?;
+        }
         for time in &different {
             Error::unless(time.is_finite(), "time of arrival", *time, "a finite number")?;
         }

@@ -28,12 +28,13 @@ impl ConstantPeriod {
     /// Numbers and times are counted from their weighted means, so that the residuals keep the digits of the times.
     ///
     /// # Errors
-    /// [`Error::Domain`] unless there is one weight for each point, finite and not negative, times are finite, and two numbers at
-    /// least differ among the points with weight.
+    /// [`Error::Domain`] unless there is one weight for each point, finite and not negative, times are finite, numbers are at most
+    /// 2^53 in size, and two numbers at least differ among the points with weight.
     pub fn fit_weighted(points: &[(i64, f64)], weights: &[f64]) -> Result<Self, Error> {
         let (counted, wanted) = (weights.len() as f64, "one weight for each point");
         Error::unless(weights.len() == points.len(), "number of weights", counted, wanted)?;
-        for (&(_, time), &weight) in points.iter().zip(weights) {
+        for (&(number, time), &weight) in points.iter().zip(weights) {
+            check_number(number)?;
             Error::unless(time.is_finite(), "time of arrival", time, "a finite number")?;
             Error::unless(weight >= 0.0 && weight.is_finite(), "weight", weight, "a finite number, not negative")?;
         }
@@ -56,4 +57,11 @@ impl ConstantPeriod {
             residuals: centred().map(|(number, time)| time - period * number).collect(),
         })
     }
+}
+
+/// Refuses a pulse number that is not exact as a double; differences of others stay within 64 bits.
+pub(super) fn check_number(number: i64) -> Result<(), Error> {
+    const LARGEST: u64 = 1 << 53;
+    let allowed = "a whole number of at most 2^53 in size, which a double holds";
+    Error::unless(number.unsigned_abs() <= LARGEST, "pulse number", number as f64, allowed)
 }

@@ -1,4 +1,33 @@
 //! The pulse train of a motion: every stretch of time with the line of sight inside the beam. Eq. (44).
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use twofold::observables::Observer;
+//! use twofold::observables::pulsar::{Beam, arrivals, propagated_pulse_train, pulse_train};
+//! use twofold::propagation::propagate;
+//!
+//! let (beam, sight) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0).direction);
+//! let span = (0.0, 50.0);
+//! let motion = propagate(&star, &s.tensor(), &state, span, 1e-13)?;
+//! let train = pulse_train(&motion, &beam, &sight, span)?;
+//! assert!(train.periods().count() + 1 == train.durations().count() && train.durations().count() > 5);
+//! let numbered = arrivals(&motion, &beam, &sight, &train)?;
+//! assert!(numbered.windows(2).all(|pair| pair[0].number < pair[1].number));
+//! // The same without keeping the motion.
+//! let (same, _) = propagated_pulse_train(&star, &s.tensor(), &state, span, 1e-13, &beam, &sight)?;
+//! assert_eq!(same.pulses.len(), train.pulses.len());
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -25,6 +25,9 @@ use crate::solutions::mean::{MeanMotion, MeanTurns};
 /// Slow precession (rad) between two looks.
 const STRIDE: f64 = 0.25;
 
+/// Most turns from the start: the sum of two such numbers has 64 bits.
+const MOST_TURNS: u64 = 4_000_000_000_000_000_000;
+
 /// Most strides from one pulse to the next: a second of work.
 const MOST_STRIDES: f64 = 1e6;
 
@@ -171,6 +174,15 @@ impl TurnCount {
             (side * sin).atan2(side * (cos_chi * l.cross(&n).norm_squared() + cos_theta * cos))
         };
         let (momentum, axis) = (turns.about_momentum, turns.about_axis);
+        for turns in [momentum.whole, axis.whole] {
+            let allowed = "at most 4e18 either way, for a number of 64 bits";
+            Error::unless(
+                turns.unsigned_abs() <= MOST_TURNS,
+                "number of turns since the start",
+                turns as f64,
+                allowed,
+            )?;
+        }
         let weight = self.weight();
         Ok(Parts {
             phase,

@@ -1,4 +1,17 @@
 //! The pulse width at constant colatitude of the magnetic axis. Eqs. (53), (55), (56).
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::observables::pulsar::width::{PulseWidth, cosine_of_half_width, edge_azimuths, pulse_width};
+//!
+//! let (rho, theta, theta_o) = (0.6_f64, 0.9, 0.8);
+//! let PulseWidth::Pulsed(width) = pulse_width(rho, theta, theta_o) else { panic!("the beam is seen") };
+//! assert!(((width / 2.0).cos() - cosine_of_half_width(rho, theta, theta_o)).abs() < 1e-14);
+//! let (rise, set) = edge_azimuths(0.0, width);
+//! assert!((set - rise - width).abs() < 1e-15);
+//! assert_eq!(pulse_width(0.1_f64, 0.3, 1.0), PulseWidth::NeverOn);
+//! ```
 
 use crate::scalar::{Real, Scalar};
 

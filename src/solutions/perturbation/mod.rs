@@ -6,6 +6,39 @@
 //!   paper's examples and curves. The twofold one is not right to first order: Eq. (29) `[eleq1]` lacks the term
 //!   `a^2 sin^2(beta_0) beta1`, see [`linearised`].
 //! * [`Perturbation::corrected_twofold`] — the solution of the full first-order equations. Its error is of second order.
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
+//! use twofold::solutions::perturbation::{
+//!     Constants, Kind, Perturbation, constants_from_initial_values, initial_values, shifted_rates,
+//! };
+//!
+//! // tp-I: constants to initial values and back.
+//! let constants = Constants { alpha_0: 0.3, beta_0: 0.7, amplitude: 0.01, phase: 0.5 };
+//! let start = initial_values(Kind::Twofold, &star, &s, 1.0, &constants)?;
+//! let back = constants_from_initial_values(Kind::Twofold, &star, &s, 1.0, &start)?;
+//! assert!((back.beta_0 - constants.beta_0).abs() < 1e-12);
+//! let solution = Perturbation::corrected_twofold(&star, &s, 1.0, &constants)?;
+//! assert!(solution.at(1.0).alpha > start.alpha);
+//! assert!((shifted_rates(&star, &s, 1.0, 0.7)?.alpha - solution.rate).abs() < 1e-12);
+//!
+//! // Eq. (29) lacks a term for twofold precession.
+//! let zeroth = ZerothOrder { kind: Kind::Twofold, spin: 1.0, alpha: 0.3, beta: 0.7 };
+//! let first =
+//!     FirstOrderMotion { beta: 0.01, alpha_rate: 0.0, beta_rate: 0.0, alpha_acceleration: 0.0, beta_acceleration: 0.0 };
+//! assert_ne!(printed_residuals(&star, &s, &zeroth, &first), full_residuals(&star, &s, &zeroth, &first));
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 mod constants;
 mod initial_values;

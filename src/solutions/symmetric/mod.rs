@@ -11,6 +11,27 @@
 //! where the bracket is `(dn/dt)^2`. `P` is a quartic, so that `u` is an elliptic function and the angles are elliptic
 //! integrals of the third kind. The steady precession of Eq. (26) `[sol1]` is the double root, free precession `k = 0`; both
 //! kinds of precession and all between are covered, oscillations through the equator too.
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! use twofold::solutions::symmetric::SymmetricSolution;
+//!
+//! let symmetric = PrincipalCoefficients::new([0.01, 0.01, -0.02]);
+//! let solution = SymmetricSolution::new(&star, &symmetric, &angles, &rates)?;
+//! let (least, largest) = solution.inclinations();
+//! let after = solution.angles(solution.period());
+//! assert!(least <= angles.beta && angles.beta <= largest && (after.beta - angles.beta).abs() < 1e-12);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 mod constant_inclination;
 mod nutation;

@@ -2,6 +2,32 @@
 //!
 //! `(n, L)` has the commuting integrals `H` and `K` ([`clebsch_integral`](crate::dynamics::first_integrals::clebsch_integral)), so it moves on
 //! tori of two dimensions; the turn about `n`, moved by `L.n`, makes the third.
+//!
+//! # Example
+//!
+//! ```
+//! # use nalgebra::{Matrix3, Vector3};
+//! # use twofold::dynamics::{BodyState, RigidSpheroid};
+//! # use twofold::euler_angles::{EulerAngles, EulerRates};
+//! # use twofold::lorentz_violation::PrincipalCoefficients;
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use twofold::dynamics::first_integrals::first_integrals;
+//! use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};
+//!
+//! let frequencies = torus_frequencies(&star, &s, &state)?;
+//! assert!(frequencies.slow != 0.0);
+//! // A state with the same integrals lies on the same torus.
+//! let integrals = first_integrals(&star, &s.tensor(), &state);
+//! let other = states_with_integrals(&star, &s, &integrals)?.states[0];
+//! assert!((torus_frequencies(&star, &s, &other)?.slow / frequencies.slow - 1.0).abs() < 1e-9);
+//! let unstable = separatrix_motion(&star, &s, integrals.energy, integrals.spin)?;
+//! assert!((first_integrals(&star, &s.tensor(), &unstable).energy - integrals.energy).abs() < 1e-9);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 mod flow;
 mod frequencies;

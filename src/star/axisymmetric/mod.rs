@@ -23,6 +23,21 @@
 //! `a (degree + 3/2)^-3` for a density that ends by a jump, and is removed by Richardson's extrapolation from half the
 //! degree; what is left decreases as `degree^-5`. For a uniform spheroid of axis ratio 0.95, 0.6, 2 the relative error of C
 //! at degree 16 is 4e-6, 6e-5, 2e-4, at degree 32 it is 2e-7, 2e-6, 5e-6. For the sphere degree 2 is exact.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::star::axisymmetric::axisymmetric_integrals;
+//! use twofold::star::uniform_spheroid::UniformSpheroid;
+//!
+//! // A sphere whose density falls outwards, by two closures: density and surface.
+//! let sphere = (|r: f64, _: f64| 1.0 - r, |_: f64| (1.0, 0.0));
+//! assert!((axisymmetric_integrals(&sphere, 16)?.mass - core::f64::consts::PI / 3.0).abs() < 1e-12);
+//! let spheroid = UniformSpheroid::from_semi_axes(1.0_f64, 0.9, 1.0)?;
+//! let found = axisymmetric_integrals(&spheroid, 16)?;
+//! assert!((found.c - spheroid.c()).abs() < found.c_error);
+//! # Ok::<(), twofold::Error>(())
+//! ```
 
 mod multipoles;
 

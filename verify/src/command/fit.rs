@@ -5,10 +5,7 @@ use rand::rngs::ChaCha8Rng;
 
 use super::measurement::{Measurement, readable, uncertainties, write_csv};
 use super::{Failure, FitArgs, note, print};
-use crate::inference::{
-    Datum, Fisher, InferenceError, Place, Signal, beside, data_of, fit, is_of_pulses, read_pulses, read_strain,
-    with_noise,
-};
+use crate::inference::{DataFile, Datum, Fisher, InferenceError, Place, Signal, beside, data_of, fit, with_noise};
 
 pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
     let measurement = Measurement::read(&args.measurement)?;
@@ -77,25 +74,26 @@ fn simulated(measurement: &Measurement) -> Result<Vec<Datum>, Failure> {
     data_of(&signal, &events, &measurement.samples()?, &measurement.noise).map_err(refused)
 }
 
-/// The data in files that lie within the span of the scene.
 /// Whether two data are one: of the same kind, number and time, to the last digit.
 fn same(a: &Datum, b: &Datum) -> bool {
     a.observable == b.observable && a.value == b.value && a.place == b.place
 }
 
+/// The data in files that lie within the span of the scene.
 fn read(measurement: &Measurement, files: &[String]) -> Result<Vec<Datum>, Failure> {
     let mut data = Vec::new();
     let signal = Signal::new(&measurement.model, measurement.end).map_err(|error| measurement.refused(error.into()))?;
     let is_long = signal.is_long();
     for file in files {
-        let of_pulses = is_of_pulses(file).map_err(Failure::BadInput)?;
+        let table = DataFile::read(file).map_err(Failure::BadInput)?;
+        let of_pulses = table.is_of_pulses().map_err(Failure::BadInput)?;
         if of_pulses && is_long {
             return Err(Failure::BadInput(format!(
                 "{file}: arrival times of one double each, for a span of more than 1e5 rad of rotation: allowed are --simulate and strains"
             )));
         }
-        let read = if of_pulses { read_pulses } else { read_strain };
-        let more = read(file, &measurement.scene, &measurement.noise).map_err(Failure::BadInput)?;
+        let read = if of_pulses { DataFile::pulses } else { DataFile::strain };
+        let more = read(&table, &measurement.scene, &measurement.noise).map_err(Failure::BadInput)?;
         let first = more.first().copied();
         if let Some(again) = first.filter(|datum| data.iter().any(|other| same(other, datum))) {
             return Err(Failure::BadInput(format!(

@@ -8,6 +8,7 @@ mod figures;
 mod fisher;
 mod fit;
 mod forecast;
+mod fuzzed;
 mod measurement;
 mod output_file;
 mod output_folder;
@@ -24,6 +25,8 @@ mod verify;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
+
+pub use fuzzed::fuzzed_arguments;
 
 use clap::{Args, Parser, Subcommand};
 use twofold::epoch::Epoch;
@@ -447,15 +450,18 @@ enum Failure {
 
 /// Runs the command with the arguments of the process.
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
-        Ok(cli) => cli,
+    match Cli::try_parse() {
+        Ok(cli) => run_command(cli.command.unwrap_or(Command::Verify(VerifyArgs::default()))),
         Err(message) => {
             // Help and version go to standard output with status 0, a misuse to standard error with status 2.
             let _ = message.print();
-            return ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2));
+            ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2))
         }
-    };
-    let result = match cli.command.unwrap_or(Command::Verify(VerifyArgs::default())) {
+    }
+}
+
+fn run_command(command: Command) -> ExitCode {
+    let result = match command {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
         Command::Report(args) => report::report(&args),

@@ -43,9 +43,15 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     let headers = [csv_line(&sweep.header()), csv_line(&sweep.errors_header())];
     let refuse = |error: SpoolError| {
         let advice = if matches!(error, SpoolError::Different(_)) { "; --restart begins anew" } else { "" };
-        Failure::BadInput(format!("{}: {error}{advice}", files.rows.display()))
+        let why = format!("{}: {error}{advice}", files.rows.display());
+        // A disk that is full is no fault of the input.
+        match &error {
+            SpoolError::File(_, error) if is_full(error.kind()) => Failure::Failed(why),
+            _ => Failure::BadInput(why),
+        }
     };
-    let mut spool = Spool::open(files.clone(), &identity, [&headers[0], &headers[1]], scenes.start).map_err(refuse)?;
+    let mut spool =
+        Spool::open(files.clone(), &identity, [&headers[0], &headers[1]], scenes.clone()).map_err(refuse)?;
     let (first, count) = (spool.next(), scenes.end - scenes.start);
     if first > scenes.start {
         note(&format!("{} of {count} scenes are there already", first - scenes.start));
@@ -65,6 +71,10 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     }
     give_names(&mut spool, &out, &errors, (args.force || named_before, format))?;
     if spool.failed() == 0 { Ok(()) } else { Err(some_failed(&args.out)) }
+}
+
+fn is_full(kind: io::ErrorKind) -> bool {
+    matches!(kind, io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge)
 }
 
 fn some_failed(out: &Path) -> Failure {

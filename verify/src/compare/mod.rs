@@ -9,6 +9,7 @@ mod table;
 
 use std::fs;
 use std::path::Path;
+use std::sync::OnceLock;
 
 use allowed::{Allowed, allowed};
 use known::{Content, KNOWN, KnownFile};
@@ -138,6 +139,23 @@ pub fn compare(folder: &Path) -> Result<Comparison, CompareError> {
         absent: absent.iter().map(|known| known.name).collect(),
         not_read: names.into_iter().filter(|name| !known_names.contains(&name.as_str())).collect(),
     })
+}
+
+/// What the comparison of `text` with the rows of a known file says; the first `rows` of them are all that it must have. For
+/// fuzzing: every outcome but a panic is a defined one.
+pub(crate) fn compare_text(kind: usize, text: &str, rows: usize) -> Option<Result<String, String>> {
+    static SHORT: OnceLock<Vec<KnownFile>> = OnceLock::new();
+    const LONGEST: usize = 16;
+    let short = SHORT.get_or_init(|| {
+        let with = |known: &KnownFile, rows| KnownFile { rows, ..*known };
+        KNOWN.iter().flat_map(|known| (1..=LONGEST).map(move |rows| with(known, rows))).collect()
+    });
+    let known = short.get(kind.checked_mul(LONGEST)?.checked_add(rows.checked_sub(1)?)?)?;
+    let compared = table::parse(known.name, text, known).map_err(|fault| fault.to_string()).and_then(|table| {
+        let files = compare_file(known, &table).map_err(|error| error.to_string())?;
+        Ok(Comparison { folder: String::new(), files, absent: Vec::new(), not_read: Vec::new() })
+    });
+    Some(compared.map(|comparison| report::text(&comparison) + &report::json(&comparison)))
 }
 
 fn compare_file(known: &'static KnownFile, table: &Table) -> Result<Vec<ComparedFile>, twofold::Error> {

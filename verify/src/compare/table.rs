@@ -6,6 +6,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::known::KnownFile;
+use crate::scene_file::shortened;
 
 /// Largest file that is read, in bytes; the published ones are below 3 MiB.
 const LARGEST_FILE: u64 = 64 << 20;
@@ -83,7 +84,7 @@ pub(super) fn read(path: &Path, known: &KnownFile) -> Result<Table, FileFault> {
     parse(&name, &text, known)
 }
 
-fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, FileFault> {
+pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, FileFault> {
     let fault = |line, column, message: String| Err(FileFault::at(file, line, column, message));
     let (rows_wanted, columns) = (known.rows, known.columns());
     let width = columns.len() + 1;
@@ -142,9 +143,4 @@ fn words(line: &str) -> impl Iterator<Item = (usize, &str)> {
             Some((column, word))
         })
         .filter(|(_, word)| !word.is_empty())
-}
-
-fn shortened(word: &str) -> String {
-    let clean = word.replace(char::is_control, "\u{fffd}");
-    if clean.chars().count() <= 40 { clean } else { clean.chars().take(37).chain("...".chars()).collect() }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 use std::thread;
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 
 /// Facts about the run, each with its name, in the order in which they are shown.
 #[derive(Debug, Clone)]
@@ -21,10 +21,7 @@ impl Environment {
             ("Compiler", env!("TWOFOLD_RUSTC").to_owned()),
             ("Target", format!("{}, {optimised}", env!("TWOFOLD_TARGET"))),
             ("Processors", thread::available_parallelism().map_or_else(|_| "unknown".to_owned(), |n| n.to_string())),
-            (
-                "Date and time",
-                humantime::format_rfc3339_seconds(SystemTime::now()).to_string().replace(['T', 'Z'], " ") + "UTC",
-            ),
+            ("Date and time", date_and_time(SystemTime::now())),
         ]);
         Self { facts }
     }
@@ -34,6 +31,17 @@ impl Environment {
         let brief = |name: &str| ["Version", "Source", "Date and time"].contains(&name);
         let facts: Vec<_> = self.facts.iter().filter(|(name, _)| brief(name)).map(|(_, fact)| fact.as_str()).collect();
         format!("{}.", facts.join(", "))
+    }
+}
+
+/// The date in UTC, if the clock is one of our time: a machine may wake up in 1969 or in the year 10000.
+fn date_and_time(now: SystemTime) -> String {
+    const YEAR_10000: Duration = Duration::from_secs(253_402_300_800);
+    match now.duration_since(SystemTime::UNIX_EPOCH) {
+        Ok(since) if since < YEAR_10000 => {
+            humantime::format_rfc3339_seconds(now).to_string().replace(['T', 'Z'], " ") + "UTC"
+        }
+        _ => "unknown: the clock of this machine is outside the years 1970 to 9999".to_owned(),
     }
 }
 
@@ -49,4 +57,18 @@ fn source() -> Option<String> {
     let commit = git(&["rev-parse", "HEAD"])?;
     let changes = git(&["status", "--porcelain", "--untracked-files=no", "--", ":/"])?;
     Some(format!("commit {commit}{}", if changes.is_empty() { "" } else { ", with changes not committed" }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_clock_is_told() {
+        let at = |seconds| date_and_time(SystemTime::UNIX_EPOCH + Duration::from_secs(seconds));
+        assert_eq!(at(0), "1970-01-01 00:00:00 UTC");
+        assert_eq!(at(253_402_300_799), "9999-12-31 23:59:59 UTC");
+        assert!(at(253_402_300_800).starts_with("unknown"));
+        assert!(date_and_time(SystemTime::UNIX_EPOCH - Duration::from_secs(1)).starts_with("unknown"));
+    }
 }

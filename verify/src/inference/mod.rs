@@ -25,7 +25,7 @@ mod symmetry;
 mod unknown;
 
 pub use coverage::{Case, Coverage, Score};
-pub use data_file::{is_of_pulses, read_pulses, read_strain};
+pub use data_file::DataFile;
 pub use degenerate::Direction;
 pub use error::InferenceError;
 pub use fisher::Fisher;

@@ -310,7 +310,7 @@ pub(crate) fn listed(names: &[&str]) -> String {
 }
 
 /// The text on one line, without control characters, cut after 40 characters.
-fn shortened(text: &str) -> String {
+pub(crate) fn shortened(text: &str) -> String {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ").replace(char::is_control, "\u{fffd}");
     if line.chars().count() <= 40 { line } else { line.chars().take(37).chain("...".chars()).collect() }
 }

@@ -13,6 +13,9 @@ use super::spool::{Spool, SpoolError};
 /// Time between two marks in the journal: what an interruption costs at most, besides the chunks in work.
 const BETWEEN_MARKS: Duration = Duration::from_millis(250);
 
+/// Bytes between two marks at most, whatever the clock says: one that stands still would leave a sweep without any.
+const BYTES_BETWEEN_MARKS: usize = 16 << 20;
+
 /// Chunks in work or waiting for their turn to be written, per thread; it bounds the memory.
 const CHUNKS_PER_THREAD: usize = 8;
 
@@ -43,7 +46,7 @@ pub fn compute(
     let (mut dispatched, mut written) = (spool.next(), spool.next());
     let (results, finished) = channel();
     let mut waiting = BTreeMap::new();
-    let mut last_mark = Instant::now();
+    let (mut last_mark, mut bytes) = (Instant::now(), 0);
     threads.in_place_scope(|scope| {
         let mut in_work = 0;
         loop {
@@ -65,12 +68,13 @@ pub fn compute(
                 let ChunkText { rows, errors, failed } =
                     text.map_err(|error| SpoolError::File(spool.files().rows.clone(), error.into()))?;
                 spool.append(next, [&rows, &errors], failed)?;
+                bytes += rows.len() + errors.len();
                 written = next;
                 progress(written);
             }
-            if last_mark.elapsed() > BETWEEN_MARKS {
+            if last_mark.elapsed() > BETWEEN_MARKS || bytes > BYTES_BETWEEN_MARKS {
                 spool.commit()?;
-                last_mark = Instant::now();
+                (last_mark, bytes) = (Instant::now(), 0);
             }
         }
         Ok(())

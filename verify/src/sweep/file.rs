@@ -37,7 +37,23 @@ impl SweepText {
     /// # Errors
     /// A file that cannot be read or is not TOML.
     pub fn read(path: &str) -> Result<Self, SceneError> {
-        let text = SWEEP.read(path)?;
+        Self::with(path, SWEEP.read(path)?, |name| match BUILT_IN.iter().find(|scene| scene.name == name) {
+            Some(built_in) => Ok((name.to_owned(), built_in.toml.to_owned())),
+            None => {
+                let file = Path::new(path).parent().unwrap_or(Path::new("")).join(name);
+                let file = file.to_string_lossy().into_owned();
+                let text = SCENE.read(&file)?;
+                Ok((file, text))
+            }
+        })
+    }
+
+    /// A sweep file whose text is known, and what `find` has under the name of its scene, a name for messages and a text.
+    pub(crate) fn with(
+        path: &str,
+        text: String,
+        find: impl FnOnce(&str) -> Result<(String, String), SceneError>,
+    ) -> Result<Self, SceneError> {
         let name = SWEEP.parse(path, &text, |document| {
             Ok(document
                 .optional("scene")
@@ -46,15 +62,7 @@ impl SweepText {
                 .transpose()?
                 .map(String::from))
         })?;
-        let scene = name.map(|name| match BUILT_IN.iter().find(|scene| scene.name == name) {
-            Some(built_in) => Ok((name, built_in.toml.to_owned())),
-            None => {
-                let file = Path::new(path).parent().unwrap_or(Path::new("")).join(&name);
-                let file = file.to_string_lossy().into_owned();
-                let text = SCENE.read(&file)?;
-                Ok((file, text))
-            }
-        });
+        let scene = name.map(|name| find(&name));
         Ok(Self { file: path.to_owned(), text, scene: scene.transpose()? })
     }
 }

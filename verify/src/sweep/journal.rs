@@ -2,6 +2,7 @@
 //! line that is torn ends what counts.
 
 use std::io::Read;
+use std::ops::Range;
 
 use serde_json::{Value, json};
 
@@ -66,6 +67,11 @@ impl Mark {
         })
     }
 
+    /// Whether a table of `scenes` can be at this mark.
+    pub(super) fn is_of(&self, scenes: &Range<u64>) -> bool {
+        scenes.start <= self.next && self.next <= scenes.end && self.failed <= self.next - scenes.start
+    }
+
     fn from_value(value: &Value) -> Option<Self> {
         let stretch = |value: &Value| {
             let checksum = u32::try_from(value[1].as_u64()?).ok()?;
@@ -78,6 +84,22 @@ impl Mark {
             errors: stretch(&value["errors"])?,
         })
     }
+}
+
+/// The journal `bytes` with the digits of its number `number` in line `line` replaced and the line signed anew: what is no accident.
+/// For fuzzing.
+pub(crate) fn signed_again(bytes: &[u8], line: usize, number: usize, digits: &[u8]) -> Vec<u8> {
+    let mut lines: Vec<Vec<u8>> = bytes.split_inclusive(|byte| *byte == b'\n').map(<[u8]>::to_vec).collect();
+    let Some(place) = lines.get_mut(line).filter(|line| line.len() > 9) else { return bytes.to_vec() };
+    let mut text = place[9..].to_vec();
+    let is_digit = |at: usize| text[at].is_ascii_digit();
+    let starts = (0..text.len()).filter(|&at| is_digit(at) && !text[..at].last().is_some_and(u8::is_ascii_digit));
+    let Some(start) = starts.into_iter().nth(number) else { return bytes.to_vec() };
+    let end = (start..text.len()).find(|&at| !is_digit(at)).unwrap_or(text.len());
+    text.splice(start..end, digits.iter().copied());
+    let Ok(value) = serde_json::from_slice(&text) else { return bytes.to_vec() };
+    *place = self::line(&value);
+    lines.concat()
 }
 
 impl Journal {

@@ -22,6 +22,7 @@ mod spool;
 pub use engine::{Done, compute};
 pub use file::SweepText;
 pub use identity::Identity;
+pub(crate) use journal::signed_again;
 pub use merge::{MergeError, csv_line, merge};
 pub use shard::Shard;
 pub use spool::{Spool, SpoolError, SpoolFiles};
@@ -81,6 +82,16 @@ impl Sweep<'_> {
     fn scene(&self, parameters: &[f64]) -> Result<Scene, String> {
         let scene = self.base.scene(&self.parameters.keys, parameters, &self.outputs.times)?;
         Ok(Scene { accuracy: self.accuracy, ..scene })
+    }
+
+    /// The lines of the table and of that of errors for one scene, if it is little work. For fuzzing.
+    pub(crate) fn row_if_small(&self, number: u64) -> Option<[Vec<u8>; 2]> {
+        let scene = self.scene(&self.parameters.of_scene(number));
+        if scene.is_ok_and(|scene| !crate::fuzzing::is_small(&scene)) {
+            return None;
+        }
+        let chunk::ChunkText { rows, errors, .. } = chunk::chunk_text(self, number..number + 1).ok()?;
+        Some([rows, errors])
     }
 
     /// Scenes that are computed together. It decides about speed and memory, not about results: a chunk is about a quarter of a

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crc32fast::Hasher;
@@ -95,12 +96,17 @@ impl SpoolFiles {
 }
 
 impl Spool {
-    /// Begins a table with two headers, or continues the part of it that is there: up to the last mark at which both files are
+    /// Begins a table of `scenes` with two headers, or continues the part of it that is there: up to the last mark at which both files are
     /// as the journal says. The files are locked for other processes, where the file system can do that.
     ///
     /// # Errors
     /// See [`SpoolError`].
-    pub fn open(files: SpoolFiles, identity: &Identity, headers: [&[u8]; 2], first: u64) -> Result<Self, SpoolError> {
+    pub fn open(
+        files: SpoolFiles,
+        identity: &Identity,
+        headers: [&[u8]; 2],
+        scenes: Range<u64>,
+    ) -> Result<Self, SpoolError> {
         let unknown = !files.journal.exists();
         let mut journal_file = open(&files.journal)?;
         if matches!(journal_file.try_lock(), Err(fs::TryLockError::WouldBlock)) {
@@ -115,6 +121,10 @@ impl Spool {
         if let Some(difference) = difference {
             return Err(SpoolError::Different(difference));
         }
+        if let Some((mark, _)) = journal.marks.iter().find(|(mark, _)| !mark.is_of(&scenes)) {
+            let (next, failed) = (mark.next, mark.failed);
+            return Err(SpoolError::Different(format!("its journal speaks of scene {next} and {failed} that failed")));
+        }
         let (rows, errors) = (open(&files.rows)?, open(&files.errors)?);
         let intact = [(&rows, &files.rows), (&errors, &files.errors)].map(|(file, path)| (file, refused(path)));
         let [(rows_file, rows_refused), (errors_file, errors_refused)] = intact;
@@ -124,14 +134,14 @@ impl Spool {
             .min(intact_stretches(errors_file, &lengths(|mark| mark.errors)).map_err(errors_refused)?);
         let complete = journal.complete && good == journal.marks.len();
         let last = good.checked_sub(1).map(|last| journal.marks[last]);
-        let (mark, journal_length) = last.unwrap_or((Mark { next: first, ..Mark::default() }, 0));
+        let (mark, journal_length) = last.unwrap_or((Mark { next: scenes.start, ..Mark::default() }, 0));
         let rows = Growing::from(rows, &files.rows, mark.rows.length)?;
         let errors = Growing::from(errors, &files.errors, mark.errors.length)?;
         truncate(&mut journal_file, journal_length).map_err(refused(&files.journal))?;
         let mut spool = Self { files, rows, errors, journal: journal_file, mark, complete: false };
         if last.is_none() {
             spool.write_line(identity.facts())?;
-            spool.append(first, headers, 0)?;
+            spool.append(scenes.start, headers, 0)?;
             spool.commit()?;
         }
         if complete {
@@ -278,7 +288,7 @@ mod tests {
     /// Continues the table in `folder` up to `chunks` chunks, each of ten scenes, with a mark after each.
     fn grow(folder: &Path, text: &str, chunks: usize) -> Result<u64, SpoolError> {
         let files = SpoolFiles::of(&folder.join("a.csv"));
-        let mut spool = Spool::open(files, &identity(text), [b"head\n", b"errors\n"], 0)?;
+        let mut spool = Spool::open(files, &identity(text), [b"head\n", b"errors\n"], 0..40)?;
         let begun = spool.next();
         assert_eq!(begun % 10, 0);
         for chunk in begun / 10..chunks as u64 {
@@ -341,7 +351,7 @@ mod tests {
         );
         assert_eq!(bytes(folder), before);
         let files = SpoolFiles::of(&folder.join("a.csv"));
-        let open = || Spool::open(files.clone(), &identity("one\ntwo"), [b"head\n", b"errors\n"], 0);
+        let open = || Spool::open(files.clone(), &identity("one\ntwo"), [b"head\n", b"errors\n"], 0..40);
         let first = open().expect("a table");
         assert!(matches!(open(), Err(SpoolError::InUse)));
         assert!(matches!(files.discard(), Err(SpoolError::InUse)));

@@ -1,0 +1,83 @@
+//! Bytes read as a choice of cases and as numbers of every kind.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Bytes that are read from the front; beyond their end are zeros.
+pub(super) struct Bytes<'a>(&'a [u8]);
+
+/// Numbers at which formulas turn: zeros, signs, ends of ranges, poles, what is not a number.
+const SPECIAL: [f64; 32] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::MIN_POSITIVE,
+    5e-324,
+    -5e-324,
+    f64::MAX,
+    f64::MIN,
+    f64::EPSILON,
+    1.0 - f64::EPSILON / 2.0,
+    1.0 + f64::EPSILON,
+    PI,
+    FRAC_PI_2,
+    TAU,
+    -PI,
+    0.577_350_269_189_625_8,
+    1.0 / 3.0,
+    0.5,
+    2.0,
+    1e-8,
+    1e-16,
+    1e-160,
+    1e160,
+    1e15,
+    1e-13,
+    1e300,
+    1.1,
+    0.02,
+];
+
+impl<'a> Bytes<'a> {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        Self(bytes)
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub(super) fn byte(&mut self) -> u8 {
+        let (first, rest) = self.0.split_first().unwrap_or((&0, &[]));
+        self.0 = rest;
+        *first
+    }
+
+    /// A whole number below `end`, of two bytes.
+    pub(super) fn below(&mut self, end: usize) -> usize {
+        (usize::from(self.byte()) << 8 | usize::from(self.byte())) % end.max(1)
+    }
+
+    /// A special number, one of any bits, or one of ordinary size with its sign.
+    pub(super) fn number(&mut self) -> f64 {
+        match self.byte() {
+            kind @ 0..64 => SPECIAL[usize::from(kind) % SPECIAL.len()],
+            64..96 => f64::from_bits(u64::from_le_bytes(std::array::from_fn(|_| self.byte()))),
+            96..128 => self.ordinary() * 10f64.powi(i32::from(self.byte() as i8)),
+            _ => self.ordinary(),
+        }
+    }
+
+    /// From -4 to 4.
+    fn ordinary(&mut self) -> f64 {
+        f64::from(u16::from_le_bytes([self.byte(), self.byte()]) as i16) / 8192.0
+    }
+
+    /// A number such as scenes have, mostly: from -4 to 4.
+    pub(super) fn usual(&mut self) -> f64 {
+        if self.byte() < 32 { self.number() } else { self.ordinary() }
+    }
+}

@@ -1,0 +1,368 @@
+//! The public functions of the model with numbers of every kind.
+
+use std::hint::black_box;
+
+use nalgebra::{Matrix3, Vector3};
+use twofold::dynamics::first_integrals::first_integrals;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::elliptic::carlson::{rc, rd, rf, rj};
+use twofold::elliptic::jacobi::{complete_integral, jacobi};
+use twofold::epoch::Epoch;
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame};
+use twofold::observables::Observer;
+use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination, lambda_change, zeta_change};
+use twofold::observables::eta_distribution::EtaDistribution;
+use twofold::observables::fundamental_frequencies::fundamental_frequencies;
+use twofold::observables::pulsar::timing::ConstantPeriod;
+use twofold::observables::pulsar::width::pulse_width;
+use twofold::observables::pulsar::{Beam, PulsarClock, SpinFit, arrivals, propagated_pulse_train, pulse_train};
+use twofold::observables::spectrum::{FrequencyBasis, Generator, Series, Window, amplitude_spectrum, spectral_lines};
+use twofold::plan::{Method, Output, Plan, Request};
+use twofold::propagation::splitting::{
+    SCHEMES, propagate_by_best_splitting, propagate_orientation_by_splitting, splitting_forecast,
+};
+use twofold::propagation::{
+    AveragedMotion, AxisMotion, AxisScene, AxisState, ContinuousAngles, ErrorEstimates, Motion, SymmetricMotion,
+    UniformMotion, axis_states_of_many, propagate, states_at, taylor_forecast,
+};
+use twofold::solutions::free::free_precession_rates;
+use twofold::solutions::mean::slow_precession::slow_precession;
+use twofold::solutions::mean::{MeanOrder, middle_axis_growth};
+use twofold::solutions::perturbation::{Constants, Kind, Perturbation, constants_from_initial_values, shifted_rates};
+use twofold::solutions::steady::steady_precession_rate;
+use twofold::solutions::symmetric::SymmetricSolution;
+use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};
+use twofold::star::maclaurin::MaclaurinSpheroid;
+use twofold::star::potential_coefficients::potential_coefficients;
+use twofold::star::spheroid_shape::SpheroidShape;
+use twofold::star::uniform_spheroid::UniformSpheroid;
+use twofold::units::TimeUnit;
+
+use super::bytes::Bytes;
+
+/// Rotation (rad) up to which a motion is computed, and beyond which it must be refused at once.
+const LITTLE: f64 = 300.0;
+const REFUSED: f64 = 1e13;
+
+/// A scene as bytes give it, and what is asked of it.
+struct Asked {
+    body: RigidSpheroid<f64>,
+    s: PrincipalCoefficients<f64>,
+    tensor: Matrix3<f64>,
+    angles: EulerAngles<f64>,
+    rates: EulerRates<f64>,
+    state: BodyState<f64>,
+    span: (f64, f64),
+    accuracy: f64,
+    beam: Beam<f64>,
+    observer: Observer<f64>,
+}
+
+impl Asked {
+    fn new(bytes: &mut Bytes<'_>) -> Self {
+        let mut next = || bytes.usual();
+        let body = RigidSpheroid {
+            inertia_xx: 1.0 + next() * 0.2,
+            inertia_zz: 1.0 + next() * 0.2,
+            constant_c: 1.0 + next() * 0.2,
+        };
+        let s = PrincipalCoefficients::new([next() * 0.1, next() * 0.1, next() * 0.1]);
+        let angles = EulerAngles { alpha: next(), beta: next(), gamma: next() };
+        let rates = EulerRates { alpha: next(), beta: next(), gamma: next() };
+        let turn = twofold::euler_angles::body_from_inertial(&EulerAngles { alpha: next(), beta: next(), gamma: 0.0 });
+        let state = BodyState::from_angles(&body, &angles, &rates);
+        let tensor = turn.transpose() * s.tensor() * turn;
+        let span = (next() * 10.0, next() * 10.0);
+        let (beam, observer) = (Beam::new(next(), next(), next()), Observer::at(next(), next()));
+        let exponent = f64::from(bytes.byte() % 20);
+        Self { body, s, tensor, angles, rates, state, span, accuracy: 10f64.powf(-exponent), beam, observer }
+    }
+
+    /// Whether its motion is little work, or so much that it must be refused.
+    fn is_moderate(&self) -> bool {
+        let Self { body, state, tensor, span, .. } = self;
+        let rate = state.momentum.norm() / body.inertia_xx.min(body.inertia_zz).abs() + tensor.norm().sqrt();
+        let rate = rate.max((body.constant_c.abs() * tensor.norm() / body.inertia_xx.abs()).sqrt() * 2.0);
+        let rotation = (span.1 - span.0).abs() * rate;
+        rotation.is_nan() || rotation <= LITTLE || rotation >= REFUSED
+    }
+
+    fn times(&self) -> [f64; 3] {
+        let (from, to) = self.span;
+        [from, from + (to - from) * 0.37, to]
+    }
+}
+
+/// A case by the first byte, its numbers by the others. Everything ends, with a result or an error.
+pub fn model(bytes: &[u8]) {
+    let mut bytes = Bytes::new(bytes);
+    match bytes.byte() % 16 {
+        0 => numerical(&Asked::new(&mut bytes)),
+        1 => by_splitting(&Asked::new(&mut bytes), bytes.byte()),
+        2 => closed(&Asked::new(&mut bytes)),
+        3 => planned(&Asked::new(&mut bytes), &mut bytes),
+        4 => pulses(&Asked::new(&mut bytes)),
+        5 => clock(&Asked::new(&mut bytes), bytes.number()),
+        6 => solutions(&Asked::new(&mut bytes), bytes.number()),
+        7 => torus(&Asked::new(&mut bytes), &mut bytes),
+        8 => stars(&mut bytes),
+        9 => elliptic(&mut bytes),
+        10 => bounds(&mut bytes),
+        11 => spectra(&mut bytes),
+        12 => timing(&mut bytes),
+        13 => many(&mut bytes),
+        14 => frequencies(&Asked::new(&mut bytes)),
+        _ => tensors(&mut bytes),
+    }
+}
+
+fn numerical(asked: &Asked) {
+    let Asked { body, tensor, state, span, accuracy, .. } = asked;
+    let _ = black_box(taylor_forecast(body, tensor, state, true, span.1 - span.0, *accuracy));
+    if !asked.is_moderate() {
+        return;
+    }
+    if let Ok(motion) = propagate(body, tensor, state, *span, *accuracy) {
+        look_within(&motion, asked);
+    }
+    let _ = black_box(states_at(body, tensor, state, span.0, &asked.times(), *accuracy, ErrorEstimates::Wanted));
+}
+
+/// A motion is asked within its span only.
+fn look_within<M: Motion<f64>>(motion: &M, asked: &Asked) {
+    for time in asked.times() {
+        let _ = black_box((motion.state(time), motion.error_estimate(time)));
+    }
+    let _ = black_box(motion.state(f64::NAN));
+    if !asked.is_moderate() {
+        return;
+    }
+    if let Ok(mut angles) = ContinuousAngles::new(motion, asked.span.0, &asked.angles) {
+        let _ = black_box(angles.at(asked.span.1));
+    }
+}
+
+fn by_splitting(asked: &Asked, scheme: u8) {
+    let Asked { body, tensor, state, span, accuracy, .. } = asked;
+    let axis = AxisState::from(state);
+    let _ = black_box(splitting_forecast(body, tensor, &axis, *span, *accuracy));
+    if !asked.is_moderate() {
+        return;
+    }
+    if let Ok(motion) = propagate_by_best_splitting(body, tensor, &axis, *span, *accuracy) {
+        let _ = black_box((motion.axis_state(span.1), motion.error_estimate(span.1)));
+    }
+    let scheme = SCHEMES[usize::from(scheme) % SCHEMES.len()];
+    let step = (span.1 - span.0).abs() / 50.0;
+    if let Ok(motion) = propagate_orientation_by_splitting(body, tensor, state, *span, scheme, step) {
+        look_within(&motion, asked);
+    }
+}
+
+fn closed(asked: &Asked) {
+    let Asked { body, tensor, state, span, .. } = asked;
+    if let Ok(motion) = UniformMotion::steady(body, tensor, state, *span) {
+        look_within(&motion, asked);
+    }
+    if let Ok(motion) = SymmetricMotion::new(body, tensor, state, *span) {
+        look_within(&motion, asked);
+    }
+    for order in [MeanOrder::First, MeanOrder::Second] {
+        if let Ok(motion) = AveragedMotion::new(body, tensor, state, *span, order) {
+            look_within(&motion, asked);
+        }
+    }
+}
+
+fn planned(asked: &Asked, bytes: &mut Bytes<'_>) {
+    let Asked { body, tensor, state, span, accuracy, .. } = asked;
+    let wanted = bytes.below(1 << 14);
+    let outputs: Vec<_> =
+        Output::ALL.into_iter().enumerate().filter(|(i, _)| wanted >> i & 1 == 1).map(|(_, o)| o).collect();
+    let method = Method::ALL.get(bytes.below(12)).copied();
+    let request = Request { method, ..Request::new(&outputs, *span, bytes.below(1000), *accuracy) };
+    let Ok(plan) = Plan::new(body, tensor, state, &request) else { return };
+    let _ = black_box(format!("{plan:?}"));
+    let is_closed = plan.method.is_some_and(Method::is_closed_form);
+    if !is_closed && !asked.is_moderate() {
+        return;
+    }
+    if let Ok(motion) = plan.axis_motion(body, tensor, state) {
+        let _ = black_box((motion.axis_state(span.1), motion.error_estimate(span.1)));
+    }
+    if let Ok(motion) = plan.motion(body, tensor, state) {
+        let _ = black_box((motion.state(span.1), motion.error_estimate(span.1)));
+    }
+}
+
+fn pulses(asked: &Asked) {
+    let Asked { body, tensor, state, span, accuracy, beam, observer, .. } = asked;
+    if !asked.is_moderate() {
+        return;
+    }
+    let sight = observer.direction;
+    let _ = black_box(propagated_pulse_train(body, tensor, state, *span, *accuracy, beam, &sight));
+    let Ok(motion) = propagate(body, tensor, state, *span, *accuracy) else { return };
+    if let Ok(train) = pulse_train(&motion, beam, &sight, *span) {
+        let _ =
+            black_box((train.periods().count(), train.durations().count(), arrivals(&motion, beam, &sight, &train)));
+    }
+}
+
+fn clock(asked: &Asked, time: f64) {
+    let Asked { body, tensor, state, beam, observer, .. } = asked;
+    if let Ok(mut clock) = PulsarClock::new(body, tensor, state, beam, observer, MeanOrder::Second) {
+        let _ = black_box((clock.period(), clock.truncation(time)));
+        for time in [[0.0, 0.0], [time, 0.0], [time, time * 1e-17]] {
+            let _ = black_box(clock.pulse_near(time));
+        }
+    }
+}
+
+fn solutions(asked: &Asked, time: f64) {
+    let Asked { body, s, angles, rates, state, .. } = asked;
+    let spin = rates.gamma;
+    let _ = black_box((free_precession_rates(body, spin, angles.beta), shifted_rates(body, s, spin, angles.beta)));
+    let constants = Constants { alpha_0: angles.alpha, beta_0: angles.beta, amplitude: rates.alpha, phase: rates.beta };
+    for kind in [Kind::Twofold, Kind::Single] {
+        let _ = black_box(steady_precession_rate(kind, body, s, spin, angles.beta));
+        if let Ok(solution) = Perturbation::printed(kind, body, s, spin, &constants) {
+            let _ = black_box(solution.at(time));
+            let _ = black_box(constants_from_initial_values(kind, body, s, spin, &solution.at(0.0)));
+        }
+    }
+    let _ = black_box(Perturbation::corrected_twofold(body, s, spin, &constants).map(|solution| solution.at(time)));
+    let symmetric = PrincipalCoefficients { yy: s.xx, ..*s };
+    if let Ok(solution) = SymmetricSolution::new(body, &symmetric, angles, rates) {
+        let _ = black_box((solution.angles(time), solution.rates(time), solution.period(), solution.mean_rates()));
+    }
+    let _ = black_box(slow_precession(body, s, &state.momentum, &state.axis));
+    let _ = black_box(middle_axis_growth(body, s, spin, angles.alpha, MeanOrder::Second));
+}
+
+fn torus(asked: &Asked, bytes: &mut Bytes<'_>) {
+    let Asked { body, s, state, .. } = asked;
+    let _ = black_box(torus_frequencies(body, s, state));
+    let mut integrals = first_integrals(body, &s.tensor(), state);
+    let _ = black_box(states_with_integrals(body, s, &integrals));
+    integrals.energy = bytes.number();
+    let _ = black_box(states_with_integrals(body, s, &integrals));
+    let _ = black_box(separatrix_motion(body, s, bytes.number(), bytes.number()));
+}
+
+fn stars(bytes: &mut Bytes<'_>) {
+    let mut next = || bytes.number();
+    let shapes = [
+        SpheroidShape::from_eccentricity(next()),
+        SpheroidShape::from_eccentricity_squared(next()),
+        SpheroidShape::from_axis_ratio(next()),
+        SpheroidShape::from_semi_axes(next(), next()),
+        SpheroidShape::from_oblateness(next()),
+    ];
+    for shape in shapes.into_iter().flatten() {
+        let _ = black_box(potential_coefficients(&shape));
+        for star in [UniformSpheroid::new(next(), next(), shape), UniformSpheroid::from_mass(next(), next(), shape)] {
+            let Ok(star) = star else { continue };
+            let _ = black_box((star.c(), star.time_unit(), star.polar_inertia_over_c(), star.moment_of_inertia()));
+            let _ = black_box(MaclaurinSpheroid::new(star).map(|star| star.pressure(1.0, 1.0)));
+        }
+    }
+    let _ = black_box(TimeUnit::new(next()));
+    let day = next();
+    if let Ok(epoch) = Epoch::new(day as i64, next()) {
+        let _ = black_box(epoch.after([next(), next()]).map(|after| after.to_string().parse::<Epoch>()));
+    }
+}
+
+fn elliptic(bytes: &mut Bytes<'_>) {
+    let [x, y, z, p] = std::array::from_fn(|_| bytes.number());
+    let _ = black_box((rf(x, y, z), rc(x, y), rd(x, y, z), rj(x, y, z, p)));
+    let _ = black_box((complete_integral(x), jacobi(y, z)));
+}
+
+fn bounds(bytes: &mut Bytes<'_>) {
+    let mut next = || bytes.number();
+    let drift =
+        SpinAxisDrift { polar_inertia_over_c: next(), spin: next(), interval: next(), cos_lambda_change: next() };
+    let _ = black_box((drift.combination_bound(next()), drift.combination_bound_at(next())));
+    let _ = black_box((eta_from_inclination(next()), pulse_width(next(), next(), next())));
+    let [a, b, c, d] = std::array::from_fn(|_| next());
+    let _ = black_box((zeta_change(a, b, c, d), lambda_change(a, b, c, d)));
+    for found in [EtaDistribution::at_inclination(a, b), EtaDistribution::at_constant(a, b)].into_iter().flatten() {
+        let _ = black_box((found.root_mean_square(), found.probability_above(c), found.quantile(d)));
+    }
+}
+
+fn spectra(bytes: &mut Bytes<'_>) {
+    let (start, step, window) = (bytes.usual(), bytes.number(), bytes.byte());
+    let window = match window % 3 {
+        0 => Window::Hann,
+        1 => Window::Uniform,
+        _ => Window::Kaiser { shape: bytes.number() },
+    };
+    let (least, most) = (bytes.number(), bytes.below(20));
+    let frequencies: [f64; 3] = std::array::from_fn(|_| bytes.number());
+    let generators = frequencies.map(|frequency| Generator { symbol: "a", frequency, uncertainty: bytes.number() });
+    let _ = FrequencyBasis::new(generators.to_vec())
+        .map(|basis| basis.identify(bytes.number(), bytes.number()).to_string());
+    let mut values = Vec::new();
+    while !bytes.is_empty() && values.len() < 200 {
+        values.push(bytes.usual());
+    }
+    let series = Series { start, step, values };
+    let _ = black_box(amplitude_spectrum(&series, window));
+    let _ = black_box(spectral_lines(&series, least, most));
+}
+
+fn timing(bytes: &mut Bytes<'_>) {
+    let with_rate = bytes.byte() % 2 == 1;
+    let (mut points, mut in_parts) = (Vec::new(), Vec::new());
+    while !bytes.is_empty() && points.len() < 40 {
+        let number = if bytes.byte() < 200 { points.len() as i64 } else { bytes.number() as i64 };
+        let time = bytes.usual();
+        points.push((number, time));
+        in_parts.push((number, [time, bytes.usual() * 1e-17]));
+    }
+    let _ = black_box(ConstantPeriod::fit(&points));
+    let _ = black_box(SpinFit::new(&in_parts, with_rate));
+}
+
+fn many(bytes: &mut Bytes<'_>) {
+    let asked: Vec<_> = (0..3).map(|_| Asked::new(bytes)).filter(Asked::is_moderate).collect();
+    let times: Vec<_> = asked.iter().map(|asked| asked.times()).collect();
+    let scene = |(asked, times): (&Asked, _)| AxisScene {
+        spheroid: asked.body,
+        violation: asked.tensor,
+        initial: AxisState::from(&asked.state),
+        start: asked.span.0,
+        times,
+        accuracy: asked.accuracy,
+    };
+    let scenes: Vec<_> = asked.iter().zip(times.iter().map(|times| &times[..])).map(scene).collect();
+    assert_eq!(axis_states_of_many(&scenes).len(), scenes.len());
+}
+
+fn frequencies(asked: &Asked) {
+    let Asked { body, tensor, state, span, .. } = asked;
+    if !asked.is_moderate() {
+        return;
+    }
+    if let Ok(motion) = propagate(body, tensor, state, *span, 1e-10) {
+        let _ = black_box(fundamental_frequencies(&motion).and_then(|found| found.basis()));
+    }
+}
+
+fn tensors(bytes: &mut Bytes<'_>) {
+    let entries: [f64; 9] = std::array::from_fn(|_| bytes.number());
+    let mut tensor = Matrix3::from_row_slice(&entries);
+    let _ = black_box(principal_frame(&tensor));
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        tensor[(j, i)] = tensor[(i, j)];
+    }
+    if let Ok(frame) = principal_frame(&tensor) {
+        let q = frame.principal_from_given;
+        assert!((q * q.transpose() - Matrix3::identity()).amax() < 1e-13, "{tensor}");
+    }
+    let _ = black_box(Vector3::from_row_slice(&entries[..3]));
+}
