@@ -109,6 +109,6 @@ fn is_little_work(command: &Command) -> bool {
         Command::Bounds(_) | Command::Compare(_) | Command::Scenes | Command::Equations => true,
         Command::Figures(args) => args.list,
         Command::Verify(args) => args.filter.as_ref().is_some_and(|filter| filter.contains('?')),
-        Command::Report(_) | Command::Bench(_) | Command::Claims => false,
+        Command::Report(_) | Command::Bench(_) | Command::Claims | Command::Stability(_) => false,
     }
 }
