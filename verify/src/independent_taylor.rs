@@ -27,7 +27,11 @@ pub fn state_after<S: Real>(
         * spheroid.inertia_xx)
         .sqrt();
     let momentum_scale = (initial.momentum.norm() + pull).max(f64::MIN_POSITIVE);
-    let mut state = [exact(&initial.axis), exact(&initial.momentum), exact(&initial.equatorial_axis)];
+    // n is a unit vector, whatever rounding has made of its length.
+    let axis = exact(&initial.axis);
+    let length = axis.iter().fold(S::zero(), |sum, x| sum + *x * *x).sqrt();
+    let axis = axis.map(|x| x / length);
+    let mut state = [axis, exact(&initial.momentum), exact(&initial.equatorial_axis)];
     let mut left = duration;
     while left.re() != 0.0 {
         let series = coefficients(&s, [xx, zz, c], &state, order);

@@ -120,7 +120,7 @@ impl<S: Real> SymmetricMotion<S> {
     }
 
     /// Rounding of the initial values and parameters, grown by the derivatives of the solution itself, and of the phase, with what
-    /// cancels in the turning points of the inclination. Where the two eigenvalues are equal within rounding, what is left of their
+    /// cancels in the turning points of the inclination and beside the poles. Where the two eigenvalues are equal within rounding, what is left of their
     /// difference counts here.
     pub fn rounding(&self, elapsed: f64) -> f64 {
         let by = |seed: fn(&mut EulerAngles<Dual64>, &mut EulerRates<Dual64>)| self.sensitivity(elapsed, seed);
@@ -131,7 +131,7 @@ impl<S: Real> SymmetricMotion<S> {
         let size = self.turning_rate + self.swing_rate + rates.alpha.abs() + rates.beta.abs();
         let phase = (self.turning_rate + self.swing_rate) * elapsed.abs();
         let lost = self.solution.condition();
-        let rounding = f64::EPSILON * (8.0 + 8.0 * phase * lost + 4.0 * by_angle + 4.0 * size * by_rates);
+        let rounding = f64::EPSILON * (8.0 * (1.0 + phase) * lost + 4.0 * by_angle + 4.0 * size * by_rates);
         let left_out = if self.symmetry.is_symmetric_within_rounding() {
             self.neglected_torque / self.start.spheroid.inertia_xx * elapsed.abs() * by_rates
         } else {

@@ -97,7 +97,8 @@ pub(super) struct Added<S> {
     pub(super) about_axis: S,
 }
 
-/// Rates in turns: `|L| / I^xx` and `-epsilon Omega^z` to 32 digits, and what is added to them.
+/// Rates in turns: `|L| / I^xx` and `-epsilon Omega^z` to 32 digits, and what is added to them. `n` counts as the unit vector along it, whatever
+/// rounding has made of its length.
 pub(super) fn turning<S: Real>(
     spheroid: &RigidSpheroid<S>,
     initial: &BodyState<S>,
@@ -107,8 +108,8 @@ pub(super) fn turning<S: Real>(
     let [n, momentum] = [&initial.axis, &initial.momentum].map(|v| real_part(v).into());
     let about_momentum = DoubleDouble::dot(&momentum, &momentum).sqrt().over(inertia_xx.into());
     let difference = DoubleDouble::sum(inertia_xx, -inertia_zz);
-    let about_axis =
-        (difference * DoubleDouble::dot(&momentum, &n)).over(DoubleDouble::product(inertia_xx, inertia_zz));
+    let along_axis = DoubleDouble::dot(&momentum, &n).over(DoubleDouble::dot(&n, &n).sqrt());
+    let about_axis = (difference * along_axis).over(DoubleDouble::product(inertia_xx, inertia_zz));
     let with = |free: DoubleDouble, added: S| (free + added.re().into()).over(DoubleDouble::TAU);
     [
         with(DoubleDouble::default(), added.slow),

@@ -21,7 +21,7 @@ pub(super) struct Nutating<S> {
     /// Integrals at `t = 0`.
     pub(super) north_start: S,
     pub(super) south_start: S,
-    /// See [`TurningPoints`](super::quartic::TurningPoints).
+    /// By how much roundings are magnified: in the turning points, and beside the poles.
     pub(super) condition: f64,
 }
 
@@ -37,22 +37,31 @@ impl<S: Real> Nutating<S> {
         let (sin, _) = angles.beta.sin_cos();
         let oscillation = Oscillation::new(&points, -(sin * rates.beta))?;
         let (north_constant, south_constant) = ((g - omega * north) * 0.5, (g + omega * south) * 0.5);
-        // (1 - low)(1 - high) Q(1) = (b - omega)^2 gives a distance from the pole that a difference would lose.
+        // (1 - low)(1 - high) Q(1) = (b - omega)^2 gives a distance from the pole that a difference would lose, unless it
+        // loses more itself: where the body hardly turns, `g` and `omega` are small and may cancel.
         let near_a_pole = |difference: S, from_here: S, constant: S, far: S, pole: S| {
-            if difference.re() > 0.1 * from_here.re() {
-                difference
+            let quotient = points.quotient(pole, pole);
+            let lost = from_here.re() / difference.re();
+            let turning = (g.re().abs() + (omega * from_here).re().abs()) / (constant.re() * 2.0).abs();
+            let product = 2.0 * turning + points.lost_at(pole);
+            // What is not a number is not less: at the pole itself the product is zero, and exact.
+            if difference.re() > 0.0 && (lost <= product || product.is_nan()) {
+                (difference, lost)
             } else {
-                constant * constant * 4.0 / (far * points.quotient(pole, pole))
+                (constant * constant * 4.0 / (far * quotient), product)
             }
         };
         let (north_far, south_far) = (north - points.low, south + points.high);
-        let north_near = near_a_pole(north - points.high, north, north_constant, north_far, north);
-        let south_near = near_a_pole(south + points.low, south, south_constant, south_far, -south);
+        let (north_near, lost_north) = near_a_pole(north - points.high, north, north_constant, north_far, north);
+        let (south_near, lost_south) = near_a_pole(south + points.low, south, south_constant, south_far, -south);
         let north_term = oscillation.pole_term(north_constant, Pole::North, north_far, north_near);
         let south_term = oscillation.pole_term(south_constant, Pole::South, south_far, south_near);
         let start = oscillation.place(S::zero());
         let north_start = oscillation.integral(&north_term, Pole::North, &start, S::zero());
         let south_start = oscillation.integral(&south_term, Pole::South, &start, S::zero());
+        // Angles of a state beside a pole are rounded by its distance, and a passage carries that on.
+        let sine = |distance: S| (distance.re() * (2.0 - distance.re())).abs().sqrt();
+        let least_sine = sine(north_near).min(sine(south_near));
         let period = oscillation.half_period.re();
         let turns = north_start.re()
             + south_start.re()
@@ -74,7 +83,7 @@ impl<S: Real> Nutating<S> {
             north: north_term,
             south: south_term,
             oscillation,
-            condition: points.condition,
+            condition: points.condition + lost_north + lost_south + 1.0 / least_sine,
         })
     }
 

@@ -70,9 +70,7 @@ impl<S: Real> InclinationQuartic<S> {
     /// `Q` at a turning point, from its coefficients or as `P'(low) / (high - low)`, `-P'(high) / (high - low)`, whichever cancels
     /// less; and the sum of magnitudes over the sum.
     fn quotient_at(&self, points: &TurningPoints<S>, v: S, is_high: bool) -> (S, f64) {
-        let [q0, q1, q2] = points.quotient;
-        let of_powers = points.quotient(v, v);
-        let powers = (q0.re().abs() + (q1 * v).re().abs() + (q2 * v * v).re().abs()) / of_powers.re().abs();
+        let (of_powers, powers) = (points.quotient(v, v), points.lost_at(v));
         let (_, slope, terms) = self.value_and_slope(v);
         let of_slope = (if is_high { -slope } else { slope }) / (points.high - points.low);
         let slopes = terms / slope.re().abs();
@@ -112,6 +110,13 @@ impl<S: Real> TurningPoints<S> {
     pub(super) fn quotient_determinant(&self) -> S {
         let [q0, q1, q2] = self.quotient;
         q0 * q2 * 4.0 - q1 * q1
+    }
+
+    /// Sum of the magnitudes of the terms of `Q(v)` over its own.
+    pub(super) fn lost_at(&self, v: S) -> f64 {
+        let [q0, q1, q2] = self.quotient;
+        let terms = [q0, q1 * v, q2 * v * v];
+        terms.iter().map(|x| x.re().abs()).sum::<f64>() / self.quotient(v, v).re().abs()
     }
 
     /// The polar form `q0 + q1 (v + w) / 2 + q2 v w` of the quotient; `Q(v)` for `w = v`.

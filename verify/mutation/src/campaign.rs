@@ -130,7 +130,7 @@ fn judge(
     }
     let (mut spent, mut at) = (0.0, 0);
     while at < order.len() {
-        if spent > budget {
+        if spent + tests[order[at]].seconds > budget {
             return ("survived", None, false);
         }
         // One binary per process; the first two tests alone, since one of them most often catches it.
