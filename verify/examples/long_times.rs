@@ -29,8 +29,10 @@ fn main() -> Result<(), Anyhow> {
     eprintln!();
     println!("| method | time (t_c) | energy | K | error of n |\n|---|---:|---:|---:|---:|");
     for row in &rows {
-        let phase = row.phase.map_or("-".into(), |phase| format!("{phase:.1e}"));
-        println!("| {} | {:.0e} | {:.1e} | {:.1e} | {phase} |", row.method, row.time, row.energy, row.clebsch);
+        println!(
+            "| {} | {:.0e} | {:.1e} | {:.1e} | {:.1e} |",
+            row.method, row.time, row.energy, row.clebsch, row.phase
+        );
     }
     println!("\n| method | energy | K | error of n |\n|---|---:|---:|---:|");
     for method in METHODS {
@@ -38,7 +40,7 @@ fn main() -> Result<(), Anyhow> {
         let of_this: Vec<_> = rows.iter().filter(|row| row.method == method.name && row.time >= 1e3).collect();
         let energy: Vec<_> = of_this.iter().map(|row| (row.time, row.energy)).collect();
         let clebsch: Vec<_> = of_this.iter().map(|row| (row.time, row.clebsch)).collect();
-        let phase: Vec<_> = of_this.iter().filter_map(|row| Some((row.time, row.phase?))).collect();
+        let phase: Vec<_> = of_this.iter().map(|row| (row.time, row.phase)).collect();
         println!("| {} | {} | {} | {} |", method.name, exponent(&energy), exponent(&clebsch), exponent(&phase));
     }
 

@@ -12,7 +12,7 @@ const COMPARISONS: u64 = 256;
 const SAFETY: f64 = 6.0;
 
 /// Roundings by which the start of the better motion is off, in a direction of no meaning.
-const OFF: [f64; 3] = [4.3, -3.1, 3.7];
+const OFF: [f64; 3] = [8.3, -6.1, 7.7];
 
 /// Longest step of the better motion, in radians of the rotation: beyond, the orders of a scheme do not say how its error falls.
 const LONGEST_STEP: f64 = 1.0;

@@ -109,8 +109,7 @@ pub fn growth(rows: &[growth::Row]) -> String {
     let mut lines: Vec<_> = rows
         .iter()
         .map(|row| {
-            let errors = [Some(row.energy), Some(row.clebsch), row.phase];
-            let errors = errors.map(|error| error.map_or("-".to_owned(), |error| format!("{error:.1e}")));
+            let errors = [row.energy, row.clebsch, row.phase].map(|error| format!("{error:.1e}"));
             [row.method.to_owned(), format!("{:.0e}", row.time)].into_iter().chain(errors).collect::<Vec<_>>()
         })
         .collect();
@@ -118,7 +117,7 @@ pub fn growth(rows: &[growth::Row]) -> String {
         let exponents = [
             growth::exponent(rows, method, |row| Some(row.energy)),
             growth::exponent(rows, method, |row| Some(row.clebsch)),
-            growth::exponent(rows, method, |row| row.phase),
+            growth::exponent(rows, method, |row| Some(row.phase)),
         ];
         let cells = exponents.map(|p| p.map_or("-".to_owned(), |p| format!("{p:.2}")));
         lines.push([method.to_owned(), "exponent".to_owned()].into_iter().chain(cells).collect());
