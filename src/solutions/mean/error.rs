@@ -61,7 +61,7 @@ impl<S: Real> MeanMotion<S> {
     }
 
     /// Rounding of the initial state and of what Lorentz violation adds to the phases, at the time `t`. The free rotation itself is known to 32
-    /// digits.
+    /// digits, but for the length of `n`, which an axis given in doubles has only to rounding: the rate about `n` changes by as much.
     pub fn rounding(&self, t: f64) -> f64 {
         // What is added to the phases, of which the slow rate is a part; at c^2 = 1/3 a small one.
         let added = self.tensor().map(S::re).amax() + self.relative_strength().re() * self.turning_rate();
@@ -72,7 +72,7 @@ impl<S: Real> MeanMotion<S> {
             rate: 8.0 * f64::EPSILON * added,
             neighbour: 8.0 * f64::EPSILON,
         };
-        self.consequence(&fault, self.elapsed(t))
+        self.consequence(&fault, self.elapsed(t)) + self.rounding_of_rate_about_axis() * self.elapsed(t)
     }
 
     fn consequence(&self, fault: &Fault, elapsed: f64) -> f64 {

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::generator::{Axes, transformation};
 use super::hamiltonian::{MeanOrder, MeanPotential};
-use super::phases::{Added, MeanPhases, MeanRates, MeanTurns, Turns, turning};
+use super::phases::{Added, MeanPhases, MeanRates, MeanTurns, Turns, excess_of_length, turning};
 use super::top::{Top, TopPhases, TopShape};
 use crate::double_double::DoubleDouble;
 use crate::dynamics::{BodyState, RigidSpheroid};
@@ -43,6 +43,8 @@ pub struct MeanMotion<S> {
     starts: MeanPhases<S>,
     /// Rates of the phases (turns per unit of time), the free rotation in 32 digits.
     turning: [DoubleDouble; 3],
+    /// `n.n - 1` of the initial axis as given.
+    excess_of_length: f64,
     rates: MeanRates<S>,
     /// Of the angles about `l` and about `n`, by the integral of the top.
     periodic: [S; 2],
@@ -184,6 +186,7 @@ impl<S: Real> MeanMotion<S> {
             start: shape,
             starts,
             turning: turning(spheroid, given, &added),
+            excess_of_length: excess_of_length(&given.axis),
             rates,
             periodic,
             order,
@@ -229,6 +232,11 @@ impl<S: Real> MeanMotion<S> {
     /// How many orders are taken along.
     pub fn order(&self) -> MeanOrder {
         self.order
+    }
+
+    /// By how much the rate about `n` is uncertain, since the length of `n` is rounded (rad per unit of time).
+    pub(super) fn rounding_of_rate_about_axis(&self) -> f64 {
+        (self.turning[2].high * TAU * self.excess_of_length).abs()
     }
 
     /// `G / I^xx`, at which the axis turns.

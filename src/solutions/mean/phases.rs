@@ -6,6 +6,8 @@
 
 use core::f64::consts::TAU;
 
+use nalgebra::Vector3;
+
 use crate::double_double::DoubleDouble;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::scalar::{Real, real_part};
@@ -97,8 +99,7 @@ pub(super) struct Added<S> {
     pub(super) about_axis: S,
 }
 
-/// Rates in turns: `|L| / I^xx` and `-epsilon Omega^z` to 32 digits, and what is added to them. `n` counts as the unit vector along it, whatever
-/// rounding has made of its length.
+/// Rates in turns: `|L| / I^xx` and `-epsilon Omega^z` to 32 digits, and what is added to them.
 pub(super) fn turning<S: Real>(
     spheroid: &RigidSpheroid<S>,
     initial: &BodyState<S>,
@@ -108,12 +109,18 @@ pub(super) fn turning<S: Real>(
     let [n, momentum] = [&initial.axis, &initial.momentum].map(|v| real_part(v).into());
     let about_momentum = DoubleDouble::dot(&momentum, &momentum).sqrt().over(inertia_xx.into());
     let difference = DoubleDouble::sum(inertia_xx, -inertia_zz);
-    let along_axis = DoubleDouble::dot(&momentum, &n).over(DoubleDouble::dot(&n, &n).sqrt());
-    let about_axis = (difference * along_axis).over(DoubleDouble::product(inertia_xx, inertia_zz));
+    let about_axis =
+        (difference * DoubleDouble::dot(&momentum, &n)).over(DoubleDouble::product(inertia_xx, inertia_zz));
     let with = |free: DoubleDouble, added: S| (free + added.re().into()).over(DoubleDouble::TAU);
     [
         with(DoubleDouble::default(), added.slow),
         with(about_momentum, added.about_momentum),
         with(about_axis, added.about_axis),
     ]
+}
+
+/// What rounding has made of the length of `n`: `n.n - 1`, to its own digits.
+pub(super) fn excess_of_length<S: Real>(axis: &Vector3<S>) -> f64 {
+    let n = real_part(axis).into();
+    (DoubleDouble::dot(&n, &n) + (-1.0).into()).high
 }
