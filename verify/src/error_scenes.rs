@@ -165,9 +165,9 @@ impl ErrorScene {
         random: &mut Random,
     ) -> Option<BodyState<f64>> {
         let s = PrincipalCoefficients { xx: equal, yy: equal, zz: other };
-        let spin =
-            self.initial.momentum.norm() / self.spheroid.inertia_zz * if random.word() % 2 == 0 { 1.0 } else { -1.0 };
-        let kind = if random.word() % 2 == 0 { Kind::Single } else { Kind::Twofold };
+        let spin = self.initial.momentum.norm() / self.spheroid.inertia_zz
+            * if random.word().is_multiple_of(2) { 1.0 } else { -1.0 };
+        let kind = if random.word().is_multiple_of(2) { Kind::Single } else { Kind::Twofold };
         let (alpha, beta, gamma) = (random.within(0.0, TAU), random.within(0.01, PI - 0.01), random.within(0.0, TAU));
         let rate = steady_precession_rate(kind, &self.spheroid, &s, spin, beta).ok()?;
         let rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
