@@ -3,34 +3,18 @@
 //! `cargo run --release -p twofold-verify --example estimate_ratio [SCENES] [SEED] [FIRST]`: 10,000 scenes of seed 1 unless
 //! said. Scenes below one, above 100,000 and the lowest are listed with their numbers; `1 SEED NUMBER` runs one again.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
-
+use rayon::prelude::*;
 use twofold_verify::error_scenes::ErrorScene;
 
 fn main() {
     let arguments: Vec<u64> = std::env::args().skip(1).filter_map(|text| text.parse().ok()).collect();
     let argument = |index: usize, otherwise| arguments.get(index).copied().unwrap_or(otherwise);
     let (scenes, seed, first) = (argument(0, 10_000), argument(1, 1), argument(2, 0));
-    let (next, rows) = (AtomicU64::new(first), Mutex::new(Vec::new()));
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            scope.spawn(|| {
-                loop {
-                    let number = next.fetch_add(1, Ordering::Relaxed);
-                    if number >= first + scenes {
-                        return;
-                    }
-                    let scene = ErrorScene::draw(seed, number);
-                    let found = scene.estimated_and_true();
-                    rows.lock().expect("no worker panics").push((number, scene, found));
-                }
-            });
-        }
-    });
-    let mut rows = rows.into_inner().expect("no worker panics");
-    rows.sort_by_key(|row| row.0);
+    let draw = |number| {
+        let scene = ErrorScene::draw(seed, number);
+        (number, scene, scene.estimated_and_true())
+    };
+    let rows: Vec<_> = (first..first + scenes).into_par_iter().map(draw).collect();
     let mut found = Vec::new();
     for (number, scene, result) in rows {
         match result {

@@ -4,14 +4,10 @@
 //! unless said. An estimate below the true error is listed with the number of its scene and makes the exit status 1.
 
 use std::process::ExitCode;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 
+use rayon::prelude::*;
 use twofold::plan::Method;
 use twofold_verify::error_scenes::ErrorScene;
-
-const METHODS: [Method; 6] =
-    [Method::Free, Method::Steady, Method::Symmetric, Method::Mean, Method::Splitting, Method::Taylor];
 
 /// Ratio of the estimate to the true error, or why there is none.
 enum Seen {
@@ -31,7 +27,7 @@ fn main() -> ExitCode {
         "method", "judged", "refused", "none", "below 1", "least", "1 %", "median", "99 %"
     );
     let mut all_above = true;
-    for method in if named.is_empty() { METHODS.to_vec() } else { named } {
+    for method in if named.is_empty() { Method::ALL.to_vec() } else { named } {
         all_above &= judge(method, scenes, seed);
     }
     if all_above { ExitCode::SUCCESS } else { ExitCode::FAILURE }
@@ -39,24 +35,7 @@ fn main() -> ExitCode {
 
 /// A line of the table; whether no estimate was below.
 fn judge(method: Method, scenes: u64, seed: u64) -> bool {
-    let (next, rows) = (AtomicU64::new(0), Mutex::new(Vec::new()));
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            scope.spawn(|| {
-                loop {
-                    let number = next.fetch_add(1, Ordering::Relaxed);
-                    if number >= scenes {
-                        return;
-                    }
-                    let seen = look(method, seed, number);
-                    rows.lock().expect("no worker panics").push((number, seen));
-                }
-            });
-        }
-    });
-    let mut rows = rows.into_inner().expect("no worker panics");
-    rows.sort_by_key(|row| row.0);
+    let rows: Vec<_> = (0..scenes).into_par_iter().map(|number| (number, look(method, seed, number))).collect();
     let (mut ratios, mut refusals, mut none) = (Vec::new(), Vec::new(), 0);
     for (number, seen) in &rows {
         match seen {

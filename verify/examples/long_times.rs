@@ -15,14 +15,14 @@ use twofold_verify::bench::scene::BenchScene;
 use twofold_verify::bench::{Effort, growth::METHODS};
 use twofold_verify::check::largest;
 use twofold_verify::double_double::DoubleDouble;
-use twofold_verify::fit::order;
+use twofold_verify::fit::{Slope, order};
 
-type Anyhow = Box<dyn std::error::Error>;
+type Failure = Box<dyn std::error::Error>;
 
 /// The error of a method at a time.
-type ErrorAt<'a> = Box<dyn Fn(f64) -> Result<f64, Anyhow> + 'a>;
+type ErrorAt<'a> = Box<dyn Fn(f64) -> Result<f64, Failure> + 'a>;
 
-fn main() -> Result<(), Anyhow> {
+fn main() -> Result<(), Failure> {
     let longest: f64 = std::env::args().nth(1).map_or(Ok(1e7), |text| text.parse())?;
     let effort = Effort { longest, ..Effort::FULL };
     let rows = growth::measure(&effort, |part| eprint!("\r{:3.0} %", 100.0 * part))?;
@@ -36,17 +36,19 @@ fn main() -> Result<(), Anyhow> {
     }
     println!("\n| method | energy | K | error of n |\n|---|---:|---:|---:|");
     for method in METHODS {
-        // A random walk takes longer to show what it is.
-        let of_this: Vec<_> = rows.iter().filter(|row| row.method == method.name && row.time >= 1e3).collect();
-        let energy: Vec<_> = of_this.iter().map(|row| (row.time, row.energy)).collect();
-        let clebsch: Vec<_> = of_this.iter().map(|row| (row.time, row.clebsch)).collect();
-        let phase: Vec<_> = of_this.iter().map(|row| (row.time, row.phase)).collect();
-        println!("| {} | {} | {} | {} |", method.name, exponent(&energy), exponent(&clebsch), exponent(&phase));
+        let of = |error: fn(&growth::Row) -> f64| written(growth::exponent(&rows, method.name, error));
+        println!(
+            "| {} | {} | {} | {} |",
+            method.name,
+            of(|row| row.energy),
+            of(|row| row.clebsch),
+            of(|row| row.phase)
+        );
     }
 
     let scene = BenchScene::named("tp-II");
     let span = (0.0, longest);
-    let mean = |order| -> Result<ErrorAt, Anyhow> {
+    let mean = |order| -> Result<ErrorAt, Failure> {
         let motion = AveragedMotion::new(&scene.spheroid, &scene.violation, &scene.initial, span, order)?;
         Ok(Box::new(move |t| {
             let axis = motion.state(t)?.axis.map(<DoubleDouble as Scalar>::from_f64);
@@ -87,14 +89,14 @@ fn main() -> Result<(), Anyhow> {
         }
         let cells: Vec<String> = points.iter().map(|(_, error)| format!(" {error:.1e} ")).collect();
         points.retain(|point| point.1.is_finite());
-        println!("| {name} |{}| {} |", cells.join("|"), exponent(&points));
+        println!("| {name} |{}| {} |", cells.join("|"), written(order(&points, 0.0).ok()));
     }
     Ok(())
 }
 
-/// The exponent of a growth with its standard error.
-fn exponent(points: &[(f64, f64)]) -> String {
-    order(points, 0.0).map_or("-".into(), |slope| format!("{:.2} +- {:.2}", slope.value, slope.error))
+/// An exponent with its standard error.
+fn written(exponent: Option<Slope>) -> String {
+    exponent.map_or("-".into(), |slope| format!("{:.2} +- {:.2}", slope.value, slope.error))
 }
 
 /// tp-II's body at rest but for a spin along the third principal axis.
@@ -113,7 +115,7 @@ fn against_itself<'a, M: Motion<f64> + 'a, D: Motion<DoubleDouble> + 'a>(
     s: &Matrix3<f64>,
     make: Make<f64, M>,
     make_exact: Make<DoubleDouble, D>,
-) -> Result<ErrorAt<'a>, Anyhow> {
+) -> Result<ErrorAt<'a>, Failure> {
     let lift = <DoubleDouble as Scalar>::from_f64;
     let (body, start) = (&scene.spheroid, &scene.initial);
     let exact_body = RigidSpheroid {

@@ -44,6 +44,17 @@ fn unit_vector(random: &mut Random) -> Vector3<f64> {
     Vector3::new(r * angle.cos(), r * angle.sin(), z)
 }
 
+fn random_frame(random: &mut Random) -> Matrix3<f64> {
+    let axis = nalgebra::Unit::new_normalize(unit_vector(random));
+    Rotation3::from_axis_angle(&axis, random.within(0.0, TAU)).into_inner()
+}
+
+/// The symmetric tensor with these eigenvalues along the columns of `frame`.
+fn tensor_in(frame: &Matrix3<f64>, eigenvalues: [f64; 3]) -> Matrix3<f64> {
+    let tensor = frame * Matrix3::from_diagonal(&eigenvalues.into()) * frame.transpose();
+    (tensor + tensor.transpose()) / 2.0
+}
+
 impl ErrorScene {
     /// Scene `number` of those that start from `seed`.
     pub fn draw(seed: u64, number: u64) -> Self {
@@ -68,11 +79,8 @@ impl ErrorScene {
         }
         let sign = if chance(random, 0.5) { -strength } else { strength };
         let eigenvalues = eigenvalues.map(|x| x * sign);
-        let frame =
-            Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(unit_vector(random)), random.within(0.0, TAU));
-        let frame = frame.into_inner();
-        let mut violation = frame * Matrix3::from_diagonal(&eigenvalues.into()) * frame.transpose();
-        violation = (violation + violation.transpose()) / 2.0;
+        let frame = random_frame(random);
+        let violation = tensor_in(&frame, eigenvalues);
 
         let near_middle_axis = chance(random, 0.4);
         let mut direction = unit_vector(random);
@@ -124,9 +132,7 @@ impl ErrorScene {
     /// state that precesses steadily about it, [`Method::Mean`] a weaker torque. `None` where there is no such state.
     pub fn for_method(mut self, method: Method, seed: u64) -> Option<Self> {
         let random = &mut Random::with_seed(seed);
-        let frame =
-            Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(unit_vector(random)), random.within(0.0, TAU));
-        let frame = frame.into_inner();
+        let frame = random_frame(random);
         let [equal, other] = [random.within(-1.0, 1.0), 1.0].map(|x| x * self.strength);
         match method {
             Method::Taylor | Method::Splitting => {}
@@ -144,8 +150,7 @@ impl ErrorScene {
                 self.violation *= (10f64.powf(random.within(-8.0, -0.5)) * weakest / self.strength).min(1.0);
             }
             Method::Symmetric | Method::Steady => {
-                let tensor = frame * Matrix3::from_diagonal(&Vector3::new(equal, equal, other)) * frame.transpose();
-                self.violation = (tensor + tensor.transpose()) / 2.0;
+                self.violation = tensor_in(&frame, [equal, equal, other]);
             }
         }
         if method == Method::Steady {

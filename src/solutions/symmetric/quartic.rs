@@ -61,18 +61,18 @@ impl<S: Real> InclinationQuartic<S> {
         let cancels = deflated.re().abs() < 0.1 * ((sum * q1).re().abs() + (product * q2).re().abs() + p2.re().abs());
         let q0 = if cancels && p[0] > 0.0 { -(p0 / product) } else { deflated };
         let mut points = TurningPoints { low, high, quotient: [q0, q1, q2], at_low: q0, at_high: q0, condition: 1.0 };
-        let (at_low, lost_low) = self.quotient_at(&points, low, false);
-        let (at_high, lost_high) = self.quotient_at(&points, high, true);
+        let (at_low, lost_low) = self.quotient_at(&points, low, high);
+        let (at_high, lost_high) = self.quotient_at(&points, high, low);
         (points.at_low, points.at_high, points.condition) = (at_low, at_high, lost_low.max(lost_high));
         points
     }
 
     /// `Q` at a turning point, from its coefficients or as `P'(low) / (high - low)`, `-P'(high) / (high - low)`, whichever cancels
     /// less; and the sum of magnitudes over the sum.
-    fn quotient_at(&self, points: &TurningPoints<S>, v: S, is_high: bool) -> (S, f64) {
+    fn quotient_at(&self, points: &TurningPoints<S>, v: S, other: S) -> (S, f64) {
         let (of_powers, powers) = (points.quotient(v, v), points.lost_at(v));
         let (_, slope, terms) = self.value_and_slope(v);
-        let of_slope = (if is_high { -slope } else { slope }) / (points.high - points.low);
+        let of_slope = slope / (other - v);
         let slopes = terms / slope.re().abs();
         // One that is not a number is not taken.
         if slopes < powers { (of_slope, slopes) } else { (of_powers, powers) }

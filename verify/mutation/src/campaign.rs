@@ -34,11 +34,8 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
         }
     }
     let results = tree.join("results.jsonl");
-    let done: HashMap<u64, f64> = lines(&results)
-        .unwrap_or_default()
-        .iter()
-        .map(|r| (r["number"].as_u64().unwrap_or(0), settled(r)))
-        .collect();
+    let done: HashMap<u64, f64> =
+        lines(&results).unwrap_or_default().iter().map(|r| (r["number"].as_u64().unwrap_or(0), settled(r))).collect();
     let open: Vec<&Value> = mutants
         .iter()
         .filter(|m| m["file"].as_str().unwrap_or("").starts_with(prefix))
@@ -46,7 +43,11 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
         .collect();
     eprintln!("{} mutants, {} to do, {} tests", mutants.len(), open.len(), tests.len());
     let file = Mutex::new(
-        fs::OpenOptions::new().create(true).append(true).open(&results).map_err(|e| format!("{}: {e}", results.display()))?,
+        fs::OpenOptions::new()
+            .create(true)
+            .append(true)
+            .open(&results)
+            .map_err(|e| format!("{}: {e}", results.display()))?,
     );
     // How often a test caught a mutant of a function: those are tried first.
     let kills: Mutex<HashMap<(String, usize), u32>> = Mutex::new(HashMap::new());
@@ -59,13 +60,10 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
                     let k = next.fetch_add(1, Ordering::Relaxed);
                     let Some(mutant) = open.get(k) else { return };
                     let number = mutant["number"].as_u64().unwrap_or(0);
-                    let places = [
-                        format!("{}::{}", mutant["file"], mutant["function"]),
-                        mutant["file"].to_string(),
-                    ];
+                    let places = [format!("{}::{}", mutant["file"], mutant["function"]), mutant["file"].to_string()];
                     let order = ordered(reaching.get(&number), &tests, &places, &kills);
                     let begun = Instant::now();
-                    let (outcome, by, complete) = judge(tree, &suite, &tests, &order, number, budget);
+                    let (outcome, by, complete) = judge(&suite, &tests, &order, number, budget);
                     if let Some(index) = by {
                         let mut kills = kills.lock().expect("no panic");
                         for place in places {
@@ -83,7 +81,13 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
                     writeln!(file.lock().expect("no panic"), "{line}").expect("results can be written");
                     if k % 100 == 99 {
                         let left = started.elapsed().as_secs_f64() / (k + 1) as f64 * (open.len() - k - 1) as f64;
-                        eprintln!("{} of {}, {} not caught, {:.0} s to go", k + 1, open.len(), missed.load(Ordering::Relaxed), left);
+                        eprintln!(
+                            "{} of {}, {} not caught, {:.0} s to go",
+                            k + 1,
+                            open.len(),
+                            missed.load(Ordering::Relaxed),
+                            left
+                        );
                     }
                 }
             });
@@ -118,7 +122,6 @@ fn ordered(
 
 /// Outcome, the test that caught it, and whether every test that reaches it was run.
 fn judge(
-    tree: &Path,
     suite: &Suite,
     tests: &[Test],
     order: &[usize],
@@ -138,14 +141,18 @@ fn judge(
         let mut batch = vec![order[at]];
         let mut time = tests[order[at]].seconds;
         at += 1;
-        while at >= 2 && at < order.len() && tests[order[at]].binary == binary && time + tests[order[at]].seconds < BATCH {
+        while at >= 2
+            && at < order.len()
+            && tests[order[at]].binary == binary
+            && time + tests[order[at]].seconds < BATCH
+        {
             time += tests[order[at]].seconds;
             batch.push(order[at]);
             at += 1;
         }
         spent += time + 0.02;
         let names: Vec<&str> = batch.iter().map(|k| tests[*k].name.as_str()).collect();
-        match suite.run(tree, binary, &names, number, 5.0 + 20.0 * time) {
+        match suite.run(binary, &names, number, 5.0 + 20.0 * time) {
             Outcome::Passed => {}
             Outcome::Failed(output) => return ("caught", Some(blame(&batch, &names, &output)), true),
             Outcome::TimedOut => return ("caught", Some(batch[0]), true),
@@ -158,7 +165,8 @@ fn judge(
 fn blame(batch: &[usize], names: &[&str], output: &str) -> usize {
     let failed = |name: &str| {
         output.lines().any(|line| {
-            line.starts_with(&format!("{name}:")) || (line.contains("FAILED") && line.split_whitespace().any(|w| w == name))
+            line.starts_with(&format!("{name}:"))
+                || (line.contains("FAILED") && line.split_whitespace().any(|w| w == name))
         })
     };
     batch[names.iter().position(|name| failed(name)).unwrap_or(0)]
@@ -183,7 +191,8 @@ fn summary(tree: &Path, mutants: &[Value]) -> Result<(), String> {
             by_file.push((file, [0; 4]));
         }
         let counts = &mut by_file.last_mut().expect("pushed").1;
-        match last.get(&mutant["number"].as_u64().unwrap_or(0)).map(|r| r["outcome"].as_str().unwrap_or("").to_string()) {
+        match last.get(&mutant["number"].as_u64().unwrap_or(0)).map(|r| r["outcome"].as_str().unwrap_or("").to_string())
+        {
             Some(o) if o == "caught" => counts[0] += 1,
             Some(o) if o == "survived" => counts[1] += 1,
             Some(_) => counts[2] += 1,
@@ -203,11 +212,16 @@ fn summary(tree: &Path, mutants: &[Value]) -> Result<(), String> {
     missed.sort_by_key(|r| (r["file"].as_str().unwrap_or("").to_string(), r["line"].as_u64(), r["number"].as_u64()));
     let mut text = String::new();
     for r in missed {
-        let part = if r["complete"] == false { "survived the quick tests" } else { r["outcome"].as_str().unwrap_or("") };
+        let part =
+            if r["complete"] == false { "survived the quick tests" } else { r["outcome"].as_str().unwrap_or("") };
         text += &format!(
             "{}:{} {} [{}] {}: {}\n",
-            r["file"].as_str().unwrap_or(""), r["line"], r["function"].as_str().unwrap_or(""), part,
-            r["change"].as_str().unwrap_or(""), r["code"].as_str().unwrap_or("")
+            r["file"].as_str().unwrap_or(""),
+            r["line"],
+            r["function"].as_str().unwrap_or(""),
+            part,
+            r["change"].as_str().unwrap_or(""),
+            r["code"].as_str().unwrap_or("")
         );
     }
     fs::write(tree.join("missed.txt"), text).map_err(|e| e.to_string())?;

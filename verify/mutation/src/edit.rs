@@ -15,7 +15,6 @@ pub struct Site {
 }
 
 /// What is written at a place of the original text.
-#[derive(Clone)]
 pub struct Edit {
     /// Range of the original text that it takes the place of; empty for what is only put in.
     pub range: (usize, usize),
@@ -44,7 +43,13 @@ pub fn apply(text: &str, edits: &[Edit], sites: usize) -> (String, Vec<Origin>) 
     let mut order: Vec<&Edit> = edits.iter().collect();
     // At one place: what closes (inner first), then what opens (outer first), then what replaces.
     order.sort_by_key(|e| {
-        let kind = if e.closes { 0 } else if e.range.0 == e.range.1 { 1 } else { 2 };
+        let kind = if e.closes {
+            0
+        } else if e.range.0 == e.range.1 {
+            1
+        } else {
+            2
+        };
         let depth = if e.closes { -(e.depth as i64) } else { e.depth as i64 };
         (e.range.0, kind, depth)
     });

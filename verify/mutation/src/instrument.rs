@@ -43,7 +43,15 @@ pub fn instrument(tree: &Path, patterns: &[String]) -> Result<usize, String> {
             constants.entry(name).or_default().push(module_of(&below));
         }
         let faults = faults_of(&below)?;
-        sources.push(Source { path, text, first: 0, sites: vec![], origins: vec![], dropped_sites: HashSet::new(), faults });
+        sources.push(Source {
+            path,
+            text,
+            first: 0,
+            sites: vec![],
+            origins: vec![],
+            dropped_sites: HashSet::new(),
+            faults,
+        });
     }
     let constants: Constants = constants
         .into_iter()
@@ -129,7 +137,8 @@ fn prepare(tree: &Path) -> Result<(), String> {
     if !text.contains("mod mutation;") {
         let at = text.find("\npub mod ").ok_or("src/lib.rs has no module")?;
         let (head, tail) = text.split_at(at);
-        fs::write(&root, format!("{head}\n#[allow(missing_docs)] pub mod mutation;{tail}")).map_err(|e| e.to_string())?;
+        fs::write(&root, format!("{head}\n#[allow(missing_docs)] pub mod mutation;{tail}"))
+            .map_err(|e| e.to_string())?;
     }
     Ok(())
 }
@@ -145,11 +154,7 @@ fn write(source: &mut Source, sites: Vec<Site>, edits: &[Edit]) -> Result<(), St
 }
 
 /// Compiles, and drops what the errors point at. Returns how many, and the errors that lie in no site.
-fn refusals(
-    tree: &Path,
-    sources: &mut [Source],
-    dropped: &mut HashSet<u32>,
-) -> Result<(usize, Vec<String>), String> {
+fn refusals(tree: &Path, sources: &mut [Source], dropped: &mut HashSet<u32>) -> Result<(usize, Vec<String>), String> {
     let output = Command::new("cargo")
         .args(["check", "-q", "-p", "twofold", "--lib", "--message-format", "json"])
         .env("RUSTFLAGS", "--cap-lints=allow")
@@ -171,12 +176,15 @@ fn refusals(
         let spans = message["spans"].as_array().cloned().unwrap_or_default();
         let mut placed = spans.is_empty();
         // What the error is about; if that lies in no site, what it refers to.
-        for span in spans.iter().filter(|s| s["is_primary"] == true).chain(spans.iter().filter(|s| s["is_primary"] == false)) {
+        for span in
+            spans.iter().filter(|s| s["is_primary"] == true).chain(spans.iter().filter(|s| s["is_primary"] == false))
+        {
             if placed && span["is_primary"] == false {
                 break;
             }
             let file = tree.join(span["file_name"].as_str().unwrap_or(""));
-            let (start, end) = (span["byte_start"].as_u64().unwrap_or(0) as usize, span["byte_end"].as_u64().unwrap_or(0) as usize);
+            let (start, end) =
+                (span["byte_start"].as_u64().unwrap_or(0) as usize, span["byte_end"].as_u64().unwrap_or(0) as usize);
             let Some(which) = sources.iter().position(|s| s.path == file) else { continue };
             let source = &sources[which];
             let within = source.origins.iter().filter(|o| o.range.0 <= start && end <= o.range.1);
@@ -202,7 +210,11 @@ fn refusals(
     }
     for (which, site) in new_sites {
         let source = &mut sources[which];
-        let blamed = source.sites[site].variants.iter().enumerate().any(|(k, _)| new_variants.contains(&(source.sites[site].first + k as u32)));
+        let blamed = source.sites[site]
+            .variants
+            .iter()
+            .enumerate()
+            .any(|(k, _)| new_variants.contains(&(source.sites[site].first + k as u32)));
         if !blamed {
             refused += usize::from(source.dropped_sites.insert(site));
         }
@@ -226,7 +238,8 @@ fn list(tree: &Path, sources: &[Source], dropped: &HashSet<u32>) -> Result<usize
             for (k, label) in site.variants.iter().enumerate() {
                 let number = site.first + k as u32;
                 if !dropped.contains(&number) && !source.dropped_sites.contains(&index) {
-                    let text: String = source.text[site.range.0..site.range.1].split_whitespace().collect::<Vec<_>>().join(" ");
+                    let text: String =
+                        source.text[site.range.0..site.range.1].split_whitespace().collect::<Vec<_>>().join(" ");
                     all.push(json!({
                         "number": number, "file": file, "line": site.line, "function": site.function,
                         "change": label, "code": text.chars().take(160).collect::<String>(),

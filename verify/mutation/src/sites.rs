@@ -155,7 +155,13 @@ impl<'a> Visitor<'a> {
     }
 
     /// Operands are bound to `__0`, `__1`... and the code chosen works on them.
-    fn bind(&mut self, whole: (usize, usize), operands: &[(usize, usize)], variants: Vec<Variant>, original: &str) -> bool {
+    fn bind(
+        &mut self,
+        whole: (usize, usize),
+        operands: &[(usize, usize)],
+        variants: Vec<Variant>,
+        original: &str,
+    ) -> bool {
         let Some((site, left)) = self.enter(whole, variants) else { return false };
         let names: Vec<String> = (0..operands.len()).map(|k| format!("__{k}")).collect();
         self.put(site, (whole.0, operands[0].0), "(match (".into(), false);
@@ -209,8 +215,7 @@ impl<'a> Visitor<'a> {
                 .collect();
             if let Some((site, left_over)) = self.enter(whole, variants) {
                 self.put(site, (whole.0, right.0), "(match (".into(), false);
-                let close =
-                    format!(") {{ __0 => {} }})", Self::choice(&left_over, &format!("{place} {sign} __0;")));
+                let close = format!(") {{ __0 => {} }})", Self::choice(&left_over, &format!("{place} {sign} __0;")));
                 self.put(site, (right.1, whole.1), close, true);
             }
             // The left side is written as it was in every variant.
@@ -293,8 +298,10 @@ impl<'a> Visitor<'a> {
             for k in 1..args.len() {
                 let mut swapped = names.clone();
                 swapped.swap(k - 1, k);
-                variants
-                    .push((format!("{last}: arguments {k} and {} swapped", k + 1), format!("{name}({})", swapped.join(", "))));
+                variants.push((
+                    format!("{last}: arguments {k} and {} swapped", k + 1),
+                    format!("{name}({})", swapped.join(", ")),
+                ));
             }
             let operands: Vec<_> = args.iter().map(|a| range(*a)).collect();
             self.bind(range(call), &operands, variants, &format!("{name}({})", names.join(", ")));
@@ -329,7 +336,9 @@ impl<'a> Visitor<'a> {
             ("sin_cos", 0) => {
                 vec![(".sin_cos swapped".to_string(), "{ let (s, c) = __0.sin_cos(); (c, s) }".to_string())]
             }
-            ("transpose" | "abs" | "sqrt" | "recip" | "conj" | "round" | "trunc" | "normalize" | "ln" | "rev", 0) => drop(),
+            ("transpose" | "abs" | "sqrt" | "recip" | "conj" | "round" | "trunc" | "normalize" | "ln" | "rev", 0) => {
+                drop()
+            }
             ("powi" | "clamp" | "rem_euclid" | "copysign", _) => drop(),
             ("mul_add", 2) => vec![
                 (".mul_add: sum dropped".to_string(), "__0 * __1".to_string()),
@@ -403,11 +412,8 @@ impl<'a> Visitor<'a> {
         if literal.rest.is_none() && fields.len() >= 2 && !closure {
             let path = self.raw(&literal.path).to_string();
             let write = |order: &[usize]| {
-                let list: Vec<String> = fields
-                    .iter()
-                    .zip(order)
-                    .map(|(f, k)| format!("{}: __{k}", f.member.to_token_stream()))
-                    .collect();
+                let list: Vec<String> =
+                    fields.iter().zip(order).map(|(f, k)| format!("{}: __{k}", f.member.to_token_stream())).collect();
                 format!("{path} {{ {} }}", list.join(", "))
             };
             let straight: Vec<usize> = (0..fields.len()).collect();
@@ -573,7 +579,12 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
                 let whole = range(stmt);
                 let shown: String = self.raw(stmt).chars().take(60).collect();
                 if let Some((site, kept)) = self.enter(whole, vec![(format!("{what}: {shown}"), String::new())]) {
-                    self.put(site, (whole.0, whole.0), format!("if !crate::mutation::active({}) {{ ", kept[0].1), false);
+                    self.put(
+                        site,
+                        (whole.0, whole.0),
+                        format!("if !crate::mutation::active({}) {{ ", kept[0].1),
+                        false,
+                    );
                     self.put(site, (whole.1, whole.1), " }".into(), true);
                 }
                 return self.inside(|v| visit::visit_stmt(v, stmt));

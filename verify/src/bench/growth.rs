@@ -10,6 +10,7 @@ use super::method::text;
 use super::scene::{BenchScene, rows};
 use crate::check::largest;
 use crate::double_double::DoubleDouble;
+use crate::fit::{Slope, order};
 
 /// A method over long spans, as it goes on from one stretch to the next.
 #[derive(Clone, Copy)]
@@ -113,15 +114,9 @@ fn scales(scene: &BenchScene) -> [f64; 2] {
 
 /// The exponent `p` of `error ~ time^p` by least squares in logarithms, over the rows of a method from 1,000 t_c on, if there are three:
 /// a random walk takes longer to show what it is.
-pub fn exponent(rows: &[Row], method: &str, error: impl Fn(&Row) -> Option<f64>) -> Option<f64> {
+pub fn exponent(rows: &[Row], method: &str, error: impl Fn(&Row) -> f64) -> Option<Slope> {
     let of_this = rows.iter().filter(|row| row.method == method && row.time >= 1e3);
-    let points: Vec<_> = of_this.filter_map(|row| Some((row.time.ln(), error(row)?.ln()))).collect();
-    let count = points.len() as f64;
-    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
-    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let along: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
-    let across: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
-    (points.len() > 2).then(|| across / along)
+    order(&of_this.map(|row| (row.time, error(row))).collect::<Vec<_>>(), 0.0).ok()
 }
 
 #[cfg(test)]
@@ -132,9 +127,9 @@ mod tests {
     fn the_exponent_of_a_power_is_found() {
         let row = |time: f64| Row { method: "m", time, energy: 3e-16 * time.powf(0.5), clebsch: 1.0, phase: time };
         let rows: Vec<_> = [1e2, 1e3, 1e4, 1e5].map(row).into();
-        assert!((exponent(&rows, "m", |row| Some(row.energy)).expect("points") - 0.5).abs() < 1e-12);
-        assert!((exponent(&rows, "m", |row| Some(row.phase)).expect("points") - 1.0).abs() < 1e-12);
-        assert_eq!(exponent(&rows, "other", |row| Some(row.phase)), None);
+        assert!((exponent(&rows, "m", |row| row.energy).expect("points").value - 0.5).abs() < 1e-12);
+        assert!((exponent(&rows, "m", |row| row.phase).expect("points").value - 1.0).abs() < 1e-12);
+        assert_eq!(exponent(&rows, "other", |row| row.phase), None);
     }
 
     #[test]

@@ -115,11 +115,11 @@ pub fn growth(rows: &[growth::Row]) -> String {
         .collect();
     for method in distinct(rows.iter().map(|row| row.method)) {
         let exponents = [
-            growth::exponent(rows, method, |row| Some(row.energy)),
-            growth::exponent(rows, method, |row| Some(row.clebsch)),
-            growth::exponent(rows, method, |row| Some(row.phase)),
+            growth::exponent(rows, method, |row| row.energy),
+            growth::exponent(rows, method, |row| row.clebsch),
+            growth::exponent(rows, method, |row| row.phase),
         ];
-        let cells = exponents.map(|p| p.map_or("-".to_owned(), |p| format!("{p:.2}")));
+        let cells = exponents.map(|p| p.map_or("-".to_owned(), |p| format!("{:.2}", p.value)));
         lines.push([method.to_owned(), "exponent".to_owned()].into_iter().chain(cells).collect());
     }
     markdown(&["method", "time [t_c]", "energy", "K", "phase"], &lines)

@@ -7,9 +7,6 @@ use twofold::propagation::{AxisMotion, Motion};
 use crate::check::{Bound, Check, Kind, Measured};
 use crate::error_scenes::ErrorScene;
 
-const METHODS: [Method; 6] =
-    [Method::Free, Method::Steady, Method::Symmetric, Method::Mean, Method::Splitting, Method::Taylor];
-
 const SCENES: u64 = 60;
 const SEED: u64 = 11;
 
@@ -84,7 +81,8 @@ fn reversal() -> Result<Measured, String> {
 }
 
 fn threads() -> Result<Measured, String> {
-    let all: Vec<(Method, u64)> = METHODS.iter().flat_map(|m| (0..SCENES).map(move |number| (*m, number))).collect();
+    let all: Vec<(Method, u64)> =
+        Method::ALL.iter().flat_map(|m| (0..SCENES).map(move |number| (*m, number))).collect();
     let bits = |(method, number): &(Method, u64)| -> Option<Vec<u64>> {
         let (state, estimate) = state_of(*method, &scene(*method, *number)?).ok()?;
         let BodyState { axis, momentum, equatorial_axis } = state;

@@ -86,15 +86,7 @@ pub fn rj<S: Real>(x: S, y: S, z: S, p: S) -> S {
             let e3 = x * y * z + e2 * q * 2.0 + q * q * q * 4.0;
             let e4 = (x * y * z * 2.0 + e2 * q + q * q * q * 3.0) * q;
             let e5 = x * y * z * q * q;
-            let r = ratio::<S>;
-            let series = S::one() - e2 * r(3.0, 14.0) + e3 * r(1.0, 6.0) + e2 * e2 * r(9.0, 88.0)
-                - e4 * r(3.0, 22.0)
-                - e2 * e3 * r(9.0, 52.0)
-                + e5 * r(3.0, 26.0)
-                - e2 * e2 * e2 * r(1.0, 16.0)
-                + e3 * e3 * r(3.0, 40.0)
-                + e2 * e4 * r(3.0, 20.0);
-            return sum * 6.0 + scale * series / (mean * mean.sqrt());
+            return sum * 6.0 + scale * series([e2, e3, e4, e5]) / (mean * mean.sqrt());
         }
         let roots = at.map(S::sqrt);
         let root = p.sqrt();
@@ -112,6 +104,18 @@ pub fn rj<S: Real>(x: S, y: S, z: S, p: S) -> S {
     S::from_f64(f64::NAN)
 }
 
+/// Series of `R_J` and `R_D` in the elementary symmetric functions of the deviations from the mean (DLMF 19.36.2).
+fn series<S: Real>([e2, e3, e4, e5]: [S; 4]) -> S {
+    let r = ratio::<S>;
+    S::one() - e2 * r(3.0, 14.0) + e3 * r(1.0, 6.0) + e2 * e2 * r(9.0, 88.0)
+        - e4 * r(3.0, 22.0)
+        - e2 * e3 * r(9.0, 52.0)
+        + e5 * r(3.0, 26.0)
+        - e2 * e2 * e2 * r(1.0, 16.0)
+        + e3 * e3 * r(3.0, 40.0)
+        + e2 * e4 * r(3.0, 20.0)
+}
+
 /// Carlson's `R_D(x, y, z) = R_J(x, y, z, z)`, by a duplication of its own: `R_J` would lose what `p - z` does.
 pub fn rd<S: Real>(x: S, y: S, z: S) -> S {
     let (mut at, mut sum, mut scale) = ([x, y, z], S::zero(), S::one());
@@ -122,15 +126,7 @@ pub fn rd<S: Real>(x: S, y: S, z: S) -> S {
             let (xy, z2) = (x * y, z * z);
             let (e2, e3) = (xy - z2 * 6.0, (xy * 3.0 - z2 * 8.0) * z);
             let (e4, e5) = ((xy - z2) * z2 * 3.0, xy * z2 * z);
-            let r = ratio::<S>;
-            let series = S::one() - e2 * r(3.0, 14.0) + e3 * r(1.0, 6.0) + e2 * e2 * r(9.0, 88.0)
-                - e4 * r(3.0, 22.0)
-                - e2 * e3 * r(9.0, 52.0)
-                + e5 * r(3.0, 26.0)
-                - e2 * e2 * e2 * r(1.0, 16.0)
-                + e3 * e3 * r(3.0, 40.0)
-                + e2 * e4 * r(3.0, 20.0);
-            return sum * 3.0 + scale * series / (mean * mean.sqrt());
+            return sum * 3.0 + scale * series([e2, e3, e4, e5]) / (mean * mean.sqrt());
         }
         let lambda = lambda(&at);
         sum += scale / (at[2].sqrt() * (at[2] + lambda));

@@ -86,7 +86,11 @@ impl Suite {
             .output()
             .map_err(|e| format!("{}: {e}", binary.path.display()))?;
         let text = String::from_utf8_lossy(&output.stdout).to_string();
-        Ok(text.lines().filter_map(|line| line.strip_suffix(": test")).map(|n| n.rsplit("] ").next().unwrap_or(n).to_string()).collect())
+        Ok(text
+            .lines()
+            .filter_map(|line| line.strip_suffix(": test"))
+            .map(|n| n.rsplit("] ").next().unwrap_or(n).to_string())
+            .collect())
     }
 
     /// The command for tests of a binary.
@@ -109,7 +113,7 @@ impl Suite {
     }
 
     /// Runs tests with a mutant.
-    pub fn run(&self, _tree: &Path, binary: usize, names: &[&str], mutant: u64, limit: f64) -> Outcome {
+    pub fn run(&self, binary: usize, names: &[&str], mutant: u64, limit: f64) -> Outcome {
         let mut child = self
             .command(binary, names)
             .env("MUTANT", mutant.to_string())
