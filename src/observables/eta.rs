@@ -39,7 +39,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::error::Error;
 use crate::scalar::{Real, Scalar};
-use crate::solutions::mean::mean_and_sn2;
+use crate::solutions::mean::mean_of_cn2;
 
 /// Mean rate of the spin axis `l` (unit vector) in single precession, `dl/dt = (2 C / (I^zz Omega^z)) (s l) x l`, from
 /// `I^zz / C` and the spin `Omega^z`: the torque on a star that spins about its symmetry axis, divided by its angular momentum.
@@ -123,13 +123,13 @@ pub fn squared_speed_along_motion<S: Real>(asymmetry_ratio: S, alpha: S, beta: S
     let from_middle = margin(order);
     let complement = (first - last) * from_middle / ((middle - last) * from_first);
     // Not above zero on the separatrix; not a number where the axis rests because two eigenvalues are equal.
-    let mean_sn2 = if complement.re() > 0.0 {
+    let mean_cn2 = if complement.re() > 0.0 {
         let parameter = (first - middle) * from_last / ((middle - last) * from_first);
-        mean_and_sn2(parameter, complement.sqrt()).1
+        mean_of_cn2(parameter, complement.sqrt())
     } else {
-        S::one()
+        S::zero()
     };
-    from_last * (from_middle + (first - middle) * (S::one() - mean_sn2)) * 4.0
+    from_last * (from_middle + (first - middle) * mean_cn2) * 4.0
 }
 
 /// Azimuth and inclination `(alpha, beta)` (rad) at the start of a single precession with the constants `alpha_0`, `beta_0`

@@ -110,10 +110,14 @@ pub(super) struct Angles {
     pub(super) terms: u32,
 }
 
+/// An angle of so many halvings has a square near the largest number.
+const MOST_HALVINGS: f64 = 512.0;
+
 impl Angles {
-    /// For angles up to `longest` (rad). Fewer than eight terms are taken where what they omit is below 1e-19.
+    /// For angles up to `longest` (rad). Fewer than eight terms are taken where what they omit is below 1e-19; of angles without any
+    /// digit, infinite ones among them, nothing finite will come.
     pub(super) fn up_to(longest: f64) -> Self {
-        let halvings = (longest / LARGEST_ANGLE).log2().ceil().max(0.0) as u32;
+        let halvings = (longest / LARGEST_ANGLE).log2().ceil().clamp(0.0, MOST_HALVINGS) as u32;
         let terms = match longest {
             ..0.09 => 5,
             0.09..0.19 => 6,

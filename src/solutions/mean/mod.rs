@@ -45,6 +45,7 @@
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
+mod averages;
 mod error;
 mod generator;
 mod hamiltonian;
@@ -54,11 +55,11 @@ mod phases;
 pub mod slow_precession;
 mod top;
 
+pub(crate) use averages::mean_of_cn2;
 pub(in crate::solutions) use generator::mean_direction;
 pub use generator::{generator, generator_slopes};
 pub use hamiltonian::{MeanOrder, mean_angular_velocity, mean_potential};
 pub use middle_axis::{middle_axis_growth, period_near_separatrix};
 pub use motion::MeanMotion;
 pub use phases::{MeanPhases, MeanRates, MeanTurns, Turns};
-pub(crate) use top::mean_and_sn2;
 pub use top::{Top, TopPhases, TopShape};

@@ -11,20 +11,27 @@
 //! m = (A_1 cn u, -+ A_2 sn u, +- A_3 dn u),    u = u_0 + lambda t,    lambda = b A_2 A_3 / A_1,    k^2 = a A_1^2 / (b A_3^2)
 //! ```
 //!
-//! and the frame turns about `l`, against the meridian of `m_3`, at the rate `k_3 + (a + b) / (1 + (a/b) sn^2 u)`. Its integral, of the third
-//! kind, has a mean growth and the angle of `theta_1(z + i eta)`, `z = pi u / (2 K)`, `sc(2 K eta / pi, k')^2 = b / a`. No
-//! coordinate is singular: where `A_1` vanishes the meridian is that of `m / A_1`.
+//! and the frame turns about `l`, against the meridian of `m_1`, at the rate `k_2 - b dn^2 u / (1 + (A_1/A_3)^2 sn^2 u)`. Its integral, of
+//! the third kind, has the mean growth `k_2 - b <dn^2 u / (1 + (A_1/A_3)^2 sn^2 u)>` and, against the meridian of `m_3`, the angle of
+//! `theta_1(z + i eta)`, `z = pi u / (2 K)`, `sc(2 K eta / pi, k')^2 = b / a`. No coordinate is singular: where `A_1` vanishes the meridian
+//! is that of `m / A_1`.
 
-use core::f64::consts::FRAC_PI_2;
+use core::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::elliptic::carlson::{rf, rf_of_roots};
+use crate::elliptic::jacobi::ArithmeticGeometricMean;
 use crate::elliptic::theta::{Nome, ThetaSeries};
 use crate::scalar::{Real, length};
 
+use super::averages::{mean_of_cn2, mean_of_ratio};
+
 /// `k'^2` up to which a motion is on the separatrix: it is there within the rounding of its start.
 const SEPARATRIX: f64 = 1e-32;
+
+/// `-ln q` below which the theta functions are those of the complementary nome.
+const TRANSFORMED: f64 = 1.2;
 
 /// The course of a top.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,8 +58,8 @@ pub struct Top<S> {
 enum Course<S> {
     /// Neither `l` nor what it depends on moves.
     Still { direction: Vector3<S> },
-    /// With `pi / (2 K)`, the mean of `sn^2` and `k^2`.
-    Round { theta: ThetaSeries<S>, nome: Nome<S>, parameter: S, mean: S, mean_sn2: S },
+    /// With `k^2` and `k'^2`, `pi / (2 K)` and the mean of `cn^2`.
+    Round { theta: ThetaSeries<S>, nome: Nome<S>, parameter: S, complement_squared: S, mean: S, mean_cn2: S },
     /// From one end of the middle axis to the other; `sqrt(a / b)`.
     Separatrix { root_ratio: S },
 }
@@ -77,28 +84,6 @@ pub struct TopShape<S> {
     pub integral: S,
 }
 
-/// `AGM(1, k')` and the mean of `sn^2`, from `k^2` and `k'`.
-pub(crate) fn mean_and_sn2<S: Real>(parameter: S, complement: S) -> (S, S) {
-    let (mut a, mut b) = (S::one(), complement);
-    // (c_n / k)^2 of the ladder: c_1 = k^2 / (2 (1 + k')).
-    let first = (S::one() + complement) * 2.0;
-    let mut square = parameter / (first * first);
-    let (mut sum, mut weight) = (S::from_f64(0.5), 1.0);
-    for _ in 0..40 {
-        (a, b) = ((a + b) * 0.5, (a * b).sqrt());
-        let share = square * weight;
-        sum += share;
-        if share.re() <= 1e-40 {
-            break;
-        }
-        // c_(n+1) = c_n^2 / (4 a_(n+1))
-        let next_a = (a + b) * 0.5;
-        square = square * square * parameter / (next_a * next_a * 16.0);
-        weight *= 2.0;
-    }
-    ((a + b) * 0.5, sum)
-}
-
 /// The theta functions of a motion, shifted by `r = exp(-pi v / K)`, `v = F(arctan sqrt(b/a), k')`; for small `a` and with
 /// `elongated = A_1^2 / A_3^2` that is `a (1 + sqrt(1 + elongated))^2 / (16 b)`.
 fn series<S: Real>(nome: &Nome<S>, mean: S, a: S, b: S, elongated: S) -> ThetaSeries<S> {
@@ -110,6 +95,10 @@ fn series<S: Real>(nome: &Nome<S>, mean: S, a: S, b: S, elongated: S) -> ThetaSe
     }
     let whole = a + b;
     let v = (b / whole).sqrt() * rf(a / whole, (a + a * elongated) / whole, one);
+    if let Some(decay) = nome.decay.filter(|decay| decay.re() < TRANSFORMED) {
+        // pi eta / decay = pi v / (2 K')
+        return ThetaSeries::transformed(decay, v * mean * S::from_f64(PI) / decay);
+    }
     let r = (v * mean * -2.0).exp();
     ThetaSeries::new(nome.q, r, nome.q / r)
 }
@@ -117,7 +106,7 @@ fn series<S: Real>(nome: &Nome<S>, mean: S, a: S, b: S, elongated: S) -> ThetaSe
 impl<S: Real> Top<S> {
     /// The motion from the unit vector `l`, for the principal values `k` of the tensor.
     ///
-    /// Near the separatrix the functions lose digits: 6e-13 at `k'^2 = 1e-16`, 1e-9 at 1e-31, below which it is taken for the separatrix.
+    /// Up to `k'^2 = 1e-32`, which is within the rounding of the start, the motion is taken for that on the separatrix.
     ///
     /// First derivatives exist where `l` goes round an axis at a distance ([`goes_round`](Self::goes_round)), two equal principal values
     /// included; on an axis, at rest and on the separatrix there are none.
@@ -186,7 +175,8 @@ impl<S: Real> Top<S> {
             };
         }
         let complement = complement_squared.sqrt();
-        let (mean, mean_sn2) = mean_and_sn2(parameter, complement);
+        let mean = ArithmeticGeometricMean::new(one, complement).limit();
+        let mean_cn2 = mean_of_cn2(parameter, complement);
         let nome = Nome::new(parameter, complement_squared);
         let theta = series(&nome, mean, a, b, elongated);
         let quarter = S::from_f64(FRAC_PI_2) / mean;
@@ -194,9 +184,16 @@ impl<S: Real> Top<S> {
         let first_half = sn * rf_of_roots(cn.abs(), dn + one, dn);
         let u = if cn.re() < 0.0 { quarter * 2.0 - first_half } else { first_half };
         let slow = lambda * mean;
+        // From the value that is nearer.
+        let along = mean_of_ratio(complement, one + elongated, [one, complement_squared]);
+        let about = if along.re() < 0.5 {
+            k[places[1]] - b * along
+        } else {
+            k[places[2]] + whole * elongated * mean_of_ratio(complement, one + elongated, [zero, one])
+        };
         Self {
-            course: Course::Round { theta, nome, parameter, mean, mean_sn2 },
-            rates: TopPhases { slow, about: k[places[0]] + slow * theta.slope_of_shifted() },
+            course: Course::Round { theta, nome, parameter, complement_squared, mean, mean_cn2 },
+            rates: TopPhases { slow, about },
             start: u * mean,
             ..moving
         }
@@ -211,7 +208,7 @@ impl<S: Real> Top<S> {
     pub fn complement(&self) -> f64 {
         match &self.course {
             Course::Still { .. } => 1.0,
-            Course::Round { parameter, .. } => (1.0 - parameter.re()).max(0.0).sqrt(),
+            Course::Round { complement_squared, .. } => complement_squared.re().sqrt(),
             Course::Separatrix { .. } => 0.0,
         }
     }
@@ -257,8 +254,10 @@ impl<S: Real> Top<S> {
     pub fn mean_squares(&self) -> Vector3<S> {
         match &self.course {
             Course::Still { direction } => direction.component_mul(direction),
-            Course::Round { mean_sn2, parameter, .. } => {
-                self.in_places([S::one() - *mean_sn2, *mean_sn2, S::one() - *parameter * *mean_sn2])
+            // dn^2 = cn^2 + k'^2 sn^2
+            Course::Round { mean_cn2, complement_squared, .. } => {
+                let mean_sn2 = S::one() - *mean_cn2;
+                self.in_places([*mean_cn2, mean_sn2, *mean_cn2 + *complement_squared * mean_sn2])
             }
             Course::Separatrix { .. } => self.in_places([S::zero(), S::one(), S::zero()]),
         }

@@ -1,6 +1,7 @@
 //! Which tests reach which mutant, and which mutants they catch.
 
 mod record;
+mod score;
 mod suite;
 
 use std::collections::HashMap;
@@ -20,7 +21,8 @@ const BATCH: f64 = 0.4;
 
 /// Runs the campaign. `rest`: seconds of tests for each mutant, then a file prefix that limits the mutants.
 ///
-/// Reads `mutants.json`, keeps `coverage.json` and appends to `results.jsonl`, all in the tree; goes on where it stopped.
+/// Reads `mutants.json`, keeps `coverage.json` and appends to `results.jsonl`, all in the tree; goes on where it stopped. What is listed as
+/// equivalent is not run.
 pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
     let budget: f64 = rest.first().map_or(Ok(10.0), |s| s.parse()).map_err(|_| "seconds per mutant: not a number")?;
     let prefix = rest.get(1).copied().unwrap_or("src/");
@@ -39,6 +41,7 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
     let open: Vec<&Value> = mutants
         .iter()
         .filter(|m| m["file"].as_str().unwrap_or("").starts_with(prefix))
+        .filter(|m| !score::is_equivalent(m))
         .filter(|m| done.get(&m["number"].as_u64().unwrap_or(0)).is_none_or(|spent| *spent < budget))
         .collect();
     eprintln!("{} mutants, {} to do, {} tests", mutants.len(), open.len(), tests.len());
@@ -93,7 +96,7 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
             });
         }
     });
-    summary(tree, &mutants)
+    score::write(tree, &mutants)
 }
 
 /// Seconds of tests after which a result need not be sought again.
@@ -176,55 +179,4 @@ fn lines(path: &Path) -> Result<Vec<Value>, String> {
     let text = fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
     // A last line that was cut off is no result.
     Ok(text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect())
-}
-
-/// The score by file, and every mutant that was not caught.
-fn summary(tree: &Path, mutants: &[Value]) -> Result<(), String> {
-    let mut last: HashMap<u64, Value> = HashMap::new();
-    for result in lines(&tree.join("results.jsonl"))? {
-        last.insert(result["number"].as_u64().unwrap_or(0), result);
-    }
-    let mut by_file: Vec<(String, [usize; 4])> = Vec::new();
-    for mutant in mutants {
-        let file = mutant["file"].as_str().unwrap_or("").to_string();
-        if by_file.last().is_none_or(|(name, _)| *name != file) {
-            by_file.push((file, [0; 4]));
-        }
-        let counts = &mut by_file.last_mut().expect("pushed").1;
-        match last.get(&mutant["number"].as_u64().unwrap_or(0)).map(|r| r["outcome"].as_str().unwrap_or("").to_string())
-        {
-            Some(o) if o == "caught" => counts[0] += 1,
-            Some(o) if o == "survived" => counts[1] += 1,
-            Some(_) => counts[2] += 1,
-            None => counts[3] += 1,
-        }
-    }
-    println!("{:<56} {:>7} {:>8} {:>9} {:>8}", "file", "caught", "survived", "unreached", "not run");
-    let mut total = [0; 4];
-    for (file, counts) in &by_file {
-        println!("{file:<56} {:>7} {:>8} {:>9} {:>8}", counts[0], counts[1], counts[2], counts[3]);
-        for (sum, count) in total.iter_mut().zip(counts) {
-            *sum += count;
-        }
-    }
-    println!("{:<56} {:>7} {:>8} {:>9} {:>8}", "all", total[0], total[1], total[2], total[3]);
-    let mut missed: Vec<&Value> = last.values().filter(|r| r["outcome"] != "caught").collect();
-    missed.sort_by_key(|r| (r["file"].as_str().unwrap_or("").to_string(), r["line"].as_u64(), r["number"].as_u64()));
-    let mut text = String::new();
-    for r in missed {
-        let part =
-            if r["complete"] == false { "survived the quick tests" } else { r["outcome"].as_str().unwrap_or("") };
-        text += &format!(
-            "{}:{} {} [{}] {}: {}\n",
-            r["file"].as_str().unwrap_or(""),
-            r["line"],
-            r["function"].as_str().unwrap_or(""),
-            part,
-            r["change"].as_str().unwrap_or(""),
-            r["code"].as_str().unwrap_or("")
-        );
-    }
-    fs::write(tree.join("missed.txt"), text).map_err(|e| e.to_string())?;
-    println!("those not caught: {}", tree.join("missed.txt").display());
-    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
@@ -125,24 +125,29 @@ impl Suite {
             child.stdout.take().map(|mut s| std::thread::spawn(move || text_of(&mut s))),
             child.stderr.take().map(|mut s| std::thread::spawn(move || text_of(&mut s))),
         ];
-        let started = Instant::now();
-        let status = loop {
-            if let Some(status) = child.try_wait().expect("the child is ours") {
-                break Some(status);
-            }
-            if started.elapsed().as_secs_f64() > limit {
-                let _ = child.kill();
-                let _ = child.wait();
-                break None;
-            }
-            std::thread::sleep(Duration::from_millis(3));
-        };
+        let status = ended(child, limit);
         let output: String = readers.into_iter().flatten().map(|r| r.join().unwrap_or_default()).collect();
         match status {
             None => Outcome::TimedOut,
             Some(status) if status.success() => Outcome::Passed,
             Some(_) => Outcome::Failed(output),
         }
+    }
+}
+
+/// How a process ended; none if it had to be stopped.
+pub fn ended(mut child: Child, limit: f64) -> Option<ExitStatus> {
+    let started = Instant::now();
+    loop {
+        if let Some(status) = child.try_wait().expect("the child is ours") {
+            return Some(status);
+        }
+        if started.elapsed().as_secs_f64() > limit {
+            let _ = child.kill();
+            let _ = child.wait();
+            return None;
+        }
+        std::thread::sleep(Duration::from_millis(3));
     }
 }
 

@@ -103,6 +103,19 @@ functions! {
         vec![q, q / (S::one() - x[0])]
     }
     /// `q`, `r / q` as a power of `q`, sine and cosine.
+    /// Decay, share of the shift, sine of the argument.
+    ThetaOfDecay(x) {
+        let series = ThetaSeries::transformed(x[0], x[1] * FRAC_PI_2);
+        let at = series.at(x[2], (S::one() - x[2] * x[2]).sqrt());
+        let [along, across] = at.shifted;
+        let size = (along * along + across * across).sqrt();
+        vec![at.sn, at.cn, at.dn, at.slope, along / size, across / size]
+    }
+    ExactThetaOfDecay(x) {
+        let mut all = ExactTheta::of(&[(-x[0]).exp(), x[1], x[2]]);
+        all.extend(ExactThetaShifted::of(&[(-x[0]).exp(), x[1], x[2]]));
+        all
+    }
     Theta(x) {
         let r = (x[0].ln() * x[1]).exp();
         let series = ThetaSeries::new(x[0], r, x[0] / r);
@@ -113,11 +126,65 @@ functions! {
         let r = (x[0].ln() * x[1]).exp();
         let series = ThetaSeries::new(x[0], r, x[0] / r);
         let at = series.at(x[2], (S::one() - x[2] * x[2]).sqrt());
-        vec![at.slope, at.shifted[0], at.shifted[1], series.slope_of_shifted()]
+        let [along, across] = at.shifted;
+        let size = (along * along + across * across).sqrt();
+        vec![at.slope, along / size, across / size]
+    }
+    ExactTheta(x) {
+        let [_, one, two, three, four] = theta_sums(x[0], x[2]);
+        let [_, _, two_zero, three_zero, four_zero] = theta_sums(x[0], S::zero());
+        vec![three_zero * one / (two_zero * four), four_zero * two / (two_zero * four), four_zero * three / (three_zero * four)]
+    }
+    ExactThetaShifted(x) {
+        let [slope, _, _, _, four] = theta_sums(x[0], x[2]);
+        let [along, across] = shifted_sums(x[0], x[1], x[2]);
+        let size = (along * along + across * across).sqrt();
+        vec![slope / four, along / size, across / size]
     }
 }
 
-const SEPARATRIX: &str = "`theta_4` is an alternating sum of terms of the size one: condition number 1 / theta_4(0), 3e6 at q = 0.865, that is k'^2 = 1e-29.";
+/// The derivative of `theta_4` and `theta_1` to `theta_4` (DLMF 20.2.1 to 20.2.4) at the argument of a sine, by as many terms as `q < 0.9` needs.
+fn theta_sums<S: Real>(q: S, sin: S) -> [S; 5] {
+    let z = sin.atan2((S::one() - sin * sin).sqrt());
+    let [mut slope, mut one, mut two] = [S::zero(); 3];
+    let [mut three, mut four] = [S::one(); 2];
+    let log = q.ln();
+    for n in 0..40 {
+        let (sign, odd) = (if n % 2 == 0 { 2.0 } else { -2.0 }, f64::from(2 * n + 1));
+        let term = (log * (odd * odd / 4.0)).exp();
+        let (sin_odd, cos_odd) = (z * odd).sin_cos();
+        one += term * sin_odd * sign;
+        two += term * cos_odd * 2.0;
+        if n > 0 {
+            let term = (log * f64::from(n * n)).exp();
+            let (sin_even, cos_even) = (z * f64::from(2 * n)).sin_cos();
+            three += term * cos_even * 2.0;
+            four += term * cos_even * sign;
+            slope -= term * sin_even * (sign * f64::from(2 * n));
+        }
+    }
+    [slope, one, two, three, four]
+}
+
+/// Real and imaginary part of `i theta_1(z + i eta)` with `exp(-2 eta) = q^share`.
+fn shifted_sums<S: Real>(q: S, share: S, sin: S) -> [S; 2] {
+    let z = sin.atan2((S::one() - sin * sin).sqrt());
+    let [mut along, mut across] = [S::zero(); 2];
+    let log = q.ln();
+    for n in 0..40 {
+        let (sign, odd) = (if n % 2 == 0 { 1.0 } else { -1.0 }, f64::from(2 * n + 1));
+        // 2 q^((n+1/2)^2) cosh and sinh of (2n+1) eta, eta = -ln(q) share / 2.
+        let term = log * (odd * odd / 4.0);
+        let eta = log * share * (-0.5 * odd);
+        let (up, down) = ((term + eta).exp(), (term - eta).exp());
+        let (sin_odd, cos_odd) = (z * odd).sin_cos();
+        // i sin(x + i y) = -cos x sinh y + i sin x cosh y
+        along -= cos_odd * (up - down) * sign;
+        across += sin_odd * (up + down) * sign;
+    }
+    [along, across]
+}
+
 const RF: &[&str] = &["elliptic::carlson::rf"];
 const RC: &[&str] = &["elliptic::carlson::rc"];
 const RD: &[&str] = &["elliptic::carlson::rd"];
@@ -133,13 +200,15 @@ const COMPLETE: &[&str] =
 const NOME: &[&str] = &["elliptic::theta::Nome::new"];
 const THETA: &[&str] = &[
     "elliptic::theta::ThetaSeries::new",
+    "elliptic::theta::ThetaSeries::transformed",
     "elliptic::theta::ThetaSeries::at",
-    "elliptic::theta::ThetaSeries::slope_of_shifted",
 ];
 
 pub(super) fn cases() -> Vec<Case> {
     let some = In(0.5, 2.0);
-    let separatrix = [Below(0.88, -2.0, -0.2), In(0.1, 0.9), In(-1.0, 1.0)];
+    let separatrix = [Below(0.88, -2.0, -0.25), In(0.1, 0.9), In(-1.0, 1.0)];
+    let by_decay = [In(0.12, 1.5), In(0.1, 0.9), In(-1.0, 1.0)];
+    let change = [In(0.25, 0.35), In(0.1, 0.9), In(-1.0, 1.0)];
     vec![
         Case::new::<Rf>(RF, "one argument -> 0", &[Log(-300.0, 0.0), some, some]).against::<ExactRf>(),
         Case::new::<Rf>(RF, "one argument -> infinity", &[Log(0.0, 70.0), some, some]).against::<ExactRf>(),
@@ -197,13 +266,34 @@ pub(super) fn cases() -> Vec<Case> {
                 1e3,
                 "They are 4 sin z cos z times cosine and sine of z, made of terms of the size 4: condition number 1 / sin z.",
             ),
-        Case::new::<ThetaShifted>(THETA, "q -> 0, zeta and shifted", &[Log(-100.0, -1.0), In(0.1, 0.9), In(-1.0, 1.0)]).composite(),
-        Case::new::<Theta>(THETA, "q -> 0.87, the separatrix", &separatrix)
+        Case::new::<ThetaShifted>(THETA, "q -> 0, zeta and shifted", &[Log(-100.0, -1.0), In(0.1, 0.9), In(-1.0, 1.0)])
+            .composite()
+            .natural_derivatives(),
+        Case::new::<ThetaOfDecay>(THETA, "-ln q from 0.12 to 1.5", &by_decay)
+            .composite()
+            .against::<ExactThetaOfDecay>()
+            .natural_derivatives(),
+        Case::new::<Theta>(THETA, "q from 0.25 to 0.35, where the series change", &change)
+            .composite()
             .vector()
-            .except(1e7, SEPARATRIX)
-            .derivatives_except(1e13, SEPARATRIX),
+            .against::<ExactTheta>()
+            .natural_derivatives(),
+        Case::new::<ThetaShifted>(THETA, "q from 0.25 to 0.35, zeta and shifted", &change)
+            .composite()
+            .against::<ExactThetaShifted>()
+            .natural_derivatives(),
+        Case::new::<Theta>(THETA, "q -> 0.87, the separatrix", &separatrix)
+            .composite()
+            .vector()
+            .against::<ExactTheta>()
+            .natural_derivatives(),
         Case::new::<ThetaShifted>(THETA, "q -> 0.87, zeta and shifted", &separatrix)
-            .except(1e7, SEPARATRIX)
-            .derivatives_except(1e13, SEPARATRIX),
+            .composite()
+            .against::<ExactThetaShifted>()
+            .natural_derivatives()
+            .derivatives_except(
+                100.0,
+                "Here `r` is a power of `q`, and both carry their derivatives through `ln q`: condition number 1 / |ln q|. `transformed` does not.",
+            ),
     ]
 }
