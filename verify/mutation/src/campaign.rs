@@ -53,7 +53,7 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
             .map_err(|e| format!("{}: {e}", results.display()))?,
     );
     // How often a test caught a mutant of a function: those are tried first.
-    let kills: Mutex<HashMap<(String, usize), u32>> = Mutex::new(HashMap::new());
+    let kills = Mutex::new(earlier_kills(&results, &tests));
     let (next, missed, started) = (AtomicUsize::new(0), AtomicUsize::new(0), Instant::now());
     let workers = std::env::var("WORKERS").ok().and_then(|v| v.parse().ok()).unwrap_or(2_usize);
     std::thread::scope(|scope| {
@@ -63,7 +63,7 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
                     let k = next.fetch_add(1, Ordering::Relaxed);
                     let Some(mutant) = open.get(k) else { return };
                     let number = mutant["number"].as_u64().unwrap_or(0);
-                    let places = [format!("{}::{}", mutant["file"], mutant["function"]), mutant["file"].to_string()];
+                    let places = places(mutant);
                     let order = ordered(reaching.get(&number), &tests, &places, &kills);
                     let begun = Instant::now();
                     let (outcome, by, complete) = judge(&suite, &tests, &order, number, budget);
@@ -97,6 +97,24 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
         }
     });
     score::write(tree, &mutants)
+}
+
+/// Places of a mutant that tests are remembered for: its function and its file.
+fn places(mutant: &Value) -> [String; 2] {
+    [format!("{}::{}", mutant["file"], mutant["function"]), mutant["file"].to_string()]
+}
+
+/// What earlier runs of the campaign caught.
+fn earlier_kills(results: &Path, tests: &[Test]) -> HashMap<(String, usize), u32> {
+    let mut kills = HashMap::new();
+    for result in lines(results).unwrap_or_default() {
+        if let Some(test) = result["by"].as_str().and_then(|name| tests.iter().position(|test| test.name == name)) {
+            for place in places(&result) {
+                *kills.entry((place, test)).or_default() += 1;
+            }
+        }
+    }
+    kills
 }
 
 /// Seconds of tests after which a result need not be sought again.

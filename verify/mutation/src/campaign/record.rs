@@ -1,8 +1,8 @@
-//! One run of each test without a mutant: how long it takes and what it reaches.
+//! Each test without a mutant: how long it takes and what it reaches.
 
 use std::fs;
 use std::path::Path;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::suite::{self, Suite, Test};
 
-/// Tests that take longer than this while they write what they reach are left out (s).
+/// Time for one test, without a mutant (s).
 const LONGEST: f64 = 90.0;
 
 /// Tests that pass without a mutant; kept in `coverage.json`, which is taken as it is if there.
@@ -32,13 +32,17 @@ pub fn coverage(tree: &Path, suite: &Suite) -> Result<Vec<Test>, String> {
                 let reached = tree.join(format!("reached-{worker}.txt"));
                 while let Some((binary, name)) = all.get(next.fetch_add(1, Ordering::Relaxed)) {
                     let _ = fs::remove_file(&reached);
+                    let quiet = |command: &mut Command| {
+                        let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+                        suite::ended(child.expect("a process can be started"), LONGEST)
+                    };
+                    // Once for the time, once more slowly for what is reached; of a test that is stopped then, what it reached so far.
                     let started = Instant::now();
-                    let mut command = suite.command(*binary, &[name]);
-                    command.env("REACHED", &reached).stdout(Stdio::null()).stderr(Stdio::null());
-                    let passed = suite::ended(command.spawn().expect("a process can be started"), LONGEST);
-                    // One that is stopped is never run with a mutant: what it reached until then is open if nothing else catches it.
-                    let seconds = if passed.is_none() { f64::MAX } else { started.elapsed().as_secs_f64() };
-                    let passed = passed.is_none_or(|status| status.success());
+                    let passed = quiet(&mut suite.command(*binary, &[name])).is_some_and(|status| status.success());
+                    let seconds = started.elapsed().as_secs_f64();
+                    if passed {
+                        quiet(suite.command(*binary, &[name]).env("REACHED", &reached));
+                    }
                     let text = fs::read_to_string(&reached).unwrap_or_default();
                     let mut numbers: Vec<u64> = text.lines().filter_map(|l| l.parse().ok()).collect();
                     numbers.sort_unstable();
