@@ -1,6 +1,6 @@
 //! The error of a motion by splitting, from the same motion by a better scheme.
 
-use crate::propagation::splitting::flows::{Moving, RATE};
+use crate::propagation::splitting::flows::{Field, Moving, RATE};
 use crate::propagation::splitting::one_motion::OneMotion;
 use crate::propagation::splitting::{GRADIENT_8_8_6, SplittingMotion};
 
@@ -13,6 +13,11 @@ const SAFETY: f64 = 6.0;
 
 /// Roundings by which the start of the better motion is off, in a direction of no meaning.
 const OFF: [f64; 3] = [8.3, -6.1, 7.7];
+
+/// The same of another motion by the same steps, in a direction normal to it: an instability may leave one of them as it is. In its field the
+/// eigenvalues of `s` are off by their own roundings, which are large beside nearly equal ones.
+const OFF_ACROSS: [f64; 3] = [9.4, 8.9, -3.1];
+const EIGENVALUES_OFF: [f64; 3] = [3.7, -5.3, 4.1];
 
 /// Longest step of the better motion, in radians of the rotation: beyond, the orders of a scheme do not say how its error falls.
 const LONGEST_STEP: f64 = 1.0;
@@ -45,28 +50,33 @@ impl ErrorEstimate {
         let half_back = other(-0.5 * motion.step());
         let half_forth = OneMotion::new(motion.scheme(), &scene.field, 0.5 * motion.step(), scene.largest_rate);
         // From a start that is off by a rounding: so the difference knows what an instability makes of those that both motions share.
-        let mut state = scene.start;
-        for v in 0..V {
-            let unit = if v == RATE { scene.largest_rate } else { 1.0 };
-            for (x, part) in state.vectors[v].iter_mut().zip(OFF) {
-                *x += part * f64::EPSILON * unit;
-            }
-        }
+        let mut state = off(&scene.start, OFF, scene.largest_rate);
+        let largest_eigenvalue = scene.eigenvalues.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let mut beside = off(&scene.start, OFF_ACROSS, scene.largest_rate);
         finer.open(&mut state);
+        let rounded = |k: usize| scene.eigenvalues[k] + EIGENVALUES_OFF[k] * f64::EPSILON * largest_eigenvalue;
+        let field = Field::new(scene.field.strength, [0, 1, 2].map(rounded));
+        let along = OneMotion::new(motion.scheme(), &field, motion.step(), scene.largest_rate);
+        along.open(&mut beside);
         let (mut largest, mut most, mut done) = (Vec::new(), 0.0_f64, 0);
         while done < twos {
             let now = stride.min(twos - done);
             finer.advance(&mut state, scene.casimir, per_two * now);
+            along.advance(&mut beside, scene.casimir, 2 * now);
             done += now;
             let mut closed = state;
             finer.close(&mut closed);
-            let at_step = largest_difference(&closed, &motion.after(2 * done), scene.largest_rate);
+            let there = motion.after(2 * done);
+            let at_step = largest_difference(&closed, &there, scene.largest_rate);
+            let mut grown = beside;
+            along.close(&mut grown);
+            let grown = largest_difference(&grown, &there, scene.largest_rate);
             // In the middle of a step as well: there the error is another.
             half_back.single(&mut closed, scene.casimir);
             let mut between = motion.after(2 * done - 1);
             half_forth.single(&mut between, scene.casimir);
             let in_step = largest_difference(&closed, &between, scene.largest_rate);
-            for difference in [at_step, in_step] {
+            for difference in [at_step, grown, in_step] {
                 most = if SAFETY * difference > most || difference.is_nan() { SAFETY * difference } else { most };
             }
             largest.push(most);
@@ -84,6 +94,18 @@ impl ErrorEstimate {
         let index = (elapsed / self.interval) as usize;
         self.largest[index.min(self.largest.len() - 1)] + rounding
     }
+}
+
+/// A start that is off by so many roundings.
+fn off<const V: usize>(start: &Moving<f64, V>, parts: [f64; 3], rate: f64) -> Moving<f64, V> {
+    let mut state = *start;
+    for v in 0..V {
+        let unit = if v == RATE { rate } else { 1.0 };
+        for (x, part) in state.vectors[v].iter_mut().zip(parts) {
+            *x += part * f64::EPSILON * unit;
+        }
+    }
+    state
 }
 
 /// Largest difference of a component of `n` and the vector carried along, and of `w` in units of `rate`.

@@ -26,6 +26,8 @@ const MOST_STATES: u64 = 100_000;
 #[derive(Debug, Clone)]
 pub(super) struct Scene<const V: usize = 2> {
     pub(super) field: Field<f64>,
+    /// Of `s^IJ`, in descending order.
+    pub(super) eigenvalues: [f64; 3],
     pub(super) inertia: f64,
     pub(super) principal_from_given: Matrix3<f64>,
     pub(super) start: Moving<f64, V>,
@@ -66,6 +68,7 @@ impl<const V: usize> Scene<V> {
         )?;
         Ok(Self {
             field,
+            eigenvalues,
             inertia,
             principal_from_given: turn,
             start,

@@ -27,7 +27,9 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
     let budget: f64 = rest.first().map_or(Ok(10.0), |s| s.parse()).map_err(|_| "seconds per mutant: not a number")?;
     let prefix = rest.get(1).copied().unwrap_or("src/");
     let mutants = lines(&tree.join("mutants.json"))?;
-    let suite = Suite::build(tree)?;
+    // Only some binaries, by the beginnings of their names: what they do not catch is as open as before.
+    let only = std::env::var("ONLY").ok();
+    let suite = Suite::build(tree, only.as_deref())?;
     let tests = record::coverage(tree, &suite)?;
     let mut reaching: HashMap<u64, Vec<usize>> = HashMap::new();
     for (index, test) in tests.iter().enumerate() {
@@ -36,8 +38,11 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
         }
     }
     let results = tree.join("results.jsonl");
-    let done: HashMap<u64, f64> =
-        lines(&results).unwrap_or_default().iter().map(|r| (r["number"].as_u64().unwrap_or(0), settled(r))).collect();
+    let done: HashMap<u64, f64> = lines(&results)
+        .unwrap_or_default()
+        .iter()
+        .map(|r| (r["number"].as_u64().unwrap_or(0), settled(r, only.is_some())))
+        .collect();
     let open: Vec<&Value> = mutants
         .iter()
         .filter(|m| m["file"].as_str().unwrap_or("").starts_with(prefix))
@@ -74,6 +79,9 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
                         }
                     } else if outcome != "caught" {
                         missed.fetch_add(1, Ordering::Relaxed);
+                    }
+                    if only.is_some() && outcome != "caught" {
+                        continue;
                     }
                     let line = json!({
                         "number": number, "outcome": outcome, "by": by.map(|k| tests[k].name.clone()),
@@ -117,10 +125,16 @@ fn earlier_kills(results: &Path, tests: &[Test]) -> HashMap<(String, usize), u32
     kills
 }
 
-/// Seconds of tests after which a result need not be sought again.
-fn settled(result: &Value) -> f64 {
+/// Seconds of tests after which a result need not be sought again; with some tests alone, all that they may catch is sought.
+fn settled(result: &Value, some_tests: bool) -> f64 {
     let open = result["outcome"] == "survived" && result["complete"] == false;
-    if open { result["budget"].as_f64().unwrap_or(0.0) } else { f64::INFINITY }
+    if some_tests && result["outcome"] != "caught" {
+        0.0
+    } else if open {
+        result["budget"].as_f64().unwrap_or(0.0)
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// Tests that reach the mutant: those that caught others near it, then the quick ones.

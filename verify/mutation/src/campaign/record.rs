@@ -14,15 +14,17 @@ use super::suite::{self, Suite, Test};
 /// Time for one test, without a mutant (s).
 const LONGEST: f64 = 90.0;
 
-/// Tests that pass without a mutant; kept in `coverage.json`, which is taken as it is if there.
+/// Tests that pass without a mutant; kept in `coverage.json`, to which those of new binaries are added.
 pub fn coverage(tree: &Path, suite: &Suite) -> Result<Vec<Test>, String> {
     let file = tree.join("coverage.json");
-    if let Ok(text) = fs::read_to_string(&file) {
-        return text.lines().map(|line| read(line, suite)).collect();
-    }
+    let written = fs::read_to_string(&file).unwrap_or_default();
+    let known: Vec<Test> =
+        written.lines().filter_map(|line| read(line, suite).transpose()).collect::<Result<_, _>>()?;
     let mut all = Vec::new();
     for binary in 0..suite.binaries.len() {
-        all.extend(suite.names(binary)?.into_iter().map(|name| (binary, name)));
+        if known.iter().all(|test| test.binary != binary) {
+            all.extend(suite.names(binary)?.into_iter().map(|name| (binary, name)));
+        }
     }
     let (next, tests) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     std::thread::scope(|scope| {
@@ -58,30 +60,29 @@ pub fn coverage(tree: &Path, suite: &Suite) -> Result<Vec<Test>, String> {
             });
         }
     });
-    let tests = tests.into_inner().expect("no panic");
+    let tests: Vec<Test> = known.into_iter().chain(tests.into_inner().expect("no panic")).collect();
+    let others = written.lines().filter(|line| matches!(read(line, suite), Ok(None))).map(str::to_string);
     let text: Vec<String> = tests
         .iter()
         .map(|t| {
             let path = suite.binaries[t.binary].path.to_string_lossy();
             json!({"binary": path, "name": t.name, "seconds": t.seconds, "reached": t.reached}).to_string()
         })
+        .chain(others)
         .collect();
     fs::write(&file, text.join("\n") + "\n").map_err(|e| format!("{}: {e}", file.display()))?;
     Ok(tests)
 }
 
-fn read(line: &str, suite: &Suite) -> Result<Test, String> {
+/// None for a binary that is not built any more.
+fn read(line: &str, suite: &Suite) -> Result<Option<Test>, String> {
     let value: Value = serde_json::from_str(line).map_err(|e| format!("coverage.json: {e}"))?;
     let path = Path::new(value["binary"].as_str().unwrap_or(""));
-    let binary = suite
-        .binaries
-        .iter()
-        .position(|b| b.path == path)
-        .ok_or_else(|| format!("coverage.json is of other binaries ({}): remove it", path.display()))?;
-    Ok(Test {
+    let Some(binary) = suite.binaries.iter().position(|b| b.path == path) else { return Ok(None) };
+    Ok(Some(Test {
         binary,
         name: value["name"].as_str().unwrap_or("").to_string(),
         seconds: value["seconds"].as_f64().unwrap_or(1.0),
         reached: value["reached"].as_array().map(|a| a.iter().filter_map(Value::as_u64).collect()).unwrap_or_default(),
-    })
+    }))
 }

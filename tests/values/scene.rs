@@ -1,0 +1,40 @@
+//! A star and a tensor of which no two numbers are equal, and none is one.
+
+use nalgebra::Matrix3;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::observables::Observer;
+use twofold::observables::pulsar::Beam;
+use twofold::plan::Start;
+
+pub const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.7, constant_c: 0.8 };
+pub const ANGLES: EulerAngles<f64> = EulerAngles { alpha: 0.3, beta: 1.1, gamma: -0.5 };
+pub const RATES: EulerRates<f64> = EulerRates { alpha: 0.9, beta: 0.2, gamma: 0.6 };
+
+/// Eigenvalues in no order, and the frame turned.
+pub fn tensor(values: [f64; 3]) -> Matrix3<f64> {
+    let turn = body_from_inertial(&EulerAngles { alpha: 0.4, beta: 1.2, gamma: -0.7 });
+    let tensor = turn.transpose() * PrincipalCoefficients::new(values).tensor() * turn;
+    (tensor + tensor.transpose()) * 0.5
+}
+
+pub fn general() -> Matrix3<f64> {
+    tensor([0.021, -0.004, 0.009])
+}
+
+pub fn state() -> BodyState<f64> {
+    BodyState::from_angles(&STAR, &ANGLES, &RATES)
+}
+
+pub fn start() -> Start<f64> {
+    Start { spheroid: STAR, violation: general(), angles: ANGLES, rates: RATES }
+}
+
+pub fn beam() -> Beam<f64> {
+    Beam::new(1.25, 0.4, 0.5)
+}
+
+pub fn observer() -> Observer<f64> {
+    Observer::at(0.95, 0.35)
+}
