@@ -116,7 +116,7 @@ fn clocks() {
                 for t in [[0.0, 0.0], [12.0, 0.3], [31.0, 0.0], [5e3, 0.25], [-250.0, 0.0], [30.0, 0.0]] {
                     match clock.pulse_near(t) {
                         Ok(Some(pulse)) => {
-                            let at = [pulse.number as f64, pulse.midpoint[0], pulse.midpoint[1] * 1e10, pulse.duration];
+                            let at = [pulse.number as f64, pulse.midpoint[0] + pulse.midpoint[1], pulse.duration];
                             table.parts(&format!("{name} near {t:?}"), at);
                             table.parts(
                                 &format!("{name} near {t:?}: angle, rate, swing"),

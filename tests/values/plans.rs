@@ -27,7 +27,8 @@ fn plan(table: &mut Table, name: &str, plan: &Plan) {
             Ok(found) => {
                 let admitted = f64::from(u8::from(plan.admits(found)));
                 let Prediction { truncation, rounding, order, bytes, cost, .. } = *found;
-                table.row(&name, &[admitted, truncation, rounding, order as f64, bytes, cost]);
+                // Of the rounding, part of which is that of the state given, its power of two.
+                table.row(&name, &[admitted, truncation, rounding.log2().round(), order as f64, bytes, cost]);
                 work(table, &format!("  {}: work", candidate.method.name()), &found.work);
             }
             Err(error) => table.error(&name, error),

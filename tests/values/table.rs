@@ -7,17 +7,26 @@ use twofold::Error;
 use twofold::dynamics::BodyState;
 use twofold::propagation::AxisState;
 
-/// Numbers below it are mostly roundings, of which two digits are kept.
+/// Numbers below it are mostly roundings, of which two digits are kept; of those below a rounding of one, none.
 const SMALL: f64 = 1e-12;
+const NONE: f64 = 1e-16;
+
+/// A number of any size.
+fn written(value: f64, digits: usize) -> String {
+    match value.abs() {
+        0.0 => "0".to_string(),
+        ..NONE => "below 1e-16".to_string(),
+        ..SMALL => format!("{value:.1e}"),
+        _ => format!("{value:.digits$e}"),
+    }
+}
 
 #[derive(Default)]
 pub struct Table(String);
 
 impl Table {
     pub fn number(&mut self, name: &str, value: f64) {
-        // Zeros have no sign here.
-        let digits = if value.abs() < SMALL { 1 } else { 6 };
-        writeln!(self.0, "{name:<64} {:>16.digits$e}", value + 0.0).expect("a string takes all");
+        writeln!(self.0, "{name:<64} {:>16}", written(value, 6)).expect("a string takes all");
     }
 
     pub fn text(&mut self, name: &str, value: &str) {
@@ -65,8 +74,7 @@ impl Table {
 
     /// Numbers of any size in one row.
     pub fn row(&mut self, name: &str, values: &[f64]) {
-        let digits = |value: f64| if value.abs() < SMALL { 1 } else { 5 };
-        let parts: Vec<String> = values.iter().map(|&value| format!("{:.*e}", digits(value), value + 0.0)).collect();
+        let parts: Vec<String> = values.iter().map(|&value| written(value, 5)).collect();
         writeln!(self.0, "{name:<64} {}", parts.join(" ")).expect("a string takes all");
     }
 
