@@ -299,7 +299,7 @@ fn many_axes() {
                         table.axis_state(&format!("{name}, {k}"), state);
                     }
                 }
-                Err(error) => table.error(&format!("{name}, {k}"), &error),
+                Err(error) => table.error(&format!("{name}, {k}"), error),
             }
         }
     }

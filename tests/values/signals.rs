@@ -101,10 +101,8 @@ fn identifications() {
                         &format!("{:.4e} {:.4e}", combination.misfit, combination.chance),
                     );
                 }
-                None => table.text(
-                    &name,
-                    if matches!(found, Identification::Unidentified { .. }) { "unidentified" } else { "other" },
-                ),
+                None => table
+                    .text(&name, if matches!(found, Identification::Unidentified) { "unidentified" } else { "other" }),
             }
         }
     }

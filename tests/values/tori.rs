@@ -10,7 +10,9 @@ use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_
 use crate::scene::{STAR, state};
 use crate::table::Table;
 
-fn scenes() -> Vec<(&'static str, RigidSpheroid<f64>, PrincipalCoefficients<f64>, BodyState<f64>)> {
+type Scene = (&'static str, RigidSpheroid<f64>, PrincipalCoefficients<f64>, BodyState<f64>);
+
+fn scenes() -> Vec<Scene> {
     let s = |values: [f64; 3]| PrincipalCoefficients::new(values);
     let other = BodyState { momentum: state().axis.cross(&state().momentum) + state().axis * 0.7, ..state() };
     let prolate = RigidSpheroid { inertia_xx: 1.7, inertia_zz: 1.3, constant_c: -0.8 };

@@ -22,6 +22,9 @@ const EIGENVALUES_OFF: [f64; 3] = [3.7, -5.3, 4.1];
 /// Longest step of the better motion, in radians of the rotation: beyond, the orders of a scheme do not say how its error falls.
 const LONGEST_STEP: f64 = 1.0;
 
+/// Most steps of the better motion for two of the other: of steps longer still nothing is known, and the estimate is infinite.
+const MOST_FINER: f64 = 1e4;
+
 /// Six times the difference from the motion by [`GRADIENT_8_8_6`] with stages half as long or shorter, the largest so far, at
 /// equal distances in time.
 ///
@@ -43,8 +46,13 @@ impl ErrorEstimate {
         let twos = motion.step_count() / 2;
         let stride = twos.div_ceil(COMPARISONS);
         let by_stages = (4 * motion.scheme().stages()).div_ceil(GRADIENT_8_8_6.stages()) as u64;
-        let by_angle = (2.0 * motion.step().abs() * scene.largest_rate / LONGEST_STEP).ceil() as u64;
-        let per_two = by_stages.max(by_angle);
+        let interval = 2.0 * stride as f64 * motion.step().abs();
+        let shared_rounding = 8.0 * f64::EPSILON * scene.largest_rate;
+        let by_angle = (2.0 * motion.step().abs() * scene.largest_rate / LONGEST_STEP).ceil();
+        if by_angle > MOST_FINER {
+            return Self { interval, largest: vec![f64::INFINITY], shared_rounding };
+        }
+        let per_two = by_stages.max(by_angle as u64);
         let other = |step| OneMotion::new(&GRADIENT_8_8_6, &scene.field, step, scene.largest_rate);
         let finer = other(2.0 * motion.step() / per_two as f64);
         let half_back = other(-0.5 * motion.step());
@@ -81,8 +89,7 @@ impl ErrorEstimate {
             }
             largest.push(most);
         }
-        let interval = 2.0 * stride as f64 * motion.step().abs();
-        Self { interval, largest, shared_rounding: 8.0 * f64::EPSILON * scene.largest_rate }
+        Self { interval, largest, shared_rounding }
     }
 
     /// The estimate after the time `elapsed`.

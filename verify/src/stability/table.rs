@@ -24,7 +24,7 @@ that size, near a pole or in a limit where the function becomes constant.
 
 ## What was found, and mended
 
-Recorded on 2026-11-21, largest error in ulp of the conditioned scale on the sweeps below before and after.
+Recorded on 2026-11-21 and 22, largest error in ulp of the conditioned scale on the sweeps below before and after.
 
 | kernel | limit | before | after | how |
 |---|---|---|---|---|
@@ -36,6 +36,9 @@ Recorded on 2026-11-21, largest error in ulp of the conditioned scale on the swe
 | `UniformSpheroid::from_mass`, `mean_radius` | q = 1e90 | 120 | 4.5 | a Newton step after the exponential |
 | `potential_coefficients` | q = 1e37 | 11 | 3.6 | closed form of a needle; its derivatives had no digit from q = 1e8 |
 | `SpheroidShape::oblateness`, derivative | q = 1e16 | 1e15 | 1.8 | `2 / (1 + q^2) - 1` for a needle |
+| `ThetaSeries` | q = 0.87 | 9.4e5 | 8 | Jacobi's imaginary transformation from q = 0.3 on |
+| `Top::rates`, `mean_squares` | separatrix | 1.8e3 | 6.5 | the mean rate by Bulirsch's integral from the nearer eigenvalue, all terms of one sign; `cn^2` averaged itself |
+| `Top`, derivatives | equal eigenvalues | 180 | 6 | the same |
 ";
 
 /// The page, measured with so many rounds of points.

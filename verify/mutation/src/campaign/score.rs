@@ -73,7 +73,8 @@ pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
         };
         *count += 1;
         if !word.is_empty() {
-            let [file, function, change, code] = ["file", "function", "change", "code"].map(|key| text(mutant, key));
+            let of = |key| text(mutant, key).split_whitespace().collect::<Vec<_>>().join(" ");
+            let [file, function, change, code] = ["file", "function", "change", "code"].map(of);
             missed += &format!("{word}\t{file}\t{}\t{function}\t{change}\t{code}\n", mutant["line"]);
         }
     }
