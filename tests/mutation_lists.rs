@@ -1,0 +1,42 @@
+//! The lists of the mutation tests are of today's sources: a fault without its place would be left out unseen.
+
+use std::fs;
+
+/// Lines of a list, each as its fields.
+fn list(file: &str) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(file).unwrap_or_else(|error| panic!("{file}: {error}"));
+    text.lines().map(|line| line.split('\t').map(str::to_string).collect()).collect()
+}
+
+/// The source from the function's name on, without what lays it out.
+fn source(file: &str, function: &str) -> String {
+    let text = fs::read_to_string(file).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let name = function.rsplit("::").next().unwrap_or(function);
+    let at = text.find(&format!("fn {name}")).unwrap_or_else(|| panic!("{file} has no function {name}"));
+    laid_out(&text[at..])
+}
+
+fn laid_out(code: &str) -> String {
+    code.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn every_fault_of_physicists_has_its_place() {
+    let faults = list("verify/mutation/domain.tsv");
+    assert!(faults.len() >= 60, "{} faults", faults.len());
+    for fault in faults {
+        let [file, function, from, to, what] = &fault[..] else { panic!("not five fields: {fault:?}") };
+        let from = laid_out(&from.replace("\\n", "\n"));
+        assert!(source(file, function).contains(&from), "{file}, {function}: no `{from}` for the fault: {what}");
+        assert_ne!(from, laid_out(&to.replace("\\n", "\n")), "{what} changes nothing");
+    }
+}
+
+#[test]
+fn every_equivalent_mutant_has_its_place_and_a_proof() {
+    for mutant in list("verify/mutation/equivalent.tsv") {
+        let [file, function, _, code, proof] = &mutant[..] else { panic!("not five fields: {mutant:?}") };
+        assert!(source(file, function).contains(code.as_str()), "{file}, {function}: no `{code}`");
+        assert!(proof.len() > 20, "{file}, {function}: no proof");
+    }
+}
