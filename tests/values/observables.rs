@@ -1,6 +1,6 @@
 //! Pulses, arrivals, clocks, distributions and stars.
 
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::BodyState;
 use twofold::observables::Observer;
 use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
 use twofold::observables::pulsar::period::{
@@ -14,7 +14,7 @@ use twofold::star::axisymmetric::axisymmetric_integrals;
 use twofold::star::maclaurin::MaclaurinSpheroid;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 
-use crate::scene::{STAR, beam, general, observer, state};
+use crate::scene::{PROLATE, STAR, beam, general, observer, state};
 use crate::table::Table;
 
 fn train(table: &mut Table, name: &str, train: &PulseTrain) {
@@ -84,7 +84,6 @@ fn pulses() {
 fn clocks() {
     let mut table = Table::default();
     let reversed = BodyState { momentum: -state().momentum, ..state() };
-    let prolate = RigidSpheroid { inertia_xx: 1.7, inertia_zz: 1.3, constant_c: -0.8 };
     let beams = [
         ("usual", Beam::new(1.25, 0.4, 0.5), Observer::at(0.95, 0.35)),
         ("near n", Beam::new(0.1, 0.0, 0.9), Observer::at(1.0, 0.5)),
@@ -96,7 +95,7 @@ fn clocks() {
         ("weak", STAR, general() * 1e-8, state()),
         ("none", STAR, general() * 0.0, state()),
         ("reversed", STAR, general() * 0.1, reversed),
-        ("prolate", prolate, general() * 0.1, state()),
+        ("prolate", PROLATE, general() * 0.1, state()),
     ] {
         for (name, beam, observer) in &beams {
             for order in [MeanOrder::First, MeanOrder::Second] {

@@ -1,12 +1,11 @@
 //! Perturbation solutions and the exact solution about a symmetry axis.
 
-use twofold::dynamics::RigidSpheroid;
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::{Constants, Kind, constants_from_initial_values, initial_values, shifted_rates};
 use twofold::solutions::symmetric::SymmetricSolution;
 
-use crate::scene::STAR;
+use crate::scene::{PROLATE, STAR};
 use crate::table::Table;
 
 #[test]
@@ -51,7 +50,6 @@ fn constants_of_integration() {
 #[test]
 fn about_a_symmetry_axis() {
     let mut table = Table::default();
-    let prolate = RigidSpheroid { inertia_xx: 1.7, inertia_zz: 1.3, constant_c: -0.8 };
     let angles = [
         EulerAngles { alpha: 0.3, beta: 1.1, gamma: -0.5 },
         EulerAngles { alpha: -2.0, beta: 0.01, gamma: 0.2 },
@@ -64,7 +62,7 @@ fn about_a_symmetry_axis() {
         EulerRates { alpha: -0.1, beta: 0.0, gamma: 1.4 },
         EulerRates { alpha: 0.0, beta: 0.3, gamma: 0.0 },
     ];
-    for (star, strength) in [(STAR, 0.03), (STAR, -0.4), (prolate, 0.03), (STAR, 0.0)] {
+    for (star, strength) in [(STAR, 0.03), (STAR, -0.4), (PROLATE, 0.03), (STAR, 0.0)] {
         let s = PrincipalCoefficients::new([strength, strength, -2.0 * strength]);
         for angles in &angles {
             for rates in &rates {

@@ -9,6 +9,8 @@ use twofold::observables::pulsar::Beam;
 use twofold::plan::Start;
 
 pub const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.7, constant_c: 0.8 };
+/// Prolate, with a constant of the other sign.
+pub const PROLATE: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.7, inertia_zz: 1.3, constant_c: -0.8 };
 pub const ANGLES: EulerAngles<f64> = EulerAngles { alpha: 0.3, beta: 1.1, gamma: -0.5 };
 pub const RATES: EulerRates<f64> = EulerRates { alpha: 0.9, beta: 0.2, gamma: 0.6 };
 

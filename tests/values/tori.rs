@@ -7,7 +7,7 @@ use twofold::solutions::mean::slow_precession::slow_precession;
 use twofold::solutions::mean::{MeanMotion, MeanOrder, middle_axis_growth, period_near_separatrix};
 use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};
 
-use crate::scene::{STAR, state};
+use crate::scene::{PROLATE, STAR, state};
 use crate::table::Table;
 
 type Scene = (&'static str, RigidSpheroid<f64>, PrincipalCoefficients<f64>, BodyState<f64>);
@@ -15,14 +15,13 @@ type Scene = (&'static str, RigidSpheroid<f64>, PrincipalCoefficients<f64>, Body
 fn scenes() -> Vec<Scene> {
     let s = |values: [f64; 3]| PrincipalCoefficients::new(values);
     let other = BodyState { momentum: state().axis.cross(&state().momentum) + state().axis * 0.7, ..state() };
-    let prolate = RigidSpheroid { inertia_xx: 1.7, inertia_zz: 1.3, constant_c: -0.8 };
     vec![
         ("general", STAR, s([0.021, -0.004, 0.009]), state()),
         ("other order", STAR, s([-0.004, 0.021, 0.009]), state()),
         ("weak", STAR, s([0.021e-3, -0.004e-3, 0.009e-3]), state()),
         ("strong", STAR, s([0.21, -0.04, 0.09]), state()),
         ("other motion", STAR, s([0.021, -0.004, 0.009]), other),
-        ("prolate", prolate, s([0.021, -0.004, 0.009]), state()),
+        ("prolate", PROLATE, s([0.021, -0.004, 0.009]), state()),
         ("two equal", STAR, s([0.02, 0.02, -0.03]), state()),
         ("isotropic", STAR, s([0.02, 0.02, 0.02]), state()),
     ]

@@ -118,10 +118,11 @@ fn keep(tree: &Path, by_file: &BTreeMap<String, Counts>) -> Result<(), String> {
         .skip(1)
         .filter_map(|line| Some((line.split(',').next()?.to_string(), line.to_string())))
         .collect();
-    let date = output("date", &["-I"])?;
+    let output = Command::new("date").arg("-I").output().map_err(|e| format!("date: {e}"))?;
+    let date = String::from_utf8_lossy(&output.stdout).trim().to_string();
+    let contents = fs::read_to_string(tree.join("contents.txt")).map_err(|e| format!("contents.txt: {e}"))?;
     for (file, c) in by_file.iter().filter(|(_, c)| c.not_run == 0) {
-        let content = fs::read_to_string(tree.join("contents.txt"))
-            .map_err(|e| format!("contents.txt: {e}"))?
+        let content = contents
             .lines()
             .find_map(|line| line.strip_suffix(file.as_str()).map(|hash| hash.trim()[..12].to_string()))
             .ok_or_else(|| format!("contents.txt has no {file}"))?;
@@ -130,9 +131,4 @@ fn keep(tree: &Path, by_file: &BTreeMap<String, Counts>) -> Result<(), String> {
     }
     let lines: Vec<String> = std::iter::once(HEADER.to_string()).chain(rows.into_values()).collect();
     fs::write(record, lines.join("\n") + "\n").map_err(|e| format!("{}: {e}", record.display()))
-}
-
-fn output(program: &str, arguments: &[&str]) -> Result<String, String> {
-    let output = Command::new(program).args(arguments).output().map_err(|e| format!("{program}: {e}"))?;
-    Ok(String::from_utf8_lossy(&output.stdout).trim().to_string())
 }
