@@ -13,6 +13,7 @@ use twofold::lorentz_violation::{PrincipalCoefficients, preferred_frame_paramete
 use twofold::observables::bound::{
     SpinAxisDrift, eta_from_inclination, lambda_change, preferred_frame_bound, zeta_change,
 };
+use twofold::observables::pulsar::{Beam, arrivals, propagated_pulse_train, pulse_train};
 use twofold::propagation::{AxisMotion, ContinuousAngles, Motion, propagate};
 use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::perturbation::{Constants, Kind, Perturbation, shifted_rates};
@@ -228,6 +229,40 @@ fn propagation_refuses_what_it_cannot_follow() {
         assert!(motion.error_estimate(t).is_nan());
     }
     assert!(motion.state(1.0).is_ok() && motion.state(3.0).is_ok());
+}
+
+/// A pulse search that would look at more turns than there is time for, or at turns that doubles do not tell apart, is refused at once.
+#[test]
+fn pulses_are_searched_in_turns_that_can_be_counted() {
+    // Steps are those of the symmetry axis, a slow one here, however many turns the body makes about it.
+    let needle = RigidSpheroid { inertia_xx: 1e68, inertia_zz: 1.6, constant_c: 1.0 };
+    let spinning = |spin| BodyState {
+        axis: Vector3::z(),
+        momentum: Vector3::z() * (needle.inertia_zz * spin),
+        equatorial_axis: Vector3::x(),
+    };
+    let (none, beam, n) = (Matrix3::zeros(), Beam::new(0.5, 0.0, 0.3), Vector3::new(0.6, 0.0, 0.8));
+    let both = |spin, span: (f64, f64)| {
+        let start = spinning(spin);
+        let motion = propagate(&needle, &none, &start, span, 1e-10)?;
+        let kept = pulse_train(&motion, &beam, &n, span);
+        let propagated = propagated_pulse_train(&needle, &none, &start, span, 1e-10, &beam, &n).map(|found| found.0);
+        assert_eq!(kept.is_ok(), propagated.is_ok(), "spin {spin}, {span:?}");
+        assert_eq!(kept.as_ref().err(), propagated.as_ref().err());
+        kept
+    };
+    refused(both(1e9, (0.0, 2.0)), "rotation (rad)");
+    refused(both(1e52, (0.0, 10.0)), "rotation (rad)");
+    refused(both(-1e52, (3.0, 4.0)), "rotation (rad)");
+    refused(both(1.0, (1e17, 1e17 + 128.0)), "time t");
+    refused(both(1.0, (-1e17, -1e17 + 128.0)), "time t");
+    assert!(both(1.0, (1e15, 1e15 + 128.0)).is_ok_and(|train| train.pulses.len() == 21));
+    assert!(both(0.0, (0.0, 1e15)).is_ok_and(|train| train.pulses.len() == 1));
+
+    // Turns of the train of a slower star, counted along a faster one.
+    let train = both(1.0, (0.0, 100.0)).expect("a train");
+    let faster = propagate(&needle, &none, &spinning(1e52), (0.0, 100.0), 1e-10).expect("a motion");
+    refused(arrivals(&faster, &beam, &n, &train), "rotation (rad)");
 }
 
 /// An axis that stays on a pole, or passes next to it, neither hangs nor loses count.

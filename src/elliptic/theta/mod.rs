@@ -41,7 +41,7 @@ pub struct Nome<S> {
     pub q: S,
     /// `q / m`; `1/16` at `m = 0`.
     pub q_over_m: S,
-    /// `pi K'/K = -ln q` for `m > 1/2`, where it keeps the digits that `q` loses in being rounded.
+    /// `pi K'/K = -ln q` from `q = 0.3` on, where [`ThetaSeries::transformed`] serves: it keeps the digits that `q` loses in being rounded.
     pub decay: Option<S>,
 }
 
@@ -55,7 +55,7 @@ impl<S: Real> Nome<S> {
         let (over_m1, series) = epsilon(m1, m);
         let decay = -(S::from_f64(PI * PI) / (m1 * over_m1 * series).ln());
         let q = (-decay).exp();
-        Self { q, q_over_m: q / m, decay: Some(decay) }
+        Self { q, q_over_m: q / m, decay: Some(decay).filter(|_| q.re() >= TRANSFORMED) }
     }
 }
 

@@ -41,7 +41,7 @@ pub struct Arrival {
 ///
 /// # Errors
 /// [`Error::Domain`] for a train outside the span of the motion, a line of sight or a magnetic axis that lies along L, and a
-/// motion that is not finite or has no angular momentum.
+/// motion that is not finite or has no angular momentum, and for turns that cannot be counted, as for [`pulse_train`](super::pulse_train).
 pub fn arrivals<M: Motion<f64>>(
     motion: &M,
     beam: &Beam<f64>,
@@ -50,6 +50,7 @@ pub fn arrivals<M: Motion<f64>>(
 ) -> Result<Vec<Arrival>, Error> {
     let Some(first) = train.pulses.iter().find(|pulse| pulse.is_whole()) else { return Ok(Vec::new()) };
     let bounds = rate_bounds(motion.spheroid(), motion.violation(), &motion.state(first.start)?);
+    bounds.check_countable(first.start, train.pulses.last().map_or(first.end, |last| last.end))?;
     let mut turns = Turns::new(motion, beam, line_of_sight, bounds.first, first.start)?;
     let mut turn_at = |t| turns.at(t).map(|phase| (phase / TAU).round() as i64);
     match motion.projection(&beam.axis, line_of_sight) {

@@ -24,6 +24,8 @@ use nalgebra::Matrix3;
 
 use crate::dynamics::regular_equations::angular_velocity;
 use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::propagation::MOST_COUNTED;
 use crate::scalar::{Real, real_part};
 
 /// Bounds on time derivatives of any unit vector fixed in the body, hence of `m.n`, that hold at all times of the motion
@@ -41,6 +43,29 @@ pub struct RateBounds {
     /// Bound on the sixth derivative.
     pub sixth: f64,
 }
+
+impl RateBounds {
+    /// Refuses a stretch of time with more turns than can be looked at one by one, or so late that doubles do not tell its turns apart.
+    pub(super) fn check_countable(&self, from: f64, to: f64) -> Result<(), Error> {
+        let rotation = self.first * (to - from).abs();
+        Error::unless(
+            rotation <= MOST_COUNTED,
+            "rotation (rad)",
+            rotation,
+            "at most 1e9: turns are looked at one by one",
+        )?;
+        let latest = from.abs().max(to.abs());
+        Error::unless(
+            from == to || latest + LEAST_RESOLVED / self.first > latest,
+            "time t",
+            latest,
+            "a time at which doubles resolve a rotation of 0.1 rad",
+        )
+    }
+}
+
+/// Rotation (rad) that times have to resolve.
+const LEAST_RESOLVED: f64 = 0.1;
 
 /// Highest derivative that is bounded.
 const HIGHEST: usize = 6;

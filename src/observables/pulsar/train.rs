@@ -122,7 +122,8 @@ impl PulseTrain {
 ///
 /// # Errors
 /// [`Error::Domain`] for a span outside the motion's, vectors that are not of unit length (to 1e-9), a semi-open angle outside
-/// (0, pi), a motion that is not finite, and a line of sight that stays on the edge of the beam to [`GRAZING`] for a while.
+/// (0, pi), a motion that is not finite, a line of sight that stays on the edge of the beam to [`GRAZING`] for a while, a span of more than
+/// [`MOST_COUNTED`](crate::propagation::MOST_COUNTED) radian by the bound on `|Omega|`, and times at which doubles do not resolve 0.1 rad.
 pub fn pulse_train<M: Motion<f64>>(
     motion: &M,
     beam: &Beam<f64>,
@@ -154,6 +155,7 @@ pub fn propagated_pulse_train(
 ) -> Result<(PulseTrain, Samples<BodyState<f64>>), Error> {
     check_beam(beam, line_of_sight)?;
     let bounds = rate_bounds(spheroid, s, initial);
+    bounds.check_countable(span.0, span.1)?;
     let (mut train, mut node) = (Unfinished::default(), None);
     let end = projected_by_stretches(
         (spheroid, s, initial),
@@ -217,6 +219,7 @@ impl Unfinished {
 impl<P: Margin> EdgeSearch<P> {
     /// The pulses between two times in order.
     pub(super) fn train(&self, from: f64, to: f64) -> Result<PulseTrain, Error> {
+        self.bounds.check_countable(from, to)?;
         let mut train = Unfinished::default();
         let start = train.begin(self.jet(from)?);
         // So that a motion that does not reach so far is refused before the work.

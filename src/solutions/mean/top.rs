@@ -30,9 +30,6 @@ use super::averages::{mean_of_cn2, mean_of_ratio};
 /// `k'^2` up to which a motion is on the separatrix: it is there within the rounding of its start.
 const SEPARATRIX: f64 = 1e-32;
 
-/// `-ln q` below which the theta functions are those of the complementary nome.
-const TRANSFORMED: f64 = 1.2;
-
 /// The course of a top.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Top<S> {
@@ -95,7 +92,7 @@ fn series<S: Real>(nome: &Nome<S>, mean: S, a: S, b: S, elongated: S) -> ThetaSe
     }
     let whole = a + b;
     let v = (b / whole).sqrt() * rf(a / whole, (a + a * elongated) / whole, one);
-    if let Some(decay) = nome.decay.filter(|decay| decay.re() < TRANSFORMED) {
+    if let Some(decay) = nome.decay {
         // pi eta / decay = pi v / (2 K')
         return ThetaSeries::transformed(decay, v * mean * S::from_f64(PI) / decay);
     }
