@@ -1,5 +1,7 @@
 //! Which tests reach which mutant, and which mutants they catch.
 
+mod earlier;
+mod equivalent;
 mod record;
 mod score;
 mod suite;
@@ -22,7 +24,7 @@ const BATCH: f64 = 0.4;
 /// Runs the campaign. `rest`: seconds of tests for each mutant, then a file prefix that limits the mutants.
 ///
 /// Reads `mutants.json`, keeps `coverage.json` and appends to `results.jsonl`, all in the tree; goes on where it stopped. What is listed as
-/// equivalent is not run.
+/// equivalent is not run, nor what the record has as caught in a source that has not changed, but if ANEW is set.
 pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
     let budget: f64 = rest.first().map_or(Ok(10.0), |s| s.parse()).map_err(|_| "seconds per mutant: not a number")?;
     let prefix = rest.get(1).copied().unwrap_or("src/");
@@ -37,6 +39,10 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
             reaching.entry(*number).or_default().push(index);
         }
     }
+    if std::env::var_os("ANEW").is_none() {
+        earlier::begin(tree, &mutants)?;
+    }
+    let equivalent = equivalent::numbers(&mutants);
     let results = tree.join("results.jsonl");
     let done: HashMap<u64, f64> = lines(&results)
         .unwrap_or_default()
@@ -46,8 +52,10 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
     let open: Vec<&Value> = mutants
         .iter()
         .filter(|m| m["file"].as_str().unwrap_or("").starts_with(prefix))
-        .filter(|m| !score::is_equivalent(m))
-        .filter(|m| done.get(&m["number"].as_u64().unwrap_or(0)).is_none_or(|spent| *spent < budget))
+        .filter(|m| {
+            let number = m["number"].as_u64().unwrap_or(0);
+            !equivalent.contains(&number) && done.get(&number).is_none_or(|spent| *spent < budget)
+        })
         .collect();
     eprintln!("{} mutants, {} to do, {} tests", mutants.len(), open.len(), tests.len());
     let file = Mutex::new(

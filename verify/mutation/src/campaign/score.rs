@@ -7,21 +7,27 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// Mutants with a proof that they change nothing: file, function, change, code, proof; separated by tabs.
-const EQUIVALENT: &str = include_str!("../../equivalent.tsv");
+use super::equivalent;
 
 /// Columns of the record.
 const HEADER: &str = "file,content,date,mutants,caught,equivalent,lives,open,unreached";
 
-/// Whether a mutant is listed as equivalent.
-pub fn is_equivalent(mutant: &Value) -> bool {
-    EQUIVALENT.lines().any(|line| is_of(line, mutant))
+/// The numbers of every file that was run whole.
+pub const RECORD: &str = "verify/mutation/record.csv";
+
+/// Hashes of the sources in the tree, by file, in the twelve digits of the record.
+pub fn contents(tree: &Path) -> Result<HashMap<String, String>, String> {
+    let text = fs::read_to_string(tree.join("contents.txt")).map_err(|e| format!("contents.txt: {e}"))?;
+    let pair =
+        |line: &str| line.split_once(char::is_whitespace).map(|(hash, file)| (file.trim().into(), hash[..12].into()));
+    Ok(text.lines().filter_map(pair).collect())
 }
 
-fn is_of(line: &str, mutant: &Value) -> bool {
-    let fields: Vec<&str> = line.split('\t').collect();
-    fields.len() == 5
-        && ["file", "function", "change", "code"].iter().zip(&fields).all(|(key, field)| mutant[*key] == **field)
+/// Where a mutant stands and what it is, as in the list of those that are not caught.
+pub fn place(mutant: &Value) -> String {
+    let of = |key| text(mutant, key).split_whitespace().collect::<Vec<_>>().join(" ");
+    let [file, function, change, code] = ["file", "function", "change", "code"].map(of);
+    format!("{file}\t{}\t{function}\t{change}\t{code}", mutant["line"])
 }
 
 /// Numbers of one file.
@@ -38,16 +44,7 @@ struct Counts {
 
 /// Prints the score, writes `missed.txt`, and puts the files that were run whole into `verify/mutation/record.csv` of the folder above.
 pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
-    let unused: Vec<&str> = EQUIVALENT
-        .lines()
-        .filter(|line| {
-            let is_here = mutants.iter().any(|m| m["file"] == line.split('\t').next().unwrap_or(""));
-            is_here && !mutants.iter().any(|m| is_of(line, m))
-        })
-        .collect();
-    if !unused.is_empty() {
-        eprintln!("listed as equivalent, but no mutant:\n{}", unused.join("\n"));
-    }
+    let equivalent = equivalent::numbers(mutants);
     let mut last: HashMap<u64, Value> = HashMap::new();
     for result in super::lines(&tree.join("results.jsonl"))? {
         last.insert(result["number"].as_u64().unwrap_or(0), result);
@@ -57,11 +54,12 @@ pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
     for mutant in mutants {
         let counts = by_file.entry(text(mutant, "file")).or_default();
         counts.mutants += 1;
-        if is_equivalent(mutant) {
+        let number = mutant["number"].as_u64().unwrap_or(0);
+        if equivalent.contains(&number) {
             counts.equivalent += 1;
             continue;
         }
-        let Some(result) = last.get(&mutant["number"].as_u64().unwrap_or(0)) else {
+        let Some(result) = last.get(&number) else {
             counts.not_run += 1;
             continue;
         };
@@ -73,9 +71,7 @@ pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
         };
         *count += 1;
         if !word.is_empty() {
-            let of = |key| text(mutant, key).split_whitespace().collect::<Vec<_>>().join(" ");
-            let [file, function, change, code] = ["file", "function", "change", "code"].map(of);
-            missed += &format!("{word}\t{file}\t{}\t{function}\t{change}\t{code}\n", mutant["line"]);
+            missed += &format!("{word}\t{}\n", place(mutant));
         }
     }
     println!(
@@ -111,8 +107,7 @@ fn text(value: &Value, key: &str) -> String {
 
 /// Replaces the rows of the files that were run whole; a row tells by the hash of its file (as git has it) whether it is of today's.
 fn keep(tree: &Path, by_file: &BTreeMap<String, Counts>) -> Result<(), String> {
-    let record = Path::new("verify/mutation/record.csv");
-    let mut rows: BTreeMap<String, String> = fs::read_to_string(record)
+    let mut rows: BTreeMap<String, String> = fs::read_to_string(RECORD)
         .unwrap_or_default()
         .lines()
         .skip(1)
@@ -120,15 +115,12 @@ fn keep(tree: &Path, by_file: &BTreeMap<String, Counts>) -> Result<(), String> {
         .collect();
     let output = Command::new("date").arg("-I").output().map_err(|e| format!("date: {e}"))?;
     let date = String::from_utf8_lossy(&output.stdout).trim().to_string();
-    let contents = fs::read_to_string(tree.join("contents.txt")).map_err(|e| format!("contents.txt: {e}"))?;
+    let contents = contents(tree)?;
     for (file, c) in by_file.iter().filter(|(_, c)| c.not_run == 0) {
-        let content = contents
-            .lines()
-            .find_map(|line| line.strip_suffix(file.as_str()).map(|hash| hash.trim()[..12].to_string()))
-            .ok_or_else(|| format!("contents.txt has no {file}"))?;
+        let content = contents.get(file).ok_or_else(|| format!("contents.txt has no {file}"))?;
         let counts = [c.mutants, c.caught, c.equivalent, c.lives, c.open, c.unreached].map(|n| n.to_string()).join(",");
         rows.insert(file.clone(), format!("{file},{content},{date},{counts}"));
     }
     let lines: Vec<String> = std::iter::once(HEADER.to_string()).chain(rows.into_values()).collect();
-    fs::write(record, lines.join("\n") + "\n").map_err(|e| format!("{}: {e}", record.display()))
+    fs::write(RECORD, lines.join("\n") + "\n").map_err(|e| format!("{RECORD}: {e}"))
 }

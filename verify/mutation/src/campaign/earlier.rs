@@ -1,0 +1,40 @@
+//! What the record knows already: mutants of sources that have not changed since need not be run again.
+
+use std::collections::{HashMap, HashSet};
+use std::fs;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::score::{RECORD, contents, place};
+
+/// Those of the record that are not caught: outcome, then where it stands and what it is.
+const NOT_CAUGHT: &str = "verify/mutation/not_caught.tsv";
+
+/// Begins the results of a tree with those of the record, for sources of the same content: what was caught is; what was not is to be run.
+pub fn begin(tree: &Path, mutants: &[Value]) -> Result<(), String> {
+    let results = tree.join("results.jsonl");
+    if results.exists() {
+        return Ok(());
+    }
+    let record = fs::read_to_string(RECORD).map_err(|e| format!("{RECORD}: {e}"))?;
+    let recorded: HashMap<&str, &str> =
+        record.lines().filter_map(|line| line.split(',').next().zip(line.split(',').nth(1))).collect();
+    let list = fs::read_to_string(NOT_CAUGHT).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
+    let left: HashSet<&str> = list.lines().filter_map(|line| Some(line.split_once('\t')?.1)).collect();
+    let contents = contents(tree)?;
+    let mut text = String::new();
+    for mutant in mutants {
+        let file = mutant["file"].as_str().unwrap_or("");
+        if contents.get(file).is_none_or(|content| recorded.get(file) != Some(&content.as_str())) {
+            continue;
+        }
+        let outcome = if left.contains(place(mutant).as_str()) { "survived" } else { "caught" };
+        let line = json!({
+            "number": mutant["number"], "outcome": outcome, "budget": 0.0, "complete": outcome == "caught",
+            "file": mutant["file"], "function": mutant["function"],
+        });
+        text += &format!("{line}\n");
+    }
+    fs::write(&results, text).map_err(|e| format!("{}: {e}", results.display()))
+}
