@@ -193,3 +193,135 @@ fn each_phase(phase: f64, count: usize, mut see: impl FnMut(usize, f64, f64)) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::super::Window;
+    use super::*;
+
+    const WINDOW: Window = Window::Kaiser { shape: 20.0 };
+    const COUNT: usize = 4096;
+
+    fn waves(of: &[(f64, f64, f64)]) -> Vec<Wave> {
+        of.iter().map(|&(place, cos_part, sin_part)| Wave { phase: place / COUNT as f64, cos_part, sin_part }).collect()
+    }
+
+    fn value(constant: f64, waves: &[Wave], j: usize) -> f64 {
+        let m = (2 * j + 1) as f64 - COUNT as f64;
+        let wave = |w: &Wave| w.cos_part * (w.phase * m).cos() + w.sin_part * (w.phase * m).sin();
+        constant + waves.iter().map(wave).sum::<f64>()
+    }
+
+    fn fit<'a>(values: &'a [f64], weights: &'a [f64], waves: Vec<Wave>) -> JointFit<'a> {
+        JointFit { waves, ..JointFit::new(values, weights, WINDOW).unwrap() }
+    }
+
+    #[test]
+    fn the_matrix_has_the_products_of_the_basis() {
+        let weights = WINDOW.weights(COUNT).unwrap();
+        let values = vec![0.0; COUNT];
+        let waves = waves(&[(9.0, 0.3, 0.8), (17.5, -0.6, 0.1), (31.0, 0.2, -0.9)]);
+        let fit = fit(&values, &weights, waves.clone());
+        let found = fit.normal_matrix(COUNT as f64);
+        let mut expected = DMatrix::zeros(10, 10);
+        for (j, weight) in weights.iter().enumerate() {
+            let y = (2 * j + 1) as f64 / COUNT as f64 - 1.0;
+            let mut basis = DVector::from_element(10, 1.0);
+            for (k, wave) in waves.iter().enumerate() {
+                let (sin, cos) = (wave.phase * COUNT as f64 * y).sin_cos();
+                let along = (wave.sin_part * cos - wave.cos_part * sin) * y / wave.amplitude();
+                (basis[1 + 3 * k], basis[2 + 3 * k], basis[3 + 3 * k]) = (cos, sin, along);
+            }
+            expected += &basis * basis.transpose() * (weight / COUNT as f64);
+        }
+        // The edges of the window are 2e-8 of its middle.
+        assert!((&found - &expected).amax() < 1e-7, "{found} {expected}");
+        // A line alone: its frequency is as certain as the second moment of the window, of the width 1 / sqrt(40), says.
+        let alone = fit_of_one(&values, &weights).amplification().unwrap();
+        assert_relative_eq!(alone[0], 40.0_f64.sqrt() / 5.0, max_relative = 0.03);
+        let three = fit.amplification().unwrap();
+        for (wave, found) in waves.iter().zip(&three) {
+            assert!(*found > 40.0_f64.sqrt() / wave.amplitude());
+        }
+        let inverse = expected.try_inverse().unwrap();
+        for (k, wave) in waves.iter().enumerate() {
+            let exact = inverse[(3 + 3 * k, 3 + 3 * k)].sqrt() / wave.amplitude();
+            assert_relative_eq!(three[k], exact, max_relative = 1e-4);
+        }
+    }
+
+    fn fit_of_one<'a>(values: &'a [f64], weights: &'a [f64]) -> JointFit<'a> {
+        fit(values, weights, waves(&[(200.0, 3.0, -4.0)]))
+    }
+
+    #[test]
+    fn the_fit_finds_what_the_series_is_of() {
+        let weights = WINDOW.weights(COUNT).unwrap();
+        let exact = waves(&[(40.0, 0.3, 0.8), (52.0, -0.6, 0.1), (300.0, 2e-3, -9e-3)]);
+        let values: Vec<f64> = (0..COUNT).map(|j| value(0.7, &exact, j)).collect();
+        let start = waves(&[(40.4, 0.35, 0.7), (51.7, -0.5, 0.2), (300.2, 2.2e-3, -8e-3)]);
+        let mut fit = fit(&values, &weights, start);
+        assert_relative_eq!(fit.constant, 0.7, epsilon = 1e-6);
+        let mut changes = Vec::new();
+        for _ in 0..8 {
+            let residual = fit.residual();
+            changes.push(fit.improve(&residual, 2.0).unwrap());
+        }
+        assert!(changes[0] > 0.2 && changes[7] < 1e-12, "{changes:?}");
+        assert_relative_eq!(fit.constant, 0.7, epsilon = 1e-14);
+        for (found, exact) in fit.waves.iter().zip(&exact) {
+            assert!((found.phase - exact.phase).abs() * (COUNT as f64) < 1e-11);
+            assert!((found.cos_part - exact.cos_part).hypot(found.sin_part - exact.sin_part) < 1e-13);
+        }
+        assert!(fit.residual().iter().all(|left| left.abs() < 1e-13));
+    }
+
+    #[test]
+    fn a_frequency_moves_no_farther_than_allowed() {
+        let weights = WINDOW.weights(COUNT).unwrap();
+        let exact = waves(&[(200.0, 3.0, -4.0)]);
+        let values: Vec<f64> = (0..COUNT).map(|j| value(0.0, &exact, j)).collect();
+        for (place, allowed, moved) in [(200.3, 0.1, -0.1), (199.7, 0.1, 0.1), (200.01, 0.1, -0.01)] {
+            let start = Wave { phase: place / COUNT as f64, ..exact[0] };
+            let mut fit = fit(&values, &weights, vec![start]);
+            let change = fit.improve(&fit.residual(), allowed).unwrap();
+            assert_relative_eq!(change, (place - 200.0_f64).abs(), max_relative = 0.05);
+            assert_relative_eq!((fit.waves[0].phase - start.phase) * COUNT as f64, moved, max_relative = 0.01);
+        }
+    }
+
+    #[test]
+    fn lines_that_are_none_are_told_with_the_least_distance() {
+        let (values, weights) = (vec![0.0; COUNT], vec![1.0; COUNT]);
+        let least = |of: &[(f64, f64, f64)]| match fit(&values, &weights, waves(of)).amplification() {
+            Err(Error::NotConverged { residual, iterations, .. }) => (residual, iterations),
+            other => panic!("{other:?}"),
+        };
+        let (distance, lines) = least(&[(30.0, 1.0, 0.0), (55.0, 0.0, 0.0), (37.5, 0.0, 1.0)]);
+        assert_eq!(lines, 3);
+        assert_relative_eq!(distance, 7.5, max_relative = 1e-13);
+        // That of a line from its own mirror at the negative frequency counts too.
+        assert_relative_eq!(least(&[(30.0, 0.0, 0.0), (5.0, 1.0, 0.0)]).0, 5.0, max_relative = 1e-13);
+        assert_relative_eq!(least(&[(6.0, 0.0, 0.0), (50.0, 1.0, 0.0)]).0, 6.0, max_relative = 1e-13);
+    }
+
+    #[test]
+    fn phases_are_exact_however_many() {
+        for (phase, count) in [(0.7341, 20_001), (1.5702, 30_000), (1e-4, 100)] {
+            let mut seen = 0;
+            each_phase(phase, count, |j, sin, cos| {
+                assert_eq!(j, seen);
+                seen += 1;
+                let m = (2 * j + 1) as f64 - count as f64;
+                let product = phase * m;
+                let lost = phase.mul_add(m, -product);
+                let (s, c) = product.sin_cos();
+                let error = (sin - (s + lost * c)).abs().max((cos - (c - lost * s)).abs());
+                assert!(error < 3e-14, "{phase} {j}: {error:e}");
+            });
+            assert_eq!(seen, count);
+        }
+    }
+}

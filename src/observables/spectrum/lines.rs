@@ -151,6 +151,36 @@ mod tests {
         assert!((one.lines[0].frequency - 1.0).abs() < 1e-6);
     }
 
+    /// Values do not depend on where the times begin; the rounding of what they were computed from does.
+    #[test]
+    fn the_uncertainty_is_that_of_rounded_values_and_times() {
+        let (step, count) = (0.25, 1024);
+        let (strong, weak) = (3.0, 0.5);
+        let value = |j: usize| {
+            let t = step * (j as f64 - 511.5);
+            -1.5 + strong * (0.9 * t + 0.3).cos() + weak * (4.1 * t).sin()
+        };
+        let values: Vec<f64> = (0..count).map(value).collect();
+        let highest = values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let duration = step * count as f64;
+        let uncertainty = |start: f64| {
+            let found = spectral_lines(&Series { start, step, values: values.clone() }, 1e-3, 10).unwrap();
+            assert_eq!(found.lines.len(), 2);
+            assert!(found.lines[0].amplitude > found.lines[1].amplitude);
+            found.lines.iter().map(|line| line.uncertainty).collect::<Vec<_>>()
+        };
+        let latest = [1e9, 3e5, -1e9, -3e5, -200.0, -50.0];
+        for (start, latest) in latest.iter().zip([1e9 + duration, 3e5 + duration, 1e9, 3e5, 200.0, duration - 50.0]) {
+            let rounding = f64::EPSILON * highest * (1.0 + 4.1 * latest / (count as f64).sqrt());
+            for (found, (amplitude, frequency)) in uncertainty(*start).iter().zip([(strong, 0.9), (weak, 4.1)]) {
+                let shift = rounding * 40.0_f64.sqrt() / amplitude;
+                let expected = shift * 2.0 / duration + f64::EPSILON * frequency;
+                // Something is left of the series by rounding too.
+                assert!((0.97..1.1).contains(&(found / expected)), "{start} {frequency}: {found:e} {expected:e}");
+            }
+        }
+    }
+
     #[test]
     fn noise_ends_in_a_list_or_an_error() {
         // A generator of low quality is noise enough.

@@ -108,3 +108,145 @@ impl ResidualSpectrum {
         self.amplitudes[1..].iter().fold(0.0, |most, &x| most.max(x))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::super::Window;
+    use super::*;
+
+    const COUNT: usize = 240;
+
+    /// A place on the axis of `phase N`, on which the grid has the spacing pi / 2 and the window's lines the half width 20.2.
+    fn at(place: f64, cos_part: f64, sin_part: f64) -> Wave {
+        Wave { phase: place / COUNT as f64, cos_part, sin_part }
+    }
+
+    fn place(wave: &Wave) -> f64 {
+        wave.phase * COUNT as f64
+    }
+
+    /// A spectrum with these amplitudes at and beside some points, nothing elsewhere.
+    fn with_tops(tops: &[(usize, [f64; 3])]) -> ResidualSpectrum {
+        let mut amplitudes = vec![0.0; COUNT + 1];
+        for (index, three) in tops {
+            amplitudes[index - 1..=index + 1].copy_from_slice(three);
+        }
+        let parts = amplitudes.iter().map(|a| (0.6 * a, -0.8 * a)).collect();
+        ResidualSpectrum { parts, amplitudes, count: COUNT }
+    }
+
+    #[test]
+    fn parts_are_sums_about_the_middle() {
+        let weights = Window::Kaiser { shape: 20.0 }.weights(COUNT).unwrap();
+        let values: Vec<f64> =
+            (0..COUNT).map(|j| (0.37 * j as f64).cos() + 0.2 * (1.9 * j as f64 + 0.4).sin()).collect();
+        let spectrum = ResidualSpectrum::of(&values, &weights);
+        assert_eq!(spectrum.parts.len(), COUNT + 1);
+        for index in [0, 1, 13, 57, 145, COUNT] {
+            let phase = PI * index as f64 / (2 * COUNT) as f64;
+            let (mut cos_part, mut sin_part) = (0.0, 0.0);
+            for (j, (value, weight)) in values.iter().zip(&weights).enumerate() {
+                let m = (2 * j + 1) as f64 - COUNT as f64;
+                cos_part += 2.0 / COUNT as f64 * value * weight * (phase * m).cos();
+                sin_part += 2.0 / COUNT as f64 * value * weight * (phase * m).sin();
+            }
+            let (found_cos, found_sin) = spectrum.parts[index];
+            assert!((found_cos - cos_part).abs().max((found_sin - sin_part).abs()) < 1e-14, "{index}");
+            assert_relative_eq!(spectrum.amplitudes[index], cos_part.hypot(sin_part), epsilon = 1e-14);
+        }
+    }
+
+    #[test]
+    fn peaks_are_the_tops_of_parabolas_through_logarithms() {
+        let spectrum = with_tops(&[
+            (60, [0.3, 1.0, 0.5]),
+            (100, [0.02, 0.05, 0.01]),
+            (160, [0.0, 0.4, 0.4]),
+            (190, [0.0, 2e-3, 0.0]),
+        ]);
+        let peaks = spectrum.peaks(1e-9, &[]);
+        let shift = |[low, top, high]: [f64; 3]| {
+            let [low, top, high] = [low, top, high].map(|x| x.max(f64::MIN_POSITIVE).ln());
+            (low - high) / (2.0 * (low + high - 2.0 * top))
+        };
+        // The second of two that are equal is the top.
+        let expected = [
+            (60.0 + shift([0.3, 1.0, 0.5]), 1.0),
+            (161.0 + shift([0.4, 0.4, 0.0]), 0.4),
+            (100.0 + shift([0.02, 0.05, 0.01]), 0.05),
+            (190.0, 2e-3),
+        ];
+        assert_eq!(peaks.len(), expected.len());
+        for (peak, (index, amplitude)) in peaks.iter().zip(expected) {
+            assert_relative_eq!(place(peak), index * PI / 2.0, max_relative = 1e-14);
+            assert_eq!((peak.cos_part, peak.sin_part), (0.6 * amplitude, -0.8 * amplitude));
+        }
+        assert_eq!(spectrum.peaks(0.05, &[]).len(), 3);
+        assert_eq!(spectrum.peaks(0.051, &[]).len(), 2);
+    }
+
+    #[test]
+    fn peaks_keep_their_distance() {
+        let one = |index| with_tops(&[(index, [0.1, 1.0, 0.1])]);
+        let count = |spectrum: &ResidualSpectrum, waves: &[Wave]| spectrum.peaks(1e-9, waves).len();
+        // From the ends of the spectrum, 4 at least.
+        for (index, found) in [(2, 0), (3, 1), (COUNT - 3, 1), (COUNT - 2, 0)] {
+            assert_eq!(count(&one(index), &[]), found, "{index}");
+        }
+        // From waves that are there.
+        for (distance, found) in [(-4.1, 1), (-3.9, 0), (0.1, 0), (3.9, 0), (4.1, 1)] {
+            let wave = at(100.0 * PI / 2.0 + distance, 1.0, 0.0);
+            assert_eq!(count(&one(100), &[wave]), found, "{distance}");
+            assert_eq!(count(&one(100), &[at(300.0, 1.0, 0.0), wave]), found, "{distance}");
+        }
+        // From higher peaks, 30 at least; and no more than a thousand below the highest.
+        for (index, amplitude, found) in
+            [(119, 0.5, 1), (120, 0.5, 2), (81, 0.5, 1), (80, 0.5, 2), (140, 1.01e-3, 2), (140, 0.99e-3, 1)]
+        {
+            let both = with_tops(&[(100, [0.1, 1.0, 0.1]), (index, [0.0, amplitude, 0.0])]);
+            assert_eq!(count(&both, &[]), found, "{index} {amplitude}");
+        }
+    }
+
+    #[test]
+    fn what_is_left_near_a_line_shifts_it_by_the_slope_of_the_line() {
+        let wave = at(100.3 * PI / 2.0, 3.0, -4.0);
+        let shift = |indices: &[usize]| {
+            let tops: Vec<_> = indices.iter().map(|&index| (index, [0.0, 0.7, 0.1])).collect();
+            with_tops(&tops).shift_of(&wave)
+        };
+        let slope = |index: f64| {
+            let distance = ((index - 100.3) * PI / 2.0).abs().max(20.0_f64.sqrt());
+            0.7 / 5.0 * distance * (-distance * distance / 40.0).exp().max(1.8e-8)
+        };
+        // Within the width of the line as at its inflection, then by the slope, then by the sidelobes as far as 40.5.
+        for index in [99_usize, 100, 102, 96, 106, 115, 85, 122, 74, 127] {
+            assert_relative_eq!(shift(&[index]), slope(index as f64), max_relative = 1e-12);
+        }
+        assert_eq!([73, 128, 200, 3].map(|index| shift(&[index])), [0.0; 4]);
+        assert_relative_eq!(shift(&[90, 96, 104]), slope(90.0) + slope(96.0) + slope(104.0), max_relative = 1e-12);
+        // What rises or falls without a top does not count.
+        let slopes =
+            with_tops(&[(96, [0.1, 0.2, 0.3]), (98, [0.3, 0.4, 0.5]), (100, [0.5, 0.6, 0.7]), (102, [0.7, 0.8, 0.2])]);
+        assert_relative_eq!(slopes.shift_of(&wave), slope(102.0) * 0.8 / 0.7, max_relative = 1e-12);
+        // A line as near to an end of the spectrum as its window reaches.
+        for (index, top) in [(3.0, 1), (COUNT as f64 - 3.0, COUNT - 1)] {
+            let found = with_tops(&[(top, [0.0, 0.7, 0.0])]).shift_of(&at(index * PI / 2.0, 0.0, 5.0));
+            let distance = (PI / 2.0 * (top as f64 - index).abs()).max(20.0_f64.sqrt());
+            assert_relative_eq!(
+                found,
+                0.7 / 5.0 * distance * (-distance * distance / 40.0).exp(),
+                max_relative = 1e-12
+            );
+        }
+    }
+
+    #[test]
+    fn the_median_is_of_all_and_the_largest_is_above_zero() {
+        let amplitudes = vec![9.0, 1.0, 0.5, 3.0, 2.0];
+        let spectrum = ResidualSpectrum { parts: Vec::new(), amplitudes, count: 4 };
+        assert_eq!((spectrum.median(), spectrum.largest()), (2.0, 3.0));
+    }
+}

@@ -29,7 +29,7 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
     let budget: f64 = rest.first().map_or(Ok(10.0), |s| s.parse()).map_err(|_| "seconds per mutant: not a number")?;
     let prefix = rest.get(1).copied().unwrap_or("src/");
     let mutants = lines(&tree.join("mutants.json"))?;
-    // Only some binaries, by the beginnings of their names: what they do not catch is as open as before.
+    // Only some binaries: what they do not catch is as open as before.
     let only = std::env::var("ONLY").ok();
     let suite = Suite::build(tree, only.as_deref())?;
     let tests = record::coverage(tree, &suite)?;

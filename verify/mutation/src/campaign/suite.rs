@@ -47,11 +47,21 @@ pub enum Outcome {
 const MEMORY: u64 = 4_000_000;
 
 impl Suite {
-    /// Compiles the tests of the packages named in PACKAGES (`twofold` if unset); of the binaries, those with the names `only`.
+    /// Compiles the tests of the packages named in PACKAGES (`twofold` if unset); of the binaries, those with the names `only` (`twofold`: the tests within the sources).
     pub fn build(tree: &Path, only: Option<&str>) -> Result<Self, String> {
         let packages = std::env::var("PACKAGES").unwrap_or_else(|_| "twofold".into());
         let mut command = Command::new("cargo");
-        command.args(["test", "--no-run", "--profile", "mutants", "--message-format", "json", "--lib", "--tests"]);
+        command.args(["test", "--no-run", "--profile", "mutants", "--message-format", "json"]);
+        match only {
+            None => {
+                command.args(["--lib", "--tests"]);
+            }
+            // The library's own are of the binary that is named as it is.
+            Some(names) => names.split_whitespace().for_each(|name| {
+                let which: &[&str] = if name == "twofold" { &["--lib"] } else { &["--test", name] };
+                command.args(which);
+            }),
+        }
         for package in packages.split_whitespace() {
             command.args(["-p", package]);
         }
@@ -73,12 +83,6 @@ impl Suite {
                 let folder = manifest.parent().unwrap_or(tree).to_path_buf();
                 binaries.push(Binary { path: path.into(), folder });
             }
-        }
-        if let Some(only) = only {
-            binaries.retain(|binary: &Binary| {
-                let name = binary.path.file_name().unwrap_or_default().to_string_lossy();
-                only.split_whitespace().any(|part| name.starts_with(part))
-            });
         }
         Ok(Self { binaries })
     }
