@@ -53,3 +53,69 @@ impl<S: Real> Steady<S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use num_dual::{Dual2_64, Dual64};
+
+    use super::*;
+
+    const INITIAL: [f64; 3] = [0.4, 1.1, -0.3];
+
+    fn steady<S: Real>() -> Steady<S> {
+        let [alpha, beta, gamma, frequency, acceleration] = [1.7, 0.02, -0.6, 1.3, 0.03].map(S::from_f64);
+        let (sin, cos) = S::from_f64(INITIAL[1]).sin_cos();
+        Steady { rates: EulerRates { alpha, beta, gamma }, frequency, sin, cos, acceleration }
+    }
+
+    fn angles<S: Real>(omega: f64, t: S) -> EulerAngles<S> {
+        let motion = steady::<S>();
+        let [alpha, beta, gamma] = INITIAL.map(S::from_f64);
+        let spin = motion.rates.gamma + motion.cos * motion.rates.alpha;
+        motion.angles(&EulerAngles { alpha, beta, gamma }, spin, S::from_f64(omega), t)
+    }
+
+    #[test]
+    fn the_slope_is_that_of_the_rate_at_constant_momentum() {
+        let motion = steady::<f64>();
+        let omega = 0.9;
+        let momentum = motion.rates.alpha * motion.sin * motion.sin + omega * motion.cos;
+        let u = Dual64::from(motion.cos).derivative();
+        let rate = (Dual64::from(momentum) - u * omega) / (Dual64::from(1.0) - u * u);
+        assert_relative_eq!(motion.slope_of_alpha(omega), rate.eps, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn rates_are_those_of_the_angles() {
+        let omega = 0.9;
+        let start = angles(omega, 0.0);
+        assert_eq!([start.alpha, start.beta, start.gamma], INITIAL);
+        for t in [0.0, 0.3, -0.8, 2.5, 17.0] {
+            let moving = angles(omega, Dual64::from(t).derivative());
+            let rates = steady::<f64>().rates(omega, t);
+            for (found, exact) in [(rates.alpha, moving.alpha), (rates.beta, moving.beta), (rates.gamma, moving.gamma)]
+            {
+                assert_relative_eq!(found, exact.eps, max_relative = 1e-13, epsilon = 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn the_inclination_swings_about_where_it_is_pulled_to() {
+        let (omega, motion) = (0.9, steady::<f64>());
+        for t in [0.0, 0.3, -0.8, 2.5, 17.0] {
+            let u = -(angles(omega, Dual2_64::from(t).derivative()).beta - INITIAL[1]) * motion.sin;
+            let pull = motion.acceleration - motion.frequency * motion.frequency * u.re;
+            assert_relative_eq!(u.v2, pull, max_relative = 1e-12, epsilon = 1e-14);
+            // alpha' = alpha'_0 + slope u, and the spin about the axis is constant.
+            let rates = motion.rates(omega, t);
+            let alpha = motion.rates.alpha + motion.slope_of_alpha(omega) * u.re;
+            assert_relative_eq!(rates.alpha, alpha, max_relative = 1e-14);
+            let spin = motion.rates.gamma + motion.cos * motion.rates.alpha;
+            let gamma = spin - motion.cos * alpha - motion.rates.alpha * u.re;
+            assert_relative_eq!(rates.gamma, gamma, max_relative = 1e-13);
+        }
+        assert_relative_eq!(motion.rates(omega, 0.0).beta, 0.02, max_relative = 1e-14);
+    }
+}
