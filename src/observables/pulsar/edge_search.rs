@@ -225,3 +225,159 @@ impl<P: Margin> EdgeSearch<P> {
         self.crossing(from, to, &Quintic::between(from, to, &self.bounds), report)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use core::cell::Cell;
+
+    use super::*;
+
+    /// `sum a cos(w t + p) - edge`, which counts how often it is looked at.
+    struct Waves {
+        waves: Vec<[f64; 3]>,
+        edge: f64,
+        looks: Cell<usize>,
+    }
+
+    impl Margin for Waves {
+        fn at(&self, t: f64) -> Result<[f64; 4], Error> {
+            self.looks.set(self.looks.get() + 1);
+            let mut found = [-self.edge, 0.0, 0.0, 0.0];
+            for &[a, w, p] in &self.waves {
+                let (sin, cos) = (w * t + p).sin_cos();
+                for (entry, term) in found.iter_mut().zip([cos, -w * sin, -w * w * cos, w * w * w * sin]) {
+                    *entry += a * term;
+                }
+            }
+            Ok(found)
+        }
+
+        fn cheapest_time(&self, _: f64, t: f64) -> f64 {
+            t
+        }
+    }
+
+    fn search_of(waves: Vec<[f64; 3]>, edge: f64) -> EdgeSearch<Waves> {
+        let bound = |order: i32| waves.iter().map(|[a, w, _]| a.abs() * w.powi(order)).sum::<f64>();
+        let bounds =
+            RateBounds { first: bound(1), second: bound(2), third: bound(3), fourth: bound(4), sixth: bound(6) };
+        EdgeSearch { margin: Waves { waves, edge, looks: Cell::new(0) }, bounds }
+    }
+
+    /// Times of crossings (and whether upwards), and of grazings.
+    fn found(search: &EdgeSearch<Waves>, from: f64, to: f64) -> (Vec<(f64, bool)>, Vec<f64>) {
+        let (mut crossings, mut grazings) = (Vec::new(), Vec::new());
+        let start = search.jet(from).unwrap();
+        search
+            .events(start, to, &mut |event| match event {
+                Event::Crossing { time, entering } => crossings.push((time, entering)),
+                Event::Grazing { time } => grazings.push(time),
+            })
+            .unwrap();
+        (crossings, grazings)
+    }
+
+    fn jet(time: f64, margin: [f64; 4]) -> Jet {
+        Jet { time, margin }
+    }
+
+    #[test]
+    fn bounds_tell_where_a_slope_and_a_curvature_keep_their_signs() {
+        let bounds = RateBounds { first: 1.0, second: 1.0, third: 1.0, fourth: 1.0, sixth: 1.0 };
+        let with = |bounds| EdgeSearch { margin: search_of(vec![[1.0, 1.0, 0.0]], 0.5).margin, bounds };
+        let ends = |a: f64, b: f64, length: f64| (jet(3.0, [0.0, a, a, 0.0]), jet(3.0 + length, [0.0, b, b, 0.0]));
+        for (a, b, length, is_certain) in [
+            (0.3, 0.4, 0.5, true),
+            (-0.3, -0.4, 0.5, true),
+            (0.3, 0.4, 0.75, false),
+            (0.3, -0.4, 0.05, false),
+            (0.3, 1.4, 1.6, true),
+        ] {
+            let (from, to) = ends(a, b, length);
+            assert_eq!(with(bounds).is_steep(&from, &to), is_certain);
+            assert_eq!(with(bounds).is_curved(&from, &to), is_certain.then_some(a > 0.0));
+        }
+        // Sixteen roundings of what a rate may be at most.
+        for (largest, is_certain) in [(5.5e14, true), (5.7e14, false)] {
+            let (from, to) = ends(1.0, 1.0, 1.0);
+            let rounded = RateBounds { first: largest, second: 0.0, third: 0.0, ..bounds };
+            assert_eq!(with(rounded).is_steep(&from, &to), is_certain);
+            let rounded = RateBounds { second: largest, third: 0.0, ..bounds };
+            assert_eq!(with(rounded).is_curved(&from, &to).is_some(), is_certain);
+        }
+    }
+
+    /// Narrow pulses and narrow gaps of a single wave, with the looks that they take.
+    #[test]
+    fn extrema_near_the_edge_are_found_with_few_looks() {
+        let mut looks = 0;
+        for exponent in 1..=12 {
+            let below = 10f64.powi(-exponent);
+            for sign in [1.0, -1.0] {
+                for offset in [0.0, 0.37, 0.9, -0.6] {
+                    // From the middle of the span 3.1 to either side.
+                    let search = search_of(vec![[sign, 1.0, offset]], sign * (1.0 - below));
+                    let (crossings, grazings) = found(&search, -offset - 3.1, -offset + 3.0);
+                    assert!(grazings.is_empty() && crossings.len() == 2, "{exponent} {sign} {offset}: {crossings:?}");
+                    let half = 2.0 * (below / 2.0).sqrt().asin();
+                    for ((time, entering), (exact, is_entering)) in
+                        crossings.iter().zip([(-half, sign > 0.0), (half, sign < 0.0)])
+                    {
+                        assert_eq!(*entering, is_entering);
+                        let error = (time + offset - exact).abs();
+                        assert!(error < 4e-16 / half + 4e-16, "{exponent}: {error:e}");
+                    }
+                    looks += search.margin.looks.get();
+                }
+            }
+        }
+        assert!(looks <= 1440, "{looks} looks");
+    }
+
+    #[test]
+    fn grazings_are_told_on_either_side_of_the_edge() {
+        for (below, crossings, grazings) in
+            [(5e-14, 2, 1), (0.0, 0, 1), (-5e-14, 0, 1), (3e-13, 2, 0), (-3e-13, 0, 0), (-1e-3, 0, 0)]
+        {
+            for sign in [1.0, -1.0] {
+                for offset in [0.1, -0.8] {
+                    let search = search_of(vec![[sign, 1.0, 0.0]], sign * (1.0 - below));
+                    let events = found(&search, -1.0 + offset, 1.0 + offset);
+                    // At the edge itself rounding decides.
+                    assert!(events.0.len() == crossings || below.abs() < 1e-15, "{below:e}: {events:?}");
+                    assert_eq!(events.1.len(), grazings, "{below:e}: {events:?}");
+                    assert!(events.1.iter().all(|time| time.abs() < 1e-9));
+                }
+            }
+        }
+    }
+
+    /// Sums of waves against a fine grid.
+    #[test]
+    fn crossings_are_those_of_a_fine_grid() {
+        let (mut looks, mut all) = (0, 0);
+        for k in 0..60 {
+            let k = f64::from(k);
+            let waves = vec![[1.0, 1.0, k], [0.4, 2.3, 0.7 * k], [0.2, 5.1 + 0.01 * k, 0.3]];
+            let search = search_of(waves, -1.3 + 0.045 * k);
+            let (crossings, grazings) = found(&search, 0.0, 40.0);
+            looks += search.margin.looks.get();
+            let inside = |j: i32| search.margin.at(f64::from(j) * 2e-3).unwrap()[0] > 0.0;
+            let expected: Vec<_> =
+                (0..20_000).filter(|&j| inside(j) != inside(j + 1)).map(|j| (j, inside(j + 1))).collect();
+            // No two in one step of the grid, for these.
+            assert_eq!(crossings.len(), expected.len(), "{k}");
+            for ((time, entering), (j, is_entering)) in crossings.iter().zip(expected) {
+                assert!(
+                    *entering == is_entering && (time - (f64::from(j) + 0.5) * 2e-3).abs() <= 1.001e-3,
+                    "{k} {time}"
+                );
+                let [value, rate, ..] = search.margin.at(*time).unwrap();
+                assert!(value.abs() < 2e-14 + 8e-15 * rate.abs(), "{k} {time}: {value:e}");
+            }
+            assert!(grazings.is_empty());
+            all += crossings.len();
+        }
+        assert!(looks <= 5200, "{looks} looks for {all} crossings");
+    }
+}

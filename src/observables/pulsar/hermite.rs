@@ -199,4 +199,36 @@ mod tests {
             assert!(root.abs() < 1e-3, "{root} from {from}");
         }
     }
+
+    /// Polynomials of any shape, many with three or five roots.
+    #[test]
+    fn the_root_is_close_to_one_of_the_polynomial() {
+        let mut state = 7_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
+        };
+        let mut far = 0;
+        for _ in 0..20_000 {
+            let mut value: [f64; 6] = core::array::from_fn(|_| random());
+            (value[0], value[5]) = (-value[0].abs(), value[5].abs());
+            let quintic = Quintic { value, rates: [0.0; 2], seconds: [0.0; 2], remainder: 0.0, rounding: 0.0 };
+            let x = quintic.root();
+            assert!((0.0..=1.0).contains(&x));
+            let at = |x: f64| {
+                let mut row = value;
+                for last in (0..5).rev() {
+                    for k in 0..=last {
+                        row[k] += x * (row[k + 1] - row[k]);
+                    }
+                }
+                row[0]
+            };
+            // Within three hundredths there is a change of sign.
+            let around = (at((x - 0.03).max(0.0)), at((x + 0.03).min(1.0)));
+            far += usize::from(around.0 * around.1 > 0.0);
+        }
+        // Where it is flat, or has two more roots beside.
+        assert!(far <= 880, "{far} of 20000");
+    }
 }

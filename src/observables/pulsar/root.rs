@@ -51,3 +51,60 @@ pub(super) fn root(
         t = next;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use core::cell::RefCell;
+
+    use super::*;
+
+    /// The times that are looked at, for a root at `at` of a rising function whose steps are given in turn, then too long ones.
+    fn looks(bracket: (f64, f64), guess: f64, at: f64, steps: &[f64]) -> Vec<f64> {
+        let seen = RefCell::new(Vec::new());
+        let look = |t: f64| {
+            let mut seen = seen.borrow_mut();
+            seen.push(t);
+            let step = steps.get(seen.len() - 1).copied().unwrap_or(1e9);
+            Ok(Look { value: t - at, step, is_exact: false })
+        };
+        let found = root(bracket, guess, true, look).unwrap();
+        assert!((found - at).abs() <= 2.0 * f64::EPSILON * (bracket.1 - bracket.0).max(at.abs()), "{found}");
+        seen.into_inner()
+    }
+
+    #[test]
+    fn the_search_begins_at_the_guess_or_in_the_middle() {
+        assert_eq!(looks((2.0, 10.0), 3.0, 7.3, &[])[0], 3.0);
+        for outside in [1.0, 2.0, 10.0, 11.0, f64::NAN] {
+            assert_eq!(looks((2.0, 10.0), outside, 7.3, &[])[0], 6.0);
+        }
+    }
+
+    #[test]
+    fn steps_that_leave_the_bracket_are_halvings() {
+        assert_eq!(looks((2.0, 10.0), f64::NAN, 7.3, &[])[..5], [6.0, 8.0, 7.0, 7.5, 7.25]);
+        // As short as half the bracket at first.
+        assert_eq!(looks((2.0, 10.0), 3.0, 7.3, &[4.5])[..3], [3.0, 6.5, 8.25]);
+        assert_eq!(looks((2.0, 10.0), 3.0, 7.3, &[3.9])[..3], [3.0, 6.9, 8.45]);
+    }
+
+    #[test]
+    fn steps_that_do_not_shrink_are_halvings() {
+        // 2 is less than half of 8, 0.9 less than half of 2, 0.5 not less than half of 0.9: then the bracket is [5.9, 10].
+        assert_eq!(looks((2.0, 10.0), 3.0, 7.3, &[2.0, 0.9, 0.5])[..4], [3.0, 5.0, 5.9, 7.95]);
+        // After that, half of the bracket's length is the measure again, 2.05.
+        assert_eq!(looks((2.0, 10.0), 3.0, 7.3, &[2.0, 0.9, 0.5, -2.0])[..5], [3.0, 5.0, 5.9, 7.95, 5.95]);
+        assert_eq!(looks((2.0, 10.0), 3.0, 7.3, &[2.0, 0.9, 0.5, -2.06])[4], 6.925000000000001);
+    }
+
+    #[test]
+    fn exact_steps_end_the_search() {
+        let seen = RefCell::new(0);
+        let look = |t: f64| {
+            *seen.borrow_mut() += 1;
+            Ok(Look { value: 7.25 - t, step: 7.25 - t, is_exact: true })
+        };
+        assert_eq!(root((2.0, 10.0), 3.0, false, look), Ok(7.25));
+        assert_eq!(*seen.borrow(), 1);
+    }
+}
