@@ -11,6 +11,9 @@ const ORDER: usize = 26;
 /// Accuracy of a step.
 const ACCURACY: f64 = 1e-17;
 
+/// Most steps of a way; once round a torus takes some ten.
+const MOST_STEPS: usize = 300;
+
 /// `n`, `L` and a vector of the body.
 pub(super) type Axes<S> = [Vector3<S>; 3];
 
@@ -46,11 +49,17 @@ impl<S: Real> Integrals<S> {
         [turn.cross(n), turn.cross(momentum) + b.component_mul(n).cross(n)]
     }
 
-    /// The flow of `t H + k K` for the time one: `H` for the time `t` and `K` for `k`, in any order, since they commute.
+    /// The flow of `t H + k K` for the time one: `H` for the time `t` and `K` for `k`, in any order, since they commute. Not a number where that takes
+    /// more than [`MOST_STEPS`].
     pub(super) fn moved(&self, times: [S; 2], start: &Axes<S>) -> Axes<S> {
         let [a, b] = self.of(times);
         let (mut axes, mut lost, mut left) = (*start, [Vector3::zeros(); 3], 1.0);
+        let mut steps = 0;
         while left > 0.0 {
+            steps += 1;
+            if steps > MOST_STEPS {
+                return [Vector3::repeat(S::from_f64(f64::NAN)); 3];
+            }
             let series = expand(&a, &b, &axes);
             let step = step_size(&series).min(left);
             left -= step;

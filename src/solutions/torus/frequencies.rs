@@ -88,6 +88,10 @@ impl Torus {
         let mut worse = 0;
         for _ in 0..MOST_CORRECTIONS {
             let (gap, [end, other]) = self.gap(times);
+            // A decomposition of what is not finite need not end.
+            if !gap.norm().is_finite() {
+                return None;
+            }
             let rates = [[1.0, 0.0], [0.0, 1.0]].map(|unit| self.vector(self.integrals.rates(unit, &end)));
             let columns: SMatrix<f64, 6, 2> = SMatrix::from_columns(&rates);
             let svd = columns.svd(true, true);
