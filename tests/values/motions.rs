@@ -21,7 +21,7 @@ use twofold::solutions::mean::MeanOrder;
 use twofold::solutions::perturbation::Kind;
 use twofold::solutions::steady::steady_precession_rate;
 
-use crate::scene::{ANGLES, RATES, STAR, general, start, state, tensor};
+use crate::scene::{ANGLES, PROLATE, RATES, STAR, general, start, state, tensor};
 use crate::table::Table;
 
 const SPAN: (f64, f64) = (2.0, 31.0);
@@ -287,6 +287,41 @@ fn many_axes() {
     let mut broken = scenes.clone();
     broken[5].initial.axis.x = 3.0;
     broken[7].accuracy = 1.0;
+    // So many times that steps of a splitting would be cut short: series of three orders, in turn.
+    let dense: Vec<Vec<f64>> =
+        (0..13).map(|k| (0..110 + k).map(|j| 0.6 + 0.03 * f64::from(k) + 0.025 * f64::from(j)).collect()).collect();
+    let mut series: Vec<AxisScene<'_>> = dense
+        .iter()
+        .enumerate()
+        .map(|(k, times)| AxisScene {
+            spheroid: if k % 4 == 1 { PROLATE } else { STAR },
+            violation: general() * (1.0 + 0.1 * k as f64),
+            initial: AxisState::from(&state()),
+            start: if k == 6 { 5.0 } else { 0.5 },
+            times,
+            accuracy: [1e-5, 1e-15, 1e-10][k % 3],
+        })
+        .collect();
+    // Backwards, and one that is too long for its steps.
+    let back: Vec<f64> = dense[6].iter().rev().copied().collect();
+    series[6].times = &back;
+    let late = [1.0, 1e12];
+    series[9] = AxisScene { times: &late, accuracy: 1e-15, ..series[9] };
+    series[4].initial.momentum.x = f64::NAN;
+    let few =
+        |states: &[AxisState<f64>]| [0, 1, states.len() / 2, states.len() - 1].map(|k| states[k.min(states.len() - 1)]);
+    for (k, found) in axis_states_of_many(&series).iter().enumerate() {
+        match found {
+            Ok(samples) => {
+                table
+                    .parts(&format!("series, {k}: steps and order"), [samples.step_count as f64, samples.order as f64]);
+                for state in few(&samples.states) {
+                    table.axis_state(&format!("series, {k}"), &state);
+                }
+            }
+            Err(error) => table.error(&format!("series, {k}"), error),
+        }
+    }
     for (name, scenes) in [("all good", scenes), ("two refused", broken)] {
         for (k, found) in axis_states_of_many(&scenes).iter().enumerate() {
             match found {

@@ -270,3 +270,46 @@ pub(super) fn sampled_forecast<const V: usize>(
     let worth = step > 0.0 && cost <= MOST_STAGES_PER_ANGLE * turn && steps <= SPLITTING_STEP_LIMIT;
     worth.then_some(SampledForecast { scheme: model.scheme, step, steps: steps as u64 })
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    #[test]
+    fn the_error_of_a_derivative_is_the_slope_of_the_error() {
+        for model in &MODELS {
+            for (epsilon, step) in [(0.3, 1.1), (0.02, 0.4), (1.5, 2.0)] {
+                let turn = 70.0;
+                let h = 1e-5 * epsilon;
+                let slope = (model.error(epsilon + h, turn, step) - model.error(epsilon - h, turn, step)) / (2.0 * h);
+                assert_relative_eq!(model.error_of_derivative(epsilon, step), slope / turn, max_relative = 1e-8);
+            }
+        }
+    }
+
+    #[test]
+    fn the_longest_step_is_as_good_as_asked_for() {
+        for model in &MODELS {
+            let largest = model.largest_turn * model.scheme.stages() as f64;
+            for (epsilon, turn, error) in [(0.3, 1e3, 1e-9), (1e-3, 1e5, 1e-12), (1e-6, 1e2, 1e-10), (1e-9, 10.0, 1e-3)]
+            {
+                let plain = model.step(epsilon, turn, error);
+                let both = model.step_with_derivatives(epsilon, turn, error);
+                assert!(0.0 < both && both <= plain && plain <= largest);
+                let edge = largest * 2e-12;
+                assert!(
+                    model.error(epsilon, turn, plain) <= error
+                        && (plain == largest || model.error(epsilon, turn, plain + edge) > error)
+                );
+                let is_good = |step: f64| {
+                    model.error(epsilon, turn, step) <= error
+                        && model.error_of_derivative(epsilon, step) <= error / 10.0
+                };
+                assert!(is_good(both) && (both == largest || !is_good(both + edge)), "{both} {plain} {largest}");
+            }
+            assert_eq!(model.step(1e-30, 1.0, 1.0), largest);
+        }
+    }
+}

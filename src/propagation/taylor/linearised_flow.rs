@@ -139,3 +139,45 @@ impl LinearisedFlow {
         (map, turned)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use nalgebra::Rotation3;
+
+    use super::*;
+    use crate::propagation::taylor::setup::Setup;
+    use crate::propagation::taylor::step_size::Work;
+
+    /// The rotation by `w h` and its mean from the time zero to `h`, on both sides of the angle of a thousandth where the series end.
+    #[test]
+    fn rotations_and_their_means_are_those_of_any_angle() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+        let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 1.0)];
+        let setup =
+            Setup::<f64, 2>::new((true, Work::Quadratic), &spheroid, &violation, vectors, (0.0, 1.0), 1e-10).unwrap();
+        let flow = LinearisedFlow::new(&spheroid, &violation, 1.0, SharedRounding::of(&setup).0);
+        let (n, w) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.5, 1.2));
+        for angle in [1e-6, 1e-4, 9.99e-4, 1.001e-3, 0.03, 0.7, 2.9] {
+            let h = angle / w.norm();
+            let (map, turned) = flow.rotation(&n, &w, h);
+            let LinearMap::Rotation { from_rotation, from_momentum, .. } = map else { panic!("a rotation") };
+            let exact = |share: f64| Rotation3::new(w * h * share).into_inner();
+            assert!((from_rotation - exact(1.0)).amax() < 2e-16 + 1e-13 * angle * angle, "{angle}");
+            assert_relative_eq!(turned, exact(1.0) * n, epsilon = 1e-15);
+            // Three points of Gauss and Legendre in each of eight parts.
+            let mut mean = Matrix3::zeros();
+            for part in 0..8 {
+                for (place, weight) in [(-0.6_f64.sqrt(), 5.0 / 18.0), (0.0, 8.0 / 18.0), (0.6_f64.sqrt(), 5.0 / 18.0)]
+                {
+                    mean += exact((f64::from(part) + 0.5 + 0.5 * place) / 8.0) * (weight / 8.0);
+                }
+            }
+            let error = (from_momentum / h - mean).amax();
+            // Beyond the series 1 - cos cancels.
+            let rounding = if angle < 1e-3 { 2e-15 } else { 2e-16 / angle };
+            assert!(error < rounding + 3e-11 * angle.powi(3), "{angle}: {error:e}");
+        }
+    }
+}

@@ -1,19 +1,15 @@
 //! Mutants with a proof that they change nothing.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use serde_json::Value;
 
-/// File, function, change, code, which of the mutants with these four (from 1, in the order of the source; `all`), proof; separated by tabs.
+/// File, function, change, code, which of the mutants with these four (from 1, in the order of the source; `all`), proof; separated by tabs. A star is for
+/// any file, function or code.
 const LIST: &str = include_str!("../../equivalent.tsv");
 
 /// Numbers of the mutants that are listed. Tells of lines that fit none.
 pub fn numbers(mutants: &[Value]) -> HashSet<u64> {
-    let mut alike: HashMap<[&str; 4], Vec<u64>> = HashMap::new();
-    for mutant in mutants {
-        let key = ["file", "function", "change", "code"].map(|key| mutant[key].as_str().unwrap_or(""));
-        alike.entry(key).or_default().push(mutant["number"].as_u64().unwrap_or(0));
-    }
     let mut found = HashSet::new();
     for line in LIST.lines() {
         let fields: Vec<&str> = line.split('\t').collect();
@@ -21,10 +17,12 @@ pub fn numbers(mutants: &[Value]) -> HashSet<u64> {
             eprintln!("listed as equivalent, not in six fields: {line}");
             continue;
         };
-        let all = alike.get(&[file, function, change, code]).map_or(&[][..], Vec::as_slice);
+        let keys = [("file", file), ("function", function), ("change", change), ("code", code)];
+        let fits = |mutant: &&Value| keys.iter().all(|(key, wanted)| *wanted == "*" || mutant[*key] == **wanted);
+        let all: Vec<u64> = mutants.iter().filter(fits).filter_map(|mutant| mutant["number"].as_u64()).collect();
         let some = match which.parse::<usize>() {
             Ok(place) => all.get(place.wrapping_sub(1)..place).unwrap_or(&[]),
-            Err(_) => all,
+            Err(_) => &all[..],
         };
         if some.is_empty() && mutants.iter().any(|mutant| mutant["file"] == file) {
             eprintln!("listed as equivalent, but no mutant: {line}");
