@@ -256,6 +256,87 @@ mod tests {
     use crate::lorentz_violation::PrincipalCoefficients;
     use crate::propagation::{TaylorMotion, propagate};
 
+    const fn rate(value: f64, uncertainty: f64) -> MeanRate {
+        MeanRate { value, uncertainty }
+    }
+
+    #[test]
+    fn rough_rates_are_those_of_the_base_and_whole_turns() {
+        let (base, nutation) = (rate(0.3, 1e-9), rate(-1.1, 2e-9));
+        let close = |a: MeanRate, b: MeanRate| {
+            (a.value - b.value).abs() < 1e-15 && (a.uncertainty - b.uncertainty).abs() < 1e-22
+        };
+        for turns in [-3.0, -1.0, 0.0, 2.0] {
+            let exact = rate(0.3 - 1.1 * turns, 1e-9 + 2e-9 * f64::abs(turns));
+            // As far as both errors, thrice, allow.
+            for off in [0.0, 2.99e-5, -2.99e-5] {
+                assert!(close(by_whole_turns(rate(exact.value + off, 1e-5), base, nutation), exact), "{turns} {off}");
+            }
+            for off in [3.01e-5, -3.01e-5] {
+                let rough = rate(exact.value + off, 1e-5);
+                assert_eq!(by_whole_turns(rough, base, nutation), rough);
+            }
+            // Both errors count: that of the base alone would allow it.
+            let rough = rate(exact.value + 3.5e-4, 1e-4);
+            assert_eq!(by_whole_turns(rough, rate(0.3, 1e-5), nutation), rough);
+            assert!(close(by_whole_turns(rough, rate(0.3, 5e-5), rate(-1.1, 0.0)), rate(exact.value, 5e-5)));
+            // What is better already stays, and so does what cannot be counted: a fiftieth of the nutation, 0.022.
+            let fine = rate(exact.value + 1e-10, 1e-10);
+            assert_eq!(by_whole_turns(fine, base, nutation), fine);
+            for (error, is_counted) in [(0.0219, true), (0.0221, false)] {
+                let rough = rate(exact.value + 0.01, error);
+                assert_eq!(by_whole_turns(rough, base, nutation) != rough, is_counted, "{turns} {error}");
+            }
+        }
+    }
+
+    fn with_rates(rates: [Option<MeanRate>; 5]) -> FundamentalFrequencies {
+        let [alpha, gamma, slow, nutation, body] = rates;
+        FundamentalFrequencies { frame: Matrix3::identity(), alpha, gamma, momentum: None, slow, nutation, body }
+    }
+
+    #[test]
+    fn the_basis_is_of_what_moves_and_differs() {
+        let symbols = |rates: [Option<MeanRate>; 5]| {
+            let basis = with_rates(rates).basis().map_err(|_| ())?;
+            Ok::<_, ()>(basis.generators().iter().map(|g| (g.symbol, g.frequency, g.uncertainty)).collect::<Vec<_>>())
+        };
+        let [alpha, gamma, slow] = [rate(1.3, 1e-9), rate(-0.2, 2e-9), rate(-0.04, 3e-9)];
+        let [nutation, body] = [rate(1.34, 4e-9), rate(0.7, 5e-9)];
+        let of = |symbol: &'static str, rate: MeanRate| (symbol, rate.value, rate.uncertainty);
+        let all = [Some(alpha), Some(gamma), Some(slow), Some(nutation), Some(body)];
+        assert_eq!(symbols(all), Ok(vec![of("alpha'", alpha), of("gamma'", gamma), of("l'", slow)]));
+        // alpha' is the slow precession itself, within ten times both errors, or 1e-12 of both.
+        let near = |off: f64, size: f64, error: f64| {
+            let slow = rate(size, error);
+            let alpha = rate(size + off, 2.0 * error);
+            symbols([Some(alpha), Some(gamma), Some(slow), Some(nutation), Some(body)]).unwrap()[2].0
+        };
+        for sign in [1.0, -1.0] {
+            for off in [29.9e-9, -29.9e-9] {
+                assert_eq!(near(off, 0.04 * sign, 1e-9), "nu'");
+                assert_eq!(near(off * 1.01, 0.04 * sign, 1e-9), "l'");
+            }
+            for off in [1.99e-8, -1.99e-8] {
+                assert_eq!(near(off, 1e4 * sign, 0.0), "nu'");
+                assert_eq!(near(off * 1.02, 1e4 * sign, 0.0), "l'");
+            }
+        }
+        // Without alpha' or gamma', or where one does not move.
+        let others = Ok(vec![of("l'", slow), of("nu'", nutation), of("psi'", body)]);
+        assert_eq!(symbols([None, None, Some(slow), Some(nutation), Some(body)]), others);
+        assert_eq!(symbols([Some(alpha), None, Some(slow), Some(nutation), Some(body)]), others);
+        assert_eq!(symbols([None, Some(gamma), Some(slow), Some(nutation), Some(body)]), others);
+        let still = Some(rate(0.9e-8, 1e-9));
+        assert_eq!(
+            symbols([still, Some(gamma), Some(slow), Some(nutation), None]),
+            Ok(vec![of("gamma'", gamma), of("nu'", nutation)])
+        );
+        assert_eq!(symbols([Some(alpha), still, None, Some(nutation), None]), Ok(vec![of("alpha'", alpha)]));
+        assert_eq!(symbols([still; 5]), Err(()));
+        assert_eq!(symbols([None; 5]), Err(()));
+    }
+
     fn precession(s: [f64; 3], beta: f64, span: (f64, f64)) -> TaylorMotion<f64> {
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);
         let angles = EulerAngles { alpha: 0.0, beta, gamma: 0.0 };

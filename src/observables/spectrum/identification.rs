@@ -157,9 +157,7 @@ impl FrequencyBasis {
     /// by two or less.
     pub fn identify(&self, frequency: f64, uncertainty: f64) -> Identification {
         let mut fitting: Vec<Combination> = Vec::new();
-        let largest_error = self.generators.iter().fold(0.0_f64, |most, g| most.max(g.uncertainty));
-        let widest = TOLERANCE * (uncertainty + largest_error * f64::from(HIGHEST_ORDER)) + 1e-12 * frequency.abs();
-        for (integers, value) in self.combinations.iter().filter(|(_, value)| (value - frequency).abs() <= widest) {
+        for (integers, value) in &self.combinations {
             if fitting.first().is_some_and(|first| order(integers) > first.order() + DOUBT) {
                 break;
             }
@@ -198,6 +196,53 @@ fn order(integers: &[i32; 3]) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A generator alone: what fits is as near as three times all errors, and its chance is that of its tolerance.
+    #[test]
+    fn tolerances_and_chances_are_those_of_the_errors() {
+        for (generator, error) in [(2.0, 1e-7), (-2.0, 1e-7), (2.0, 0.0)] {
+            let symbol = "a";
+            let basis =
+                FrequencyBasis::new(vec![Generator { symbol, frequency: generator, uncertainty: error }]).unwrap();
+            for (k, uncertainty) in [(3_i32, 2e-7), (-12, 2e-7), (1, 0.0), (12, 1e-12)] {
+                let value = generator * f64::from(k);
+                let rounding = 2.0 * f64::EPSILON * value.abs();
+                let allowed = 3.0 * (uncertainty + error * f64::from(k.abs()) + rounding);
+                for side in [1.0, -1.0] {
+                    let near = value + side * (0.999 * allowed - 0.5 * rounding);
+                    let found = basis.identify(near, uncertainty);
+                    let combination = found.combination().unwrap_or_else(|| panic!("{generator} {k}"));
+                    assert_eq!((combination.integers(), combination.order()), (vec![k], k.abs()));
+                    assert_eq!((combination.frequency, combination.misfit), (value, near - value));
+                    // One combination in an interval of the length two.
+                    let tolerance =
+                        3.0 * (uncertainty + error * f64::from(k.abs()) + f64::EPSILON * (near.abs() + value.abs()));
+                    assert!((combination.chance / tolerance - 1.0).abs() < 1e-12);
+                    let far = value + side * (1.001 * allowed + 0.5 * rounding);
+                    assert_eq!(basis.identify(far, uncertainty), Identification::Unidentified);
+                }
+            }
+            assert_eq!(basis.identify(13.0 * generator, 1e-9), Identification::Unidentified);
+            // Too great a chance: twice the tolerance times a half above a thousandth.
+            let chance = |uncertainty: f64| basis.identify(generator, uncertainty).combination().is_some();
+            assert!(chance(1e-3 / 3.0 - 2e-7) && !chance(1e-3 / 3.0 + 2e-7));
+        }
+    }
+
+    /// Combinations of all orders up to that of the line count, within half of the largest generator.
+    #[test]
+    fn the_density_is_of_combinations_of_its_order() {
+        let generator = |symbol, frequency| Generator { symbol, frequency, uncertainty: 0.0 };
+        let basis = FrequencyBasis::new(vec![generator("a", 0.37), generator("b", -1.1)]).unwrap();
+        for (frequency, most) in [(0.2, 3), (-2.3, 5), (1.47, 12)] {
+            let count = (-12..=12_i32)
+                .flat_map(|a| (-12..=12_i32).map(move |b| (a, b)))
+                .filter(|(a, b)| a.abs() + b.abs() <= most)
+                .filter(|(a, b)| (0.37 * f64::from(*a) - 1.1 * f64::from(*b) - frequency).abs() <= 0.55)
+                .count();
+            assert_eq!(basis.density(frequency, most), count as f64 / 1.1);
+        }
+    }
 
     fn basis() -> FrequencyBasis {
         let generator = |symbol, frequency| Generator { symbol, frequency, uncertainty: 1e-12 };

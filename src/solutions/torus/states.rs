@@ -305,3 +305,177 @@ pub fn separatrix_motion(
     }
     Ok(plane.state(0.5 * (left + right)))
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::dynamics::first_integrals::first_integrals;
+
+    const BODY: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+    const PROLATE: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: -0.8 };
+    const S: PrincipalCoefficients<f64> = PrincipalCoefficients { xx: 0.21, yy: -0.04, zz: 0.09 };
+
+    fn wanted(body: &RigidSpheroid<f64>, integrals: &FirstIntegrals<f64>) -> Wanted {
+        let FirstIntegrals { energy, spin, clebsch } = *integrals;
+        let along = body.inertia_zz * spin;
+        Wanted {
+            constant_c: body.constant_c,
+            inertia: body.inertia_xx,
+            hamiltonian: energy - along * spin / 2.0 + along * along / (2.0 * body.inertia_xx),
+            along,
+            third: clebsch,
+        }
+    }
+
+    /// In a plane, `n` at the angle `b`, and what crosses it.
+    fn in_plane(axes: [usize; 2], b: f64, along: f64, across: f64) -> BodyState<f64> {
+        let (mut axis, mut momentum, mut equatorial_axis) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
+        let (sin, cos) = b.sin_cos();
+        (axis[axes[0]], axis[axes[1]]) = (cos, sin);
+        (momentum[axes[0]], momentum[axes[1]]) = (along * cos - across * sin, along * sin + across * cos);
+        equatorial_axis[3 - axes[0] - axes[1]] = 1.0;
+        BodyState { axis, momentum, equatorial_axis }
+    }
+
+    #[test]
+    fn a_plane_has_the_integrals_of_its_states() {
+        let values = Vector3::new(S.xx, S.yy, S.zz);
+        for body in [BODY, PROLATE] {
+            for axes in [[0, 1], [1, 2], [2, 0]] {
+                for b in [0.3, 1.2, -0.7, 2.9] {
+                    for along in [0.9, -0.4, 0.0] {
+                        let state = in_plane(axes, b, along, 1.7);
+                        let integrals = first_integrals(&body, &S.tensor(), &state);
+                        let plane = wanted(&body, &integrals).plane(&values, axes);
+                        assert_relative_eq!(plane.momentum_across(b), 1.7, max_relative = 1e-14);
+                        assert!(plane.miss(b).abs() < 1e-15, "{axes:?} {b} {along}: {}", plane.miss(b));
+                        let found = plane.state(b);
+                        assert_relative_eq!(found.axis, state.axis, epsilon = 1e-15);
+                        assert_relative_eq!(found.momentum, state.momentum, epsilon = 1e-14);
+                        let h = 1e-5;
+                        let slope = (plane.miss(b + h) - plane.miss(b - h)) / (2.0 * h);
+                        assert_relative_eq!(plane.slope(b), slope, epsilon = 1e-9);
+                        // Without any correction.
+                        let x = (2.0 * b).cos();
+                        let candidates = plane.candidates();
+                        let nearest = candidates.iter().fold(f64::INFINITY, |least, c| least.min((c - x).abs()));
+                        assert!(nearest < 1e-6, "{axes:?} {b} {along}: {x} {candidates:?}");
+                        // At another K it is the distance from that.
+                        let other = FirstIntegrals { clebsch: integrals.clebsch - 0.25, ..integrals };
+                        assert_relative_eq!(
+                            wanted(&body, &other).plane(&values, axes).miss(b),
+                            0.25,
+                            max_relative = 1e-13
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_range_is_where_the_momentum_is_real() {
+        let range =
+            |along: f64, square: [f64; 2]| Plane { axes: [0, 1], along, half: 0.1, square, q: [0.0; 3] }.range();
+        assert_eq!(range(2.0, [9.0, 0.0]), Some((-1.0, 1.0)));
+        assert_eq!(range(3.0, [9.0, 0.0]), Some((-1.0, 1.0)));
+        assert_eq!(range(3.1, [9.0, 0.0]), None);
+        assert_eq!(range(2.0, [4.5, 1.0]), Some((-0.5, 1.0)));
+        assert_eq!(range(2.0, [4.5, -1.0]), Some((-1.0, 0.5)));
+        assert_eq!(range(2.0, [3.5, 1.0]), Some((0.5, 1.0)));
+        assert_eq!(range(2.0, [3.5, -1.0]), Some((-1.0, -0.5)));
+        assert_eq!(range(2.0, [9.0, 1.0]), Some((-1.0, 1.0)));
+        assert_eq!(range(2.0, [9.0, -1.0]), Some((-1.0, 1.0)));
+        assert_eq!(range(2.0, [2.5, 1.0]), None);
+        assert_eq!(range(2.0, [2.5, -1.0]), None);
+        let square = Plane { axes: [0, 1], along: 2.0, half: 0.1, square: [3.5, 1.0], q: [0.0; 3] };
+        assert_eq!(square.momentum_across(1.2), 0.0);
+    }
+
+    #[test]
+    fn every_state_has_the_integrals_and_none_is_twice() {
+        for body in [BODY, PROLATE] {
+            for (k, direction) in [[0.3, 0.5, 1.9], [1.7, -0.6, 0.4], [-0.5, 1.8, 0.3]].into_iter().enumerate() {
+                let axis = Vector3::new(0.6, 0.0, 0.8);
+                let start = BodyState { axis, momentum: Vector3::from(direction), equatorial_axis: Vector3::y() };
+                let integrals = first_integrals(&body, &S.tensor(), &start);
+                let found = states_with_integrals(&body, &S, &integrals).unwrap();
+                assert!(found.states.len() >= 2, "{k}");
+                for (i, state) in found.states.iter().enumerate() {
+                    let same = first_integrals(&body, &S.tensor(), state);
+                    assert_relative_eq!(same.energy, integrals.energy, max_relative = 1e-14);
+                    assert_relative_eq!(same.spin, integrals.spin, epsilon = 1e-14);
+                    assert_relative_eq!(same.clebsch, integrals.clebsch, max_relative = 1e-12);
+                    assert_relative_eq!(state.equatorial_axis.dot(&state.axis), 0.0, epsilon = 1e-15);
+                    for other in &found.states[i + 1..] {
+                        let apart = (other.axis - state.axis).norm() + (other.momentum - state.momentum).norm();
+                        assert!(apart > 1e-6, "{k}: {state:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_energy_below_the_potential_is_refused() {
+        for body in [BODY, PROLATE] {
+            let least = (Vector3::new(S.xx, S.yy, S.zz) * body.constant_c).min();
+            let spin = 0.7;
+            let spin_energy = body.inertia_zz * spin * spin / 2.0;
+            let quantity = |energy: f64| {
+                let integrals = FirstIntegrals { energy: spin_energy + energy, spin, clebsch: 0.0 };
+                match states_with_integrals(&body, &S, &integrals) {
+                    Err(Error::Domain { quantity, value, .. }) => (quantity, value),
+                    other => panic!("{other:?}"),
+                }
+            };
+            let (below, value) = quantity(least - 1e-9);
+            assert!(below.contains("without that of the spin"), "{below}");
+            assert_relative_eq!(value, least - 1e-9, max_relative = 1e-9);
+            assert!(quantity(least + 1e-9).0.contains("third integral"));
+        }
+        for (inertia_xx, inertia_zz, value) in [(0.0, 1.0, 0.0), (1.0, -2.0, -2.0), (-1.0, 3.0, -1.0)] {
+            let body = RigidSpheroid { inertia_xx, inertia_zz, constant_c: 1.0 };
+            let integrals = FirstIntegrals { energy: 1.0, spin: 0.1, clebsch: 0.0 };
+            for refused in [
+                states_with_integrals(&body, &S, &integrals).map(|_| ()),
+                separatrix_motion(&body, &S, 1.0, 0.1).map(|_| ()),
+            ] {
+                assert_eq!(
+                    refused,
+                    Err(Error::Domain { quantity: "moments of inertia", value, allowed: "above zero" })
+                );
+            }
+        }
+    }
+
+    /// Where `K` is largest or least in the plane, whatever the size of the torque.
+    #[test]
+    fn the_separatrix_is_an_extremum() {
+        for body in [BODY, PROLATE] {
+            for strength in [1.0, 1e-3, 1e-6] {
+                let s = S.scaled(strength);
+                for (energy, spin) in [(2.0, 0.3), (5.0, -0.9), (1.0, 0.0), (40.0, 1.1)] {
+                    let state = separatrix_motion(&body, &s, energy, spin).unwrap();
+                    let integrals = first_integrals(&body, &s.tensor(), &state);
+                    assert_relative_eq!(integrals.energy, energy, max_relative = 1e-14);
+                    assert_relative_eq!(integrals.spin, spin, epsilon = 1e-15);
+                    // In the plane of X and Z, L near Z.
+                    assert_eq!((state.axis.y, state.momentum.y), (0.0, 0.0));
+                    let off = (state.momentum.x / state.momentum.norm()).abs();
+                    assert!(off < 2.0 * strength, "{strength} {energy} {spin}: {off}");
+                    let plane = wanted(&body, &integrals).plane(&Vector3::new(s.xx, s.yy, s.zz), [0, 2]);
+                    let b = state.axis.z.atan2(state.axis.x);
+                    let scale = strength * integrals.energy;
+                    assert!(plane.slope(b).abs() < 1e-13 * scale, "{:e}", plane.slope(b) / scale);
+                }
+            }
+        }
+        for eigenvalues in [[0.1, 0.1, -0.2], [0.2, -0.1, -0.1], [0.0, 0.0, 0.0]] {
+            let refused = separatrix_motion(&BODY, &PrincipalCoefficients::new(eigenvalues), 2.0, 0.3);
+            assert!(matches!(refused, Err(Error::Domain { value: 0.0, .. })), "{refused:?}");
+        }
+    }
+}
