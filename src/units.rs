@@ -133,3 +133,13 @@ impl<S: Real> TimeUnit<S> {
         self.in_radians_per_second(omega) / geometrised::HERTZ
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_has_360_degrees_and_a_year_365_days_and_a_quarter() {
+        assert_eq!((360.0 * DEGREE, JULIAN_YEAR), (core::f64::consts::TAU, 365.25 * 86_400.0));
+    }
+}

@@ -5,18 +5,22 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 use twofold::Error;
+use twofold::dynamics::euler_angle_equations::AxisAngles;
 use twofold::dynamics::torque::{torque_from_gradient, torque_from_gradient_off_pole};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, euler_rates};
 use twofold::lorentz_violation::{PrincipalCoefficients, preferred_frame_parameter, principal_frame};
+use twofold::observables::Observer;
 use twofold::observables::bound::{
     SpinAxisDrift, eta_from_inclination, lambda_change, preferred_frame_bound, zeta_change,
 };
-use twofold::observables::pulsar::{Beam, arrivals, propagated_pulse_train, pulse_train};
-use twofold::propagation::{AxisMotion, ContinuousAngles, Motion, propagate};
+use twofold::observables::fundamental_frequencies::fundamental_frequencies;
+use twofold::observables::pulsar::{Beam, PulsarClock, arrivals, propagated_pulse_train, pulse_train};
+use twofold::propagation::{AxisMotion, ContinuousAngles, Motion, UniformMotion, propagate};
 use twofold::solutions::free::{free_precession_rates, free_rotation};
-use twofold::solutions::perturbation::{Constants, Kind, Perturbation, shifted_rates};
+use twofold::solutions::mean::MeanOrder;
+use twofold::solutions::perturbation::{Constants, Kind, Perturbation, constants_from_initial_values, shifted_rates};
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::solutions::symmetric::SymmetricSolution;
 use twofold::star::spheroid_shape::SpheroidShape;
@@ -265,6 +269,82 @@ fn pulses_are_searched_in_turns_that_can_be_counted() {
     refused(arrivals(&faster, &beam, &n, &train), "rotation (rad)");
 }
 
+#[test]
+fn a_clock_takes_finite_times_of_two_parts() {
+    let start = BodyState { axis: Vector3::z(), momentum: Vector3::z() * 2.2, equatorial_axis: Vector3::x() };
+    let (beam, observer) = (Beam::new(0.5, 0.0, 0.3), Observer::at(0.6, 0.0));
+    let mut clock =
+        PulsarClock::new(&star(), &Matrix3::zeros(), &start, &beam, &observer, MeanOrder::Second).expect("a clock");
+    let (endless, huge) = (f64::INFINITY, f64::MAX);
+    for t in [[endless, 0.0], [0.0, endless], [huge, huge], [-huge, -huge], [1.0, f64::NAN], [endless, -endless]] {
+        refused(clock.pulse_near(t), "time t");
+    }
+    let whole = clock.pulse_near([1e6 + 0.25, 0.0]).expect("a time").expect("a pulse");
+    let parts = clock.pulse_near([1e6, 0.25]).expect("a time").expect("a pulse");
+    assert_eq!((whole.number, whole.midpoint[0]), (parts.number, parts.midpoint[0]));
+}
+
+/// What a span of samples is refused for is told in turns of the axis and in half radians of the fastest that it may turn.
+#[test]
+fn spans_for_frequencies_are_told_in_turns() {
+    let body = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: -0.8 };
+    let start = BodyState {
+        axis: Vector3::new(0.6, 0.0, 0.8),
+        momentum: Vector3::new(0.3, -0.4, 1.2),
+        equatorial_axis: Vector3::y(),
+    };
+    let value = |state: &BodyState<f64>, s: &Matrix3<f64>, span| match fundamental_frequencies(&UniformMotion::free(
+        &body, s, state, span,
+    )) {
+        Err(Error::Domain { quantity, value, .. }) => (quantity, value),
+        other => panic!("{other:?}"),
+    };
+    let s = S.tensor();
+    let rate = 1.3 / 1.3;
+    for span in [(2.0, 42.0), (42.0, 2.0)] {
+        let (quantity, turns) = value(&start, &s, span);
+        assert_eq!(quantity, "span in turns of n about L");
+        assert!((turns - 40.0 * rate / std::f64::consts::TAU).abs() < 1e-12, "{turns}");
+    }
+    let fastest = 1.3 / 1.1 + (2.0 * 0.8 * s.norm() / 1.3).sqrt();
+    for span in [(2.0, 1e7), (1e7, 2.0)] {
+        let (quantity, halves) = value(&start, &s, span);
+        assert_eq!(quantity, "length of the span in half radians");
+        assert_eq!(halves, ((1e7 - 2.0) * fastest / 0.5).ceil());
+    }
+    let still = BodyState { momentum: Vector3::zeros(), ..start };
+    assert_eq!(value(&still, &Matrix3::zeros(), (0.0, 100.0)), ("rate of rotation", 0.0));
+    assert_eq!(
+        value(&BodyState { momentum: start.momentum * 1e300, ..start }, &(s * 1e300), (0.0, 100.0)).0,
+        "rate of rotation"
+    );
+}
+
+/// An amplitude of nothing, or of one part alone.
+#[test]
+fn constants_have_amplitudes_of_both_parts() {
+    let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.43, constant_c: 0.13 };
+    let none = PrincipalCoefficients::new([0.0; 3]);
+    let (spin, beta) = (-0.3, 0.7_f64);
+    let steady = steady_precession_rate(Kind::Twofold, &spheroid, &none, spin, beta).expect("a rate");
+    let of = |alpha_rate: f64, beta_rate: f64| {
+        let initial = AxisAngles { alpha: 0.2, beta, alpha_rate, beta_rate };
+        constants_from_initial_values(Kind::Twofold, &spheroid, &none, spin, &initial).expect("constants")
+    };
+    let nothing = of(steady, 0.0);
+    assert!(nothing.amplitude < 1e-12, "{nothing:?}");
+    for (alpha, beta_rate) in [(1e-3, 0.0), (0.0, 1e-3), (-1e-3, 2e-3)] {
+        let found = of(steady + alpha, beta_rate);
+        let solution = Perturbation::printed(Kind::Twofold, &spheroid, &none, spin, &found).expect("a solution");
+        let at = solution.at(0.0);
+        assert!((at.alpha - 0.2).abs() < 1e-12 && (at.beta - 0.7).abs() < 1e-12, "{found:?}");
+        assert!(
+            (at.alpha_rate - steady - alpha).abs() < 1e-12 && (at.beta_rate - beta_rate).abs() < 1e-12,
+            "{found:?}"
+        );
+    }
+}
+
 /// An axis that stays on a pole, or passes next to it, neither hangs nor loses count.
 #[test]
 fn turns_are_counted_next_to_the_poles() {
@@ -314,6 +394,9 @@ fn the_unit_of_time_does_not_matter() {
 /// An isotropic `s^IJ` exerts no torque, and a body at rest without torque stays; the error estimates know it.
 #[test]
 fn what_exerts_no_torque_makes_no_error() {
+    let state = BodyState { axis: Vector3::z(), momentum: Vector3::new(0.1, 0.7, 1.3), equatorial_axis: Vector3::x() };
+    let free = UniformMotion::free(&star(), &Matrix3::zeros(), &state, (0.0, 1e6));
+    assert_eq!(free.state(77_777.7).expect("a state").momentum, state.momentum);
     let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
     let slow = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 1.2e-6, beta: 3e-7, gamma: -2e-7 });
     for s in [0.3, 1.0 / 3.0, 100.1] {

@@ -278,3 +278,33 @@ fn nearest(train: &PulseTrain, time: f64) -> Option<Pulse> {
     let distance = |pulse: &Pulse| (pulse.start - time).max(time - pulse.end).max(0.0);
     train.pulses.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_pulse_holds_the_time_or_ends_nearest_to_it() {
+        let pulse = |start: f64, end: f64| Pulse { start, end, cut_at_start: false, cut_at_end: false };
+        let of = |pulses: &[(f64, f64)]| PulseTrain {
+            pulses: pulses.iter().map(|(start, end)| pulse(*start, *end)).collect(),
+            grazings: Vec::new(),
+        };
+        // By the edges, not by the midpoints: the third is long.
+        let train = of(&[(-5.0, -4.0), (1.0, 1.5), (3.0, 9.0)]);
+        for (time, start) in [
+            (-9.0, -5.0),
+            (-4.5, -5.0),
+            (-2.0, -5.0),
+            (-1.0, 1.0),
+            (1.2, 1.0),
+            (2.1, 1.0),
+            (2.4, 3.0),
+            (8.9, 3.0),
+            (20.0, 3.0),
+        ] {
+            assert_eq!(nearest(&train, time).map(|pulse| pulse.start), Some(start), "{time}");
+        }
+        assert_eq!(nearest(&of(&[]), 0.0), None);
+    }
+}

@@ -33,3 +33,69 @@ pub(super) fn roots_and_touches(coefficients: &[f64], low: f64, high: f64) -> Ve
     roots.sort_by(f64::total_cmp);
     roots
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    /// Coefficients of the product of `x - root`.
+    fn with_roots(roots: &[f64]) -> Vec<f64> {
+        roots.iter().fold(vec![1.0], |product, root| {
+            let mut next = vec![0.0; product.len() + 1];
+            for (i, c) in product.iter().enumerate() {
+                next[i + 1] += c;
+                next[i] -= root * c;
+            }
+            next
+        })
+    }
+
+    #[test]
+    fn values_are_those_of_the_powers() {
+        assert_eq!(value(&[3.0, -2.0, 0.5, 4.0], 2.0), 3.0 - 4.0 + 2.0 + 32.0);
+        // The ends are among the places, once for each degree.
+        let places = |coefficients: &[f64], expected: &[f64]| {
+            let mut found = roots_and_touches(coefficients, -1.0, 1.0);
+            found.dedup();
+            assert_eq!(found.len(), expected.len(), "{found:?}");
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-16), "{found:?}");
+        };
+        places(&[-0.25, 0.0, 1.0], &[-1.0, -0.5, 0.0, 0.5, 1.0]);
+        places(&[-0.375, 1.0], &[-1.0, 0.375, 1.0]);
+        places(&[1.0, 0.0, 1.0], &[-1.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn all_roots_within_and_none_without_are_found() {
+        for roots in [
+            vec![-0.9, -0.3, 0.2, 0.7],
+            vec![-0.5, 1e-3, 1.5, 2.0],
+            vec![-1e-7, 0.4, 0.4, 0.4],
+            vec![0.1, 0.2, 0.3],
+            vec![-3.0, -2.0, 4.0, 5.0],
+        ] {
+            let polynomial = with_roots(&roots);
+            let found = roots_and_touches(&polynomial, -1.0, 1.0);
+            assert!(found.is_sorted() && found.iter().all(|x| (-1.0..=1.0).contains(x)));
+            for (i, root) in roots.iter().enumerate().filter(|(_, root)| root.abs() <= 1.0) {
+                let nearest = found
+                    .iter()
+                    .fold(f64::INFINITY, |best, x| if (x - root).abs() < (best - root).abs() { *x } else { best });
+                // Three that are one are known to the cube root of rounding.
+                let allowed = if roots.iter().filter(|other| *other == root).count() > 1 {
+                    1e-5
+                } else {
+                    1e-14 * root.abs().max(1e-3)
+                };
+                assert!((nearest - root).abs() <= allowed, "{roots:?}, {i}: {nearest}");
+            }
+        }
+        // As near as doubles are, far from one as well.
+        for root in [3e-5, -3e-5, 0.7, -0.7] {
+            let found = roots_and_touches(&[-root, 1.0], -0.9, 1.0)[1];
+            assert_relative_eq!(found, root, max_relative = 3e-16);
+        }
+    }
+}
