@@ -362,6 +362,21 @@ fn turns_are_counted_next_to_the_poles() {
     }
 }
 
+/// A motion that leaves the torque out may stay where the torque would turn the azimuth at any time.
+#[test]
+fn turns_next_to_a_pole_are_refused_where_they_cannot_be_counted() {
+    let s = Matrix3::new(0.2, 0.1, 0.1, 0.1, -0.1, 0.0, 0.1, 0.0, -0.1);
+    let count = |off: f64, spin: f64| {
+        let angles = EulerAngles { alpha: 0.3, beta: off, gamma: 0.1 };
+        let start = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 0.0, beta: 0.0, gamma: spin });
+        let motion = UniformMotion::free(&star(), &s, &start, (0.0, 30.0));
+        ContinuousAngles::new(&motion, 0.0, &angles).and_then(|mut turns| turns.at(30.0))
+    };
+    refused(count(1e-13, 0.0), "pieces");
+    assert!(count(1e-3, 0.0).is_ok_and(|end| (end.alpha - 0.3).abs() < 1e-9));
+    assert!(count(0.3, 1.5).is_ok());
+}
+
 /// A motion counted in units of time from 1e-30 to 1e30 of its own: the same motion, or an error, never something else.
 #[test]
 fn the_unit_of_time_does_not_matter() {

@@ -14,6 +14,10 @@ use crate::scalar::{Real, real_part};
 /// Largest rotation (rad) of which the turns are counted in one call; it takes minutes.
 pub const MOST_COUNTED: f64 = 1e9;
 
+/// Pieces of time to count turns in, for each radian and beside: a passage by a pole takes some sixty.
+const PIECES_PER_RADIAN: f64 = 1e3;
+const LEAST_PIECES: f64 = 1e4;
+
 /// Follows the Euler angles of a motion so that `alpha` and `gamma` count their turns.
 ///
 /// Between two times the motion is halved until neither the symmetry axis, seen from the Z axis, nor the Z axis, seen from
@@ -41,8 +45,9 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
     /// Angles at the time `t`, continued from the last call; `t` may lie on either side of it.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a time outside the span, for a rotation of more than [`MOST_COUNTED`] since the last call, or on a
-    /// pole, where the angles do not exist; the next call continues.
+    /// [`Error::Domain`] for a time outside the span, for a rotation of more than [`MOST_COUNTED`] since the last call, for an axis
+    /// that is held near a pole against the torque, as only an approximate motion can be, or on a pole, where the angles do not exist; the next
+    /// call continues.
     pub fn at(&mut self, t: S) -> Result<EulerAngles<S>, Error> {
         let target = t.re();
         let (mut from_time, mut from) = (self.time, self.real_state(self.time)?);
@@ -56,7 +61,15 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
             "at most 1e9 from call to call: turns are counted one by one",
         )?;
         let mut ends = vec![(target, self.real_state(target)?)];
+        let (mut pieces, most) = (0.0, LEAST_PIECES + PIECES_PER_RADIAN * rotation);
         while let Some((to_time, to)) = ends.pop() {
+            pieces += 1.0;
+            Error::unless(
+                pieces <= most || most.is_nan(),
+                "number of pieces in which turns are counted",
+                pieces,
+                "at most 1e4 and 1e3 a radian: the axis stays so near to a pole that a torque could turn its azimuth at any time",
+            )?;
             Error::unless(
                 finite(&to),
                 "state of the motion at time t",
