@@ -82,19 +82,30 @@ impl Asked {
         Self { body, s, tensor, angles, rates, state, span, accuracy: 10f64.powf(-exponent), beam, observer }
     }
 
-    /// Whether its motion is little work, or so much that it must be refused.
-    fn is_moderate(&self) -> bool {
+    /// Whether a motion is little work, or so much that it must be refused: by the rotation of the symmetry axis, of which steps are made.
+    fn is_moderate_motion(&self) -> bool {
         let Self { body, state, tensor, span, .. } = self;
-        let rate = state.momentum.norm() / body.inertia_xx.min(body.inertia_zz).abs() + tensor.norm().sqrt();
-        let rate = rate.max((body.constant_c.abs() * tensor.norm() / body.inertia_xx.abs()).sqrt() * 2.0);
-        let rotation = (span.1 - span.0).abs() * rate;
-        rotation.is_nan() || rotation <= LITTLE || rotation >= REFUSED
+        let duration = (span.1 - span.0).abs();
+        let turned = state.momentum.norm() / body.inertia_xx.abs() * duration;
+        let pulled = (body.constant_c.abs() * tensor.norm() / body.inertia_xx.abs()).sqrt() * 2.0 * duration;
+        is_little_or_refused(turned) && is_little_or_refused(pulled)
+    }
+
+    /// The same of what follows the rotation of the body, which may be much faster.
+    fn is_moderate(&self) -> bool {
+        let Self { body, state, span, .. } = self;
+        let rate = state.momentum.norm() / body.inertia_xx.abs().min(body.inertia_zz.abs());
+        self.is_moderate_motion() && is_little_or_refused(rate * (span.1 - span.0).abs())
     }
 
     fn times(&self) -> [f64; 3] {
         let (from, to) = self.span;
         [from, from + (to - from) * 0.37, to]
     }
+}
+
+fn is_little_or_refused(rotation: f64) -> bool {
+    rotation.is_nan() || rotation <= LITTLE || rotation >= REFUSED
 }
 
 /// A case by the first byte, its numbers by the others. Everything ends, with a result or an error.
@@ -335,7 +346,7 @@ fn timing(bytes: &mut Bytes<'_>) {
 }
 
 fn many(bytes: &mut Bytes<'_>) {
-    let asked: Vec<_> = (0..3).map(|_| Asked::new(bytes)).filter(Asked::is_moderate).collect();
+    let asked: Vec<_> = (0..3).map(|_| Asked::new(bytes)).filter(Asked::is_moderate_motion).collect();
     let times: Vec<_> = asked.iter().map(|asked| asked.times()).collect();
     let scene = |(asked, times): (&Asked, _)| AxisScene {
         spheroid: asked.body,
