@@ -52,10 +52,13 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
         let target = t.re();
         let (mut from_time, mut from) = (self.time, self.real_state(self.time)?);
         let rotation = self.rotation(&from, target - from_time);
-        // Not a number: the states that it comes of are refused below.
-        let countable = rotation.is_nan() || rotation <= MOST_COUNTED;
+        let is_finite = |state: &BodyState<f64>, time: f64| {
+            let allowed = "a time at which every component is finite";
+            Error::unless(finite(state), "state of the motion at time t", time, allowed)
+        };
+        is_finite(&from, from_time)?;
         Error::unless(
-            countable,
+            rotation <= MOST_COUNTED,
             "rotation (rad)",
             rotation,
             "at most 1e9 from call to call: turns are counted one by one",
@@ -65,17 +68,12 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
         while let Some((to_time, to)) = ends.pop() {
             pieces += 1.0;
             Error::unless(
-                pieces <= most || most.is_nan(),
+                pieces <= most,
                 "number of pieces in which turns are counted",
                 pieces,
                 "at most 1e4 and 1e3 a radian: the axis stays so near to a pole that a torque could turn its azimuth at any time",
             )?;
-            Error::unless(
-                finite(&to),
-                "state of the motion at time t",
-                to_time,
-                "a time at which every component is finite",
-            )?;
+            is_finite(&to, to_time)?;
             if self.resolved(&from, &to, to_time - from_time) {
                 self.count(&to);
                 (from_time, from) = (to_time, to);

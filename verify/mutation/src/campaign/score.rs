@@ -1,6 +1,6 @@
 //! The score by file, what was not caught, and the record that is kept in the repository.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -15,12 +15,25 @@ const HEADER: &str = "file,content,date,mutants,caught,equivalent,lives,open,unr
 /// The numbers of every file that was run whole.
 pub const RECORD: &str = "verify/mutation/record.csv";
 
-/// Hashes of the sources in the tree, by file, in the twelve digits of the record.
-pub fn contents(tree: &Path) -> Result<HashMap<String, String>, String> {
-    let text = fs::read_to_string(tree.join("contents.txt")).map_err(|e| format!("contents.txt: {e}"))?;
-    let pair =
-        |line: &str| line.split_once(char::is_whitespace).map(|(hash, file)| (file.trim().into(), hash[..12].into()));
-    Ok(text.lines().filter_map(pair).collect())
+/// Hashes of the sources of the mutants, without their own tests, which hold none, in the twelve digits of the record.
+pub fn contents(mutants: &[Value]) -> Result<HashMap<String, String>, String> {
+    let files: BTreeSet<&str> = mutants.iter().filter_map(|mutant| mutant["file"].as_str()).collect();
+    let hash = |file: &str| {
+        let text = fs::read_to_string(Path::new("target/mutation/tree/original").join(file))
+            .map_err(|e| format!("{file}: {e}"))?;
+        Ok((file.to_string(), hash_without_tests(&text)))
+    };
+    files.into_iter().map(hash).collect()
+}
+
+/// FNV-1a of what stands before the module of tests.
+fn hash_without_tests(text: &str) -> String {
+    let code = text.split("\n#[cfg(test)]\nmod ").next().unwrap_or(text);
+    let hash = code
+        .trim_end()
+        .bytes()
+        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
+    format!("{:012x}", hash >> 16)
 }
 
 /// Where a mutant stands and what it is, as in the list of those that are not caught.
@@ -91,7 +104,7 @@ pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
     print("all", &total);
     fs::write(tree.join("missed.txt"), missed).map_err(|e| e.to_string())?;
     println!("those not caught: {}", tree.join("missed.txt").display());
-    keep(tree, &by_file)
+    keep(mutants, &by_file)
 }
 
 fn print(name: &str, c: &Counts) {
@@ -105,8 +118,8 @@ fn text(value: &Value, key: &str) -> String {
     value[key].as_str().unwrap_or("").to_string()
 }
 
-/// Replaces the rows of the files that were run whole; a row tells by the hash of its file (as git has it) whether it is of today's.
-fn keep(tree: &Path, by_file: &BTreeMap<String, Counts>) -> Result<(), String> {
+/// Replaces the rows of the files that were run whole; a row tells by a hash whether it is of today's source.
+fn keep(mutants: &[Value], by_file: &BTreeMap<String, Counts>) -> Result<(), String> {
     let mut rows: BTreeMap<String, String> = fs::read_to_string(RECORD)
         .unwrap_or_default()
         .lines()
@@ -115,9 +128,9 @@ fn keep(tree: &Path, by_file: &BTreeMap<String, Counts>) -> Result<(), String> {
         .collect();
     let output = Command::new("date").arg("-I").output().map_err(|e| format!("date: {e}"))?;
     let date = String::from_utf8_lossy(&output.stdout).trim().to_string();
-    let contents = contents(tree)?;
+    let contents = contents(mutants)?;
     for (file, c) in by_file.iter().filter(|(_, c)| c.not_run == 0) {
-        let content = contents.get(file).ok_or_else(|| format!("contents.txt has no {file}"))?;
+        let content = contents.get(file).ok_or_else(|| format!("no source {file}"))?;
         let counts = [c.mutants, c.caught, c.equivalent, c.lives, c.open, c.unreached].map(|n| n.to_string()).join(",");
         rows.insert(file.clone(), format!("{file},{content},{date},{counts}"));
     }
