@@ -284,6 +284,20 @@ fn a_clock_takes_finite_times_of_two_parts() {
     assert_eq!((whole.number, whole.midpoint[0]), (parts.number, parts.midpoint[0]));
 }
 
+/// A needle that spins fast about itself, and slowly about L, is no clock.
+#[test]
+fn a_clock_turns_about_its_momentum() {
+    let (beam, observer) = (Beam::new(0.2, 0.0, 0.3), Observer::at(0.6, 0.0));
+    let clock = |inertia_zz: f64| {
+        let needle = RigidSpheroid { inertia_xx: 1.0, inertia_zz, constant_c: 0.0 };
+        let axis = Vector3::new(0.6, 0.0, 0.8);
+        let start = BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() };
+        PulsarClock::new(&needle, &Matrix3::zeros(), &start, &beam, &observer, MeanOrder::Second)
+    };
+    assert!(clock(1e-4).is_ok());
+    refused(clock(1e-5), "rotation (rad) of the body");
+}
+
 /// What a span of samples is refused for is told in turns of the axis and in half radians of the fastest that it may turn.
 #[test]
 fn spans_for_frequencies_are_told_in_turns() {

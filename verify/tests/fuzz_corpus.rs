@@ -10,15 +10,23 @@ use twofold_verify::fuzzing::TARGETS;
 /// Set in the process that tries the inputs of one target.
 const TARGET: &str = "TWOFOLD_FUZZ_TARGET";
 
-/// A line of a corpus is a JSON string, one character for each byte.
+/// A line of a corpus is a JSON string, one character for each byte: what covers something, and what once failed.
 fn inputs(target: &str) -> Vec<Vec<u8>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("fuzz/corpus/{target}.jsonl"));
-    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let bytes = |line: &str| {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus");
+    let lines = |name: String, is_needed: bool| match fs::read_to_string(folder.join(&name)) {
+        Ok(text) => text.lines().map(str::to_owned).collect(),
+        Err(error) if is_needed => panic!("{name}: {error}"),
+        Err(_) => Vec::new(),
+    };
+    let mut all: Vec<String> = lines(format!("{target}.jsonl"), true);
+    all.extend(lines(format!("{target}.fixed.jsonl"), false));
+    all.sort_unstable();
+    all.dedup();
+    let bytes = |line: &String| {
         let text: String = serde_json::from_str(line).expect("a JSON string");
         text.chars().map(|byte| u8::try_from(byte).expect("a byte")).collect()
     };
-    text.lines().map(bytes).collect()
+    all.iter().map(bytes).collect()
 }
 
 #[test]

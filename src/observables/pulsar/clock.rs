@@ -41,6 +41,9 @@ use crate::observables::Observer;
 use crate::propagation::{AxisMotion, AxisState, Motion};
 use crate::solutions::mean::{MeanMotion, MeanOrder};
 
+/// Most rotation of the body in one turn about L (rad): the search takes a tenth of a second.
+const MOST_ROTATION: f64 = 1e5;
+
 /// A pulsar in mean motion, its beam and who looks at it.
 ///
 /// ```
@@ -145,8 +148,8 @@ impl PulsarClock {
     /// The pulsar whose state at the time zero is `initial`; `initial`, `s` and `observer` in one inertial frame.
     ///
     /// # Errors
-    /// [`Error::Domain`] as for [`MeanMotion::new`] and [`pulse_train`](super::pulse_train), and where the line of sight or the magnetic
-    /// axis is along L, about which turns are counted.
+    /// [`Error::Domain`] as for [`MeanMotion::new`] and [`pulse_train`](super::pulse_train), where the line of sight or the magnetic
+    /// axis is along L, about which turns are counted, and for a body that turns by more than 1e5 rad in one such turn.
     pub fn new(
         spheroid: &RigidSpheroid<f64>,
         s: &Matrix3<f64>,
@@ -161,9 +164,18 @@ impl PulsarClock {
         let mean = MeanMotion::with_free_rotation_of(initial, spheroid, &frame.coefficients, &turned, order)?;
         let observer = observer.rotated(&frame.principal_from_given);
         let violation = frame.coefficients.tensor();
+        let turns = TurnCount::new(&mean, beam, &observer.direction)?;
+        let bounds = rate_bounds(spheroid, &violation, &mean.state(0.0));
+        let rotation = core::f64::consts::TAU * bounds.first / turns.rate(&mean).abs();
+        Error::unless(
+            rotation <= MOST_ROTATION,
+            "rotation (rad) of the body in a turn of the magnetic axis about L",
+            rotation,
+            "at most 1e5: all of it is searched for pulses",
+        )?;
         Ok(Self {
-            bounds: rate_bounds(spheroid, &violation, &mean.state(0.0)),
-            turns: TurnCount::new(&mean, beam, &observer.direction)?,
+            bounds,
+            turns,
             mean,
             spheroid: *spheroid,
             violation,
@@ -210,10 +222,8 @@ impl PulsarClock {
         let period = self.period();
         let middle = -look.phase / self.turns.rate(&self.mean);
         let near = Near { clock: self, mean };
-        let search = EdgeSearch {
-            margin: ByStates { motion: &near, beam: &self.beam, line_of_sight: &self.observer.direction },
-            bounds: self.bounds,
-        };
+        let margin = ByStates { motion: &near, beam: &self.beam, line_of_sight: &self.observer.direction };
+        let search = EdgeSearch::new(margin, self.bounds);
         if let Some(pulse) = around(&search, middle, period)? {
             return self.described(&near, t, look.number, &pulse).map(Some);
         }
@@ -259,12 +269,12 @@ fn around<P: Margin>(search: &EdgeSearch<P>, time: f64, period: f64) -> Result<O
     let reach = (1.25 * (-2.0 * margin / curvature).sqrt()).min(0.5 * period);
     let (before, after) = (search.jet(time - reach)?, search.jet(time + reach)?);
     let (mut start, mut end) = (None, None);
-    search.search(&before, &middle, &mut |event| {
+    search.piece(&before, &middle, &mut |event| {
         if let Event::Crossing { time, entering } = event {
             start = entering.then_some(time);
         }
     })?;
-    search.search(&middle, &after, &mut |event| {
+    search.piece(&middle, &after, &mut |event| {
         if let Event::Crossing { time, entering: false } = event {
             end.get_or_insert(time);
         }

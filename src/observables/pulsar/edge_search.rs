@@ -1,5 +1,7 @@
 //! Every time at which the line of sight crosses the edge of the beam, by bounds on the derivatives of `m.n`.
 
+use core::cell::Cell;
+
 use nalgebra::Vector3;
 
 use super::hermite::{Jet, Quintic};
@@ -75,11 +77,26 @@ impl<M: Motion<f64>> Margin for ByStates<'_, M> {
 
 /// The search along a motion, by what bounds the derivatives of the margin.
 pub(super) struct EdgeSearch<P> {
-    pub(super) margin: P,
+    margin: P,
     pub(super) bounds: RateBounds,
+    /// Of the piece at hand.
+    divisions: Cell<u32>,
 }
 
+/// Most divisions of one piece: some ten are usual, a hundred by a grazing.
+const MOST_DIVISIONS: u32 = 10_000;
+
 impl<P: Margin> EdgeSearch<P> {
+    pub(super) fn new(margin: P, bounds: RateBounds) -> Self {
+        Self { margin, bounds, divisions: Cell::new(0) }
+    }
+
+    /// Searches a piece anew.
+    pub(super) fn piece(&self, from: &Jet, to: &Jet, report: &mut impl FnMut(Event)) -> Result<(), Error> {
+        self.divisions.set(0);
+        self.search(from, to, report)
+    }
+
     /// The margin and its first three time derivatives.
     pub(super) fn at(&self, t: f64) -> Result<[f64; 4], Error> {
         let margin = self.margin.at(t)?;
@@ -101,7 +118,7 @@ impl<P: Margin> EdgeSearch<P> {
             let far = from.time + piece;
             let end = if far < to { self.margin.cheapest_time(from.time, far) } else { to };
             let end = self.jet(end)?;
-            self.search(&from, &end, report)?;
+            self.piece(&from, &end, report)?;
             from = end;
         }
         Ok(from)
@@ -109,7 +126,7 @@ impl<P: Margin> EdgeSearch<P> {
 
     /// Divides a piece until the polynomial through its ends and the bounds of what that leaves out prove that the margin
     /// has no root there, or one.
-    pub(super) fn search(&self, from: &Jet, to: &Jet, report: &mut impl FnMut(Event)) -> Result<(), Error> {
+    fn search(&self, from: &Jet, to: &Jet, report: &mut impl FnMut(Event)) -> Result<(), Error> {
         let polynomial = Quintic::between(from, to, &self.bounds);
         if polynomial.is_clear() {
             return Ok(());
@@ -147,6 +164,13 @@ impl<P: Margin> EdgeSearch<P> {
             "|m.n - cos rho| over a stretch of time",
             reach,
             "above 1e-13: the line of sight stays on the edge of the beam, and rounding decides what it sees",
+        )?;
+        self.divisions.set(self.divisions.get() + 1);
+        Error::unless(
+            self.divisions.get() <= MOST_DIVISIONS,
+            "divisions of a piece of the search for edges",
+            f64::from(self.divisions.get()),
+            "at most 10,000: m.n does not keep to the equations of motion closely enough",
         )?;
         let middle = self.jet(middle)?;
         self.search(from, &middle, report)?;
@@ -228,8 +252,6 @@ impl<P: Margin> EdgeSearch<P> {
 
 #[cfg(test)]
 mod tests {
-    use core::cell::Cell;
-
     use super::*;
 
     /// `sum a cos(w t + p) - edge`, which counts how often it is looked at.
@@ -261,7 +283,7 @@ mod tests {
         let bound = |order: i32| waves.iter().map(|[a, w, _]| a.abs() * w.powi(order)).sum::<f64>();
         let bounds =
             RateBounds { first: bound(1), second: bound(2), third: bound(3), fourth: bound(4), sixth: bound(6) };
-        EdgeSearch { margin: Waves { waves, edge, looks: Cell::new(0) }, bounds }
+        EdgeSearch::new(Waves { waves, edge, looks: Cell::new(0) }, bounds)
     }
 
     /// Times of crossings (and whether upwards), and of grazings.
@@ -284,7 +306,7 @@ mod tests {
     #[test]
     fn bounds_tell_where_a_slope_and_a_curvature_keep_their_signs() {
         let bounds = RateBounds { first: 1.0, second: 1.0, third: 1.0, fourth: 1.0, sixth: 1.0 };
-        let with = |bounds| EdgeSearch { margin: search_of(vec![[1.0, 1.0, 0.0]], 0.5).margin, bounds };
+        let with = |bounds| EdgeSearch::new(search_of(vec![[1.0, 1.0, 0.0]], 0.5).margin, bounds);
         let ends = |a: f64, b: f64, length: f64| (jet(3.0, [0.0, a, a, 0.0]), jet(3.0 + length, [0.0, b, b, 0.0]));
         for (a, b, length, is_certain) in [
             (0.3, 0.4, 0.5, true),

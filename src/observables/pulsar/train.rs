@@ -134,8 +134,8 @@ pub fn pulse_train<M: Motion<f64>>(
     let (from, to) = if span.0 <= span.1 { span } else { (span.1, span.0) };
     let bounds = rate_bounds(motion.spheroid(), motion.violation(), &motion.state(from)?);
     match motion.projection(&beam.axis, line_of_sight) {
-        Some(projection) => EdgeSearch { margin: BySeries::new(&projection, beam), bounds }.train(from, to),
-        None => EdgeSearch { margin: ByStates { motion, beam, line_of_sight }, bounds }.train(from, to),
+        Some(projection) => EdgeSearch::new(BySeries::new(&projection, beam), bounds).train(from, to),
+        None => EdgeSearch::new(ByStates { motion, beam, line_of_sight }, bounds).train(from, to),
     }
 }
 
@@ -163,7 +163,7 @@ pub fn propagated_pulse_train(
         accuracy,
         (&beam.axis, line_of_sight),
         |projection, end| {
-            let search = EdgeSearch { margin: BySeries::new(projection, beam), bounds };
+            let search = EdgeSearch::new(BySeries::new(projection, beam), bounds);
             let start = match node {
                 Some(start) => start,
                 None => train.begin(search.jet(span.0)?),
