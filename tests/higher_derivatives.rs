@@ -15,11 +15,16 @@ fn eighth(value: f64) -> Eighth {
     Eighth::from_re(middle).derivative()
 }
 
+/// Largest size, not a number if one is none.
+fn larger(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |most, v| if v.is_nan() || most.is_nan() { f64::NAN } else { most.max(v.abs()) })
+}
+
 /// Largest of all derivatives.
 fn largest(x: Eighth) -> f64 {
     let outer = [x.re, x.v1, x.v2, x.v3];
     let inner = outer.iter().flat_map(|y| [y.re, y.v1, y.v2, y.v3]);
-    inner.flat_map(|z| [z.re, z.v1, z.v2]).fold(0.0, |most, v| if v.is_nan() { v } else { most.max(v.abs()) })
+    larger(inner.flat_map(|z| [z.re, z.v1, z.v2]))
 }
 
 #[test]
@@ -33,7 +38,7 @@ fn small_rotations_have_eight_derivatives() {
         let (sin, cos) = t.sin_cos();
         let along = axis * axis.dot(&v);
         let exact = constant(&(v - along)) * cos + constant(&axis.cross(&v)) * sin + constant(&along);
-        let error = (found - exact).iter().map(|x| largest(*x)).fold(0.0, f64::max);
+        let error = larger((found - exact).iter().map(|x| largest(*x)));
         // The terms left out of the series are of the order ten; beyond it quotients by the angle lose its powers in high derivatives.
         let allowed = if angle.abs() < 0.01 {
             1e-13 + angle * angle / 100.0
@@ -56,10 +61,7 @@ fn a_principal_frame_is_one_to_the_third_order() {
     ];
     let tensor = Matrix3::from_fn(|i, j| entries[i][j]);
     let (values, rotation) = principal_frame_with_derivatives(&tensor).expect("distinct eigenvalues");
-    let size = |m: &Matrix3<Dual3_64>| {
-        let all = m.iter().flat_map(|x| [x.re, x.v1, x.v2, x.v3]).map(f64::abs);
-        all.fold([0.0_f64; 2], |[most, sum], x| [most.max(x), sum + x])[0]
-    };
+    let size = |m: &Matrix3<Dual3_64>| larger(m.iter().flat_map(|x| [x.re, x.v1, x.v2, x.v3]));
     // Third derivatives of the rotation are of the order of (slope / gap)^3.
     let scale = size(&rotation);
     assert!(scale > 1e5, "{scale:e}");

@@ -75,12 +75,12 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
             )?;
             is_finite(&to, to_time)?;
             if self.resolved(&from, &to, to_time - from_time) {
-                self.count(&to);
+                self.count(&to, to_time);
                 (from_time, from) = (to_time, to);
             } else {
                 let middle = from_time + (to_time - from_time) / 2.0;
                 if middle == from_time || middle == to_time {
-                    self.count(&to);
+                    self.count(&to, to_time);
                     (from_time, from) = (to_time, to);
                     continue;
                 }
@@ -88,7 +88,6 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
                 ends.push((middle, self.real_state(middle)?));
             }
         }
-        self.time = target;
         let angles = self.motion.state(t)?.angles()?;
         Ok(EulerAngles {
             alpha: angles.alpha + S::from_f64(turns(self.last.alpha - angles.alpha.re())),
@@ -153,7 +152,9 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
         axis_path.max(z_path) < off_pole(state)
     }
 
-    fn count(&mut self, state: &BodyState<f64>) {
+    /// What is counted stays so if a later piece is refused.
+    fn count(&mut self, state: &BodyState<f64>, time: f64) {
+        self.time = time;
         let Ok(angles) = state.angles() else { return };
         self.last = EulerAngles {
             alpha: angles.alpha + turns(self.last.alpha - angles.alpha),

@@ -79,11 +79,11 @@ impl<M: Motion<f64>> Margin for ByStates<'_, M> {
 pub(super) struct EdgeSearch<P> {
     margin: P,
     pub(super) bounds: RateBounds,
-    /// Of the piece at hand.
+    /// Divisions that the piece at hand may still take.
     divisions: Cell<u32>,
 }
 
-/// Most divisions of one piece: some ten are usual, a hundred by a grazing.
+/// Most divisions of one piece, and one more a radian: some ten are usual, a hundred by a grazing.
 const MOST_DIVISIONS: u32 = 10_000;
 
 impl<P: Margin> EdgeSearch<P> {
@@ -93,7 +93,8 @@ impl<P: Margin> EdgeSearch<P> {
 
     /// Searches a piece anew.
     pub(super) fn piece(&self, from: &Jet, to: &Jet, report: &mut impl FnMut(Event)) -> Result<(), Error> {
-        self.divisions.set(0);
+        let rotation = self.bounds.first * (to.time - from.time);
+        self.divisions.set(MOST_DIVISIONS.saturating_add(rotation as u32));
         self.search(from, to, report)
     }
 
@@ -165,13 +166,13 @@ impl<P: Margin> EdgeSearch<P> {
             reach,
             "above 1e-13: the line of sight stays on the edge of the beam, and rounding decides what it sees",
         )?;
-        self.divisions.set(self.divisions.get() + 1);
         Error::unless(
-            self.divisions.get() <= MOST_DIVISIONS,
-            "divisions of a piece of the search for edges",
-            f64::from(self.divisions.get()),
-            "at most 10,000: m.n does not keep to the equations of motion closely enough",
+            self.divisions.get() > 0,
+            "length of time after 10,000 divisions of a piece of the search for edges",
+            length,
+            "long enough to tell edges apart: m.n does not keep to the equations of motion closely enough",
         )?;
+        self.divisions.set(self.divisions.get() - 1);
         let middle = self.jet(middle)?;
         self.search(from, &middle, report)?;
         self.search(&middle, to, report)

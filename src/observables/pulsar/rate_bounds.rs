@@ -49,23 +49,24 @@ impl RateBounds {
     pub(super) fn check_countable(&self, from: f64, to: f64) -> Result<(), Error> {
         let rotation = self.first * (to - from).abs();
         Error::unless(
-            rotation <= MOST_COUNTED,
+            // What is not a number is refused with the state that it comes of.
+            rotation <= MOST_COUNTED || rotation.is_nan(),
             "rotation (rad)",
             rotation,
             "at most 1e9: turns are looked at one by one",
         )?;
         let latest = from.abs().max(to.abs());
         Error::unless(
-            from == to || latest + LEAST_RESOLVED / self.first > latest,
+            from == to || latest + LEAST_RESOLVED / 2.0 / self.first > latest || rotation.is_nan(),
             "time t",
             latest,
-            "a time at which doubles resolve a rotation of 0.1 rad",
+            "a time at which doubles resolve a rotation of 0.2 rad",
         )
     }
 }
 
 /// Rotation (rad) that times have to resolve.
-const LEAST_RESOLVED: f64 = 0.1;
+const LEAST_RESOLVED: f64 = 0.2;
 
 /// Highest derivative that is bounded.
 const HIGHEST: usize = 6;

@@ -123,7 +123,7 @@ impl PulseTrain {
 /// # Errors
 /// [`Error::Domain`] for a span outside the motion's, vectors that are not of unit length (to 1e-9), a semi-open angle outside
 /// (0, pi), a motion that is not finite, a line of sight that stays on the edge of the beam to [`GRAZING`] for a while, a span of more than
-/// [`MOST_COUNTED`](crate::propagation::MOST_COUNTED) radian by the bound on `|Omega|`, and times at which doubles do not resolve 0.1 rad.
+/// [`MOST_COUNTED`](crate::propagation::MOST_COUNTED) radian by the bound on `|Omega|`, and times at which doubles do not resolve 0.2 rad.
 pub fn pulse_train<M: Motion<f64>>(
     motion: &M,
     beam: &Beam<f64>,

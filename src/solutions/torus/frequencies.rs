@@ -90,7 +90,7 @@ impl Torus {
             let (gap, [end, other]) = self.gap(times);
             // A decomposition of what is not finite need not end.
             if !gap.norm().is_finite() {
-                return None;
+                break;
             }
             let rates = [[1.0, 0.0], [0.0, 1.0]].map(|unit| self.vector(self.integrals.rates(unit, &end)));
             let columns: SMatrix<f64, 6, 2> = SMatrix::from_columns(&rates);

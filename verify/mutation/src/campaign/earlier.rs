@@ -6,12 +6,10 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::score::{RECORD, contents, place};
+use super::score::{NOT_CAUGHT, RECORD, contents, place};
 
-/// Those of the record that are not caught: outcome, then where it stands and what it is.
-const NOT_CAUGHT: &str = "verify/mutation/not_caught.tsv";
-
-/// Begins the results of a tree with those of the record, for sources of the same content: what was caught is; what was not is to be run.
+/// Begins the results of a tree with those of the record, for sources of the same content: what was caught is; what was not is to be run. That
+/// tests have gone, or a line of the list of equivalent mutants, is not seen: then ANEW is to be set.
 pub fn begin(tree: &Path, mutants: &[Value]) -> Result<(), String> {
     let results = tree.join("results.jsonl");
     if results.exists() {

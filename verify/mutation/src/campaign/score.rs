@@ -15,6 +15,9 @@ const HEADER: &str = "file,content,date,mutants,caught,equivalent,lives,open,unr
 /// The numbers of every file that was run whole.
 pub const RECORD: &str = "verify/mutation/record.csv";
 
+/// Those of the record that are not caught: outcome, then where it stands and what it is.
+pub const NOT_CAUGHT: &str = "verify/mutation/not_caught.tsv";
+
 /// Hashes of the sources of the mutants, without their own tests, which hold none, in the twelve digits of the record.
 pub fn contents(mutants: &[Value]) -> Result<HashMap<String, String>, String> {
     let files: BTreeSet<&str> = mutants.iter().filter_map(|mutant| mutant["file"].as_str()).collect();
@@ -102,7 +105,11 @@ pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
         total.not_run += counts.not_run;
     }
     print("all", &total);
-    fs::write(tree.join("missed.txt"), missed).map_err(|e| e.to_string())?;
+    fs::write(tree.join("missed.txt"), &missed).map_err(|e| e.to_string())?;
+    if total.not_run == 0 {
+        // With the record, which is read against it.
+        fs::write(NOT_CAUGHT, missed).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
+    }
     println!("those not caught: {}", tree.join("missed.txt").display());
     keep(mutants, &by_file)
 }
