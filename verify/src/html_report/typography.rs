@@ -73,8 +73,9 @@ fn pieces(text: &str) -> Vec<Piece<'_>> {
         let end = |kind: fn(char) -> bool| rest.find(|c| !kind(c)).unwrap_or(rest.len());
         let (letters, word) = (&rest[..end(char::is_alphabetic)], &rest[..end(char::is_alphanumeric)]);
         let word = if symbol_of(letters).is_some() { letters } else { word };
-        at += match first {
-            '^' | '_' if word_before => match script(&rest[1..]) {
+        let power = power_of_ten(rest).filter(|_| !word_before);
+        at += match (first, power) {
+            ('^' | '_', _) if word_before => match script(&rest[1..]) {
                 Some((script, length)) if symbol || first == '^' && script.parse::<i32>().is_ok() => {
                     let script = symbol_of(script).unwrap_or(script);
                     pieces.push(if first == '^' { Piece::Above(script) } else { Piece::Below(script) });
@@ -85,7 +86,7 @@ fn pieces(text: &str) -> Vec<Piece<'_>> {
                     1
                 }
             },
-            _ if let Some((mantissa, exponent, length)) = power_of_ten(rest).filter(|_| !word_before) => {
+            (_, Some((mantissa, exponent, length))) => {
                 pieces.push(Piece::Line(mantissa));
                 if exponent != "0" {
                     pieces.extend([Piece::Line("×10"), Piece::Above(exponent)]);
