@@ -161,6 +161,43 @@ fn small_over(large: f64, small: f64, (gap_round, gap_other): (f64, f64), middle
     gap_other * first / (gap_round * third)
 }
 
+/// On the separatrix `l` goes from one end of the middle axis to the other, once.
+#[test]
+fn a_top_on_the_separatrix_turns_with_its_angular_velocity() {
+    // Gaps of four and one: the larger outer part is twice the smaller one, exactly.
+    let x: f64 = 0.3125;
+    let middle = (1.0 - 5.0 * x * x).sqrt();
+    for order in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]] {
+        for signs in 0..8 {
+            let sign = |bit: u32| if signs >> bit & 1 == 0 { 1.0 } else { -1.0 };
+            let (mut k, mut l) = ([0.0; 3], Vector3::zeros());
+            for (place, (value, part)) in order.into_iter().zip([(4.5, x), (0.5, middle), (-0.5, 2.0 * x)]) {
+                (k[place], l[place]) = (value, part * sign(place as u32));
+            }
+            let top = Top::new(k, &l);
+            assert!(!top.is_periodic() && !top.goes_round() && top.complement() == 0.0, "{k:?} {l}");
+            assert_relative_eq!(at(&top, 0.0).0.column(2).into_owned(), l, epsilon = 1e-14);
+            let h = 1e-4;
+            for j in -8..=8 {
+                let t = 0.21 * f64::from(j);
+                let [(before, squares_before), (frame, _), (after, squares_after)] =
+                    [-h, 0.0, h].map(|h| at(&top, t + h));
+                let l = frame.column(2).into_owned();
+                let omega = Vector3::new(k[0] * l.x, k[1] * l.y, k[2] * l.z);
+                let rate = (after - before) / (2.0 * h);
+                assert!((rate - omega.cross_matrix() * frame).amax() < 3e-7, "{k:?} {l} {t}: {rate}");
+                let squares = (squares_after - squares_before) / (2.0 * h) + top.mean_squares();
+                assert!((squares - l.component_mul(&l)).amax() < 3e-7, "{k:?} {t}: {squares}");
+            }
+        }
+    }
+    // On the middle axis nothing moves.
+    let still = Top::new([4.5, 0.5, -0.5], &Vector3::new(0.0, -1.0, 0.0));
+    assert!(still.is_periodic() && still.complement() == 1.0);
+    assert_eq!((still.rates().slow, still.rates().about), (0.0, 0.5));
+    assert_eq!(still.at(0.7).frame.column(2).into_owned(), Vector3::new(0.0, -1.0, 0.0));
+}
+
 /// The derivative of a top by its values and its start, against a difference.
 #[test]
 fn derivatives_of_a_top_are_those_of_its_motion() {

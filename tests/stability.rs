@@ -57,6 +57,22 @@ fn maxima_are_at_most_those_stated() {
     }
 }
 
+/// Numbers below the smallest normal one, where 31 digits end: see `twofold_verify::stability::denormal`.
+#[test]
+fn denormal_inputs_give_the_limit() {
+    let (mut sweeps, mut numbers) = (0, 0);
+    for case in cases().iter().filter(|case| case.goes_to_zero()) {
+        let found = case.measure_denormal();
+        let label = table::label(case);
+        assert_eq!(found.without_limit, 0, "{label}");
+        let (ulp, bound) = (found.errors.ulp, case.class.bound());
+        assert!(ulp <= bound, "{label}: {ulp} ulp of result {} at {:?}", found.errors.component, found.errors.place);
+        sweeps += 1;
+        numbers += found.compared;
+    }
+    assert!(sweeps > 50 && numbers > 10_000, "{sweeps} sweeps, {numbers} numbers");
+}
+
 #[test]
 fn families_and_checks_are_the_same() {
     let ids: BTreeSet<&str> = checks::all().iter().map(|check| check.id).collect();

@@ -335,3 +335,37 @@ fn still_shape<S: Real>(l: &Vector3<S>) -> TopShape<S> {
     let frame = Matrix3::from_columns(&[parallel.cross(l), parallel, *l]);
     TopShape { frame, turned: [S::one(), S::zero()], integral: S::zero() }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    const K: [f64; 3] = [4.5, 0.5, -0.5];
+
+    #[test]
+    fn tops_are_beside_each_other_on_one_side_of_one_axis() {
+        let top = |direction: [f64; 3]| Top::new(K, &Vector3::from(direction).normalize());
+        let (round_x, round_z) = (top([0.9, 0.2, 0.3]), top([0.1, 0.2, 0.9]));
+        assert!(round_x.is_beside(&top([0.8, -0.3, 0.1])) && round_z.is_beside(&top([0.2, -0.3, 0.8])));
+        assert!(!round_x.is_beside(&round_z) && !round_x.is_beside(&top([-0.9, 0.2, 0.3])));
+        // At rest in all places, as of a ball.
+        let still = |direction: [f64; 3]| Top::new([0.5; 3], &Vector3::from(direction).normalize());
+        assert!(still([0.9, 0.2, 0.3]).is_beside(&still([0.1, 0.2, -0.9])));
+        assert!(!still([0.9, 0.2, 0.3]).is_beside(&round_x) && !round_x.is_beside(&still([0.9, 0.2, 0.3])));
+        assert_eq!(still([0.9, 0.2, 0.3]).largest_speed(), 0.0);
+    }
+
+    /// Where `l` is in the plane of the outer axes, with `A_2 = 1`: `|k l x l|` there is `(k_1 - k_3) m_1 m_3`.
+    #[test]
+    fn the_largest_speed_on_the_separatrix_bounds_that_along_it() {
+        let (x, z) = (0.3125_f64, 0.625_f64);
+        let top = Top::new(K, &Vector3::new(x, (1.0 - x * x - z * z).sqrt(), z));
+        assert!(!top.is_periodic());
+        let (first, third) = (0.2_f64.sqrt(), 0.8_f64.sqrt());
+        let fastest = 5.0 * first * third;
+        // The bound adds the largest speeds of both parts: it goes by the axis of the largest value, with the part along the third for m_1.
+        assert_relative_eq!(top.largest_speed(), fastest * (1.0 + third * third).sqrt(), max_relative = 1e-12);
+    }
+}

@@ -2,37 +2,18 @@
 
 use core::f64::consts::TAU;
 
-use nalgebra::{Matrix2, SMatrix, SVector, Vector2, Vector3};
+use nalgebra::{Matrix2, Vector3};
 
-use super::flow::{Axes, Integrals};
+use super::flow::Integrals;
+use super::lattice::{MOST_CORRECTIONS, Period, ROUNDING, Torus};
+use super::slow_course::SlowCourse;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
-use crate::solutions::mean::{MeanMotion, MeanOrder, Top, mean_direction};
-
-/// Newton steps.
-const MOST_CORRECTIONS: usize = 30;
-
-/// Newton steps along the fast angle alone.
-const FAST_CORRECTIONS: usize = 4;
-
-/// Parts of a turn, fast or slow, that are looked at.
-const PARTS_OF_TURN: usize = 48;
-
-/// A slow turn may take so many times what the mean motion says, near the separatrix.
-const LONGEST_TURN: usize = 5;
+use crate::solutions::mean::{MeanMotion, MeanOrder, MeanRates};
 
 /// Difference from the rates of the mean motion, in slow ones, up to which it names the others.
 const CLEAREST: f64 = 0.2;
-
-/// A torus whose two flows differ by less than this, relative, is a circle or a point.
-const THINNEST: f64 = 1e-8;
-
-/// Gap at which a way still counts as closed, near the separatrix, where rounding grows.
-const WIDEST_GAP: f64 = 1e-8;
-
-/// Rounding of a flow for a period.
-const ROUNDING: f64 = 1e-15;
 
 /// Exact frequencies of a motion (rad per unit of time), named as in [`MeanRates`](crate::solutions::mean::MeanRates).
 ///
@@ -52,96 +33,6 @@ pub struct TorusFrequencies {
     pub about_axis: Option<f64>,
     /// Estimated errors of the three.
     pub uncertainty: [f64; 3],
-}
-
-/// A closed way on the torus: along the flow of `H` for the first time and along that of `K` for the second.
-struct Period {
-    times: [f64; 2],
-    /// Turn of the body about `n` (rad).
-    turn: f64,
-    /// Estimated error of the times.
-    error: f64,
-}
-
-struct Torus {
-    integrals: Integrals<f64>,
-    start: Axes<f64>,
-    size: f64,
-}
-
-impl Torus {
-    fn vector(&self, [n, momentum]: [Vector3<f64>; 2]) -> SVector<f64, 6> {
-        let l = momentum / self.size;
-        SVector::from([n.x, n.y, n.z, l.x, l.y, l.z])
-    }
-
-    /// How far apart the ends of a way are of which the start is the middle.
-    fn gap(&self, times: [f64; 2]) -> (SVector<f64, 6>, [Axes<f64>; 2]) {
-        let ends = [0.5, -0.5].map(|half| self.integrals.moved(times.map(|time| time * half), &self.start));
-        let [a, b] = &ends;
-        (self.vector([a[0] - b[0], a[1] - b[1]]), ends)
-    }
-
-    /// The period near given times. Flows commute, so that the rates at an end close the gap.
-    fn period(&self, mut times: [f64; 2]) -> Option<Period> {
-        let mut best: Option<(f64, Period)> = None;
-        let mut worse = 0;
-        for _ in 0..MOST_CORRECTIONS {
-            let (gap, [end, other]) = self.gap(times);
-            // A decomposition of what is not finite need not end.
-            if !gap.norm().is_finite() {
-                break;
-            }
-            let rates = [[1.0, 0.0], [0.0, 1.0]].map(|unit| self.vector(self.integrals.rates(unit, &end)));
-            let columns: SMatrix<f64, 6, 2> = SMatrix::from_columns(&rates);
-            let svd = columns.svd(true, true);
-            let least = svd.singular_values.min();
-            if least <= THINNEST * svd.singular_values.max() || !least.is_finite() {
-                return None;
-            }
-            let change: Vector2<f64> = svd.solve(&gap, 0.0).ok()?;
-            let size = gap.norm();
-            if best.as_ref().is_none_or(|(smallest, _)| size < *smallest) {
-                let [n, _, after] = end;
-                let turn = n.dot(&other[2].cross(&after)).atan2(other[2].dot(&after));
-                best = Some((size, Period { times, turn, error: (size + ROUNDING) / least }));
-                worse = 0;
-            } else {
-                worse += 1;
-            }
-            if worse > 1 || size < 0.1 * ROUNDING {
-                break;
-            }
-            times = [times[0] - change.x, times[1] - change.y];
-        }
-        best.filter(|(gap, _)| *gap < WIDEST_GAP).map(|(_, period)| period)
-    }
-}
-
-impl Torus {
-    /// Once round the slow circle, from a time `k` along `K`: where along a turn of `n` about `L`, the time `fast`, that nearly leads back.
-    fn slow_period(&self, fast: [f64; 2], k: f64) -> Option<Period> {
-        let distance = |at: &Axes<f64>| self.vector([at[0] - self.start[0], at[1] - self.start[1]]);
-        let mut at = self.integrals.moved([0.0, k], &self.start);
-        let part = fast.map(|time| time / PARTS_OF_TURN as f64);
-        let mut nearest = (f64::INFINITY, 0);
-        for parts in 0..PARTS_OF_TURN {
-            let off = distance(&at).norm();
-            if off < nearest.0 {
-                nearest = (off, parts);
-            }
-            at = self.integrals.moved(part, &at);
-        }
-        let turned = nearest.1 as f64;
-        let mut times = [part[0] * turned, k + part[1] * turned];
-        // First the fast angle alone: the slow circle may be much smaller.
-        let along = self.vector(self.integrals.rates(fast, &self.start));
-        for _ in 0..FAST_CORRECTIONS {
-            let turn = along.dot(&distance(&self.integrals.moved(times, &self.start))) / along.norm_squared();
-            times = [0, 1].map(|i| times[i] - turn * fast[i]);
-        }
-        self.period(times)
-    }
 }
 
 /// Exact frequencies of the motion from `initial`, in the principal frame of `s`, which turns fast against the torque.
@@ -176,12 +67,10 @@ pub fn torus_frequencies(
     let size = initial.momentum.norm();
     let not_closed = |what| Error::NotConverged { what, iterations: MOST_CORRECTIONS, residual: f64::NAN };
 
-    let (fast_rate, c) = (size / spheroid.inertia_xx, initial.axis.dot(&initial.momentum) / size);
+    let fast_rate = size / spheroid.inertia_xx;
     let course = SlowCourse::along(&integrals, spheroid, &values, initial)?;
     let torus = Torus { integrals, start: course.fastest, size };
-    let p2 = (3.0 * c * c - 1.0) / 2.0;
-    let t = TAU / fast_rate;
-    let k = -t * spheroid.constant_c * p2 * spread * spheroid.inertia_xx / (size * size);
+    let [t, k] = fast_turn(spheroid, spread, initial);
     let fast = torus.period([t, k]).ok_or(not_closed("way of n round L on the torus: n is on L, or L on an axis"))?;
     // The time along K for a turn is well known from the mean motion away from the separatrix, and from the course near it.
     let once = |found: &Period| {
@@ -195,106 +84,50 @@ pub fn torus_frequencies(
         .ok_or(not_closed("way of L round its axis on the torus: L is on an axis, or this is the separatrix"))?;
     // Where the slow circle is small the fast way may have gone round it as well.
     let besides = ((fast.times[1] - k) / slow.times[1]).round();
-    let fast = Period {
-        times: [0, 1].map(|i| fast.times[i] - besides * slow.times[i]),
-        turn: fast.turn - besides * slow.turn,
-        error: fast.error + besides.abs() * slow.error,
-    };
+    let fast = fast.without(besides, &slow);
 
     let periods = Matrix2::new(fast.times[0], slow.times[0], fast.times[1], slow.times[1]);
     let inverse = periods.try_inverse().ok_or(not_closed("periods of the torus"))?;
     let [round_l, round_axis] = [inverse[(0, 0)] * TAU, inverse[(1, 0)] * TAU];
-    let spread_of_error = fast.error * round_l.abs() + slow.error * round_axis.abs();
-    let errors = [0, 1].map(|i| spread_of_error * (inverse[(i, 0)].abs() + inverse[(i, 1)].abs()));
+    let errors = errors_of_rates(&inverse, [fast.error, slow.error]);
 
     // Names.
-    let rates = mean.rates();
-    let by_whole = |value: f64, base: f64, wanted: f64| value + ((wanted - value) / base).round() * base;
-    let about_momentum = by_whole(round_l, round_axis, rates.about_momentum);
     let turned = (round_l * fast.turn + round_axis * slow.turn) / TAU;
     let turned = turned - spheroid.oblateness() * initial.momentum.dot(&initial.axis) / spheroid.inertia_zz;
-    let about_axis = by_whole(by_whole(turned, about_momentum, rates.about_axis), round_axis, rates.about_axis);
-    let unclear = (about_momentum - rates.about_momentum).abs().max((about_axis - rates.about_axis).abs());
-    let named = unclear < CLEAREST * round_axis.abs();
+    let names = named([round_l, turned], round_axis, &mean.rates());
     let uncertainty = [errors[1], errors[0] + errors[1], errors[0] + errors[1] + ROUNDING * fast_rate];
     Ok(TorusFrequencies {
         axis: course.axis,
         slow: round_axis * course.sense,
-        about_momentum: named.then_some(about_momentum),
-        about_axis: named.then_some(about_axis),
+        about_momentum: names.map(|[about_momentum, _]| about_momentum),
+        about_axis: names.map(|[_, about_axis]| about_axis),
         uncertainty,
     })
 }
 
-/// The averaged `L` along the flow of `K`, once round its axis.
-struct SlowCourse {
-    /// Time along `K` of a turn, from what is seen and from the top that the averaged `L` is.
-    period: f64,
-    guess: f64,
-    /// Where it moves fastest.
-    fastest: Axes<f64>,
-    /// The axis that it goes round, and in which sense about its positive end.
-    axis: usize,
-    sense: f64,
+/// Times along `H` and `K` of a turn of `n` about `L`, nearly: `K` takes back by how much the torque turns `L` meanwhile.
+fn fast_turn(spheroid: &RigidSpheroid<f64>, spread: f64, initial: &BodyState<f64>) -> [f64; 2] {
+    let size = initial.momentum.norm();
+    let c = initial.axis.dot(&initial.momentum) / size;
+    let p2 = (3.0 * c * c - 1.0) / 2.0;
+    let t = TAU * spheroid.inertia_xx / size;
+    [t, -t * spheroid.constant_c * p2 * spread * spheroid.inertia_xx / (size * size)]
 }
 
-impl SlowCourse {
-    fn along(
-        integrals: &Integrals<f64>,
-        spheroid: &RigidSpheroid<f64>,
-        values: &Vector3<f64>,
-        initial: &BodyState<f64>,
-    ) -> Result<Self, Error> {
-        let spread = values.max() - values.min();
-        let direction = |[axis, momentum, equatorial_axis]: Axes<f64>| {
-            mean_direction(spheroid, values, &BodyState { axis, momentum, equatorial_axis })
-        };
-        // Averaged, the flow of K turns l as a top with the tensor 2 s L.
-        let tensor = values * (2.0 * initial.momentum.norm() / (spheroid.inertia_xx * spread));
-        let rate = |l: &Vector3<f64>| tensor.component_mul(l).cross(l);
-        let mut axes = [initial.axis, initial.momentum, initial.equatorial_axis];
-        let guess = TAU / Top::new(tensor.into(), &direction(axes)).rates().slow.abs();
-        let part = guess / PARTS_OF_TURN as f64;
-        let still = Error::NotConverged {
-            what: "way of L round its axis: L is on an axis, or this is the separatrix",
-            iterations: LONGEST_TURN * PARTS_OF_TURN,
-            residual: guess,
-        };
-        if !guess.is_finite() {
-            return Err(still);
-        }
-        // Near the separatrix L lingers by the middle axis, where nothing tells how far it has come.
-        let mut best = (0.0, axes);
-        for _ in 0..PARTS_OF_TURN {
-            let speed = rate(&direction(axes)).norm();
-            if speed > best.0 {
-                best = (speed, axes);
-            }
-            axes = integrals.moved([0.0, part], &axes);
-        }
-        let fastest = best.1;
-        let first = direction(fastest);
-        let tangent = rate(&first);
-        axes = fastest;
-        let (mut least, mut before, mut turned) = (first.abs(), 0.0, false);
-        for step in 1..=LONGEST_TURN * PARTS_OF_TURN {
-            axes = integrals.moved([0.0, part], &axes);
-            let l = direction(axes);
-            let ahead = (l - first).dot(&tangent);
-            least = least.zip_map(&l.abs(), f64::min);
-            // Behind the start after half a turn, in front of it again after a whole one.
-            turned |= ahead < 0.0;
-            if turned && ahead >= 0.0 {
-                let period = part * (step as f64 - ahead / (ahead - before));
-                let (high, low) = (values.imax(), values.imin());
-                let axis = if least[high] > least[low] { high } else { low };
-                let sense = if axis == high { l[axis].signum() } else { -l[axis].signum() };
-                return Ok(Self { period, guess, fastest, axis, sense });
-            }
-            before = ahead;
-        }
-        Err(still)
-    }
+/// Errors of the rates `2 pi (T^-1)_i0` with the inverse of the matrix `T` of periods, from those of the periods: `d(T^-1) = -T^-1 dT T^-1`.
+fn errors_of_rates(inverse: &Matrix2<f64>, of_periods: [f64; 2]) -> [f64; 2] {
+    let moved = of_periods[0] * inverse[(0, 0)].abs() + of_periods[1] * inverse[(1, 0)].abs();
+    [0, 1].map(|i| TAU * moved * (inverse[(i, 0)].abs() + inverse[(i, 1)].abs()))
+}
+
+/// The two fast rates `about_momentum` and `about_axis` by the names of the mean motion: with whole sums of the others beside them. None if it is not near
+/// enough to tell.
+fn named([round_l, turned]: [f64; 2], round_axis: f64, mean: &MeanRates<f64>) -> Option<[f64; 2]> {
+    let by_whole = |value: f64, base: f64, wanted: f64| value + ((wanted - value) / base).round() * base;
+    let about_momentum = by_whole(round_l, round_axis, mean.about_momentum);
+    let about_axis = by_whole(by_whole(turned, about_momentum, mean.about_axis), round_axis, mean.about_axis);
+    let unclear = (about_momentum - mean.about_momentum).abs().max((about_axis - mean.about_axis).abs());
+    (unclear < CLEAREST * round_axis.abs()).then_some([about_momentum, about_axis])
 }
 
 #[cfg(test)]
@@ -343,5 +176,80 @@ mod tests {
         assert!(separatrix_motion(&body, &isotropic, integrals.energy, integrals.spin).is_err());
         let unstable = separatrix_motion(&body, &s, integrals.energy, integrals.spin).unwrap();
         assert!(torus_frequencies(&body, &s, &unstable).is_err());
+    }
+
+    /// Of a small torque: the flow along `K` that a turn needs beside that along `H`, to first order in it.
+    #[test]
+    fn a_fast_turn_is_nearly_closed() {
+        let body = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+        let values = Vector3::new(2.1e-4, -1.3e-4, -0.8e-4);
+        let spread = values.max() - values.min();
+        for momentum in [Vector3::new(0.4, 0.7, 1.9), Vector3::new(-1.6, 0.3, 0.8)] {
+            let axis = Vector3::new(0.6, 0.0, 0.8);
+            let start = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
+            let guess = fast_turn(&body, spread, &start);
+            let integrals = Integrals::new(&body, &values, spread);
+            let torus = Torus { integrals, start: [axis, momentum, Vector3::y()], size: momentum.norm() };
+            let found = torus.period(guess).unwrap();
+            for (time, near) in found.times.into_iter().zip(guess) {
+                assert!((near / time - 1.0).abs() < 2e-3, "{guess:?} {found:?}");
+            }
+        }
+    }
+
+    /// By the inverse of periods that are changed one after the other, each by a share of its error.
+    #[test]
+    fn errors_of_rates_are_those_of_changed_periods() {
+        let (periods, of_periods) = (Matrix2::new(5.0, -0.7, 1.9, 311.0), [3e-6, 2e-5]);
+        let inverse = periods.try_inverse().unwrap();
+        let found = errors_of_rates(&inverse, of_periods);
+        for (i, error) in found.into_iter().enumerate() {
+            let mut worst = 0.0_f64;
+            for signs in 0..16 {
+                let sign = |bit: u32| if signs >> bit & 1 == 0 { 1.0 } else { -1.0 };
+                let moved = Matrix2::from_fn(|row, k| sign((2 * row + k) as u32) * of_periods[k]);
+                let changed = (periods + moved).try_inverse().unwrap() - inverse;
+                worst = worst.max((TAU * changed[(i, 0)]).abs());
+            }
+            assert!((worst / error - 1.0).abs() < 1e-4, "{i}: {worst:e} {error:e}");
+        }
+    }
+
+    #[test]
+    fn names_are_those_nearest_to_the_mean_motion() {
+        let mean = MeanRates { slow: 0.01, about_momentum: 1.3, about_axis: -0.4 };
+        let base = 0.0101;
+        let (about_momentum, about_axis) = (1.3004, -0.4003);
+        for (turns, more) in [(0.0, 0.0), (3.0, 0.0), (-7.0, 2.0), (5.0, -1.0)] {
+            let round_l = about_momentum + turns * base;
+            let turned = about_axis + more * about_momentum - turns * base;
+            let found = named([round_l, turned], base, &mean).unwrap();
+            let off = (found[0] - about_momentum).abs().max((found[1] - about_axis).abs());
+            assert!(off < 1e-14, "{turns} {more}: {found:?}");
+            assert_eq!(named([round_l, turned], -base, &mean).map(|_| ()), Some(()));
+        }
+        // Farther than a fifth of a slow turn off: another sum might be meant.
+        let off = |momentum: f64, axis: f64| named([1.3 + momentum * base, -0.4 + axis * base], base, &mean);
+        for far in [0.25, 0.45, -0.25, -0.45] {
+            assert_eq!((off(far, 0.0), off(0.0, far), off(far, far)), (None, None, None));
+        }
+        for near in [0.15, -0.15] {
+            assert!(off(near, 0.0).is_some() && off(0.0, near).is_some() && off(near, -near).is_some());
+        }
+    }
+
+    /// Of the rates about `L` and `n` beyond that of the slow one, and of the body's own turn in the last.
+    #[test]
+    fn uncertainties_grow_from_the_slow_rate_to_the_fast_ones() {
+        let (body, s, state) = scene(Vector3::new(0.0, 0.28, 0.96));
+        let found = torus_frequencies(&body, &s, &state).unwrap();
+        let [slow, about_momentum, about_axis] = found.uncertainty;
+        let rotation = 1.4 / body.inertia_xx;
+        assert!(slow > 0.0 && about_momentum > slow, "{found:?}");
+        assert!(
+            about_momentum > 0.2 * ROUNDING * rotation && about_momentum < 100.0 * ROUNDING * rotation,
+            "{found:?}"
+        );
+        assert!(((about_axis - about_momentum) / (ROUNDING * rotation) - 1.0).abs() < 1e-9, "{found:?}");
     }
 }

@@ -31,8 +31,13 @@
 
 mod flow;
 mod frequencies;
+mod lattice;
+mod plane;
 mod polynomial;
+mod separatrix;
+mod slow_course;
 mod states;
 
 pub use frequencies::{TorusFrequencies, torus_frequencies};
-pub use states::{TorusStates, separatrix_motion, states_with_integrals};
+pub use separatrix::separatrix_motion;
+pub use states::{TorusStates, states_with_integrals};

@@ -17,16 +17,16 @@ pub(super) fn roots_and_touches(coefficients: &[f64], low: f64, high: f64) -> Ve
     let mut roots = places.clone();
     for pair in places.windows(2) {
         let (mut left, mut right) = (pair[0], pair[1]);
-        let sign = value(coefficients, left).signum();
-        if sign * value(coefficients, right) >= 0.0 {
+        let (first, last) = (value(coefficients, left), value(coefficients, right));
+        if first * last >= 0.0 {
             continue;
         }
-        while right - left > f64::EPSILON * left.abs().max(right.abs()) {
+        loop {
             let middle = 0.5 * (left + right);
             if middle <= left || middle >= right {
                 break;
             }
-            if sign * value(coefficients, middle) > 0.0 { left = middle } else { right = middle }
+            if (value(coefficients, middle) > 0.0) == (first > 0.0) { left = middle } else { right = middle }
         }
         roots.push(0.5 * (left + right));
     }
@@ -65,6 +65,21 @@ mod tests {
         places(&[-0.25, 0.0, 1.0], &[-1.0, -0.5, 0.0, 0.5, 1.0]);
         places(&[-0.375, 1.0], &[-1.0, 0.375, 1.0]);
         places(&[1.0, 0.0, 1.0], &[-1.0, 0.0, 1.0]);
+    }
+
+    /// A root at an end is that place alone, and where no sign changes there is none.
+    #[test]
+    fn no_root_is_told_twice() {
+        let found = |coefficients: &[f64], low: f64, high: f64| roots_and_touches(coefficients, low, high);
+        assert_eq!(found(&[0.0, 1.0], -1.0, 0.0), [-1.0, 0.0]);
+        assert_eq!(found(&[0.0, -1.0], -1.0, 0.0), [-1.0, 0.0]);
+        assert_eq!(found(&[0.0, 1.0], 0.0, 1.0), [0.0, 1.0]);
+        assert_eq!(found(&[0.5, 0.1], -1.0, 1.0), [-1.0, 1.0]);
+        assert_eq!(found(&[-0.5, 0.1], -1.0, 1.0), [-1.0, 1.0]);
+        assert_eq!(found(&[-0.5, 1.0], -1.0, 1.0), [-1.0, 0.5, 1.0]);
+        assert_eq!(found(&[1.0, -2.0], -1.0, 1.0), [-1.0, 0.5, 1.0]);
+        // Both ends twice, by the slope as well, which has its root between.
+        assert_eq!(found(&[0.125, -0.5, 1.0], -1.0, 1.0), [-1.0, -1.0, 0.25, 1.0, 1.0]);
     }
 
     #[test]

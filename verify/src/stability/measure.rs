@@ -65,7 +65,7 @@ pub struct Found {
 }
 
 /// Distance from a number to the next larger one.
-fn spacing(x: f64) -> f64 {
+pub(super) fn spacing(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
 }
 
@@ -126,7 +126,7 @@ impl Case {
         (self.oracle_slope)(&inputs).into_iter().map(|result| result.eps).collect()
     }
 
-    fn scales(&self, x: &[f64], exact: &[Wide]) -> Vec<f64> {
+    pub(super) fn scales(&self, x: &[f64], exact: &[Wide]) -> Vec<f64> {
         let mut scales: Vec<f64> = exact.iter().map(|f| f.high().abs()).collect();
         for (i, value) in x.iter().enumerate() {
             if *value != 0.0 {

@@ -14,6 +14,7 @@
 //! the next double at the scale.
 
 pub mod cases;
+pub mod denormal;
 mod elsewhere;
 mod input;
 pub mod measure;

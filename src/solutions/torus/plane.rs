@@ -1,0 +1,316 @@
+//! States in a principal plane, or with `n` on a principal axis, with given integrals.
+
+use nalgebra::Vector3;
+
+use super::polynomial::roots_and_touches;
+use crate::dynamics::BodyState;
+
+/// `K` of a state may be off by this times `L.L (s_max - s_min)`: a double root of the quartic is known to half the digits, and `K` then to all.
+const TOLERANCE: f64 = 1e-13;
+
+/// States whose axes are nearer are one: a double root is known to half the digits.
+const NEAREST: f64 = 1e-6;
+
+/// What is asked of a state.
+pub(super) struct Wanted {
+    pub(super) constant_c: f64,
+    pub(super) inertia: f64,
+    /// `L.L / (2 I^xx) + C n.(s n)`.
+    pub(super) hamiltonian: f64,
+    /// `L.n`.
+    pub(super) along: f64,
+    pub(super) third: f64,
+}
+
+/// `n` and `L` in a principal plane: `n = (cos b, sin b)`, `L = p n + u (-sin b, cos b)` in the axes `axes`.
+pub(super) struct Plane {
+    axes: [usize; 2],
+    along: f64,
+    /// `(s_i - s_j) / 2`.
+    half: f64,
+    /// `L.L = m0 + m1 x`, `x = cos 2b`.
+    square: [f64; 2],
+    /// `K - K_0 = q(x) - 2 half p u sin 2b`.
+    q: [f64; 3],
+}
+
+impl Plane {
+    fn momentum_across(&self, b: f64) -> f64 {
+        (self.square[0] + self.square[1] * (2.0 * b).cos() - self.along * self.along).max(0.0).sqrt()
+    }
+
+    /// `K - K_0`.
+    fn miss(&self, b: f64) -> f64 {
+        let ((y, x), u) = ((2.0 * b).sin_cos(), self.momentum_across(b));
+        (self.q[2] * x + self.q[1]) * x + self.q[0] - 2.0 * self.half * self.along * u * y
+    }
+
+    /// `dK / db`.
+    pub(super) fn slope(&self, b: f64) -> f64 {
+        let ((y, x), u) = ((2.0 * b).sin_cos(), self.momentum_across(b));
+        let turn = 2.0 * u * x - self.square[1] * y * y / u;
+        -2.0 * y * (2.0 * self.q[2] * x + self.q[1]) - 2.0 * self.half * self.along * turn
+    }
+
+    pub(super) fn state(&self, b: f64) -> BodyState<f64> {
+        let ([i, j], p, u) = (self.axes, self.along, self.momentum_across(b));
+        let (sin, cos) = b.sin_cos();
+        let (mut axis, mut momentum, mut equatorial_axis) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
+        (axis[i], axis[j]) = (cos, sin);
+        (momentum[i], momentum[j]) = (p * cos - u * sin, p * sin + u * cos);
+        equatorial_axis[3 - i - j] = 1.0;
+        BodyState { axis, momentum, equatorial_axis }
+    }
+
+    /// `x` between -1 and 1 where `u^2 >= 0`.
+    fn range(&self) -> Option<(f64, f64)> {
+        let ([m0, m1], square) = (self.square, self.along * self.along);
+        let (mut low, mut high) = (-1.0_f64, 1.0_f64);
+        if m1 == 0.0 {
+            return (m0 >= square).then_some((low, high));
+        }
+        let edge = (square - m0) / m1;
+        if m1 > 0.0 {
+            low = low.max(edge);
+        } else {
+            high = high.min(edge);
+        }
+        (low <= high).then_some((low, high))
+    }
+
+    /// Places where `K = K_0` or may touch it.
+    fn candidates(&self) -> Vec<f64> {
+        let Some((low, high)) = self.range().filter(|_| self.half != 0.0) else { return Vec::new() };
+        let ([q0, q1, q2], [m0, m1]) = (self.q, self.square);
+        let f = 4.0 * self.half * self.half * self.along * self.along;
+        if f == 0.0 {
+            return roots_and_touches(&self.q, low, high);
+        }
+        let (r0, r1) = (f * (m0 - self.along * self.along), f * m1);
+        let quartic = [q0 * q0 - r0, 2.0 * q0 * q1 - r1, q1 * q1 + 2.0 * q0 * q2 + r0, 2.0 * q1 * q2 + r1, q2 * q2];
+        roots_and_touches(&quartic, low, high)
+    }
+}
+
+impl Wanted {
+    pub(super) fn plane(&self, s: &Vector3<f64>, axes: [usize; 2]) -> Plane {
+        let [si, sj] = axes.map(|i| s[i]);
+        let (middle, half) = ((si + sj) / 2.0, (si - sj) / 2.0);
+        let Self { constant_c: c, inertia, hamiltonian, along, third } = *self;
+        let square @ [m0, m1] = [2.0 * inertia * (hamiltonian - c * middle), -2.0 * inertia * c * half];
+        let normal_pull = 2.0 * c * inertia * s[3 - axes[0] - axes[1]];
+        let q = [
+            middle * m0 - normal_pull * middle - third,
+            middle * m1 + half * (2.0 * along * along - m0) + normal_pull * half,
+            -half * m1,
+        ];
+        Plane { axes, along, half, square, q }
+    }
+
+    /// How far `K` of a state may be off.
+    fn tolerance(&self, plane: &Plane, s: &Vector3<f64>) -> f64 {
+        let size = plane.square[0].abs() + plane.square[1].abs() + self.constant_c.abs() * self.inertia;
+        TOLERANCE * size * s.amax()
+    }
+
+    /// Angles `b` between which `K` has an extremum in a plane, where `L` is along its second axis: as far as the torque, for a given spread of `s`,
+    /// can move it.
+    pub(super) fn about_second_axis(&self, spread: f64) -> [f64; 2] {
+        let square = (2.0 * self.inertia * self.hamiltonian).max(0.0);
+        let middle = self.along.atan2((square - self.along * self.along).max(0.0).sqrt());
+        let reach = (4.0 * self.constant_c.abs() * spread * self.inertia / square).min(0.1);
+        [middle - reach, middle + reach]
+    }
+
+    /// States with `n` and `L` in the plane normal to the axis `normal`, but for half turns about the axes.
+    pub(super) fn in_plane(&self, s: &Vector3<f64>, normal: usize) -> Vec<BodyState<f64>> {
+        let plane = self.plane(s, [(normal + 1) % 3, (normal + 2) % 3]);
+        let allowed = self.tolerance(&plane, s);
+        let mut states: Vec<BodyState<f64>> = Vec::new();
+        for x in plane.candidates() {
+            for side in [1.0, -1.0] {
+                let corrected = |b: f64| b - plane.miss(b) / plane.slope(b);
+                let mut b = 0.5 * x.acos() * side;
+                let mut next = corrected(b);
+                // Not a number on the edge, where the slope has a pole.
+                while plane.miss(next).abs() < plane.miss(b).abs() {
+                    b = next;
+                    next = corrected(b);
+                }
+                let state = plane.state(b);
+                // The axis tells the momentum, and both turn their signs by half a turn.
+                let known = |other: &BodyState<f64>| {
+                    let [apart, turned] = [other.axis - state.axis, other.axis + state.axis].map(|off| off.norm());
+                    apart.min(turned) < NEAREST
+                };
+                if plane.miss(b).abs() <= allowed && !states.iter().any(known) {
+                    states.push(state);
+                }
+            }
+        }
+        states
+    }
+
+    /// The state with `n` on the axis `on`, but for half turns about the axes.
+    pub(super) fn on_axis(&self, s: &Vector3<f64>, on: usize) -> Option<BodyState<f64>> {
+        let (i, j) = ((on + 1) % 3, (on + 2) % 3);
+        let Self { constant_c: c, inertia, hamiltonian, along: p, third } = *self;
+        let across = 2.0 * inertia * (hamiltonian - c * s[on]) - p * p;
+        let pulled = third - s[on] * p * p + 2.0 * c * inertia * s[i] * s[j];
+        let squares = [(pulled - s[j] * across) / (s[i] - s[j]), (pulled - s[i] * across) / (s[j] - s[i])];
+        if !(squares[0] >= 0.0 && squares[1] >= 0.0) {
+            return None;
+        }
+        let (mut axis, mut momentum, mut equatorial_axis) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
+        (axis[on], momentum[on], equatorial_axis[i]) = (1.0, p, 1.0);
+        (momentum[i], momentum[j]) = (squares[0].sqrt(), squares[1].sqrt());
+        Some(BodyState { axis, momentum, equatorial_axis })
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::dynamics::RigidSpheroid;
+    use crate::dynamics::first_integrals::{FirstIntegrals, first_integrals};
+    use crate::lorentz_violation::PrincipalCoefficients;
+
+    pub(in crate::solutions::torus) const BODY: RigidSpheroid<f64> =
+        RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+    pub(in crate::solutions::torus) const PROLATE: RigidSpheroid<f64> =
+        RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: -0.8 };
+    pub(in crate::solutions::torus) const S: PrincipalCoefficients<f64> =
+        PrincipalCoefficients { xx: 0.21, yy: -0.04, zz: 0.09 };
+
+    pub(in crate::solutions::torus) fn wanted(body: &RigidSpheroid<f64>, integrals: &FirstIntegrals<f64>) -> Wanted {
+        let FirstIntegrals { energy, spin, clebsch } = *integrals;
+        let along = body.inertia_zz * spin;
+        Wanted {
+            constant_c: body.constant_c,
+            inertia: body.inertia_xx,
+            hamiltonian: energy - along * spin / 2.0 + along * along / (2.0 * body.inertia_xx),
+            along,
+            third: clebsch,
+        }
+    }
+
+    /// In a plane, `n` at the angle `b`, and what crosses it.
+    fn in_plane(axes: [usize; 2], b: f64, along: f64, across: f64) -> BodyState<f64> {
+        let (mut axis, mut momentum, mut equatorial_axis) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
+        let (sin, cos) = b.sin_cos();
+        (axis[axes[0]], axis[axes[1]]) = (cos, sin);
+        (momentum[axes[0]], momentum[axes[1]]) = (along * cos - across * sin, along * sin + across * cos);
+        equatorial_axis[3 - axes[0] - axes[1]] = 1.0;
+        BodyState { axis, momentum, equatorial_axis }
+    }
+
+    #[test]
+    fn a_plane_has_the_integrals_of_its_states() {
+        let values = Vector3::new(S.xx, S.yy, S.zz);
+        for body in [BODY, PROLATE] {
+            for axes in [[0, 1], [1, 2], [2, 0]] {
+                for b in [0.3, 1.2, -0.7, 2.9] {
+                    for along in [0.9, -0.4, 0.0] {
+                        let state = in_plane(axes, b, along, 1.7);
+                        let integrals = first_integrals(&body, &S.tensor(), &state);
+                        let plane = wanted(&body, &integrals).plane(&values, axes);
+                        assert_relative_eq!(plane.momentum_across(b), 1.7, max_relative = 1e-14);
+                        assert!(plane.miss(b).abs() < 1e-15, "{axes:?} {b} {along}: {}", plane.miss(b));
+                        let found = plane.state(b);
+                        assert_relative_eq!(found.axis, state.axis, epsilon = 1e-15);
+                        assert_relative_eq!(found.momentum, state.momentum, epsilon = 1e-14);
+                        let h = 1e-5;
+                        let slope = (plane.miss(b + h) - plane.miss(b - h)) / (2.0 * h);
+                        assert_relative_eq!(plane.slope(b), slope, epsilon = 1e-9);
+                        // Without any correction.
+                        let x = (2.0 * b).cos();
+                        let candidates = plane.candidates();
+                        let nearest = candidates.iter().fold(f64::INFINITY, |least, c| least.min((c - x).abs()));
+                        assert!(nearest < 1e-6, "{axes:?} {b} {along}: {x} {candidates:?}");
+                        // At another K it is the distance from that.
+                        let other = FirstIntegrals { clebsch: integrals.clebsch - 0.25, ..integrals };
+                        assert_relative_eq!(
+                            wanted(&body, &other).plane(&values, axes).miss(b),
+                            0.25,
+                            max_relative = 1e-13
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_range_is_where_the_momentum_is_real() {
+        let range =
+            |along: f64, square: [f64; 2]| Plane { axes: [0, 1], along, half: 0.1, square, q: [0.0; 3] }.range();
+        assert_eq!(range(2.0, [9.0, 0.0]), Some((-1.0, 1.0)));
+        assert_eq!(range(3.0, [9.0, 0.0]), Some((-1.0, 1.0)));
+        assert_eq!(range(3.1, [9.0, 0.0]), None);
+        assert_eq!(range(2.0, [4.5, 1.0]), Some((-0.5, 1.0)));
+        assert_eq!(range(2.0, [4.5, -1.0]), Some((-1.0, 0.5)));
+        assert_eq!(range(2.0, [3.5, 1.0]), Some((0.5, 1.0)));
+        assert_eq!(range(2.0, [3.5, -1.0]), Some((-1.0, -0.5)));
+        assert_eq!(range(2.0, [9.0, 1.0]), Some((-1.0, 1.0)));
+        assert_eq!(range(2.0, [9.0, -1.0]), Some((-1.0, 1.0)));
+        assert_eq!(range(2.0, [2.5, 1.0]), None);
+        assert_eq!(range(2.0, [2.5, -1.0]), None);
+        let square = Plane { axes: [0, 1], along: 2.0, half: 0.1, square: [3.5, 1.0], q: [0.0; 3] };
+        assert_eq!(square.momentum_across(1.2), 0.0);
+    }
+
+    /// With `L` along `n` in the plane the equation is quadratic; in a plane of two equal eigenvalues `K` says nothing.
+    #[test]
+    fn candidates_are_as_many_as_the_degree_says() {
+        let plane =
+            |half: f64, along: f64| Plane { axes: [0, 1], along, half, square: [4.0, 0.1], q: [-0.2, 0.3, 1.1] };
+        assert!(plane(0.0, 0.7).candidates().is_empty());
+        // Both ends twice, where the slope vanishes, and two roots.
+        let mut found = plane(0.3, 0.0).candidates();
+        assert_eq!(found.len(), 7, "{found:?}");
+        found.dedup();
+        assert_eq!(found.len(), 5, "{found:?}");
+        for (half, along) in [(1.0, 0.4), (0.5, 1.0), (0.3, -0.9)] {
+            let plane = plane(half, along);
+            let roots: Vec<f64> = plane.candidates();
+            // K = K_0 on either side of the axis, by a fine search.
+            for side in [1.0, -1.0] {
+                for i in 0..2000 {
+                    let [left, right] = [i, i + 1].map(|i| side * f64::from(i) * core::f64::consts::FRAC_PI_2 / 2000.0);
+                    if plane.miss(left) * plane.miss(right) < 0.0 {
+                        let x = (left + right).cos();
+                        let nearest = roots.iter().fold(f64::INFINITY, |least, root| least.min((root - x).abs()));
+                        assert!(nearest < 1e-3, "{half} {along}: {x} {roots:?}");
+                    }
+                }
+            }
+            assert!(roots.len() > 4);
+        }
+    }
+
+    #[test]
+    fn what_may_be_off_and_where_an_extremum_is_sought() {
+        let wanted = Wanted { constant_c: -0.8, inertia: 1.3, hamiltonian: 2.0, along: 0.7, third: 0.0 };
+        let plane = Plane { axes: [0, 1], along: 0.7, half: 0.1, square: [3.0, -2.0], q: [0.0; 3] };
+        // (3 + 2 + 1.04) 0.2
+        let allowed = wanted.tolerance(&plane, &Vector3::new(0.1, -0.2, 0.05));
+        assert_relative_eq!(allowed, 1.208e-13, max_relative = 1e-12);
+        // sin b = L.n / |L|, |L|^2 = 5.2; 4 C D I / L^2 = 0.8 D.
+        let middle = (0.7 / 5.2_f64.sqrt()).asin();
+        for (spread, reach) in [(0.03, 0.024), (0.11, 0.088), (0.2, 0.1)] {
+            let [left, right] = wanted.about_second_axis(spread);
+            assert_relative_eq!(left, middle - reach, max_relative = 1e-12);
+            assert_relative_eq!(right, middle + reach, max_relative = 1e-12);
+        }
+        let slow = Wanted { hamiltonian: 0.2, along: 0.4, ..wanted };
+        let [left, right] = slow.about_second_axis(1e-9);
+        assert_relative_eq!(0.5 * (left + right), (0.4 / 0.52_f64.sqrt()).asin(), max_relative = 1e-12);
+        // L along n, more than there is: the plane's axis itself.
+        let none = Wanted { hamiltonian: -0.2, along: 0.4, ..wanted };
+        let [left, right] = none.about_second_axis(0.1);
+        assert_relative_eq!(0.5 * (left + right), core::f64::consts::FRAC_PI_2, max_relative = 1e-12);
+        assert_relative_eq!(right - left, 0.2, max_relative = 1e-12);
+    }
+}

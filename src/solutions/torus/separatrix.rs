@@ -1,0 +1,115 @@
+//! The unstable periodic motion, with the third integral of the separatrix.
+
+use nalgebra::Vector3;
+
+use super::plane::Wanted;
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::lorentz_violation::PrincipalCoefficients;
+
+/// The unstable periodic motion of given energy and spin, in which `L` swings about the middle principal axis of `s`: a state in which `n` and `L`
+/// lie in the plane of the axes of the largest and the middle eigenvalue, where its `K` is an extremum. That is the `K` of the separatrix.
+///
+/// A spin along the axis itself, `L = L.n n`, is another one, with `E` fixed by the spin.
+///
+/// # Errors
+/// [`Error::Domain`] for what is not finite or positive, two equal eigenvalues, and an energy at which no extremum of `K` lies near: `n` must turn
+/// about `L`, and fast against the torque.
+pub fn separatrix_motion(
+    spheroid: &RigidSpheroid<f64>,
+    s: &PrincipalCoefficients<f64>,
+    energy: f64,
+    spin: f64,
+) -> Result<BodyState<f64>, Error> {
+    let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
+    let values = Vector3::new(s.xx, s.yy, s.zz);
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| values[j].total_cmp(&values[i]));
+    let gap = (values[order[0]] - values[order[1]]).min(values[order[1]] - values[order[2]]);
+    Error::unless(
+        gap > 0.0,
+        "least difference of two eigenvalues of s",
+        gap,
+        "above zero: else there is no separatrix",
+    )?;
+    Error::unless(
+        inertia_xx > 0.0 && inertia_zz > 0.0,
+        "moments of inertia",
+        inertia_xx.min(inertia_zz),
+        "above zero",
+    )?;
+    let along = inertia_zz * spin;
+    let hamiltonian = energy - along * spin / 2.0 + along * along / (2.0 * inertia_xx);
+    let wanted = Wanted { constant_c, inertia: inertia_xx, hamiltonian, along, third: 0.0 };
+    let plane = wanted.plane(&values, [order[0], order[1]]);
+    let [mut left, mut right] = wanted.about_second_axis(values.max() - values.min());
+    let sign = plane.slope(left);
+    let product = sign * plane.slope(right);
+    Error::unless(
+        product < 0.0,
+        "slope of K along the plane of the largest and the middle eigenvalue, product at both ends",
+        product,
+        "below zero: n turns fast about an L near the middle axis",
+    )?;
+    for _ in 0..80 {
+        let middle = 0.5 * (left + right);
+        if plane.slope(middle) * sign > 0.0 { left = middle } else { right = middle }
+    }
+    Ok(plane.state(0.5 * (left + right)))
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::super::plane::tests::{BODY, PROLATE, S, wanted};
+    use super::*;
+    use crate::dynamics::first_integrals::first_integrals;
+
+    /// Where `K` is largest or least in the plane, whatever the size of the torque.
+    #[test]
+    fn the_separatrix_is_an_extremum() {
+        for body in [BODY, PROLATE] {
+            for strength in [1.0, 1e-3, 1e-6] {
+                let s = S.scaled(strength);
+                for (energy, spin) in [(2.0, 0.3), (5.0, -0.9), (1.0, 0.0), (40.0, 1.1)] {
+                    let state = separatrix_motion(&body, &s, energy, spin).unwrap();
+                    let integrals = first_integrals(&body, &s.tensor(), &state);
+                    assert_relative_eq!(integrals.energy, energy, max_relative = 1e-14);
+                    assert_relative_eq!(integrals.spin, spin, epsilon = 1e-15);
+                    // In the plane of X and Z, L near Z.
+                    assert_eq!((state.axis.y, state.momentum.y), (0.0, 0.0));
+                    let off = (state.momentum.x / state.momentum.norm()).abs();
+                    assert!(off < 2.0 * strength, "{strength} {energy} {spin}: {off}");
+                    let plane = wanted(&body, &integrals).plane(&Vector3::new(s.xx, s.yy, s.zz), [0, 2]);
+                    let b = state.axis.z.atan2(state.axis.x);
+                    let scale = strength * integrals.energy;
+                    assert!(plane.slope(b).abs() < 1e-13 * scale, "{:e}", plane.slope(b) / scale);
+                }
+            }
+        }
+        for eigenvalues in [[0.1, 0.1, -0.2], [0.2, -0.1, -0.1], [0.0, 0.0, 0.0]] {
+            let refused = separatrix_motion(&BODY, &PrincipalCoefficients::new(eigenvalues), 2.0, 0.3);
+            assert!(matches!(refused, Err(Error::Domain { value: 0.0, .. })), "{refused:?}");
+        }
+    }
+
+    /// `L` along `n`: `K` has no extremum where the slope is looked at, and both ends tell the same sign.
+    #[test]
+    fn a_plane_without_an_extremum_is_refused() {
+        for body in [BODY, PROLATE] {
+            let spin = 1.2;
+            let along = body.inertia_zz * spin;
+            let energy = along * spin / 2.0 + 0.02;
+            let hamiltonian = 0.02 + along * along / (2.0 * body.inertia_xx);
+            let wanted =
+                Wanted { constant_c: body.constant_c, inertia: body.inertia_xx, hamiltonian, along, third: 0.0 };
+            let values = Vector3::new(S.xx, S.yy, S.zz);
+            let slopes = wanted.about_second_axis(0.25).map(|b| wanted.plane(&values, [0, 2]).slope(b));
+            match separatrix_motion(&body, &S, energy, spin) {
+                Err(Error::Domain { value, .. }) => assert_relative_eq!(value, slopes[0] * slopes[1]),
+                other => panic!("{other:?} {slopes:?}"),
+            }
+        }
+    }
+}
