@@ -127,4 +127,21 @@ mod tests {
         let found = DoubleDouble::dot(&[1e8 + 1.0, 1e8, 0.0], &[1e8 - 1.0, -1e8, 0.0]);
         assert_eq!((found.high, found.low), (-1.0, 0.0));
     }
+
+    #[test]
+    fn a_turn_has_thirty_digits() {
+        // Machin: pi / 4 = 4 arctan(1/5) - arctan(1/239).
+        let arctan = |n: f64| {
+            let whole = |k: f64| DoubleDouble::from(k);
+            let square = whole(1.0).over(whole(n * n));
+            // Horner's rule, from terms below 1e-33 on.
+            (0..24).rev().fold(DoubleDouble::default(), |sum, k| {
+                let odd = f64::from(2 * k + 1);
+                whole(1.0).over(whole(odd)) - square * sum
+            }) * whole(1.0).over(whole(n))
+        };
+        let turn = (arctan(5.0) * 4.0.into() - arctan(239.0)) * 8.0.into();
+        let off = turn - DoubleDouble::TAU;
+        assert!(off.high.abs() < 1e-29, "{off:?}");
+    }
 }

@@ -90,7 +90,7 @@ impl Epoch {
     fn with_days(self, days: DoubleDouble) -> Self {
         let whole = days.high.floor();
         let fraction = DoubleDouble::sum(days.high - whole, self.fraction) + days.low.into();
-        let more = (fraction.high + fraction.low).floor();
+        let more = fraction.high.floor();
         let fraction = (fraction.high - more) + fraction.low;
         let day = self.day + whole as i64 + more as i64;
         // A negative remainder below the rounding of one.
@@ -181,5 +181,16 @@ mod tests {
         }
         assert_eq!(epoch("1.0").after([-172_800.0, 0.0]).expect("near").to_string(), "-1.0");
         assert_eq!(epoch("1.25").after([-172_800.0, 0.0]).expect("near").to_string(), "-0.75");
+    }
+
+    #[test]
+    fn what_is_beyond_a_whole_day_is_kept() {
+        let almost = Epoch { day: 7, fraction: 1.0 - f64::EPSILON / 2.0 };
+        // 2^-60 day more than up to midnight.
+        let beyond = 0.5_f64.powi(60);
+        let later = almost.with_days(DoubleDouble::from(f64::EPSILON / 2.0 + beyond));
+        assert_eq!(later, Epoch { day: 8, fraction: beyond });
+        let before = almost.with_days(DoubleDouble::from(f64::EPSILON / 2.0) - beyond.into());
+        assert_eq!(before, Epoch { day: 8, fraction: 0.0 });
     }
 }

@@ -297,3 +297,72 @@ pub fn preferred_frame_parameter<S: Real>(s: &Matrix3<S>, w: &Vector3<S>) -> Res
     )?;
     Ok(alpha_2)
 }
+
+#[cfg(test)]
+mod tests {
+    use num_dual::{Dual2, Dual2_64};
+
+    use super::*;
+
+    /// Four derivatives by one variable.
+    type Fourth = Dual2<Dual2_64>;
+
+    #[test]
+    fn small_rotations_are_rotations_to_the_fourth_derivative() {
+        let t = Fourth::from_re(Dual2_64::from_re(0.0).derivative()).derivative();
+        let start = Matrix3::from_diagonal(&Vector3::new(2.0, 0.7, -1.1));
+        let slope = Matrix3::new(0.3, -0.5, 0.8, -0.5, 0.6, 0.35, 0.8, 0.35, -0.2);
+        let bend = Matrix3::new(-0.2, 0.9, 0.4, 0.9, 0.1, -1.1, 0.4, -1.1, 0.7);
+        let tensor = Matrix3::from_fn(|i, j| {
+            Fourth::from_f64(start[(i, j)]) + t * slope[(i, j)] + t * t * Fourth::from_f64(bend[(i, j)])
+        });
+        let (_, rotation) = principal_frame_with_derivatives(&tensor).unwrap();
+        let fourth = |m: &Matrix3<Fourth>| m.map(|entry| entry.v2.v2).amax();
+        assert!(fourth(&rotation) > 1.0);
+        let defect = rotation * rotation.transpose() - Matrix3::identity();
+        assert!(fourth(&defect) < 1e-9 * fourth(&rotation), "{:e}", fourth(&defect));
+    }
+
+    #[test]
+    fn only_equal_eigenvalues_have_no_derivatives() {
+        let found = |values: [f64; 3]| {
+            let tensor = PrincipalCoefficients::new(values).tensor().map(|entry| Dual64::new(entry, 0.1));
+            principal_frame_with_derivatives(&tensor).is_ok()
+        };
+        // Opposite ones are as distinct as any, and so is zero.
+        assert!(found([1.0, 0.3, -1.0]) && found([1.0, 0.5, 0.0]) && found([0.0, -0.5, -1.0]));
+        // To 1e-12 of the largest, which may be the negative one.
+        assert!(found([5e-12, 0.0, -1.0]) && !found([5e-13, 0.0, -1.0]) && !found([1.0, 0.0, -5e-13]));
+    }
+
+    #[test]
+    fn the_error_of_equal_eigenvalues_is_their_share_of_the_spread() {
+        let error = |values| error_of_principal_frame_along(PrincipalCoefficients::new(values));
+        for (values, expected) in [
+            ([3.0, 3.0 - 1e-8, -4.0], 1e-8 / 7.0),
+            ([3.0, -4.0 + 2e-8, -4.0], 2e-8 / 7.0),
+            ([0.03, 0.01, -0.04], f64::EPSILON * 0.04 / 0.02),
+            ([5.0, 3.0, -4.0], f64::EPSILON * 5.0 / 2.0),
+        ] {
+            assert!((error(values) / expected - 1.0).abs() < 1e-6, "{values:?}");
+        }
+    }
+
+    #[test]
+    fn eight_roundings_of_the_tensor_are_no_asymmetry() {
+        for size in [0.03, 40.0] {
+            for (roundings, is_symmetric) in [(7.9, true), (8.1, false)] {
+                let asymmetry = Matrix3::from_diagonal(&Vector3::new(0.6, -0.8, 0.0)) * roundings * f64::EPSILON * size;
+                let found =
+                    SymmetryOfTensor { principal_from_given: Matrix3::identity(), difference: size, asymmetry, size };
+                assert_eq!(found.is_symmetric_within_rounding(), is_symmetric, "{roundings} of {size}");
+                match found.refuse_asymmetry() {
+                    Err(Error::Domain { value, .. }) => {
+                        assert!(!is_symmetric && (value / (roundings * f64::EPSILON) - 1.0).abs() < 1e-12);
+                    }
+                    other => assert!(is_symmetric && other.is_ok()),
+                }
+            }
+        }
+    }
+}

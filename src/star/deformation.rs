@@ -42,3 +42,14 @@ pub fn centrifugal_oblateness_scaled<S: Scalar>(frequency: S, radius: S, mass: S
     let (f, r) = (frequency / 100.0, radius / 10.0);
     f * f * r * r * r / mass * (1.4 * centrifugal_coefficient())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_printed_coefficient_is_the_computed_one_cut_to_two_digits() {
+        let computed = centrifugal_coefficient();
+        assert!(computed > PRINTED_CENTRIFUGAL_COEFFICIENT && computed - PRINTED_CENTRIFUGAL_COEFFICIENT < 0.1e-3);
+    }
+}

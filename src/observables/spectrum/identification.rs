@@ -233,14 +233,19 @@ mod tests {
     #[test]
     fn the_density_is_of_combinations_of_its_order() {
         let generator = |symbol, frequency| Generator { symbol, frequency, uncertainty: 0.0 };
-        let basis = FrequencyBasis::new(vec![generator("a", 0.37), generator("b", -1.1)]).unwrap();
-        for (frequency, most) in [(0.2, 3), (-2.3, 5), (1.47, 12)] {
-            let count = (-12..=12_i32)
-                .flat_map(|a| (-12..=12_i32).map(move |b| (a, b)))
-                .filter(|(a, b)| a.abs() + b.abs() <= most)
-                .filter(|(a, b)| (0.37 * f64::from(*a) - 1.1 * f64::from(*b) - frequency).abs() <= 0.55)
-                .count();
-            assert_eq!(basis.density(frequency, most), count as f64 / 1.1);
+        // In any unit of frequency.
+        for unit in [1.0, 0.2] {
+            let generators = vec![generator("a", 0.37 * unit), generator("b", -1.1 * unit)];
+            let basis = FrequencyBasis::new(generators).unwrap();
+            for (frequency, most) in [(0.2, 3), (-2.3, 5), (1.47, 12)] {
+                let count = (-12..=12_i32)
+                    .flat_map(|a| (-12..=12_i32).map(move |b| (a, b)))
+                    .filter(|(a, b)| a.abs() + b.abs() <= most)
+                    .filter(|(a, b)| (0.37 * f64::from(*a) - 1.1 * f64::from(*b) - frequency).abs() <= 0.55)
+                    .count();
+                let density = basis.density(frequency * unit, most);
+                assert!((density * 1.1 * unit - count as f64).abs() < 1e-9, "{density} {count}");
+            }
         }
     }
 
@@ -278,6 +283,17 @@ mod tests {
             Generator { uncertainty: f64::INFINITY, ..one },
         ] {
             assert!(FrequencyBasis::new(vec![wrong]).is_err());
+        }
+    }
+
+    /// The sum of the sizes of both integers counts.
+    #[test]
+    fn orders_above_twelve_are_not_taken() {
+        let generator = |symbol, frequency| Generator { symbol, frequency, uncertainty: 0.0 };
+        let basis = FrequencyBasis::new(vec![generator("a", 0.371), generator("b", -1.137)]).unwrap();
+        for (a, b, is_taken) in [(7, 5, true), (-7, 5, true), (7, 6, false), (-7, 6, false), (-12, -12, false)] {
+            let found = basis.identify(0.371 * f64::from(a) - 1.137 * f64::from(b), 1e-12);
+            assert_eq!(found.combination().map(Combination::integers), is_taken.then(|| vec![a, b]));
         }
     }
 }

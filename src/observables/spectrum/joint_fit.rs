@@ -305,6 +305,7 @@ mod tests {
         // That of a line from its own mirror at the negative frequency counts too.
         assert_relative_eq!(least(&[(30.0, 0.0, 0.0), (5.0, 1.0, 0.0)]).0, 5.0, max_relative = 1e-13);
         assert_relative_eq!(least(&[(6.0, 0.0, 0.0), (50.0, 1.0, 0.0)]).0, 6.0, max_relative = 1e-13);
+        assert_relative_eq!(least(&[(-6.0, 0.0, 0.0), (50.0, 1.0, 0.0)]).0, 6.0, max_relative = 1e-13);
     }
 
     #[test]
@@ -322,6 +323,21 @@ mod tests {
                 assert!(error < 3e-14, "{phase} {j}: {error:e}");
             });
             assert_eq!(seen, count);
+        }
+    }
+
+    #[test]
+    fn products_vanish_beyond_the_last_frequency_that_is_summed() {
+        let (values, weights) = (vec![0.0; COUNT], WINDOW.weights(COUNT).unwrap());
+        let fit = fit(&values, &weights, Vec::new());
+        let largest = |f: f64| {
+            let Moments { even, odd, second } = fit.moments(f);
+            even.abs().max(odd.abs()).max(second.abs())
+        };
+        for sign in [1.0, -1.0] {
+            // The largest sidelobe of the window is 1.8e-8.
+            assert!((1e-12..3e-8).contains(&largest(63.5 * sign)), "{:e}", largest(63.5 * sign));
+            assert_eq!(largest(64.5 * sign), 0.0);
         }
     }
 }

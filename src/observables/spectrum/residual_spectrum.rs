@@ -62,10 +62,11 @@ impl ResidualSpectrum {
         let distance = |one: f64, other: f64| (one - other).abs() * self.count as f64;
         let mut taken: Vec<Wave> = Vec::new();
         for &i in tops.iter().take_while(|&&i| a[i] >= ROUND * highest) {
-            // The top of a parabola through three logarithms: exact for the nearly Gaussian line.
+            // The top of a parabola through three logarithms: exact for the nearly Gaussian line, within half a point, and none where all
+            // three are below the smallest normal number.
             let [low, top, high] = [a[i - 1], a[i], a[i + 1]].map(|x| x.max(f64::MIN_POSITIVE).ln());
             let shift = 0.5 * (low - high) / (low - 2.0 * top + high);
-            let phase = Self::phase_of(self.count, i as f64 + if shift.abs() <= 1.0 { shift } else { 0.0 });
+            let phase = Self::phase_of(self.count, i as f64 + if shift.is_finite() { shift } else { 0.0 });
             let clear_of_ends = distance(phase, 0.0).min(distance(phase, PI / 2.0)) >= LEAST_DISTANCE;
             let clear_of_waves = waves.iter().all(|wave| distance(phase, wave.phase) >= LEAST_DISTANCE);
             let clear_of_peaks = taken.iter().all(|wave| distance(phase, wave.phase) >= 1.5 * SHAPE);
@@ -183,6 +184,9 @@ mod tests {
             assert_relative_eq!(place(peak), index * PI / 2.0, max_relative = 1e-14);
             assert_eq!((peak.cos_part, peak.sin_part), (0.6 * amplitude, -0.8 * amplitude));
         }
+        // Three logarithms of numbers below the smallest normal one are equal.
+        let tiny = with_tops(&[(60, [0.0, 1e-310, 1e-311])]).peaks(1e-312, &[]);
+        assert_eq!((tiny.len(), place(&tiny[0])), (1, 60.0 * PI / 2.0));
         assert_eq!(spectrum.peaks(0.05, &[]).len(), 3);
         assert_eq!(spectrum.peaks(0.051, &[]).len(), 2);
     }
@@ -208,6 +212,14 @@ mod tests {
             let both = with_tops(&[(100, [0.1, 1.0, 0.1]), (index, [0.0, amplitude, 0.0])]);
             assert_eq!(count(&both, &[]), found, "{index} {amplitude}");
         }
+        // The highest may be too near to an end to be a line itself; beyond the last point but one there is none.
+        for (index, found) in [(1, 0), (COUNT - 1, 0)] {
+            let both = with_tops(&[(100, [0.0, 0.99e-3, 0.0]), (index, [0.0, 1.0, 0.0])]);
+            assert_eq!(count(&both, &[]), found, "{index}");
+        }
+        let mut rising = one(100);
+        rising.amplitudes[COUNT] = 2e3;
+        assert_eq!(count(&rising, &[]), 1);
     }
 
     #[test]
@@ -248,5 +260,7 @@ mod tests {
         let amplitudes = vec![9.0, 1.0, 0.5, 3.0, 2.0];
         let spectrum = ResidualSpectrum { parts: Vec::new(), amplitudes, count: 4 };
         assert_eq!((spectrum.median(), spectrum.largest()), (2.0, 3.0));
+        let falling = ResidualSpectrum { parts: Vec::new(), amplitudes: vec![9.0, 4.0, 0.5, 3.0, 2.0], count: 4 };
+        assert_eq!(falling.largest(), 4.0);
     }
 }

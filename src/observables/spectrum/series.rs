@@ -65,3 +65,37 @@ impl Series {
 
 /// Fewest values of which a spectrum is taken.
 pub const LEAST_LENGTH: usize = 16;
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, Vector3};
+
+    use super::*;
+    use crate::dynamics::RigidSpheroid;
+    use crate::observables::tests::Made;
+
+    /// What is observed is the time itself.
+    #[test]
+    fn values_are_in_equal_steps_from_the_first_time_to_the_last() {
+        for span in [(-3.1, 5.7), (5.7, -3.1)] {
+            let state = |t: f64| {
+                Ok(BodyState { axis: Vector3::z(), momentum: Vector3::new(t, 0.0, 1.0), equatorial_axis: Vector3::x() })
+            };
+            let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+            let motion = Made { spheroid, violation: Matrix3::zeros(), span, error: 0.0, state };
+            // Some of these steps, added up, pass the end by rounding.
+            for count in 16..200 {
+                let series = Series::of_motion(&motion, count, |state| state.momentum.x).unwrap();
+                assert_eq!((series.start, series.values.len()), (-3.1, count));
+                assert!((series.step - 8.8 / (count - 1) as f64).abs() < 1e-14);
+                assert_eq!((series.values[0], series.values[count - 1]), (-3.1, 5.7));
+                for (i, value) in series.values.iter().enumerate() {
+                    assert!((value - (-3.1 + 8.8 * i as f64 / (count - 1) as f64)).abs() < 1e-13, "{count} {i}");
+                }
+            }
+            for count in [0, 1, 2, 15] {
+                assert!(Series::of_motion(&motion, count, |state| state.momentum.x).is_err());
+            }
+        }
+    }
+}

@@ -124,3 +124,44 @@ pub fn axisymmetric_integrals<S: Real>(
     let star = Multipoles { body, rule, terms: degree / 2 + 1, oblate };
     Ok(star.integrals(if oblate { pole } else { equator }))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sphere of this radius, as far as its slope is rounding.
+    fn sphere(radius: f64, slope: f64) -> impl AxisymmetricBody<f64> {
+        (|_: f64, _: f64| 1.0, move |_: f64| (radius, slope))
+    }
+
+    #[test]
+    fn degrees_are_positive_multiples_of_four() {
+        for (degree, is_allowed) in [(0, false), (2, false), (4, true), (6, false), (8, true), (9, false)] {
+            assert_eq!(axisymmetric_integrals(&sphere(1.0, 0.0), degree).is_ok(), is_allowed, "{degree}");
+        }
+    }
+
+    #[test]
+    fn the_slope_of_a_sphere_may_be_rounding_of_its_radius() {
+        for radius in [300.0, 0.02] {
+            for (slope, is_allowed) in [(0.0, true), (0.5e-14, true), (-0.5e-14, true), (2e-14, false)] {
+                let found = axisymmetric_integrals(&sphere(radius, slope * radius), 4);
+                assert_eq!(found.is_ok(), is_allowed, "{radius} {slope}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_uniform_spheroid_has_its_mass_and_its_moments() {
+        let spheroid = UniformSpheroid::from_semi_axes(1.3_f64, 1.1, 0.7).unwrap();
+        let found = axisymmetric_integrals(&spheroid, 4).unwrap();
+        let moment = spheroid.moment_of_inertia();
+        for (found, exact) in [
+            (found.mass, spheroid.mass()),
+            (found.moment_of_inertia.xx, moment.xx),
+            (found.moment_of_inertia.zz, moment.zz),
+        ] {
+            assert!((found / exact - 1.0).abs() < 1e-12, "{found} {exact}");
+        }
+    }
+}

@@ -173,3 +173,21 @@ pub(super) fn unit_rule(degree: usize) -> Vec<(f64, f64)> {
     let nodes = NonZeroUsize::MIN.saturating_add(degree + MORE_NODES - 1);
     GaussLegendre::new(nodes).iter().map(|&(x, w)| (0.5 * (x + 1.0), 0.5 * w)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rule_has_sixteen_nodes_beyond_the_degree() {
+        for degree in [4, 12] {
+            let rule = unit_rule(degree);
+            assert_eq!(rule.len(), degree + 16);
+            // On [0, 1], exact for all powers below twice the number of nodes.
+            for power in [0, 1, 7, 2 * (degree as i32 + 16) - 1] {
+                let integral: f64 = rule.iter().map(|(t, w)| w * t.powi(power)).sum();
+                assert!((integral * f64::from(power + 1) - 1.0).abs() < 1e-13, "{degree} {power}");
+            }
+        }
+    }
+}
