@@ -50,3 +50,67 @@ pub(super) fn momentum_circles(samples: &Samples, averages: &[Averaged], frame: 
     let narrowest = averages.iter().fold(f64::INFINITY, |least, averaged| least.min(radius(&averaged.momentum)));
     narrowest > LEAST_CIRCLE * widest + 1e-12 * averages[0].momentum.norm()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::BodyState;
+
+    fn state(momentum: Vector3<f64>) -> BodyState<f64> {
+        BodyState { axis: Vector3::z(), momentum, equatorial_axis: Vector3::x() }
+    }
+
+    fn averaged(momentum: Vector3<f64>, fast_axis: Vector3<f64>) -> Averaged {
+        Averaged { state: state(momentum), fast_axis, momentum }
+    }
+
+    /// Y, Z and X as the axes of the frame.
+    fn cyclic() -> Matrix3<f64> {
+        Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0)
+    }
+
+    #[test]
+    fn the_nutation_is_from_the_side_of_the_axis_or_from_the_first_one() {
+        let angle = 0.7_f64;
+        let close = |found: Vec<f64>| found.len() == 1 && (found[0] - angle).abs() < 1e-14;
+        // L along Z: the first axis is Y, and -X comes after it.
+        let fast = 0.3 * (Vector3::y() * angle.cos() - Vector3::x() * angle.sin()) + 0.1 * Vector3::z();
+        assert!(close(nutation_angles(&[averaged(2.5 * Vector3::z(), fast)], &cyclic(), false)));
+        // The third axis is X, and Y comes after it.
+        let fast = 0.3 * (Vector3::x() * angle.cos() + Vector3::y() * angle.sin()) + 0.1 * Vector3::z();
+        assert!(close(nutation_angles(&[averaged(2.5 * Vector3::z(), fast)], &cyclic(), true)));
+    }
+
+    #[test]
+    fn the_body_turns_from_where_its_axis_moves_to() {
+        let angle = 0.7_f64;
+        // n is at X as seen from L, along Z, and moves to Y; Z comes after that about X.
+        let mut one = averaged(2.5 * Vector3::z(), 0.3 * Vector3::x());
+        one.state.axis = Vector3::x();
+        one.state.equatorial_axis = Vector3::y() * angle.cos() + Vector3::z() * angle.sin();
+        let found = body_angles(&[one]);
+        assert!(found.len() == 1 && (found[0] - angle).abs() < 1e-14, "{found:?}");
+    }
+
+    /// At a distance from X, the third axis, and a height along it.
+    fn beside(distance: f64, height: f64) -> Vector3<f64> {
+        Vector3::new(height, 0.6 * distance, -0.8 * distance)
+    }
+
+    #[test]
+    fn a_circle_is_wider_than_a_remainder_of_oscillations_and_than_rounding() {
+        let circles = |widest: f64, narrowest: f64, height: f64| {
+            let samples = Samples::made([0.1, 1.0, 0.5].map(|part| state(beside(part * widest, 1.0))).to_vec());
+            let momenta = [beside(5.0 * narrowest, height), beside(narrowest, 2.0 * height), beside(1.0, height)];
+            momentum_circles(&samples, &momenta.map(|momentum| averaged(momentum, Vector3::x())), &cyclic())
+        };
+        // A fifty-thousandth of what L moves.
+        for widest in [0.4, 30.0] {
+            assert!(circles(widest, 2.02e-5 * widest, 1.0) && !circles(widest, 1.98e-5 * widest, 1.0), "{widest}");
+        }
+        // 1e-12 of L.
+        for height in [7.0, 3e3] {
+            assert!(circles(0.0, 1.01e-12 * height, height) && !circles(0.0, 0.99e-12 * height, height), "{height}");
+        }
+    }
+}

@@ -51,3 +51,17 @@ fn average(angles: &[f64], step: f64) -> Result<f64, Error> {
         weights.iter().zip(angles.windows(2)).map(|(weight, pair)| weight * (pair[1] - pair[0] - secant)).sum();
     Ok((secant + excess / intervals as f64) / step)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_angle_far_from_zero_keeps_the_digits_of_its_rate() {
+        // All of them doubles.
+        let angles: Vec<f64> = (0..2000).map(|i| 0.5_f64.powi(-40) + f64::from(i) * 0.5_f64.powi(10)).collect();
+        let found = mean_rate(&angles, 0.5).unwrap();
+        assert!((found.value / 0.5_f64.powi(9) - 1.0).abs() < 1e-13, "{found:?}");
+        assert!(found.uncertainty < 1e-15, "{found:?}");
+    }
+}

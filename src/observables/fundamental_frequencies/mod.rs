@@ -38,9 +38,11 @@
 //! ```
 
 mod angles;
+mod frame;
 mod mean_rate;
 mod rotated;
 mod samples;
+mod turns;
 
 pub use mean_rate::{MeanRate, mean_rate};
 
@@ -49,13 +51,14 @@ use core::f64::consts::TAU;
 use nalgebra::Matrix3;
 
 use crate::error::Error;
-use crate::euler_angles::permuted_from_inertial;
 use crate::lorentz_violation::principal_frame;
 use crate::observables::spectrum::{FrequencyBasis, Generator};
 use crate::propagation::{ContinuousAngles, Motion};
 use angles::{body_angles, momentum_angles, momentum_circles, nutation_angles, slow_angles};
+use frame::frame_of_precession;
 use rotated::Rotated;
 use samples::{Averaged, Samples};
+use turns::{by_whole_turns, turns_are_certain};
 
 /// A mean rate less certain than this, in units of the rotation rate, is none.
 const LEAST_CERTAINTY: f64 = 1e-5;
@@ -65,9 +68,6 @@ const LARGEST_SHIFT: f64 = 0.5;
 
 /// A slow precession of fewer turns has not shown its mean rate.
 const FEWEST_TURNS: f64 = 3.0;
-
-/// Between two samples an angle must change by less than this (rad), or its turns are not certain.
-const LONGEST_STEP: f64 = 2.0;
 
 /// Mean rates of the angles of a motion about one axis (rad per unit of time).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,15 +137,7 @@ impl FundamentalFrequencies {
 pub fn fundamental_frequencies<M: Motion<f64>>(motion: &M) -> Result<FundamentalFrequencies, Error> {
     let samples = Samples::of(motion)?;
     let averages = samples.averages()?;
-    let principal = principal_frame(motion.violation())?.principal_from_given;
-    let about_third = axis_to_front(&principal);
-    let about_first = axis_to_front(&(permuted_from_inertial::<f64>() * principal));
-    let turns = |frame: &Matrix3<f64>| {
-        let angles = slow_angles(&averages, frame);
-        (angles[angles.len() - 1] - angles[0]).abs() / TAU
-    };
-    let (first, third) = (turns(&about_first), turns(&about_third));
-    let frame = if first > third.max(0.5) { about_first } else { about_third };
+    let frame = frame_of_precession(&principal_frame(motion.violation())?.principal_from_given, &averages);
     about(motion, &frame, &samples, &averages)
 }
 
@@ -160,15 +152,6 @@ pub fn mean_rates_about<M: Motion<f64>>(motion: &M, frame: &Matrix3<f64>) -> Res
     let samples = Samples::of(motion)?;
     let averages = samples.averages()?;
     about(motion, frame, &samples, &averages)
-}
-
-/// The frame with its third axis turned, if need be, to the positive side of the axis of the motion's frame nearest to it.
-fn axis_to_front(frame: &Matrix3<f64>) -> Matrix3<f64> {
-    let axis = frame.row(2).transpose();
-    if axis[axis.iamax()] >= 0.0 {
-        return *frame;
-    }
-    Matrix3::from_rows(&[-frame.row(0), frame.row(1).into_owned(), -frame.row(2)])
 }
 
 fn about<M: Motion<f64>>(
@@ -189,8 +172,6 @@ fn about<M: Motion<f64>>(
         gammas.push(at.gamma);
     }
     let momenta = momentum_angles(samples, frame);
-    let counted = momenta.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= LONGEST_STEP);
-
     // An error of the angles of this size at one end, under weights that vary as those of the mean rate.
     let rounding = 10.0 * motion.error_estimate(to) / (end - samples.start);
     let rate = |angles: &[f64]| {
@@ -230,69 +211,31 @@ fn about<M: Motion<f64>>(
         frame: *frame,
         alpha: settled(alpha),
         gamma: settled(gamma),
-        momentum: settled(rate(&momenta)?).filter(|_| counted),
+        momentum: settled(rate(&momenta)?).filter(|_| turns_are_certain(&momenta)),
         slow,
         nutation,
         body,
     })
 }
 
-/// The rate of an angle that differs from another one by whole turns of the nutation and what averages to zero. Near a pole `alpha` and
-/// `gamma` are rough functions of time and their own averages converge slowly, but well enough to count those turns.
-fn by_whole_turns(rough: MeanRate, base: MeanRate, nutation: MeanRate) -> MeanRate {
-    let turns = ((rough.value - base.value) / nutation.value).round();
-    let value = base.value + turns * nutation.value;
-    let uncertainty = base.uncertainty + turns.abs() * nutation.uncertainty;
-    let counted = rough.uncertainty < 0.02 * nutation.value.abs();
-    let agree = (value - rough.value).abs() <= 3.0 * (rough.uncertainty + uncertainty);
-    if counted && agree && uncertainty < rough.uncertainty { MeanRate { value, uncertainty } } else { rough }
-}
-
 #[cfg(test)]
 mod tests {
+    use nalgebra::{Rotation3, Vector3};
+
     use super::*;
     use crate::dynamics::{BodyState, RigidSpheroid};
     use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::lorentz_violation::PrincipalCoefficients;
+    use crate::observables::tests::Made;
     use crate::propagation::{TaylorMotion, propagate};
-
-    const fn rate(value: f64, uncertainty: f64) -> MeanRate {
-        MeanRate { value, uncertainty }
-    }
-
-    #[test]
-    fn rough_rates_are_those_of_the_base_and_whole_turns() {
-        let (base, nutation) = (rate(0.3, 1e-9), rate(-1.1, 2e-9));
-        let close = |a: MeanRate, b: MeanRate| {
-            (a.value - b.value).abs() < 1e-15 && (a.uncertainty - b.uncertainty).abs() < 1e-22
-        };
-        for turns in [-3.0, -1.0, 0.0, 2.0] {
-            let exact = rate(0.3 - 1.1 * turns, 1e-9 + 2e-9 * f64::abs(turns));
-            // As far as both errors, thrice, allow.
-            for off in [0.0, 2.99e-5, -2.99e-5] {
-                assert!(close(by_whole_turns(rate(exact.value + off, 1e-5), base, nutation), exact), "{turns} {off}");
-            }
-            for off in [3.01e-5, -3.01e-5] {
-                let rough = rate(exact.value + off, 1e-5);
-                assert_eq!(by_whole_turns(rough, base, nutation), rough);
-            }
-            // Both errors count: that of the base alone would allow it.
-            let rough = rate(exact.value + 3.5e-4, 1e-4);
-            assert_eq!(by_whole_turns(rough, rate(0.3, 1e-5), nutation), rough);
-            assert!(close(by_whole_turns(rough, rate(0.3, 5e-5), rate(-1.1, 0.0)), rate(exact.value, 5e-5)));
-            // What is better already stays, and so does what cannot be counted: a fiftieth of the nutation, 0.022.
-            let fine = rate(exact.value + 1e-10, 1e-10);
-            assert_eq!(by_whole_turns(fine, base, nutation), fine);
-            for (error, is_counted) in [(0.0219, true), (0.0221, false)] {
-                let rough = rate(exact.value + 0.01, error);
-                assert_eq!(by_whole_turns(rough, base, nutation) != rough, is_counted, "{turns} {error}");
-            }
-        }
-    }
 
     fn with_rates(rates: [Option<MeanRate>; 5]) -> FundamentalFrequencies {
         let [alpha, gamma, slow, nutation, body] = rates;
         FundamentalFrequencies { frame: Matrix3::identity(), alpha, gamma, momentum: None, slow, nutation, body }
+    }
+
+    const fn rate(value: f64, uncertainty: f64) -> MeanRate {
+        MeanRate { value, uncertainty }
     }
 
     #[test]
@@ -371,5 +314,173 @@ mod tests {
     fn a_mean_rate_needs_angles() {
         assert!(mean_rate(&[0.0; 15], 1.0).is_err() && mean_rate(&[0.0; 16], 1.0).is_ok());
         assert!(mean_rate(&[f64::NAN; 16], 1.0).is_err() && mean_rate(&[0.0; 16], 0.0).is_err());
+    }
+
+    #[test]
+    fn frames_are_rotations_to_a_billionth() {
+        let motion = turning(Turning::default(), 1.0, 0.0);
+        let refused = |scale: f64| match mean_rates_about(&motion, &(Matrix3::identity() * scale)) {
+            Err(Error::Domain { quantity, .. }) => quantity,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(refused(1.0 + 1e-8), "distance of the frame from a rotation");
+        assert_eq!(refused(1.0 + 1e-10), "span in turns of n about L");
+    }
+
+    /// Rates of `L` round Z at the inclination `tilt`, of `n` round `L` at the inclination `opening`, and of `e_x` round `n`.
+    #[derive(Clone, Copy)]
+    struct Turning {
+        slow: f64,
+        tilt: f64,
+        nutation: f64,
+        opening: f64,
+        body: f64,
+    }
+
+    impl Default for Turning {
+        fn default() -> Self {
+            Self { slow: 0.0, tilt: 0.0, nutation: 0.5, opening: 0.3, body: -0.13 }
+        }
+    }
+
+    type State = Box<dyn Fn(f64) -> Result<BodyState<f64>, Error>>;
+
+    /// With `|L| / I^xx = 0.5`, over times from 0 to `end`.
+    fn made(end: f64, error: f64, state: State) -> Made<State> {
+        let spheroid = RigidSpheroid { inertia_xx: 3.0, inertia_zz: 3.3, constant_c: 1.0 };
+        Made { spheroid, violation: Matrix3::zeros(), span: (0.0, end), error, state }
+    }
+
+    fn turning(of: Turning, end: f64, error: f64) -> Made<State> {
+        let state = move |t: f64| {
+            let about_y = |angle| Rotation3::from_axis_angle(&Vector3::y_axis(), angle);
+            let about_z = |angle| Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
+            let momentum = about_z(of.slow * t) * about_y(of.tilt);
+            let body = momentum * about_z(of.nutation * t) * about_y(of.opening) * about_z(of.body * t);
+            Ok(BodyState {
+                axis: body * Vector3::z(),
+                momentum: momentum * Vector3::z() * 1.5,
+                equatorial_axis: body * Vector3::x(),
+            })
+        };
+        made(end, error, Box::new(state))
+    }
+
+    const SPAN: f64 = 1200.0;
+
+    fn found(of: Turning, error: f64) -> Result<FundamentalFrequencies, Error> {
+        mean_rates_about(&turning(of, SPAN, error), &Matrix3::identity())
+    }
+
+    fn assert_rate(found: Option<MeanRate>, value: f64, uncertainty: f64) {
+        let found = found.unwrap();
+        assert!((found.value - value).abs() < 1e-10, "{found:?} {value}");
+        assert!((found.uncertainty / uncertainty - 1.0).abs() < 1e-3, "{found:?} {uncertainty:e}");
+    }
+
+    #[test]
+    fn rates_are_as_certain_as_the_angles_at_one_end() {
+        // Ten errors over the span; at most 1e-5 of the rotation.
+        let of = Turning::default();
+        let rates = found(of, 4.9e-6 * SPAN / 10.0).unwrap();
+        assert!(rates.slow.is_none());
+        assert_rate(rates.nutation, 0.5, 4.9e-6);
+        assert_rate(rates.body, -0.13, 4.9e-6);
+        assert_rate(rates.alpha, 0.5, 4.9e-6);
+        assert_rate(rates.gamma, -0.13, 4.9e-6);
+        let rates = found(of, 5.1e-6 * SPAN / 10.0).unwrap();
+        assert_eq!([rates.nutation, rates.body, rates.alpha, rates.gamma, rates.momentum], [None; 5]);
+    }
+
+    #[test]
+    fn a_slow_precession_of_less_than_three_turns_is_uncertain_by_itself() {
+        let of = |turns: f64| Turning { slow: TAU * turns / SPAN, tilt: 0.5, ..Turning::default() };
+        for turns in [2.9, -2.9] {
+            match found(of(turns), 1e-9) {
+                Err(Error::NotConverged { residual, .. }) => {
+                    assert!((residual / of(2.9).slow - 1.0).abs() < 1e-6, "{residual}");
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+        for turns in [3.1, -3.1] {
+            let (of, rates) = (of(turns), found(of(turns), 1e-8).unwrap());
+            let rounding = 10.0 * 1e-8 / SPAN;
+            assert_rate(rates.slow, of.slow, rounding);
+            assert_rate(rates.nutation, 0.5, rounding);
+            assert_rate(rates.alpha, of.slow, rounding);
+            assert_rate(rates.gamma, 0.5 - 0.13, rounding);
+        }
+        // So little of a turn that it is known all the same: then no rate is known better.
+        let slow = 2e-6;
+        let rates = found(Turning { slow, tilt: 0.5, ..Turning::default() }, 1e-6 * SPAN / 10.0).unwrap();
+        for (rate, value) in [
+            (rates.slow, slow),
+            (rates.momentum, slow),
+            (rates.alpha, slow),
+            (rates.gamma, 0.5 - 0.13),
+            (rates.nutation, 0.5),
+            (rates.body, -0.13),
+        ] {
+            assert_rate(rate, value, 3e-6);
+        }
+    }
+
+    #[test]
+    fn a_nutation_has_the_rate_of_the_rotation_but_for_half() {
+        for (nutation, is_one) in [(0.26, true), (0.24, false), (0.74, true), (0.76, false), (-0.5, false)] {
+            let rates = found(Turning { nutation, ..Turning::default() }, 1e-9).unwrap();
+            assert_eq!(rates.nutation.is_some(), is_one, "{nutation}");
+            assert_eq!(rates.body.is_some(), is_one, "{nutation}");
+        }
+    }
+
+    #[test]
+    fn angles_are_averaged_from_the_first_sample_to_the_last() {
+        // A slow oscillation is not averaged away over the span; each sample counts.
+        let angles = |t: f64| EulerAngles {
+            alpha: 0.5 * t + 1e-3 * (35.0 * t / SPAN).sin(),
+            beta: 0.3,
+            gamma: -0.13 * t + 1e-3 * (35.0 * t / SPAN + 0.8).sin(),
+        };
+        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+        let rates = EulerRates { alpha: 0.0, beta: 0.0, gamma: 0.0 };
+        let state = move |t: f64| {
+            Ok(BodyState {
+                momentum: Vector3::new(0.0, 0.0, 1.5),
+                ..BodyState::from_angles(&spheroid, &angles(t), &rates)
+            })
+        };
+        let motion = made(SPAN, 1e-6, Box::new(state));
+        let found = mean_rates_about(&motion, &Matrix3::identity()).unwrap();
+        let of = |angle: fn(EulerAngles<f64>) -> f64| {
+            let times = (0..=1200).map(|i| SPAN * f64::from(i) / 1200.0);
+            mean_rate(&times.map(|t| angle(angles(t))).collect::<Vec<_>>(), SPAN / 1200.0).unwrap()
+        };
+        for (found, expected) in [(found.alpha, of(|angles| angles.alpha)), (found.gamma, of(|angles| angles.gamma))] {
+            let found = found.unwrap();
+            assert!((found.value - expected.value).abs() < 1e-12, "{found:?} {expected:?}");
+            assert!((found.uncertainty - expected.uncertainty - 10.0 * 1e-6 / SPAN).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn alpha_is_that_of_the_nutation_where_no_precession_is_and_a_turn_is_lost() {
+        // n goes round L, along Z, but once passes Z on the other side.
+        let state = |t: f64| {
+            let (sin, cos) = (0.53 * t).sin_cos();
+            let aside = 0.05 + 0.4 * (-((t - 9.0 * core::f64::consts::PI / 0.53) / 6.0).powi(2)).exp();
+            let (x, y) = (0.3 * cos + aside, 0.3 * sin);
+            let axis = Vector3::new(x, y, (1.0 - x * x - y * y).sqrt());
+            let equatorial_axis = axis.cross(&Vector3::new(sin, -cos, 0.0)).normalize();
+            Ok(BodyState { axis, momentum: Vector3::new(0.0, 0.0, 1.5), equatorial_axis })
+        };
+        let rounding = 1e-9;
+        let found =
+            mean_rates_about(&made(SPAN, rounding * SPAN / 10.0, Box::new(state)), &Matrix3::identity()).unwrap();
+        let (alpha, nutation) = (found.alpha.unwrap(), found.nutation.unwrap());
+        assert!(found.slow.is_none() && (nutation.value - 0.53).abs() < 1e-10, "{found:?}");
+        assert!((alpha.value - nutation.value).abs() < 1e-14, "{found:?}");
+        assert!((alpha.uncertainty - nutation.uncertainty - rounding).abs() < 1e-14, "{found:?}");
     }
 }

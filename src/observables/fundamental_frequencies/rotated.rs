@@ -47,3 +47,38 @@ impl<M: Motion<f64>> Motion<f64> for Rotated<'_, M> {
         Ok(self.inner.state(t)?.rotated(&self.other_from_this))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Rotation3, Vector3};
+
+    use super::*;
+    use crate::observables::tests::Made;
+
+    #[test]
+    fn scalars_are_the_same_in_both_frames() {
+        let given = BodyState {
+            axis: Vector3::new(0.6, 0.0, 0.8),
+            momentum: Vector3::new(0.3, -0.7, 1.1),
+            equatorial_axis: Vector3::y(),
+        };
+        let motion = Made {
+            spheroid: RigidSpheroid::in_units_of_tc(1.1),
+            violation: Matrix3::new(0.3, -0.5, 0.8, -0.5, 0.6, 0.35, 0.8, 0.35, -0.2),
+            span: (0.0, 3.0),
+            error: 1e-7,
+            state: |_| Ok(given),
+        };
+        let turned = Rotated::new(&motion, Rotation3::from_euler_angles(0.3, -0.8, 1.7).matrix());
+        let state = turned.state(1.0).unwrap();
+        for (u, v, u_turned, v_turned) in [
+            (given.axis, given.axis, state.axis, state.axis),
+            (given.axis, given.momentum, state.axis, state.momentum),
+            (given.momentum, given.equatorial_axis, state.momentum, state.equatorial_axis),
+        ] {
+            assert!((u.dot(&(motion.violation * v)) - u_turned.dot(&(turned.violation() * v_turned))).abs() < 1e-14);
+            assert!((u.dot(&v) - u_turned.dot(&v_turned)).abs() < 1e-14);
+        }
+        assert!((state.axis - given.axis).norm() > 0.1);
+    }
+}

@@ -117,6 +117,7 @@ fn improve(fit: &mut JointFit<'_>, steps: usize) -> Result<(), Error> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::joint_fit::Wave;
     use super::*;
 
     fn series(values: Vec<f64>) -> Series {
@@ -162,23 +163,32 @@ mod tests {
         };
         let values: Vec<f64> = (0..count).map(value).collect();
         let highest = values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let duration = step * count as f64;
-        let uncertainty = |start: f64| {
-            let found = spectral_lines(&Series { start, step, values: values.clone() }, 1e-3, 10).unwrap();
-            assert_eq!(found.lines.len(), 2);
-            assert!(found.lines[0].amplitude > found.lines[1].amplitude);
+        let list = |start: f64, values: Vec<f64>, unit: f64| {
+            let found = spectral_lines(&Series { start, step, values }, 1e-3 * unit, 10).unwrap();
             found.lines.iter().map(|line| line.uncertainty).collect::<Vec<_>>()
         };
+        let duration = step * count as f64;
         let latest = [1e9, 3e5, -1e9, -3e5, -200.0, -50.0];
         for (start, latest) in latest.iter().zip([1e9 + duration, 3e5 + duration, 1e9, 3e5, 200.0, duration - 50.0]) {
             let rounding = f64::EPSILON * highest * (1.0 + 4.1 * latest / (count as f64).sqrt());
-            for (found, (amplitude, frequency)) in uncertainty(*start).iter().zip([(strong, 0.9), (weak, 4.1)]) {
+            let found = list(*start, values.clone(), 1.0);
+            assert_eq!(found.len(), 2);
+            for (found, (amplitude, frequency)) in found.iter().zip([(strong, 0.9), (weak, 4.1)]) {
                 let shift = rounding * 40.0_f64.sqrt() / amplitude;
                 let expected = shift * 2.0 / duration + f64::EPSILON * frequency;
                 // Something is left of the series by rounding too.
                 assert!((0.97..1.1).contains(&(found / expected)), "{start} {frequency}: {found:e} {expected:e}");
             }
+            // In any unit.
+            let small = list(*start, values.iter().map(|x| x / 1024.0).collect(), 1.0 / 1024.0);
+            assert!(small.iter().zip(&found).all(|(small, found)| (small / found - 1.0).abs() < 1e-6), "{start}");
         }
+        // Of slow oscillations the values are rounded more than the times.
+        let slow = (0..count).map(|j| (0.2 * step * (j as f64 - 511.5)).cos()).collect();
+        let found = list(-duration / 2.0, slow, 1.0);
+        let rounding = f64::EPSILON * (1.0 + 0.2 * duration / 2.0 / (count as f64).sqrt());
+        let expected = rounding * 40.0_f64.sqrt() * 2.0 / duration + f64::EPSILON * 0.2;
+        assert!(found.len() == 1 && (0.97..1.15).contains(&(found[0] / expected)), "{found:?} {expected:e}");
     }
 
     #[test]
@@ -194,5 +204,77 @@ mod tests {
         if let Ok(list) = spectral_lines(&series(noise), 1e-3, 20) {
             assert!(list.lines.len() <= 20 && list.lines.iter().all(|line| line.frequency.is_finite()));
         }
+    }
+
+    /// The weights and the values of waves of these amplitudes at these places (frequencies times half the length), in phase in the middle.
+    fn of_waves(waves: &[(f64, f64)]) -> (Vec<f64>, Vec<f64>) {
+        let value = |j: usize| -> f64 {
+            let y = (j as f64 - 511.5) / 512.0;
+            waves.iter().map(|(place, amplitude)| amplitude * (place * y + 0.3).cos()).sum()
+        };
+        (WINDOW.weights(1024).unwrap(), (0..1024).map(value).collect())
+    }
+
+    #[test]
+    fn lines_that_are_missing_may_be_hidden_under_those_found() {
+        let (_, values) = of_waves(&[(100.0, 1.0), (300.0, 0.1)]);
+        let duration = 256.0;
+        for (least, most, hidden) in [(1e-3, 1, true), (0.11, 10, false)] {
+            let list = spectral_lines(&series(values.clone()), least, most).unwrap();
+            assert!(list.lines.len() == 1 && (0.09..0.11).contains(&list.remainder), "{list:?}");
+            let expected = list.remainder * 40.0_f64.sqrt() * 2.0 / duration;
+            let found = list.lines[0].uncertainty / expected;
+            assert!(if hidden { (0.97..1.1).contains(&found) } else { (0.0..0.1).contains(&found) }, "{found}");
+        }
+    }
+
+    #[test]
+    fn lines_are_in_the_order_of_their_amplitudes_not_of_their_peaks() {
+        // Two lines that are near each other have one peak, higher than that of a stronger line.
+        let (_, values) = of_waves(&[(100.0, 0.9), (106.0, 0.5), (300.0, 1.0)]);
+        let list = spectral_lines(&series(values), 1e-3, 10).unwrap();
+        let found: Vec<_> = list.lines.iter().map(|line| (line.frequency * 128.0, line.amplitude)).collect();
+        assert_eq!(found.len(), 3);
+        for (found, exact) in found.iter().zip([(300.0, 1.0), (100.0, 0.9), (106.0, 0.5)]) {
+            assert!((found.0 - exact.0).abs() < 1e-6 && (found.1 - exact.1).abs() < 1e-6, "{found:?}");
+        }
+    }
+
+    /// One wave for two lines: what is left of them makes the steps of the fit shrink by no more than one half.
+    #[test]
+    fn a_fit_takes_two_steps_after_a_round_and_twelve_at_the_end() {
+        let (weights, values) = of_waves(&[(100.0, 1.0), (107.0, 0.8)]);
+        let mut fit = JointFit::new(&values, &weights, WINDOW).unwrap();
+        let peaks = ResidualSpectrum::of(&fit.residual(), &weights).peaks(1e-3, &[]);
+        fit.waves.push(peaks[0]);
+        let places: Vec<f64> = (0..16)
+            .map(|_| {
+                let residual = fit.residual();
+                fit.improve(&residual, 2.0).unwrap();
+                fit.waves[0].phase * 1024.0
+            })
+            .collect();
+        let list = spectral_lines(&series(values.clone()), 1e-3, 1).unwrap();
+        let found = list.lines[0].frequency * 128.0;
+        let off = |step: usize| (places[step] - found).abs();
+        assert!(off(13) < 1e-10 && off(12) > 1e-7 && off(14) > 1e-7, "{places:?} {found}");
+    }
+
+    #[test]
+    fn a_fit_ends_where_rounding_begins_and_steps_no_farther_than_half_of_the_least_distance() {
+        let (weights, values) = of_waves(&[(100.0, 1.0), (106.0, 0.5)]);
+        let start = |place: f64, amplitude: f64| {
+            let mut fit = JointFit::new(&values, &weights, WINDOW).unwrap();
+            fit.waves.push(Wave { phase: place / 1024.0, cos_part: amplitude, sin_part: 0.0 });
+            fit
+        };
+        let mut fit = start(101.0, 1.0);
+        improve(&mut fit, 100).unwrap();
+        let left = fit.improve(&fit.residual(), 2.0).unwrap();
+        assert!(left < 1e-13, "{left:e}");
+        // A wave that is far too weak would go far.
+        let mut fit = start(90.0, 1e-3);
+        improve(&mut fit, 1).unwrap();
+        assert!(((fit.waves[0].phase * 1024.0 - 90.0).abs() - 2.0).abs() < 1e-9);
     }
 }
