@@ -87,3 +87,20 @@ impl<S: Real> MaclaurinSpheroid<S> {
         AxisymmetricTensor { xx: k.xx + p - u.xx, zz: k.zz + p - u.zz }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of a thin disc the components along the axis are as small as it is thin, and so is what rounding leaves of their balance.
+    #[test]
+    fn each_component_is_balanced_within_its_own_rounding() {
+        for thickness in [0.7, 1e-3, 3e-7, 1e-9, 7e-10, 3e-11] {
+            let star =
+                MaclaurinSpheroid::new(UniformSpheroid::from_semi_axes(1.3, 1.3 * thickness, 0.7).unwrap()).unwrap();
+            let (left, size) = (star.virial_residual(), star.spheroid().potential_energy_tensor());
+            assert!(left.xx.abs() < 1e-14 * size.xx, "{thickness}: {left:?} of {size:?}");
+            assert!(left.zz.abs() < 1e-14 * size.zz, "{thickness}: {left:?} of {size:?}");
+        }
+    }
+}
