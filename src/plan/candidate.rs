@@ -83,10 +83,12 @@ impl Forecast {
         let full = state == State::Orientation;
         let vectors = if full { 3.0 } else { 2.0 };
         // Each step keeps its coefficients, padded to registers, and its start; there is some room to spare.
-        let states = if method == Method::Splitting { (4.0 + 48.0 * vectors) * steps.min(1e5) } else { 0.0 };
-        let series = 1.2 * steps * ((order as f64 + 1.0) * 32.0 * vectors + 16.0);
+        let dense_output = if method == Method::Splitting {
+            (4.0 + 48.0 * vectors) * steps.min(1e5)
+        } else {
+            1.2 * steps * ((order as f64 + 1.0) * 32.0 * vectors + 16.0)
+        };
         // The roots of the quartic are sought with a few short lists, once.
-        let dense_output = if method == Method::Splitting { states } else { series };
         let bytes = dense_output + if method == Method::Symmetric { 1024.0 } else { 0.0 };
         Prediction {
             truncation,
@@ -202,4 +204,68 @@ pub(super) fn evaluations(request: &Request, rotation: f64) -> f64 {
         })
         .sum();
     beside + if at_samples { samples } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::euler_angles::{EulerAngles, EulerRates};
+
+    const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+
+    /// What a method would do over a stretch with a tensor of those principal values.
+    fn forecast(method: Method, s: [f64; 3], stretch: (f64, f64), derivatives: Vec<Parameter>) -> Candidate {
+        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+        let initial = BodyState::from_angles(&STAR, &angles, &EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
+        let scene = Scene { spheroid: &STAR, violation: &Matrix3::from_diagonal(&Vector3::from(s)), initial: &initial };
+        let request = Request::new(&[Output::SymmetryAxis], stretch, 5, 1e-9);
+        Candidate::of(method, &scene, &Request { derivatives, ..request }, State::Axis, stretch, 5.0)
+    }
+
+    #[test]
+    fn free_rotation_names_the_torque_that_forbids_its_derivatives() {
+        let free = forecast(Method::Free, [0.02, 0.01, -0.03], (0.0, 1.0), vec![Parameter::Beta]);
+        let Err(Error::Domain { value, .. }) = free.prediction else { panic!("{free:?}") };
+        // C times the root of two times the norm.
+        assert_relative_eq!(value, 0.7 * (2.0 * 14e-4_f64).sqrt(), max_relative = 1e-12);
+    }
+
+    #[test]
+    fn errors_and_work_go_by_the_length_of_the_stretch_alone() {
+        for (method, s) in
+            [(Method::Steady, [0.0; 3]), (Method::Splitting, [0.2, 0.1, -0.3]), (Method::Taylor, [0.2, 0.1, -0.3])]
+        {
+            let first = forecast(method, s, (0.0, 7.0), Vec::new()).prediction.unwrap();
+            for stretch in [(3.0, 10.0), (3.0, -4.0)] {
+                assert_eq!(forecast(method, s, stretch, Vec::new()).prediction, Ok(first), "{stretch:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn rounding_of_numerical_motions_grows_with_the_angle_turned() {
+        let of = |method| forecast(method, [0.2, 0.1, -0.3], (0.0, 7.0), Vec::new()).prediction.unwrap();
+        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+        let initial = BodyState::from_angles(&STAR, &angles, &EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
+        // |L| / I^xx and what the whole depth of the potential adds to it.
+        let turned = 7.0 * ((initial.momentum.norm() / 1.3).powi(2) + 2.0 * 0.7 * 0.5 / 1.3).sqrt();
+        assert_relative_eq!(of(Method::Splitting).rounding, f64::EPSILON * (1.0 + turned), max_relative = 1e-12);
+
+        let s = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, -0.3));
+        let series = taylor_forecast(&STAR, &s, &initial, false, 7.0, 1e-9).unwrap();
+        let u = 7.0 * series.turning_rate;
+        // Twice the start, and a step at each fraction of the way: the mean square of 1 + u x over x from 0 to 1 is 1 + u + u^2 / 3.
+        let squares = (2.0 + 2.0 * u).powi(2) + series.steps * ((1.0 + u).powi(3) - 1.0) / (3.0 * u);
+        assert_relative_eq!(of(Method::Taylor).rounding, f64::EPSILON * squares.sqrt(), max_relative = 1e-12);
+    }
+
+    #[test]
+    fn turns_are_counted_with_three_evaluations_a_sample_or_twelve_a_radian() {
+        let request = Request::new(&[Output::EulerAngles], (0.0, 1.0), 7, 1e-9);
+        assert_eq!(evaluations(&request, 0.01), 21.0 + 7.0);
+        assert_eq!(evaluations(&request, 10.0), 120.0 + 7.0);
+    }
 }

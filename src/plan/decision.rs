@@ -209,3 +209,69 @@ fn turning_rate(spheroid: &RigidSpheroid<f64>, s: &Matrix3<f64>, initial: &BodyS
     omega.max(initial.momentum.norm() / spheroid.inertia_xx)
         + (2.0 * largest_torque(spheroid, s) / spheroid.inertia_xx).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::euler_angles::{EulerAngles, EulerRates};
+
+    const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+
+    fn start() -> (Matrix3<f64>, BodyState<f64>) {
+        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+        (Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03)), BodyState::from_angles(&STAR, &angles, &rates))
+    }
+
+    /// The plan for one output over a span, with seven samples.
+    fn plan(output: Output, method: Option<Method>, span: (f64, f64)) -> Plan {
+        let (s, initial) = start();
+        let request = Request { method, ..Request::new(&[output], span, 7, 1e-9) };
+        Plan::new(&STAR, &s, &initial, &request).unwrap()
+    }
+
+    #[test]
+    fn events_take_evaluations_by_the_angle_turned_forwards_and_backwards() {
+        let (_, BodyState { axis, momentum, .. }) = start();
+        // A prolate body turns faster than |L| / I^xx.
+        let along = momentum.dot(&axis);
+        let omega = ((momentum - axis * along) / 1.3).norm().hypot(along / 1.1);
+        let rate = omega + (2.0 * 0.7 * (2.0 * 14e-4_f64).sqrt() / 1.3).sqrt();
+        for span in [(3.0, 53.0), (3.0, -47.0)] {
+            let work = plan(Output::Pulses, Some(Method::Taylor), span).prediction.unwrap().work;
+            assert_relative_eq!(work.orientation_evaluations, 8.0 * 50.0 * rate, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn rounding_up_to_a_hundred_times_the_least_is_admitted() {
+        let mut plan = plan(Output::SymmetryAxis, Some(Method::Taylor), (0.0, 50.0));
+        let with_rounding = |rounding| Prediction { truncation: 0.0, rounding, ..plan.prediction.unwrap() };
+        let (best, admitted, refused) = (with_rounding(1.0), with_rounding(99.7), with_rounding(100.3));
+        plan.considered = vec![Candidate { method: Method::Taylor, prediction: Ok(best) }];
+        assert!(plan.admits(&best) && plan.admits(&admitted) && !plan.admits(&refused));
+        plan.accuracy = 100.4;
+        assert!(plan.admits(&refused));
+    }
+
+    #[test]
+    fn a_closed_form_needs_times_between_samples_for_turns_and_events_alone() {
+        let skips = |output| {
+            let skipped = plan(output, Some(Method::Free), (0.0, 50.0)).skipped;
+            skipped.iter().any(|skipped| skipped.what == "times between samples")
+        };
+        assert!(skips(Output::SymmetryAxis) && skips(Output::PulseProfile));
+        assert!(!skips(Output::EulerAngles) && !skips(Output::Pulses));
+    }
+
+    #[test]
+    fn a_plan_without_a_motion_tells_that_no_output_needs_one() {
+        let (s, initial) = start();
+        let motion = plan(Output::PerturbationAngles, None, (0.0, 50.0)).axis_motion(&STAR, &s, &initial);
+        let Err(Error::Domain { quantity, value, .. }) = motion else { panic!("{motion:?}") };
+        assert_eq!((quantity, value), ("number of outputs that need a motion", 0.0));
+    }
+}

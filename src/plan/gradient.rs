@@ -236,3 +236,82 @@ impl<S: Real> SeededMotion<S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::plan::{Output, Request};
+
+    /// The first of the components of `n`.
+    struct Components(usize);
+
+    impl StateFunction for Components {
+        fn len(&self) -> usize {
+            self.0
+        }
+
+        fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
+            values.copy_from_slice(&state.axis.as_slice()[..self.0]);
+        }
+    }
+
+    fn start(s: [f64; 3]) -> Start<f64> {
+        Start {
+            spheroid: RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 },
+            violation: Matrix3::from_diagonal(&Vector3::from(s)),
+            angles: EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 },
+            rates: EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 },
+        }
+    }
+
+    fn plan(start: &Start<f64>, method: Method, span: (f64, f64), accuracy: f64) -> Plan {
+        let derivatives = vec![Parameter::Beta, Parameter::ConstantC];
+        let request = Request::new(&[Output::SymmetryAxis], span, 3, accuracy);
+        let request = Request { method: Some(method), derivatives, ..request };
+        Plan::new(&start.spheroid, &start.violation, &start.state(), &request).unwrap()
+    }
+
+    #[test]
+    fn functions_without_values_are_empty() {
+        assert_eq!([0, 1, 2].map(|count| Components(count).is_empty()), [true, false, false]);
+    }
+
+    #[test]
+    fn only_series_asked_for_by_name_are_used_for_numerical_gradients() {
+        let start = start([0.2, 0.1, -0.3]);
+        let by = |method, forced| {
+            let plan = Plan { forced, ..plan(&start, method, (0.0, 20.0), 1e-5) };
+            gradient(&plan, &start, &Components(3), &[7.0, 19.0]).unwrap()
+        };
+        let splitting = by(Method::Splitting, true);
+        assert_eq!(by(Method::Splitting, false), splitting);
+        assert_eq!(by(Method::Taylor, false), splitting);
+        #[cfg(target_arch = "x86_64")]
+        if pulp::x86::V3::try_new().is_some() {
+            assert_ne!(by(Method::Taylor, true), splitting);
+        }
+    }
+
+    #[test]
+    fn times_may_come_in_any_order() {
+        let start = start([0.2, 0.1, -0.3]);
+        let plan = plan(&start, Method::Splitting, (20.0, -10.0), 1e-5);
+        let at = |times: &[f64]| gradient(&plan, &start, &Components(3), times).unwrap();
+        let (mixed, ordered) = (at(&[-8.0, 15.0, 3.0]), at(&[15.0, 3.0, -8.0]));
+        for (place, ordered_place) in [(0, 2), (1, 0), (2, 1)] {
+            assert_eq!(mixed.values.row(place), ordered.values.row(ordered_place));
+            assert_eq!(mixed.jacobians[place], ordered.jacobians[ordered_place]);
+        }
+    }
+
+    /// Derivatives of the mean motion take eigenvalues for equal that are nearly so.
+    #[test]
+    fn values_of_the_mean_motion_are_those_without_derivatives() {
+        let start = start([2e-6, -1e-6 + 1.2e-14, -1e-6 - 1.2e-14]);
+        let with_derivatives = plan(&start, Method::Mean, (0.0, 1e6), 1e-2);
+        let without = Plan { derivatives: Vec::new(), ..with_derivatives.clone() };
+        let values = |plan: &Plan| gradient(plan, &start, &Components(3), &[3e5, 1e6]).unwrap().values;
+        assert_eq!(values(&with_derivatives), values(&without));
+    }
+}

@@ -191,3 +191,22 @@ impl Motion<f64> for PlannedMotion {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::euler_angles::{EulerAngles, EulerRates};
+
+    #[test]
+    fn a_time_in_two_parts_is_their_sum() {
+        let star = RigidSpheroid::in_units_of_tc(1.1);
+        let s = Matrix3::from_diagonal(&Vector3::new(2e-6, 1e-6, -3e-6));
+        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+        let initial = BodyState::from_angles(&star, &angles, &EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
+        for method in [Method::Free, Method::Mean, Method::Splitting, Method::Taylor] {
+            let motion = PlannedMotion::by(method, &star, &s, &initial, (0.0, 10.0), 1e-9).unwrap();
+            let (parts, sum) = (motion.state_in_parts([5.0, 0.375]).unwrap(), motion.state(5.375).unwrap());
+            assert!((parts.axis - sum.axis).amax() < 1e-14, "{method:?}");
+        }
+    }
+}

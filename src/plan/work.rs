@@ -116,3 +116,21 @@ impl<M: Motion<f64>> Motion<f64> for Counted<M> {
         self.motion.state_in_parts(t)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_adds_up() {
+        let work = |[steps, right_hand_sides, axis_evaluations, orientation_evaluations]: [f64; 4]| Work {
+            steps,
+            right_hand_sides,
+            axis_evaluations,
+            orientation_evaluations,
+        };
+        let mut sum = work([1.0, 20.0, 300.0, 4000.0]);
+        sum += work([7.0, 11.0, 13.0, 17.0]);
+        assert_eq!(sum, work([8.0, 31.0, 313.0, 4017.0]));
+    }
+}

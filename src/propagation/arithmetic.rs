@@ -167,3 +167,13 @@ pub(super) fn largest(v: [f64; 3]) -> f64 {
     let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
     larger(larger(x, y), z)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_of_vectors_are_by_components() {
+        assert_eq!(Plain::new().mul([2.0, 3.0, 5.0], [7.0, 11.0, 13.0]), [14.0, 33.0, 65.0]);
+    }
+}

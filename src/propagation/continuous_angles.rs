@@ -177,3 +177,90 @@ fn off_pole(state: &BodyState<f64>) -> f64 {
 fn turns(angle: f64) -> f64 {
     (angle / TAU).round() * TAU
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use nalgebra::Matrix3;
+
+    use super::*;
+    use crate::euler_angles::EulerRates;
+    use crate::plan::Counted;
+    use crate::propagation::UniformMotion;
+
+    const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+    const START: EulerAngles<f64> = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+
+    /// Free precession about Z at the rate 1, from a time on.
+    fn precession(from: f64) -> (UniformMotion<f64>, EulerRates<f64>) {
+        let spin = 1.3 * START.beta.cos() / 1.1;
+        let rates = EulerRates { alpha: 1.0, beta: 0.0, gamma: 0.2 / 1.3 * spin };
+        let initial = BodyState::from_angles(&STAR, &START, &rates);
+        (UniformMotion::free(&STAR, &Matrix3::zeros(), &initial, (from, from + 100.0)), rates)
+    }
+
+    /// A path of length `x exp(x)` times the distance to the pole, for a rotation `x`, is short enough up to `x = 0.567`.
+    #[test]
+    fn time_is_halved_until_no_turn_can_be_lost() {
+        let (motion, rates) = precession(0.0);
+        for (t, pieces) in [(9.0, 16.0), (9.1, 32.0), (18.1, 32.0), (18.2, 64.0)] {
+            let counted = Counted::new(motion);
+            let angles = ContinuousAngles::new(&counted, 0.0, &START).unwrap().at(t).unwrap();
+            assert_relative_eq!(angles.alpha, START.alpha + t, max_relative = 1e-12);
+            assert_relative_eq!(angles.gamma, START.gamma + rates.gamma * t, max_relative = 1e-12);
+            // The start twice, the end twice, and the times between the pieces.
+            assert_eq!(counted.evaluations().orientation_evaluations, 4.0 + (pieces - 1.0), "{t}");
+        }
+    }
+
+    /// Doubles near 1e16 are two apart, here two radians: nothing lies between them, and the nearest turn is taken.
+    #[test]
+    fn turns_are_counted_on_between_times_that_cannot_be_halved() {
+        let (motion, rates) = precession(1e16);
+        let mut angles = ContinuousAngles::new(&motion, 1e16, &START).unwrap();
+        for elapsed in [40.0, 44.0, 12.0] {
+            let angles = angles.at(1e16 + elapsed).unwrap();
+            assert_relative_eq!(angles.alpha, START.alpha + elapsed, max_relative = 1e-12);
+            assert_relative_eq!(angles.gamma, START.gamma + rates.gamma * elapsed, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn there_is_nothing_to_count_between_two_near_states_on_the_pole_alone() {
+        let (motion, _) = precession(0.0);
+        let angles = ContinuousAngles::new(&motion, 0.0, &START).unwrap();
+        let momentum = Vector3::new(0.0, 1.3, 0.0);
+        let state = |axis| BodyState { axis, momentum, equatorial_axis: Vector3::y() };
+        let (on, off) = (state(Vector3::z()), state(Vector3::new(0.1, 0.0, 0.99_f64.sqrt())));
+        let resolved = |from, to, radians: f64| angles.resolved(from, to, 1.1 / 1.3 * radians);
+        assert!(resolved(&on, &on, 0.9) && resolved(&on, &on, -0.9) && !resolved(&on, &on, 1.1));
+        assert!(!resolved(&on, &off, 0.9) && !resolved(&off, &on, 0.9) && !resolved(&off, &off, 0.9));
+    }
+
+    /// A prolate body that spins about its axis: the Z axis moves in it by the bound of the description, which is taken apart here.
+    #[test]
+    fn the_path_of_z_in_the_body_is_bounded_by_rate_torque_and_spin() {
+        let star = RigidSpheroid { inertia_xx: 2.0, inertia_zz: 0.64, constant_c: 3.4 };
+        let s = Vector3::new(-0.68, -0.29, 1.06);
+        let axis: Vector3<f64> = Vector3::new(-0.4, 0.02, 0.92).normalize();
+        let state = BodyState { axis, momentum: axis * 0.74, equatorial_axis: Vector3::y() };
+        let motion = UniformMotion::free(&star, &Matrix3::from_diagonal(&s), &state, (0.0, 1.0));
+        let angles = ContinuousAngles::new(&motion, 0.0, &START).unwrap();
+
+        let (w, spin) = (0.74 / 2.0, 0.74 / 0.64);
+        let distance = axis.x.hypot(axis.y);
+        let (g, k) = (2.0 * 3.4 * axis.cross(&s.component_mul(&axis)).norm() / 2.0, 4.0 * 3.4 * s.norm() / 2.0);
+        let paths = |t: f64| {
+            let of_axis = 0.5 * g * t * t * ((w + k * t + k.sqrt()) * t).exp();
+            let by_change = 0.5 * k * t * t * of_axis + (2.0 - 0.64) / 2.0 * spin * t * of_axis;
+            (of_axis, spin * distance * t + 0.5 * g * t * t + by_change)
+        };
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if paths(middle).1 < distance { low = middle } else { high = middle }
+        }
+        assert!(paths(low).0 < 0.97 * distance, "the path of Z is the longer one");
+        assert!(angles.stays_aside(&state, 0.998 * low) && !angles.stays_aside(&state, 1.002 * low));
+    }
+}

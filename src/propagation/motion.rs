@@ -84,3 +84,17 @@ pub trait Motion<S: Scalar>: AxisMotion<S> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_vectors_turn_with_the_frame() {
+        let quarter = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+        let state = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(2.0, 3.0, 5.0) };
+        let turned = state.rotated(&quarter);
+        assert_eq!(turned.axis, Vector3::new(0.0, 0.6, 0.8));
+        assert_eq!(turned.momentum, Vector3::new(-3.0, 2.0, 5.0));
+    }
+}

@@ -252,3 +252,42 @@ impl<R: Register> Arithmetic for Lanes<R> {
         [z, x, y]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quotients_and_columns<R: Register>(register: R) {
+        let of = |values: &dyn Fn(usize) -> f64| {
+            let mut lanes = register.splat(0.0);
+            for lane in 0..R::COUNT {
+                register.set(&mut lanes, lane, values(lane));
+            }
+            lanes
+        };
+        let (a, b) = (|lane: usize| 3.0 + lane as f64, |lane: usize| [0.0, 1.0, -2.0, 0.5][lane % 4]);
+        let quotient = register.div_or_zero(of(&a), of(&b));
+        for lane in 0..R::COUNT {
+            let expected = if b(lane) == 0.0 { 0.0 } else { a(lane) / b(lane) };
+            assert_eq!(register.get(&quotient, lane), expected);
+        }
+
+        let entry = |i: usize, j: usize, lane: usize| ((3 * i + j) * 8 + lane) as f64;
+        let column = |j: usize| [0, 1, 2].map(|i| of(&|lane| entry(i, j, lane)));
+        let combined = Lanes(register).combine(&[0, 1, 2].map(column), [2.0, 30.0, 500.0].map(|x| register.splat(x)));
+        for lane in 0..R::COUNT {
+            let expected = |i| 2.0 * entry(i, 0, lane) + 30.0 * entry(i, 1, lane) + 500.0 * entry(i, 2, lane);
+            assert_eq!(Lanes(register).take(&combined, lane), [0, 1, 2].map(expected));
+        }
+    }
+
+    #[test]
+    fn quotients_by_zero_are_zero_and_columns_are_added_by_their_weights() {
+        if let Some(register) = V3::try_new() {
+            quotients_and_columns(register);
+        }
+        if let Some(register) = V4::try_new() {
+            quotients_and_columns(register);
+        }
+    }
+}

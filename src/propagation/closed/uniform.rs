@@ -220,3 +220,67 @@ impl<S: Real> Motion<S> for UniformMotion<S> {
         Ok(BodyState { axis, momentum, equatorial_axis: rotated_by(&(self.turn * elapsed), &turned) })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    #[test]
+    fn free_rotation_keeps_every_digit_of_the_momentum() {
+        let star = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+        let momentum = Vector3::new(0.3, -0.7, 1.1);
+        let initial = BodyState { axis: Vector3::new(0.6, 0.0, 0.8), momentum, equatorial_axis: Vector3::y() };
+        let motion = UniformMotion::free(&star, &Matrix3::zeros(), &initial, (0.0, 100.0));
+        for t in [0.7, 13.1, 47.9, 99.3] {
+            assert_eq!(motion.axis_state(t).unwrap().momentum, momentum);
+        }
+    }
+
+    /// The axis lies in the equator of `s` and precesses about its pole at the rate 1/4 without torque; a spin would need one.
+    #[test]
+    fn a_steady_motion_is_one_to_32_roundings() {
+        let star = RigidSpheroid { inertia_xx: 4.0, inertia_zz: 2.0, constant_c: 1.0 };
+        let s = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 0.5));
+        let with_spin = |momentum: f64| {
+            let momentum = Vector3::new(momentum, 0.0, 1.0);
+            let initial = BodyState { axis: Vector3::x(), momentum, equatorial_axis: Vector3::y() };
+            UniformMotion::steady(&star, &s, &initial, (0.0, 100.0))
+        };
+        // Rate times momentum over |L| + I^xx / 2 = 3, against the speed 1/4 + 1/2.
+        let momentum = |roundings: f64| roundings * f64::EPSILON * 0.75 * 3.0 / 0.25;
+        let residual = with_spin(momentum(31.6)).unwrap().residual;
+        assert_relative_eq!(residual, 31.6 * f64::EPSILON * 0.75, max_relative = 1e-9);
+        let Err(Error::Domain { value, .. }) = with_spin(momentum(32.4)) else { panic!("accepted") };
+        assert_relative_eq!(value, 32.4 * f64::EPSILON, max_relative = 1e-9);
+    }
+
+    /// Without torque: about `L` at the rate `|L| / I^xx`, against which the axis resists by its spin of either sign.
+    #[test]
+    fn the_condition_of_a_steady_motion_is_the_same_for_both_senses_of_spin() {
+        let star = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+        let (sin, cos) = 0.7_f64.sin_cos();
+        for axis in [Vector3::new(sin, 0.0, cos), Vector3::new(sin, 0.0, -cos)] {
+            let initial = BodyState { axis, momentum: Vector3::z() * 1.7, equatorial_axis: Vector3::y() };
+            let motion = UniformMotion::steady(&star, &Matrix3::zeros(), &initial, (0.0, 100.0)).unwrap();
+            assert_relative_eq!(motion.condition, 1.0 + ((1.0 + cos) / sin).powi(2), max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_torque_left_out_counts_whatever_its_unit_and_the_sign_of_c() {
+        let initial = BodyState { axis: Vector3::x(), momentum: Vector3::z() * 2.0, equatorial_axis: Vector3::y() };
+        let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        for constant_c in [0.7, -0.7] {
+            let star = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c };
+            assert_relative_eq!(largest_torque(&star, &s), 0.7 * (2.0 * 14e-4_f64).sqrt(), max_relative = 1e-12);
+            let motion = UniformMotion::free(&star, &s, &initial, (0.0, 100.0));
+            for neglected_torque in [0.1, 1.0] {
+                let short = UniformMotion { neglected_torque, ..motion }.truncation(0.01);
+                let of_momentum = neglected_torque * 0.01 / (2.0 + (1.3 * neglected_torque).sqrt());
+                assert_relative_eq!(short, of_momentum, max_relative = 1e-12);
+            }
+        }
+    }
+}

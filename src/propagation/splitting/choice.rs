@@ -211,11 +211,10 @@ pub(super) fn derivatives_forecast<const V: usize>(
     scene: &Scene<V>,
     span: (f64, f64),
     accuracy: f64,
-) -> (&'static Scheme, f64) {
+) -> SplittingForecast {
     let turn = scene.largest_rate * (span.1 - span.0).abs();
     let accuracy = accuracy.max(LEAST_ACCURACY_PER_ANGLE * turn);
-    let forecast = cheapest(scene, span, |model, epsilon, turn| model.step_with_derivatives(epsilon, turn, accuracy));
-    (forecast.scheme, forecast.step)
+    cheapest(scene, span, |model, epsilon, turn| model.step_with_derivatives(epsilon, turn, accuracy))
 }
 
 /// How splitting would reach the samples of a motion.
@@ -311,5 +310,89 @@ mod tests {
             }
             assert_eq!(model.step(1e-30, 1.0, 1.0), largest);
         }
+    }
+
+    const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+
+    /// A body that turns at most at `rate`, the torque making up the part `epsilon` of its square.
+    fn scene(rate: f64, epsilon: f64) -> Scene<2> {
+        let difference = epsilon * rate * rate * 1.3 / (2.0 * 0.7);
+        let s = Matrix3::from_diagonal(&(Vector3::new(0.5, 0.1, -0.5) * difference));
+        let momentum = Vector3::y() * (1.3 * rate * (1.0 - epsilon).sqrt());
+        Scene::new(&STAR, &s, &[Vector3::new(0.6, 0.0, 0.8), momentum]).unwrap()
+    }
+
+    #[test]
+    fn the_longest_step_is_found_to_forty_halvings() {
+        let model = Model { scheme: &STRANG, constants: [0.0; 3], stage_cost: 1.0, largest_turn: 0.25 };
+        let unit = 0.25 / 2f64.powi(40);
+        assert_eq!(model.longest(|step| step <= 0.025), (0.025 / unit).floor() * unit);
+    }
+
+    #[test]
+    fn schemes_are_compared_at_the_angle_turned() {
+        for rate in [0.25, 0.8, 20.0] {
+            let by = |turn: f64| {
+                cheapest(&scene(rate, 0.3), (5.0, 5.0 - turn / rate), |_, epsilon, angle| {
+                    assert_relative_eq!(epsilon, 0.3, max_relative = 1e-12);
+                    assert_relative_eq!(angle, turn, max_relative = 1e-12);
+                    0.1
+                })
+            };
+            assert_eq!((by(7.03).scheme.name, by(7.03).steps, by(0.06).steps), ("strang", 71.0, 1.0));
+            assert_relative_eq!(by(7.03).step, 0.1 / rate, max_relative = 1e-12);
+        }
+        for (duration, step) in [(5.0, 5.0), (0.25, 1.0)] {
+            let at_rest = cheapest(&scene(0.0, 0.0), (3.0, 3.0 + duration), |_, epsilon, turn| {
+                assert_eq!((epsilon, turn), (0.0, 0.0));
+                0.1
+            });
+            assert_eq!((at_rest.step, at_rest.steps), (step, 1.0));
+        }
+    }
+
+    #[test]
+    fn without_torque_a_stage_turns_by_three_tenths_up_to_the_limit_of_steps() {
+        let initial = AxisState { axis: Vector3::x(), momentum: Vector3::z() * 0.65 };
+        let forecast = |duration| splitting_forecast(&STAR, &Matrix3::zeros(), &initial, (0.0, duration), 1e-2);
+        let short = forecast(10.0).unwrap();
+        assert_relative_eq!(0.5 * short.step, 0.3 * short.scheme.stages() as f64, max_relative = 1e-12);
+        assert_relative_eq!(forecast(0.9e10 * short.step).unwrap().steps, 0.9e10, max_relative = 1e-9);
+        let Err(Error::Domain { quantity, value, .. }) = forecast(1.1e10 * short.step) else { panic!("not refused") };
+        assert_eq!(quantity, "number of steps");
+        assert_relative_eq!(value, 1.1e10, max_relative = 1e-9);
+    }
+
+    /// A rounding of 1e-16 for each of 500 rad makes 5e-14.
+    #[cfg(target_arch = "x86_64")]
+    #[test]
+    fn derivatives_are_made_no_better_than_rounding_allows() {
+        let (scene, span) = (scene(4.0, 0.3), (3.0, -122.0));
+        for (wanted, made) in [(1e-16, 5e-14), (1e-6, 1e-6)] {
+            let found = derivatives_forecast(&scene, span, wanted);
+            let expected = cheapest(&scene, span, |model, e, turn| model.step_with_derivatives(e, turn, made));
+            assert_eq!(found.scheme.name, expected.scheme.name);
+            assert_relative_eq!(found.step, expected.step, max_relative = 1e-9);
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[test]
+    fn samples_are_reached_by_splitting_within_150_stages_a_radian() {
+        // Each sample takes one step of one stage.
+        let steps = |samples: usize| {
+            let times: Vec<f64> = (1..=samples).map(|k| 3.0 - 0.5 * k as f64 / samples as f64).collect();
+            sampled_forecast(&scene(4.0, 1e-9), 3.0, &times, 1e-2).map(|forecast| forecast.steps)
+        };
+        assert_eq!((steps(299), steps(301)), (Some(299), None));
+        // Nothing moves, or hardly.
+        let steps =
+            |scene: Scene<2>, times: &[f64]| sampled_forecast(&scene, 3.0, times, 1e-2).map(|found| found.steps);
+        assert_eq!(steps(scene(4.0, 1e-9), &[3.0, 3.0]), None);
+        assert_eq!(steps(scene(0.0, 0.0), &[5.0]), None);
+        assert_eq!(steps(scene(4.0, 1e-9), &[3.02]), Some(1));
+        // Of 1e-16 is left what half a radian rounds off, but not what two do.
+        let reached = |turn: f64| sampled_forecast(&scene(4.0, 1e-12), 3.0, &[3.0 + turn / 4.0], 1e-16).is_some();
+        assert!(reached(0.5) && !reached(2.0));
     }
 }

@@ -7,7 +7,7 @@ use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::input::check_input;
 use crate::propagation::registers::Register;
-use crate::propagation::splitting::choice::derivatives_forecast;
+use crate::propagation::splitting::choice::{SplittingForecast, derivatives_forecast};
 use crate::propagation::splitting::flows::{AXIS, COMPANION, Moving, RATE};
 use crate::propagation::splitting::motion::{SPLITTING_STEP_LIMIT, Scene};
 use crate::propagation::splitting::ring::FusedDouble;
@@ -58,8 +58,9 @@ pub(crate) fn states_with_derivatives<const V: usize>(
     let initial = first.initial.map(|v| v.map(|value| value.re));
     check_input(&spheroid, &violation, &initial, (start, *last), accuracy)?;
     let scene = Scene::new(&spheroid, &violation, &initial)?;
-    let (scheme, step) = derivatives_forecast(&scene, (start, *last), accuracy);
-    let count = (last - start).abs() / step + times.len() as f64;
+    let SplittingForecast { scheme, step, steps, .. } = derivatives_forecast(&scene, (start, *last), accuracy);
+    // Each of the times may cut a step in two.
+    let count = steps + times.len() as f64;
     Error::unless(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
     let mut found = vec![Vec::with_capacity(seeded.len()); times.len()];
     for seeded in seeded.chunks(MOST) {
@@ -167,5 +168,81 @@ impl<const V: usize> Derivatives<'_, V> {
         }
         let rate = rate_about_axis(&seeded.spheroid, &seeded.initial[AXIS], &seeded.initial[RATE]);
         body_state([axis, momentum, vector(COMPANION)], rate * elapsed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::solutions::free::rotated_by;
+
+    /// A scene with derivatives of all its numbers, others for each `direction`.
+    fn seeded(direction: usize, s: f64, momentum: f64) -> Seeded<3> {
+        let slope = |place: usize| ((7 * direction + 3 * place + 1) as f64).sin();
+        let dual = |value: f64, place: usize| Dual64::new(value, slope(place));
+        let vector = |[x, y, z]: [f64; 3], place| Vector3::new(dual(x, place), dual(y, place + 1), dual(z, place + 2));
+        let entry = |i: usize, j: usize| if i == j { [0.2, 0.1, -0.3][i] } else { 0.02 * (i + j) as f64 };
+        Seeded {
+            spheroid: RigidSpheroid { inertia_xx: dual(1.3, 0), inertia_zz: dual(1.1, 1), constant_c: dual(0.7, 2) },
+            violation: Matrix3::from_fn(|i, j| dual(s * entry(i, j), 3 + i + j)),
+            initial: [
+                vector([0.6, 0.0, 0.8], 10),
+                vector([0.3, -0.7, 1.1].map(|x| momentum * x), 13),
+                vector([0.0, 1.0, 0.0], 16),
+            ],
+        }
+    }
+
+    fn numbers(state: &BodyState<Dual64>) -> Vec<(f64, f64)> {
+        [state.axis, state.momentum, state.equatorial_axis].iter().flatten().map(|x| (x.re, x.eps)).collect()
+    }
+
+    #[test]
+    fn a_derivative_does_not_depend_on_those_beside_it() {
+        let seeds: Vec<_> = (0..17).map(|direction| seeded(direction, 1.0, 1.0)).collect();
+        let of = |seeds: &[Seeded<3>]| states_with_derivatives(seeds, 1.0, &[2.0, 5.5], 1e-5).unwrap();
+        let Some(together) = of(&seeds) else { return };
+        for (place, seeded) in seeds.iter().enumerate() {
+            let alone = of(core::slice::from_ref(seeded)).unwrap();
+            for (alone, together) in alone.iter().zip(&together) {
+                assert_eq!(numbers(&alone[0]), numbers(&together[place]), "{place}");
+            }
+        }
+    }
+
+    /// Without torque the flows are exact: each time costs no more than rounding, however large the angles of a step.
+    #[test]
+    fn free_rotation_and_its_derivatives_are_exact_both_ways() {
+        let mut seeded = seeded(3, 0.0, 15.0);
+        seeded.violation = Matrix3::zeros();
+        let [axis, momentum, _] = seeded.initial;
+        for way in [1.0, -1.0] {
+            let times = [0.01, 0.02, 2.5, 5.0].map(|elapsed| 1.0 + way * elapsed);
+            let Some(found) = states_with_derivatives(&[seeded], 1.0, &times, 1e-3).unwrap() else { return };
+            for (states, time) in found.iter().zip(times) {
+                let turn = momentum * (Dual64::from_re(time - 1.0) / seeded.spheroid.inertia_xx);
+                for (found, exact) in states[0].axis.iter().zip(&rotated_by(&turn, &axis)) {
+                    assert_relative_eq!(found.re, exact.re, epsilon = 2e-13);
+                    assert_relative_eq!(found.eps, exact.eps, epsilon = 1e-11);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_steps_that_are_refused_are_those_of_the_motion_and_of_its_samples() {
+        let seeded = seeded(0, 1.0, 1.0);
+        let (body, s) = (seeded.spheroid.map(|x| x.re), seeded.violation.map(|x| x.re));
+        let scene = Scene::new(&body, &s, &seeded.initial.map(|v| v.map(|x| x.re))).unwrap();
+        for end in [2e12, -2e12] {
+            let step = derivatives_forecast(&scene, (0.0, end), 1e-5).step;
+            match states_with_derivatives(&[seeded], 0.0, &[0.5 * end, 0.7 * end, end], 1e-5) {
+                Err(Error::Domain { value, .. }) => assert!((value - (2e12 / step).ceil() - 3.0).abs() < 0.5),
+                Ok(found) => assert!(found.is_none(), "no registers"),
+                Err(other) => panic!("{other}"),
+            }
+        }
     }
 }

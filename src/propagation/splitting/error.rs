@@ -128,3 +128,100 @@ fn largest_difference<const V: usize>(a: &Moving<f64, V>, b: &Moving<f64, V>, ra
     }
     most
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use nalgebra::{Matrix3, Vector3};
+
+    use super::*;
+    use crate::dynamics::RigidSpheroid;
+    use crate::propagation::splitting::flows::AXIS;
+    use crate::propagation::splitting::{STRANG, Scheme, propagate_by_splitting};
+    use crate::propagation::{AxisMotion, AxisState};
+
+    const FAST: [f64; 3] = [0.3, -0.7, 1.1];
+
+    fn motion(s: [f64; 3], momentum: [f64; 3], scheme: &'static Scheme, step: f64, count: f64) -> SplittingMotion {
+        let star = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+        let initial = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::from(momentum) };
+        let s = Matrix3::from_diagonal(&Vector3::from(s));
+        propagate_by_splitting(&star, &s, &initial, (3.0, 3.0 + step * count), scheme, step).unwrap()
+    }
+
+    #[test]
+    fn motions_are_compared_at_256_times_or_half_as_many() {
+        for (count, times, stride) in [(512.0, 256, 1.0), (514.0, 129, 2.0)] {
+            let estimate = ErrorEstimate::new(&motion([0.3, 0.1, -0.4], FAST, &GRADIENT_8_8_6, 0.0625, count));
+            assert_eq!((estimate.largest.len(), estimate.interval), (times, 2.0 * stride * 0.0625));
+            assert!(estimate.largest.iter().all(|&error| error < 1e-10), "{:?}", estimate.largest.last());
+        }
+    }
+
+    #[test]
+    fn the_error_is_unknown_where_two_steps_turn_by_more_than_ten_thousand_radians() {
+        let rate = Vector3::from(FAST).norm() / 1.3;
+        let estimate = |turn: f64| motion([0.0; 3], FAST, &STRANG, 0.5 * turn / rate, 2.0).error_estimate(3.0);
+        let at_end =
+            |turn: f64| motion([0.0; 3], FAST, &STRANG, 0.5 * turn / rate, 2.0).error_estimate(3.0 + 0.9 * turn / rate);
+        assert!(at_end(9.5e3).is_finite() && at_end(1.05e4) == f64::INFINITY);
+        assert_eq!(estimate(1.05e4), 4.0 * f64::EPSILON);
+    }
+
+    #[test]
+    fn at_the_start_alone_nothing_but_rounding_is_off() {
+        let motion = motion([0.3, 0.1, -0.4], FAST, &STRANG, 0.5, 8.0);
+        assert_eq!(ErrorEstimate::new(&motion).interval, 1.0);
+        assert_eq!(motion.error_estimate(3.0), 4.0 * f64::EPSILON);
+        for elapsed in [0.3, 1.0, 2.7] {
+            assert!(motion.error_estimate(3.0 + elapsed) > 1e-5);
+        }
+    }
+
+    #[test]
+    fn the_two_motions_start_off_in_directions_normal_to_each_other() {
+        let (first, second) = (Vector3::from(OFF), Vector3::from(OFF_ACROSS));
+        assert!(first.dot(&second).abs() < 0.01 * first.norm() * second.norm());
+    }
+
+    /// Of a slow body among nearly equal eigenvalues the motion beside is the one that goes astray. The numbers of roundings have no meaning
+    /// of their own: this holds on to those of today.
+    #[test]
+    fn the_motion_beside_is_off_by_some_roundings_of_its_start_and_eigenvalues() {
+        let eigenvalues = [0.5012, 0.5004, 0.4984];
+        let motion = motion(eigenvalues, [0.22, 0.14, -0.08], &GRADIENT_8_8_6, 0.3125, 4000.0);
+        let (scene, rounding) = (&motion.scene, 0.5012 * f64::EPSILON);
+        let [x, y, z] = eigenvalues;
+        let rounded = [x + 3.7 * rounding, y - 5.3 * rounding, z + 4.1 * rounding];
+        let field = Field::new(scene.field.strength, rounded);
+        let along = OneMotion::new(&GRADIENT_8_8_6, &field, motion.step(), scene.largest_rate);
+        let mut beside = scene.start;
+        for (place, unit) in [(AXIS, 1.0), (RATE, scene.largest_rate)] {
+            for (x, part) in beside.vectors[place].iter_mut().zip([9.4, 8.9, -3.1]) {
+                *x += part * f64::EPSILON * unit;
+            }
+        }
+        along.open(&mut beside);
+        let mut most = 0.0_f64;
+        // 2000 pairs of steps make 250 times to compare.
+        for time in 1..=250 {
+            along.advance(&mut beside, scene.casimir, 16);
+            let mut closed = beside;
+            along.close(&mut closed);
+            most = most.max(largest_difference(&closed, &motion.after(16 * time), scene.largest_rate));
+        }
+        let estimate = ErrorEstimate::new(&motion);
+        assert_eq!(estimate.largest.len(), 250);
+        assert_relative_eq!(estimate.largest[249], 6.0 * most, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn differences_of_rates_are_in_units_of_the_largest_if_there_is_one() {
+        let a = Moving::new([[0.6, 0.0, 0.8], [0.1, 0.0, 0.0]]);
+        let mut b = a;
+        b.vectors[RATE][2] = -0.125;
+        for (rate, difference) in [(0.5, 0.25), (2.0, 0.0625), (0.0, 0.125)] {
+            assert_eq!(largest_difference(&a, &b, rate), difference);
+        }
+    }
+}

@@ -383,4 +383,23 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn angles_are_halved_below_seven_tenths_and_their_series_cut_where_it_may() {
+        let found = |angle| {
+            let Angles { halvings, terms } = Angles::up_to(angle);
+            (halvings, terms)
+        };
+        assert_eq!([0.05, 0.15, 0.5, 0.69].map(found), [(0, 5), (0, 6), (0, 8), (0, 8)]);
+        assert_eq!([0.8, 1.3, 1.5, 2.7, 2.9].map(found), [(1, 8), (1, 8), (2, 8), (2, 8), (3, 8)]);
+        // The square of a larger angle is not finite.
+        assert_eq!(found(f64::INFINITY), (512, 8));
+    }
+
+    #[test]
+    fn a_kick_has_a_gradient_if_its_weight_is_not_zero() {
+        let field = Field::new(1.7, [0.3, -0.2, 0.5]);
+        assert!([0.01, 1.0].iter().all(|&c| field.kick(0.5, c, 0.7).has_gradient()));
+        assert!(!field.kick(0.5, 0.0, 0.7).has_gradient());
+    }
 }

@@ -161,3 +161,77 @@ fn propagate_side_by_side<R: Register, const N: usize>(
         outcomes[ready.index] = Some(Ok(Samples { states, error_estimates: Vec::new(), step_count, order }));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, Vector3};
+    use pulp::x86::V3;
+
+    use super::*;
+    use crate::dynamics::RigidSpheroid;
+    use crate::propagation::splitting::NEAR_INTEGRABLE_6_2;
+    use crate::propagation::splitting::one_motion::OneMotion;
+    use crate::solutions::free::rotated_by;
+
+    fn scene(s: [f64; 3], momentum: f64, start: f64, times: &[f64], accuracy: f64) -> AxisScene<'_> {
+        AxisScene {
+            spheroid: RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 },
+            violation: Matrix3::from_diagonal(&Vector3::from(s)),
+            initial: AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.7, 1.1) * momentum },
+            start,
+            times,
+            accuracy,
+        }
+    }
+
+    fn states(register: V3, ready: Ready<'_>) -> Vec<AxisState<f64>> {
+        let mut outcomes = [None];
+        propagate_in_lanes(register, vec![ready], &mut outcomes);
+        let [outcome] = outcomes;
+        outcome.unwrap().unwrap().states
+    }
+
+    /// Without torque the flows are exact, however large the angles of a step.
+    #[test]
+    fn fast_free_rotation_is_exact_both_ways() {
+        let Some(register) = V3::try_new() else { return };
+        for way in [1.0, -1.0] {
+            let times = [0.0, 0.01, 3.0, 6.0].map(|elapsed| 1.0 + way * elapsed);
+            let scene = scene([0.0; 3], 15.0, 1.0, &times, 1e-3);
+            let states = states(register, Ready::new(0, &scene).unwrap().unwrap());
+            for (state, time) in states.iter().zip(times) {
+                let turn = scene.initial.momentum * ((time - 1.0) / 1.3);
+                assert!((state.axis - rotated_by(&turn, &scene.initial.axis)).amax() < 3e-13, "{time}: {state:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn steps_to_a_sample_are_equal_and_none_to_the_same_time() {
+        let times = [1.0, 1.25, 1.25, 0.0];
+        let scene = scene([0.2, 0.1, -0.3], 1.0, 1.0, &times, 1e-3);
+        let ready = Ready { step: 0.3, ..Ready::new(0, &AxisScene { times: &[2.0], ..scene }).unwrap().unwrap() };
+        let ready = Ready { times: &times, ..ready };
+        assert_eq!([0, 1, 2, 3].map(|sample| ready.steps_to(sample)), [(0.0, 0), (0.25, 1), (0.0, 0), (-0.25, 5)]);
+    }
+
+    /// One motion with the same fused operations takes its rounding out after every 64 steps as well.
+    #[test]
+    fn a_lane_gives_the_bits_of_one_motion_alone() {
+        let Some(register) = V3::try_new() else { return };
+        let (scheme, step) = (&NEAR_INTEGRABLE_6_2, 0.3);
+        let times = [256.0 * step];
+        let scene = scene([0.2, 0.1, -0.3], 1.0, 0.0, &times, 1e-3);
+        let ready = Ready::new(0, &scene).unwrap().unwrap();
+        let of_body = ready.scene.clone();
+        let angles = angles(scheme, step * of_body.largest_rate);
+        let found = states(register, Ready { scheme, step, steps: 256, angles, ..ready });
+
+        let alone = OneMotion::new(scheme, &of_body.field, step, of_body.largest_rate);
+        let mut state = of_body.start;
+        alone.open(&mut state);
+        alone.advance(&mut state, of_body.casimir, 256);
+        alone.close(&mut state);
+        assert_eq!(found, [of_body.state(&state)]);
+    }
+}

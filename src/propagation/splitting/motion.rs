@@ -306,3 +306,92 @@ impl Motion<f64> for SplittingMotion<3> {
         Ok(self.scene.body_state(&self.at(t)?, t - self.span.0))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::propagation::splitting::{STRANG, Splitting};
+
+    const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+
+    fn tensor() -> Matrix3<f64> {
+        Matrix3::from_diagonal(&Vector3::new(0.3, 0.1, -0.4))
+    }
+
+    fn start() -> AxisState<f64> {
+        AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.7, 1.1) }
+    }
+
+    fn motion(span: (f64, f64), step: f64) -> Result<SplittingMotion, Error> {
+        propagate_by_splitting(&STAR, &tensor(), &start(), span, &STRANG, step)
+    }
+
+    #[test]
+    fn steps_are_finite_and_above_zero() {
+        for step in [0.0, -0.1, f64::INFINITY, f64::NAN] {
+            let Err(Error::Domain { quantity, allowed, .. }) = motion((0.0, 1.0), step) else { panic!("{step}") };
+            assert_eq!((quantity, allowed), ("step", "above zero and finite"));
+        }
+    }
+
+    #[test]
+    fn the_number_of_steps_is_the_least_even_one_but_for_rounding() {
+        let count = |duration: f64, step: f64| motion((0.0, duration), step).unwrap().step_count();
+        // 1.1 / 0.1 / 2 and the like are a rounding above a whole number.
+        for (duration, step, expected) in [(1.0, 7.0, 2), (1.0, 0.3, 4), (0.6, 0.1, 6), (2.2, 0.1, 22), (6.6, 1.1, 6)] {
+            assert_eq!(count(duration, step), expected, "{duration} / {step}");
+            assert_eq!(count(-duration, step), expected, "{duration} / {step}");
+        }
+        let above = 1.0 + 2.0 * f64::EPSILON;
+        assert_eq!([count(8.0 * above, 1.0), count(8.0 + 8e-12, 1.0)], [8, 10]);
+    }
+
+    /// 200,002 steps are kept at every third of them, with room for no more.
+    #[test]
+    fn long_motions_keep_some_of_their_states() {
+        let (step, count) = (0.01, 200_002);
+        let long = motion((0.0, step * count as f64), step).unwrap();
+        assert_eq!((long.step_count(), long.stride), (count, 3));
+        assert_eq!((long.states.len(), long.states.capacity()), (66_668, 66_668));
+        let mut alone = Splitting::new(&STAR, &tensor(), &start(), &STRANG, long.step()).unwrap();
+        let mut done = 0;
+        for whole in [1, 2, 3, 1004, 9998] {
+            alone.advance(whole - done);
+            done = whole;
+            let found = long.scene.state(&long.after(whole));
+            assert!((found.axis - alone.state().axis).amax() < 1e-11, "{whole}");
+            assert!((found.momentum - alone.state().momentum).amax() < 1e-11, "{whole}");
+        }
+        assert_relative_eq!(long.axis_state(step * count as f64).unwrap().axis.norm(), 1.0, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn between_its_steps_a_motion_goes_by_one_step_of_the_rest() {
+        let motion = motion((0.0, 8.0), 2.0).unwrap();
+        for (time, whole, rest) in [(0.7, 0, 0.7), (1.0, 0, 1.0), (4.5, 2, 0.5), (7.0, 3, 1.0)] {
+            let mut state = motion.after(whole);
+            let partial = OneMotion::new(&STRANG, &motion.scene.field, rest, motion.scene.largest_rate);
+            partial.single(&mut state, motion.scene.casimir);
+            let (found, expected) = (motion.axis_state(time).unwrap(), motion.scene.state(&state));
+            assert!((found.axis - expected.axis).amax() < 1e-15 && (found.momentum - expected.momentum).amax() < 1e-15);
+        }
+    }
+
+    /// What the product of the number of steps and their length loses is known by a fused product here.
+    #[test]
+    fn the_time_of_a_step_is_taken_without_its_rounding() {
+        let motion = motion((0.0, 700.0), 0.7).unwrap();
+        let lost = |whole: u64| (-(whole as f64)).mul_add(motion.step(), whole as f64 * motion.step());
+        let late: Vec<u64> = (740..1000).filter(|&whole| lost(whole) > 4e-14).collect();
+        assert!(late.len() > 3);
+        for whole in late {
+            let mut state = motion.after(whole);
+            let rest = OneMotion::new(&STRANG, &motion.scene.field, lost(whole), motion.scene.largest_rate);
+            rest.single(&mut state, motion.scene.casimir);
+            let found = motion.axis_state(whole as f64 * motion.step()).unwrap();
+            assert!((found.axis - motion.scene.state(&state).axis).amax() < 1e-15, "{whole}");
+        }
+    }
+}

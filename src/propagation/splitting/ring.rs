@@ -111,3 +111,15 @@ impl Ring for FusedDouble {
         Self(self.0.over(divisor.0))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quotient_by_zero_is_zero() {
+        for (divisor, quotient) in [(0.0, 0.0), (1.0, 3.0), (-2.0, -1.5)] {
+            assert_eq!((3.0_f64.over(divisor), FusedDouble(3.0).over(FusedDouble(divisor)).0), (quotient, quotient));
+        }
+    }
+}

@@ -240,4 +240,12 @@ mod tests {
             assert!(sum(power).abs() < 1e-15, "{power}: {:e}", sum(power));
         }
     }
+
+    #[test]
+    fn the_order_is_the_least_of_its_parts() {
+        for orders in [[2, 4, 6], [4, 2, 6], [6, 4, 2], [4, 6, 2]] {
+            let Scheme { name, ends, rotations, kicks, gradients, source, .. } = STRANG;
+            assert_eq!(Scheme { name, orders, ends, rotations, kicks, gradients, source }.order(), 2);
+        }
+    }
 }

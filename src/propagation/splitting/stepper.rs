@@ -114,3 +114,35 @@ impl<S: Ring> Steps<S> {
         *state = moving;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::propagation::splitting::flows::Moving;
+    use crate::propagation::splitting::{NEAR_INTEGRABLE_6_2, STRANG};
+
+    #[test]
+    fn the_longest_rotation_is_that_of_two_ends_together() {
+        let Scheme { name, orders, kicks, gradients, source, .. } = STRANG;
+        let scheme = |ends| Scheme { ends, rotations: &[-0.45, 0.1, -0.45], name, orders, kicks, gradients, source };
+        // Up to 0.09 rad, up to 0.19 and beyond the series have five terms, six and eight.
+        let terms = |ends, turn| angles(&scheme(ends), turn).terms;
+        assert_eq!((terms(Ends::Rotations, 0.19), terms(Ends::Kicks, 0.19)), (6, 5));
+        assert_eq!((terms(Ends::Rotations, 0.22), terms(Ends::Kicks, 0.22)), (8, 6));
+    }
+
+    #[test]
+    fn rounding_is_taken_out_after_every_64_steps_and_at_the_end() {
+        let field = Field::new(1.7, [0.3, -0.2, 0.5]);
+        let steps = Steps::turning(&NEAR_INTEGRABLE_6_2, &field, 0.3, angles(&NEAR_INTEGRABLE_6_2, 0.6));
+        let start = Moving::new([[0.48, 0.6, 0.64], [0.3, -0.7, 1.1]]);
+        let casimir = 0.48 * 0.3 - 0.6 * 0.7 + 0.64 * 1.1;
+        let (mut found, mut expected) = (start, start);
+        steps.advance(&mut found, casimir, 137);
+        for count in [64, 64, 9] {
+            steps.run(&mut expected, count);
+            expected.project(casimir);
+        }
+        assert_eq!(found, expected);
+    }
+}

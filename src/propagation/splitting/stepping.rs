@@ -69,3 +69,31 @@ impl Splitting {
         self.scene.state(&closed)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::propagation::AxisMotion;
+    use crate::propagation::splitting::{STRANG, propagate_by_splitting};
+
+    #[test]
+    fn steps_without_a_record_are_those_of_the_motion_that_is_kept() {
+        let star = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+        let s = Matrix3::from_diagonal(&Vector3::new(0.3, 0.1, -0.4));
+        let start = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.7, 1.1) };
+        let steps = |step| Splitting::new(&star, &s, &start, &STRANG, step);
+        for step in [0.0, f64::INFINITY, f64::NAN] {
+            assert!(steps(step).is_err(), "{step}");
+        }
+        for step in [1.0, -0.25] {
+            let mut steps = steps(step).unwrap();
+            let kept = propagate_by_splitting(&star, &s, &start, (0.0, 8.0 * step), &STRANG, step.abs()).unwrap();
+            steps.advance(3);
+            steps.advance(2);
+            let (found, expected) = (steps.state(), kept.axis_state(5.0 * step).unwrap());
+            assert!((found.axis - expected.axis).amax() < 1e-14 && (found.momentum - expected.momentum).amax() < 1e-14);
+        }
+    }
+}

@@ -252,4 +252,19 @@ mod tests {
         let v = [FusedDouble(0.3), FusedDouble(-1.1), FusedDouble(0.7)];
         assert_relative_eq!(product(&v, &[2.0, 5.0, -3.0]).0, 0.6 - 5.5 - 2.1, max_relative = 1e-15);
     }
+
+    #[test]
+    fn rounding_is_taken_out_of_the_state_and_not_of_its_derivatives() {
+        let of = |v: [f64; 3]| v.map(FusedDouble);
+        let state = Moving::new([of([0.48 + 1e-9, 0.6, 0.64]), of([0.3, -0.7, 1.1])]);
+        let tangents = Tangents { vectors: [of([0.1, 0.2, 0.3]), of([0.4, 0.5, 0.6])], tensor: [FusedDouble(0.7); 6] };
+        let mut moving = WithTangents { state, tangents, sigma: [0.3, -0.2, 0.5] };
+        let casimir = FusedDouble(0.48 * 0.3 - 0.6 * 0.7 + 0.64 * 1.1);
+        moving.project(casimir);
+        let mut expected = state;
+        expected.project(casimir);
+        assert_eq!(moving.state, expected);
+        assert_ne!(moving.state, state);
+        assert_eq!(moving.tangents.vectors, tangents.vectors);
+    }
 }
