@@ -64,7 +64,7 @@ fn denormal_inputs_give_the_limit() {
     for case in cases().iter().filter(|case| case.goes_to_zero()) {
         let found = case.measure_denormal();
         let label = table::label(case);
-        assert_eq!(found.without_limit, 0, "{label}");
+        assert!(found.without_limit == 0 && found.compared > 10, "{label}: {found:?}");
         let (ulp, bound) = (found.errors.ulp, case.class.bound());
         assert!(ulp <= bound, "{label}: {ulp} ulp of result {} at {:?}", found.errors.component, found.errors.place);
         sweeps += 1;

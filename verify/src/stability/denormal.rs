@@ -37,8 +37,9 @@ pub struct Denormal {
 }
 
 /// A result at a small input, from those at [`FROM`]: constant, a power, or linear in the logarithm.
-fn limit(results: [f64; 3], at: f64) -> Option<f64> {
-    let [far, near, nearer] = results;
+fn limit(results: [Wide; 3], at: f64) -> Option<f64> {
+    let [before, slope] = [results[0] - results[1], results[1] - results[2]].map(|difference| difference.high());
+    let [far, near, nearer] = results.map(|result| result.high());
     if far == near && near == nearer {
         return Some(nearer);
     }
@@ -49,7 +50,6 @@ fn limit(results: [f64; 3], at: f64) -> Option<f64> {
         // Each factor of the power by itself: no part of it underflows before the whole does.
         return Some(nearer * (at / FROM[2]).powf(half));
     }
-    let (before, slope) = (far - near, near - nearer);
     let logarithm = (before / slope - 1.0).abs() < 1e-12;
     logarithm.then(|| nearer + slope * (at / FROM[2]).ln() / (FROM[1] / FROM[2]).ln())
 }
@@ -73,12 +73,16 @@ impl Case {
                 x[0] = sign * from;
                 (self.oracle)(&x.iter().map(|&x| Wide::from_f64(x)).collect::<Vec<_>>())
             });
+            // The other inputs, as they are now, may lie outside of the domain.
+            if results.iter().flatten().any(|result| result.high().is_nan()) {
+                continue;
+            }
             let scales = self.scales(&x, &results[2]);
             for place in PLACES {
                 x[0] = sign * place;
                 for (k, value) in (self.kernel)(&x).into_iter().enumerate() {
-                    let [far, near, nearer] = results.each_ref().map(|all| all[k].high());
-                    let Some(exact) = limit([far, near, nearer], place) else {
+                    let nearer = results[2][k].high();
+                    let Some(exact) = limit(results.each_ref().map(|all| all[k]), place) else {
                         found.without_limit += 1;
                         continue;
                     };
