@@ -43,19 +43,21 @@ pub fn separatrix_motion(
     let wanted = Wanted { constant_c, inertia: inertia_xx, hamiltonian, along, third: 0.0 };
     let plane = wanted.plane(&values, [order[0], order[1]]);
     let [mut left, mut right] = wanted.about_second_axis(values.max() - values.min());
-    let sign = plane.slope(left);
-    let product = sign * plane.slope(right);
+    let first = plane.slope(left);
+    let product = first * plane.slope(right);
     Error::unless(
         product < 0.0,
         "slope of K along the plane of the largest and the middle eigenvalue, product at both ends",
         product,
         "below zero: n turns fast about an L near the middle axis",
     )?;
-    for _ in 0..80 {
+    loop {
         let middle = 0.5 * (left + right);
-        if plane.slope(middle) * sign > 0.0 { left = middle } else { right = middle }
+        if middle <= left || middle >= right {
+            return Ok(plane.state(middle));
+        }
+        if (plane.slope(middle) > 0.0) == (first > 0.0) { left = middle } else { right = middle }
     }
-    Ok(plane.state(0.5 * (left + right)))
 }
 
 #[cfg(test)]
