@@ -306,4 +306,14 @@ mod tests {
         growth.add(&error(f64::NAN), [0.0; 2]);
         assert_eq!(growth.estimate(None), 2.5);
     }
+
+    /// What rounding makes asymmetric is taken away: `kick` would carry it with the wrong sign.
+    #[test]
+    fn a_covariance_is_symmetric_after_a_rotation() {
+        let given = matrix(0.7);
+        let mut covariance = Covariance { rotation: given, ..Covariance::default() };
+        covariance.rotate(&Matrix3::identity(), &Matrix3::zeros());
+        assert_relative_eq!(covariance.rotation, (given + given.transpose()) / 2.0, max_relative = 1e-14);
+        assert!((given - given.transpose()).amax() > 0.1);
+    }
 }

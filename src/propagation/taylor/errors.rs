@@ -193,3 +193,41 @@ fn difference<const V: usize>(state: &Columns<V>, small: &Columns<V>, rate: f64)
     }
     made
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::propagation::taylor::step_size::Work;
+
+    /// Half a unit in the last place of the largest change of a direction and of that of the momentum, six times their root of squares, by
+    /// hand for a step backwards whose coefficients are any numbers.
+    #[test]
+    fn a_step_rounds_its_changes_of_directions_and_of_the_momentum() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+        let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 2.9)];
+        let setup =
+            Setup::<f64, 2>::new((true, Work::Latent), &spheroid, &violation, vectors, (0.0, -1.0), 1e-10).unwrap();
+        let mut errors = TaylorErrors::of(&setup);
+        let unit = errors.unit / 1.3;
+        let strength = (2.0_f64 * 1.3).sqrt() * (0.8 * violation.norm()).sqrt();
+        let momentum_unit = (vectors[1].norm() + strength) * unit;
+        let h = -0.4;
+        let column = |x: f64, y: f64, z: f64| Vector3::new(x, y, z);
+        let slow = [Vector3::z(), column(0.05, 0.02, 0.1)];
+        let series = [
+            Columns::<2>::from_columns(&slow),
+            Columns::from_columns(&[column(0.3, -0.5, 0.2), column(2.0, -1.5, 0.4)]),
+            Columns::from_columns(&[column(0.7, 0.1, -0.9), column(-3.0, 1.0, 2.2)]),
+            Columns::zeros(),
+        ];
+        let turned = column(0.3 + 0.28, 0.5 + 0.04, 0.2 + 0.36).norm() * 0.4;
+        let kicked = column(2.0 + 1.2, 1.5 + 0.4, 0.4 + 0.88).norm() * 0.4 * unit;
+        assert!(slow[1].norm() * unit * 0.4 < turned && errors.flow.strength() * 0.4 < kicked);
+        let step = errors.step_of_columns(&series, h, &series[0]);
+        let expected = 6.0 * 0.5 * f64::EPSILON * turned.hypot(kicked / momentum_unit);
+        assert_relative_eq!(step.rounded, expected, max_relative = 1e-12);
+    }
+}

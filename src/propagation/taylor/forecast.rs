@@ -51,3 +51,20 @@ fn forecast<const V: usize>(
     let steps = (duration.abs() / setup.drive().first_step(Plain::new())).ceil().max(1.0);
     Ok(TaylorForecast { order: setup.order, steps, turning_rate: setup.scale.turning_rate })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_short_motion_is_one_step() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+        let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.5, 1.2));
+        let initial = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
+        for (duration, with_equatorial_axis) in [(0.0, true), (1e-3, false), (-1e-3, true)] {
+            let forecast = taylor_forecast(&spheroid, &violation, &initial, with_equatorial_axis, duration, 1e-10);
+            assert_eq!(forecast.unwrap().steps, 1.0, "{duration}");
+        }
+    }
+}

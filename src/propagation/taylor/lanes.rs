@@ -124,3 +124,45 @@ fn propagate_alike<R: Register>(a: Lanes<R>, motions: &[Ready<'_>], outcomes: &m
         state.add(a, &change(a, order, |k| series[k], h));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix3;
+
+    use super::*;
+    use crate::dynamics::RigidSpheroid;
+    use crate::propagation::{ErrorEstimates, axis_states_at};
+
+    /// More motions than lanes, half of them backwards: the same bits as alone, whatever was in a lane before, and the motion of one that
+    /// goes by itself.
+    #[test]
+    fn a_motion_in_a_lane_is_that_alone() {
+        let Some(register) = pulp::x86::V3::try_new() else { return };
+        let times = |i: usize| {
+            let end = if i.is_multiple_of(2) { 4.0 + 0.3 * i as f64 } else { -3.0 - 0.2 * i as f64 };
+            [0.31 * end, 0.55 * end, 0.78 * end, end]
+        };
+        let times: Vec<_> = (0..11).map(times).collect();
+        let scene = |i: usize| AxisScene {
+            spheroid: RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 },
+            violation: Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, -0.3)) * (1.0 + 0.01 * i as f64),
+            initial: AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.5, 1.2) },
+            start: 0.0,
+            times: &times[i],
+            accuracy: 1e-9,
+        };
+        let scenes: Vec<_> = (0..11).map(scene).collect();
+        let together = axis_states_in_lanes(register, &scenes);
+        for (scene, together) in scenes.iter().zip(&together) {
+            let alone = axis_states_in_lanes(register, core::slice::from_ref(scene));
+            assert_eq!(&alone[0], together);
+            let AxisScene { spheroid, violation, initial, start, times, accuracy } = scene;
+            let wanted = ErrorEstimates::NotWanted;
+            let exact = axis_states_at(spheroid, violation, initial, *start, times, *accuracy, wanted).unwrap();
+            for (found, exact) in together.as_ref().unwrap().states.iter().zip(&exact.states) {
+                let error = (found.axis - exact.axis).amax().max((found.momentum - exact.momentum).amax());
+                assert!(error < 1e-7, "{times:?}: {error:e}");
+            }
+        }
+    }
+}

@@ -354,3 +354,59 @@ impl<S: Real> Motion<S> for TaylorMotion<S> {
         Some(SeriesProjection::new(&motion.setup, &motion.steps, motion.fused?, in_body, direction))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    /// Also for a time that rounding puts before the first of the steps that are kept.
+    #[test]
+    fn the_step_of_a_time_does_not_depend_on_that_before() {
+        let starts = [3.0, 5.0, 6.0, 9.0].map(Compensated::new).to_vec();
+        let mut steps = Steps::<f64, 2> { starts, coefficients: Vec::new(), length: 1 };
+        let times = [(2.9, 0), (3.0, 0), (4.9, 0), (5.0, 1), (5.9, 1), (6.0, 2), (8.9, 2), (9.0, 3), (11.9, 3)];
+        for (elapsed, step) in times {
+            assert_eq!(steps.index_at(elapsed, 12.0), step, "{elapsed}");
+            for near in 0..4 {
+                assert_eq!(steps.index_near(near, elapsed, 12.0), step, "{elapsed} near {near}");
+            }
+        }
+        steps.clear();
+        assert_eq!(steps.count(), 0);
+    }
+
+    #[test]
+    fn without_vector_instructions_the_frame_is_the_given_one() {
+        assert_eq!(work_of(None), (false, Work::Quadratic));
+        if let Some(fused) = detect_fused() {
+            assert_eq!(work_of(Some(fused)), (true, Work::Latent));
+        }
+    }
+
+    /// A start that rounding takes out of the time since it: the same steps, and what the turn in the lost time adds.
+    #[test]
+    fn what_rounding_makes_of_the_time_is_in_the_estimated_error() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.6, constant_c: 0.8 };
+        let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        let initial = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.5, 1.2) };
+        let kept = |start: f64| {
+            let motion = propagate_axis(&spheroid, &violation, &initial, (start, 30.0), 1e-6).unwrap();
+            motion.error_estimate(30.0)
+        };
+        let sampled = |start: f64| {
+            let wanted = ErrorEstimates::Wanted;
+            axis_states_at(&spheroid, &violation, &initial, start, &[30.0], 1e-6, wanted).unwrap().error_estimates[0]
+        };
+        let size: f64 = violation.norm();
+        let momentum = initial.momentum.norm() + (2.6 * 0.8 * size).sqrt();
+        let turning = momentum / 1.3 * (1.0 + 0.3 / 1.6);
+        // Half a unit in the last place of 30 is 1.8e-15.
+        for start in [1.5e-15, -1.5e-15] {
+            for more in [kept(start) - kept(0.0), sampled(start) - sampled(0.0)] {
+                assert_relative_eq!(more, 1.5e-15 * turning, max_relative = 1e-3);
+            }
+        }
+    }
+}

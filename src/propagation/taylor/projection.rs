@@ -248,4 +248,45 @@ mod tests {
             }
         }
     }
+
+    fn tumbling(span: (f64, f64)) -> crate::propagation::TaylorMotion<f64> {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.7, constant_c: 0.8 };
+        let violation = Matrix3::from_diagonal(&Vector3::new(0.21, -0.1, -0.11));
+        let axis = Vector3::new(0.6, 0.0, 0.8);
+        let start = BodyState { axis, momentum: Vector3::new(0.5, -0.9, 1.7), equatorial_axis: Vector3::y() };
+        propagate(&spheroid, &violation, &start, span, 1e-13).unwrap()
+    }
+
+    /// Sine and cosine from the nearest whole radian, to the last places, farthest from it and for the first time asked.
+    #[test]
+    fn the_turn_about_the_axis_has_all_digits() {
+        let motion = tumbling((0.0, 8.0));
+        for angle in [0.49999, -0.49999, 0.31, 1.2, 0.8, -1.3, 2.49] {
+            for (x, y) in [(1.0, 0.0), (0.0, 1.0)] {
+                let in_body = Vector3::new(x, y, 0.3);
+                let Some(projection) = motion.projection(&in_body, &Vector3::z()) else { return };
+                let t = angle / projection.setup.rate_about_axis;
+                let (sin, cos) = (projection.setup.rate_about_axis * t).sin_cos();
+                let exact = [x * cos - y * sin, x * sin + y * cos];
+                let error = projection.about_axis(t).iter().zip(exact).fold(0.0_f64, |e, (a, b)| e.max((a - b).abs()));
+                assert!(error < 3e-16, "{angle}: {error:e}");
+            }
+        }
+    }
+
+    /// Where two terms are enough, and where they are not any more.
+    #[test]
+    fn just_after_the_start_of_a_series_the_projection_is_that_of_the_state() {
+        let motion = tumbling((0.0, 8.0));
+        let beam = Beam::new(0.7, 0.9, 0.2);
+        let n = Vector3::new(0.36, 0.48, 0.8);
+        let Some(projection) = motion.projection(&beam.axis, &n) else { return };
+        let start = projection.steps.starts[2].high;
+        for h in [0.0, 3e-10, 8e-10, 1.2e-9, 3e-7, 8e-7] {
+            let t = start + h * projection.setup.scale.time;
+            let exact = n.dot(&beam.direction(&motion.state(t).unwrap()));
+            let error = (projection.at(t).unwrap()[0] - exact).abs();
+            assert!(error < 3e-15, "{h}: {error:e}");
+        }
+    }
 }

@@ -195,3 +195,24 @@ impl<T> Samples<T> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_in_the_order_in_which_a_motion_reaches_them() {
+        assert_eq!(span_of(0.5, &[0.5, 1.0, 1.0, 3.0]), Ok((0.5, 3.0)));
+        assert_eq!(span_of(0.5, &[0.5, -1.0, -1.0, -3.0]), Ok((0.5, -3.0)));
+        let refused = |start: f64, times: &[f64]| match span_of(start, times) {
+            Err(Error::Domain { value, .. }) => value,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(refused(0.5, &[]), 0.0);
+        assert_eq!(refused(0.5, &[2.0, 1.0, 3.0]), 1.0);
+        assert_eq!(refused(0.5, &[-2.0, -1.0, -3.0]), -1.0);
+        assert_eq!(refused(0.5, &[4.0, 3.0]), 4.0);
+        assert_eq!(refused(0.5, &[-4.0, -3.0]), -4.0);
+        assert_eq!(refused(0.5, &[0.4, 3.0]), 0.4);
+    }
+}

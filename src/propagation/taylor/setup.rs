@@ -137,3 +137,22 @@ impl<S: Real> Setup<S, 3> {
         body_state(vectors, self.rate_about_axis * (t - S::from_f64(self.span.0)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `3 - (1 + u)` is exact, `3 + (1 + u)` loses the unit `u` in the last place of one.
+    #[test]
+    fn what_rounding_takes_from_the_time_since_the_start_is_an_error_at_the_turning_rate() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+        let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 2.9)];
+        let (one, lost) = (1.0 + f64::EPSILON, f64::EPSILON);
+        for (span, t, lost) in [((one, 5.0), 3.0, 0.0), ((-one, 5.0), 3.0, lost), ((one, -5.0), -3.0, lost)] {
+            let setup = Setup::new((true, Work::Latent), &spheroid, &violation, vectors, span, 1e-9).unwrap();
+            assert!(setup.scale.turning_rate > 2.0);
+            assert_eq!(setup.error_of_time(t), lost * setup.scale.turning_rate);
+        }
+    }
+}

@@ -143,3 +143,91 @@ fn sum_of_products_with_rest(a: &Vector3<f64>, b: &Vector3<f64>, c: f64) -> (f64
     }
     (sum, rest)
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::double_double::DoubleDouble;
+    use crate::propagation::taylor::step_size::Work;
+    use crate::propagation::third_angle::rate_about_axis;
+
+    const SPHEROID: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.1, constant_c: 0.8 };
+
+    fn setup<const V: usize>(violation: &Matrix3<f64>, vectors: [Vector3<f64>; V]) -> Setup<f64, V> {
+        Setup::new((true, Work::Latent), &SPHEROID, violation, vectors, (0.0, 1.0), 1e-10).unwrap()
+    }
+
+    /// `U - (B^T T B - U) + (S U + U S)` with `S = (B^T B - 1) / 2`, in 32 digits.
+    #[test]
+    fn the_tensor_solved_for_differs_by_what_was_rounded() {
+        let given = Matrix3::new(0.21, 0.04, -0.03, 0.04, 0.0011, 0.06, -0.03, 0.06, -0.003);
+        let setup = setup(&given, [Vector3::z(), Vector3::new(0.1, 0.2, 2.9)]);
+        let found = SharedRounding::of(&setup).0.tensor;
+        let (back, used) = (setup.frame.given_from_series().unwrap(), setup.frame.violation);
+        let isotropic = given.trace() / 3.0;
+        let sum = |term: &dyn Fn(usize) -> DoubleDouble| term(0) + term(1) + term(2);
+        let traceless = |i: usize, j: usize| DoubleDouble::sum(given[(i, j)], if i == j { -isotropic } else { 0.0 });
+        let turned = |i: usize, j: usize| {
+            let half = |k: usize| sum(&|l| traceless(k, l) * back[(l, j)].into());
+            sum(&|k| half(k) * back[(k, i)].into()) - used[(i, j)].into()
+        };
+        let stretch = |i: usize, j: usize| {
+            let unit = if i == j { 1.0 } else { 0.0 };
+            (sum(&|k| DoubleDouble::product(back[(k, i)], back[(k, j)])) - unit.into()) * 0.5.into()
+        };
+        let exact = Matrix3::from_fn(|i, j| {
+            let stretched = |k: usize| stretch(i, k) * used[(k, j)].into() + stretch(k, j) * used[(i, k)].into();
+            (sum(&stretched) - turned(i, j)).high * (2.0 * 0.8 * setup.scale.time)
+        });
+        assert!((found - exact).amax() < 1e-9 * exact.amax(), "{found} {exact}");
+        assert!((0..3).any(|i| traceless(i, i).low != 0.0));
+    }
+
+    #[test]
+    fn the_rate_about_the_axis_differs_by_what_was_rounded() {
+        let start = [Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.5, 1.2)];
+        let rate = rate_about_axis(&SPHEROID, &start[0], &start[1]);
+        let [xx, zz] = [1.3, 0.1];
+        let difference = DoubleDouble::sum(zz, -xx);
+        assert_ne!(difference.low, 0.0);
+        let dot = DoubleDouble::dot(&start[0].into(), &start[1].into());
+        let exact = DoubleDouble::product(rate, xx) * zz.into() + difference * dot;
+        let found = excess_of_rate_about_axis(&SPHEROID, &start, rate);
+        assert_relative_eq!(found, exact.high / (xx * zz), max_relative = 1e-10);
+    }
+
+    #[test]
+    fn an_axis_that_is_short_and_not_normal_to_the_other_is_off_the_frame() {
+        let axis = Vector3::new(0.6, 0.0, 0.8);
+        let vectors = |across: f64| [axis * (1.0 - 1e-10), Vector3::z(), Vector3::y() + axis * across];
+        for across in [3e-10, -3e-10] {
+            let off_frame = SharedRounding::of(&setup(&Matrix3::zeros(), vectors(across))).0.off_frame;
+            assert_relative_eq!(off_frame, 8e-10, max_relative = 1e-5);
+        }
+    }
+
+    /// By fused multiplication, of twelve coefficients. A rate of one is not exact in its parts, one of zero is.
+    #[test]
+    fn shares_of_the_rates_are_rounded() {
+        let violation = Matrix3::from_diagonal(&Vector3::new(0.021, 0.021, -0.042));
+        let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.0, constant_c: 0.8 };
+        let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 1.1)];
+        let setup = Setup::new((true, Work::Latent), &spheroid, &violation, vectors, (0.0, 1.0), 1e-10).unwrap();
+        let rates = setup.drive().rates();
+        assert_eq!((rates.axis, rates.momentum_of_principal[2]), (1.0, 0.0));
+        let found = excess_of_shares(&setup);
+        assert_eq!(found.len(), 12);
+        for (k, [axis, momentum]) in found.iter().enumerate() {
+            let divisor = (k + 1) as f64;
+            let excess = |rate: f64| (rate / divisor).mul_add(divisor, -rate) / rate;
+            assert_eq!(*axis, Vector3::repeat(excess(1.0)));
+            for i in [0, 1] {
+                assert_relative_eq!(momentum[i], excess(rates.momentum_of_principal[i]), max_relative = 1e-12);
+            }
+            assert_eq!(momentum.z, 0.0);
+        }
+        assert_ne!(found[2][0].x, 0.0);
+    }
+}

@@ -127,4 +127,27 @@ mod tests {
         assert_eq!(coarse_log2(0.0), f64::NEG_INFINITY);
         assert_eq!(coarse_exp2(0.0), 1.0);
     }
+
+    #[test]
+    fn the_momentum_counts_in_its_unit() {
+        let scale = Scale { momentum: 2.5, turning_rate: 1.7, time: 0.5 };
+        assert_eq!(scale.size_of_both(0.3, 1.0), 0.4);
+        assert_eq!(scale.size_of_both(0.5, 1.0), 0.5);
+    }
+
+    #[test]
+    fn coefficients_out_of_range_allow_no_step() {
+        let scale = Scale { momentum: 2.5, turning_rate: 1.7, time: 0.5 };
+        for sizes in [[f64::INFINITY, 1.0], [1.0, f64::NAN]] {
+            assert_eq!(step_size(sizes, 10, &scale, 1e-9), 0.0);
+        }
+        assert!(step_size([1.0, 1.0], 10, &scale, 1e-9) > 0.0);
+    }
+
+    #[test]
+    fn a_body_at_rest_without_torque_has_units_of_one() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+        let scale = Scale::of(&spheroid, &Matrix3::<f64>::zeros(), &Vector3::zeros());
+        assert_eq!((scale.momentum, scale.turning_rate, scale.time), (1.3, 0.0, 1.0));
+    }
 }

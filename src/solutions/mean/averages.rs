@@ -61,3 +61,28 @@ pub(super) fn mean_of_ratio<S: Real>(complement: S, p: S, [a, b]: [S; 2]) -> S {
     }
     (second + first * whole) / ((whole + root) * power)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By the sum over the amplitude, which converges exponentially; and close to the separatrix `1 / ln(4 / k')`, to the last digits.
+    #[test]
+    fn the_mean_of_cn_squared_has_its_digits_at_any_parameter() {
+        for parameter in [0.0, 1e-9, 0.2, 0.49, 0.51, 0.8, 0.93_f64] {
+            let points = 400;
+            let (mut whole, mut part) = (0.0, 0.0);
+            for i in 0..points {
+                let (sin, cos) = (core::f64::consts::PI * (f64::from(i) + 0.5) / f64::from(points)).sin_cos();
+                let weight = 1.0 / (1.0 - parameter * sin * sin).sqrt();
+                (whole, part) = (whole + weight, part + weight * cos * cos);
+            }
+            let found = mean_of_cn2(parameter, (1.0 - parameter).sqrt());
+            assert!((found - part / whole).abs() < 2e-14, "{parameter}");
+        }
+        for complement in [1e-11, 1e-12, 1e-14, 1e-15_f64] {
+            let (found, exact) = (mean_of_cn2(1.0, complement), 1.0 / (4.0 / complement).ln());
+            assert!((found / exact - 1.0).abs() < 1.5e-15, "{complement}: {:e}", found / exact - 1.0);
+        }
+    }
+}

@@ -69,3 +69,27 @@ pub fn period_near_separatrix(growth: f64, complement: f64) -> Result<f64, Error
     Error::unless(complement > 0.0 && complement <= 1.0, "k'^2", complement, "above zero, at most 1")?;
     Ok(4.0 / growth * (4.0 / complement.sqrt()).ln())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_period_needs_growth_and_a_distance_from_the_separatrix() {
+        let exact = 4.0 / 0.7 * (4.0 / 0.3_f64.sqrt()).ln();
+        assert!((period_near_separatrix(0.7, 0.3).unwrap() - exact).abs() < 1e-14);
+        assert!(period_near_separatrix(0.7, 1.0).is_ok());
+        for (growth, complement) in [
+            (0.0, 0.3),
+            (-0.7, 0.3),
+            (f64::INFINITY, 0.3),
+            (f64::NAN, 0.3),
+            (0.7, 0.0),
+            (0.7, -0.3),
+            (0.7, 1.0 + f64::EPSILON),
+            (0.7, f64::NAN),
+        ] {
+            assert!(period_near_separatrix(growth, complement).is_err(), "{growth} {complement}");
+        }
+    }
+}

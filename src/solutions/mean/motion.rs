@@ -334,3 +334,84 @@ impl<S: Real> MeanMotion<S> {
         self.state_at(&self.phases(t))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use num_dual::Dual64;
+
+    use super::*;
+
+    fn about<S: Real>(axis: [f64; 3], values: [f64; 3], momentum: [S; 3]) -> MeanMotion<S> {
+        let [inertia_xx, inertia_zz, constant_c] = [1.3, 1.6, 0.8].map(S::from_f64);
+        let [axis, equatorial_axis] = [axis, [0.0, 1.0, 0.0]].map(|v| Vector3::from(v.map(S::from_f64)));
+        let initial = BodyState { axis, momentum: momentum.into(), equatorial_axis };
+        let s = PrincipalCoefficients::new(values.map(S::from_f64));
+        let spheroid = RigidSpheroid { inertia_xx, inertia_zz, constant_c };
+        MeanMotion::new(&spheroid, &s, &initial, MeanOrder::First).unwrap()
+    }
+
+    fn motion<S: Real>(values: [f64; 3], momentum: [S; 3]) -> MeanMotion<S> {
+        about([0.6, 0.0, 0.8], values, momentum)
+    }
+
+    /// So weak a tensor that `L` keeps its bits in the transformation to the mean motion.
+    const WEAK: [f64; 3] = [1e-17, 0.0, -1e-17];
+
+    #[test]
+    fn on_the_separatrix_the_phase_is_not_taken_modulo_a_turn() {
+        let motion = motion(WEAK, [1.0, 1.0, 1.0]);
+        assert!(!motion.top.is_periodic());
+        let rate = motion.rates().slow;
+        for angle in [0.4, 3.0, 9.7, 20.0, -20.0, -4.1] {
+            let found = motion.phases_at([angle / rate, 0.0]).slow;
+            assert_relative_eq!(found, motion.top.start() + angle, max_relative = 1e-13);
+        }
+    }
+
+    /// `16 eps` of a rotation, over the root of `k'`, which counts from `1e-16` on; of `n` and of `L`.
+    #[test]
+    fn rounding_is_magnified_near_the_separatrix() {
+        let motion = motion(WEAK, [1.0, 1.0, 1.0]);
+        assert_relative_eq!(motion.rounding(0.0), 2.0 * 16.0 * f64::EPSILON / 1e-8, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn a_resting_momentum_and_an_isotropic_tensor_have_no_derivatives() {
+        let refused = |motion: MeanMotion<f64>| match motion.require_derivatives() {
+            Err(Error::Domain { value, .. }) => Some(value),
+            _ => None,
+        };
+        assert_eq!(refused(about([0.0, 0.0, 1.0], [0.02, 0.01, -0.03], [0.0, 0.0, 2.0])), Some(0.0));
+        assert_eq!(refused(motion([0.02, 0.01, -0.03], [0.3, -0.5, 2.0])), None);
+        // What rounding leaves of the traceless part of equal values is equal: no difference, whatever its sign.
+        let left = [0.1, 0.2, 0.3, 0.7, 1.1, 1.7, -0.1, -0.7].map(|value: f64| {
+            assert_eq!(refused(motion([value; 3], [0.3, -0.5, 2.0])), Some(0.0), "{value}");
+            value - (value + value + value) / 3.0
+        });
+        assert!(left.iter().any(|left| *left > 0.0) && left.iter().any(|left| *left < 0.0), "{left:?}");
+    }
+
+    #[test]
+    fn a_turning_rate_has_no_sign() {
+        let motion = motion([0.02, 0.01, -0.03], [0.3, -0.5, 2.0]);
+        let rate = motion.turning_rate();
+        assert_relative_eq!(rate, motion.rates().about_momentum, max_relative = 1e-14);
+        let mut turning = motion.turning;
+        turning[1] = DoubleDouble::default() - turning[1];
+        assert_eq!(MeanMotion { turning, ..motion }.turning_rate(), rate);
+    }
+
+    /// The slopes of phases grow with both parts of a time.
+    #[test]
+    fn derivatives_of_phases_take_the_whole_time() {
+        let momentum = [Dual64::new(0.3, 1.0), Dual64::from(-0.5), Dual64::new(2.0, 0.5)];
+        let motion = motion([0.02, 0.01, -0.03], momentum);
+        let rates = motion.rates();
+        let found = motion.phases_at([30.0, 12.0]);
+        assert!((motion.starts.slow + rates.slow * 42.0).eps.abs() > 0.1);
+        assert_relative_eq!(found.slow.eps, (motion.starts.slow + rates.slow * 42.0).eps, max_relative = 1e-12);
+        assert_relative_eq!(found.about_momentum.eps, rates.about_momentum.eps * 42.0, max_relative = 1e-12);
+        assert_relative_eq!(found.about_axis.eps, rates.about_axis.eps * 42.0, max_relative = 1e-12);
+    }
+}

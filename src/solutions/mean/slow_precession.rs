@@ -97,4 +97,33 @@ mod tests {
         assert!(of(Vector3::new(0.0, 1.0, 1e-3)).is_ok_and(|found| found.axis == 2));
         assert!(of(Vector3::new(1e-3, 1.0, 0.0)).is_ok_and(|found| found.axis == 0));
     }
+
+    /// Two equal eigenvalues leave their axis to the third: `L` goes round it, and rests where it is normal to it.
+    #[test]
+    fn about_an_axis_of_symmetry_it_goes_round_that_axis() {
+        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+        let n = Vector3::new(0.6, 0.0, 0.8);
+        for (values, momentum, axis) in [
+            ([0.02, -0.01, -0.01], Vector3::new(0.0, 0.6, 0.8), 0),
+            ([-0.01, 0.02, -0.01], Vector3::new(-0.6, 0.0, 0.8), 1),
+            ([0.01, 0.01, -0.02], Vector3::new(0.6, 0.8, 0.0), 2),
+        ] {
+            let found = slow_precession(&spheroid, &PrincipalCoefficients::new(values), &momentum, &n).unwrap();
+            assert_eq!(found, SlowPrecession { axis, rate: 0.0 });
+        }
+    }
+
+    /// The distance from the separatrix is relative: the rate grows with the tensor, however weak that is.
+    #[test]
+    fn a_weak_tensor_is_no_separatrix() {
+        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+        let (momentum, n) = (Vector3::new(0.0, 1.0, 1e-3), Vector3::new(0.6, 0.0, 0.8));
+        let rate = |factor: f64| {
+            let s = PrincipalCoefficients::new([0.02 * factor, 0.01 * factor, -0.04 * factor]);
+            slow_precession(&spheroid, &s, &momentum, &n).unwrap().rate
+        };
+        for factor in [1e-3, 1e-15, 1e12] {
+            assert!((rate(factor) / (rate(1.0) * factor) - 1.0).abs() < 1e-12, "{factor}");
+        }
+    }
 }

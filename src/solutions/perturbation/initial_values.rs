@@ -64,12 +64,8 @@ pub fn constants_from_initial_values<S: Real>(
             beta_rate: initial.beta_rate.re(),
         },
     };
-    let (mut found, jacobian) = real.solve()?.into_generic::<S>();
-    let inverse = jacobian.try_inverse().ok_or(Error::NotConverged {
-        what: "constants from initial values, Eq. (34)",
-        iterations: 0,
-        residual: 0.0,
-    })?;
+    let Root { point, inverse } = real.solve()?;
+    let mut found = point.map(S::from_f64);
     let generic = Inversion { kind, spheroid: *spheroid, s: *s, spin, initial: *initial };
     // Each step with the real inverse makes the derivatives right to one more order.
     for _ in 0..3 {
@@ -92,13 +88,8 @@ struct Inversion<S> {
 
 struct Root {
     point: Vector2<f64>,
-    jacobian: Matrix2<f64>,
-}
-
-impl Root {
-    fn into_generic<S: Scalar>(self) -> (Vector2<S>, Matrix2<f64>) {
-        (self.point.map(S::from_f64), self.jacobian)
-    }
+    /// Of the Jacobian there.
+    inverse: Matrix2<f64>,
 }
 
 impl<S: Scalar> Inversion<S> {
@@ -194,9 +185,157 @@ impl Inversion<f64> {
                 return None;
             }
             if size < 1e-12 {
-                return Some(Root { point: x, jacobian: Self::jacobian(lifted, &x) });
+                return Some(Root { point: x, inverse: Self::jacobian(lifted, &x).try_inverse()? });
             }
         }
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use num_dual::Dual3_64;
+
+    use super::*;
+
+    fn body<S: Scalar>(inertia_zz: f64, constant_c: f64) -> RigidSpheroid<S> {
+        let [inertia_xx, inertia_zz, constant_c] = [1.0, inertia_zz, constant_c].map(S::from_f64);
+        RigidSpheroid { inertia_xx, inertia_zz, constant_c }
+    }
+
+    fn angles([alpha, beta, alpha_rate, beta_rate]: [f64; 4]) -> AxisAngles<f64> {
+        AxisAngles { alpha, beta, alpha_rate, beta_rate }
+    }
+
+    fn assert_same(found: &AxisAngles<f64>, exact: &AxisAngles<f64>) {
+        for (found, exact) in [
+            (found.alpha, exact.alpha),
+            (found.beta, exact.beta),
+            (found.alpha_rate, exact.alpha_rate),
+            (found.beta_rate, exact.beta_rate),
+        ] {
+            assert_relative_eq!(found, exact, max_relative = 1e-12, epsilon = 1e-13);
+        }
+    }
+
+    /// Here the solution of the smallest `|A|` is met from the first, and from the last, of the inclinations of the grid alone; the next
+    /// ones have 0.26 and 0.88.
+    #[test]
+    fn the_grid_of_starts_reaches_both_poles() {
+        for (inertia_zz, s, initial, amplitude) in [
+            (1.42, [0.044, -0.049, -0.018], [-1.24, 0.123, 1.77, 0.08], 0.15),
+            (1.67, [-0.026, 0.069, 0.062], [-0.23, 2.99, -0.28, 0.78], 0.82),
+        ] {
+            let (spheroid, s, initial) = (body(inertia_zz, 1.0), PrincipalCoefficients::new(s), angles(initial));
+            let found = constants_from_initial_values(Kind::Single, &spheroid, &s, 1.0, &initial).unwrap();
+            assert!(found.amplitude < amplitude, "{found:?}");
+            assert_same(&initial_values(Kind::Single, &spheroid, &s, 1.0, &found).unwrap(), &initial);
+        }
+    }
+
+    /// Without Lorentz violation and with the rates of free precession the first equation is linear: steps of 0.2, one for the rest, and
+    /// one that finds nothing left to do. An inclination that is off leaves its square, which must be below 1e-12.
+    #[test]
+    fn sixty_steps_are_enough_or_not() {
+        let (alpha, beta) = (0.4, 0.9_f64);
+        let initial = angles([alpha, beta, 1.1 / beta.cos(), 0.0]);
+        let s = PrincipalCoefficients::new([0.0; 3]);
+        let inversion = Inversion { kind: Kind::Twofold, spheroid: body(1.1, 0.0), s, spin: 1.0, initial };
+        let lifted = inversion.lifted();
+        let from = |distance: f64, off: f64| inversion.newton(&lifted, Vector2::new(alpha + distance, beta + off));
+        for (distance, off) in [(11.7, 0.0), (-11.7, 0.0), (11.5, 5.2e-4), (0.0, 0.0)] {
+            let root = from(distance, off).expect("converges").point;
+            assert!((root - Vector2::new(alpha, beta)).amax() < 1e-14, "{root}");
+        }
+        for (distance, off) in [(11.9, 0.0), (-11.9, 0.0), (11.7, 5.2e-4), (0.0, 3.0)] {
+            assert!(from(distance, off).is_none(), "{distance} {off}");
+        }
+    }
+
+    /// At `alpha = 0` and `beta' = 0` the forced motion has both as well, so that `cos phi` vanishes, and `A` does not.
+    #[test]
+    fn a_phase_of_a_quarter_turn_is_no_vanishing_amplitude() {
+        let (spheroid, s) = (body(1.1, 0.3), PrincipalCoefficients::new([0.02, 0.01, -0.04]));
+        for alpha_rate in [1.3, 1.9] {
+            let initial = angles([0.0, 0.8, alpha_rate, 0.0]);
+            let found = constants_from_initial_values(Kind::Twofold, &spheroid, &s, 1.0, &initial).unwrap();
+            assert_eq!(found.alpha_0, 0.0);
+            assert_relative_eq!(found.phase.abs(), PI / 2.0, max_relative = 1e-15);
+            assert!(found.amplitude > 0.05, "{found:?}");
+            assert_same(&initial_values(Kind::Twofold, &spheroid, &s, 1.0, &found).unwrap(), &initial);
+        }
+    }
+
+    /// There the root and the angle have no derivatives, and are given none.
+    #[test]
+    fn a_vanishing_amplitude_has_no_phase_and_no_derivatives() {
+        let s = PrincipalCoefficients::new([0.0; 3]);
+        // With omega one the quotients of duals are those of doubles.
+        let initial = angles([0.4, 0.9, 1.0 / 0.9_f64.sin_cos().1, 0.0]);
+        let found = constants_from_initial_values(Kind::Twofold, &body(1.0, 0.0), &s, 1.0, &initial).unwrap();
+        assert_eq!((found.amplitude, found.phase), (0.0, 0.0));
+        let lift = |value: f64| Dual64::new(value, 1.0);
+        let (spheroid, s) = (body(1.0, 0.0), PrincipalCoefficients::new([Dual64::from(0.0); 3]));
+        let AxisAngles { alpha, beta, alpha_rate, beta_rate } = initial;
+        let varied = AxisAngles {
+            alpha: lift(alpha),
+            beta: lift(beta),
+            alpha_rate: lift(alpha_rate),
+            beta_rate: lift(beta_rate),
+        };
+        let found = constants_from_initial_values(Kind::Twofold, &spheroid, &s, lift(1.0), &varied).unwrap();
+        assert_eq!((found.amplitude, found.phase), (Dual64::from(0.0), Dual64::from(0.0)));
+        assert!(found.alpha_0.eps.is_finite() && found.beta_0.eps != 0.0);
+    }
+
+    /// What is left of Eq. (34) at the initial angles, by its own right side.
+    #[test]
+    fn what_does_not_converge_tells_how_far_it_is() {
+        let (spheroid, s) = (body(0.75, 1.0), PrincipalCoefficients::new([-0.1, 1.06, 1.57]));
+        let initial = angles([1.13, 0.61, 0.25, 0.71]);
+        let at = |amplitude: f64, phase: f64| {
+            let constants = Constants { alpha_0: initial.alpha, beta_0: initial.beta, amplitude, phase };
+            initial_values(Kind::Single, &spheroid, &s, 1.0, &constants).unwrap()
+        };
+        let forced = at(0.0, 0.0);
+        let p = initial.beta_rate - forced.beta_rate;
+        let q = -(forced.alpha_rate - initial.alpha_rate) * initial.beta.sin();
+        let there = at(p.hypot(q), q.atan2(p));
+        assert_relative_eq!(there.alpha_rate, initial.alpha_rate, max_relative = 1e-12);
+        let left = (there.alpha - initial.alpha).hypot(there.beta - initial.beta);
+        match constants_from_initial_values(Kind::Single, &spheroid, &s, 1.0, &initial) {
+            Err(Error::NotConverged { iterations, residual, .. }) => {
+                assert_eq!(iterations, 60);
+                assert_relative_eq!(residual, left, max_relative = 1e-12);
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// Constants that are linear in one variable are found back with no second and no third derivative.
+    #[test]
+    fn derivatives_hold_up_to_the_third_order() {
+        let number = Dual3_64::from;
+        let linear = |value: f64, slope: f64| Dual3_64::new(value, slope, 0.0, 0.0);
+        let s = PrincipalCoefficients::new([0.02, 0.01, -0.04].map(number));
+        let exact = Constants {
+            alpha_0: linear(0.3, 0.7),
+            beta_0: linear(0.7, -0.4),
+            amplitude: linear(0.2, 0.1),
+            phase: linear(0.5, 0.9),
+        };
+        let spheroid = body(1.1, 0.3);
+        let start = initial_values(Kind::Twofold, &spheroid, &s, number(1.0), &exact).unwrap();
+        let found = constants_from_initial_values(Kind::Twofold, &spheroid, &s, number(1.0), &start).unwrap();
+        for (found, exact) in [
+            (found.alpha_0, exact.alpha_0),
+            (found.beta_0, exact.beta_0),
+            (found.amplitude, exact.amplitude),
+            (found.phase, exact.phase),
+        ] {
+            let Dual3_64 { re, v1, v2, v3, .. } = found - exact;
+            assert!([re, v1, v2, v3].iter().all(|error| error.abs() < 1e-10), "{found} {exact}");
+        }
     }
 }

@@ -205,3 +205,58 @@ impl<S: Real> SymmetricSolution<S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use num_dual::Dual64;
+
+    use super::*;
+
+    const ALPHA_RATE: f64 = 0.6;
+
+    /// By Eq. (26), `omega = (alpha'^2 + k) cos beta / alpha'`, and what is added to the rates.
+    fn precession<S: Real>(more_alpha: S, more_beta: f64) -> SymmetricSolution<S> {
+        let [inertia_xx, inertia_zz, constant_c] = [1.3, 1.5, 0.8];
+        let (beta, s) = (0.7_f64, [0.05, 0.05, -0.1]);
+        let k = 2.0 * constant_c * (s[2] - s[0]) / inertia_xx;
+        let omega = (ALPHA_RATE * ALPHA_RATE + k) * beta.cos() / ALPHA_RATE;
+        let gamma = omega * inertia_xx / inertia_zz - ALPHA_RATE * beta.cos();
+        let [inertia_xx, inertia_zz, constant_c] = [inertia_xx, inertia_zz, constant_c].map(S::from_f64);
+        let [alpha, beta, gamma_0] = [0.4, beta, -0.3].map(S::from_f64);
+        let rates = EulerRates {
+            alpha: S::from_f64(ALPHA_RATE) + more_alpha,
+            beta: S::from_f64(more_beta),
+            gamma: S::from_f64(gamma),
+        };
+        SymmetricSolution::new(
+            &RigidSpheroid { inertia_xx, inertia_zz, constant_c },
+            &PrincipalCoefficients::new(s.map(S::from_f64)),
+            &EulerAngles { alpha, beta, gamma: gamma_0 },
+            &rates,
+        )
+        .unwrap()
+    }
+
+    #[test]
+    fn steady_precession_is_the_limit_of_small_oscillations() {
+        let (steady, nutating) = (precession(0.0, 0.0), precession(0.0, 1e-5));
+        let (Motion::Steady(_), Motion::Nutating(_)) = (steady.motion, nutating.motion) else { panic!("not both") };
+        assert_relative_eq!(steady.period(), nutating.period(), max_relative = 1e-8);
+        assert!(nutating.period() > 7.0);
+        // Nothing is magnified where there are no turning points.
+        assert_eq!(steady.condition(), 1.0);
+        assert!(nutating.condition() > 1.0);
+    }
+
+    /// By the initial rate, against differences of motions on both sides that nutate.
+    #[test]
+    fn mean_rates_of_a_steady_precession_have_their_derivatives() {
+        let found = precession(Dual64::from(0.0).derivative(), 0.0).mean_rates();
+        let h = 1e-4;
+        let [more, less] = [h, -h].map(|change| precession(change, 0.0).mean_rates());
+        assert_relative_eq!(found.alpha.eps, (more.alpha - less.alpha) / (2.0 * h), max_relative = 1e-5);
+        assert_relative_eq!(found.gamma.eps, (more.gamma - less.gamma) / (2.0 * h), max_relative = 1e-5);
+        assert!((found.alpha.eps - 1.0).abs() > 0.1);
+    }
+}

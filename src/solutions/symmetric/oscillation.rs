@@ -235,3 +235,71 @@ impl<S: Real> PoleTerm<S> {
         self.rate + self.over_half_period / half_period
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    fn oscillation(mean: f64, root_of_product: f64) -> Oscillation<f64> {
+        let sum = mean + root_of_product;
+        Oscillation {
+            low: -0.3,
+            high: 0.2,
+            d_low: 0.4,
+            d_high: root_of_product * root_of_product / 0.4,
+            mean,
+            root_of_product,
+            sum,
+            determinant: root_of_product * root_of_product - mean * mean,
+            ladder: ArithmeticGeometricMean::new((sum * 0.5).sqrt(), root_of_product.sqrt()),
+            half_period: 1.3,
+            since_high: 0.0,
+            since_low: 1.3,
+        }
+    }
+
+    /// By the pair itself, conjugate as its mean is less than the root of its product; also where the sum of squares would cancel.
+    #[test]
+    fn the_roots_of_a_conjugate_pair_are_those_of_its_members() {
+        for mean in [-0.65, -0.3, 0.2] {
+            let motion = oscillation(mean, 0.7);
+            for (xi, eta) in [(0.3, 1.4), (0.9, 0.5), (0.6, -2.3)] {
+                let (real, imaginary) = (xi * xi + mean * eta * eta, (0.49_f64 - mean * mean).sqrt() * eta * eta);
+                let size = real.hypot(imaginary);
+                // The root of a member has the real part sqrt((size + real) / 2), and the sum of both is twice that.
+                let half_turn = imaginary.atan2(real) / 2.0;
+                let (sum, product) = motion.roots_of_pair(xi, eta);
+                assert_relative_eq!(product, size, max_relative = 1e-14);
+                assert_relative_eq!(sum, 2.0 * size.sqrt() * half_turn.cos(), max_relative = 1e-13);
+            }
+        }
+    }
+
+    /// Beside the pole and through it, where the square of the constant is out of range.
+    #[test]
+    fn through_a_pole_there_is_half_a_turn_in_the_sense_of_the_constant() {
+        let motion = oscillation(0.5, 0.7);
+        for pole in [Pole::North, Pole::South] {
+            for sign in [1.0, -1.0] {
+                let turn =
+                    |constant: f64, near: f64| motion.pole_term(constant * sign, pole, 0.9, near).over_half_period;
+                assert!(turn(0.1, 1e-2) * sign > 0.0);
+                assert_eq!(turn(1e-200, 0.0), sign * FRAC_PI_2);
+            }
+        }
+    }
+
+    #[test]
+    fn on_a_pole_the_integral_counts_the_passages() {
+        let motion = oscillation(0.5, 0.7);
+        let term = PoleTerm { rate: 0.7, amplitude: 0.3, delta: 0.0, over_half_period: 1.1 };
+        let on_pole = Side { periods: 3.0, xi: 0.0, eta: 1.0 };
+        let away = Side { periods: -8.0, xi: 1.0, eta: 0.4 };
+        for (pole, from_low, from_high) in [(Pole::North, on_pole, away), (Pole::South, away, on_pole)] {
+            let place = Place { from_high, from_low, shares: (0.5, 0.5), rate: 0.1 };
+            assert_relative_eq!(motion.integral(&term, pole, &place, 0.9), 0.63 + 6.6, max_relative = 1e-15);
+        }
+    }
+}

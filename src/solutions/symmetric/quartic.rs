@@ -169,3 +169,43 @@ fn root_where_monotone(p: &[f64], slope: &[f64], mut a: f64, mut b: f64) -> Opti
     }
     Some(v)
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    /// Beside an unstable steady precession, with a small rate: `P(0) = -low high q0`, of which the powers of the turning points know
+    /// half the digits.
+    #[test]
+    fn where_the_axis_lingers_the_quotient_has_the_digits_of_the_rate() {
+        let (cos, omega, k) = (0.1, 0.5, -2.0_f64);
+        let sin2 = 1.0 - cos * cos;
+        let alpha_rate = (omega - (omega * omega - 4.0 * cos * k * cos).sqrt()) / (2.0 * cos);
+        for beta_rate in [1e-4, 3e-6] {
+            let speed_squared = beta_rate * beta_rate + alpha_rate * alpha_rate * sin2;
+            let g = alpha_rate * sin2;
+            let p0 = beta_rate * beta_rate * sin2;
+            let quartic = InclinationQuartic {
+                coefficients: [
+                    p0,
+                    -2.0 * cos * speed_squared - 2.0 * k * cos * sin2 + 2.0 * omega * g,
+                    4.0 * k * cos * cos - speed_squared - k * sin2 - omega * omega,
+                    4.0 * k * cos,
+                    k,
+                ],
+                cos,
+                north: 1.0 - cos,
+                south: 1.0 + cos,
+                speed_squared,
+                g,
+                omega,
+                k,
+            };
+            let points = quartic.turning_points(-1.0 - cos, 1.0 - cos);
+            assert!(points.low < -0.1 && points.high > 0.1, "{points:?}");
+            assert_relative_eq!(-points.low * points.high * points.quotient(0.0, 0.0), p0, max_relative = 1e-13);
+        }
+    }
+}
