@@ -228,6 +228,6 @@ mod tests {
         assert!(slow[1].norm() * unit * 0.4 < turned && errors.flow.strength() * 0.4 < kicked);
         let step = errors.step_of_columns(&series, h, &series[0]);
         let expected = 6.0 * 0.5 * f64::EPSILON * turned.hypot(kicked / momentum_unit);
-        assert_relative_eq!(step.rounded, expected, max_relative = 1e-12);
+        assert_relative_eq!(step.rounded, expected, epsilon = 0.0, max_relative = 1e-12);
     }
 }

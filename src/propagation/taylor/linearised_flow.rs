@@ -228,7 +228,7 @@ mod tests {
             let LinearMap::Kick { from_rotation, .. } = flow.kick(&end, h / parts / 6.0, 0.0).0 else {
                 panic!("a kick")
             };
-            assert_relative_eq!(last, from_rotation, max_relative = 1e-14);
+            assert_relative_eq!(last, from_rotation, epsilon = 0.0, max_relative = 1e-14);
         }
     }
 

@@ -405,7 +405,7 @@ mod tests {
         // Half a unit in the last place of 30 is 1.8e-15.
         for start in [1.5e-15, -1.5e-15] {
             for more in [kept(start) - kept(0.0), sampled(start) - sampled(0.0)] {
-                assert_relative_eq!(more, 1.5e-15 * turning, max_relative = 1e-3);
+                assert_relative_eq!(more, 1.5e-15 * turning, epsilon = 0.0, max_relative = 1e-3);
             }
         }
     }

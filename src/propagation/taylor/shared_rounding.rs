@@ -195,7 +195,7 @@ mod tests {
         let dot = DoubleDouble::dot(&start[0].into(), &start[1].into());
         let exact = DoubleDouble::product(rate, xx) * zz.into() + difference * dot;
         let found = excess_of_rate_about_axis(&SPHEROID, &start, rate);
-        assert_relative_eq!(found, exact.high / (xx * zz), max_relative = 1e-10);
+        assert_relative_eq!(found, exact.high / (xx * zz), epsilon = 0.0, max_relative = 1e-10);
     }
 
     #[test]
@@ -204,7 +204,7 @@ mod tests {
         let vectors = |across: f64| [axis * (1.0 - 1e-10), Vector3::z(), Vector3::y() + axis * across];
         for across in [3e-10, -3e-10] {
             let off_frame = SharedRounding::of(&setup(&Matrix3::zeros(), vectors(across))).0.off_frame;
-            assert_relative_eq!(off_frame, 8e-10, max_relative = 1e-5);
+            assert_relative_eq!(off_frame, 8e-10, epsilon = 0.0, max_relative = 1e-5);
         }
     }
 
@@ -224,7 +224,8 @@ mod tests {
             let excess = |rate: f64| (rate / divisor).mul_add(divisor, -rate) / rate;
             assert_eq!(*axis, Vector3::repeat(excess(1.0)));
             for i in [0, 1] {
-                assert_relative_eq!(momentum[i], excess(rates.momentum_of_principal[i]), max_relative = 1e-12);
+                let exact = excess(rates.momentum_of_principal[i]);
+                assert_relative_eq!(momentum[i], exact, epsilon = 0.0, max_relative = 1e-12);
             }
             assert_eq!(momentum.z, 0.0);
         }

@@ -205,7 +205,8 @@ mod tests {
             };
             let points = quartic.turning_points(-1.0 - cos, 1.0 - cos);
             assert!(points.low < -0.1 && points.high > 0.1, "{points:?}");
-            assert_relative_eq!(-points.low * points.high * points.quotient(0.0, 0.0), p0, max_relative = 1e-13);
+            let product = -points.low * points.high * points.quotient(0.0, 0.0);
+            assert_relative_eq!(product, p0, epsilon = 0.0, max_relative = 1e-13);
         }
     }
 }
