@@ -66,14 +66,12 @@ impl<P: Margin> EdgeSearch<P> {
         turn_at: &mut impl FnMut(f64) -> Result<i64, Error>,
     ) -> Result<Vec<Arrival>, Error> {
         let mut found: Vec<Arrival> = Vec::new();
-        let mut first_number = 0;
+        let mut first = None;
         for pulse in train.pulses.iter().filter(|pulse| pulse.is_whole()) {
             let closest_approach = self.highest(pulse.start, pulse.end)?;
-            let number = turn_at(closest_approach)?;
-            if found.is_empty() {
-                first_number = number;
-            }
-            found.push(Arrival { number: number - first_number, midpoint: pulse.midpoint(), closest_approach });
+            let turn = turn_at(closest_approach)?;
+            let number = turn - *first.get_or_insert(turn);
+            found.push(Arrival { number, midpoint: pulse.midpoint(), closest_approach });
         }
         Ok(found)
     }
@@ -105,7 +103,6 @@ impl<P: Margin> EdgeSearch<P> {
             return self.maxima(middle, to, report);
         }
         if self.at(from)?[1] > 0.0 && self.at(to)?[1] <= 0.0 {
-            let middle = from + (to - from) / 2.0;
             let time = root((from, to), middle, false, |t| self.look_for_extremum(t))?;
             report(time, self.at(time)?[0]);
         }
@@ -115,14 +112,174 @@ impl<P: Margin> EdgeSearch<P> {
 
 #[cfg(test)]
 mod tests {
+    use core::cell::Cell;
+
     use nalgebra::Matrix3;
 
     use super::*;
     use crate::dynamics::{BodyState, RigidSpheroid};
     use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::observables::Observer;
-    use crate::observables::pulsar::pulse_train;
+    use crate::observables::pulsar::rate_bounds::RateBounds;
+    use crate::observables::pulsar::{Pulse, pulse_train};
     use crate::propagation::propagate;
+
+    /// A margin by a function, looked at so many times.
+    struct Given<F>(F, Cell<usize>);
+
+    impl<F: Fn(f64) -> [f64; 4]> Margin for Given<F> {
+        fn at(&self, t: f64) -> Result<[f64; 4], Error> {
+            self.1.set(self.1.get() + 1);
+            // So that a search without an end ends.
+            Error::unless(self.1.get() < 10_000, "looks", 1e4, "fewer")?;
+            Ok((self.0)(t))
+        }
+
+        fn cheapest_time(&self, _: f64, t: f64) -> f64 {
+            t
+        }
+    }
+
+    fn search<F: Fn(f64) -> [f64; 4]>(first: f64, third: f64, margin: F) -> EdgeSearch<Given<F>> {
+        let bounds = RateBounds { first, second: f64::NAN, third, fourth: f64::NAN, sixth: f64::NAN };
+        EdgeSearch::new(Given(margin, Cell::new(0)), bounds)
+    }
+
+    /// Times of all maxima, and the looks that they took.
+    fn maxima(
+        first: f64,
+        third: f64,
+        (from, to): (f64, f64),
+        margin: impl Fn(f64) -> [f64; 4] + Clone,
+    ) -> (Vec<f64>, usize) {
+        let looks = Cell::new(0);
+        let counted = |t: f64| {
+            looks.set(looks.get() + 1);
+            margin(t)
+        };
+        let mut found = Vec::new();
+        search(first, third, counted).maxima(from, to, &mut |time, _| found.push(time)).unwrap();
+        (found, looks.get())
+    }
+
+    /// `a cos(w t)` with three derivatives.
+    fn wave(a: f64, w: f64) -> impl Fn(f64) -> [f64; 4] + Clone {
+        move |t: f64| {
+            let (sin, cos) = (w * t).sin_cos();
+            [cos, -w * sin, -w * w * cos, w * w * w * sin].map(|x| a * x)
+        }
+    }
+
+    #[test]
+    fn numbers_are_counted_from_the_first_whole_pulse() {
+        let half = 0.5_f64.acos();
+        let pulse = |k: i64, cut: bool| {
+            let middle = TAU * k as f64;
+            Pulse { start: middle - half, end: middle + 1.1 * half, cut_at_start: cut, cut_at_end: false }
+        };
+        let train = PulseTrain {
+            pulses: vec![pulse(3, true), pulse(4, false), pulse(5, false), pulse(7, false)],
+            grazings: vec![],
+        };
+        let of_a_wave = search(1.0, 1.0, wave(1.0, 1.0));
+        let found = of_a_wave.arrivals(&train, &mut |t| Ok(20 + (t / TAU).round() as i64)).unwrap();
+        assert_eq!(found.iter().map(|arrival| arrival.number).collect::<Vec<_>>(), [0, 1, 3]);
+        for (arrival, k) in found.iter().zip([4.0, 5.0, 7.0]) {
+            assert!((arrival.closest_approach - TAU * k).abs() < 1e-13, "{arrival:?}");
+            assert!((arrival.midpoint - TAU * k - 0.05 * half).abs() < 1e-13, "{arrival:?}");
+        }
+    }
+
+    /// The rate `a - 0.7 t - 4 t^2` about the middle of a stretch of the length one: it may vanish there up to `0.5 (0.7 + 0.5 8 / 2) = 1.35`.
+    #[test]
+    fn a_stretch_is_left_at_once_where_the_rate_cannot_vanish() {
+        let about = |a: f64| {
+            maxima(2.0, 8.0, (1.5, 2.5), move |t| {
+                let t = t - 2.0;
+                [t * (a - t * (0.35 + t * 4.0 / 3.0)), a - t * (0.7 + 4.0 * t), -0.7 - 8.0 * t, -8.0]
+            })
+        };
+        for a in [1.4, -1.4] {
+            assert_eq!(about(a), (vec![], 1));
+        }
+        let (found, _) = about(1.3);
+        let exact = 2.0 + (-0.7 + (0.49_f64 + 16.0 * 1.3).sqrt()) / 8.0;
+        assert!(found.len() == 1 && (found[0] - exact).abs() < 1e-13, "{found:?}");
+    }
+
+    /// Waves of any length and height: every maximum once, nothing else.
+    #[test]
+    fn every_maximum_is_found_once() {
+        let (mut all, mut all_looks) = (0, 0);
+        for w in [0.1, 1.0, 10.0, 77.0] {
+            for a in [0.02, 0.3, 1.0] {
+                for j in 0..30 {
+                    let (first, last) = (f64::from(j % 3), f64::from(j / 3));
+                    let span = ((0.1 + 0.31 * last - TAU * first) / w, (TAU * (first + 1.0) - 1.7 + 0.23 * last) / w);
+                    let (found, looks) = maxima(w, a * w * w * w, span, wave(a, w));
+                    let expected: Vec<_> =
+                        (-3..9).map(|k| f64::from(k) * TAU / w).filter(|t| span.0 < *t && *t <= span.1).collect();
+                    assert_eq!(found.len(), expected.len(), "{w} {a} {span:?}: {found:?}");
+                    for (time, exact) in found.iter().zip(&expected) {
+                        assert!((time - exact).abs() * w < 1e-13, "{w} {a} {span:?}: {time} {exact}");
+                    }
+                    (all, all_looks) = (all + found.len(), all_looks + looks);
+                }
+            }
+        }
+        // Four for a root, and two or three for each stretch.
+        assert!(all > 500 && all_looks < 24 * all, "{all_looks} looks for {all} maxima");
+    }
+
+    /// `1 - u^4`, flat at its top.
+    fn flat(top: f64, w: f64) -> impl Fn(f64) -> [f64; 4] + Clone {
+        move |t: f64| {
+            let u = (t - top) * w;
+            [1.0 - u.powi(4), -4.0 * w * u.powi(3), -12.0 * (w * u).powi(2), -24.0 * w.powi(3) * u]
+        }
+    }
+
+    #[test]
+    fn a_flat_top_is_one_maximum() {
+        let (found, looks) = maxima(1.0, 24.0 * 1.3, (2.0, 3.1), flat(2.7, 1.0));
+        assert!(found.len() == 1 && (found[0] - 2.7).abs() < 1e-9, "{found:?}");
+        // Only the four thousandths of a radian about it are divided to the end.
+        assert!(looks < 2500, "{looks}");
+    }
+
+    /// So late that times are a seventh of a radian apart, and the middle of two of them is one of them.
+    #[test]
+    fn late_maxima_are_found_to_the_spacing_of_times() {
+        let start = 2_f64.powi(52);
+        let w = 0.15_f64;
+        for top in [0.3, 1.4, 2.2, 3.6, 5.0] {
+            let (found, _) = maxima(w, 24.0 * 1.2 * w.powi(3), (start, start + 8.0), move |t| flat(top, w)(t - start));
+            assert!(found.len() == 1 && (found[0] - start - top).abs() <= 1.0, "{top}: {found:?}");
+        }
+        // The middle of this stretch is rounded to two thirds of it.
+        let (found, _) = maxima(w, w.powi(3), (start, start + 3.0), move |t| wave(1.0, w)(t - start - 0.1));
+        assert!(found.len() == 1 && (found[0] - start).abs() <= 1.0, "{found:?}");
+    }
+
+    /// The rate `a^2 u - u^3`: two maxima at a ten-thousandth of a radian on either side, of a star that turns fast.
+    #[test]
+    fn maxima_that_are_close_together_are_told_apart() {
+        let (w, a) = (1000.0, 1e-4);
+        let (found, _) = maxima(w, 6.0 * w.powi(3) * 0.0223, (0.25 - 1.31e-5, 0.25 + 2.23e-5), move |t| {
+            let u = (t - 0.25) * w;
+            let square = u * u;
+            [
+                square * (a * a - square / 2.0) / 2.0,
+                w * u * (a * a - square),
+                w * w * (a * a - 3.0 * square),
+                -6.0 * w * w * w * u,
+            ]
+        });
+        assert_eq!(found.len(), 2, "{found:?}");
+        for (time, exact) in found.iter().zip([-a, a]) {
+            assert!(((time - 0.25) * w - exact).abs() < 1e-9, "{found:?}");
+        }
+    }
 
     /// A freely precessing star with L along Z.
     #[test]

@@ -165,7 +165,7 @@ impl PulsarClock {
         let observer = observer.rotated(&frame.principal_from_given);
         let violation = frame.coefficients.tensor();
         let turns = TurnCount::new(&mean, beam, &observer.direction)?;
-        let bounds = rate_bounds(spheroid, &violation, &mean.state(0.0));
+        let bounds = rate_bounds(spheroid, &violation, &turned);
         let rotation = core::f64::consts::TAU * bounds.first / turns.rate(&mean).abs();
         Error::unless(
             rotation <= MOST_ROTATION,
@@ -291,7 +291,86 @@ fn nearest(train: &PulseTrain, time: f64) -> Option<Pulse> {
 
 #[cfg(test)]
 mod tests {
+    use core::f64::consts::{PI, TAU};
+
     use super::*;
+
+    /// `cos t - edge`.
+    struct Wave(f64);
+
+    impl Margin for Wave {
+        fn at(&self, t: f64) -> Result<[f64; 4], Error> {
+            Ok([t.cos() - self.0, -t.sin(), -t.cos(), t.sin()])
+        }
+
+        fn cheapest_time(&self, _: f64, t: f64) -> f64 {
+            t
+        }
+    }
+
+    #[test]
+    fn the_pulse_that_holds_a_time_is_found_where_the_margin_bends_downwards() {
+        let around = |edge: f64, time: f64, period: f64| {
+            let bounds = RateBounds { first: 1.0, second: 1.0, third: 1.0, fourth: 1.0, sixth: 1.0 };
+            around(&EdgeSearch::new(Wave(edge), bounds), time, period).unwrap()
+        };
+        for time in [-0.15, 0.02, 0.1] {
+            let pulse = around(0.5, time, TAU).expect("a pulse");
+            assert!((pulse.start + PI / 3.0).abs() < 1e-14 && (pulse.end - PI / 3.0).abs() < 1e-14, "{pulse:?}");
+            assert!(!pulse.cut_at_start && !pulse.cut_at_end);
+        }
+        // Outside, where it bends upwards though inside, and over more than a period.
+        assert_eq!(around(0.5, 1.2, TAU), None);
+        assert_eq!(around(-0.5, 1.8, 2.0 * TAU), None);
+        assert_eq!(around(0.5, 0.0, 2.0), None);
+        assert!(around(0.5, 0.0, 2.2).is_some());
+    }
+
+    /// A star without Lorentz violation that wobbles by 0.5 rad about L, once in four and a half turns. Of the magnetic axis, 0.3 rad from the axis,
+    /// the angle to L is between 0.2 and 0.8; the observer is next to L, inside the beam for the part of a wobble with a smaller angle.
+    fn wobbling(half_opening: f64) -> PulsarClock {
+        let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.8, constant_c: 1.0 };
+        let (sin, cos) = 0.5_f64.sin_cos();
+        let axis = Vector3::new(sin, 0.0, cos);
+        let start = BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() };
+        let beam = Beam::new(0.3, 0.4, half_opening);
+        let observer = Observer::at(0.01, 0.0);
+        PulsarClock::new(&spheroid, &Matrix3::zeros(), &start, &beam, &observer, MeanOrder::Second).unwrap()
+    }
+
+    #[test]
+    fn a_pulse_is_not_given_where_it_lasts_over_more_turns_than_are_searched() {
+        // The share of a wobble with an angle to L below this.
+        let (theta, chi) = (0.5_f64, 0.3_f64);
+        let share = |half_opening: f64| {
+            let cos = (theta.cos() * chi.cos() - half_opening.cos()) / (theta.sin() * chi.sin());
+            1.0 - cos.acos() / PI
+        };
+        let wobble = TAU / (0.25 * theta.cos());
+        for (half_opening, is_given) in [(0.3, true), (0.75, false)] {
+            let mut clock = wobbling(half_opening);
+            assert!((clock.period() - TAU).abs() < 1e-12);
+            let duration = share(half_opening) * wobble;
+            // Less than one turn, or more than three.
+            assert!(if is_given { duration < 0.9 * TAU } else { duration > 3.3 * TAU });
+            let pulses: Vec<_> = (0..40).filter_map(|k| clock.pulse_near([0.5 * f64::from(k), 0.0]).unwrap()).collect();
+            assert_eq!(!pulses.is_empty(), is_given, "{half_opening}: {pulses:?}");
+            for pulse in pulses {
+                assert!((pulse.duration / duration - 1.0).abs() < 0.1, "{pulse:?} {duration}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_time_without_end_is_refused_as_the_sum_that_it_is() {
+        let mut clock = wobbling(0.3);
+        let (inf, most) = (f64::INFINITY, f64::MAX);
+        for (t, value) in [([inf, 0.0], inf), ([0.0, inf], inf), ([0.0, -inf], -inf), ([most, most], inf)] {
+            let refused = Error::Domain { quantity: "time t", value, allowed: "a finite number" };
+            assert_eq!(clock.pulse_near(t), Err(refused), "{t:?}");
+        }
+        assert!(clock.pulse_near([3.0, 1e-17]).is_ok());
+    }
 
     #[test]
     fn the_nearest_pulse_holds_the_time_or_ends_nearest_to_it() {

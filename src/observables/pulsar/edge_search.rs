@@ -148,11 +148,11 @@ impl<P: Margin> EdgeSearch<P> {
             if !is_across && (from.is_rising() == to.is_rising() || opens_away && off_the_edge) {
                 return Ok(());
             }
-            if length * self.bounds.first < SHORT {
-                return self.around_extremum(from, to, report);
-            }
             let share = from.margin[1] / (from.margin[1] - to.margin[1]);
             middle = from.time + share.clamp(0.1, 0.9) * length;
+            if length * self.bounds.first < SHORT {
+                return self.around_extremum(from, to, middle, report);
+            }
         }
         let RateBounds { third, .. } = self.bounds;
         let size = |jet: &Jet| {
@@ -230,10 +230,8 @@ impl<P: Margin> EdgeSearch<P> {
         Ok(Look { value: rate, step: -rate / second, is_exact: false })
     }
 
-    /// On a piece with an extremum: the roots on both sides of it.
-    fn around_extremum(&self, from: &Jet, to: &Jet, report: &mut impl FnMut(Event)) -> Result<(), Error> {
-        let share = from.margin[1] / (from.margin[1] - to.margin[1]);
-        let guess = from.time + share * (to.time - from.time);
+    /// On a piece with an extremum, near `guess`: the roots on both sides of it.
+    fn around_extremum(&self, from: &Jet, to: &Jet, guess: f64, report: &mut impl FnMut(Event)) -> Result<(), Error> {
         let time = root((from.time, to.time), guess, to.is_rising(), |t| self.look_for_extremum(t))?;
         let extremum = self.jet(time)?;
         self.monotonic_side(from, &extremum, report)?;
@@ -402,5 +400,59 @@ mod tests {
             all += crossings.len();
         }
         assert!(looks <= 5200, "{looks} looks for {all} crossings");
+    }
+
+    /// Slow and fast stars: what is near and what is short is so in radians.
+    #[test]
+    fn grazings_do_not_depend_on_the_unit_of_time() {
+        for w in [1e-7, 3e-3, 40.0, 1e6] {
+            for (below, crossings, grazings) in [(5e-14, 2, 1), (-5e-14, 0, 1), (3e-13, 2, 0), (-3e-13, 0, 0)] {
+                for sign in [1.0, -1.0] {
+                    let search = search_of(vec![[sign, w, 0.0]], sign * (1.0 - below));
+                    let events = found(&search, -0.9 / w, 1.1 / w);
+                    assert_eq!((events.0.len(), events.1.len()), (crossings, grazings), "{w} {below:e}: {events:?}");
+                    assert!(events.1.iter().all(|time| (time * w).abs() < 1e-9));
+                }
+            }
+        }
+    }
+
+    /// Pieces that begin or end within a ten-millionth of a radian of an extremum, which is 5e-14 inside.
+    #[test]
+    fn a_piece_that_begins_near_a_grazing_reports_it_only_if_it_holds_it() {
+        let events = |from: f64, to: f64, second: f64| {
+            let search = search_of(vec![[1.0, 1.0, 0.0]], 1.0 - 5e-14);
+            let search = EdgeSearch::new(search.margin, RateBounds { second, ..search.bounds });
+            let (mut crossings, mut grazings) = (Vec::new(), Vec::new());
+            let report = &mut |event| match event {
+                Event::Crossing { time, entering } => crossings.push((time, entering)),
+                Event::Grazing { time } => grazings.push(time),
+            };
+            search.piece(&search.jet(from).unwrap(), &search.jet(to).unwrap(), report).unwrap();
+            (crossings, grazings)
+        };
+        let edge = 1e-13_f64.sqrt();
+        // The end inside is before the top, or after it; the other is outside.
+        for (from, to, second, holds_top) in [(-1e-7, 0.3, 1.0, true), (1e-13, 0.04, 1.0, false)] {
+            for sign in [1.0, -1.0] {
+                let (a, b) = if sign > 0.0 { (from, to) } else { (-to, -from) };
+                let (crossings, grazings) = events(a, b, second);
+                assert_eq!(grazings.len(), usize::from(holds_top), "{from} {sign}");
+                assert!(grazings.iter().all(|time| time.abs() < 1e-9), "{grazings:?}");
+                // To the rounding of the margin.
+                let is_edge =
+                    |(time, entering): (f64, bool)| entering != (sign > 0.0) && (time * sign - edge).abs() < 3e-9;
+                assert!(crossings.len() == 1 && is_edge(crossings[0]), "{crossings:?}");
+            }
+        }
+        // All on one side of the top, with bounds too wide to tell.
+        assert_eq!(events(1e-13, 2e-7, 2.0), (vec![], vec![]));
+    }
+
+    #[test]
+    fn a_piece_may_end_at_an_extremum() {
+        let search = search_of(vec![[1.0, 1.0, 0.0]], 1.0 + 1e-10);
+        assert_eq!(search.jet(0.0).unwrap().margin[1], 0.0);
+        assert_eq!(found(&search, -1.0, 0.0), (vec![], vec![]));
     }
 }

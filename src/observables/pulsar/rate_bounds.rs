@@ -126,3 +126,56 @@ fn leibniz(k: usize, a: &[f64], b: &[f64]) -> f64 {
     }
     sum
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use nalgebra::Vector3;
+
+    use super::*;
+
+    #[test]
+    fn the_limits_on_rotation_and_on_late_times_are_checked_on_both_sides() {
+        let is_refused = |first: f64, from: f64, to: f64| {
+            let bounds = RateBounds { first, second: 1.0, third: 1.0, fourth: 1.0, sixth: 1.0 };
+            bounds.check_countable(from, to).is_err()
+        };
+        // 1e9 rad, in either order.
+        for (length, refused) in [(1.99e9, false), (2.01e9, true)] {
+            for (from, to) in [(3.0, 3.0 + length), (3.0 + length, 3.0)] {
+                assert_eq!(is_refused(0.5, from, to), refused, "{from} {to}");
+            }
+        }
+        // From here on times are one apart, before here by half of that: the nearest that is more than a half away is resolved.
+        let late = 2_f64.powi(52);
+        for (first, refused) in [(0.19, false), (0.21, true)] {
+            for (from, to) in [(late - 50.0, late), (late, late - 50.0), (-late, 50.0 - late), (50.0 - late, -late)] {
+                assert_eq!(is_refused(first, from, to), refused, "{first} {from} {to}");
+            }
+        }
+        assert!(!is_refused(0.21, late - 50.0, late - 1.0) && !is_refused(0.21, late, late));
+        assert!(!is_refused(f64::NAN, 0.0, 1.0));
+    }
+
+    /// About its own axis, without a torque, a star turns uniformly: the derivative of order `k` is that power of the rate.
+    #[test]
+    fn uniform_rotation_has_the_powers_of_its_rate_for_bounds() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.9, constant_c: 0.7 };
+        let axis = Vector3::new(0.36, -0.48, 0.8);
+        let equatorial_axis = axis.cross(&Vector3::x()).normalize();
+        let rate = 1.7_f64;
+        let state = BodyState { axis, momentum: axis * (-1.9 * rate), equatorial_axis };
+        let found = rate_bounds(&spheroid, &Matrix3::zeros(), &state);
+        for (bound, order) in
+            [(found.first, 1), (found.second, 2), (found.third, 3), (found.fourth, 4), (found.sixth, 6)]
+        {
+            assert_relative_eq!(bound, rate.powi(order), max_relative = 1e-6);
+            assert!(bound > rate.powi(order));
+        }
+        // A torque has a size whatever the sign of C.
+        let s = Matrix3::new(0.02, 0.01, 0.0, 0.01, -0.03, 0.004, 0.0, 0.004, 0.01);
+        let opposite = RigidSpheroid { constant_c: -0.7, ..spheroid };
+        assert_eq!(rate_bounds(&opposite, &s, &state), rate_bounds(&spheroid, &s, &state));
+        assert!(rate_bounds(&spheroid, &s, &state).first > 1.001 * rate);
+    }
+}

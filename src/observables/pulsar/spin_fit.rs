@@ -68,12 +68,13 @@ impl SpinFit {
             .max_by(|a, b| a.1.high.abs().total_cmp(&b.1.high.abs()));
         let (last, span) = farthest.expect("there are points");
         let chord = DoubleDouble::from((last - first) as f64).over(span);
-        let half = span.high.abs() / 2.0;
         let left: Vec<_> = points
             .iter()
             .map(|&(number, time)| (DoubleDouble::from((number - first) as f64) - chord * since(time)).high)
             .collect();
-        let x: Vec<_> = points.iter().map(|&(_, time)| since(time).high / half).collect();
+        // Times in units of the chord's.
+        let unit = span.high;
+        let x: Vec<_> = points.iter().map(|&(_, time)| since(time).high / unit).collect();
 
         // 1, x - mean, (x - mean)^2 - slope (x - mean) - square: orthogonal over the points.
         let size = points.len() as f64;
@@ -99,13 +100,13 @@ impl SpinFit {
 
         // At the time zero of the caller.
         let zero = DoubleDouble::default() - start;
-        let u = zero.high / half - middle;
-        let frequency = chord + ((fitted[1] + fitted[2] * (2.0 * u - slope)) / half).into();
+        let u = zero.high / unit - middle;
+        let frequency = chord + ((fitted[1] + fitted[2] * (2.0 * u - slope)) / unit).into();
         let there = fitted[0] + fitted[1] * u + fitted[2] * second(u);
         Ok(Self {
             phase: (DoubleDouble::from(first as f64) + chord * zero + there.into()).into(),
             frequency: frequency.into(),
-            frequency_rate: 2.0 * fitted[2] / (half * half),
+            frequency_rate: 2.0 * fitted[2] / (unit * unit),
             residuals: residues.iter().map(|z| -z / frequency.high).collect(),
         })
     }
@@ -179,5 +180,19 @@ mod tests {
         assert!(SpinFit::new(&points[..1], false).is_err() && SpinFit::new(&[], false).is_err());
         assert!(SpinFit::new(&[(0, [0.0; 2]), (1, [f64::NAN, 0.0])], false).is_err());
         assert!(SpinFit::new(&[(3, [0.0; 2]), (3, [1.0, 0.0])], false).is_err());
+    }
+
+    /// Fewer than one turn per unit of time, either way.
+    #[test]
+    fn slow_phases_come_when_they_should() {
+        for frequency in [0.25, -0.3] {
+            let points: Vec<_> = (0..12).map(|k| (k, [(k as f64 - 1.5) / frequency, 0.0])).collect();
+            let fit = SpinFit::new(&points, false).expect("a fit");
+            for number in [-7, 0, 5, 1000] {
+                let expected = (number as f64 - 1.5) / frequency;
+                let time = fit.time_of(number)[0];
+                assert!((time - expected).abs() < 1e-13 * (10.0 + expected.abs()), "{number}: {time} {expected}");
+            }
+        }
     }
 }

@@ -278,4 +278,34 @@ mod tests {
         assert!(always.pulses.len() == 1 && always.pulses[0].cut_at_start && always.pulses[0].cut_at_end);
         assert!(always.periods().count() == 0 && always.durations().count() == 0);
     }
+
+    #[test]
+    fn the_ends_of_a_span_are_in_either_order() -> Result<(), Error> {
+        let (motion, beam, n) = (upright(), Beam::new(0.5, 0.0, 1.2), Vector3::x());
+        let train = pulse_train(&motion, &beam, &n, (4.0, 25.0))?;
+        assert!(train.pulses.len() == 4 && train.pulses.iter().any(Pulse::is_whole), "{train:?}");
+        assert_eq!(pulse_train(&motion, &beam, &n, (25.0, 4.0))?, train);
+        // Backwards in time, with the state at the end of the span.
+        let start = motion.state(25.0)?;
+        let s = Matrix3::zeros();
+        let (found, end) =
+            propagated_pulse_train(&RigidSpheroid::in_units_of_tc(1.1), &s, &start, (25.0, 4.0), 1e-14, &beam, &n)?;
+        assert_eq!(found.pulses.len(), train.pulses.len());
+        for (a, b) in found.pulses.iter().zip(&train.pulses) {
+            assert!((a.start - b.start).abs() < 1e-11 && (a.end - b.end).abs() < 1e-11, "{a:?} {b:?}");
+        }
+        assert!((end.states[0].equatorial_axis - motion.state(4.0)?.equatorial_axis).norm() < 1e-11);
+        Ok(())
+    }
+
+    #[test]
+    fn vectors_are_of_unit_length_to_a_billionth() {
+        let (beam, n) = (Beam::new(0.5, 0.3, 0.3), Vector3::new(0.6, 0.0, 0.8));
+        for (off, refused) in [(0.9e-9, false), (1.1e-9, true)] {
+            for length in [1.0 + off, 1.0 - off] {
+                assert_eq!(check_beam(&beam, &(n * length)).is_err(), refused, "{length}");
+                assert_eq!(check_beam(&Beam { axis: beam.axis * length, ..beam }, &n).is_err(), refused, "{length}");
+            }
+        }
+    }
 }

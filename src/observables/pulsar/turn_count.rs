@@ -42,8 +42,6 @@ pub(super) struct TurnCount {
     encloses: bool,
     /// Where the slow part of the phase was looked at last, and that part (rad) with its turns.
     last: ([f64; 2], f64),
-    /// Number of the turn that the time zero belongs to.
-    first: i64,
 }
 
 /// A look at the phase.
@@ -76,7 +74,7 @@ impl TurnCount {
         let nearest = (theta - chi).abs().min((core::f64::consts::PI - theta - chi).abs());
         let changes = motion.relative_strength();
         Error::unless(
-            nearest > changes || motion.relative_strength() == 0.0,
+            nearest > changes || changes == 0.0,
             "distance of the wobble from the angle of the beam (rad)",
             nearest,
             "above C |s| I^xx / |L|^2: nearer to it turns change their number",
@@ -87,11 +85,9 @@ impl TurnCount {
             upright: c >= 0.0,
             encloses: theta < chi && theta < core::f64::consts::PI - chi,
             last: ([0.0; 2], 0.0),
-            first: 0,
         };
-        let parts = count.parts(&start, &motion.turns([0.0; 2]))?;
-        count.last.1 = parts.slow();
-        count.first = count.number(&parts);
+        // The phases start at zero, so that this is the turn zero.
+        count.last.1 = count.parts(&start, &motion.turns([0.0; 2]))?.slow();
         Ok(count)
     }
 
@@ -118,17 +114,22 @@ impl TurnCount {
     ) -> Result<Look, Error> {
         let parts = self.parts(state, &motion.turns(t))?;
         self.follow(motion, t, &parts)?;
-        Ok(Look { number: self.number(&parts) - self.first, phase: parts.phase })
+        Ok(Look { number: self.number(&parts), phase: parts.phase })
     }
 
     fn number(&self, parts: &Parts) -> i64 {
         parts.whole + ((parts.fast + self.last.1 + parts.bounded - parts.phase) / TAU).round() as i64
     }
 
+    /// From the last look to the time `t`.
+    fn since_last(&self, t: [f64; 2]) -> f64 {
+        (t[0] - self.last.0[0]) + (t[1] - self.last.0[1])
+    }
+
     /// Follows the slow part to the time `t`.
     fn follow(&mut self, motion: &MeanMotion<f64>, t: [f64; 2], parts: &Parts) -> Result<(), Error> {
         let step = STRIDE / motion.rates().slow.abs();
-        let strides = ((t[0] - self.last.0[0]) + (t[1] - self.last.0[1])).abs() / step;
+        let strides = self.since_last(t).abs() / step;
         Error::unless(
             strides <= MOST_STRIDES,
             "slow precession since the last pulse, in quarter radians",
@@ -136,21 +137,22 @@ impl TurnCount {
             "at most 1e6: to count turns it is followed; ask for pulses between, or for weaker violation",
         )?;
         loop {
-            let left = (t[0] - self.last.0[0]) + (t[1] - self.last.0[1]);
-            if left.abs() <= step {
-                let swept = wrapped(parts.slow() - self.last.1);
-                if swept.abs() < FRAC_PI_2 || left.abs() <= f64::EPSILON * t[0].abs() {
-                    self.last = (t, self.last.1 + swept);
-                    return Ok(());
-                }
-            }
-            let mut ahead = (left / 2.0).clamp(-step, step);
+            let left = self.since_last(t);
+            let mut ahead = left.clamp(-step, step);
             loop {
-                let there = [self.last.0[0] + ahead, self.last.0[1]];
-                let between = self.parts(&motion.near(there).state(0.0), &motion.turns(there))?;
-                let swept = wrapped(between.slow() - self.last.1);
+                let is_end = ahead == left;
+                let (there, slow) = if is_end {
+                    (t, parts.slow())
+                } else {
+                    let there = [self.last.0[0] + ahead, self.last.0[1]];
+                    (there, self.parts(&motion.near(there).state(0.0), &motion.turns(there))?.slow())
+                };
+                let swept = wrapped(slow - self.last.1);
                 if swept.abs() < FRAC_PI_2 || ahead.abs() <= f64::EPSILON * there[0].abs() {
                     self.last = (there, self.last.1 + swept);
+                    if is_end {
+                        return Ok(());
+                    }
                     break;
                 }
                 ahead /= 2.0;
@@ -241,7 +243,6 @@ mod tests {
             upright: theta <= PI / 2.0,
             encloses: theta.min(PI - theta) < chi && theta.min(PI - theta) < PI - chi,
             last: ([0.0; 2], 0.0),
-            first: 0,
         };
         (count, state, [l, from, m])
     }
@@ -346,6 +347,157 @@ mod tests {
         for (chi, is_refused) in [(theta, true), (PI - theta, true), (theta + 0.01, false), (PI - theta - 0.01, false)]
         {
             assert_eq!(TurnCount::new(&motion, &Beam::new(chi, 0.2, 0.3), &n).is_err(), is_refused, "{chi}");
+        }
+    }
+
+    #[test]
+    fn the_time_since_the_last_look_is_that_of_sums() {
+        let motion = motion();
+        let mut count = TurnCount::new(&motion, &Beam::new(0.9, 0.2, 0.3), &Vector3::x()).unwrap();
+        assert_eq!((count.since_last([0.0; 2]), count.since_last([5.0, 0.25])), (0.0, 5.25));
+        count.last.0 = [3.0, 0.125];
+        assert_eq!(count.since_last([10.0, 0.5]), 7.375);
+    }
+
+    /// Wherever the magnetic axis and its azimuth without the turns are at the start, which may be most of a turn apart.
+    #[test]
+    fn the_turn_of_the_time_zero_is_zero() {
+        let motion = motion();
+        let mut farthest = 0.0_f64;
+        for k in 0..24 {
+            let beam = Beam::new(0.9, 0.27 * f64::from(k), 0.3);
+            for n in [Vector3::new(0.1, -0.3, 0.6), Vector3::new(-0.5, 0.2, -0.1), Vector3::new(0.0, 0.9, -0.1)] {
+                let mut count = TurnCount::new(&motion, &beam, &n.normalize()).unwrap();
+                farthest = farthest.max(count.last.1.abs());
+                assert_eq!(count.look(&motion, [0.0; 2], &motion.state(0.0)).unwrap().number, 0, "{k}");
+            }
+        }
+        assert!(farthest > 3.5, "{farthest}");
+    }
+
+    /// The slow part at a time, modulo a turn.
+    fn slow_at(count: &TurnCount, motion: &MeanMotion<f64>, t: [f64; 2]) -> f64 {
+        count.parts(&motion.near(t).state(0.0), &motion.turns(t)).unwrap().slow()
+    }
+
+    /// What the slow part grows by along times that are close together.
+    fn followed(count: &TurnCount, motion: &MeanMotion<f64>, times: impl Iterator<Item = [f64; 2]>) -> f64 {
+        let slow: Vec<_> = times.map(|t| slow_at(count, motion, t)).collect();
+        let steps: Vec<_> = slow.windows(2).map(|pair| wrapped(pair[1] - pair[0])).collect();
+        assert!(steps.iter().all(|step| step.abs() < 1.0), "{steps:?}");
+        steps.iter().sum()
+    }
+
+    /// `L` passes the line of sight closely, on either side: with the slow precession the azimuth turns by more than half a turn in one stride.
+    #[test]
+    fn the_slow_part_is_followed_past_the_line_of_sight() {
+        let motion = motion();
+        let stride = STRIDE / motion.rates().slow.abs();
+        let l = |t: f64| motion.near([t, 0.0]).state(0.0).momentum.normalize();
+        let mut farthest = 0.0_f64;
+        for sense in [1.0, -1.0] {
+            let pass = sense * 3.3 * stride;
+            let side = l(pass).cross(&(l(pass + stride) - l(pass - stride))).normalize();
+            for off in [2e-4, -2e-4, 3e-2] {
+                let n = (l(pass) + side * off).normalize();
+                let start = TurnCount::new(&motion, &Beam::new(0.9, 0.2, 0.3), &n).unwrap();
+                // In looks that hold the passage in a stride, in its first or in its second half.
+                for looks in [&[6.6][..], &[2.9, 3.8, 6.6], &[3.2, 4.0, 6.6], &[2.4, 3.35, 6.6]] {
+                    let mut count = start.clone();
+                    for k in looks {
+                        let t = [sense * k * stride, 0.0];
+                        let before = count.last;
+                        count.look(&motion, t, &motion.near(t).state(0.0)).unwrap();
+                        if count.since_last(before.0).abs() < stride {
+                            farthest = farthest.max((count.last.1 - before.1).abs());
+                        }
+                    }
+                    // Close together where it passes.
+                    let times =
+                        (-300..=300).map(|k| [pass + 3.3 * sense * stride * (f64::from(k) / 300.0).powi(3), 0.0]);
+                    let expected = start.last.1 + followed(&start, &motion, times);
+                    assert!((count.last.1 - expected).abs() < 1e-9, "{sense} {off}: {} {expected}", count.last.1);
+                }
+            }
+        }
+        assert!(farthest > PI);
+    }
+
+    /// So late that `L` moves by a twentieth of a radian from one time to the next, and passes the line of sight between two.
+    #[test]
+    fn a_passage_between_two_neighbouring_times_is_passed() {
+        let motion = motion();
+        let spacing = (0.05 / motion.rates().slow.abs()).log2().round().exp2();
+        for sense in [1.0, -1.0] {
+            let start = sense * spacing * 2_f64.powi(52);
+            let l = |x: f64| motion.near([start, sense * x * spacing]).state(0.0).momentum.normalize();
+            let path = l(1.0) - l(0.0);
+            let n = (l(0.5) + l(0.5).cross(&path) * 0.25).normalize();
+            let mut count = TurnCount::new(&motion, &Beam::new(0.9, 0.2, 0.3), &n).unwrap();
+            count.last = ([start, 0.0], slow_at(&count, &motion, [start, 0.0]));
+            let times = (0..=200).map(|k| [start, sense * 0.02 * f64::from(k) * spacing]);
+            let expected = count.last.1 + followed(&count, &motion, times);
+            assert!((expected - count.last.1).abs() > FRAC_PI_2);
+            let end = [start + sense * 4.0 * spacing, 0.0];
+            count.look(&motion, end, &motion.near(end).state(0.0)).unwrap();
+            assert_eq!(count.last.0, end);
+            assert!((count.last.1 - expected).abs() < 1e-6, "{sense}: {} {expected}", count.last.1);
+        }
+    }
+
+    #[test]
+    fn the_limit_on_turns_is_checked_on_both_sides() {
+        let (motion, (count, state, _)) = (motion(), look(0.4, 0.9, 0.3, 0.2));
+        let turns = motion.turns([31.7, 0.0]);
+        let most = 4_000_000_000_000_000_000;
+        for (size, is_refused) in [(most, false), (most + 1, true)] {
+            for whole in [size, -size] {
+                let mut many = [turns; 2];
+                many[0].about_momentum.whole = whole;
+                many[1].about_axis.whole = whole;
+                for turns in many {
+                    assert_eq!(count.parts(&state, &turns).is_err(), is_refused, "{whole}");
+                }
+            }
+        }
+    }
+
+    /// Cosines that rounding, or an axis that is of unit length to 1e-9, makes larger than one.
+    #[test]
+    fn cosines_above_one_are_those_of_no_angle() {
+        let motion = motion();
+        let n = Vector3::new(0.1, -0.3, 0.6).normalize();
+        for length in [1.0 + 5e-10, -1.0 - 5e-10] {
+            let beam = Beam { axis: Vector3::z() * length, half_opening: 0.3 };
+            assert!(TurnCount::new(&motion, &beam, &n).is_ok_and(|count| !count.encloses), "{length}");
+        }
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+        let s = PrincipalCoefficients::new([2e-4, -1e-4, 0.5e-4]);
+        for k in 0..60 {
+            let (sin, cos) = (0.1 * f64::from(k)).sin_cos();
+            let axis = Vector3::new(sin, cos, 0.3 + 0.01 * f64::from(k)).normalize();
+            let equatorial_axis = axis.cross(&Vector3::z()).normalize();
+            for sign in [1.0, -1.0] {
+                let state = BodyState { axis, momentum: axis * (sign * 2.7), equatorial_axis };
+                let motion = MeanMotion::new(&spheroid, &s, &state, MeanOrder::Second).unwrap();
+                let count = TurnCount::new(&motion, &Beam::new(0.5, 0.2, 0.3), &n).unwrap();
+                assert!(count.encloses && count.upright == (sign > 0.0));
+            }
+        }
+    }
+
+    /// Without a torque nothing moves the axis of the beam from one side of `L` to the other, however near it is.
+    #[test]
+    fn a_beam_at_the_angle_of_the_wobble_is_refused_only_under_a_torque() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+        let initial = motion().state(0.0);
+        for (s, is_refused) in [([0.0; 3], false), ([2e-4, -1e-4, 0.5e-4], true)] {
+            let s = PrincipalCoefficients::new(s);
+            let motion = MeanMotion::new(&spheroid, &s, &initial, MeanOrder::Second).unwrap();
+            let start = motion.state(0.0);
+            let cos = start.axis.dot(&start.momentum.normalize());
+            let beam = Beam { axis: Vector3::new((1.0 - cos * cos).sqrt(), 0.0, cos), half_opening: 0.3 };
+            assert_eq!(TurnCount::new(&motion, &beam, &Vector3::x()).is_err(), is_refused, "{s:?}");
         }
     }
 }

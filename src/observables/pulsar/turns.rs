@@ -36,9 +36,8 @@ impl<'a, M: Motion<f64>> Turns<'a, M> {
         rate: f64,
         t: f64,
     ) -> Result<Self, Error> {
-        let mut turns = Self { motion, beam, line_of_sight, stride: STRIDE / rate, time: t, phase: 0.0 };
-        turns.phase = turns.phase_at(t)?;
-        Ok(turns)
+        let phase = phase(beam, line_of_sight, &motion.state(t)?)?;
+        Ok(Self { motion, beam, line_of_sight, stride: STRIDE / rate, time: t, phase })
     }
 
     /// Phase at a later time `t`, continued from the last call.
@@ -127,6 +126,49 @@ mod tests {
                     assert!((found - fine[j]).abs() < 1e-9, "{chi} {stride} {j}: {found} {}", fine[j]);
                 }
                 assert!((turns.time - last).abs() < 1e-9);
+            }
+        }
+    }
+
+    /// Looks are half a radian apart, however fast the star turns.
+    #[test]
+    fn fast_turns_are_counted() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.8, constant_c: 1.0 };
+        let (axis, rate) = (Vector3::new(0.36, 0.48, 0.8), 300.0);
+        let equatorial_axis = axis.cross(&Vector3::z()).normalize();
+        let start = BodyState { axis, momentum: axis * (0.8 * rate), equatorial_axis };
+        let motion = UniformMotion::free(&spheroid, &Matrix3::zeros(), &start, (1.0, 2.0));
+        let (beam, n) = (Beam::new(0.6, 0.3, 0.2), Vector3::new(0.1, -0.3, 0.6).normalize());
+        let mut turns = Turns::new(&motion, &beam, &n, rate, 1.0).unwrap();
+        let first = turns.at(1.0).unwrap();
+        for t in [1.001, 1.13, 1.7] {
+            assert!((turns.at(t).unwrap() - first - rate * (t - 1.0)).abs() < 1e-10, "{t}");
+        }
+    }
+
+    /// One passage, at a thousandth of a radian, wherever the looks are: within half a radian the azimuth turns by more than half a turn.
+    #[test]
+    fn a_close_passage_is_followed_in_any_stride() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.8, constant_c: 1.0 };
+        let (l, theta) = (Vector3::new(0.36, 0.48, 0.8), 0.7_f64);
+        let axis = l * theta.cos() + l.cross(&Vector3::z()).normalize() * theta.sin();
+        let start = BodyState { axis, momentum: l * 2.1, equatorial_axis: axis.cross(&l).normalize() };
+        let motion = UniformMotion::free(&spheroid, &Matrix3::zeros(), &start, (3.0, 60.0));
+        let n = Vector3::new(0.1, -0.3, 0.6).normalize();
+        for chi in [theta - 1e-3, theta + 1e-3, PI - theta - 1e-3, PI - theta + 1e-3] {
+            let beam = Beam::new(chi, 0.3, 0.2);
+            let along = |t: f64| beam.direction(&motion.state(t).unwrap()).dot(&l).abs();
+            let times = (0..1000).map(|k| 10.0 + 0.009 * f64::from(k));
+            let pass = times.max_by(|a, b| along(*a).total_cmp(&along(*b))).unwrap();
+            let exact = |t: f64| phase(&beam, &n, &motion.state(t).unwrap()).unwrap();
+            for (before, after) in [(0.3, 0.4), (0.12, 0.7), (0.03, 0.07), (0.08, 0.06), (0.5, 0.02)] {
+                let mut turns = Turns::new(&motion, &beam, &n, 4.2, pass - before).unwrap();
+                let mut last = exact(pass - before);
+                for k in 1..=2000 {
+                    let next = exact(pass - before + (before + after) * f64::from(k) / 2000.0);
+                    last += (next - last) - ((next - last) / TAU).round() * TAU;
+                }
+                assert!((turns.at(pass + after).unwrap() - last).abs() < 1e-9, "{chi} {before} {after}");
             }
         }
     }
