@@ -148,11 +148,11 @@ impl<P: Margin> EdgeSearch<P> {
             if !is_across && (from.is_rising() == to.is_rising() || opens_away && off_the_edge) {
                 return Ok(());
             }
-            let share = from.margin[1] / (from.margin[1] - to.margin[1]);
-            middle = from.time + share.clamp(0.1, 0.9) * length;
+            let guess = from.time + length * from.margin[1] / (from.margin[1] - to.margin[1]);
             if length * self.bounds.first < SHORT {
-                return self.around_extremum(from, to, middle, report);
+                return self.around_extremum(from, to, guess, report);
             }
+            middle = guess.clamp(from.time + 0.1 * length, from.time + 0.9 * length);
         }
         let RateBounds { third, .. } = self.bounds;
         let size = |jet: &Jet| {
