@@ -88,3 +88,25 @@ pub fn rotated_by<S: Real>(turn: &Vector3<S>, v: &Vector3<S>) -> Vector3<S> {
     let across = turn.cross(v);
     v + across * sinc + turn.cross(&across) * half
 }
+
+#[cfg(test)]
+mod tests {
+    use num_dual::{Dual3, Dual64};
+
+    use super::*;
+
+    type Fourth = Dual3<Dual64>;
+    type Seventh = Dual3<Fourth>;
+    type Tenth = Dual3<Seventh>;
+
+    /// At no angle the last terms of both series are all that these derivatives have: those of sine and cosine.
+    #[test]
+    fn a_rotation_by_nothing_has_ten_derivatives() {
+        let inner = Fourth::from_re(Dual64::from(0.0).derivative()).derivative();
+        let t = Tenth::from_re(Seventh::from_re(inner).derivative()).derivative();
+        let constant = |v: [f64; 3]| Vector3::from(v.map(Tenth::from));
+        let found = rotated_by(&(constant([0.0, 0.0, 1.0]) * t), &constant([1.0, 0.0, 0.0]));
+        assert!((found.y.v3.v3.v3.re - 1.0).abs() < 1e-12, "{}", found.y.v3.v3.v3.re);
+        assert!((found.x.v3.v3.v3.eps + 1.0).abs() < 1e-12, "{}", found.x.v3.v3.v3.eps);
+    }
+}

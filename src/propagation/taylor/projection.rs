@@ -269,7 +269,9 @@ mod tests {
                 let (sin, cos) = (projection.setup.rate_about_axis * t).sin_cos();
                 let exact = [x * cos - y * sin, x * sin + y * cos];
                 let error = projection.about_axis(t).iter().zip(exact).fold(0.0_f64, |e, (a, b)| e.max((a - b).abs()));
-                assert!(error < 3e-16, "{angle}: {error:e}");
+                // From a whole radian that is not zero there are two more roundings.
+                let allowed = if angle.abs() < 0.5 { 3e-16 } else { 1e-15 };
+                assert!(error < allowed, "{angle}: {error:e}");
             }
         }
     }
