@@ -401,6 +401,9 @@ mod tests {
             for off in [2e-4, -2e-4, 3e-2] {
                 let n = (l(pass) + side * off).normalize();
                 let start = TurnCount::new(&motion, &Beam::new(0.9, 0.2, 0.3), &n).unwrap();
+                // Close together where it passes.
+                let times = (-200..=200).map(|k| [pass + 3.3 * sense * stride * (f64::from(k) / 200.0).powi(3), 0.0]);
+                let expected = start.last.1 + followed(&start, &motion, times);
                 // In looks that hold the passage in a stride, in its first or in its second half.
                 for looks in [&[6.6][..], &[2.9, 3.8, 6.6], &[3.2, 4.0, 6.6], &[2.4, 3.35, 6.6]] {
                     let mut count = start.clone();
@@ -412,10 +415,6 @@ mod tests {
                             farthest = farthest.max((count.last.1 - before.1).abs());
                         }
                     }
-                    // Close together where it passes.
-                    let times =
-                        (-300..=300).map(|k| [pass + 3.3 * sense * stride * (f64::from(k) / 300.0).powi(3), 0.0]);
-                    let expected = start.last.1 + followed(&start, &motion, times);
                     assert!((count.last.1 - expected).abs() < 1e-9, "{sense} {off}: {} {expected}", count.last.1);
                 }
             }
