@@ -206,7 +206,7 @@ impl PulsarClock {
     }
 
     /// The pulse of the turn nearest to the time `t[0] + t[1]`, of its pulses that nearest to the middle of the turn; none if that turn
-    /// is dark, or if the line of sight is inside the beam for more than a turn.
+    /// is dark, or if an edge of the pulse is farther than a turn and a half from its middle.
     ///
     /// A pulse is a stretch of time with `m.n > cos rho`. The search takes derivatives and their bounds from the exact equations of motion; those
     /// of the mean motion differ by `x^2`, `x = C |s| I^xx / |L|^2`, as the mean motion itself does. For `x` below 1e-6 edges are as exact as
