@@ -153,6 +153,25 @@ mod tests {
     }
 
     #[test]
+    fn the_limits_of_dates_and_times_are_checked_on_both_sides() {
+        assert!(Epoch::new(19_000_000, -1.85e7).is_ok() && Epoch::new(21_000_000, -2.05e7).is_err());
+        let start = epoch("55321.25");
+        // 1e8 days are 8.64e12 s.
+        for (seconds, is_refused) in [
+            ([8.6e12, 0.0], false),
+            ([8.7e12, 0.0], true),
+            ([-8.7e12, 0.0], true),
+            ([8.6e12, 8.6e12], true),
+            ([9.0e12, -8.0e12], false),
+        ] {
+            assert_eq!(start.after(seconds).is_err(), is_refused, "{seconds:?}");
+        }
+        let later = start.after([9.0e12, -8.0e12]).unwrap();
+        let [high, low] = later.seconds_since(&start);
+        assert!(high == 1e12 && low.abs() < 1e-11, "{high} {low:e}");
+    }
+
+    #[test]
     fn what_is_no_date_is_refused() {
         for text in ["", ".5", "5.", "-1", "+5", "1e5", "nan", "inf", "5.5.5", "10000001", "99999999999999999999", " 1"]
         {

@@ -191,6 +191,11 @@ fn a_top_on_the_separatrix_turns_with_its_angular_velocity() {
             }
         }
     }
+    // Long before and after it is on the middle axis.
+    let top = Top::new([4.5, 0.5, -0.5], &Vector3::new(x, middle, 2.0 * x));
+    let ends = [-900.0, 900.0].map(|phase| top.at(phase).frame.column(2).into_owned());
+    assert_relative_eq!(ends[0], -ends[1], epsilon = 1e-15);
+    assert_relative_eq!(ends[1].abs(), Vector3::y(), epsilon = 1e-15);
     // On the middle axis nothing moves.
     let still = Top::new([4.5, 0.5, -0.5], &Vector3::new(0.0, -1.0, 0.0));
     assert!(still.is_periodic() && still.complement() == 1.0);

@@ -7,6 +7,7 @@ use std::path::Path;
 use twofold_verify::checks;
 use twofold_verify::public_items::public_items;
 use twofold_verify::stability::cases::FAMILIES;
+use twofold_verify::stability::denormal::POINTS;
 use twofold_verify::stability::{Case, ELSEWHERE, table};
 
 fn cases() -> Vec<Case> {
@@ -60,17 +61,18 @@ fn maxima_are_at_most_those_stated() {
 /// Numbers below the smallest normal one, where 31 digits end: see `twofold_verify::stability::denormal`.
 #[test]
 fn denormal_inputs_give_the_limit() {
-    let (mut sweeps, mut numbers) = (0, 0);
+    let (mut sweeps, mut whole, mut numbers) = (0, 0, 0);
     for case in cases().iter().filter(|case| case.goes_to_zero()) {
         let found = case.measure_denormal();
         let label = table::label(case);
-        assert!(found.without_limit == 0 && found.compared > 10, "{label}: {found:?}");
+        assert!(found.without_limit == 0 && found.points >= 4, "{label}: {found:?}");
+        whole += usize::from(found.points == POINTS);
         let (ulp, bound) = (found.errors.ulp, case.class.bound());
         assert!(ulp <= bound, "{label}: {ulp} ulp of result {} at {:?}", found.errors.component, found.errors.place);
         sweeps += 1;
         numbers += found.compared;
     }
-    assert!(sweeps > 50 && numbers > 10_000, "{sweeps} sweeps, {numbers} numbers");
+    assert!(sweeps > 70 && whole > sweeps - 4 && numbers > 12_000, "{sweeps} sweeps, {whole} whole, {numbers} numbers");
 }
 
 #[test]

@@ -66,4 +66,31 @@ mod tests {
             assert_eq!(axis(&|part| Vector3::new(two(part), three(part).0, three(part).1)), Vector3::x());
         }
     }
+
+    /// In the principal frame of a tensor along no axis.
+    #[test]
+    fn frames_are_turned_to_the_positive_side_and_stay_rotations() {
+        use nalgebra::Rotation3;
+
+        let principal = Rotation3::from_euler_angles(0.4, -0.7, 1.1).into_inner();
+        let nearest = |frame: &Matrix3<f64>| frame.row(2)[frame.row(2).transpose().iamax()];
+        for (frame, sign) in [(principal, nearest(&principal).signum())] {
+            let turned = Matrix3::from_rows(&[-frame.row(0), frame.row(1).into_owned(), -frame.row(2)]);
+            let (front, back) = if sign > 0.0 { (frame, turned) } else { (turned, frame) };
+            assert!(nearest(&front) < 0.99);
+            assert_eq!((axis_to_front(&front), axis_to_front(&back)), (front, front));
+        }
+        // L goes round the first principal axis, and farther than round the third one.
+        let still = BodyState { axis: Vector3::z(), momentum: Vector3::z(), equatorial_axis: Vector3::x() };
+        let averages: Vec<_> = (0..=100)
+            .map(|i| {
+                let (sin, cos) = (0.06 * f64::from(i)).sin_cos();
+                let momentum = principal.transpose() * Vector3::new(0.9, 0.3 * cos, 0.3 * sin);
+                Averaged { state: still, fast_axis: Vector3::x(), momentum }
+            })
+            .collect();
+        let found = frame_of_precession(&principal, &averages);
+        assert!((found.determinant() - 1.0).abs() < 1e-14);
+        assert!((found.row(2).transpose().dot(&principal.row(0).transpose()).abs() - 1.0).abs() < 1e-14, "{found}");
+    }
 }

@@ -426,6 +426,21 @@ mod tests {
         }
     }
 
+    /// Far from the time zero, where the end is nine times the span.
+    #[test]
+    fn rates_do_not_depend_on_when_the_span_begins() {
+        let of = |turns: f64| Turning { slow: TAU * turns / SPAN, tilt: 0.5, ..Turning::default() };
+        let later = |of: Turning| {
+            let mut motion = turning(of, SPAN, 1e-8);
+            motion.span = (8.0 * SPAN, 9.0 * SPAN);
+            mean_rates_about(&motion, &Matrix3::identity())
+        };
+        assert!(matches!(later(of(2.9)), Err(Error::NotConverged { .. })));
+        let rates = later(of(3.1)).unwrap();
+        assert_rate(rates.slow, of(3.1).slow, 1e-7 / SPAN);
+        assert_rate(rates.nutation, 0.5, 1e-7 / SPAN);
+    }
+
     #[test]
     fn a_nutation_has_the_rate_of_the_rotation_but_for_half() {
         for (nutation, is_one) in [(0.26, true), (0.24, false), (0.74, true), (0.76, false), (-0.5, false)] {

@@ -130,7 +130,7 @@ mod tests {
     impl<F: Fn(f64) -> [f64; 4]> Margin for Given<F> {
         fn at(&self, t: f64) -> Result<[f64; 4], Error> {
             self.1.set(self.1.get() + 1);
-            // So that a search without an end ends.
+            // A search takes some dozens.
             Error::unless(self.1.get() < 10_000, "looks", 1e4, "fewer")?;
             Ok((self.0)(t))
         }

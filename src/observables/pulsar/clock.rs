@@ -166,12 +166,12 @@ impl PulsarClock {
         let violation = frame.coefficients.tensor();
         let turns = TurnCount::new(&mean, beam, &observer.direction)?;
         let bounds = rate_bounds(spheroid, &violation, &turned);
-        let rotation = core::f64::consts::TAU * bounds.first / turns.rate(&mean).abs();
+        let rotation = core::f64::consts::TAU * bounds.first / turns.rate(&mean);
         Error::unless(
-            rotation <= MOST_ROTATION,
+            (0.0..=MOST_ROTATION).contains(&rotation),
             "rotation (rad) of the body in a turn of the magnetic axis about L",
             rotation,
-            "at most 1e5: all of it is searched for pulses",
+            "above zero, and at most 1e5: all of it is searched for pulses",
         )?;
         Ok(Self {
             bounds,
@@ -206,7 +206,7 @@ impl PulsarClock {
     }
 
     /// The pulse of the turn nearest to the time `t[0] + t[1]`, of its pulses that nearest to the middle of the turn; none if that turn
-    /// is dark, or if an edge of the pulse is farther than a turn and a half from its middle.
+    /// is dark, or if an edge of the pulse is farther than a turn and a half from the middle of the turn.
     ///
     /// A pulse is a stretch of time with `m.n > cos rho`. The search takes derivatives and their bounds from the exact equations of motion; those
     /// of the mean motion differ by `x^2`, `x = C |s| I^xx / |L|^2`, as the mean motion itself does. For `x` below 1e-6 edges are as exact as
@@ -217,6 +217,8 @@ impl PulsarClock {
     /// [`Error::Domain`] where turns cannot be counted, for times that are not finite, and after 4e18 turns.
     pub fn pulse_near(&mut self, t: [f64; 2]) -> Result<Option<ClockPulse>, Error> {
         Error::unless((t[0] + t[1]).is_finite(), "time t", t[0] + t[1], "a finite number")?;
+        // The parts of a sum that is much less than they are would tell no turns apart.
+        let t = DoubleDouble::sum(t[0], t[1]).into();
         let mean = self.mean.near(t);
         let look = self.turns.look(&self.mean, t, &mean.state(0.0))?;
         let period = self.period();
@@ -359,6 +361,37 @@ mod tests {
                 assert!((pulse.duration / duration - 1.0).abs() < 0.1, "{pulse:?} {duration}");
             }
         }
+    }
+
+    /// A body with a huge moment about n turns back about n by nearly as much as n goes round L: of a turn of the magnetic axis about L it takes
+    /// `cot(theta / 2)`.
+    #[test]
+    fn a_magnetic_axis_that_hardly_turns_is_refused() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.7, inertia_zz: 1e14, constant_c: 1.0 };
+        for (theta, is_refused) in [(1.2e-4_f64, true), (1.3e-4, false)] {
+            let axis = Vector3::new(theta.sin(), 0.0, theta.cos());
+            let start = BodyState { axis, momentum: Vector3::z() * 0.8, equatorial_axis: Vector3::y() };
+            let (beam, observer) = (Beam::new(1.2, 0.4, 0.3), Observer::at(1.1, 0.0));
+            let clock = PulsarClock::new(&spheroid, &Matrix3::zeros(), &start, &beam, &observer, MeanOrder::Second);
+            assert_eq!(clock.is_err(), is_refused, "{theta}: {:?}", clock.err());
+            if let Err(Error::Domain { quantity, value, .. }) = clock {
+                let rotation = TAU / (theta / 2.0).tan();
+                assert!(
+                    quantity.starts_with("rotation") && (value / rotation - 1.0).abs() < 1e-4,
+                    "{value} {rotation}"
+                );
+            }
+        }
+    }
+
+    /// Parts that cancel are one time.
+    #[test]
+    fn a_time_may_be_any_sum() {
+        let mut clock = wobbling(0.3);
+        let wanted = clock.pulse_near([3.0, 0.0]).unwrap();
+        assert_eq!(clock.pulse_near([1e20, -1e20]).unwrap().is_some(), clock.pulse_near([0.0, 0.0]).unwrap().is_some());
+        assert_eq!(clock.pulse_near([3.0, 0.0]).unwrap(), wanted);
+        assert_eq!(clock.pulse_near([4_503_599_627_370_499.0, -4_503_599_627_370_496.0]).unwrap(), wanted);
     }
 
     #[test]

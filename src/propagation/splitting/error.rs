@@ -185,7 +185,7 @@ mod tests {
     }
 
     /// Of a slow body among nearly equal eigenvalues the motion beside is the one that goes astray. The numbers of roundings have no meaning
-    /// of their own: this holds on to those of today.
+    /// of their own: this tells when they change.
     #[test]
     fn the_motion_beside_is_off_by_some_roundings_of_its_start_and_eigenvalues() {
         let eigenvalues = [0.5012, 0.5004, 0.4984];

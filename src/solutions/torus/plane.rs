@@ -5,11 +5,15 @@ use nalgebra::Vector3;
 use super::polynomial::roots_and_touches;
 use crate::dynamics::BodyState;
 
-/// `K` of a state may be off by this times `L.L (s_max - s_min)`: a double root of the quartic is known to half the digits, and `K` then to all.
+/// `K` of a state may be off by this times the size of its terms, some `L.L s` and `C I^xx s`: a double root of the quartic is known to half the digits, and
+/// `K` then to all.
 const TOLERANCE: f64 = 1e-13;
 
 /// States whose axes are nearer are one: a double root is known to half the digits.
 const NEAREST: f64 = 1e-6;
+
+/// Farthest that Newton's method goes from a root of the quartic, which is right to half the digits at least: another root is another candidate.
+const FARTHEST: f64 = 1e-3;
 
 /// What is asked of a state.
 pub(super) struct Wanted {
@@ -62,6 +66,20 @@ impl Plane {
         BodyState { axis, momentum, equatorial_axis }
     }
 
+    /// `b` after Newton's steps, as long as each takes half of what is left of `K - K_0` or more: at a double root three quarters.
+    fn corrected(&self, start: f64) -> f64 {
+        let mut b = start;
+        loop {
+            let next = b - self.miss(b) / self.slope(b);
+            // Not a number on the edge, where the slope has a pole.
+            let helps = self.miss(next).abs() < 0.5 * self.miss(b).abs() && (next - start).abs() < FARTHEST;
+            if !helps {
+                return b;
+            }
+            b = next;
+        }
+    }
+
     /// `x` between -1 and 1 where `u^2 >= 0`.
     fn range(&self) -> Option<(f64, f64)> {
         let ([m0, m1], square) = (self.square, self.along * self.along);
@@ -90,6 +108,18 @@ impl Plane {
         let quartic = [q0 * q0 - r0, 2.0 * q0 * q1 - r1, q1 * q1 + 2.0 * q0 * q2 + r0, 2.0 * q1 * q2 + r1, q2 * q2];
         roots_and_touches(&quartic, low, high)
     }
+}
+
+/// Whether two states with the same integrals, one of them at least in a principal plane, are one or images by half turns about the principal axes: these change the
+/// signs of the components of both vectors, two at a time.
+pub(super) fn is_image(one: &BodyState<f64>, other: &BodyState<f64>) -> bool {
+    let size = one.momentum.norm();
+    let apart = |a: &Vector3<f64>, b: &Vector3<f64>| (a.abs() - b.abs()).norm();
+    // Of n and L that cross in the plane, K has another value for (n_x, n_z) than for (n_x, -n_z) with L as it is: the products tell.
+    let turned = one.axis.component_mul(&one.momentum) - other.axis.component_mul(&other.momentum);
+    apart(&one.axis, &other.axis) < NEAREST
+        && apart(&one.momentum, &other.momentum) < NEAREST * size
+        && turned.norm() < NEAREST * size
 }
 
 impl Wanted {
@@ -129,21 +159,9 @@ impl Wanted {
         let mut states: Vec<BodyState<f64>> = Vec::new();
         for x in plane.candidates() {
             for side in [1.0, -1.0] {
-                let corrected = |b: f64| b - plane.miss(b) / plane.slope(b);
-                let mut b = 0.5 * x.acos() * side;
-                let mut next = corrected(b);
-                // Not a number on the edge, where the slope has a pole.
-                while plane.miss(next).abs() < plane.miss(b).abs() {
-                    b = next;
-                    next = corrected(b);
-                }
+                let b = plane.corrected(0.5 * x.acos() * side);
                 let state = plane.state(b);
-                // The axis tells the momentum, and both turn their signs by half a turn.
-                let known = |other: &BodyState<f64>| {
-                    let [apart, turned] = [other.axis - state.axis, other.axis + state.axis].map(|off| off.norm());
-                    apart.min(turned) < NEAREST
-                };
-                if plane.miss(b).abs() <= allowed && !states.iter().any(known) {
+                if plane.miss(b).abs() <= allowed && !states.iter().any(|other| is_image(other, &state)) {
                     states.push(state);
                 }
             }
@@ -228,7 +246,9 @@ pub(super) mod tests {
                         let x = (2.0 * b).cos();
                         let candidates = plane.candidates();
                         let nearest = candidates.iter().fold(f64::INFINITY, |least, c| least.min((c - x).abs()));
-                        assert!(nearest < 1e-6, "{axes:?} {b} {along}: {x} {candidates:?}");
+                        // Two that are nearly one, where u = 0 is near, to half the digits.
+                        let allowed = if along == 0.0 { 1e-12 } else { 1e-6 };
+                        assert!(nearest < allowed, "{axes:?} {b} {along}: {x} {candidates:?}");
                         // At another K it is the distance from that.
                         let other = FirstIntegrals { clebsch: integrals.clebsch - 0.25, ..integrals };
                         assert_relative_eq!(
@@ -286,7 +306,7 @@ pub(super) mod tests {
                     }
                 }
             }
-            assert!(roots.len() > 4);
+            assert_eq!(roots.len(), 12, "{roots:?}");
         }
     }
 
@@ -296,7 +316,9 @@ pub(super) mod tests {
         let plane = Plane { axes: [0, 1], along: 0.7, half: 0.1, square: [3.0, -2.0], q: [0.0; 3] };
         // (3 + 2 + 1.04) 0.2
         let allowed = wanted.tolerance(&plane, &Vector3::new(0.1, -0.2, 0.05));
-        assert_relative_eq!(allowed, 1.208e-13, max_relative = 1e-12);
+        assert_relative_eq!(allowed, 1.208e-13, max_relative = 1e-12, epsilon = 0.0);
+        let slow = Plane { square: [-3.0, 2.0], ..plane };
+        assert_eq!(wanted.tolerance(&slow, &Vector3::new(0.1, -0.2, 0.05)), allowed);
         // sin b = L.n / |L|, |L|^2 = 5.2; 4 C D I / L^2 = 0.8 D.
         let middle = (0.7 / 5.2_f64.sqrt()).asin();
         for (spread, reach) in [(0.03, 0.024), (0.11, 0.088), (0.2, 0.1)] {
@@ -312,5 +334,52 @@ pub(super) mod tests {
         let [left, right] = none.about_second_axis(0.1);
         assert_relative_eq!(0.5 * (left + right), core::f64::consts::FRAC_PI_2, max_relative = 1e-12);
         assert_relative_eq!(right - left, 0.2, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn corrections_stay_at_their_root() {
+        let body = BODY;
+        let state = in_plane([0, 1], 0.3, 0.9, 1.7);
+        let integrals = first_integrals(&body, &S.tensor(), &state);
+        let plane = wanted(&body, &integrals).plane(&Vector3::new(S.xx, S.yy, S.zz), [0, 1]);
+        for off in [5e-4, -5e-4, 1e-7] {
+            assert_relative_eq!(plane.corrected(0.3 + off), 0.3, max_relative = 1e-13);
+        }
+        for off in [0.02, -0.02] {
+            assert_eq!(plane.corrected(0.3 + off), 0.3 + off);
+        }
+        // L.n a rounding of zero: Newton's steps take nothing of what is left, and end at once.
+        for along in [1e-13, 1e-18, 1e-300] {
+            let integrals = FirstIntegrals { energy: 1.183_538_461_538_461_4, spin: along / 1.5, clebsch: -0.098_128 };
+            let plane = wanted(&body, &integrals).plane(&Vector3::new(S.xx, S.yy, S.zz), [2, 0]);
+            for start in [0.0, 1e-9, -1e-9, 1e-8] {
+                assert!((plane.corrected(start) - start).abs() < FARTHEST);
+            }
+        }
+    }
+
+    #[test]
+    fn images_are_those_by_half_turns() {
+        let state = in_plane([0, 2], 0.7, 0.9, 1.7);
+        let turned = |state: &BodyState<f64>, signs: [f64; 3]| BodyState {
+            axis: state.axis.component_mul(&Vector3::from(signs)),
+            momentum: state.momentum.component_mul(&Vector3::from(signs)),
+            ..*state
+        };
+        for signs in [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]] {
+            let image = turned(&state, signs);
+            assert!(is_image(&state, &image));
+            let moved = |axis: f64, momentum: f64| BodyState {
+                axis: image.axis + Vector3::x() * axis,
+                momentum: image.momentum + Vector3::x() * momentum,
+                ..image
+            };
+            assert!(is_image(&moved(3e-7, 0.0), &state) && !is_image(&moved(3e-6, 0.0), &state));
+            // In units of |L| = 1.92.
+            assert!(is_image(&moved(0.0, 1.2e-6), &state) && !is_image(&moved(0.0, 3e-6), &state));
+        }
+        // The same lengths of all components, with L on the other side of n.
+        let other = BodyState { momentum: state.momentum.component_mul(&Vector3::new(-1.0, 1.0, 1.0)), ..state };
+        assert!(!is_image(&state, &other));
     }
 }

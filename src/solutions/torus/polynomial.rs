@@ -18,7 +18,8 @@ pub(super) fn roots_and_touches(coefficients: &[f64], low: f64, high: f64) -> Ve
     for pair in places.windows(2) {
         let (mut left, mut right) = (pair[0], pair[1]);
         let (first, last) = (value(coefficients, left), value(coefficients, right));
-        if first * last >= 0.0 {
+        // Not by their product, which may underflow.
+        if first == 0.0 || last == 0.0 || (first > 0.0) == (last > 0.0) {
             continue;
         }
         loop {
@@ -78,6 +79,10 @@ mod tests {
         assert_eq!(found(&[-0.5, 0.1], -1.0, 1.0), [-1.0, 1.0]);
         assert_eq!(found(&[-0.5, 1.0], -1.0, 1.0), [-1.0, 0.5, 1.0]);
         assert_eq!(found(&[1.0, -2.0], -1.0, 1.0), [-1.0, 0.5, 1.0]);
+        // Of any size.
+        for size in [1e-200, 1e200] {
+            assert_eq!(found(&[-0.5 * size, size], -1.0, 1.0), [-1.0, 0.5, 1.0]);
+        }
         // Both ends twice, by the slope as well, which has its root between.
         assert_eq!(found(&[0.125, -0.5, 1.0], -1.0, 1.0), [-1.0, -1.0, 0.25, 1.0, 1.0]);
     }

@@ -44,11 +44,11 @@ pub fn separatrix_motion(
     let plane = wanted.plane(&values, [order[0], order[1]]);
     let [mut left, mut right] = wanted.about_second_axis(values.max() - values.min());
     let first = plane.slope(left);
-    let product = first * plane.slope(right);
+    let other = first.signum() * plane.slope(right);
     Error::unless(
-        product < 0.0,
-        "slope of K along the plane of the largest and the middle eigenvalue, product at both ends",
-        product,
+        other < 0.0,
+        "slope of K along the plane of the largest and the middle eigenvalue, at one end with the sign of that at the other",
+        other,
         "below zero: n turns fast about an L near the middle axis",
     )?;
     loop {
@@ -109,7 +109,7 @@ mod tests {
             let values = Vector3::new(S.xx, S.yy, S.zz);
             let slopes = wanted.about_second_axis(0.25).map(|b| wanted.plane(&values, [0, 2]).slope(b));
             match separatrix_motion(&body, &S, energy, spin) {
-                Err(Error::Domain { value, .. }) => assert_relative_eq!(value, slopes[0] * slopes[1]),
+                Err(Error::Domain { value, .. }) => assert_relative_eq!(value, slopes[0].signum() * slopes[1]),
                 other => panic!("{other:?} {slopes:?}"),
             }
         }

@@ -99,7 +99,7 @@ mod tests {
         SlowCourse::along(&integrals, &BODY, values, initial)
     }
 
-    /// Rotation slow enough that the flow of `K` is below 1, as its start value in a search must not be.
+    /// Rotation so slow that the averaged `L` moves at less than one radian per unit of time along `K`.
     fn start(momentum: [f64; 3]) -> BodyState<f64> {
         let axis = Vector3::new(0.48, 0.36, 0.8);
         BodyState { axis, momentum: Vector3::from(momentum), equatorial_axis: Vector3::new(0.6, -0.8, 0.0) }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::plane::Wanted;
+use super::plane::{Wanted, is_image};
 use crate::dynamics::first_integrals::FirstIntegrals;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
@@ -91,7 +91,8 @@ pub fn states_with_integrals(
     let absent = planes.iter().filter(|states| states.is_empty()).count();
     let normal = planes.iter().position(Vec::is_empty).filter(|_| absent == 1);
     let mut states = planes.concat();
-    states.extend(wanted.on_axis(&values, pull.imin()));
+    let along_axis = wanted.on_axis(&values, pull.imin());
+    states.extend(along_axis.filter(|state| !states.iter().any(|other| is_image(other, state))));
     Error::unless(
         !states.is_empty(),
         "third integral K",
@@ -241,6 +242,34 @@ mod tests {
             assert_eq!(two.len(), 2, "{sides:?}");
             let apart = (two[0].axis - two[1].axis).norm().min((two[0].axis + two[1].axis).norm());
             assert!((1e-5..7e-4).contains(&apart), "{apart:e}");
+        }
+    }
+
+    /// With `n` on an axis and `L` in a principal plane, found in the plane and on the axis, on whichever side rounding puts the third component.
+    #[test]
+    fn a_state_on_an_axis_and_in_a_plane_is_one() {
+        for momentum in [[0.0, 0.7, 0.9], [0.9, 0.7, 0.0], [1.0, 0.7, 0.0]] {
+            let start = BodyState { axis: Vector3::y(), momentum: momentum.into(), equatorial_axis: Vector3::x() };
+            let integrals = first_integrals(&BODY, &S.tensor(), &start);
+            let found = states_with_integrals(&BODY, &S, &integrals).unwrap();
+            let on_axis = found.states.iter().filter(|state| state.axis.y.abs() > 1.0 - 1e-9);
+            assert_eq!(on_axis.count(), 1, "{momentum:?}: {found:?}");
+        }
+    }
+
+    /// Coefficients of any size: the states are those of the tensor in its own unit, if rotation is as much slower.
+    #[test]
+    fn tiny_coefficients_have_as_many_states() {
+        let s = |scale: f64| PrincipalCoefficients { xx: 0.21 * scale, yy: -0.04 * scale, zz: 0.09 * scale };
+        for direction in [[0.3, 0.5, 1.9], [1.7, -0.6, 0.4], [-0.5, 1.8, 0.3]] {
+            let axis = Vector3::new(0.6, 0.0, 0.8);
+            let start = BodyState { axis, momentum: Vector3::from(direction), equatorial_axis: Vector3::y() };
+            let count = |s: &PrincipalCoefficients<f64>| {
+                let found = states_with_integrals(&BODY, s, &first_integrals(&BODY, &s.tensor(), &start)).unwrap();
+                (found.states.len(), found.round)
+            };
+            assert_eq!(count(&s(1e-82)), count(&s(1e-8)), "{direction:?}");
+            assert_eq!(count(&s(1e-140)), count(&s(1e-8)), "{direction:?}");
         }
     }
 

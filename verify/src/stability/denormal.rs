@@ -23,11 +23,13 @@ const TO_ZERO: f64 = -140.0;
 const LOSES_ITS_FORM: &str = "lorentz_violation::preferred_frame_parameter";
 
 /// Points of a case.
-const POINTS: usize = 10;
+pub const POINTS: usize = 10;
 
 /// What was found at denormal inputs.
 #[derive(Debug, Clone, Default)]
 pub struct Denormal {
+    /// Points within the domain, of [`POINTS`].
+    pub points: usize,
     /// Numbers compared with their limit.
     pub compared: usize,
     /// Results that go to zero or infinity neither as a power, nor as a logarithm, nor are constant: a defect of this measure.
@@ -77,6 +79,7 @@ impl Case {
             if results.iter().flatten().any(|result| result.high().is_nan()) {
                 continue;
             }
+            found.points += 1;
             let scales = self.scales(&x, &results[2]);
             for place in PLACES {
                 x[0] = sign * place;
