@@ -8,11 +8,12 @@ fn list(file: &str) -> Vec<Vec<String>> {
     text.lines().map(|line| line.split('\t').map(str::to_string).collect()).collect()
 }
 
-/// The source from the function's name on, without what lays it out.
+/// The source from the name of the function or constant on, without what lays it out.
 fn source(file: &str, function: &str) -> String {
     let text = fs::read_to_string(file).unwrap_or_else(|error| panic!("{file}: {error}"));
     let name = function.rsplit("::").next().unwrap_or(function);
-    let at = text.find(&format!("fn {name}")).unwrap_or_else(|| panic!("{file} has no function {name}"));
+    let place = |kind: &str| text.find(&format!("{kind} {name}"));
+    let at = place("fn").or_else(|| place("const")).unwrap_or_else(|| panic!("{file} has no {name}"));
     laid_out(&text[at..])
 }
 
@@ -44,9 +45,10 @@ fn every_fault_of_physicists_has_its_place() {
     }
 }
 
+/// Of the lists of what changes nothing, with a proof, and of what is caught in an edited source, with the test that fails.
 #[test]
-fn every_equivalent_mutant_has_its_place_and_a_proof() {
-    for mutant in list("verify/mutation/equivalent.tsv") {
+fn every_listed_mutant_has_its_place_and_a_reason() {
+    for mutant in ["verify/mutation/equivalent.tsv", "verify/mutation/edited.tsv"].into_iter().flat_map(list) {
         let [file, function, change, code, which, proof] = &mutant[..] else { panic!("not six fields: {mutant:?}") };
         if file == "*" {
             let name = change.split(':').next().unwrap_or_default();
@@ -61,6 +63,6 @@ fn every_equivalent_mutant_has_its_place_and_a_proof() {
             assert!(code == "*" || source.contains(code.as_str()), "{file}, {function}: no `{code}`");
         }
         assert!(which == "all" || which.parse::<usize>().is_ok_and(|place| place > 0), "{file}, {function}: {which}");
-        assert!(proof.len() > 20, "{file}, {function}: no proof");
+        assert!(proof.len() > 20, "{file}, {function}: no reason");
     }
 }

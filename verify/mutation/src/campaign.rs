@@ -1,7 +1,7 @@
 //! Which tests reach which mutant, and which mutants they catch.
 
 mod earlier;
-mod equivalent;
+mod listed;
 mod record;
 mod score;
 mod suite;
@@ -42,7 +42,7 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
     if std::env::var_os("ANEW").is_none() {
         earlier::begin(tree, &mutants)?;
     }
-    let equivalent = equivalent::numbers(&mutants);
+    let (equivalent, edited) = (listed::equivalent(&mutants), listed::edited(&mutants));
     let results = tree.join("results.jsonl");
     let done: HashMap<u64, f64> = lines(&results)
         .unwrap_or_default()
@@ -54,7 +54,8 @@ pub fn run(tree: &Path, rest: &[&str]) -> Result<(), String> {
         .filter(|m| m["file"].as_str().unwrap_or("").starts_with(prefix))
         .filter(|m| {
             let number = m["number"].as_u64().unwrap_or(0);
-            !equivalent.contains(&number) && done.get(&number).is_none_or(|spent| *spent < budget)
+            let listed = equivalent.contains(&number) || edited.contains(&number);
+            !listed && done.get(&number).is_none_or(|spent| *spent < budget)
         })
         .collect();
     eprintln!("{} mutants, {} to do, {} tests", mutants.len(), open.len(), tests.len());

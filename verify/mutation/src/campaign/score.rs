@@ -7,7 +7,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::equivalent;
+use super::listed;
 
 /// Columns of the record.
 const HEADER: &str = "file,content,date,mutants,caught,equivalent,lives,open,unreached";
@@ -60,7 +60,7 @@ struct Counts {
 
 /// Prints the score, writes `missed.txt`, and puts the files that were run whole into `verify/mutation/record.csv` of the folder above.
 pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
-    let equivalent = equivalent::numbers(mutants);
+    let (equivalent, edited) = (listed::equivalent(mutants), listed::edited(mutants));
     let mut last: HashMap<u64, Value> = HashMap::new();
     for result in super::lines(&tree.join("results.jsonl"))? {
         last.insert(result["number"].as_u64().unwrap_or(0), result);
@@ -73,6 +73,10 @@ pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
         let number = mutant["number"].as_u64().unwrap_or(0);
         if equivalent.contains(&number) {
             counts.equivalent += 1;
+            continue;
+        }
+        if edited.contains(&number) {
+            counts.caught += 1;
             continue;
         }
         let Some(result) = last.get(&number) else {
@@ -132,6 +136,8 @@ fn keep(mutants: &[Value], by_file: &BTreeMap<String, Counts>) -> Result<(), Str
         .lines()
         .skip(1)
         .filter_map(|line| Some((line.split(',').next()?.to_string(), line.to_string())))
+        // Sources that are gone are of no account.
+        .filter(|(file, _)| Path::new(file).exists())
         .collect();
     let output = Command::new("date").arg("-I").output().map_err(|e| format!("date: {e}"))?;
     let date = String::from_utf8_lossy(&output.stdout).trim().to_string();
