@@ -376,10 +376,27 @@ pub(super) mod tests {
             };
             assert!(is_image(&moved(3e-7, 0.0), &state) && !is_image(&moved(3e-6, 0.0), &state));
             // In units of |L| = 1.92.
-            assert!(is_image(&moved(0.0, 1.2e-6), &state) && !is_image(&moved(0.0, 3e-6), &state));
+            assert!(is_image(&moved(0.0, 1.7e-6), &state) && !is_image(&moved(0.0, 3e-6), &state));
+            let aside = BodyState { momentum: image.momentum + Vector3::y() * 3e-6, ..image };
+            assert!(!is_image(&aside, &state));
         }
         // The same lengths of all components, with L on the other side of n.
         let other = BodyState { momentum: state.momentum.component_mul(&Vector3::new(-1.0, 1.0, 1.0)), ..state };
         assert!(!is_image(&state, &other));
+    }
+
+    /// `L` normal to `n`: both signs of `b` have the same `K`, and the positive one comes first.
+    #[test]
+    fn two_states_at_one_place_come_in_order() {
+        let values = Vector3::new(S.xx, S.yy, S.zz);
+        let state = in_plane([0, 1], 0.4, 0.0, 1.7);
+        let found = wanted(&BODY, &first_integrals(&BODY, &S.tensor(), &state)).in_plane(&values, 2);
+        let sides: Vec<_> =
+            found.iter().filter(|s| (s.axis.x - 0.4_f64.cos()).abs() < 1e-9).map(|s| s.axis.y).collect();
+        assert!(sides.len() == 2 && sides[0] > 0.38 && sides[1] < -0.38, "{found:?}");
+        // A root of the quadratic is a candidate as it is.
+        let plane = wanted(&BODY, &first_integrals(&BODY, &S.tensor(), &state)).plane(&values, [0, 1]);
+        let roots = plane.candidates();
+        assert!(roots.iter().any(|x| (x - 0.8_f64.cos()).abs() < 1e-13), "{roots:?}");
     }
 }

@@ -92,24 +92,30 @@ mod tests {
         }
         for eigenvalues in [[0.1, 0.1, -0.2], [0.2, -0.1, -0.1], [0.0, 0.0, 0.0]] {
             let refused = separatrix_motion(&BODY, &PrincipalCoefficients::new(eigenvalues), 2.0, 0.3);
-            assert!(matches!(refused, Err(Error::Domain { value: 0.0, .. })), "{refused:?}");
+            let Err(Error::Domain { quantity, value, .. }) = refused else { panic!("{refused:?}") };
+            assert!(quantity.starts_with("least difference") && value == 0.0, "{quantity}: {value}");
         }
     }
 
     /// `L` along `n`: `K` has no extremum where the slope is looked at, and both ends tell the same sign.
     #[test]
     fn a_plane_without_an_extremum_is_refused() {
-        for body in [BODY, PROLATE] {
+        for (body, strength) in [(BODY, 1.0), (PROLATE, 1.0), (BODY, 0.1), (PROLATE, 0.1)] {
+            let s = S.scaled(strength);
             let spin = 1.2;
             let along = body.inertia_zz * spin;
-            let energy = along * spin / 2.0 + 0.02;
-            let hamiltonian = 0.02 + along * along / (2.0 * body.inertia_xx);
+            let more = 0.02 * strength;
+            let energy = along * spin / 2.0 + more;
+            let hamiltonian = more + along * along / (2.0 * body.inertia_xx);
             let wanted =
                 Wanted { constant_c: body.constant_c, inertia: body.inertia_xx, hamiltonian, along, third: 0.0 };
-            let values = Vector3::new(S.xx, S.yy, S.zz);
-            let slopes = wanted.about_second_axis(0.25).map(|b| wanted.plane(&values, [0, 2]).slope(b));
-            match separatrix_motion(&body, &S, energy, spin) {
-                Err(Error::Domain { value, .. }) => assert_relative_eq!(value, slopes[0].signum() * slopes[1]),
+            let values = Vector3::new(s.xx, s.yy, s.zz);
+            let slopes = wanted.about_second_axis(0.25 * strength).map(|b| wanted.plane(&values, [0, 2]).slope(b));
+            match separatrix_motion(&body, &s, energy, spin) {
+                Err(Error::Domain { value, .. }) => {
+                    assert!(value > 0.0, "{slopes:?}");
+                    assert_relative_eq!(value, slopes[0].signum() * slopes[1], max_relative = 1e-9);
+                }
                 other => panic!("{other:?} {slopes:?}"),
             }
         }

@@ -216,6 +216,9 @@ mod tests {
                 (state.axis - axis).norm() < 1e-9 && (state.momentum.abs() - momentum.abs()).norm() < 1e-9
             });
             assert_eq!(same.count(), 1, "{found:?}");
+            for state in &found.states {
+                assert_relative_eq!(state.equatorial_axis.norm(), 1.0, max_relative = 1e-15);
+            }
         }
     }
 
@@ -243,6 +246,29 @@ mod tests {
             let apart = (two[0].axis - two[1].axis).norm().min((two[0].axis + two[1].axis).norm());
             assert!((1e-5..7e-4).contains(&apart), "{apart:e}");
         }
+    }
+
+    /// The second component is the first one turned by half a turn about the axis after that gone round.
+    #[test]
+    fn components_are_images_by_half_a_turn() {
+        let state = BodyState {
+            axis: Vector3::new(0.48, 0.64, 0.6),
+            momentum: Vector3::new(0.3, -0.2, 0.5),
+            equatorial_axis: Vector3::new(0.8, -0.6, 0.0),
+        };
+        for (round, signs, positive) in
+            [(2, [1.0, -1.0, -1.0], true), (0, [-1.0, 1.0, -1.0], true), (1, [-1.0, -1.0, 1.0], false)]
+        {
+            let turn = |v: Vector3<f64>| v.component_mul(&Vector3::from(signs));
+            let image = BodyState {
+                axis: turn(state.axis),
+                momentum: turn(state.momentum),
+                equatorial_axis: turn(state.equatorial_axis),
+            };
+            let found = TorusStates { round: Some(round), states: vec![state] }.components().unwrap();
+            assert_eq!(found, if positive { [state, image] } else { [image, state] });
+        }
+        assert_eq!(TorusStates { round: None, states: vec![state] }.components(), None);
     }
 
     /// With `n` on an axis and `L` in a principal plane, found in the plane and on the axis, on whichever side rounding puts the third component.
