@@ -394,9 +394,15 @@ pub(super) mod tests {
         let sides: Vec<_> =
             found.iter().filter(|s| (s.axis.x - 0.4_f64.cos()).abs() < 1e-9).map(|s| s.axis.y).collect();
         assert!(sides.len() == 2 && sides[0] > 0.38 && sides[1] < -0.38, "{found:?}");
-        // A root of the quadratic is a candidate as it is.
-        let plane = wanted(&BODY, &first_integrals(&BODY, &S.tensor(), &state)).plane(&values, [0, 1]);
-        let roots = plane.candidates();
-        assert!(roots.iter().any(|x| (x - 0.8_f64.cos()).abs() < 1e-13), "{roots:?}");
+    }
+
+    /// With `L.n` zero to the last bit the equation is quadratic, and its roots are candidates as they are.
+    #[test]
+    fn roots_of_the_quadratic_on_one_side_are_both_found() {
+        let plane = Plane { axes: [0, 1], along: 0.0, half: 0.3, square: [4.0, 0.1], q: [0.18, -0.9, 1.0] };
+        let candidates = plane.candidates();
+        for root in [0.3, 0.6] {
+            assert!(candidates.iter().any(|x| (x - root).abs() < 1e-14), "{candidates:?}");
+        }
     }
 }
