@@ -20,7 +20,9 @@ use twofold::observables::pulsar::{Beam, PulsarClock, arrivals, propagated_pulse
 use twofold::propagation::{AxisMotion, AxisState, ContinuousAngles, Motion, UniformMotion, propagate};
 use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::mean::MeanOrder;
-use twofold::solutions::perturbation::{Constants, Kind, Perturbation, constants_from_initial_values, shifted_rates};
+use twofold::solutions::perturbation::{
+    Constants, Form, Kind, Perturbation, constants_from_initial_values, shifted_rates,
+};
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::solutions::symmetric::SymmetricSolution;
 use twofold::star::spheroid_shape::SpheroidShape;
@@ -64,11 +66,11 @@ fn poles_are_reported() {
 #[test]
 fn perturbation_solutions_know_where_they_hold() {
     let constants = |beta_0| Constants { alpha_0: 0.1, beta_0, amplitude: 0.01, phase: 0.2 };
-    let printed = |kind, s, spin, beta_0| Perturbation::printed(kind, &star(), &s, spin, &constants(beta_0));
+    let printed = |kind, s, spin, beta_0| Perturbation::new(Form::Printed, kind, &star(), &s, spin, &constants(beta_0));
     refused(printed(Kind::Single, S, 1.0, 0.0), "sin beta_0");
     refused(printed(Kind::Twofold, S, 1.0, FRAC_PI_2), "cos beta_0");
     refused(printed(Kind::Twofold, S, 0.0, 0.7), "spin");
-    refused(Perturbation::corrected_twofold(&star(), &S, 1.0, &constants(FRAC_PI_2)), "cos beta_0");
+    refused(Perturbation::new(Form::Corrected, Kind::Twofold, &star(), &S, 1.0, &constants(FRAC_PI_2)), "cos beta_0");
     refused(shifted_rates(&star(), &S, 0.0, 0.7), "spin");
     // 2 s^ZZ - s^XX - s^YY vanishes up to the rounding of 0.015.
     let balanced = PrincipalCoefficients { xx: 0.02, yy: 0.01, zz: 0.015 };
@@ -343,13 +345,15 @@ fn constants_have_amplitudes_of_both_parts() {
     let steady = steady_precession_rate(Kind::Twofold, &spheroid, &none, spin, beta).expect("a rate");
     let of = |alpha_rate: f64, beta_rate: f64| {
         let initial = AxisAngles { alpha: 0.2, beta, alpha_rate, beta_rate };
-        constants_from_initial_values(Kind::Twofold, &spheroid, &none, spin, &initial).expect("constants")
+        constants_from_initial_values(Form::Printed, Kind::Twofold, &spheroid, &none, spin, &initial)
+            .expect("constants")
     };
     let nothing = of(steady, 0.0);
     assert!(nothing.amplitude < 1e-12, "{nothing:?}");
     for (alpha, beta_rate) in [(1e-3, 0.0), (0.0, 1e-3), (-1e-3, 2e-3)] {
         let found = of(steady + alpha, beta_rate);
-        let solution = Perturbation::printed(Kind::Twofold, &spheroid, &none, spin, &found).expect("a solution");
+        let solution =
+            Perturbation::new(Form::Printed, Kind::Twofold, &spheroid, &none, spin, &found).expect("a solution");
         let at = solution.at(0.0);
         assert!((at.alpha - 0.2).abs() < 1e-12 && (at.beta - 0.7).abs() < 1e-12, "{found:?}");
         assert!(

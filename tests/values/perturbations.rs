@@ -2,7 +2,9 @@
 
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::{Constants, Kind, constants_from_initial_values, initial_values, shifted_rates};
+use twofold::solutions::perturbation::{
+    Constants, Form, Kind, constants_from_initial_values, initial_values, shifted_rates,
+};
 use twofold::solutions::symmetric::SymmetricSolution;
 
 use crate::scene::{PROLATE, STAR};
@@ -20,7 +22,7 @@ fn constants_of_integration() {
             ] {
                 let name =
                     format!("{kind:?} {s:?} {constants:?}").chars().filter(|c| !c.is_whitespace()).collect::<String>();
-                let initial = match initial_values(kind, &STAR, &s, 1.9, &constants) {
+                let initial = match initial_values(Form::Printed, kind, &STAR, &s, 1.9, &constants) {
                     Ok(initial) => initial,
                     Err(error) => {
                         table.error(&name, &error);
@@ -31,7 +33,7 @@ fn constants_of_integration() {
                     &format!("{name}: initial"),
                     [initial.alpha, initial.beta, initial.alpha_rate, initial.beta_rate],
                 );
-                match constants_from_initial_values(kind, &STAR, &s, 1.9, &initial) {
+                match constants_from_initial_values(Form::Printed, kind, &STAR, &s, 1.9, &initial) {
                     Ok(back) => {
                         table.parts(&format!("{name}: back"), [back.alpha_0, back.beta_0, back.amplitude, back.phase])
                     }

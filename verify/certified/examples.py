@@ -48,7 +48,8 @@ COEFFICIENTS = [fraction(x) for x in ("0.02", "0.01", "-0.04")]
 SOLUTIONS = {
     "twofold": perturbation.Solution(perturbation.as_printed("twofold"), "twofold"),
     "single": perturbation.Solution(perturbation.as_printed("single"), "single"),
-    "corrected": perturbation.Solution(perturbation.linearised("twofold"), "twofold"),
+    "corrected": perturbation.Solution(perturbation.first_order("twofold"), "twofold"),
+    "corrected-single": perturbation.Solution(perturbation.first_order("single"), "single"),
 }
 
 

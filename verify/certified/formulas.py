@@ -39,9 +39,9 @@ def constants():
             "eta_alpha, Eq. (31)": found.eta_alpha,
             "eta_beta, Eq. (31)": found.eta_beta,
         }
-        if name == "twofold":
-            pairs["eta_alpha, corrected"] = SOLUTIONS["corrected"].eta_alpha
-            pairs["eta_beta, corrected"] = SOLUTIONS["corrected"].eta_beta
+        corrected = SOLUTIONS["corrected-single" if example.kind == "single" else "corrected"]
+        pairs["eta_alpha, corrected"] = corrected.eta_alpha
+        pairs["eta_beta, corrected"] = corrected.eta_beta
         for label, value in zip(pairs, enclose(list(pairs.values()), example.values)):
             yield table, f"{name} {label}", value
     yield table, "twofold, shifted alpha rate [1/t_c], Eq. (57)", twofold.rate

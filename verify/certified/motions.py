@@ -187,12 +187,12 @@ def error_of(kind, s, beta_0, amplitude, span, samples):
         t = end * i / samples
         n, _, _ = motion.at(t)
         alpha, beta, _, _ = example.perturbed(t)
-        if kind == "single":
+        if "single" in kind:
             axis = [alpha.sin() * beta.sin(), -alpha.cos() * beta.sin(), beta.cos()]
             axes.append(length([x - y for x, y in zip(n, axis)]))
         else:
             betas.append(abs(arb.atan2((n[0] * n[0] + n[1] * n[1]).sqrt(), n[2]) - beta))
-    return largest(axes if kind == "single" else betas)
+    return largest(axes if "single" in kind else betas)
 
 
 def twofold_regimes(form):
@@ -213,12 +213,14 @@ SINGLE = [("0.01", "1", b, "0") for b in ("0.1", "0.3", "0.5", "0.7", "0.9", "1"
 SINGLE += [("0.01", "1", "0.7", a) for a in ("0.003", "0.01", "0.03", "0.1")]
 SINGLE += [(asymmetry, "1", "0.7", "0") for asymmetry in ("0", "0.001", "0.003", "0.03")]
 SINGLE += [("0.01", "0.1", "0.7", "0")]
+SINGLE = [(form, *case) for form in ("printed", "corrected") for case in SINGLE]
 
 
 def single_regime(case):
     """Distance of the axes over one forced period."""
-    asymmetry, k, beta_0, amplitude = case
+    form, asymmetry, k, beta_0, amplitude = case
+    kind = {"printed": "single", "corrected": "corrected-single"}[form]
     period = lambda example: 2 * arb.pi() / abs(example.rate)
-    error = error_of("single", scaled(asymmetry, k), beta_0, amplitude, period, 1000)
-    label = f"beta_0 = {beta_0}, A = {amplitude}, k = {k}, s^XX - s^YY = {asymmetry} k"
+    error = error_of(kind, scaled(asymmetry, k), beta_0, amplitude, period, 1000)
+    label = f"{form}, beta_0 = {beta_0}, A = {amplitude}, k = {k}, s^XX - s^YY = {asymmetry} k"
     return [("single_regimes", label, error)]

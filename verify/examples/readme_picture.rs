@@ -10,8 +10,8 @@ use plotters::coord::Shift;
 use plotters::coord::combinators::IntoLogRange;
 use plotters::prelude::*;
 use twofold::propagation::Motion;
-use twofold::solutions::perturbation::Kind;
-use twofold_verify::checks::regimes::perturbation_error::{Case, Form};
+use twofold::solutions::perturbation::{Form, Kind};
+use twofold_verify::checks::regimes::perturbation_error::Case;
 
 // Okabe and Ito's colours, told apart by readers who see red and green alike.
 const NUMERICAL: RGBColor = RGBColor(170, 170, 170);
@@ -38,9 +38,9 @@ fn inclination(area: &Area) -> Result<(), Box<dyn Error>> {
     let duration = 20.0;
     let tilt = 0.01;
     // The same tilt by both: A / omega as printed, A / a corrected. Too small an s to matter, since a^(1) needs a sign.
-    let case = |form, frequency: f64| Case::paper(form, 1e-40, 0.7, tilt * frequency);
-    let printed = case(Form::Printed(Kind::Twofold), 1.1);
-    let corrected = case(Form::CorrectedTwofold, 1.1 / 0.7f64.cos());
+    let case = |form, frequency: f64| Case::paper(form, Kind::Twofold, 1e-40, 0.7, tilt * frequency);
+    let printed = case(Form::Printed, 1.1);
+    let corrected = case(Form::Corrected, 1.1 / 0.7f64.cos());
     let (motion, _) = printed.motion(duration)?;
     let times: Vec<f64> = (0..=600).map(|i| duration * f64::from(i) / 600.0).collect();
     let numerical =
@@ -101,14 +101,11 @@ fn errors(area: &Area) -> Result<(), Box<dyn Error>> {
         .label_style(("sans-serif", 15 * UNIT))
         .axis_desc_style(("sans-serif", 16 * UNIT))
         .draw()?;
-    let forms = [
-        (Form::Printed(Kind::Twofold), PRINTED, "as printed: order 1"),
-        (Form::CorrectedTwofold, CORRECTED, "corrected: order 2"),
-    ];
+    let forms = [(Form::Printed, PRINTED, "as printed: order 1"), (Form::Corrected, CORRECTED, "corrected: order 2")];
     for (form, colour, label) in forms {
         let points = scales
             .iter()
-            .map(|&k| Ok((k, Case::paper(form, k, 0.7, 0.0).errors(10.0, 400)?.beta)))
+            .map(|&k| Ok((k, Case::paper(form, Kind::Twofold, k, 0.7, 0.0).errors(10.0, 400)?.beta)))
             .collect::<Result<Vec<_>, String>>()?;
         chart
             .draw_series(LineSeries::new(points.clone(), colour.stroke_width(2 * UNIT)))?

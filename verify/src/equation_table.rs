@@ -223,7 +223,7 @@ pub const EQUATIONS: &[Equation] = &[
         "first-order rates",
         &[
             "solutions::perturbation::Perturbation::first_order_rates",
-            "solutions::perturbation::Perturbation::corrected_twofold",
+            "solutions::perturbation::Form",
         ],
         &[],
     ),
@@ -231,14 +231,14 @@ pub const EQUATIONS: &[Equation] = &[
         31,
         "consdef",
         "a^(1), C~, eta_alpha, eta_beta",
-        &["solutions::perturbation::Perturbation::printed", "lorentz_violation::PrincipalCoefficients"],
+        &["solutions::perturbation::Perturbation::new", "lorentz_violation::PrincipalCoefficients"],
         &["perturbation_constants"],
     ),
     row(
         32,
         "precangvel",
         "precession rate a",
-        &["solutions::perturbation::Perturbation::printed"],
+        &["solutions::perturbation::Perturbation::new"],
         &["perturbation_constants"],
     ),
     row(

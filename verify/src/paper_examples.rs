@@ -6,7 +6,7 @@ use twofold::dynamics::euler_angle_equations::AxisAngles;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::{Constants, Kind, initial_values};
+use twofold::solutions::perturbation::{Constants, Form, Kind, initial_values};
 
 /// `Omega^z` of all four examples [1/t_c].
 pub const SPIN: f64 = 1.0;
@@ -36,7 +36,7 @@ impl PaperExample {
     /// # Errors
     /// None for the four examples.
     pub fn initial_values(&self) -> Result<AxisAngles<f64>, twofold::Error> {
-        initial_values(self.kind, &spheroid(), &COEFFICIENTS, SPIN, &self.constants)
+        initial_values(Form::Printed, self.kind, &spheroid(), &COEFFICIENTS, SPIN, &self.constants)
     }
 
     /// The initial state, with `gamma = 0`.

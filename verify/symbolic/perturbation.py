@@ -1,6 +1,7 @@
 """First order about free precession and about a stationary spin: equations and their solutions. Eqs. (27)-(34), (57).
 
-alpha = alpha_0 + a t + k alpha1, beta = beta_0 + k beta1, and s of order k. The phases are x = nu t + phi of the homogeneous and
+Twofold: alpha = alpha_0 + a t + k alpha1, beta = beta_0 + k beta1, and s of order k. Single: s and the rates are of order k,
+s_x - s_y of order k r and beta1 of order r; what is kept is of the orders k and k r. The phases are x = nu t + phi of the homogeneous and
 y = a t + alpha_0 of the forced part. As in the paper rates are those of the zeroth-order a; angles are their integrals with the shift
 absorbed in a, so that a forced angle is its rate over 2 a.
 """
@@ -19,14 +20,23 @@ c_tilde = c * (s_x - s_y) / (i_zz * spin)
 KINDS = {"twofold": omega / cos(beta), "single": 0}
 
 
-def linearised(kind):
-    """The terms of order k of Eq. (25), divided as Eq. (29) is; `alpha`, `beta` stand for alpha_0 + a t and beta_0."""
+def first_order(kind):
+    """The terms of first order of Eq. (25), divided as Eq. (29) is; `alpha`, `beta` stand for alpha_0 + a t and beta_0."""
+    return about_free_precession() if kind == "twofold" else about_stationary_spin()
+
+
+def divided(equations):
+    return [equation / divisor for equation, divisor in zip(equations, (sin(beta) ** 2, 1))]
+
+
+def about_free_precession():
+    """The terms of order k."""
     alpha1 = Symbol("alpha1")
     alpha_rate1, beta_rate1, alpha_second1, beta_second1 = FIRST_RATES
     replaced = {
         alpha: alpha + k * alpha1,
         beta: beta + k * beta1,
-        RATES[0]: KINDS[kind] + k * alpha_rate1,
+        RATES[0]: KINDS["twofold"] + k * alpha_rate1,
         RATES[1]: k * beta_rate1,
         ACCELERATIONS[0]: k * alpha_second1,
         ACCELERATIONS[1]: k * beta_second1,
@@ -34,12 +44,32 @@ def linearised(kind):
         s_y: k * s_y,
         s_z: k * s_z,
     }
-    out = []
-    for equation, divisor in zip(EQUATIONS_25, (sin(beta) ** 2, 1)):
-        moved = equation.subs(replaced, simultaneous=True)
-        assert moved.subs(k, 0).simplify() == 0, "zeroth order"
-        out.append(diff(moved, k).subs(k, 0) / divisor)
-    return out
+    moved = [equation.subs(replaced, simultaneous=True) for equation in EQUATIONS_25]
+    assert all(m.subs(k, 0).simplify() == 0 for m in moved), "zeroth order"
+    return divided([diff(m, k).subs(k, 0) for m in moved])
+
+
+def about_stationary_spin():
+    """The terms of the orders k and k r. The rate of alpha at order k is that of the slow precession with s_x = s_y; accelerations, those
+    of the homogeneous motion, are counted as k r."""
+    alpha_rate1, beta_rate1, alpha_second1, beta_second1 = FIRST_RATES
+    r, slow = symbols("r slow")
+    mean, half = (s_x + s_y) / 2, (s_x - s_y) / 2
+    replaced = {
+        beta: beta + r * beta1,
+        RATES[0]: k * (slow + r * (alpha_rate1 - slow)),
+        RATES[1]: k * r * beta_rate1,
+        ACCELERATIONS[0]: k * r * alpha_second1,
+        ACCELERATIONS[1]: k * r * beta_second1,
+        s_x: k * (mean + r * half),
+        s_y: k * (mean - r * half),
+        s_z: k * s_z,
+    }
+    moved = [diff(e.subs(replaced, simultaneous=True), k).subs(k, 0) for e in EQUATIONS_25]
+    at_order_k = [m.subs(r, 0) for m in moved]
+    rate = solve(at_order_k[1], slow)[0]
+    assert at_order_k[0].simplify() == 0
+    return divided([(m0 + diff(m, r).subs(r, 0)).subs(slow, rate) for m0, m in zip(at_order_k, moved)])
 
 
 def as_printed(kind):
@@ -55,17 +85,23 @@ def as_printed(kind):
 class Solution:
     """alpha1' = shift - A h sin x + r_alpha cos 2y, beta1' = A cos x + r_beta sin 2y, by undetermined coefficients.
 
-    The forced rates are linear in s; shift and forced rates are found from the part without and with 2y, h and nu from the homogeneous
-    part. Where a is zero at zeroth order the phase y stands still, so that the forced accelerations drop out.
+    Shift and forced rates are found from the part without and with 2y, h and nu from the homogeneous part. Where a is zero at zeroth
+    order the phase y stands still, so that the forced accelerations drop out; the forced angles divide by the shift, and the
+    homogeneous beta1 is of the order k.
     """
 
     def __init__(self, equations, kind):
         rate = KINDS[kind]
         shift, ratio, r_alpha, r_beta, nu = symbols("shift ratio r_alpha r_beta nu")
-        # Integrals with respect to time; 1 / rate only where it is not zero.
-        forced_beta = -r_beta / (2 * rate) * cos(2 * y) if rate != 0 else 0
-        values = {
-            beta1: amplitude / nu * sin(x) + forced_beta,
+        # Integrals with respect to time.
+        if rate != 0:
+            values = {beta1: amplitude / nu * sin(x) - r_beta / (2 * rate) * cos(2 * y)}
+        else:
+            # The shift, found first: the part without x, y and beta1.
+            still = {beta1: 0, FIRST_RATES[1]: 0, FIRST_RATES[2]: 0, FIRST_RATES[3]: 0, s_x: (s_x + s_y) / 2, s_y: (s_x + s_y) / 2}
+            absorbed = solve(equations[1].subs(still, simultaneous=True), FIRST_RATES[0])[0]
+            values = {beta1: -r_beta / (2 * absorbed) * cos(2 * y)}
+        values |= {
             FIRST_RATES[0]: shift - amplitude * ratio * sin(x) + r_alpha * cos(2 * y),
             FIRST_RATES[1]: amplitude * cos(x) + r_beta * sin(2 * y),
             FIRST_RATES[2]: -amplitude * ratio * nu * cos(x) - 2 * rate * r_alpha * sin(2 * y),

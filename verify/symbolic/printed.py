@@ -19,14 +19,17 @@ def zero(expression):
 
 
 def missing_term():
-    """1. What Eq. (29) lacks of the linearised equations is a^2 sin^2(b0) beta1 in the second one, twofold; nothing else."""
+    """1. What Eq. (29) lacks, in the second equation alone, is a^2 sin^2(b0) beta1, twofold, and C (2 s_z - s_x - s_y) sin^2(b0) beta1 / I^xx, single."""
     a = perturbation.omega / cos(beta)
     lacks = {
-        kind: [u - v for u, v in zip(perturbation.linearised(kind), perturbation.as_printed(kind))]
+        kind: [u - v for u, v in zip(perturbation.first_order(kind), perturbation.as_printed(kind))]
         for kind in perturbation.KINDS
     }
-    term = a**2 * sin(beta) ** 2 * perturbation.beta1
-    return zero(lacks["twofold"][0]) and zero(lacks["twofold"][1] - term) and all(map(zero, lacks["single"]))
+    stiffness = {"twofold": a**2, "single": c * (2 * s_z - s_x - s_y) / i_xx}
+    return all(
+        zero(lacks[kind][0]) and zero(lacks[kind][1] - stiffness[kind] * sin(beta) ** 2 * perturbation.beta1)
+        for kind in perturbation.KINDS
+    )
 
 
 def printed_solution_solves_printed_equations():
@@ -57,8 +60,10 @@ def printed_solution_solves_printed_equations():
 
 
 def full_solution_differs():
-    """1. The full equations have the frequency a, eta_alpha = cos b0 (1 + cos^2 b0) / 2, eta_beta = sin b0 cos^2 b0; a^(1) is as printed."""
-    found = perturbation.Solution(perturbation.linearised("twofold"), "twofold")
+    """1. The full equations give eta_alpha = cos b0 (1 + cos^2 b0) / 2, eta_beta = sin b0 cos^2 b0 and the frequency a for twofold precession,
+    eta_alpha = (1 + cos^2 b0) / (2 cos b0) for single precession; the rest is as printed."""
+    found = perturbation.Solution(perturbation.first_order("twofold"), "twofold")
+    single = perturbation.Solution(perturbation.first_order("single"), "single")
     b = cos(beta)
     return all(
         map(
@@ -68,6 +73,11 @@ def full_solution_differs():
                 found.eta_beta - sin(beta) * b**2,
                 found.nu - perturbation.omega / b,
                 found.shift + c * (2 * s_z - s_x - s_y) * b / (i_zz * spin),
+                single.eta_alpha - (1 + b**2) / (2 * b),
+                single.eta_beta - sin(beta),
+                single.nu - perturbation.omega,
+                single.ratio + 1 / sin(beta),
+                single.shift - c * (2 * s_z - s_x - s_y) * b / (i_zz * spin),
             ),
         )
     )
@@ -92,7 +102,7 @@ def third_integral():
 def single_size():
     """4. The forced angles of single precession do not fall with s: a common factor of s drops out."""
     k = Symbol("k", positive=True)
-    found = perturbation.Solution(perturbation.linearised("single"), "single")
+    found = perturbation.Solution(perturbation.first_order("single"), "single")
     size = found.r_beta / (2 * found.rate)
     return zero(size.subs({s_x: k * s_x, s_y: k * s_y, s_z: k * s_z}, simultaneous=True) - size)
 

@@ -68,7 +68,7 @@ def flat(matrix):
 def solution(name, equations, kind, corrected=False):
     """The numbers and functions of a first-order solution."""
     found = perturbation.Solution(equations, kind)
-    frequency = found.rate if corrected else found.nu
+    frequency = found.rate if corrected and kind == "twofold" else found.nu
     forced = found.shift if kind == "single" else -found.shift
     numbers = [perturbation.omega, found.rate, perturbation.KINDS[kind] + Integer(0), forced, perturbation.c_tilde]
     numbers += [found.eta_alpha, found.eta_beta, frequency, found.ratio]
@@ -127,10 +127,10 @@ def exact_quantities():
         Quantity("polarizations", seen.polarizations(S)),
     ]
     for kind in perturbation.KINDS:
-        out.append(Quantity(f"first-order-equations-{kind}", perturbation.linearised(kind)))
+        out.append(Quantity(f"first-order-equations-{kind}", perturbation.first_order(kind)))
         out.append(Quantity(f"printed-first-order-equations-{kind}", perturbation.as_printed(kind)))
         out.append(solution(f"printed-solution-{kind}", perturbation.as_printed(kind), kind))
-    out.append(solution("corrected-solution-twofold", perturbation.linearised("twofold"), "twofold", corrected=True))
+        out.append(solution(f"corrected-solution-{kind}", perturbation.first_order(kind), kind, corrected=True))
     return out
 
 

@@ -1,4 +1,13 @@
-//! The two kinds of precession and the constants of integration of the perturbation solutions.
+//! The two kinds of precession, the two forms of the perturbation solutions, and their constants of integration.
+
+/// Which formulas a perturbation solution takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Form {
+    /// Eqs. (30) `[sol2]`, (31) `[consdef]`, (33) `[sol3]` as the paper prints them: they define its examples and curves.
+    Printed,
+    /// The solution of the full first-order equations ([`full_residuals`](super::linearised::full_residuals)), for use.
+    Corrected,
+}
 
 /// Which free motion is perturbed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -10,26 +10,28 @@ use crate::dynamics::euler_angle_equations::AxisAngles;
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
 use crate::scalar::{Real, Scalar};
-use crate::solutions::perturbation::{Constants, Kind, Perturbation};
+use crate::solutions::perturbation::{Constants, Form, Kind, Perturbation};
 
-/// Initial angles and rates of the printed solution, Eq. (34) `[integraltoinitial]`: [`Perturbation::at`] zero.
+/// Initial angles and rates of a perturbation solution, in the printed form Eq. (34) `[integraltoinitial]`:
+/// [`Perturbation::at`] zero.
 ///
 /// # Errors
-/// As for [`Perturbation::printed`].
+/// As for [`Perturbation::new`].
 pub fn initial_values<S: Real>(
+    form: Form,
     kind: Kind,
     spheroid: &RigidSpheroid<S>,
     s: &PrincipalCoefficients<S>,
     spin: S,
     constants: &Constants<S>,
 ) -> Result<AxisAngles<S>, Error> {
-    Ok(Perturbation::printed(kind, spheroid, s, spin, constants)?.at(S::zero()))
+    Ok(Perturbation::new(form, kind, spheroid, s, spin, constants)?.at(S::zero()))
 }
 
-/// Constants of integration of the printed solution that has given initial values: the inverse of Eq. (34)
-/// `[integraltoinitial]`.
+/// Constants of integration of the perturbation solution that has given initial values: the inverse of [`initial_values`], in the
+/// printed form of Eq. (34) `[integraltoinitial]`.
 ///
-/// `A cos phi` and `A sin phi` follow directly; `alpha_0`, `beta_0` by Newton's method with exact derivatives, started at
+/// `A cos phi` and `A sin phi` follow directly from the rates; `alpha_0`, `beta_0` by Newton's method with exact derivatives, started at
 /// the initial angles and at a grid of inclinations. Eq. (34) is not linear, so there can be several solutions: of those
 /// found, the one with the smallest `|A|` is returned, with `A >= 0` and `phi` in (-pi, pi], `phi = 0` if `A = 0`. Residual: a few ulp of the
 /// terms of Eq. (34). Derivatives (duals) of the constants hold up to third order, except of `A` and `phi` at `A = 0`.
@@ -38,6 +40,7 @@ pub fn initial_values<S: Real>(
 /// [`Error::NotConverged`] if no start leads to a solution, as happens where the perturbation solutions do not describe the
 /// motion; [`Error::Domain`] for zero spin.
 pub fn constants_from_initial_values<S: Real>(
+    form: Form,
     kind: Kind,
     spheroid: &RigidSpheroid<S>,
     s: &PrincipalCoefficients<S>,
@@ -49,6 +52,7 @@ pub fn constants_from_initial_values<S: Real>(
     let whole_turns = (initial.alpha.re() / TAU).round() * TAU;
     let initial = &AxisAngles { alpha: initial.alpha - S::from_f64(whole_turns), ..*initial };
     let real = Inversion {
+        form,
         kind,
         spheroid: RigidSpheroid {
             inertia_xx: spheroid.inertia_xx.re(),
@@ -66,7 +70,7 @@ pub fn constants_from_initial_values<S: Real>(
     };
     let Root { point, inverse } = real.solve()?;
     let mut found = point.map(S::from_f64);
-    let generic = Inversion { kind, spheroid: *spheroid, s: *s, spin, initial: *initial };
+    let generic = Inversion { form, kind, spheroid: *spheroid, s: *s, spin, initial: *initial };
     // Each step with the real inverse makes the derivatives right to one more order.
     for _ in 0..3 {
         found -= inverse.map(S::from_f64) * generic.residual(&found);
@@ -79,6 +83,7 @@ pub fn constants_from_initial_values<S: Real>(
 
 /// Eq. (34) as two equations for `(alpha_0, beta_0)`.
 struct Inversion<S> {
+    form: Form,
     kind: Kind,
     spheroid: RigidSpheroid<S>,
     s: PrincipalCoefficients<S>,
@@ -95,7 +100,7 @@ struct Root {
 impl<S: Scalar> Inversion<S> {
     fn at(&self, x: &Vector2<S>, amplitude: S, phase: S) -> Perturbation<S> {
         let constants = Constants { alpha_0: x.x, beta_0: x.y, amplitude, phase };
-        Perturbation::printed_unchecked(self.kind, &self.spheroid, &self.s, self.spin, &constants)
+        Perturbation::new_unchecked(self.form, self.kind, &self.spheroid, &self.s, self.spin, &constants)
     }
 
     /// `(A cos phi, A sin phi)` from the third and fourth lines of Eq. (34).
@@ -127,6 +132,7 @@ impl Inversion<f64> {
     fn lifted(&self) -> Inversion<Dual64> {
         let lift = Dual64::from_f64;
         Inversion {
+            form: self.form,
             kind: self.kind,
             spheroid: RigidSpheroid {
                 inertia_xx: lift(self.spheroid.inertia_xx),
@@ -228,9 +234,10 @@ mod tests {
             (1.67, [-0.026, 0.069, 0.062], [-0.23, 2.99, -0.28, 0.78], 0.82),
         ] {
             let (spheroid, s, initial) = (body(inertia_zz, 1.0), PrincipalCoefficients::new(s), angles(initial));
-            let found = constants_from_initial_values(Kind::Single, &spheroid, &s, 1.0, &initial).unwrap();
+            let found =
+                constants_from_initial_values(Form::Printed, Kind::Single, &spheroid, &s, 1.0, &initial).unwrap();
             assert!(found.amplitude < amplitude, "{found:?}");
-            assert_same(&initial_values(Kind::Single, &spheroid, &s, 1.0, &found).unwrap(), &initial);
+            assert_same(&initial_values(Form::Printed, Kind::Single, &spheroid, &s, 1.0, &found).unwrap(), &initial);
         }
     }
 
@@ -241,7 +248,8 @@ mod tests {
         let (alpha, beta) = (0.4, 0.9_f64);
         let initial = angles([alpha, beta, 1.1 / beta.cos(), 0.0]);
         let s = PrincipalCoefficients::new([0.0; 3]);
-        let inversion = Inversion { kind: Kind::Twofold, spheroid: body(1.1, 0.0), s, spin: 1.0, initial };
+        let inversion =
+            Inversion { form: Form::Printed, kind: Kind::Twofold, spheroid: body(1.1, 0.0), s, spin: 1.0, initial };
         let lifted = inversion.lifted();
         let from = |distance: f64, off: f64| inversion.newton(&lifted, Vector2::new(alpha + distance, beta + off));
         for (distance, off) in [(11.7, 0.0), (-11.7, 0.0), (11.5, 5.2e-4), (0.0, 0.0)] {
@@ -259,11 +267,12 @@ mod tests {
         let (spheroid, s) = (body(1.1, 0.3), PrincipalCoefficients::new([0.02, 0.01, -0.04]));
         for alpha_rate in [1.3, 1.9] {
             let initial = angles([0.0, 0.8, alpha_rate, 0.0]);
-            let found = constants_from_initial_values(Kind::Twofold, &spheroid, &s, 1.0, &initial).unwrap();
+            let found =
+                constants_from_initial_values(Form::Printed, Kind::Twofold, &spheroid, &s, 1.0, &initial).unwrap();
             assert_eq!(found.alpha_0, 0.0);
             assert_relative_eq!(found.phase.abs(), PI / 2.0, max_relative = 1e-15);
             assert!(found.amplitude > 0.05, "{found:?}");
-            assert_same(&initial_values(Kind::Twofold, &spheroid, &s, 1.0, &found).unwrap(), &initial);
+            assert_same(&initial_values(Form::Printed, Kind::Twofold, &spheroid, &s, 1.0, &found).unwrap(), &initial);
         }
     }
 
@@ -273,7 +282,8 @@ mod tests {
         let s = PrincipalCoefficients::new([0.0; 3]);
         // With omega one the quotients of duals are those of doubles.
         let initial = angles([0.4, 0.9, 1.0 / 0.9_f64.sin_cos().1, 0.0]);
-        let found = constants_from_initial_values(Kind::Twofold, &body(1.0, 0.0), &s, 1.0, &initial).unwrap();
+        let found =
+            constants_from_initial_values(Form::Printed, Kind::Twofold, &body(1.0, 0.0), &s, 1.0, &initial).unwrap();
         assert_eq!((found.amplitude, found.phase), (0.0, 0.0));
         let lift = |value: f64| Dual64::new(value, 1.0);
         let (spheroid, s) = (body(1.0, 0.0), PrincipalCoefficients::new([Dual64::from(0.0); 3]));
@@ -284,7 +294,8 @@ mod tests {
             alpha_rate: lift(alpha_rate),
             beta_rate: lift(beta_rate),
         };
-        let found = constants_from_initial_values(Kind::Twofold, &spheroid, &s, lift(1.0), &varied).unwrap();
+        let found =
+            constants_from_initial_values(Form::Printed, Kind::Twofold, &spheroid, &s, lift(1.0), &varied).unwrap();
         assert_eq!((found.amplitude, found.phase), (Dual64::from(0.0), Dual64::from(0.0)));
         assert!(found.alpha_0.eps.is_finite() && found.beta_0.eps != 0.0);
     }
@@ -296,7 +307,7 @@ mod tests {
         let initial = angles([1.13, 0.61, 0.25, 0.71]);
         let at = |amplitude: f64, phase: f64| {
             let constants = Constants { alpha_0: initial.alpha, beta_0: initial.beta, amplitude, phase };
-            initial_values(Kind::Single, &spheroid, &s, 1.0, &constants).unwrap()
+            initial_values(Form::Printed, Kind::Single, &spheroid, &s, 1.0, &constants).unwrap()
         };
         let forced = at(0.0, 0.0);
         let p = initial.beta_rate - forced.beta_rate;
@@ -304,7 +315,7 @@ mod tests {
         let there = at(p.hypot(q), q.atan2(p));
         assert_relative_eq!(there.alpha_rate, initial.alpha_rate, max_relative = 1e-12);
         let left = (there.alpha - initial.alpha).hypot(there.beta - initial.beta);
-        match constants_from_initial_values(Kind::Single, &spheroid, &s, 1.0, &initial) {
+        match constants_from_initial_values(Form::Printed, Kind::Single, &spheroid, &s, 1.0, &initial) {
             Err(Error::NotConverged { iterations, residual, .. }) => {
                 assert_eq!(iterations, 60);
                 assert_relative_eq!(residual, left, max_relative = 1e-12);
@@ -326,8 +337,9 @@ mod tests {
             phase: linear(0.5, 0.9),
         };
         let spheroid = body(1.1, 0.3);
-        let start = initial_values(Kind::Twofold, &spheroid, &s, number(1.0), &exact).unwrap();
-        let found = constants_from_initial_values(Kind::Twofold, &spheroid, &s, number(1.0), &start).unwrap();
+        let start = initial_values(Form::Printed, Kind::Twofold, &spheroid, &s, number(1.0), &exact).unwrap();
+        let found =
+            constants_from_initial_values(Form::Printed, Kind::Twofold, &spheroid, &s, number(1.0), &start).unwrap();
         for (found, exact) in [
             (found.alpha_0, exact.alpha_0),
             (found.beta_0, exact.beta_0),

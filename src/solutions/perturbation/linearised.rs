@@ -1,4 +1,4 @@
-//! First-order equations for `alpha1`, `beta1`: Eq. (29) as printed, and the full linearisation of Eq. (25).
+//! First-order equations for `alpha1`, `beta1`: Eq. (29) as printed, and with the terms that it drops.
 
 use crate::dynamics::RigidSpheroid;
 use crate::dynamics::potential::potential_gradient_in_angles;
@@ -9,7 +9,8 @@ use crate::solutions::perturbation::Kind;
 /// First-order parts of the angles and their time derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstOrderMotion<S> {
-    /// `beta1` itself; `alpha1` does not enter.
+    /// `beta1` itself, without its homogeneous part for single precession (of the order `s` times the rest); `alpha1` does
+    /// not enter.
     pub beta: S,
     /// Rate of `alpha1`, the constant `-+a^(1)` included.
     pub alpha_rate: S,
@@ -55,11 +56,20 @@ pub fn printed_residuals<S: Scalar>(
     )
 }
 
-/// Residuals of the full first-order equations, the linearisation of Eq. (25) `[eleq]` about free precession or a stationary
-/// spin: Eq. (29) and, in the second one for twofold precession, the term `a^2 sin^2(b0) beta1` with `a = omega / cos b0`.
+/// Residuals of the full first-order equations: Eq. (29) `[eleq1]` and, on the left of the second one, the term in `beta1` that
+/// it drops by taking `beta` at `beta_0`,
 ///
-/// It is the derivative by `beta` of `-(1/2) sin 2b a^2 + omega sin b a`, and of first order because `a` is not small. It
-/// vanishes for single precession, where `a = 0`.
+/// ```text
+/// twofold:  a^2 sin^2(b0) beta1,                          a = omega / cos b0
+/// single:   (C / I^xx) (2 s^ZZ - s^XX - s^YY) sin^2(b0) beta1
+/// ```
+///
+/// Twofold: the linearisation of Eq. (25) `[eleq]` about free precession. The term is the derivative by `beta` of
+/// `-(1/2) sin 2b a^2 + omega sin b a`, and of first order because `a` is not small.
+///
+/// Single: Eq. (25) at leading order in `s` and at first order in `r = (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)`, the size of
+/// `beta1`. The term is the derivative by `beta` of `omega sin b a^(1) + (1/I^xx) d(delta U)/d beta` without `s^XX - s^YY`. It has
+/// the order `s r`, as the terms with `s^XX - s^YY` that Eq. (29) keeps.
 pub fn full_residuals<S: Scalar>(
     spheroid: &RigidSpheroid<S>,
     s: &PrincipalCoefficients<S>,
@@ -68,12 +78,12 @@ pub fn full_residuals<S: Scalar>(
 ) -> (S, S) {
     let (along_alpha, along_beta) = printed_residuals(spheroid, s, zeroth, first);
     let (sb, cb) = zeroth.beta.sin_cos();
-    let missing = match zeroth.kind {
+    let stiffness = match zeroth.kind {
         Kind::Twofold => {
             let a = spheroid.free_precession_constant(zeroth.spin) / cb;
-            a * a * sb * sb * first.beta
+            a * a
         }
-        Kind::Single => S::zero(),
+        Kind::Single => spheroid.constant_c * s.combination() / spheroid.inertia_xx,
     };
-    (along_alpha, along_beta + missing)
+    (along_alpha, along_beta + stiffness * sb * sb * first.beta)
 }

@@ -1,11 +1,14 @@
 //! Perturbation solutions about free precession (twofold) and about a stationary spin (single). Eqs. (27)-(34), (57).
 //!
-//! Two families, never to be mistaken for one another:
+//! Each in two forms, never to be mistaken for one another:
 //!
-//! * [`Perturbation::printed`] — the paper's Eqs. (30) `[sol2]`, (31) `[consdef]`, (33) `[sol3]` as printed. They define the
-//!   paper's examples and curves. The twofold one is not right to first order: Eq. (29) `[eleq1]` lacks the term
-//!   `a^2 sin^2(beta_0) beta1`, see [`linearised`].
-//! * [`Perturbation::corrected_twofold`] — the solution of the full first-order equations. Its error is of second order.
+//! * [`Form::Printed`] — the paper's Eqs. (30) `[sol2]`, (31) `[consdef]`, (33) `[sol3]` as printed. They define the paper's
+//!   examples and curves. They are not right to first order: Eq. (29) `[eleq1]` takes `beta` at `beta_0` and so drops a term in
+//!   `beta1`, see [`linearised`].
+//! * [`Form::Corrected`] — the solutions of the full first-order equations. Their error is of second order.
+//!
+//! The first order is that of `s` and of the tilt of the angular momentum for twofold precession, and that of the ratio
+//! `(s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` for single precession.
 //!
 //! # Example
 //!
@@ -20,19 +23,19 @@
 //! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
 //! use twofold::solutions::perturbation::{
-//!     Constants, Kind, Perturbation, constants_from_initial_values, initial_values, shifted_rates,
+//!     Constants, Form, Kind, Perturbation, constants_from_initial_values, initial_values, shifted_rates,
 //! };
 //!
 //! // tp-I: constants to initial values and back.
 //! let constants = Constants { alpha_0: 0.3, beta_0: 0.7, amplitude: 0.01, phase: 0.5 };
-//! let start = initial_values(Kind::Twofold, &star, &s, 1.0, &constants)?;
-//! let back = constants_from_initial_values(Kind::Twofold, &star, &s, 1.0, &start)?;
+//! let start = initial_values(Form::Printed, Kind::Twofold, &star, &s, 1.0, &constants)?;
+//! let back = constants_from_initial_values(Form::Printed, Kind::Twofold, &star, &s, 1.0, &start)?;
 //! assert!((back.beta_0 - constants.beta_0).abs() < 1e-12);
-//! let solution = Perturbation::corrected_twofold(&star, &s, 1.0, &constants)?;
+//! let solution = Perturbation::new(Form::Corrected, Kind::Twofold, &star, &s, 1.0, &constants)?;
 //! assert!(solution.at(1.0).alpha > start.alpha);
 //! assert!((shifted_rates(&star, &s, 1.0, 0.7)?.alpha - solution.rate).abs() < 1e-12);
 //!
-//! // Eq. (29) lacks a term for twofold precession.
+//! // Eq. (29) lacks a term.
 //! let zeroth = ZerothOrder { kind: Kind::Twofold, spin: 1.0, alpha: 0.3, beta: 0.7 };
 //! let first =
 //!     FirstOrderMotion { beta: 0.01, alpha_rate: 0.0, beta_rate: 0.0, alpha_acceleration: 0.0, beta_acceleration: 0.0 };
@@ -45,6 +48,6 @@ mod initial_values;
 pub mod linearised;
 mod solution;
 
-pub use constants::{Constants, Kind};
+pub use constants::{Constants, Form, Kind};
 pub use initial_values::{constants_from_initial_values, initial_values};
 pub use solution::{Perturbation, ShiftedRates, shifted_rates};

@@ -5,7 +5,7 @@ use crate::dynamics::euler_angle_equations::AxisAngles;
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
 use crate::scalar::{Real, Scalar};
-use crate::solutions::perturbation::{Constants, Kind};
+use crate::solutions::perturbation::{Constants, Form, Kind};
 
 /// A first-order solution: the numbers of Eqs. (28), (31) `[consdef]`, (32) `[precangvel]` for given constants.
 ///
@@ -14,13 +14,11 @@ use crate::solutions::perturbation::{Constants, Kind};
 /// beta   = beta_0        + (A / nu)   sin(nu t + phi) - eta_beta  C~/(2a) cos 2(a t + alpha_0)
 /// ```
 ///
-/// | | `nu` | `h` |
-/// |---|---|---|
-/// | printed, twofold | `omega` | `1 / sin beta_0` |
-/// | printed, single | `omega` | `-1 / sin beta_0` |
-/// | corrected, twofold | `a` | `cos beta_0 / sin beta_0` |
+/// with the constants of [`Perturbation::new`]. `C~`, `a^(1)` and `a` are those of the paper in both forms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Perturbation<S> {
+    /// The kind of precession.
+    pub kind: Kind,
     /// Constants of integration.
     pub constants: Constants<S>,
     /// `omega = I^zz Omega^z / I^xx`, Eq. (28).
@@ -33,9 +31,9 @@ pub struct Perturbation<S> {
     pub forced_rate: S,
     /// `C~ = C (s^XX - s^YY) / (I^zz Omega^z)`, Eq. (31) `[consdef]`.
     pub c_tilde: S,
-    /// `eta_alpha`, Eq. (31) `[consdef]`.
+    /// `eta_alpha`, Eq. (31) `[consdef]` or corrected.
     pub eta_alpha: S,
-    /// `eta_beta`, Eq. (31) `[consdef]`.
+    /// `eta_beta`, Eq. (31) `[consdef]` or corrected.
     pub eta_beta: S,
     /// Frequency `nu` of the homogeneous solution.
     pub homogeneous_frequency: S,
@@ -44,8 +42,9 @@ pub struct Perturbation<S> {
 }
 
 impl<S: Scalar> Perturbation<S> {
-    /// The printed solution without checks of its domain, for exact fields: see [`printed`](Self::printed).
-    pub fn printed_unchecked(
+    /// The solution without checks of its domain, for exact fields: see [`new`](Self::new).
+    pub fn new_unchecked(
+        form: Form,
         kind: Kind,
         spheroid: &RigidSpheroid<S>,
         s: &PrincipalCoefficients<S>,
@@ -58,20 +57,21 @@ impl<S: Scalar> Perturbation<S> {
         let forced_rate = spheroid.constant_c * s.combination() * cb / momentum;
         let c_tilde = spheroid.constant_c * s.asymmetry() / momentum;
         let one = S::one();
-        let (zeroth_rate, rate, eta_alpha, eta_beta) = match kind {
-            Kind::Twofold => {
+        let (zeroth_rate, rate) = match kind {
+            Kind::Twofold => (omega / cb, omega / cb - forced_rate),
+            Kind::Single => (S::zero(), forced_rate),
+        };
+        let (eta_alpha, eta_beta, homogeneous_frequency, homogeneous_ratio) = match (form, kind) {
+            (Form::Printed, Kind::Twofold) => {
                 let denominator = one * 4.0 - cb * cb;
-                let zeroth = omega / cb;
-                (
-                    zeroth,
-                    zeroth - forced_rate,
-                    cb * (one * 2.0 + cb * cb) / denominator,
-                    sb * cb * cb * 3.0 / denominator,
-                )
+                (cb * (one * 2.0 + cb * cb) / denominator, sb * cb * cb * 3.0 / denominator, omega, one / sb)
             }
-            Kind::Single => (S::zero(), forced_rate, cb, sb),
+            (Form::Corrected, Kind::Twofold) => (cb * (one + cb * cb) / 2.0, sb * cb * cb, rate, cb / sb),
+            (Form::Printed, Kind::Single) => (cb, sb, omega, -one / sb),
+            (Form::Corrected, Kind::Single) => ((one + cb * cb) / (cb * 2.0), sb, omega, -one / sb),
         };
         Self {
+            kind,
             constants: *constants,
             omega,
             rate,
@@ -80,27 +80,8 @@ impl<S: Scalar> Perturbation<S> {
             c_tilde,
             eta_alpha,
             eta_beta,
-            homogeneous_frequency: omega,
-            homogeneous_ratio: one * kind.sign() / sb,
-        }
-    }
-
-    /// The corrected twofold solution without checks of its domain, for exact fields: see
-    /// [`corrected_twofold`](Self::corrected_twofold).
-    pub fn corrected_twofold_unchecked(
-        spheroid: &RigidSpheroid<S>,
-        s: &PrincipalCoefficients<S>,
-        spin: S,
-        constants: &Constants<S>,
-    ) -> Self {
-        let printed = Self::printed_unchecked(Kind::Twofold, spheroid, s, spin, constants);
-        let (sb, cb) = constants.beta_0.sin_cos();
-        Self {
-            eta_alpha: cb * (S::one() + cb * cb) / 2.0,
-            eta_beta: sb * cb * cb,
-            homogeneous_frequency: printed.rate,
-            homogeneous_ratio: cb / sb,
-            ..printed
+            homogeneous_frequency,
+            homogeneous_ratio,
         }
     }
 
@@ -145,16 +126,25 @@ impl<S: Scalar> Perturbation<S> {
 }
 
 impl<S: Real> Perturbation<S> {
-    /// The solution as the paper prints it: Eqs. (28), (30)-(33) `[sol2]` `[consdef]` `[precangvel]` `[sol3]`.
+    /// The solution with the given constants of integration. Eqs. (28), (30)-(33) `[sol2]` `[consdef]` `[precangvel]`
+    /// `[sol3]`, with `b0 = beta_0`:
     ///
-    /// The twofold one has errors of first order, see [`corrected_twofold`](Self::corrected_twofold). The rates of the
-    /// single one are right to first order in `s` only while `|s^XX - s^YY|` is small against
-    /// `|2 s^ZZ - s^XX - s^YY|`: that ratio, not `s`, is the size of its `alpha1` and `beta1`.
+    /// | form, kind | `eta_alpha` | `eta_beta` | `nu` | `h` |
+    /// |---|---|---|---|---|
+    /// | printed, twofold | `cos b0 (2 + cos^2 b0) / (4 - cos^2 b0)` | `3 sin b0 cos^2 b0 / (4 - cos^2 b0)` | `omega` | `1 / sin b0` |
+    /// | corrected, twofold | `cos b0 (1 + cos^2 b0) / 2` | `sin b0 cos^2 b0` | `a` | `cos b0 / sin b0` |
+    /// | printed, single | `cos b0` | `sin b0` | `omega` | `-1 / sin b0` |
+    /// | corrected, single | `(1 + cos^2 b0) / (2 cos b0)` | `sin b0` | `omega` | `-1 / sin b0` |
+    ///
+    /// Errors. Twofold: as printed of first order in `s` and in `A / omega`, corrected of second order; both grow with time.
+    /// Single, over one forced period: of first order in `r = (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` as printed, of second
+    /// order in `r` corrected; both have an error of first order in `s` besides. `r` is the size of `alpha1` and `beta1`.
     ///
     /// # Errors
     /// [`Error::Domain`] where `sin beta_0` or (twofold) `cos beta_0` is not above 2.2e-16 in size, where the spin is zero,
     /// and where `a` vanishes, by which Eq. (33) divides.
-    pub fn printed(
+    pub fn new(
+        form: Form,
         kind: Kind,
         spheroid: &RigidSpheroid<S>,
         s: &PrincipalCoefficients<S>,
@@ -162,29 +152,7 @@ impl<S: Real> Perturbation<S> {
         constants: &Constants<S>,
     ) -> Result<Self, Error> {
         check_domain(kind, spin, constants.beta_0)?;
-        Self::printed_unchecked(kind, spheroid, s, spin, constants).with_nonzero_rate(spheroid, s, spin)
-    }
-
-    /// The solution of the full first-order equations about free precession, which are Eq. (29) `[eleq1]` with the term
-    /// `a^2 sin^2(beta_0) beta1` that the paper drops: the homogeneous motion has the frequency `a = |L| / I^xx`, not
-    /// `omega`, and
-    ///
-    /// ```text
-    /// eta_alpha = cos b0 (1 + cos^2 b0) / 2,    eta_beta = sin b0 cos^2 b0
-    /// ```
-    ///
-    /// `C~`, `a^(1)` and `a` are as printed. Error of second order in `s` and in `A / omega`, growing with time.
-    ///
-    /// # Errors
-    /// As for [`printed`](Self::printed).
-    pub fn corrected_twofold(
-        spheroid: &RigidSpheroid<S>,
-        s: &PrincipalCoefficients<S>,
-        spin: S,
-        constants: &Constants<S>,
-    ) -> Result<Self, Error> {
-        check_domain(Kind::Twofold, spin, constants.beta_0)?;
-        Self::corrected_twofold_unchecked(spheroid, s, spin, constants).with_nonzero_rate(spheroid, s, spin)
+        Self::new_unchecked(form, kind, spheroid, s, spin, constants).with_nonzero_rate(spheroid, s, spin)
     }
 
     /// Refuses a rate `a` that vanishes, if only up to the rounding of the terms of Eqs. (31) and (32).
@@ -221,7 +189,7 @@ pub struct ShiftedRates<S> {
 /// Shifted rates `a' ~ a`, `g' ~ -epsilon Omega^z + cos(beta_0) a^(1)` of twofold precession, Eq. (57) `[tpconstant]`.
 ///
 /// # Errors
-/// [`Error::Domain`] as for [`Perturbation::printed`], the vanishing rate excepted.
+/// [`Error::Domain`] as for [`Perturbation::new`], the vanishing rate excepted.
 pub fn shifted_rates<S: Real>(
     spheroid: &RigidSpheroid<S>,
     s: &PrincipalCoefficients<S>,

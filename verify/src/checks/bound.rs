@@ -8,7 +8,7 @@ use twofold::observables::bound::{
     SpinAxisDrift, cos_opening_angle, lambda_change_terms, preferred_frame_bound, zeta_change_terms,
 };
 use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change};
-use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation};
+use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Perturbation};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::derivation::Differentiable;
@@ -113,7 +113,8 @@ fn estimate_of_known_change() -> Result<Measured, String> {
         }
         index += 1;
         let RigidSpheroid { inertia_zz, constant_c, .. } = p.spheroid;
-        let solution = Perturbation::printed_unchecked(Precession::Single, &p.spheroid, &s, spin, &constants);
+        let solution =
+            Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &s, spin, &constants);
         let changes = changes_from_start(&solution, interval);
         let drift = SpinAxisDrift {
             polar_inertia_over_c: inertia_zz / constant_c,

@@ -12,7 +12,7 @@ use twofold::observables::eta::{
     squared_speed_along_motion,
 };
 use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
-use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation};
+use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Perturbation};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::derivation::Differentiable;
@@ -167,7 +167,8 @@ impl Identity for SecularRate {
         let symmetric = PrincipalCoefficients { yy: p.s.xx, ..p.s };
         let constants =
             Constants { alpha_0: p.angles.alpha, beta_0: p.angles.beta, amplitude: F::zero(), phase: F::zero() };
-        let forced = Perturbation::printed_unchecked(Precession::Single, &p.spheroid, &symmetric, spin, &constants);
+        let forced =
+            Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &symmetric, spin, &constants);
         let about_z = Vector3::new(F::zero(), F::zero(), forced.forced_rate).cross(&axis);
         let from_forced = secular_axis_rate(inertia_over_c, spin, &symmetric.tensor(), &axis) - about_z;
 
@@ -192,8 +193,15 @@ impl Identity for SinglePrecessionStart {
         let ratio = p.s.asymmetry() / p.s.combination();
         let (alpha, beta) = single_precession_start(ratio, alpha_0, beta_0);
         let constants = Constants { alpha_0, beta_0, amplitude: F::zero(), phase: F::one() };
-        let start = Perturbation::printed_unchecked(Precession::Single, &p.spheroid, &p.s, p.rates.gamma, &constants)
-            .at(F::zero());
+        let start = Perturbation::new_unchecked(
+            Form::Printed,
+            Precession::Single,
+            &p.spheroid,
+            &p.s,
+            p.rates.gamma,
+            &constants,
+        )
+        .at(F::zero());
         vec![alpha - start.alpha, beta - start.beta]
     }
 }

@@ -11,7 +11,7 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::pulsar::direction::cosine_of_colatitude;
 use twofold::observables::pulsar::period::{approximate_period, azimuth_offset_rate};
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
-use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation, shifted_rates};
+use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Perturbation, shifted_rates};
 
 use crate::check::{Bound, Check, Kind, Measured, largest};
 use crate::derivation::Differentiable;
@@ -93,7 +93,8 @@ impl Identity for NullDirection {
             amplitude: F::fixed(F::zero()),
             phase: F::fixed(F::zero()),
         };
-        let moved = Perturbation::printed_unchecked(Precession::Twofold, &spheroid, &s, F::fixed(spin), &constants);
+        let moved =
+            Perturbation::new_unchecked(Form::Printed, Precession::Twofold, &spheroid, &s, F::fixed(spin), &constants);
         let gamma_rate = F::fixed(spin) - moved.rate * F::fixed(cos);
         // gamma' as Eq. (57) prints it.
         let oblateness = inertia_zz / inertia_xx - F::one();

@@ -3,13 +3,13 @@
 use num_dual::Dual64;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::free::free_precession_rates;
-use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation, shifted_rates};
+use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Perturbation, shifted_rates};
 use twofold::solutions::steady::steady_precession_rate;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::checks::perturbation_equations::{KINDS, constants, unperturbed_motion};
 use crate::derivation::Differentiable;
-use crate::derivation::first_order::{first_order_motion, linearised_equations};
+use crate::derivation::first_order::{first_order_equations, first_order_motion};
 use crate::derivation::spheroid_motion::fixed_spheroid;
 use crate::identity::{self, Identity};
 use crate::random::{Point, Random};
@@ -55,10 +55,17 @@ impl Identity for SteadyPrecession {
             .into_iter()
             .flat_map(|kind| {
                 let constants = Constants { amplitude: F::zero(), ..constants(p) };
-                let printed = Perturbation::printed_unchecked(kind, &p.spheroid, &symmetric, p.rates.gamma, &constants);
+                let printed = Perturbation::new_unchecked(
+                    Form::Printed,
+                    kind,
+                    &p.spheroid,
+                    &symmetric,
+                    p.rates.gamma,
+                    &constants,
+                );
                 let first = first_order_motion(&printed, printed.homogeneous_frequency);
                 let unperturbed = unperturbed_motion(kind, p);
-                let [of_alpha, of_beta] = linearised_equations(&p.spheroid, &symmetric, &unperturbed, &first);
+                let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &symmetric, &unperturbed, &first);
                 [of_alpha, of_beta, first.beta, first.beta_rate, first.alpha_acceleration, first.beta_acceleration]
             })
             .collect()
@@ -85,7 +92,8 @@ fn steady_rates_to_first_order() -> Result<Measured, String> {
             let small = PrincipalCoefficients::new([s.xx, s.yy, s.zz].map(|x| Dual64::new(0.0, x)));
             let spheroid = fixed_spheroid(&p.spheroid);
             let exact = steady_precession_rate(kind, &spheroid, &small, Dual64::from(spin), beta);
-            let printed = Perturbation::printed(kind, &p.spheroid, &s, spin, &constants).map_err(|e| e.to_string())?;
+            let printed =
+                Perturbation::new(Form::Printed, kind, &p.spheroid, &s, spin, &constants).map_err(|e| e.to_string())?;
             let shift = -kind.sign() * printed.forced_rate;
             let slope = exact.map_err(|e| e.to_string())?.eps;
             let cancelled = 2.0 * (s.zz.abs() + s.xx.abs()) / s.combination().abs();
@@ -100,7 +108,8 @@ fn shifted_rates_of_spin() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for (index, (p, s, spin)) in symmetric_points().enumerate() {
         let (beta, spheroid) = (p.angles.beta, &p.spheroid);
-        let printed = Perturbation::printed_unchecked(Precession::Twofold, spheroid, &s, spin, &constants(&p));
+        let printed =
+            Perturbation::new_unchecked(Form::Printed, Precession::Twofold, spheroid, &s, spin, &constants(&p));
         let shifted = shifted_rates(spheroid, &s, spin, beta).map_err(|e| e.to_string())?;
         let none = PrincipalCoefficients::new([0.0; 3]);
         let unshifted = shifted_rates(spheroid, &none, spin, beta).map_err(|e| e.to_string())?;

@@ -2,11 +2,11 @@
 
 use twofold::Scalar;
 use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
-use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation};
+use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Perturbation};
 
 use crate::check::{Check, Kind};
 use crate::derivation::Differentiable;
-use crate::derivation::first_order::{UnperturbedMotion, first_order_motion, linearised_equations};
+use crate::derivation::first_order::{UnperturbedMotion, first_order_equations, first_order_motion};
 use crate::derivation::spheroid_motion::{fixed_coefficients, fixed_spheroid};
 use crate::identity::{self, Identity};
 use crate::random::Point;
@@ -25,6 +25,8 @@ pub fn checks() -> Vec<Check> {
 
 pub(super) const KINDS: [Precession; 2] = [Precession::Twofold, Precession::Single];
 
+pub(super) const FORMS: [Form; 2] = [Form::Printed, Form::Corrected];
+
 pub(super) fn constants<F: Scalar>(p: &Point<F>) -> Constants<F> {
     Constants {
         alpha_0: p.angles.alpha,
@@ -39,14 +41,16 @@ fn zeroth_order<F: Scalar>(kind: Precession, p: &Point<F>) -> ZerothOrder<F> {
     ZerothOrder { kind, spin: p.rates.gamma, alpha: p.angles.alpha, beta: p.angles.beta }
 }
 
-/// Eq. (28), from what the two kinds mean: free precession has `L` along Z, `I^zz Omega^z = L cos b`, `a = L / I^xx`.
+/// What the two kinds mean: free precession has `L` along Z, `I^zz Omega^z = L cos b`, `a = L / I^xx`, Eq. (28). The torque of a
+/// tensor with `s^XX = s^YY` turns a spinning star about Z at `a^(1)`, Eq. (31).
 pub(super) fn unperturbed_motion<F: Scalar>(kind: Precession, p: &Point<F>) -> UnperturbedMotion<F> {
     let (_, cos_beta) = p.angles.beta.sin_cos();
+    let momentum = p.spheroid.inertia_zz * p.rates.gamma;
     let rate = match kind {
-        Precession::Twofold => p.spheroid.inertia_zz * p.rates.gamma / cos_beta / p.spheroid.inertia_xx,
-        Precession::Single => F::zero(),
+        Precession::Twofold => momentum / cos_beta / p.spheroid.inertia_xx,
+        Precession::Single => p.spheroid.constant_c * p.s.combination() * cos_beta / momentum,
     };
-    UnperturbedMotion { spin: p.rates.gamma, alpha: p.angles.alpha, beta: p.angles.beta, rate }
+    UnperturbedMotion { kind, spin: p.rates.gamma, alpha: p.angles.alpha, beta: p.angles.beta, rate }
 }
 
 /// Any first-order motion, solution or not.
@@ -66,15 +70,15 @@ impl Identity for Linearisation {
     const ID: &'static str = "full-first-order-equations";
     const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "full-first-order-equations-autodiff");
     const EQUATIONS: &'static [u8] = &[25, 27, 28, 29];
-    const STATEMENT: &'static str =
-        "Eq. (29) with the term a^2 sin^2(b0) beta1 is the derivative of Eq. (25) about either zeroth order";
+    const STATEMENT: &'static str = "the full first-order equations are the terms of first order of Eq. (25), about free precession and about a stationary spin";
 
     fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         let first = any_first_order(p);
         KINDS
             .into_iter()
             .flat_map(|kind| {
-                let [of_alpha, of_beta] = linearised_equations(&p.spheroid, &p.s, &unperturbed_motion(kind, p), &first);
+                let [of_alpha, of_beta] =
+                    first_order_equations(&p.spheroid, &p.s, &unperturbed_motion(kind, p), &first);
                 let (full_alpha, full_beta) = full_residuals(&p.spheroid, &p.s, &zeroth_order(kind, p), &first);
                 [of_alpha - full_alpha, of_beta - full_beta]
             })
@@ -88,8 +92,8 @@ impl Identity for TermThatIsMissing {
     const ID: &'static str = "missing-first-order-term";
     const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "missing-first-order-term-autodiff");
     const EQUATIONS: &'static [u8] = &[25, 27, 28, 29];
-    const STATEMENT: &'static str = "Eq. (29) as printed is the derivative of Eq. (25) for the lower signs, and for the upper ones short by exactly \
-         a^2 sin^2(b0) beta1 in the second equation";
+    const STATEMENT: &'static str = "Eq. (29) as printed lacks in the second equation, and there alone, a^2 sin^2(b0) beta1 for the upper signs and \
+         (C / I^xx) (2 s^ZZ - s^XX - s^YY) sin^2(b0) beta1 for the lower ones";
 
     fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         let first = any_first_order(p);
@@ -98,11 +102,15 @@ impl Identity for TermThatIsMissing {
             .into_iter()
             .flat_map(|kind| {
                 let unperturbed = unperturbed_motion(kind, p);
-                let [of_alpha, of_beta] = linearised_equations(&p.spheroid, &p.s, &unperturbed, &first);
+                let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &p.s, &unperturbed, &first);
                 let (printed_alpha, printed_beta) =
                     printed_residuals(&p.spheroid, &p.s, &zeroth_order(kind, p), &first);
-                let across = unperturbed.rate * sin_beta;
-                [of_alpha - printed_alpha, of_beta - printed_beta - across * across * first.beta]
+                let stiffness = match kind {
+                    Precession::Twofold => unperturbed.rate * unperturbed.rate,
+                    Precession::Single => p.spheroid.constant_c * p.s.combination() / p.spheroid.inertia_xx,
+                };
+                let dropped = stiffness * sin_beta * sin_beta * first.beta;
+                [of_alpha - printed_alpha, of_beta - printed_beta - dropped]
             })
             .collect()
     }
@@ -121,10 +129,15 @@ impl Identity for PrintedSolution {
             .into_iter()
             .flat_map(|kind| {
                 let spin = p.rates.gamma;
-                let printed = Perturbation::printed_unchecked(kind, &p.spheroid, &p.s, spin, &constants(p));
+                let printed = Perturbation::new_unchecked(Form::Printed, kind, &p.spheroid, &p.s, spin, &constants(p));
                 let first = first_order_motion(&printed, printed.homogeneous_frequency);
                 let (of_alpha, of_beta) = printed_residuals(&p.spheroid, &p.s, &zeroth_order(kind, p), &first);
-                [of_alpha, of_beta, printed.zeroth_rate - unperturbed_motion(kind, p).rate]
+                // Eq. (28) at zeroth order; about a stationary spin Eq. (32).
+                let rate = match kind {
+                    Precession::Twofold => printed.zeroth_rate,
+                    Precession::Single => printed.rate,
+                };
+                [of_alpha, of_beta, rate - unperturbed_motion(kind, p).rate]
             })
             .collect()
     }
@@ -137,14 +150,24 @@ impl Identity for CorrectedSolution {
     const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "corrected-perturbation-solution-autodiff");
     const EQUATIONS: &'static [u8] = &[25, 27, 28, 30, 31, 32, 33];
     const STATEMENT: &'static str =
-        "the corrected twofold solution solves the derivative of Eq. (25) about free precession, any A and phi";
+        "the corrected solutions solve the full first-order equations, both kinds, any A and phi";
 
     fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let solution = Perturbation::corrected_twofold_unchecked(&p.spheroid, &p.s, p.rates.gamma, &constants(p));
-        // To first order the homogeneous frequency is the zeroth-order rate.
-        let first = first_order_motion(&solution, solution.zeroth_rate);
-        let unperturbed = unperturbed_motion(Precession::Twofold, p);
-        linearised_equations(&p.spheroid, &p.s, &unperturbed, &first).to_vec()
+        KINDS
+            .into_iter()
+            .flat_map(|kind| {
+                let spin = p.rates.gamma;
+                let solution =
+                    Perturbation::new_unchecked(Form::Corrected, kind, &p.spheroid, &p.s, spin, &constants(p));
+                // To first order the homogeneous frequency of the twofold solution is the zeroth-order rate.
+                let nu = match kind {
+                    Precession::Twofold => solution.zeroth_rate,
+                    Precession::Single => solution.homogeneous_frequency,
+                };
+                let first = first_order_motion(&solution, nu);
+                first_order_equations(&p.spheroid, &p.s, &unperturbed_motion(kind, p), &first)
+            })
+            .collect()
     }
 }
 
@@ -155,7 +178,7 @@ impl Identity for TimeIntegral {
     const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "perturbed-angles-autodiff");
     const EQUATIONS: &'static [u8] = &[27, 30, 32, 33];
     const STATEMENT: &'static str =
-        "the rates are the time derivatives of the angles, printed (both signs) and corrected, any A and phi";
+        "the rates are the time derivatives of the angles, both kinds, printed and corrected, any A and phi";
 
     fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         let (spheroid, s, spin) = (fixed_spheroid(&p.spheroid), fixed_coefficients(&p.s), F::fixed(p.rates.gamma));
@@ -166,12 +189,11 @@ impl Identity for TimeIntegral {
             amplitude: F::fixed(at_rest.amplitude),
             phase: F::fixed(at_rest.phase),
         };
-        let printed = KINDS.map(|kind| Perturbation::printed_unchecked(kind, &spheroid, &s, spin, &constants));
-        let corrected = Perturbation::corrected_twofold_unchecked(&spheroid, &s, spin, &constants);
-        printed
+        FORMS
             .into_iter()
-            .chain([corrected])
-            .flat_map(|solution| {
+            .flat_map(|form| KINDS.map(|kind| (form, kind)))
+            .flat_map(|(form, kind)| {
+                let solution = Perturbation::new_unchecked(form, kind, &spheroid, &s, spin, &constants);
                 // Time as an infinitesimal about zero: phases, which are sums of angles, keep their real parts.
                 let moving = solution.at(F::first(F::zero(), F::one()));
                 [

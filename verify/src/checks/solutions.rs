@@ -11,10 +11,13 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::EulerAngles;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::free::{free_precession_rates, free_rotation};
-use twofold::solutions::perturbation::{Constants, Kind as Precession, constants_from_initial_values, initial_values};
+use twofold::solutions::perturbation::{
+    Constants, Form, Kind as Precession, constants_from_initial_values, initial_values,
+};
 use twofold::solutions::steady::steady_precession_rate;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
+use crate::checks::perturbation_equations::{FORMS, KINDS};
 use crate::golden::captions;
 use crate::physical_domain::{scenes, worst_over};
 use crate::reference::reference_motion;
@@ -224,9 +227,10 @@ const S: [f64; 3] = [0.02, 0.01, -0.04];
 
 fn inverse_round_trip() -> Result<Measured, String> {
     let (spheroid, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new(S));
-    let round_trip = |kind: Precession, constants: &Constants<f64>, spin: f64| -> Result<f64, String> {
-        let initial = initial_values(kind, &spheroid, &s, spin, constants).map_err(|e| e.to_string())?;
-        let found = constants_from_initial_values(kind, &spheroid, &s, spin, &initial).map_err(|e| e.to_string())?;
+    let round_trip = |form: Form, kind: Precession, constants: &Constants<f64>, spin: f64| -> Result<f64, String> {
+        let initial = initial_values(form, kind, &spheroid, &s, spin, constants).map_err(|e| e.to_string())?;
+        let found =
+            constants_from_initial_values(form, kind, &spheroid, &s, spin, &initial).map_err(|e| e.to_string())?;
         let vector = |c: &Constants<f64>| {
             let (sin, cos) = c.phase.sin_cos();
             Vector4::new(c.alpha_0, c.beta_0, c.amplitude * cos, c.amplitude * sin)
@@ -242,7 +246,9 @@ fn inverse_round_trip() -> Result<Measured, String> {
     ];
     for (name, kind, beta_0, amplitude) in examples {
         let constants = Constants { alpha_0: FRAC_PI_2, beta_0, amplitude, phase: FRAC_PI_2 };
-        worst.see(round_trip(kind, &constants, 1.0)?, || name.into());
+        for form in FORMS {
+            worst.see(round_trip(form, kind, &constants, 1.0)?, || format!("{name}, {form:?}"));
+        }
     }
     worst.finish()
 }
@@ -252,13 +258,14 @@ fn inverse_at_random() -> Result<Measured, String> {
     let (spheroid, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new(S));
     let mut worst = Worst::default();
     let domain = (-PI..PI, 0.2..1.1f64, 0.0..0.02f64, -PI..PI, prop_oneof![-2.0..-0.5f64, 0.5..2.0f64]);
-    for kind in [Precession::Twofold, Precession::Single] {
+    for (form, kind) in FORMS.into_iter().flat_map(|form| KINDS.map(|kind| (form, kind))) {
         let random = worst_over(14, 200, &domain, |&(alpha_0, beta_0, amplitude, phase, spin)| {
             let constants = Constants { alpha_0, beta_0, amplitude, phase };
-            let forward = |c: &Constants<f64>| initial_values(kind, &spheroid, &s, spin, c).map_err(|e| e.to_string());
+            let forward =
+                |c: &Constants<f64>| initial_values(form, kind, &spheroid, &s, spin, c).map_err(|e| e.to_string());
             let initial = forward(&constants)?;
             let found =
-                constants_from_initial_values(kind, &spheroid, &s, spin, &initial).map_err(|e| e.to_string())?;
+                constants_from_initial_values(form, kind, &spheroid, &s, spin, &initial).map_err(|e| e.to_string())?;
             if found.amplitude > amplitude + 1e-12 {
                 return Err(format!("A = {} where {amplitude} is possible", found.amplitude));
             }
@@ -266,7 +273,7 @@ fn inverse_at_random() -> Result<Measured, String> {
             let vector = |q: &AxisAngles<f64>| Vector4::new(q.alpha, q.beta, q.alpha_rate, q.beta_rate);
             Ok(largest((vector(&again) - vector(&initial)).iter().map(|x| x.abs())))
         })?;
-        worst.see(random.figure, || format!("{kind:?}: {}", random.detail));
+        worst.see(random.figure, || format!("{form:?} {kind:?}: {}", random.detail));
     }
     worst.finish()
 }
@@ -276,7 +283,8 @@ fn inverse_derivatives() -> Result<Measured, String> {
     let (spheroid, s, spin) =
         (RigidSpheroid::in_units_of_tc(lift(1.1)), PrincipalCoefficients::new(S.map(lift)), lift(1.0));
     let mut worst = Worst::default();
-    for (kind, beta_0, amplitude) in [(Precession::Twofold, 0.7, 0.4), (Precession::Single, 0.7, 0.01)] {
+    let cases = [(Precession::Twofold, 0.7, 0.4), (Precession::Single, 0.7, 0.01)];
+    for (form, (kind, beta_0, amplitude)) in FORMS.into_iter().flat_map(|form| cases.map(|case| (form, case))) {
         let constants = [FRAC_PI_2, beta_0, amplitude, 1.2];
         let seeded = |x: [f64; 4], i: usize| {
             let mut x = x.map(lift);
@@ -284,12 +292,19 @@ fn inverse_derivatives() -> Result<Measured, String> {
             x
         };
         let forward = |[alpha_0, beta_0, amplitude, phase]: [Dual64; 4]| {
-            initial_values(kind, &spheroid, &s, spin, &Constants { alpha_0, beta_0, amplitude, phase })
+            initial_values(form, kind, &spheroid, &s, spin, &Constants { alpha_0, beta_0, amplitude, phase })
                 .map(|q| [q.alpha, q.beta, q.alpha_rate, q.beta_rate])
         };
         let backward = |[alpha, beta, alpha_rate, beta_rate]: [Dual64; 4]| {
-            constants_from_initial_values(kind, &spheroid, &s, spin, &AxisAngles { alpha, beta, alpha_rate, beta_rate })
-                .map(|c| [c.alpha_0, c.beta_0, c.amplitude, c.phase])
+            constants_from_initial_values(
+                form,
+                kind,
+                &spheroid,
+                &s,
+                spin,
+                &AxisAngles { alpha, beta, alpha_rate, beta_rate },
+            )
+            .map(|c| [c.alpha_0, c.beta_0, c.amplitude, c.phase])
         };
         let jacobian = |f: &dyn Fn([Dual64; 4]) -> Result<[Dual64; 4], twofold::Error>, x: [f64; 4]| {
             let columns = (0..4)
@@ -299,7 +314,9 @@ fn inverse_derivatives() -> Result<Measured, String> {
         };
         let initial = forward(constants.map(lift)).map_err(|e| e.to_string())?.map(|x| x.re);
         let product = jacobian(&backward, initial)? * jacobian(&forward, constants)?;
-        worst.see(largest((product - Matrix4::identity()).iter().map(|x: &f64| x.abs())), || format!("{kind:?}"));
+        worst.see(largest((product - Matrix4::identity()).iter().map(|x: &f64| x.abs())), || {
+            format!("{form:?} {kind:?}")
+        });
     }
     worst.finish()
 }

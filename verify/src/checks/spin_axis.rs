@@ -11,7 +11,7 @@ use twofold::observables::spin_axis::{
     changes_from_start, cos_lambda, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
 };
 use twofold::propagation::{Motion, propagate};
-use twofold::solutions::perturbation::{Constants, Kind as Precession, Perturbation};
+use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Perturbation};
 
 use crate::check::{Bound, Check, Kind, Measured};
 use crate::checks::observer::observer;
@@ -125,7 +125,7 @@ impl Identity for ChangesFromStart {
     fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         let (spin, interval) = (p.rates.gamma, p.numbers[2]);
         let c = constants(p);
-        let solution = Perturbation::printed_unchecked(Precession::Single, &p.spheroid, &p.s, spin, &c);
+        let solution = Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &p.s, spin, &c);
         let (alpha, beta) = changes_from_start(&solution, interval);
         let ((sin_b, cos_b), (sin_phi, cos_phi)) = (c.beta_0.sin_cos(), c.phase.sin_cos());
         let (sin_a, cos_a) = c.alpha_0.sin_cos();
@@ -143,7 +143,8 @@ fn error(s: &PrincipalCoefficients<f64>, amplitude: f64, interval: f64) -> Resul
     let body = spheroid();
     // A general phase and, below, a direction that leaves neither term of Eq. (38) out.
     let constants = Constants { alpha_0: FRAC_PI_2, beta_0: 0.7, amplitude, phase: 0.4 };
-    let solution = Perturbation::printed(Precession::Single, &body, s, SPIN, &constants).map_err(|e| e.to_string())?;
+    let solution =
+        Perturbation::new(Form::Printed, Precession::Single, &body, s, SPIN, &constants).map_err(|e| e.to_string())?;
     let start = solution.at(0.0);
     let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
     let gamma_rate = SPIN - start.alpha_rate * start.beta.cos();

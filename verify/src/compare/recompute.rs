@@ -11,7 +11,7 @@ use twofold::observables::pulsar::period::{azimuth_offset_rate, instantaneous_pe
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{Beam, PulseTrain, pulse_train};
 use twofold::propagation::{AxisMotion, ContinuousAngles, Motion, TaylorMotion, propagate};
-use twofold::solutions::perturbation::Perturbation;
+use twofold::solutions::perturbation::{Form, Perturbation};
 
 use super::table::Table;
 use crate::check::largest;
@@ -88,7 +88,7 @@ pub(super) struct Scales {
 pub(super) fn angles(example: &PaperExample, table: &Table) -> Result<(Vec<Vec<f64>>, Scales), Error> {
     let start = Start::of(example)?;
     let motion = start.motion(table.last_time())?;
-    let printed = Perturbation::printed(example.kind, &spheroid(), &COEFFICIENTS, SPIN, &example.constants)?;
+    let printed = Perturbation::new(Form::Printed, example.kind, &spheroid(), &COEFFICIENTS, SPIN, &example.constants)?;
     let mut continuous = ContinuousAngles::new(&motion, 0.0, &start.angles)?;
     let duration = table.last_time();
     let oscillation = example.constants.amplitude * (1.0 + printed.homogeneous_ratio.abs());

@@ -1,30 +1,49 @@
-//! The first-order equations by differentiating Eq. (25) once, with nothing dropped, and a solution put into them.
+//! The first-order equations by differentiating Eq. (25) with nothing dropped, and a solution put into them.
 
 use twofold::dynamics::RigidSpheroid;
 use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_residuals};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::linearised::FirstOrderMotion;
-use twofold::solutions::perturbation::{Constants, Perturbation};
+use twofold::solutions::perturbation::{Constants, Kind, Perturbation};
 
 use crate::derivation::Differentiable;
 use crate::derivation::spheroid_motion::fixed_spheroid;
 
-/// Zeroth order of a perturbed motion: `alpha' = rate`, `beta` constant, without Lorentz violation.
+/// The motion about which is expanded: `alpha' = rate`, `beta` constant.
 #[derive(Debug, Clone, Copy)]
 pub struct UnperturbedMotion<F> {
+    /// Free precession or a stationary spin.
+    pub kind: Kind,
     /// Spin component `Omega^z`.
     pub spin: F,
     /// Angle `alpha` at the moment.
     pub alpha: F,
     /// Inclination.
     pub beta: F,
-    /// Rate of `alpha`.
+    /// Rate of `alpha`: of free precession without Lorentz violation, or `a^(1)` of the slow precession of a stationary spin
+    /// about Z with `s^XX = s^YY`, of first order in `s`.
     pub rate: F,
 }
 
-/// Derivative by a small parameter of the residuals of Eq. (25) along the zeroth order plus the parameter times the first
-/// order, with `s^IJ` proportional to the parameter. The first equation is divided by `sin^2 beta_0`, as Eq. (29) is.
-pub fn linearised_equations<F: Differentiable>(
+/// The terms of Eq. (25) that are of first order, with nothing else dropped. The first equation is divided by `sin^2 beta_0`, as
+/// Eq. (29) is.
+pub fn first_order_equations<F: Differentiable>(
+    spheroid: &RigidSpheroid<F>,
+    s: &PrincipalCoefficients<F>,
+    zeroth: &UnperturbedMotion<F>,
+    first: &FirstOrderMotion<F>,
+) -> [F; 2] {
+    let [of_alpha, of_beta] = match zeroth.kind {
+        Kind::Twofold => about_free_precession(spheroid, s, zeroth, first),
+        Kind::Single => about_stationary_spin(spheroid, s, zeroth, first),
+    };
+    let (sin_beta, _) = zeroth.beta.sin_cos();
+    [of_alpha / (sin_beta * sin_beta), of_beta]
+}
+
+/// Derivative by a small parameter along the unperturbed motion plus the parameter times the first order, with `s^IJ`
+/// proportional to the parameter.
+fn about_free_precession<F: Differentiable>(
     spheroid: &RigidSpheroid<F>,
     s: &PrincipalCoefficients<F>,
     zeroth: &UnperturbedMotion<F>,
@@ -42,23 +61,69 @@ pub fn linearised_equations<F: Differentiable>(
     let s = PrincipalCoefficients::new([s.xx, s.yy, s.zz].map(small));
     let (of_alpha, of_beta) =
         euler_angle_residuals(&fixed_spheroid(spheroid), &s, F::fixed(zeroth.spin), &motion, accelerations);
-    let (sin_beta, _) = zeroth.beta.sin_cos();
-    [F::derivative(of_alpha) / (sin_beta * sin_beta), F::derivative(of_beta)]
+    [F::derivative(of_alpha), F::derivative(of_beta)]
 }
 
-/// A solution as a first-order motion at `t = 0` with its phases at the zeroth-order rate `a` and the homogeneous frequency
+/// Two small parameters: `e1`, the size of `s` and of the rates, and `e2`, that of `s^XX - s^YY` against
+/// `2 s^ZZ - s^XX - s^YY` and of `beta1`. The terms in `e1` (the slow precession about Z) and in `e1 e2` together. The
+/// accelerations are those of the homogeneous motion, whose frequency is not small and whose amplitude is counted as `e1 e2`;
+/// slow ones are of the order `e1^2`.
+fn about_stationary_spin<F: Differentiable>(
+    spheroid: &RigidSpheroid<F>,
+    s: &PrincipalCoefficients<F>,
+    zeroth: &UnperturbedMotion<F>,
+    first: &FirstOrderMotion<F>,
+) -> [F; 2] {
+    let zero = F::zero();
+    let both_small = |x| F::second(zero, zero, zero, x);
+    let (mean, half) = ((s.xx + s.yy) / 2.0, (s.xx - s.yy) / 2.0);
+    let s = PrincipalCoefficients {
+        xx: F::second(zero, mean, zero, half),
+        yy: F::second(zero, mean, zero, -half),
+        zz: F::second(zero, s.zz, zero, zero),
+    };
+    let motion = AxisAngles {
+        // The potential depends on alpha by s^XX - s^YY alone: alpha1 adds terms in e1 e2^2.
+        alpha: F::constant(zeroth.alpha),
+        beta: F::second(zeroth.beta, zero, first.beta, zero),
+        alpha_rate: F::second(zero, zeroth.rate, zero, first.alpha_rate - zeroth.rate),
+        beta_rate: both_small(first.beta_rate),
+    };
+    let accelerations = (both_small(first.alpha_acceleration), both_small(first.beta_acceleration));
+    let spheroid = RigidSpheroid {
+        inertia_xx: F::constant(spheroid.inertia_xx),
+        inertia_zz: F::constant(spheroid.inertia_zz),
+        constant_c: F::constant(spheroid.constant_c),
+    };
+    let (of_alpha, of_beta) = euler_angle_residuals(&spheroid, &s, F::constant(zeroth.spin), &motion, accelerations);
+    [of_alpha, of_beta].map(|residual| F::derivative_1(residual) + F::derivative_12(residual))
+}
+
+/// A solution as a first-order motion at `t = 0` with its phases at the zeroth-order rate of `alpha` and the homogeneous frequency
 /// `nu`. What Eq. (32) adds to `a` is put back into the rate of `alpha1`, where Eq. (30) has it.
 pub fn first_order_motion<F: Differentiable>(solution: &Perturbation<F>, nu: F) -> FirstOrderMotion<F> {
-    let shift = solution.rate - solution.zeroth_rate;
+    let Constants { alpha_0, beta_0, amplitude, phase } = solution.constants;
+    // About a stationary spin the forced beta1 divides by a^(1), and the homogeneous one is smaller by the order of s.
+    let (rate, amplitude_of_beta) = match solution.kind {
+        Kind::Twofold => (solution.zeroth_rate, amplitude),
+        Kind::Single => (solution.rate, F::zero()),
+    };
+    let of_beta = Perturbation {
+        constants: Constants { amplitude: amplitude_of_beta, ..solution.constants },
+        rate,
+        homogeneous_frequency: nu,
+        ..*solution
+    };
     let moving = Perturbation {
+        kind: solution.kind,
         constants: Constants {
-            alpha_0: F::fixed(solution.constants.alpha_0),
-            beta_0: F::fixed(solution.constants.beta_0),
-            amplitude: F::fixed(solution.constants.amplitude),
-            phase: F::fixed(solution.constants.phase),
+            alpha_0: F::fixed(alpha_0),
+            beta_0: F::fixed(beta_0),
+            amplitude: F::fixed(amplitude),
+            phase: F::fixed(phase),
         },
         omega: F::fixed(solution.omega),
-        rate: F::fixed(solution.zeroth_rate),
+        rate: F::fixed(rate),
         zeroth_rate: F::fixed(solution.zeroth_rate),
         forced_rate: F::fixed(solution.forced_rate),
         c_tilde: F::fixed(solution.c_tilde),
@@ -67,14 +132,11 @@ pub fn first_order_motion<F: Differentiable>(solution: &Perturbation<F>, nu: F) 
         homogeneous_frequency: F::fixed(nu),
         homogeneous_ratio: F::fixed(solution.homogeneous_ratio),
     };
-    let phases = (F::first(solution.constants.phase, nu), F::first(solution.constants.alpha_0, solution.zeroth_rate));
-    let (alpha_rate, beta_rate) = moving.first_order_rates(phases.0, phases.1);
-    // At rest (single precession) Eq. (33) would divide by zero, and beta1 has no part in the equations.
-    let beta =
-        if solution.zeroth_rate.is_zero() { F::zero() } else { F::value(moving.first_order(phases.0, phases.1).1) };
+    let (alpha_rate, beta_rate) =
+        moving.first_order_rates(F::first(phase, nu), F::first(alpha_0, solution.zeroth_rate));
     FirstOrderMotion {
-        beta,
-        alpha_rate: shift + F::value(alpha_rate),
+        beta: of_beta.first_order(phase, alpha_0).1,
+        alpha_rate: solution.rate - solution.zeroth_rate + F::value(alpha_rate),
         beta_rate: F::value(beta_rate),
         alpha_acceleration: F::derivative(alpha_rate),
         beta_acceleration: F::derivative(beta_rate),

@@ -2,17 +2,11 @@
 
 use std::sync::OnceLock;
 
-use nalgebra::{Matrix4, Vector4};
-use num_dual::Dual64;
-use twofold::dynamics::RigidSpheroid;
-use twofold::dynamics::euler_angle_equations::AxisAngles;
 use twofold::euler_angles::EulerAngles;
-use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::propagate;
-use twofold::scalar::Real;
-use twofold::solutions::perturbation::{Constants, Kind, Perturbation};
+use twofold::solutions::perturbation::{Form, Perturbation};
 
-use super::subject::{ACCURACY, Shown, Start, Subject};
+use super::subject::{ACCURACY, Shown, Start, Subject, corrected_solution};
 use crate::paper_examples::{COEFFICIENTS, PaperExample, SPIN, paper_examples, spheroid};
 use crate::scene_file::{Pulsar, Viewer};
 
@@ -38,11 +32,7 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
     let (spheroid, first, state) = (spheroid(), example.initial_values()?, example.initial_state()?);
     let angles = EulerAngles { alpha: first.alpha, beta: first.beta, gamma: 0.0 };
     let start = Start { spheroid, violation: COEFFICIENTS.tensor(), state, angles };
-    let printed = Perturbation::printed(example.kind, &spheroid, &COEFFICIENTS, SPIN, &example.constants)?;
-    let corrected = match example.kind {
-        Kind::Twofold => corrected_solution(&first, &example.constants)?,
-        Kind::Single => None,
-    };
+    let printed = Perturbation::new(Form::Printed, example.kind, &spheroid, &COEFFICIENTS, SPIN, &example.constants)?;
     // Single precession goes round once in 90 to 250 t_c, twofold precession in 4.
     let angles = match example.name {
         "sp-I" => 200.0,
@@ -55,7 +45,7 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
         name: example.name.to_owned(),
         start,
         printed: Some(printed),
-        corrected,
+        corrected: corrected_solution(&printed, &spheroid, &COEFFICIENTS, SPIN),
         observer: Some(OBSERVER),
         pulsar: Some(PULSAR),
         shown,
@@ -63,46 +53,4 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
         spectrum_duration: SPECTRUM_DURATION,
         long: OnceLock::new(),
     })
-}
-
-/// The corrected solution that has the initial values `first`, by Newton's method from the constants of the printed one;
-/// none where that does not lead to it.
-fn corrected_solution(
-    first: &AxisAngles<f64>,
-    printed: &Constants<f64>,
-) -> Result<Option<Perturbation<f64>>, twofold::Error> {
-    let wanted = Vector4::new(first.alpha, first.beta, first.alpha_rate, first.beta_rate);
-    // The phase of no amplitude would have no derivative.
-    let mut x = Vector4::new(printed.alpha_0, printed.beta_0, printed.amplitude.max(1e-4), printed.phase);
-    for _ in 0..30 {
-        let mut jacobian = Matrix4::zeros();
-        let mut residual = Vector4::zeros();
-        for i in 0..4 {
-            let number = |j: usize| Dual64::new(x[j], if i == j { 1.0 } else { 0.0 });
-            let q = corrected(number(0), number(1), number(2), number(3))?.at(Dual64::new(0.0, 0.0));
-            let q = [q.alpha, q.beta, q.alpha_rate, q.beta_rate];
-            jacobian.set_column(i, &Vector4::from(q.map(|number| number.eps)));
-            residual = Vector4::from(q.map(|number| number.re)) - wanted;
-        }
-        let Some(inverse) = jacobian.try_inverse() else { return Ok(None) };
-        let step = inverse * residual;
-        x -= step * (0.2 / step.norm()).min(1.0);
-        if step.norm() < 1e-12 {
-            return corrected(x[0], x[1], x[2], x[3]).map(Some);
-        }
-    }
-    Ok(None)
-}
-
-fn corrected<S: Real>(alpha_0: S, beta_0: S, amplitude: S, phase: S) -> Result<Perturbation<S>, twofold::Error> {
-    let constant = S::from_f64;
-    let paper = spheroid();
-    let spheroid = RigidSpheroid {
-        inertia_xx: constant(paper.inertia_xx),
-        inertia_zz: constant(paper.inertia_zz),
-        constant_c: constant(paper.constant_c),
-    };
-    let s = PrincipalCoefficients::new([COEFFICIENTS.xx, COEFFICIENTS.yy, COEFFICIENTS.zz].map(constant));
-    let constants = Constants { alpha_0, beta_0, amplitude, phase };
-    Perturbation::corrected_twofold(&spheroid, &s, constant(SPIN), &constants)
 }

@@ -1,9 +1,7 @@
 //! Error of the perturbation solutions over their parameters.
 
-use std::f64::consts::TAU;
-
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::Kind;
+use twofold::solutions::perturbation::{Form, Kind};
 
 use super::axes::{Axis, BELOW, Mark, Panel, draw_mark};
 use super::contour::{bands, isoline};
@@ -11,7 +9,7 @@ use super::style::{BLACK, PAGE, SMALL, solid};
 use super::svg::{Anchor, Page, Rectangle};
 use super::table::Table;
 use super::{Caption, Sheet};
-use crate::checks::regimes::perturbation_error::{Case, Form};
+use crate::checks::regimes::perturbation_error::Case;
 
 /// `beta_0` of the columns of the maps.
 const INCLINATIONS: (f64, f64, usize) = (0.05, 1.5, 30);
@@ -29,6 +27,9 @@ const DURATION: f64 = 10.0;
 /// `|2 s^ZZ - s^XX - s^YY|` of the examples.
 const COMBINATION: f64 = 0.11;
 
+/// Scale of `s` and `A` in the maps of single precession: small, so that the error is that of the asymmetry alone.
+const SINGLE_SCALE: f64 = 1e-4;
+
 /// `A` of the examples of single precession.
 const SINGLE_AMPLITUDE: f64 = 0.01;
 
@@ -45,24 +46,29 @@ struct Map {
 pub(super) fn sheet() -> Result<Sheet, String> {
     let twofold = |form, name: &str| {
         map(name, "A [1/t_c]", POWERS, |beta_0, amplitude| {
-            Case::paper(form, SCALE, beta_0, amplitude).errors(DURATION, 64).map(|errors| errors.axis)
+            Case::paper(form, Kind::Twofold, SCALE, beta_0, amplitude).errors(DURATION, 64).map(|errors| errors.axis)
         })
     };
+    let single = |form, name: &str| {
+        let asymmetry = "|s^XX - s^YY| / |2 s^ZZ - s^XX - s^YY| [1]";
+        map(name, asymmetry, ASYMMETRY_POWERS, |beta_0, asymmetry| single_error(form, beta_0, asymmetry))
+    };
     let maps = [
-        twofold(Form::Printed(Kind::Twofold), "twofold-printed")?,
-        twofold(Form::CorrectedTwofold, "twofold-corrected")?,
-        map("single", "|s^XX - s^YY| / |2 s^ZZ - s^XX - s^YY| [1]", ASYMMETRY_POWERS, single_error)?,
+        twofold(Form::Printed, "twofold-printed")?,
+        twofold(Form::Corrected, "twofold-corrected")?,
+        single(Form::Printed, "single-printed")?,
+        single(Form::Corrected, "single-corrected")?,
     ];
     let svg = draw(&maps);
     Ok(Sheet { svg, caption: caption(), tables: maps.map(|map| map.table).to_vec() })
 }
 
 /// Largest distance of the axes over one forced period.
-fn single_error(beta_0: f64, asymmetry: f64) -> Result<f64, String> {
+fn single_error(form: Form, beta_0: f64, asymmetry: f64) -> Result<f64, String> {
     let half = asymmetry * COMBINATION / 2.0;
-    let s = PrincipalCoefficients::new([0.015 + half, 0.015 - half, -0.04]);
-    let case = Case { form: Form::Printed(Kind::Single), s, beta_0, amplitude: SINGLE_AMPLITUDE };
-    case.errors(TAU / case.solution()?.rate.abs(), 256).map(|errors| errors.axis)
+    let s = PrincipalCoefficients::new([0.015 + half, 0.015 - half, -0.04]).scaled(SINGLE_SCALE);
+    let amplitude = SINGLE_AMPLITUDE * SINGLE_SCALE;
+    Case { form, kind: Kind::Single, s, beta_0, amplitude }.axis_error_over_forced_period(256)
 }
 
 fn map(
@@ -97,13 +103,15 @@ fn colour(part: f64) -> String {
 
 const BANDS: usize = 10;
 
-fn draw(maps: &[Map; 3]) -> String {
-    let (left, top, height, between) = (34.0, 18.0, 116.0, 40.0);
-    let width = (PAGE - left - 46.0 - 2.0 * between) / 3.0;
-    let mut page = Page::new("perturbation-regimes", PAGE, top + height + BELOW);
-    let names = ["twofold, printed", "twofold, corrected", "single"];
+fn draw(maps: &[Map; 4]) -> String {
+    let (left, top, height, between, below) = (40.0, 18.0, 128.0, 52.0, BELOW + 18.0);
+    let width = (PAGE - left - 52.0 - between) / 2.0;
+    let mut page = Page::new("perturbation-regimes", PAGE, 2.0 * top + 2.0 * height + below + BELOW - top);
+    let names = ["twofold, printed", "twofold, corrected", "single, printed", "single, corrected"];
     for (i, (map, what)) in maps.iter().zip(names).enumerate() {
-        let frame = Rectangle { left: left + (width + between) * i as f64, top, width, height };
+        let (column, row) = ((i % 2) as f64, (i / 2) as f64);
+        let frame =
+            Rectangle { left: left + (width + between) * column, top: top + (height + below) * row, width, height };
         let (powers, label) = if i < 2 { (POWERS, "*A* *t*_{c}") } else { (ASYMMETRY_POWERS, "asymmetry of *s*") };
         let x = Axis::linear("*β*_{0} [rad]", INCLINATIONS.0, INCLINATIONS.1);
         let y = Axis::logarithmic(label, 10f64.powf(powers.0), 10f64.powf(powers.1));
@@ -149,6 +157,7 @@ fn draw(maps: &[Map; 3]) -> String {
         panel.letter(&mut page, i, maps.len(), what);
     }
     scale(&mut page, PAGE - 38.0, top, height);
+    scale(&mut page, PAGE - 38.0, top + height + below, height);
     page.finish("Error of the perturbation solutions")
 }
 

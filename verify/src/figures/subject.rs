@@ -5,8 +5,9 @@ use std::sync::OnceLock;
 use nalgebra::Matrix3;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::EulerAngles;
+use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
-use twofold::solutions::perturbation::Perturbation;
+use twofold::solutions::perturbation::{Form, Perturbation, constants_from_initial_values};
 
 use super::spectrum::{LongMotion, SERIES_ROTATION};
 use crate::scene_file::{Pulsar, Scene, Viewer};
@@ -128,7 +129,12 @@ impl Subject {
         let duration = (scene.times.last() - scene.times.start()) / scene.units.time;
         let motion = Self::new(name, start, duration)?;
         let printed = scene.perturbation.as_ref().ok().copied();
-        Ok(Self { printed, observer: scene.observer, pulsar: scene.pulsar, ..motion })
+        // A scene has a perturbation solution where its tensor is diagonal.
+        let s = scene.violation.diagonal();
+        let s = PrincipalCoefficients::new([s.x, s.y, s.z]);
+        let corrected =
+            printed.and_then(|printed| corrected_solution(&printed, &scene.spheroid, &s, motion.start.spin()));
+        Ok(Self { printed, corrected, observer: scene.observer, pulsar: scene.pulsar, ..motion })
     }
 
     /// The motion over the length of the spectra, computed once.
@@ -172,6 +178,18 @@ impl Subject {
             .map_err(|error| format!("{}: {error}", self.name))?;
         Ok(times.iter().filter_map(|&t| Some((t, angles.at(t).ok()?))).collect())
     }
+}
+
+/// The corrected solution with the initial values of the printed one; none where none is found.
+pub(super) fn corrected_solution(
+    printed: &Perturbation<f64>,
+    spheroid: &RigidSpheroid<f64>,
+    s: &PrincipalCoefficients<f64>,
+    spin: f64,
+) -> Option<Perturbation<f64>> {
+    let (kind, start) = (printed.kind, printed.at(0.0));
+    let constants = constants_from_initial_values(Form::Corrected, kind, spheroid, s, spin, &start).ok()?;
+    Perturbation::new(Form::Corrected, kind, spheroid, s, spin, &constants).ok()
 }
 
 /// `count + 1` times from zero to `end`.

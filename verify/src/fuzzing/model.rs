@@ -29,7 +29,9 @@ use twofold::propagation::{
 use twofold::solutions::free::free_precession_rates;
 use twofold::solutions::mean::slow_precession::slow_precession;
 use twofold::solutions::mean::{MeanOrder, middle_axis_growth};
-use twofold::solutions::perturbation::{Constants, Kind, Perturbation, constants_from_initial_values, shifted_rates};
+use twofold::solutions::perturbation::{
+    Constants, Form, Kind, Perturbation, constants_from_initial_values, shifted_rates,
+};
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::solutions::symmetric::SymmetricSolution;
 use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};
@@ -244,12 +246,13 @@ fn solutions(asked: &Asked, time: f64) {
     let constants = Constants { alpha_0: angles.alpha, beta_0: angles.beta, amplitude: rates.alpha, phase: rates.beta };
     for kind in [Kind::Twofold, Kind::Single] {
         let _ = black_box(steady_precession_rate(kind, body, s, spin, angles.beta));
-        if let Ok(solution) = Perturbation::printed(kind, body, s, spin, &constants) {
-            let _ = black_box(solution.at(time));
-            let _ = black_box(constants_from_initial_values(kind, body, s, spin, &solution.at(0.0)));
+        for form in [Form::Printed, Form::Corrected] {
+            if let Ok(solution) = Perturbation::new(form, kind, body, s, spin, &constants) {
+                let _ = black_box(solution.at(time));
+                let _ = black_box(constants_from_initial_values(form, kind, body, s, spin, &solution.at(0.0)));
+            }
         }
     }
-    let _ = black_box(Perturbation::corrected_twofold(body, s, spin, &constants).map(|solution| solution.at(time)));
     let symmetric = PrincipalCoefficients { yy: s.xx, ..*s };
     if let Ok(solution) = SymmetricSolution::new(body, &symmetric, angles, rates) {
         let _ = black_box((solution.angles(time), solution.rates(time), solution.period(), solution.mean_rates()));

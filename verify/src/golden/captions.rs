@@ -2,7 +2,7 @@
 
 use twofold::Error;
 use twofold::solutions::free::free_precession_rates;
-use twofold::solutions::perturbation::{Kind, Perturbation, shifted_rates};
+use twofold::solutions::perturbation::{Form, Perturbation, shifted_rates};
 
 use super::{GoldenLine, GoldenTable, Printed};
 use crate::paper_examples::{COEFFICIENTS, SPIN, paper_examples, spheroid};
@@ -51,7 +51,7 @@ pub(super) fn constants() -> Result<GoldenTable, Error> {
         if name.is_empty() {
             continue;
         }
-        let p = Perturbation::printed(example.kind, &spheroid(), &COEFFICIENTS, SPIN, &example.constants)?;
+        let p = Perturbation::new(Form::Printed, example.kind, &spheroid(), &COEFFICIENTS, SPIN, &example.constants)?;
         for (label, value) in [
             ("a^(1), Eq. (31)", p.forced_rate),
             ("a, Eq. (32)", p.rate),
@@ -61,11 +61,9 @@ pub(super) fn constants() -> Result<GoldenTable, Error> {
         ] {
             lines.push(GoldenLine::new(format!("{name} {label}"), Printed::No, value));
         }
-        if example.kind == Kind::Twofold {
-            let c = Perturbation::corrected_twofold(&spheroid(), &COEFFICIENTS, SPIN, &example.constants)?;
-            lines.push(GoldenLine::new(format!("{name} eta_alpha, corrected"), Printed::No, c.eta_alpha));
-            lines.push(GoldenLine::new(format!("{name} eta_beta, corrected"), Printed::No, c.eta_beta));
-        }
+        let c = Perturbation::new(Form::Corrected, example.kind, &spheroid(), &COEFFICIENTS, SPIN, &example.constants)?;
+        lines.push(GoldenLine::new(format!("{name} eta_alpha, corrected"), Printed::No, c.eta_alpha));
+        lines.push(GoldenLine::new(format!("{name} eta_beta, corrected"), Printed::No, c.eta_beta));
     }
     let shifted = shifted_rates(&spheroid(), &COEFFICIENTS, SPIN, 0.7)?;
     lines.push(GoldenLine::new("twofold, shifted alpha rate [1/t_c], Eq. (57)", Printed::No, shifted.alpha));

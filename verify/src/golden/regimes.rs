@@ -1,14 +1,14 @@
 //! Errors of the perturbation solutions over their parameters.
 
-use std::f64::consts::TAU;
-
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::Kind;
+use twofold::solutions::perturbation::{Form, Kind};
 
 use super::{GoldenLine, GoldenTable, Printed};
-use crate::checks::regimes::perturbation_error::{Case, Form};
+use crate::checks::regimes::perturbation_error::Case;
 
 const DIGITS: usize = 3;
+
+const FORMS: [(Form, &str); 2] = [(Form::Printed, "printed"), (Form::Corrected, "corrected")];
 
 fn line(label: String, value: f64) -> GoldenLine {
     GoldenLine { digits: DIGITS, ..GoldenLine::new(label, Printed::No, value) }
@@ -23,9 +23,11 @@ fn coefficients(asymmetry: f64, k: f64) -> PrincipalCoefficients<f64> {
 pub(super) fn twofold() -> Result<GoldenTable, String> {
     let k = 1e-3;
     let mut lines = Vec::new();
-    for (form, name) in [(Form::Printed(Kind::Twofold), "printed"), (Form::CorrectedTwofold, "corrected")] {
+    for (form, name) in FORMS {
         let error = |asymmetry: f64, beta_0: f64, amplitude: f64| {
-            Case { form, s: coefficients(asymmetry, k), beta_0, amplitude }.errors(10.0, 400).map(|errors| errors.beta)
+            Case { form, kind: Kind::Twofold, s: coefficients(asymmetry, k), beta_0, amplitude }
+                .errors(10.0, 400)
+                .map(|errors| errors.beta)
         };
         for beta_0 in [0.1, 0.3, 0.5, 0.7, 0.9, 1.1, 1.3, 1.4] {
             lines.push(line(
@@ -53,37 +55,24 @@ pub(super) fn twofold() -> Result<GoldenTable, String> {
     })
 }
 
-/// Single precession: largest distance of the true from the approximate axis over one forced period.
+/// Single precession: largest distance of the true from the approximate axis over one forced period, printed and corrected.
 pub(super) fn single() -> Result<GoldenTable, String> {
-    let error = |asymmetry: f64, k: f64, beta_0: f64, amplitude: f64| {
-        let case = Case { form: Form::Printed(Kind::Single), s: coefficients(asymmetry, k), beta_0, amplitude };
-        case.errors(TAU / case.solution()?.rate.abs(), 1000).map(|errors| errors.axis)
-    };
+    let inclinations = [0.1, 0.3, 0.5, 0.7, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5].map(|beta_0| (0.01, 1.0, beta_0, 0.0));
+    let amplitudes = [0.003, 0.01, 0.03, 0.1].map(|amplitude| (0.01, 1.0, 0.7, amplitude));
+    let asymmetries = [0.0, 0.001, 0.003, 0.03].map(|asymmetry| (asymmetry, 1.0, 0.7, 0.0));
+    let scales = [0.1, 0.01].map(|k| (0.01, k, 0.7, 0.0));
     let mut lines = Vec::new();
-    for beta_0 in [0.1, 0.3, 0.5, 0.7, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5] {
-        lines.push(line(
-            format!("beta_0 = {beta_0}, A = 0, k = 1, s^XX - s^YY = 0.01 k"),
-            error(0.01, 1.0, beta_0, 0.0)?,
-        ));
-    }
-    for amplitude in [0.003, 0.01, 0.03, 0.1] {
-        lines.push(line(
-            format!("beta_0 = 0.7, A = {amplitude}, k = 1, s^XX - s^YY = 0.01 k"),
-            error(0.01, 1.0, 0.7, amplitude)?,
-        ));
-    }
-    for asymmetry in [0.0, 0.001, 0.003, 0.03] {
-        lines.push(line(
-            format!("beta_0 = 0.7, A = 0, k = 1, s^XX - s^YY = {asymmetry} k"),
-            error(asymmetry, 1.0, 0.7, 0.0)?,
-        ));
-    }
-    for k in [0.1, 0.01] {
-        lines.push(line(format!("beta_0 = 0.7, A = 0, k = {k}, s^XX - s^YY = 0.01 k"), error(0.01, k, 0.7, 0.0)?));
+    for (form, name) in FORMS {
+        let cases = inclinations.iter().chain(&amplitudes).chain(&asymmetries).chain(&scales);
+        for &(asymmetry, k, beta_0, amplitude) in cases {
+            let case = Case { form, kind: Kind::Single, s: coefficients(asymmetry, k), beta_0, amplitude };
+            let label = format!("{name}, beta_0 = {beta_0}, A = {amplitude}, k = {k}, s^XX - s^YY = {asymmetry} k");
+            lines.push(line(label, case.errors_over_forced_period()?.axis));
+        }
     }
     Ok(GoldenTable {
         name: "single_regimes",
-        title: "Single perturbation solution: largest distance of the heads of the true and the approximate axis over one \
+        title: "Single perturbation solutions: largest distance of the heads of the true and the approximate axis over one \
                 forced period, s of sp-I scaled by k",
         lines,
     })

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use twofold::dynamics::BodyState;
 use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::solutions::perturbation::{Constants, Kind, Perturbation, initial_values};
+use twofold::solutions::perturbation::{Constants, Form, Kind, Perturbation};
 
 use super::error::Fault;
 use super::section::Section;
@@ -91,8 +91,10 @@ fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> 
         amplitude: section.required("amplitude", "A, a rate")?.number()? * star.units.time,
         phase: section.required("phase", "phi [rad]")?.angle()?,
     };
-    let start = initial_values(kind, &star.spheroid, &violation.coefficients, star.spin, &constants)
-        .map_err(|error| section.fault(format!("[initial] has no solution: {error}")))?;
+    let printed =
+        Perturbation::new(Form::Printed, kind, &star.spheroid, &violation.coefficients, star.spin, &constants)
+            .map_err(|error| section.fault(format!("[initial] has no solution: {error}")))?;
+    let start = printed.at(0.0);
     if !(0.0..=PI).contains(&start.beta) {
         return Err(section.fault(format!(
             "[initial] gives an inclination beta = {} rad by Eq. (34): allowed is from 0 to pi; the perturbation solution \
@@ -105,10 +107,7 @@ fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> 
     let state = BodyState::from_angles(&star.spheroid, &principal, &rates);
     refuse_overflow(section, &state)?;
     if violation.principal_from_given.is_identity(0.0) {
-        let (body, s) = (&star.spheroid, &violation.coefficients);
-        let perturbation = Perturbation::printed(kind, body, s, star.spin, &constants)
-            .map_err(|error| section.fault(format!("[initial] has no solution: {error}")))?;
-        return Ok(Initial { state, angles: principal, perturbation: Ok(perturbation) });
+        return Ok(Initial { state, angles: principal, perturbation: Ok(printed) });
     }
     let state = state.rotated(&violation.principal_from_given.transpose());
     let angles = state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: state.axis.z.acos(), gamma: 0.0 });

@@ -30,7 +30,7 @@ use twofold::observables::spin_axis::{
     changes_from_start, cos_lambda, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
 };
 use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
-use twofold::solutions::perturbation::{Constants, Kind, Perturbation};
+use twofold::solutions::perturbation::{Constants, Form, Kind, Perturbation};
 
 use super::point::Coded;
 use super::{RationalKernel, RationalPoint};
@@ -90,7 +90,8 @@ kernels! {
     "printed-first-order-equations-single" => printed_single,
     "printed-solution-twofold" => solution_twofold,
     "printed-solution-single" => solution_single,
-    "corrected-solution-twofold" => solution_corrected,
+    "corrected-solution-twofold" => corrected_twofold,
+    "corrected-solution-single" => corrected_single,
 }
 
 type Point<F> = RationalPoint<F>;
@@ -384,18 +385,22 @@ fn solved<F: Coded>(p: &Point<F>, solution: &Perturbation<F>) -> Vec<F> {
     ]
 }
 
-fn printed_solution<F: Coded>(p: &Point<F>, kind: Kind) -> Vec<F> {
-    solved(p, &Perturbation::printed_unchecked(kind, &p.spheroid(), &p.coefficients(), p.at("spin"), &constants(p)))
+fn solution<F: Coded>(p: &Point<F>, form: Form, kind: Kind) -> Vec<F> {
+    solved(p, &Perturbation::new_unchecked(form, kind, &p.spheroid(), &p.coefficients(), p.at("spin"), &constants(p)))
 }
 
 fn solution_twofold<F: Coded>(p: &Point<F>) -> Vec<F> {
-    printed_solution(p, Kind::Twofold)
+    solution(p, Form::Printed, Kind::Twofold)
 }
 
 fn solution_single<F: Coded>(p: &Point<F>) -> Vec<F> {
-    printed_solution(p, Kind::Single)
+    solution(p, Form::Printed, Kind::Single)
 }
 
-fn solution_corrected<F: Coded>(p: &Point<F>) -> Vec<F> {
-    solved(p, &Perturbation::corrected_twofold_unchecked(&p.spheroid(), &p.coefficients(), p.at("spin"), &constants(p)))
+fn corrected_twofold<F: Coded>(p: &Point<F>) -> Vec<F> {
+    solution(p, Form::Corrected, Kind::Twofold)
+}
+
+fn corrected_single<F: Coded>(p: &Point<F>) -> Vec<F> {
+    solution(p, Form::Corrected, Kind::Single)
 }

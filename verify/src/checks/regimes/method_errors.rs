@@ -6,9 +6,9 @@ use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{Motion, propagate};
 use twofold::solutions::mean::{MeanMotion, MeanOrder};
-use twofold::solutions::perturbation::{Kind, Perturbation};
+use twofold::solutions::perturbation::{Form, Kind, Perturbation};
 
-use super::perturbation_error::{Case, Form};
+use super::perturbation_error::Case;
 use crate::check::{Bound, Check, Kind as Checked, Measured, Worst, largest};
 
 /// Accuracy of the numerical motion.
@@ -70,23 +70,16 @@ impl Geometry {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::NearAxis, Self::Tilted, Self::Single, Self::NearSeparatrix];
 
-    /// Perturbation solutions that are about such motions.
-    fn forms(self) -> &'static [Form] {
-        match self {
-            Self::NearAxis | Self::Tilted => &[Form::Printed(Kind::Twofold), Form::CorrectedTwofold],
-            Self::Single => &[Form::Printed(Kind::Single)],
-            Self::NearSeparatrix => &[],
-        }
-    }
-
-    /// The comparison of a perturbation solution, for the examples' `s` scaled by `k`. The amplitude `A` of single precession is of the order of `s`.
-    fn case(self, form: Form, k: f64) -> Case {
-        let amplitude = match self {
-            Self::Tilted => 0.4,
-            Self::Single => 0.01 * k,
-            Self::NearAxis | Self::NearSeparatrix => 0.0,
+    /// The comparisons of the perturbation solutions about such motions, printed and corrected, for the examples' `s` scaled by
+    /// `k`. The amplitude `A` of single precession is of the order of `s`.
+    fn cases(self, k: f64) -> Option<[Case; 2]> {
+        let (kind, amplitude) = match self {
+            Self::NearAxis => (Kind::Twofold, 0.0),
+            Self::Tilted => (Kind::Twofold, 0.4),
+            Self::Single => (Kind::Single, 0.01 * k),
+            Self::NearSeparatrix => return None,
         };
-        Case::paper(form, k, 0.7, amplitude)
+        Some([Form::Printed, Form::Corrected].map(|form| Case::paper(form, kind, k, 0.7, amplitude)))
     }
 }
 
@@ -108,8 +101,8 @@ pub struct Errors {
 /// Errors up to given times, for the examples' `s` scaled so that the strength of the torque, `C (s_max - s_min) I^xx / L.L`, is the given one.
 pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Errors>, String> {
     let body = RigidSpheroid::in_units_of_tc(1.1);
-    let start = |k: f64| match geometry.forms().first() {
-        Some(form) => Ok(initial(&body, &geometry.case(*form, k).solution()?)),
+    let start = |k: f64| match geometry.cases(k) {
+        Some([printed, _]) => Ok(initial(&body, &printed.solution()?)),
         None => Ok::<_, String>(by_separatrix()),
     };
     // The initial L depends on s a little.
@@ -127,8 +120,8 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
     let means = [first?, second?];
     // Each perturbation solution against the motion from its own initial values.
     let mut solutions = Vec::new();
-    for (i, form) in geometry.forms().iter().enumerate() {
-        let solution = geometry.case(*form, k).solution()?;
+    for (i, case) in geometry.cases(k).into_iter().flatten().enumerate() {
+        let solution = case.solution()?;
         let own = if i == 0 {
             None
         } else {

@@ -1,29 +1,23 @@
 //! Error of a perturbation solution against the numerical motion from the same initial values.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
-use twofold::solutions::perturbation::{Constants, Kind, Perturbation};
+use twofold::propagation::{AveragedMotion, AxisMotion, ContinuousAngles, Motion, TaylorMotion, propagate};
+use twofold::solutions::mean::MeanOrder;
+use twofold::solutions::perturbation::{Constants, Form, Kind, Perturbation};
 
 use crate::check::largest;
-
-/// Which perturbation solution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
-    /// Eqs. (30)-(33) as printed.
-    Printed(Kind),
-    /// The corrected first-order twofold solution.
-    CorrectedTwofold,
-}
 
 /// The numbers of one comparison, those of the paper's examples unless changed.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {
-    /// Solution under test.
+    /// Form of the solution under test.
     pub form: Form,
+    /// Its kind of precession.
+    pub kind: Kind,
     /// Eigenvalues of `s^IJ`.
     pub s: PrincipalCoefficients<f64>,
     /// Mean inclination.
@@ -34,8 +28,8 @@ pub struct Case {
 
 impl Case {
     /// The paper's numbers with `s` scaled by `k`.
-    pub fn paper(form: Form, k: f64, beta_0: f64, amplitude: f64) -> Self {
-        Self { form, s: PrincipalCoefficients::new([0.02, 0.01, -0.04]).scaled(k), beta_0, amplitude }
+    pub fn paper(form: Form, kind: Kind, k: f64, beta_0: f64, amplitude: f64) -> Self {
+        Self { form, kind, s: PrincipalCoefficients::new([0.02, 0.01, -0.04]).scaled(k), beta_0, amplitude }
     }
 
     /// The solution under test.
@@ -43,16 +37,11 @@ impl Case {
         let (spheroid, spin) = (RigidSpheroid::in_units_of_tc(1.1), 1.0);
         let constants =
             Constants { alpha_0: FRAC_PI_2, beta_0: self.beta_0, amplitude: self.amplitude, phase: FRAC_PI_2 };
-        match self.form {
-            Form::Printed(kind) => Perturbation::printed(kind, &spheroid, &self.s, spin, &constants),
-            Form::CorrectedTwofold => Perturbation::corrected_twofold(&spheroid, &self.s, spin, &constants),
-        }
-        .map_err(|e| e.to_string())
+        Perturbation::new(self.form, self.kind, &spheroid, &self.s, spin, &constants).map_err(|e| e.to_string())
     }
 
-    /// The numerical motion with the initial values of the solution.
-    pub fn motion(&self, duration: f64) -> Result<(TaylorMotion<f64>, EulerAngles<f64>), String> {
-        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+    /// The state with the initial values of the solution, and its angles.
+    fn start(&self, spheroid: &RigidSpheroid<f64>) -> Result<(BodyState<f64>, EulerAngles<f64>), String> {
         let start = self.solution()?.at(0.0);
         let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
         let rates = EulerRates {
@@ -60,10 +49,45 @@ impl Case {
             beta: start.beta_rate,
             gamma: 1.0 - start.alpha_rate * start.beta.cos(),
         };
-        let initial = BodyState::from_angles(&spheroid, &angles, &rates);
+        Ok((BodyState::from_angles(spheroid, &angles, &rates), angles))
+    }
+
+    /// The numerical motion with the initial values of the solution.
+    pub fn motion(&self, duration: f64) -> Result<(TaylorMotion<f64>, EulerAngles<f64>), String> {
+        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+        let (initial, angles) = self.start(&spheroid)?;
         let motion =
             propagate(&spheroid, &self.s.tensor(), &initial, (0.0, duration), 1e-15).map_err(|e| e.to_string())?;
         Ok((motion, angles))
+    }
+
+    /// The averaged motion of second order with the same initial values, for small `s`.
+    pub fn averaged_motion(&self, duration: f64) -> Result<AveragedMotion<f64>, String> {
+        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
+        let (initial, _) = self.start(&spheroid)?;
+        AveragedMotion::new(&spheroid, &self.s.tensor(), &initial, (0.0, duration), MeanOrder::Second)
+            .map_err(|e| e.to_string())
+    }
+
+    /// Largest distance of the heads of the axes over one forced period, against the averaged motion: for `s` so small that the
+    /// period is long.
+    pub fn axis_error_over_forced_period(&self, samples: u32) -> Result<f64, String> {
+        let solution = self.solution()?;
+        let period = TAU / solution.rate.abs();
+        let motion = self.averaged_motion(period)?;
+        let mut distances = Vec::new();
+        for i in 0..=samples {
+            let t = (period * f64::from(i) / f64::from(samples)).min(period);
+            let approximate = solution.at(t);
+            let axis = motion.axis_state(t).map_err(|e| e.to_string())?.axis;
+            distances.push((axis - symmetry_axis(approximate.alpha, approximate.beta)).norm());
+        }
+        Ok(largest(distances))
+    }
+
+    /// Largest errors over one forced period `2 pi / |a|`, of 1000 samples.
+    pub fn errors_over_forced_period(&self) -> Result<Errors, String> {
+        self.errors(TAU / self.solution()?.rate.abs(), 1000)
     }
 
     /// Largest errors over `duration`.

@@ -4,14 +4,14 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
 use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
+use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::bound::SpinAxisDrift;
 use twofold::propagation::{AveragedMotion, AxisMotion};
 use twofold::solutions::mean::MeanOrder;
-use twofold::solutions::perturbation::Kind as Precession;
+use twofold::solutions::perturbation::{Form, Kind as Precession};
 
-use super::perturbation_error::{Case, Form};
+use super::perturbation_error::Case;
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::random::Random;
 
@@ -64,35 +64,14 @@ fn text(error: twofold::Error) -> String {
     error.to_string()
 }
 
-/// The mean motion with the initial values of a solution.
-fn motion(case: &Case, duration: f64) -> Result<AveragedMotion<f64>, String> {
-    let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-    let start = case.solution()?.at(0.0);
-    let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
-    let rates =
-        EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma: 1.0 - start.alpha_rate * start.beta.cos() };
-    let initial = BodyState::from_angles(&spheroid, &angles, &rates);
-    AveragedMotion::new(&spheroid, &case.s.tensor(), &initial, (0.0, duration), MeanOrder::Second).map_err(text)
-}
-
 /// The least and the largest of the largest distances over one forced period.
 fn single(inclinations: &[f64]) -> Result<[Measured; 2], String> {
     let mut worst = Worst::default();
     let mut least = Measured::new(f64::INFINITY, "");
     for k in [1e-4, 1e-8, 1e-12] {
         for &beta_0 in inclinations {
-            let case = Case::paper(Form::Printed(Precession::Single), k, beta_0, 0.0);
-            let solution = case.solution()?;
-            let period = TAU / solution.rate.abs();
-            let motion = motion(&case, period)?;
-            let mut distance: f64 = 0.0;
-            for i in 0..=1000 {
-                let t = (period * f64::from(i) / 1000.0).min(period);
-                let approximate = solution.at(t);
-                let axis = motion.axis_state(t).map_err(text)?.axis;
-                let off = (axis - symmetry_axis(approximate.alpha, approximate.beta)).norm();
-                distance = if off.is_nan() { f64::NAN } else { distance.max(off) };
-            }
+            let case = Case::paper(Form::Printed, Precession::Single, k, beta_0, 0.0);
+            let distance = case.axis_error_over_forced_period(1000)?;
             let place = || format!("s scaled by {k:e}, beta_0 = {beta_0}");
             worst.see(distance, place);
             if distance.is_nan() || distance < least.figure {
@@ -107,10 +86,10 @@ fn twofold() -> Result<Measured, String> {
     let mut least = Measured::new(f64::INFINITY, "");
     let (beta_0, amplitude) = (0.7_f64, 0.01);
     for k in [1e-5, 1e-7, 1e-9] {
-        let case = Case::paper(Form::CorrectedTwofold, k, beta_0, amplitude);
+        let case = Case::paper(Form::Corrected, Precession::Twofold, k, beta_0, amplitude);
         let solution = case.solution()?;
-        let half_turn = PI / motion(&case, 0.0)?.mean().rates().slow.abs();
-        let motion = motion(&case, half_turn)?;
+        let half_turn = PI / case.averaged_motion(0.0)?.mean().rates().slow.abs();
+        let motion = case.averaged_motion(half_turn)?;
         // The axes averaged over the last fast rotation: along L, and free of the fast phase, which A^2 t spoils first.
         let mut off = Vector3::zeros();
         for i in 0..16 {

@@ -4,13 +4,16 @@ use std::f64::consts::PI;
 
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::Motion;
-use twofold::solutions::perturbation::Kind as Precession;
+use twofold::solutions::perturbation::{Form, Kind as Precession};
 
-use super::perturbation_error::{Case, Errors, Form};
+use super::perturbation_error::{Case, Errors};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::fit::order;
 
-const PRINTED: Form = Form::Printed(Precession::Twofold);
+/// A case of twofold precession with the paper's numbers.
+fn paper(form: Form, k: f64, beta_0: f64, amplitude: f64) -> Case {
+    Case::paper(form, Precession::Twofold, k, beta_0, amplitude)
+}
 
 /// Errors below this are rounding: 10 t_c of motion at 1e-15.
 const ROUNDING: f64 = 1e-13;
@@ -25,7 +28,7 @@ pub(super) fn checks() -> Vec<Check> {
             figure: "slope of log(error of beta over 10 t_c) against log k, tp-I with s scaled by k = 1e-2 to 1e-6",
             bound: Bound::Within(0.95, 1.05),
             reason: "a term of first order is missing from Eq. (29); an integer order measured to 0.05",
-            measure: || order_in_s(PRINTED, 4..=12),
+            measure: || order_in_s(Form::Printed, 4..=12),
         },
         Check {
             id: "twofold-corrected-order",
@@ -35,7 +38,7 @@ pub(super) fn checks() -> Vec<Check> {
             figure: "slope of log(error of beta over 10 t_c) against log k, tp-I with s scaled by k = 0.1 to 1e-5",
             bound: Bound::Within(1.95, 2.05),
             reason: "the first omitted terms are s^2; an integer order measured to 0.05",
-            measure: || order_in_s(Form::CorrectedTwofold, 2..=10),
+            measure: || order_in_s(Form::Corrected, 2..=10),
         },
         Check {
             id: "twofold-printed-tilt",
@@ -96,20 +99,20 @@ fn scale(half_decades: i32) -> f64 {
 
 fn order_in_s(form: Form, half_decades: std::ops::RangeInclusive<i32>) -> Result<Measured, String> {
     let points = half_decades
-        .map(|j| Ok((scale(j), Case::paper(form, scale(j), 0.7, 0.0).errors(10.0, 400)?.beta)))
+        .map(|j| Ok((scale(j), paper(form, scale(j), 0.7, 0.0).errors(10.0, 400)?.beta)))
         .collect::<Result<Vec<_>, String>>()?;
     Ok(order(&points, ROUNDING)?.measured(&points))
 }
 
 /// Error over 10 t_c of the homogeneous solution alone. `s` is too small to matter; zero would leave `a^(1)` without a sign.
 fn tilt_error(form: Form, amplitude: f64) -> Result<Errors, String> {
-    Case::paper(form, 1e-40, 0.7, amplitude).errors(10.0, 400)
+    paper(form, 1e-40, 0.7, amplitude).errors(10.0, 400)
 }
 
 fn printed_tilt() -> Result<Measured, String> {
     let mut least = Measured::new(f64::INFINITY, "");
     for amplitude in [1e-2, 1e-3, 1e-4, 1e-5] {
-        let error = tilt_error(PRINTED, amplitude)?.beta;
+        let error = tilt_error(Form::Printed, amplitude)?.beta;
         let ratio = error * 1.1 / amplitude;
         if ratio < least.figure {
             least = Measured::new(ratio, format!("A = {amplitude:e}: error of beta {error:.3e}"));
@@ -121,13 +124,13 @@ fn printed_tilt() -> Result<Measured, String> {
 fn corrected_tilt_order() -> Result<Measured, String> {
     let points = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5]
         .into_iter()
-        .map(|amplitude| Ok((amplitude, tilt_error(Form::CorrectedTwofold, amplitude)?.beta)))
+        .map(|amplitude| Ok((amplitude, tilt_error(Form::Corrected, amplitude)?.beta)))
         .collect::<Result<Vec<_>, String>>()?;
     Ok(order(&points, ROUNDING)?.measured(&points))
 }
 
 fn growth_with_time() -> Result<Measured, String> {
-    let case = Case::paper(Form::CorrectedTwofold, 1e-3, 0.7, 0.0);
+    let case = paper(Form::Corrected, 1e-3, 0.7, 0.0);
     let durations = [10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0];
     let errors = durations.map(|t| case.errors(t, 2000));
     let errors = errors.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -146,8 +149,10 @@ fn corrected_is_better() -> Result<Measured, String> {
             for asymmetry in [0.003, 0.01, 0.03] {
                 let s =
                     PrincipalCoefficients::new([0.015 + asymmetry / 2.0, 0.015 - asymmetry / 2.0, -0.04]).scaled(1e-3);
-                let error = |form| Case { form, s, beta_0, amplitude }.errors(10.0, 400).map(|e| e.beta);
-                let (corrected, printed) = (error(Form::CorrectedTwofold)?, error(PRINTED)?);
+                let error = |form| {
+                    Case { form, kind: Precession::Twofold, s, beta_0, amplitude }.errors(10.0, 400).map(|e| e.beta)
+                };
+                let (corrected, printed) = (error(Form::Corrected)?, error(Form::Printed)?);
                 worst.see(corrected / printed, || {
                     format!("beta_0 = {beta_0}, A = {amplitude:e}, s^XX - s^YY = {asymmetry}e-3: {corrected:.2e} / {printed:.2e}")
                 });
@@ -158,7 +163,7 @@ fn corrected_is_better() -> Result<Measured, String> {
 }
 
 fn large_tilt() -> Result<Measured, String> {
-    let case = Case::paper(PRINTED, 1.0, 0.7, 0.4);
+    let case = paper(Form::Printed, 1.0, 0.7, 0.4);
     let (motion, _) = case.motion(40.0)?;
     let inclination = |i: u32| Ok(motion.state(40.0 * f64::from(i) / 800.0)?.angles()?.beta);
     let betas = (0..=800).map(inclination).collect::<Result<Vec<_>, twofold::Error>>().map_err(|e| e.to_string())?;

@@ -11,7 +11,7 @@ use twofold::observables::spin_axis::changes_from_start;
 use twofold::solutions::free::{free_precession_rates, free_rotation, rotated_by};
 use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
 use twofold::solutions::perturbation::{
-    Constants, Kind, Perturbation, constants_from_initial_values, initial_values, shifted_rates,
+    Constants, Form, Kind, Perturbation, constants_from_initial_values, initial_values, shifted_rates,
 };
 use twofold::solutions::steady::steady_precession_rate;
 
@@ -34,12 +34,8 @@ fn steady<S: Real>(kind: Kind, x: &[S]) -> Vec<S> {
 }
 
 /// Constants (4), `s` (3), spin, time, body.
-fn perturbation<S: Real>(kind: Option<Kind>, x: &[S]) -> Option<Perturbation<S>> {
-    let (spheroid, s, constants) = (body(&x[9..]), principal(&x[4..]), constants(x));
-    match kind {
-        Some(kind) => Perturbation::printed(kind, &spheroid, &s, x[7], &constants).ok(),
-        None => Perturbation::corrected_twofold(&spheroid, &s, x[7], &constants).ok(),
-    }
+fn perturbation<S: Real>(form: Form, kind: Kind, x: &[S]) -> Option<Perturbation<S>> {
+    Perturbation::new(form, kind, &body(&x[9..]), &principal(&x[4..]), x[7], &constants(x)).ok()
 }
 
 fn all_of<S: Real>(solution: Option<Perturbation<S>>, t: S) -> Vec<S> {
@@ -89,17 +85,19 @@ functions! {
         let across = turn.cross(&v);
         joined(&[v + across * (sin / angle) + turn.cross(&across) * ((S::one() - cos) / (angle * angle))])
     }
-    Twofold(x) { all_of(perturbation(Some(Kind::Twofold), x), x[8]) }
-    Single(x) { all_of(perturbation(Some(Kind::Single), x), x[8]) }
-    Corrected(x) { all_of(perturbation(None, x), x[8]) }
+    Twofold(x) { all_of(perturbation(Form::Printed, Kind::Twofold, x), x[8]) }
+    Single(x) { all_of(perturbation(Form::Printed, Kind::Single, x), x[8]) }
+    Corrected(x) { all_of(perturbation(Form::Corrected, Kind::Twofold, x), x[8]) }
+    CorrectedSingle(x) { all_of(perturbation(Form::Corrected, Kind::Single, x), x[8]) }
     /// With `s^ZZ` first, then `s^XX`, `s^YY`, constants, spin, time, body.
     SingleByZ(x) { Single::of(&by_z(x)) }
     TwofoldByZ(x) { Twofold::of(&by_z(x)) }
     CorrectedByZ(x) { Corrected::of(&by_z(x)) }
+    CorrectedSingleByZ(x) { CorrectedSingle::of(&by_z(x)) }
     SingleByTime(x) { Single::of(&by_time(x)) }
     CorrectedByTime(x) { Corrected::of(&by_time(x)) }
     Parts(x) {
-        perturbation(Some(Kind::Twofold), x).map_or(none(6), |p| {
+        perturbation(Form::Printed, Kind::Twofold, x).map_or(none(6), |p| {
             let (first, rates) = (p.first_order(x[8], x[0]), p.first_order_rates(x[8], x[0]));
             let change = changes_from_start(&p, x[8]);
             vec![first.0, first.1, rates.0, rates.1, change.0, change.1]
@@ -111,12 +109,14 @@ functions! {
     // beta_0, s (3), spin, alpha_0, A, phi, body
     InitialValues(x) {
         let constants = Constants { alpha_0: x[5], beta_0: x[0], amplitude: x[6], phase: x[7] };
-        initial_values(Kind::Twofold, &body(&x[8..]), &principal(&x[1..]), x[4], &constants)
+        initial_values(Form::Printed, Kind::Twofold, &body(&x[8..]), &principal(&x[1..]), x[4], &constants)
             .map_or(none(4), |initial| axis_angles(&initial))
     }
     // s^ZZ, s^XX, s^YY, spin, alpha, beta, their rates, body
-    ConstantsTwofold(x) { found_constants(Kind::Twofold, x) }
-    ConstantsSingle(x) { found_constants(Kind::Single, x) }
+    ConstantsTwofold(x) { found_constants(Form::Printed, Kind::Twofold, x) }
+    ConstantsSingle(x) { found_constants(Form::Printed, Kind::Single, x) }
+    CorrectedConstantsTwofold(x) { found_constants(Form::Corrected, Kind::Twofold, x) }
+    CorrectedConstantsSingle(x) { found_constants(Form::Corrected, Kind::Single, x) }
     // beta, alpha, spin, first-order motion (5), s, body
     Linearised(x) {
         let zeroth = |kind| ZerothOrder { kind, spin: x[2], alpha: x[1], beta: x[0] };
@@ -125,8 +125,9 @@ functions! {
         };
         let (spheroid, s) = (body(&x[11..]), principal(&x[8..]));
         let printed = printed_residuals(&spheroid, &s, &zeroth(Kind::Single), &first);
-        let full = full_residuals(&spheroid, &s, &zeroth(Kind::Twofold), &first);
-        vec![printed.0, printed.1, full.0, full.1]
+        let [twofold, single] =
+            [Kind::Twofold, Kind::Single].map(|kind| full_residuals(&spheroid, &s, &zeroth(kind), &first));
+        vec![printed.0, printed.1, twofold.0, twofold.1, single.0, single.1]
     }
 }
 
@@ -138,10 +139,10 @@ fn by_time<S: Real>(x: &[S]) -> Vec<S> {
     [&x[1..9], &x[..1], &x[9..]].concat()
 }
 
-fn found_constants<S: Real>(kind: Kind, x: &[S]) -> Vec<S> {
+fn found_constants<S: Real>(form: Form, kind: Kind, x: &[S]) -> Vec<S> {
     let s = PrincipalCoefficients { xx: x[1], yy: x[2], zz: x[0] };
     let initial = AxisAngles { alpha: x[4], beta: x[5], alpha_rate: x[6], beta_rate: x[7] };
-    constants_from_initial_values(kind, &body(&x[8..]), &s, x[3], &initial)
+    constants_from_initial_values(form, kind, &body(&x[8..]), &s, x[3], &initial)
         .map_or(none(4), |found| vec![found.alpha_0, found.beta_0, found.amplitude, found.phase])
 }
 
@@ -166,14 +167,10 @@ const AMPLITUDE: Input = Signed(-9.0, -1.0);
 const STEADY: &[&str] = &["solutions::steady::steady_precession_rate"];
 const ROTATED: &[&str] = &["solutions::free::rotated_by"];
 const FREE: &[&str] = &["solutions::free::free_rotation"];
-const PRINTED: &[&str] = &[
-    "solutions::perturbation::Perturbation::printed",
-    "solutions::perturbation::Perturbation::printed_unchecked",
+const SOLUTION: &[&str] = &[
+    "solutions::perturbation::Perturbation::new",
+    "solutions::perturbation::Perturbation::new_unchecked",
     "solutions::perturbation::Perturbation::at",
-];
-const CORRECTED: &[&str] = &[
-    "solutions::perturbation::Perturbation::corrected_twofold",
-    "solutions::perturbation::Perturbation::corrected_twofold_unchecked",
 ];
 const CONSTANTS: &[&str] = &["solutions::perturbation::constants_from_initial_values"];
 
@@ -257,64 +254,78 @@ pub(super) fn cases() -> Vec<Case> {
             "sin b -> 0",
             &[Near(PI, -15.0, -0.5), SMALL, SMALL, SMALL, SPIN, i, i, i],
         ),
-        Case::new::<ConstantsTwofold>(
-            CONSTANTS,
-            "s -> 0, twofold",
-            &[
-                Signed(-300.0, -3.0),
-                Signed(-6.0, -3.0),
-                Signed(-6.0, -3.0),
-                SPIN,
-                TURN,
-                In(0.4, 1.0),
-                In(1.4, 2.0),
-                AMPLITUDE,
-                Fixed(1.0),
-                In(1.0, 1.2),
-                Fixed(1.0),
-            ],
-        )
-        .composite()
-        .with_points(10),
-        Case::new::<ConstantsSingle>(
-            CONSTANTS,
-            "single, asymmetry -> 0",
-            &[
-                In(0.01, 0.05),
-                Fixed(0.02),
-                Near(0.02, -15.0, -3.0),
-                SPIN,
-                TURN,
-                In(0.4, 1.0),
-                Signed(-9.0, -2.0),
-                AMPLITUDE,
-                Fixed(1.0),
-                In(1.0, 1.2),
-                Fixed(1.0),
-            ],
-        )
-        .composite()
-        .with_points(10),
     ];
+    let constants_twofold = [
+        Signed(-300.0, -3.0),
+        Signed(-6.0, -3.0),
+        Signed(-6.0, -3.0),
+        SPIN,
+        TURN,
+        In(0.4, 1.0),
+        In(1.4, 2.0),
+        AMPLITUDE,
+        Fixed(1.0),
+        In(1.0, 1.2),
+        Fixed(1.0),
+    ];
+    let constants_single = [
+        In(0.01, 0.05),
+        Fixed(0.02),
+        Near(0.02, -15.0, -3.0),
+        SPIN,
+        TURN,
+        In(0.4, 1.0),
+        Signed(-9.0, -2.0),
+        AMPLITUDE,
+        Fixed(1.0),
+        In(1.0, 1.2),
+        Fixed(1.0),
+    ];
+    cases.extend(
+        [
+            Case::new::<ConstantsTwofold>(CONSTANTS, "s -> 0, twofold", &constants_twofold),
+            Case::new::<ConstantsSingle>(CONSTANTS, "asymmetry -> 0, single", &constants_single),
+            Case::new::<CorrectedConstantsTwofold>(CONSTANTS, "s -> 0, corrected twofold", &constants_twofold),
+            Case::new::<CorrectedConstantsSingle>(CONSTANTS, "asymmetry -> 0, corrected single", &constants_single),
+        ]
+        .map(|case| case.composite().with_points(10)),
+    );
     // Constants, s, spin, time, body; by z: s^ZZ, s^XX, s^YY, constants, spin, time, body.
     let rest = [In(0.5, 3.0), BETA, AMPLITUDE, TURN, SPIN, TURN, i, i, i];
     let a1_vanishes = [&[Near(0.02, -15.0, -2.0), Fixed(0.01), Fixed(0.03)], &rest[..]].concat();
     let s_vanishes = [&[Signed(-300.0, -1.0), Signed(-300.0, -1.0), Signed(-300.0, -1.0)], &rest[..]].concat();
     let equal = [&[SMALL, Near(0.1, -15.0, -3.0), Fixed(0.1)], &rest[..]].concat();
-    for (limit, single, inputs) in [
-        ("a^(1) -> 0", "a^(1) -> 0, single", &a1_vanishes),
-        ("s -> 0", "s -> 0, single", &s_vanishes),
-        ("s^XX -> s^YY", "s^XX -> s^YY, single", &equal),
+    for (inputs, [twofold, single, corrected_twofold, corrected_single]) in [
+        (
+            &a1_vanishes,
+            [
+                "a^(1) -> 0, twofold",
+                "a^(1) -> 0, single",
+                "a^(1) -> 0, corrected twofold",
+                "a^(1) -> 0, corrected single",
+            ],
+        ),
+        (&s_vanishes, ["s -> 0, twofold", "s -> 0, single", "s -> 0, corrected twofold", "s -> 0, corrected single"]),
+        (
+            &equal,
+            [
+                "s^XX -> s^YY, twofold",
+                "s^XX -> s^YY, single",
+                "s^XX -> s^YY, corrected twofold",
+                "s^XX -> s^YY, corrected single",
+            ],
+        ),
     ] {
         cases.extend([
-            Case::new::<TwofoldByZ>(PRINTED, limit, inputs).composite(),
-            Case::new::<SingleByZ>(PRINTED, single, inputs).composite(),
-            Case::new::<CorrectedByZ>(CORRECTED, limit, inputs).composite(),
+            Case::new::<TwofoldByZ>(SOLUTION, twofold, inputs).composite(),
+            Case::new::<SingleByZ>(SOLUTION, single, inputs).composite(),
+            Case::new::<CorrectedByZ>(SOLUTION, corrected_twofold, inputs).composite(),
+            Case::new::<CorrectedSingleByZ>(SOLUTION, corrected_single, inputs).composite(),
         ]);
     }
     cases.push(
         Case::new::<Single>(
-            PRINTED,
+            SOLUTION,
             "alpha_0 -> 0 with s^XX alone",
             &[Log(-6.0, -1.0), BETA, Fixed(0.0), Fixed(0.0), In(0.01, 0.1), Fixed(0.0), Fixed(0.0), SPIN, Fixed(0.0), i, i, i],
         )
@@ -327,8 +338,10 @@ pub(super) fn cases() -> Vec<Case> {
     );
     let over_time = [Log(-3.0, 15.0), TURN, BETA, AMPLITUDE, TURN, SMALL, SMALL, SMALL, SPIN, i, i, i];
     cases.extend([
-        Case::new::<SingleByTime>(PRINTED, "t to 1e15", &over_time).except(1e3, PHASES).derivatives_except(1e3, PHASES),
-        Case::new::<CorrectedByTime>(CORRECTED, "t to 1e15", &over_time)
+        Case::new::<SingleByTime>(SOLUTION, "t to 1e15, single", &over_time)
+            .except(1e3, PHASES)
+            .derivatives_except(1e3, PHASES),
+        Case::new::<CorrectedByTime>(SOLUTION, "t to 1e15, corrected twofold", &over_time)
             .except(1e3, PHASES)
             .derivatives_except(1e3, PHASES),
     ]);
