@@ -221,10 +221,7 @@ pub const EQUATIONS: &[Equation] = &[
         30,
         "sol2",
         "first-order rates",
-        &[
-            "solutions::perturbation::Perturbation::first_order_rates",
-            "solutions::perturbation::Form",
-        ],
+        &["solutions::perturbation::Perturbation::first_order_rates", "solutions::perturbation::Form"],
         &[],
     ),
     row(

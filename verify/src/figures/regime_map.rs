@@ -183,21 +183,22 @@ fn caption() -> Caption {
     Caption {
         shows: format!(
             "Largest distance between the heads of the true **e**_{{*z*}} and of that by a perturbation solution from the same initial values. \
-             (a), (b) Twofold precession over {DURATION} *t*_{{c}}, by mean inclination *β*_{{0}} and amplitude *A*: as printed and corrected. (c) \
+             (a), (b) Twofold precession over {DURATION} *t*_{{c}}, by mean inclination *β*_{{0}} and amplitude *A*: as printed and corrected. (c), (d) \
              Single precession over one forced period, by *β*_{{0}} and the asymmetry |*s*^{{*XX*}} − *s*^{{*YY*}}| / |2*s*^{{*ZZ*}} − *s*^{{*XX*}} − *s*^{{*YY*}}|. Lines \
              join equal errors of 10^{{−4}} to 10^{{−1}}; rings mark the constants of the paper's examples."
         ),
         parameters: format!(
-            "*I*^{{*zz*}}/*I*^{{*xx*}} = 1.1, *Ω*^{{*z*}} = 1, *α*_{{0}} = *φ* = π/2. (a), (b): *s* of the examples times {SCALE}. (c): 2*s*^{{*ZZ*}} − *s*^{{*XX*}} − *s*^{{*YY*}} = \
-             −{COMBINATION} as in the examples, *A* = {SINGLE_AMPLITUDE}."
+            "*I*^{{*zz*}}/*I*^{{*xx*}} = 1.1, *Ω*^{{*z*}} = 1, *α*_{{0}} = *φ* = π/2. (a), (b): *s* of the examples times {SCALE}. (c), (d): 2*s*^{{*ZZ*}} − *s*^{{*XX*}} − *s*^{{*YY*}} = \
+             −{COMBINATION} and *A* = {SINGLE_AMPLITUDE} as in the examples, both times 10^{{−4}}."
         ),
-        method: "Numerical motion against Eqs. (30)-(33) as printed, and against the solution of the full first-order equations, which \
-                 keep the term that Eq. (29) lacks."
+        method: "Numerical motion, for single precession averaged motion of second order, against Eqs. (30)-(33) as printed and against the \
+                 solutions of the full first-order equations, which keep the term that Eq. (29) lacks."
             .to_owned(),
         says: "The error of the printed twofold solution is proportional to *A*, the order of the solution itself, at every *β*_{0}; that of the \
                corrected one falls with the square of *A* down to the square of *s*, and does not grow towards *β*_{0} = π/2. tp-II \
-               is outside of both. The single solution is off by 0.1 to 0.3 after one forced period while the asymmetry is small and *β*_{0} is \
-               below 1 or so; towards π/2 it fails at ever smaller asymmetries."
+               is outside of both. The error of the printed single solution is proportional to the asymmetry, that of the corrected one to its square; \
+               towards π/2 both fail at ever smaller asymmetries. At the asymmetry of sp-I the correction takes a quarter off an error of 0.03; at \
+               the full *s* of the examples, where terms of the order of *s* are larger, it changes nothing."
             .to_owned(),
     }
 }
