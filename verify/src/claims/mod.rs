@@ -14,16 +14,22 @@ pub enum Verdict {
     Confirmed,
     /// Its core holds; something printed with it does not, or it holds in other limits than stated.
     Corrected,
+    /// It was right when written; a later result goes further.
+    Superseded,
     /// It does not hold.
     NotReproduced,
 }
 
 impl Verdict {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Confirmed, Self::Corrected, Self::Superseded, Self::NotReproduced];
+
     /// In words.
     pub fn name(self) -> &'static str {
         match self {
             Verdict::Confirmed => "confirmed",
             Verdict::Corrected => "confirmed with a correction",
+            Verdict::Superseded => "superseded",
             Verdict::NotReproduced => "not reproduced",
         }
     }
@@ -40,7 +46,7 @@ pub struct Claim {
     pub statement: &'static str,
     /// Whether it holds.
     pub verdict: Verdict,
-    /// What was found, where there is more to say than that it holds.
+    /// What was found, where there is more to say than that it holds; for a confirmed statement a remark.
     pub finding: &'static str,
     /// Ids of the checks that the verdict rests on: if one of them fails, the verdict is void.
     pub checks: &'static [&'static str],

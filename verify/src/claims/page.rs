@@ -77,7 +77,7 @@ pub fn markdown() -> Result<String, String> {
          `cargo run --release -- verify --filter ID` runs one, golden tables are files of `golden/`. A figure of rounding, which\n\
          differs from machine to machine, is not shown. [discrepancies.md](discrepancies.md) derives what is corrected.\n\n",
     );
-    for verdict in [Verdict::Confirmed, Verdict::Corrected, Verdict::NotReproduced] {
+    for verdict in Verdict::ALL {
         let count = claims().filter(|claim| claim.verdict == verdict).count();
         writeln!(page, "- {}: {count}", verdict.name()).expect("writing to a string succeeds");
     }

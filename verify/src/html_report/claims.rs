@@ -32,7 +32,7 @@ pub(super) fn section(content: &Content, index: &Index) -> Markup {
     html! {
         p { "Each statement of the paper that can be true or false, in our words, with a verdict and the checks that it rests on." }
         ul {
-            @for verdict in [Verdict::Confirmed, Verdict::Corrected, Verdict::NotReproduced] {
+            @for verdict in Verdict::ALL {
                 li { (capital(verdict.name())) ": " (count(verdict)) }
             }
         }
@@ -59,7 +59,7 @@ fn article(claim: &Claim, content: &Content, index: &Index) -> Markup {
     let id = cross_reference::claim(claim.id);
     let class = match claim.verdict {
         Verdict::Confirmed => "pass",
-        Verdict::Corrected => "amend",
+        Verdict::Corrected | Verdict::Superseded => "amend",
         Verdict::NotReproduced => "fail",
     };
     let evidence = claim.checks.iter().map(|id| {

@@ -45,7 +45,7 @@ fn counts(content: &Content) -> Markup {
         let count = content.results.iter().filter(|(check, _)| check.kind == kind).count();
         html! { a href={ "#checks-" (kind.name()) } { (count) " " (kind.name()) } }
     });
-    let verdicts = [Verdict::Confirmed, Verdict::Corrected, Verdict::NotReproduced].into_iter().map(|verdict| {
+    let verdicts = Verdict::ALL.into_iter().map(|verdict| {
         let count = crate::claims::claims().filter(|claim| claim.verdict == verdict).count();
         html! { a href="#claims" { (count) " " (verdict.name()) } }
     });

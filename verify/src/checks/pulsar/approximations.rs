@@ -1,12 +1,16 @@
 //! Where the approximate period and width follow the pulse train. Eqs. (51), (56) with (57).
 
-use twofold::observables::pulsar::Stamped;
+use std::f64::consts::FRAC_PI_4;
+
+use nalgebra::{Matrix3, Vector3};
+use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::observables::pulsar::period::{approximate_period, instantaneous_period};
-use twofold::propagation::{ContinuousAngles, Motion};
+use twofold::observables::pulsar::{Beam, Stamped};
+use twofold::propagation::{ContinuousAngles, Motion, propagate};
 use twofold::solutions::perturbation::{ShiftedRates, shifted_rates};
 
 use super::cases::{Signal, paper_signal};
-use crate::check::{Bound, Check, Kind, Measured, largest};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::paper_examples::{COEFFICIENTS, SPIN, spheroid};
 use crate::pulse_series::{PaperCurves, PulseSeries, Viewing, pulse_series};
 
@@ -74,6 +78,17 @@ pub(super) fn checks() -> Vec<Check> {
             reason: "as for tp-I",
             measure: periods_of_tp_2,
         },
+        Check {
+            id: "period-formula-tilted-momentum",
+            kind: Kind::Regime,
+            equations: &[51, 52],
+            statement: "where |gamma'| is a ten-thousandth of alpha', but L is tilted against Z by 0.45 rad, Eq. (51) with the angles and rates at the time \
+                 of each pulse misses the period: free rotation, oblateness 1e-4, the axis 0.7 rad from L",
+            figure: "largest of eight azimuths of L of the smallest |Eq. (51) / period - 1| over 400 t_c",
+            bound: Bound::AtLeast(0.3),
+            reason: "the rate of alpha about Z swings by more than half during a turn of n about L, and a pulse always comes at the same phase of it",
+            measure: tilted_momentum,
+        },
     ]
 }
 
@@ -112,6 +127,50 @@ fn periods_of_tp_2() -> Result<Measured, String> {
     let Fits { mean: [exact, first_order, _], gaps, .. } = Fits::of("tp-2", SPAN)?;
     let detail = format!("2 pi / (alpha' + DeltaPhi'), (51): {exact:.3}, {first_order:.3}; {gaps} intervals left out");
     Ok(Measured::new(largest([exact, first_order]), detail))
+}
+
+/// `L` tilted against Z, without Lorentz violation: `gamma'` about Z is small on the mean whatever the tilt.
+fn tilted_momentum() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for eighth in 0..8 {
+        let azimuth = f64::from(eighth) * FRAC_PI_4;
+        let (missed, detail) = tilted_momentum_in(azimuth).map_err(|e| e.to_string())?;
+        worst.see(missed, || format!("L in the azimuth {azimuth:.2} from the observer: {detail}"));
+    }
+    worst.finish()
+}
+
+/// The smallest deviation of Eq. (51) from a period, with `L` tilted towards an azimuth.
+fn tilted_momentum_in(azimuth: f64) -> Result<(f64, String), twofold::Error> {
+    let (tilt, wobble, oblateness) = (0.45_f64, 0.7_f64, 1e-4);
+    let spheroid = RigidSpheroid::in_units_of_tc(1.0 + oblateness);
+    let towards = |angle: f64| Vector3::new(angle.sin() * azimuth.cos(), angle.sin() * azimuth.sin(), angle.cos());
+    let momentum = towards(tilt) * (spheroid.inertia_zz * SPIN / wobble.cos());
+    let across = Vector3::new(-azimuth.sin(), azimuth.cos(), 0.0);
+    let start = BodyState { axis: towards(tilt + wobble), momentum, equatorial_axis: across };
+    let motion = propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, SPAN), 1e-13)?;
+    let beam = Beam::new(VIEWING.chi, VIEWING.delta, VIEWING.rho);
+    let observer = Vector3::new(VIEWING.theta_o.sin(), 0.0, VIEWING.theta_o.cos());
+    let series = pulse_series(&motion, &beam, &observer, (0.0, SPAN))?;
+    let (mut formula, mut periods, mut missed) = (Vec::new(), Vec::new(), Vec::new());
+    for point in &series.periods {
+        let state = motion.state(point.time)?;
+        let (angles, rates) = (state.angles()?, state.rates(&spheroid)?);
+        let at = VIEWING.formulas([angles.beta, angles.gamma], [rates.alpha, rates.gamma])?;
+        let period = approximate_period(rates.alpha, at.offset_rate);
+        formula.push(period);
+        periods.push(point.value);
+        missed.push((period / point.value - 1.0).abs());
+    }
+    let detail = format!(
+        "(51) {:.3} to {:.3}, {} periods {:.4} to {:.4}",
+        smallest(formula.clone()),
+        largest(formula),
+        periods.len(),
+        smallest(periods.clone()),
+        largest(periods)
+    );
+    Ok((if missed.is_empty() { f64::NAN } else { smallest(missed) }, detail))
 }
 
 /// The smallest of some figures; NaN if one is NaN.
