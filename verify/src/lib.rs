@@ -17,6 +17,7 @@ pub mod eta;
 pub mod figures;
 pub mod fit;
 pub mod fuzzing;
+pub mod given_states;
 pub mod golden;
 pub mod html_report;
 pub mod identity;
