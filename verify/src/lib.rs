@@ -37,6 +37,7 @@ pub mod reference;
 pub mod report;
 pub mod scene_file;
 pub mod second_integrator;
+pub mod significant;
 pub mod stability;
 pub mod sweep;
 pub mod symbolic;
