@@ -36,7 +36,12 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Error::Domain { quantity, value, allowed } => {
-                write!(f, "{quantity} = {value}: allowed is {allowed}")
+                // Decimals as long as they are short.
+                if *value == 0.0 || (1e-5..1e16).contains(&value.abs()) || !value.is_finite() {
+                    write!(f, "{quantity} = {value}: allowed is {allowed}")
+                } else {
+                    write!(f, "{quantity} = {value:e}: allowed is {allowed}")
+                }
             }
             Error::NotConverged { what, iterations, residual } => {
                 write!(f, "{what}: no convergence in {iterations} iterations, residual {residual:e}")

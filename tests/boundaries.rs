@@ -17,7 +17,7 @@ use twofold::observables::bound::{
 };
 use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::pulsar::{Beam, PulsarClock, arrivals, propagated_pulse_train, pulse_train};
-use twofold::propagation::{AxisMotion, AxisState, ContinuousAngles, Motion, UniformMotion, propagate};
+use twofold::propagation::{AxisMotion, ContinuousAngles, Motion, UniformMotion, propagate};
 use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::mean::MeanOrder;
 use twofold::solutions::perturbation::{
@@ -26,6 +26,7 @@ use twofold::solutions::perturbation::{
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::solutions::symmetric::SymmetricSolution;
 use twofold::star::spheroid_shape::SpheroidShape;
+use twofold_verify::given_states::GivenStates;
 
 fn star() -> RigidSpheroid<f64> {
     RigidSpheroid::in_units_of_tc(1.1)
@@ -395,39 +396,6 @@ fn turns_next_to_a_pole_are_refused_where_they_cannot_be_counted() {
     assert!(count(0.3, 1.5).is_ok());
 }
 
-/// A motion that is not finite for a moment.
-struct Broken(UniformMotion<f64>);
-
-impl AxisMotion<f64> for Broken {
-    fn spheroid(&self) -> &RigidSpheroid<f64> {
-        self.0.spheroid()
-    }
-
-    fn violation(&self) -> &Matrix3<f64> {
-        self.0.violation()
-    }
-
-    fn span(&self) -> (f64, f64) {
-        self.0.span()
-    }
-
-    fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
-        self.0.axis_state(t)
-    }
-
-    fn error_estimate(&self, t: f64) -> f64 {
-        self.0.error_estimate(t)
-    }
-}
-
-impl Motion<f64> for Broken {
-    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
-        let state = self.0.state(t)?;
-        let is_gone = (18.7..18.8).contains(&t);
-        Ok(if is_gone { BodyState { axis: state.axis * f64::NAN, ..state } } else { state })
-    }
-}
-
 /// What was counted before a refusal is not counted again.
 #[test]
 fn turns_go_on_after_a_refusal() {
@@ -436,7 +404,12 @@ fn turns_go_on_after_a_refusal() {
     let none = Matrix3::zeros();
     let whole = UniformMotion::free(&star(), &none, &start, (0.0, 30.0));
     let exact = ContinuousAngles::new(&whole, 0.0, &angles).and_then(|mut turns| turns.at(15.0)).expect("angles");
-    let broken = Broken(whole);
+    // Not finite for a moment.
+    let broken = GivenStates::like(&whole, |t| {
+        let state = whole.state(t)?;
+        let is_gone = (18.7..18.8).contains(&t);
+        Ok(if is_gone { BodyState { axis: state.axis * f64::NAN, ..state } } else { state })
+    });
     let mut turns = ContinuousAngles::new(&broken, 0.0, &angles).expect("a start");
     refused(turns.at(25.0), "state of the motion");
     let found = turns.at(15.0).expect("angles");

@@ -19,7 +19,7 @@ mod tests {
 
     use crate::dynamics::{BodyState, RigidSpheroid};
     use crate::error::Error;
-    use crate::propagation::{AxisMotion, AxisState, Motion};
+    use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
 
     /// A motion by a formula, whether a star could move so or not.
     pub(super) struct Made<F> {
@@ -57,6 +57,10 @@ mod tests {
             let (from, to) = self.span;
             Error::unless((from.min(to)..=from.max(to)).contains(&t), "time t", t, "in the span")?;
             (self.state)(t)
+        }
+
+        fn turning(&self) -> Turning<'_> {
+            Turning::Equations
         }
     }
 }

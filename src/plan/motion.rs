@@ -10,7 +10,7 @@ use crate::propagation::splitting::{
 };
 use crate::propagation::{
     AveragedMotion, AxisMotion, AxisState, Motion, SeriesProjection, SymmetricMotion, TaylorAxisMotion, TaylorMotion,
-    UniformMotion, propagate, propagate_axis,
+    Turning, UniformMotion, propagate, propagate_axis,
 };
 use crate::solutions::mean::MeanOrder;
 
@@ -179,6 +179,10 @@ impl Motion<f64> for PlannedMotion {
             Self::Mean(motion) => motion.state_in_parts(t),
             _ => self.state(t[0] + t[1]),
         }
+    }
+
+    fn turning(&self) -> Turning<'_> {
+        Turning::Equations
     }
 
     fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {

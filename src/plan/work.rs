@@ -7,7 +7,7 @@ use nalgebra::Matrix3;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::splitting::SplittingMotion;
-use crate::propagation::{AxisMotion, AxisState, Motion};
+use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
 
 /// Work done or planned.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -114,6 +114,10 @@ impl<M: Motion<f64>> Motion<f64> for Counted<M> {
     fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<f64>, Error> {
         self.orientation.set(self.orientation.get() + 1);
         self.motion.state_in_parts(t)
+    }
+
+    fn turning(&self) -> Turning<'_> {
+        self.motion.turning()
     }
 }
 

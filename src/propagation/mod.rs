@@ -64,6 +64,7 @@ pub(crate) mod registers;
 pub mod splitting;
 mod taylor;
 mod third_angle;
+mod turning;
 
 pub use closed::{AveragedMotion, SymmetricMotion, UniformMotion, largest_torque};
 pub use continuous_angles::{ContinuousAngles, MOST_COUNTED};
@@ -75,3 +76,4 @@ pub use taylor::{
     ACCURACY_RANGE, ErrorEstimates, STEP_LIMIT, Samples, SeriesProjection, TaylorAxisMotion, TaylorForecast,
     TaylorMotion, axis_states_at, propagate, propagate_axis, states_at, taylor_forecast,
 };
+pub use turning::{GivenRates, Turning};

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::SeriesProjection;
+use crate::propagation::{SeriesProjection, Turning};
 use crate::scalar::Scalar;
 
 /// State of the reduced motion of a spheroid in inertial components: what its potential energy, its spin axis and its
@@ -77,6 +77,10 @@ pub trait Motion<S: Scalar>: AxisMotion<S> {
     fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<S>, Error> {
         self.state(S::from_f64(t[0] + t[1]))
     }
+
+    /// What turns the body: [`Turning::Equations`], or the rates of another law with their bounds. A search for pulses misses none if
+    /// this is right.
+    fn turning(&self) -> Turning<'_>;
 
     /// What gives the component along a fixed `direction` of a vector fixed in the body (its components there) for less than a
     /// state, if the motion has it: one that is kept as Taylor series in doubles, on a processor with vector instructions.

@@ -334,6 +334,7 @@ pub const EQUATIONS: &[Equation] = &[
             "observables::pulsar::train::pulse_train",
             "observables::pulsar::train::propagated_pulse_train",
             "propagation::SeriesProjection",
+            "propagation::Turning",
             "observables::pulsar::Pulse",
             "observables::pulsar::PulseTrain",
             "observables::pulsar::Stamped",

@@ -222,6 +222,8 @@ fn bad_arguments_are_refused() {
             &["`arrival` is no observable", "arrivals, closest_approaches"],
         ),
         (&["fisher", "tp-1", "--observe", "arrivals:-1"], &["standard deviation -1", "above zero"]),
+        (&["fisher", "tp-1", "--observe", "arrivals:1e-160"], &["standard deviation 1e-160", "from 1e-100 to 1e100"]),
+        (&["fit", "tp-1", "--simulate", "1", "--observe", "strain:1e101"], &["standard deviation 1e101", "to 1e100"]),
         (&["fisher", "tp-1", "--observe", "arrivals:1,arrivals:2"], &["`arrivals` is named twice"]),
         (
             &["fisher", "tp-1", "--observe", "widths:1", "--parameters", "epss"],
@@ -247,6 +249,86 @@ fn bad_arguments_are_refused() {
         for fragment in fragments {
             assert!(message.contains(fragment), "{args:?}: expected `{fragment}` in\n{message}");
         }
+    }
+}
+
+/// Pulses as `pulses` writes them, without errors: the scene that they are of is their model, whatever errors are stated. Of another
+/// scene it is not; and data with the errors stated are passed without a word.
+#[test]
+fn residuals_are_judged_on_both_sides() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name).to_str().expect("path in UTF-8").to_owned();
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/tp-1.toml")).expect("scene");
+    let written = |name: &str, from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        let short =
+            text.replace(from, to).replace("span = 400", "span = 100").replace("samples = 4001", "samples = 101");
+        fs::write(path(name), short).expect("file");
+        path(name)
+    };
+    let (scene, pulses) = (written("scene.toml", "rho = 0.6", "rho = 0.6"), path("pulses.csv"));
+    assert!(twofold(&["pulses", &scene, "--out", &pulses]).status.success());
+    let fitted = |scene: &str, observe: &str, parameters: &str| {
+        let output = twofold(&["fit", scene, &pulses, "--observe", observe, "--parameters", parameters]);
+        (output.status.code(), stderr(&output), stdout(&output))
+    };
+    for observe in ["arrivals:1e-6,widths:1e-6", "arrivals:1e-9", "arrivals:1e-2,widths:1e-2"] {
+        for parameters in ["s_scale", "eps,spin"] {
+            let (code, notes, table) = fitted(&scene, observe, parameters);
+            assert_eq!(code, Some(0), "{observe} {parameters}: {notes}");
+            assert!(
+                !notes.contains("no model") && notes.contains("fits the data better than such errors allow"),
+                "{notes}"
+            );
+            assert!(parameters != "s_scale" || table.contains(" |s|   1.000000000 "), "{table}");
+        }
+    }
+    // Errors below what doubles tell.
+    for (observe, parameters) in [("arrivals:1e-15", "s_scale"), ("arrivals:1e-17,widths:1e-17", "eps,spin,s_scale")] {
+        let (code, message, table) = fitted(&scene, observe, parameters);
+        assert_eq!((code, table.as_str()), (Some(2), ""), "{observe} {parameters}: {message}");
+        for fragment in [
+            "the scene agrees with the data as far as doubles tell",
+            " t_c, and a fit is to a hundredth of an error",
+            "allowed in --observe are larger",
+        ] {
+            assert!(message.contains(fragment), "expected `{fragment}` in {message}");
+        }
+        assert!(!message.contains("nearer to the data"), "{message}");
+    }
+    // A scene of another beam, of which only |s| is fitted.
+    let other = written("other.toml", "rho = 0.6", "rho = 0.6001");
+    let (code, notes, _) = fitted(&other, "arrivals:1e-6,widths:1e-6", "s_scale");
+    assert_eq!(code, Some(0), "{notes}");
+    assert!(notes.contains("the scene is no model of the data, or their errors are larger"), "{notes}");
+    let simulated =
+        twofold(&["fit", &scene, "--simulate", "3", "--observe", "arrivals:1e-6", "--parameters", "s_scale,eps"]);
+    assert!(simulated.status.success() && !stderr(&simulated).contains("the residuals are"), "{}", stderr(&simulated));
+}
+
+/// Values are given with ten digits, however small; a span too short for data is told.
+#[test]
+fn numbers_at_extremes_are_readable() {
+    let folder = folder();
+    let small = folder.path().join("small.toml");
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/tp-1.toml")).expect("scene");
+    fs::write(&small, text.replace("phi_o = 0.0", "phi_o = -1e-10")).expect("file");
+    assert_ne!(fs::read_to_string(&small).expect("file"), text);
+    let output = twofold(&["fisher", small.to_str().expect("path"), "--observe", "arrivals:1e-4,widths:1e-4"]);
+    let table = stdout(&output);
+    assert!(table.contains(" phi_o                  -1.000000000e-10 ") && !table.contains("-0.000"), "{table}");
+    assert!(table.contains(" gamma                                 0 "), "{table}");
+    for (spans, code, fragments) in [
+        ("1e-300", Some(0), &["3 of 3 rows have no sigma", "longer spans and more epochs"][..]),
+        ("1e300", Some(2), &["--spans 1e300: what the mean motion leaves out", "e296: allowed is at most 1e-3"]),
+    ] {
+        let output = twofold(&["forecast", "tp-1", "--observe", "arrivals:1e-4", "--of", "s_axial", "--spans", spans]);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), code, "{message}");
+        for fragment in fragments {
+            assert!(message.contains(fragment), "expected `{fragment}` in {message}");
+        }
+        assert!(message.lines().chain(stdout(&output).lines()).all(|line| line.len() < 250), "{message}");
     }
 }
 

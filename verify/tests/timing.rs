@@ -197,6 +197,110 @@ fn what_cannot_be_timed_is_refused_and_nothing_is_written() {
     }
 }
 
+/// A beam that never passes, one that is always seen, one that is seen for turns on end, and a star at rest: each has its own sentence, with
+/// the closest approach and what to change.
+#[test]
+fn a_scene_without_pulses_is_told_why() {
+    let out = folder();
+    let results = out.path().join("results");
+    let replaced = |line: &str, by: &str, text: &str| -> String {
+        text.lines()
+            .map(|found| if found.starts_with(line) { by } else { found })
+            .fold(String::new(), |all, l| all + l + "\n")
+    };
+    let fast = PULSARS[0].toml;
+    // Of the magnetic axis, 75 degrees from the spin, to the observer, 80 degrees from it: 5 and 155 degrees.
+    for (name, text, fragments) in [
+        (
+            "never",
+            replaced("rho = ", "rho = 0.05", fast),
+            &[
+                "never passes the line of sight",
+                "comes to 0.087266 rad of it at closest",
+                "`pulsar.rho` is 0.05 rad",
+                "above",
+            ][..],
+        ),
+        (
+            "always",
+            replaced("rho = ", "rho = 3.0", fast),
+            &[
+                "always inside the beam",
+                "2.7052",
+                "rad from it at most (0.087266 rad at closest)",
+                "`pulsar.rho` is 3 rad",
+                "below",
+            ],
+        ),
+        (
+            "still",
+            replaced("spin_frequency = ", "spin_frequency = 0.0", fast),
+            &["the star does not rotate", "`star.spin_frequency` other than zero"],
+        ),
+    ] {
+        let path = out.path().join(format!("{name}.toml"));
+        fs::write(&path, text).expect("file");
+        let path = path.to_str().expect("path");
+        let output = twofold(&["timing", path, "--out", results.to_str().expect("path")]);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{name}: {message}");
+        for fragment in [&[path][..], fragments].concat() {
+            assert!(message.contains(fragment), "{name}: expected `{fragment}` in {message}");
+        }
+        assert!(!results.exists() || names_in(&results).is_empty(), "{name}");
+    }
+}
+
+/// The frequency that a scene states, to the rounding of the initial momentum: arrival times are wrong by as much, linearly in time, and
+/// residuals are not.
+#[test]
+fn the_stated_error_holds_the_rounding_of_the_start() {
+    let out = folder();
+    let mut worst: f64 = 0.0;
+    for frequency in ["641.9282333345536", "641.9", "100.3", "57.123456789", "2.468871714699942", "-3.7"] {
+        let text: String = PULSARS[0]
+            .toml
+            .lines()
+            .map(|line| match line {
+                line if line.starts_with("spin_frequency") => format!("spin_frequency = {frequency}\n"),
+                line if line.starts_with("alpha_2") => "alpha_2 = 0.0\n".to_owned(),
+                line => format!("{line}\n"),
+            })
+            .collect();
+        let path = out.path().join("free.toml");
+        fs::write(&path, text).expect("file");
+        let results = out.path().join("results");
+        let (path, results_at) = (path.to_str().expect("path"), results.to_str().expect("path"));
+        let args = ["timing", path, "--to", "62626", "--epochs", "100", "--force", "--out", results_at];
+        let output = twofold(&args);
+        let (notes, summary) = (stderr(&output), stdout(&output));
+        assert_eq!(output.status.code(), Some(0), "{notes}");
+        let number = |text: &str, after: &str| -> f64 {
+            let rest = text.split_once(after).unwrap_or_else(|| panic!("{after} in {text}")).1.trim_start();
+            rest.split([' ', ';']).next().and_then(|word| word.parse().ok()).unwrap_or_else(|| panic!("{rest}"))
+        };
+        // One number in the summary and in the .par.
+        let par = read(&results, "free.par");
+        let in_par = par.lines().find_map(|line| line.strip_prefix("F0 ")).expect("F0").trim();
+        assert!(summary.contains(&format!("F0 = {in_par} Hz")), "{summary}{in_par}");
+        // In units of 1e-24 Hz.
+        let exact = |text: &str| -> i128 {
+            let (whole, fraction) = text.trim_start_matches('-').split_once('.').expect("a point");
+            format!("{whole}{fraction:0<24}").parse().expect("digits")
+        };
+        let off = (exact(in_par) - exact(frequency)) as f64 * 1e-24 / exact(frequency) as f64 * 1e24;
+        // 20 years.
+        let late = off.abs() * 7305.0 * 86_400.0;
+        let stated = number(&notes, "estimated error of the arrival times themselves:");
+        assert!(late <= stated && stated < 1e-6, "{frequency}: {late:e} s for {stated:e} s");
+        let of_residuals = number(&notes, "estimated error of the residuals:");
+        assert!(number(&summary, "largest ") <= of_residuals && of_residuals < 1e-11, "{summary}{notes}");
+        worst = worst.max(late);
+    }
+    // The rounding is there, a thousand times what residuals have.
+    assert!(worst > 1e-8, "{worst:e} s");
+}
+
 #[test]
 fn files_are_not_replaced_without_leave() {
     let out = folder();

@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::{AxisMotion, AxisState, Motion};
+use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
 
 /// The motion `inner` in components of another frame.
 pub(super) struct Rotated<'m, M> {
@@ -45,6 +45,10 @@ impl<M: AxisMotion<f64>> AxisMotion<f64> for Rotated<'_, M> {
 impl<M: Motion<f64>> Motion<f64> for Rotated<'_, M> {
     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
         Ok(self.inner.state(t)?.rotated(&self.other_from_this))
+    }
+
+    fn turning(&self) -> Turning<'_> {
+        self.inner.turning().rotated(&self.other_from_this)
     }
 }
 

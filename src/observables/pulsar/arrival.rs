@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use nalgebra::Vector3;
 
 use super::edge_search::{BySeries, ByStates, EdgeSearch, Margin};
-use super::rate_bounds::rate_bounds;
+use super::rate_bounds::RateBounds;
 use super::root::root;
 use super::turns::Turns;
 use super::{Beam, PulseTrain};
@@ -31,6 +31,9 @@ pub struct Arrival {
 /// goes round Z. In single precession it need not, and in twofold precession it may leave Z out of a turn now and then; L it
 /// goes round always. Where both are gone round, the counts are the same.) Numbers grow, whichever way the star spins about Z.
 ///
+/// Of a motion by [another law](crate::propagation::Turning::Given) the turns about the `L` of its states are counted: it has to go round with the
+/// body, as that of a body turns with `Omega`.
+///
 /// Two pulses of one turn, as a beam nearly grazed gives, have the same number. A pulse that lasts over more than one turn has
 /// that of its closest approach, and none is given to the others. A pulse whose phase at the closest approach is more than half
 /// a turn from that of the line of sight, possible only where the star precesses as fast as it turns, is numbered with the
@@ -49,13 +52,16 @@ pub fn arrivals<M: Motion<f64>>(
     train: &PulseTrain,
 ) -> Result<Vec<Arrival>, Error> {
     let Some(first) = train.pulses.iter().find(|pulse| pulse.is_whole()) else { return Ok(Vec::new()) };
-    let bounds = rate_bounds(motion.spheroid(), motion.violation(), &motion.state(first.start)?);
+    let turning = motion.turning();
+    let bounds = RateBounds::of_motion(motion, &turning, first.start)?;
     bounds.check_countable(first.start, train.pulses.last().map_or(first.end, |last| last.end))?;
     let mut turns = Turns::new(motion, beam, line_of_sight, bounds.first, first.start)?;
     let mut turn_at = |t| turns.at(t).map(|phase| (phase / TAU).round() as i64);
     match motion.projection(&beam.axis, line_of_sight) {
         Some(projection) => EdgeSearch::new(BySeries::new(&projection, beam), bounds).arrivals(train, &mut turn_at),
-        None => EdgeSearch::new(ByStates { motion, beam, line_of_sight }, bounds).arrivals(train, &mut turn_at),
+        None => {
+            EdgeSearch::new(ByStates { motion, turning, beam, line_of_sight }, bounds).arrivals(train, &mut turn_at)
+        }
     }
 }
 
@@ -120,7 +126,6 @@ mod tests {
     use crate::dynamics::{BodyState, RigidSpheroid};
     use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::observables::Observer;
-    use crate::observables::pulsar::rate_bounds::RateBounds;
     use crate::observables::pulsar::{Pulse, pulse_train};
     use crate::propagation::propagate;
 

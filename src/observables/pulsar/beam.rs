@@ -80,23 +80,42 @@ impl<S: Scalar> Beam<S> {
         state: &BodyState<S>,
         line_of_sight: &Vector3<S>,
     ) -> [S; 4] {
-        let (n, xx) = (&state.axis, spheroid.inertia_xx);
+        self.margin_rates_turning(&angular_velocity_rates(spheroid, s, state), state, line_of_sight)
+    }
+
+    /// The [`margin`](Self::margin) and its first three time derivatives, for `Omega`, `Omega'`, `Omega''` known.
+    pub(super) fn margin_rates_turning(
+        &self,
+        [omega, acceleration, jerk]: &[Vector3<S>; 3],
+        state: &BodyState<S>,
+        line_of_sight: &Vector3<S>,
+    ) -> [S; 4] {
         let m = self.direction(state);
-        let omega = angular_velocity(spheroid, n, &state.momentum);
-        let (axis_rate, torque) = reduced_rates(spheroid, s, n, &state.momentum);
-        let axis_second = (torque.cross(n) + state.momentum.cross(&axis_rate)) / xx;
-        let pulls = axis_rate.cross(&(s * n)) + n.cross(&(s * axis_rate));
-        let torque_rate = pulls * (spheroid.constant_c * -2.0);
-        let spin = state.momentum.dot(n) / spheroid.inertia_zz;
-        let along_axis = (spheroid.inertia_zz - xx) * spin;
-        let acceleration = (torque - axis_rate * along_axis) / xx;
-        let jerk = (torque_rate - axis_second * along_axis) / xx;
         let rate = omega.cross(&m);
         let second = acceleration.cross(&m) + omega.cross(&rate);
         let third = jerk.cross(&m) + acceleration.cross(&rate) * S::from_f64(2.0) + omega.cross(&second);
         let along = |v: &Vector3<S>| v.dot(line_of_sight);
         [self.margin(state, line_of_sight), along(&rate), along(&second), along(&third)]
     }
+}
+
+/// `Omega`, `Omega'` and `Omega''` by the equations of motion, inertial components.
+fn angular_velocity_rates<S: Scalar>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    state: &BodyState<S>,
+) -> [Vector3<S>; 3] {
+    let (n, xx) = (&state.axis, spheroid.inertia_xx);
+    let omega = angular_velocity(spheroid, n, &state.momentum);
+    let (axis_rate, torque) = reduced_rates(spheroid, s, n, &state.momentum);
+    let axis_second = (torque.cross(n) + state.momentum.cross(&axis_rate)) / xx;
+    let pulls = axis_rate.cross(&(s * n)) + n.cross(&(s * axis_rate));
+    let torque_rate = pulls * (spheroid.constant_c * -2.0);
+    let spin = state.momentum.dot(n) / spheroid.inertia_zz;
+    let along_axis = (spheroid.inertia_zz - xx) * spin;
+    let acceleration = (torque - axis_rate * along_axis) / xx;
+    let jerk = (torque_rate - axis_second * along_axis) / xx;
+    [omega, acceleration, jerk]
 }
 
 /// `m.n` in angles, Eq. (47) `[pulsemn]`: the magnetic axis at `(chi, delta)` in the body, the observer at colatitude

@@ -38,7 +38,7 @@ use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
 use crate::observables::Observer;
-use crate::propagation::{AxisMotion, AxisState, Motion};
+use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
 use crate::solutions::mean::{MeanMotion, MeanOrder};
 
 /// Most rotation of the body in one turn about L (rad): the search takes a tenth of a second.
@@ -142,6 +142,10 @@ impl Motion<f64> for Near<'_> {
     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
         Ok(self.mean.state(t))
     }
+
+    fn turning(&self) -> Turning<'_> {
+        Turning::Equations
+    }
 }
 
 impl PulsarClock {
@@ -224,7 +228,12 @@ impl PulsarClock {
         let period = self.period();
         let middle = -look.phase / self.turns.rate(&self.mean);
         let near = Near { clock: self, mean };
-        let margin = ByStates { motion: &near, beam: &self.beam, line_of_sight: &self.observer.direction };
+        let margin = ByStates {
+            motion: &near,
+            turning: Turning::Equations,
+            beam: &self.beam,
+            line_of_sight: &self.observer.direction,
+        };
         let search = EdgeSearch::new(margin, self.bounds);
         if let Some(pulse) = around(&search, middle, period)? {
             return self.described(&near, t, look.number, &pulse).map(Some);

@@ -9,7 +9,7 @@ use super::rate_bounds::RateBounds;
 use super::root::{Look, root};
 use super::{Beam, train::GRAZING};
 use crate::error::Error;
-use crate::propagation::{Motion, SeriesProjection};
+use crate::propagation::{Motion, SeriesProjection, Turning};
 
 /// Rotation (rad) in a piece to begin with, and in one so short that an extremum near the edge is worth finding exactly.
 const PIECE: f64 = 2.4;
@@ -60,6 +60,7 @@ impl Margin for BySeries<'_> {
 /// From the states of any motion.
 pub(super) struct ByStates<'a, M> {
     pub(super) motion: &'a M,
+    pub(super) turning: Turning<'a>,
     pub(super) beam: &'a Beam<f64>,
     pub(super) line_of_sight: &'a Vector3<f64>,
 }
@@ -67,7 +68,20 @@ pub(super) struct ByStates<'a, M> {
 impl<M: Motion<f64>> Margin for ByStates<'_, M> {
     fn at(&self, t: f64) -> Result<[f64; 4], Error> {
         let (state, motion) = (self.motion.state(t)?, self.motion);
-        Ok(self.beam.margin_rates(motion.spheroid(), motion.violation(), &state, self.line_of_sight))
+        match &self.turning {
+            Turning::Equations => {
+                Ok(self.beam.margin_rates(motion.spheroid(), motion.violation(), &state, self.line_of_sight))
+            }
+            Turning::Given { rates, bounds } => {
+                let rates = rates(t)?;
+                for (rate, bound) in rates.iter().zip(bounds) {
+                    let size = rate.norm();
+                    let allowed = "at most the bound that the motion states for it";
+                    Error::unless(size <= bound * (1.0 + 1e-9), "size of Omega or a derivative of it", size, allowed)?;
+                }
+                Ok(self.beam.margin_rates_turning(&rates, &state, self.line_of_sight))
+            }
+        }
     }
 
     fn cheapest_time(&self, _: f64, t: f64) -> f64 {

@@ -25,7 +25,7 @@ use nalgebra::Matrix3;
 use crate::dynamics::regular_equations::angular_velocity;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::MOST_COUNTED;
+use crate::propagation::{MOST_COUNTED, Motion, Turning};
 use crate::scalar::{Real, real_part};
 
 /// Bounds on time derivatives of any unit vector fixed in the body, hence of `m.n`, that hold at all times of the motion
@@ -45,6 +45,32 @@ pub struct RateBounds {
 }
 
 impl RateBounds {
+    /// From bounds on `|Omega|` and its first five time derivatives: with `m' = Omega x m` those of `m` are at most
+    /// `m_0 = 1, m_(k+1) = sum_j (k over j) w_j m_(k-j)`.
+    pub(super) fn of_angular_velocity(omega: &[f64; 6]) -> Self {
+        let mut m = [0.0; HIGHEST + 1];
+        m[0] = 1.0;
+        for k in 0..HIGHEST {
+            m[k + 1] = leibniz(k, omega, &m);
+        }
+        // Unit vectors are such to 1e-9.
+        let slack = 1.0 + 1e-7;
+        let [_, first, second, third, fourth, _, sixth] = m.map(|bound| bound * slack);
+        Self { first, second, third, fourth, sixth }
+    }
+
+    /// Those of a motion, which its state at a time of the span and its [`Turning`] give.
+    pub(super) fn of_motion<M: Motion<f64>>(motion: &M, turning: &Turning<'_>, t: f64) -> Result<Self, Error> {
+        let Turning::Given { bounds, .. } = turning else {
+            return Ok(rate_bounds(motion.spheroid(), motion.violation(), &motion.state(t)?));
+        };
+        for &bound in bounds {
+            let allowed = "a number, zero or above";
+            Error::unless(bound >= 0.0 && bound.is_finite(), "bound on a derivative of Omega", bound, allowed)?;
+        }
+        Ok(Self::of_angular_velocity(bounds))
+    }
+
     /// Refuses a stretch of time with more turns than can be looked at one by one, or so late that doubles do not tell its turns apart.
     pub(super) fn check_countable(&self, from: f64, to: f64) -> Result<(), Error> {
         let rotation = self.first * (to - from).abs();
@@ -81,13 +107,12 @@ const HIGHEST: usize = 6;
 /// torque is at most `I^xx T`; the energy keeps `|dn/dt|^2 <= |dn/dt|^2(now) + 2 T = v^2`, and the spin `Omega^z` is constant.
 /// Hence, with `w = sqrt(v^2 + Omega^z^2)`, `e = |I^zz - I^xx| |Omega^z| / I^xx` and
 /// `g = sqrt(v^2 + (I^zz Omega^z / I^xx)^2) >= |L| / I^xx`, the derivatives of order `k` of `L / I^xx`, `n`, `Omega` and `m` are at
-/// most `l_k`, `n_k`, `w_k` and `m_k`:
+/// most `l_k`, `n_k`, `w_k` and `m_k`, the last with `m_0 = 1, m_(k+1) = sum_j (k over j) w_j m_(k-j)` by `m' = Omega x m`:
 ///
 /// ```text
 /// l_0 = g,   l_(k+1) = T sum_j (k over j) n_j n_(k-j)          L' = 2 C (s n) x n, to s any multiple of 1 may be added
 /// n_0 = 1,   n_1 = v,   n_(k+1) = sum_j (k over j) l_j n_(k-j)   I^xx n' = L x n
 /// w_0 = w,   w_k = l_k + e n_k                                 Omega = L / I^xx - (I^zz - I^xx) Omega^z n / I^xx
-/// m_0 = 1,   m_(k+1) = sum_j (k over j) w_j m_(k-j)              m' = Omega x m
 /// ```
 pub fn rate_bounds<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: &BodyState<S>) -> RateBounds {
     let (xx, zz) = (spheroid.inertia_xx.re(), spheroid.inertia_zz.re());
@@ -102,18 +127,14 @@ pub fn rate_bounds<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: 
     let e = ((zz - xx) / xx).abs() * spin;
     let g = v.hypot(zz / xx * spin);
 
-    let ([mut l, mut n], [mut omega, mut m]) = ([[0.0; HIGHEST + 1]; 2], [[0.0; HIGHEST + 1]; 2]);
-    (l[0], n[0], omega[0], m[0]) = (g, 1.0, w, 1.0);
-    for k in 0..HIGHEST {
+    let ([mut l, mut n], mut omega) = ([[0.0; HIGHEST]; 2], [0.0; HIGHEST]);
+    (l[0], n[0], omega[0]) = (g, 1.0, w);
+    for k in 0..HIGHEST - 1 {
         l[k + 1] = torque * leibniz(k, &n, &n);
         n[k + 1] = if k == 0 { v } else { leibniz(k, &l, &n) };
         omega[k + 1] = l[k + 1] + e * n[k + 1];
-        m[k + 1] = leibniz(k, &omega, &m);
     }
-    // Unit vectors are such to 1e-9.
-    let slack = 1.0 + 1e-7;
-    let [_, first, second, third, fourth, _, sixth] = m.map(|bound| bound * slack);
-    RateBounds { first, second, third, fourth, sixth }
+    RateBounds::of_angular_velocity(&omega)
 }
 
 /// Derivative of order `k` of a product from those of its factors.

@@ -34,7 +34,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::Beam;
 use super::edge_search::{BySeries, ByStates, EdgeSearch, Event, Margin};
 use super::hermite::Jet;
-use super::rate_bounds::rate_bounds;
+use super::rate_bounds::{RateBounds, rate_bounds};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::{Motion, Samples, projected_by_stretches, propagate};
@@ -109,20 +109,22 @@ impl PulseTrain {
     }
 }
 
-/// Every pulse of a beam in a span of a motion, Eq. (44) `[ineq]`: no pulse is missed and none invented.
+/// Every pulse of a beam in a span of a motion, Eq. (44) `[ineq]`: none is missed and none invented, but where an extremum of `m.n` is
+/// within [`GRAZING`], 1e-13, of `cos rho`. There rounding decides; the time is among the [`grazings`](PulseTrain::grazings).
 ///
 /// `line_of_sight` is the unit vector `n` towards the observer in the frame of the motion; `span` is within that of the
 /// motion, its ends in either order. The second beam of the star is that of [`Beam::opposite`].
 ///
-/// The span is divided until `m.n` and its derivatives at the ends of a piece, and bounds on the sixth derivative from energy and
-/// spin, prove that it holds no edge, or one, or one extremum; an edge is then a root between two times of different sign. This holds for the exact motion;
+/// The span is divided until `m.n` and its derivatives at the ends of a piece, and a bound on the sixth derivative, prove that it holds no
+/// edge, or one, or one extremum; an edge is then a root between two times of different sign. Derivatives and bounds are those of
+/// [`Motion::turning`]: by the equations of motion, with bounds from energy and spin, or as a motion by another law states them. This holds for the exact motion;
 /// a numerical one adds its error, see [`error_estimate`](crate::propagation::AxisMotion::error_estimate). Edges are as exact as `m.n` allows: its error divided by
 /// its rate, about 1e-16 over the rotation rate plus the rounding of `t`, more for a short pulse, whose `m.n` is slow at the
 /// edges (a pulse of the length `w` radian multiplies the error by about `2 / w`).
 ///
 /// # Errors
 /// [`Error::Domain`] for a span outside the motion's, vectors that are not of unit length (to 1e-9), a semi-open angle outside
-/// (0, pi), a motion that is not finite, a line of sight that stays on the edge of the beam to [`GRAZING`] for a while, a span of more than
+/// (0, pi), a motion that is not finite or turns faster than it states, a line of sight that stays on the edge of the beam to [`GRAZING`] for a while, a span of more than
 /// [`MOST_COUNTED`](crate::propagation::MOST_COUNTED) radian by the bound on `|Omega|`, and times at which doubles do not resolve 0.2 rad.
 pub fn pulse_train<M: Motion<f64>>(
     motion: &M,
@@ -132,10 +134,11 @@ pub fn pulse_train<M: Motion<f64>>(
 ) -> Result<PulseTrain, Error> {
     check_beam(beam, line_of_sight)?;
     let (from, to) = if span.0 <= span.1 { span } else { (span.1, span.0) };
-    let bounds = rate_bounds(motion.spheroid(), motion.violation(), &motion.state(from)?);
+    let turning = motion.turning();
+    let bounds = RateBounds::of_motion(motion, &turning, from)?;
     match motion.projection(&beam.axis, line_of_sight) {
         Some(projection) => EdgeSearch::new(BySeries::new(&projection, beam), bounds).train(from, to),
-        None => EdgeSearch::new(ByStates { motion, beam, line_of_sight }, bounds).train(from, to),
+        None => EdgeSearch::new(ByStates { motion, turning, beam, line_of_sight }, bounds).train(from, to),
     }
 }
 

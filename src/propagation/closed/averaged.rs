@@ -7,7 +7,7 @@ use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::{PrincipalCoefficients, principal_frame_with_derivatives};
 use crate::propagation::input::check_time;
-use crate::propagation::{AxisMotion, AxisState, Motion};
+use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
 use crate::scalar::Real;
 use crate::solutions::mean::{MeanMotion, MeanOrder, MeanPhases, MeanTurns};
 
@@ -158,6 +158,10 @@ impl<S: Real> Motion<S> for AveragedMotion<S> {
 
     fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<S>, Error> {
         Ok(self.state_of(&self.phases(t)?))
+    }
+
+    fn turning(&self) -> Turning<'_> {
+        Turning::Equations
     }
 }
 

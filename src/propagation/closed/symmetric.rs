@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::lorentz_violation::{PrincipalCoefficients, SymmetryOfTensor};
 use crate::propagation::input::check_time;
-use crate::propagation::{AxisMotion, AxisState, Motion};
+use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
 use crate::scalar::{Real, real_part};
 use crate::solutions::symmetric::SymmetricSolution;
 
@@ -202,6 +202,10 @@ impl<S: Real> AxisMotion<S> for SymmetricMotion<S> {
 impl<S: Real> Motion<S> for SymmetricMotion<S> {
     fn state(&self, t: S) -> Result<BodyState<S>, Error> {
         self.at(t)
+    }
+
+    fn turning(&self) -> Turning<'_> {
+        Turning::Equations
     }
 }
 

@@ -7,7 +7,7 @@ use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::SymmetryOfTensor;
 use crate::propagation::input::check_time;
-use crate::propagation::{AxisMotion, AxisState, Motion};
+use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
 use crate::scalar::{Real, real_part};
 use crate::solutions::free::rotated_by;
 
@@ -218,6 +218,10 @@ impl<S: Real> Motion<S> for UniformMotion<S> {
         let start = &self.start;
         let turned = start.equatorial_axis * cos + start.axis.cross(&start.equatorial_axis) * sin;
         Ok(BodyState { axis, momentum, equatorial_axis: rotated_by(&(self.turn * elapsed), &turned) })
+    }
+
+    fn turning(&self) -> Turning<'_> {
+        Turning::Equations
     }
 }
 

@@ -13,7 +13,7 @@ use crate::propagation::splitting::flows::{AXIS, Field, Moving, RATE, dot};
 use crate::propagation::splitting::one_motion::OneMotion;
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::third_angle::{body_state, rate_about_axis};
-use crate::propagation::{ACCURACY_RANGE, AxisMotion, AxisState, Motion};
+use crate::propagation::{ACCURACY_RANGE, AxisMotion, AxisState, Motion, Turning};
 use crate::rounding::two_product;
 
 /// Most steps of one motion.
@@ -304,6 +304,10 @@ impl<const V: usize> AxisMotion<f64> for SplittingMotion<V> {
 impl Motion<f64> for SplittingMotion<3> {
     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
         Ok(self.scene.body_state(&self.at(t)?, t - self.span.0))
+    }
+
+    fn turning(&self) -> Turning<'_> {
+        Turning::Equations
     }
 }
 

@@ -27,7 +27,7 @@ use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::arithmetic::{OneMotion, Plain, Stored};
 use crate::propagation::fused::{Fused, detect_fused, run_fused};
-use crate::propagation::{AxisMotion, AxisState, Motion};
+use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
 use crate::scalar::Real;
 use clock::StepLimit;
 use compensated::Compensated;
@@ -347,6 +347,10 @@ impl<S: Real, const V: usize> AxisMotion<S> for TaylorMotion<S, V> {
 impl<S: Real> Motion<S> for TaylorMotion<S> {
     fn state(&self, t: S) -> Result<BodyState<S>, Error> {
         Ok(self.setup.body_state(self.at(t)?, t))
+    }
+
+    fn turning(&self) -> Turning<'_> {
+        Turning::Equations
     }
 
     fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {

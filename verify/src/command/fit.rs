@@ -5,7 +5,10 @@ use rand::rngs::ChaCha8Rng;
 
 use super::measurement::{Measurement, readable, uncertainties, write_csv};
 use super::{Failure, FitArgs, note, print};
-use crate::inference::{DataFile, Datum, Fisher, InferenceError, Place, Signal, beside, data_of, fit, with_noise};
+use crate::inference::{
+    DataFile, Datum, Fisher, InferenceError, Place, Residuals, Signal, beside, data_of, fit, with_noise,
+};
+use crate::significant::significant;
 
 pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
     let measurement = Measurement::read(&args.measurement)?;
@@ -41,19 +44,24 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
     let [short, all] = uncertainties(&measurement, &found.values, &found.covariance);
     write_csv(&args.output, &all)?;
     note(&format!(
-        "{} data, {} unknowns, {} steps; chi^2 = {:.1} of {} degrees of freedom",
+        "{} data, {} unknowns, {} steps; chi^2 = {} of {} degrees of freedom",
         data.len(),
         unknowns.len(),
         found.iterations,
-        found.chi_squared,
+        significant(found.chi_squared, 4),
         found.degrees
     ));
-    // Six standard deviations of chi^2, which is nearly normal.
-    let degrees = found.degrees as f64;
-    if (found.chi_squared - degrees).abs() > 6.0 * (2.0 * degrees).sqrt() {
-        note(
-            "chi^2 is not what errors of these sizes give: the scene is no model of the data, or the errors have other sizes",
-        );
+    let size = significant(found.root_mean_square(), 2);
+    match found.judged() {
+        Residuals::AsStated => {}
+        Residuals::Larger => note(&format!(
+            "the residuals are {size} times the errors of --observe (root mean square): the scene is no model of the data, or their errors \
+             are larger; the error bars are for the errors stated"
+        )),
+        Residuals::Smaller => note(&format!(
+            "the residuals are {size} times the errors of --observe (root mean square): the scene fits the data better than such errors allow, \
+             as it does data without errors; the error bars are for the errors stated"
+        )),
     }
     match found.nonlinearity(&data, *end) {
         Ok(nonlinearity) if nonlinearity < 0.3 => {}

@@ -53,6 +53,14 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
         ]);
     }
     write_csv(output, &rows)?;
+    let unknown = found.iter().filter(|forecast| !forecast.sigma.is_finite()).count();
+    if unknown > 0 {
+        note(&format!(
+            "{unknown} of {} rows have no sigma: too few data, or data that do not determine {}; allowed are longer spans and more epochs",
+            found.len(),
+            target.key()
+        ));
+    }
     let [by_span, by_epochs] = scaling(&found);
     for (what, slope) in [("span", by_span), ("number of data", by_epochs)] {
         if let Some(slope) = slope {

@@ -9,6 +9,7 @@ use super::run::{failed, read_scene};
 use super::{Failure, MeasurementArgs, TableArgs, note};
 use crate::inference::{Event, InferenceError, Model, Noise, Signal, Unknown, check_span, parse_noise};
 use crate::scene_file::{Scene, nearest};
+use crate::significant::significant;
 
 /// A scene, what is measured of it and what is not known of it.
 pub(super) struct Measurement {
@@ -109,6 +110,7 @@ impl Measurement {
     pub(super) fn refused(&self, error: InferenceError) -> Failure {
         match error {
             InferenceError::Model(error) => failed(error),
+            error @ InferenceError::Rounding { .. } => Failure::BadInput(format!("{}: {error}", self.name)),
             error => Failure::Failed(format!("{}: {error}", self.name)),
         }
     }
@@ -182,10 +184,10 @@ pub(super) fn uncertainties(
         let most = others.max_by(|a, b| correlation(i, *a).abs().total_cmp(&correlation(i, *b).abs()));
         let most = most.map_or(String::new(), |j| format!("{:+.4} {}", correlation(i, j), unknowns[j].symbol()));
         short.push(if sigma.is_finite() {
-            let relative = if value.abs() < 1e-12 { String::new() } else { format!("{:.1e}", sigma / value.abs()) };
+            let relative = if value == 0.0 { String::new() } else { format!("{:.1e}", sigma / value.abs()) };
             vec![
                 unknown.symbol().to_owned(),
-                format!("{value:.10}"),
+                significant(value, 10),
                 format!("{sigma:.2e}"),
                 relative,
                 unit.clone(),
@@ -193,7 +195,7 @@ pub(super) fn uncertainties(
             ]
         } else {
             let symbol = unknown.symbol().to_owned();
-            vec![symbol, format!("{value:.10}"), "not determined".into(), String::new(), unit.clone(), most]
+            vec![symbol, significant(value, 10), "not determined".into(), String::new(), unit.clone(), most]
         });
         let number = |x: f64| if x.is_finite() { format!("{x:?}") } else { String::new() };
         let mut row = vec![unknown.key().to_owned(), format!("{value:?}"), number(sigma), unit];

@@ -90,7 +90,8 @@ enum Command {
     /// Find every pulse of a star's radio beam in the span of a scene and write them as CSV
     ///
     /// A pulse is a stretch of time in which the line of sight is inside the beam, m.n > cos(rho). The scene must have the
-    /// sections [observer] and [pulsar]; the samples of its [time] do not matter, its span does.
+    /// sections [observer] and [pulsar]; the samples of its [time] do not matter, its span does. None is missed and none invented, but
+    /// where an extremum of m.n is within 1e-13 of cos(rho): rounding decides there, and a note says when.
     Pulses(PulsesArgs),
     /// Compute arrival times of a pulsar over decades, and what they are late by against a constant frequency
     ///

@@ -7,7 +7,7 @@ use twofold::epoch::Epoch;
 use super::output_folder::OutputFolder;
 use super::run::{failed, read_scene};
 use super::{Failure, TimingArgs, note, print};
-use crate::pulsar_timing::{PulsarScene, Series, Timing, csv, par, strain_series, tim};
+use crate::pulsar_timing::{PulsarScene, Series, Timing, TimingError, csv, decimal, par, strain_series, tim};
 use crate::scene_file::Scene;
 
 /// Most arrival times, and most samples of strain.
@@ -25,7 +25,10 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let file = |ending: &str| format!("{name}.{ending}");
     let endings = ["csv", "par", "tim", "h_plus.txt", "h_cross.txt"];
     let folder = OutputFolder::at(&args.out, args.force, |found| endings.iter().any(|ending| found == file(ending)))?;
-    let timing = pulsar.timed(&epochs, args.f1).map_err(failed)?;
+    let timing = pulsar.timed(&epochs, args.f1).map_err(|error| match error {
+        TimingError::NoPulse(_) => refused(error.to_string()),
+        TimingError::Motion(error) => failed(error),
+    })?;
     folder.write(&file("csv"), csv(&pulsar, &timing).as_bytes())?;
     folder.write(&file("par"), par(&scene, &timing).map_err(failed)?.as_bytes())?;
     folder.write(&file("tim"), tim(&timing, args.uncertainty * 1e-6).as_bytes())?;
@@ -48,8 +51,13 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     note_dark(&timing, epochs.len());
     let farthest = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0].abs()).fold(0.0, f64::max);
     note(&format!(
-        "estimated error of the mean motion at the farthest epoch: {:.1e} s; arrival times are rounded to 1e-16 d, 9e-12 s",
-        pulsar.clock.truncation(farthest)
+        "estimated error of the residuals: {:.1e} s; an arrival time is rounded to 1e-16 d, 8.6e-12 s",
+        pulsar.residual_error(farthest)
+    ));
+    note(&format!(
+        "estimated error of the arrival times themselves: {:.1e} s at the farthest epoch; what it has beyond that of the residuals is the \
+         rounding of the initial angular momentum, linear in time and taken up by F0",
+        pulsar.arrival_error(farthest)
     ));
     print(&format!(
         "{}: {} arrival times, {files} files\n{}",
@@ -64,8 +72,8 @@ fn summary(timing: &Timing) -> String {
     let rate = if timing.with_rate { format!(", F1 = {:e} Hz/s", fit.frequency_rate) } else { String::new() };
     let sizes = fit.residuals.iter().map(|residual| residual.abs());
     format!(
-        "F0 = {:.15} Hz at MJD {}{rate}; residuals: rms {:.3e} s, largest {:.3e} s\nfirst pulse {} at MJD {}\n",
-        fit.frequency[0],
+        "F0 = {} Hz at MJD {}{rate}; residuals: rms {:.3e} s, largest {:.3e} s\nfirst pulse {} at MJD {}\n",
+        decimal(fit.frequency),
         timing.epoch,
         timing.root_mean_square(),
         sizes.fold(0.0, f64::max),

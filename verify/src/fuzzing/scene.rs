@@ -38,7 +38,7 @@ fn run(scene: &Scene) {
     if let (Ok(mut pulsar), true) = (PulsarScene::new(scene), scene.times.count() <= SAMPLES) {
         let start = scene.times.start();
         let epochs = scene.times.iter().map(|t| pulsar.epoch.after([t - start, 0.0])).collect::<Result<Vec<_>, _>>();
-        let Ok(timing) = epochs.and_then(|epochs| pulsar.timed(&epochs, false)) else { return };
+        let Some(Ok(timing)) = epochs.ok().map(|epochs| pulsar.timed(&epochs, false)) else { return };
         let _ = (csv(&pulsar, &timing), par(scene, &timing), tim(&timing, 1e-6));
     }
 }

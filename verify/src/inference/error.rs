@@ -4,7 +4,7 @@ use std::fmt;
 
 use twofold::Error;
 
-use super::Direction;
+use super::{Direction, Observable};
 
 /// Why nothing can be inferred.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,6 +31,13 @@ pub enum InferenceError {
         why: &'static str,
         /// Largest cosine of the angle between the residuals and the derivative by an unknown: zero at a minimum.
         cosine: f64,
+    },
+    /// The residuals are rounding, and the errors stated too small for a fit of it.
+    Rounding {
+        /// The data whose errors are the smallest against it.
+        observable: Observable,
+        /// What rounding makes of these, in `t_c` or as strain.
+        rounding: f64,
     },
     /// The fit ended on a limit of an unknown, where its error bars say nothing.
     OnLimit {
@@ -62,7 +69,7 @@ impl fmt::Display for InferenceError {
             }
             Self::NoPulse { turn, near } => write!(
                 f,
-                "datum of turn {turn} near t = {near} t_c: the model has no whole pulse there that is the only one of its turn; \
+                "datum of turn {turn} near t = {near:?} t_c: the model has no whole pulse there that is the only one of its turn; \
                  allowed are data of pulses that the model has at the start of the fit"
             ),
             Self::NotConverged { why, cosine } => write!(
@@ -70,8 +77,16 @@ impl fmt::Display for InferenceError {
                 "the fit ended off a minimum ({why}; the residuals have a cosine of {cosine:.1e} with a derivative): a start \
                  nearer to the data may help"
             ),
+            Self::Rounding { observable, rounding } => write!(
+                f,
+                "the residuals are rounding: the scene agrees with the data as far as doubles tell, {} to {rounding:.1e}{}, and a fit is to a \
+                 hundredth of an error; allowed in --observe are larger standard deviations, {:.1e}{1} for certain",
+                observable.key(),
+                if observable.is_of_pulses() { " t_c" } else { "" },
+                100.0 * rounding
+            ),
             Self::OnLimit { unknown, value } => {
-                write!(f, "the fit ended at {unknown} = {value}, a limit of what it can be: no error bar holds there")
+                write!(f, "the fit ended at {unknown} = {value:?}, a limit of what it can be: no error bar holds there")
             }
             Self::Model(error) => error.fmt(f),
         }

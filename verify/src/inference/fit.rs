@@ -30,7 +30,35 @@ pub struct Fit {
     pub cosine: f64,
 }
 
+/// Whether residuals are such as errors of the sizes stated give.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Residuals {
+    /// They are.
+    AsStated,
+    /// They are larger.
+    Larger,
+    /// They are smaller.
+    Smaller,
+}
+
 impl Fit {
+    /// Root mean square of the residuals, in standard deviations, each unknown counted as one datum less.
+    pub fn root_mean_square(&self) -> f64 {
+        (self.chi_squared / self.degrees as f64).sqrt()
+    }
+
+    /// Judges `chi^2` at six standard deviations. `(chi^2 / n)^(1/3)` of `n` degrees of freedom is nearly normal, of mean `1 - 2 / (9 n)` and
+    /// variance `2 / (9 n)` (E. B. Wilson and M. M. Hilferty, Proc. Nat. Acad. Sci. 17, 684 (1931)).
+    pub fn judged(&self) -> Residuals {
+        let variance = 2.0 / (9.0 * self.degrees as f64);
+        let score = ((self.chi_squared / self.degrees as f64).cbrt() - (1.0 - variance)) / variance.sqrt();
+        match score {
+            6.0.. => Residuals::Larger,
+            ..=-6.0 => Residuals::Smaller,
+            _ => Residuals::AsStated,
+        }
+    }
+
     /// Standard deviations of the unknowns.
     pub fn sigmas(&self) -> Vec<f64> {
         self.covariance.diagonal().iter().map(|variance| variance.sqrt()).collect()
@@ -175,13 +203,8 @@ pub fn fit(start: &Model<f64>, data: &[Datum], unknowns: &[Unknown], end: f64) -
     // What is left of the gradient moves no unknown by more than a hundredth of its error.
     let step = &fisher.covariance * &gradient;
     let left = step.iter().zip(fisher.sigmas()).fold(0.0, |most: f64, (step, sigma)| most.max((step / sigma).abs()));
-    if ended.success == MPSuccess::MaxIter || left.is_nan() || left > 1e-2 {
-        return Err(InferenceError::NotConverged {
-            why: if ended.success == MPSuccess::MaxIter { "too many steps" } else { "no step makes chi^2 less" },
-            cosine,
-        });
-    }
-    Ok(Fit {
+    let is_off = ended.success == MPSuccess::MaxIter || left.is_nan() || left > 1e-2;
+    let found = Fit {
         values: model.values(unknowns),
         model,
         unknowns: unknowns.to_vec(),
@@ -191,7 +214,32 @@ pub fn fit(start: &Model<f64>, data: &[Datum], unknowns: &[Unknown], end: f64) -
         residuals: residuals.iter().map(|residual| -residual).collect(),
         iterations: ended.n_iter,
         cosine,
-    })
+    };
+    if (is_off || found.judged() == Residuals::Larger)
+        && let Some((observable, rounding)) = rounding_of_all(&found, data, end)?
+    {
+        return Err(InferenceError::Rounding { observable, rounding });
+    }
+    if is_off {
+        return Err(InferenceError::NotConverged {
+            why: if ended.success == MPSuccess::MaxIter { "too many steps" } else { "no step makes chi^2 less" },
+            cosine,
+        });
+    }
+    Ok(found)
+}
+
+/// If every residual is as small as the rounding of the model: the kind of data with the smallest errors against it, and that rounding.
+fn rounding_of_all(fit: &Fit, data: &[Datum], end: f64) -> Result<Option<(Observable, f64)>, InferenceError> {
+    let signal = Signal::new(&fit.model, end)?;
+    let of_kinds: BTreeMap<Observable, f64> =
+        data.iter().map(|datum| datum.observable).map(|kind| (kind, signal.rounding(kind))).collect();
+    let rounding = |datum: &Datum| of_kinds.get(&datum.observable).copied().unwrap_or(0.0);
+    if data.iter().zip(&fit.residuals).any(|(datum, residual)| residual.abs() * datum.sigma > rounding(datum)) {
+        return Ok(None);
+    }
+    let finest = data.iter().max_by(|a, b| (rounding(a) / a.sigma).total_cmp(&(rounding(b) / b.sigma)));
+    Ok(finest.map(|datum| (datum.observable, rounding(datum))))
 }
 
 /// The Fisher matrix of data that determine all unknowns.

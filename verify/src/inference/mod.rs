@@ -29,7 +29,7 @@ pub use data_file::DataFile;
 pub use degenerate::Direction;
 pub use error::InferenceError;
 pub use fisher::Fisher;
-pub use fit::{Fit, fit, nonlinearity};
+pub use fit::{Fit, Residuals, fit, nonlinearity};
 pub use forecast::{Forecast, forecast, scaling};
 pub use jacobian::{Jacobian, jacobian};
 pub use long_span::check_span;

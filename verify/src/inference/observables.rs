@@ -57,10 +57,13 @@ impl Observable {
 /// A kind of data with the standard deviation of each: of times in `t_c`, of strains in the unit of the model.
 pub type Noise = (Observable, f64);
 
+/// Standard deviations that are taken: the sums of squares of data in units of these neither overflow nor vanish.
+const SIGMAS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
+
 /// What `name:sigma,name:sigma` says, in units of the scene's output; `strain` is both polarizations.
 ///
 /// # Errors
-/// A name that is none, twice the same, and a standard deviation that is not above zero; the value and what is allowed are named.
+/// A name that is none, twice the same, and a standard deviation that is not from 1e-100 to 1e100; the value and what is allowed are named.
 pub fn parse_noise(text: &str, time_unit: f64) -> Result<Vec<Noise>, String> {
     let mut found: Vec<Noise> = Vec::new();
     for part in text.split(',') {
@@ -76,8 +79,13 @@ pub fn parse_noise(text: &str, time_unit: f64) -> Result<Vec<Noise>, String> {
             return Err(format!("`{name}` is no observable: allowed are {}, strain", names.join(", ")));
         }
         let sigma: f64 = match sigma.parse() {
-            Ok(sigma) if sigma > 0.0 && f64::is_finite(sigma) => sigma,
-            _ => return Err(format!("`{part}` has the standard deviation {sigma}: allowed is a number above zero")),
+            Ok(sigma) if SIGMAS.contains(&sigma) => sigma,
+            _ => {
+                let (least, most) = (SIGMAS.start(), SIGMAS.end());
+                return Err(format!(
+                    "`{part}` has the standard deviation {sigma}: allowed is a number above zero, from {least:e} to {most:e}"
+                ));
+            }
         };
         for kind in kinds {
             if found.iter().any(|(other, _)| *other == kind) {

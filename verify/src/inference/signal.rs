@@ -147,6 +147,17 @@ impl Signal {
         std::f64::consts::TAU / (start.state().momentum.norm() / start.spheroid.inertia_xx)
     }
 
+    /// What rounding and the truncation of the motion leave of a datum, at most: ten times the estimated error of directions at the end, as a part
+    /// of a radian of rotation or of the strain.
+    pub(super) fn rounding(&self, observable: Observable) -> f64 {
+        let directions = 10.0 * self.motion.error_estimate(self.end);
+        if observable.is_of_pulses() {
+            return directions * self.turn() / std::f64::consts::TAU;
+        }
+        let samples = (0..=100).map(|k| self.strain(observable, self.end * f64::from(k) / 100.0));
+        directions * samples.filter_map(Result::ok).fold(0.0, |most: f64, h| most.max(h.abs()))
+    }
+
     fn events_in(&self, span: (f64, f64)) -> Result<Vec<Event>, Error> {
         let train = pulse_train(&self.motion, &self.beam, &self.line_of_sight, span)?;
         let numbered = arrivals(&self.motion, &self.beam, &self.line_of_sight, &train)?;

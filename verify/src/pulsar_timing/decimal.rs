@@ -1,7 +1,7 @@
 //! Unevaluated sums of two doubles as decimal text.
 
 /// `x[0] + x[1]` with 24 decimals, for sums up to 1e13 in size.
-pub(super) fn decimal(x: [f64; 2]) -> String {
+pub fn decimal(x: [f64; 2]) -> String {
     const DECIMALS: usize = 24;
     // The decimal expansion of a double is exact; its digits make a whole number of 2^-24 and below.
     let scaled = |part: f64| format!("{part:.DECIMALS$}").replace('.', "").parse::<i128>().unwrap_or_default();

@@ -2,26 +2,32 @@
 //! timing programs and readers of strain take. See `docs/pulsars.md`.
 
 mod decimal;
+mod no_pulse;
 mod parameters;
 mod strain;
 mod table;
 
 use std::collections::HashSet;
+use std::f64::consts::TAU;
 
-use nalgebra::Matrix3;
-use twofold::Error;
+use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::epoch::Epoch;
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::strain_unit;
-use twofold::observables::pulsar::{ClockPulse, PulsarClock, SpinFit};
+use twofold::observables::pulsar::{Beam, ClockPulse, PulsarClock, SpinFit};
 use twofold::solutions::mean::MeanOrder;
 
 use crate::scene_file::Scene;
 
+pub use decimal::decimal;
+pub use no_pulse::{NoPulse, TimingError};
 pub use parameters::{par, tim};
 pub use strain::{Series, strain_series};
 pub use table::csv;
+
+/// Rounding of an arrival time, 1e-16 d (s).
+const ARRIVAL_ROUNDING: f64 = 8.64e-12;
 
 /// A scene with all that its pulses need, in seconds.
 #[derive(Debug, Clone)]
@@ -34,6 +40,8 @@ pub struct PulsarScene {
     pub initial: BodyState<f64>,
     /// Who looks on.
     pub observer: Observer<f64>,
+    /// What is seen.
+    pub beam: Beam<f64>,
     /// The pulses.
     pub clock: PulsarClock,
     /// Modified Julian date of the state, TDB at the barycentre.
@@ -59,6 +67,11 @@ impl PulsarScene {
         let t_c = scene.units.time;
         let spheroid = RigidSpheroid { constant_c: scene.spheroid.constant_c / (t_c * t_c), ..scene.spheroid };
         let initial = BodyState { momentum: scene.initial.momentum / t_c, ..scene.initial };
+        if initial.momentum == Vector3::zeros() {
+            return Err("the star does not rotate (its angular momentum is zero) and sends no pulses: allowed is a `star.spin_frequency` \
+                        other than zero, or an [initial] with rates"
+                .into());
+        }
         let observer = viewer.basis();
         let clock = PulsarClock::new(&spheroid, &scene.violation, &initial, &beam, &observer, MeanOrder::Second)
             .map_err(|why| format!("the scene has no mean motion: {why}"))?;
@@ -68,17 +81,39 @@ impl PulsarScene {
             violation: scene.violation,
             initial,
             observer,
+            beam,
             clock,
             epoch,
             strain_unit: viewer.distance.map(|distance| strain_unit(inertia, 1.0, distance)),
         })
     }
 
+    /// Estimated error (s) of the residuals of a pulse at the time `t` (s, from the epoch) after `F0` is fitted: what the order of the mean motion
+    /// leaves out, the rounding of directions, and that of an arrival time to 1e-16 d.
+    pub fn residual_error(&self, t: f64) -> f64 {
+        let motion = self.clock.mean_motion();
+        let per_radian = self.clock.period().abs() / TAU;
+        // The rounding of rates is linear in time, but for the slow ones, whose share is 1e-15 of a residual.
+        ARRIVAL_ROUNDING.max(self.clock.truncation(t).abs() + motion.rounding(0.0) * per_radian)
+    }
+
+    /// Estimated error (s) of an arrival time at the time `t` (s, from the epoch) for the numbers that the scene states. Beside that of a residual
+    /// it has what is linear in time: the rounding of the rotation rate, which a fitted `F0` takes up.
+    ///
+    /// The initial angular momentum is held in doubles. From `spin_frequency` to `|L|` ten roundings of at most `2^-53` may add up: `2 pi`, two
+    /// products of it, four of the rate about the axis and of the axis, a sum, the moment of inertia, the unit of time.
+    pub fn arrival_error(&self, t: f64) -> f64 {
+        const ROUNDINGS: f64 = 10.0;
+        let per_radian = self.clock.period().abs() / TAU;
+        let of_motion = self.clock.mean_motion().error_estimate(t) * per_radian;
+        ARRIVAL_ROUNDING.max(of_motion) + ROUNDINGS * f64::EPSILON / 2.0 * t.abs()
+    }
+
     /// The pulses nearest to given epochs, and their fit. Epochs of dark turns have none.
     ///
     /// # Errors
-    /// As for [`PulsarClock::pulse_near`] and [`SpinFit::new`].
-    pub fn timed(&mut self, epochs: &[Epoch], with_rate: bool) -> Result<Timing, Error> {
+    /// No pulse at any epoch, with the closest approach; and as for [`PulsarClock::pulse_near`] and [`SpinFit::new`].
+    pub fn timed(&mut self, epochs: &[Epoch], with_rate: bool) -> Result<Timing, TimingError> {
         let mut pulses = Vec::with_capacity(epochs.len());
         let (mut seen, mut dark) = (HashSet::new(), 0);
         for at in epochs {
@@ -91,13 +126,9 @@ impl PulsarScene {
                 None => dark += 1,
             }
         }
-        let shines = pulses.len() as f64;
-        Error::unless(
-            shines > 0.0,
-            "number of epochs at which the beam passes the line of sight",
-            shines,
-            "above zero",
-        )?;
+        if pulses.is_empty() {
+            return Err(TimingError::NoPulse(NoPulse::at(self, &self.beam, epochs)));
+        }
         let middle = epochs.iter().map(|at| at.day() as f64).sum::<f64>() / epochs.len() as f64;
         let epoch = Epoch::new(middle.round() as i64, 0.0)?;
         let points: Vec<_> =

@@ -252,7 +252,7 @@ fn free_precession() -> Result<Measured, String> {
     let (chi, theta) = (scene.pulsar.ok_or("no beam")?.chi, scene.initial_angles.beta);
     let epochs = (0..500).map(|k| pulsar.epoch.after([f64::from(k) * 631_152.0, 0.0]));
     let epochs = epochs.collect::<Result<Vec<_>, _>>().map_err(text)?;
-    let timing = pulsar.timed(&epochs, false).map_err(text)?;
+    let timing = pulsar.timed(&epochs, false).map_err(|error| error.to_string())?;
     let period = 1.0 / timing.fit.frequency[0];
     // The azimuth about L, gamma + (D - gamma), is that of the line of sight: a pulse is late where D falls behind gamma.
     let late = |state: &BodyState<f64>| {

@@ -1,13 +1,13 @@
 //! The same pulse train by every way of looking at the magnetic axis. Eq. (44).
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use twofold::Error;
-use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::observables::pulsar::{PulseTrain, propagated_pulse_train, pulse_train};
-use twofold::propagation::{AxisMotion, AxisState, Motion, TaylorMotion};
+use twofold::propagation::{AxisMotion, Motion};
 
 use super::cases::{Case, edges, for_random_cases};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::given_states::GivenStates;
 
 pub(super) fn checks() -> Vec<Check> {
     vec![
@@ -38,37 +38,6 @@ pub(super) fn checks() -> Vec<Check> {
 
 const END: f64 = 20.0;
 
-/// A motion that has states and nothing else.
-struct StatesAlone<'a>(&'a TaylorMotion<f64>);
-
-impl AxisMotion<f64> for StatesAlone<'_> {
-    fn spheroid(&self) -> &RigidSpheroid<f64> {
-        self.0.spheroid()
-    }
-
-    fn violation(&self) -> &Matrix3<f64> {
-        self.0.violation()
-    }
-
-    fn span(&self) -> (f64, f64) {
-        self.0.span()
-    }
-
-    fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
-        self.0.axis_state(t)
-    }
-
-    fn error_estimate(&self, t: f64) -> f64 {
-        self.0.error_estimate(t)
-    }
-}
-
-impl Motion<f64> for StatesAlone<'_> {
-    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
-        self.0.state(t)
-    }
-}
-
 fn ways_agree() -> Result<Measured, String> {
     const ACCURACY: f64 = 1e-14;
     let mut worst = Worst::default();
@@ -77,7 +46,8 @@ fn ways_agree() -> Result<Measured, String> {
         let message = |e: Error| format!("{}: {e}", case.name);
         let (spheroid, s, start) = (motion.spheroid(), motion.violation(), motion.state(0.0).map_err(message)?);
         let by_series = case.train()?;
-        let by_states = pulse_train(&StatesAlone(motion), beam, observer, (0.0, END)).map_err(message)?;
+        let alone = GivenStates::like(motion, |t| motion.state(t));
+        let by_states = pulse_train(&alone, beam, observer, (0.0, END)).map_err(message)?;
         let (not_kept, end) =
             propagated_pulse_train(spheroid, s, &start, (0.0, END), ACCURACY, beam, observer).map_err(message)?;
         let compare = |other: &PulseTrain| {

@@ -1,0 +1,98 @@
+//! What turns the body of a motion.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::error::Error;
+
+/// Where the angular velocity `Omega` (inertial components) of a [`Motion`](super::Motion) and its time derivatives come from. A search
+/// for pulses takes from them those of `m.n`.
+///
+/// A star that a torque of its own spins up and down, `Omega = (2 + 0.3 sin t) Z`:
+///
+/// ```
+/// use nalgebra::{Matrix3, Vector3};
+/// use twofold::Error;
+/// use twofold::dynamics::{BodyState, RigidSpheroid};
+/// use twofold::observables::pulsar::{Beam, pulse_train};
+/// use twofold::propagation::{AxisMotion, AxisState, Motion, Turning};
+///
+/// struct Driven(RigidSpheroid<f64>, Matrix3<f64>);
+///
+/// impl AxisMotion<f64> for Driven {
+///     fn spheroid(&self) -> &RigidSpheroid<f64> { &self.0 }
+///     fn violation(&self) -> &Matrix3<f64> { &self.1 }
+///     fn span(&self) -> (f64, f64) { (0.0, 100.0) }
+///     fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> { Ok(AxisState::from(&self.state(t)?)) }
+///     fn error_estimate(&self, _t: f64) -> f64 { 1e-14 }
+/// }
+///
+/// impl Motion<f64> for Driven {
+///     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
+///         let (sin, cos) = (2.0 * t + 0.3 * (1.0 - t.cos())).sin_cos();
+///         let momentum = Vector3::z() * (self.0.inertia_zz * (2.0 + 0.3 * t.sin()));
+///         Ok(BodyState { axis: Vector3::z(), momentum, equatorial_axis: Vector3::new(cos, sin, 0.0) })
+///     }
+///
+///     fn turning(&self) -> Turning<'_> {
+///         let rates = |t: f64| Ok([2.0 + 0.3 * t.sin(), 0.3 * t.cos(), -0.3 * t.sin()].map(|rate| Vector3::z() * rate));
+///         Turning::Given { rates: Box::new(rates), bounds: [2.3, 0.3, 0.3, 0.3, 0.3, 0.3] }
+///     }
+/// }
+///
+/// let star = Driven(RigidSpheroid::in_units_of_tc(1.1), Matrix3::zeros());
+/// let train = pulse_train(&star, &Beam::new(0.5, 0.0, 0.3), &Vector3::new(0.5_f64.sin(), 0.0, 0.5_f64.cos()), (0.0, 100.0))?;
+/// // 200.04 rad are 31 whole turns and five sixths of one; the first pulse is cut by the start.
+/// assert_eq!(train.pulses.len(), 32);
+/// # Ok::<(), twofold::Error>(())
+/// ```
+pub enum Turning<'m> {
+    /// The equations of motion of this package, [`body_state_rates`](crate::dynamics::regular_equations::body_state_rates), with the
+    /// spheroid, the tensor and the states of the motion.
+    Equations,
+    /// Another law, as of a star with a torque of its own.
+    Given {
+        /// `Omega`, `Omega'` and `Omega''` at a time of the span. The body axes `u` of the states turn by `u' = Omega x u`.
+        rates: GivenRates<'m>,
+        /// Bounds on `|Omega|`, `|Omega'|` and so on to the fifth derivative, that hold at all times of the span.
+        bounds: [f64; 6],
+    },
+}
+
+/// `Omega`, `Omega'` and `Omega''` as functions of time.
+pub type GivenRates<'m> = Box<dyn Fn(f64) -> Result<[Vector3<f64>; 3], Error> + 'm>;
+
+impl<'m> Turning<'m> {
+    /// The same seen from another inertial frame: vectors multiplied by the rotation `other_from_this`.
+    pub(crate) fn rotated(self, other_from_this: &'m Matrix3<f64>) -> Self {
+        match self {
+            Self::Equations => Self::Equations,
+            Self::Given { rates, bounds } => {
+                let rates = Box::new(move |t| Ok(rates(t)?.map(|vector| other_from_this * vector)));
+                Self::Given { rates, bounds }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Rotation3;
+
+    use super::*;
+
+    #[test]
+    fn a_law_turns_with_the_frame_and_keeps_its_bounds() {
+        let turn = *Rotation3::from_euler_angles(0.3, -0.8, 1.7).matrix();
+        let bounds = [4.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+        let vectors = [Vector3::new(1.0, 2.0, 3.0), Vector3::x(), Vector3::y()];
+        match (Turning::Given { rates: Box::new(move |t| Ok(vectors.map(|vector| vector * t))), bounds }).rotated(&turn)
+        {
+            Turning::Given { rates, bounds: kept } => {
+                assert_eq!(rates(2.0), Ok(vectors.map(|vector| turn * (vector * 2.0))));
+                assert_eq!(kept, bounds);
+            }
+            Turning::Equations => panic!("another law"),
+        }
+        assert!(matches!(Turning::Equations.rotated(&turn), Turning::Equations));
+    }
+}

@@ -1,0 +1,66 @@
+//! A motion by its states alone, as a user of the library would write one.
+
+use nalgebra::{Matrix3, Vector3};
+use twofold::Error;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::propagation::{AxisMotion, AxisState, Motion, Turning};
+
+/// `Omega`, `Omega'` and `Omega''` at a time, and bounds on `|Omega|` and its first five derivatives.
+pub type Law = (fn(f64) -> [Vector3<f64>; 3], [f64; 6]);
+
+/// The motion whose states a function gives, without the faster ways that the motions of the library have.
+#[derive(Debug)]
+pub struct GivenStates<F> {
+    /// The body.
+    pub spheroid: RigidSpheroid<f64>,
+    /// The tensor `s^IJ`.
+    pub violation: Matrix3<f64>,
+    /// First and last time.
+    pub span: (f64, f64),
+    /// The state at a time.
+    pub state: F,
+    /// How the body turns, if not by the equations of motion.
+    pub law: Option<Law>,
+}
+
+impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> GivenStates<F> {
+    /// With the body, the tensor and the span of another motion, by the equations of motion.
+    pub fn like<M: Motion<f64>>(motion: &M, state: F) -> Self {
+        Self { spheroid: *motion.spheroid(), violation: *motion.violation(), span: motion.span(), state, law: None }
+    }
+}
+
+impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> AxisMotion<f64> for GivenStates<F> {
+    fn spheroid(&self) -> &RigidSpheroid<f64> {
+        &self.spheroid
+    }
+
+    fn violation(&self) -> &Matrix3<f64> {
+        &self.violation
+    }
+
+    fn span(&self) -> (f64, f64) {
+        self.span
+    }
+
+    fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
+        Ok(AxisState::from(&(self.state)(t)?))
+    }
+
+    fn error_estimate(&self, _t: f64) -> f64 {
+        f64::NAN
+    }
+}
+
+impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> Motion<f64> for GivenStates<F> {
+    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
+        (self.state)(t)
+    }
+
+    fn turning(&self) -> Turning<'_> {
+        match self.law {
+            None => Turning::Equations,
+            Some((rates, bounds)) => Turning::Given { rates: Box::new(move |t| Ok(rates(t))), bounds },
+        }
+    }
+}
