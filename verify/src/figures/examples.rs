@@ -12,6 +12,7 @@ use twofold::propagation::propagate;
 use twofold::scalar::Real;
 use twofold::solutions::perturbation::{Constants, Kind, Perturbation};
 
+use super::scale::Scale;
 use super::subject::{ACCURACY, Shown, Start, Subject};
 use crate::paper_examples::{COEFFICIENTS, PaperExample, SPIN, paper_examples, spheroid};
 use crate::scene_file::{Pulsar, Viewer};
@@ -54,7 +55,8 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
     Ok(Subject {
         name: example.name.to_owned(),
         start,
-        printed: Some(printed),
+        scale: Scale::PAPER,
+        printed: Ok(printed),
         corrected,
         observer: Some(OBSERVER),
         pulsar: Some(PULSAR),
