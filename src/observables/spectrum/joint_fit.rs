@@ -61,10 +61,10 @@ impl<'s> JointFit<'s> {
         residual
     }
 
-    /// Weighted mean square of series minus fit.
-    pub(super) fn power_left(&self) -> f64 {
-        let squares = self.residual().into_iter().zip(self.weights).map(|(r, w)| r * r * w);
-        squares.sum::<f64>() / self.values.len() as f64
+    /// Weighted mean square of what is left.
+    pub(super) fn power(&self, residual: &[f64]) -> f64 {
+        let squares = residual.iter().zip(self.weights).map(|(r, w)| r * r * w);
+        squares.sum::<f64>() / residual.len() as f64
     }
 
     /// One step of Gauss and Newton in all unknowns; the largest change of a frequency, times half the length of the series. None where the

@@ -72,7 +72,8 @@ pub fn spectral_lines(series: &Series, least: f64, most: usize) -> Result<LineLi
     series.check()?;
     Error::unless(least > 0.0 && least.is_finite(), "least amplitude", least, "above zero and finite")?;
     let weights = WINDOW.weights(series.values.len())?;
-    let (fit, amplifications, spectrum) = separated(series, &weights, least, most)?;
+    let Fitted { fit, amplifications, residual } = separated(series, &weights, least, most)?;
+    let spectrum = ResidualSpectrum::of(&residual, &weights);
     // The values are rounded, and so are the times for which they were computed: independently, but near each line.
     let largest = series.values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let latest = series.start.abs().max((series.start + series.duration()).abs());
@@ -106,69 +107,74 @@ pub fn spectral_lines(series: &Series, least: f64, most: usize) -> Result<LineLi
     Ok(LineList { constant: fit.constant, lines, remainder, noise, resolution })
 }
 
-/// The fit of the lines that can be told apart, how much it amplifies errors in each frequency, and the spectrum of what it leaves.
-fn separated<'s>(
-    series: &'s Series,
-    weights: &'s [f64],
-    least: f64,
-    most: usize,
-) -> Result<(JointFit<'s>, Vec<f64>, ResidualSpectrum), Error> {
-    let spectrum_of = |fit: &JointFit<'_>| ResidualSpectrum::of(&fit.residual(), weights);
-    let mut fit = JointFit::new(&series.values, weights, WINDOW)?;
+/// A fit with what it leaves.
+struct Fitted<'s> {
+    fit: JointFit<'s>,
+    amplifications: Vec<f64>,
+    residual: Vec<f64>,
+}
+
+/// The fit of the lines that can be told apart.
+fn separated<'s>(series: &'s Series, weights: &'s [f64], least: f64, most: usize) -> Result<Fitted<'s>, Error> {
+    let constant = JointFit::new(&series.values, weights, WINDOW)?;
+    let residual = constant.residual();
+    let mut found = Fitted { fit: constant, amplifications: Vec::new(), residual };
     // Peaks of the spectrum that are no lines of their own, but what a line leaves that stands for several.
     let mut refused: Vec<Wave> = Vec::new();
-    while fit.waves.len() < most {
-        let taken: Vec<_> = fit.waves.iter().chain(&refused).copied().collect();
-        let mut peaks = spectrum_of(&fit).peaks(least, &taken);
-        peaks.truncate(most - fit.waves.len());
+    while found.fit.waves.len() < most {
+        let mut peaks = ResidualSpectrum::of(&found.residual, weights).peaks(least, &found.fit.waves, &refused);
+        peaks.truncate(most - found.fit.waves.len());
         if peaks.is_empty() {
             break;
         }
-        if let Some((together, _)) = with(&fit, &peaks, STEPS.0) {
-            fit = together;
+        if let Some(together) = found.with(&peaks, STEPS.0) {
+            found = together;
             continue;
         }
-        (fit, _) = settled(fit, &mut refused);
+        found = found.settled(&mut refused);
         for peak in peaks {
-            match with(&fit, &[peak], STEPS.1) {
-                Some((one_more, _)) => fit = one_more,
+            match found.with(&[peak], STEPS.0) {
+                Some(one_more) => found = one_more,
                 None => refused.push(peak),
             }
         }
     }
-    let (fit, amplifications) = settled(fit, &mut refused);
-    let spectrum = spectrum_of(&fit);
-    Ok((fit, amplifications, spectrum))
+    Ok(found.settled(&mut refused))
 }
 
-/// The fit after all steps, and its amplifications. As long as its lines cannot be told apart, that goes which is told apart worst.
-fn settled<'s>(mut fit: JointFit<'s>, refused: &mut Vec<Wave>) -> (JointFit<'s>, Vec<f64>) {
-    loop {
-        // Without lines there is nothing to tell apart.
-        if let Some(settled) = with(&fit, &[], STEPS.1) {
-            return settled;
+impl<'s> Fitted<'s> {
+    /// The fit with some more waves after some steps; none if its lines cannot be told apart then, or leave more than before: of what is not
+    /// a sum of as many lines, the steps may lead anywhere.
+    fn with(&self, peaks: &[Wave], steps: usize) -> Option<Self> {
+        let mut fit = self.fit.clone();
+        fit.waves.extend(peaks);
+        improve(&mut fit, steps)?;
+        let (alone, amplifications) = ((2.0 * SHAPE).sqrt(), fit.amplification()?);
+        let certain = |(wave, amplification): (&Wave, &f64)| amplification * wave.amplitude() <= MOST_AMPLIFIED * alone;
+        if fit.least_distance() <= 0.0 || !fit.waves.iter().zip(&amplifications).all(certain) {
+            return None;
         }
-        let amplifications = fit.amplification().unwrap_or_default();
-        let uncertain =
-            fit.waves.iter().zip(amplifications).map(|(wave, amplification)| wave.amplitude() * amplification);
-        let worst = uncertain.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(k, _)| k);
-        refused.push(fit.waves.remove(worst));
+        // The last steps move within rounding.
+        let allowed = if peaks.is_empty() { 4.0 } else { 1.0 };
+        let residual = fit.residual();
+        let closer = fit.power(&residual) <= allowed * fit.power(&self.residual);
+        closer.then_some(Self { fit, amplifications, residual })
     }
-}
 
-/// The fit with some more waves after some steps, and its amplifications; none if its lines cannot be told apart then, or leave more than
-/// before: of what is not a sum of as many lines, the steps may lead anywhere.
-fn with<'s>(fit: &JointFit<'s>, peaks: &[Wave], steps: usize) -> Option<(JointFit<'s>, Vec<f64>)> {
-    // The last steps move within rounding.
-    let allowed = fit.power_left() * if peaks.is_empty() { 4.0 } else { 1.0 };
-    let mut fit = fit.clone();
-    fit.waves.extend(peaks);
-    improve(&mut fit, steps)?;
-    let alone = (2.0 * SHAPE).sqrt();
-    let amplifications = fit.amplification()?;
-    let certain = |(wave, amplification): (&Wave, &f64)| amplification * wave.amplitude() <= MOST_AMPLIFIED * alone;
-    let told_apart = fit.least_distance() > 0.0 && fit.waves.iter().zip(&amplifications).all(certain);
-    (told_apart && fit.power_left() <= allowed).then_some((fit, amplifications))
+    /// The fit after all steps. As long as its lines cannot be told apart, that goes which is told apart worst.
+    fn settled(mut self, refused: &mut Vec<Wave>) -> Self {
+        loop {
+            // Without lines there is nothing to tell apart.
+            if let Some(settled) = self.with(&[], STEPS.1) {
+                return settled;
+            }
+            let uncertain = self.fit.waves.iter().zip(&self.amplifications).map(|(wave, a)| wave.amplitude() * a);
+            let worst = uncertain.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(k, _)| k);
+            refused.push(self.fit.waves.remove(worst));
+            self.amplifications.remove(worst);
+            self.residual = self.fit.residual();
+        }
+    }
 }
 
 /// Steps of the fit until no frequency moves by more than rounding.
@@ -354,7 +360,7 @@ mod tests {
     fn a_fit_takes_two_steps_after_a_round_and_twelve_at_the_end() {
         let (weights, values) = of_waves(&[(100.0, 1.0), (107.0, 0.8)]);
         let mut fit = JointFit::new(&values, &weights, WINDOW).unwrap();
-        let peaks = ResidualSpectrum::of(&fit.residual(), &weights).peaks(1e-3, &[]);
+        let peaks = ResidualSpectrum::of(&fit.residual(), &weights).peaks(1e-3, &[], &[]);
         fit.waves.push(peaks[0]);
         let places: Vec<f64> = (0..16)
             .map(|_| {
