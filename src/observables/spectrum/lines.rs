@@ -133,7 +133,7 @@ fn separated<'s>(series: &'s Series, weights: &'s [f64], least: f64, most: usize
         }
         found = found.settled(&mut refused);
         for peak in peaks {
-            match found.with(&[peak], STEPS.0) {
+            match found.with(&[peak], STEPS.1) {
                 Some(one_more) => found = one_more,
                 None => refused.push(peak),
             }
