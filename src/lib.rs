@@ -4,6 +4,7 @@
 //! neutron stars*: every equation is a function, generic over the scalar type, with the equation's number and LaTeX label.
 //! Nothing here reads a file, prints or starts a thread.
 
+pub mod curvature_coupling;
 mod double_double;
 pub mod dynamics;
 pub mod elliptic;

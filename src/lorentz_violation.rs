@@ -1,4 +1,4 @@
-//! Coefficients for Lorentz violation `s^IJ`: principal values, principal frame, PPN replacement. Eqs. (3), (5), (36).
+//! Coefficients for Lorentz violation `s^IJ`: principal values, principal frame, PPN replacement. Eqs. (5), (36).
 //!
 //! # Example
 //!

@@ -1,4 +1,4 @@
-//! Forces and equations of motion of a rigid body under Lorentz violation. Eqs. (11), (21)-(25), (59)-(68).
+//! Forces and equations of motion of a rigid body under Lorentz violation. Eqs. (2), (4), (11), (21)-(25), (59)-(68).
 
 pub mod angular_acceleration;
 pub mod euler_angle_equations;
@@ -7,6 +7,7 @@ pub mod inertia;
 pub mod inertia_tensor_rate;
 pub mod kinetic_energy;
 pub mod lagrangian;
+pub mod point_masses;
 pub mod potential;
 pub mod regular_equations;
 pub mod torque;

@@ -127,11 +127,57 @@ fn an_amplitude_spectrum_and_lines_without_names_need_no_long_span() {
         stderr(&hardly).split("turns of n about L = ").nth(1).and_then(|rest| rest.split(':').next()).map(String::from);
     let digits = value.expect("the number").trim_start_matches(['0', '.']).len();
     assert!(digits <= 3, "{}", stderr(&hardly));
+}
 
-    let near = twofold(&["spectrum", "tp-2", "--of", "m.n", "--span", "4000", "--most", "20"]);
-    assert!(lines_of(&near).iter().any(|(_, name)| name == "unidentified"));
-    for fragment in ["lines are missing: ", "which the uncertainties count", "longer --span"] {
-        assert!(stderr(&near).contains(fragment), "{}", stderr(&near));
+/// 150 t_c are too short for lines that are 0.035 / t_c apart and as far from zero.
+#[test]
+fn lines_that_the_span_cannot_tell_apart_are_said_to_be_several() {
+    for (scene, column) in
+        [("tp-2", "m.n"), ("tp-2", "h_plus"), ("sp-2", "m.n"), ("sp-2", "h_plus"), ("sp-1", "h_plus")]
+    {
+        let near = twofold(&["spectrum", scene, "--of", column, "--span", "150", "--least", "1e-2", "--unidentified"]);
+        let lines = lines_of(&near);
+        let notes = stderr(&near);
+        assert!(lines[0].1 == "unresolved" && lines[0].0[3] > 1.0 / 151.0, "{scene} {column}: {lines:?}");
+        for (line, _) in &lines {
+            assert!(
+                line[0] > 0.0 && line[1] < 1.0,
+                "{scene} {column}: a frequency {} with an amplitude {}",
+                line[0],
+                line[1]
+            );
+        }
+        for fragment in [
+            "lines are missing: ",
+            "of the strongest line, which the uncertainties count; lines nearer than about 5.3e-2 rad/t_c (8 / span)",
+            "longer --span",
+            "of the lines listed are `unresolved`: the frequency is uncertain by more than 1 / span",
+        ] {
+            assert!(notes.contains(fragment), "{scene} {column}: {notes}");
+        }
+    }
+    let longer = twofold(&["spectrum", "tp-2", "--of", "m.n", "--span", "1500", "--least", "1e-2", "--unidentified"]);
+    let strongest = &lines_of(&longer)[0];
+    assert!((strongest.0[0] - 1.394_678).abs() < 1e-5 && strongest.1 == "unidentified", "{strongest:?}");
+}
+
+#[test]
+fn rounding_beside_a_constant_is_not_listed() {
+    for (scene, column, span, floor) in [
+        // A star that spins about its axis: what oscillates in its wave is 1e13 times below the constant term.
+        ("b1937+21", "h_plus", "20", "six times the noise"),
+        // A component of L that is 1e-13 of |L|.
+        ("b1828-11", "L_Y", "600", "the scene's accuracy is 1e-13, of 2.5e46 g cm^2/s"),
+        ("tp-1", "E", "400", "the scene's accuracy is 1e-13, of 1.0e0 C"),
+    ] {
+        let output = twofold(&["spectrum", scene, "--of", column, "--span", span, "--unidentified"]);
+        assert!(lines_of(&output).is_empty(), "{scene} {column}: {}", String::from_utf8_lossy(&output.stdout));
+        let notes = stderr(&output);
+        for fragment in
+            ["constant term", "lines below ", " are not listed: ", floor, "has no line of an amplitude above"]
+        {
+            assert!(notes.contains(fragment), "{scene} {column}: {notes}");
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! Weighted least squares for a constant and any number of real waves together, frequencies included.
 
+use core::f64::consts::FRAC_PI_2;
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::error::Error;
@@ -59,11 +61,18 @@ impl<'s> JointFit<'s> {
         residual
     }
 
-    /// One step of Gauss and Newton in all unknowns; the largest change of a frequency, times half the length of the series.
+    /// Weighted mean square of what is left.
+    pub(super) fn power(&self, residual: &[f64]) -> f64 {
+        let squares = residual.iter().zip(self.weights).map(|(r, w)| r * r * w);
+        squares.sum::<f64>() / residual.len() as f64
+    }
+
+    /// One step of Gauss and Newton in all unknowns; the largest change of a frequency, times half the length of the series. None where the
+    /// lines are no independent unknowns.
     ///
     /// The unknowns of a wave are its two parts and its frequency, with `y = m / N`:
     /// `u = cos(f y)`, `v = sin(f y)`, `d = (-cos_part y sin(f y) + sin_part y cos(f y)) / amplitude`.
-    pub(super) fn improve(&mut self, residual: &[f64], longest: f64) -> Result<f64, Error> {
+    pub(super) fn improve(&mut self, residual: &[f64], longest: f64) -> Option<f64> {
         let count = residual.len() as f64;
         let unknowns = 1 + 3 * self.waves.len();
         let weighted: Vec<f64> = residual.iter().zip(self.weights).map(|(r, w)| r * w / count).collect();
@@ -89,29 +98,29 @@ impl<'s> JointFit<'s> {
             wave.cos_part += step[1 + 3 * k];
             wave.sin_part += step[2 + 3 * k];
         }
-        Ok(largest)
+        Some(largest)
     }
 
     /// How much an error of the projections is amplified in each frequency (times half the length): `sqrt(2 shape) / amplitude` for a
-    /// line alone, more for close ones.
-    pub(super) fn amplification(&self) -> Result<Vec<f64>, Error> {
+    /// line alone, more for close ones; none as for a step.
+    pub(super) fn amplification(&self) -> Option<Vec<f64>> {
         let inverse = self.factors(self.values.len() as f64)?.inverse();
         let of = |(k, wave): (usize, &Wave)| inverse[(3 + 3 * k, 3 + 3 * k)].sqrt() / wave.amplitude();
-        Ok(self.waves.iter().enumerate().map(of).collect())
+        Some(self.waves.iter().enumerate().map(of).collect())
     }
 
-    fn factors(&self, count: f64) -> Result<Cholesky<f64, Dyn>, Error> {
-        self.normal_matrix(count).cholesky().ok_or_else(|| {
-            let apart = |(k, wave): (usize, &Wave)| {
-                let others = self.waves[k + 1..].iter().map(|other| (wave.phase - other.phase).abs() * count);
-                others.fold(wave.phase.abs() * count, f64::min)
-            };
-            Error::NotConverged {
-                what: "lines of a spectrum (the residual is the least distance of two, times T / 2)",
-                iterations: self.waves.len(),
-                residual: self.waves.iter().enumerate().map(apart).fold(f64::INFINITY, f64::min),
-            }
-        })
+    fn factors(&self, count: f64) -> Option<Cholesky<f64, Dyn>> {
+        self.normal_matrix(count).cholesky()
+    }
+
+    /// Least distance of two lines, or of one from zero or Nyquist's frequency, times half the length of the series; not above zero for a line
+    /// outside of these.
+    pub(super) fn least_distance(&self) -> f64 {
+        let apart = |(k, wave): (usize, &Wave)| {
+            let others = self.waves[k + 1..].iter().map(|other| (wave.phase - other.phase).abs());
+            others.fold(wave.phase.min(FRAC_PI_2 - wave.phase), f64::min)
+        };
+        self.waves.iter().enumerate().map(apart).fold(f64::INFINITY, f64::min) * self.values.len() as f64
     }
 
     fn direction(&self, k: usize) -> (f64, f64) {
@@ -293,19 +302,32 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_are_none_are_told_with_the_least_distance() {
+    fn the_least_distance_is_that_of_two_lines_or_of_one_from_an_end() {
         let (values, weights) = (vec![0.0; COUNT], vec![1.0; COUNT]);
-        let least = |of: &[(f64, f64, f64)]| match fit(&values, &weights, waves(of)).amplification() {
-            Err(Error::NotConverged { residual, iterations, .. }) => (residual, iterations),
-            other => panic!("{other:?}"),
-        };
-        let (distance, lines) = least(&[(30.0, 1.0, 0.0), (55.0, 0.0, 0.0), (37.5, 0.0, 1.0)]);
-        assert_eq!(lines, 3);
-        assert_relative_eq!(distance, 7.5, max_relative = 1e-13);
-        // That of a line from its own mirror at the negative frequency counts too.
-        assert_relative_eq!(least(&[(30.0, 0.0, 0.0), (5.0, 1.0, 0.0)]).0, 5.0, max_relative = 1e-13);
-        assert_relative_eq!(least(&[(6.0, 0.0, 0.0), (50.0, 1.0, 0.0)]).0, 6.0, max_relative = 1e-13);
-        assert_relative_eq!(least(&[(-6.0, 0.0, 0.0), (50.0, 1.0, 0.0)]).0, 6.0, max_relative = 1e-13);
+        let least = |of: &[(f64, f64, f64)]| fit(&values, &weights, waves(of)).least_distance();
+        let highest = FRAC_PI_2 * COUNT as f64;
+        for (places, distance) in [
+            (&[30.0, 55.0, 37.5][..], 7.5),
+            (&[30.0, 5.0], 5.0),
+            (&[6.0, 50.0], 6.0),
+            (&[-6.0, 50.0], -6.0),
+            (&[40.0, highest - 3.0], 3.0),
+            (&[40.0, highest + 3.0], -3.0),
+        ] {
+            let waves: Vec<_> = places.iter().map(|&place| (place, 1.0, 0.0)).collect();
+            assert_relative_eq!(least(&waves), distance, max_relative = 1e-11);
+        }
+        assert_eq!(least(&[]), f64::INFINITY);
+    }
+
+    #[test]
+    fn lines_without_a_direction_are_no_unknowns() {
+        let (values, weights) = (vec![0.0; COUNT], WINDOW.weights(COUNT).unwrap());
+        let none = waves(&[(30.0, 1.0, 0.0), (55.0, 0.0, 0.0)]);
+        assert!(fit(&values, &weights, none.clone()).amplification().is_none());
+        assert!(fit(&values, &weights, none).improve(&values, 2.0).is_none());
+        let same = waves(&[(30.0, 1.0, 0.0), (30.0, 1.0, 0.0)]);
+        assert!(fit(&values, &weights, same).amplification().is_none());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use super::joint_fit::JointFit;
+use super::joint_fit::{JointFit, Wave};
 use super::residual_spectrum::{LEAST_DISTANCE, ResidualSpectrum, SHAPE};
 use super::{Series, Window};
 use crate::error::Error;
@@ -10,8 +10,15 @@ use crate::error::Error;
 /// The window under which lines are fitted.
 const WINDOW: Window = Window::Kaiser { shape: SHAPE };
 
-/// Steps of the fit after a round, and at the end.
+/// Steps of the fit after a round, and where they are to lead to the end.
 const STEPS: (usize, usize) = (2, 12);
+
+/// How much more than in a line alone an error may grow in the frequency of one among others: beyond, the lines are not told apart. Two lines
+/// `8 / T` apart reach 4, three in a row 28.
+const MOST_AMPLIFIED: f64 = 30.0;
+
+/// Lines are this many times the noise: of white noise an amplitude passes `x` times its median with the probability `2^(-x^2)`, 1.5e-11 for six.
+const ABOVE_NOISE: f64 = 6.0;
 
 /// One line `amplitude cos(frequency t + phase)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +30,8 @@ pub struct SpectralLine {
     /// Phase at `t = 0`, in (-pi, pi] (rad).
     pub phase: f64,
     /// Estimated error of the frequency, from what is left of the series near the line and, where lines are missing from the list, from the
-    /// strongest of those.
+    /// strongest of those. Above `1 / T` the phase at the ends of the series is off by more than half a radian: such a line stands for several
+    /// that the series is too short to tell apart.
     pub uncertainty: f64,
 }
 
@@ -36,6 +44,11 @@ pub struct LineList {
     pub lines: Vec<SpectralLine>,
     /// Largest amplitude in the spectrum of what is left. Above the amplitude asked for it says that lines are missing.
     pub remainder: f64,
+    /// Six times the noise, which is the median amplitude of what is left or the rounding of the values and of their times, whichever is more.
+    /// What is below that is not listed.
+    pub noise: f64,
+    /// About the least distance of two lines that are told apart, and of a line from zero: `8 / T` (rad per unit of time).
+    pub resolution: f64,
 }
 
 /// All lines of a series with an amplitude of at least `least`, at most `most` of them.
@@ -46,33 +59,21 @@ pub struct LineList {
 /// neighbours bias the result.
 ///
 /// Resolution: with `T` the length of the series, lines `40 / T` or more apart (and from zero and Nyquist's frequency) do not
-/// know of each other; down to `10 / T` they are separated by the fit, at the price of digits; below `8 / T` they are taken as
-/// one line. Lines below `least` are left in the series and shift a stronger one within `40 / T` by up to
+/// know of each other; down to `10 / T` they are separated by the fit, at the price of digits; below `8 / T`, or where many
+/// lines are crowded, they are taken as one line, of which the [`uncertainty`](SpectralLine::uncertainty) counts what it leaves. Lines below `least` are left in
+/// the series and shift a stronger one within `40 / T` by up to
 /// `6 / T` times the ratio of the amplitudes: ask for weaker lines than are wanted. For a series that is a sum of lines
 /// the error of a frequency is below 1e-9 for amplitudes from 1 to 1e-6, at `T = 4000`, whatever the phases; see
 /// [`SpectralLine::uncertainty`].
 ///
 /// # Errors
-/// [`Error::Domain`] for a series that has no spectrum (too short, not finite), and for a `least` that is not above zero;
-/// [`Error::NotConverged`] if two lines cannot be told apart.
+/// [`Error::Domain`] for a series that has no spectrum (too short, not finite), and for a `least` that is not above zero.
 pub fn spectral_lines(series: &Series, least: f64, most: usize) -> Result<LineList, Error> {
     series.check()?;
     Error::unless(least > 0.0 && least.is_finite(), "least amplitude", least, "above zero and finite")?;
     let weights = WINDOW.weights(series.values.len())?;
-    let mut fit = JointFit::new(&series.values, &weights, WINDOW)?;
-    let mut spectrum = ResidualSpectrum::of(&fit.residual(), &weights);
-    while fit.waves.len() < most {
-        let peaks = spectrum.peaks(least, &fit.waves);
-        let room = most - fit.waves.len();
-        fit.waves.extend(peaks.iter().take(room));
-        if peaks.is_empty() {
-            break;
-        }
-        improve(&mut fit, STEPS.0)?;
-        spectrum = ResidualSpectrum::of(&fit.residual(), &weights);
-    }
-    improve(&mut fit, STEPS.1)?;
-    spectrum = ResidualSpectrum::of(&fit.residual(), &weights);
+    let Fitted { fit, amplifications, residual } = separated(series, &weights, least, most)?;
+    let spectrum = ResidualSpectrum::of(&residual, &weights);
     // The values are rounded, and so are the times for which they were computed: independently, but near each line.
     let largest = series.values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let latest = series.start.abs().max((series.start + series.duration()).abs());
@@ -81,16 +82,17 @@ pub fn spectral_lines(series: &Series, least: f64, most: usize) -> Result<LineLi
     // Lines that are missing elsewhere say that there may be as strong ones under the lines found, where the fit hides them.
     let remainder = spectrum.largest();
     let hidden = if remainder >= least { remainder } else { 0.0 };
-    let noise = rounding.max(spectrum.median()) + hidden;
-    let middle = series.start + series.step * (series.values.len() - 1) as f64 / 2.0;
+    let (median, middle) = (spectrum.median(), series.start + series.step * (series.values.len() - 1) as f64 / 2.0);
+    let noise = rounding.max(median);
+    let (noise, error) = (ABOVE_NOISE * noise, noise + hidden);
     let mut lines: Vec<_> = fit
         .waves
         .iter()
-        .zip(fit.amplification()?)
-        .filter(|(wave, _)| wave.amplitude() >= least)
+        .zip(amplifications)
+        .filter(|(wave, _)| wave.amplitude() >= least.max(noise))
         .map(|(wave, amplification)| {
             let frequency = wave.phase * 2.0 / series.step;
-            let shift = spectrum.shift_of(wave) + noise * amplification;
+            let shift = spectrum.shift_of(wave) + error * amplification;
             let phase = (-wave.sin_part).atan2(wave.cos_part) - frequency * middle;
             SpectralLine {
                 frequency,
@@ -101,18 +103,89 @@ pub fn spectral_lines(series: &Series, least: f64, most: usize) -> Result<LineLi
         })
         .collect();
     lines.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
-    Ok(LineList { constant: fit.constant, lines, remainder })
+    let resolution = 2.0 * LEAST_DISTANCE / series.duration();
+    Ok(LineList { constant: fit.constant, lines, remainder, noise, resolution })
+}
+
+/// A fit with what it leaves.
+struct Fitted<'s> {
+    fit: JointFit<'s>,
+    amplifications: Vec<f64>,
+    residual: Vec<f64>,
+}
+
+/// The fit of the lines that can be told apart.
+fn separated<'s>(series: &'s Series, weights: &'s [f64], least: f64, most: usize) -> Result<Fitted<'s>, Error> {
+    let constant = JointFit::new(&series.values, weights, WINDOW)?;
+    let residual = constant.residual();
+    let mut found = Fitted { fit: constant, amplifications: Vec::new(), residual };
+    // Peaks of the spectrum that are no lines of their own, but what a line leaves that stands for several.
+    let mut refused: Vec<Wave> = Vec::new();
+    while found.fit.waves.len() < most {
+        let mut peaks = ResidualSpectrum::of(&found.residual, weights).peaks(least, &found.fit.waves, &refused);
+        peaks.truncate(most - found.fit.waves.len());
+        if peaks.is_empty() {
+            break;
+        }
+        if let Some(together) = found.with(&peaks, STEPS.0) {
+            found = together;
+            continue;
+        }
+        found = found.settled(&mut refused);
+        for peak in peaks {
+            match found.with(&[peak], STEPS.1) {
+                Some(one_more) => found = one_more,
+                None => refused.push(peak),
+            }
+        }
+    }
+    Ok(found.settled(&mut refused))
+}
+
+impl<'s> Fitted<'s> {
+    /// The fit with some more waves after some steps; none if its lines cannot be told apart then, or leave more than before: of what is not
+    /// a sum of as many lines, the steps may lead anywhere.
+    fn with(&self, peaks: &[Wave], steps: usize) -> Option<Self> {
+        let mut fit = self.fit.clone();
+        fit.waves.extend(peaks);
+        improve(&mut fit, steps)?;
+        let (alone, amplifications) = ((2.0 * SHAPE).sqrt(), fit.amplification()?);
+        let certain = |(wave, amplification): (&Wave, &f64)| amplification * wave.amplitude() <= MOST_AMPLIFIED * alone;
+        if fit.least_distance() <= 0.0 || !fit.waves.iter().zip(&amplifications).all(certain) {
+            return None;
+        }
+        // The last steps move within rounding.
+        let allowed = if peaks.is_empty() { 4.0 } else { 1.0 };
+        let residual = fit.residual();
+        let closer = fit.power(&residual) <= allowed * fit.power(&self.residual);
+        closer.then_some(Self { fit, amplifications, residual })
+    }
+
+    /// The fit after all steps. As long as its lines cannot be told apart, that goes which is told apart worst.
+    fn settled(mut self, refused: &mut Vec<Wave>) -> Self {
+        loop {
+            // Without lines there is nothing to tell apart.
+            if let Some(settled) = self.with(&[], STEPS.1) {
+                return settled;
+            }
+            let uncertain = self.fit.waves.iter().zip(&self.amplifications).map(|(wave, a)| wave.amplitude() * a);
+            let worst = uncertain.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(k, _)| k);
+            refused.push(self.fit.waves.remove(worst));
+            self.amplifications.remove(worst);
+            self.residual = self.fit.residual();
+        }
+    }
 }
 
 /// Steps of the fit until no frequency moves by more than rounding.
-fn improve(fit: &mut JointFit<'_>, steps: usize) -> Result<(), Error> {
+fn improve(fit: &mut JointFit<'_>, steps: usize) -> Option<()> {
     for _ in 0..steps {
         let residual = fit.residual();
         if fit.improve(&residual, LEAST_DISTANCE / 2.0)? < 1e-13 {
             break;
         }
     }
-    Ok(())
+    Some(())
 }
 
 #[cfg(test)]
@@ -192,17 +265,59 @@ mod tests {
     }
 
     #[test]
-    fn noise_ends_in_a_list_or_an_error() {
+    fn noise_has_no_lines_and_hides_those_below_it() {
         // A generator of low quality is noise enough.
         let mut state = 1_u64;
-        let noise = (0..512)
-            .map(|_| {
-                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                (state >> 40) as f64 / f64::from(1 << 24) - 0.5
-            })
-            .collect();
-        if let Ok(list) = spectral_lines(&series(noise), 1e-3, 20) {
-            assert!(list.lines.len() <= 20 && list.lines.iter().all(|line| line.frequency.is_finite()));
+        let mut uniform = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / f64::from(1 << 24) - 0.5
+        };
+        let noise: Vec<f64> = (0..2048).map(|_| uniform()).collect();
+        let list = spectral_lines(&series(noise.clone()), 1e-3, 20).unwrap();
+        assert!(list.lines.is_empty(), "{list:?}");
+        // Amplitudes of white noise of the variance 1/12 in N values are about 2 sqrt(w2 / 12 N), w2 = 2.9 the mean square of the weights.
+        assert!((0.08..0.3).contains(&list.noise), "{}", list.noise);
+        for (amplitude, found) in [(0.5, 1), (0.02, 0)] {
+            let with_line = noise.iter().enumerate().map(|(j, x)| x + amplitude * (0.3 * j as f64).cos()).collect();
+            let list = spectral_lines(&series(with_line), 1e-3, 20).unwrap();
+            assert_eq!(list.lines.len(), found, "{amplitude}: {list:?}");
+        }
+    }
+
+    /// Amplitudes that are rounding beside a constant: none is a line.
+    #[test]
+    fn the_rounding_of_a_constant_is_no_line() {
+        let (step, count) = (0.25, 4096);
+        for size in [1e-16, 1e-15] {
+            let value = |j: usize| 1.0 + size * (0.7 * step * j as f64).cos();
+            let list = spectral_lines(&series((0..count).map(value).collect()), 1e-17, 20).unwrap();
+            assert!(list.lines.is_empty() && list.noise > 6.0 * f64::EPSILON, "{list:?}");
+        }
+    }
+
+    /// Three lines `d / T` apart, and one so near to zero: where they cannot be told apart the list stays within what the series can be made of.
+    #[test]
+    fn lines_that_are_too_near_are_taken_as_one() {
+        for distance in [0.3, 1.0, 1.7, 2.6, 3.3] {
+            let (_, values) = of_waves(&[
+                (100.0, 0.5),
+                (100.0 + distance, 0.7),
+                (100.0 + 2.0 * distance, 0.4),
+                (200.0, 1e-3),
+                (distance, 0.3),
+            ]);
+            let list = spectral_lines(&series(values), 1e-4, 20).unwrap();
+            assert!((list.resolution * 128.0 - 4.0).abs() < 1e-12);
+            let (near, far): (Vec<SpectralLine>, Vec<SpectralLine>) =
+                list.lines.iter().partition(|line| line.frequency * 128.0 < 150.0);
+            for line in &near {
+                assert!(line.frequency > 0.0 && line.amplitude < 2.0, "{distance}: {list:?}");
+            }
+            // Lines are missing and said to be, or all are found.
+            let found = |place: f64| list.lines.iter().any(|line| (line.frequency * 128.0 - place).abs() < 1e-3);
+            let all = [0.0, 1.0, 2.0].iter().all(|k| found(100.0 + k * distance)) && found(distance);
+            assert!(list.remainder >= 1e-4 || all, "{distance}: {list:?}");
+            assert!(far.iter().any(|line| (line.frequency * 128.0 - 200.0).abs() < 1e-2), "{distance}: {list:?}");
         }
     }
 
@@ -245,7 +360,7 @@ mod tests {
     fn a_fit_takes_two_steps_after_a_round_and_twelve_at_the_end() {
         let (weights, values) = of_waves(&[(100.0, 1.0), (107.0, 0.8)]);
         let mut fit = JointFit::new(&values, &weights, WINDOW).unwrap();
-        let peaks = ResidualSpectrum::of(&fit.residual(), &weights).peaks(1e-3, &[]);
+        let peaks = ResidualSpectrum::of(&fit.residual(), &weights).peaks(1e-3, &[], &[]);
         fit.waves.push(peaks[0]);
         let places: Vec<f64> = (0..16)
             .map(|_| {

@@ -52,8 +52,9 @@ impl ResidualSpectrum {
         PI * index / (PADDING * count) as f64
     }
 
-    /// Waves at the peaks above `least`, far enough from each other and from the waves already there.
-    pub(super) fn peaks(&self, least: f64, waves: &[Wave]) -> Vec<Wave> {
+    /// Waves at the peaks above `least`, far enough from each other and from the waves already there, and out of reach of those refused: what is
+    /// near them is left by lines that cannot be told apart, and is no line.
+    pub(super) fn peaks(&self, least: f64, waves: &[Wave], refused: &[Wave]) -> Vec<Wave> {
         let a = &self.amplitudes;
         let mut tops: Vec<usize> =
             (1..a.len() - 1).filter(|&i| a[i] >= least && a[i] >= a[i - 1] && a[i] > a[i + 1]).collect();
@@ -70,7 +71,8 @@ impl ResidualSpectrum {
             let clear_of_ends = distance(phase, 0.0).min(distance(phase, PI / 2.0)) >= LEAST_DISTANCE;
             let clear_of_waves = waves.iter().all(|wave| distance(phase, wave.phase) >= LEAST_DISTANCE);
             let clear_of_peaks = taken.iter().all(|wave| distance(phase, wave.phase) >= 1.5 * SHAPE);
-            if clear_of_ends && clear_of_waves && clear_of_peaks {
+            let clear_of_refused = refused.iter().all(|wave| distance(phase, wave.phase) >= SHAPE.hypot(PI));
+            if clear_of_ends && clear_of_waves && clear_of_peaks && clear_of_refused {
                 let (cos_part, sin_part) = self.parts[i];
                 taken.push(Wave { phase, cos_part, sin_part });
             }
@@ -167,7 +169,7 @@ mod tests {
             (160, [0.0, 0.4, 0.4]),
             (190, [0.0, 2e-3, 0.0]),
         ]);
-        let peaks = spectrum.peaks(1e-9, &[]);
+        let peaks = spectrum.peaks(1e-9, &[], &[]);
         let shift = |[low, top, high]: [f64; 3]| {
             let [low, top, high] = [low, top, high].map(|x| x.max(f64::MIN_POSITIVE).ln());
             (low - high) / (2.0 * (low + high - 2.0 * top))
@@ -185,16 +187,16 @@ mod tests {
             assert_eq!((peak.cos_part, peak.sin_part), (0.6 * amplitude, -0.8 * amplitude));
         }
         // Three logarithms of numbers below the smallest normal one are equal.
-        let tiny = with_tops(&[(60, [0.0, 1e-310, 1e-311])]).peaks(1e-312, &[]);
+        let tiny = with_tops(&[(60, [0.0, 1e-310, 1e-311])]).peaks(1e-312, &[], &[]);
         assert_eq!((tiny.len(), place(&tiny[0])), (1, 60.0 * PI / 2.0));
-        assert_eq!(spectrum.peaks(0.05, &[]).len(), 3);
-        assert_eq!(spectrum.peaks(0.051, &[]).len(), 2);
+        assert_eq!(spectrum.peaks(0.05, &[], &[]).len(), 3);
+        assert_eq!(spectrum.peaks(0.051, &[], &[]).len(), 2);
     }
 
     #[test]
     fn peaks_keep_their_distance() {
         let one = |index| with_tops(&[(index, [0.1, 1.0, 0.1])]);
-        let count = |spectrum: &ResidualSpectrum, waves: &[Wave]| spectrum.peaks(1e-9, waves).len();
+        let count = |spectrum: &ResidualSpectrum, waves: &[Wave]| spectrum.peaks(1e-9, waves, &[]).len();
         // From the ends of the spectrum, 4 at least.
         for (index, found) in [(2, 0), (3, 1), (COUNT - 3, 1), (COUNT - 2, 0)] {
             assert_eq!(count(&one(index), &[]), found, "{index}");
@@ -204,6 +206,11 @@ mod tests {
             let wave = at(100.0 * PI / 2.0 + distance, 1.0, 0.0);
             assert_eq!(count(&one(100), &[wave]), found, "{distance}");
             assert_eq!(count(&one(100), &[at(300.0, 1.0, 0.0), wave]), found, "{distance}");
+        }
+        // From what was refused, as far as a line reaches.
+        for (distance, found) in [(-20.3, 1), (-20.2, 0), (0.1, 0), (20.2, 0), (20.3, 1)] {
+            let refused = at(100.0 * PI / 2.0 + distance, 1.0, 0.0);
+            assert_eq!(one(100).peaks(1e-9, &[], &[refused]).len(), found, "{distance}");
         }
         // From higher peaks, 30 at least; and no more than a thousand below the highest.
         for (index, amplitude, found) in

@@ -16,6 +16,7 @@ mod observer;
 mod orientation;
 mod perturbation_equations;
 mod plans;
+mod point_masses;
 mod potential_energy;
 mod propagation;
 mod pulsar;
@@ -42,6 +43,7 @@ pub fn all() -> Vec<Check> {
     let subjects: &[fn() -> Vec<Check>] = &[
         orientation::checks,
         star::checks,
+        point_masses::checks,
         potential_energy::checks,
         equations_of_motion::checks,
         torque::checks,

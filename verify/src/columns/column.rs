@@ -13,6 +13,8 @@ const TURNING: [&str; 5] = ["alpha", "gamma", "alpha_printed", "Phi", "psi"];
 pub struct Column {
     group: &'static ColumnGroup,
     index: usize,
+    /// It and the columns of its group with the same unit: parts of one whole, as the components of a vector, with one rounding.
+    parts: Vec<usize>,
     /// Name as in the header of the table, without the unit.
     pub name: String,
     /// Unit.
@@ -49,14 +51,27 @@ impl Column {
     }
 
     fn of_group(group: &'static ColumnGroup, scene: &Scene) -> impl Iterator<Item = Self> {
-        (group.header)(&scene.units).into_iter().enumerate().map(move |(index, title)| {
-            let (name, unit) = title.split_once(" [").unwrap_or((&title, ""));
-            Self { group, index, name: name.to_owned(), unit: unit.trim_end_matches(']').to_owned() }
+        let titles = (group.header)(&scene.units);
+        let of = |title: &str| {
+            let (name, unit) = title.split_once(" [").unwrap_or((title, ""));
+            (name.to_owned(), unit.trim_end_matches(']').to_owned())
+        };
+        let columns: Vec<_> = titles.iter().map(|title| of(title)).collect();
+        (0..columns.len()).map(move |index| {
+            let (name, unit) = columns[index].clone();
+            let is_part = |&other: &usize| {
+                let (name, its_unit) = &columns[other];
+                other == index || *its_unit == unit && !TURNING.contains(&name.as_str())
+            };
+            Self { group, index, parts: (0..columns.len()).filter(is_part).collect(), name, unit }
         })
     }
 
-    /// The value at a time of the motion, in the unit of the output; none where it does not exist.
-    pub fn value(&self, scene: &Scene, moment: &mut Moment<'_>) -> Option<f64> {
-        (self.group.values)(scene, moment).map(|values| values[self.index])
+    /// The value at a time of the motion and the size of what it is a part of, as `|L|` for a component of `L`, in the unit of the output;
+    /// none where they do not exist.
+    pub fn value_and_size(&self, scene: &Scene, moment: &mut Moment<'_>) -> Option<(f64, f64)> {
+        let values = (self.group.values)(scene, moment)?;
+        let size = self.parts.iter().fold(0.0_f64, |size, &part| size.hypot(values[part]));
+        Some((values[self.index], size))
     }
 }

@@ -40,7 +40,7 @@ fn motion_of(scene: &str) -> Result<Subject, Failure> {
     Subject::of_scene(&name, &read).map_err(Failure::Failed)
 }
 
-/// Leaves out the figures for which the scene lacks a section; one that was asked for by name is refused.
+/// Leaves out the figures for which the scene lacks something; one that was asked for by name is refused.
 fn leave_out_what_is_lacking(
     chosen: &mut Vec<Recipe>,
     scene: &str,
@@ -48,15 +48,12 @@ fn leave_out_what_is_lacking(
     named: bool,
 ) -> Result<(), Failure> {
     for recipe in chosen.iter() {
-        if let Some(section) = recipe.lacks(motion) {
+        if let Some(lacking) = recipe.lacks(motion) {
             let name = recipe.name;
             if named {
-                let message = format!(
-                    "{scene}: the scene lacks the section [{section}], without which there is no figure `{name}`"
-                );
-                return Err(Failure::BadInput(message));
+                return Err(Failure::BadInput(format!("{scene}: no figure `{name}`: the scene lacks {lacking}")));
             }
-            note(&format!("no figure `{name}`: the scene lacks the section [{section}]"));
+            note(&format!("no figure `{name}`: the scene lacks {lacking}"));
         }
     }
     chosen.retain(|recipe| recipe.lacks(motion).is_none());

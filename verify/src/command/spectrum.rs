@@ -7,7 +7,7 @@ use super::run::{failed, force_method, read_scene, write};
 use super::{Failure, SpectrumArgs, SpectrumTable, note, print};
 use crate::columns::Column;
 use crate::scene_file::{Scene, Times};
-use crate::trajectory::{LinesSummary, LinesWanted, Sampling, TrajectoryError};
+use crate::trajectory::{Floor, LinesSummary, LinesWanted, Sampling, TrajectoryError};
 
 pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
     let mut scene = read_scene(&args.scene)?;
@@ -80,17 +80,39 @@ fn note_lines(scene: &Scene, column: &Column, summary: &LinesSummary) {
         Some(Err(why)) => note(&format!("no line is identified: the motion has no fundamental frequencies: {why}")),
     }
     note(&format!("{name} has the constant term {:?}{unit}", summary.constant));
+    let least = format!("{:.1e}{unit}", summary.least);
+    match summary.floor {
+        Floor::Wanted => {}
+        Floor::Accuracy(size) => note(&format!(
+            "lines below {least} are not listed: the scene's accuracy is {:.0e}, of {size:.1e}{unit}",
+            scene.accuracy
+        )),
+        Floor::Noise => note(&format!(
+            "lines below {least} are not listed: that is six times the noise, what is left or the rounding of the values and their times"
+        )),
+    }
     if summary.lines == 0 {
-        note(&format!("{name} has no line of an amplitude above {:.1e}{unit}", summary.least));
+        note(&format!("{name} has no line of an amplitude above {least}"));
     }
     if summary.found > summary.lines {
         note(&format!("{} lines were found; --most writes more of them", summary.found));
     }
     if summary.remainder >= summary.least {
+        let part = match summary.strongest {
+            0.0 => String::new(),
+            strongest => format!(", {:.1e} of the strongest line", summary.remainder / strongest),
+        };
         note(&format!(
-            "lines are missing: an amplitude of {:.1e}{unit} is left, which the uncertainties count; a longer --span \
-             separates near lines",
-            summary.remainder
+            "lines are missing: an amplitude of {:.1e}{unit} is left{part}, which the uncertainties count; lines nearer than about \
+             {:.1e} rad/{time} (8 / span) to one another or to zero are taken for one, or for the constant term, and a longer --span \
+             separates them",
+            summary.remainder, summary.resolution
+        ));
+    }
+    if summary.unresolved > 0 {
+        note(&format!(
+            "{} of the lines listed are `unresolved`: the frequency is uncertain by more than 1 / span, and the line may stand for several",
+            summary.unresolved
         ));
     }
     if summary.near_highest > 0 {

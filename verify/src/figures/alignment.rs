@@ -1,6 +1,7 @@
 //! `m.n`, the cosine of the angle between the beam and the line of sight, in time.
 
 use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::number::significant;
 use super::parameters::{line_of_sight, parameters};
 use super::style::{BLACK, BLUE, PAGE, SMALL, VERMILION, dashed, solid};
 use super::subject::times;
@@ -22,9 +23,9 @@ fn edge(subject: &Subject) -> f64 {
 fn alignment(subject: &Subject) -> Result<Table, String> {
     let (viewer, pulsar) = subject.line_of_sight()?;
     let (beam, observer) = (pulsar.beam(), viewer.basis());
-    let mut table = Table::new(&subject.name, ["t [t_c]", "m.n [1]"]);
+    let mut table = Table::new(&subject.name, [subject.scale.time_column("t"), "m.n [1]".to_owned()]);
     for t in times(subject.shown.beam, 4000) {
-        table.push([t, beam.direction(&subject.state(t)?).dot(&observer.direction)]);
+        table.push([subject.scale.time(t), beam.direction(&subject.state(t)?).dot(&observer.direction)]);
     }
     Ok(table)
 }
@@ -40,8 +41,7 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
             width: PAGE - LEFT - 34.0,
             height: panel_height,
         };
-        let shown = subject.shown.beam;
-        let x = Axis::linear("*t* / *t*_{c}", shown.min(0.0), shown.max(0.0));
+        let x = subject.scale.time_axis(subject.shown.beam);
         let values = table.rows.iter().map(|row| row[1]);
         let edge = edge(subject);
         let y = Axis::around("**m** · **n**", values.chain([edge]));
@@ -52,7 +52,7 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
             panel.curve(&mut page, pulse, solid(BLUE, 1.7));
         }
         panel.level(&mut page, edge, dashed(VERMILION, 1.0));
-        let [x, y] = panel.at(shown.max(0.0), edge);
+        let [x, y] = panel.at(subject.scale.time(subject.shown.beam).max(0.0), edge);
         page.text([x + 3.0, y + 0.35 * SMALL], Anchor::Start, SMALL, VERMILION, "cos *ρ*");
         panel.draw_frame(&mut page);
         panel.letter(&mut page, i, subjects.len(), &subject.name);
@@ -61,18 +61,26 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
 }
 
 fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
-    let inside = |(subject, table): (&&Subject, &Table)| {
+    let part = |(subject, table): (&&Subject, &Table)| {
         let edge = edge(subject);
-        let part = table.rows.iter().filter(|row| row[1] > edge).count() as f64 / table.rows.len() as f64;
-        format!("{:.0} % of the time for {}", 100.0 * part, subject.name)
+        table.rows.iter().filter(|row| row[1] > edge).count() as f64 / table.rows.len() as f64
     };
-    let parts: Vec<_> = subjects.iter().zip(tables).map(inside).collect();
+    let parts: Vec<_> = subjects.iter().zip(tables).map(part).collect();
+    let pulses = if parts.iter().any(|part| *part > 0.0) { ": thick stretches are pulses" } else { "" };
+    let in_words = |(subject, part): (&&Subject, &f64)| match *part {
+        0.0 => format!("at none of the {} times drawn for {}", tables[0].rows.len(), subject.name),
+        1.0 => format!("all the time for {}", subject.name),
+        part => format!("{} % of the time for {}", significant(100.0 * part, 2), subject.name),
+    };
+    let parts: Vec<_> = subjects.iter().zip(&parts).map(in_words).collect();
     Caption {
-        shows: "Cosine of the angle between the axis **m** of the beam and the line of sight **n** in time. Above cos *ρ* (dashed) \
-                the beam holds the line of sight: thick stretches are pulses."
-            .to_owned(),
+        shows: format!(
+            "Cosine of the angle between the axis **m** of the beam and the line of sight **n** in time. Above cos *ρ* (dashed) \
+             the beam holds the line of sight{pulses}."
+        ),
         parameters: parameters(&line_of_sight(subjects, true), subjects),
-        method: "Numerical motion; **m** by Eq. (45), **n** by Eq. (46); the condition of a pulse is Eq. (44).".to_owned(),
+        method: "Numerical motion; **m** by Eq. (45), **n** by Eq. (46); the condition of a pulse is Eq. (44)."
+            .to_owned(),
         says: format!("The line of sight is inside the beam {}.", parts.join(", ")),
     }
 }

@@ -22,72 +22,104 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
         let (viewer, pulsar) = subject.line_of_sight()?;
         let (beam, observer) = (pulsar.beam(), viewer.basis());
         let of = spectrum::spectrum(subject, highest, |state| beam.direction(state).dot(&observer.direction))?;
-        let mut table = Table::new(format!("{}-spectrum", subject.name), ["frequency [rad/t_c]", "amplitude [1]"]);
+        let frequency = subject.scale.frequency_column();
+        let mut table =
+            Table::new(format!("{}-spectrum", subject.name), [frequency.clone(), "amplitude [1]".to_owned()]);
         of.points.iter().for_each(|&(frequency, amplitude)| table.push([frequency, amplitude]));
-        tables.extend([table, spectrum::lines_table(format!("{}-lines", subject.name), &of.lines, "1")]);
+        tables.extend([table, spectrum::lines_table(format!("{}-lines", subject.name), &of.lines, frequency, "1")]);
         spectra.push(of);
     }
-    let caption = caption(subjects, &spectra)?;
+    let caption = caption(subjects, &spectra, highest)?;
     Ok(Sheet { svg: draw(name, subjects, &spectra, highest), caption, tables })
 }
 
+const TOP: f64 = 18.0;
+const PANEL_HEIGHT: f64 = 118.0;
+const GAP: f64 = 20.0;
+
+/// Panel `i` of `count`.
+fn panel(subject: &Subject, i: usize, count: usize, highest: f64) -> Panel {
+    let frame = Rectangle {
+        left: LEFT,
+        top: TOP + (PANEL_HEIGHT + GAP) * i as f64,
+        width: PAGE - LEFT - 10.0,
+        height: PANEL_HEIGHT,
+    };
+    let x = Axis::linear(subject.scale.frequency_label(), 0.0, highest);
+    let y = Axis::logarithmic("amplitude of **m** · **n**", AMPLITUDES.0, AMPLITUDES.1);
+    Panel::new(frame, if i + 1 == count { x } else { x.bare() }, y)
+}
+
+/// The names over lines with their places, the strongest first, as far as there is room.
+fn names(panel: &Panel, spectrum: &Spectrum, highest: f64) -> Vec<([f64; 2], String)> {
+    let mut names: Vec<([f64; 2], String)> = Vec::new();
+    for line in spectrum.lines.iter().filter(|line| line.amplitude > NAMED && line.frequency < highest) {
+        let [x, y] = panel.at(line.frequency, line.amplitude);
+        if let Some(name) = line.name().filter(|_| names.iter().all(|([other, _], _)| (x - other).abs() > 8.4)) {
+            names.push(([x, y], name));
+        }
+    }
+    names
+}
+
 fn draw(name: &str, subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -> String {
-    let (top, panel_height, gap) = (18.0, 118.0, 20.0);
-    let count = subjects.len() as f64;
-    let mut page = Page::new(name, PAGE, top + count * panel_height + (count - 1.0) * gap + BELOW);
+    let count = subjects.len();
+    let mut page = Page::new(name, PAGE, TOP + count as f64 * PANEL_HEIGHT + (count as f64 - 1.0) * GAP + BELOW);
     for (i, (subject, spectrum)) in subjects.iter().zip(spectra).enumerate() {
-        let frame = Rectangle {
-            left: LEFT,
-            top: top + (panel_height + gap) * i as f64,
-            width: PAGE - LEFT - 10.0,
-            height: panel_height,
-        };
-        let x = Axis::linear("angular frequency × *t*_{c}", 0.0, highest);
-        let last = i + 1 == subjects.len();
-        let y = Axis::logarithmic("amplitude of **m** · **n**", AMPLITUDES.0, AMPLITUDES.1);
-        let panel = Panel::new(frame, if last { x } else { x.bare() }, y);
+        let panel = panel(subject, i, count, highest);
         for rate in subject.free_rates() {
             panel.upright(&mut page, rate, dashed(VERMILION, 0.9));
         }
         let points: Vec<_> = spectrum.points.iter().map(|&(w, a)| (w, a.max(AMPLITUDES.0 / 10.0))).collect();
         panel.curve(&mut page, &points, solid(BLACK, 0.7));
-        // Names stand upright over their lines, the strongest first, as far as there is room.
-        let mut taken: Vec<f64> = Vec::new();
-        for line in spectrum.lines.iter().filter(|line| line.amplitude > NAMED && line.frequency < highest) {
-            let [x, y] = panel.at(line.frequency, line.amplitude);
-            if let Some(name) = line.name().filter(|_| taken.iter().all(|other| (x - other).abs() > 8.4)) {
-                // Clear of the ticks at the left.
-                let baseline = (x + 2.5).max(frame.left + 10.5);
-                page.turned_text([baseline, y - 3.0], -90.0, Anchor::Start, 7.0, BLACK, &name);
-                taken.push(x);
-            }
+        for ([x, y], name) in names(&panel, spectrum, highest) {
+            // Upright, clear of the ticks at the left.
+            let baseline = (x + 2.5).max(panel.frame.left + 10.5);
+            page.turned_text([baseline, y - 3.0], -90.0, Anchor::Start, 7.0, BLACK, &name);
         }
         panel.draw_frame(&mut page);
-        panel.letter(&mut page, i, subjects.len(), &subject.name);
+        panel.letter(&mut page, i, count, &subject.name);
     }
     page.finish("Spectra of the cosine of the angle between beam and line of sight")
 }
 
-fn caption(subjects: &[&Subject], spectra: &[Spectrum]) -> Result<Caption, String> {
+fn caption(subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -> Result<Caption, String> {
     let rates = subjects.iter().map(|subject| spectrum::rates(subject)).collect::<Result<Vec<_>, _>>()?;
     let counts = subjects.iter().zip(spectra).map(|(subject, spectrum)| {
         let known = spectrum.lines.iter().filter(|line| line.combination.is_some()).count();
-        format!("{known} of the {} strongest lines of {} are such combinations", spectrum.lines.len(), subject.name)
+        match spectrum.lines.len() {
+            0 => format!("{} has no line", subject.name),
+            1 if known == 1 => format!("the only line of {} is such a combination", subject.name),
+            1 => format!("{} has one line, which is no such combination within its error", subject.name),
+            all => format!("{known} of the {all} strongest lines of {} are such combinations", subject.name),
+        }
     });
-    let mut says = format!("{}.", counts.collect::<Vec<_>>().join("; "));
+    let mut says = spectrum::sentence(&counts.collect::<Vec<_>>().join("; "));
     if subjects.len() > 1 {
         says += " The peaks stand beside the dashed lines: Lorentz violation shifts the rates. The smallest frequency of tp-II, *l*, is that \
                  at which its angular momentum goes round *Z*; tp-I has it too, but 600 times weaker than its strongest line.";
     }
+    let drawn = subjects.iter().zip(spectra).enumerate();
+    let names: Vec<_> = drawn
+        .flat_map(|(i, (subject, spectrum))| names(&panel(subject, i, subjects.len(), highest), spectrum, highest))
+        .map(|(_, name)| name)
+        .collect();
+    let mut shows = "Amplitude spectra of **m** · **n**.".to_owned();
+    if !names.is_empty() {
+        let symbols = spectrum::symbols_in(&names);
+        shows += &format!(" Names over the lines are combinations of mean rates: {symbols}.");
+    }
+    if subjects.iter().any(|subject| !subject.free_rates().is_empty()) {
+        shows += " Dashed: *α* and |*γ*| of free precession, Eq. (48).";
+    }
     Ok(Caption {
-        shows: "Amplitude spectra of **m** · **n**. Names over the lines are combinations of mean rates; *α*, *γ* and *l* in them stand for the mean \
-                rates of change of precession angle, rotation angle and slow precession (*ν*: nutation). Dashed: *α* and |*γ*| of free precession, Eq. (48)."
-            .to_owned(),
+        shows,
         parameters: parameters(&line_of_sight(subjects, true), subjects),
         method: format!(
             "Fourier transform of 49,152 values over {} with Kaiser's window (shape 14); lines by a joint fit, to 10^{{−5}} of the strongest; mean rates \
-             by weighted averages. Mean rates per *t*_{{c}}: {}.",
+             by weighted averages. Mean rates in {}: {}.",
             spectrum::length_in_words(subjects),
+            subjects[0].scale.frequency_unit(),
             rates.join("; ")
         ),
         says,

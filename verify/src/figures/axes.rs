@@ -27,7 +27,11 @@ impl Axis {
         let (low, high) = values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
         let size = low.abs().max(high.abs());
         // A constant is drawn as one: its rounding is not spread over the frame.
-        let room = if high - low > 1e-3 * size { 0.06 * (high - low) } else { 0.05 * size.max(1e-3) };
+        let room = match high - low > 1e-3 * size {
+            true => 0.06 * (high - low),
+            false if size > 0.0 => 0.05 * size,
+            false => 1.0,
+        };
         Self::linear(label, low - room, high + room)
     }
 
@@ -59,7 +63,11 @@ impl Axis {
         if power == 0 || self.label.is_empty() {
             return self.label.clone();
         }
-        format!("{} / 10^{{{}}}", self.label, signed(&power.to_string()))
+        let power = format!("10^{{{}}}", signed(&power.to_string()));
+        match self.label.strip_suffix(']').and_then(|label| label.rsplit_once('[')) {
+            Some((quantity, unit)) => format!("{quantity}[{power} {unit}]"),
+            None => format!("{} / {power}", self.label),
+        }
     }
 
     /// Values of the large ticks with their numbers, and of the small ones, for an axis of the given length that takes one

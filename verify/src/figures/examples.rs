@@ -6,6 +6,7 @@ use twofold::euler_angles::EulerAngles;
 use twofold::propagation::propagate;
 use twofold::solutions::perturbation::{Form, Perturbation};
 
+use super::scale::Scale;
 use super::subject::{ACCURACY, Shown, Start, Subject, corrected_solution};
 use crate::paper_examples::{COEFFICIENTS, PaperExample, SPIN, paper_examples, spheroid};
 use crate::scene_file::{Pulsar, Viewer};
@@ -44,8 +45,9 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
     Ok(Subject {
         name: example.name.to_owned(),
         start,
-        printed: Some(printed),
+        scale: Scale::PAPER,
         corrected: corrected_solution(&printed, &spheroid, &COEFFICIENTS, SPIN),
+        printed: Ok(printed),
         observer: Some(OBSERVER),
         pulsar: Some(PULSAR),
         shown,

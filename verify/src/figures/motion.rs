@@ -5,6 +5,7 @@ use twofold::solutions::perturbation::Perturbation;
 
 use super::axes::{Axis, BELOW, LEFT, Panel, heading};
 use super::legend::{Sample, legend_row};
+use super::number::{Spread, number, significant};
 use super::parameters::parameters;
 use super::sphere::View;
 use super::style::{BLACK, BLUE, GREEN, GREY, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
@@ -28,18 +29,18 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
 
 /// Perturbation solutions with the initial values of the motion, and what they are called.
 fn solutions(subject: &Subject) -> Vec<(&'static str, Perturbation<f64>)> {
-    let both = [("perturbation, printed", subject.printed), ("perturbation, corrected", subject.corrected)];
+    let both = [("perturbation, printed", subject.printed.ok()), ("perturbation, corrected", subject.corrected)];
     both.into_iter().filter_map(|(name, solution)| Some((name, solution?))).collect()
 }
 
 fn angles(subject: &Subject) -> Result<Table, String> {
-    let mut columns = vec!["t [t_c]".to_owned(), "alpha [rad]".to_owned(), "beta [rad]".to_owned()];
+    let mut columns = vec![subject.scale.time_column("t"), "alpha [rad]".to_owned(), "beta [rad]".to_owned()];
     for (name, _) in solutions(subject) {
         columns.extend(["alpha", "beta"].map(|angle| format!("{angle} by {} [rad]", name.replace(", ", " "))));
     }
     let mut table = Table::new("angles", columns);
     for (t, angles) in subject.angles(&times(subject.shown.angles, 2000))? {
-        let mut row = vec![t, angles.alpha, angles.beta];
+        let mut row = vec![subject.scale.time(t), angles.alpha, angles.beta];
         for (_, solution) in solutions(subject) {
             let approximate = solution.at(t);
             row.extend([approximate.alpha, approximate.beta]);
@@ -51,11 +52,11 @@ fn angles(subject: &Subject) -> Result<Table, String> {
 
 fn paths(subject: &Subject) -> Result<Table, String> {
     let axes = ["e_x", "e_z"].iter().flat_map(|axis| ["X", "Y", "Z"].map(|i| format!("{axis}_{i} [1]")));
-    let mut table = Table::new("paths", std::iter::once("t [t_c]".to_owned()).chain(axes));
+    let mut table = Table::new("paths", std::iter::once(subject.scale.time_column("t")).chain(axes));
     for t in times(subject.shown.angles, 6000) {
         let state = subject.state(t)?;
         let (x, z) = (state.equatorial_axis, state.axis);
-        table.push([t, x.x, x.y, x.z, z.x, z.y, z.z]);
+        table.push([subject.scale.time(t), x.x, x.y, x.z, z.x, z.y, z.z]);
     }
     Ok(table)
 }
@@ -71,7 +72,7 @@ fn draw(name: &str, subject: &Subject, tables: &[Table]) -> String {
         width: 268.0,
         height: panel_height,
     };
-    let x = Axis::linear("*t* / *t*_{c}", subject.shown.angles.min(0.0), subject.shown.angles.max(0.0));
+    let x = subject.scale.time_axis(subject.shown.angles);
     let solutions = solutions(subject);
     let columns = |angle: usize| (0..=solutions.len()).map(move |i| 1 + angle + 2 * i);
     let range = |angle: usize| {
@@ -109,7 +110,7 @@ fn draw(name: &str, subject: &Subject, tables: &[Table]) -> String {
     view.draw_axes(&mut page, 1.22, ["*X*", "*Y*", "*Z*"]);
     let points =
         |from: usize| paths.rows.iter().map(move |row| (row[0], Vector3::new(row[from], row[from + 1], row[from + 2])));
-    let shown = subject.shown.equatorial_axis.abs();
+    let shown = subject.scale.time(subject.shown.equatorial_axis).abs();
     let equatorial: Vec<_> = points(1).filter(|(t, _)| t.abs() <= shown).map(|(_, v)| v).collect();
     let axis: Vec<_> = points(4).map(|(_, v)| v).collect();
     view.line_on_sphere(&mut page, &equatorial, E_X, Some(Line { colour: "#9fd4c4", ..E_X }));
@@ -126,32 +127,45 @@ fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 fn caption(subject: &Subject, angles: &Table) -> Caption {
-    let shown = subject.shown;
+    let (scale, shown) = (&subject.scale, subject.shown);
     let errors = solutions(subject).into_iter().enumerate().map(|(i, (name, _))| {
         let worst = |column: usize| {
             angles.rows.iter().map(|row| (row[column + 2 * i + 2] - row[column]).abs()).fold(0.0, f64::max)
         };
-        format!("{name}: up to {:.2} rad in *α* and {:.3} rad in *β*", worst(1), worst(2))
+        format!("{name}: up to {} rad in *α* and {} rad in *β*", significant(worst(1), 2), significant(worst(2), 2))
     });
     let errors: Vec<_> = errors.collect();
-    let says = if angles.rows.is_empty() {
-        "The symmetry axis stays on a pole, where the Euler angles are not defined.".to_owned()
-    } else if errors.is_empty() {
-        "No perturbation solution belongs to this motion: it is not given by constants of integration.".to_owned()
-    } else {
-        format!("Differences from the numerical motion over the span shown: {}.", errors.join("; "))
+    let inclination = Spread::of(angles.rows.iter().map(|row| row[2]));
+    let says = match (inclination, &subject.printed) {
+        (None, _) => "The symmetry axis stays on a pole, where the Euler angles are not defined.".to_owned(),
+        (Some(inclination), Err(why)) => {
+            format!("*β* is {}. No perturbation solution is drawn: {why}.", inclination.in_words(" rad"))
+        }
+        (Some(_), Ok(_)) => {
+            format!("Differences from the numerical motion over the span shown: {}.", errors.join("; "))
+        }
     };
+    let solutions = match (subject.printed, subject.corrected) {
+        (Err(_), None) => "",
+        (_, None) => " Perturbation: Eqs. (30)-(33) as printed.",
+        (_, Some(_)) => {
+            " Perturbation: Eqs. (30)-(33) as printed, and corrected, with the first-order term that Eq. (29) lacks."
+        }
+    };
+    let in_unit = |t: f64| format!("{} {}", number(scale.time(t)), scale.time_unit());
     Caption {
         shows: format!(
             "{}. (a) Euler angles *α* and *β* in time. (b) Paths of the heads of **e**_{{*x*}} (thin, green; for *t* up to {}) and \
              **e**_{{*z*}} (thick, blue; for *t* up to {}) in the frame *X*-*Y*-*Z*, their tails at the origin; arrows mark both at \
              *t* = 0, and what is behind the unit sphere is pale.",
-            subject.name, shown.equatorial_axis, shown.angles
+            subject.name,
+            in_unit(shown.equatorial_axis),
+            in_unit(shown.angles)
         ),
         parameters: parameters("", &[subject]),
-        method: "Numerical: Taylor series of the regular equations of motion, Eq. (25) without its poles. Perturbation: Eqs. \
-                 (30)-(33) as printed, and for twofold precession also with the first-order term that Eq. (29) lacks."
-            .to_owned(),
+        method: format!(
+            "Numerical: Taylor series of the regular equations of motion, Eq. (25) without its poles.{solutions}"
+        ),
         says,
     }
 }

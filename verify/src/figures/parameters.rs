@@ -1,11 +1,12 @@
 //! The parameters of a figure in words.
 
-use super::axes::signed;
+use super::number::{beside, number};
+use super::scale::Scale;
 use super::subject::{Start, Subject};
 
 /// Star, violation and initial values of motions, after what is given first.
 pub(super) fn parameters(first: &str, subjects: &[&Subject]) -> String {
-    let stars: Vec<_> = subjects.iter().map(|subject| star(&subject.start)).collect();
+    let stars: Vec<_> = subjects.iter().map(|subject| star(&subject.start, &subject.scale)).collect();
     let mut text = first.to_owned();
     let one_star = stars.iter().all(|star| *star == stars[0]);
     if one_star {
@@ -14,58 +15,57 @@ pub(super) fn parameters(first: &str, subjects: &[&Subject]) -> String {
     for (subject, star) in subjects.iter().zip(&stars) {
         let name = if subjects.len() > 1 { format!(" {}:", subject.name) } else { String::new() };
         let star = if one_star { "" } else { star };
-        text += &format!("{name}{star} {}", initial_values(&subject.start));
+        text += &format!("{name}{star} {}", initial_values(&subject.start, &subject.scale));
     }
-    format!("{} Angles in rad, time in *t*_{{c}}.", text.trim_start())
+    format!("{} Angles in rad, time in {}.", text.trim_start(), subjects[0].scale.time_unit())
 }
 
 /// Observer and, where the figure is about it, beam of the first of some motions, which share them.
 pub(super) fn line_of_sight(subjects: &[&Subject], with_beam: bool) -> String {
     let mut text = String::new();
     if let Some(viewer) = subjects.first().and_then(|subject| subject.observer) {
-        text += &format!("*θ*_{{o}} = {}, *φ*_{{o}} = {}", viewer.theta_o, viewer.phi_o);
+        text += &format!("*θ*_{{o}} = {}, *φ*_{{o}} = {}", number(viewer.theta_o), number(viewer.phi_o));
     }
     if let Some(pulsar) = subjects.first().and_then(|subject| subject.pulsar).filter(|_| with_beam) {
-        text += &format!(", *χ* = {}, *δ* = {}, *ρ* = {}", pulsar.chi, pulsar.delta, pulsar.rho);
+        let [chi, delta, rho] = [pulsar.chi, pulsar.delta, pulsar.rho].map(number);
+        text += &format!(", *χ* = {chi}, *δ* = {delta}, *ρ* = {rho}");
     }
     text + ". "
 }
 
-fn star(start: &Start) -> String {
-    let (spheroid, s) = (&start.spheroid, &start.violation);
-    let off_diagonal = [(0, 1), (0, 2), (1, 2)].map(|place| s[place]);
-    let others = match off_diagonal.iter().any(|&component| component != 0.0) {
+fn star(start: &Start, scale: &Scale) -> String {
+    let (spheroid, s, units) = (&start.spheroid, &start.violation, &scale.units);
+    let size = s.norm();
+    let off_diagonal = [(0, 1), (0, 2), (1, 2)].map(|place| beside(s[place], size));
+    let others = match off_diagonal.iter().any(|component| component != "0") {
         true => {
-            let [xy, xz, yz] = off_diagonal.map(number);
+            let [xy, xz, yz] = off_diagonal;
             format!("; *s*^{{*XY*}}, *s*^{{*XZ*}}, *s*^{{*YZ*}} = {xy}, {xz}, {yz}")
         }
         false => String::new(),
     };
-    format!(
-        "*I*^{{*zz*}}/*I*^{{*xx*}} = {}, *Ω*^{{*z*}} = {}; *s*^{{*XX*}}, *s*^{{*YY*}}, *s*^{{*ZZ*}} = {}, {}, {}{others}.",
-        number(spheroid.inertia_zz / spheroid.inertia_xx),
-        number(start.spin()),
-        number(s[(0, 0)]),
-        number(s[(1, 1)]),
-        number(s[(2, 2)]),
-    )
+    let [xx, yy, zz] = [0, 1, 2].map(|i| beside(s[(i, i)], size));
+    let oblateness = number(spheroid.oblateness());
+    let body = if units.are_physical() {
+        format!(
+            "*ε* = {oblateness}, *I*^{{*xx*}} = {} g cm^{{2}}, *t*_{{c}} = {} s, *Ω*^{{*z*}}/(2π) = {} Hz",
+            number(units.momentum * units.time),
+            number(units.time),
+            number(scale.frequency(start.spin()))
+        )
+    } else {
+        format!("*ε* = {oblateness}, *Ω*^{{*z*}} = {}", number(start.spin()))
+    };
+    format!("{body}; *s*^{{*XX*}}, *s*^{{*YY*}}, *s*^{{*ZZ*}} = {xx}, {yy}, {zz}{others}.")
 }
 
-fn initial_values(start: &Start) -> String {
+fn initial_values(start: &Start, scale: &Scale) -> String {
     let angles = start.angles;
-    let [alpha, beta, gamma] = [angles.alpha, angles.beta, angles.gamma].map(number);
+    let [alpha, beta, gamma] = [angles.alpha, angles.beta, angles.gamma].map(|angle| beside(angle, 1.0));
+    let fastest = start.state.momentum.norm() / start.spheroid.inertia_xx;
+    let rate = |rate: f64| beside(rate / scale.units.time, fastest / scale.units.time);
     let rates = start.state.rates(&start.spheroid).ok().map_or(String::new(), |rates| {
-        format!(", d*α*/d*t* = {}, d*β*/d*t* = {}", number(rates.alpha), number(rates.beta))
+        format!(", d*α*/d*t* = {}, d*β*/d*t* = {}", rate(rates.alpha), rate(rates.beta))
     });
     format!("At *t* = 0: *α* = {alpha}, *β* = {beta}, *γ* = {gamma}{rates}.")
-}
-
-/// Six significant digits without trailing zeros; a number below 1e-12 is the rounding of a zero.
-fn number(x: f64) -> String {
-    if x.abs() < 1e-12 {
-        return "0".into();
-    }
-    let decimals = (5.0 - x.abs().log10().floor()).max(0.0) as usize;
-    let digits = format!("{x:.decimals$}");
-    signed(if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { &digits })
 }

@@ -4,8 +4,9 @@ use twofold::observables::pulsar::Stamped;
 use twofold::observables::pulsar::period::approximate_period;
 use twofold::solutions::perturbation::{Perturbation, ShiftedRates};
 
-use super::axes::{Axis, BELOW, Mark, Panel};
+use super::axes::{Axis, BELOW, LEFT, Mark, Panel};
 use super::legend::{Sample, legend};
+use super::number::{Spread, significant};
 use super::parameters::{line_of_sight, parameters};
 use super::style::{BLACK, BLUE, GREEN, GREY, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
 use super::subject::times;
@@ -24,7 +25,7 @@ const CURVES: [(Line, &str); 3] = [
 /// Curves are drawn for an amplitude A below this part of omega.
 const MOST_SWING: f64 = 0.1;
 
-/// Series of one motion, and curves where Eqs. (51), (56) are meant to hold.
+/// Series of one motion in the unit drawn, and curves where Eqs. (51), (56) are meant to hold.
 struct Series {
     pulses: PulseSeries,
     curves: Option<Table>,
@@ -47,7 +48,8 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
             if what == "gap" && points.is_empty() {
                 continue;
             }
-            let mut table = Table::new(format!("{}-{what}s", subject.name), ["t [t_c]", &format!("{what} [t_c]")]);
+            let columns = ["t", what].map(|of| subject.scale.time_column(of));
+            let mut table = Table::new(format!("{}-{what}s", subject.name), columns);
             points.iter().for_each(|point| table.push([point.time, point.value]));
             tables.push(table);
         }
@@ -60,10 +62,13 @@ fn series(subject: &Subject) -> Result<Series, String> {
     let message = |error: twofold::Error| format!("{}: {error}", subject.name);
     let (viewer, pulsar) = subject.line_of_sight()?;
     let span = (0.0, subject.shown.pulses);
-    let pulses = pulse_series(&subject.motion, &pulsar.beam(), &viewer.basis().direction, span).map_err(message)?;
+    let mut pulses = pulse_series(&subject.motion, &pulsar.beam(), &viewer.basis().direction, span).map_err(message)?;
+    for point in pulses.periods.iter_mut().chain(&mut pulses.gaps).chain(&mut pulses.lengths) {
+        (point.time, point.value) = (subject.scale.time(point.time), subject.scale.time(point.value));
+    }
     // The formulas take beta for constant during a turn: they fail for tp-II, whose A is 0.36 omega.
     let steady = |solution: &&Perturbation<f64>| solution.constants.amplitude.abs() < MOST_SWING * solution.omega.abs();
-    let twofold = subject.printed.as_ref().filter(|solution| solution.zeroth_rate != 0.0);
+    let twofold = subject.printed.as_ref().ok().filter(|solution| solution.zeroth_rate != 0.0);
     let curves = twofold.filter(steady).map(|solution| curves(subject, solution)).transpose()?;
     Ok(Series { pulses, curves })
 }
@@ -80,9 +85,10 @@ fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, Stri
     let [(_, first), (_, last)] = angles[..] else { return Err("the axis is on a pole".into()) };
     let mean = ShiftedRates { alpha: (last.alpha - first.alpha) / end, gamma: (last.gamma - first.gamma) / end };
     let shifted = ShiftedRates { alpha: solution.rate, gamma: subject.start.spin() - solution.rate * beta_0.cos() };
-    let columns = CURVES.iter().flat_map(|(_, of)| ["period", "length"].map(|q| format!("{q} {of} [t_c]")));
-    let mut table =
-        Table::new(format!("{}-curves", subject.name), std::iter::once("t [t_c]".to_owned()).chain(columns));
+    let columns =
+        CURVES.iter().flat_map(|(_, of)| ["period", "length"].map(|q| subject.scale.time_column(&format!("{q} {of}"))));
+    let columns = std::iter::once(subject.scale.time_column("t")).chain(columns);
+    let mut table = Table::new(format!("{}-curves", subject.name), columns);
     for t in times(end, 1000) {
         let mut row = vec![t];
         row.extend(paper.at(t).map_err(message)?);
@@ -91,25 +97,22 @@ fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, Stri
             let at = at.map_err(message)?;
             row.extend([approximate_period(rates.alpha, at.offset_rate), at.width / at.azimuth_rate]);
         }
-        table.push(row);
+        table.push(row.into_iter().map(|time| subject.scale.time(time)).collect::<Vec<_>>());
     }
     Ok(table)
 }
 
 fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
-    let (left, top, panel_height, gap, between) = (36.0, 18.0, 92.0, 8.0, 40.0);
+    let (left, top, panel_height, gap, between) = (LEFT, 18.0, 92.0, 8.0, 46.0);
     let count = subjects.len() as f64;
     let width = (PAGE - left - 8.0 - (count - 1.0) * between) / count;
     let with_legend = series.iter().any(|series| series.curves.is_some());
     let legend_height = if with_legend { 14.0 } else { 0.0 };
     let mut page = Page::new(name, PAGE, top + 2.0 * panel_height + gap + BELOW + legend_height);
     for (i, (subject, series)) in subjects.iter().zip(series).enumerate() {
-        let shown = subject.shown.pulses;
-        let x = Axis::linear("*t* / *t*_{c}", shown.min(0.0), shown.max(0.0));
+        let x = subject.scale.time_axis(subject.shown.pulses);
         for (row, (points, label)) in
-            [(&series.pulses.periods, "period / *t*_{c}"), (&series.pulses.lengths, "pulse length / *t*_{c}")]
-                .into_iter()
-                .enumerate()
+            [(&series.pulses.periods, "period"), (&series.pulses.lengths, "pulse length")].into_iter().enumerate()
         {
             let frame = Rectangle {
                 left: left + (width + between) * i as f64,
@@ -120,16 +123,24 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
             let curve = |i: usize| series.curves.as_ref().map(|table| table.points(0, 1 + row + 2 * i));
             let on_curves = (0..CURVES.len()).filter_map(curve).flatten().map(|(_, y)| y);
             let values: Vec<_> = points.iter().map(|point| point.value).chain(on_curves).collect();
-            let y = if values.is_empty() { Axis::linear(label, 0.0, 1.0) } else { Axis::around(label, values) };
+            // Differences that would be lost on an axis are drawn as such.
+            let reference = Spread::of(values.iter().copied()).and_then(Spread::reference);
+            let shift = reference.unwrap_or(0.0);
+            let label =
+                subject.scale.time_label(&format!("{label}{}", if reference.is_some() { " − *P*" } else { "" }));
+            let y = match values.is_empty() {
+                true => Axis::linear(&label, 0.0, 1.0),
+                false => Axis::around(&label, values.iter().map(|value| value - shift)),
+            };
             let mut panel = Panel::new(frame, if row == 0 { x.bare() } else { x.clone() }, y);
             panel.y_label_distance = 26.0;
             // The paper's curve over the others.
             for (i, (line, _)) in CURVES.iter().enumerate().rev() {
                 if let Some(points) = curve(i) {
-                    panel.curve(&mut page, &points, *line);
+                    panel.curve(&mut page, &shifted(points.into_iter(), shift), *line);
                 }
             }
-            let pairs = |points: &[Stamped]| points.iter().map(|point| (point.time, point.value)).collect::<Vec<_>>();
+            let pairs = |points: &[Stamped]| shifted(points.iter().map(|point| (point.time, point.value)), shift);
             if series.curves.is_none() {
                 for stretch in series.stretches(points) {
                     panel.curve(&mut page, &pairs(stretch), solid(GREY, 0.5));
@@ -142,6 +153,10 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
                 page.text(middle, Anchor::Middle, SMALL, GREY, "no whole pulse");
             }
             panel.draw_frame(&mut page);
+            if let Some(reference) = reference {
+                let text = format!("*P* = {} {}", significant(reference, 15), subject.scale.time_unit());
+                page.text([frame.right() - 5.0, frame.top + 12.0], Anchor::End, SMALL, BLACK, &text);
+            }
             if row == 0 {
                 panel.letter(&mut page, i, subjects.len(), &subject.name);
             }
@@ -158,23 +173,30 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
     page.finish("Pulse periods and lengths in time")
 }
 
+/// Points with a value taken off.
+fn shifted(points: impl Iterator<Item = (f64, f64)>, by: f64) -> Vec<(f64, f64)> {
+    points.map(|(t, value)| (t, value - by)).collect()
+}
+
 fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
-    let range = |points: &[Stamped]| {
-        let values = points.iter().map(|point| point.value);
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-        format!("from {low:.2} to {high:.2} *t*_{{c}}")
-    };
     let ranges = subjects.iter().zip(series).map(|(subject, Series { pulses, .. })| {
-        let (name, whole) = (&subject.name, pulses.lengths.len());
-        if pulses.periods.is_empty() {
-            return format!("{name}: {whole} whole pulses.");
-        }
+        let name = &subject.name;
+        let unit = format!(" {}", subject.scale.time_unit());
+        let range = |points: &[Stamped]| {
+            Spread::of(points.iter().map(|point| point.value)).map(|spread| spread.in_words(&unit))
+        };
+        let whole = match pulses.lengths.len() {
+            0 => "no whole pulse".to_owned(),
+            1 => "1 whole pulse".to_owned(),
+            count => format!("{count} whole pulses"),
+        };
         let left_out = match pulses.gaps.len() {
             0 => String::new(),
             count => format!(" ({count} of {} intervals left out)", count + pulses.periods.len()),
         };
-        let (periods, lengths) = (range(&pulses.periods), range(&pulses.lengths));
-        format!("{name}: {whole} whole pulses, periods {periods}{left_out}, lengths {lengths}.")
+        let periods = range(&pulses.periods).map_or(String::new(), |range| format!(", periods {range}{left_out}"));
+        let lengths = range(&pulses.lengths).map_or(String::new(), |range| format!(", lengths {range}"));
+        format!("{name}: {whole}{periods}{lengths}.")
     });
     let mut says: Vec<_> = ranges.collect();
     if series.iter().any(|series| series.curves.is_some()) {
@@ -191,19 +213,30 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
                 .to_owned(),
         );
     }
-    Caption {
-        shows: "Periods (top) and lengths in time (bottom) of the pulses: the period is the time between the midpoints of two \
-                consecutive pulses, at the mean of both midpoints, the length is at its midpoint. Intervals that are not from one turn of the star to the next, because a turn has no pulse or a pulse lasts for more than a turn, are \
-                left out. Where there are no \
-                curves, thin grey lines join points, broken where an interval is left out."
-            .to_owned(),
-        parameters: parameters(&line_of_sight(subjects, true), subjects),
-        method: "Edges of the pulses: roots of **m** · **n** = cos *ρ*, Eq. (44), along the numerical motion, with bounds that let none be \
-                 missed. Solid curves, the paper's: 2π over the rate of azimuth *α*′ + Δ*Φ*′, the period of Eqs. (51) and (52) before it is \
-                 expanded, and the width (56) over the mean rate of azimuth, both with the angles and rates of the numerical motion at each \
-                 instant. Dotted and dashed, not in the paper: Eq. (51) to first order and the width over the rate of azimuth at constant \
-                 *β*_{0} and constant rates, the mean ones of the motion and those of Eq. (57)."
-            .to_owned(),
-        says: says.join(" "),
+    let mut shows = "Periods (top) and lengths in time (bottom) of the pulses: the period is the time between the midpoints of two \
+                     consecutive pulses, at the mean of both midpoints, the length is at its midpoint."
+        .to_owned();
+    let mut method = "Edges of the pulses: roots of **m** · **n** = cos *ρ*, Eq. (44), along the numerical motion, with bounds that let none be \
+                      missed."
+        .to_owned();
+    if series.iter().any(|series| !series.pulses.gaps.is_empty()) {
+        shows += " Intervals that are not from one turn of the star to the next, because a turn has no pulse or a pulse lasts for more than a turn, \
+                  are left out.";
     }
+    let is_joined = |series: &&Series| series.curves.is_none() && series.pulses.lengths.len() > 1;
+    if series.iter().any(|series| is_joined(&series)) {
+        let only = if series.iter().any(|series| series.curves.is_some()) { " where there are no curves" } else { "" };
+        let broken = match series.iter().filter(is_joined).any(|series| !series.pulses.gaps.is_empty()) {
+            true => ", broken where an interval is left out",
+            false => "",
+        };
+        shows += &format!(" Thin grey lines join points{only}{broken}.");
+    }
+    if series.iter().any(|series| series.curves.is_some()) {
+        method += " Solid curves, the paper's: 2π over the rate of azimuth *α*′ + Δ*Φ*′, the period of Eqs. (51) and (52) before it is \
+                   expanded, and the width (56) over the mean rate of azimuth, both with the angles and rates of the numerical motion at each \
+                   instant. Dotted and dashed, not in the paper: Eq. (51) to first order and the width over the rate of azimuth at constant \
+                   *β*_{0} and constant rates, the mean ones of the motion and those of Eq. (57).";
+    }
+    Caption { shows, parameters: parameters(&line_of_sight(subjects, true), subjects), method, says: says.join(" ") }
 }

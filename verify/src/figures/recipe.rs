@@ -18,7 +18,7 @@ enum Maker {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Needs {
     Nothing,
-    Observer,
+    Waves,
     ObserverAndBeam,
 }
 
@@ -107,13 +107,13 @@ pub const RECIPES: &[Recipe] = &[
         name: "waves",
         paper_figure: Some(11),
         summary: "Gravitational waves h_+ and h_x of tp-I and tp-II in time",
-        maker: Maker::Motions(Needs::Observer, &[0, 1], waves::sheet),
+        maker: Maker::Motions(Needs::Waves, &[0, 1], waves::sheet),
     },
     Recipe {
         name: "wave-spectra",
         paper_figure: Some(12),
         summary: "Spectra of the gravitational waves of tp-I and tp-II, with the third harmonic enlarged",
-        maker: Maker::Motions(Needs::Observer, &[0, 1], wave_spectra::sheet),
+        maker: Maker::Motions(Needs::Waves, &[0, 1], wave_spectra::sheet),
     },
     Recipe {
         name: "bound-factor",
@@ -171,23 +171,26 @@ pub const OF_A_SCENE: &[Recipe] = &[
         name: "waves",
         paper_figure: None,
         summary: "Gravitational waves h_+ and h_x in time",
-        maker: Maker::Motions(Needs::Observer, &[0], waves::sheet),
+        maker: Maker::Motions(Needs::Waves, &[0], waves::sheet),
     },
     Recipe {
         name: "wave-spectra",
         paper_figure: None,
         summary: "Spectra of the gravitational waves",
-        maker: Maker::Motions(Needs::Observer, &[0], wave_spectra::sheet),
+        maker: Maker::Motions(Needs::Waves, &[0], wave_spectra::sheet),
     },
 ];
 
 impl Recipe {
-    /// The section of a scene file that the figure needs and a motion lacks.
+    /// What the figure needs of a scene file and a motion lacks.
     pub fn lacks(&self, motion: &Subject) -> Option<&'static str> {
         let Maker::Motions(needs, ..) = self.maker else { return None };
         match needs {
-            Needs::Observer | Needs::ObserverAndBeam if motion.observer.is_none() => Some("observer"),
-            Needs::ObserverAndBeam if motion.pulsar.is_none() => Some("pulsar"),
+            Needs::Waves | Needs::ObserverAndBeam if motion.observer.is_none() => Some("the section [observer]"),
+            Needs::Waves if motion.lacks_distance() => {
+                Some("`observer.distance` [kpc], without which a physical star has no strain")
+            }
+            Needs::ObserverAndBeam if motion.pulsar.is_none() => Some("the section [pulsar]"),
             _ => None,
         }
     }

@@ -7,6 +7,7 @@ use twofold::observables::fundamental_frequencies::{FundamentalFrequencies, fund
 use twofold::observables::spectrum::{Combination, Series, Window, amplitude_spectrum, spectral_lines};
 use twofold::propagation::{TaylorMotion, propagate};
 
+use super::number::{number, significant};
 use super::subject::{ACCURACY, Subject};
 use super::table::Table;
 
@@ -63,13 +64,13 @@ impl NamedLine {
     }
 }
 
-/// Amplitudes up to a frequency, and the lines of a series.
+/// Amplitudes up to a frequency, and the lines of a series. Frequencies are in the unit drawn.
 pub(super) struct Spectrum {
     pub(super) points: Vec<(f64, f64)>,
     pub(super) lines: Vec<NamedLine>,
 }
 
-/// Spectrum of an observable of the state, up to the angular frequency `highest`.
+/// Spectrum of an observable of the state, up to the frequency `highest`, as it is drawn.
 pub(super) fn spectrum(
     subject: &Subject,
     highest: f64,
@@ -79,28 +80,41 @@ pub(super) fn spectrum(
     let long = subject.long_motion()?;
     let series = Series::of_motion(&long.motion, SAMPLES, observable).map_err(message)?;
     let amplitudes = amplitude_spectrum(&series, WINDOW).map_err(message)?;
-    let points: Vec<_> = amplitudes.points().take_while(|(frequency, _)| *frequency <= highest).collect();
+    let drawn = |omega: f64| subject.scale.frequency(omega);
+    let points = amplitudes.points().map(|(omega, amplitude)| (drawn(omega), amplitude));
+    let points: Vec<_> = points.take_while(|(frequency, _)| *frequency <= highest).collect();
     let strongest = points.iter().skip(1).map(|point| point.1).fold(0.0, f64::max);
     let basis = long.frequencies.as_ref().and_then(|frequencies| frequencies.basis().ok());
     let mut lines = Vec::new();
     if strongest > 0.0 {
-        // Lines too near to be told apart leave the list empty: the spectrum shows them all the same.
-        let found =
-            spectral_lines(&series, WEAKEST * strongest, MOST_FITTED).map(|list| list.lines).unwrap_or_default();
-        for line in found.into_iter().take(MOST_LINES) {
+        let found = spectral_lines(&series, WEAKEST * strongest, MOST_FITTED).map_err(message)?;
+        for line in found.lines.into_iter().take(MOST_LINES) {
             let identified = basis.as_ref().map(|basis| basis.identify(line.frequency, line.uncertainty));
             let combination = identified.and_then(|identified| identified.combination().cloned());
-            lines.push(NamedLine { frequency: line.frequency, amplitude: line.amplitude, combination });
+            lines.push(NamedLine { frequency: drawn(line.frequency), amplitude: line.amplitude, combination });
         }
     }
     Ok(Spectrum { points, lines })
 }
 
+/// What the symbols of mean rates in some names stand for.
+pub(super) fn symbols_in(names: &[String]) -> String {
+    let meanings = [
+        ("*α*", "of the precession angle"),
+        ("*γ*", "of the rotation angle"),
+        ("*l*", "of the slow precession"),
+        ("*ν*", "of nutation"),
+        ("*ψ*", "of the rotation about the symmetry axis"),
+    ];
+    let named = meanings.iter().filter(|(symbol, _)| names.iter().any(|name| name.contains(symbol)));
+    named.map(|(symbol, meaning)| format!("{symbol} {meaning}")).collect::<Vec<_>>().join(", ")
+}
+
 /// Lines as a table: frequency, amplitude, and how often each fundamental frequency is in it; all zero where it is not known.
-pub(super) fn lines_table(name: String, lines: &[NamedLine], unit: &str) -> Table {
+pub(super) fn lines_table(name: String, lines: &[NamedLine], frequency: String, unit: &str) -> Table {
     const SYMBOLS: [&str; 5] = ["alpha'", "gamma'", "l'", "nu'", "psi'"];
     let multiples = SYMBOLS.map(|symbol| format!("multiple of {symbol} [1]"));
-    let head = ["frequency [rad/t_c]".to_owned(), format!("amplitude [{unit}]")];
+    let head = [frequency, format!("amplitude [{unit}]")];
     let mut table = Table::new(name, head.into_iter().chain(multiples));
     for line in lines {
         let multiple = |symbol: &&str| {
@@ -114,34 +128,48 @@ pub(super) fn lines_table(name: String, lines: &[NamedLine], unit: &str) -> Tabl
     table
 }
 
+/// A sentence of clauses: with a capital and a full stop.
+pub(super) fn sentence(clauses: &str) -> String {
+    let mut letters = clauses.chars();
+    letters.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
+}
+
 /// The fundamental frequencies in words.
 pub(super) fn rates(subject: &Subject) -> Result<String, String> {
     let Some(f) = &subject.long_motion()?.frequencies else {
-        return Ok(format!("{}: no mean rates are certain over the length of the series", subject.name));
+        return Ok(format!("{}: none is certain over the length of the series", subject.name));
     };
     let named = [("*α*", f.alpha), ("*γ*", f.gamma), ("*l*", f.slow), ("*ν*", f.nutation)];
     let known = named.iter().filter_map(|(name, rate)| {
         let rate = (*rate)?;
-        let value = super::axes::signed(&format!("{:.6}", rate.value));
-        // Digits that are not certain are said to be so.
-        let error = if rate.uncertainty < 1e-7 { String::new() } else { format!(" ± {:.0e}", rate.uncertainty) };
-        Some(format!("{name} = {value}{error}"))
+        let [value, error] = [rate.value, rate.uncertainty].map(|omega| subject.scale.frequency(omega));
+        // Digits that are not certain are said to be so, and a rate below its error is none.
+        Some(match value.abs() {
+            size if size <= error => format!("|{name}| < {}", significant(error, 1)),
+            size if 1e-7 * size < error => {
+                let digits = ((size / error).log10().floor() as usize + 1).min(7);
+                format!("{name} = {} ± {}", significant(value, digits), significant(error, 1))
+            }
+            _ => format!("{name} = {}", significant(value, 7)),
+        })
     });
     Ok(format!("{}: {}", subject.name, known.collect::<Vec<_>>().join(", ")))
 }
 
 /// Lengths of the series.
 pub(super) fn length_in_words(subjects: &[&Subject]) -> String {
-    let mut lengths: Vec<_> = subjects.iter().map(|s| format!("{:.0} *t*_{{c}}", s.spectrum_duration)).collect();
+    let length = |s: &&Subject| format!("{} {}", number(s.scale.time(s.spectrum_duration)), s.scale.time_unit());
+    let mut lengths: Vec<_> = subjects.iter().map(length).collect();
     lengths.dedup();
     lengths.join(" and ")
 }
 
-/// The highest frequency that a figure shows: some times the rate of free precession, rounded up to halves.
+/// The highest frequency that a figure shows, as it is drawn: some times the rate of rotation, rounded up to half of its first digit.
 pub(super) fn highest(subjects: &[&Subject], times: f64) -> f64 {
-    let rate = |subject: &&Subject| SERIES_ROTATION / subject.spectrum_duration;
-    let fastest = subjects.iter().map(rate).fold(0.0, f64::max);
-    (times * fastest * 2.0).ceil() / 2.0
+    let rate = |subject: &&Subject| subject.scale.frequency(SERIES_ROTATION / subject.spectrum_duration);
+    let highest = times * subjects.iter().map(rate).fold(0.0, f64::max);
+    let half = 10f64.powf(highest.log10().floor()) / 2.0;
+    (highest / half).ceil() * half
 }
 
 /// Rotation over the length of a series (rad): 4,000 turns part the lines of tp-II, of which pairs are 0.0024 / t_c apart.

@@ -9,6 +9,7 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
 use twofold::solutions::perturbation::{Form, Perturbation, constants_from_initial_values};
 
+use super::scale::Scale;
 use super::spectrum::{LongMotion, SERIES_ROTATION};
 use crate::scene_file::{Pulsar, Scene, Viewer};
 
@@ -57,8 +58,10 @@ pub struct Subject {
     pub name: String,
     /// The star and its first state.
     pub start: Start,
-    /// The perturbation solution whose constants give the motion, as printed.
-    pub printed: Option<Perturbation<f64>>,
+    /// In which units it is drawn.
+    pub scale: Scale,
+    /// The perturbation solution whose constants give the motion, as printed, or why there is none.
+    pub printed: Result<Perturbation<f64>, &'static str>,
     /// The corrected solution with the same initial values.
     pub corrected: Option<Perturbation<f64>>,
     /// Who looks on.
@@ -104,7 +107,8 @@ impl Subject {
         Ok(Self {
             name: name.to_owned(),
             start,
-            printed: None,
+            scale: Scale::PAPER,
+            printed: Err("no constants are given"),
             corrected: None,
             observer: None,
             pulsar: None,
@@ -128,13 +132,15 @@ impl Subject {
         };
         let duration = (scene.times.last() - scene.times.start()) / scene.units.time;
         let motion = Self::new(name, start, duration)?;
-        let printed = scene.perturbation.as_ref().ok().copied();
+        let (scale, printed) = (Scale::of_scene(scene), scene.perturbation.clone());
         // A scene has a perturbation solution where its tensor is diagonal.
         let s = scene.violation.diagonal();
         let s = PrincipalCoefficients::new([s.x, s.y, s.z]);
-        let corrected =
-            printed.and_then(|printed| corrected_solution(&printed, &scene.spheroid, &s, motion.start.spin()));
-        Ok(Self { printed, corrected, observer: scene.observer, pulsar: scene.pulsar, ..motion })
+        let corrected = printed
+            .as_ref()
+            .ok()
+            .and_then(|printed| corrected_solution(printed, &scene.spheroid, &s, motion.start.spin()));
+        Ok(Self { scale, printed, corrected, observer: scene.observer, pulsar: scene.pulsar, ..motion })
     }
 
     /// The motion over the length of the spectra, computed once.
@@ -151,6 +157,11 @@ impl Subject {
         self.observer.ok_or_else(|| format!("{}: no observer is given", self.name))
     }
 
+    /// Whether the strain at the observer is not known.
+    pub(super) fn lacks_distance(&self) -> bool {
+        self.scale.units.are_physical() && self.observer.is_some_and(|viewer| viewer.distance.is_none())
+    }
+
     /// The observer and the beam.
     ///
     /// # Errors
@@ -159,12 +170,13 @@ impl Subject {
         Ok((self.viewer()?, self.pulsar.ok_or_else(|| format!("{}: no beam is given", self.name))?))
     }
 
-    /// `alpha'` and `|gamma'|` of free precession at the mean inclination, Eq. (48), where the motion is twofold precession
+    /// `alpha'` and `|gamma'|` of free precession at the mean inclination, Eq. (48), as they are drawn, where the motion is twofold precession
     /// by its constants.
     pub(super) fn free_rates(&self) -> Vec<f64> {
-        let twofold = self.printed.filter(|solution| solution.zeroth_rate != 0.0);
+        let twofold = self.printed.ok().filter(|solution| solution.zeroth_rate != 0.0);
         let gamma = self.start.spheroid.oblateness() * self.start.spin();
-        twofold.map_or(Vec::new(), |solution| vec![solution.zeroth_rate.abs(), gamma.abs()])
+        let drawn = |omega: f64| self.scale.frequency(omega.abs());
+        twofold.map_or(Vec::new(), |solution| vec![drawn(solution.zeroth_rate), drawn(gamma)])
     }
 
     /// State at a time of the motion.

@@ -1,59 +1,81 @@
 //! Spectra of `h_+` and `h_x`, with the third harmonic enlarged.
 
-use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
-use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
+use twofold::dynamics::BodyState;
+use twofold::observables::gravitational_wave::Polarizations;
 
 use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::number::{number, significant};
 use super::parameters::{line_of_sight, parameters};
 use super::spectrum::{self, NamedLine, Spectrum};
 use super::style::{BLACK, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
 use super::svg::{Anchor, Page, Rectangle};
 use super::table::Table;
-use super::{Caption, Sheet, Subject};
+use super::{Caption, Sheet, Subject, waves};
 
 const LINE: Line = solid(BLACK, 0.8);
 
-/// An amplitude that is the rounding of none.
-const NOTHING: f64 = 1e-15;
+/// Half of the width of the inset, as a part of the rate of which the wave has harmonics.
+const INSET: f64 = 0.22;
 
-/// Half of the width of the inset, in frequency.
-const INSET: f64 = 0.32;
+/// An inset is drawn for amplitudes above this part of the largest: the window's sidelobes are below.
+const ENLARGED: f64 = 1e-5;
 
 pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
     let highest = spectrum::highest(subjects, 3.7);
     let mut tables = Vec::new();
     let mut spectra = Vec::new();
     for subject in subjects {
-        let start = &subject.start;
-        let observer = subject.viewer()?.basis();
-        let wave = |state: &twofold::dynamics::BodyState<f64>| {
-            let source = spheroid_inertia_acceleration(&start.spheroid, &start.violation, &state.axis, &state.momentum);
-            polarizations(&observer, &metric_perturbation(1.0, &source))
+        subject.viewer()?;
+        let polarization = |state: &BodyState<f64>, of: fn(Polarizations<f64>) -> f64| {
+            // There is an observer.
+            waves::wave(subject, state).map_or(f64::NAN, of)
         };
         let both = [
-            spectrum::spectrum(subject, highest, |state| wave(state).plus)?,
-            spectrum::spectrum(subject, highest, |state| wave(state).cross)?,
+            spectrum::spectrum(subject, highest, |state| polarization(state, |h| h.plus))?,
+            spectrum::spectrum(subject, highest, |state| polarization(state, |h| h.cross))?,
         ];
-        let unit = "G I^xx / (c^4 t_c^2 r)";
-        let columns = ["frequency [rad/t_c]".to_owned(), format!("h_+ [{unit}]"), format!("h_x [{unit}]")];
+        let (frequency, unit) = (subject.scale.frequency_column(), subject.scale.wave_column_unit());
+        let columns = [frequency.clone(), format!("h_+ [{unit}]"), format!("h_x [{unit}]")];
         let mut table = Table::new(format!("{}-spectrum", subject.name), columns);
         for (plus, cross) in both[0].points.iter().zip(&both[1].points) {
             table.push([plus.0, plus.1, cross.1]);
         }
         tables.push(table);
         for (polarization, spectrum) in ["plus", "cross"].iter().zip(&both) {
-            tables.push(spectrum::lines_table(format!("{}-{polarization}-lines", subject.name), &spectrum.lines, unit));
+            let name = format!("{}-{polarization}-lines", subject.name);
+            tables.push(spectrum::lines_table(name, &spectrum.lines, frequency.clone(), unit));
         }
         spectra.push(both);
     }
-    let caption = caption(subjects, &spectra)?;
+    let caption = caption(subjects, &spectra, highest)?;
     Ok(Sheet { svg: draw(name, subjects, &spectra, highest)?, caption, tables })
 }
 
-/// The rate of which the wave has harmonics: that of `alpha`.
-fn fundamental(subject: &Subject) -> Result<Option<f64>, String> {
+/// Largest amplitude in some spectra; the first point is the constant term.
+fn largest(both: &[Spectrum; 2]) -> f64 {
+    both.iter().flat_map(|s| s.points.iter().skip(1).map(|p| p.1)).fold(0.0, f64::max)
+}
+
+/// Whether a wave is more than rounding.
+fn radiates(subject: &Subject, both: &[Spectrum; 2]) -> bool {
+    largest(both) > waves::rounding(subject)
+}
+
+/// The rate of `alpha`, of which the wave has harmonics, as it is drawn; none where nothing is left to enlarge near its third.
+fn fundamental(subject: &Subject, both: &[Spectrum; 2], highest: f64) -> Result<Option<f64>, String> {
     let frequencies = &subject.long_motion()?.frequencies;
-    Ok(frequencies.as_ref().and_then(|f| f.alpha).filter(|rate| rate.uncertainty < 1e-6).map(|rate| rate.value.abs()))
+    let rate = frequencies.as_ref().and_then(|f| f.alpha).filter(|rate| rate.uncertainty < 1e-6 * rate.value.abs());
+    let rate = rate.map(|rate| subject.scale.frequency(rate.value.abs()));
+    let is_seen = |rate: &f64| {
+        let near = both.iter().flat_map(|s| part(s, *rate)).map(|point| point.1).fold(0.0, f64::max);
+        (3.0 + INSET) * rate < highest && radiates(subject, both) && near > ENLARGED * largest(both)
+    };
+    Ok(rate.filter(is_seen))
+}
+
+/// The part of a spectrum near three times a rate.
+fn part(spectrum: &Spectrum, rate: f64) -> impl Iterator<Item = (f64, f64)> {
+    spectrum.points.iter().filter(move |point| (point.0 - 3.0 * rate).abs() < INSET * rate).copied()
 }
 
 fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f64) -> Result<String, String> {
@@ -62,9 +84,10 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
     let width = (PAGE - LEFT - 8.0 - (count - 1.0) * between) / count;
     let mut page = Page::new(name, PAGE, top + 2.0 * height + gap + BELOW);
     // One scale for both stars and polarizations, so that sizes can be compared.
-    let most = spectra.iter().flatten().flat_map(|s| s.points.iter().skip(1).map(|p| p.1)).fold(NOTHING, f64::max);
+    let most = subjects.iter().zip(spectra).map(|(s, both)| largest(both).max(waves::rounding(s))).fold(0.0, f64::max);
+    let most = if most > 0.0 { most } else { 1.0 };
     for (i, (subject, both)) in subjects.iter().zip(spectra).enumerate() {
-        let third = fundamental(subject)?.map(|rate| 3.0 * rate).filter(|third| third + INSET < highest);
+        let rate = fundamental(subject, both, highest)?;
         for (polarization, (spectrum, symbol)) in both.iter().zip(["*h*_{+}", "*h*_{×}"]).enumerate() {
             let frame = Rectangle {
                 left: LEFT + (width + between) * i as f64,
@@ -72,7 +95,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
                 width,
                 height,
             };
-            let x = Axis::linear("angular frequency × *t*_{c}", 0.0, highest);
+            let x = Axis::linear(subject.scale.frequency_label(), 0.0, highest);
             let y = Axis::linear(&format!("amplitude of {symbol}"), 0.0, 1.05 * most);
             let panel = Panel::new(frame, if polarization == 0 { x.bare() } else { x }, y);
             if let Some(free) = subject.free_rates().first() {
@@ -83,27 +106,27 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
             if polarization == 0 {
                 panel.letter(&mut page, i, subjects.len(), &subject.name);
             }
-            if let Some(third) = third {
-                inset(&mut page, frame, third, spectrum);
+            if let Some(rate) = rate {
+                inset(&mut page, frame, rate, spectrum);
             }
         }
     }
     Ok(page.finish("Spectra of the gravitational waves"))
 }
 
-/// The part of the spectrum around `centre` at a scale of its own, in the upper right of the frame.
-fn inset(page: &mut Page, frame: Rectangle, centre: f64, spectrum: &Spectrum) {
-    let part: Vec<_> = spectrum.points.iter().filter(|point| (point.0 - centre).abs() < INSET).copied().collect();
-    let most = part.iter().map(|point| point.1).fold(NOTHING, f64::max);
+/// The part of the spectrum near three times `rate` at a scale of its own, in the upper right of the frame.
+fn inset(page: &mut Page, frame: Rectangle, rate: f64, spectrum: &Spectrum) {
+    let part: Vec<_> = part(spectrum, rate).collect();
+    let most = part.iter().map(|point| point.1).fold(f64::MIN_POSITIVE, f64::max);
     let inner = Rectangle {
         left: frame.left + 0.65 * frame.width,
         top: frame.top + 17.0,
         width: 0.31 * frame.width,
         height: 0.48 * frame.height,
     };
-    let x = Axis::linear("", centre - INSET, centre + INSET);
+    let x = Axis::linear("", (3.0 - INSET) * rate, (3.0 + INSET) * rate);
     let panel = Panel::new(inner, x, Axis::linear("", 0.0, 1.15 * most));
-    panel.upright(page, centre, dotted("#404040", 0.8));
+    panel.upright(page, 3.0 * rate, dotted("#404040", 0.8));
     panel.curve(page, &part, LINE);
     panel.draw_frame(page);
     let power = match panel.y_power() {
@@ -113,49 +136,71 @@ fn inset(page: &mut Page, frame: Rectangle, centre: f64, spectrum: &Spectrum) {
     page.text([inner.right(), inner.top - 4.0], Anchor::End, SMALL, "#000000", &format!("near 3 d*α*/d*t*{power}"));
 }
 
-fn caption(subjects: &[&Subject], spectra: &[[Spectrum; 2]]) -> Result<Caption, String> {
+fn caption(subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f64) -> Result<Caption, String> {
     let rates = subjects.iter().map(|subject| spectrum::rates(subject)).collect::<Result<Vec<_>, _>>()?;
-    let mut says = Vec::new();
-    for (subject, [plus, _]) in subjects.iter().zip(spectra) {
-        let Some(first) = plus.lines.first() else { continue };
-        let name = |line: &NamedLine| line.name().unwrap_or_else(|| format!("at {:.4} / *t*_{{c}}", line.frequency));
-        let multiple = |line: &NamedLine, symbol: &str| {
-            let terms = line.combination.as_ref().map_or(&[][..], |combination| &combination.terms);
-            terms.iter().find(|(_, found)| *found == symbol).map_or(0, |(count, _)| count.abs())
-        };
-        says.push(format!("The strongest line in *h*_{{+}} of {} is {}", subject.name, name(first)));
-        if let Some(third) = plus.lines.iter().find(|line| multiple(line, "alpha'") == 3) {
-            let part = scientific(third.amplitude / first.amplitude);
-            says.push(format!("the strongest of the third harmonic, {}, has {part} of it", name(third)));
-        }
-        let slow = plus.lines.iter().find(|line| multiple(line, "l'") == 1 && multiple(line, "alpha'") == 0);
-        says.push(match slow {
-            Some(slow) => {
-                let part = scientific(slow.amplitude / first.amplitude);
-                format!("the slow frequency *l* by itself has {part} of it, too little for the picture. ")
-            }
-            None => "the slow frequency *l* is not among its lines. ".to_owned(),
-        });
+    let says: Vec<_> = subjects.iter().zip(spectra).map(|(subject, both)| findings(subject, both)).collect();
+    let scale = &subjects[0].scale;
+    let mut shows = format!("Amplitude spectra of *h*_{{+}} (top) and *h*_{{×}} (bottom), {}", scale.wave_unit());
+    let mut insets = Vec::new();
+    for (subject, both) in subjects.iter().zip(spectra) {
+        insets.extend(fundamental(subject, both, highest)?);
     }
-    let says = says.join(", ").replace(". , ", ". ").trim_end().to_owned();
-    let says = if says.is_empty() { "The star does not radiate.".to_owned() } else { says };
+    if !insets.is_empty() {
+        shows += "; the insets enlarge what is near three times the mean rate of *α* (dotted)";
+    }
+    shows += ".";
+    if subjects.iter().any(|subject| !subject.free_rates().is_empty()) {
+        shows += " Dashed: *α* and 2*α* of free precession, Eq. (48).";
+    }
     Ok(Caption {
-        shows: "Amplitude spectra of *h*_{+} (top) and *h*_{×} (bottom), in units of *G* *I*^{*xx*} / (*c*^{4} *t*_{c}^{2} *r*); the insets enlarge what is near three times the mean rate of *α* (dotted). \
-                Dashed: *α* and 2*α* of free precession, Eq. (48)."
-            .to_owned(),
+        shows,
         parameters: parameters(&line_of_sight(subjects, false), subjects),
         method: format!(
             "Waves by Eqs. (59), (64), (65), (69)-(71); Fourier transform of 49,152 values over {} with Kaiser's window (shape 14); lines by a joint fit, to \
-             10^{{−5}} of the strongest. Mean rates per *t*_{{c}}: {}.",
+             10^{{−5}} of the strongest. Mean rates in {}: {}.",
             spectrum::length_in_words(subjects),
+            scale.frequency_unit(),
             rates.join("; ")
         ),
-        says,
+        says: says.join(" "),
     })
 }
 
-/// `2.5 × 10^{−3}`.
-fn scientific(x: f64) -> String {
-    let power = x.log10().floor();
-    format!("{:.1} × 10^{{{}}}", x / 10f64.powf(power), super::axes::signed(&format!("{power:.0}")))
+/// What the spectra of a motion say.
+fn findings(subject: &Subject, both: &[Spectrum; 2]) -> String {
+    if !radiates(subject, both) {
+        return format!("{} does not radiate: the amplitudes are rounding.", subject.name);
+    }
+    let by_strength = |a: &&Spectrum, b: &&Spectrum| {
+        let strongest = |s: &Spectrum| s.lines.first().map_or(0.0, |line| line.amplitude);
+        strongest(a).total_cmp(&strongest(b))
+    };
+    let strongest = both.iter().rev().max_by(by_strength).expect("two spectra");
+    let Some(first) = strongest.lines.first() else {
+        return format!("{} has no line above 10^{{−5}} of its constant term.", subject.name);
+    };
+    let symbol = if std::ptr::eq(strongest, &both[0]) { "*h*_{+}" } else { "*h*_{×}" };
+    let name = |line: &NamedLine| {
+        let at = format!("at {} {}", number(line.frequency), subject.scale.frequency_unit());
+        line.name().map_or(at.clone(), |name| format!("{name}, {at}"))
+    };
+    let multiple = |line: &NamedLine, symbol: &str| {
+        let terms = line.combination.as_ref().map_or(&[][..], |combination| &combination.terms);
+        terms.iter().find(|(_, found)| *found == symbol).map_or(0, |(count, _)| count.abs())
+    };
+    let part = |line: &NamedLine| significant(line.amplitude / first.amplitude, 2);
+    let mut says = format!(
+        "The strongest line of {} is in {symbol}: {}, of an amplitude of {}",
+        subject.name,
+        name(first),
+        significant(first.amplitude, 3)
+    );
+    if let Some(third) = strongest.lines.iter().find(|line| multiple(line, "alpha'") == 3) {
+        says += &format!("; the strongest of the third harmonic, {}, has {} of it", name(third), part(third));
+    }
+    let slow = strongest.lines.iter().find(|line| multiple(line, "l'") == 1 && multiple(line, "alpha'") == 0);
+    if let Some(slow) = slow {
+        says += &format!("; the slow frequency *l* by itself has {} of it", part(slow));
+    }
+    says + "."
 }

@@ -1,34 +1,46 @@
 //! `h_+` and `h_x` at the observer in time.
 
+use twofold::dynamics::BodyState;
 use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
 use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
+use twofold::units::si::PARSEC;
 
 use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::number::{Spread, significant};
 use super::parameters::{line_of_sight, parameters};
 use super::style::{BLUE, PAGE, VERMILION, solid};
-use super::subject::times;
+use super::subject::{Start, times};
 use super::svg::{Page, Rectangle};
 use super::table::Table;
 use super::{Caption, Sheet, Subject};
 
 pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
     let tables = subjects.iter().map(|subject| waves(subject)).collect::<Result<Vec<_>, _>>()?;
-    Ok(Sheet { svg: draw(name, subjects, &tables), caption: caption(subjects), tables })
+    Ok(Sheet { svg: draw(name, subjects, &tables), caption: caption(subjects, &tables), tables })
 }
 
-/// The two polarizations at a time, at the distance one.
-pub(super) fn wave(subject: &Subject, t: f64) -> Result<Polarizations<f64>, String> {
-    let (start, state) = (&subject.start, subject.state(t)?);
+/// The two polarizations in a state, as they are drawn.
+pub(super) fn wave(subject: &Subject, state: &BodyState<f64>) -> Result<Polarizations<f64>, String> {
+    let start = &subject.start;
     let source = spheroid_inertia_acceleration(&start.spheroid, &start.violation, &state.axis, &state.momentum);
-    Ok(polarizations(&subject.viewer()?.basis(), &metric_perturbation(1.0, &source)))
+    let h = polarizations(&subject.viewer()?.basis(), &metric_perturbation(1.0, &source));
+    Ok(Polarizations { plus: subject.scale.wave(h.plus), cross: subject.scale.wave(h.cross) })
+}
+
+/// The rounding of the terms of a wave, as it is drawn: a star with no more does not radiate.
+pub(super) fn rounding(subject: &Subject) -> f64 {
+    let Start { spheroid, violation, state, .. } = &subject.start;
+    let rate = state.momentum.norm() / spheroid.inertia_xx;
+    subject.scale.wave(f64::EPSILON * (spheroid.oblateness().abs() * rate * rate + violation.norm()))
 }
 
 fn waves(subject: &Subject) -> Result<Table, String> {
-    let columns = ["t [t_c]", "h_+ [G I^xx / (c^4 t_c^2 r)]", "h_x [G I^xx / (c^4 t_c^2 r)]"];
+    let unit = subject.scale.wave_column_unit();
+    let columns = [subject.scale.time_column("t"), format!("h_+ [{unit}]"), format!("h_x [{unit}]")];
     let mut table = Table::new(&subject.name, columns);
     for t in times(subject.shown.waves, 2000) {
-        let h = wave(subject, t)?;
-        table.push([t, h.plus, h.cross]);
+        let h = wave(subject, &subject.state(t)?)?;
+        table.push([subject.scale.time(t), h.plus, h.cross]);
     }
     Ok(table)
 }
@@ -40,12 +52,12 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
     let mut page = Page::new(name, PAGE, top + 2.0 * panel_height + gap + BELOW);
     // One scale for both stars and polarizations, so that sizes can be compared.
     let values = || tables.iter().flat_map(|table| table.rows.iter().flat_map(|row| [row[1], row[2]]));
+    // Rounding is not spread over the frame.
+    let least = subjects.iter().map(|subject| 10.0 * rounding(subject)).fold(0.0, f64::max);
+    let least = [-least, least].into_iter().filter(|_| !subjects.iter().zip(tables).any(|(s, t)| radiates(s, t)));
     for (i, (subject, table)) in subjects.iter().zip(tables).enumerate() {
-        let shown = subject.shown.waves;
-        let x = Axis::linear("*t* / *t*_{c}", shown.min(0.0), shown.max(0.0));
-        for (polarization, (label, colour)) in
-            [("*h*_{+} *r* / *I*^{*xx*}", BLUE), ("*h*_{×} *r* / *I*^{*xx*}", VERMILION)].into_iter().enumerate()
-        {
+        let x = subject.scale.time_axis(subject.shown.waves);
+        for (polarization, (label, colour)) in [("*h*_{+}", BLUE), ("*h*_{×}", VERMILION)].into_iter().enumerate() {
             let frame = Rectangle {
                 left: LEFT + (width + between) * i as f64,
                 top: top + (panel_height + gap) * polarization as f64,
@@ -53,7 +65,8 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
                 height: panel_height,
             };
             let x = if polarization == 0 { x.bare() } else { x.clone() };
-            let panel = Panel::new(frame, x, Axis::around(label, values()));
+            let panel =
+                Panel::new(frame, x, Axis::around(&subject.scale.wave_label(label), values().chain(least.clone())));
             panel.curve(&mut page, &table.points(0, 1 + polarization), solid(colour, 0.9));
             panel.draw_frame(&mut page);
             if polarization == 0 {
@@ -64,21 +77,41 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
     page.finish("Gravitational waves in time")
 }
 
-fn caption(subjects: &[&Subject]) -> Caption {
+/// Whether a wave is more than rounding.
+fn radiates(subject: &Subject, table: &Table) -> bool {
+    table.rows.iter().any(|row| row[1].abs().max(row[2].abs()) > rounding(subject))
+}
+
+fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
+    let unit = match subjects[0].viewer().ok().and_then(|viewer| viewer.distance) {
+        Some(distance) => format!(", as strain at {} kpc", significant(distance / (1e3 * PARSEC), 4)),
+        None => "; *h* *r* / *I*^{*xx*} counts multiples of *G* / (*c*^{4} *t*_{c}^{2})".to_owned(),
+    };
+    let range = |(subject, table): (&&Subject, &Table)| {
+        let of = |column: usize| Spread::of(table.rows.iter().map(|row| row[column])).map(|spread| spread.in_words(""));
+        match (of(1), of(2)) {
+            (Some(plus), Some(cross)) if radiates(subject, table) => {
+                format!("For {}, *h*_{{+}} is {plus} and *h*_{{×}} {cross}", subject.name)
+            }
+            _ => format!(
+                "{} does not radiate: both are below the rounding of {}",
+                subject.name,
+                significant(rounding(subject), 1)
+            ),
+        }
+    };
+    let ranges: Vec<_> = subjects.iter().zip(tables).map(range).collect();
+    let mut says = format!("{}; the scales are the same.", ranges.join(". "));
+    if subjects.len() > 1 {
+        says += " For tp-I the wave is nearly that of a freely precessing star, two lines at the rate of *α* and twice that. For tp-II \
+                 the axis of precession itself is tilted to *Z* and goes round, which changes the shape of the wave slowly.";
+    }
     Caption {
-        shows: "Quadrupole waves *h*_{+} and *h*_{×} at the observer in time; *h* *r* / *I*^{*xx*} counts multiples of \
-                *G* / (*c*^{4} *t*_{c}^{2})."
-            .to_owned(),
+        shows: format!("Quadrupole waves *h*_{{+}} and *h*_{{×}} at the observer in time{unit}."),
         parameters: parameters(&line_of_sight(subjects, false), subjects),
         method: "Numerical motion; second time derivative of the moment of inertia, Eqs. (64), (65), in the form for a spheroid; \
                  *h*^{*IJ*} by Eq. (59) and the polarizations by Eqs. (69)-(71)."
             .to_owned(),
-        says: if subjects.len() > 1 {
-            "For tp-I the wave is nearly that of a freely precessing star, two lines at the rate of *α* and twice that. For tp-II \
-             the axis of precession itself is tilted to *Z* and goes round, which changes the shape of the wave slowly."
-                .to_owned()
-        } else {
-            "Sizes of the two polarizations can be compared: the scales are the same.".to_owned()
-        },
+        says,
     }
 }

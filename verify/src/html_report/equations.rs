@@ -10,17 +10,9 @@ use super::typography::typeset;
 use super::{Content, latex, markdown};
 use crate::equation_table::EQUATIONS;
 
-/// The equations that set the frame and are not tested: number, label, subject.
-const FRAMEWORK: [(u8, &str, &str); 4] = [
-    (1, "action", "action of the minimal gravitational SME"),
-    (2, "pecorrect", "anisotropic potential energy of two point masses"),
-    (3, "", "coefficients for Lorentz violation"),
-    (4, "ppndeu", "the PPN form of the potential energy"),
-];
-
 /// Numbers of all equations.
 pub(super) fn numbers() -> impl Iterator<Item = u8> {
-    FRAMEWORK.iter().map(|(number, ..)| *number).chain(EQUATIONS.iter().map(|equation| equation.number))
+    EQUATIONS.iter().map(|equation| equation.number)
 }
 
 pub(super) fn section(content: &Content, index: &mut Index) -> Result<Markup, String> {
@@ -29,9 +21,6 @@ pub(super) fn section(content: &Content, index: &mut Index) -> Result<Markup, St
         sources.entry(entry.number).or_default().push(entry);
     }
     let mut articles = Vec::new();
-    for (number, label, subject) in FRAMEWORK {
-        articles.push(article(number, label, subject, &sources, html! { p { "Framework, not tested." } }, index)?);
-    }
     for equation in EQUATIONS {
         let evidence = evidence(equation, content, index);
         articles.push(article(equation.number, equation.label, equation.subject, &sources, evidence, index)?);

@@ -30,7 +30,7 @@ pub struct Units {
 
 impl Units {
     /// `I^xx = C = 1`.
-    const PAPER: Self =
+    pub(crate) const PAPER: Self =
         Self { time: 1.0, momentum: 1.0, energy: 1.0, time_name: "t_c", momentum_name: "I_xx/t_c", energy_name: "C" };
 
     /// Whether these are seconds and cgs.

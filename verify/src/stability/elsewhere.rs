@@ -18,6 +18,10 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
          and in the tables of long times",
     ),
     (
+        &["curvature_coupling::coefficients_from_vacuum_value"],
+        "sums of at most seven of the given numbers with factors 1, 1/4 and 2, whose error is that of the sums; `coupling-to-curvature-rounding` measures it",
+    ),
+    (
         &[
             "propagation::AveragedMotion",
             "propagation::SymmetricMotion",

@@ -18,8 +18,6 @@ pub enum TrajectoryError {
     },
     /// The span is too short for the fundamental frequencies of the motion, or it has none.
     NoFrequencies(Error),
-    /// The lines of a spectrum could not be found.
-    NoLines(Error),
     /// The rows could not be written.
     Write(csv::Error),
 }
@@ -48,10 +46,6 @@ impl fmt::Display for TrajectoryError {
                 f,
                 "the lines cannot be identified: {error}; a longer span (--span, `time.span`) gives the fundamental frequencies, \
                  --unidentified lists the lines without"
-            ),
-            TrajectoryError::NoLines(error) => write!(
-                f,
-                "the lines could not be found: {error}; a longer span separates them, a larger --least leaves more of them out"
             ),
             TrajectoryError::Write(error) => write!(f, "the table could not be written: {error}"),
         }

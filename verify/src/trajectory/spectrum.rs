@@ -5,7 +5,7 @@ use std::io::Write;
 use twofold::Error;
 use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::spectrum::{
-    FrequencyBasis, Generator, LineList, Series, Window, amplitude_spectrum, spectral_lines,
+    FrequencyBasis, Generator, LineList, Series, SpectralLine, Window, amplitude_spectrum, spectral_lines,
 };
 use twofold::plan::{Counted, Output, Plan, PlannedAxisMotion, PlannedMotion, Request, Samples, State, Work};
 
@@ -28,6 +28,8 @@ pub struct Sampling {
     /// The motion, where its fundamental frequencies are wanted.
     motion: Option<Counted<PlannedMotion>>,
     series: Series,
+    /// Largest size of what the column is a part of, in its unit.
+    size: f64,
     /// What it took.
     pub work: Work,
 }
@@ -46,6 +48,17 @@ pub struct LinesWanted {
     pub identified: bool,
 }
 
+/// What sets the least amplitude of a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Floor {
+    /// What was asked.
+    Wanted,
+    /// The accuracy of the motion, as a part of this size: of the column, or of what it is a component of.
+    Accuracy(f64),
+    /// The noise of what is left, rounding for instance: see [`LineList::noise`].
+    Noise,
+}
+
 /// What there is to say about a list of lines.
 #[derive(Debug, Clone)]
 pub struct LinesSummary {
@@ -57,8 +70,16 @@ pub struct LinesSummary {
     pub found: usize,
     /// Lines among them in the upper fifth of the frequencies, where there may be others folded back from above.
     pub near_highest: usize,
-    /// Least amplitude that was looked for: the one wanted, or the error of the motion if that is more.
+    /// Lines written whose frequency is uncertain by more than `1 / T`: each stands for several.
+    pub unresolved: usize,
+    /// Least distance of two lines that are told apart, in rad per unit of time of the output.
+    pub resolution: f64,
+    /// Amplitude of the strongest line; zero without one.
+    pub strongest: f64,
+    /// Least amplitude of a line that is listed, and what sets it.
     pub least: f64,
+    /// What sets `least`.
+    pub floor: Floor,
     /// Largest amplitude left in the series; above `least`, lines are missing.
     pub remainder: f64,
     /// The fundamental frequencies in the unit of the output, or why there are none; none where they are not wanted.
@@ -106,24 +127,23 @@ impl Sampling {
     pub fn of(scene: &Scene, column: &Column, plan: &Plan) -> Result<Self, TrajectoryError> {
         let (body, s, initial) = (&scene.spheroid, &scene.violation, &scene.initial);
         match plan.state {
-            State::Nothing => Ok(Self {
-                motion: None,
-                series: series(scene, column, |_| Ok(Carried::Nothing))?,
-                work: Work::default(),
-            }),
+            State::Nothing => {
+                let (series, size) = series(scene, column, |_| Ok(Carried::Nothing))?;
+                Ok(Self { motion: None, series, size, work: Work::default() })
+            }
             State::Axis | State::AxisAndMomentum => {
                 let motion = Counted::new(plan.axis_motion(body, s, initial)?);
-                let series = series(scene, column, |t| PlannedAxisMotion::carried(&motion, [t, 0.0]))?;
+                let (series, size) = series(scene, column, |t| PlannedAxisMotion::carried(&motion, [t, 0.0]))?;
                 let mut work = motion.inner().work();
                 work += motion.evaluations();
-                Ok(Self { motion: None, series, work })
+                Ok(Self { motion: None, series, size, work })
             }
             State::Orientation => {
                 let motion = Counted::new(plan.motion(body, s, initial)?);
-                let series = series(scene, column, |t| PlannedMotion::carried(&motion, [t, 0.0]))?;
+                let (series, size) = series(scene, column, |t| PlannedMotion::carried(&motion, [t, 0.0]))?;
                 let mut work = motion.inner().work();
                 work += motion.evaluations();
-                Ok(Self { motion: Some(motion), series, work })
+                Ok(Self { motion: Some(motion), series, size, work })
             }
         }
     }
@@ -151,7 +171,7 @@ impl Sampling {
     /// Writes the lines as CSV, strongest first.
     ///
     /// # Errors
-    /// A span too short for the fundamental frequencies, lines that cannot be told apart, or `writer` failing.
+    /// A span too short for the fundamental frequencies, or `writer` failing.
     pub fn write_lines(
         &self,
         scene: &Scene,
@@ -160,8 +180,9 @@ impl Sampling {
         writer: impl Write,
     ) -> Result<LinesSummary, TrajectoryError> {
         let basis = wanted.identified.then(|| self.basis()).transpose()?;
-        let (least, mut list) = self.lines(scene, wanted)?;
+        let (floor, least, mut list) = self.lines(scene, wanted)?;
         let found = list.lines.len();
+        let is_unresolved = |line: &SpectralLine| line.uncertainty * self.series.duration() > 1.0;
         list.lines.truncate(wanted.most);
         let unit = scene.units.time;
         let mut table = csv::Writer::from_writer(writer);
@@ -174,6 +195,7 @@ impl Sampling {
         ])?;
         for line in &list.lines {
             let name = match &basis {
+                _ if is_unresolved(line) => "unresolved".to_owned(),
                 Some(Ok(basis)) => basis.identify(line.frequency, line.uncertainty).to_string(),
                 Some(Err(_)) | None => "unidentified".to_owned(),
             };
@@ -189,28 +211,29 @@ impl Sampling {
             lines: list.lines.len(),
             found,
             near_highest: list.lines.iter().filter(|line| line.frequency > high).count(),
+            unresolved: list.lines.iter().filter(|line| is_unresolved(line)).count(),
+            resolution: list.resolution / unit,
+            strongest: list.lines.first().map_or(0.0, |line| line.amplitude),
             least,
+            floor,
             remainder: list.remainder,
             fundamental: basis.map(|basis| basis.map(|basis| basis.generators().iter().map(in_output).collect())),
         })
     }
 
-    /// The lines, and the least amplitude that was looked for.
-    fn lines(&self, scene: &Scene, wanted: &LinesWanted) -> Result<(f64, LineList), TrajectoryError> {
+    /// The least amplitude of a line, what sets it, and the lines.
+    fn lines(&self, scene: &Scene, wanted: &LinesWanted) -> Result<(Floor, f64, LineList), Error> {
         let values = &self.series.values;
-        let size = values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         let weights = WINDOW.weights(values.len())?;
         let mean = weights.iter().zip(values).map(|(w, x)| w * x).sum::<f64>() / values.len() as f64;
         let about_mean = Series { values: values.iter().map(|x| x - mean).collect(), ..self.series };
         let spectrum = amplitude_spectrum(&about_mean, WINDOW)?;
         let strongest = spectrum.amplitudes.iter().fold(0.0_f64, |most, x| most.max(*x));
         // What is below the error of the motion is no line of it; nor may the least amplitude be zero.
-        let error = (size * scene.accuracy).max(f64::MIN_POSITIVE);
-        let least = error.max(strongest * wanted.least);
-        // Where so many cannot be told apart, the strongest may be.
-        let lines = spectral_lines(&self.series, least, MOST_FITTED)
-            .or_else(|_| spectral_lines(&self.series, least, wanted.most));
-        Ok((least, lines.map_err(TrajectoryError::NoLines)?))
+        let (wanted, error) = (strongest * wanted.least, (self.size * scene.accuracy).max(f64::MIN_POSITIVE));
+        let (floor, least) = if error > wanted { (Floor::Accuracy(self.size), error) } else { (Floor::Wanted, wanted) };
+        let list = spectral_lines(&self.series, least, MOST_FITTED)?;
+        Ok(if list.noise > least { (Floor::Noise, list.noise, list) } else { (floor, least, list) })
     }
 
     /// The fundamental frequencies, or why this motion has none.
@@ -236,12 +259,12 @@ fn intervals(scene: &Scene) -> f64 {
     (duration(scene).abs() * scene.turning_rate() * HARMONICS / std::f64::consts::PI).ceil().max(15.0)
 }
 
-/// A column in equal steps over the span.
+/// A column in equal steps over the span, and the largest size of what it is a part of.
 fn series(
     scene: &Scene,
     column: &Column,
     carried: impl Fn(f64) -> Result<Carried, Error>,
-) -> Result<Series, TrajectoryError> {
+) -> Result<(Series, f64), TrajectoryError> {
     let (intervals, span) = (intervals(scene), duration(scene));
     let start = span.min(0.0);
     let step = span.abs() / intervals;
@@ -253,13 +276,18 @@ fn series(
             Carried::Nothing | Carried::Axis(_) => None,
         };
         let mut moment = Moment { since_start, state, angles: &mut angles };
-        column.value(scene, &mut moment).ok_or_else(|| TrajectoryError::Undefined {
+        column.value_and_size(scene, &mut moment).ok_or_else(|| TrajectoryError::Undefined {
             column: column.name.clone(),
             time: format!("{:?} {}", since_start * scene.units.time + scene.times.start(), scene.units.time_name),
         })
     };
-    let values = (0..=intervals as usize).map(value).collect::<Result<_, _>>()?;
-    Ok(Series { start, step, values })
+    let (mut values, mut largest) = (Vec::new(), 0.0_f64);
+    for index in 0..=intervals as usize {
+        let (value, size) = value(index)?;
+        values.push(value);
+        largest = largest.max(size);
+    }
+    Ok((Series { start, step, values }, largest))
 }
 
 /// Length of the span in t_c, negative backwards.

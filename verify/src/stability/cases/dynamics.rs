@@ -12,6 +12,7 @@ use twofold::dynamics::first_integrals::{
 use twofold::dynamics::inertia_tensor_rate::{free_inertia_acceleration, spheroid_inertia_acceleration, wave_tensor};
 use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
 use twofold::dynamics::lagrangian::lagrangian;
+use twofold::dynamics::point_masses::{anisotropic_potential_of_masses, preferred_frame_potential_of_masses};
 use twofold::dynamics::potential::{
     anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body, nordtvedt_potential,
     potential_gradient_in_angles,
@@ -53,6 +54,12 @@ functions! {
     PotentialOfBody(x) { vec![anisotropic_potential_of_body(&symmetric(x), &symmetric(&x[6..]))] }
     TorqueOnBody(x) { joined(&[torque_on_body(&symmetric(x), &symmetric(&x[6..]))]) }
     Nordtvedt(x) { vec![nordtvedt_potential(x[0], x[1], &vector(&x[2..]), &vector(&x[5..]))] }
+    // s (6), masses (2), r, n (3)
+    PotentialOfMasses(x) { vec![anisotropic_potential_of_masses(&symmetric(x), [x[6], x[7]], x[8], &vector(&x[9..]))] }
+    // alpha_2, w (3), masses (2), r, n (3)
+    PreferredFrameOfMasses(x) {
+        vec![preferred_frame_potential_of_masses(x[0], &vector(&x[1..]), [x[4], x[5]], x[6], &vector(&x[7..]))]
+    }
     FromPreferredFrame(x) { entries(&coefficients_from_preferred_frame(x[0], &vector(&x[1..]))) }
     PreferredFrameParameter(x) {
         let w = vector(&x[1..]);
@@ -326,6 +333,40 @@ pub(super) fn cases() -> Vec<Case> {
             &["dynamics::potential::nordtvedt_potential"],
             "alpha_2 from 1e-200 to 1",
             &[Signed(-200.0, 0.0), Log(-10.0, 10.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT],
+        ),
+        Case::new::<PotentialOfMasses>(
+            &["dynamics::point_masses::anisotropic_potential_of_masses"],
+            "distances from 1e-100 to 1e100",
+            &[
+                SMALL,
+                SMALL,
+                SMALL,
+                SMALL,
+                SMALL,
+                SMALL,
+                INERTIA,
+                INERTIA,
+                Log(-100.0, 100.0),
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+            ],
+        ),
+        Case::new::<PreferredFrameOfMasses>(
+            &["dynamics::point_masses::preferred_frame_potential_of_masses"],
+            "alpha_2 from 1e-200 to 1",
+            &[
+                Signed(-200.0, 0.0),
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+                INERTIA,
+                INERTIA,
+                INERTIA,
+                COMPONENT,
+                COMPONENT,
+                COMPONENT,
+            ],
         ),
         Case::new::<FromPreferredFrame>(
             &["lorentz_violation::coefficients_from_preferred_frame"],

@@ -44,7 +44,7 @@ pub const FAMILIES: &[Family] = &[
     Family {
         name: "dynamics",
         subject: "potential, torque, energies, equations of motion, integrals, source of the wave and strain",
-        equations: &[5, 6, 11, 13, 19, 21, 23, 24, 25, 28, 35, 59, 63, 64, 65, 66, 67, 68, 69, 71],
+        equations: &[2, 4, 5, 6, 11, 13, 19, 21, 23, 24, 25, 28, 35, 59, 63, 64, 65, 66, 67, 68, 69, 71],
         cases: dynamics::cases,
     },
     Family {

@@ -1,0 +1,148 @@
+//! Two point masses, and the coefficients from the action. Eqs. (1)-(6), (17).
+
+use nalgebra::{Matrix3, Matrix4, Vector3};
+use twofold::Scalar;
+use twofold::curvature_coupling::{CurvatureTensor, coefficients_from_vacuum_value};
+use twofold::dynamics::point_masses::{anisotropic_potential_of_masses, preferred_frame_potential_of_masses};
+use twofold::dynamics::potential::anisotropic_potential_of_body;
+use twofold::euler_angles::body_from_inertial;
+use twofold::lorentz_violation::coefficients_from_preferred_frame;
+
+use crate::check::{Check, Kind};
+use crate::derivation::Differentiable;
+use crate::identity::{self, Identity};
+use crate::random::Point;
+
+/// The checks of this subject.
+pub fn checks() -> Vec<Check> {
+    [
+        identity::checks::<PotentialOfMasses>(),
+        identity::checks::<SelfEnergyOfPairs>(),
+        identity::checks::<CouplingToCurvature>(),
+    ]
+    .concat()
+}
+
+struct PotentialOfMasses;
+
+impl Identity for PotentialOfMasses {
+    const ID: &'static str = "potential-of-masses";
+    const ROUNDED: (Kind, &'static str) = (Kind::Property, "potential-of-masses-rounding");
+    const EQUATIONS: &'static [u8] = &[2, 4, 5];
+    const STATEMENT: &'static str = "with s^ij = -alpha_2 w^i w^j the potential of two masses is that of the PPN formalism; over three directions at right angles \
+         it sums to tr(s) / 2 of Newton's";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let (masses, distance) = ([p.inertia.xx, p.inertia.yy], p.inertia.zz);
+        let directions = body_from_inertial(&p.angles).transpose();
+        let (alpha_2, w) = (p.numbers[0], &p.gradient);
+        let direction = directions.column(2).into_owned();
+        let s = coefficients_from_preferred_frame(alpha_2, w);
+        let of = |i: usize| {
+            let direction = directions.column(i).into_owned();
+            anisotropic_potential_of_masses(&p.s_inertial, masses, distance, &direction)
+        };
+        let newton = -(masses[0] * masses[1] / distance);
+        vec![
+            anisotropic_potential_of_masses(&s, masses, distance, &direction)
+                - preferred_frame_potential_of_masses(alpha_2, w, masses, distance, &direction),
+            of(0) + of(1) + of(2) - newton * p.s_inertial.trace() / 2.0,
+        ]
+    }
+}
+
+/// A body of three masses: its self-energy is that of its pairs. The identity holds pair by pair, so that the three separations need not close.
+struct SelfEnergyOfPairs;
+
+impl Identity for SelfEnergyOfPairs {
+    const ID: &'static str = "self-energy-of-pairs";
+    const ROUNDED: (Kind, &'static str) = (Kind::Property, "self-energy-of-pairs-rounding");
+    const EQUATIONS: &'static [u8] = &[2, 6, 17];
+    const STATEMENT: &'static str = "the potentials of the pairs of three masses sum to -(1/2) s^ij U^ij with U^ij = (1/2) sum_A sum_B m_A m_B r^i r^j / r^3";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let m = [p.spheroid.inertia_xx, p.spheroid.inertia_zz, p.spheroid.constant_c];
+        let [first, second] = [&p.angles, &p.frame].map(|angles| body_from_inertial(angles).row(2).transpose());
+        let third: Vector3<F> = body_from_inertial(&p.angles).row(0).transpose();
+        let pairs = [
+            ([m[0], m[1]], p.inertia.xx, first),
+            ([m[1], m[2]], p.inertia.yy, second),
+            ([m[2], m[0]], p.inertia.zz, third),
+        ];
+        let mut of_pairs = F::zero();
+        let mut tensor = Matrix3::zeros();
+        for (masses, distance, direction) in &pairs {
+            of_pairs += anisotropic_potential_of_masses(&p.s_inertial, *masses, *distance, direction);
+            // Both orders of the double sum, and the factor 1/2.
+            let separation = direction * *distance;
+            let weight = masses[0] * masses[1] / (*distance * *distance * *distance);
+            tensor += separation * separation.transpose() * weight;
+        }
+        vec![of_pairs - anisotropic_potential_of_body(&p.s_inertial, &tensor)]
+    }
+}
+
+/// Of the term `k^{abcd} R_{abcd}` of the action, the part with the Ricci tensor without its trace is `s^{ab} R_{ab}`.
+struct CouplingToCurvature;
+
+impl Identity for CouplingToCurvature {
+    const ID: &'static str = "coupling-to-curvature";
+    const ROUNDED: (Kind, &'static str) = (Kind::Property, "coupling-to-curvature-rounding");
+    const EQUATIONS: &'static [u8] = &[1, 3];
+    const STATEMENT: &'static str = "k R of the action is s^{ab} R_{ab} for a curvature of Ricci tensor R_{ab} without trace and without Weyl part, for any k with the \
+         symmetries of the Riemann tensor; s is symmetric and has no trace";
+
+    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+        let metric = Matrix4::from_diagonal(&nalgebra::Vector4::new(-F::one(), F::one(), F::one(), F::one()));
+        let first = symmetric(&p.s_inertial, &p.gradient, p.numbers[0]);
+        let rates = Vector3::new(p.rates.alpha, p.rates.beta, p.rates.gamma);
+        let second = symmetric(&p.potential_energy_tensor, &rates, p.numbers[1]);
+        // With all parts: Weyl, Ricci and scalar.
+        let k = sum(&product(&first, &second), &product(&first, &first));
+        let accelerations = Vector3::new(p.accelerations.alpha, p.accelerations.beta, p.accelerations.gamma);
+        let ricci = symmetric(&p.s.tensor(), &accelerations, p.numbers[2]);
+        let trace = metric.component_mul(&ricci).sum();
+        let ricci = ricci - metric * (trace / 4.0);
+        let curvature = product(&ricci, &metric);
+        let mut coupling = F::zero();
+        for (a, b, c, d) in indices() {
+            coupling += k[a][b][c][d] * curvature[a][b][c][d] / 2.0;
+        }
+        let s = coefficients_from_vacuum_value(&k);
+        let mut residuals = vec![coupling - s.component_mul(&ricci).sum(), s.component_mul(&metric).sum()];
+        residuals.extend((s - s.transpose()).iter());
+        residuals
+    }
+}
+
+/// A symmetric matrix of its spatial part, its column of time and their common component.
+fn symmetric<F: Scalar>(space: &Matrix3<F>, mixed: &Vector3<F>, time: F) -> Matrix4<F> {
+    Matrix4::from_fn(|a, b| match (a, b) {
+        (0, 0) => time,
+        (0, i) | (i, 0) => mixed[i - 1],
+        (i, j) => space[(i - 1, j - 1)],
+    })
+}
+
+fn indices() -> impl Iterator<Item = (usize, usize, usize, usize)> {
+    (0..256).map(|i| (i / 64, i / 16 % 4, i / 4 % 4, i % 4))
+}
+
+/// The product of Kulkarni and Nomizu: `h_ac q_bd + h_bd q_ac - h_ad q_bc - h_bc q_ad` has the symmetries of the Riemann tensor. With the metric as one
+/// factor, half of it is the curvature of which the other, without trace, is the Ricci tensor.
+fn product<F: Scalar>(h: &Matrix4<F>, q: &Matrix4<F>) -> CurvatureTensor<F> {
+    let mut result = [[[[F::zero(); 4]; 4]; 4]; 4];
+    for (a, b, c, d) in indices() {
+        result[a][b][c][d] =
+            h[(a, c)] * q[(b, d)] + h[(b, d)] * q[(a, c)] - h[(a, d)] * q[(b, c)] - h[(b, c)] * q[(a, d)];
+    }
+    result
+}
+
+fn sum<F: Scalar>(first: &CurvatureTensor<F>, second: &CurvatureTensor<F>) -> CurvatureTensor<F> {
+    let mut result = *first;
+    for (a, b, c, d) in indices() {
+        result[a][b][c][d] += second[a][b][c][d];
+    }
+    result
+}
