@@ -67,7 +67,7 @@ mod parameter;
 mod request;
 mod work;
 
-pub use candidate::{Candidate, Prediction};
+pub use candidate::{Candidate, Prediction, Promise};
 pub use cost::{Cost, MACHINE};
 pub use decision::{Plan, Skipped};
 pub use gradient::{Gradient, StateFunction, gradient, gradient_in_parts};

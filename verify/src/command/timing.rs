@@ -7,8 +7,12 @@ use twofold::epoch::Epoch;
 use super::output_folder::OutputFolder;
 use super::run::{failed, read_scene};
 use super::{Failure, TimingArgs, note, print};
+use crate::estimated_error::as_printed;
 use crate::pulsar_timing::{PulsarScene, Series, Timing, csv, par, strain_series, tim};
 use crate::scene_file::Scene;
+
+/// Rounding of a printed arrival time: 1e-16 d, in s.
+const ROUNDING_OF_ARRIVALS: f64 = 9e-12;
 
 /// Most arrival times, and most samples of strain.
 const MOST: usize = 10_000_000;
@@ -49,7 +53,7 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let farthest = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0].abs()).fold(0.0, f64::max);
     note(&format!(
         "estimated error of the mean motion at the farthest epoch: {:.1e} s; arrival times are rounded to 1e-16 d, 9e-12 s",
-        pulsar.clock.truncation(farthest)
+        as_printed(pulsar.clock.truncation(farthest), ROUNDING_OF_ARRIVALS)
     ));
     print(&format!(
         "{}: {} arrival times, {files} files\n{}",
