@@ -122,11 +122,12 @@ impl Goal {
         model.longest(|step| self.error(model, epsilon, turn, step) <= accuracy)
     }
 
-    /// Share of random motions whose error stays below it.
+    /// Share of random motions whose error stays below it: of 10,000 with strong torques 0.6 % and 3.5 % were above, of 3,000 of every kind 0.5 % and 0.9 %
+    /// (`docs/plans.md`).
     fn coverage(self) -> f64 {
         match self {
-            Self::State => 0.9,
-            Self::Derivatives => 0.7,
+            Self::State => 0.99,
+            Self::Derivatives => 0.95,
         }
     }
 }

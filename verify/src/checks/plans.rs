@@ -33,7 +33,7 @@ pub fn checks() -> Vec<Check> {
             kind: Kind::Property,
             equations: &[25],
             statement: "at random a plan takes the cheapest of the methods that are foreseen to meet the accuracy, each of them at times, with derivatives or without",
-            figure: "plans of 400 with a method that is admitted and costs less",
+            figure: "plans of 600 with a method that is admitted and costs less",
             bound: Bound::AtMost(0.0),
             reason: "what a plan is; whether what is foreseen comes true: plan-error-bounds, plan-error-goals",
             measure: cheapest,
@@ -145,7 +145,7 @@ fn cheapest() -> Result<Measured, String> {
     let seen: [Cell<usize>; Method::ALL.len()] = Default::default();
     let cheaper = Cell::new(0);
     let strategy = (scenes_for_plans(), -12.0..-2.0f64, 0.0..2.0f64, 1..20_usize, 0..3_usize);
-    worst_over(42, 400, &strategy, |&(scene, accuracy, span, samples, derivatives)| {
+    worst_over(42, 600, &strategy, |&(scene, accuracy, span, samples, derivatives)| {
         let (body, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
         let request = Request {
             derivatives: [Parameter::Beta, Parameter::InertiaZz][..derivatives].to_vec(),
