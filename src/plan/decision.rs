@@ -68,7 +68,7 @@ impl Plan {
         let end = if for_events { request.span.1 } else { request.samples.last };
         let stretch = (request.span.0, end);
         let rotation = (end - stretch.0).abs() * turning_rate(spheroid, s, initial);
-        let count = evaluations(request, rotation) * (1 + request.derivatives.len()) as f64;
+        let count = evaluations(request, rotation);
         let mut plan = Self {
             outputs: request.outputs.clone(),
             state,

@@ -6,13 +6,15 @@ use num_dual::Dual64;
 use super::{Method, Parameter, Plan, Start, State};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::lorentz_violation::{PrincipalCoefficients, principal_frame_along, principal_frame_with_derivatives};
+use crate::lorentz_violation::principal_frame_along;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::check_time;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::splitting::derivatives::{Seeded, states_with_derivatives};
+use crate::propagation::splitting::require_tangent_maps;
 use crate::propagation::{
-    AveragedMotion, AxisMotion, AxisState, Motion, SymmetricMotion, UniformMotion, propagate, propagate_axis,
+    AveragedMotion, AxisMotion, AxisState, Motion, SymmetricMotion, TaylorAxisMotion, TaylorMotion, UniformMotion,
+    propagate, propagate_axis,
 };
 use crate::scalar::Real;
 use crate::solutions::mean::MeanOrder;
@@ -42,14 +44,14 @@ pub struct Gradient {
 
 /// Values of `outputs` at `times` and their derivatives by the [`derivatives`](Plan::derivatives) of a plan, and by no others.
 ///
-/// Where the motion is numerical and the Taylor series was not asked for by name, it goes by a splitting scheme with the tangent map of
-/// each of its flows, for all parameters at once, and the outputs follow by forward duals: values and derivatives of one numerical
-/// motion, made for the accuracy of the plan, relative to the largest derivative. Otherwise (and on processors without vectors of
-/// doubles, and for values without derivatives) by the closed form or the series, with a forward dual through it for each parameter; steps
-/// follow from real parts alone, and the error of derivatives through the series can be some hundred times that of the motion.
+/// All goes by the method of the plan. By splitting, one motion with the tangent map of each of its flows gives the derivatives by up to sixteen
+/// parameters at once, and the outputs follow by forward duals: values and derivatives are those of one numerical motion, made for the accuracy
+/// of the plan, relative to the largest derivative. By the other methods a forward dual goes through the motion for each parameter; steps of a
+/// series follow from real parts alone, and the error of derivatives through it can be some hundred times that of the motion.
 ///
 /// # Errors
-/// As for the motion; [`Error::Domain`] for times outside its stretch.
+/// As for the motion; [`Error::Domain`] for times outside its stretch, and for derivatives by splitting on a processor without vectors of four
+/// doubles, for which no plan chooses it.
 pub fn gradient(
     plan: &Plan,
     start: &Start<f64>,
@@ -92,9 +94,10 @@ pub fn gradient_in_parts(
             found.jacobians[row][(column, index)] = value.eps;
         }
     };
-    let sums: Vec<f64> = times.iter().map(|t| t[0] + t[1]).collect();
-    if let Some(states) = states_by_splitting(plan, &seeded, &sums)? {
-        for (row, states) in states.iter().enumerate() {
+    if plan.method == Some(Method::Splitting) {
+        require_tangent_maps()?;
+        let sums: Vec<f64> = times.iter().map(|t| t[0] + t[1]).collect();
+        for (row, states) in states_by_splitting(plan, &seeded, &sums)?.iter().enumerate() {
             for (index, (seeded, state)) in seeded.iter().zip(states).enumerate() {
                 write(row, index, seeded, state);
             }
@@ -102,7 +105,7 @@ pub fn gradient_in_parts(
         return Ok(found);
     }
     for (index, seeded) in seeded.iter().enumerate() {
-        let motion = SeededMotion::new(plan, seeded, principal_frame_along)?;
+        let motion = SeededMotion::new(plan, seeded)?;
         for (row, &t) in times.iter().enumerate() {
             write(row, index, seeded, &motion.state(t)?);
         }
@@ -120,14 +123,26 @@ fn values(
     outputs: &impl StateFunction,
     times: &[[f64; 2]],
 ) -> Result<DMatrix<f64>, Error> {
-    let motion = SeededMotion::new(plan, start, principal_frame_with_derivatives)?;
     let mut found = DMatrix::zeros(times.len(), outputs.len());
+    let Start { spheroid, violation, .. } = start;
+    let initial = start.state();
+    let state: Box<dyn Fn([f64; 2]) -> Result<BodyState<f64>, Error>> = if plan.state == State::Orientation {
+        let motion = plan.motion(spheroid, violation, &initial)?;
+        Box::new(move |t| motion.state_in_parts(t))
+    } else {
+        let motion = plan.axis_motion(spheroid, violation, &initial)?;
+        Box::new(move |t| motion.axis_state_in_parts(t).map(without_equatorial_axis))
+    };
     let mut here = vec![0.0; outputs.len()];
     for (row, &t) in times.iter().enumerate() {
-        outputs.values(&start.spheroid, &start.violation, &motion.state(t)?, &mut here);
+        outputs.values(spheroid, violation, &state(t)?, &mut here);
         found.row_mut(row).iter_mut().zip(&here).for_each(|(value, here)| *value = *here);
     }
     Ok(found)
+}
+
+fn without_equatorial_axis<S: Real>(state: AxisState<S>) -> BodyState<S> {
+    BodyState { axis: state.axis, momentum: state.momentum, equatorial_axis: Vector3::zeros() }
 }
 
 impl Start<f64> {
@@ -139,17 +154,13 @@ impl Start<f64> {
     }
 }
 
-/// The state at each time as a function of each parameter, where splitting gives it.
+/// The state at each time as a function of each parameter, by splitting.
 #[cfg(target_arch = "x86_64")]
 fn states_by_splitting(
     plan: &Plan,
     seeded: &[Start<Dual64>],
     times: &[f64],
-) -> Result<Option<Vec<Vec<BodyState<Dual64>>>>, Error> {
-    let by_series = plan.forced && plan.method == Some(Method::Taylor);
-    if by_series || !matches!(plan.method, Some(Method::Taylor | Method::Splitting)) {
-        return Ok(None);
-    }
+) -> Result<Vec<Vec<BodyState<Dual64>>>, Error> {
     let (first, _) = plan.stretch;
     times.iter().try_for_each(|&t| check_time(plan.stretch, t))?;
     let mut order: Vec<usize> = (0..times.len()).collect();
@@ -162,12 +173,13 @@ fn states_by_splitting(
         let vectors = |state: BodyState<_>| [state.axis, state.momentum];
         states_with_derivatives(&carrying(seeded, vectors), first, &sorted, plan.accuracy)?
     };
-    let Some(found) = found else { return Ok(None) };
     let mut states = vec![Vec::new(); times.len()];
-    for (place, state) in order.into_iter().zip(found) {
+    for (place, state) in
+        order.into_iter().zip(found.expect("the processor was asked, and there are parameters and times"))
+    {
         states[place] = state;
     }
-    Ok(Some(states))
+    Ok(states)
 }
 
 /// The scenes with those vectors of their initial states that a motion carries.
@@ -184,55 +196,48 @@ fn carrying<const V: usize>(
 }
 
 #[cfg(not(target_arch = "x86_64"))]
-fn states_by_splitting(_: &Plan, _: &[Start<Dual64>], _: &[f64]) -> Result<Option<Vec<Vec<BodyState<Dual64>>>>, Error> {
-    Ok(None)
+fn states_by_splitting(_: &Plan, _: &[Start<Dual64>], _: &[f64]) -> Result<Vec<Vec<BodyState<Dual64>>>, Error> {
+    unreachable!("no other processor has the tangent maps")
 }
 
-/// Eigenvalues of `s^IJ` and the rotation to its principal frame.
-type Frame<S> = fn(&Matrix3<S>) -> Result<(PrincipalCoefficients<S>, Matrix3<S>), Error>;
-
-/// The motion of a plan for duals.
-enum SeededMotion<S> {
-    Uniform(UniformMotion<S>),
-    Symmetric(SymmetricMotion<S>),
-    Mean(AveragedMotion<S>),
-    Taylor(crate::propagation::TaylorMotion<S>),
-    TaylorAxis(crate::propagation::TaylorAxisMotion<S>),
+/// The motion of a plan for duals, by any method but splitting.
+enum SeededMotion {
+    Uniform(UniformMotion<Dual64>),
+    Symmetric(SymmetricMotion<Dual64>),
+    Mean(AveragedMotion<Dual64>),
+    Taylor(TaylorMotion<Dual64>),
+    TaylorAxis(TaylorAxisMotion<Dual64>),
 }
 
-impl<S: Real> SeededMotion<S> {
-    fn new(plan: &Plan, start: &Start<S>, frame: Frame<S>) -> Result<Self, Error> {
+impl SeededMotion {
+    fn new(plan: &Plan, start: &Start<Dual64>) -> Result<Self, Error> {
         let Start { spheroid, violation, .. } = start;
         let (initial, span) = (&start.state(), plan.stretch);
         Ok(match plan.method {
-            Some(Method::Free | Method::Steady) => {
-                Self::Uniform(UniformMotion::free(spheroid, violation, initial, span))
-            }
+            Some(Method::Free) => Self::Uniform(UniformMotion::free(spheroid, violation, initial, span)),
+            Some(Method::Steady) => Self::Uniform(UniformMotion::steady(spheroid, violation, initial, span)?),
             Some(Method::Symmetric) => Self::Symmetric(SymmetricMotion::new(spheroid, violation, initial, span)?),
             Some(Method::Mean) => {
-                let frame = frame(violation)?;
+                let frame = principal_frame_along(violation)?;
                 Self::Mean(AveragedMotion::in_frame(spheroid, violation, initial, span, MeanOrder::Second, frame)?)
             }
-            Some(Method::Taylor | Method::Splitting) | None if plan.state == State::Orientation => {
+            _ if plan.state == State::Orientation => {
                 Self::Taylor(propagate(spheroid, violation, initial, span, plan.accuracy)?)
             }
-            Some(Method::Taylor | Method::Splitting) | None => {
+            _ => {
                 let initial = AxisState::from(initial);
                 Self::TaylorAxis(propagate_axis(spheroid, violation, &initial, span, plan.accuracy)?)
             }
         })
     }
 
-    fn state(&self, t: [f64; 2]) -> Result<BodyState<S>, Error> {
+    fn state(&self, t: [f64; 2]) -> Result<BodyState<Dual64>, Error> {
         match self {
             Self::Uniform(motion) => motion.state_in_parts(t),
             Self::Symmetric(motion) => motion.state_in_parts(t),
             Self::Mean(motion) => motion.state_in_parts(t),
             Self::Taylor(motion) => motion.state_in_parts(t),
-            Self::TaylorAxis(motion) => {
-                let AxisState { axis, momentum } = motion.axis_state_in_parts(t)?;
-                Ok(BodyState { axis, momentum, equatorial_axis: Vector3::zeros() })
-            }
+            Self::TaylorAxis(motion) => motion.axis_state_in_parts(t).map(without_equatorial_axis),
         }
     }
 }
@@ -241,7 +246,10 @@ impl<S: Real> SeededMotion<S> {
 mod tests {
     use super::*;
     use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::lorentz_violation::PrincipalCoefficients;
     use crate::plan::{Output, Request};
+    use crate::solutions::perturbation::Kind;
+    use crate::solutions::steady::steady_precession_rate;
 
     /// The first of the components of `n`.
     struct Components(usize);
@@ -277,20 +285,67 @@ mod tests {
         assert_eq!([0, 1, 2].map(|count| Components(count).is_empty()), [true, false, false]);
     }
 
+    /// Whether it was asked for or chosen, with and without derivatives: the values are those of the motion of that name, to the last bit where
+    /// it is the same motion (that with tangent maps has other steps).
     #[test]
-    fn only_series_asked_for_by_name_are_used_for_numerical_gradients() {
+    fn values_and_derivatives_go_by_the_method_of_the_plan() {
         let start = start([0.2, 0.1, -0.3]);
-        let by = |method, forced| {
-            let plan = Plan { forced, ..plan(&start, method, (0.0, 20.0), 1e-5) };
-            gradient(&plan, &start, &Components(3), &[7.0, 19.0]).unwrap()
-        };
-        let splitting = by(Method::Splitting, true);
-        assert_eq!(by(Method::Splitting, false), splitting);
-        assert_eq!(by(Method::Taylor, false), splitting);
-        #[cfg(target_arch = "x86_64")]
-        if pulp::x86::V3::try_new().is_some() {
-            assert_ne!(by(Method::Taylor, true), splitting);
+        let times = [7.0, 19.0];
+        for forced in [true, false] {
+            let by = |method, derivatives: bool| {
+                let mut plan = Plan { forced, ..plan(&start, method, (0.0, 20.0), 1e-5) };
+                plan.derivatives.truncate(if derivatives { 2 } else { 0 });
+                gradient(&plan, &start, &Components(3), &times)
+            };
+            for (method, derivatives) in [(Method::Taylor, true), (Method::Taylor, false), (Method::Splitting, false)] {
+                let plan = plan(&start, method, (0.0, 20.0), 1e-5);
+                let motion = plan.axis_motion(&start.spheroid, &start.violation, &start.state()).unwrap();
+                let found = by(method, derivatives).unwrap().values;
+                for (row, t) in times.into_iter().enumerate() {
+                    let off = (found.row(row).transpose() - motion.axis_state(t).unwrap().axis).amax();
+                    // Duals take the series without vectors of doubles: other steps of the same accuracy.
+                    assert!(off <= if derivatives { 1e-6 } else { 0.0 }, "{method:?}, {derivatives}: {off}");
+                }
+            }
+            match (by(Method::Splitting, true), require_tangent_maps()) {
+                (Ok(splitting), Ok(())) => assert_ne!(by(Method::Taylor, true).unwrap(), splitting),
+                (found, refused) => assert_eq!(found.err(), refused.err()),
+            }
         }
+    }
+
+    /// A plan that may choose does not say Taylor and use splitting.
+    #[test]
+    fn numerical_derivatives_are_planned_by_what_makes_them() {
+        let start = start([0.2, 0.1, -0.3]);
+        let request = Request::new(&[Output::SymmetryAxis], (0.0, 200.0), 3, 1e-11);
+        let method = |derivatives: &[Parameter]| {
+            let request = Request { derivatives: derivatives.to_vec(), ..request.clone() };
+            Plan::new(&start.spheroid, &start.violation, &start.state(), &request).unwrap().method
+        };
+        assert_eq!(method(&[]), Some(Method::Taylor));
+        let with_maps = if require_tangent_maps().is_ok() { Method::Splitting } else { Method::Taylor };
+        for count in [1, 3, 15] {
+            assert_eq!(method(&Parameter::ALL[..count]), Some(with_maps), "{count}");
+        }
+    }
+
+    /// Steady precession about the axis of a symmetric tensor is no free rotation.
+    #[test]
+    fn values_of_a_steady_precession_are_those_of_its_motion() {
+        let mut start = start([0.2, 0.2, -0.4]);
+        let coefficients = PrincipalCoefficients::new([0.2, 0.2, -0.4]);
+        let (spin, beta) = (1.5, start.angles.beta);
+        let rate = steady_precession_rate(Kind::Twofold, &start.spheroid, &coefficients, spin, beta).unwrap();
+        start.rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
+        let request =
+            Request { method: Some(Method::Steady), ..Request::new(&[Output::SymmetryAxis], (0.0, 20.0), 3, 1e-9) };
+        let plan = Plan::new(&start.spheroid, &start.violation, &start.state(), &request).unwrap();
+        let found = gradient(&plan, &start, &Components(3), &[17.0]).unwrap().values;
+        let expected = UniformMotion::steady(&start.spheroid, &start.violation, &start.state(), (0.0, 20.0)).unwrap();
+        assert_eq!(found.row(0).transpose(), expected.axis_state(17.0).unwrap().axis);
+        let free = UniformMotion::free(&start.spheroid, &start.violation, &start.state(), (0.0, 20.0));
+        assert!((free.axis_state(17.0).unwrap().axis - found.row(0).transpose()).amax() > 0.1);
     }
 
     #[test]

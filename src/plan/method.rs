@@ -1,5 +1,7 @@
 //! The methods that a motion can be computed by.
 
+use crate::propagation::splitting::TANGENTS_AT_ONCE;
+
 /// A way to compute a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Method {
@@ -48,6 +50,13 @@ impl Method {
     /// The method called `name`.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|method| method.name() == name)
+    }
+
+    /// Motions that are followed for derivatives by so many parameters: a dual number for each, but one motion with tangent maps for
+    /// every sixteen by splitting. One without derivatives.
+    pub(super) fn motions_for(self, derivatives: usize) -> usize {
+        let motions = if self == Self::Splitting { derivatives.div_ceil(TANGENTS_AT_ONCE) } else { derivatives };
+        motions.max(1)
     }
 
     /// Whether it gives the state at any time without going through the times before.

@@ -23,7 +23,7 @@
 //! let state = BodyState::from_angles(&star, &angles, &rates);
 //! use twofold::dynamics::regular_equations::BodyState as State;
 //! use twofold::plan::{
-//!     Cost, Counted, Method, Output, Parameter, Plan, Request, Start, StateFunction, gradient, gradient_in_parts,
+//!     Cost, Counted, Method, Output, Parameter, Plan, Promise, Request, Start, StateFunction, gradient, gradient_in_parts,
 //! };
 //! use twofold::propagation::{AxisMotion, Motion};
 //! use twofold::scalar::Real;
@@ -32,7 +32,10 @@
 //! let request = Request::new(&[Output::SymmetryAxis], (0.0, 100.0), 1000, 1e-12);
 //! let plan = Plan::new(&star, &s.tensor(), &state, &request)?;
 //! let method = plan.method.expect("n takes a motion");
-//! assert!(Cost::of(method, plan.state).setup >= 0.0);
+//! assert!(Cost::of(method, plan.state).setup <= Cost::with_derivatives(method, plan.state, 3).setup);
+//! // Steps are chosen for an accuracy, which is a goal and no bound.
+//! let promise = plan.prediction.expect("there is a method").promise;
+//! assert!(matches!(promise, Promise::Goal(share) if share > 0.9));
 //! let motion = Counted::new(plan.axis_motion(&star, &s.tensor(), &state)?);
 //! motion.axis_state(42.0)?;
 //! assert_eq!(motion.evaluations().axis_evaluations, 1.0);
@@ -67,7 +70,7 @@ mod parameter;
 mod request;
 mod work;
 
-pub use candidate::{Candidate, Prediction};
+pub use candidate::{Candidate, Prediction, Promise};
 pub use cost::{Cost, MACHINE};
 pub use decision::{Plan, Skipped};
 pub use gradient::{Gradient, StateFunction, gradient, gradient_in_parts};

@@ -198,7 +198,7 @@ fn taylor_series() {
         for span in [SPAN, BACK] {
             let name = format!("accuracy {accuracy:e} over {span:?}");
             let forecast = taylor_forecast(&STAR, &s, &state(), true, span.1 - span.0, accuracy).expect("a forecast");
-            table.parts(&format!("{name}: forecast"), [forecast.order as f64, forecast.steps, forecast.turning_rate]);
+            table.row(&format!("{name}: forecast"), &[forecast.order as f64, forecast.steps, forecast.rounding]);
             let motion = propagate(&STAR, &s, &state(), span, accuracy).expect("a motion");
             table.parts(&format!("{name}: steps and order"), [motion.step_count() as f64, motion.order() as f64]);
             look(&mut table, &name, &motion);
@@ -355,7 +355,10 @@ fn splitting() {
                         table.text(&format!("{name}: scheme"), found.scheme.name);
                         table.number(&format!("{name}: step"), found.step);
                         table.number(&format!("{name}: steps"), found.steps);
-                        table.number(&format!("{name}: turning rate"), found.turning_rate);
+                        table.row(
+                            &format!("{name}: truncation, coverage, rounding"),
+                            &[found.truncation, found.coverage, found.rounding],
+                        );
                     }
                     Err(error) => table.error(&name, &error),
                 }

@@ -576,6 +576,7 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
             "plan::State",
             "plan::Request",
             "plan::Prediction",
+            "plan::Promise",
             "plan::Cost",
             "plan::Counted",
             "plan::Work",

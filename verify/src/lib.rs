@@ -13,6 +13,7 @@ pub mod double_double;
 pub mod dual;
 pub mod equation_table;
 pub mod error_scenes;
+mod estimated_error;
 pub mod eta;
 pub mod figures;
 pub mod fit;

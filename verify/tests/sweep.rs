@@ -100,6 +100,48 @@ fn a_row_is_the_motion_of_its_scene() {
     assert_eq!(header[header.len() - 1], "lambda_mean [rad]");
 }
 
+/// To the last digit: `n` and `L` of a method that is named are those of `run`, whether the sweep or its scene names it. At this accuracy
+/// splitting and the series differ in every number.
+#[test]
+fn rows_are_computed_by_the_method_that_is_named() {
+    let folder = folder();
+    let scene =
+        include_str!("../scenes/tp-2.toml").replace("span = 400 # [t_c]\nsamples = 4001", "times = [3.0, 20.0]");
+    written(
+        folder.path(),
+        "plain.toml",
+        &(scene.clone() + "\n[output]\naccuracy = 1e-6\ncolumns = [\"e_z\", \"L\"]\n"),
+    );
+    let sweep_of = |base: &str, output: &str| {
+        format!(
+            "scene = \"{base}\"\n[[vary]]\nparameter = \"star.inertia_ratio\"\nvalues = [1.1, 1.1]\n[time]\ntimes = [3.0, 20.0]\n\
+             [output]\ncolumns = [\"e_z\", \"L\"]\naccuracy = 1e-6\n{output}"
+        )
+    };
+    let mut all = Vec::new();
+    for method in ["taylor", "splitting", "mean"] {
+        let key = format!("method = \"{method}\"\n");
+        written(folder.path(), "named.toml", &(scene.clone() + "\n[output]\n" + &key));
+        let args =
+            ["run", folder.path().join("plain.toml").to_str().expect("UTF-8"), "--method", method].map(str::to_owned);
+        let run = twofold(&args.each_ref().map(String::as_str));
+        let lines: Vec<_> = stdout(&run).lines().skip(1).map(str::to_owned).collect();
+        let expected: Vec<_> = lines.iter().flat_map(|line| line.split(',').skip(1).map(str::to_owned)).collect();
+        assert_eq!(expected.len(), 12, "{}", stderr(&run));
+        for (name, text) in [("of-scene", sweep_of("named.toml", "")), ("of-sweep", sweep_of("plain.toml", &key))] {
+            written(folder.path(), "sweep.toml", &text);
+            let table = format!("{method}-{name}.csv");
+            let output = sweep(folder.path(), &["sweep.toml", "--out", &table]);
+            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            for row in rows(&folder.path().join(&table)).iter().skip(1) {
+                assert_eq!(row[3..], expected[..], "{method}, {name}");
+            }
+        }
+        all.push(expected);
+    }
+    assert!(all[0] != all[1] && all[0] != all[2] && all[1] != all[2]);
+}
+
 /// The example of `docs/sweep.md`, as it stands there.
 #[test]
 fn the_documented_sweep_runs() {

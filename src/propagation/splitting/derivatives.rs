@@ -7,7 +7,7 @@ use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::input::check_input;
 use crate::propagation::registers::Register;
-use crate::propagation::splitting::choice::{SplittingForecast, derivatives_forecast};
+use crate::propagation::splitting::choice::{SplittingForecast, TANGENTS_AT_ONCE, derivatives_forecast};
 use crate::propagation::splitting::flows::{AXIS, COMPANION, Moving, RATE};
 use crate::propagation::splitting::motion::{SPLITTING_STEP_LIMIT, Scene};
 use crate::propagation::splitting::ring::FusedDouble;
@@ -34,13 +34,11 @@ struct Seed<const V: usize> {
 /// Register for four directions; the number of registers follows from that of the directions.
 const LANES: usize = 4;
 
-/// Most directions at once.
-const MOST: usize = 4 * LANES;
-
 /// The states at `times` (in the order in which the motion reaches them) with their derivatives by the parameter of each of the `seeded`
-/// scenes, which have the same values; `e_x` is zero where it is not carried. None where the processor lacks the instructions.
+/// scenes, which have the same values; `e_x` is zero where it is not carried. None where the processor lacks the instructions, and of no scenes
+/// or times.
 ///
-/// One motion by splitting is done for every [`MOST`] parameters, with the tangent map of each of its flows: its derivatives are
+/// One motion by splitting is done for every [`TANGENTS_AT_ONCE`] parameters, with the tangent map of each of its flows: its derivatives are
 /// those of the numerical motion to rounding.
 ///
 /// # Errors
@@ -63,7 +61,7 @@ pub(crate) fn states_with_derivatives<const V: usize>(
     let count = steps + times.len() as f64;
     Error::unless(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
     let mut found = vec![Vec::with_capacity(seeded.len()); times.len()];
-    for seeded in seeded.chunks(MOST) {
+    for seeded in seeded.chunks(TANGENTS_AT_ONCE) {
         let moving = Derivatives { scene: &scene, scheme, step, start, times, seeded };
         register.run(
             #[inline(always)]

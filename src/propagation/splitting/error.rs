@@ -19,6 +19,12 @@ const OFF: [f64; 3] = [8.3, -6.1, 7.7];
 const OFF_ACROSS: [f64; 3] = [9.4, 8.9, -3.1];
 const EIGENVALUES_OFF: [f64; 3] = [3.7, -5.3, 4.1];
 
+/// Rounding of `s`, of the initial state and of the step, which both motions share, in units in the last place for each radian turned.
+const SHARED: f64 = 8.0;
+
+/// What reading the state off rounds.
+const READING: f64 = 4.0 * f64::EPSILON;
+
 /// Longest step of the better motion, in radians of the rotation: beyond, the orders of a scheme do not say how its error falls.
 const LONGEST_STEP: f64 = 1.0;
 
@@ -36,7 +42,7 @@ const MOST_FINER: f64 = 1e4;
 pub(super) struct ErrorEstimate {
     interval: f64,
     largest: Vec<f64>,
-    /// Rounding of `s`, of the initial state and of the step, which both motions share, per unit of time.
+    /// [`SHARED`], per unit of time.
     shared_rounding: f64,
 }
 
@@ -47,7 +53,7 @@ impl ErrorEstimate {
         let stride = twos.div_ceil(COMPARISONS);
         let by_stages = (4 * motion.scheme().stages()).div_ceil(GRADIENT_8_8_6.stages()) as u64;
         let interval = 2.0 * stride as f64 * motion.step().abs();
-        let shared_rounding = 8.0 * f64::EPSILON * scene.largest_rate;
+        let shared_rounding = SHARED * f64::EPSILON * scene.largest_rate;
         let by_angle = (2.0 * motion.step().abs() * scene.largest_rate / LONGEST_STEP).ceil();
         if by_angle > MOST_FINER {
             return Self { interval, largest: vec![f64::INFINITY], shared_rounding };
@@ -94,13 +100,20 @@ impl ErrorEstimate {
 
     /// The estimate after the time `elapsed`.
     pub(super) fn at(&self, elapsed: f64) -> f64 {
-        let rounding = 4.0 * f64::EPSILON + self.shared_rounding * elapsed;
+        let rounding = READING + self.shared_rounding * elapsed;
         if elapsed == 0.0 || self.interval == 0.0 {
             return rounding;
         }
         let index = (elapsed / self.interval) as usize;
         self.largest[index.min(self.largest.len() - 1)] + rounding
     }
+}
+
+/// What the estimate takes for rounding after a turn by the angle `turn` (rad) without instability: that of the numbers both motions share, and
+/// what the start that is off makes: its part along `w`, a third of its square on average, changes the rate.
+pub(super) fn expected_rounding(turn: f64) -> f64 {
+    let off = OFF.iter().map(|x| x * x).sum::<f64>();
+    READING + f64::EPSILON * (SHARED * turn + SAFETY * (off / 3.0).sqrt() * (1.0 + turn))
 }
 
 /// A start that is off by so many roundings.

@@ -57,6 +57,7 @@ mod tangents;
 pub use choice::{
     SplittingForecast, propagate_by_best_splitting, propagate_orientation_by_best_splitting, splitting_forecast,
 };
+pub(crate) use choice::{TANGENTS_AT_ONCE, require_tangent_maps, splitting_forecast_with_derivatives};
 pub use motion::{SPLITTING_STEP_LIMIT, SplittingMotion, propagate_by_splitting, propagate_orientation_by_splitting};
 pub use scheme::{Ends, Scheme};
 pub use schemes::{

@@ -15,7 +15,7 @@ const UNKNOWN_SAFETY: f64 = 6.0;
 const COVARIANCE_ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// What reading the state off rounds: some units in the last place of one.
-const READING: f64 = 4.0 * f64::EPSILON;
+pub(super) const READING: f64 = 4.0 * f64::EPSILON;
 
 /// No error is larger: components of `n` and `e_x` differ by two at most, and `|L|` stays below 1.2 times its unit, since
 /// `L.L <= L_0.L_0 + 2 sqrt(2) I^xx C |s|`.

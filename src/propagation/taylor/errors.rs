@@ -15,7 +15,7 @@ use crate::scalar::Real;
 type Columns<const V: usize> = SMatrix<f64, 3, V>;
 
 /// Standard deviation of what rounding makes of a change of the state, in units in the last place of the change.
-const ROUNDING: f64 = 0.5;
+pub(super) const ROUNDING: f64 = 0.5;
 
 /// Part of the truncation of a step that its leading term misses.
 const UNCERTAIN: f64 = 0.04;

@@ -5,6 +5,9 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::arithmetic::Plain;
+use crate::propagation::taylor::error_growth::{ErrorGrowth, READING};
+use crate::propagation::taylor::errors::ROUNDING;
+use crate::propagation::taylor::series::COMPANION;
 use crate::propagation::taylor::setup::Setup;
 use crate::propagation::taylor::{fused_for, work_of};
 
@@ -15,8 +18,10 @@ pub struct TaylorForecast {
     pub order: usize,
     /// Steps, if all are as long as the first; at least one.
     pub steps: f64,
-    /// Upper bound of the rate at which directions turn, with which errors grow.
-    pub turning_rate: f64,
+    /// What [`error_estimate`](crate::propagation::AxisMotion::error_estimate) will take for rounding at the end, as far as the start
+    /// tells: for steps alike, a torque as large as it can be, and constants each rounded by half a unit in the last place of a rate. Of
+    /// a motion beside the unstable middle axis it does not know the growth.
+    pub rounding: f64,
 }
 
 /// What [`propagate`](crate::propagation::propagate), or without `e_x` [`propagate_axis`](crate::propagation::propagate_axis),
@@ -49,7 +54,27 @@ fn forecast<const V: usize>(
 ) -> Result<TaylorForecast, Error> {
     let setup = Setup::new(work_of(fused_for::<f64>()), spheroid, s, start, (0.0, duration), accuracy)?;
     let steps = (duration.abs() / setup.drive().first_step(Plain::new())).ceil().max(1.0);
-    Ok(TaylorForecast { order: setup.order, steps, turning_rate: setup.scale.turning_rate })
+    let scale = &setup.scale;
+    let pull = 2.0 * (spheroid.constant_c / spheroid.inertia_xx).abs() * setup.frame.violation.norm();
+    let strength = if scale.turning_rate > 0.0 { pull / scale.turning_rate.powi(2) } else { 0.0 };
+    let rounding = expected_rounding(scale.turning_rate * duration.abs(), steps, strength, V);
+    Ok(TaylorForecast { order: setup.order, steps, rounding })
+}
+
+/// What [`ErrorGrowth`] will make of the rounding of `steps` alike, over a turn by the angle `turn` with `vectors` carried.
+///
+/// Each step rounds what it turns, `q = turn / steps`, and the momentum, `strength q`, by deviations of half a unit in the last place. A
+/// difference of directions changes the torque, so that it grows as `1 + strength x` over a turn by `x`; that of the momentum along itself
+/// as `x`. The sum over evenly spaced steps is the integral over `x`. The rounding that all steps share goes with the turn.
+fn expected_rounding(turn: f64, steps: f64, strength: f64, vectors: usize) -> f64 {
+    let deviation = ROUNDING * f64::EPSILON * turn / steps;
+    let pulled = strength * turn;
+    let of_torque = 1.0 + pulled + pulled * pulled / 3.0;
+    // Rotation, lengths and cosines of what is carried; a rotation about the axis alone is none of it.
+    let directions = if vectors > COMPANION { 6.0 } else { 3.0 };
+    let variance = (directions + 3.0 * strength * strength) * of_torque + pulled * pulled / 3.0;
+    let shared = ErrorGrowth::counted(ROUNDING * f64::EPSILON * turn);
+    READING + shared + ErrorGrowth::counted_deviation(deviation * (steps * variance).sqrt())
 }
 
 #[cfg(test)]

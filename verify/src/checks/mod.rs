@@ -15,6 +15,7 @@ mod mean_frequencies;
 mod observer;
 mod orientation;
 mod perturbation_equations;
+mod plan_errors;
 mod plans;
 mod point_masses;
 mod potential_energy;
@@ -62,6 +63,7 @@ pub fn all() -> Vec<Check> {
         splitting::checks,
         second_integrator::checks,
         plans::checks,
+        plan_errors::checks,
         regimes::checks,
         observer::checks,
         symbolic::checks,

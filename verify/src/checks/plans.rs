@@ -2,10 +2,10 @@
 
 use std::cell::Cell;
 
-use nalgebra::Matrix3;
+use nalgebra::{DMatrix, Matrix3, Vector3};
 use proptest::prelude::*;
 use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::plan::{Method, Output, Parameter, Plan, Request, Start, StateFunction, gradient};
+use twofold::plan::{Candidate, Method, Output, Parameter, Plan, Request, Start, StateFunction, gradient};
 use twofold::propagation::{AxisMotion, Motion, SymmetricMotion, UniformMotion, propagate};
 use twofold::scalar::Real;
 use twofold::solutions::perturbation::Kind as Precession;
@@ -32,11 +32,11 @@ pub fn checks() -> Vec<Check> {
             id: "plan-cheapest",
             kind: Kind::Property,
             equations: &[25],
-            statement: "at random a plan takes the cheapest of the methods that meet the accuracy, and its motion meets its prediction",
-            figure: "largest difference from a motion of accuracy 1e-15 / (error predicted by the plan + estimate of that motion)",
-            bound: Bound::AtMost(1.0),
-            reason: "the prediction is a bound, or for a numerical motion the accuracy asked and rounding",
-            measure: meets_prediction,
+            statement: "at random a plan takes the cheapest of the methods that are foreseen to meet the accuracy, each of them at times, with derivatives or without",
+            figure: "plans of 600 with a method that is admitted and costs less",
+            bound: Bound::AtMost(0.0),
+            reason: "what a plan is; whether what is foreseen comes true: plan-error-bounds, plan-error-goals",
+            measure: cheapest,
         },
         Check {
             id: "free-motion-bound",
@@ -141,38 +141,35 @@ fn scenes_for_plans() -> impl Strategy<Value = RandomScene> {
     })
 }
 
-fn meets_prediction() -> Result<Measured, String> {
+fn cheapest() -> Result<Measured, String> {
     let seen: [Cell<usize>; Method::ALL.len()] = Default::default();
-    let strategy = (scenes_for_plans(), -12.0..-3.0f64, 0.0..2.0f64, 1..20_usize);
-    let measured = worst_over(42, 400, &strategy, |&(scene, accuracy, span, samples)| {
+    let cheaper = Cell::new(0);
+    let strategy = (scenes_for_plans(), -12.0..-2.0f64, 0.0..2.0f64, 1..20_usize, 0..3_usize);
+    worst_over(42, 600, &strategy, |&(scene, accuracy, span, samples, derivatives)| {
         let (body, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
-        let span = (0.0, 10f64.powf(span));
-        let request = Request::new(&[Output::EquatorialAxis], span, samples, 10f64.powf(accuracy));
+        let request = Request {
+            derivatives: [Parameter::Beta, Parameter::InertiaZz][..derivatives].to_vec(),
+            ..Request::new(&[Output::EquatorialAxis], (0.0, 10f64.powf(span)), samples, 10f64.powf(accuracy))
+        };
         let plan = Plan::new(&body, &s, &initial, &request).map_err(text)?;
         let (method, prediction) = plan.method.zip(plan.prediction).ok_or("a plan without a method")?;
-        for candidate in &plan.considered {
-            if let Ok(other) = &candidate.prediction
-                && plan.admits(other)
-                && other.cost < prediction.cost
-            {
-                return Err(format!("{} is cheaper than {}", candidate.method.name(), method.name()));
-            }
+        let less = |candidate: &Candidate| {
+            candidate.prediction.as_ref().is_ok_and(|other| plan.admits(other) && other.cost < prediction.cost)
+        };
+        if plan.considered.iter().any(less) {
+            cheaper.set(cheaper.get() + 1);
         }
         let place = Method::ALL.iter().position(|m| *m == method).ok_or("a method that is none")?;
         seen[place].set(seen[place].get() + 1);
-        let motion = plan.motion(&body, &s, &initial).map_err(text)?;
-        let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
-        let off = difference(&motion.state(span.1).map_err(text)?, &exact.state(span.1).map_err(text)?, &s, &initial);
-        Ok(off / (prediction.truncation + prediction.rounding + exact.error_estimate(span.1)))
+        Ok(0.0)
     })?;
     let seen = seen.map(|count| count.get());
     // A steady precession is no accident.
-    let often = [Method::Free, Method::Symmetric, Method::Mean, Method::Taylor];
-    let times = |method: &Method| Method::ALL.iter().zip(seen).find(|(m, _)| *m == method).map_or(0, |(_, seen)| seen);
-    if often.iter().any(|method| times(method) < 20) {
+    let rare = |(method, seen): (&Method, usize)| *method != Method::Steady && seen < 20;
+    if Method::ALL.iter().zip(seen).any(rare) {
         return Err(format!("methods {seen:?} in the order of the list: some were hardly chosen"));
     }
-    Ok(Measured::new(measured.figure, format!("{}; chosen {seen:?}", measured.detail)))
+    Ok(Measured::new(cheaper.get() as f64, format!("chosen {seen:?}, in the order of the list")))
 }
 
 fn free_bound() -> Result<Measured, String> {
@@ -258,7 +255,15 @@ fn steady_motion() -> Result<Measured, String> {
 }
 
 /// Every component of the state.
-struct Components;
+pub(super) struct Components;
+
+impl Components {
+    /// The state of a row of their values.
+    pub(super) fn state(values: &DMatrix<f64>) -> BodyState<f64> {
+        let vector = |first: usize| Vector3::from_fn(|i, _| values[(0, first + i)]);
+        BodyState { axis: vector(0), momentum: vector(3), equatorial_axis: vector(6) }
+    }
+}
 
 impl StateFunction for Components {
     fn len(&self) -> usize {
@@ -300,7 +305,7 @@ fn gradients() -> Result<Measured, String> {
 }
 
 /// Whether tangent maps are compiled for this processor.
-fn has_vectors() -> bool {
+pub(super) fn has_vectors() -> bool {
     #[cfg(target_arch = "x86_64")]
     return std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma");
     #[cfg(not(target_arch = "x86_64"))]

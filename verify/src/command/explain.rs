@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use twofold::plan::{Candidate, MACHINE, Plan, State};
+use twofold::plan::{Candidate, MACHINE, Plan, Prediction, Promise, State};
 
+use crate::estimated_error::{ROUNDING_OF_COMPONENT, as_printed};
 use crate::scene_file::Scene;
 
 /// The plan as text.
@@ -62,10 +63,14 @@ pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
         row(
             "error",
             format!(
-                "at most {:.1e} by the method, about {:.1e} by rounding; asked is {:.0e}",
-                prediction.truncation, prediction.rounding, plan.accuracy
+                "{} by the method{}; asked is {:.0e}",
+                foreseen(prediction),
+                meaning(prediction.promise),
+                plan.accuracy
             ),
         );
+        let rounding = as_printed(prediction.rounding, ROUNDING_OF_COMPONENT);
+        row("rounding", format!("about {rounding:.1e}, as the motion's error estimate will count it"));
     }
     let mut line = |line: std::fmt::Arguments<'_>| writeln!(text, "{line}").expect("writing to a string succeeds");
     line(format_args!("\nskipped"));
@@ -79,21 +84,38 @@ pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
         let name = method.name();
         match prediction {
             Ok(prediction) if plan.admits(prediction) => {
-                line(format_args!("  {name}: {}, error {:.1e}", duration(prediction.cost), prediction.truncation));
+                line(format_args!("  {name}: {}, error {}", duration(prediction.cost), foreseen(prediction)));
             }
             Ok(prediction) if prediction.truncation <= plan.accuracy => {
-                line(format_args!(
-                    "  {name}: loses digits that another keeps, {:.1e} by rounding",
-                    prediction.rounding
-                ));
+                let rounding = prediction.rounding;
+                line(format_args!("  {name}: loses digits that another keeps, about {rounding:.1e} by rounding"));
             }
             Ok(prediction) => {
-                line(format_args!("  {name}: not accurate enough, error up to {:.1e}", prediction.truncation));
+                line(format_args!("  {name}: not accurate enough, error {}", foreseen(prediction)));
             }
             Err(why) => line(format_args!("  {name}: not possible: {why}")),
         }
     }
     text
+}
+
+/// The predicted error of the method alone.
+fn foreseen(prediction: &Prediction) -> String {
+    let word = match prediction.promise {
+        Promise::Bound => "at most",
+        Promise::Estimate => "estimated",
+        Promise::Goal(_) => "goal",
+    };
+    format!("{word} {:.1e}", as_printed(prediction.truncation, ROUNDING_OF_COMPONENT))
+}
+
+/// What its word means.
+fn meaning(promise: Promise) -> String {
+    match promise {
+        Promise::Bound => ", which is proved".to_owned(),
+        Promise::Estimate => ", which no random motion of its test exceeded".to_owned(),
+        Promise::Goal(share) => format!(", which {:.0} % of random motions stay below", 100.0 * share),
+    }
 }
 
 /// Why the method was taken, against the next best that meets the accuracy.
@@ -107,7 +129,7 @@ fn why(plan: &Plan) -> Option<String> {
         plan.admits(other).then_some((candidate.method, other.cost))
     });
     let next = usable.min_by(|a, b| a.1.total_cmp(&b.1));
-    let found = format!("the cheapest of those whose error is below {:.0e}", plan.accuracy);
+    let found = format!("the cheapest of those whose predicted error is at most {:.0e}", plan.accuracy);
     Some(match next {
         Some((other, cost)) => {
             format!("{found}; next is {}, {:.1} times the cost", other.name(), cost / prediction.cost)

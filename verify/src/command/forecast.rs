@@ -2,6 +2,7 @@
 
 use super::measurement::{Measurement, readable, write_csv};
 use super::{Failure, FisherArgs, ForecastArgs, note, print};
+use crate::estimated_error::as_printed;
 use crate::inference::{Observable, Unknown, check_span, forecast, scaling};
 
 pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
@@ -64,7 +65,8 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     let [by_span, by_epochs] = scaling(&found);
     for (what, slope) in [("span", by_span), ("number of data", by_epochs)] {
         if let Some(slope) = slope {
-            note(&format!("sigma goes as the {what} to the power of {:.3} +- {:.3}", slope.value, slope.error));
+            let error = as_printed(slope.error, 0.5e-3);
+            note(&format!("sigma goes as the {what} to the power of {:.3} +- {error:.3}", slope.value));
         }
     }
     note("sigma is proportional to the errors of the data");

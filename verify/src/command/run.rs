@@ -6,8 +6,9 @@ use super::explain::explained;
 use super::output_file::OutputFile;
 use super::progress::Progress;
 use super::{Failure, OutputArgs, PlanArgs, RunArgs, note, print};
+use crate::estimated_error::{ROUNDING_OF_COMPONENT, as_printed};
 use crate::scene_file::Scene;
-use crate::trajectory::{self, Summary, TrajectoryError};
+use crate::trajectory::{self, ErrorAtEnd, Summary, TrajectoryError};
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let mut scene = match args.columns {
@@ -30,9 +31,13 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         return Ok(());
     };
     note_poles(&scene, &summary);
-    if let Some(error) = summary.error {
-        note(&format!("estimated error of n, e_x and L / |L| at the end of the span: {error:.1e}"));
-    }
+    let (word, error) = match summary.error {
+        None => return Ok(()),
+        Some(ErrorAtEnd::Estimated(error)) => ("estimated error", error),
+        Some(ErrorAtEnd::Foreseen(error)) => ("error that the plan foresaw", error),
+    };
+    let error = as_printed(error, ROUNDING_OF_COMPONENT);
+    note(&format!("{word} of n, e_x and L / |L| at the end of the span: {error:.1e}"));
     Ok(())
 }
 

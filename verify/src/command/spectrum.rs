@@ -6,6 +6,7 @@ use super::explain::explained;
 use super::run::{failed, force_method, read_scene, write};
 use super::{Failure, SpectrumArgs, SpectrumTable, note, print};
 use crate::columns::Column;
+use crate::estimated_error::as_printed;
 use crate::scene_file::{Scene, Times};
 use crate::trajectory::{Floor, LinesSummary, LinesWanted, Sampling, TrajectoryError};
 
@@ -74,7 +75,8 @@ fn note_lines(scene: &Scene, column: &Column, summary: &LinesSummary) {
         None => {}
         Some(Ok(fundamental)) => {
             for g in fundamental {
-                note(&format!("{} = {:?} +- {:.1e} rad/{time}", g.symbol, g.frequency, g.uncertainty));
+                let uncertainty = as_printed(g.uncertainty, 0.5 * f64::EPSILON * g.frequency.abs());
+                note(&format!("{} = {:?} +- {uncertainty:.1e} rad/{time}", g.symbol, g.frequency));
             }
         }
         Some(Err(why)) => note(&format!("no line is identified: the motion has no fundamental frequencies: {why}")),

@@ -31,6 +31,7 @@ pub(crate) use document::FileKind;
 pub(crate) use error::Fault;
 pub use error::SceneError;
 pub use observer::{Catalogued, Pulsar, Viewer};
+pub(crate) use output::read_accuracy_and_method;
 pub(crate) use section::{Entry, Replaced, Section, listed, nearest, shortened};
 pub use star::Units;
 pub use time::Times;

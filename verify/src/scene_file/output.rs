@@ -13,13 +13,7 @@ pub(super) const DEFAULT_ACCURACY: f64 = 1e-13;
 /// scene, which keeps those it has.
 pub(super) fn read(section: &Section<'_>, scene: &mut Scene, used: bool) -> Result<(), Fault> {
     section.only(&["columns", "accuracy", "method"])?;
-    if let Some(entry) = section.optional("accuracy") {
-        scene.accuracy = entry.number_where("a number from 1e-14 to 1e-2", |x| (1e-14..=1e-2).contains(&x))?;
-    }
-    if let Some(entry) = section.optional("method") {
-        let name = entry.word(&Method::ALL.map(Method::name))?;
-        scene.choose_method(name).map_err(|why| entry.refuse_because(&why))?;
-    }
+    read_accuracy_and_method(section, scene)?;
     let Some(list) = section.optional("columns") else { return Ok(()) };
     let names: Vec<_> = columns::ALL.iter().map(|group| group.name).collect();
     let allowed = format!("a list of different names out of \"{}\"", names.join("\", \""));
@@ -41,6 +35,18 @@ pub(super) fn read(section: &Section<'_>, scene: &mut Scene, used: bool) -> Resu
     }
     if used {
         scene.columns = columns::in_order(&wanted);
+    }
+    Ok(())
+}
+
+/// Reads the keys `accuracy` and `method` into a scene, which keeps what it has where they are not given.
+pub(crate) fn read_accuracy_and_method(section: &Section<'_>, scene: &mut Scene) -> Result<(), Fault> {
+    if let Some(entry) = section.optional("accuracy") {
+        scene.accuracy = entry.number_where("a number from 1e-14 to 1e-2", |x| (1e-14..=1e-2).contains(&x))?;
+    }
+    if let Some(entry) = section.optional("method") {
+        let name = entry.word(&Method::ALL.map(Method::name))?;
+        scene.choose_method(name).map_err(|why| entry.refuse_because(&why))?;
     }
     Ok(())
 }

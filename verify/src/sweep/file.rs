@@ -11,7 +11,8 @@ use super::parameters::{Law, Parameters, Source};
 use super::{MOST_COLUMNS, MOST_SCENES, Sweep};
 use crate::columns;
 use crate::scene_file::{
-    BUILT_IN, Entry, Fault, FileKind, Replaced, SCENE, Scene, SceneError, Section, Times, listed, nearest, read_times,
+    BUILT_IN, Entry, Fault, FileKind, Replaced, SCENE, Scene, SceneError, Section, Times, listed, nearest,
+    read_accuracy_and_method, read_times,
 };
 
 /// A sweep, in the words of the messages.
@@ -128,8 +129,8 @@ impl<'t> Sweep<'t> {
         let scenes = count.ok_or_else(|| {
             in_sweep(section.fault(format!("the sweep has too many scenes: allowed are {MOST_SCENES:.0e}")))
         })?;
-        let (accuracy, units) = (scene.accuracy, scene.units);
-        let sweep = Sweep { base, parameters, outputs, scenes, accuracy, units, rotation: scene.rotation() };
+        let (accuracy, method, units) = (scene.accuracy, scene.method, scene.units);
+        let sweep = Sweep { base, parameters, outputs, scenes, accuracy, method, units, rotation: scene.rotation() };
         let columns = sweep.header().len();
         if columns > MOST_COLUMNS {
             let why = format!("the sweep has {columns} columns: allowed are {MOST_COLUMNS}; ask for fewer times");
@@ -302,15 +303,13 @@ fn ends(section: &Section<'_>, by_ratios: bool) -> Result<(f64, f64), Fault> {
     Ok((from, to))
 }
 
-/// Reads the section `[output]`, its accuracy into the scene.
+/// Reads the section `[output]`, its accuracy and method into the scene.
 fn outputs(document: &Section<'_>, scene: &mut Scene, times: Times) -> Result<Outputs, Fault> {
     let mut outputs = Outputs { times, groups: Vec::new(), errors: true, summaries: Vec::new() };
     outputs.groups = ["e_z", "L"].into_iter().filter_map(columns::named).collect();
     let Some(section) = document.section("output")? else { return Ok(outputs) };
-    section.only(&["columns", "summaries", "accuracy"])?;
-    if let Some(entry) = section.optional("accuracy") {
-        scene.accuracy = entry.number_where("a number from 1e-14 to 1e-2", |x| (1e-14..=1e-2).contains(&x))?;
-    }
+    section.only(&["columns", "summaries", "accuracy", "method"])?;
+    read_accuracy_and_method(&section, scene)?;
     if let Some(list) = section.optional("columns") {
         let names: Vec<_> = columns::ALL.iter().map(|group| group.name).chain([ERRORS]).collect();
         outputs.errors = false;

@@ -27,6 +27,8 @@ pub use merge::{MergeError, csv_line, merge};
 pub use shard::Shard;
 pub use spool::{Spool, SpoolError, SpoolFiles};
 
+use twofold::plan::Method;
+
 use crate::scene_file::{Scene, Units};
 use outputs::Outputs;
 use parameters::Parameters;
@@ -52,6 +54,8 @@ pub struct Sweep<'t> {
     /// Number of scenes.
     pub scenes: u64,
     accuracy: f64,
+    /// The method of every row, where one is named.
+    method: Option<Method>,
     units: Units,
     /// Upper estimate of the rotation of the scene as it stands, over its span.
     rotation: f64,
@@ -81,7 +85,7 @@ impl Sweep<'_> {
     /// A sentence about a parameter out of its range.
     fn scene(&self, parameters: &[f64]) -> Result<Scene, String> {
         let scene = self.base.scene(&self.parameters.keys, parameters, &self.outputs.times)?;
-        Ok(Scene { accuracy: self.accuracy, ..scene })
+        Ok(Scene { accuracy: self.accuracy, method: self.method, ..scene })
     }
 
     /// The lines of the table and of that of errors for one scene, if it is little work. For fuzzing.

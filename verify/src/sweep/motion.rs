@@ -31,15 +31,16 @@ pub(super) struct Asked {
     pub(super) errors: bool,
 }
 
-/// The states at their times of those of the `scenes` that need `n` and `L` by numerical motion and nothing else: many at
-/// once. None for the others.
+/// The states at their times of those of the `scenes` that need `n` and `L` by numerical motion and nothing else, and name no method: many at
+/// once, each by splitting or by the series as suits its times. None for the others.
 pub(super) fn instants_of_many(scenes: &[&Scene], asked: &Asked) -> Vec<Option<Result<Vec<Instant>, Error>>> {
     let mut found: Vec<_> = scenes.iter().map(|_| None).collect();
     if asked.errors {
         return found;
     }
     let is_plain = |plan: Plan| {
-        matches!(plan.state, State::Axis | State::AxisAndMomentum)
+        !plan.forced
+            && matches!(plan.state, State::Axis | State::AxisAndMomentum)
             && matches!(plan.method, Some(Method::Taylor | Method::Splitting))
     };
     let plain: Vec<_> = (0..scenes.len()).filter(|&i| scenes[i].plan(&asked.outputs).is_ok_and(is_plain)).collect();

@@ -12,6 +12,7 @@ use super::chunk::guarded;
 use super::motion::{Asked, Instant, instants, instants_of_many};
 use super::spin_axis_angle::SpinAxisAngle;
 use crate::columns::{Carried, ColumnGroup, Moment};
+use crate::estimated_error::{ROUNDING_OF_COMPONENT, as_printed};
 use crate::scene_file::{Scene, Times, Units};
 use crate::trajectory::write_pulses;
 
@@ -180,7 +181,7 @@ fn errors(scene: &Scene, instant: &Instant) -> [f64; 5] {
     let (now, start) = (integrals(&state), integrals(&scene.initial));
     let units = &scene.units;
     [
-        instant.error_estimate.unwrap_or(f64::NAN),
+        as_printed(instant.error_estimate.unwrap_or(f64::NAN), ROUNDING_OF_COMPONENT),
         state.axis.norm() - 1.0,
         (now.energy - start.energy) * units.energy,
         (now.spin - start.spin) / units.time,

@@ -115,6 +115,15 @@ pub struct Stretches<'s, M> {
     motion: std::marker::PhantomData<M>,
 }
 
+/// Error of the components of `n`, `e_x` and of `L` in units of its size at the end of a span.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ErrorAtEnd {
+    /// Estimated from the motion, where it is one from the start.
+    Estimated(f64),
+    /// What the plan foresaw, where the motion is in stretches that are not kept.
+    Foreseen(f64),
+}
+
 /// One stretch; times since the start, in t_c.
 pub struct Stretch<M> {
     /// The motion from `from` to `to`.
@@ -182,12 +191,12 @@ impl<'s, M: PlannedState> Stretches<'s, M> {
         Ok(())
     }
 
-    /// Estimated error at the end: that of the motion where it is one from the start, otherwise that which the plan foresaw.
-    pub fn error_at_end(&self, last: &Stretch<M>, plan: &Plan) -> f64 {
+    /// Error at the end.
+    pub fn error_at_end(&self, last: &Stretch<M>, plan: &Plan) -> ErrorAtEnd {
         if self.count == 1 || self.method.is_closed_form() {
-            return last.motion.error_estimate(last.to);
+            return ErrorAtEnd::Estimated(last.motion.error_estimate(last.to));
         }
-        plan.prediction.map_or(f64::NAN, |prediction| prediction.truncation + prediction.rounding)
+        ErrorAtEnd::Foreseen(plan.prediction.map_or(f64::NAN, |prediction| prediction.truncation + prediction.rounding))
     }
 
     /// The part of the span, from 0 to 1, that lies before a time.

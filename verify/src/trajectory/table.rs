@@ -6,7 +6,7 @@ use twofold::euler_angles::EulerAngles;
 use twofold::plan::{Output, Plan, PlannedAxisMotion, PlannedMotion, State, Work};
 
 use super::TrajectoryError;
-use super::stretches::{Angles, PlannedState, Stretches, since_start, since_start_within};
+use super::stretches::{Angles, ErrorAtEnd, PlannedState, Stretches, since_start, since_start_within};
 use crate::columns::{Carried, Moment};
 use crate::scene_file::Scene;
 
@@ -19,8 +19,8 @@ pub struct Summary {
     pub rows_on_pole: usize,
     /// Time of the first of those rows.
     pub first_on_pole: Option<f64>,
-    /// Estimated error of the components of `n`, `e_x` and of `L` in units of its size at the end of the span; none without a motion.
-    pub error: Option<f64>,
+    /// Error at the end of the span; none without a motion.
+    pub error: Option<ErrorAtEnd>,
     /// What it took.
     pub work: Work,
 }
