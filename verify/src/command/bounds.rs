@@ -232,8 +232,12 @@ fn recommendation(pulsar: &Pulsar, limit: &Limit, rows: &[Row]) -> String {
     }
     text.push_str(
         "  Of the pulses it has the strongest limit for a measured change of zero, or for the limit given: it is chosen by errors,\n\
-         \x20 not by what was found. With random directions and errors the limit is above the true value in 95 % of cases or more.\n",
+         \x20 not by what was found.",
     );
+    text.push_str(match pulsar.measured_change() {
+        Some(_) => " With random directions and errors the limit is above the true value in 95 % of cases or more.\n",
+        None => " Delta W is taken as a limit: the confidence is that of the other numbers and directions.\n",
+    });
     for (what, list) in [("Included", &INCLUDES[..]), ("Left out", &LEAVES_OUT[..])] {
         let _ = writeln!(text, "  {what}:");
         for item in list {
