@@ -47,8 +47,9 @@ impl<S: Real> SpinAxisDrift<S> {
     /// Bound `|2 s^ZZ - s^XX - s^YY| <~ eta |I^zz Omega^z Delta cos lambda / (C Delta t)|`, Eq. (41) `[est1]`.
     ///
     /// The paper's estimate takes the factors by which Eq. (38) depends on the directions to be one: `eta` is
-    /// [`eta_from_inclination`] for `beta_0` up to about 1.1 and, says the paper, at most 10. What it is on the average and at a
-    /// given confidence follows from [`eta`](super::eta) and [`eta_distribution`](super::eta_distribution).
+    /// [`eta_from_inclination`] for `beta_0` up to about 1.1 and, says the paper, at most 10. What it is on the average, and
+    /// which number it does not exceed with a given probability, follows from [`eta`](super::eta) and
+    /// [`eta_distribution`](super::eta_distribution).
     ///
     /// # Errors
     /// [`Error::Domain`] for an interval of zero.
@@ -80,12 +81,14 @@ pub fn eta_from_inclination<S: Real>(beta_0: S) -> Result<S, Error> {
     Ok(S::one() / cb.abs())
 }
 
-/// `I^zz / C = 4 / (Omega^z)^2` of a uniform star that owes its oblateness to its spin alone: Eq. (43) with Eq. (20) `[epf]`.
+/// `I^zz / C = 4 / (Omega^z)^2` of a star that owes its oblateness to its spin alone.
 ///
-/// Density and radius cancel: `eps = (5/4) (Omega^z)^2 R^3 / M` (the coefficient 5/4 for a uniform star, which Eq. (20)
-/// leaves to one) in `15 / (4 pi rho eps)`. With it and Eq. (5) `[replace]` the spin axis precesses about `w` with the rate
-/// `(alpha_2 / 2) |w|^2 Omega^z cos(beta)` of Nordtvedt. To first order in the oblateness; time squared, as `spin` (rad per
-/// unit of time) is given.
+/// It is the virial relation `T_rot = 2 C` of a fluid star in equilibrium, which the paper derives from Eq. (14), with
+/// `T_rot = I^zz (Omega^z)^2 / 2`: density profile, radius and the size of the oblateness do not matter. Error: that of
+/// Newtonian gravity, and what is not fluid. Eq. (43) with Eq. (20) `[epf]` gives the same to first order in the oblateness for a
+/// uniform star, whose `eps = (5/4) (Omega^z)^2 R^3 / M` (Eq. (20) leaves the coefficient 5/4 to one). With it and Eq. (5)
+/// `[replace]` the spin axis precesses about `w` with the rate `(alpha_2 / 2) |w|^2 Omega^z cos(beta)` of Nordtvedt. Time
+/// squared, as `spin` (rad per unit of time) is given.
 pub fn fluid_inertia_over_c<S: Scalar>(spin: S) -> S {
     S::from_f64(4.0) / (spin * spin)
 }

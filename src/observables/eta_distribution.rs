@@ -9,12 +9,16 @@
 //! let one = EtaDistribution::from_speeds([(0.5, 1.0)])?;
 //! assert!((one.probability_above(4.0) - 0.5).abs() < 1e-15 && (one.quantile(0.5)? - 4.0).abs() < 1e-12);
 //! assert!(EtaDistribution::of_unknown_axis(0.0)?.quantile(0.9)? > 10.0);
+//! // Seen at a right angle to the spin axis: one azimuth in two is within 45 degrees of the motion.
+//! let seen = one.clone().seen_at(core::f64::consts::FRAC_PI_2)?;
+//! assert!((seen.quantile(0.5)? - 2.0 * 2.0_f64.sqrt()).abs() < 1e-12);
+//! assert!((one.times([(3.0, 1.0)])?.quantile(0.5)? - 12.0).abs() < 1e-12);
 //! let beta = 0.7_f64;
 //! assert!((root_mean_square_along_motion(0.0, beta) - 3.0_f64.sqrt() / (beta.sin() * beta.cos())).abs() < 1e-9);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
-use core::f64::consts::FRAC_PI_2;
+use core::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use super::eta::{single_precession_start, squared_speed, squared_speed_along_motion};
 use crate::error::Error;
@@ -22,16 +26,27 @@ use crate::error::Error;
 /// Nodes of the averages over one variable.
 const NODES: usize = 256;
 
-/// Distribution of `eta = 1 / |n-hat . v|` over isotropic directions `n-hat` to the observer, for a spin axis that moves with
-/// one of several mean velocities `v`, each with a weight; units as in [`eta`](super::eta).
+/// Distribution of `eta = 1 / |n-hat . v|` over directions `n-hat` to the observer, for a spin axis that moves with one of
+/// several mean velocities `v`, each with a weight; units as in [`eta`](super::eta).
 ///
-/// The component of a fixed vector in a random direction is uniform, so that
-/// `P(eta > x) = sum of w min(1, 1 / (|v| x))`: a sum over the speeds is left, and quantiles are exact for them. The tail
-/// falls as `1/x`: `eta` has no mean, and a bound at the confidence `q` grows as `1 / (1 - q)`.
+/// Directions are isotropic, or with [`seen_at`](Self::seen_at) those at a known angle to the spin axis. The component of a
+/// fixed vector in an isotropic direction is uniform, so that `P(eta > x) = sum of w min(1, 1 / (|v| x))`: a sum over the
+/// speeds is left, and quantiles are exact for them. The tail falls as `1/x`: `eta` has no mean, and a bound at the confidence
+/// `q` grows as `1 / (1 - q)`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EtaDistribution {
     /// `1 / |v|` in descending order with weights that add up to one.
     inverse_speeds: Vec<(f64, f64)>,
+    directions: Directions,
+}
+
+/// The directions to the observer that are averaged over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Directions {
+    /// All, isotropic.
+    Isotropic,
+    /// Those at an angle to the spin axis, given by its sine; every azimuth is as probable.
+    OnCone { sine: f64 },
 }
 
 impl EtaDistribution {
@@ -42,16 +57,57 @@ impl EtaDistribution {
     pub fn from_speeds(speeds: impl IntoIterator<Item = (f64, f64)>) -> Result<Self, Error> {
         let mut inverse_speeds = Vec::new();
         for (speed, weight) in speeds {
-            for (value, quantity) in [(speed, "speed of the spin axis"), (weight, "weight of a speed")] {
-                Error::unless((0.0..f64::INFINITY).contains(&value), quantity, value, "finite and not negative")?;
-            }
+            let allowed = "finite and not negative";
+            Error::unless((0.0..f64::INFINITY).contains(&speed), "speed of the spin axis", speed, allowed)?;
             inverse_speeds.push((1.0 / speed, weight));
+        }
+        Self::from_inverse_speeds(inverse_speeds)
+    }
+
+    fn from_inverse_speeds(mut inverse_speeds: Vec<(f64, f64)>) -> Result<Self, Error> {
+        for &(_, weight) in &inverse_speeds {
+            Error::unless((0.0..f64::INFINITY).contains(&weight), "weight", weight, "finite and not negative")?;
         }
         let total: f64 = inverse_speeds.iter().map(|(_, weight)| weight).sum();
         Error::unless(total > 0.0 && total.is_finite(), "sum of the weights", total, "above zero")?;
         inverse_speeds.iter_mut().for_each(|(_, weight)| *weight /= total);
         inverse_speeds.sort_by(|a, b| b.0.total_cmp(&a.0));
-        Ok(Self { inverse_speeds })
+        Ok(Self { inverse_speeds, directions: Directions::Isotropic })
+    }
+
+    /// The same spin axes seen in a direction at the known angle `lambda` (rad) to them, or `pi - lambda`; every azimuth of the
+    /// direction about the spin axis is as probable.
+    ///
+    /// The axis moves at right angles to itself: with the azimuth `psi` counted from `v`, `n-hat . v = |v| sin(lambda) cos(psi)`, and
+    ///
+    /// ```text
+    /// P(eta > x) = sum of w (2/pi) asin min(1, 1 / (|v| sin(lambda) x))
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for an angle whose sine is not above 2.2e-16: a motion across the line of sight is not seen.
+    pub fn seen_at(self, lambda: f64) -> Result<Self, Error> {
+        let sine = lambda.sin();
+        let allowed = "above 2.2e-16 in size: a motion across the line of sight is not seen";
+        Error::unless(sine.abs() > f64::EPSILON, "sine of the angle to the line of sight", sine, allowed)?;
+        Ok(Self { directions: Directions::OnCone { sine: sine.abs() }, ..self })
+    }
+
+    /// The distribution of `eta` times an independent random number of which values and weights are given, such as a measured
+    /// bound over `eta` with its error. The weights need not add up to one.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a value or weight that is negative or not finite, and for weights that add up to zero.
+    pub fn times(&self, factors: impl IntoIterator<Item = (f64, f64)>) -> Result<Self, Error> {
+        let mut speeds = Vec::new();
+        for (factor, weight) in factors {
+            Error::unless((0.0..f64::INFINITY).contains(&factor), "factor of eta", factor, "finite and not negative")?;
+            speeds.extend(self.inverse_speeds.iter().map(|&(inverse, w)| {
+                // An axis at rest bounds nothing, whatever was measured.
+                (if inverse.is_infinite() { inverse } else { inverse * factor }, w * weight)
+            }));
+        }
+        Ok(Self { directions: self.directions, ..Self::from_inverse_speeds(speeds)? })
     }
 
     /// For a spin axis at the inclination `beta` (rad) to Z and a random azimuth, asymmetry ratio `r`.
@@ -88,25 +144,37 @@ impl EtaDistribution {
     /// # Errors
     /// [`Error::Domain`] for a ratio that is not finite.
     pub fn of_unknown_axis(asymmetry_ratio: f64) -> Result<Self, Error> {
-        // More nodes near the equator, where the axis is slow.
+        // More nodes near the equator, where the axis is slow. About an axis of symmetry all azimuths are the same.
         let latitudes = midpoints().map(|u| (FRAC_PI_2 * u * u * u, u * u));
+        let azimuths = if asymmetry_ratio == 0.0 { 1 } else { NODES };
         Self::from_speeds(latitudes.flat_map(|(latitude, node_weight)| {
             let (beta, band) = (FRAC_PI_2 - latitude, node_weight * latitude.cos());
             quarter_turn()
+                .take(azimuths)
                 .map(move |(alpha, weight)| (squared_speed(asymmetry_ratio, alpha, beta).sqrt(), weight * band))
         }))
     }
 
-    /// `eta` for the root mean square of `d cos lambda / dt`. At one inclination it is
+    /// `eta` for the root mean square of `d cos lambda / dt`. At one inclination and for isotropic directions it is
     /// [`root_mean_square_eta`](super::eta::root_mean_square_eta).
     pub fn root_mean_square(&self) -> f64 {
-        let squared_rate: f64 = self.inverse_speeds.iter().map(|(inverse, weight)| weight / (inverse * inverse)).sum();
-        (3.0 / squared_rate).sqrt()
+        let squared_speed: f64 = self.inverse_speeds.iter().map(|(inverse, weight)| weight / (inverse * inverse)).sum();
+        // Mean of the squared component along the line of sight, over that of the speed: 1/3, or sin^2(lambda) / 2.
+        match self.directions {
+            Directions::Isotropic => (3.0 / squared_speed).sqrt(),
+            Directions::OnCone { sine } => (2.0 / squared_speed).sqrt() / sine,
+        }
     }
 
     /// Probability that `eta` is above `x > 0`.
     pub fn probability_above(&self, x: f64) -> f64 {
-        self.inverse_speeds.iter().map(|(inverse, weight)| weight * (inverse / x).min(1.0)).sum()
+        let speeds = self.inverse_speeds.iter();
+        match self.directions {
+            Directions::Isotropic => speeds.map(|(inverse, weight)| weight * (inverse / x).min(1.0)).sum(),
+            Directions::OnCone { sine } => {
+                FRAC_2_PI * speeds.map(|(inverse, weight)| weight * (inverse / (sine * x)).min(1.0).asin()).sum::<f64>()
+            }
+        }
     }
 
     /// The number that `eta` does not exceed with the given probability: with it Eq. (41) is a bound at that confidence, as
@@ -116,6 +184,23 @@ impl EtaDistribution {
     /// [`Error::Domain`] for a probability outside (0, 1).
     pub fn quantile(&self, probability: f64) -> Result<f64, Error> {
         Error::unless(0.0 < probability && probability < 1.0, "probability", probability, "in (0, 1)")?;
+        let isotropic = self.isotropic_quantile(probability);
+        let Directions::OnCone { sine } = self.directions else { return Ok(isotropic) };
+        // Since (2/pi) asin(u) <= u, eta sin(lambda) is not above the quantile of isotropic directions; below 1 / (fastest speed) it never is.
+        let fastest = self.inverse_speeds.last().map_or(0.0, |(inverse, _)| *inverse);
+        let (mut low, mut high) = (fastest / sine, isotropic / sine);
+        while high.is_finite() {
+            let middle = (low + high) / 2.0;
+            if middle <= low || middle >= high {
+                break;
+            }
+            *(if self.probability_above(middle) > 1.0 - probability { &mut low } else { &mut high }) = middle;
+        }
+        Ok(high)
+    }
+
+    /// The quantile for isotropic directions, in closed form.
+    fn isotropic_quantile(&self, probability: f64) -> f64 {
         // With the k slowest speeds below 1/x: 1 - q = (their weights) + (sum of w/|v| of the others) / x, solved for x. The
         // sums start from the fast end, where the terms are small.
         let mut others = vec![0.0; self.inverse_speeds.len() + 1];
@@ -124,14 +209,15 @@ impl EtaDistribution {
         }
         let mut slower = 0.0;
         for (&(inverse, weight), sum) in self.inverse_speeds.iter().zip(others) {
-            let eta = sum / (1.0 - probability - slower);
-            if eta.is_finite() && eta >= inverse {
-                return Ok(eta);
+            let share = 1.0 - probability - slower;
+            let eta = sum / share;
+            if share > 0.0 && eta.is_finite() && eta >= inverse {
+                return eta;
             }
             slower += weight;
         }
         // More than a share of 1 - q of the speeds are zero.
-        Ok(f64::INFINITY)
+        f64::INFINITY
     }
 }
 
@@ -178,6 +264,34 @@ mod tests {
         assert_eq!(EtaDistribution::from_speeds([(0.0, 1.0)]).unwrap().quantile(0.5).unwrap(), f64::INFINITY);
     }
 
+    /// `eta |v| sin(lambda) = 1 / |cos psi|` with a uniform `psi`: the quantile is `1 / cos(q pi/2)` turned about.
+    #[test]
+    fn at_a_known_angle_the_azimuth_alone_is_random() {
+        for lambda in [0.3_f64, 1.7] {
+            let one = EtaDistribution::from_speeds([(0.5, 1.0)]).unwrap().seen_at(lambda).unwrap();
+            for probability in [0.05, 0.5, 0.95] {
+                let expected = 2.0 / (lambda.sin() * ((1.0 - probability) * FRAC_PI_2).sin());
+                assert!((one.quantile(probability).unwrap() / expected - 1.0).abs() < 1e-13, "{lambda} {probability}");
+            }
+            assert!((one.root_mean_square() * 0.5 * lambda.sin() - 2f64.sqrt()).abs() < 1e-14);
+        }
+    }
+
+    /// Twice as large an eta is half as large a speed, on the cone too.
+    #[test]
+    fn a_factor_divides_the_speeds() {
+        let cone = |speeds: [(f64, f64); 4]| EtaDistribution::from_speeds(speeds).unwrap().seen_at(1.2).unwrap();
+        let two = EtaDistribution::from_speeds([(0.5, 1.0), (2.0, 3.0)]).unwrap().seen_at(1.2).unwrap();
+        let found = two.times([(2.0, 1.0), (8.0, 1.0)]).unwrap();
+        let expected = cone([(0.25, 1.0), (1.0, 3.0), (0.0625, 1.0), (0.25, 3.0)]);
+        for probability in [0.1, 0.6, 0.95] {
+            let [found, expected] = [&found, &expected].map(|d| d.quantile(probability).unwrap());
+            assert!((found / expected - 1.0).abs() < 1e-14);
+        }
+        let half = EtaDistribution::from_speeds([(0.0, 1.0), (1.0, 1.0)]).unwrap().seen_at(1.2).unwrap();
+        assert_eq!(half.times([(0.0, 1.0)]).unwrap().quantile(0.6).unwrap(), f64::INFINITY);
+    }
+
     #[test]
     fn what_is_out_of_domain_is_refused() {
         assert!(EtaDistribution::from_speeds([]).is_err());
@@ -186,6 +300,9 @@ mod tests {
         assert!(EtaDistribution::at_inclination(f64::INFINITY, 1.0).is_err());
         assert!(EtaDistribution::at_constant(-1.0 / 11.0, 1.56).is_err());
         let some = EtaDistribution::of_unknown_axis(0.0).unwrap();
+        assert!(some.clone().seen_at(0.0).is_err() && some.clone().seen_at(f64::NAN).is_err());
+        assert!(some.times([(-1.0, 1.0)]).is_err() && some.times([(f64::INFINITY, 1.0)]).is_err());
+        assert!(some.times([(1.0, -1.0)]).is_err() && some.times([]).is_err());
         for probability in [0.0, 1.0, f64::NAN] {
             assert!(some.quantile(probability).is_err());
         }

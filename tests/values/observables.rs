@@ -154,6 +154,12 @@ fn periods_and_distributions() {
             ("at an inclination", EtaDistribution::at_inclination(ratio, 0.7)),
             ("at a constant", EtaDistribution::at_constant(ratio, 0.7)),
             ("of an unknown axis", EtaDistribution::of_unknown_axis(ratio)),
+            ("at a known angle", EtaDistribution::at_inclination(ratio, 0.7).and_then(|eta| eta.seen_at(2.0))),
+            (
+                "times a factor",
+                EtaDistribution::at_inclination(ratio, 0.7)
+                    .and_then(|eta| eta.times([(0.0, 1.0), (0.5, 2.0), (3.0, 1.0)])),
+            ),
         ] {
             match found {
                 Ok(found) => {

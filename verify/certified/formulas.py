@@ -74,9 +74,12 @@ def pulsars():
         drift = abs(spin * cosine / (15 * arb(31557600))) * arb(10) ** 16
         estimate, rounded = inertia_over_c("1e-3"), arb(fraction("1e-5"))
         yield "pulsar_bounds", f"{name}: Delta lambda (1e-3 deg)", change * 1000
-        yield "pulsar_bounds", f"{name}: bound / eta (1e-16)", drift * estimate
-        yield "pulsar_bounds", f"{name}: bound / eta (1e-16), I^zz/C = 1e-5 s^2", drift * rounded
-        yield "pulsar_bounds", f"{name}: bound (1e-16), eta = 10", drift * estimate * 10
+        yield "pulsar_bounds", f"{name}: (a) bound / eta (1e-16), I^zz/C by Eq. (43)", drift * estimate
+        yield "pulsar_bounds", f"{name}: (a) bound / eta (1e-16), I^zz/C = 1e-5 s^2", drift * rounded
+        yield "pulsar_bounds", f"{name}: (a) bound (1e-16), I^zz/C by Eq. (43), eta = 10", drift * estimate * 10
+        own = 4 / spin**2
+        yield "pulsar_bounds", f"{name}: (b) bound / eta (1e-16), I^zz/C = 4/Omega^2", drift * own
+        yield "pulsar_bounds", f"{name}: (b) bound (1e-16), I^zz/C = 4/Omega^2, eta = 10", drift * own * 10
 
 
 def stars():

@@ -2,14 +2,17 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use twofold::Error;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::bound::eta_from_inclination;
+use twofold::observables::eta::secular_axis_rate;
 use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
 use twofold::propagation::{Motion, propagate};
+
+use crate::random::Random;
 
 /// Asymmetry ratio `(s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` of the paper's examples, -1/11.
 pub const PAPER_ASYMMETRY: f64 = -1.0 / 11.0;
@@ -108,6 +111,16 @@ pub fn numerical_axis_rate(
         total += weight;
     }
     Ok((rate / total, direction.normalize()))
+}
+
+/// `n-hat . dl/dt` for a random spin axis `l` and a random direction `n-hat` to the observer at the angle `lambda` (rad) to it, with
+/// `I^zz / C = Omega^z = 1`: one over `eta` for a tensor with `|2 s^ZZ - s^XX - s^YY| = 1`.
+pub fn seen_rate(random: &mut Random, s: &Matrix3<f64>, lambda: f64) -> f64 {
+    let axis = symmetry_axis(random.within(0.0, TAU), random.within(-1.0, 1.0).acos());
+    let across = axis.cross(&Vector3::from_fn(|i, _| if i == axis.iamin() { 1.0 } else { 0.0 })).normalize();
+    let (sine, cosine) = random.within(0.0, TAU).sin_cos();
+    let observer = axis * lambda.cos() + (across * cosine + axis.cross(&across) * sine) * lambda.sin();
+    observer.dot(&secular_axis_rate(1.0, 1.0, s, &axis))
 }
 
 /// Twelve turns of a star with the given spin: enough for [`numerical_axis_rate`] to lose the nutation.

@@ -50,7 +50,7 @@ Examples:
   twofold verify --filter steady    only the checks whose name contains `steady`
   twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
   twofold run my-star.toml --out my-star.csv
-  twofold bounds                    the paper's table of pulsars with uncertainties
+  twofold bounds                    limits from the paper's table of pulsars
   twofold run tp-2 --columns h      only the gravitational wave
   twofold run tp-1 --columns h --explain
                                     the plan for it: method, what is skipped, cost
@@ -82,10 +82,10 @@ enum Command {
     /// t_c = sqrt(I^xx / C), a scene of a physical star in seconds. Angles are in rad and continuous: they count their
     /// turns. Where the symmetry axis is exactly on a pole they do not exist, and their fields are empty.
     Run(RunArgs),
-    /// Print the bounds on Lorentz violation from the pulse widths of pulsars, with uncertainties
+    /// Print the bounds on Lorentz violation from the pulse widths of pulsars, and one recommended limit with its confidence
     ///
-    /// Without a file: the two pulsars of the paper's table, beside its numbers. The format of a table and the method are
-    /// described in docs/bounds.md.
+    /// Without a file: the two pulsars of the paper's table, beside its numbers. Published limits stand below. The format of a
+    /// table and the method are described in docs/bounds.md.
     Bounds(BoundsArgs),
     /// Find every pulse of a star's radio beam in the span of a scene and write them as CSV
     ///
@@ -432,7 +432,7 @@ struct BenchArgs {
 struct BoundsArgs {
     /// A table of pulsars (TOML)
     file: Option<String>,
-    /// Print the bounds as a JSON array instead of tables
+    /// Print the same as JSON
     #[arg(long)]
     json: bool,
 }

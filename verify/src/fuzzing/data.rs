@@ -62,6 +62,9 @@ pub fn pulsars(bytes: &[u8]) {
                 for figure in figures {
                     assert!(figure.value.is_finite(), "{}: {} = {}", pulsar.name, figure.key, figure.value);
                 }
+                let figure = pulsar.figure("bound_over_eta_own").expect("every pulse has one");
+                let limit = pulsar.limit(&figure).expect("a table is refused where a limit does not exist").all;
+                assert!(limit.is_finite() && limit > 0.0, "{}: limit {limit}", pulsar.name);
             }
         }
     }

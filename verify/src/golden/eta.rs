@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use twofold::Error;
 use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
+use twofold::units::DEGREE;
 
 use super::{GoldenLine, GoldenTable, Printed};
 use crate::eta::{PAPER_ASYMMETRY, eta_curve};
@@ -39,6 +40,10 @@ pub(super) fn table() -> Result<GoldenTable, Error> {
         let unknown = EtaDistribution::of_unknown_axis(ratio)?;
         line(format!("r = {name}, axis unknown: median"), Printed::No, unknown.quantile(0.5)?);
         line(format!("r = {name}, axis unknown: 95 %"), Printed::No, unknown.quantile(0.95)?);
+        for lambda in [95.0, 100.0] {
+            let seen = unknown.clone().seen_at(lambda * DEGREE)?;
+            line(format!("r = {name}, axes unknown, lambda = {lambda} deg: 95 %"), Printed::No, seen.quantile(0.95)?);
+        }
     }
     Ok(GoldenTable {
         name: "eta",

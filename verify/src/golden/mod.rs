@@ -46,7 +46,7 @@ pub fn tables() -> Result<Vec<GoldenTable>, String> {
     let mut tables = vec![
         captions::initial_values().map_err(text)?,
         captions::constants().map_err(text)?,
-        pulsar_bounds::table().map_err(text)?,
+        pulsar_bounds::table()?,
         eta::table().map_err(text)?,
         star::estimates().map_err(text)?,
         star::expansions().map_err(text)?,

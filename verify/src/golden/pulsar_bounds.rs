@@ -1,11 +1,7 @@
 //! The table of the two solitary pulsars: change of `lambda` and the bounds from it.
 
-use twofold::Error;
-use twofold::star::estimates::inertia_over_c_estimate;
-use twofold::units::geometrised::GRAM_PER_CUBIC_CENTIMETRE;
-
 use super::{GoldenLine, GoldenTable, Printed};
-use crate::pulsar_table::{self, Pulsar, ROUND_INERTIA_OVER_C};
+use crate::pulsar_table::{self, CONSERVATIVE_ETA, Pulsar, ROUND_INERTIA_OVER_C};
 
 /// What the paper prints of one pulse beside what was observed of it.
 #[derive(Debug, Clone, Copy)]
@@ -35,24 +31,43 @@ pub(crate) fn columns() -> Vec<(Pulsar, PrintedBounds)> {
     pulsars.iter().map(|pulsar| printed(pulsar).expect("the paper prints a column for each")).collect()
 }
 
-/// The rows of the table that follow from its others.
-pub(super) fn table() -> Result<GoldenTable, Error> {
-    let estimate = inertia_over_c_estimate(1e15 * GRAM_PER_CUBIC_CENTIMETRE, 1e-3);
+/// The rows of the table that follow from its others, by each of the three readings.
+pub(super) fn table() -> Result<GoldenTable, String> {
     let mut lines = Vec::new();
     for (pulsar, printed) in columns() {
-        let mut line = |label: &str, printed, ours| {
-            lines.push(GoldenLine::new(format!("{}: {label}", pulsar.name), printed, ours))
-        };
-        let bound = |inertia_over_c: f64| pulsar.bound_over_eta(inertia_over_c).map(|bound| bound * 1e16);
-        line("Delta lambda (1e-3 deg)", Printed::Decimal(printed.lambda_change), pulsar.lambda_change()? * 1e3);
-        line("bound / eta (1e-16)", Printed::Order(printed.bound), bound(estimate)?);
-        line("bound / eta (1e-16), I^zz/C = 1e-5 s^2", Printed::Order(printed.bound), bound(ROUND_INERTIA_OVER_C)?);
-        line("bound (1e-16), eta = 10", Printed::Order(printed.conservative), bound(estimate)? * 10.0);
+        let text = |error: twofold::Error| error.to_string();
+        let own = pulsar.figure("bound_over_eta_own")?;
+        let limit = pulsar.limit(&own).map_err(text)?;
+        let by_change = limit.over_eta_by_change.ok_or("the paper's table has errors of the changes")?;
+        let by_change =
+            GoldenLine { digits: 4, ..GoldenLine::new("", Printed::Order(printed.bound), by_change * 1e16) };
+        let stated = pulsar.figure("bound_over_eta_stated")?.value * 1e16;
+        let round = pulsar.bound_over_eta(ROUND_INERTIA_OVER_C).map_err(text)? * 1e16;
+        let own = own.value * 1e16;
+        let (over_eta, with_ten) = (Printed::Order(printed.bound), Printed::Order(printed.conservative));
+        let short = |value| GoldenLine { digits: 4, ..GoldenLine::new("", Printed::No, value) };
+        let change = pulsar.lambda_change().map_err(text)? * 1e3;
+        for (label, line) in [
+            ("Delta lambda (1e-3 deg)", GoldenLine::new("", Printed::Decimal(printed.lambda_change), change)),
+            ("(a) bound / eta (1e-16), I^zz/C by Eq. (43)", GoldenLine::new("", over_eta, stated)),
+            ("(a) bound / eta (1e-16), I^zz/C = 1e-5 s^2", GoldenLine::new("", over_eta, round)),
+            (
+                "(a) bound (1e-16), I^zz/C by Eq. (43), eta = 10",
+                GoldenLine::new("", with_ten, stated * CONSERVATIVE_ETA),
+            ),
+            ("(b) bound / eta (1e-16), I^zz/C = 4/Omega^2", GoldenLine::new("", over_eta, own)),
+            ("(b) bound (1e-16), I^zz/C = 4/Omega^2, eta = 10", GoldenLine::new("", with_ten, own * CONSERVATIVE_ETA)),
+            ("(c) as (b), with the error of Delta W, limit / eta (1e-16), 95 %", by_change),
+            ("eta, 95 %, at the known angle lambda", short(limit.eta)),
+            ("limit (1e-16), 95 %, all together", short(limit.all * 1e16)),
+        ] {
+            lines.push(GoldenLine { label: format!("{}: {label}", pulsar.name), ..line });
+        }
     }
     Ok(GoldenTable {
         name: "pulsar_bounds",
         title: "Table of two pulsars: Delta lambda by Eq. (42), bounds on |2 s^ZZ - s^XX - s^YY| by Eq. (41) over 15 Julian \
-                years with Delta cos lambda = -sin(lambda) Delta lambda, I^zz/C = 1.79e-5 s^2 by Eq. (43)",
+                years with Delta cos lambda = -sin(lambda) Delta lambda, I^zz/C = 1.79e-5 s^2 by Eq. (43). Errors of Delta W are second-hand",
         lines,
     })
 }

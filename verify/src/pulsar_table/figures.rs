@@ -1,35 +1,26 @@
 //! The bounds from one pulse, with uncertainties by exact gradients.
 
-use std::sync::OnceLock;
-
 use nalgebra::Vector3;
 use num_dual::Dual64;
 use twofold::observables::bound::{SpinAxisDrift, fluid_inertia_over_c, lambda_change, preferred_frame_bound};
-use twofold::observables::eta::root_mean_square_eta;
-use twofold::observables::eta_distribution::EtaDistribution;
 use twofold::star::estimates::inertia_over_c_estimate;
 use twofold::units::geometrised::{GRAM_PER_CUBIC_CENTIMETRE, HERTZ, KILOMETRE};
 use twofold::units::{DEGREE, JULIAN_YEAR};
 use twofold::{Error, Real};
 
-use super::{Eta, Inertia, Pulsar, SpinForm};
+use super::{Inertia, Pulsar, Quantity, SpinForm};
 use crate::random::Random;
 
 /// The paper's round `I^zz / C` (s^2).
 pub const ROUND_INERTIA_OVER_C: f64 = 1e-5;
 
-/// Confidence of the bounds that need no `eta`.
-pub const CONFIDENCE: f64 = 0.95;
+/// The number that the paper takes for `eta` in its conservative bounds.
+pub const CONSERVATIVE_ETA: f64 = 10.0;
 
-/// `eta` that is not exceeded with the probability [`CONFIDENCE`], for a tensor with one axis of symmetry (as that of alpha_2), a
-/// spin axis and a direction to the observer of which nothing is known.
-pub fn eta_at_confidence() -> f64 {
-    static ETA: OnceLock<f64> = OnceLock::new();
-    let quantile = || EtaDistribution::of_unknown_axis(0.0)?.quantile(CONFIDENCE);
-    *ETA.get_or_init(|| quantile().expect("a symmetric tensor and a probability in (0, 1)"))
-}
+/// What the bounds are on.
+pub const COMBINATION: &str = "|2 s^ZZ - s^XX - s^YY|";
 
-/// One number that follows, with its standard uncertainty.
+/// One number that follows from a pulse, linear in small changes of the input.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Key in the JSON output.
@@ -38,8 +29,10 @@ pub struct Figure {
     pub label: String,
     /// The number.
     pub value: f64,
-    /// Its standard uncertainty, by the gradient.
-    pub uncertainty: f64,
+    /// Its standard uncertainty from the measured error of the change of width; none if that change is given as a limit.
+    pub from_change: Option<f64>,
+    /// Its standard uncertainty from all other numbers: their last digits, or their uncertainties as given.
+    pub from_inputs: f64,
 }
 
 /// A figure as it is computed, of any number type.
@@ -50,18 +43,46 @@ struct Computed<S> {
 }
 
 impl Pulsar {
-    /// What follows for this pulse: change of `lambda`, `I^zz / C`, the bounds on `|2 s^ZZ - s^XX - s^YY|` by Eq. (41) and, with
-    /// a speed, on `|alpha_2|`.
+    /// What follows for this pulse: change of `lambda`; the bounds on `|2 s^ZZ - s^XX - s^YY|` by Eq. (41), over `eta`, with `I^zz / C`
+    /// by Eq. (43) if it is so given, (a), and with that of the star's own deformation, (b); with a speed, that on `|alpha_2|`.
     ///
+    /// The change of width is taken as it stands, as the paper does; what its error makes of it is a [`Limit`](super::Limit).
     /// Uncertainties are linear, by automatic derivatives, for inputs that do not depend on each other.
     ///
     /// # Errors
-    /// [`Error::Domain`] where the width is stationary, or for an inclination without `eta`.
+    /// [`Error::Domain`] where the width is stationary.
     pub fn figures(&self) -> Result<Vec<Figure>, Error> {
         let values = computed(&self.map(|quantity| quantity.value))?;
-        let mut variances = vec![0.0; values.len()];
+        let measured = self.measured_change();
+        let exact = |quantity: Quantity| Quantity::exact(quantity.value);
+        let from_change =
+            measured.map(|change| Self { width_change: change, ..self.map(exact) }.deviations()).transpose()?;
+        let width_change = measured.map_or(self.width_change, exact);
+        let from_inputs = Self { width_change, ..self.clone() }.deviations()?;
+        let figure = |(i, c): (usize, Computed<f64>)| Figure {
+            key: c.key,
+            label: c.label,
+            value: c.value,
+            from_change: from_change.as_ref().map(|deviations| deviations[i]),
+            from_inputs: from_inputs[i],
+        };
+        Ok(values.into_iter().enumerate().map(figure).collect())
+    }
+
+    /// The figure with this key.
+    ///
+    /// # Errors
+    /// As for [`figures`](Self::figures), and for a key that the pulse has not.
+    pub fn figure(&self, key: &str) -> Result<Figure, String> {
+        let figures = self.figures().map_err(|error| error.to_string())?;
+        figures.into_iter().find(|figure| figure.key == key).ok_or_else(|| format!("{}: no figure {key}", self.name))
+    }
+
+    /// Standard deviations of the figures, from all uncertainties.
+    fn deviations(&self) -> Result<Vec<f64>, Error> {
         let mut count = 0;
         self.map(|_| count += 1);
+        let mut variances = Vec::new();
         for seeded in 0..count {
             let (mut index, mut uncertainty) = (0, 0.0);
             let point = self.map(|quantity| {
@@ -70,17 +91,13 @@ impl Pulsar {
                 index += 1;
                 Dual64::new(quantity.value, derivative)
             });
-            for (variance, figure) in variances.iter_mut().zip(computed(&point)?) {
+            let figures = computed(&point)?;
+            variances.resize(figures.len(), 0.0);
+            for (variance, figure) in variances.iter_mut().zip(figures) {
                 *variance += (figure.value.eps * uncertainty).powi(2);
             }
         }
-        let figure = |(c, variance): (Computed<f64>, f64)| Figure {
-            key: c.key,
-            label: c.label,
-            value: c.value,
-            uncertainty: variance.sqrt(),
-        };
-        Ok(values.into_iter().zip(variances).map(figure).collect())
+        Ok(variances.into_iter().map(f64::sqrt).collect())
     }
 
     /// The figures of random inputs of the given distributions, in the order of [`figures`](Self::figures).
@@ -132,49 +149,26 @@ fn drift<S: Real>(p: &Pulsar<S>, polar_inertia_over_c: S) -> Result<SpinAxisDrif
 }
 
 fn computed<S: Real>(p: &Pulsar<S>) -> Result<Vec<Computed<S>>, Error> {
-    let fluid = fluid_inertia_over_c(spin(p));
-    let (inertia, inertia_origin) = match p.inertia {
+    let figure = |key, label: String, value| Computed { key, label, value };
+    let mut figures = vec![figure("lambda_change", "Delta lambda [1e-3 deg]".to_owned(), change_of_lambda(p)? * 1e3)];
+    if let Inertia::Uniform { density, oblateness } = p.inertia {
+        let stated = inertia_over_c_estimate(density * GRAM_PER_CUBIC_CENTIMETRE, oblateness);
+        let over_eta = drift(p, stated)?.combination_bound(S::one())?;
+        figures.push(figure("inertia_over_c_stated", "(a) I^zz/C [s^2], stated: Eq. (43)".to_owned(), stated));
+        figures.push(figure("bound_over_eta_stated", "(a) bound / eta".to_owned(), over_eta));
+    }
+    let (own, origin) = match p.inertia {
         Inertia::Given(given) => (given, "given"),
-        Inertia::Uniform { density, oblateness } => {
-            (inertia_over_c_estimate(density * GRAM_PER_CUBIC_CENTIMETRE, oblateness), "Eq. (43)")
-        }
-        Inertia::Fluid => (fluid, "fluid, 4/Omega^2"),
+        Inertia::Uniform { .. } | Inertia::Fluid => (fluid_inertia_over_c(spin(p)), "own deformation: 4/Omega^2"),
     };
-    let (eta, eta_name) = match p.eta {
-        Eta::Given(eta) => (eta, "eta as given".to_owned()),
-        Eta::Inclination(beta_0) => {
-            let eta = root_mean_square_eta(S::zero(), beta_0 * DEGREE)?;
-            (eta, format!("eta = {:.3} by beta_0", eta.re()))
-        }
-        Eta::Conservative => (S::from_f64(10.0), "eta = 10".to_owned()),
-    };
-    let confident = eta_at_confidence();
-    let confidence = format!("{:.0} %, eta = {confident:.0}", CONFIDENCE * 100.0);
-    let combination = "|2 s^ZZ - s^XX - s^YY|";
-
-    let over_eta = drift(p, inertia)?.combination_bound(S::one())?;
-    let round_over_eta = drift(p, S::from_f64(ROUND_INERTIA_OVER_C))?.combination_bound(S::one())?;
-    let fluid_over_eta = drift(p, fluid)?.combination_bound(S::one())?;
-    let figure = |key, label, value| Computed { key, label, value };
-    let mut figures = vec![
-        figure("lambda_change", "Delta lambda [1e-3 deg]".to_owned(), change_of_lambda(p)? * 1e3),
-        figure("inertia_over_c", format!("I^zz/C [s^2], {inertia_origin}"), inertia),
-        figure("bound_over_eta", format!("{combination} / eta"), over_eta),
-        figure("bound_over_eta_round", format!("{combination} / eta, I^zz/C = 1e-5 s^2"), round_over_eta),
-        figure("bound_over_eta_fluid", format!("{combination} / eta, fluid star"), fluid_over_eta),
-        figure("bound", format!("{combination}, {eta_name}"), over_eta * eta),
-        figure("bound_confident", format!("{combination}, {confidence}"), over_eta * confident),
-    ];
+    let over_eta = drift(p, own)?.combination_bound(S::one())?;
+    figures.push(figure("inertia_over_c_own", format!("(b) I^zz/C [s^2], {origin}"), own));
+    figures.push(figure("bound_over_eta_own", "(b) bound / eta".to_owned(), over_eta));
     if let Some(speed) = p.speed {
         // The bound depends on the length of w alone.
         let w = Vector3::new(S::zero(), S::zero(), speed * KILOMETRE);
-        for (key, label, bound) in [
-            ("alpha_2_over_eta", "|alpha_2| / eta".to_owned(), over_eta),
-            ("alpha_2_over_eta_fluid", "|alpha_2| / eta, fluid star".to_owned(), fluid_over_eta),
-            ("alpha_2_confident_fluid", format!("|alpha_2|, fluid star, {confidence}"), fluid_over_eta * confident),
-        ] {
-            figures.push(figure(key, label, preferred_frame_bound(bound, &w)?));
-        }
+        let alpha_2 = preferred_frame_bound(over_eta, &w)?;
+        figures.push(figure("alpha_2_over_eta_own", "(b) |alpha_2| / eta".to_owned(), alpha_2));
     }
     Ok(figures)
 }

@@ -3,12 +3,15 @@
 //! The format and the method are described in `docs/bounds.md`.
 
 mod figures;
+mod limit;
+pub mod published;
 mod pulsar_file;
 
 use crate::random::Random;
 use crate::scene_file::{FileKind, SceneError};
 
-pub use figures::{CONFIDENCE, Figure, ROUND_INERTIA_OVER_C, eta_at_confidence};
+pub use figures::{COMBINATION, CONSERVATIVE_ETA, Figure, ROUND_INERTIA_OVER_C};
+pub use limit::{CONFIDENCE, Limit, recommended};
 
 /// The table that comes with the command: the two pulsars of the paper.
 pub const PAPER: &str = include_str!("../../pulsars/paper.toml");
@@ -87,8 +90,8 @@ pub enum Eta<T> {
     Given(T),
     /// By the inclination (deg) of the spin axis to Z, for a tensor symmetric about Z.
     Inclination(T),
-    /// Not: the paper's 10.
-    Conservative,
+    /// Not: nothing is known of the axes of the tensor.
+    Unknown,
 }
 
 /// One pulse of a pulsar. Angles in degrees, as in the paper's table.
@@ -96,13 +99,15 @@ pub enum Eta<T> {
 pub struct Pulsar<T = Quantity> {
     /// Its name.
     pub name: String,
+    /// Where its numbers come from.
+    pub source: Option<String>,
     /// How [`spin`](Self::spin) is given.
     pub spin_form: SpinForm,
     /// Spin period (s) or frequency (Hz).
     pub spin: T,
     /// Pulse width `W` (deg).
     pub width: T,
-    /// Bound on its change `Delta W` (deg), with its sign.
+    /// Its change `Delta W` (deg) with its sign: measured, if an uncertainty is given with it, and otherwise taken as a limit.
     pub width_change: T,
     /// `lambda` (deg) of Eq. (42), from the spin axis to the direction from the observer to the star: 180 - zeta.
     pub lambda: T,
@@ -123,6 +128,7 @@ impl<T: Copy> Pulsar<T> {
     pub fn map<U>(&self, mut f: impl FnMut(T) -> U) -> Pulsar<U> {
         Pulsar {
             name: self.name.clone(),
+            source: self.source.clone(),
             spin_form: self.spin_form,
             spin: f(self.spin),
             width: f(self.width),
@@ -140,7 +146,7 @@ impl<T: Copy> Pulsar<T> {
             eta: match self.eta {
                 Eta::Given(x) => Eta::Given(f(x)),
                 Eta::Inclination(x) => Eta::Inclination(f(x)),
-                Eta::Conservative => Eta::Conservative,
+                Eta::Unknown => Eta::Unknown,
             },
             speed: self.speed.map(f),
         }

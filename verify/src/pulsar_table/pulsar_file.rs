@@ -12,6 +12,7 @@ pub(super) fn read(document: &Section<'_>) -> Result<Vec<Pulsar>, Fault> {
 fn pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
     section.only(&[
         "name",
+        "source",
         "spin_period",
         "spin_frequency",
         "width",
@@ -49,16 +50,16 @@ fn pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
     };
     let pulsar = Pulsar {
         name: name.string()?.to_owned(),
+        source: section.optional("source").map(|source| source.string().map(str::to_owned)).transpose()?,
         spin_form,
         spin,
         width: quantity(&section.required("width", "W [deg]")?, "above 0 and below 360 [deg]", |w| {
             w > 0.0 && w < 360.0
         })?,
-        width_change: quantity(
-            &section.required("width_change", "bound on Delta W [deg]")?,
-            "from -10 to 10 [deg] and not zero: a bound of zero is none",
-            |change| change != 0.0 && change.abs() <= 10.0,
-        )?,
+        width_change: width_change(&section.required(
+            "width_change",
+            "Delta W [deg]: a list of the change measured and its standard uncertainty, or one number, a limit",
+        )?)?,
         lambda: lambda(section)?,
         chi: angle(&section.required("chi", "angle between spin axis and beam [deg]")?)?,
         years: quantity(&section.required("years", "Delta t")?, "above 0 and at most 1000", |t| t > 0.0 && t <= 1e3)?,
@@ -69,9 +70,20 @@ fn pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
             .map(|w| quantity(&w, "above 0 and below 299792 [km/s]", |w| w > 0.0 && w < 299_792.0))
             .transpose()?,
     };
-    // Where the width is stationary there is no bound: better said now, with the place.
-    pulsar.figures().map_err(|error| section.fault(format!("{}: {error}", pulsar.name)))?;
+    // Where the width is stationary or the axis points at the observer there is no bound: better said now, with the place.
+    let refused = |error| section.fault(format!("{}: {error}", pulsar.name));
+    pulsar.figures().map_err(refused)?;
+    pulsar.eta_distribution().map_err(refused)?;
     Ok(pulsar)
+}
+
+fn width_change(entry: &Entry<'_>) -> Result<Quantity, Fault> {
+    const MOST: f64 = 10.0;
+    let change = quantity_within(entry, "from -10 to 10 [deg]", |change| change.abs() <= MOST, |_| MOST)?;
+    if change.value == 0.0 && (change.spread == Spread::Rounded || change.uncertainty == 0.0) {
+        return Err(entry.refuse("another number, or 0 with an uncertainty above zero: a limit of zero is none"));
+    }
+    Ok(change)
 }
 
 fn lambda(section: &Section<'_>) -> Result<Quantity, Fault> {
@@ -107,9 +119,10 @@ fn eta(section: &Section<'_>) -> Result<Eta<Quantity>, Fault> {
     if let Some(eta) = section.optional("eta") {
         return Ok(Eta::Given(quantity(&eta, "above 0 and at most 1e6", |x| x > 0.0 && x <= 1e6)?));
     }
-    let Some(beta_0) = section.optional("beta_0") else { return Ok(Eta::Conservative) };
-    let allowed = "above 0 and below 180 [deg], and not 90: an axis at rest bounds nothing";
-    Ok(Eta::Inclination(quantity(&beta_0, allowed, |b| b > 0.0 && b < 180.0 && b != 90.0)?))
+    let Some(beta_0) = section.optional("beta_0") else { return Ok(Eta::Unknown) };
+    let allowed = "above 0 and below 180 [deg], 0.001 or more from 0, 90 and 180: an axis at rest bounds nothing";
+    let moves = |b: f64| [0.0, 90.0, 180.0].iter().all(|rest| (b - rest).abs() >= 1e-3) && b > 0.0 && b < 180.0;
+    Ok(Eta::Inclination(quantity(&beta_0, allowed, moves)?))
 }
 
 fn angle(entry: &Entry<'_>) -> Result<Quantity, Fault> {
@@ -118,6 +131,16 @@ fn angle(entry: &Entry<'_>) -> Result<Quantity, Fault> {
 
 /// A number, uncertain by the rounding of its last digit, or a list of a number and its standard uncertainty.
 fn quantity(entry: &Entry<'_>, allowed: &str, holds: impl Fn(f64) -> bool) -> Result<Quantity, Fault> {
+    quantity_within(entry, allowed, holds, f64::abs)
+}
+
+/// The same with the largest standard uncertainty allowed for a number.
+fn quantity_within(
+    entry: &Entry<'_>,
+    allowed: &str,
+    holds: impl Fn(f64) -> bool,
+    largest: impl Fn(f64) -> f64,
+) -> Result<Quantity, Fault> {
     if !entry.is_list() {
         let value = entry.number_where(&format!("a number {allowed}"), holds)?;
         return Ok(Quantity { value, uncertainty: entry.rounding() / 3f64.sqrt(), spread: Spread::Rounded });
@@ -125,9 +148,9 @@ fn quantity(entry: &Entry<'_>, allowed: &str, holds: impl Fn(f64) -> bool) -> Re
     let both = format!("a number {allowed}, or a list of it and its standard uncertainty");
     let entries = entry.list(&both)?;
     let [value, uncertainty] = entries.as_slice() else { return Err(entry.refuse(&both)) };
-    Ok(Quantity {
-        value: value.number_where(&format!("a number {allowed}"), holds)?,
-        uncertainty: uncertainty.number_where("a standard uncertainty, not negative", |u| u >= 0.0)?,
-        spread: Spread::Given,
-    })
+    let value = value.number_where(&format!("a number {allowed}"), holds)?;
+    let largest = largest(value);
+    let allowed = format!("a standard uncertainty, not negative and at most {largest}");
+    let uncertainty = uncertainty.number_where(&allowed, |u| (0.0..=largest).contains(&u))?;
+    Ok(Quantity { value, uncertainty, spread: Spread::Given })
 }

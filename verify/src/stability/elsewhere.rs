@@ -82,6 +82,13 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
     ),
     (
         &[
+            "observables::eta_distribution::EtaDistribution::seen_at",
+            "observables::eta_distribution::EtaDistribution::times",
+        ],
+        "one sine, or one product for each speed; quantiles are bisected to the last digit, against closed forms in the tests of the module",
+    ),
+    (
+        &[
             "dynamics::RigidSpheroid::in_units_of_tc",
             "dynamics::RigidSpheroid::inertia",
             "euler_angles::permuted_from_inertial",
