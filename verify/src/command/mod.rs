@@ -9,6 +9,7 @@ mod fisher;
 mod fit;
 mod forecast;
 mod fuzzed;
+mod interrupt;
 mod measurement;
 mod output_file;
 mod output_folder;
@@ -18,6 +19,7 @@ mod report;
 mod run;
 mod scenes;
 mod spectrum;
+mod standard_output;
 mod sweep;
 mod timing;
 mod verify;
@@ -30,6 +32,8 @@ pub use fuzzed::fuzzed_arguments;
 
 use clap::{Args, Parser, Subcommand};
 use twofold::epoch::Epoch;
+
+use standard_output::{print, tell};
 
 use crate::sweep::Shard;
 use crate::{claims, equation_table, stability};
@@ -450,18 +454,21 @@ enum Failure {
 
 /// Runs the command with the arguments of the process.
 pub fn main() -> ExitCode {
+    if let Err(error) = interrupt::watch() {
+        return end(1, &format!("signals cannot be handled: {error}"));
+    }
     match Cli::try_parse() {
         Ok(cli) => run_command(cli.command.unwrap_or(Command::Verify(VerifyArgs::default()))),
-        Err(message) => {
-            // Help and version go to standard output with status 0, a misuse to standard error with status 2.
-            let _ = message.print();
-            ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2))
+        Err(misuse) if misuse.use_stderr() => {
+            let _ = misuse.print();
+            ExitCode::from(2)
         }
+        Err(help_or_version) => status(print(&help_or_version.render().to_string())),
     }
 }
 
 fn run_command(command: Command) -> ExitCode {
-    let result = match command {
+    status(match command {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
         Command::Report(args) => report::report(&args),
@@ -480,13 +487,16 @@ fn run_command(command: Command) -> ExitCode {
         Command::Equations => print(&equation_table::markdown()),
         Command::Stability(args) => print(&stability::table::markdown(args.rounds)),
         Command::Claims => claims::markdown().map_err(Failure::Failed).and_then(|page| print(&page)),
-    };
+    })
+}
+
+fn status(result: Result<(), Failure>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Failed(message)) => end(1, &message),
         Err(Failure::BadInput(message)) => end(2, &message),
         Err(Failure::Partly(message)) => end(3, &message),
-        Err(Failure::Interrupted(left)) => end(output_file::INTERRUPTED, &format!("interrupted: {left}")),
+        Err(Failure::Interrupted(left)) => end(interrupt::INTERRUPTED, &format!("interrupted: {left}")),
     }
 }
 
@@ -498,15 +508,4 @@ fn end(status: u8, message: &str) -> ExitCode {
 /// A line on standard error that is no error.
 fn note(text: &str) {
     let _ = writeln!(io::stderr(), "note: {text}");
-}
-
-/// Prints to standard output. A reader that has gone away (`| head`) is no failure.
-fn print(text: &str) -> Result<(), Failure> {
-    let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::Failed(format!("standard output cannot be written: {error}")))
-        }
-        _ => Ok(()),
-    }
 }

@@ -5,6 +5,7 @@ use std::io::{self, BufWriter, IsTerminal, Write};
 use super::explain::explained;
 use super::output_file::OutputFile;
 use super::progress::Progress;
+use super::standard_output::standard_output;
 use super::{Failure, OutputArgs, PlanArgs, RunArgs, note, print};
 use crate::scene_file::Scene;
 use crate::trajectory::{self, Summary, TrajectoryError};
@@ -62,11 +63,8 @@ pub(super) fn write<T>(
     let mut progress = Progress::new(output.is_some() || !io::stdout().is_terminal());
     let mut show = |part| progress.show(part);
     let summary = match &output {
-        None => table(&mut io::stdout().lock(), &mut show),
-        Some(output) => {
-            output.remove_on_interrupt();
-            table(&mut BufWriter::new(output.file()), &mut show)
-        }
+        None => table(&mut standard_output()?, &mut show),
+        Some(output) => table(&mut BufWriter::new(output.file()), &mut show),
     };
     drop(progress);
     match summary {

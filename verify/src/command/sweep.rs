@@ -3,12 +3,10 @@
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, BufWriter, IsTerminal, Read, Seek, Write};
 use std::path::{Path, PathBuf};
-use std::process;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use super::output_file::{INTERRUPTED, OutputFile, free_name};
+use super::interrupt::stop_on_request;
+use super::output_file::{OutputFile, free_name};
 use super::progress::Progress;
 use super::{Failure, SweepArgs, note};
 use crate::sweep::{
@@ -50,13 +48,13 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
             _ => Failure::BadInput(why),
         }
     };
+    let stop = stop_on_request();
     let mut spool =
         Spool::open(files.clone(), &identity, [&headers[0], &headers[1]], scenes.clone()).map_err(refuse)?;
     let (first, count) = (spool.next(), scenes.end - scenes.start);
     if first > scenes.start {
         note(&format!("{} of {count} scenes are there already", first - scenes.start));
     }
-    let stop = stop_on_interrupt();
     let threads = rayon::ThreadPoolBuilder::new().num_threads(args.threads.unwrap_or(0).into()).build();
     let threads = threads.map_err(|error| Failure::Failed(format!("no threads can be started: {error}")))?;
     let mut told = Told::new(first - scenes.start, count);
@@ -112,18 +110,6 @@ fn errors_beside(out: &Path) -> PathBuf {
 
 fn failed(error: SpoolError) -> Failure {
     Failure::Failed(error.to_string())
-}
-
-/// A flag that the first interrupt sets; a second one ends the process. Nothing is lost either way.
-fn stop_on_interrupt() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    let _ = ctrlc::try_set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            process::exit(INTERRUPTED.into());
-        }
-    });
-    stop
 }
 
 /// Gives complete tables their names: that of errors first, so that the table itself is the sign that all is there.
@@ -183,7 +169,6 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     let mut parts: Vec<(String, Box<dyn BufRead>)> = Vec::new();
     let output = OutputFile::beside(&args.out, args.force)?;
     let errors_output = OutputFile::beside(&errors_beside(&args.out), args.force)?;
-    output.remove_on_interrupt();
     let mut errors = BufWriter::new(errors_output.file());
     let cannot = |error: io::Error| Failure::Failed(format!("the table of errors cannot be written: {error}"));
     errors.write_all(&csv_line(&sweep.errors_header())).map_err(cannot)?;

@@ -6,7 +6,7 @@ use twofold::epoch::Epoch;
 
 use super::output_folder::OutputFolder;
 use super::run::{failed, read_scene};
-use super::{Failure, TimingArgs, note, print};
+use super::{Failure, TimingArgs, note, tell};
 use crate::pulsar_timing::{PulsarScene, Series, Timing, csv, par, strain_series, tim};
 use crate::scene_file::Scene;
 
@@ -51,12 +51,7 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
         "estimated error of the mean motion at the farthest epoch: {:.1e} s; arrival times are rounded to 1e-16 d, 9e-12 s",
         pulsar.clock.truncation(farthest)
     ));
-    print(&format!(
-        "{}: {} arrival times, {files} files\n{}",
-        args.out.display(),
-        timing.pulses.len(),
-        summary(&timing)
-    ))
+    tell(&format!("{}: {} arrival times, {files} files\n{}", args.out.display(), timing.pulses.len(), summary(&timing)))
 }
 
 fn summary(timing: &Timing) -> String {
