@@ -2,7 +2,7 @@
 
 use super::output_folder::OutputFolder;
 use super::progress::Progress;
-use super::{BenchArgs, Failure, note, print};
+use super::{BenchArgs, Failure, note, print, tell};
 use crate::bench::table::{self, Results};
 use crate::bench::{Effort, growth, overhead, scaling, work_precision};
 use crate::figures;
@@ -17,8 +17,8 @@ pub(super) fn bench(args: &BenchArgs) -> Result<(), Failure> {
     let effort = if args.quick { Effort::QUICK } else { Effort::FULL };
     let folder = args.out.as_ref().map(|path| OutputFolder::at(path, args.force, is_ours)).transpose()?;
     let results = measure(&effort).map_err(Failure::Failed)?;
-    print(&table::text(&results))?;
-    let Some(folder) = folder else { return Ok(()) };
+    let Some(folder) = folder else { return print(&table::text(&results)) };
+    tell(&table::text(&results))?;
     let figure = figures::work_precision(&results.work_precision);
     let png = figures::png(&figure.svg).map_err(Failure::Failed)?;
     folder.write("bench.md", table::text(&results).as_bytes())?;

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::output_folder::OutputFolder;
 use super::run::read_scene;
-use super::{Failure, FiguresArgs, note, print};
+use super::{Failure, FiguresArgs, note, print, tell};
 use crate::figures::{self, Figure, OF_A_SCENE, RECIPES, Recipe, Subject};
 
 pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
@@ -30,7 +30,7 @@ pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
     draw_all(&chosen, &motions, &folder)?;
     let files = folder.complete()?;
     let s = if chosen.len() == 1 { "" } else { "s" };
-    print(&format!("{}: {} figure{s}, {files} files\n", args.out.display(), chosen.len()))
+    tell(&format!("{}: {} figure{s}, {files} files\n", args.out.display(), chosen.len()))
 }
 
 /// The motion of a built-in scene or of a scene file.

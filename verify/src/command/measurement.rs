@@ -136,7 +136,6 @@ fn named(list: &str) -> Result<Vec<Unknown>, String> {
 pub(super) fn write_csv(args: &TableArgs, rows: &[Vec<String>]) -> Result<(), Failure> {
     let Some(path) = &args.out else { return Ok(()) };
     let output = OutputFile::beside(path, args.force)?;
-    output.remove_on_interrupt();
     let cannot =
         |error: &dyn std::fmt::Display| Failure::Failed(format!("{} cannot be written: {error}", path.display()));
     let mut table = csv::Writer::from_writer(output.file());

@@ -9,6 +9,7 @@ mod fisher;
 mod fit;
 mod forecast;
 mod fuzzed;
+mod interrupt;
 mod measurement;
 mod output_file;
 mod output_folder;
@@ -18,6 +19,7 @@ mod report;
 mod run;
 mod scenes;
 mod spectrum;
+mod standard_output;
 mod sweep;
 mod timing;
 mod verify;
@@ -30,6 +32,8 @@ pub use fuzzed::fuzzed_arguments;
 
 use clap::{Args, Parser, Subcommand};
 use twofold::epoch::Epoch;
+
+use standard_output::{print, tell};
 
 use crate::sweep::Shard;
 use crate::{claims, equation_table, stability};
@@ -49,6 +53,8 @@ Examples:
   twofold                           run every check of the paper's equations, print the table
   twofold verify --filter steady    only the checks whose name contains `steady`
   twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
+  twofold scenes --print tp-2 > my-star.toml
+                                    a scene to change into yours
   twofold run my-star.toml --out my-star.csv
   twofold bounds                    limits from the paper's table of pulsars
   twofold run tp-2 --columns h      only the gravitational wave
@@ -139,8 +145,8 @@ enum Command {
     /// the growth of errors over long motions, what events, samples, gradients and wider numbers cost, and how the time goes
     /// with the number of outputs, scenes and cores.
     Bench(BenchArgs),
-    /// List the built-in scenes
-    Scenes,
+    /// List the built-in scenes and sweeps, or print the file of one
+    Scenes(ScenesArgs),
     /// Run every check and write everything as one HTML page: claims, equations, checks, golden tables, figures
     ///
     /// The page is DIR/index.html. It needs no network, no script and no other file. It is written, and says so at its
@@ -261,6 +267,13 @@ struct SpectrumArgs {
     plan: PlanArgs,
     #[command(flatten)]
     output: OutputArgs,
+}
+
+#[derive(Args)]
+struct ScenesArgs {
+    /// Print the file of this built-in scene or sweep, as a template: `twofold scenes --print tp-2 > my-star.toml`
+    #[arg(long, value_name = "NAME")]
+    print: Option<String>,
 }
 
 /// Which table of a spectrum.
@@ -451,18 +464,21 @@ enum Failure {
 
 /// Runs the command with the arguments of the process.
 pub fn main() -> ExitCode {
+    if let Err(error) = interrupt::watch() {
+        return end(1, &format!("signals cannot be handled: {error}"));
+    }
     match Cli::try_parse() {
         Ok(cli) => run_command(cli.command.unwrap_or(Command::Verify(VerifyArgs::default()))),
-        Err(message) => {
-            // Help and version go to standard output with status 0, a misuse to standard error with status 2.
-            let _ = message.print();
-            ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2))
+        Err(misuse) if misuse.use_stderr() => {
+            let _ = misuse.print();
+            ExitCode::from(2)
         }
+        Err(help_or_version) => status(print(&help_or_version.render().to_string())),
     }
 }
 
 fn run_command(command: Command) -> ExitCode {
-    let result = match command {
+    status(match command {
         Command::Verify(args) => verify::verify(&args),
         Command::Run(args) => run::run(&args),
         Command::Report(args) => report::report(&args),
@@ -477,17 +493,20 @@ fn run_command(command: Command) -> ExitCode {
         Command::Forecast(args) => forecast::run(&args),
         Command::Figures(args) => figures::figures(&args),
         Command::Bench(args) => bench::bench(&args),
-        Command::Scenes => scenes::scenes(),
+        Command::Scenes(args) => scenes::scenes(&args),
         Command::Equations => print(&equation_table::markdown()),
         Command::Stability(args) => print(&stability::table::markdown(args.rounds)),
         Command::Claims => claims::markdown().map_err(Failure::Failed).and_then(|page| print(&page)),
-    };
+    })
+}
+
+fn status(result: Result<(), Failure>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Failed(message)) => end(1, &message),
         Err(Failure::BadInput(message)) => end(2, &message),
         Err(Failure::Partly(message)) => end(3, &message),
-        Err(Failure::Interrupted(left)) => end(output_file::INTERRUPTED, &format!("interrupted: {left}")),
+        Err(Failure::Interrupted(left)) => end(interrupt::INTERRUPTED, &format!("interrupted: {left}")),
     }
 }
 
@@ -499,15 +518,4 @@ fn end(status: u8, message: &str) -> ExitCode {
 /// A line on standard error that is no error.
 fn note(text: &str) {
     let _ = writeln!(io::stderr(), "note: {text}");
-}
-
-/// Prints to standard output. A reader that has gone away (`| head`) is no failure.
-fn print(text: &str) -> Result<(), Failure> {
-    let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::Failed(format!("standard output cannot be written: {error}")))
-        }
-        _ => Ok(()),
-    }
 }

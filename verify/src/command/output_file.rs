@@ -1,28 +1,12 @@
 //! A file that appears under its name only when it is complete.
 
 use std::fs::{self, File};
-use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::process;
 
 use tempfile::NamedTempFile;
 
 use super::Failure;
-
-/// Status of a command ended by an interrupt, by the shells' convention.
-pub(super) const INTERRUPTED: u8 = 130;
-
-/// On an interrupt (Ctrl-C), hang-up or request to terminate, removes what is not complete, says what is left and ends the
-/// process. Where one of these is ignored already (`nohup`), all are left as they are.
-pub(super) fn on_interrupt(left: &'static str, mut remove: impl FnMut() + Send + 'static) {
-    let _ = ctrlc::try_set_handler(move || {
-        remove();
-        // The terminal's line has the bar and ^C on it.
-        let line_end = if io::stderr().is_terminal() { "\n" } else { "" };
-        let _ = writeln!(io::stderr(), "{line_end}error: interrupted: {left}");
-        process::exit(INTERRUPTED.into());
-    });
-}
+use super::interrupt::unfinished;
 
 /// The path of an output, if nothing stands in the way. A link is followed, so that what it points to is replaced and not the
 /// link.
@@ -57,20 +41,18 @@ impl OutputFile {
         let mut prefix = std::ffi::OsString::from(".");
         prefix.push(path.file_name().unwrap_or_default());
         prefix.push(".");
-        let temporary = tempfile::Builder::new()
-            .prefix(&prefix)
-            .suffix(".part")
-            .make_in(folder, |part| File::options().write(true).create_new(true).open(part))
-            .map_err(|error| refuse(format!("no file can be made in {}: {error}", folder.display())))?;
+        let temporary = unfinished(
+            || {
+                let open = |part: &Path| File::options().write(true).create_new(true).open(part);
+                tempfile::Builder::new().prefix(&prefix).suffix(".part").make_in(folder, open)
+            },
+            |temporary| {
+                let part = temporary.path().to_owned();
+                move || drop(fs::remove_file(&part))
+            },
+        )
+        .map_err(|error| refuse(format!("no file can be made in {}: {error}", folder.display())))?;
         Ok(Self { path, temporary, replace })
-    }
-
-    /// Removes the temporary file on an interrupt, see [`on_interrupt`].
-    pub(super) fn remove_on_interrupt(&self) {
-        let temporary = self.temporary.path().to_owned();
-        on_interrupt("nothing was written", move || {
-            let _ = fs::remove_file(&temporary);
-        });
     }
 
     /// The file to write to.

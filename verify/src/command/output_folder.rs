@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use tempfile::{TempDir, TempPath};
 
 use super::Failure;
-use super::output_file::on_interrupt;
+use super::interrupt::unfinished;
 
 /// A folder that is being filled.
 pub(super) struct OutputFolder {
@@ -29,7 +29,10 @@ impl OutputFolder {
             if path.is_symlink() {
                 return Err(refuse("is a link to nothing".into()));
             }
-            fs::create_dir_all(path).map_err(|error| refuse(format!("no folder can be made: {error}")))?;
+            let made = path.to_owned();
+            // Goes only if nothing is in it.
+            unfinished(|| fs::create_dir_all(path), |()| move || drop(fs::remove_dir(&made)))
+                .map_err(|error| refuse(format!("no folder can be made: {error}")))?;
         } else if !path.is_dir() {
             return Err(refuse("exists and is not a folder".into()));
         }
@@ -51,20 +54,15 @@ impl OutputFolder {
                 return Err(refuse(format!("{first} and {count} more exist there; --force replaces them")));
             }
         }
-        let temporary = tempfile::Builder::new().prefix(".figures.").suffix(".part").tempdir_in(path);
+        let temporary = unfinished(
+            || tempfile::Builder::new().prefix(".figures.").suffix(".part").tempdir_in(path),
+            |temporary| {
+                let part = temporary.path().to_owned();
+                move || drop(fs::remove_dir_all(&part))
+            },
+        );
         folder.temporary = Some(temporary.map_err(|error| refuse(format!("no file can be made there: {error}")))?);
-        folder.remove_on_interrupt();
         Ok(folder)
-    }
-
-    fn remove_on_interrupt(&self) {
-        let Some(temporary) = self.temporary.as_ref().map(|folder| folder.path().to_owned()) else { return };
-        let made = self.new.then(|| self.path.clone());
-        on_interrupt("no file was left incomplete", move || {
-            let _ = fs::remove_dir_all(&temporary);
-            // Goes only if nothing is in it.
-            let _ = made.as_ref().map(fs::remove_dir);
-        });
     }
 
     /// Writes a file, for now aside.

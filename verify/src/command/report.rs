@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use super::output_folder::OutputFolder;
 use super::verify::{conclude, run_all};
-use super::{Failure, ReportArgs, print};
+use super::{Failure, ReportArgs, tell};
 use crate::html_report::{Content, Environment, page};
 use crate::{checks, figures, golden, report};
 
@@ -31,6 +31,6 @@ pub(super) fn report(args: &ReportArgs) -> Result<(), Failure> {
     folder.write(PAGE, page(&content).map_err(Failure::Failed)?.as_bytes())?;
     folder.complete()?;
     let summary = report::summary(&content.results, seconds);
-    print(&format!("{summary}\n{}\n", args.out.join(PAGE).display()))?;
+    tell(&format!("{summary}\n{}\n", args.out.join(PAGE).display()))?;
     conclude(&content.results)
 }

@@ -6,15 +6,20 @@ use twofold::epoch::Epoch;
 
 use super::output_folder::OutputFolder;
 use super::run::{failed, read_scene};
-use super::{Failure, TimingArgs, note, print};
+use super::{Failure, TimingArgs, note, tell};
 use crate::pulsar_timing::{PulsarScene, Series, Timing, TimingError, csv, decimal, par, strain_series, tim};
-use crate::scene_file::Scene;
+use crate::scene_file::{Scene, like_julian_date};
 
 /// Most arrival times, and most samples of strain.
 const MOST: usize = 10_000_000;
 
 pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let scene = read_scene(&args.scene)?;
+    for (option, date) in [("--from", &args.from), ("--to", &args.to)] {
+        if let Some(why) = date.as_ref().and_then(like_julian_date) {
+            note(&format!("{option}: {why}"));
+        }
+    }
     let refused = |why: String| Failure::BadInput(format!("{}: {why}", args.scene));
     let mut pulsar = PulsarScene::new(&scene).map_err(refused)?;
     let epochs = epochs(args, &scene, &pulsar.epoch)?;
@@ -59,12 +64,7 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
          rounding of the initial angular momentum, linear in time and taken up by F0",
         pulsar.arrival_error(farthest)
     ));
-    print(&format!(
-        "{}: {} arrival times, {files} files\n{}",
-        args.out.display(),
-        timing.pulses.len(),
-        summary(&timing)
-    ))
+    tell(&format!("{}: {} arrival times, {files} files\n{}", args.out.display(), timing.pulses.len(), summary(&timing)))
 }
 
 fn summary(timing: &Timing) -> String {

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use console::Term;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Failure, VerifyArgs, print};
+use super::{Failure, VerifyArgs, print, tell};
 use crate::check::{Check, Outcome};
 use crate::{checks, report};
 
@@ -31,7 +31,7 @@ pub(super) fn verify(args: &VerifyArgs) -> Result<(), Failure> {
     } else {
         let width = Term::stdout().size_checked().map_or(WIDTH, |(_, columns)| columns.max(110));
         let summary = report::summary(&results, start.elapsed().as_secs_f64());
-        print(&format!("{}\n{summary}\n", report::tables(&results, width, args.filter.is_some())))?;
+        tell(&format!("{}\n{summary}\n", report::tables(&results, width, args.filter.is_some())))?;
     }
     conclude(&results)
 }

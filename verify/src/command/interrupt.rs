@@ -1,0 +1,117 @@
+//! Requests to end: an interrupt (Ctrl-C), a hang-up of the terminal, a request to terminate.
+//!
+//! Each signal is looked at by itself. An interrupt or a hang-up that is ignored when the command starts, as under `nohup` or in a
+//! script's background, stays ignored; a request to terminate is always heeded.
+
+use std::io::{self, IsTerminal, Write};
+use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Status of a command ended by such a request, by the shells' convention.
+pub(super) const INTERRUPTED: u8 = 130;
+
+/// What is done at a request to end.
+struct OnRequest {
+    /// Set at the first request, for work that stops by itself; the next request ends the process.
+    stop: Option<Arc<AtomicBool>>,
+    /// Take away what is not complete.
+    removals: Vec<Box<dyn Fn() + Send>>,
+}
+
+static ON_REQUEST: Mutex<OnRequest> = Mutex::new(OnRequest { stop: None, removals: Vec::new() });
+
+fn on_request() -> MutexGuard<'static, OnRequest> {
+    ON_REQUEST.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Heeds requests to end from now on. To be called before anything is begun.
+///
+/// # Errors
+/// A system that gives no handler or no thread.
+#[cfg(unix)]
+pub(super) fn watch() -> io::Result<()> {
+    let mut signals = signal_hook::iterator::Signals::new(heeded(ignored()))?;
+    let thread = std::thread::Builder::new().name("signals".to_owned());
+    thread.spawn(move || signals.forever().for_each(|_| requested())).map(drop)
+}
+
+/// Heeds requests to end from now on. To be called before anything is begun.
+///
+/// # Errors
+/// A system that gives no handler.
+#[cfg(windows)]
+pub(super) fn watch() -> io::Result<()> {
+    ctrlc::try_set_handler(requested).map_err(io::Error::other)
+}
+
+/// The signals to handle, where those of the mask `ignored` are ignored.
+#[cfg(unix)]
+fn heeded(ignored: u64) -> Vec<i32> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let is_heeded = |signal: &i32| *signal == SIGTERM || ignored >> (signal - 1) & 1 == 0;
+    [SIGINT, SIGHUP, SIGTERM].into_iter().filter(is_heeded).collect()
+}
+
+/// The signals that this process ignores: bit n - 1 for signal n. Where the system does not say, a hang-up counts as ignored, so that
+/// `nohup` keeps its promise.
+#[cfg(unix)]
+fn ignored() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.unwrap_or(1 << (signal_hook::consts::SIGHUP - 1))
+}
+
+/// Stops the work that can stop by itself; else takes away what is not complete and ends the process.
+fn requested() {
+    let mut on_request = on_request();
+    if let Some(stop) = on_request.stop.take() {
+        stop.store(true, Ordering::Relaxed);
+        return;
+    }
+    // What was made last may lie in what was made before.
+    on_request.removals.iter().rev().for_each(|remove| remove());
+    let left = if on_request.removals.is_empty() { "" } else { ": no file was left incomplete" };
+    // The terminal's line has the bar and ^C on it.
+    let line_end = if io::stderr().is_terminal() { "\n" } else { "" };
+    let _ = writeln!(io::stderr(), "{line_end}error: interrupted{left}");
+    process::exit(INTERRUPTED.into());
+}
+
+/// A flag that the first request to end sets, for work that stops by itself; the next one ends the process.
+pub(super) fn stop_on_request() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    on_request().stop = Some(Arc::clone(&stop));
+    stop
+}
+
+/// Makes something that is not complete yet; `removal` gives what takes it away at a request to end, if it is still there. No request
+/// comes between the two.
+pub(super) fn unfinished<T, E, R: Fn() + Send + 'static>(
+    make: impl FnOnce() -> Result<T, E>,
+    removal: impl FnOnce(&T) -> R,
+) -> Result<T, E> {
+    let mut on_request = on_request();
+    let made = make()?;
+    on_request.removals.push(Box::new(removal(&made)));
+    Ok(made)
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+
+    use super::heeded;
+
+    #[test]
+    fn each_signal_is_heeded_or_left_by_itself() {
+        let mask = |signals: &[i32]| signals.iter().fold(0, |mask, signal| mask | 1 << (signal - 1));
+        assert_eq!(heeded(0), [SIGINT, SIGHUP, SIGTERM]);
+        assert_eq!(heeded(mask(&[SIGHUP])), [SIGINT, SIGTERM]);
+        assert_eq!(heeded(mask(&[SIGINT])), [SIGHUP, SIGTERM]);
+        assert_eq!(heeded(mask(&[SIGINT, SIGHUP])), [SIGTERM]);
+        assert_eq!(heeded(mask(&[SIGTERM])), [SIGINT, SIGHUP, SIGTERM]);
+        assert_eq!(heeded(u64::MAX), [SIGTERM]);
+    }
+}
