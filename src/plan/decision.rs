@@ -47,7 +47,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan for a request: of the methods whose error, rounding apart, is at most the accuracy asked, the cheapest one.
+    /// The plan for a request: of the methods whose [predicted error](Prediction::truncation) is at most the accuracy asked, the cheapest one.
     ///
     /// A method asked for by name is taken if it can be used at all, whatever its error: [`prediction`](Plan::prediction) tells it.
     ///
@@ -97,7 +97,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Whether a method meets the accuracy by what it leaves out, and by rounding: above the accuracy, rounding must not be a hundred times that
+    /// Whether a method is foreseen to meet the accuracy by what it leaves out, and by rounding: above the accuracy, rounding must not be a hundred times that
     /// of another method. Phases after 1e12 turns are in doubles no longer what was asked.
     pub fn admits(&self, prediction: &Prediction) -> bool {
         let meets = |prediction: &Prediction| prediction.truncation <= self.accuracy;

@@ -39,7 +39,7 @@ pub(super) fn checks() -> Vec<Check> {
             id: "mean-hamiltonian-second-order",
             kind: Kind::Autodiff,
             equations: &[25],
-            statement: "the closed form of the second order of the mean Hamiltonian is half the average of {V + <V>, W} over the fast angle, by duals at nine angles",
+            statement: "the closed form of the second order of the mean Hamiltonian, for traceless s, is half the average of {V + <V>, W} over the fast angle, by duals at nine angles",
             figure: "largest difference / (C^2 I^xx |s|^2 / G^2), 200 random states",
             bound: Bound::AtMost(1e-13),
             reason: "nine brackets of some hundred roundings",
