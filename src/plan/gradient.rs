@@ -126,16 +126,17 @@ fn values(
     let mut found = DMatrix::zeros(times.len(), outputs.len());
     let Start { spheroid, violation, .. } = start;
     let initial = start.state();
-    let state: Box<dyn Fn([f64; 2]) -> Result<BodyState<f64>, Error>> = if plan.state == State::Orientation {
+    let times = times.iter();
+    let states: Result<Vec<BodyState<f64>>, Error> = if plan.state == State::Orientation {
         let motion = plan.motion(spheroid, violation, &initial)?;
-        Box::new(move |t| motion.state_in_parts(t))
+        times.map(|&t| motion.state_in_parts(t)).collect()
     } else {
         let motion = plan.axis_motion(spheroid, violation, &initial)?;
-        Box::new(move |t| motion.axis_state_in_parts(t).map(without_equatorial_axis))
+        times.map(|&t| motion.axis_state_in_parts(t).map(without_equatorial_axis)).collect()
     };
     let mut here = vec![0.0; outputs.len()];
-    for (row, &t) in times.iter().enumerate() {
-        outputs.values(spheroid, violation, &state(t)?, &mut here);
+    for (row, state) in states?.iter().enumerate() {
+        outputs.values(spheroid, violation, state, &mut here);
         found.row_mut(row).iter_mut().zip(&here).for_each(|(value, here)| *value = *here);
     }
     Ok(found)
