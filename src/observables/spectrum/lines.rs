@@ -131,15 +131,13 @@ fn separated<'s>(series: &'s Series, weights: &'s [f64], least: f64, most: usize
             found = together;
             continue;
         }
-        found = found.settled(&mut refused);
         for peak in peaks {
-            match found.with(&[peak], STEPS.1) {
-                Some(one_more) => found = one_more,
-                None => refused.push(peak),
+            if !found.take_in(peak, weights)? {
+                refused.push(peak);
             }
         }
     }
-    Ok(found.settled(&mut refused))
+    Ok(found.settled())
 }
 
 impl<'s> Fitted<'s> {
@@ -161,17 +159,38 @@ impl<'s> Fitted<'s> {
         closer.then_some(Self { fit, amplifications, residual })
     }
 
+    /// Takes in one more wave, fitted together with those within reach of its line alone; false if it cannot be told from them.
+    fn take_in(&mut self, peak: Wave, weights: &[f64]) -> Result<bool, Error> {
+        let count = self.residual.len() as f64;
+        let is_near = |wave: &Wave| (wave.phase - peak.phase).abs() * count < 2.0 * SHAPE.hypot(PI);
+        let (near, far): (Vec<Wave>, Vec<Wave>) = self.fit.waves.iter().partition(|&wave| is_near(wave));
+        let of_residual = |values, waves| -> Result<JointFit<'_>, Error> {
+            let mut fit = JointFit::new(values, weights, WINDOW)?;
+            (fit.constant, fit.waves) = (0.0, waves);
+            Ok(fit)
+        };
+        let opposite = |wave: &Wave| Wave { cos_part: -wave.cos_part, sin_part: -wave.sin_part, ..*wave };
+        let alone = of_residual(&self.residual, near.iter().map(opposite).collect())?.residual();
+        let local =
+            Fitted { fit: of_residual(&alone, near)?, amplifications: Vec::new(), residual: self.residual.clone() };
+        let Some(Fitted { fit, residual, .. }) = local.with(&[peak], STEPS.1) else { return Ok(false) };
+        self.fit.constant += fit.constant;
+        self.fit.waves = far.into_iter().chain(fit.waves).collect();
+        self.residual = residual;
+        Ok(true)
+    }
+
     /// The fit after all steps. As long as its lines cannot be told apart, that goes which is told apart worst.
-    fn settled(mut self, refused: &mut Vec<Wave>) -> Self {
+    fn settled(mut self) -> Self {
         loop {
             // Without lines there is nothing to tell apart.
             if let Some(settled) = self.with(&[], STEPS.1) {
                 return settled;
             }
-            let uncertain = self.fit.waves.iter().zip(&self.amplifications).map(|(wave, a)| wave.amplitude() * a);
+            let amplifications = self.fit.amplification().unwrap_or_default();
+            let uncertain = self.fit.waves.iter().zip(amplifications).map(|(wave, a)| wave.amplitude() * a);
             let worst = uncertain.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(k, _)| k);
-            refused.push(self.fit.waves.remove(worst));
-            self.amplifications.remove(worst);
+            self.fit.waves.remove(worst);
             self.residual = self.fit.residual();
         }
     }

@@ -1,6 +1,7 @@
 //! Spectra of `m.n`.
 
 use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::number::ALIKE;
 use super::parameters::{line_of_sight, parameters};
 use super::spectrum::{self, Spectrum};
 use super::style::{BLACK, PAGE, VERMILION, dashed, solid};
@@ -21,7 +22,7 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
     for subject in subjects {
         let (viewer, pulsar) = subject.line_of_sight()?;
         let (beam, observer) = (pulsar.beam(), viewer.basis());
-        let of = spectrum::spectrum(subject, highest, |state| beam.direction(state).dot(&observer.direction))?;
+        let of = spectrum::spectrum(subject, highest, ALIKE, |state| beam.direction(state).dot(&observer.direction))?;
         let frequency = subject.scale.frequency_column();
         let mut table =
             Table::new(format!("{}-spectrum", subject.name), [frequency.clone(), "amplitude [1]".to_owned()]);

@@ -14,19 +14,49 @@ use crate::scene_file::Scene;
 /// Points in a CSS pixel, the unit of a resolved SVG.
 const POINTS: f32 = 0.75;
 
-/// Scenes unlike the paper's examples.
-const SCENES: [&str; 3] = ["prolate", "free", "through-the-pole"];
+/// Scenes unlike the paper's examples: other motions, one with constants, and physical stars.
+const SCENES: [&str; 6] = ["prolate", "free", "through-the-pole", "sp-2", "b1937+21", "b1828-11"];
 
 /// The figures of the paper and of some scenes, drawn once.
 static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
     let mut figures = all().unwrap();
-    for name in SCENES {
-        let motion = [Subject::of_scene(name, &Scene::named(name).unwrap()).unwrap()];
-        figures.extend(OF_A_SCENE.iter().map(|recipe| recipe.draw(&motion).unwrap()));
-    }
+    figures.extend(SCENES.iter().flat_map(|name| of_scene(name, &Scene::named(name).unwrap())));
+    figures.extend(of_scene("tilted", &Scene::from_toml("tilted.toml", TILTED).unwrap()));
     figures.push(work_precision(&made_up_runs()));
     figures
 });
+
+/// A physical star given by constants in a frame that is not the principal one, seen from a known distance, with a beam that never passes.
+const TILTED: &str = r#"
+[star]
+mass = 1.4
+radius = 12.0
+oblateness = 2e-5
+spin_frequency = 50.0
+[lorentz_violation]
+tensor = [[1e-9, 2e-10, 0.0], [2e-10, -3e-10, 1e-10], [0.0, 1e-10, -7e-10]]
+[initial]
+kind = "twofold"
+alpha_0 = 0.3
+beta_0 = 0.7
+amplitude = 0.001
+phase = 0.0
+[observer]
+theta_o = 1.5
+phi_o = 0.0
+distance = 1.0
+[pulsar]
+chi = 0.1
+rho = 0.05
+[time]
+span = 5.0
+samples = 3
+"#;
+
+fn of_scene(name: &str, scene: &Scene) -> Vec<Figure> {
+    let motion = [Subject::of_scene(name, scene).unwrap()];
+    OF_A_SCENE.iter().map(|recipe| recipe.draw(&motion).unwrap()).collect()
+}
 
 /// Runs of more methods than there are.
 fn made_up_runs() -> Vec<Row> {
@@ -149,4 +179,64 @@ fn captions_close_their_marks() {
             }
         }
     }
+}
+
+/// A word of a caption beside what it stands for in the picture.
+#[test]
+fn captions_name_what_is_drawn_and_nothing_else() {
+    let (dashes, dots, grey) = ("stroke-dasharray=\"5 2.5\"", "stroke-dasharray=\"1.2 1.8\"", super::style::GREY);
+    let mut looked = 0;
+    for figure in FIGURES.iter().filter(|figure| figure.name != "work-precision") {
+        let caption = figure.caption.paragraphs().join(" ");
+        let kinds: &[(&str, &str)] = match figure.name.as_str() {
+            name if name.starts_with("motion") => &[("Eqs. (30)-(33) as printed", dashes), ("and corrected", dots)],
+            "beam-alignment" => &[("thick stretches", "stroke-width=\"1.7\""), ("(dashed)", dashes)],
+            "beam-alignment-spectra" => &[("Dashed:", dashes)],
+            "pulse-series" => &[("Solid curves", dashes), ("Dotted and dashed", dots), ("grey lines", grey)],
+            "wave-spectra" => &[("insets", "near 3"), ("(dotted)", dots), ("Dashed:", dashes)],
+            _ => &[],
+        };
+        for (words, drawn) in kinds {
+            assert_eq!(caption.contains(words), figure.svg.contains(drawn), "{}: `{words}`\n{caption}", figure.name);
+            looked += 1;
+        }
+    }
+    assert!(looked > 60, "{looked}");
+}
+
+/// A number that has lost its digits tells nothing: 0.00, or a ratio of 1 for a star that is not a sphere.
+#[test]
+fn captions_have_numbers_with_digits() {
+    for figure in FIGURES.iter() {
+        let caption = figure.caption.paragraphs().map(super::plain).join(" ");
+        for number in caption.split(|c: char| !(c.is_ascii_digit() || c == '.')).map(|word| word.trim_matches('.')) {
+            let is_lost = number.contains('.') && number.chars().all(|c| c == '0' || c == '.');
+            assert!(!is_lost, "{}: {number} in\n{caption}", figure.name);
+        }
+        assert!(!caption.contains("Izz/Ixx = 1,") && !caption.contains("from 0 to 0"), "{}: {caption}", figure.name);
+        assert!(!caption.contains("0 of the 0") && !caption.contains("is of"), "{}: {caption}", figure.name);
+    }
+}
+
+/// A physical star is drawn in s, Hz and strain.
+#[test]
+fn physical_stars_are_drawn_in_si() {
+    let scene = Scene::named("b1828-11").unwrap();
+    for figure in of_scene("b1828-11", &scene) {
+        for column in figure.tables.iter().flat_map(|table| &table.columns) {
+            assert!(!column.contains("t_c") && !column.contains("I^xx"), "{}: `{column}`", figure.name);
+        }
+        let texts = figure.caption.paragraphs().join(" ");
+        assert!(texts.contains("time in s."), "{}: {texts}", figure.name);
+        if let ("pulse-series", Some(table)) = (figure.name.as_str(), figure.tables.first()) {
+            // The period is 1 / F0 over ten years, and within 1e-8 of it at the start.
+            assert!((table.rows[0][1] * 2.468_871_714_7 - 1.0).abs() < 1e-7, "{:?}", table.rows[0]);
+        }
+    }
+    let tilted = of_scene("tilted", &Scene::from_toml("tilted.toml", TILTED).unwrap());
+    let motion = &tilted[0].caption.says;
+    assert!(
+        motion.contains("its angles are those of the principal frame, which is not the frame of this file"),
+        "{motion}"
+    );
 }

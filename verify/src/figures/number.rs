@@ -68,12 +68,12 @@ impl Spread {
             .then(|| format!("{:.*e}", self.digits() - 3, 0.5 * (self.low + self.high)).parse().expect("a number"))
     }
 
-    /// `from 3.92 to 5.60 s`, or `of 0.40504331743 s, alike to 10^{−11} of that`; `unit` has a space before it.
+    /// `from 3.92 to 5.60 s`, or `0.40504331743 s within 10^{−11} of that`; `unit` has a space before it.
     pub(super) fn in_words(self, unit: &str) -> String {
         let digits = self.digits();
         if self.relative() < ALIKE {
             let size = self.low.abs().max(self.high.abs());
-            return format!("of {}{unit}, alike to 10^{{−11}} of that", significant(size, digits - 2));
+            return format!("{}{unit} within 10^{{−11}} of that", significant(size, digits - 2));
         }
         format!("from {} to {}{unit}", significant(self.low, digits), significant(self.high, digits))
     }
@@ -109,7 +109,7 @@ mod tests {
         assert_eq!(spread(0.001_557_806, 0.001_557_807).in_words(""), "from 0.001557806 to 0.001557807");
         assert_eq!(
             spread(0.405_043_317_428_1, 0.405_043_317_428_1).in_words(" s"),
-            "of 0.40504331743 s, alike to 10^{−11} of that"
+            "0.40504331743 s within 10^{−11} of that"
         );
         assert_eq!(Spread::of([]), None);
         assert_eq!((spread(1.0, 2.0).reference(), spread(1.0, 1.0).reference()), (None, None));

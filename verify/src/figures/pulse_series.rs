@@ -32,6 +32,18 @@ struct Series {
 }
 
 impl Series {
+    /// A curve of periods (row 0) or lengths (row 1).
+    fn curve(&self, row: usize, i: usize) -> Option<Vec<(f64, f64)>> {
+        self.curves.as_ref().map(|table| table.points(0, 1 + row + 2 * i))
+    }
+
+    /// All values of a row, with those of its curves.
+    fn values(&self, row: usize) -> Vec<f64> {
+        let points = if row == 0 { &self.pulses.periods } else { &self.pulses.lengths };
+        let on_curves = (0..CURVES.len()).filter_map(|i| self.curve(row, i)).flatten().map(|(_, y)| y);
+        points.iter().map(|point| point.value).chain(on_curves).collect()
+    }
+
     /// The stretches of a series between gaps.
     fn stretches<'a>(&'a self, points: &'a [Stamped]) -> impl Iterator<Item = &'a [Stamped]> {
         let gap_between = |a: f64, b: f64| self.pulses.gaps.iter().any(|gap| a < gap.time && gap.time < b);
@@ -111,8 +123,10 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
     let mut page = Page::new(name, PAGE, top + 2.0 * panel_height + gap + BELOW + legend_height);
     for (i, (subject, series)) in subjects.iter().zip(series).enumerate() {
         let x = subject.scale.time_axis(subject.shown.pulses);
-        for (row, (points, label)) in
-            [(&series.pulses.periods, "period"), (&series.pulses.lengths, "pulse length")].into_iter().enumerate()
+        for (row, (points, label, taken_off)) in
+            [(&series.pulses.periods, "period", "*P*"), (&series.pulses.lengths, "length", "*W*")]
+                .into_iter()
+                .enumerate()
         {
             let frame = Rectangle {
                 left: left + (width + between) * i as f64,
@@ -120,11 +134,10 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
                 width,
                 height: panel_height,
             };
-            let curve = |i: usize| series.curves.as_ref().map(|table| table.points(0, 1 + row + 2 * i));
-            let on_curves = (0..CURVES.len()).filter_map(curve).flatten().map(|(_, y)| y);
-            let values: Vec<_> = points.iter().map(|point| point.value).chain(on_curves).collect();
+            let curve = |i: usize| series.curve(row, i);
+            let values = series.values(row);
             // Differences that would be lost on an axis are drawn as such.
-            let reference = Spread::of(values.iter().copied()).and_then(Spread::reference);
+            let reference = reference(&values);
             let shift = reference.unwrap_or(0.0);
             let label =
                 subject.scale.time_label(&format!("{label}{}", if reference.is_some() { " − *P*" } else { "" }));
@@ -154,7 +167,7 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
             }
             panel.draw_frame(&mut page);
             if let Some(reference) = reference {
-                let text = format!("*P* = {} {}", significant(reference, 15), subject.scale.time_unit());
+                let text = format!("{taken_off} = {} {}", significant(reference, 15), subject.scale.time_unit());
                 page.text([frame.right() - 5.0, frame.top + 12.0], Anchor::End, SMALL, BLACK, &text);
             }
             if row == 0 {
@@ -171,6 +184,11 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
         }
     }
     page.finish("Pulse periods and lengths in time")
+}
+
+/// What is taken off values whose differences would be lost on an axis.
+fn reference(values: &[f64]) -> Option<f64> {
+    Spread::of(values.iter().copied()).and_then(Spread::reference)
 }
 
 /// Points with a value taken off.
@@ -223,6 +241,13 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
         shows += " Intervals that are not from one turn of the star to the next, because a turn has no pulse or a pulse lasts for more than a turn, \
                   are left out.";
     }
+    let apart = |row: usize| series.iter().any(|series| reference(&series.values(row)).is_some());
+    shows += match [apart(0), apart(1)] {
+        [true, true] => " Drawn are the differences from the *P* and *W* given in the panels.",
+        [true, false] => " Of the periods the differences from the *P* given in the panel are drawn.",
+        [false, true] => " Of the lengths the differences from the *W* given in the panel are drawn.",
+        [false, false] => "",
+    };
     let is_joined = |series: &&Series| series.curves.is_none() && series.pulses.lengths.len() > 1;
     if series.iter().any(|series| is_joined(&series)) {
         let only = if series.iter().any(|series| series.curves.is_some()) { " where there are no curves" } else { "" };

@@ -70,10 +70,11 @@ pub(super) struct Spectrum {
     pub(super) lines: Vec<NamedLine>,
 }
 
-/// Spectrum of an observable of the state, up to the frequency `highest`, as it is drawn.
+/// Spectrum of an observable of the state, up to the frequency `highest`, as it is drawn; lines below the `error` of the observable are none.
 pub(super) fn spectrum(
     subject: &Subject,
     highest: f64,
+    error: f64,
     observable: impl Fn(&BodyState<f64>) -> f64,
 ) -> Result<Spectrum, String> {
     let message = |error: twofold::Error| format!("{}: {error}", subject.name);
@@ -86,8 +87,9 @@ pub(super) fn spectrum(
     let strongest = points.iter().skip(1).map(|point| point.1).fold(0.0, f64::max);
     let basis = long.frequencies.as_ref().and_then(|frequencies| frequencies.basis().ok());
     let mut lines = Vec::new();
-    if strongest > 0.0 {
-        let found = spectral_lines(&series, WEAKEST * strongest, MOST_FITTED).map_err(message)?;
+    let least = error.max(WEAKEST * strongest);
+    if strongest > least {
+        let found = spectral_lines(&series, least, MOST_FITTED).map_err(message)?;
         for line in found.lines.into_iter().take(MOST_LINES) {
             let identified = basis.as_ref().map(|basis| basis.identify(line.frequency, line.uncertainty));
             let combination = identified.and_then(|identified| identified.combination().cloned());

@@ -25,14 +25,14 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
     let mut tables = Vec::new();
     let mut spectra = Vec::new();
     for subject in subjects {
-        subject.viewer()?;
         let polarization = |state: &BodyState<f64>, of: fn(Polarizations<f64>) -> f64| {
             // There is an observer.
             waves::wave(subject, state).map_or(f64::NAN, of)
         };
+        let error = waves::error(subject);
         let both = [
-            spectrum::spectrum(subject, highest, |state| polarization(state, |h| h.plus))?,
-            spectrum::spectrum(subject, highest, |state| polarization(state, |h| h.cross))?,
+            spectrum::spectrum(subject, highest, error, |state| polarization(state, |h| h.plus))?,
+            spectrum::spectrum(subject, highest, error, |state| polarization(state, |h| h.cross))?,
         ];
         let (frequency, unit) = (subject.scale.frequency_column(), subject.scale.wave_column_unit());
         let columns = [frequency.clone(), format!("h_+ [{unit}]"), format!("h_x [{unit}]")];
@@ -56,9 +56,9 @@ fn largest(both: &[Spectrum; 2]) -> f64 {
     both.iter().flat_map(|s| s.points.iter().skip(1).map(|p| p.1)).fold(0.0, f64::max)
 }
 
-/// Whether a wave is more than rounding.
+/// Whether a wave is more than the error of the motion.
 fn radiates(subject: &Subject, both: &[Spectrum; 2]) -> bool {
-    largest(both) > waves::rounding(subject)
+    largest(both) > waves::error(subject)
 }
 
 /// The rate of `alpha`, of which the wave has harmonics, as it is drawn; none where nothing is left to enlarge near its third.
@@ -84,7 +84,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
     let width = (PAGE - LEFT - 8.0 - (count - 1.0) * between) / count;
     let mut page = Page::new(name, PAGE, top + 2.0 * height + gap + BELOW);
     // One scale for both stars and polarizations, so that sizes can be compared.
-    let most = subjects.iter().zip(spectra).map(|(s, both)| largest(both).max(waves::rounding(s))).fold(0.0, f64::max);
+    let most = subjects.iter().zip(spectra).map(|(s, both)| largest(both).max(waves::error(s))).fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };
     for (i, (subject, both)) in subjects.iter().zip(spectra).enumerate() {
         let rate = fundamental(subject, both, highest)?;
@@ -169,7 +169,11 @@ fn caption(subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f64) -> Re
 /// What the spectra of a motion say.
 fn findings(subject: &Subject, both: &[Spectrum; 2]) -> String {
     if !radiates(subject, both) {
-        return format!("{} does not radiate: the amplitudes are rounding.", subject.name);
+        let error = significant(waves::error(subject), 1);
+        return format!(
+            "The amplitudes of {} are below {error}, what the error of the numerical motion makes.",
+            subject.name
+        );
     }
     let by_strength = |a: &&Spectrum, b: &&Spectrum| {
         let strongest = |s: &Spectrum| s.lines.first().map_or(0.0, |line| line.amplitude);

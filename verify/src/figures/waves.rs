@@ -6,7 +6,7 @@ use twofold::observables::gravitational_wave::{Polarizations, metric_perturbatio
 use twofold::units::si::PARSEC;
 
 use super::axes::{Axis, BELOW, LEFT, Panel};
-use super::number::{Spread, significant};
+use super::number::{ALIKE, Spread, significant};
 use super::parameters::{line_of_sight, parameters};
 use super::style::{BLUE, PAGE, VERMILION, solid};
 use super::subject::{Start, times};
@@ -27,11 +27,12 @@ pub(super) fn wave(subject: &Subject, state: &BodyState<f64>) -> Result<Polariza
     Ok(Polarizations { plus: subject.scale.wave(h.plus), cross: subject.scale.wave(h.cross) })
 }
 
-/// The rounding of the terms of a wave, as it is drawn: a star with no more does not radiate.
-pub(super) fn rounding(subject: &Subject) -> f64 {
+/// What an error of the numerical motion makes of a wave, as it is drawn: the acceleration is that of a product of `n` and `L`, of the size
+/// `epsilon Omega^2`, and the torque. A wave below that is not known.
+pub(super) fn error(subject: &Subject) -> f64 {
     let Start { spheroid, violation, state, .. } = &subject.start;
     let rate = state.momentum.norm() / spheroid.inertia_xx;
-    subject.scale.wave(f64::EPSILON * (spheroid.oblateness().abs() * rate * rate + violation.norm()))
+    subject.scale.wave(ALIKE * (spheroid.oblateness().abs() * rate * rate + violation.norm()))
 }
 
 fn waves(subject: &Subject) -> Result<Table, String> {
@@ -52,8 +53,8 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
     let mut page = Page::new(name, PAGE, top + 2.0 * panel_height + gap + BELOW);
     // One scale for both stars and polarizations, so that sizes can be compared.
     let values = || tables.iter().flat_map(|table| table.rows.iter().flat_map(|row| [row[1], row[2]]));
-    // Rounding is not spread over the frame.
-    let least = subjects.iter().map(|subject| 10.0 * rounding(subject)).fold(0.0, f64::max);
+    // What the motion does not know is not spread over the frame.
+    let least = subjects.iter().map(|subject| error(subject)).fold(0.0, f64::max);
     let least = [-least, least].into_iter().filter(|_| !subjects.iter().zip(tables).any(|(s, t)| radiates(s, t)));
     for (i, (subject, table)) in subjects.iter().zip(tables).enumerate() {
         let x = subject.scale.time_axis(subject.shown.waves);
@@ -77,9 +78,9 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
     page.finish("Gravitational waves in time")
 }
 
-/// Whether a wave is more than rounding.
+/// Whether a wave is more than the error of the motion.
 fn radiates(subject: &Subject, table: &Table) -> bool {
-    table.rows.iter().any(|row| row[1].abs().max(row[2].abs()) > rounding(subject))
+    table.rows.iter().any(|row| row[1].abs().max(row[2].abs()) > error(subject))
 }
 
 fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
@@ -94,9 +95,9 @@ fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
                 format!("For {}, *h*_{{+}} is {plus} and *h*_{{×}} {cross}", subject.name)
             }
             _ => format!(
-                "{} does not radiate: both are below the rounding of {}",
+                "For {}, both are below {}, what the error of the numerical motion makes",
                 subject.name,
-                significant(rounding(subject), 1)
+                significant(error(subject), 1)
             ),
         }
     };

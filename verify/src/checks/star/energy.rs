@@ -74,7 +74,7 @@ pub(super) fn checks() -> Vec<Check> {
             kind: Kind::Oracle,
             equations: &[2, 6, 12, 17, 75],
             statement: "C, U^xx and, for an s^ij tilted to the axis, the self-energy of an oblate and a prolate spheroid lie within the statistical error of a \
-                        quasi-Monte Carlo sum of the raw six-dimensional integrals, the last of the potential of two masses over half of all pairs",
+                        quasi-Monte Carlo sum of the raw six-dimensional integrals, the last as half the sum of the potential of two masses over all ordered pairs",
             figure: "largest deviation / standard error of 16 randomly shifted lattices",
             bound: Bound::AtMost(4.0),
             reason: "Student's t with 15 degrees of freedom: 4 is passed by chance once in 900; the seed is fixed",
