@@ -38,6 +38,9 @@ pub const DAY: f64 = 86_400.0;
 /// Latest day, some 27,000 years from the first.
 const LAST_DAY: f64 = 1e7;
 
+/// Longest time from an epoch in days.
+const LONGEST: f64 = 1e9;
+
 const ALLOWED: &str = "a decimal number from 0 to 1e7, without exponent: a modified Julian date";
 
 /// A modified Julian date.
@@ -80,10 +83,10 @@ impl Epoch {
     /// The epoch a time later (s, the unevaluated sum of two doubles), rounded to 1e-16 day. It may lie before the date 0.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a time that is not finite or longer than 1e8 days.
+    /// [`Error::Domain`] for a time that is not finite or longer than 1e9 days, some three million years.
     pub fn after(&self, seconds: [f64; 2]) -> Result<Self, Error> {
         let days = (seconds[0] + seconds[1]) / DAY;
-        Error::unless(days.abs() <= 10.0 * LAST_DAY, "time from an epoch (d)", days, "at most 1e8 days, either way")?;
+        Error::unless(days.abs() <= LONGEST, "time from an epoch (d)", days, "at most 1e9 days, either way")?;
         Ok(self.with_days(DoubleDouble::from(seconds).over(DAY.into())))
     }
 
@@ -156,13 +159,13 @@ mod tests {
     fn the_limits_of_dates_and_times_are_checked_on_both_sides() {
         assert!(Epoch::new(19_000_000, -1.85e7).is_ok() && Epoch::new(21_000_000, -2.05e7).is_err());
         let start = epoch("55321.25");
-        // 1e8 days are 8.64e12 s.
+        // 1e9 days are 8.64e13 s.
         for (seconds, is_refused) in [
-            ([8.6e12, 0.0], false),
-            ([8.7e12, 0.0], true),
-            ([-8.7e12, 0.0], true),
-            ([8.6e12, 8.6e12], true),
-            ([9.0e12, -8.0e12], false),
+            ([8.6e13, 0.0], false),
+            ([8.7e13, 0.0], true),
+            ([-8.7e13, 0.0], true),
+            ([8.6e13, 8.6e13], true),
+            ([9.0e13, -8.0e13], false),
         ] {
             assert_eq!(start.after(seconds).is_err(), is_refused, "{seconds:?}");
         }
