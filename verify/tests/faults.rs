@@ -9,12 +9,9 @@ use std::fs;
 use std::os::unix::ffi::OsStrExt;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
-use std::thread::sleep;
-use std::time::Duration;
 
-use common::{folder, names_in, stderr};
+use common::{comes_to, folder, names_in, stderr};
 use tempfile::TempDir;
-use twofold_verify::random::Random;
 
 const TWOFOLD: &str = env!("CARGO_BIN_EXE_twofold");
 
@@ -112,23 +109,30 @@ fn a_full_disk_leaves_nothing_under_the_final_name() {
     }
 }
 
+/// Commands that print a result, and those that say what they have done.
+const PRINTERS: [(&[&str], bool); 15] = [
+    (&["run", "s.toml"], true),
+    (&["run", "s.toml", "--explain"], true),
+    (&["pulses", "s.toml"], true),
+    (&["spectrum", "s.toml", "--of", "m.n", "--table", "spectrum"], true),
+    (&["fisher", "s.toml", "--observe", "arrivals:1e-4", "--parameters", "chi"], true),
+    (&["bounds"], true),
+    (&["bounds", "--json"], true),
+    (&["equations"], true),
+    (&["scenes"], true),
+    (&["scenes", "--print", "grid"], true),
+    (&["figures", "--list"], true),
+    (&["verify", "--filter", "steady-precession", "--json"], true),
+    (&["--help"], true),
+    (&["--version"], true),
+    (&["verify", "--filter", "steady-precession"], false),
+];
+
 /// Standard output that is full is an error of every command that prints; standard output that nobody reads is none.
 #[test]
 fn standard_output_may_be_full_or_gone() {
     let folder = scenes();
-    for args in [
-        &["run", "s.toml"][..],
-        &["run", "s.toml", "--explain"],
-        &["pulses", "s.toml"],
-        &["spectrum", "s.toml", "--of", "m.n", "--table", "spectrum"],
-        &["fisher", "s.toml", "--observe", "arrivals:1e-4", "--parameters", "chi"],
-        &["bounds"],
-        &["bounds", "--json"],
-        &["equations"],
-        &["scenes"],
-        &["figures", "--list"],
-        &["verify", "--filter", "steady-precession"],
-    ] {
+    for (args, _) in PRINTERS {
         let full = fs::File::options().write(true).open("/dev/full").expect("/dev/full");
         let output = command(folder.path(), args).stdout(full).output().expect("starts");
         assert_eq!(output.status.code(), Some(1), "{args:?}: {}", stderr(&output));
@@ -142,6 +146,24 @@ fn standard_output_may_be_full_or_gone() {
         assert!(stderr(&output).lines().all(is_clean), "{}", stderr(&output));
     }
     assert!(written(folder.path()).is_empty(), "{:?}", written(folder.path()));
+}
+
+/// A result that goes to a closed standard output is lost: an error. The null device, a table in a file, and a command whose result is
+/// its status lose nothing.
+#[test]
+fn a_closed_standard_output_is_an_error_where_a_result_is_lost() {
+    let folder = scenes();
+    for (args, is_result) in PRINTERS {
+        let closed = shell(folder.path(), "exec >&-", args);
+        assert_eq!(closed.status.code(), Some(i32::from(is_result)), "{args:?}: {}", stderr(&closed));
+        let is_said = stderr(&closed).contains("error: standard output cannot be written: it is closed");
+        assert_eq!(is_said, is_result, "{args:?}: {}", stderr(&closed));
+        let thrown_away = shell(folder.path(), "exec > /dev/null", args);
+        assert_eq!(thrown_away.status.code(), Some(0), "{args:?}: {}", stderr(&thrown_away));
+    }
+    let in_file = shell(folder.path(), "exec >&-", &out(&["run", "s.toml"]));
+    assert_eq!(in_file.status.code(), Some(0), "{}", stderr(&in_file));
+    assert_eq!(written(folder.path()), ["out"]);
 }
 
 /// A file in place of a folder, a folder of the system that takes none, and one without leave to write.
@@ -172,11 +194,11 @@ fn a_folder_that_takes_no_file_is_refused_at_once() {
     assert_eq!(fs::read_to_string(folder.path().join("file")).expect("file"), "mine");
 }
 
-/// Killed without warning at random moments, a command leaves what is whole, what says that it is not (`.part`, `.partial`), or
+/// Killed without warning, as it starts, with its first file, with the first bytes in it or as the final name appears, a command leaves what is whole, what says that it is not (`.part`, `.partial`), or
 /// nothing; done again it gives the same bytes.
 #[test]
 fn a_kill_at_any_moment_leaves_no_file_without_its_mark() {
-    let mut random = Random::with_seed(0xdead);
+    let bytes = |folder: &Path| contents(folder).iter().map(|(_, bytes)| bytes.len()).sum::<usize>();
     for args in [
         &["run", "s.toml"][..],
         &["figures", "beam-cone"],
@@ -187,9 +209,14 @@ fn a_kill_at_any_moment_leaves_no_file_without_its_mark() {
         assert!(run(whole.path(), &out(args)).status.success(), "{args:?}");
         let expected = contents(&whole.path().join("out"));
         let folder = scenes();
-        for _ in 0..4 {
+        let before = bytes(folder.path());
+        let signs: [&dyn Fn() -> bool; 4] =
+            [&|| true, &|| !written(folder.path()).is_empty(), &|| bytes(folder.path()) > before, &|| {
+                folder.path().join("out").exists()
+            }];
+        for sign in signs {
             let mut child = command(folder.path(), &out(args)).spawn().expect("starts");
-            sleep(Duration::from_micros(random.word() % 60_000));
+            comes_to(&mut child, sign);
             child.kill().expect("a signal");
             child.wait().expect("its end");
             for name in written(folder.path()) {
@@ -221,42 +248,6 @@ fn contents(path: &Path) -> Vec<(String, Vec<u8>)> {
         (name, bytes)
     };
     names_in(path).into_iter().map(read).collect()
-}
-
-/// The longest command ends at once when it is interrupted, and nothing is left of it.
-#[test]
-fn an_interrupted_report_leaves_nothing() {
-    // Where a hang-up is ignored, as under nohup, so are all.
-    if [1, 2, 15].into_iter().any(is_ignored) {
-        return;
-    }
-    for args in [&["report"][..], &["bench", "--quick"]] {
-        let folder = folder();
-        let mut child = command(folder.path(), &out(args)).spawn().expect("starts");
-        // On a busy machine the file may be there long before what takes it away.
-        while names_in(folder.path()).is_empty() || !has_signal(&child.id().to_string(), "SigCgt:", 2) {
-            assert_eq!(child.try_wait().expect("its state"), None, "{args:?} ended before");
-            sleep(Duration::from_millis(5));
-        }
-        sleep(Duration::from_millis(100));
-        Command::new("sh").args(["-c", &format!("kill -2 {}", child.id())]).status().expect("kill");
-        let output = child.wait_with_output().expect("its end");
-        assert_eq!(output.status.code(), Some(130), "{args:?}: {}", stderr(&output));
-        assert!(stderr(&output).ends_with("error: interrupted: no file was left incomplete\n"), "{}", stderr(&output));
-        assert!(names_in(folder.path()).is_empty(), "{:?}", names_in(folder.path()));
-    }
-}
-
-/// Whether signal number `signal` is ignored, as in the background of a script.
-fn is_ignored(signal: u32) -> bool {
-    has_signal("self", "SigIgn:", signal)
-}
-
-/// Whether signal number `signal` is in a mask of a process.
-fn has_signal(process: &str, mask: &str, signal: u32) -> bool {
-    let status = fs::read_to_string(format!("/proc/{process}/status")).expect("/proc");
-    let found = status.lines().find_map(|line| line.strip_prefix(mask)).expect("the mask");
-    u64::from_str_radix(found.trim(), 16).expect("mask") >> (signal - 1) & 1 == 1
 }
 
 /// No HOME, no PATH, no locale: nothing is asked of the environment.

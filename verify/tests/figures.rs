@@ -4,9 +4,7 @@ mod common;
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
-use std::thread::sleep;
-use std::time::Duration;
+use std::process::{Command, Output};
 
 use common::{folder, names_in, stderr};
 
@@ -136,38 +134,4 @@ fn every_figure_is_listed_with_its_number() {
     for name in text.lines().filter_map(|line| line.split_whitespace().next()) {
         assert!(page.contains(&format!("`{name}`")), "docs/figures.md does not name `{name}`");
     }
-}
-
-/// Whether signal number `signal` is ignored, as in the background of a script.
-#[cfg(target_os = "linux")]
-fn is_ignored(signal: u32) -> bool {
-    let status = fs::read_to_string("/proc/self/status").expect("/proc");
-    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:")).expect("SigIgn");
-    u64::from_str_radix(mask.trim(), 16).expect("mask") >> (signal - 1) & 1 == 1
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn an_interrupt_leaves_nothing_incomplete() {
-    if [1, 2, 15].into_iter().any(is_ignored) {
-        return;
-    }
-    let folder = folder();
-    let child = Command::new(env!("CARGO_BIN_EXE_twofold"))
-        .arg("figures")
-        .current_dir(folder.path())
-        .stderr(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
-    // The folder is there as soon as the drawing begins, which takes a good second.
-    while names_in(folder.path()).is_empty() {
-        sleep(Duration::from_millis(5));
-    }
-    sleep(Duration::from_millis(150));
-    Command::new("sh").args(["-c", &format!("kill -2 {}", child.id())]).status().expect("kill");
-    let output = child.wait_with_output().expect("status");
-    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
-    assert_eq!(stderr(&output), "error: interrupted: no file was left incomplete\n");
-    assert!(names_in(folder.path()).is_empty(), "{:?}", names_in(folder.path()));
 }

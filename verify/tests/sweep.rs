@@ -4,11 +4,9 @@ mod common;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
-use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::process::{Command, Output, Stdio};
 
-use common::{folder, names_in, stderr, stdout, twofold};
+use common::{comes_to, folder, names_in, stderr, stdout, twofold};
 use twofold_verify::random::Random;
 
 /// Draws and grids about tp-2; a tenth of the scenes is refused.
@@ -220,19 +218,12 @@ fn bad_rows_are_reported_and_do_not_end_the_sweep() {
     assert_eq!(names_in(folder.path()), ["sweep.toml", "table.csv"]);
 }
 
-/// Waits up to `most` for the end of a process.
-fn ends_within(child: &mut Child, most: Duration) -> bool {
-    let start = Instant::now();
-    while start.elapsed() < most {
-        if child.try_wait().expect("status").is_some() {
-            return true;
-        }
-        sleep(Duration::from_millis(5));
-    }
-    false
+/// Bytes of a file, none if it is not there.
+fn length(path: &Path) -> u64 {
+    fs::metadata(path).map_or(0, |found| found.len())
 }
 
-/// A sweep of seconds, killed again and again at random moments, is in the end the uninterrupted one.
+/// A sweep of seconds, killed again and again, at a mark of its journal or some rows after one, is in the end the uninterrupted one.
 #[test]
 fn a_killed_sweep_goes_on_to_the_same_bytes() {
     let folder = folder();
@@ -240,64 +231,69 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
     written(folder.path(), "sweep.toml", &text);
     let whole = sweep(folder.path(), &["sweep.toml", "--out", "whole.csv"]);
     assert_eq!(whole.status.code(), Some(3), "{}", stderr(&whole));
+    let (rows, journal) = (folder.path().join("table.csv.partial"), folder.path().join("table.csv.partial.journal"));
     let (mut kills, mut continued) = (0, 0);
     let mut random = Random::with_seed(0x5eed);
     let last = loop {
         let threads = ["1", "2", "3"][kills % 3];
+        let marked = length(&journal);
         let mut child = command(folder.path(), &["sweep.toml", "--out", "table.csv", "--threads", threads])
             .spawn()
             .expect("a process");
-        // Longer the more often it was killed, so that a busy machine comes to the end too.
-        let moment = Duration::from_millis(300 + random.word() % 1000) * (1 + kills as u32 / 6);
-        let ended = ends_within(&mut child, moment);
+        // A new mark in every run: each gets further.
+        let mut is_killed = comes_to(&mut child, || length(&journal) > marked);
+        let more = length(&rows) + random.word() % 50_000;
+        is_killed = is_killed && (kills % 2 == 0 || comes_to(&mut child, || length(&rows) > more));
         child.kill().expect("a signal");
         let output = child.wait_with_output().expect("status");
         continued += usize::from(stderr(&output).contains("scenes are there already"));
-        if ended {
+        if !is_killed || output.status.code().is_some() {
             break output;
         }
         kills += 1;
-        assert_ne!(output.status.code(), Some(1), "{}", stderr(&output));
     };
     assert_eq!(last.status.code(), Some(3), "{}", stderr(&last));
-    assert!(kills > 0 && continued > 0, "{kills} kills, continued {continued} times");
+    assert!(kills > 1 && continued > 0, "{kills} kills, continued {continued} times");
     let read = |name: &str| fs::read(folder.path().join(name)).expect("file");
     assert_eq!(read("whole.csv"), read("table.csv"), "after {kills} kills");
     assert_eq!(read("whole.csv.errors.csv"), read("table.csv.errors.csv"));
     assert!(!names_in(folder.path()).iter().any(|name| name.contains("partial")), "{:?}", names_in(folder.path()));
 }
 
-/// A billion scenes begin at once, take little memory, and are interrupted with what is there kept.
+/// A billion scenes begin at once, take little memory, and are interrupted with what is there kept; the size of the table is foretold.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
     let folder = folder();
     let text = SWEEP.replace("draws = 40", "draws = 50000000").replace("times = [3.0, 20.0]", "end = 1.0");
     written(folder.path(), "sweep.toml", &text);
+    let rows = folder.path().join("table.csv.partial");
     for continued in [false, true] {
+        let megabyte_more = length(&rows) + 1_000_000;
         let mut child = command(folder.path(), &["sweep.toml", "--out", "table.csv"]).spawn().expect("a process");
-        assert!(!ends_within(&mut child, Duration::from_secs(3)), "it ended by itself");
+        assert!(comes_to(&mut child, || length(&rows) > megabyte_more), "it ended by itself");
         let status = fs::read_to_string(format!("/proc/{}/status", child.id())).expect("/proc");
         let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("VmHWM");
         let peak: u64 = peak.trim().trim_end_matches(" kB").parse().expect("a number");
-        // Eight chunks of a few megabytes for each thread are the bound; the scenes of a second take far less.
+        // Eight chunks of a few megabytes for each thread are the bound; these take far less.
         assert!(peak < 150_000, "{peak} kB");
-        Command::new("sh").args(["-c", &format!("kill -TERM {}", child.id())]).status().expect("kill");
+        common::send(&child, "TERM");
         let output = child.wait_with_output().expect("status");
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(130), "{message}");
         let left = "of 1000000000 scenes are in table.csv.partial; the same command goes on from there";
         assert!(message.contains("error: interrupted: ") && message.contains(left), "{message}");
         assert_eq!(message.contains("scenes are there already"), continued, "{message}");
+        assert!(message.contains(" rows of 19 columns, about 361.0 GB") || continued, "{message}");
     }
     // A changed sweep does not go on, and leaves what is there.
     written(folder.path(), "sweep.toml", &text.replace("seed = 3", "seed = 4"));
-    let before = fs::read(folder.path().join("table.csv.partial")).expect("a part");
+    let before = fs::read(&rows).expect("a part");
     let refused = sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]);
     assert_eq!(refused.status.code(), Some(2));
     let message = stderr(&refused);
     assert!(message.contains("line 3 was `seed = 3` and is `seed = 4`; --restart begins anew"), "{message}");
-    assert!(before == fs::read(folder.path().join("table.csv.partial")).expect("a part"));
+    assert!(before == fs::read(&rows).expect("a part"));
 }
 
 #[test]

@@ -3,7 +3,9 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output};
+use std::thread::sleep;
+use std::time::Duration;
 
 use tempfile::{TempDir, tempdir};
 
@@ -17,9 +19,30 @@ pub fn stdout(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// Standard error as text.
+/// Standard error as text, without the lines that come after some time, as on a busy machine.
 pub fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
+    let text = String::from_utf8_lossy(&output.stderr);
+    let is_progress = |line: &str| line.starts_with("note: ") && line.contains(" % done");
+    text.split_inclusive('\n').filter(|line| !is_progress(line)).collect()
+}
+
+/// Looks again and again until the sign is there; false if the process ends before.
+pub fn comes_to(child: &mut Child, mut sign: impl FnMut() -> bool) -> bool {
+    while !sign() {
+        if child.try_wait().expect("its state").is_some() {
+            return sign();
+        }
+        // Leaves the processor to others between two looks.
+        sleep(Duration::from_millis(1));
+    }
+    true
+}
+
+/// Sends the signal of a name, as `TERM`.
+#[cfg(unix)]
+pub fn send(child: &Child, signal: &str) {
+    let sent = Command::new("sh").args(["-c", &format!("kill -s {signal} {}", child.id())]).status().expect("kill");
+    assert!(sent.success(), "{signal}");
 }
 
 /// A folder that is removed at the end.
