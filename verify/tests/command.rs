@@ -6,8 +6,6 @@ use std::fs;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::thread::sleep;
-use std::time::Duration;
 
 use common::{folder, names_in, stderr, twofold};
 
@@ -195,46 +193,6 @@ fn a_full_disk_is_an_error() {
     }
 }
 
-/// Whether signal number `signal` is ignored, as in the background of a script.
-#[cfg(target_os = "linux")]
-fn is_ignored(signal: u32) -> bool {
-    let status = fs::read_to_string("/proc/self/status").expect("/proc");
-    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:")).expect("SigIgn");
-    u64::from_str_radix(mask.trim(), 16).expect("mask") >> (signal - 1) & 1 == 1
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn an_interrupt_leaves_nothing_behind() {
-    let (hang_up, interrupt, terminate) = (1, 2, 15);
-    if [hang_up, interrupt, terminate].into_iter().any(is_ignored) {
-        return;
-    }
-    let folder = folder();
-    let scene = folder.path().join("long.toml");
-    let text = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n\
-                [initial]\nalpha = 0.0\nbeta = 0.7\nalpha_rate = 1.5\nbeta_rate = 0.0\n[time]\nspan = 4e7\nsamples = 2\n";
-    fs::write(&scene, text).expect("scene");
-    for signal in [interrupt, terminate] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_twofold"))
-            .args(["run", scene.to_str().expect("path in UTF-8"), "--out", "motion.csv"])
-            .current_dir(folder.path())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("the command starts");
-        while names_in(folder.path()).len() < 2 && child.try_wait().expect("status").is_none() {
-            sleep(Duration::from_millis(10));
-        }
-        // The file is there a moment before the signals are caught.
-        sleep(Duration::from_millis(300));
-        Command::new("sh").args(["-c", &format!("kill -{signal} {}", child.id())]).status().expect("kill");
-        let output = child.wait_with_output().expect("status");
-        assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
-        assert_eq!(stderr(&output), "error: interrupted: nothing was written\n");
-        assert_eq!(names_in(folder.path()), ["long.toml"]);
-    }
-}
-
 #[test]
 fn a_pole_leaves_fields_empty_and_says_so() {
     let folder = folder();
@@ -274,11 +232,117 @@ fn scenes_are_listed_and_each_listed_name_runs() {
     let output = twofold(&["scenes"]);
     assert_eq!(output.status.code(), Some(0));
     let text = String::from_utf8(output.stdout).expect("text");
-    let names: Vec<_> = text.lines().filter_map(|line| line.strip_prefix("  ")?.split("  ").next()).collect();
-    assert_eq!(names.len(), 14, "{text}");
-    for name in names {
-        assert_eq!(twofold(&["run", name]).status.code(), Some(0), "{name}");
+    let (scenes, sweeps) = text.split_once("\nSweeps").expect("both kinds");
+    let names = |list: &str| -> Vec<String> {
+        list.lines().filter_map(|line| Some(line.strip_prefix("  ")?.split("  ").next()?.to_owned())).collect()
+    };
+    assert_eq!((names(scenes).len(), names(sweeps)), (14, vec!["grid".to_owned()]), "{text}");
+    for name in names(scenes) {
+        assert_eq!(twofold(&["run", &name]).status.code(), Some(0), "{name}");
     }
+}
+
+/// The file of a built-in scene, printed, is that scene; a name that is none is refused.
+#[test]
+fn a_printed_scene_is_a_template() {
+    let folder = folder();
+    let scene = folder.path().join("my-star.toml");
+    let printed = twofold(&["scenes", "--print", "tp-2"]);
+    assert_eq!((printed.status.code(), stderr(&printed).as_str()), (Some(0), ""));
+    fs::write(&scene, &printed.stdout).expect("file");
+    let run = |scene: &str| twofold(&["run", scene, "--columns", "h"]).stdout;
+    let table = run(scene.to_str().expect("UTF-8"));
+    assert!(table.starts_with(b"t [t_c],h_plus [1]") && table == run("tp-2"));
+    let unknown = twofold(&["scenes", "--print", "tp-22"]);
+    assert_eq!((unknown.status.code(), unknown.stdout.is_empty()), (Some(2), true));
+    assert!(stderr(&unknown).contains("Did you mean `tp-2`?"), "{}", stderr(&unknown));
+}
+
+/// Columns of the command line are checked as those of the file: a span too long for them is refused with file and line.
+#[test]
+fn a_span_too_long_for_the_columns_asked_for_is_refused_at_its_place() {
+    let folder = folder();
+    let scene = folder.path().join("long.toml");
+    let text = include_str!("../scenes/tp-1.toml").replace("span = 400", "span = 1e15");
+    fs::write(&scene, &text).expect("scene");
+    let line = 1 + text.lines().position(|line| line == "[time]").expect("the section");
+    for columns in [&[][..], &["--columns", "e_z"]] {
+        let output = twofold(&[&["run", scene.to_str().expect("UTF-8")], columns].concat());
+        assert_eq!(output.status.code(), Some(2), "{columns:?}: {}", stderr(&output));
+        let place = format!("long.toml:{line}:1: [time] asks for a rotation by ");
+        assert!(stderr(&output).contains(&place), "{columns:?}: {}", stderr(&output));
+    }
+}
+
+/// What is allowed and looks like a mistake is said.
+#[test]
+fn a_spin_beyond_break_up_and_a_julian_date_are_noted() {
+    let folder = folder();
+    let built_in = include_str!("../scenes/b1937+21.toml");
+    let notes = |name: &str, from: &str, to: &str, args: &[&str]| {
+        assert!(built_in.contains(from), "{from}");
+        fs::write(folder.path().join(name), built_in.replace(from, to)).expect("scene");
+        let scene = folder.path().join(name);
+        let output = twofold(&[&args[..1], &[scene.to_str().expect("UTF-8")], &args[1..]].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stderr(&output)
+    };
+    let out = folder.path().join("out");
+    let out = out.to_str().expect("UTF-8");
+    let spin = built_in.lines().find(|line| line.starts_with("spin_frequency")).expect("spin");
+    let epoch = built_in.lines().find(|line| line.starts_with("epoch")).expect("epoch");
+    let run = ["run", "--columns", "h"];
+    let fast = notes("fast.toml", spin, "spin_frequency = 3000.0", &run);
+    assert!(fast.contains("fast.toml: `star.spin_frequency` = 3000.0: above ") && fast.contains("break-up"), "{fast}");
+    let julian = notes("julian.toml", epoch, "epoch = \"2455321.75\"", &run);
+    assert!(julian.contains("`time.epoch` = \"2455321.75\": looks like a Julian date"), "{julian}");
+    assert!(julian.contains("in the year 8581. If 55321.25 is meant"), "{julian}");
+    let option = ["timing", "--from", "2455321.5", "--to", "2455322.5", "--epochs", "3", "--out", out];
+    let option = notes("as-it-is.toml", spin, spin, &option);
+    assert!(
+        option.contains("note: --from: looks like a Julian date") && option.contains("If 55321.0 is meant"),
+        "{option}"
+    );
+    let none = notes("as-it-is.toml", spin, spin, &run);
+    assert!(!none.contains("Julian") && !none.contains("break-up"), "{none}");
+}
+
+/// A table of 10 MB or more is foretold, and nearly so large.
+#[test]
+fn the_size_of_a_large_table_is_foretold() {
+    let folder = folder();
+    let scene = folder.path().join("scene.toml");
+    let text = include_str!("../scenes/tp-1.toml").replace("samples = 4001", "samples = 30001");
+    fs::write(&scene, &text).expect("scene");
+    let output = twofold(&["run", scene.to_str().expect("UTF-8")]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let size = stderr(&output);
+    let size = size.split("rows of ").nth(1).and_then(|rest| rest.split("about ").nth(1)).expect("a size");
+    let size: f64 = size.split(" MB").next().and_then(|size| size.parse().ok()).expect("megabytes");
+    let found = output.stdout.len() as f64 / 1e6;
+    assert!(found >= 9.0 && (size / found - 1.0).abs() < 0.15, "{size} {found}");
+    assert!(!stderr(&twofold(&["run", "tp-1"])).contains("rows of"));
+}
+
+/// Where no terminal is, a long run writes a line now and then.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_long_run_without_a_terminal_tells_how_far_it_is() {
+    use std::io::{BufRead, BufReader};
+    let folder = folder();
+    let scene = folder.path().join("long.toml");
+    fs::write(&scene, include_str!("../scenes/tp-1.toml").replace("span = 400", "span = 4e7")).expect("scene");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_twofold"))
+        .args(["run", scene.to_str().expect("UTF-8"), "--columns", "e_z", "--out", "motion.csv"])
+        .current_dir(folder.path())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    let lines = BufReader::new(child.stderr.take().expect("standard error")).lines();
+    let line = lines.map(|line| line.expect("text")).find(|line| line.contains("% done")).expect("a line");
+    common::send(&child, "TERM");
+    assert_eq!(child.wait().expect("status").code(), Some(130));
+    assert!(line.starts_with("note: ") && line.contains(" % done after "), "{line}");
 }
 
 #[test]
@@ -308,7 +372,7 @@ fn columns_of_the_command_line_replace_those_of_the_scene() {
         output.stdout.starts_with(b"t [t_c],m.n [1],m.n_rate [1/t_c],h_plus [1],h_cross [1]\n0.0,0.87328491422829")
     );
     for (columns, fragments) in [
-        ("lamda", &["--columns for free", "`lamda` is no group of columns", "Did you mean `lambda`?"][..]),
+        ("lamda", &["free: --columns: `lamda` is no group of columns", "Did you mean `lambda`?"][..]),
         ("h,h", &["`h` comes twice"]),
         ("", &["`` is no group of columns"]),
         ("perturbation", &["the scene lacks a perturbation solution", "`initial.kind`"]),

@@ -125,10 +125,12 @@ fn duration(ns: f64) -> String {
     }
 }
 
-fn bytes(count: f64) -> String {
+pub(super) fn bytes(count: f64) -> String {
     match count {
         count if count < 1e3 => format!("{count:.0} bytes"),
         count if count < 1e6 => format!("{:.1} kB", count / 1e3),
-        count => format!("{:.1} MB", count / 1e6),
+        count if count < 1e9 => format!("{:.1} MB", count / 1e6),
+        count if count < 1e12 => format!("{:.1} GB", count / 1e9),
+        count => format!("{:.1} TB", count / 1e12),
     }
 }

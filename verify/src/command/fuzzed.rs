@@ -106,7 +106,7 @@ fn is_little_work(command: &Command) -> bool {
             let spans = spans.as_ref().is_none_or(|spans| spans.iter().all(|span| span.is_nan() || *span < 50.0));
             measured(&fisher.measurement) && spans && epochs.iter().all(|count| *count <= 50)
         }
-        Command::Bounds(_) | Command::Compare(_) | Command::Scenes | Command::Equations => true,
+        Command::Bounds(_) | Command::Compare(_) | Command::Scenes(_) | Command::Equations => true,
         Command::Figures(args) => args.list,
         Command::Verify(args) => args.filter.as_ref().is_some_and(|filter| filter.contains('?')),
         Command::Report(_) | Command::Bench(_) | Command::Claims | Command::Stability(_) => false,

@@ -53,6 +53,8 @@ Examples:
   twofold                           run every check of the paper's equations, print the table
   twofold verify --filter steady    only the checks whose name contains `steady`
   twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
+  twofold scenes --print tp-2 > my-star.toml
+                                    a scene to change into yours
   twofold run my-star.toml --out my-star.csv
   twofold bounds                    the paper's table of pulsars with uncertainties
   twofold run tp-2 --columns h      only the gravitational wave
@@ -142,8 +144,8 @@ enum Command {
     /// the growth of errors over long motions, what events, samples, gradients and wider numbers cost, and how the time goes
     /// with the number of outputs, scenes and cores.
     Bench(BenchArgs),
-    /// List the built-in scenes
-    Scenes,
+    /// List the built-in scenes and sweeps, or print the file of one
+    Scenes(ScenesArgs),
     /// Run every check and write everything as one HTML page: claims, equations, checks, golden tables, figures
     ///
     /// The page is DIR/index.html. It needs no network, no script and no other file. It is written, and says so at its
@@ -264,6 +266,13 @@ struct SpectrumArgs {
     plan: PlanArgs,
     #[command(flatten)]
     output: OutputArgs,
+}
+
+#[derive(Args)]
+struct ScenesArgs {
+    /// Print the file of this built-in scene or sweep, as a template: `twofold scenes --print tp-2 > my-star.toml`
+    #[arg(long, value_name = "NAME")]
+    print: Option<String>,
 }
 
 /// Which table of a spectrum.
@@ -483,7 +492,7 @@ fn run_command(command: Command) -> ExitCode {
         Command::Forecast(args) => forecast::run(&args),
         Command::Figures(args) => figures::figures(&args),
         Command::Bench(args) => bench::bench(&args),
-        Command::Scenes => scenes::scenes(),
+        Command::Scenes(args) => scenes::scenes(&args),
         Command::Equations => print(&equation_table::markdown()),
         Command::Stability(args) => print(&stability::table::markdown(args.rounds)),
         Command::Claims => claims::markdown().map_err(Failure::Failed).and_then(|page| print(&page)),
@@ -491,6 +500,7 @@ fn run_command(command: Command) -> ExitCode {
 }
 
 fn status(result: Result<(), Failure>) -> ExitCode {
+    let _ending = interrupt::no_more_requests();
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Failed(message)) => end(1, &message),

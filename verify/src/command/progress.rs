@@ -1,40 +1,66 @@
 //! How far a long computation is.
 
+use std::io::{self, IsTerminal};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 
-/// A bar on standard error, if that is a terminal, from two seconds on.
+use super::note;
+
+/// On standard error: a bar, if that is a terminal, from two seconds on; else a line now and then.
 pub(super) struct Progress {
-    bar: ProgressBar,
+    shown: Shown,
     start: Instant,
-    to_be_shown: bool,
+    /// Steps done before, of which nothing is to be seen in the rate.
+    first: u64,
+    steps: u64,
+    /// What a step is, where that is of interest.
+    unit: Option<&'static str>,
+}
+
+enum Shown {
+    Nothing,
+    /// And whether it is on the screen.
+    Bar(ProgressBar, bool),
+    Lines(Lines),
 }
 
 impl Progress {
     const QUIET: Duration = Duration::from_secs(2);
     const STEPS: f64 = 1000.0;
 
-    pub(super) fn new(to_be_shown: bool) -> Self {
-        Self::with_style(to_be_shown, Self::STEPS as u64, "{percent:>3} % [{bar:40}] {elapsed}, {eta} left")
+    /// Of a computation that says which part is done; the bar is shown only if standard output does not go to the terminal too.
+    pub(super) fn new(bar_has_the_terminal: bool) -> Self {
+        let style = "{percent:>3} % [{bar:40}] {elapsed}, {eta} left";
+        Self::with_style(bar_has_the_terminal, (0, Self::STEPS as u64, None), style)
     }
 
     /// Of `total` scenes, of which the first `done` do not count for the rate.
     pub(super) fn of_scenes(done: u64, total: u64) -> Self {
         let style = "{percent:>3} % [{bar:30}] {human_pos} of {human_len} scenes, {per_sec}, {elapsed}, {eta} left";
-        let progress = Self::with_style(true, total, style);
-        progress.bar.set_position(done);
-        progress.bar.reset_eta();
-        progress
+        Self::with_style(true, (done, total, Some("scenes")), style)
     }
 
-    fn with_style(to_be_shown: bool, steps: u64, style: &str) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden())
-            .with_finish(ProgressFinish::AndClear);
-        if let Ok(style) = ProgressStyle::with_template(style) {
-            bar.set_style(style);
-        }
-        Self { bar, start: Instant::now(), to_be_shown }
+    fn with_style(
+        bar_has_the_terminal: bool,
+        (first, steps, unit): (u64, u64, Option<&'static str>),
+        style: &str,
+    ) -> Self {
+        let shown = match (io::stderr().is_terminal(), bar_has_the_terminal) {
+            (false, _) => Shown::Lines(Lines::default()),
+            (true, false) => Shown::Nothing,
+            (true, true) => {
+                let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden())
+                    .with_finish(ProgressFinish::AndClear)
+                    .with_position(first);
+                if let Ok(style) = ProgressStyle::with_template(style) {
+                    bar.set_style(style);
+                }
+                bar.reset_eta();
+                Shown::Bar(bar, false)
+            }
+        };
+        Self { shown, start: Instant::now(), first, steps, unit }
     }
 
     /// Says which part is done, from 0 to 1.
@@ -44,10 +70,97 @@ impl Progress {
 
     /// Says how many steps are done.
     pub(super) fn show_step(&mut self, step: u64) {
-        if self.to_be_shown && self.start.elapsed() > Self::QUIET {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-            self.to_be_shown = false;
+        let elapsed = self.start.elapsed();
+        match &mut self.shown {
+            Shown::Nothing => {}
+            Shown::Bar(bar, is_on_screen) => {
+                if !*is_on_screen && elapsed > Self::QUIET {
+                    bar.set_draw_target(ProgressDrawTarget::stderr());
+                    *is_on_screen = true;
+                }
+                bar.set_position(step);
+            }
+            Shown::Lines(lines) => {
+                if lines.is_due(step as f64 / self.steps as f64, elapsed) {
+                    note(&line((self.first, step, self.steps), self.unit, elapsed));
+                }
+            }
         }
-        self.bar.set_position(step);
+    }
+}
+
+/// When lines are written: the first after ten seconds; then one at each tenth of the work, ten seconds apart at least, and one a
+/// minute where a tenth takes longer.
+#[derive(Default)]
+struct Lines {
+    /// Tenths done at the last line.
+    tenths: u32,
+    /// Time of the last line.
+    last: Option<Duration>,
+}
+
+impl Lines {
+    const APART: Duration = Duration::from_secs(10);
+    const AT_LEAST_EVERY: Duration = Duration::from_secs(60);
+
+    fn is_due(&mut self, part: f64, now: Duration) -> bool {
+        let tenths = (part * 10.0) as u32;
+        let is_due = match self.last {
+            None => now >= Self::APART,
+            Some(last) => now - last >= Self::AT_LEAST_EVERY || (now - last >= Self::APART && tenths > self.tenths),
+        };
+        if is_due {
+            *self = Self { tenths, last: Some(now) };
+        }
+        is_due
+    }
+}
+
+/// What a line says.
+fn line((first, step, steps): (u64, u64, u64), unit: Option<&str>, elapsed: Duration) -> String {
+    let left = |seconds: f64| HumanDuration(Duration::from_secs(seconds.min(1e15) as u64));
+    let rate = (step - first) as f64 / elapsed.as_secs_f64().max(1e-9);
+    let percent = (step as f64 / steps as f64 * 100.0) as u64;
+    let done = match unit {
+        None => format!("{percent} % done"),
+        Some(unit) => format!("{percent} % done, {step} of {steps} {unit}, {rate:.3e} {unit}/s,"),
+    };
+    let after = format!("{done} after {}", HumanDuration(elapsed));
+    if rate > 0.0 { format!("{after}, about {} left", left((steps - step) as f64 / rate)) } else { after }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::{Lines, line};
+
+    /// Seconds at which lines are written by work that says every 0.1 s what is done and takes `length` seconds.
+    fn times(length: u32) -> Vec<f64> {
+        let mut lines = Lines::default();
+        let tenths_of_a_second = 0..=10 * length;
+        let due = tenths_of_a_second.filter(|&k| {
+            lines.is_due(f64::from(k) / f64::from(10 * length), Duration::from_millis(u64::from(k) * 100))
+        });
+        due.map(|k| f64::from(k) / 10.0).collect()
+    }
+
+    #[test]
+    fn lines_come_at_tenths_of_the_work_and_neither_too_often_nor_too_seldom() {
+        assert!(times(9).is_empty());
+        assert_eq!(times(50), [10.0, 20.0, 30.0, 40.0, 50.0]);
+        assert_eq!(times(200), [10.0, 20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0, 180.0, 200.0]);
+        let long = times(36_000);
+        assert_eq!(long[..4], [10.0, 70.0, 130.0, 190.0]);
+        assert!(long.windows(2).all(|pair| pair[1] - pair[0] <= 60.0));
+    }
+
+    #[test]
+    fn a_line_tells_what_is_done_and_the_time_left() {
+        let minute = Duration::from_secs(60);
+        assert_eq!(line((0, 250, 1000), None, minute), "25 % done after 60 seconds, about 3 minutes left");
+        assert_eq!(line((0, 0, 1000), None, minute), "0 % done after 60 seconds");
+        let scenes = "50 % done, 1000 of 2000 scenes, 1.000e1 scenes/s, after 60 seconds, about 2 minutes left";
+        assert_eq!(line((400, 1000, 2000), Some("scenes"), minute), scenes);
     }
 }

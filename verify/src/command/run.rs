@@ -2,29 +2,27 @@
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 
-use super::explain::explained;
+use super::explain::{bytes, explained};
 use super::output_file::OutputFile;
 use super::progress::Progress;
 use super::standard_output::standard_output;
 use super::{Failure, OutputArgs, PlanArgs, RunArgs, note, print};
-use crate::scene_file::Scene;
+use crate::scene_file::{Scene, SceneError};
 use crate::trajectory::{self, Summary, TrajectoryError};
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
-    let mut scene = match args.columns {
-        None => Scene::named(&args.scene).map_err(|error| Failure::BadInput(error.to_string()))?,
-        Some(_) => read_scene(&args.scene)?,
+    let mut scene = match &args.columns {
+        None => accepted(&args.scene, Scene::named(&args.scene))?,
+        Some(columns) => {
+            let names: Vec<_> = columns.iter().map(|name| name.trim()).collect();
+            accepted(&args.scene, Scene::named_with_columns(&args.scene, &names))?
+        }
     };
-    if let Some(columns) = &args.columns {
-        let names: Vec<_> = columns.iter().map(|name| name.trim()).collect();
-        scene
-            .choose_columns(&names)
-            .map_err(|why| Failure::BadInput(format!("--columns for {}: {why}", args.scene)))?;
-    }
     force_method(&mut scene, &args.plan, &args.scene)?;
     if args.plan.explain {
         return print(&explained(&scene, &scene.plan_of_columns().map_err(failed)?));
     }
+    note_size(scene.times.count() as f64, trajectory::header(&scene).len());
     let Some(summary) =
         write(&args.output, &scene, |writer, progress| trajectory::write_csv(&scene, writer, progress))?
     else {
@@ -49,7 +47,28 @@ pub(super) fn failed(error: twofold::Error) -> Failure {
 
 /// A scene of which the columns that it names are not used.
 pub(super) fn read_scene(name: &str) -> Result<Scene, Failure> {
-    Scene::named_without_columns(name).map_err(|error| Failure::BadInput(error.to_string()))
+    accepted(name, Scene::named_without_columns(name))
+}
+
+/// The scene that was read, with notes of what in it looks like a mistake.
+fn accepted(name: &str, read: Result<Scene, SceneError>) -> Result<Scene, Failure> {
+    let scene = read.map_err(|error| Failure::BadInput(error.to_string()))?;
+    scene.cautions.iter().for_each(|caution| note(&format!("{name}: {caution}")));
+    Ok(scene)
+}
+
+/// Bytes of a number in a table: as a rule 16 or 17 digits, a point and a comma; some with a sign or an exponent.
+const BYTES_OF_A_NUMBER: f64 = 19.0;
+
+/// Size of a table from which on it is foretold.
+const LARGE: f64 = 1e7;
+
+/// Foretells the size of a large table.
+pub(super) fn note_size(rows: f64, columns: usize) {
+    let size = rows * columns as f64 * BYTES_OF_A_NUMBER;
+    if size >= LARGE {
+        note(&format!("the table will have {rows} rows of {columns} columns, about {}", bytes(size)));
+    }
 }
 
 /// Lets `table` write to the file that the arguments name, or to standard output. Nothing if a reader has gone away.

@@ -1,13 +1,14 @@
 //! `twofold sweep`.
 
 use std::fs::{self, File};
-use std::io::{self, BufRead, BufReader, BufWriter, IsTerminal, Read, Seek, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::interrupt::stop_on_request;
 use super::output_file::{OutputFile, free_name};
 use super::progress::Progress;
+use super::run::note_size;
 use super::{Failure, SweepArgs, note};
 use crate::sweep::{
     Done, Identity, MergeError, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, merge,
@@ -16,6 +17,7 @@ use crate::sweep::{
 pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     let text = SweepText::read(&args.file).map_err(|error| Failure::BadInput(error.to_string()))?;
     let sweep = Sweep::new(&text).map_err(|error| Failure::BadInput(error.to_string()))?;
+    sweep.cautions.iter().for_each(|caution| note(&format!("{}: {caution}", args.file)));
     let format = Format::of(&args.out)?;
     if !args.merge.is_empty() {
         return merge_parts(args, &sweep, format);
@@ -57,9 +59,12 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     }
     let threads = rayon::ThreadPoolBuilder::new().num_threads(args.threads.unwrap_or(0).into()).build();
     let threads = threads.map_err(|error| Failure::Failed(format!("no threads can be started: {error}")))?;
-    let mut told = Told::new(first - scenes.start, count);
-    let done = compute(&sweep, &mut spool, scenes.end, &threads, &stop, |next| told.tell(next - scenes.start));
-    told.end(spool.failed());
+    note_size((scenes.end - first) as f64, sweep.header().len());
+    let start = Instant::now();
+    let mut progress = Progress::of_scenes(first - scenes.start, count);
+    let done = compute(&sweep, &mut spool, scenes.end, &threads, &stop, |next| progress.show_step(next - scenes.start));
+    drop(progress);
+    note_rate(spool.next() - first, spool.next() - scenes.start, start.elapsed(), spool.failed());
     if done.map_err(failed)? == Done::Stopped {
         return Err(Failure::Interrupted(format!(
             "{} of {count} scenes are in {}; the same command goes on from there",
@@ -205,44 +210,9 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     if any_failed { Err(some_failed(&args.out)) } else { Ok(()) }
 }
 
-/// What a sweep says while it runs: a bar on a terminal, elsewhere a line a minute; and a line at its end.
-struct Told {
-    bar: Progress,
-    first: u64,
-    done: u64,
-    count: u64,
-    start: Instant,
-    last_line: Instant,
-}
-
-impl Told {
-    const BETWEEN_LINES: Duration = Duration::from_secs(60);
-
-    fn new(first: u64, count: u64) -> Self {
-        let now = Instant::now();
-        Self { bar: Progress::of_scenes(first, count), first, done: first, count, start: now, last_line: now }
-    }
-
-    fn tell(&mut self, done: u64) {
-        self.done = done;
-        self.bar.show_step(done);
-        if !io::stderr().is_terminal() && self.last_line.elapsed() > Self::BETWEEN_LINES {
-            self.last_line = Instant::now();
-            let left = (self.count - done) as f64 / self.rate();
-            let left = humantime::format_duration(Duration::from_secs(left.min(1e15) as u64));
-            note(&format!("{done} of {} scenes, {:.3e} scenes/s, {left} left", self.count, self.rate()));
-        }
-    }
-
-    /// Scenes per second.
-    fn rate(&self) -> f64 {
-        (self.done - self.first) as f64 / self.start.elapsed().as_secs_f64().max(1e-9)
-    }
-
-    fn end(self, failed: u64) {
-        let (computed, rate) = (self.done - self.first, self.rate());
-        let seconds = self.start.elapsed().as_secs_f64();
-        drop(self.bar);
-        note(&format!("{computed} scenes in {seconds:.2} s, {rate:.4e} scenes/s; {failed} of {} failed", self.done));
-    }
+/// Says at the end how fast it was, of the scenes `computed` now and those that are `there` altogether.
+fn note_rate(computed: u64, there: u64, elapsed: Duration, failed: u64) {
+    let seconds = elapsed.as_secs_f64();
+    let rate = computed as f64 / seconds.max(1e-9);
+    note(&format!("{computed} scenes in {seconds:.2} s, {rate:.4e} scenes/s; {failed} of {there} failed"));
 }

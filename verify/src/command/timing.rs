@@ -8,13 +8,18 @@ use super::output_folder::OutputFolder;
 use super::run::{failed, read_scene};
 use super::{Failure, TimingArgs, note, tell};
 use crate::pulsar_timing::{PulsarScene, Series, Timing, csv, par, strain_series, tim};
-use crate::scene_file::Scene;
+use crate::scene_file::{Scene, like_julian_date};
 
 /// Most arrival times, and most samples of strain.
 const MOST: usize = 10_000_000;
 
 pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let scene = read_scene(&args.scene)?;
+    for (option, date) in [("--from", &args.from), ("--to", &args.to)] {
+        if let Some(why) = date.as_ref().and_then(like_julian_date) {
+            note(&format!("{option}: {why}"));
+        }
+    }
     let refused = |why: String| Failure::BadInput(format!("{}: {why}", args.scene));
     let mut pulsar = PulsarScene::new(&scene).map_err(refused)?;
     let epochs = epochs(args, &scene, &pulsar.epoch)?;

@@ -34,7 +34,7 @@ pub use observer::{Catalogued, Pulsar, Viewer};
 pub(crate) use section::{Entry, Replaced, Section, listed, nearest, shortened};
 pub use star::Units;
 pub use time::Times;
-pub(crate) use time::read as read_times;
+pub(crate) use time::{like_julian_date, read as read_times};
 
 /// Largest scene file that is read, in bytes.
 pub const LARGEST_FILE: u64 = 64 << 20;
@@ -77,6 +77,19 @@ pub struct Scene {
     pub method: Option<Method>,
     /// Units of the file and of the output.
     pub units: Units,
+    /// What in the file is allowed and looks like a mistake, a sentence each.
+    pub cautions: Vec<String>,
+}
+
+/// The columns that a scene is read for.
+#[derive(Clone, Copy)]
+pub(crate) enum Columns<'a> {
+    /// Those of the file.
+    OfTheFile,
+    /// The groups of these names.
+    Named(&'a [&'a str]),
+    /// None: the file may name groups without what these need.
+    Unused,
 }
 
 impl Scene {
@@ -86,7 +99,15 @@ impl Scene {
     /// # Errors
     /// A file that cannot be read, and everything that [`Scene::from_toml`] refuses.
     pub fn named(name_or_path: &str) -> Result<Self, SceneError> {
-        Self::named_with(name_or_path, true)
+        Self::named_for(name_or_path, Columns::OfTheFile)
+    }
+
+    /// As [`Scene::named`], with the groups of columns called `names` in place of those of the file.
+    ///
+    /// # Errors
+    /// Those of [`Scene::named`], and those of [`Scene::choose_columns`].
+    pub fn named_with_columns(name_or_path: &str, names: &[&str]) -> Result<Self, SceneError> {
+        Self::named_for(name_or_path, Columns::Named(names))
     }
 
     /// As [`Scene::named`], for one who does not use the columns of the file: they are those of the motion, and the file may
@@ -95,13 +116,12 @@ impl Scene {
     /// # Errors
     /// Those of [`Scene::named`], but for the needs of columns.
     pub fn named_without_columns(name_or_path: &str) -> Result<Self, SceneError> {
-        Self::named_with(name_or_path, false)
+        Self::named_for(name_or_path, Columns::Unused)
     }
 
-    fn named_with(name_or_path: &str, use_columns: bool) -> Result<Self, SceneError> {
-        let read = |file: &str, text: &str| {
-            SCENE.parse(file, text, |document| Self::from_document(document, use_columns, None))
-        };
+    fn named_for(name_or_path: &str, columns: Columns<'_>) -> Result<Self, SceneError> {
+        let read =
+            |file: &str, text: &str| SCENE.parse(file, text, |document| Self::from_document(document, columns, None));
         match built_in(name_or_path) {
             Some(built_in) => read(built_in.name, built_in.toml),
             None => read(name_or_path, &SCENE.read(name_or_path)?),
@@ -114,13 +134,13 @@ impl Scene {
     /// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or exclude one another, and for
     /// values of a wrong type or out of range.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SceneError> {
-        SCENE.parse(file, text, |document| Self::from_document(document, true, None))
+        SCENE.parse(file, text, |document| Self::from_document(document, Columns::OfTheFile, None))
     }
 
     /// The scene of a document, with `times` in place of its own section `[time]` if there are any.
     pub(crate) fn from_document(
         document: &Section<'_>,
-        use_columns: bool,
+        columns: Columns<'_>,
         times: Option<&Times>,
     ) -> Result<Self, Fault> {
         document.only(&[
@@ -137,7 +157,7 @@ impl Scene {
         let about = document.optional("about").map(|entry| entry.string()).transpose()?.unwrap_or("").to_owned();
         let sources = document.optional("sources").map(|entry| sources(&entry)).transpose()?.unwrap_or_default();
         let star_section = document.required_section("star", "the spheroid and its spin")?;
-        let star = star::read(&star_section)?;
+        let (star, spin_caution) = star::read(&star_section)?;
         let violation = violation::read(&document.required_section("lorentz_violation", "the coefficients s^IJ")?)?;
         let initial_section = document.required_section("initial", "the initial orientation and motion")?;
         let initial = initial::read(&initial_section, &star, &violation)?;
@@ -146,13 +166,13 @@ impl Scene {
         let pulsar_section = document.section("pulsar")?;
         let pulsar = pulsar_section.as_ref().map(observer::read_pulsar).transpose()?;
         let catalogued = pulsar_section.as_ref().map(observer::read_catalogued).transpose()?.flatten();
-        let (time_section, times, epoch) = match times {
-            Some(times) => (None, times.clone(), None),
+        let (time_section, times, epoch, epoch_caution) = match times {
+            Some(times) => (None, times.clone(), None, None),
             None => {
                 let section = document.required_section("time", "the times of the output")?;
                 let times = time::read_with_years(&section, &star.units)?;
-                let epoch = time::read_epoch(&section, &star.units)?;
-                (Some(section), times, epoch)
+                let (epoch, caution) = time::read_epoch(&section, &star.units, &times)?.unzip();
+                (Some(section), times, epoch, caution.flatten())
             }
         };
         let output = document.section("output")?;
@@ -173,11 +193,16 @@ impl Scene {
             accuracy: output::DEFAULT_ACCURACY,
             method: None,
             units: star.units,
+            cautions: [spin_caution, epoch_caution].into_iter().flatten().collect(),
         };
         if let Some(output) = &output {
-            output::read(output, &mut scene, use_columns)?;
+            output::read(output, &mut scene, matches!(columns, Columns::OfTheFile))?;
         }
-        if use_columns {
+        if let Columns::Named(names) = columns {
+            let refused = |why| Fault { span: None, message: format!("--columns: {why}") };
+            scene.choose_columns(names).map_err(refused)?;
+        }
+        if !matches!(columns, Columns::Unused) {
             let outputs: Vec<_> = scene.columns.iter().map(|group| group.output).collect();
             let section = time_section.as_ref().unwrap_or(document);
             scene.check_rotation(&outputs).map_err(|why| section.fault(why))?;

@@ -1,6 +1,6 @@
 //! The section `[time]`.
 
-use twofold::epoch::Epoch;
+use twofold::epoch::{DAY, Epoch};
 use twofold::units::JULIAN_YEAR;
 
 use super::error::Fault;
@@ -87,15 +87,44 @@ pub(super) fn read_with_years(section: &Section<'_>, units: &Units) -> Result<Ti
     Ok(Times::Even { start, end: start + span * JULIAN_YEAR, samples })
 }
 
-/// The epoch of the start: a modified Julian date, a number or a string with all its digits.
-pub(super) fn read_epoch(section: &Section<'_>, units: &Units) -> Result<Option<Epoch>, Fault> {
+/// The epoch of the start, a modified Julian date, a number or a string with all its digits; and a sentence if it looks like another
+/// kind of date.
+pub(super) fn read_epoch(
+    section: &Section<'_>,
+    units: &Units,
+    times: &Times,
+) -> Result<Option<(Epoch, Option<String>)>, Fault> {
     let Some(entry) = section.optional("epoch") else { return Ok(None) };
     if !units.are_physical() {
         return Err(entry.refuse("an epoch only for a physical star, whose times are in seconds"));
     }
     let allowed = "a modified Julian date from 0 to 1e7, as 55321.25 or in quotes with more digits";
     let text = if entry.is_string() { entry.string()?.to_owned() } else { entry.number()?.to_string() };
-    text.parse().map(Some).map_err(|_| entry.refuse(allowed))
+    let epoch: Epoch = text.parse().map_err(|_| entry.refuse(allowed))?;
+    let span = times.last() - times.start();
+    if epoch.after([span, 0.0]).is_err() {
+        let days = span / DAY;
+        return Err(section.fault(format!(
+            "[time] ends {days:.3e} days from its epoch: allowed beside `time.epoch` are at most 1e9 days, either way"
+        )));
+    }
+    let caution = like_julian_date(&epoch).map(|why| entry.refuse_because(&why).message);
+    Ok(Some((epoch, caution)))
+}
+
+/// A sentence about an epoch that is a date of our time if it is meant as a Julian date.
+pub(crate) fn like_julian_date(epoch: &Epoch) -> Option<String> {
+    // The years 1858 to 2132.
+    if !(2_400_000..2_500_000).contains(&epoch.day()) {
+        return None;
+    }
+    // MJD = JD - 2400000.5.
+    let meant = Epoch::new(epoch.day() - 2_400_001, epoch.fraction() + 0.5).ok()?;
+    let year = 1858.9 + epoch.day() as f64 / 365.2425;
+    Some(format!(
+        "looks like a Julian date; a modified Julian date is asked for, and this one is in the year {year:.0}. If {meant} is meant, \
+         write that"
+    ))
 }
 
 pub(crate) fn read(section: &Section<'_>) -> Result<Times, Fault> {

@@ -11,7 +11,8 @@ use super::parameters::{Law, Parameters, Source};
 use super::{MOST_COLUMNS, MOST_SCENES, Sweep};
 use crate::columns;
 use crate::scene_file::{
-    BUILT_IN, Entry, Fault, FileKind, Replaced, SCENE, Scene, SceneError, Section, Times, listed, nearest, read_times,
+    BUILT_IN, Columns, Entry, Fault, FileKind, Replaced, SCENE, Scene, SceneError, Section, Times, listed, nearest,
+    read_times,
 };
 
 /// A sweep, in the words of the messages.
@@ -37,7 +38,15 @@ impl SweepText {
     /// # Errors
     /// A file that cannot be read or is not TOML.
     pub fn read(path: &str) -> Result<Self, SceneError> {
-        Self::with(path, SWEEP.read(path)?, |name| match BUILT_IN.iter().find(|scene| scene.name == name) {
+        Self::of(path, SWEEP.read(path)?)
+    }
+
+    /// A sweep file at `path` whose text is known, and the scene that it names.
+    ///
+    /// # Errors
+    /// A scene that cannot be read, and text that is not TOML.
+    pub fn of(path: &str, text: String) -> Result<Self, SceneError> {
+        Self::with(path, text, |name| match BUILT_IN.iter().find(|scene| scene.name == name) {
             Some(built_in) => Ok((name.to_owned(), built_in.toml.to_owned())),
             None => {
                 let file = Path::new(path).parent().unwrap_or(Path::new("")).join(name);
@@ -89,7 +98,7 @@ impl Base<'_> {
     /// The scene with `numbers` in place of those under `keys`, and the times of the sweep in place of its own.
     pub(super) fn scene(&self, keys: &[String], numbers: &[f64], times: &Times) -> Result<Scene, String> {
         let document = self.document().replacing(Replaced { keys, numbers });
-        Scene::from_document(&document, false, Some(times)).map_err(|fault| fault.message)
+        Scene::from_document(&document, Columns::Unused, Some(times)).map_err(|fault| fault.message)
     }
 }
 
@@ -103,17 +112,18 @@ impl<'t> Sweep<'t> {
         let document = SWEEP.table(&text.file, &text.text)?;
         let section = Section::document(&text.text, &document, SWEEP.name);
         let in_sweep = |fault| SceneError::in_text(&text.file, &text.text, fault);
-        check_keys(&section).map_err(in_sweep)?;
+        let about = check_keys(&section).map_err(in_sweep)?;
         let (name, scene_text) = text.scene.as_ref().map_or((&text.file, &text.text), |(name, text)| (name, text));
         let table = SCENE.table(name, scene_text)?;
         let base = Base { text: scene_text, table, inside: text.scene.is_none() };
         let in_scene = |fault| SceneError::in_text(name, scene_text, fault);
         let times = times(&section).map_err(in_sweep)?;
         let scene = base.document();
-        if scene.has("time") {
-            Scene::from_document(&scene, false, None).map_err(in_scene)?;
-        }
-        let mut scene = Scene::from_document(&scene, false, Some(&times)).map_err(in_scene)?;
+        let with = |times| Scene::from_document(&scene, Columns::Unused, times).map_err(in_scene);
+        // The scene's own times, if it has any, are not used; they are checked all the same.
+        let own = scene.has("time").then(|| with(None)).transpose()?;
+        let mut scene = with(Some(&times))?;
+        let cautions = own.map_or_else(|| scene.cautions.clone(), |own| own.cautions);
         let varied = VARIED_SECTIONS.iter().filter_map(|name| base.document().section(name).ok().flatten());
         let known: Vec<_> = varied.flat_map(|section| section.numbers()).collect();
         let parameters = parameters(&section, &known).map_err(in_sweep)?;
@@ -129,7 +139,8 @@ impl<'t> Sweep<'t> {
             in_sweep(section.fault(format!("the sweep has too many scenes: allowed are {MOST_SCENES:.0e}")))
         })?;
         let (accuracy, units) = (scene.accuracy, scene.units);
-        let sweep = Sweep { base, parameters, outputs, scenes, accuracy, units, rotation: scene.rotation() };
+        let rotation = scene.rotation();
+        let sweep = Sweep { about, base, parameters, outputs, scenes, cautions, accuracy, units, rotation };
         let columns = sweep.header().len();
         if columns > MOST_COLUMNS {
             let why = format!("the sweep has {columns} columns: allowed are {MOST_COLUMNS}; ask for fewer times");
@@ -139,14 +150,15 @@ impl<'t> Sweep<'t> {
     }
 }
 
-fn check_keys(document: &Section<'_>) -> Result<(), Fault> {
+/// Checks the keys of the document; says what the sweep is about.
+fn check_keys(document: &Section<'_>) -> Result<String, Fault> {
     document.only(&["about", "scene", "seed", "draws", "vary", "time", "output"])?;
-    document.optional("about").map(|entry| entry.string()).transpose()?;
+    let about = document.optional("about").map(|entry| entry.string()).transpose()?.unwrap_or("");
     let scene = document.required("scene", "a built-in scene, the path of a scene file, or a section [scene]")?;
     if !scene.is_string() {
         document.table("scene", "the name of a scene, or a section [scene]")?;
     }
-    Ok(())
+    Ok(about.to_owned())
 }
 
 /// The times of the columns: those of a scene's section, or the end of the span alone.

@@ -27,7 +27,7 @@ pub use merge::{MergeError, csv_line, merge};
 pub use shard::Shard;
 pub use spool::{Spool, SpoolError, SpoolFiles};
 
-use crate::scene_file::{Scene, Units};
+use crate::scene_file::{BuiltIn, Scene, Units};
 use outputs::Outputs;
 use parameters::Parameters;
 
@@ -43,14 +43,21 @@ const NUMBER: &str = "scene";
 /// Name of the column that says whether the scene could be computed.
 const STATUS: &str = "status";
 
+/// Sweeps that come with the command, as files to start from.
+pub const SWEEPS: &[BuiltIn] = &[BuiltIn { name: "grid", toml: include_str!("../../sweeps/grid.toml") }];
+
 /// A checked sweep.
 #[derive(Debug)]
 pub struct Sweep<'t> {
+    /// What the sweep is, one line; may be empty.
+    pub about: String,
     base: file::Base<'t>,
     parameters: Parameters,
     outputs: Outputs,
     /// Number of scenes.
     pub scenes: u64,
+    /// What in the scene as it stands looks like a mistake, a sentence each.
+    pub cautions: Vec<String>,
     accuracy: f64,
     units: Units,
     /// Upper estimate of the rotation of the scene as it stands, over its span.
