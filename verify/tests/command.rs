@@ -312,7 +312,7 @@ fn a_spin_beyond_break_up_and_a_julian_date_are_noted() {
 fn the_size_of_a_large_table_is_foretold() {
     let folder = folder();
     let scene = folder.path().join("scene.toml");
-    let text = include_str!("../scenes/tp-1.toml").replace("samples = 4001", "samples = 25001");
+    let text = include_str!("../scenes/tp-1.toml").replace("samples = 4001", "samples = 30001");
     fs::write(&scene, &text).expect("scene");
     let output = twofold(&["run", scene.to_str().expect("UTF-8")]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

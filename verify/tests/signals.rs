@@ -13,7 +13,7 @@ use common::{comes_to, folder, names_in, send, stderr};
 const LONG: &str = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n\
                     [initial]\nalpha = 0.0\nbeta = 0.7\nalpha_rate = 1.5\nbeta_rate = 0.0\n[time]\nspan = 4e7\nsamples = 2\n";
 
-const HUGE: &str = "scene = \"tp-2\"\nseed = 1\ndraws = 1000000000\n[time]\nend = 400.0\n[[vary]]\nparameter = \"pulsar.rho\"\n\
+const HUGE: &str = "scene = \"tp-2\"\nseed = 1\ndraws = 1000000000\n[time]\nend = 1.0\n[[vary]]\nparameter = \"pulsar.rho\"\n\
                     random = { distribution = \"uniform\", from = 0.4, to = 0.7 }\n";
 
 /// Long commands that write files, and what they say when they are interrupted.

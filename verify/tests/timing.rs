@@ -350,3 +350,25 @@ fn numbers_have_no_break() {
     let turns = (last[0] - first[0]) - days * 86_400.0 * 2.468_871_714_7;
     assert!(turns.abs() < 1e-3, "{turns}");
 }
+
+/// A span of a million years, as it is allowed, has arrival times; one beyond all dates is refused at its place.
+#[test]
+fn a_span_in_years_is_as_long_as_is_allowed() {
+    let folder = folder();
+    let built_in = include_str!("../scenes/b1642-03.toml");
+    let years = built_in.lines().find(|line| line.starts_with("years")).expect("years");
+    let samples = built_in.lines().find(|line| line.starts_with("samples")).expect("samples");
+    let line = 1 + built_in.lines().position(|line| line == "[time]").expect("the section");
+    for (span, status) in [("years = 1e6", 0), ("years = -1e6", 0), ("span = 1e300", 2)] {
+        let scene = folder.path().join("long.toml");
+        fs::write(&scene, built_in.replace(years, span).replace(samples, "samples = 9")).expect("scene");
+        let out = folder.path().join("out");
+        let output =
+            twofold(&["timing", scene.to_str().expect("UTF-8"), "--force", "--out", out.to_str().expect("UTF-8")]);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(status), "{span}: {message}");
+        assert_eq!(message.contains(&format!("long.toml:{line}:1: [time] ends ")), status == 2, "{span}: {message}");
+        let arrivals = fs::read_to_string(out.join("long.tim")).expect("arrival times");
+        assert_eq!(arrivals.lines().filter(|line| line.contains("-pn")).count(), 9, "{span}: {arrivals}");
+    }
+}

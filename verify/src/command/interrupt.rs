@@ -79,6 +79,12 @@ fn requested() {
     process::exit(INTERRUPTED.into());
 }
 
+/// Lets the command end by itself: a request that came before ends it now, one that comes later waits for as long as the value lives. What
+/// a request takes away makes the work fail, and that failure is not the reason of the end.
+pub(super) fn no_more_requests() -> impl Sized {
+    on_request()
+}
+
 /// A flag that the first request to end sets, for work that stops by itself; the next one ends the process.
 pub(super) fn stop_on_request() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));

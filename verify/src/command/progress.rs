@@ -3,7 +3,7 @@
 use std::io::{self, IsTerminal};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 
 use super::note;
 
@@ -118,15 +118,15 @@ impl Lines {
 
 /// What a line says.
 fn line((first, step, steps): (u64, u64, u64), unit: Option<&str>, elapsed: Duration) -> String {
-    let seconds = |seconds: f64| humantime::format_duration(Duration::from_secs(seconds.min(1e15) as u64));
+    let left = |seconds: f64| HumanDuration(Duration::from_secs(seconds.min(1e15) as u64));
     let rate = (step - first) as f64 / elapsed.as_secs_f64().max(1e-9);
     let percent = (step as f64 / steps as f64 * 100.0) as u64;
     let done = match unit {
         None => format!("{percent} % done"),
         Some(unit) => format!("{percent} % done, {step} of {steps} {unit}, {rate:.3e} {unit}/s,"),
     };
-    let after = format!("{done} after {}", seconds(elapsed.as_secs_f64()));
-    if rate > 0.0 { format!("{after}, about {} left", seconds((steps - step) as f64 / rate)) } else { after }
+    let after = format!("{done} after {}", HumanDuration(elapsed));
+    if rate > 0.0 { format!("{after}, about {} left", left((steps - step) as f64 / rate)) } else { after }
 }
 
 #[cfg(test)]
@@ -158,9 +158,9 @@ mod tests {
     #[test]
     fn a_line_tells_what_is_done_and_the_time_left() {
         let minute = Duration::from_secs(60);
-        assert_eq!(line((0, 250, 1000), None, minute), "25 % done after 1m, about 3m left");
-        assert_eq!(line((0, 0, 1000), None, minute), "0 % done after 1m");
-        let scenes = "50 % done, 1000 of 2000 scenes, 1.000e1 scenes/s, after 1m, about 1m 40s left";
+        assert_eq!(line((0, 250, 1000), None, minute), "25 % done after 60 seconds, about 3 minutes left");
+        assert_eq!(line((0, 0, 1000), None, minute), "0 % done after 60 seconds");
+        let scenes = "50 % done, 1000 of 2000 scenes, 1.000e1 scenes/s, after 60 seconds, about 2 minutes left";
         assert_eq!(line((400, 1000, 2000), Some("scenes"), minute), scenes);
     }
 }

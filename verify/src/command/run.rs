@@ -62,8 +62,8 @@ fn accepted(name: &str, read: Result<Scene, SceneError>) -> Result<Scene, Failur
     Ok(scene)
 }
 
-/// Bytes of a number in a table: 17 digits, sign, point and comma, some with an exponent and some with fewer digits.
-const BYTES_OF_A_NUMBER: f64 = 19.5;
+/// Bytes of a number in a table: as a rule 16 or 17 digits, a point and a comma; some with a sign or an exponent.
+const BYTES_OF_A_NUMBER: f64 = 19.0;
 
 /// Size of a table from which on it is foretold.
 const LARGE: f64 = 1e7;

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::epoch::Epoch;
+use twofold::epoch::{DAY, Epoch};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::strain_unit;
 use twofold::observables::pulsar::{Beam, ClockPulse, PulsarClock, SpinFit};
@@ -130,7 +130,8 @@ impl PulsarScene {
             return Err(TimingError::NoPulse(NoPulse::at(self, &self.beam, epochs)));
         }
         let middle = epochs.iter().map(|at| at.day() as f64).sum::<f64>() / epochs.len() as f64;
-        let epoch = Epoch::new(middle.round() as i64, 0.0)?;
+        // It may be later than a date that is written.
+        let epoch = Epoch::new(0, 0.0)?.after([middle.round() * DAY, 0.0])?;
         let points: Vec<_> =
             pulses.iter().map(|timed| (timed.pulse.number, timed.arrival.seconds_since(&epoch))).collect();
         Ok(Timing { dark, fit: SpinFit::new(&points, with_rate)?, with_rate, epoch, pulses })
