@@ -76,6 +76,26 @@ fn a_star_turned_rigidly_at_another_rate_shows_every_pulse() {
     assert_eq!(numbers, (0..numbers.len() as i64).collect::<Vec<_>>());
 }
 
+/// A star that claims to follow the equations of motion, which would turn it at 1 radian a unit of time.
+#[test]
+fn a_motion_that_does_not_turn_as_it_says_is_refused() {
+    let (beam, n) = (Beam::new(0.5, 0.4, 0.3), Observer::at(0.6, 0.3).direction);
+    let pulses = |rate: f64| {
+        let state = move |t: f64| {
+            let (sin, cos) = (rate * t).sin_cos();
+            let (axis, momentum) = (Vector3::z(), Vector3::z() * 1.1);
+            Ok(BodyState { axis, momentum, equatorial_axis: Vector3::new(cos, sin, 0.0) })
+        };
+        let motion = GivenStates { spheroid: star(), violation: Matrix3::zeros(), span: SPAN, state, law: None };
+        pulse_train(&motion, &beam, &n, SPAN)
+    };
+    for rate in [4.0, 1.03] {
+        let error = pulses(rate).unwrap_err().to_string();
+        assert!(error.contains("do not turn as the motion's `turning` says"), "{rate}: {error}");
+    }
+    assert_eq!(pulses(1.0).expect("as it says").pulses.len(), 17, "15 whole ones, and one cut at either end");
+}
+
 /// A torque along Z that changes its sign, `Omega = (1.3 + 3 cos 2t) Z`: the star turns back now and then.
 #[test]
 fn a_star_with_a_torque_of_its_own_shows_every_pulse() {

@@ -30,6 +30,14 @@ pub(super) trait Margin {
 
     /// The latest time in `(after, t]` at which it takes less work than elsewhere, or `t`.
     fn cheapest_time(&self, after: f64, t: f64) -> f64;
+
+    /// Whether the derivatives come from a law that the motion states, so that the values may disagree with them.
+    const BY_STATED_LAW: bool = false;
+
+    /// What the values may be wrong by at the time `t`.
+    fn estimated_error(&self, _t: f64) -> f64 {
+        0.0
+    }
 }
 
 /// From the series of a motion, which are cheapest where they start.
@@ -87,6 +95,12 @@ impl<M: Motion<f64>> Margin for ByStates<'_, M> {
     fn cheapest_time(&self, _: f64, t: f64) -> f64 {
         t
     }
+
+    const BY_STATED_LAW: bool = true;
+
+    fn estimated_error(&self, t: f64) -> f64 {
+        self.motion.error_estimate(t)
+    }
 }
 
 /// The search along a motion, by what bounds the derivatives of the margin.
@@ -109,7 +123,30 @@ impl<P: Margin> EdgeSearch<P> {
     pub(super) fn piece(&self, from: &Jet, to: &Jet, report: &mut impl FnMut(Event)) -> Result<(), Error> {
         let rotation = self.bounds.first * (to.time - from.time);
         self.divisions.set(MOST_DIVISIONS.saturating_add(rotation as u32));
+        if P::BY_STATED_LAW {
+            self.check_stated_law(from, to)?;
+        }
         self.search(from, to, report)
+    }
+
+    /// Refuses values and derivatives that cannot be those of one function within the bounds.
+    ///
+    /// With `H` of [`Quintic`], `f - H` is `(t - a)^3 (t - b)^3` times a divided difference, which for the third derivative at `a` is a
+    /// sixth derivative over 720: there `|f''' - H'''| <= M h^3 / 120`. An error `e` of the margin adds up to `120 e / h^3`, and
+    /// one of its derivatives as much again where they turn as fast. 0.3 lets pass what is off by a few thousandths.
+    fn check_stated_law(&self, from: &Jet, to: &Jet) -> Result<(), Error> {
+        let h = to.time - from.time;
+        let ([f, df, ddf, dddf], [g, dg, ddg, _]) = (from.margin, to.margin);
+        let of_polynomial = 60.0 * (g - f) - h * (36.0 * df + 24.0 * dg) + h * h * (3.0 * ddg - 9.0 * ddf);
+        let mismatch = (h * h * h * dddf - of_polynomial).abs();
+        let allowed = self.bounds.sixth * h.powi(6) / 120.0 + 0.3;
+        // The estimate may take a second motion: only where it decides.
+        Error::unless(
+            mismatch <= allowed || mismatch <= allowed + 300.0 * self.margin.estimated_error(to.time),
+            "third derivative of m.n times h^3, over a stretch of length h, by the stated law less that by the states",
+            mismatch,
+            "what the bounds of the angular velocity leave open: the states do not turn as the motion's `turning` says",
+        )
     }
 
     /// The margin and its first three time derivatives.

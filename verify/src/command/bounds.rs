@@ -19,7 +19,7 @@ const INCLUDES: [&str; 5] = [
     "the error of Delta W, where one is given",
     "the other numbers, uncertain by their last digits or as given",
     "directions, unless eta or beta_0 is given: all orientations of the axes of s, for the known lambda, are as probable",
-    "the shape of s for which eta is largest, symmetric about Z",
+    "s symmetric about Z, which has the largest eta at 95 % if nothing is known of its axes",
     "the star's own deformation, unless I^zz/C is given: 4/Omega^2 by the paper's virial relation T_rot = 2C of a fluid",
 ];
 const LEAVES_OUT: [&str; 2] = [

@@ -33,8 +33,8 @@ impl Pulsar {
     }
 
     /// How `eta` is distributed over the directions that are not known, for a spin axis at the angle `lambda` to the line of sight:
-    /// over all orientations of the axes of the tensor, or with `beta_0` over those at that inclination. The tensor is symmetric about
-    /// Z, the shape for which `eta` is largest. None if `eta` is given.
+    /// over all orientations of the axes of the tensor, or with `beta_0` over those at that inclination. The tensor is taken as symmetric about
+    /// Z, which has the largest `eta` at 95 % if nothing is known of its axes. None if `eta` is given.
     ///
     /// # Errors
     /// None for the angles that a table may have.

@@ -82,7 +82,7 @@ pub(super) fn checks() -> Vec<Check> {
             id: "period-formula-tilted-momentum",
             kind: Kind::Regime,
             equations: &[51, 52],
-            statement: "where |gamma'| is a ten-thousandth of alpha', but L is tilted against Z by 0.45 rad, Eq. (51) with the angles and rates at the time \
+            statement: "where |gamma'| is a ten-thousandth of alpha', but L is tilted against Z by 0.45 rad, towards some azimuths Eq. (51) with the angles and rates at the time \
                  of each pulse misses the period: free rotation, oblateness 1e-4, the axis 0.7 rad from L",
             figure: "largest of eight azimuths of L of the smallest |Eq. (51) / period - 1| over 400 t_c",
             bound: Bound::AtLeast(0.3),
