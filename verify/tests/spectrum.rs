@@ -138,8 +138,11 @@ fn lines_that_the_span_cannot_tell_apart_are_said_to_be_several() {
         let near = twofold(&["spectrum", scene, "--of", column, "--span", "150", "--least", "1e-2", "--unidentified"]);
         let lines = lines_of(&near);
         let notes = stderr(&near);
-        assert!(lines[0].1 == "unresolved" && lines[0].0[3] > 1.0 / 151.0, "{scene} {column}: {lines:?}");
-        for (line, _) in &lines {
+        assert!(lines.iter().any(|(_, name)| name == "unresolved"), "{scene} {column}: {lines:?}");
+        for (line, name) in &lines {
+            // The series is one step longer than the span.
+            let turns = line[3] * 150.0;
+            assert!(if name == "unresolved" { turns > 0.99 } else { turns <= 1.0 }, "{scene} {column}: {lines:?}");
             assert!(
                 line[0] > 0.0 && line[1] < 1.0,
                 "{scene} {column}: a frequency {} with an amplitude {}",

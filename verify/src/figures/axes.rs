@@ -40,6 +40,11 @@ impl Axis {
         Self { label: String::new(), numbers: false, ..self.clone() }
     }
 
+    /// The same axis without numbers, where there is nothing to read off.
+    pub(super) fn unnumbered(&self) -> Self {
+        Self { numbers: false, ..self.clone() }
+    }
+
     /// The same axis without its label.
     pub(super) fn unnamed(&self) -> Self {
         Self { label: String::new(), ..self.clone() }

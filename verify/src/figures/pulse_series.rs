@@ -142,7 +142,7 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
             let label =
                 subject.scale.time_label(&format!("{label}{}", if reference.is_some() { " − *P*" } else { "" }));
             let y = match values.is_empty() {
-                true => Axis::linear(&label, 0.0, 1.0),
+                true => Axis::linear(&label, 0.0, 1.0).unnumbered(),
                 false => Axis::around(&label, values.iter().map(|value| value - shift)),
             };
             let mut panel = Panel::new(frame, if row == 0 { x.bare() } else { x.clone() }, y);
