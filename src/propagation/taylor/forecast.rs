@@ -74,12 +74,21 @@ fn expected_rounding(turn: f64, steps: f64, strength: f64, vectors: usize) -> f6
     let directions = if vectors > COMPANION { 6.0 } else { 3.0 };
     let variance = (directions + 3.0 * strength * strength) * of_torque + pulled * pulled / 3.0;
     let shared = ErrorGrowth::counted(ROUNDING * f64::EPSILON * turn);
-    READING + shared + ErrorGrowth::counted_deviation(deviation * (steps * variance).sqrt())
+    let rounding = READING + shared + ErrorGrowth::counted_deviation(deviation * (steps * variance).sqrt());
+    // Where squares overflow nothing is left of the state.
+    if rounding.is_nan() { f64::INFINITY } else { rounding }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_motion_without_end_has_no_digits() {
+        assert_eq!(expected_rounding(1e308, 1e308, 0.1, 2), f64::INFINITY);
+        assert_eq!(expected_rounding(1e308, f64::INFINITY, 0.1, 2), f64::INFINITY);
+        assert!(expected_rounding(1e100, 1e100, 0.1, 2).is_finite());
+    }
 
     #[test]
     fn a_short_motion_is_one_step() {
