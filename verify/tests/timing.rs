@@ -197,8 +197,8 @@ fn what_cannot_be_timed_is_refused_and_nothing_is_written() {
     }
 }
 
-/// A beam that never passes, one that is always seen, one that is seen for turns on end, and a star at rest: each has its own sentence, with
-/// the closest approach and what to change.
+/// A beam that never passes, one that is always seen, and a star at rest: each has its own sentence, with the closest approach and what to
+/// change.
 #[test]
 fn a_scene_without_pulses_is_told_why() {
     let out = folder();

@@ -104,3 +104,21 @@ impl fmt::Display for NoPulse {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The beam that `a_pulse_is_not_given_where_it_lasts_over_more_turns_than_are_searched` has: it comes and goes with the wobble.
+    #[test]
+    fn pulses_longer_than_a_turn_are_told_from_no_passage_and_from_no_end() {
+        for (nearest, farthest, sentence) in [
+            (0.2, 0.8, "no turn near these epochs has both edges of a pulse within 9.4 rad"),
+            (0.8, 0.9, "never passes the line of sight"),
+            (0.2, 0.7, "always inside the beam"),
+        ] {
+            let text = TimingError::NoPulse(NoPulse { nearest, farthest, half_opening: 0.75 }).to_string();
+            assert!(text.contains(sentence) && text.contains("`pulsar.rho` is 0.75 rad"), "{text}");
+        }
+    }
+}
