@@ -131,7 +131,7 @@ impl Subject {
         };
         let duration = (scene.times.last() - scene.times.start()) / scene.units.time;
         let motion = Self::new(name, start, duration)?;
-        let (scale, printed) = (Scale::of_scene(scene), scene.perturbation.clone());
+        let (scale, printed) = (Scale::of_scene(scene), scene.perturbation);
         Ok(Self { scale, printed, observer: scene.observer, pulsar: scene.pulsar, ..motion })
     }
 
