@@ -184,7 +184,7 @@ fn captions_close_their_marks() {
 /// A word of a caption beside what it stands for in the picture.
 #[test]
 fn captions_name_what_is_drawn_and_nothing_else() {
-    let (dashes, dots, grey) = ("stroke-dasharray=\"5 2.5\"", "stroke-dasharray=\"1.2 1.8\"", super::style::GREY);
+    let (dashes, dots) = ("stroke-dasharray=\"5 2.5\"", "stroke-dasharray=\"1.2 1.8\"");
     let mut looked = 0;
     for figure in FIGURES.iter().filter(|figure| figure.name != "work-precision") {
         let caption = figure.caption.paragraphs().join(" ");
@@ -194,7 +194,9 @@ fn captions_name_what_is_drawn_and_nothing_else() {
             }
             "beam-alignment" => &[("thick stretches", "stroke-width=\"1.7\""), ("(dashed)", dashes)],
             "beam-alignment-spectra" => &[("Dashed:", dashes)],
-            "pulse-series" => &[("Solid curves", dashes), ("Dotted and dashed", dots), ("grey lines", grey)],
+            "pulse-series" => {
+                &[("Solid curves", dashes), ("Dotted and dashed", dots), ("grey lines", "stroke=\"#8c8c8c\"")]
+            }
             "wave-spectra" => &[("insets", "near 3"), ("(dotted)", dots), ("Dashed:", dashes)],
             _ => &[],
         };

@@ -132,7 +132,7 @@ impl Subject {
         };
         let duration = (scene.times.last() - scene.times.start()) / scene.units.time;
         let motion = Self::new(name, start, duration)?;
-        let (scale, printed) = (Scale::of_scene(scene), scene.perturbation.clone());
+        let (scale, printed) = (Scale::of_scene(scene), scene.perturbation);
         // A scene has a perturbation solution where its tensor is diagonal.
         let s = scene.violation.diagonal();
         let s = PrincipalCoefficients::new([s.x, s.y, s.z]);
