@@ -36,8 +36,8 @@ pub fn checks() -> Vec<Check> {
             equations: &[25],
             statement: "the goal of splitting is foreseen from its steps, not the accuracy asked in other words: it is not far above the true error either, the same scenes",
             figure: "median of (foreseen of the method + of rounding) / true error",
-            bound: Bound::AtMost(300.0),
-            reason: "ten times the model of the error, of which the middle half of motions lies within a factor of ten, and rounding six deviations",
+            bound: Bound::AtMost(100.0),
+            reason: "ten times the model of the error, which for half of the motions is less than ten times the true one",
             measure: not_idle,
         },
         Check {
