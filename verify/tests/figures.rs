@@ -114,7 +114,7 @@ fn a_scene_has_the_figures_for_which_it_has_sections() {
     let named = figures(folder.path(), &["waves", "--scene", "my-star.toml", "--out", "none"]);
     assert_eq!(named.status.code(), Some(2));
     assert!(
-        stderr(&named).contains("error: my-star.toml: the scene lacks the section [observer]"),
+        stderr(&named).contains("error: my-star.toml: no figure `waves`: the scene lacks the section [observer]"),
         "{}",
         stderr(&named)
     );

@@ -132,6 +132,7 @@ const NUMBERS: &[(&str, &str, &[Numbers])] = &[
             ("single", 4, REGIMES),
             ("single", 5, REGIMES),
             ("single", 6, REGIMES),
+            ("single", 7, REGIMES),
             ("near-separatrix", 2, REGIMES),
             ("near-separatrix", 3, REGIMES),
             ("near-separatrix", 4, REGIMES),
