@@ -103,23 +103,21 @@ fn failure_near_right_angle() -> Result<Measured, String> {
 }
 
 fn order_in_s() -> Result<Measured, String> {
-    let mut farthest = Measured::new(0.0, "");
+    let mut slopes = Vec::new();
     for form in [Form::Printed, Form::Corrected] {
         let points = [1e-2, 10f64.powf(-2.5), 1e-3]
             .into_iter()
             .map(|k| Ok((k, paper(form, k, 0.7, 0.0).errors_over_forced_period()?.axis)))
             .collect::<Result<Vec<_>, String>>()?;
         let slope = order(&points, 0.0)?.measured(&points);
-        if !(slope.figure.abs() <= farthest.figure.abs()) {
-            farthest = Measured::new(slope.figure, format!("{form:?}: {}", slope.detail));
-        }
+        slopes.push(Measured::new(slope.figure, format!("{form:?}: {}", slope.detail)));
     }
-    Ok(farthest)
+    farthest(slopes, 0.0)
 }
 
 /// The order farthest from `expected`, of three inclinations.
 fn order_in_asymmetry(form: Form, expected: f64) -> Result<Measured, String> {
-    let mut farthest = Measured::new(expected, "");
+    let mut slopes = Vec::new();
     for beta_0 in [0.3, 0.7, 1.1] {
         let points = [0.03, 0.01, 0.003_f64]
             .into_iter()
@@ -130,11 +128,15 @@ fn order_in_asymmetry(form: Form, expected: f64) -> Result<Measured, String> {
             })
             .collect::<Result<Vec<_>, String>>()?;
         let slope = order(&points, 0.0)?.measured(&points);
-        if !((slope.figure - expected).abs() <= (farthest.figure - expected).abs()) {
-            farthest = Measured::new(slope.figure, format!("beta_0 = {beta_0}: {}", slope.detail));
-        }
+        slopes.push(Measured::new(slope.figure, format!("beta_0 = {beta_0}: {}", slope.detail)));
     }
-    Ok(farthest)
+    farthest(slopes, expected)
+}
+
+/// The figure farthest from `expected`, one that is NaN before all others.
+fn farthest(figures: Vec<Measured>, expected: f64) -> Result<Measured, String> {
+    let distance = |measured: &Measured| (measured.figure - expected).abs();
+    figures.into_iter().max_by(|a, b| distance(a).total_cmp(&distance(b))).ok_or_else(|| "no figure".into())
 }
 
 fn correction_at_full_s() -> Result<Measured, String> {
