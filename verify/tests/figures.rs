@@ -114,11 +114,36 @@ fn a_scene_has_the_figures_for_which_it_has_sections() {
     let named = figures(folder.path(), &["waves", "--scene", "my-star.toml", "--out", "none"]);
     assert_eq!(named.status.code(), Some(2));
     assert!(
-        stderr(&named).contains("error: my-star.toml: no figure `waves`: the scene lacks the section [observer]"),
+        stderr(&named).contains("error: my-star.toml: the scene lacks the section [observer]"),
         "{}",
         stderr(&named)
     );
     assert!(!folder.path().join("none").exists());
+}
+
+#[test]
+fn the_strain_of_a_physical_star_needs_its_distance() {
+    let folder = folder();
+    let text = "[star]\nmass = 1.4\nradius = 12.0\noblateness = 1e-3\nspin_frequency = 100.0\n[lorentz_violation]\n\
+                eigenvalues = [0.0, 0.0, 0.0]\n[initial]\nalpha = 0.0\nbeta = 0.5\nalpha_rate = 700.0\nbeta_rate = 0.0\n[observer]\n\
+                theta_o = 0.8\nphi_o = 0.0\n[time]\nspan = 2.0\nsamples = 3\n";
+    fs::write(folder.path().join("near.toml"), text).expect("scene");
+    let lacking = "the scene lacks `observer.distance` [kpc], without which a physical star has no strain";
+    let output = figures(folder.path(), &["waves", "--scene", "near.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains(&format!("error: near.toml: {lacking}")), "{}", stderr(&output));
+
+    let far = text.replace("phi_o = 0.0", "phi_o = 0.0\ndistance = 2.0");
+    fs::write(folder.path().join("far.toml"), far).expect("scene");
+    let output = figures(folder.path(), &["waves", "--scene", "far.toml"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let made = folder.path().join("figures");
+    let csv = fs::read_to_string(made.join("waves.far.csv")).expect("CSV");
+    assert!(csv.starts_with("t [s],h_+ [1],h_x [1]\n0.0,"), "{}", &csv[..60]);
+    let caption = fs::read_to_string(made.join("waves.md")).expect("caption");
+    for fragment in ["as strain at 2 kpc", "*ε* = 0.001,", "/(2π) = 100 Hz", "time in s."] {
+        assert!(caption.contains(fragment), "{caption}");
+    }
 }
 
 #[test]

@@ -51,7 +51,9 @@ fn leave_out_what_is_lacking(
         if let Some(lacking) = recipe.lacks(motion) {
             let name = recipe.name;
             if named {
-                return Err(Failure::BadInput(format!("{scene}: no figure `{name}`: the scene lacks {lacking}")));
+                return Err(Failure::BadInput(format!(
+                    "{scene}: the scene lacks {lacking}; there is no figure `{name}` without it"
+                )));
             }
             note(&format!("no figure `{name}`: the scene lacks {lacking}"));
         }

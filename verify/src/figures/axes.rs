@@ -1,6 +1,6 @@
 //! A panel: a frame with axes, and curves and marks inside it.
 
-use super::style::{BLACK, LABEL, Line, SMALL, solid};
+use super::style::{BLACK, GREY, LABEL, Line, SMALL, solid};
 use super::svg::{Anchor, At, Page, Rectangle};
 
 /// An axis of a panel.
@@ -183,6 +183,12 @@ impl Panel {
         for &(x, y) in points {
             draw_mark(page, self.at(x, y), mark, size, colour);
         }
+    }
+
+    /// Words in the middle of a frame that holds nothing.
+    pub(super) fn remark(&self, page: &mut Page, words: &str) {
+        let Rectangle { left, top, width, height } = self.frame;
+        page.text([left + width / 2.0, top + height / 2.0], Anchor::Middle, SMALL, GREY, words);
     }
 
     /// Frame, ticks, numbers and labels: after the curves.

@@ -8,9 +8,9 @@ use super::legend::{Sample, legend_row};
 use super::number::{Spread, number, significant};
 use super::parameters::parameters;
 use super::sphere::View;
-use super::style::{BLACK, BLUE, GREEN, GREY, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
+use super::style::{BLACK, BLUE, GREEN, Line, PAGE, VERMILION, dashed, dotted, solid};
 use super::subject::times;
-use super::svg::{Anchor, Page, Rectangle};
+use super::svg::{Page, Rectangle};
 use super::table::Table;
 use super::{Caption, Sheet, Subject};
 
@@ -93,8 +93,7 @@ fn draw(name: &str, subject: &Subject, tables: &[Table]) -> String {
             panel.curve(&mut page, &angles.points(0, column), *line);
         }
         if angles.rows.is_empty() {
-            let middle = [panel.frame.left + panel.frame.width / 2.0, panel.frame.top + panel.frame.height / 2.0];
-            page.text(middle, Anchor::Middle, SMALL, GREY, "the axis is on a pole: no angles");
+            panel.remark(&mut page, "the axis is on a pole: no angles");
         }
         panel.draw_frame(&mut page);
     }

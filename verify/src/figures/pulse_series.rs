@@ -162,8 +162,7 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
             let points = pairs(points);
             panel.marks(&mut page, &points, Mark::Disc, 1.4, BLACK);
             if points.is_empty() {
-                let middle = [frame.left + frame.width / 2.0, frame.top + frame.height / 2.0];
-                page.text(middle, Anchor::Middle, SMALL, GREY, "no whole pulse");
+                panel.remark(&mut page, "no whole pulse");
             }
             panel.draw_frame(&mut page);
             if let Some(reference) = reference {

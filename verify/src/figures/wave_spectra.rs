@@ -102,6 +102,9 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
                 [*free, 2.0 * free].iter().for_each(|rate| panel.upright(&mut page, *rate, dashed(VERMILION, 0.9)));
             }
             panel.curve(&mut page, &spectrum.points, LINE);
+            if !radiates(subject, both) {
+                panel.remark(&mut page, "below the error of the numerical motion");
+            }
             panel.draw_frame(&mut page);
             if polarization == 0 {
                 panel.letter(&mut page, i, subjects.len(), &subject.name);
