@@ -233,6 +233,9 @@ fn physical_stars_are_drawn_in_si() {
         let texts = figure.caption.paragraphs().join(" ");
         assert!(texts.contains("time in s."), "{}: {texts}", figure.name);
         if let ("pulse-series", Some(table)) = (figure.name.as_str(), figure.tables.first()) {
+            // What is taken off the lengths is named on their axis as in the panel.
+            let label = figure.svg.split("length − ").nth(1).expect("a label");
+            assert!(label[..80].contains(">W<"), "{}", &label[..80]);
             // The period is 1 / F0 over ten years, and within 1e-8 of it at the start.
             assert!((table.rows[0][1] * 2.468_871_714_7 - 1.0).abs() < 1e-7, "{:?}", table.rows[0]);
         }

@@ -139,8 +139,8 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
             // Differences that would be lost on an axis are drawn as such.
             let reference = reference(&values);
             let shift = reference.unwrap_or(0.0);
-            let label =
-                subject.scale.time_label(&format!("{label}{}", if reference.is_some() { " − *P*" } else { "" }));
+            let difference = reference.map_or(String::new(), |_| format!(" − {taken_off}"));
+            let label = subject.scale.time_label(&format!("{label}{difference}"));
             let y = match values.is_empty() {
                 true => Axis::linear(&label, 0.0, 1.0).unnumbered(),
                 false => Axis::around(&label, values.iter().map(|value| value - shift)),
