@@ -171,7 +171,7 @@ fn caption() -> Caption {
             .to_owned(),
         says: "The mean motion of first order is off by less than 3*x*^{2} + 1.5*x*^{2}*t*/*t*_{c}, that of second order by less than 3*x*^{2} + 5*x*^{3}*t*/*t*_{c}, whatever the tilt of *L*, near the \
                separatrix too. Where *L* is near *Z* the printed twofold solution is off by 0.01*x* soon, and like the corrected one by 2*x*^{2}*t*/*t*_{c} in the long run; where *L* is tilted, by *A* = 0.4, \
-               neither is of use. Both single solutions drift by 0.03*xt*/*t*_{c}, of first order."
+               neither is of use. The printed single solution drifts by 0.03*xt*/*t*_{c}, the corrected one by 0.002 to 0.006 of *xt*/*t*_{c}."
             .to_owned(),
     }
 }
