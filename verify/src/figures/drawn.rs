@@ -322,7 +322,7 @@ fn fill(frame: &mut Frame, elements: &[Element], insets: &[[f64; 4]]) {
                 let [a, b] = [points[0], points[1]];
                 if near(a[0], left) && near(b[0], right) && near(a[1], b[1]) && a[1] > top && a[1] < bottom {
                     frame.levels.push(frame.y.value(a[1]));
-                } else if near(a[0], b[0]) && near(a[1], bottom) && near(b[1], top) {
+                } else if near(a[0], b[0]) && near(a[1], bottom) && near(b[1], top) && a[0] > left && a[0] < right {
                     frame.uprights.push(frame.x.value(a[0]));
                 }
             }
