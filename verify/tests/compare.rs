@@ -179,8 +179,11 @@ fn what_the_page_says_is_allowed_is_allowed() {
         for (i, column) in columns.iter().enumerate() {
             let stated = stated[i.min(stated.len() - 1)];
             match allowed(file, column) {
-                // Rounded to three digits, and taken up or down to two by what the page is about: never by more.
-                Some(limit) => assert_eq!(format!("{limit:.2e}"), stated, "{file}: {column}"),
+                // The published files have other last times than these, by less than a percent.
+                Some(limit) => {
+                    let part = limit / stated.parse::<f64>().unwrap_or(f64::NAN);
+                    assert!((part - 1.0).abs() < 1e-2, "{file}: {column}: {limit:e}, {stated} on the page");
+                }
                 None => assert_eq!(stated, "not judged", "{file}: {column}"),
             }
             judged += usize::from(stated != "not judged");

@@ -75,16 +75,17 @@ fn apart(found: &str, expected: &str) -> (f64, f64) {
     let power = expected.split_once('e').map_or(0, |(_, power)| power.parse().expect("a power"));
     let slack = match value.abs() {
         size if size < 1e-30 => 1e-30,
-        size if count == 2 && power < -9 => estimate(size),
+        _ if count == 2 && power < -9 => estimate(found, value),
         _ if decimals == 0 && power == 0 => 0.0,
         _ => 1.5 * 10f64.powi(power - decimals as i32),
     };
     ((found - value).abs(), slack.max(RELATIVE * value.abs()))
 }
 
-/// How far an estimated error may be from another: as much as it is, or ten times that where it is made of a few roundings.
-fn estimate(size: f64) -> f64 {
-    if size < 1e-14 { 10.0 * size } else { size }
+/// How far two estimated errors may be apart: a factor of two, or of ten where they are made of a few roundings.
+fn estimate(a: f64, b: f64) -> f64 {
+    let size = a.abs().max(b.abs());
+    if size < 1e-14 { 0.9 * size } else { 0.5 * size }
 }
 
 /// Spaces and lines that fit a table to its numbers do not matter.
@@ -117,10 +118,10 @@ impl<'t> Room<'t> {
     }
 
     /// For a number of a column.
-    fn for_number(&self, head: &str, value: f64) -> f64 {
+    fn for_numbers(&self, head: &str, [a, b]: [f64; 2]) -> f64 {
         let within = self.within.iter().filter(|(name, _)| head.starts_with(name)).map(|(_, size)| *size);
         let is_estimated = self.estimated.iter().any(|name| head.starts_with(name));
-        within.fold(if is_estimated { estimate(value.abs()) } else { 0.0 }, f64::max)
+        within.fold(if is_estimated { estimate(a, b) } else { 0.0 }, f64::max)
     }
 }
 
@@ -141,7 +142,8 @@ fn compare(what: &str, found: &[&str], expected: &[&str], room: &Room<'_>) {
                 (Token::Number(a), Token::Number(b)) => {
                     let head = heads.get(column).filter(|_| heads.len() > 1).copied().unwrap_or_default();
                     let (off, allowed) = apart(a, b);
-                    let allowed = allowed.max(room.for_number(head, b.parse().expect("a number")));
+                    let allowed =
+                        allowed.max(room.for_numbers(head, [a, b].map(|text| text.parse().expect("a number"))));
                     assert!(off <= allowed, "{a} is not {b}: off by {off:e}, allowed {allowed:e}. {}", differs());
                 }
                 _ => panic!("{}", differs()),
