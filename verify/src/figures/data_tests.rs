@@ -3,8 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use super::drawn::{elements, frames};
-use super::layout_tests::{FIGURES, scenes};
+use super::layout_tests::{FIGURES, made_up_runs, scenes};
 use super::{Figure, OF_A_SCENE, RECIPES, Table};
+use crate::bench::work_precision::Row;
 use crate::columns::{in_order, named};
 use crate::scene_file::{Scene, Times};
 use crate::trajectory::{write_csv, write_pulses};
@@ -316,4 +317,26 @@ fn levels_and_rates_are_where_they_belong() {
         }
     }
     assert!(looked > 12, "{looked}");
+}
+
+/// Times of runs are in seconds, those of the picture in milliseconds.
+#[test]
+fn the_times_of_methods_are_in_the_unit_of_their_axis() {
+    let figure = FIGURES.iter().find(|figure| figure.name == "work-precision").unwrap();
+    let runs = made_up_runs();
+    let mut compared = 0;
+    for table in &figure.tables {
+        assert_eq!(table.columns, ["error [1]", "time [ms]"]);
+        for row in &table.rows {
+            let is_this = |run: &&Row| {
+                table.name.starts_with(&run.scene)
+                    && table.name.ends_with(&run.method)
+                    && (run.error / row[0] - 1.0).abs() < 1e-12
+            };
+            let run = runs.iter().find(is_this).unwrap();
+            assert!((row[1] / (1e3 * run.times.least) - 1.0).abs() < 1e-12, "{}: {} ms", table.name, row[1]);
+            compared += 1;
+        }
+    }
+    assert!(compared > 300, "{compared}");
 }

@@ -130,7 +130,7 @@ fn of_scene(name: &str, scene: &Scene) -> Vec<Figure> {
 }
 
 /// Runs of more methods than there are.
-fn made_up_runs() -> Vec<Row> {
+pub(super) fn made_up_runs() -> Vec<Row> {
     let run = |scene: &str, carries, method: usize, i: i32| Row {
         scene: scene.to_owned(),
         method: format!("method {method} with a long name"),
