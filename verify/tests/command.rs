@@ -8,6 +8,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use common::{folder, names_in, stderr, twofold};
+use twofold_verify::scene_file::BUILT_IN;
 
 /// Status 2, nothing on standard output, one message that contains the fragments, no file.
 fn assert_refused(scene: &Path, fragments: &[&str]) {
@@ -26,6 +27,34 @@ fn assert_refused(scene: &Path, fragments: &[&str]) {
             assert!(message.contains(fragment), "{scene}: expected `{fragment}` in\n{message}");
         }
         assert!(names_in(folder.path()).is_empty(), "{scene}: left {:?}", names_in(folder.path()));
+    }
+}
+
+/// The note at the end of `run` is not below the largest difference of the last row from that of a motion a million times as accurate, and
+/// not ten times above it.
+#[test]
+fn the_estimated_error_that_run_prints_is_that_of_its_last_row() {
+    let folder = folder();
+    let built_in = BUILT_IN.iter().find(|scene| scene.name == "tp-2").expect("tp-2").toml;
+    let last_row = |accuracy: &str, method: &str| {
+        let text = built_in.replace("accuracy = 1e-13", "");
+        let path = folder.path().join("scene.toml");
+        fs::write(&path, format!("{text}\n[output]\ncolumns = [\"e_x\", \"e_z\"]\naccuracy = {accuracy}\n"))
+            .expect("scene");
+        let output = twofold(&["run", path.to_str().expect("path in UTF-8"), "--method", method]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let table = String::from_utf8(output.stdout.clone()).expect("text");
+        let row: Vec<f64> =
+            table.lines().last().expect("a row").split(',').skip(1).map(|x| x.parse().expect("a number")).collect();
+        let notes = stderr(&output);
+        let (_, note) = notes.rsplit_once("at the end of the span: ").expect("a note");
+        (row, note.trim().parse::<f64>().expect("a number"))
+    };
+    let (exact, _) = last_row("1e-13", "taylor");
+    for method in ["taylor", "splitting"] {
+        let (row, stated) = last_row("1e-7", method);
+        let off = row.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off > 1e-12 && (off..30.0 * off).contains(&stated), "{method}: off by {off:e}, {stated:e} is printed");
     }
 }
 

@@ -9,6 +9,12 @@ mod axes;
 mod beam_cone;
 mod bound_factor;
 mod contour;
+#[cfg(test)]
+mod data_tests;
+#[cfg(test)]
+mod drawn;
+#[cfg(test)]
+mod drawn_tests;
 mod euler_angles;
 mod examples;
 #[cfg(test)]
