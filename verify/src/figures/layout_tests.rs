@@ -2,10 +2,11 @@
 
 use std::sync::LazyLock;
 
+use rayon::prelude::*;
 use resvg::usvg::{Group, Node};
 
 use super::style::CENTIMETRE;
-use super::{Figure, OF_A_SCENE, Subject, all, html, markup, png, work_precision};
+use super::{DRAWN, Figure, OF_A_SCENE, Subject, html, markup, png, work_precision};
 use crate::bench::method::Carries;
 use crate::bench::timing::Times;
 use crate::bench::work_precision::Row;
@@ -19,8 +20,8 @@ const SCENES: [&str; 6] = ["prolate", "free", "through-the-pole", "sp-2", "b1937
 
 /// The figures of the paper and of some scenes, drawn once.
 static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
-    let mut figures = all().unwrap();
-    figures.extend(SCENES.iter().flat_map(|name| of_scene(name, &Scene::named(name).unwrap())));
+    let mut figures = DRAWN.clone();
+    figures.par_extend(SCENES.par_iter().flat_map(|name| of_scene(name, &Scene::named(name).unwrap())));
     figures.extend(of_scene("tilted", &Scene::from_toml("tilted.toml", TILTED).unwrap()));
     figures.push(work_precision(&made_up_runs()));
     figures
