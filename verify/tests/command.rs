@@ -6,8 +6,9 @@ use std::fs;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::time::Duration;
 
-use common::{folder, names_in, stderr, twofold};
+use common::{comes_to, folder, names_in, stderr, twofold};
 use twofold_verify::scene_file::BUILT_IN;
 
 /// Status 2, nothing on standard output, one message that contains the fragments, no file.
@@ -367,6 +368,12 @@ fn a_long_run_without_a_terminal_tells_how_far_it_is() {
         .stderr(Stdio::piped())
         .spawn()
         .expect("the command starts");
+    let begun = || fs::read_dir(folder.path()).expect("folder").count() > 1;
+    assert!(comes_to(&mut child, begun), "it ended by itself");
+    // The first line comes after ten seconds; others use the processor until then.
+    common::send(&child, "STOP");
+    std::thread::sleep(Duration::from_secs(10));
+    common::send(&child, "CONT");
     let lines = BufReader::new(child.stderr.take().expect("standard error")).lines();
     let line = lines.map(|line| line.expect("text")).find(|line| line.contains("% done")).expect("a line");
     common::send(&child, "TERM");
@@ -534,5 +541,30 @@ fn misuse_has_status_2_and_help_has_status_0() {
     }
     for args in [&["--help"][..], &["run", "--help"], &["--version"]] {
         assert_eq!(twofold(args).status.code(), Some(0), "{args:?}");
+    }
+}
+
+/// What the README shows the commands with.
+#[cfg(unix)]
+const PREFIX: &str = "cargo run --release -- ";
+
+/// One after the other in an empty folder, every command succeeds: each finds the files that it names. Those that take longest, the whole
+/// report and the timings, are only asked for their help; `tests/signals.rs` starts them.
+#[cfg(unix)]
+#[test]
+fn the_commands_of_the_readme_work() {
+    let readme = include_str!("../../README.md");
+    let (folder, program) = (folder(), Path::new(env!("CARGO_BIN_EXE_twofold")));
+    let blocks = readme.split("```sh\n").skip(1).filter_map(|rest| rest.split("```").next());
+    let commands: Vec<_> = blocks.flat_map(str::lines).filter_map(|line| line.strip_prefix(PREFIX)).collect();
+    assert!(commands.len() >= 15, "{commands:?}");
+    for command in commands {
+        let arguments = command.split(" #").next().unwrap_or(command).trim();
+        let is_long = ["report", "bench"].iter().any(|long| arguments.starts_with(long));
+        let help = if is_long { " --help" } else { "" };
+        let script = format!("\"$0\" {arguments}{help}");
+        let output =
+            Command::new("sh").args(["-c", &script]).arg(program).current_dir(folder.path()).output().expect("a shell");
+        assert_eq!(output.status.code(), Some(0), "{arguments}: {}", stderr(&output));
     }
 }

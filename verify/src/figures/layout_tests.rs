@@ -1,12 +1,12 @@
 //! What a referee would send back: text that is cut off, too small, over other text, or not in the font.
 
 use std::sync::LazyLock;
-use std::thread;
 
+use rayon::prelude::*;
 use resvg::usvg::{Group, Node};
 
 use super::style::CENTIMETRE;
-use super::{Figure, OF_A_SCENE, Subject, all, html, markup, png, work_precision};
+use super::{DRAWN, Figure, OF_A_SCENE, Subject, html, markup, png, work_precision};
 use crate::bench::method::Carries;
 use crate::bench::timing::Times;
 use crate::bench::work_precision::Row;
@@ -20,16 +20,10 @@ const SCENES: [&str; 6] = ["prolate", "free", "through-the-pole", "sp-2", "b1937
 
 /// The figures of the paper and of some scenes, drawn once.
 pub(super) static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
-    let all_scenes = || scenes().into_iter();
-    // On two processors.
-    thread::scope(|scope| {
-        let of_scenes =
-            scope.spawn(move || all_scenes().flat_map(|(name, scene)| of_scene(name, &scene)).collect::<Vec<_>>());
-        let mut figures = all().unwrap();
-        figures.extend(of_scenes.join().unwrap());
-        figures.push(work_precision(&made_up_runs()));
-        figures
-    })
+    let mut figures = DRAWN.clone();
+    figures.par_extend(scenes().par_iter().flat_map(|(name, scene)| of_scene(name, scene)));
+    figures.push(work_precision(&made_up_runs()));
+    figures
 });
 
 /// The scenes with their names, in the order of their figures behind those of the paper.
