@@ -21,7 +21,7 @@ KINDS = ("arrivals", "closest_approaches", "widths", "periods", "h_plus", "h_cro
 OFFSETS = np.array([-3, -2, -1, 1, 2, 3])
 WEIGHTS = np.array([-1, 9, -45, 45, -9, 1]) / 60
 # What of its own scale a datum moves in one step.
-MOVE = 3e-3
+MOVE = 1e-3
 # Singular values of columns of unit length below this are zero: differences are good to about 1e-10.
 LEAST = 1e-7
 
@@ -124,7 +124,7 @@ def jacobian(model, unknowns, measured, numerics):
     steps = []
     for unknown, moved in zip(unknowns, data[1:]):
         slope = np.abs((moved - data[0]) / scales).max() / tiny
-        largest = 0.02 if unknown in ANGLES else 0.05
+        largest = 5e-4 if unknown in ANGLES else 0.02
         steps.append(min(MOVE * numerics.rotation / max(slope, 1e-30), largest))
     neighbours = [model.moved({u: k * step}) for u, step in zip(unknowns, steps) for k in OFFSETS]
     data = measured.data(Signals([model, *neighbours], numerics))
