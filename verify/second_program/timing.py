@@ -1,0 +1,142 @@
+"""The files of `twofold timing`, from the motion integrated over all epochs: slow stars, whose turns in years can be followed."""
+
+from fractions import Fraction
+
+import numpy as np
+
+from columns import direction_of_beam, position_angle, strain
+from pulses import Beam, stretches
+from scene import DAY
+
+HEADER = (
+    "pulse,arrival_day [MJD],arrival_fraction [d],residual [s],duration [s],psi [rad],psi_rate [rad/s],swing [rad],inclination [rad],"
+    "orientation [rad],wobble [rad],wave_phase [rad],h_once [1],h_twice [1],h_plus [1],h_cross [1]"
+).split(",")
+
+
+def timing(motion, epochs, with_rate, uncertainty, strain_rate, strain_samples):
+    """Tables of the .csv, .par, .tim and both strain files; `epochs` in s since the start of the motion, whose date is `time.epoch`.
+
+    A row of a file of words is a list of its words.
+    """
+    scene, beam = motion.scene, Beam(motion, 1)
+    date = Fraction(str(scene.epoch))
+    first, last = min([scene.start, *scene.start + epochs]), max([scene.start, *scene.start + epochs])
+    period = 2 * np.pi / motion.turning
+    number_at, rate = _phase(beam, first - 3 * period, last + 3 * period)
+    pulses = {}
+    for start, end, *cut in stretches(beam, first - 3 * period, last + 3 * period):
+        if not any(cut):
+            pulses[number_at((start + end) / 2)] = (start, end)
+    zero = number_at(scene.start)
+    rows, seen = [], set()
+    for epoch in epochs:
+        number = number_at(scene.start + epoch)
+        if number in pulses and number not in seen:
+            seen.add(number)
+            rows.append((number - zero, *pulses[number]))
+    numbers = np.array([row[0] for row in rows])
+    middle = np.array([(row[1] + row[2]) / 2 for row in rows])
+
+    # PEPOCH: a whole day in the middle of the epochs.
+    pepoch = round(float(np.mean([int(date + Fraction(epoch) / 86400) for epoch in epochs])))
+    t = middle - scene.start - float((pepoch - date) * 86400)
+    centre = t.mean()
+    fit = np.polynomial.Polynomial.fit(t - centre, numbers, 2 if with_rate else 1)
+    late = fit(t - centre) - numbers
+    series = fit.convert().coef
+    at_pepoch = [sum(c * (-centre) ** k for k, c in enumerate(np.polynomial.polynomial.polyder(series, d) if d else series)) for d in range(3)]
+    phase, f0, f1 = at_pepoch[0], at_pepoch[1], at_pepoch[2] if with_rate else 0.0
+
+    wave = _harmonics(motion, middle)
+    table = [HEADER]
+    motion_at_pulses = _At(motion, middle)
+    psi, psi_rate = _position_angle(motion, middle)
+    for k, (number, start, end) in enumerate(rows):
+        mjd = date + Fraction(middle[k] - scene.start) / 86400
+        edges = np.linspace(start, end, 2 + int((end - start) * motion.turning * 40))
+        swing = np.unwrap(position_angle(scene.observer, direction_of_beam(motion, edges)))
+        values = [late[k] / f0, end - start, psi[k], psi_rate[k], swing[-1] - swing[0], *wave[k]]
+        if scene.observer.distance is not None:
+            values += [float(h[k]) for h in motion_at_pulses.strain]
+        else:
+            values[-2:] = [None, None]
+            values += [None, None]
+        table.append([int(number), int(mjd), float(mjd - int(mjd)), *values])
+
+    reference = round(phase)
+    # The time at which the fit has this phase.
+    at = (reference - phase) / f0
+    for _ in range(5):
+        at -= (phase + f0 * at + f1 * at * at / 2 - reference) / (f0 + f1 * at)
+    pulsar = scene.pulsar
+    par = [["#", *source.split()] for source in scene.document.get("sources", [])]
+    par.append(["PSR", pulsar.get("name", "PULSAR")])
+    if "right_ascension" in pulsar:
+        par += [["RAJ", pulsar["right_ascension"]], ["DECJ", pulsar["declination"]], ["POSEPOCH", float(pepoch)]]
+    par.append(["F0", f0])
+    if with_rate:
+        par.append(["F1", f1])
+    par += [["PEPOCH", float(pepoch)], ["TZRMJD", float(pepoch + Fraction(at) / 86400)]]
+    par += [["TZRSITE", "@"], ["TZRFRQ", 0.0], ["UNITS", "TDB"], ["TRACK", -2]]
+    tim = [["FORMAT", 1]]
+    for row in table[1:]:
+        tim.append(["twofold", 0.0, row[1] + row[2], float(uncertainty), "@", "-pn", row[0] - reference])
+    files = {"csv": table, "par": par, "tim": tim}
+    if scene.observer.distance is not None:
+        start = scene.start + epochs[0]
+        times = start + np.arange(strain_samples) / strain_rate
+        plus, cross = strain(motion, times)
+        for name, h in [("h_plus", plus), ("h_cross", cross)]:
+            files[f"{name}.txt"] = [[float(k / strain_rate), float(h[k])] for k in range(strain_samples)]
+    return files, rate
+
+
+def _phase(beam, first, last):
+    """The number of the turn of m about L that is nearest at a time, counted from the line of sight and growing with time."""
+    dense = np.linspace(first, last, int((last - first) * beam.motion.turning * 12) + 2)
+    phase = np.unwrap(beam.azimuth(dense))
+    sign = np.sign(phase[-1] - phase[0])
+    phase = sign * phase
+
+    def number(time):
+        here = sign * beam.azimuth([time])[0] / (2 * np.pi)
+        near = np.interp(time, dense, phase) / (2 * np.pi)
+        return int(np.round(here + np.round(near - here)))
+
+    return number, (phase[-1] - phase[0]) / (last - first)
+
+
+class _At:
+    """What is wanted at given times."""
+
+    def __init__(self, motion, times):
+        self.strain = strain(motion, times) if motion.scene.observer.distance is not None else None
+
+
+def _position_angle(motion, times):
+    observer = motion.scene.observer
+
+    def on_sky(t):
+        m = direction_of_beam(motion, t)
+        return np.column_stack([-m @ observer.theta, -m @ observer.phi])
+
+    here, rate = on_sky(times), motion.derivative(on_sky, times, 1)
+    turning = (here[:, 0] * rate[:, 1] - here[:, 1] * rate[:, 0]) / (here**2).sum(axis=1)
+    return np.arctan2(here[:, 1], here[:, 0]), turning
+
+
+def _harmonics(motion, times):
+    """Rows of inclination and orientation of L, wobble, azimuth of n about L from the observer's, and the two amplitudes of the wave."""
+    scene, observer = motion.scene, motion.scene.observer
+    momentum, n = motion.momentum(times), motion.axes(times)[:, 2]
+    size = np.linalg.norm(momentum, axis=1)
+    l, o = momentum / size[:, None], observer.direction
+    inclination = np.arccos(np.clip(l @ o, -1, 1))
+    wobble = np.arctan2(np.linalg.norm(np.cross(l, n), axis=1), (l * n).sum(axis=1))
+    along, beside = o - l * (l @ o)[:, None], np.cross(l, o)
+    phase = np.arctan2((n * beside).sum(axis=1), (n * along).sum(axis=1))
+    scale = 6.67430e-11 / 299792458.0**4 / (observer.distance or np.nan)
+    scale = scale * 2 * (scene.inertia_zz - scene.inertia_xx) * (size / scene.inertia_xx) ** 2
+    once, twice = scale * np.sin(wobble) * np.cos(wobble), 2 * scale * np.sin(wobble) ** 2
+    return np.column_stack([inclination, position_angle(observer, l), wobble, phase, once, twice]).tolist()
