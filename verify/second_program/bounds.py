@@ -49,13 +49,13 @@ def read(path: str) -> list[dict]:
 
 
 def figures(x: dict) -> dict:
-    """What follows from the numbers of one pulse, by its key in the output; of any number type."""
+    """What follows from the numbers of one pulse, by its key in the output, bounds with the sign of the change; of any number type."""
     degree = mpmath.pi / 180
     width, lambda_, chi = (x[key] * degree for key in ("width", "lambda", "chi"))
     spin = 2 * mpmath.pi * x["spin_frequency"] if "spin_frequency" in x else 2 * mpmath.pi / x["spin_period"]
     # Eq. (42), in degrees.
     change = mpmath.sin(width / 2) / (mpmath.cot(lambda_) * mpmath.cos(width / 2) + mpmath.cot(chi)) * x["width_change"] / 2
-    drift = spin * mpmath.sin(lambda_) * abs(change) * degree / (x["years"] * YEAR)
+    drift = spin * mpmath.sin(lambda_) * change * degree / (x["years"] * YEAR)
     found = {"lambda_change": change * 1000}
     if "density" in x:  # g/cm^3; Eq. (43)
         stated = 15 / (4 * mpmath.pi * mpmath.mpf(GRAVITATION) * 1000 * x["density"] * x["oblateness"])
@@ -83,6 +83,8 @@ def _with_errors(numbers: dict) -> dict:
             for key in values:
                 part = (up[key] - down[key]) / (2 * step) * uncertainty
                 variances[key][0 if moved == "width_change" and numbers[moved][2] else 1] += float(part * part)
+        bounds = [key for key in values if "over_eta" in key]
+        values.update({key: abs(values[key]) for key in bounds})
         return {key: (float(value), *map(math.sqrt, variances[key])) for key, value in values.items()}
 
 
@@ -116,6 +118,9 @@ def _slow_part_at(inclination: float, a: float) -> float:
 
 def _limit(mean: float, deviation: float, slow, sine: float, corner: float) -> float:
     """What `|x| eta` does not exceed with the probability `CONFIDENCE`: `x` normal, `P(v |cos psi| < a) = slow(a)`, one from `corner` on."""
+
+    if mean == 0 and deviation == 0:
+        return 0.0
 
     def beyond(y: float) -> float:
         if deviation == 0:

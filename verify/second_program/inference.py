@@ -121,15 +121,18 @@ def jacobian(model, unknowns, measured, numerics):
     scales = measured.scales(model, numerics)
     tiny = 1e-6
     data = measured.data(Signals([model, *(model.moved({u: tiny}) for u in unknowns)], numerics))
-    steps = []
+    steps, seen = [], []
     for unknown, moved in zip(unknowns, data[1:]):
         slope = np.abs((moved - data[0]) / scales).max() / tiny
+        seen.append(slope > 1e-6)
         largest = 5e-4 if unknown in ANGLES else 0.02
         steps.append(min(MOVE * numerics.rotation / max(slope, 1e-30), largest))
     neighbours = [model.moved({u: k * step}) for u, step in zip(unknowns, steps) for k in OFFSETS]
     data = measured.data(Signals([model, *neighbours], numerics))
     moved = data[1:].reshape(len(unknowns), len(OFFSETS), -1)
-    return (np.einsum("k,uki->ui", WEIGHTS, moved) / np.array(steps)[:, None]).T, data[0]
+    # What no datum sees has no column, rather than one of rounding.
+    weight = np.array(seen) / np.array(steps)
+    return (np.einsum("k,uki->ui", WEIGHTS, moved) * weight[:, None]).T, data[0]
 
 
 def covariance(jacobian):
@@ -239,6 +242,44 @@ def read_data(path, scene, kinds):
         "closest_approaches": np.array([pulse.closest for pulse in found]),
     }
     return np.array([]), found, values
+
+
+def simulated(scene, observe, names, seed):
+    """Tables of a measurement of a star beside the scene: pulses and strains with normal errors, as `twofold fit` reads them.
+
+    The star is moved by a draw of twice the standard deviations with their correlations.
+    """
+    random = np.random.Generator(np.random.PCG64(seed))
+    measured, start = measurement(scene, observe, FINE), Model.of(scene)
+    unknowns = parameters(names, measured.noise)
+    spread = covariance(jacobian(start, unknowns, measured, FINE)[0])
+    scale = np.sqrt(np.diag(spread))
+    values, axes = np.linalg.eigh(spread / np.outer(scale, scale))
+    change = 2 * scale * (axes @ (np.sqrt(values) * random.standard_normal(len(scale))))
+    signals = Signals([start.moved(dict(zip(unknowns, change)))], FINE)
+    errors = {kind: sigma * random.standard_normal(measured.counts()[kind]) for kind, sigma in measured.noise}
+    tables = {}
+    unit, factor = scene.unit, scene.time_unit
+
+    def time(value):
+        return repr(float(value * factor + scene.start))
+
+    if measured.pulses:
+        first, last = (signals.edges([getattr(p, edge) for p in measured.pulses])[0] for edge in ("start", "end"))
+        closest = signals.closest_approaches([p.closest for p in measured.pulses])[0]
+        rows = [["beam", "turn", *(f"{n} [{unit}]" for n in ("midpoint", "duration", "closest_approach", "period"))]]
+        middle = (first + last) / 2 + errors.get("arrivals", 0.0)
+        width, closest = last - first + errors.get("widths", 0.0), closest + errors.get("closest_approaches", 0.0)
+        for pulse, *numbers in zip(measured.pulses, middle, width, closest):
+            m, w, c = numbers
+            rows.append(["1", str(pulse.turn), time(m), repr(float(w * factor)), time(c), ""])
+        tables["pulses"] = rows
+    if len(measured.samples):
+        plus, cross = (h[0] + errors.get(kind, 0.0) for h, kind in zip(signals.strain(measured.samples), ("h_plus", "h_cross")))
+        rows = [[f"t [{unit}]", "h_plus [1]", "h_cross [1]"]]
+        rows += [[repr(float(t)), repr(float(p)), repr(float(c))] for t, p, c in zip(scene.times, plus, cross)]
+        tables["strain"] = rows
+    return tables
 
 
 def fit(scene, numerics, observe, names, files):
