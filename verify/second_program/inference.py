@@ -4,7 +4,6 @@ import csv
 import dataclasses
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from columns import motion_over_times
 from models import ANGLES, RATES, UNKNOWNS, Model, Signals
@@ -172,14 +171,15 @@ def fisher(scene, numerics, observe, names=None):
 
 
 def epochs(end, count, turn, found):
-    """The pulses of `count` epochs of a forecast, and the epochs themselves; `found` are all whole pulses of the span."""
+    """The epochs of a forecast over the time `end`, and the places in `found`, all whole pulses, of those that belong to them."""
     times = np.arange(count) * max(end - 2.2 * turn, 0.0) / max(count - 1, 1)
     chosen = []
     for time in times:
-        after = [pulse for pulse in found if pulse.start > time and pulse.end < min(time + 2.2 * turn, end)]
-        if after and not (chosen and abs(after[0].closest - chosen[-1].closest) < 0.25 * turn):
+        until = min(time + 2.2 * turn, end)
+        after = [k for k, pulse in enumerate(found) if pulse.start > time and pulse.end < until]
+        if after and not (chosen and abs(found[after[0]].closest - found[chosen[-1]].closest) < 0.25 * turn):
             chosen.append(after[0])
-    return chosen, times
+    return times, chosen
 
 
 def _spanning(scene, span):
@@ -189,26 +189,28 @@ def _spanning(scene, span):
 
 def forecast(scene, numerics, observe, target, names, spans, counts):
     """The table of `twofold forecast --out`."""
-    kinds = noise(observe, scene.time_unit)
+    scene = _spanning(scene, max(spans))
+    kinds, model, unit = noise(observe, scene.time_unit), Model.of(scene), scene.time_unit
     unknowns = parameters(names, kinds)
-    sees_pulses = any(kind in TIMES for kind, _ in kinds)
-    unit = f"rad/{scene.unit}" if target in RATES else "rad" if target in ANGLES else "1"
-    rows = [[f"span [{scene.unit}]", "epochs", "data of each", f"sigma_{target} [{unit}]"]]
-    for span in spans:
-        of_span = _spanning(scene, span)
-        model = Model.of(of_span)
-        turn = Signals([dataclasses.replace(model, end=0.0)], numerics).turn
-        found = whole_pulses(of_span, numerics) if sees_pulses else []
-        for count in counts:
-            chosen, times = epochs(model.end, count, turn, found)
-            measured = Measurement(kinds, chosen, np.array([]) if all(kind in TIMES for kind, _ in kinds) else times)
-            found_sigma = np.nan
-            if sum(measured.counts()[kind] for kind, _ in kinds) >= len(unknowns):
-                spread = covariance(jacobian(model, unknowns, measured, numerics)[0])
-                found_sigma = np.sqrt(spread[unknowns.index(target), unknowns.index(target)])
-            sigma = found_sigma / (scene.time_unit if target in RATES else 1.0)
-            different = len(chosen) if sees_pulses else count
-            rows.append([float(span), count, different, None if np.isnan(sigma) else float(sigma)])
+    found = whole_pulses(scene, numerics) if any(kind in TIMES for kind, _ in kinds) else []
+    turn = Signals([dataclasses.replace(model, end=0.0)], numerics).turn
+    asked = {(span, count): epochs(span / unit, count, turn, found) for span in spans for count in counts}
+    # One Jacobian of all pulses and of all epochs; each forecast takes its rows.
+    sees_strain = any(kind not in TIMES for kind, _ in kinds)
+    samples = np.concatenate([times for times, _ in asked.values()]) if sees_strain else np.array([])
+    slopes, _ = jacobian(model, unknowns, Measurement(kinds, found, samples), numerics)
+    blocks = np.split(slopes, np.cumsum([len(found) if kind in TIMES else len(samples) for kind, _ in kinds])[:-1])
+    name = f"rad/{scene.unit}" if target in RATES else "rad" if target in ANGLES else "1"
+    rows, before = [[f"span [{scene.unit}]", "epochs", "data of each", f"sigma_{target} [{name}]"]], 0
+    for (span, count), (_, chosen) in asked.items():
+        of_epochs = list(range(before, before + count))
+        before += count
+        part = np.concatenate([block[chosen if kind in TIMES else of_epochs] for (kind, _), block in zip(kinds, blocks)])
+        sigma = None
+        if len(part) >= len(unknowns):
+            place = unknowns.index(target)
+            sigma = float(np.sqrt(covariance(part)[place, place]) / (unit if target in RATES else 1.0))
+        rows.append([float(span), count, len(chosen) if found else count, sigma])
     return rows
 
 
@@ -283,7 +285,7 @@ def simulated(scene, observe, names, seed):
 
 
 def fit(scene, numerics, observe, names, files):
-    """The table of `twofold fit --out`, chi^2, the number of data and degrees of freedom."""
+    """The model at the least chi^2, what is measured, the unknowns, the derivatives, chi^2 and the number of data."""
     kinds = noise(observe, scene.time_unit)
     samples, found, values = np.array([]), [], {}
     for path in files:
@@ -292,18 +294,17 @@ def fit(scene, numerics, observe, names, files):
     measured = Measurement(kinds, found, samples)
     unknowns = parameters(names, kinds)
     data = np.concatenate([values[kind] / sigma for kind, sigma in kinds])
-    start = Model.of(scene)
-    scale = np.sqrt(np.diag(covariance(jacobian(start, unknowns, measured, numerics)[0])))
-
-    def model(x):
-        return start.moved(dict(zip(unknowns, x * scale)))
-
-    def residuals(x):
-        return measured.data(Signals([model(x)], numerics))[0] - data
-
-    def slopes(x):
-        return jacobian(model(x), unknowns, measured, numerics)[0] * scale
-
-    best = least_squares(residuals, np.zeros(len(unknowns)), slopes, method="lm", xtol=1e-12, ftol=1e-14, gtol=1e-14)
-    rows = table(model(best.x), scene, unknowns, covariance(best.jac / scale))
-    return rows, 2 * best.cost, len(data), len(data) - len(unknowns)
+    best, slopes = Model.of(scene), None
+    # Gauss and Newton's steps, with the derivatives of the start and then of where these lead to.
+    for _ in range(2):
+        slopes, _ = jacobian(best, unknowns, measured, numerics)
+        for _ in range(20):
+            residuals = measured.data(Signals([best], numerics))[0] - data
+            scale = np.linalg.norm(slopes, axis=0)
+            step = np.linalg.lstsq(slopes / scale, -residuals)[0] / scale
+            best = best.moved(dict(zip(unknowns, step)))
+            if np.abs(slopes @ step).max() < 1e-7:
+                break
+        else:
+            raise ArithmeticError("the fit does not converge")
+    return best, measured, unknowns, slopes, float(residuals @ residuals), len(data)

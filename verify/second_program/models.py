@@ -93,6 +93,13 @@ class Model:
         return dataclasses.replace(self, numbers=numbers, tensor=tensor)
 
 
+def _cross(a, b, into):
+    """a x b of vectors whose components come first."""
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        into[i] = a[j] * b[k] - a[k] * b[j]
+
+
 class Signals:
     """The motions of many models over one span, dense in time, and what an observer sees."""
 
@@ -117,26 +124,33 @@ class Signals:
         self._follow(state, models[0].end, numerics)
 
     def _rates(self, y):
-        n, x, momentum = y[..., :3], y[..., 3:6], y[..., 6:]
-        omega = momentum - (self.eps / (1 + self.eps) * np.sum(momentum * n, axis=-1))[..., None] * n
-        torque = -2 * self.c[:, None] * np.cross(n, np.einsum("bij,pbj->pbi", self.tensor, n))
-        return np.concatenate([np.cross(momentum, n), np.cross(omega, x), torque], axis=-1)
+        """Rates of states of which the nine numbers come first: of n, e_x and L."""
+        n, x, momentum = y[:3], y[3:6], y[6:]
+        spin = self.eps / (1 + self.eps) * np.sum(momentum * n, axis=0)
+        rates = np.empty_like(y)
+        _cross(momentum, n, rates[:3])
+        _cross(momentum - spin * n, x, rates[3:6])
+        s = self.tensor.transpose(1, 2, 0)
+        of_n = [-2 * self.c * (row[0] * n[0] + row[1] * n[1] + row[2] * n[2]) for row in s]
+        _cross(n, of_n, rates[6:])
+        return rates
 
     def _follow(self, state, end, numerics):
         grid, pieces = numerics.grid, int(np.ceil(end * self.rate / numerics.rotation)) + 1
-        self.step, self.coefficients = numerics.rotation / self.rate, []
+        self.step, found = numerics.rotation / self.rate, []
         half = self.step / 2
-        y = np.tile(state, (len(grid.x), 1, 1))
+        state = state.T[:, None, :]
         for _ in range(pieces):
+            y = np.repeat(state, len(grid.x), axis=1)
             for _ in range(100):
-                new = state + half * np.tensordot(grid.integral, self._rates(y), 1)
+                new = state + half * (grid.integral @ self._rates(y))
                 change, y = np.abs(new - y).max(), new
-                if change < 1e-15 * np.abs(state).max() + 2e-15:
+                if change < 2e-15 + 1e-15 * np.abs(state).max():
                     break
-            self.coefficients.append(np.tensordot(grid.to_coefficients, y, 1).swapaxes(0, 1))
-            state = state + half * np.tensordot(grid.integral_to_end, self._rates(y), 1)
-            y = np.tile(state, (len(grid.x), 1, 1))
-        self.coefficients = np.array(self.coefficients)
+            found.append((grid.to_coefficients @ y).T)
+            state = state + half * (grid.integral_to_end[None, None, :] @ self._rates(y))
+        # Piece, model, order, number.
+        self.coefficients = np.array(found)
 
     def states(self, times):
         """States at `times`, a row of times for each model."""
