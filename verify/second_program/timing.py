@@ -28,6 +28,8 @@ def timing(motion, epochs, with_rate, uncertainty, strain_rate, strain_samples):
     for start, end, *cut in stretches(beam, first - 3 * period, last + 3 * period):
         if not any(cut):
             pulses[number_at((start + end) / 2)] = (start, end)
+    # Longer ones are not timed (docs/pulsars.md).
+    pulses = {number: (a, b) for number, (a, b) in pulses.items() if (b - a) * rate < 3 * 2 * np.pi}
     zero = number_at(scene.start)
     rows, seen = [], set()
     for epoch in epochs:
@@ -88,7 +90,10 @@ def timing(motion, epochs, with_rate, uncertainty, strain_rate, strain_samples):
         times = start + np.arange(strain_samples) / strain_rate
         plus, cross = strain(motion, times)
         for name, h in [("h_plus", plus), ("h_cross", cross)]:
-            files[f"{name}.txt"] = [[float(k / strain_rate), float(h[k])] for k in range(strain_samples)]
+            mjd = float(date + Fraction(epochs[0]) / 86400)
+            header = f"# {name} [1] against time [s] from MJD".split()
+            series = [[float(k / strain_rate), float(h[k])] for k in range(strain_samples)]
+            files[f"{name}.txt"] = [[*header, mjd, "(TDB,", "barycentre)"], *series]
     return files, rate
 
 

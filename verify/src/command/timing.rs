@@ -85,7 +85,8 @@ fn summary(timing: &Timing) -> String {
 fn note_dark(timing: &Timing, asked: usize) {
     if timing.dark > 0 {
         note(&format!(
-            "{} of {asked} epochs have no pulse: the line of sight stays outside the beam in that turn",
+            "{} of {asked} epochs have no pulse: in that turn the line of sight stays outside the beam, or inside it for longer than is \
+             searched, one and a half turns either way",
             timing.dark
         ));
     }
