@@ -9,7 +9,7 @@ import tomllib
 from decimal import Decimal
 
 import mpmath
-from scipy.integrate import quad
+import numpy as np
 from scipy.optimize import brentq
 from scipy.special import ndtr
 
@@ -33,8 +33,11 @@ def _with_uncertainty(written) -> tuple[float, float, bool]:
     return float(written), 0.5 * 10.0**exponent / math.sqrt(3), False
 
 
-def read(path: str) -> list[dict]:
-    """The pulses of a table: texts, and of each number value, standard uncertainty and whether that is given."""
+def read(path: str, move: float = 0.0) -> list[dict]:
+    """The pulses of a table: texts, and of each number value, standard uncertainty and whether that is given.
+
+    Values are moved by the part `move` of themselves, up and down in turn.
+    """
     with open(path, "rb") as file:
         table = tomllib.load(file, parse_float=_Number)
     pulses = []
@@ -44,6 +47,8 @@ def read(path: str) -> list[dict]:
         if "zeta" in numbers:
             value, *rest = numbers.pop("zeta")
             numbers["lambda"] = (180.0 - value, *rest)
+        for k, (key, (value, *rest)) in enumerate(numbers.items()):
+            numbers[key] = (value * (1 + move * (-1) ** k), *rest)
         pulses.append({"texts": texts, "numbers": numbers})
     return pulses
 
@@ -96,57 +101,49 @@ def _size_quantile(mean: float, deviation: float) -> float:
     return deviation * brentq(lambda y: ndtr(y - m) - ndtr(-y - m) - CONFIDENCE, 0, m + 10, xtol=1e-15, rtol=1e-14)
 
 
-def _slow_part(a: float) -> float:
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(80)
+
+
+def _slow_part(a: np.ndarray) -> np.ndarray:
     """Probability of `v |cos psi| < a` for an isotropic axis: the mean of `(2/pi) asin min(1, a/v)` over `v = sin(2b)/2`."""
-    if a >= 0.5:
-        return 1.0
-    first = math.asin(2 * a)  # of 2b; below it v < a
-
-    def part(t: float) -> float:  # 2b = first cosh t has no corner at the first
-        double = first * math.cosh(t)
-        weight = (math.sin(double / 2) + math.cos(double / 2)) / 2  # of b and of pi/2 - b
-        return weight * (2 / math.pi) * math.asin(min(1.0, 2 * a / math.sin(double))) * first * math.sinh(t)
-
-    below = 1 - math.cos(first / 2) + math.sin(first / 2)
-    return below + quad(part, 0, math.acosh(math.pi / 2 / first), epsabs=1e-13, epsrel=1e-12)[0]
+    first = np.arcsin(np.clip(2 * a, 1e-300, 1.0))[..., None]  # of 2b; below it v < a
+    last = np.arccosh(np.pi / 2 / first)
+    t = last / 2 * (1 + NODES)  # 2b = first cosh t has no corner at the first
+    double = first * np.cosh(t)
+    weight = (np.sin(double / 2) + np.cos(double / 2)) / 2  # of b and of pi/2 - b
+    part = weight * (2 / np.pi) * np.arcsin(np.minimum(1.0, np.sin(first) / np.sin(double))) * first * np.sinh(t)
+    below = 1 - np.cos(first / 2) + np.sin(first / 2)
+    return below[..., 0] + np.sum(part * WEIGHTS * last / 2, axis=-1)
 
 
-def _slow_part_at(inclination: float, a: float) -> float:
+def _slow_part_at(inclination: float, a: np.ndarray) -> np.ndarray:
     """The same for an axis at this angle (rad)."""
-    return 2 / math.pi * math.asin(min(1.0, a / abs(math.sin(inclination) * math.cos(inclination))))
+    return 2 / np.pi * np.arcsin(np.minimum(1.0, a / abs(math.sin(inclination) * math.cos(inclination))))
 
 
 def _limit(mean: float, deviation: float, slow, sine: float, corner: float) -> float:
     """What `|x| eta` does not exceed with the probability `CONFIDENCE`: `x` normal, `P(v |cos psi| < a) = slow(a)`, one from `corner` on."""
-
     if mean == 0 and deviation == 0:
         return 0.0
 
     def beyond(y: float) -> float:
         if deviation == 0:
-            return slow(abs(mean) / (y * sine))
+            return float(slow(np.array(abs(mean) / (y * sine))))
         end = y * sine * corner / deviation  # from there on in size eta is always large enough; in standard deviations
         m = abs(mean) / deviation
-
-        def part(x: float) -> float:
-            both = math.exp(-0.5 * (x - m) ** 2) + math.exp(-0.5 * (x + m) ** 2)
-            return both / math.sqrt(2 * math.pi) * slow(x * deviation / (y * sine))
-
-        # From both ends of every piece the variable begins with its square: a logarithm and a root are smooth in it.
         first, last = max(0.0, m - 10), min(end, m + 10)
-        points = [first, *sorted(x for x in (m - 4, m, m + 4, last / 8) if first < x < last), last]
-        inner = 0.0
-        for low, high in zip(points, points[1:]):
-            size = high - low
-
-            def smooth(u: float) -> float:
-                return part(low + size * u * u * (3 - 2 * u)) * 6 * u * (1 - u) * size
-
-            inner += quad(smooth, 0, 1, epsabs=1e-12, epsrel=1e-11, limit=200)[0]
-        return inner + ndtr(m - end) + ndtr(-m - end) if end > first else 1.0
+        if last <= first:
+            return 1.0
+        points = np.array([first, *sorted(x for x in (m - 4, m, m + 4, last / 8) if first < x < last), last])
+        # At both ends of every piece the variable begins with a square: a logarithm and a root are smooth in it.
+        u, size = (1 + NODES) / 2, np.diff(points)[:, None]
+        x = points[:-1, None] + size * u * u * (3 - 2 * u)
+        density = (np.exp(-0.5 * (x - m) ** 2) + np.exp(-0.5 * (x + m) ** 2)) / math.sqrt(2 * math.pi)
+        inner = np.sum(density * slow(x * deviation / (y * sine)) * 3 * u * (1 - u) * size * WEIGHTS)
+        return float(inner + ndtr(m - end) + ndtr(-m - end))
 
     low, high = (abs(mean) + 1e-3 * deviation) / sine, (abs(mean) + 10 * deviation) * 1e4 / (sine * corner)
-    found = brentq(lambda y: beyond(math.exp(y)) - (1 - CONFIDENCE), math.log(low), math.log(high), xtol=1e-12)
+    found = brentq(lambda y: beyond(math.exp(y)) - (1 - CONFIDENCE), math.log(low), math.log(high), xtol=1e-13)
     return math.exp(found)
 
 
@@ -215,10 +212,10 @@ def rows_of_pulse(numbers: dict, paper: bool) -> tuple[list, dict]:
     return rows, limits
 
 
-def table(path: str, paper: bool) -> dict:
+def table(path: str, paper: bool, move: float = 0.0) -> dict:
     """Every number of the JSON output: a list of rows for each pulse, and what is recommended."""
     pulses, best = [], None
-    for pulse in read(path):
+    for pulse in read(path, move):
         rows, limits = rows_of_pulse(pulse["numbers"], paper)
         pulses.append({**pulse["texts"], "measured": pulse["numbers"]["width_change"][2], "figures": rows})
         strength = limits["sensitivity"] or limits["all"]

@@ -1,0 +1,211 @@
+"""Answers for the commands of many scenes and of data: `sweep`, `fisher`, `fit`, `forecast` and `bounds`.
+
+Here tolerances have a row for each row of the table, since the rows are of different unknowns. Files are named from `{here}`, this folder.
+"""
+
+import functools
+import json
+import pathlib
+
+import numpy as np
+
+import answers
+import bounds
+import inference
+import sweep
+from answers import FACTOR, MOVE, moved, state_error
+from motion import FINE, OTHER
+from scene import Scene
+
+HERE = pathlib.Path(__file__).parent
+MEASUREMENTS = json.loads((HERE / "measurements.json").read_text())
+ROUNDING = 2.2e-16
+# What the command states of the integrals that it takes over directions and over the angle to the line of sight.
+QUADRATURE = 1e-9
+# Where the command ends a fit, in standard deviations, and the digits of a forecast.
+FIT_ENDS, FORECAST_DIGITS = 0.01, 0.5e-6
+
+
+def _table(rows, tolerances):
+    """A table of comma-separated values with the tolerances of its cells."""
+    return {"separator": ",", "rows": answers.plain(rows), "tolerances": [[_rounded(t) for t in row] for row in tolerances]}
+
+
+def _rounded(tolerance):
+    return float(f"{tolerance:.2e}")
+
+
+def _cells(rows, others, of_other, floor=0.0):
+    """Tolerances of cells: `of_other` times the differences of `others`, a part `floor` of the cell, and its rounding."""
+    found = []
+    for line, row in enumerate(rows):
+        tolerances = []
+        for k, cell in enumerate(row):
+            if isinstance(cell, float):
+                spread = sum(factor * abs(other[line][k] - cell) for factor, other in zip(of_other, others, strict=True))
+                tolerances.append(spread + (floor + 4 * ROUNDING) * abs(cell))
+            elif any(other[line][k] != cell for other in others):
+                raise ValueError(f"a text or an empty field changes: {cell!r}")
+            else:
+                tolerances.append(0.0)
+        found.append(tolerances)
+    return found
+
+
+def of_sweep(name):
+    """A sweep: tolerances of columns as for a single scene, for the worst of its scenes."""
+    path = HERE / "sweeps" / f"{name}.toml"
+    scenes = [scene for _, scene in sweep.scenes(path)]
+    error = max(map(state_error, scenes))
+    rows = sweep.table(path, FINE)
+    tolerances = answers.column_tolerances(rows, sweep.table(path, OTHER), sweep.table(path, FINE, moved), error)
+    momentum = max(np.linalg.norm(s.omega) * max(s.inertia_xx, s.inertia_zz) for s in scenes)
+    inertia, tensor = min(s.inertia_xx for s in scenes), max(np.abs(s.tensor).max() for s in scenes)
+    cgs, spin = scenes[0].cgs, max(abs(s.spin) for s in scenes)
+    # What is zero in an exact motion: the error of the state in units of what it is of.
+    sizes = {
+        "error_estimate": 1.0, "e_z_length_error": 1.0, "E_error": momentum**2 / inertia * cgs, "Omega_z_error": spin,
+        "K_error": momentum**2 * tensor * cgs**2,
+    }  # fmt: skip
+    status = rows[0].index("status")
+    for k, title in enumerate(rows[0]):
+        largest = max(abs(row[k]) for row in rows[1:]) if title != "status" else 0.0
+        start = title.split("@")[0]
+        if start in sizes:
+            tolerances[k] = _rounded(FACTOR * error * sizes[start])
+        elif title == "lambda_mean [rad]":
+            tolerances[k] += QUADRATURE
+        elif 0 < k < status:
+            # Edges of the ziggurat are sums in doubles.
+            tolerances[k] = _rounded(1e-14 * largest)
+    arguments = ["sweep", f"{{here}}/sweeps/{name}.toml", "--out", "{out}/table.csv"]
+    outputs = {"table.csv": {"separator": ",", "rows": answers.plain(rows), "tolerances": tolerances}}
+    return [{"arguments": arguments, "outputs": outputs}]
+
+
+def _arguments(case, path):
+    named = ["--parameters", case["parameters"]] if "parameters" in case else []
+    return [case["command"], path, "--observe", case["observe"], *named, "--out", "{out}/table.csv"]
+
+
+def of_measurement(number):
+    """`fisher`, `fit` or `forecast` of one scene."""
+    case = MEASUREMENTS[number]
+    scene = Scene.read(HERE / "measurements" / f"{case['scene']}.toml")
+    observe, names = case["observe"], case.get("parameters")
+    arguments = _arguments(case, f"{{here}}/measurements/{case['scene']}.toml")
+    # The error that the command states of its derivatives: twenty times that of a state.
+    by_error = [FACTOR, FACTOR * 20 * state_error(scene) / MOVE]
+    if case["command"] == "fit":
+        return [_fit(case, scene, arguments)]
+    if case["command"] == "fisher":
+        compute, floor = functools.partial(inference.fisher, observe=observe, names=names), 0.0
+    else:
+        arguments += ["--of", case["of"], "--spans", ",".join(map(repr, case["spans"]))]
+        arguments += ["--epochs", ",".join(map(str, case["epochs"]))]
+        compute = functools.partial(
+            inference.forecast, observe=observe, target=case["of"], names=names, spans=case["spans"], counts=case["epochs"]
+        )
+        floor = FORECAST_DIGITS
+    rows = compute(scene, FINE)
+    tolerances = _cells(rows, [compute(scene, OTHER), compute(moved(scene), FINE)], by_error, floor)
+    return [{"arguments": arguments, "outputs": {"table.csv": _table(rows, tolerances)}}]
+
+
+def _fit(case, scene, arguments):
+    observe, names = case["observe"], case.get("parameters")
+    files = sorted(HERE.glob(f"measurements/{case['scene']}-*.csv"))
+    best, measured, unknowns, slopes, chi_2, count = inference.fit(scene, FINE, observe, names, files)
+    spread = inference.covariance(slopes)
+    rows = inference.table(best, scene, unknowns, spread)
+    sigma = np.sqrt(np.diag(spread))
+    off = best.moved({u: FIT_ENDS * s * (-1) ** k for k, (u, s) in enumerate(zip(unknowns, sigma))})
+
+    def of(model, numerics):
+        return inference.table(model, scene, unknowns, inference.covariance(inference.jacobian(model, unknowns, measured, numerics)[0]))
+
+    tolerances = _cells(rows, [of(best, OTHER), of(off, FINE)], [FACTOR, 1.0])
+    told = [f"{count} data, {len(unknowns)} unknowns, ", f"chi^2 = {chi_2:.4g} of {count - len(unknowns)} degrees of freedom"]
+    outputs = {"table.csv": _table(rows, tolerances), "stderr": {"contains": told}}
+    data = [f"{{here}}/measurements/{path.name}" for path in files]
+    return {"arguments": [*arguments[:2], *data, *arguments[2:]], "outputs": outputs}
+
+
+# The rows of the paper's table that follow from its others: Delta lambda, the bound over eta, and that with eta = 10.
+PRINTED = [("-19", "~1e-14", "~1e-13"), ("-5.2", "~1e-15", "~1e-14"), ("1.6", "~1e-16", "~1e-15")]
+OVER_ETA = ("bound_over_eta_stated", "bound_over_eta_round", "bound_over_eta_own", "limit_over_eta_by_change")
+WITH_ETA = ("bound_eta_ten_stated", "bound_eta_ten_own", "limit_eta_ten_by_change", "limit_without_error", "limit")
+
+
+def _printed(pulse, key):
+    change, over_eta, with_eta = PRINTED[pulse]
+    return {"lambda_change": change, **dict.fromkeys(OVER_ETA, over_eta), **dict.fromkeys(WITH_ETA, with_eta)}.get(key)
+
+
+def of_bounds(name):
+    """`twofold bounds --json`: rows of a place in the object and what is there."""
+    paper = name == "paper"
+    path = HERE.parent / "pulsars" / "paper.toml" if paper else HERE / "bounds" / f"{name}.toml"
+    table, shifted = bounds.table(path, paper), bounds.table(path, paper, MOVE)
+    rows, tolerances = [], []
+
+    def add(place, value, off=0.0):
+        rows.append([place, value])
+        tolerances.append([0.0, _rounded(off)])
+
+    for p, (pulse, pulse_2) in enumerate(zip(table["pulses"], shifted["pulses"], strict=True)):
+        at = f"/pulses/{p}"
+        add(f"{at}/name", pulse["name"])
+        add(f"{at}/source", pulse["source"])
+        add(f"{at}/change_is", "measured" if pulse["measured"] else "a limit")
+        for f, (figure, figure_2) in enumerate(zip(pulse["figures"], pulse_2["figures"], strict=True)):
+            key, where = figure[0], f"{at}/figures/{f}"
+            add(f"{where}/figure", key)
+            integral = "limit" in key or key == "eta"
+            for word, x, x_2 in zip(("value", "uncertainty_by_change", "uncertainty_by_inputs"), figure[1:], figure_2[1:]):
+                off = 0.0
+                if x is not None:
+                    off = FACTOR * ROUNDING * abs(x_2 - x) / MOVE + (4 * ROUNDING + QUADRATURE * integral) * abs(x)
+                add(f"{where}/{word}", x, off)
+                if word == "value":
+                    value, value_off = x, off
+            printed = _printed(p, key) if paper else None
+            add(f"{where}/printed", printed)
+            over = None if printed is None else float(printed.strip("~"))
+            add(f"{where}/over_printed", over and value / over, value_off / abs(over or 1.0) + 4 * ROUNDING * abs(value / (over or 1.0)))
+    chosen = table["recommended"]
+    limits = {key: value for key, value, *_ in chosen["figures"]}
+    add("/confidence", bounds.CONFIDENCE)
+    add("/recommended/confidence", bounds.CONFIDENCE)
+    add("/recommended/pulse", chosen["name"])
+    add("/recommended/source", chosen["source"])
+    for word, key in (("limit", "limit"), ("limit_without_error", "limit_without_error"), ("alpha_2", "alpha_2_limit")):
+        value = limits.get(key)
+        add(f"/recommended/{word}", value, 0.0 if value is None else 2 * QUADRATURE * abs(value))
+    arguments = ["bounds", *([] if paper else [f"{{here}}/bounds/{name}.toml"]), "--json"]
+    return [{"arguments": arguments, "outputs": {"stdout": {"separator": "json", "rows": answers.plain(rows), "tolerances": tolerances}}}]
+
+
+def tasks():
+    """What is answered, by the name of its file of answers."""
+    found = {f"sweep-{path.stem}": functools.partial(of_sweep, path.stem) for path in sorted(HERE.glob("sweeps/*.toml"))}
+    for number, case in enumerate(MEASUREMENTS):
+        found[f"{case['command']}-{case['scene']}"] = functools.partial(of_measurement, number)
+    tables = ["paper", *(path.stem for path in sorted(HERE.glob("bounds/*.toml")))]
+    found.update({f"bounds-{name}": functools.partial(of_bounds, name) for name in tables})
+    return found
+
+
+def write_data():
+    """The data of the fits: simulated with errors of a fixed seed."""
+    for case in MEASUREMENTS:
+        if case["command"] == "fit":
+            scene = Scene.read(HERE / "measurements" / f"{case['scene']}.toml")
+            tables = inference.simulated(scene, case["observe"], case.get("parameters"), case["seed"])
+            for kind, rows in tables.items():
+                text = "".join(",".join(row) + "\n" for row in rows)
+                (HERE / "measurements" / f"{case['scene']}-{kind}.csv").write_text(text)
+
+
+if __name__ == "__main__":
+    write_data()
