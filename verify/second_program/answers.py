@@ -65,12 +65,12 @@ def tables(compute, scene, error=None):
     nominal, other, shifted = compute(scene, FINE), compute(scene, OTHER), compute(moved(scene), FINE)
     outputs = {}
     for name, (separator, rows) in nominal.items():
-        tolerances = column_tolerances(rows, other[name][1], shifted[name][1], error)
-        outputs[name] = {"separator": separator, "rows": plain(rows), "tolerances": tolerances}
+        tolerances = _tolerances(rows, other[name][1], shifted[name][1], error)
+        outputs[name] = {"separator": separator, "rows": _plain(rows), "tolerances": tolerances}
     return outputs
 
 
-def column_tolerances(rows, other, shifted, error):
+def _tolerances(rows, other, shifted, error):
     if [len(row) for row in rows] != [len(row) for row in other] or len(rows) != len(shifted):
         raise ValueError("a table changes its shape with the numerics, or with numbers moved by 1e-7")
     width = max(map(len, rows))
@@ -86,7 +86,7 @@ def column_tolerances(rows, other, shifted, error):
     return [float(f"{t:.2e}") for t in FACTOR * (numerics + change / MOVE * error) + 4 * 2.2e-16 * size]
 
 
-def plain(rows):
+def _plain(rows):
     """Numbers that count, texts, and doubles as such; nothing for an empty field."""
     plain = {str: str, int: int, float: float, np.float64: float, np.int64: int, type(None): lambda _: ""}
     return [[plain[type(cell)](cell) for cell in row] for row in rows]

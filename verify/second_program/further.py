@@ -1,19 +1,27 @@
 """Answers for the commands of many scenes and of data: `sweep`, `fisher`, `fit`, `forecast` and `bounds`.
 
-Here tolerances have a row for each row of the table, since the rows are of different unknowns. Files are named from `{here}`, this folder.
+    python verify/second_program/further.py             compare with the answers that are kept in `further_answers`
+    python verify/second_program/further.py --update    write them anew
+    python verify/second_program/further.py --data      write the data of the fits anew
+    python verify/second_program/further.py NAME ...    only these
+
+Here tolerances have a row for each row of a table, since the rows are of different unknowns. Files are named from `{here}`, this folder.
 """
 
 import functools
 import json
+import multiprocessing
 import pathlib
+import re
+import sys
+import time
 
 import numpy as np
 
-import answers
 import bounds
 import inference
 import sweep
-from answers import FACTOR, MOVE, moved, state_error
+from answers import FACTOR, MOVE, _plain, _tolerances, moved, state_error
 from motion import FINE, OTHER
 from scene import Scene
 
@@ -28,7 +36,7 @@ FIT_ENDS, FORECAST_DIGITS = 0.01, 0.5e-6
 
 def _table(rows, tolerances):
     """A table of comma-separated values with the tolerances of its cells."""
-    return {"separator": ",", "rows": answers.plain(rows), "tolerances": [[_rounded(t) for t in row] for row in tolerances]}
+    return {"separator": ",", "rows": _plain(rows), "tolerances": [[_rounded(t) for t in row] for row in tolerances]}
 
 
 def _rounded(tolerance):
@@ -58,7 +66,7 @@ def of_sweep(name):
     scenes = [scene for _, scene in sweep.scenes(path)]
     error = max(map(state_error, scenes))
     rows = sweep.table(path, FINE)
-    tolerances = answers.column_tolerances(rows, sweep.table(path, OTHER), sweep.table(path, FINE, moved), error)
+    tolerances = _tolerances(rows, sweep.table(path, OTHER), sweep.table(path, FINE, moved), error)
     momentum = max(np.linalg.norm(s.omega) * max(s.inertia_xx, s.inertia_zz) for s in scenes)
     inertia, tensor = min(s.inertia_xx for s in scenes), max(np.abs(s.tensor).max() for s in scenes)
     cgs, spin = scenes[0].cgs, max(abs(s.spin) for s in scenes)
@@ -79,7 +87,7 @@ def of_sweep(name):
             # Edges of the ziggurat are sums in doubles.
             tolerances[k] = _rounded(1e-14 * largest)
     arguments = ["sweep", f"{{here}}/sweeps/{name}.toml", "--out", "{out}/table.csv"]
-    outputs = {"table.csv": {"separator": ",", "rows": answers.plain(rows), "tolerances": tolerances}}
+    outputs = {"table.csv": {"separator": ",", "rows": _plain(rows), "tolerances": [tolerances] * len(rows)}}
     return [{"arguments": arguments, "outputs": outputs}]
 
 
@@ -126,7 +134,7 @@ def _fit(case, scene, arguments):
 
     tolerances = _cells(rows, [of(best, OTHER), of(off, FINE)], [FACTOR, 1.0])
     told = [f"{count} data, {len(unknowns)} unknowns, ", f"chi^2 = {chi_2:.4g} of {count - len(unknowns)} degrees of freedom"]
-    outputs = {"table.csv": _table(rows, tolerances), "stderr": {"contains": told}}
+    outputs = {"table.csv": _table(rows, tolerances), "stderr": told}
     data = [f"{{here}}/measurements/{path.name}" for path in files]
     return {"arguments": [*arguments[:2], *data, *arguments[2:]], "outputs": outputs}
 
@@ -183,7 +191,7 @@ def of_bounds(name):
         value = limits.get(key)
         add(f"/recommended/{word}", value, 0.0 if value is None else 2 * QUADRATURE * abs(value))
     arguments = ["bounds", *([] if paper else [f"{{here}}/bounds/{name}.toml"]), "--json"]
-    return [{"arguments": arguments, "outputs": {"stdout": {"separator": "json", "rows": answers.plain(rows), "tolerances": tolerances}}}]
+    return [{"arguments": arguments, "outputs": {"stdout": {"separator": "json", "rows": _plain(rows), "tolerances": tolerances}}}]
 
 
 def tasks():
@@ -207,5 +215,55 @@ def write_data():
                 (HERE / "measurements" / f"{case['scene']}-{kind}.csv").write_text(text)
 
 
+def differences(kept, anew):
+    """Sentences about what in `anew` is not in `kept` to its tolerances."""
+    found = []
+    for old, new in zip(kept, anew, strict=True):
+        if old["arguments"] != new["arguments"] or old["outputs"].keys() != new["outputs"].keys():
+            return ["other commands"]
+        for name, output in old["outputs"].items():
+            other = new["outputs"][name]
+            if name == "stderr":
+                found += [] if output == other else [f"{name}: {output} is kept, {other} found"]
+                continue
+            if [len(row) for row in output["rows"]] != [len(row) for row in other["rows"]]:
+                return [f"{name}: a table of another shape"]
+            for line, (row, row_2) in enumerate(zip(output["rows"], other["rows"])):
+                for k, (a, b) in enumerate(zip(row, row_2)):
+                    numbers = isinstance(a, float) and isinstance(b, float)
+                    if not (abs(a - b) <= output["tolerances"][line][k] if numbers else a == b):
+                        found.append(f"{name}: row {line}, column {k}: {a!r} is kept, {b!r} found")
+    return found
+
+
+def job(task):
+    name, update = task
+    began = time.monotonic()
+    done = json.loads(json.dumps(tasks()[name](), default=float))
+    path, found = HERE / "further_answers" / f"{name}.json", []
+    if update:
+        # A row of a table on a line.
+        text = re.sub(r"\[\s+([^\[\]{}]*?)\s+\]", lambda row: "[" + re.sub(r"\s*\n\s*", " ", row[1]) + "]", json.dumps(done, indent=1))
+        path.write_text(text + "\n")
+    else:
+        found = differences(json.loads(path.read_text()), done)
+    return name, found, time.monotonic() - began
+
+
+def main():
+    options = [argument for argument in sys.argv[1:] if argument.startswith("--")]
+    names = [argument for argument in sys.argv[1:] if argument not in options] or list(tasks())
+    if "--data" in options:
+        return write_data()
+    wrong, update = 0, "--update" in options
+    with multiprocessing.Pool() as pool:
+        for name, found, seconds in pool.imap_unordered(job, [(name, update) for name in names]):
+            print(f"{name}: {'written' if update else 'differs' if found else 'as kept'} ({seconds:.1f} s)", flush=True)
+            for line in found[:10]:
+                print(f"  {line}")
+            wrong += bool(found)
+    return f"{wrong} of {len(names)} differ from the answers that are kept" if wrong else None
+
+
 if __name__ == "__main__":
-    write_data()
+    sys.exit(main())
