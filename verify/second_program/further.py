@@ -32,6 +32,7 @@ ROUNDING = 2.2e-16
 QUADRATURE = 1e-9
 # Where the command ends a fit, in standard deviations, and the digits of a forecast.
 FIT_ENDS, FORECAST_DIGITS = 0.01, 0.5e-6
+DRAWS = 16
 
 
 def _table(rows, tolerances):
@@ -43,15 +44,25 @@ def _rounded(tolerance):
     return float(f"{tolerance:.2e}")
 
 
-def _cells(rows, others, of_other, floor=0.0):
-    """Tolerances of cells: `of_other` times the differences of `others`, a part `floor` of the cell, and its rounding."""
+def noisy(slopes, other, scene):
+    """Derivatives with errors: those seen by other numerics, and those that the command states of its own, twenty times that of a state.
+
+    A difference by chance is small now and then: errors are drawn with the largest of each column as their standard deviation.
+    """
+    random = np.random.Generator(np.random.PCG64(1))
+    size = np.abs(other - slopes).max(axis=0) + 20 * state_error(scene) * np.abs(slopes).max(axis=0)
+    return [slopes + size * random.standard_normal(slopes.shape) for _ in range(DRAWS)]
+
+
+def _cells(rows, others):
+    """Tolerances of cells: `FACTOR` times the root mean square of the changes in `others`, and rounding in units of the number or of one."""
     found = []
     for line, row in enumerate(rows):
         tolerances = []
         for k, cell in enumerate(row):
             if isinstance(cell, float):
-                spread = sum(factor * abs(other[line][k] - cell) for factor, other in zip(of_other, others, strict=True))
-                tolerances.append(spread + (floor + 4 * ROUNDING) * abs(cell))
+                spread = np.sqrt(np.mean([(other[line][k] - cell) ** 2 for other in others]))
+                tolerances.append(FACTOR * spread + 50 * ROUNDING * max(1.0 if k == 1 else 0.0, abs(cell)))
             elif any(other[line][k] != cell for other in others):
                 raise ValueError(f"a text or an empty field changes: {cell!r}")
             else:
@@ -102,40 +113,46 @@ def of_measurement(number):
     scene = Scene.read(HERE / "measurements" / f"{case['scene']}.toml")
     observe, names = case["observe"], case.get("parameters")
     arguments = _arguments(case, f"{{here}}/measurements/{case['scene']}.toml")
-    # The error that the command states of its derivatives: twenty times that of a state.
-    by_error = [FACTOR, FACTOR * 20 * state_error(scene) / MOVE]
     if case["command"] == "fit":
         return [_fit(case, scene, arguments)]
     if case["command"] == "fisher":
-        compute, floor = functools.partial(inference.fisher, observe=observe, names=names), 0.0
-    else:
-        arguments += ["--of", case["of"], "--spans", ",".join(map(repr, case["spans"]))]
-        arguments += ["--epochs", ",".join(map(str, case["epochs"]))]
-        compute = functools.partial(
-            inference.forecast, observe=observe, target=case["of"], names=names, spans=case["spans"], counts=case["epochs"]
+        model, unknowns, slopes = inference.fisher(scene, FINE, observe, names)
+        other = inference.fisher(scene, OTHER, observe, names)[-1]
+        rows, *others = (
+            inference.table(model, scene, unknowns, inference.covariance(j)) for j in (slopes, *noisy(slopes, other, scene))
         )
-        floor = FORECAST_DIGITS
-    rows = compute(scene, FINE)
-    tolerances = _cells(rows, [compute(scene, OTHER), compute(moved(scene), FINE)], by_error, floor)
-    return [{"arguments": arguments, "outputs": {"table.csv": _table(rows, tolerances)}}]
+        return [{"arguments": arguments, "outputs": {"table.csv": _table(rows, _cells(rows, others))}}]
+    target, spans, counts = case["of"], case["spans"], case["epochs"]
+    arguments += ["--of", target, "--spans", ",".join(map(repr, spans)), "--epochs", ",".join(map(str, counts))]
+    unknowns = inference.parameters(names, inference.noise(observe, scene.time_unit))
+    header, rows, parts = inference.forecast(scene, FINE, observe, target, names, spans, counts)
+    _, _, others = inference.forecast(scene, OTHER, observe, target, names, spans, counts)
+    tolerances = [[0.0] * 4]
+    for row, slopes, other in zip(rows, parts, others, strict=True):
+        sigma, *noise = (inference.sigma_of(scene, j, unknowns, target) for j in (slopes, *noisy(slopes, other, scene)))
+        row.append(sigma)
+        spread = 0.0 if sigma is None else FACTOR * np.sqrt(np.mean((np.array(noise) - sigma) ** 2)) + FORECAST_DIGITS * sigma
+        tolerances.append([0.0, 0.0, 0.0, spread])
+    return [{"arguments": arguments, "outputs": {"table.csv": _table([header, *rows], tolerances)}}]
 
 
 def _fit(case, scene, arguments):
     observe, names = case["observe"], case.get("parameters")
     files = sorted(HERE.glob(f"measurements/{case['scene']}-*.csv"))
     best, measured, unknowns, slopes, chi_2, count = inference.fit(scene, FINE, observe, names, files)
-    spread = inference.covariance(slopes)
-    rows = inference.table(best, scene, unknowns, spread)
-    sigma = np.sqrt(np.diag(spread))
+    sigma = np.sqrt(np.diag(inference.covariance(slopes)))
     off = best.moved({u: FIT_ENDS * s * (-1) ** k for k, (u, s) in enumerate(zip(unknowns, sigma))})
-
-    def of(model, numerics):
-        return inference.table(model, scene, unknowns, inference.covariance(inference.jacobian(model, unknowns, measured, numerics)[0]))
-
-    tolerances = _cells(rows, [of(best, OTHER), of(off, FINE)], [FACTOR, 1.0])
+    other, slopes_off = (inference.jacobian(best, unknowns, measured, OTHER)[0], inference.jacobian(off, unknowns, measured, FINE)[0])
+    rows, *others, ended = (
+        inference.table(model, scene, unknowns, inference.covariance(j))
+        for model, j in [(best, slopes), *((best, j) for j in noisy(slopes, other, scene)), (off, slopes_off)]
+    )
+    tolerances = _cells(rows, others)
+    for line, (row, row_2) in enumerate(zip(rows, ended, strict=True)):
+        tolerances[line] = [t + abs(y - x) if isinstance(x, float) else t for t, x, y in zip(tolerances[line], row, row_2, strict=True)]
     told = [f"{count} data, {len(unknowns)} unknowns, ", f"chi^2 = {chi_2:.4g} of {count - len(unknowns)} degrees of freedom"]
-    outputs = {"table.csv": _table(rows, tolerances), "stderr": told}
     data = [f"{{here}}/measurements/{path.name}" for path in files]
+    outputs = {"table.csv": _table(rows, tolerances), "stderr": told}
     return {"arguments": [*arguments[:2], *data, *arguments[2:]], "outputs": outputs}
 
 

@@ -164,10 +164,10 @@ def table(model, scene, unknowns, covariance):
 
 
 def fisher(scene, numerics, observe, names=None):
-    """The table of `twofold fisher --out`."""
+    """The model of a scene, its unknowns, and the derivatives of what `twofold fisher` observes."""
     measured, model = measurement(scene, observe, numerics), Model.of(scene)
     unknowns = parameters(names, measured.noise)
-    return table(model, scene, unknowns, covariance(jacobian(model, unknowns, measured, numerics)[0]))
+    return model, unknowns, jacobian(model, unknowns, measured, numerics)[0]
 
 
 def epochs(end, count, turn, found):
@@ -188,7 +188,7 @@ def _spanning(scene, span):
 
 
 def forecast(scene, numerics, observe, target, names, spans, counts):
-    """The table of `twofold forecast --out`."""
+    """The header of `twofold forecast --out`; of each row span, epochs and number of different data; and the derivatives that its sigma is of."""
     scene = _spanning(scene, max(spans))
     kinds, model, unit = noise(observe, scene.time_unit), Model.of(scene), scene.time_unit
     unknowns = parameters(names, kinds)
@@ -201,17 +201,21 @@ def forecast(scene, numerics, observe, target, names, spans, counts):
     slopes, _ = jacobian(model, unknowns, Measurement(kinds, found, samples), numerics)
     blocks = np.split(slopes, np.cumsum([len(found) if kind in TIMES else len(samples) for kind, _ in kinds])[:-1])
     name = f"rad/{scene.unit}" if target in RATES else "rad" if target in ANGLES else "1"
-    rows, before = [[f"span [{scene.unit}]", "epochs", "data of each", f"sigma_{target} [{name}]"]], 0
+    header, rows, parts, before = [f"span [{scene.unit}]", "epochs", "data of each", f"sigma_{target} [{name}]"], [], [], 0
     for (span, count), (_, chosen) in asked.items():
         of_epochs = list(range(before, before + count))
         before += count
-        part = np.concatenate([block[chosen if kind in TIMES else of_epochs] for (kind, _), block in zip(kinds, blocks)])
-        sigma = None
-        if len(part) >= len(unknowns):
-            place = unknowns.index(target)
-            sigma = float(np.sqrt(covariance(part)[place, place]) / (unit if target in RATES else 1.0))
-        rows.append([float(span), count, len(chosen) if found else count, sigma])
-    return rows
+        rows.append([float(span), count, len(chosen) if found else count])
+        parts.append(np.concatenate([block[chosen if kind in TIMES else of_epochs] for (kind, _), block in zip(kinds, blocks)]))
+    return header, rows, parts
+
+
+def sigma_of(scene, slopes, unknowns, target):
+    """The standard deviation of an unknown in the unit of the output; none where there are fewer data than unknowns."""
+    if len(slopes) < len(unknowns):
+        return None
+    place = unknowns.index(target)
+    return float(np.sqrt(covariance(slopes)[place, place]) / (scene.time_unit if target in RATES else 1.0))
 
 
 def read_data(path, scene, kinds):
