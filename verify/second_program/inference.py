@@ -218,8 +218,8 @@ def sigma_of(scene, slopes, unknowns, target):
     return float(np.sqrt(covariance(slopes)[place, place]) / (scene.time_unit if target in RATES else 1.0))
 
 
-def read_data(path, scene, kinds):
-    """Values of a table of pulses or of strains in units of t_c and of the errors, and what is measured."""
+def read_data(path, scene):
+    """Of a table of pulses or of strains: times of samples, pulses, and the values of each kind, times in t_c. Periods are not read."""
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
     unit = scene.unit
@@ -293,7 +293,7 @@ def fit(scene, numerics, observe, names, files):
     kinds = noise(observe, scene.time_unit)
     samples, found, values = np.array([]), [], {}
     for path in files:
-        more_samples, more, more_values = read_data(path, scene, kinds)
+        more_samples, more, more_values = read_data(path, scene)
         samples, found, values = np.concatenate([samples, more_samples]), found + more, {**values, **more_values}
     measured = Measurement(kinds, found, samples)
     unknowns = parameters(names, kinds)

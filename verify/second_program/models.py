@@ -165,12 +165,12 @@ class Signals:
         """m.n and its first two derivatives."""
         y = self.states(times)
         n, x, momentum = y[..., :3], y[..., 3:6], y[..., 6:]
-        of = lambda number: number[:, None, None]  # noqa: E731
-        m = np.sin(of(self.chi)) * (np.cos(of(self.delta)) * x + np.sin(of(self.delta)) * np.cross(n, x)) + np.cos(of(self.chi)) * n
+        chi, delta, c = (number[:, None, None] for number in (self.chi, self.delta, self.c))
+        m = np.sin(chi) * (np.cos(delta) * x + np.sin(delta) * np.cross(n, x)) + np.cos(chi) * n
         # eps Omega^z is constant.
         turn = (self.eps / (1 + self.eps))[:, None] * np.sum(momentum * n, axis=-1)
         omega = momentum - turn[..., None] * n
-        torque = -2 * of(self.c) * np.cross(n, np.einsum("bij,bej->bei", self.tensor, n))
+        torque = -2 * c * np.cross(n, np.einsum("bij,bej->bei", self.tensor, n))
         omega_rate = torque - turn[..., None] * np.cross(momentum, n)
         rate = np.cross(omega, m)
         second = np.cross(omega_rate, m) + np.cross(omega, rate)
@@ -178,7 +178,12 @@ class Signals:
 
     def edges(self, near):
         """Times at which the line of sight is on the edge of the beam, of each model those next to the times `near`."""
-        return self._roots(near, lambda t: (lambda m, rate, _: (m - np.cos(self.rho)[:, None], rate))(*self.beam(t)))
+
+        def off(times):
+            value, rate, _ = self.beam(times)
+            return value - np.cos(self.rho)[:, None], rate
+
+        return self._roots(near, off)
 
     def closest_approaches(self, near):
         """Times of the largest m.n."""

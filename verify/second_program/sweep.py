@@ -91,7 +91,7 @@ def angle_to_observer(motion):
         near = [k for k in near if best[k] < best.min() + 0.02]
         least = [best[0], best[-1]]
         for k in near:
-            inside = minimize_scalar(lambda t: sign * angle([t])[0], bounds=(times[k - 1], times[k + 1]), method="bounded",
+            inside = minimize_scalar(lambda t, sign=sign: sign * angle([t])[0], bounds=(times[k - 1], times[k + 1]), method="bounded",
                                      options={"xatol": 1e-9 / motion.turning})  # fmt: skip
             least.append(inside.fun)
         found.append(sign * min(least))
