@@ -92,9 +92,9 @@ def _plain(rows):
     return [[plain[type(cell)](cell) for cell in row] for row in rows]
 
 
-def write(path, scene, commands):
-    """One file of answers: commands with their outputs."""
-    text = json.dumps({"scene": scene, "commands": commands}, indent=1)
+def write(path, answer):
+    """One file of answers: a scene, what is changed in it, commands with their outputs."""
+    text = json.dumps(answer, indent=1)
     # A row of a table, and a list of numbers, on a line.
     text = re.sub(r"\[\s+([^\[\]{}]*?)\s+\]", lambda found: "[" + re.sub(r"\s*\n\s*", " ", found[1]) + "]", text)
     path.write_text(text + "\n")

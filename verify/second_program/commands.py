@@ -1,12 +1,16 @@
 """Which commands are answered for a scene, and by what."""
 
+import functools
+import json
+
 import numpy as np
 
+import timing
 from columns import columns, direction_of_beam, motion_over_times, strain
 from motion import Motion
 from pulses import pulses
+from scene import Scene
 from spectrum import lines
-from timing import timing
 
 GROUPS = "angles,rates,e_x,e_z,L,integrals".split(",")
 
@@ -27,14 +31,14 @@ def groups(scene):
     return names
 
 
-def run(scene, numerics):
-    table = columns(motion_over_times(scene, numerics))
+def run(scene, numerics, chosen):
+    table = columns(motion_over_times(scene, numerics), chosen)
     values = np.array([values for _, values in table]).T.tolist()
     return {"stdout": (",", [[name for name, _ in table], *values])}
 
 
-def pulse_list(scene, numerics):
-    return {"stdout": (",", pulses(motion_over_times(scene, numerics), second_beam=True))}
+def pulse_list(scene, numerics, second_beam):
+    return {"stdout": (",", pulses(motion_over_times(scene, numerics), second_beam))}
 
 
 STRAIN_SAMPLES = 24
@@ -45,10 +49,21 @@ def strain_rate(scene):
     return float(f"{Motion(scene, scene.start, scene.start).turning / 1.7:.3g}")
 
 
-def timing_files(scene, numerics, name, with_rate, rate):
+@functools.lru_cache(maxsize=4)
+def _timed(document, numerics, rate):
+    """What the files are made of, with F1 and without."""
+    scene = Scene(json.loads(document))
     turn = 2 * np.pi / Motion(scene, scene.start, scene.start).turning
     motion = Motion(scene, min(scene.start, scene.end) - 10 * turn, max(scene.start, scene.end) + 10 * turn, numerics)
-    files, _ = timing(motion, scene.times - scene.start, with_rate, 2.5, rate, STRAIN_SAMPLES)
+    epochs = scene.times - scene.start
+    rows = timing.timed_pulses(motion, epochs)
+    series = scene.times[0] + np.arange(STRAIN_SAMPLES) / rate
+    h = strain(motion, series) if scene.observer.distance is not None else None
+    return scene, epochs, rows, timing.described(motion, rows), rate, h
+
+
+def timing_files(scene, numerics, name, with_rate, rate):
+    files = timing.timing_files(*_timed(json.dumps(scene.document), numerics, rate), with_rate, 2.5)
     return {f"{name}.{ending}": ("," if ending == "csv" else " ", rows) for ending, rows in files.items()}
 
 
@@ -62,7 +77,7 @@ SPECTRAL = {
 }
 
 
-def spectrum(scene, numerics, column, span, least):
+def spectrum(scene, numerics, column, span, least, most):
     unit, values = SPECTRAL[column]
     header = [f"frequency [rad/{scene.unit}]", f"amplitude [{unit}]", "phase [rad]", f"uncertainty [rad/{scene.unit}]", "combination"]
-    return {"stdout": (",", [header, *lines(values, scene, span, least, numerics)])}
+    return {"stdout": (",", [header, *lines(values, scene, span, least, most, numerics)])}

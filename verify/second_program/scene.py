@@ -11,7 +11,7 @@ import numpy as np
 
 from star import DAY, JULIAN_YEAR, PARSEC, SOLAR_MASS, uniform_spheroid
 
-PATH = re.compile(r"^(\w+)\.(\w+)((?:\[\d+\])*)$")
+PATH = re.compile(r"^(?:(\w+)\.)?(\w+)((?:\[\d+\])*)$")
 
 
 class Scene:
@@ -37,7 +37,7 @@ class Scene:
         document = copy.deepcopy(self.document)
         for key, value in keys.items():
             section, name, indices = PATH.match(key).groups()
-            place, last = document[section], name
+            place, last = document[section] if section else document, name
             for index in re.findall(r"\d+", indices):
                 place, last = place[last], int(index)
             place[last] = value

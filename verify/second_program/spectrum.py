@@ -7,25 +7,26 @@ import numpy as np
 from motion import FINE, Motion
 
 
-def lines(column, scene, span, least, numerics=FINE):
-    """Rows frequency, amplitude, phase, uncertainty (not recomputed), combination: amplitudes of at least `least` of the largest."""
+def lines(column, scene, span, least, most, numerics=FINE):
+    """Rows frequency, amplitude, phase, uncertainty (not recomputed), combination: the `most` strongest.
+
+    All lines of at least `least` of the largest are fitted together.
+    """
     # The other numerics take another span, so that what lines outside of the fit do to it is seen.
     span = span if numerics is FINE else 0.87 * span
-    motion = Motion(scene, min(scene.start, scene.start + span), max(scene.start, scene.start + span) * (1 + 1e-9), numerics)
+    margin = 3.0 / Motion(scene, scene.start, scene.start).turning
+    motion = Motion(scene, min(scene.start, scene.start + span) - margin, max(scene.start, scene.start + span) + margin, numerics)
     count = int(abs(span) * motion.turning / 0.5)
     since = np.linspace(0, span, count)
     values = column(motion, scene.start + since)
     window = (1 - np.cos(2 * np.pi * (np.arange(count) + 0.5) / count)) ** 2
-    found = fit(since, values, window, least / 10)
-    strongest = max(np.hypot(c, s) for _, c, s in found)
+    found = fit(since, values, window, least)
     basis = fundamental_frequencies(motion, scene.start + since, window)
     rows = []
     for frequency, c, s in sorted(found, key=lambda line: -np.hypot(line[1], line[2])):
-        amplitude = np.hypot(c, s)
-        if amplitude >= least * strongest:
-            # c cos + s sin of frequency times t.
-            rows.append([frequency, amplitude, np.arctan2(-s, c), "*", combination(frequency, basis, 30 / abs(span) ** 1.5)])
-    return rows
+        # c cos + s sin of frequency times t.
+        rows.append([frequency, np.hypot(c, s), np.arctan2(-s, c), "*", combination(frequency, basis, 1 / abs(span))])
+    return rows[:most]
 
 
 def fit(t, values, window, least):
@@ -44,9 +45,14 @@ def fit(t, values, window, least):
             break
         a, b, c = np.log(transform[peak - 1 : peak + 2] + 1e-300)
         shift = 0.5 * (a - c) / (a - 2 * b + c)
-        frequencies.append(2 * np.pi * (peak + shift) / (pad * step))
-        solution, left, frequencies = _newton(t, values, window, frequencies, span)
-    for _ in range(6):
+        frequency = 2 * np.pi * (peak + shift) / (pad * step)
+        frequencies.append(frequency)
+        if len(frequencies) % 4 == 0:
+            solution, left, frequencies = _newton(t, values, window, frequencies, span)
+        else:
+            wave, design = _amplitudes(t, left, window, [frequency])
+            left = left - wave @ design
+    for _ in range(8):
         solution, left, frequencies = _newton(t, values, window, frequencies, span)
     return [(f, solution[2 * k + 1], solution[2 * k + 2]) for k, f in enumerate(frequencies)]
 
@@ -75,7 +81,7 @@ def _least_squares(design, values, window):
 
 
 def fundamental_frequencies(motion, times, window):
-    """Mean rates of alpha, gamma and of the azimuth of L about the axis of s that it goes round, as {name: rate}."""
+    """Mean rates of alpha, gamma and the azimuth of L, all about the principal axis of s that L goes round, as {name: rate}."""
     scene = motion.scene
 
     def mean_rate(angle, part=slice(None)):
@@ -85,17 +91,18 @@ def fundamental_frequencies(motion, times, window):
         weight = inside * x
         return float((weight * angle).sum() / (weight * x).sum())
 
-    axes, momentum = motion.axes(times), motion.momentum(times)
-    x, y, z = axes[:, 0], axes[:, 1], axes[:, 2]
-    rates = {
-        "alpha'": mean_rate(np.arctan2(z[:, 0], -z[:, 1])),
-        "gamma'": mean_rate(np.arctan2(x[:, 2], y[:, 2])),
-    }
+    momentum = motion.momentum(times)
     # L without its fast motion: the average over some four turns.
     width = min(len(times) // 10, int(8 * np.pi / (motion.turning * abs(times[1] - times[0]))))
     kernel = np.hanning(width + 2)
     about = [np.convolve(component, kernel / kernel.sum(), "valid") for component in scene.principal @ momentum.T]
     axis = max((0, 2), key=lambda i: np.abs(about[i]).min())
+    frame = scene.principal[[(axis + 1) % 3, (axis + 2) % 3, axis]]
+    x, y, z = np.moveaxis(motion.axes(times) @ frame.T, 1, 0)
+    rates = {
+        "alpha'": mean_rate(np.arctan2(z[:, 0], -z[:, 1])),
+        "gamma'": mean_rate(np.arctan2(x[:, 2], y[:, 2])),
+    }
     first, second = about[(axis + 1) % 3], about[(axis + 2) % 3]
     trimmed = slice(width // 2 + 1, width // 2 + 1 + len(first))
     rates["l'"] = mean_rate(np.arctan2(second, first), trimmed)
@@ -107,7 +114,7 @@ def combination(frequency, basis, tolerance):
     names, best = list(basis), None
     for integers in sorted(itertools.product(range(-8, 9), repeat=len(names)), key=lambda n: sum(map(abs, n))):
         off = abs(sum(n * basis[name] for n, name in zip(integers, names, strict=True)) - frequency)
-        if off < tolerance * max(1.0, frequency):
+        if off < tolerance:
             best = integers
             break
     if best is None:

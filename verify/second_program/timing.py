@@ -14,22 +14,17 @@ HEADER = (
 ).split(",")
 
 
-def timing(motion, epochs, with_rate, uncertainty, strain_rate, strain_samples):
-    """Tables of the .csv, .par, .tim and both strain files; `epochs` in s since the start of the motion, whose date is `time.epoch`.
-
-    A row of a file of words is a list of its words.
-    """
+def timed_pulses(motion, epochs):
+    """Rows (number, start, end) of the pulses of the turns nearest to epochs, in s since the start of the motion; zero is the turn at its start."""
     scene, beam = motion.scene, Beam(motion, 1)
-    date = Fraction(str(scene.epoch))
     first, last = min([scene.start, *scene.start + epochs]), max([scene.start, *scene.start + epochs])
     period = 2 * np.pi / motion.turning
     number_at, rate = _phase(beam, first - 3 * period, last + 3 * period)
     pulses = {}
     for start, end, *cut in stretches(beam, first - 3 * period, last + 3 * period):
-        if not any(cut):
+        # Longer ones are not timed (docs/pulsars.md).
+        if not any(cut) and (end - start) * rate < 3 * 2 * np.pi:
             pulses[number_at((start + end) / 2)] = (start, end)
-    # Longer ones are not timed (docs/pulsars.md).
-    pulses = {number: (a, b) for number, (a, b) in pulses.items() if (b - a) * rate < 3 * 2 * np.pi}
     zero = number_at(scene.start)
     rows, seen = [], set()
     for epoch in epochs:
@@ -37,6 +32,31 @@ def timing(motion, epochs, with_rate, uncertainty, strain_rate, strain_samples):
         if number in pulses and number not in seen:
             seen.add(number)
             rows.append((number - zero, *pulses[number]))
+    return rows
+
+
+def described(motion, rows):
+    """What the .csv says of each pulse but for its residual: duration, position angle, its rate and swing, L, the wave."""
+    scene = motion.scene
+    middle = np.array([(start + end) / 2 for _, start, end in rows])
+    psi, psi_rate = _position_angle(motion, middle)
+    wave = _harmonics(motion, middle)
+    h = np.array(strain(motion, middle)) if scene.observer.distance is not None else None
+    described = []
+    for k, (_, start, end) in enumerate(rows):
+        edges = np.linspace(start, end, 2 + int((end - start) * motion.turning * 40))
+        swing = np.unwrap(position_angle(scene.observer, direction_of_beam(motion, edges)))
+        values = [end - start, psi[k], psi_rate[k], swing[-1] - swing[0], *wave[k]]
+        described.append([*values, *h[:, k]] if h is not None else [*values[:-2], None, None, None, None])
+    return described
+
+
+def timing_files(scene, epochs, rows, described, strain_rate, h, with_rate, uncertainty):
+    """Tables of the .csv, .par, .tim and of both strain files `h` (none without a distance). The date of the start of the motion is `time.epoch`.
+
+    A row of a file of words is a list of its words.
+    """
+    date = Fraction(str(scene.epoch))
     numbers = np.array([row[0] for row in rows])
     middle = np.array([(row[1] + row[2]) / 2 for row in rows])
 
@@ -50,21 +70,10 @@ def timing(motion, epochs, with_rate, uncertainty, strain_rate, strain_samples):
     at_pepoch = [sum(c * (-centre) ** k for k, c in enumerate(np.polynomial.polynomial.polyder(series, d) if d else series)) for d in range(3)]
     phase, f0, f1 = at_pepoch[0], at_pepoch[1], at_pepoch[2] if with_rate else 0.0
 
-    wave = _harmonics(motion, middle)
     table = [HEADER]
-    motion_at_pulses = _At(motion, middle)
-    psi, psi_rate = _position_angle(motion, middle)
-    for k, (number, start, end) in enumerate(rows):
+    for k, (number, *_) in enumerate(rows):
         mjd = date + Fraction(middle[k] - scene.start) / 86400
-        edges = np.linspace(start, end, 2 + int((end - start) * motion.turning * 40))
-        swing = np.unwrap(position_angle(scene.observer, direction_of_beam(motion, edges)))
-        values = [late[k] / f0, end - start, psi[k], psi_rate[k], swing[-1] - swing[0], *wave[k]]
-        if scene.observer.distance is not None:
-            values += [float(h[k]) for h in motion_at_pulses.strain]
-        else:
-            values[-2:] = [None, None]
-            values += [None, None]
-        table.append([int(number), int(mjd), float(mjd - int(mjd)), *values])
+        table.append([int(number), int(mjd), float(mjd - int(mjd)), late[k] / f0, *described[k]])
 
     reference = round(phase)
     # The time at which the fit has this phase.
@@ -85,16 +94,13 @@ def timing(motion, epochs, with_rate, uncertainty, strain_rate, strain_samples):
     for row in table[1:]:
         tim.append(["twofold", 0.0, row[1] + row[2], float(uncertainty), "@", "-pn", row[0] - reference])
     files = {"csv": table, "par": par, "tim": tim}
-    if scene.observer.distance is not None:
-        start = scene.start + epochs[0]
-        times = start + np.arange(strain_samples) / strain_rate
-        plus, cross = strain(motion, times)
-        for name, h in [("h_plus", plus), ("h_cross", cross)]:
-            mjd = float(date + Fraction(epochs[0]) / 86400)
+    if h is not None:
+        mjd = float(date + Fraction(epochs[0]) / 86400)
+        for name, values in zip(("h_plus", "h_cross"), h, strict=True):
             header = f"# {name} [1] against time [s] from MJD".split()
-            series = [[float(k / strain_rate), float(h[k])] for k in range(strain_samples)]
+            series = [[float(k / strain_rate), float(value)] for k, value in enumerate(values)]
             files[f"{name}.txt"] = [[*header, mjd, "(TDB,", "barycentre)"], *series]
-    return files, rate
+    return files
 
 
 def _phase(beam, first, last):
@@ -110,13 +116,6 @@ def _phase(beam, first, last):
         return int(np.round(here + np.round(near - here)))
 
     return number, (phase[-1] - phase[0]) / (last - first)
-
-
-class _At:
-    """What is wanted at given times."""
-
-    def __init__(self, motion, times):
-        self.strain = strain(motion, times) if motion.scene.observer.distance is not None else None
 
 
 def _position_angle(motion, times):
