@@ -142,7 +142,7 @@ fn rows(pulsar: &Pulsar, printed: Option<PrintedBounds>) -> Result<Vec<Row>, Str
         }
     }
     push("limit_over_eta_by_inputs", "the other numbers alone: limit / eta", limit.over_eta_by_inputs);
-    let unknown = pulsar.eta_distribution().map_err(text)?.is_some();
+    let unknown = pulsar.directions().map_err(text)?.is_some();
     push("eta", if unknown { "directions alone, lambda known: limit of eta" } else { "eta as given" }, limit.eta);
     if limit.over_eta_by_change.is_some() {
         let without = pulsar.limit(&Figure { from_change: None, ..own }).map_err(text)?.all;

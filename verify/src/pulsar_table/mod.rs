@@ -11,7 +11,7 @@ use crate::random::Random;
 use crate::scene_file::{FileKind, SceneError};
 
 pub use figures::{COMBINATION, CONSERVATIVE_ETA, Figure, ROUND_INERTIA_OVER_C};
-pub use limit::{CONFIDENCE, Limit, recommended};
+pub use limit::{CONFIDENCE, Directions, Limit, recommended};
 
 /// The table that comes with the command: the two pulsars of the paper.
 pub const PAPER: &str = include_str!("../../pulsars/paper.toml");

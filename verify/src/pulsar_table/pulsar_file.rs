@@ -73,7 +73,7 @@ fn pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
     // Where the width is stationary or the axis points at the observer there is no bound: better said now, with the place.
     let refused = |error| section.fault(format!("{}: {error}", pulsar.name));
     pulsar.figures().map_err(refused)?;
-    pulsar.eta_distribution().map_err(refused)?;
+    pulsar.directions().map_err(refused)?;
     Ok(pulsar)
 }
 
