@@ -2,9 +2,11 @@
 
     python verify/second_program            compare with the answers that are kept
     python verify/second_program --update   write them anew
-    python verify/second_program NAME ...   only these scenes
+    python verify/second_program NAME ...   only these files of answers
+    python verify/second_program --data     write the data of the fits anew
 """
 
+import functools
 import json
 import multiprocessing
 import pathlib
@@ -13,6 +15,7 @@ import time
 
 import answers
 import commands
+import further
 import keys
 from scene import Scene
 
@@ -51,20 +54,25 @@ def answered(file, name, changed):
 
 
 def tasks():
-    """(name of the file of answers, scene, keys changed) of all."""
-    scenes = [(path.stem, path.stem, {}) for path in sorted((HERE / "scenes").glob("*.toml"))]
-    changed = [(f"{scene}.{key}", scene, {key: value}) for scene, cases in keys.CASES.items() for key, value in cases.items()]
-    return scenes + changed
+    """What is answered: by the name of its file the scene, the keys that are changed, and how the commands are answered."""
+    found = {}
+    for path in sorted((HERE / "scenes").glob("*.toml")):
+        found[path.stem] = (path.stem, {})
+    for scene, cases in keys.CASES.items():
+        found.update({f"{scene}.{key}": (scene, {key: value}) for key, value in cases.items()})
+    found = {file: (*task, functools.partial(answered, file, *task)) for file, task in found.items()}
+    # Those of many scenes and of data name their files themselves.
+    return found | {file: (None, {}, answer) for file, answer in further.tasks().items()}
 
 
 def job(task):
-    (file, name, changed), update = task
+    file, update = task
     began = time.monotonic()
-    done = {"scene": name, "changed": changed, "commands": answered(file, name, changed)}
-    path = HERE / "answers" / f"{file}.json"
+    scene, changed, answer = tasks()[file]
+    done = {"scene": scene, "changed": changed, "commands": answer()}
+    path, found = HERE / "answers" / f"{file}.json", []
     if update:
         answers.write(path, done)
-        found = []
     else:
         found = answers.differences(json.loads(path.read_text()), json.loads(json.dumps(done, default=float)))
     return file, found, time.monotonic() - began
@@ -72,22 +80,21 @@ def job(task):
 
 def main():
     update = "--update" in sys.argv
-    names = [argument for argument in sys.argv[1:] if argument != "--update"]
-    wanted = [task for task in tasks() if not names or task[0] in names]
+    names = [argument for argument in sys.argv[1:] if not argument.startswith("--")] or list(tasks())
+    if "--data" in sys.argv:
+        return further.write_data()
     wrong = 0
     with multiprocessing.Pool() as pool:
-        for file, found, seconds in pool.imap_unordered(job, [(task, update) for task in wanted]):
-            print(f"{file}: {'written' if update else 'as kept' if not found else 'differs'} ({seconds:.1f} s)", flush=True)
+        for file, found, seconds in pool.imap_unordered(job, [(name, update) for name in names]):
+            print(f"{file}: {'written' if update else 'differs' if found else 'as kept'} ({seconds:.1f} s)", flush=True)
             for line in found[:10]:
                 print(f"  {line}")
             wrong += bool(found)
-    if not names:
-        silent = [file for file, scene, changed in tasks() if changed and not keys.shows(HERE / "answers", file, scene)]
-        if sorted(silent) != sorted(f"keys-angles.{key}" for key in keys.SILENT):
-            sys.exit(f"keys whose change does not show: {silent}")
-    if wrong:
-        sys.exit(f"{wrong} of {len(wanted)} files differ from the answers that are kept")
+    silent = {file for file, (scene, changed, _) in tasks().items() if changed and not keys.shows(HERE / "answers", file, scene)}
+    if silent != {f"keys-angles.{key}" for key in keys.SILENT}:
+        return f"keys whose change does not show: {silent}"
+    return f"{wrong} of {len(names)} files differ from the answers that are kept" if wrong else None
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -108,13 +108,18 @@ def differences(kept, anew):
     for old, new in zip(kept["commands"], anew["commands"], strict=True):
         for name, table in old["outputs"].items():
             where = f"{' '.join(old['arguments'])}: {name}"
-            rows = new["outputs"][name]["rows"]
-            if len(rows) != len(table["rows"]):
-                found.append(f"{where}: {len(table['rows'])} rows are kept, {len(rows)} found")
+            other = new["outputs"][name]
+            if name == "stderr":
+                found += [] if table == other else [f"{where}: {table} is kept, {other} found"]
                 continue
-            for line, (row, row_2) in enumerate(zip(table["rows"], rows, strict=True)):
+            if [len(row) for row in table["rows"]] != [len(row) for row in other["rows"]]:
+                found.append(f"{where}: a table of another shape")
+                continue
+            for line, (row, row_2) in enumerate(zip(table["rows"], other["rows"], strict=True)):
+                tolerances = table["tolerances"]
+                tolerances = tolerances[line] if isinstance(tolerances[0], list) else tolerances
                 for k, (a, b) in enumerate(zip(row, row_2, strict=True)):
-                    same = abs(a - b) <= table["tolerances"][k] if isinstance(a, float) and isinstance(b, float) else a == b
+                    same = abs(a - b) <= tolerances[k] if isinstance(a, float) and isinstance(b, float) else a == b
                     if not same:
                         found.append(f"{where}: row {line}, column {k}: {a!r} is kept, {b!r} found")
     return found

@@ -1,20 +1,11 @@
 """Answers for the commands of many scenes and of data: `sweep`, `fisher`, `fit`, `forecast` and `bounds`.
 
-    python verify/second_program/further.py             compare with the answers that are kept in `further_answers`
-    python verify/second_program/further.py --update    write them anew
-    python verify/second_program/further.py --data      write the data of the fits anew
-    python verify/second_program/further.py NAME ...    only these
-
 Here tolerances have a row for each row of a table, since the rows are of different unknowns. Files are named from `{here}`, this folder.
 """
 
 import functools
 import json
-import multiprocessing
 import pathlib
-import re
-import sys
-import time
 
 import numpy as np
 
@@ -230,57 +221,3 @@ def write_data():
             for kind, rows in tables.items():
                 text = "".join(",".join(row) + "\n" for row in rows)
                 (HERE / "measurements" / f"{case['scene']}-{kind}.csv").write_text(text)
-
-
-def differences(kept, anew):
-    """Sentences about what in `anew` is not in `kept` to its tolerances."""
-    found = []
-    for old, new in zip(kept, anew, strict=True):
-        if old["arguments"] != new["arguments"] or old["outputs"].keys() != new["outputs"].keys():
-            return ["other commands"]
-        for name, output in old["outputs"].items():
-            other = new["outputs"][name]
-            if name == "stderr":
-                found += [] if output == other else [f"{name}: {output} is kept, {other} found"]
-                continue
-            if [len(row) for row in output["rows"]] != [len(row) for row in other["rows"]]:
-                return [f"{name}: a table of another shape"]
-            for line, (row, row_2) in enumerate(zip(output["rows"], other["rows"])):
-                for k, (a, b) in enumerate(zip(row, row_2)):
-                    numbers = isinstance(a, float) and isinstance(b, float)
-                    if not (abs(a - b) <= output["tolerances"][line][k] if numbers else a == b):
-                        found.append(f"{name}: row {line}, column {k}: {a!r} is kept, {b!r} found")
-    return found
-
-
-def job(task):
-    name, update = task
-    began = time.monotonic()
-    done = json.loads(json.dumps(tasks()[name](), default=float))
-    path, found = HERE / "further_answers" / f"{name}.json", []
-    if update:
-        # A row of a table on a line.
-        text = re.sub(r"\[\s+([^\[\]{}]*?)\s+\]", lambda row: "[" + re.sub(r"\s*\n\s*", " ", row[1]) + "]", json.dumps(done, indent=1))
-        path.write_text(text + "\n")
-    else:
-        found = differences(json.loads(path.read_text()), done)
-    return name, found, time.monotonic() - began
-
-
-def main():
-    options = [argument for argument in sys.argv[1:] if argument.startswith("--")]
-    names = [argument for argument in sys.argv[1:] if argument not in options] or list(tasks())
-    if "--data" in options:
-        return write_data()
-    wrong, update = 0, "--update" in options
-    with multiprocessing.Pool() as pool:
-        for name, found, seconds in pool.imap_unordered(job, [(name, update) for name in names]):
-            print(f"{name}: {'written' if update else 'differs' if found else 'as kept'} ({seconds:.1f} s)", flush=True)
-            for line in found[:10]:
-                print(f"  {line}")
-            wrong += bool(found)
-    return f"{wrong} of {len(names)} differ from the answers that are kept" if wrong else None
-
-
-if __name__ == "__main__":
-    sys.exit(main())
