@@ -2,7 +2,8 @@
 
     python verify/second_program            compare with the answers that are kept
     python verify/second_program --update   write them anew
-    python verify/second_program NAME ...   only these scenes
+    python verify/second_program NAME ...   only these files of answers
+    python verify/second_program --data     write the data of the fits anew
 """
 
 import json
@@ -13,6 +14,7 @@ import time
 
 import answers
 import commands
+import further
 import keys
 from scene import Scene
 
@@ -70,13 +72,21 @@ def job(task):
     return file, found, time.monotonic() - began
 
 
+def call(pair):
+    function, argument = pair
+    return function(argument)
+
+
 def main():
+    if "--data" in sys.argv:
+        return further.write_data()
     update = "--update" in sys.argv
     names = [argument for argument in sys.argv[1:] if argument != "--update"]
-    wanted = [task for task in tasks() if not names or task[0] in names]
+    wanted = [(further.job, (name, update)) for name in further.tasks() if not names or name in names]
+    wanted += [(job, (task, update)) for task in tasks() if not names or task[0] in names]
     wrong = 0
     with multiprocessing.Pool() as pool:
-        for file, found, seconds in pool.imap_unordered(job, [(task, update) for task in wanted]):
+        for file, found, seconds in pool.imap_unordered(call, wanted):
             print(f"{file}: {'written' if update else 'as kept' if not found else 'differs'} ({seconds:.1f} s)", flush=True)
             for line in found[:10]:
                 print(f"  {line}")

@@ -1,23 +1,16 @@
 """Answers for the commands of many scenes and of data: `sweep`, `fisher`, `fit`, `forecast` and `bounds`.
 
-    python verify/second_program/further.py             compare with the answers that are kept in `further_answers`
-    python verify/second_program/further.py --update    write them anew
-    python verify/second_program/further.py --data      write the data of the fits anew
-    python verify/second_program/further.py NAME ...    only these
-
 Here tolerances have a row for each row of a table, since the rows are of different unknowns. Files are named from `{here}`, this folder.
 """
 
 import functools
 import json
-import multiprocessing
 import pathlib
-import re
-import sys
 import time
 
 import numpy as np
 
+import answers
 import bounds
 import inference
 import sweep
@@ -259,28 +252,7 @@ def job(task):
     done = json.loads(json.dumps(tasks()[name](), default=float))
     path, found = HERE / "further_answers" / f"{name}.json", []
     if update:
-        # A row of a table on a line.
-        text = re.sub(r"\[\s+([^\[\]{}]*?)\s+\]", lambda row: "[" + re.sub(r"\s*\n\s*", " ", row[1]) + "]", json.dumps(done, indent=1))
-        path.write_text(text + "\n")
+        answers.write(path, done)
     else:
         found = differences(json.loads(path.read_text()), done)
     return name, found, time.monotonic() - began
-
-
-def main():
-    options = [argument for argument in sys.argv[1:] if argument.startswith("--")]
-    names = [argument for argument in sys.argv[1:] if argument not in options] or list(tasks())
-    if "--data" in options:
-        return write_data()
-    wrong, update = 0, "--update" in options
-    with multiprocessing.Pool() as pool:
-        for name, found, seconds in pool.imap_unordered(job, [(name, update) for name in names]):
-            print(f"{name}: {'written' if update else 'differs' if found else 'as kept'} ({seconds:.1f} s)", flush=True)
-            for line in found[:10]:
-                print(f"  {line}")
-            wrong += bool(found)
-    return f"{wrong} of {len(names)} differ from the answers that are kept" if wrong else None
-
-
-if __name__ == "__main__":
-    sys.exit(main())
