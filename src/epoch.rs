@@ -32,8 +32,7 @@ use core::str::FromStr;
 use crate::double_double::DoubleDouble;
 use crate::error::Error;
 
-/// Day in s.
-pub const DAY: f64 = 86_400.0;
+pub use crate::units::DAY;
 
 /// Latest day, some 27,000 years from the first.
 const LAST_DAY: f64 = 1e7;

@@ -27,8 +27,11 @@ use crate::scalar::Real;
 /// Degree in rad.
 pub const DEGREE: f64 = core::f64::consts::PI / 180.0;
 
+/// Day in s.
+pub const DAY: f64 = 86_400.0;
+
 /// Julian year in s: 365.25 days (IAU).
-pub const JULIAN_YEAR: f64 = 31_557_600.0;
+pub const JULIAN_YEAR: f64 = 365.25 * DAY;
 
 /// SI: metre, kilogram, second.
 pub mod si {
@@ -44,6 +47,10 @@ pub mod si {
     pub const ASTRONOMICAL_UNIT: f64 = 149_597_870_700.0;
     /// Parsec in m, `648000 / pi` astronomical units, IAU 2015 Resolution B2, exact.
     pub const PARSEC: f64 = 648_000.0 / core::f64::consts::PI * ASTRONOMICAL_UNIT;
+    /// Kiloparsec in m.
+    pub const KILOPARSEC: f64 = 1e3 * PARSEC;
+    /// Moment of inertia of one gram square centimetre [kg m^2].
+    pub const GRAM_SQUARE_CENTIMETRE: f64 = 1e-7;
     /// Density of one gram per cubic centimetre [kg m^-3].
     pub const GRAM_PER_CUBIC_CENTIMETRE: f64 = 1e3;
 }
@@ -138,8 +145,45 @@ impl<S: Real> TimeUnit<S> {
 mod tests {
     use super::*;
 
+    /// SI 2019; IAU 2012 B2, 2015 B2 and B3; CODATA 2018 and 2022, which have the same G.
     #[test]
-    fn a_turn_has_360_degrees_and_a_year_365_days_and_a_quarter() {
-        assert_eq!((360.0 * DEGREE, JULIAN_YEAR), (core::f64::consts::TAU, 365.25 * 86_400.0));
+    fn constants_are_those_of_their_definitions() {
+        assert_eq!(si::SPEED_OF_LIGHT, 299_792_458.0);
+        assert_eq!(si::GRAVITATIONAL_CONSTANT, 6.674_30e-11);
+        assert_eq!(si::SOLAR_MASS_PARAMETER, 1.327_124_4e20);
+        assert_eq!(si::ASTRONOMICAL_UNIT, 149_597_870_700.0);
+        assert_eq!((DAY, JULIAN_YEAR), (24.0 * 60.0 * 60.0, 31_557_600.0));
+        assert_eq!((360.0 * DEGREE, geometrised::HERTZ), (core::f64::consts::TAU, core::f64::consts::TAU));
+        assert_eq!(
+            (geometrised::SECOND, si::GRAM_PER_CUBIC_CENTIMETRE, si::GRAM_SQUARE_CENTIMETRE),
+            (1.0, 1000.0, 1e-7)
+        );
+    }
+
+    /// The digits are those of the definitions in decimal arithmetic of 50 digits. A product of two or three roundings is at most two
+    /// units of the last place off.
+    #[test]
+    fn units_that_follow_are_right_to_the_last_place() {
+        for (unit, digits) in [
+            (DEGREE, 1.745_329_251_994_329_58e-2),
+            (si::PARSEC, 3.085_677_581_491_367_28e16),
+            (si::KILOPARSEC, 3.085_677_581_491_367_28e19),
+            (si::SOLAR_MASS, 1.988_409_870_698_050_73e30),
+            (cgs::GRAVITATIONAL_CONSTANT, 6.674_300_000_000_000e-8),
+            (cgs::SPEED_OF_LIGHT, 2.997_924_580_000_000e10),
+            (cgs::SOLAR_MASS, 1.988_409_870_698_050_73e33),
+            (geometrised::METRE, 3.335_640_951_981_520_5e-9),
+            (geometrised::KILOMETRE, 3.335_640_951_981_520_5e-6),
+            (geometrised::CENTIMETRE, 3.335_640_951_981_520_5e-11),
+            (geometrised::KILOGRAM, 2.477_100_430_965_032_98e-36),
+            (geometrised::GRAM, 2.477_100_430_965_032_98e-39),
+            (geometrised::SOLAR_MASS, 4.925_490_947_641_266_98e-6),
+            (geometrised::KILOGRAM_PER_CUBIC_METRE, 6.674_300_000_000_000e-11),
+            (geometrised::GRAM_PER_CUBIC_CENTIMETRE, 6.674_300_000_000_000e-8),
+            (geometrised::JOULE, 2.756_145_933_363_686_32e-53),
+            (geometrised::ERG, 2.756_145_933_363_686_32e-60),
+        ] {
+            assert!((unit - digits).abs() <= f64::EPSILON * digits, "{unit:e}, by definition {digits:e}");
+        }
     }
 }

@@ -44,14 +44,6 @@ fn every_check_is_about_an_equation_with_a_row_and_has_an_id_of_its_own() {
     }
 }
 
-#[test]
-fn golden_tables_named_exist() {
-    let tables: BTreeSet<_> =
-        twofold_verify::golden::tables().expect("the golden numbers can be computed").iter().map(|t| t.name).collect();
-    let named: BTreeSet<_> = EQUATIONS.iter().flat_map(|e| e.golden).copied().collect();
-    assert_eq!(named, tables, "golden tables named by the equations, and those that exist");
-}
-
 /// Checks named in the discrepancies exist: the page is prose, its evidence is not.
 #[test]
 fn discrepancies_name_existing_checks() {

@@ -1,10 +1,19 @@
 //! The paper's numbers beside ours, as snapshots for review in `golden/`, and their digits against rigorous enclosures.
 
+use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
+use twofold_verify::claims::claims;
+use twofold_verify::equation_table::EQUATIONS;
+use twofold_verify::figures::all;
 use twofold_verify::golden::{Certainty, Enclosures, GoldenTable, tables};
 
-static TABLES: LazyLock<Vec<GoldenTable>> = LazyLock::new(|| tables().expect("the golden numbers can be computed"));
+static TABLES: LazyLock<Vec<GoldenTable>> =
+    LazyLock::new(|| all().and_then(|figures| tables(&figures)).expect("the golden numbers can be computed"));
+
+fn names() -> BTreeSet<&'static str> {
+    TABLES.iter().map(|table| table.name).collect()
+}
 
 #[test]
 fn golden_tables_are_as_reviewed() {
@@ -43,5 +52,20 @@ fn digits_are_certified_or_listed_with_a_reason() {
     let share = format!("{certified} of {}", certified + listed);
     for page in ["docs/reliability/certified.md", "docs/reliability.md"] {
         assert!(file(page).contains(&share), "{page} does not say that {share} golden numbers are certified");
+    }
+}
+
+#[test]
+fn the_equations_name_every_table_and_no_other() {
+    let named: BTreeSet<_> = EQUATIONS.iter().flat_map(|equation| equation.golden).copied().collect();
+    assert_eq!(named, names(), "golden tables named by the equations, and those that exist");
+}
+
+#[test]
+fn the_claims_name_tables_that_exist() {
+    for claim in claims() {
+        for name in claim.golden {
+            assert!(names().contains(name), "{} names the golden table {name}, which does not exist", claim.id);
+        }
     }
 }

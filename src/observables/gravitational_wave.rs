@@ -81,9 +81,10 @@ pub fn polarizations<S: Scalar>(observer: &Observer<S>, metric_perturbation: &Ma
 ///
 /// ```
 /// use twofold::observables::gravitational_wave::strain_unit;
+/// use twofold::units::si::KILOPARSEC;
 ///
 /// // 1e38 kg m^2, t_c = 1 ms, 1 kpc.
-/// let unit: f64 = strain_unit(1e38, 1e-3, 3.0857e19);
+/// let unit: f64 = strain_unit(1e38, 1e-3, KILOPARSEC);
 /// assert!((unit / 2.6777e-20 - 1.0).abs() < 1e-4);
 /// ```
 pub fn strain_unit<S: Real>(inertia_xx: S, time_unit: S, distance: S) -> S {

@@ -6,8 +6,10 @@ use std::fs;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::time::Duration;
 
-use common::{folder, names_in, stderr, twofold};
+use common::{comes_to, folder, names_in, stderr, twofold};
+use twofold_verify::scene_file::BUILT_IN;
 
 /// Status 2, nothing on standard output, one message that contains the fragments, no file.
 fn assert_refused(scene: &Path, fragments: &[&str]) {
@@ -26,6 +28,34 @@ fn assert_refused(scene: &Path, fragments: &[&str]) {
             assert!(message.contains(fragment), "{scene}: expected `{fragment}` in\n{message}");
         }
         assert!(names_in(folder.path()).is_empty(), "{scene}: left {:?}", names_in(folder.path()));
+    }
+}
+
+/// The note at the end of `run` is not below the largest difference of the last row from that of a motion a million times as accurate, and
+/// not ten times above it.
+#[test]
+fn the_estimated_error_that_run_prints_is_that_of_its_last_row() {
+    let folder = folder();
+    let built_in = BUILT_IN.iter().find(|scene| scene.name == "tp-2").expect("tp-2").toml;
+    let last_row = |accuracy: &str, method: &str| {
+        let text = built_in.replace("accuracy = 1e-13", "");
+        let path = folder.path().join("scene.toml");
+        fs::write(&path, format!("{text}\n[output]\ncolumns = [\"e_x\", \"e_z\"]\naccuracy = {accuracy}\n"))
+            .expect("scene");
+        let output = twofold(&["run", path.to_str().expect("path in UTF-8"), "--method", method]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let table = String::from_utf8(output.stdout.clone()).expect("text");
+        let row: Vec<f64> =
+            table.lines().last().expect("a row").split(',').skip(1).map(|x| x.parse().expect("a number")).collect();
+        let notes = stderr(&output);
+        let (_, note) = notes.rsplit_once("at the end of the span: ").expect("a note");
+        (row, note.trim().parse::<f64>().expect("a number"))
+    };
+    let (exact, _) = last_row("1e-13", "taylor");
+    for method in ["taylor", "splitting"] {
+        let (row, stated) = last_row("1e-7", method);
+        let off = row.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off > 1e-12 && (off..30.0 * off).contains(&stated), "{method}: off by {off:e}, {stated:e} is printed");
     }
 }
 
@@ -338,6 +368,12 @@ fn a_long_run_without_a_terminal_tells_how_far_it_is() {
         .stderr(Stdio::piped())
         .spawn()
         .expect("the command starts");
+    let begun = || fs::read_dir(folder.path()).expect("folder").count() > 1;
+    assert!(comes_to(&mut child, begun), "it ended by itself");
+    // The first line comes after ten seconds; others use the processor until then.
+    common::send(&child, "STOP");
+    std::thread::sleep(Duration::from_secs(10));
+    common::send(&child, "CONT");
     let lines = BufReader::new(child.stderr.take().expect("standard error")).lines();
     let line = lines.map(|line| line.expect("text")).find(|line| line.contains("% done")).expect("a line");
     common::send(&child, "TERM");
@@ -505,5 +541,30 @@ fn misuse_has_status_2_and_help_has_status_0() {
     }
     for args in [&["--help"][..], &["run", "--help"], &["--version"]] {
         assert_eq!(twofold(args).status.code(), Some(0), "{args:?}");
+    }
+}
+
+/// What the README shows the commands with.
+#[cfg(unix)]
+const PREFIX: &str = "cargo run --release -- ";
+
+/// One after the other in an empty folder, every command succeeds: each finds the files that it names. Those that take longest, the whole
+/// report and the timings, are only asked for their help; `tests/signals.rs` starts them.
+#[cfg(unix)]
+#[test]
+fn the_commands_of_the_readme_work() {
+    let readme = include_str!("../../README.md");
+    let (folder, program) = (folder(), Path::new(env!("CARGO_BIN_EXE_twofold")));
+    let blocks = readme.split("```sh\n").skip(1).filter_map(|rest| rest.split("```").next());
+    let commands: Vec<_> = blocks.flat_map(str::lines).filter_map(|line| line.strip_prefix(PREFIX)).collect();
+    assert!(commands.len() >= 15, "{commands:?}");
+    for command in commands {
+        let arguments = command.split(" #").next().unwrap_or(command).trim();
+        let is_long = ["report", "bench"].iter().any(|long| arguments.starts_with(long));
+        let help = if is_long { " --help" } else { "" };
+        let script = format!("\"$0\" {arguments}{help}");
+        let output =
+            Command::new("sh").args(["-c", &script]).arg(program).current_dir(folder.path()).output().expect("a shell");
+        assert_eq!(output.status.code(), Some(0), "{arguments}: {}", stderr(&output));
     }
 }

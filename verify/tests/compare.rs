@@ -135,6 +135,84 @@ fn sound_files_agree_and_the_rest_is_told() {
     assert!((0.04..0.05).contains(&other_start["largest_difference"].as_f64().expect("number")));
 }
 
+/// What `docs/compare.md` says is allowed is what is: for each row of its table of results, and the errors in its table of reasons.
+#[test]
+fn what_the_page_says_is_allowed_is_allowed() {
+    let folder = with_change("", |_| Vec::new());
+    let samples = ("samples = 4001", "samples = 10000");
+    let angles = motion(
+        scene("tp-1", &[samples, ("span = 400", "span = 200")]),
+        &["angles", "perturbation", "e_x", "e_z"],
+        &[0, 1, 10, 2, 11, 4, 5, 6, 7, 8, 9],
+    );
+    // The curves beside m.n are not judged.
+    let signal = motion(scene("tp-1", &[samples]), &["m.n"], &[0, 1, 1, 1]);
+    for (name, text) in [("tp1.dat", angles), ("mntp1.dat", signal)] {
+        fs::write(folder.path().join(name), text).expect("file");
+    }
+    let output = compare(folder.path(), &["--json"]);
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let allowed = |name: &str, column: &str| -> Option<f64> {
+        let files = json["files"].as_array().expect("files").iter().filter(|file| file["file"] == name);
+        let columns = files.flat_map(|file| file["columns"].as_array().expect("columns"));
+        columns.filter(|found| found["column"] == column).find_map(|found| found["allowed"].as_f64())
+    };
+    let page = include_str!("../../docs/compare.md");
+    let cells = |line: &'static str| line.trim_matches('|').split('|').map(str::trim).collect::<Vec<_>>();
+    let (mut file, mut judged) = ("", 0);
+    let (_, results) = page.split_once("## What was found").expect("a section");
+    for row in results.lines().filter(|line| line.starts_with("| ") && line.contains("e-")).map(cells) {
+        file = if row[0].is_empty() { file } else { row[0].trim_matches('`') };
+        let columns: &[&str] = match row[1] {
+            "alpha by perturbation" => &["alpha, Eq. (33)"],
+            "beta by perturbation" => &["beta, Eq. (33)"],
+            "e_x" => &["e_x X", "e_x Y", "e_x Z"],
+            "e_z X, Y" => &["e_z X", "e_z Y"],
+            "stamp; period" => &["stamp", "period"],
+            "stamp; duration" => &["stamp", "duration"],
+            "h_+; h_x" => &["h_+", "h_x"],
+            "curve of the period" => &["P, Eq. (51)"],
+            "curve of the width" => &["W / <Phi'>"],
+            other => &[other],
+        };
+        let stated: Vec<_> = row[4].split("; ").collect();
+        for (i, column) in columns.iter().enumerate() {
+            let stated = stated[i.min(stated.len() - 1)];
+            match allowed(file, column) {
+                // The published files have other last times than these, by less than a percent.
+                Some(limit) => {
+                    let part = limit / stated.parse::<f64>().unwrap_or(f64::NAN);
+                    assert!((part - 1.0).abs() < 1e-2, "{file}: {column}: {limit:e}, {stated} on the page");
+                }
+                None => assert_eq!(stated, "not judged", "{file}: {column}"),
+            }
+            judged += usize::from(stated != "not judged");
+        }
+    }
+    assert_eq!(judged, 27, "columns that can be judged");
+    // The errors of the files themselves, of two digits and up to half a unit more in the last.
+    let (_, reasons) = page.split_once("## What is allowed").expect("a section");
+    let half_more = |error: &str| {
+        let digit = error.split_once('e').expect("a power").1.parse::<i32>().expect("a power") - 1;
+        error.parse::<f64>().expect("a number") + 0.5 * 10f64.powi(digit)
+    };
+    for (row, places) in [
+        (
+            "alpha, beta of tp-I; of sp-I",
+            &[("tp1.dat", "alpha"), ("tp1.dat", "beta"), ("sp1.dat", "alpha"), ("sp1.dat", "beta")][..],
+        ),
+        ("m.n of tp-I; h of tp-I", &[("mntp1.dat", "m.n"), ("gwtp1.dat", "h_+")]),
+    ] {
+        let line = reasons.lines().map(cells).find(|cells| cells[0] == row).expect(row);
+        let errors: Vec<_> = line[1].split([',', ';']).map(str::trim).collect();
+        assert_eq!(errors.len(), places.len());
+        for (error, (file, column)) in errors.iter().zip(places) {
+            let (found, stated) = (allowed(file, column).expect("a limit"), half_more(error));
+            assert!((found / stated - 1.0).abs() < 1e-12, "{file} {column}: {found:e}, {error} on the page");
+        }
+    }
+}
+
 /// A file that differs by more than it is known to be off has status 1, and the place is told.
 #[test]
 fn a_difference_beyond_the_files_own_error_fails() {

@@ -301,6 +301,24 @@ fn the_stated_error_holds_the_rounding_of_the_start() {
     assert!(worst > 1e-8, "{worst:e} s");
 }
 
+/// Of epochs before that of the scene the first is the farthest.
+#[test]
+fn the_errors_that_are_printed_are_those_at_the_farthest_epoch() {
+    let out = folder();
+    let out = out.path().to_str().expect("path in UTF-8");
+    let output = twofold(&["timing", "b1828-11", "--from", "42000", "--to", "49000", "--epochs", "3", "--out", out]);
+    let notes = stderr(&output);
+    let pulsar = PulsarScene::new(&Scene::named("b1828-11").expect("a scene")).expect("a pulsar");
+    // The epoch of the scene is MJD 49621.
+    let farthest = (49_621.0 - 42_000.0) * 86_400.0;
+    for (what, error) in
+        [("residuals", pulsar.residual_error(farthest)), ("arrival times themselves", pulsar.arrival_error(farthest))]
+    {
+        let printed = format!("note: estimated error of the {what}: {error:.1e} s");
+        assert!(notes.contains(&printed), "expected `{printed}` in\n{notes}");
+    }
+}
+
 #[test]
 fn files_are_not_replaced_without_leave() {
     let out = folder();

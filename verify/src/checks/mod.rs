@@ -37,7 +37,9 @@ mod torque;
 mod wave_tensor;
 mod waves;
 
-use crate::check::Check;
+use std::sync::{LazyLock, OnceLock};
+
+use crate::check::{Check, Outcome};
 
 /// All checks, in the order in which they are listed.
 pub fn all() -> Vec<Check> {
@@ -80,4 +82,12 @@ pub fn all() -> Vec<Check> {
         stability::checks,
     ];
     subjects.iter().flat_map(|checks| checks()).collect()
+}
+
+/// What became of a check, which is run once in a process; nothing if no check is called so.
+pub fn outcome(id: &str) -> Option<&'static Outcome> {
+    static OUTCOMES: LazyLock<Vec<(Check, OnceLock<Outcome>)>> =
+        LazyLock::new(|| all().into_iter().map(|check| (check, OnceLock::new())).collect());
+    let (check, outcome) = OUTCOMES.iter().find(|(check, _)| check.id == id)?;
+    Some(outcome.get_or_init(|| check.run()))
 }

@@ -8,7 +8,7 @@ use twofold::observables::bound::fluid_inertia_over_c;
 use twofold::observables::eta::secular_axis_rate;
 use twofold::star::deformation::centrifugal_oblateness;
 use twofold::star::estimates::inertia_over_c_estimate;
-use twofold::units::DEGREE;
+use twofold::units::{DEGREE, si};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::derivation::Differentiable;
@@ -274,7 +274,7 @@ fn alpha_2() -> Result<Measured, String> {
     let (pulsar, _) = recommended(&pulsars)?;
     let limit = pulsar.limit(&pulsar.figure("alpha_2_over_eta_own")?).map_err(|e| e.to_string())?.all;
     // The bound that the paper prints, with eta = 10.
-    let speed = 369e3 / 299_792_458.0;
+    let speed = 369e3 / si::SPEED_OF_LIGHT;
     let printed = 1e-15 / (2.0 * speed * speed);
     let mut worst = Worst::default();
     for bound in [limit, printed] {

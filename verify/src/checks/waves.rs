@@ -13,6 +13,7 @@ use twofold::observables::gravitational_wave::{
 };
 use twofold::propagation::{AxisMotion, AxisState, Motion, TaylorMotion, propagate, propagate_axis};
 use twofold::units::geometrised::HERTZ;
+use twofold::units::si::KILOPARSEC;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::checks::observer::observer;
@@ -343,6 +344,6 @@ fn textbook_strain() -> Result<Measured, String> {
     let inertia = PrincipalInertia { xx: 1.0, yy: 1.0 - 1e-6, zz: 1.0 };
     let millisecond = 1e-3;
     let wave = spinning_body(&inertia, 0.0, 500.0 * HERTZ * millisecond, 0.0, 1.0);
-    let h_0 = wave.plus * strain_unit(1e38, millisecond, 3.0857e19);
+    let h_0 = wave.plus * strain_unit(1e38, millisecond, KILOPARSEC);
     Ok(Measured::new((h_0 / 1.1e-24 - 1.0).abs(), format!("h_0 = {h_0:.4e}")))
 }

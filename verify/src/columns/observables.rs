@@ -82,10 +82,9 @@ pub(super) const STRAIN: ColumnGroup = ColumnGroup {
     },
 };
 
-/// The strain of `h = 1` at a distance in m. The unit of angular momentum of a physical star is `I^xx / t_c` in g cm^2/s.
+/// The strain of `h = 1` at a distance in m.
 pub(crate) fn strain_of_scene(scene: &Scene, distance: f64) -> f64 {
-    let units = &scene.units;
-    strain_unit(units.momentum * units.time * 1e-7, units.time, distance)
+    strain_unit(scene.units.inertia_in_si(), scene.units.time, distance)
 }
 
 fn value_and_rate(name: &str, units: &Units) -> Vec<String> {

@@ -1,6 +1,5 @@
 //! `twofold report`.
 
-use std::thread;
 use std::time::Instant;
 
 use super::output_folder::OutputFolder;
@@ -16,18 +15,9 @@ pub(super) fn report(args: &ReportArgs) -> Result<(), Failure> {
     let start = Instant::now();
     let results = run_all(checks::all());
     let seconds = start.elapsed().as_secs_f64();
-    let (golden, figures) = thread::scope(|scope| {
-        let golden = scope.spawn(golden::tables);
-        let figures = figures::all();
-        (golden.join().unwrap_or_else(|_| Err("the golden tables panicked".to_owned())), figures)
-    });
-    let content = Content {
-        results,
-        seconds,
-        golden: golden.map_err(Failure::Failed)?,
-        figures: figures.map_err(Failure::Failed)?,
-        environment: Environment::of_this_run(),
-    };
+    let figures = figures::all().map_err(Failure::Failed)?;
+    let golden = golden::tables(&figures).map_err(Failure::Failed)?;
+    let content = Content { results, seconds, golden, figures, environment: Environment::of_this_run() };
     folder.write(PAGE, page(&content).map_err(Failure::Failed)?.as_bytes())?;
     folder.complete()?;
     let summary = report::summary(&content.results, seconds);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use twofold::epoch::Epoch;
+use twofold::epoch::{DAY, Epoch};
 
 use super::output_folder::OutputFolder;
 use super::run::{failed, read_scene};
@@ -107,7 +107,7 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
             "epochs from {from} to {to}: allowed is a later date for the last (--from, --to, or the scene's span)"
         )));
     }
-    let days = seconds / 86_400.0;
+    let days = seconds / DAY;
     let (count, step) = match args.every {
         Some(every) => {
             positive("--every", every)?;
@@ -121,7 +121,7 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
     if !(2.0..=MOST as f64).contains(&count) {
         return Err(Failure::BadInput(format!("{count} epochs are asked for: allowed are from 2 to {MOST}")));
     }
-    let epochs = (0..count as usize).map(|k| from.after([k as f64 * step * 86_400.0, 0.0]));
+    let epochs = (0..count as usize).map(|k| from.after([k as f64 * step * DAY, 0.0]));
     epochs.collect::<Result<_, _>>().map_err(failed)
 }
 

@@ -98,7 +98,12 @@ impl Axis {
             let last = ((self.high + slack) / step).floor() as i64;
             (first..=last).map(move |i| i as f64 * step)
         };
-        let large = multiples(step).map(|value| (value, signed(&format!("{:.decimals$}", value / unit)))).collect();
+        let large: Vec<_> =
+            multiples(step).map(|value| (value, signed(&format!("{:.decimals$}", value / unit)))).collect();
+        // One number alone gives no scale.
+        if large.len() < 2 && spacing > 8.0 {
+            return self.steps(length, spacing / 2.0);
+        }
         (large, multiples(step / f64::from(parts)).collect())
     }
 

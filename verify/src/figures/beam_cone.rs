@@ -17,7 +17,7 @@ const OBSERVER: [f64; 2] = [1.05, 1.75];
 pub(super) fn sheet() -> Result<Sheet, String> {
     let direction = |[theta, phi]: [f64; 2]| Observer::at(theta, phi).direction;
     let (m, n) = (direction(BEAM), direction(OBSERVER));
-    let mut table = Table::new("", ["m [1]", "n [1]"]);
+    let mut table = Table::new("", ["m along X Y Z [1]", "n along X Y Z [1]"]);
     for i in 0..3 {
         table.push([m[i], n[i]]);
     }

@@ -32,7 +32,9 @@ fn sheet(name: &str, axes: [&str; 3], nodes: [&str; 2], frame: &str) -> Result<S
     let body = [0, 1, 2].map(|i| rotation.row(i).transpose());
     let (sin, cos) = ANGLES.alpha.sin_cos();
     let node = Vector3::new(cos, sin, 0.0);
-    let mut table = Table::new("", ["e_x [1]", "e_y [1]", "e_z [1]", "line of nodes [1]"]);
+    let along = axes.map(plain).join(" ");
+    let vectors = ["e_x", "e_y", "e_z", "line of nodes"].map(|vector| format!("{vector} along {along} [1]"));
+    let mut table = Table::new("", vectors);
     for i in 0..3 {
         table.push([body[0][i], body[1][i], body[2][i], node[i]]);
     }

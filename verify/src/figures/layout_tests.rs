@@ -2,10 +2,11 @@
 
 use std::sync::LazyLock;
 
+use rayon::prelude::*;
 use resvg::usvg::{Group, Node};
 
 use super::style::CENTIMETRE;
-use super::{Figure, OF_A_SCENE, Subject, all, html, markup, png, work_precision};
+use super::{DRAWN, Figure, OF_A_SCENE, Subject, html, markup, png, work_precision};
 use crate::bench::method::Carries;
 use crate::bench::timing::Times;
 use crate::bench::work_precision::Row;
@@ -18,13 +19,77 @@ const POINTS: f32 = 0.75;
 const SCENES: [&str; 6] = ["prolate", "free", "through-the-pole", "sp-2", "b1937+21", "b1828-11"];
 
 /// The figures of the paper and of some scenes, drawn once.
-static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
-    let mut figures = all().unwrap();
-    figures.extend(SCENES.iter().flat_map(|name| of_scene(name, &Scene::named(name).unwrap())));
-    figures.extend(of_scene("tilted", &Scene::from_toml("tilted.toml", TILTED).unwrap()));
+pub(super) static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
+    let mut figures = DRAWN.clone();
+    figures.par_extend(scenes().par_iter().flat_map(|(name, scene)| of_scene(name, scene)));
     figures.push(work_precision(&made_up_runs()));
     figures
 });
+
+/// The scenes with their names, in the order of their figures behind those of the paper.
+pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
+    let built_in = SCENES.iter().map(|name| (*name, Scene::named(name).unwrap()));
+    let files = [("tilted", TILTED), ("tone", TONE), ("askew", ASKEW)];
+    built_in.chain(files.map(|(name, text)| (name, Scene::from_toml(name, text).unwrap()))).collect()
+}
+
+/// A physical star in free precession about Z, of which every line is known in closed form.
+const TONE: &str = r#"
+[star]
+mass = 1.4
+radius = 12.0
+oblateness = 1e-3
+spin_frequency = 57.0
+[lorentz_violation]
+eigenvalues = [0.0, 0.0, 0.0]
+[initial]
+alpha = 0.4
+beta = 0.3
+gamma = 1.3
+alpha_rate = 375.2601393880295  # (1 + oblateness) 2 pi 57 / cos(beta): L is along Z
+beta_rate = 0.0
+[observer]
+theta_o = 1.1
+phi_o = 0.6
+distance = 2.5
+[pulsar]
+chi = 0.7
+delta = -0.8
+rho = 0.5
+[time]
+start = -3.0
+span = 2.0
+samples = 3
+"#;
+
+/// A physical star without any symmetry.
+const ASKEW: &str = r#"
+[star]
+mass = 1.4
+radius = 12.0
+oblateness = 1e-3
+spin_frequency = -57.0
+[lorentz_violation]
+tensor = [[2e-5, 1.1e-5, -0.7e-5], [1.1e-5, -0.9e-5, 0.5e-5], [-0.7e-5, 0.5e-5, -1.4e-5]]
+[initial]
+alpha = 0.4
+beta = 0.9
+gamma = 1.3
+alpha_rate = -380.0
+beta_rate = 21.0
+[observer]
+theta_o = 1.1
+phi_o = 0.6
+distance = 2.5
+[pulsar]
+chi = 0.7
+delta = -0.8
+rho = 0.5
+[time]
+start = 12.0
+span = 2.0
+samples = 41
+"#;
 
 /// A physical star given by constants in a frame that is not the principal one, seen from a known distance, with a beam that never passes.
 const TILTED: &str = r#"
@@ -59,7 +124,7 @@ fn of_scene(name: &str, scene: &Scene) -> Vec<Figure> {
 }
 
 /// Runs of more methods than there are.
-fn made_up_runs() -> Vec<Row> {
+pub(super) fn made_up_runs() -> Vec<Row> {
     let run = |scene: &str, carries, method: usize, i: i32| Row {
         scene: scene.to_owned(),
         method: format!("method {method} with a long name"),

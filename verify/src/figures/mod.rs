@@ -9,6 +9,12 @@ mod axes;
 mod beam_cone;
 mod bound_factor;
 mod contour;
+#[cfg(test)]
+mod data_tests;
+#[cfg(test)]
+mod drawn;
+#[cfg(test)]
+mod drawn_tests;
 mod euler_angles;
 mod examples;
 #[cfg(test)]
@@ -38,6 +44,7 @@ mod work_precision;
 pub use examples::examples;
 pub use markup::{html, markdown, plain};
 pub use png::png;
+use rayon::prelude::*;
 use recipe::Sheet;
 pub use recipe::{OF_A_SCENE, RECIPES, Recipe};
 pub use subject::{Shown, Start, Subject};
@@ -105,5 +112,9 @@ impl Figure {
 /// If the data of one cannot be computed.
 pub fn all() -> Result<Vec<Figure>, String> {
     let examples = examples()?;
-    RECIPES.iter().map(|recipe| recipe.draw(&examples)).collect()
+    RECIPES.par_iter().map(|recipe| recipe.draw(&examples)).collect()
 }
+
+/// All of them, drawn once for the tests of this crate.
+#[cfg(test)]
+pub(crate) static DRAWN: std::sync::LazyLock<Vec<Figure>> = std::sync::LazyLock::new(|| all().expect("figures"));

@@ -3,7 +3,7 @@
 use twofold::dynamics::BodyState;
 use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
 use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
-use twofold::units::si::PARSEC;
+use twofold::units::si::KILOPARSEC;
 
 use super::axes::{Axis, BELOW, LEFT, Panel};
 use super::number::{ALIKE, Spread, significant};
@@ -85,7 +85,7 @@ fn radiates(subject: &Subject, table: &Table) -> bool {
 
 fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
     let unit = match subjects[0].viewer().ok().and_then(|viewer| viewer.distance) {
-        Some(distance) => format!(", as strain at {} kpc", significant(distance / (1e3 * PARSEC), 4)),
+        Some(distance) => format!(", as strain at {} kpc", significant(distance / KILOPARSEC, 4)),
         None => "; *h* *r* / *I*^{*xx*} counts multiples of *G* / (*c*^{4} *t*_{c}^{2})".to_owned(),
     };
     let range = |(subject, table): (&&Subject, &Table)| {

@@ -182,17 +182,16 @@ const SINGLE: &[Numbers] = &[
 ];
 
 /// The tables of all figures.
-pub(super) fn tables() -> Result<Vec<GoldenTable>, String> {
-    let all: BTreeMap<String, Figure> =
-        figures::all()?.into_iter().map(|figure| (figure.name.clone(), figure)).collect();
-    if let Some(missing) = all.keys().find(|name| !NUMBERS.iter().any(|(figure, ..)| figure == name)) {
+pub(super) fn tables(figures: &[Figure]) -> Result<Vec<GoldenTable>, String> {
+    let all: BTreeMap<&str, &Figure> = figures.iter().map(|figure| (figure.name.as_str(), figure)).collect();
+    if let Some(missing) = all.keys().find(|name| !NUMBERS.iter().any(|(figure, ..)| figure == *name)) {
         return Err(format!("the figure {missing} has no golden numbers"));
     }
     NUMBERS.iter().map(|(name, snapshot, numbers)| table(&all, name, snapshot, numbers)).collect()
 }
 
 fn table(
-    all: &BTreeMap<String, Figure>,
+    all: &BTreeMap<&str, &Figure>,
     name: &str,
     snapshot: &'static str,
     numbers: &[Numbers],

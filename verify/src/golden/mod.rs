@@ -13,6 +13,8 @@ mod star;
 pub use certified::{Certainty, Enclosures};
 pub use line::{GoldenLine, Printed};
 
+use crate::figures::Figure;
+
 /// One golden table.
 #[derive(Debug, Clone)]
 pub struct GoldenTable {
@@ -37,11 +39,11 @@ impl std::fmt::Display for GoldenTable {
     }
 }
 
-/// All golden tables.
+/// All golden tables; those of the figures are taken from `figures`.
 ///
 /// # Errors
 /// If a number cannot be computed.
-pub fn tables() -> Result<Vec<GoldenTable>, String> {
+pub fn tables(figures: &[Figure]) -> Result<Vec<GoldenTable>, String> {
     let text = |error: twofold::Error| error.to_string();
     let mut tables = vec![
         captions::initial_values().map_err(text)?,
@@ -54,6 +56,6 @@ pub fn tables() -> Result<Vec<GoldenTable>, String> {
         regimes::single()?,
         spectral_lines::table()?,
     ];
-    tables.extend(figures::tables()?);
+    tables.extend(figures::tables(figures)?);
     Ok(tables)
 }

@@ -27,7 +27,7 @@ pub use strain::{Series, strain_series};
 pub use table::csv;
 
 /// Rounding of an arrival time, 1e-16 d (s).
-const ARRIVAL_ROUNDING: f64 = 8.64e-12;
+const ARRIVAL_ROUNDING: f64 = 1e-16 * DAY;
 
 /// A scene with all that its pulses need, in seconds.
 #[derive(Debug, Clone)]
@@ -75,7 +75,6 @@ impl PulsarScene {
         let observer = viewer.basis();
         let clock = PulsarClock::new(&spheroid, &scene.violation, &initial, &beam, &observer, MeanOrder::Second)
             .map_err(|why| format!("the scene has no mean motion: {why}"))?;
-        let inertia = scene.units.momentum * t_c * 1e-7;
         Ok(Self {
             spheroid,
             violation: scene.violation,
@@ -84,7 +83,7 @@ impl PulsarScene {
             beam,
             clock,
             epoch,
-            strain_unit: viewer.distance.map(|distance| strain_unit(inertia, 1.0, distance)),
+            strain_unit: viewer.distance.map(|distance| strain_unit(scene.units.inertia_in_si(), 1.0, distance)),
         })
     }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use twofold::observables::Observer;
 use twofold::observables::pulsar::Beam;
-use twofold::units::si::PARSEC;
+use twofold::units::si::KILOPARSEC;
 
 use super::error::Fault;
 use super::section::Section;
@@ -68,7 +68,7 @@ pub(super) fn read_observer(section: &Section<'_>, units: &Units) -> Result<View
             return Err(entry.refuse("a distance only for a physical star: in the paper's units h is that at r = 1"));
         }
         Some(entry) => {
-            Some(entry.number_where("a distance from 1e-6 to 1e8 [kpc]", |x| (1e-6..=1e8).contains(&x))? * 1e3 * PARSEC)
+            Some(entry.number_where("a distance from 1e-6 to 1e8 [kpc]", |x| (1e-6..=1e8).contains(&x))? * KILOPARSEC)
         }
         None => None,
     };

@@ -8,6 +8,7 @@ use twofold::star::potential_coefficients::potential_coefficients;
 use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 use twofold::units::geometrised::{CENTIMETRE, ERG, GRAM, GRAM_PER_CUBIC_CENTIMETRE, KILOMETRE, SOLAR_MASS};
+use twofold::units::si::GRAM_SQUARE_CENTIMETRE;
 
 use super::error::Fault;
 use super::section::Section;
@@ -33,6 +34,11 @@ impl Units {
     /// `I^xx = C = 1`.
     pub(crate) const PAPER: Self =
         Self { time: 1.0, momentum: 1.0, energy: 1.0, time_name: "t_c", momentum_name: "I_xx/t_c", energy_name: "C" };
+
+    /// `I^xx` of a physical star in kg m^2.
+    pub fn inertia_in_si(&self) -> f64 {
+        self.momentum * self.time * GRAM_SQUARE_CENTIMETRE
+    }
 
     /// Whether these are seconds and cgs.
     pub fn are_physical(&self) -> bool {

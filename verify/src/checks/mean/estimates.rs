@@ -1,6 +1,7 @@
 //! The error estimate of the mean motion.
 
 use core::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use twofold::Scalar;
 use twofold::dynamics::BodyState;
@@ -9,7 +10,7 @@ use twofold::solutions::mean::{MeanOrder, MeanPhases};
 use super::scenes::{difference, text};
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::double_double::DoubleDouble;
-use crate::mean_scenes::MeanScene;
+use crate::mean_scenes::{EstimateSeen, MeanScene};
 use crate::random::Random;
 
 /// Checks of this subject.
@@ -60,7 +61,19 @@ pub(super) fn checks() -> Vec<Check> {
 
 const SCENES: u64 = 400;
 
-fn seen(order: MeanOrder) -> Result<Vec<(u64, crate::mean_scenes::EstimateSeen)>, String> {
+type AllSeen = Result<Vec<(u64, EstimateSeen)>, String>;
+
+/// What two checks look at, for each order.
+fn seen(order: MeanOrder) -> &'static AllSeen {
+    static SEEN: [LazyLock<AllSeen>; 2] =
+        [LazyLock::new(|| measured(MeanOrder::First)), LazyLock::new(|| measured(MeanOrder::Second))];
+    match order {
+        MeanOrder::First => &SEEN[0],
+        MeanOrder::Second => &SEEN[1],
+    }
+}
+
+fn measured(order: MeanOrder) -> AllSeen {
     (0..SCENES)
         .map(|number| {
             let scene = MeanScene::draw(11, number, 1500.0);
@@ -72,7 +85,7 @@ fn seen(order: MeanOrder) -> Result<Vec<(u64, crate::mean_scenes::EstimateSeen)>
 fn not_below() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for order in [MeanOrder::First, MeanOrder::Second] {
-        for (number, seen) in seen(order)? {
+        for (number, seen) in seen(order).as_ref().map_err(Clone::clone)? {
             let [error, estimate, t] = seen.at;
             worst.see(seen.worst, || {
                 format!("scene {number} of seed 11, {order:?}: {error:.2e} at t = {t}, estimated {estimate:.2e}")
@@ -133,7 +146,8 @@ fn rounding() -> Result<Measured, String> {
 }
 
 fn not_idle() -> Result<Measured, String> {
-    let mut ratios: Vec<f64> = seen(MeanOrder::Second)?.iter().map(|(_, seen)| 1.0 / seen.worst).collect();
+    let seen = seen(MeanOrder::Second).as_ref().map_err(Clone::clone)?;
+    let mut ratios: Vec<f64> = seen.iter().map(|(_, seen)| 1.0 / seen.worst).collect();
     ratios.sort_by(f64::total_cmp);
     Ok(Measured::new(ratios[ratios.len() / 2], format!("median of {} motions", ratios.len())))
 }

@@ -10,6 +10,7 @@ use twofold::observables::bound::SpinAxisDrift;
 use twofold::propagation::{AveragedMotion, AxisMotion};
 use twofold::solutions::mean::MeanOrder;
 use twofold::solutions::perturbation::{Form, Kind as Precession};
+use twofold::units::JULIAN_YEAR;
 
 use super::perturbation_error::Case;
 use crate::check::{Bound, Check, Kind, Measured, Worst};
@@ -113,7 +114,7 @@ fn drift() -> Result<Measured, String> {
         // Units of t_c, a few milliseconds, in which I^xx = C = 1.
         let unit = random.within(1e-3, 1e-2);
         let spin = TAU * random.within(200.0, 700.0) * unit;
-        let interval = 15.0 * 365.25 * 86_400.0 / unit;
+        let interval = 15.0 * JULIAN_YEAR / unit;
         let spheroid = RigidSpheroid::in_units_of_tc(1.0 + 10f64.powf(random.within(-6.0, -2.0)));
         let beta_0 = random.within(0.2, 1.1);
         let gone = 10f64.powf(random.within(-6.0, -2.0));
