@@ -50,7 +50,7 @@ fn differences(text: &str, output: &Value) -> Vec<String> {
                     found.parse::<f64>().is_ok_and(|found| (found - exact).abs() <= tolerance)
                 }
                 Value::String(words) => found == words,
-                count => *found == count.to_string(),
+                count => count.is_i64() && found.parse().ok() == count.as_i64(),
             };
             if !same {
                 wrong.push(format!("row {line}, column {k}: {found}, expected is {expected} to {tolerance:e}"));
