@@ -112,16 +112,16 @@ def stars():
 def geometry():
     """Axes drawn in the figures of the Euler angles and of the cone."""
     values = {"alpha": arb(1), "beta": arb(fraction("0.8")), "gamma": arb(fraction("0.9"))}
-    for table in ("figure_euler_angles", "figure_euler_angles_yzx"):
+    for table, along in (("figure_euler_angles", "X Y Z"), ("figure_euler_angles_yzx", "Y Z X")):
         for i, axis in enumerate("xyz"):
             first, last = enclose([R[i, 0], R[i, 2]], values)
-            yield table, f"e_{axis} [1] first", first
-            yield table, f"e_{axis} [1] last", last
+            yield table, f"e_{axis} along {along} [1] first", first
+            yield table, f"e_{axis} along {along} [1] last", last
     for name, theta, phi in (("m", "0.72", "0.8"), ("n", "1.05", "1.75")):
         values = {"theta_o": arb(fraction(theta)), "phi_o": arb(fraction(phi))}
         first, last = enclose([seen.OBSERVER[0], seen.OBSERVER[2]], values)
-        yield "figure_beam_cone", f"{name} [1] first", first
-        yield "figure_beam_cone", f"{name} [1] last", last
+        yield "figure_beam_cone", f"{name} along X Y Z [1] first", first
+        yield "figure_beam_cone", f"{name} along X Y Z [1] last", last
 
 
 def eta():

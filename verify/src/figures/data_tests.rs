@@ -208,6 +208,35 @@ fn periods_and_lengths_are_those_of_the_pulses() {
     assert!(compared > 500, "{compared}");
 }
 
+/// The curves with mean rates keep in step with those at the instant and with the pulses; those with the rates of Eq. (57) do not, as the caption
+/// says.
+#[test]
+fn curves_with_mean_rates_keep_in_step_and_others_drift() {
+    let figure = FIGURES.iter().find(|figure| figure.name == "pulse-series").unwrap();
+    let table = figure.tables.iter().find(|table| table.name == "tp-I-curves").unwrap();
+    let pulses = |what: &str| figure.tables.iter().find(|table| table.name == format!("tp-I-{what}s")).unwrap();
+    for what in ["period", "length"] {
+        // The largest distance from the series in the last quarter of the span, over the spread of the series.
+        let off = |of: &str| {
+            let place = column(table, &format!("{what} {of} [t_c]"));
+            let value = |t: f64| {
+                let after = table.rows.partition_point(|row| row[0] < t).clamp(1, table.rows.len() - 1);
+                let [a, b] = [&table.rows[after - 1], &table.rows[after]];
+                a[place] + (b[place] - a[place]) * (t - a[0]) / (b[0] - a[0])
+            };
+            let values = pulses(what).rows.iter().map(|row| row[1]);
+            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            let late = pulses(what).rows.iter().filter(|row| row[0] > 300.0);
+            late.map(|row| (row[1] - value(row[0])).abs()).fold(0.0, f64::max) / (high - low)
+        };
+        let [instant, mean, first] = ["at the instant", "with mean rates", "with rates (57)"].map(off);
+        assert!(
+            instant < 0.2 && mean < 0.45 && first > 2.0 * mean,
+            "{what}: off by {instant}, {mean}, {first} of the spread"
+        );
+    }
+}
+
 /// `m.n` of a star in free precession about Z at the inclination `b` and the rate `a`, of which the magnetic axis turns by `c` about the
 /// symmetry axis, is for an observer at the colatitude `i`
 /// `cos i (cos chi cos b - sin chi sin b cos c t) + sin i cos chi sin b cos(a t) + sin i sin chi / 2 [(1 + cos b) cos((a + c) t) - (1 - cos b) cos((a - c) t)]`

@@ -222,11 +222,11 @@ pub(super) fn frames(elements: &[Element]) -> Vec<Frame> {
         };
         if let Some(outer) = outer {
             // What an inset shows is told by the frame around it, its powers of ten by the words above.
-            let above = elements.iter().filter_map(|element| match element {
+            let mut above = elements.iter().filter_map(|element| match element {
                 Element::Text { at, words, .. } if near(at[0], c[2]) && near(at[1], c[1] - 4.0) => Some(words.clone()),
                 _ => None,
             });
-            let (_, power) = taken_out(above.last().unwrap_or_default());
+            let (_, power) = taken_out(above.next_back().unwrap_or_default());
             y.ends = y.ends.map(|(place, value)| (place, value * power));
             let shared = |axis: usize| {
                 own[outer][axis].clone().or_else(|| {
@@ -239,7 +239,7 @@ pub(super) fn frames(elements: &[Element]) -> Vec<Frame> {
         if x.label.is_empty() {
             x.label = like(&|o| near(o[0], c[0]) && o[1] > c[1], 0).expect("a frame below").label;
         }
-        let heading = elements.iter().filter_map(|element| match element {
+        let mut heading = elements.iter().filter_map(|element| match element {
             Element::Text { at, words, turned: false, anchor, .. }
                 if anchor.is_empty() && near(at[0], corners[outer.unwrap_or(i)][0]) && at[1] < c[1] =>
             {
@@ -247,7 +247,7 @@ pub(super) fn frames(elements: &[Element]) -> Vec<Frame> {
             }
             _ => None,
         });
-        let heading = heading.last().unwrap_or_default();
+        let heading = heading.next_back().unwrap_or_default();
         let heading = match heading.split_once(") ") {
             Some((letter, rest)) if letter.starts_with('(') && letter.len() == 2 => rest.to_owned(),
             _ if heading.starts_with('(') && heading.len() == 3 => String::new(),
@@ -353,8 +353,11 @@ fn fill(frame: &mut Frame, elements: &[Element], insets: &[[f64; 4]]) {
     }
 }
 
+/// Names of what is shown so.
+type Named<T> = Vec<(T, String)>;
+
 /// The names beside samples of lines and marks: by line, or by the colour of a mark.
-pub(super) fn legend(elements: &[Element]) -> (Vec<(Style, String)>, Vec<(String, String)>) {
+pub(super) fn legend(elements: &[Element]) -> (Named<Style>, Named<String>) {
     let (mut lines, mut marks) = (Vec::new(), Vec::new());
     for pair in elements.windows(2) {
         let Element::Text { at: [x, y], words, .. } = &pair[1] else { continue };

@@ -233,7 +233,6 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
             }
         }
     }
-    eprintln!("{count}");
     assert!(count > 120, "{count} curves");
 }
 
@@ -343,7 +342,6 @@ fn every_path_on_a_sphere_is_that_of_its_columns() {
             count += 1;
         }
     }
-    eprintln!("{count}");
     assert!(count > 20, "{count} paths");
 }
 

@@ -16,7 +16,7 @@ use crate::scene_file::Scene;
 const POINTS: f32 = 0.75;
 
 /// Scenes unlike the paper's examples: other motions, one with constants, and physical stars.
-const SCENES: [&str; 6] = ["prolate", "free", "through-the-pole", "sp-2", "b1937+21", "b1828-11"];
+const SCENES: [&str; 5] = ["prolate", "through-the-pole", "sp-2", "b1937+21", "b1828-11"];
 
 /// The figures of the paper and of some scenes, drawn once.
 pub(super) static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
