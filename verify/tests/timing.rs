@@ -8,6 +8,7 @@ use std::path::Path;
 use common::{folder, names_in, stderr, stdout, twofold};
 use twofold::epoch::Epoch;
 use twofold::observables::pulsar::SpinFit;
+use twofold_verify::double_double::DoubleDouble;
 use twofold_verify::pulsar_timing::PulsarScene;
 use twofold_verify::scene_file::{PULSARS, Scene};
 use twofold_verify::trajectory;
@@ -94,6 +95,33 @@ fn files_agree_with_the_table() {
         }
         let [off, _] = date("TZRMJD").seconds_since(&date("PEPOCH"));
         assert!((off - fit.time_of(0)[0]).abs() < 1e-9 && off.abs() < 1.0, "{off}");
+    }
+}
+
+/// What a timing program makes of the .par and the .tim: the phase at each arrival by all digits of F0 and F1, counted from TZRMJD. 3e11 turns to 3e-11 s are
+/// 22 digits; dates are rounded to 1e-16 d, 8.6e-12 s, at the arrival and at TZRMJD.
+#[test]
+fn the_digits_of_the_files_give_the_residuals() {
+    let out = folder();
+    for (scene, extra) in [("b1937+21", None), ("b1937+21", Some("--f1")), ("b1828-11", Some("--f1"))] {
+        written(&[&[scene, "--epochs", "40", "--force"][..], extra.as_slice()].concat(), out.path());
+        let [csv, par, tim] = ["csv", "par", "tim"].map(|ending| read(out.path(), &format!("{scene}.{ending}")));
+        let value = |key: &str| par.lines().find_map(|line| line.strip_prefix(&format!("{key} "))).map(str::trim);
+        let number = |text: &str| text.parse::<DoubleDouble>().expect("a number");
+        let epoch: Epoch = value("PEPOCH").expect("PEPOCH").parse().expect("a date");
+        let since = |text: &str| {
+            let [high, low] = text.parse::<Epoch>().expect("a date").seconds_since(&epoch);
+            DoubleDouble::sum_of(high, low)
+        };
+        let (f0, f1) = (number(value("F0").expect("F0")), number(value("F1").unwrap_or("0")));
+        assert_eq!(value("F1").is_some(), extra.is_some());
+        let phase = |t: DoubleDouble| f0 * t + f1 * t * t * number("0.5");
+        let zero = phase(since(value("TZRMJD").expect("TZRMJD")));
+        for (line, row) in tim.lines().skip(1).zip(rows(&csv)) {
+            let fields: Vec<_> = line.split_whitespace().collect();
+            let late = (phase(since(fields[2])) - zero - number(fields[6])) / f0;
+            assert!((late.high() - row[3]).abs() < 3e-11, "{scene}: {:e}, in the table {:e}", late.high(), row[3]);
+        }
     }
 }
 
