@@ -20,6 +20,13 @@ import keys
 from scene import Scene
 
 HERE = pathlib.Path(__file__).parent
+# Epochs that options of `timing` give, as modified Julian dates: other dates, and steps in days from the first to the last of the scene.
+EPOCHS = {
+    "keys-dates": [
+        (["--from", "53790.25", "--to", "53850.5", "--epochs", "7"], [53790.25 + k * 60.25 / 6 for k in range(7)]),
+        (["--every", "23.5"], [53777.445 + 23.5 * k for k in range(5)]),
+    ]
+}
 SPECTRA = json.loads((HERE / "spectra.json").read_text())
 
 
@@ -37,6 +44,9 @@ def answered(file, name, changed):
     second = [] if name in keys.CASES else ["--second-beam"]
     if scene.epoch is None or name in keys.CASES:
         answer(["run", "{scene}", *columns], lambda s, n: commands.run(s, n, chosen))
+        if "perturbation" in commands.groups(scene):
+            # Without any motion.
+            answer(["run", "{scene}", "--columns", "perturbation"], lambda s, n: commands.run(s, n, ["perturbation"]))
         if scene.pulsar is not None:
             answer(["pulses", "{scene}", *second], lambda s, n: commands.pulse_list(s, n, bool(second)))
     if scene.epoch is not None:
@@ -45,7 +55,10 @@ def answered(file, name, changed):
         strain = ["--strain-rate", repr(rate), "--strain-span", repr((commands.STRAIN_SAMPLES - 0.5) / rate)]
         for with_rate in (False, True):
             arguments = ["timing", "{scene}", "--out", "{out}", "--uncertainty", "2.5", *strain, *["--f1"] * with_rate]
-            answer(arguments, lambda s, n, f1=with_rate: commands.timing_files(s, n, name, f1, rate), error)
+            answer(arguments, lambda s, n, f1=with_rate: commands.timing_files(s, n, name, f1, rate, 2.5), error)
+        for options, dates in EPOCHS.get(file, []):
+            arguments = ["timing", "{scene}", "--out", "{out}", *strain, *options]
+            answer(arguments, lambda s, n, dates=tuple(dates): commands.timing_files(s, n, name, False, rate, 1.0, dates), error)
     for options in SPECTRA.get(file, []):
         flags = [f"--{option}={value}" for option, value in options.items() if option != "column"]
         arguments = ["spectrum", "{scene}", f"--of={options['column']}", *flags]

@@ -66,6 +66,10 @@ def tables(compute, scene, error=None):
     outputs = {}
     for name, (separator, rows) in nominal.items():
         tolerances = _tolerances(rows, other[name][1], shifted[name][1], error)
+        if name.endswith(".par"):
+            # Its lines have nothing in common: each has its own tolerances.
+            lines = zip(rows, other[name][1], shifted[name][1], strict=True)
+            tolerances = [_tolerances([row], [row_2], [row_3], error) for row, row_2, row_3 in lines]
         outputs[name] = {"separator": separator, "rows": _plain(rows), "tolerances": tolerances}
     return outputs
 

@@ -2,6 +2,7 @@
 
 import functools
 import json
+from fractions import Fraction
 
 import numpy as np
 
@@ -50,20 +51,22 @@ def strain_rate(scene):
 
 
 @functools.lru_cache(maxsize=4)
-def _timed(document, numerics, rate):
-    """What the files are made of, with F1 and without."""
+def _timed(document, numerics, rate, dates):
+    """What the files are made of, with F1 and without; for epochs of given dates, or at the times of the scene."""
     scene = Scene(json.loads(document))
     turn = 2 * np.pi / Motion(scene, scene.start, scene.start).turning
     motion = Motion(scene, min(scene.start, scene.end) - 10 * turn, max(scene.start, scene.end) + 10 * turn, numerics)
     epochs = scene.times - scene.start
+    if dates is not None:
+        epochs = np.array([float((Fraction(date) - Fraction(str(scene.epoch))) * 86400) for date in dates])
     rows = timing.timed_pulses(motion, epochs)
-    series = scene.times[0] + np.arange(STRAIN_SAMPLES) / rate
+    series = scene.start + epochs[0] + np.arange(STRAIN_SAMPLES) / rate
     h = strain(motion, series) if scene.observer.distance is not None else None
     return scene, epochs, rows, timing.described(motion, rows), rate, h
 
 
-def timing_files(scene, numerics, name, with_rate, rate):
-    files = timing.timing_files(*_timed(json.dumps(scene.document), numerics, rate), with_rate, 2.5)
+def timing_files(scene, numerics, name, with_rate, rate, uncertainty, dates=None):
+    files = timing.timing_files(*_timed(json.dumps(scene.document), numerics, rate, dates), with_rate, uncertainty)
     return {f"{name}.{ending}": ("," if ending == "csv" else " ", rows) for ending, rows in files.items()}
 
 

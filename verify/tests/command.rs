@@ -568,3 +568,61 @@ fn the_commands_of_the_readme_work() {
         assert_eq!(output.status.code(), Some(0), "{arguments}: {}", stderr(&output));
     }
 }
+
+/// A star that spins about its axis at 20 Hz, along Z, and whose beam just touches the line of sight: at the azimuth of the observer, 0.1 rad after the start.
+const GRAZING: &str = "[star]\nmass = 1.4\nradius = 12.0\noblateness = 0.01\nspin_frequency = 20.0\n\
+    [lorentz_violation]\neigenvalues = [0.0, 0.0, 0.0]\n[initial]\nalpha = 0.3\nbeta = 0.0\nalpha_rate = 1.0\nbeta_rate = 0.0\n\
+    [observer]\ntheta_o = 0.9\nphi_o = 0.4\n[pulsar]\nchi = 0.5\nrho = 0.4\n[time]\nstart = 7.0\nspan = 0.2\nsamples = 3\n";
+
+/// The number that follows a phrase in a text.
+fn number_after(text: &str, phrase: &str) -> f64 {
+    let rest = text.split(phrase).nth(1).unwrap_or_else(|| panic!("`{phrase}` in {text}"));
+    let number = rest.split_whitespace().next().expect("a word");
+    number.trim_end_matches([',', ';']).parse().unwrap_or_else(|why| panic!("{number}: {why}"))
+}
+
+#[test]
+fn notes_and_plans_of_a_physical_star_have_its_times_in_seconds() {
+    let folder = folder();
+    let scene = folder.path().join("scene.toml");
+    fs::write(&scene, GRAZING).expect("scene");
+    let scene = scene.to_str().expect("path in UTF-8");
+    let told = stderr(&twofold(&["pulses", scene]));
+    let first = 7.0 + 0.1 / (40.0 * std::f64::consts::PI);
+    assert!((number_after(&told, "first at t = ") - first).abs() < 1e-8, "{told}");
+    let plan = twofold(&["run", scene, "--columns", "e_z", "--method", "taylor", "--explain"]);
+    let plan = String::from_utf8_lossy(&plan.stdout).into_owned();
+    let line = plan.lines().find(|line| line.starts_with("stretch ")).expect("a stretch");
+    let [_, from, "to", to, "s"] = line.split_whitespace().collect::<Vec<_>>()[..] else { panic!("{line}") };
+    assert!(
+        [(from, 7.0), (to, 7.2)].iter().all(|(text, t)| (text.parse::<f64>().expect("a time") - t).abs() < 1e-12),
+        "{line}"
+    );
+}
+
+/// The method named as next is the cheapest of the others that meet the accuracy, and the ratio is that of their costs.
+#[test]
+fn the_next_method_is_the_second_cheapest() {
+    // Without violation all methods are good enough.
+    let plan = twofold(&["run", "free", "--columns", "e_z", "--explain"]);
+    let plan = String::from_utf8_lossy(&plan.stdout).into_owned();
+    let unit = |unit: &str| match unit {
+        "ns," => 1.0,
+        "us," => 1e3,
+        "ms," => 1e6,
+        "s," => 1e9,
+        other => panic!("{other}"),
+    };
+    let costs = plan.split("methods considered").nth(1).expect("methods").lines().filter_map(|line| {
+        let words: Vec<_> = line.split_whitespace().collect();
+        let cost = words.get(1)?.parse::<f64>().ok()? * unit(words[2]);
+        Some((cost, words[0].trim_end_matches(':')))
+    });
+    let mut costs: Vec<_> = costs.collect();
+    costs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    assert!(costs.len() >= 3, "{plan}");
+    assert!(plan.contains(&format!("next is {},", costs[1].1)), "{plan}");
+    let ratio = number_after(&plan, &format!("next is {},", costs[1].1));
+    // Costs are printed to a tenth of their unit, the ratio to a tenth.
+    assert!((ratio - costs[1].0 / costs[0].0).abs() < 0.06 + 0.1 * ratio, "{ratio} {costs:?}");
+}

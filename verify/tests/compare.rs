@@ -128,6 +128,9 @@ fn sound_files_agree_and_the_rest_is_told() {
         for column in file["columns"].as_array().expect("columns") {
             assert_eq!(column["verdict"], "agrees");
             assert!(column["largest_difference"].as_f64().expect("number") < 1e-10, "{column}");
+            // A time of the file, not a difference.
+            let at = column["at"].as_f64().expect("a time");
+            assert!((0.0..=500.0).contains(&at) && (at == 0.0 || at > 1e-3), "{column}");
         }
     }
     let other_start = &file("mntp1_pset.dat", "Eq. (34)")["columns"][0];

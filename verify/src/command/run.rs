@@ -7,7 +7,6 @@ use super::output_file::OutputFile;
 use super::progress::Progress;
 use super::standard_output::standard_output;
 use super::{Failure, OutputArgs, PlanArgs, RunArgs, note, print};
-use crate::estimated_error::{ROUNDING_OF_COMPONENT, as_printed};
 use crate::scene_file::{Scene, SceneError};
 use crate::trajectory::{self, ErrorAtEnd, Summary, TrajectoryError};
 
@@ -35,7 +34,6 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         Some(ErrorAtEnd::Estimated(error)) => ("estimated error", error),
         Some(ErrorAtEnd::Foreseen(error)) => ("error that the plan foresaw", error),
     };
-    let error = as_printed(error, ROUNDING_OF_COMPONENT);
     note(&format!("{word} of n, e_x and L / |L| at the end of the span: {error:.1e}"));
     Ok(())
 }

@@ -69,3 +69,36 @@ fn initial_values(start: &Start, scale: &Scale) -> String {
     });
     format!("At *t* = 0: *α* = {alpha}, *β* = {beta}, *γ* = {gamma}{rates}.")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene_file::Scene;
+
+    const STAR: &str = "[star]\nmass = 1.4\nradius = 12.0\noblateness = 1e-9\nspin_frequency = 30.0\n\
+        [lorentz_violation]\ntensor = [[0.01, 0.002, -0.003], [0.002, -0.04, 0.005], [-0.003, 0.005, 0.06]]\n\
+        [initial]\nalpha = 0.3\nbeta = 0.8\ngamma = 1.7\nalpha_rate = 210.0\nbeta_rate = -13.0\n\
+        [observer]\ntheta_o = 0.9\nphi_o = 2.4\n[pulsar]\nchi = 0.5\ndelta = 0.25\nrho = 0.4\n[time]\nspan = 0.5\nsamples = 3\n";
+
+    /// `I = (2/5) M R^2` of a sphere with the nominal solar mass and G of CODATA 2022.
+    #[test]
+    fn a_caption_has_the_numbers_of_the_scene() {
+        let scene = Scene::from_toml("star", STAR).unwrap();
+        let subject = Subject::of_scene("star", &scene).unwrap();
+        let text = parameters("", &[&subject]) + &line_of_sight(&[&subject], true);
+        let plain: String = text.chars().filter(|c| !"*{}^_".contains(*c)).collect();
+        let inertia = 0.4 * 1.4 * (1.327_124_4e20 / 6.674_30e-11) * 1.2e4_f64.powi(2) * 1e7;
+        for phrase in [
+            &format!("Ixx = {} g cm2", number(inertia).chars().filter(|c| !"*{}^_".contains(*c)).collect::<String>()),
+            "Ωz/(2π) = 30 Hz",
+            "sXX, sYY, sZZ = 0.01, −0.04, 0.06; sXY, sXZ, sYZ = 0.002, −0.003, 0.005.",
+            "α = 0.3, β = 0.8, γ = 1.7, dα/dt = 210, dβ/dt = −13.",
+            "time in s.",
+            "θo = 0.9, φo = 2.4, χ = 0.5, δ = 0.25, ρ = 0.4.",
+        ] {
+            assert!(plain.contains(phrase), "no `{phrase}` in {plain}");
+        }
+        // Half a second is shown whole: less than a hundred turns.
+        assert!((subject.shown.pulses * scene.units.time - 0.5).abs() < 1e-12);
+    }
+}
