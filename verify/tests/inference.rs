@@ -5,6 +5,7 @@ mod common;
 use std::fs;
 
 use common::{folder, stderr, stdout, twofold};
+use twofold::euler_angles::EulerAngles;
 use twofold_verify::inference::{
     Datum, Fisher, InferenceError, Model, Noise, Observable, Place, Signal, Simulation, Unknown, beside, data_of, fit,
     with_noise,
@@ -353,4 +354,53 @@ fn tables_that_are_no_data_are_refused() {
             assert!(stderr(&output).contains(fragment), "expected `{fragment}` in\n{}", stderr(&output));
         }
     }
+}
+
+/// One datum of a linear model late by `d` standard deviations: of `d` its residual keeps the part `q`, with the sign of `d`, and `chi^2 = q d^2`.
+#[test]
+fn a_late_pulse_has_a_positive_residual() {
+    let truth = model("tp-2");
+    let unknowns = &Unknown::OF_PULSES;
+    for late in [3.0, -2.0] {
+        let mut data = data(&truth, 100.0, &TIMES_AND_WIDTHS);
+        let place = data.iter().position(|datum| datum.observable == Observable::Arrivals).expect("arrivals") + 8;
+        assert_eq!(data[place].observable, Observable::Arrivals);
+        data[place].value += late * data[place].sigma;
+        let found = fit(&truth, &data, unknowns, 100.0).expect("fit");
+        let residual = found.residuals[place];
+        // Errors of 1e-5 move the unknowns by so little that the model is linear to about as much.
+        assert!(residual / late > 0.1, "{residual} of {late}");
+        assert!((found.chi_squared / (residual * late) - 1.0).abs() < 1e-2, "{} and {residual}", found.chi_squared);
+        // An unbiased estimate of the variance: data less unknowns.
+        let sum: f64 = found.residuals.iter().map(|residual| residual * residual).sum();
+        let mean = sum / (data.len() - unknowns.len()) as f64;
+        assert!((found.root_mean_square().powi(2) / mean - 1.0).abs() < 1e-9, "{}", found.root_mean_square());
+    }
+}
+
+/// `-n` and `-m` have the `m.n` of `n` and `m`: the star seen from below by its other pole.
+#[test]
+fn angles_beyond_a_right_angle_are_fitted() {
+    let truth = model("tp-2");
+    let opposite = |x: f64| std::f64::consts::PI - x;
+    let half_turn = std::f64::consts::PI;
+    let unknowns = [Unknown::Beta, Unknown::Chi, Unknown::ThetaO, Unknown::Spin];
+    let of_truth = data(&truth, 100.0, &TIMES_AND_WIDTHS);
+    let below = Model {
+        chi: opposite(truth.chi),
+        delta: truth.delta + half_turn,
+        theta_o: opposite(truth.theta_o),
+        phi_o: truth.phi_o + half_turn,
+        ..truth
+    };
+    let found = fit(&below.moved(&unknowns, &[1e-4, -1e-4, 1e-4, -1e-4]), &of_truth, &unknowns, 100.0).expect("fit");
+    let expected = [truth.angles.beta, opposite(truth.chi), opposite(truth.theta_o), truth.spin];
+    for (value, expected) in found.values.iter().zip(expected) {
+        assert!((value - expected).abs() < 1e-8, "{:?}, expected {expected:?}", found.values);
+    }
+    // The axis in the lower half.
+    let inclined = Model { angles: EulerAngles { beta: 2.3, ..truth.angles }, alpha_rate: -truth.alpha_rate, ..truth };
+    let of_inclined = data(&inclined, 100.0, &TIMES_AND_WIDTHS);
+    let found = fit(&inclined.moved(&[Unknown::Beta], &[1e-4]), &of_inclined, &[Unknown::Beta], 100.0).expect("fit");
+    assert!((found.values[0] - 2.3).abs() < 1e-8, "{:?}", found.values);
 }
