@@ -211,7 +211,8 @@ impl<'s, M: PlannedState> Stretches<'s, M> {
         if self.total == 0.0 {
             return self.scene.accuracy;
         }
-        (self.scene.accuracy * growth(stretch) / growth(self.total)).max(ACCURACY_RANGE.0)
+        // Rounding may pass by both ends of what a motion takes.
+        (self.scene.accuracy * growth(stretch) / growth(self.total)).clamp(ACCURACY_RANGE.0, ACCURACY_RANGE.1)
     }
 }
 
