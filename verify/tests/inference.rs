@@ -5,6 +5,7 @@ mod common;
 use std::fs;
 
 use common::{folder, stderr, stdout, twofold};
+use twofold::euler_angles::EulerAngles;
 use twofold_verify::inference::{
     Datum, Fisher, InferenceError, Model, Noise, Observable, Place, Signal, Simulation, Unknown, beside, data_of, fit,
     with_noise,
@@ -352,5 +353,60 @@ fn tables_that_are_no_data_are_refused() {
         for fragment in fragments {
             assert!(stderr(&output).contains(fragment), "expected `{fragment}` in\n{}", stderr(&output));
         }
+    }
+}
+
+/// One datum of a linear model late by `d` standard deviations: of `d` its residual keeps the part `q`, with the sign of `d`, and `chi^2 = q d^2`.
+#[test]
+fn a_late_pulse_has_a_positive_residual() {
+    let truth = model("tp-2");
+    let unknowns = &Unknown::OF_PULSES;
+    for late in [3.0, -2.0] {
+        let mut data = data(&truth, 100.0, &TIMES_AND_WIDTHS);
+        let place = data.iter().position(|datum| datum.observable == Observable::Arrivals).expect("arrivals") + 8;
+        assert_eq!(data[place].observable, Observable::Arrivals);
+        data[place].value += late * data[place].sigma;
+        let found = fit(&truth, &data, unknowns, 100.0).expect("fit");
+        let residual = found.residuals[place];
+        // Errors of 1e-5 move the unknowns by so little that the model is linear to about as much.
+        assert!(residual / late > 0.1, "{residual} of {late}");
+        assert!((found.chi_squared / (residual * late) - 1.0).abs() < 1e-2, "{} and {residual}", found.chi_squared);
+        // An unbiased estimate of the variance: data less unknowns.
+        let sum: f64 = found.residuals.iter().map(|residual| residual * residual).sum();
+        let mean = sum / (data.len() - unknowns.len()) as f64;
+        assert!((found.root_mean_square().powi(2) / mean - 1.0).abs() < 1e-9, "{}", found.root_mean_square());
+    }
+}
+
+/// `-n` and `-m` have the `m.n` of `n` and `m`; and half a turn about X, which leaves a diagonal `s^IJ` as it is, changes nothing that is seen. So the
+/// data of a star are those of others with angles in the lower half.
+#[test]
+fn angles_beyond_a_right_angle_are_fitted() {
+    let truth = model("tp-2");
+    let half_turn = std::f64::consts::PI;
+    let of_truth = data(&truth, 100.0, &TIMES_AND_WIDTHS);
+    let opposite = Model {
+        chi: half_turn - truth.chi,
+        delta: truth.delta + half_turn,
+        theta_o: half_turn - truth.theta_o,
+        phi_o: truth.phi_o + half_turn,
+        ..truth
+    };
+    let EulerAngles { alpha, beta, gamma } = truth.angles;
+    let turned = Model {
+        angles: EulerAngles { alpha: half_turn - alpha, beta: half_turn - beta, gamma: gamma + half_turn },
+        alpha_rate: -truth.alpha_rate,
+        beta_rate: -truth.beta_rate,
+        theta_o: half_turn - truth.theta_o,
+        phi_o: -truth.phi_o,
+        ..truth
+    };
+    for (star, unknown) in [(opposite, Unknown::Chi), (opposite, Unknown::ThetaO), (turned, Unknown::Beta)] {
+        let unknowns = [unknown, Unknown::Spin];
+        let found = fit(&star.moved(&unknowns, &[1e-4, -1e-4]), &of_truth, &unknowns, 100.0).expect("fit");
+        for (value, expected) in found.values.iter().zip(star.values(&unknowns)) {
+            assert!((value - expected).abs() < 1e-8, "{unknown:?}: {value} for {expected}");
+        }
+        assert!(found.values[0] > half_turn / 2.0 && found.chi_squared < 1e-6, "{unknown:?}: {}", found.chi_squared);
     }
 }

@@ -97,6 +97,19 @@ fn a_spectrum_of_a_physical_star_is_in_seconds_from_its_start() {
         let line = constant + amplitude * (frequency * (row[0] - 3.0) + phase).cos();
         assert!((line - row[1]).abs() < 1e-9, "{line} at {row:?}");
     }
+    // The amplitude spectrum in steps of 2 pi over the span of 2 s; between two steps the window takes a few hundredths.
+    let spectrum = twofold(&["spectrum", &scene, "--of", "cos_lambda", "--table", "spectrum"]);
+    let text = String::from_utf8_lossy(&spectrum.stdout).into_owned();
+    assert!(text.starts_with("frequency [rad/s],amplitude [1]\n"), "{text}");
+    let points = text.lines().skip(1).map(|row| {
+        let (frequency, amplitude) = row.split_once(',').expect("two columns");
+        [frequency, amplitude].map(|field| field.parse::<f64>().expect("number"))
+    });
+    // The window spreads the constant term over some steps.
+    let highest =
+        points.filter(|[frequency, _]| *frequency > 100.0).max_by(|a, b| a[1].total_cmp(&b[1])).expect("rows");
+    assert!((highest[0] - lines[0].0[0]).abs() < std::f64::consts::PI, "{highest:?} {lines:?}");
+    assert!((0.9..1.001).contains(&(highest[1] / lines[0].0[1])), "{highest:?} {lines:?}");
 }
 
 #[test]

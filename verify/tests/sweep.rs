@@ -412,3 +412,45 @@ fn parquet_does_not_depend_on_threads_shards_or_interruptions() {
     assert!(read("one.parquet") == read("three.parquet") && read("one.parquet") == read("merged.parquet"));
     assert!(!names_in(folder.path()).iter().any(|name| name.contains("partial")), "{:?}", names_in(folder.path()));
 }
+
+/// A coarse motion, of errors far above rounding: the column of each is what the columns of the integrals differ by between the start and a
+/// later time, and what the length of `e_z` differs from one by.
+#[test]
+fn errors_are_the_changes_of_what_is_constant() {
+    let folder = folder();
+    written(
+        folder.path(),
+        "star.toml",
+        "[star]\nmass = 1.4\nradius = 12.0\noblateness = 0.05\nspin_frequency = 100.0\n[lorentz_violation]\n\
+         eigenvalues = [0.05, 0.01, -0.06]\n[initial]\nalpha = 0.4\nbeta = 0.8\nalpha_rate = 650.0\nbeta_rate = 40.0\n[time]\n\
+         span = 1.0\nsamples = 2\n",
+    );
+    let text = "scene = \"star.toml\"\n[[vary]]\nparameter = \"initial.beta\"\nvalues = [0.8, 0.9]\n[time]\n\
+                times = [0.0, 0.03, 0.2]\n[output]\ncolumns = [\"integrals\", \"e_z\", \"errors\"]\naccuracy = 1e-2\nmethod = \"taylor\"\n";
+    written(folder.path(), "sweep.toml", text);
+    let output = sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let table = rows(&folder.path().join("table.csv"));
+    assert_eq!(table.len(), 3);
+    for row in &table[1..] {
+        let at = |head: &str| -> f64 {
+            let place =
+                table[0].iter().position(|found| found == head).unwrap_or_else(|| panic!("{head}: {:?}", table[0]));
+            row[place].parse().expect("a number")
+        };
+        for time in ["0.03", "0.2"] {
+            for (name, unit) in [("E", "[erg]"), ("Omega_z", "[rad/s]"), ("K", "[(g cm^2/s)^2]")] {
+                let [now, start] = [time, "0.0"].map(|time| at(&format!("{name}@{time} {unit}")));
+                let error = at(&format!("{name}_error@{time} {unit}"));
+                // Each integral is rounded a few times.
+                let rounding = 16.0 * f64::EPSILON * now.abs();
+                assert!((error - (now - start)).abs() <= rounding, "{name}@{time}: {error:e}, {:e}", now - start);
+                assert!(error.abs() > 1e3 * rounding, "{name}@{time}: {error:e} for {now:e}");
+            }
+            let length = ["X", "Y", "Z"].map(|i| at(&format!("e_z_{i}@{time} [1]")).powi(2)).iter().sum::<f64>().sqrt();
+            let error = at(&format!("e_z_length_error@{time} [1]"));
+            assert!((error - (length - 1.0)).abs() < 1e-15, "{error:e} and {:e}", length - 1.0);
+            assert!(error.abs() > 1e-12, "{error:e}");
+        }
+    }
+}

@@ -212,3 +212,15 @@ fn judged(
     let (allowed, reason) = (allowed.limit, allowed.reason);
     ColumnDifference { column: column.to_owned(), unit, difference, time, allowed, reason, verdict }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Allowed, Verdict, judged};
+
+    #[test]
+    fn what_is_not_a_number_differs() {
+        let allowed = Allowed { limit: Some(1.0), reason: "" };
+        let found = judged("m.n", "1", [(0.0, 0.5), (1.0, f64::NAN), (2.0, -0.7)].into_iter(), allowed);
+        assert_eq!((found.verdict, found.time, found.difference), (Verdict::Differs, 1.0, f64::INFINITY));
+    }
+}

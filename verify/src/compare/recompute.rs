@@ -176,3 +176,49 @@ pub(super) fn train(start: &Start, table: &Table) -> Result<(PulseTrain, f64), E
     }
     Ok((train, slowest))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::paper_examples::paper_examples;
+
+    /// The period is a turn over the rate of the azimuth of `m` at constant beta, here by a difference quotient along the motion. The pulse ends where
+    /// the triangle of `m`, `n` and Z on the sphere has the side `rho`; as a time it is divided by the mean of that rate.
+    #[test]
+    fn periods_and_widths_are_those_of_the_azimuth_of_the_magnetic_axis() {
+        let [example, ..] = paper_examples();
+        // Steps become longer: the mean of rows is not that of time.
+        let times: Vec<f64> = (0..=2000).map(|k| 0.1 + 25.0 * (f64::from(k) / 2000.0).powi(2)).collect();
+        let last = times[2000];
+        let table = Table { rows: times.iter().map(|t| vec![*t]).collect() };
+        let found = signal(&example, &table).unwrap();
+        let motion = Start::of(&example).unwrap().motion(last + 1.0).unwrap();
+        let angles = |t: f64| motion.state(t).unwrap().angles().unwrap();
+        let axis = |angles: EulerAngles<f64>| {
+            let rates = EulerRates { alpha: 0.0, beta: 0.0, gamma: 0.0 };
+            beam().direction(&BodyState::from_angles(&spheroid(), &angles, &rates))
+        };
+        let rate = |t: f64| {
+            let beta = angles(t).beta;
+            let step = 1e-4;
+            let [a, b] = [t - step, t + step].map(|t| axis(EulerAngles { beta, ..angles(t) }));
+            (a.x * b.y - a.y * b.x).atan2(a.x * b.x + a.y * b.y) / (2.0 * step)
+        };
+        let mean = (0..1000).map(|k| rate(0.1 + 25.0 * (f64::from(k) + 0.5) / 1000.0)).sum::<f64>() / 1000.0;
+        let mut pulsed = 0;
+        for (row, t) in found.iter().zip(times) {
+            // The quotient is off by 1e-8 / 6 of the third derivative.
+            let period = TAU / rate(t);
+            assert!((row[1] / period - 1.0).abs() < 1e-6, "t = {t}: {} and {period}", row[1]);
+            let theta = axis(angles(t)).z.acos();
+            let half = (RHO.cos() - theta.cos() * THETA_O.cos()) / (theta.sin() * THETA_O.sin());
+            // acos is 0 beyond 1 and pi beyond -1; means in steps of up to 0.025 are good to their square.
+            let width = 2.0 * half.clamp(-1.0, 1.0).acos() / mean;
+            assert!((row[2] - width).abs() < 1e-4 * width + 1e-12, "t = {t}: {} and {width}", row[2]);
+            pulsed += usize::from((0.1..TAU / mean - 0.1).contains(&width));
+        }
+        assert!(pulsed > 100, "{pulsed}");
+    }
+}

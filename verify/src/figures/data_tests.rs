@@ -369,3 +369,72 @@ fn the_times_of_methods_are_in_the_unit_of_their_axis() {
     }
     assert!(compared > 300, "{compared}");
 }
+
+/// A number of a caption at the beginning of `text`, as `0.0025` or `2.5 × 10^{−7}`.
+fn leading(text: &str) -> f64 {
+    let mut words = text.split(' ');
+    let [mantissa, times, power] = [words.next(), words.next(), words.next()].map(|word| word.unwrap_or_default());
+    let power = power.strip_prefix("10^{").and_then(|power| power.split('}').next()).filter(|_| times == "×");
+    format!("{mantissa}e{}", power.unwrap_or("0")).replace('−', "-").parse().unwrap_or_else(|_| panic!("{text}"))
+}
+
+#[test]
+fn differences_in_captions_are_those_of_the_columns() {
+    let mut compared = 0;
+    for figure in FIGURES.iter().filter(|figure| figure.name.starts_with("motion")) {
+        let table = figure.tables.iter().find(|table| table.name == "angles").unwrap();
+        for solution in ["printed", "corrected"] {
+            let Some((_, says)) = figure.caption.says.split_once(&format!("perturbation, {solution}: up to ")) else {
+                assert!(!table.columns.iter().any(|head| head.contains(solution)), "{}", figure.caption.says);
+                continue;
+            };
+            let (of_alpha, rest) = says.split_once(" rad in *α* and ").unwrap();
+            let (of_beta, _) = rest.split_once(" rad in *β*").unwrap();
+            for (angle, said) in [("alpha", leading(of_alpha)), ("beta", leading(of_beta))] {
+                let [ours, theirs] = ["", &format!(" by perturbation {solution}")]
+                    .map(|by| column(table, &format!("{angle}{by} [rad]")));
+                let off = table.rows.iter().map(|row| (row[ours] - row[theirs]).abs()).fold(0.0, f64::max);
+                // Two digits.
+                assert!(
+                    (said - off).abs() <= 0.0501 * off,
+                    "{}: {said} rad in {angle}, {off} in the table",
+                    figure.name
+                );
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared >= 16, "{compared}");
+}
+
+#[test]
+fn parts_of_the_time_in_captions_are_those_of_the_columns() {
+    let mut compared = 0;
+    for (name, scene, figures) in drawn() {
+        for figure in figures.into_iter().filter(|figure| figure.name == "beam-alignment") {
+            let Some(table) = figure.tables.iter().find(|table| table.name == name) else { continue };
+            let edge = scene.pulsar.unwrap().rho.cos();
+            let inside = table.rows.iter().filter(|row| row[column(table, "m.n [1]")] > edge).count();
+            let part = 100.0 * inside as f64 / table.rows.len() as f64;
+            let says = &figure.caption.says;
+            let Some((before, _)) = says.split_once(&format!(" % of the time for {name}")) else {
+                assert!(part == 0.0 || part == 100.0, "{name}: {part} % and `{says}`");
+                continue;
+            };
+            let words: Vec<_> = before.rsplit([',', ' ']).take(3).collect();
+            let said = leading(
+                &words
+                    .iter()
+                    .rev()
+                    .skip_while(|word| word.parse::<f64>().is_err())
+                    .copied()
+                    .collect::<Vec<_>>()
+                    .join(" "),
+            );
+            // Two digits.
+            assert!((said - part).abs() <= 0.0501 * part, "{name}: {said} %, {part} % of the rows");
+            compared += 1;
+        }
+    }
+    assert!(compared >= 4, "{compared}");
+}

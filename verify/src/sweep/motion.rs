@@ -146,3 +146,19 @@ impl EarlierErrors {
         self.sum + rate * (self.sum * time.abs() - self.times)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::EarlierErrors;
+
+    #[test]
+    fn each_earlier_error_grows_with_the_rotation_since() {
+        for sense in [1.0, -1.0] {
+            let mut earlier = EarlierErrors::default();
+            let errors = [(2.0, 1e-9), (5.0, 3e-9)];
+            errors.map(|(time, error)| earlier.add(sense * time, error));
+            let expected: f64 = errors.map(|(time, error)| error * (1.0 + 1.5 * (8.0 - time))).iter().sum();
+            assert!((earlier.at(sense * 8.0, 1.5) / expected - 1.0).abs() < 1e-14);
+        }
+    }
+}

@@ -211,7 +211,8 @@ impl<'s, M: PlannedState> Stretches<'s, M> {
         if self.total == 0.0 {
             return self.scene.accuracy;
         }
-        (self.scene.accuracy * growth(stretch) / growth(self.total)).max(ACCURACY_RANGE.0)
+        // Rounding may pass by both ends of what a motion takes.
+        (self.scene.accuracy * growth(stretch) / growth(self.total)).clamp(ACCURACY_RANGE.0, ACCURACY_RANGE.1)
     }
 }
 
@@ -237,4 +238,31 @@ fn since_start_in_parts(scene: &Scene, time: f64) -> [f64; 2] {
     let quotient = difference / unit;
     let rest = ((-quotient).mul_add(unit, difference) + lost) / unit;
     [quotient, if rest.is_finite() { rest } else { 0.0 }]
+}
+
+#[cfg(test)]
+mod tests {
+    use twofold::plan::PlannedAxisMotion;
+
+    use super::*;
+
+    /// An error of the time `t` grows to `1 + rate (end - t)` times itself by the end. All of the stretches together are to stay below the accuracy.
+    #[test]
+    fn the_errors_of_all_stretches_are_within_the_accuracy() {
+        let mut scene = Scene::named("tp-2").unwrap();
+        scene.accuracy = 1e-8;
+        scene.choose_method("taylor").unwrap();
+        scene.choose_columns(&["e_z"]).unwrap();
+        let plan = scene.plan_of_columns().unwrap();
+        let rate = scene.turning_rate();
+        let end = plan.stretch.1;
+        let mut stretches = Stretches::<PlannedAxisMotion>::of_rotation(&scene, &plan, rate * end / 20.5).unwrap();
+        let (mut sum, mut count) = (0.0, 0);
+        while let Some(stretch) = stretches.next().unwrap() {
+            sum += stretch.motion.error_estimate(stretch.to) * (1.0 + rate * (end - stretch.to));
+            count += 1;
+        }
+        assert_eq!(count, 21);
+        assert!(sum < scene.accuracy, "{sum:e}");
+    }
 }
