@@ -626,3 +626,18 @@ fn the_next_method_is_the_second_cheapest() {
     // Costs are printed to a tenth of their unit, the ratio to a tenth.
     assert!((ratio - costs[1].0 / costs[0].0).abs() < 0.06 + 0.1 * ratio, "{ratio} {costs:?}");
 }
+
+/// A motion of more turns than are kept is computed in stretches, and has no estimate of its own.
+#[test]
+fn an_error_that_is_foreseen_is_not_called_estimated() {
+    let folder = folder();
+    let scene = folder.path().join("scene.toml");
+    let tp_1 = BUILT_IN.iter().find(|scene| scene.name == "tp-1").expect("tp-1").toml;
+    let (before, _) = tp_1.split_once("[time]").expect("times");
+    for (span, words) in [(100.0, "note: estimated error"), (45_000.0, "note: error that the plan foresaw")] {
+        let times = format!("[time]\nspan = {span}\nsamples = 2\n[output]\naccuracy = 1e-6\nmethod = \"taylor\"\n");
+        fs::write(&scene, format!("{before}{times}")).expect("scene");
+        let told = stderr(&twofold(&["run", scene.to_str().expect("path in UTF-8"), "--columns", "e_z"]));
+        assert!(told.contains(&format!("{words} of n")), "{told}");
+    }
+}
