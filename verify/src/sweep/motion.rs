@@ -156,7 +156,7 @@ mod tests {
         for sense in [1.0, -1.0] {
             let mut earlier = EarlierErrors::default();
             let errors = [(2.0, 1e-9), (5.0, 3e-9)];
-            errors.map(|(time, error)| earlier.add(sense * time, error));
+            errors.iter().for_each(|(time, error)| earlier.add(sense * time, *error));
             let expected: f64 = errors.map(|(time, error)| error * (1.0 + 1.5 * (8.0 - time))).iter().sum();
             assert!((earlier.at(sense * 8.0, 1.5) / expected - 1.0).abs() < 1e-14);
         }
