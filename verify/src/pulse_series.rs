@@ -12,17 +12,17 @@ use twofold::propagation::Motion;
 
 /// Series of the whole pulses of a motion.
 #[derive(Debug, Clone)]
-pub(crate) struct PulseSeries {
+pub struct PulseSeries {
     /// Times between pulses of consecutive single turns, each at the mean of the two midpoints.
-    pub(crate) periods: Vec<Stamped>,
+    pub periods: Vec<Stamped>,
     /// Times between the others: over turns without a pulse, within one turn, from or to a pulse that lasts for several.
-    pub(crate) gaps: Vec<Stamped>,
+    pub gaps: Vec<Stamped>,
     /// Lengths in time, at the midpoints.
-    pub(crate) lengths: Vec<Stamped>,
+    pub lengths: Vec<Stamped>,
 }
 
 /// The series of a beam in a span of a motion, the turns counted as in [`arrivals`].
-pub(crate) fn pulse_series(
+pub fn pulse_series(
     motion: &impl Motion<f64>,
     beam: &Beam<f64>,
     line_of_sight: &Vector3<f64>,
@@ -51,31 +51,31 @@ pub(crate) fn pulse_series(
 
 /// Beam and observer as the formulas have them.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Viewing {
-    pub(crate) chi: f64,
-    pub(crate) delta: f64,
-    pub(crate) rho: f64,
-    pub(crate) theta_o: f64,
+pub struct Viewing {
+    /// Angle of the magnetic axis to the symmetry axis.
+    pub chi: f64,
+    /// Its azimuth in the body.
+    pub delta: f64,
+    /// Semi-open angle of the beam.
+    pub rho: f64,
+    /// Colatitude of the observer.
+    pub theta_o: f64,
 }
 
 /// What the formulas give at a time.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Formulas {
+pub struct Formulas {
     /// `DeltaPhi'`, Eq. (52).
-    pub(crate) offset_rate: f64,
+    pub offset_rate: f64,
     /// `alpha' + DeltaPhi'`.
-    pub(crate) azimuth_rate: f64,
+    pub azimuth_rate: f64,
     /// `W`, Eq. (56): zero without a pulse, a turn for a beam that is always on.
-    pub(crate) width: f64,
+    pub width: f64,
 }
 
 impl Viewing {
     /// The formulas for angles `[beta, gamma]` and rates `[alpha', gamma']`.
-    pub(crate) fn formulas(
-        &self,
-        [beta, gamma]: [f64; 2],
-        [alpha_rate, gamma_rate]: [f64; 2],
-    ) -> Result<Formulas, Error> {
+    pub fn formulas(&self, [beta, gamma]: [f64; 2], [alpha_rate, gamma_rate]: [f64; 2]) -> Result<Formulas, Error> {
         let offset_rate = azimuth_offset_rate(beta, gamma, gamma_rate, self.chi, self.delta)?;
         let theta = cosine_of_colatitude(beta, gamma, self.chi, self.delta).acos();
         let width = match pulse_width(self.rho, theta, self.theta_o) {
@@ -97,7 +97,7 @@ impl Viewing {
 /// The paper's curves of a motion: period `2 pi / (alpha' + DeltaPhi')`, Eq. (51) before it is expanded, and width (56), with the
 /// angles and rates of the numerical motion at each time. A width becomes a time by the mean of `alpha' + DeltaPhi'`, as
 /// the authors' data have it.
-pub(crate) struct PaperCurves<'m, M> {
+pub struct PaperCurves<'m, M> {
     motion: &'m M,
     viewing: Viewing,
     mean_rate: f64,
@@ -105,7 +105,7 @@ pub(crate) struct PaperCurves<'m, M> {
 
 impl<'m, M: Motion<f64>> PaperCurves<'m, M> {
     /// The curves from time zero to `end`.
-    pub(crate) fn new(motion: &'m M, viewing: Viewing, end: f64) -> Result<Self, Error> {
+    pub fn new(motion: &'m M, viewing: Viewing, end: f64) -> Result<Self, Error> {
         // Some ten looks each radian: beyond the digits that the mean needs.
         let count = (10.0 * end.abs()).ceil() as usize;
         let mut sum = 0.0;
@@ -117,7 +117,7 @@ impl<'m, M: Motion<f64>> PaperCurves<'m, M> {
     }
 
     /// Period and length at a time.
-    pub(crate) fn at(&self, t: f64) -> Result<[f64; 2], Error> {
+    pub fn at(&self, t: f64) -> Result<[f64; 2], Error> {
         let formulas = self.viewing.at(self.motion, t)?;
         Ok([instantaneous_period(formulas.azimuth_rate), formulas.width / self.mean_rate])
     }

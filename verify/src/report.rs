@@ -12,7 +12,7 @@ use crate::check::{Bound, Check, Kind, Outcome};
 pub type Result = (Check, Outcome);
 
 /// The kinds of checks in the order in which they are listed, and what each is.
-pub(crate) const KINDS: [(Kind, &str); 5] = [
+pub const KINDS: [(Kind, &str); 5] = [
     (Kind::Exact, "identities over a prime field, no tolerance"),
     (Kind::Autodiff, "the paper's formulas against automatic derivatives"),
     (Kind::Oracle, "another method or another source"),
@@ -129,7 +129,7 @@ fn failure(check: &Check, outcome: &Outcome) -> String {
 }
 
 /// The measured figure in four digits.
-pub(crate) fn measured(outcome: &Outcome) -> String {
+pub fn measured(outcome: &Outcome) -> String {
     match &outcome.measured {
         Ok(measured) if measured.figure == 0.0 => "0".to_owned(),
         Ok(measured) if (1e-2..1e5).contains(&measured.figure.abs()) => format!("{:.4}", measured.figure),
@@ -139,7 +139,7 @@ pub(crate) fn measured(outcome: &Outcome) -> String {
 }
 
 /// The verdict in a word.
-pub(crate) fn verdict(outcome: &Outcome) -> &'static str {
+pub fn verdict(outcome: &Outcome) -> &'static str {
     if outcome.passed { "pass" } else { "FAIL" }
 }
 

@@ -163,7 +163,7 @@ pub static GRADIENT_8_6_4: Scheme = Scheme {
         0.186_735_929_134_907_054_308_412_7,
     ]),
     gradients: &mirrored::<3, 6>([0.0, 0.000_786_358_979_595_712_102_173_260_5, 0.002_122_159_686_934_965_732_723_611]),
-    source: "order conditions solved in verify/oracle/splitting_schemes.py; the kind is that of Blanes, Casas and Ros 2000",
+    source: "order conditions solved in verify/oracles/mpmath/splitting_schemes.py; the kind is that of Blanes, Casas and Ros 2000",
 };
 
 /// Near-integrable (8,6,6) with force gradients in five of seven kicks.
@@ -184,7 +184,7 @@ pub static GRADIENT_8_6_6: Scheme = Scheme {
         -0.001_347_593_687_505_283_932_062,
         0.006_653_668_931_390_292_057_946,
     ]),
-    source: "order conditions solved in verify/oracle/splitting_schemes.py; the kind is that of Blanes, Casas and Ros 2000",
+    source: "order conditions solved in verify/oracles/mpmath/splitting_schemes.py; the kind is that of Blanes, Casas and Ros 2000",
 };
 
 /// Near-integrable (8,8,6) with force gradients in six of eight kicks.
@@ -211,7 +211,7 @@ pub static GRADIENT_8_8_6: Scheme = Scheme {
         0.017_365_177_553_207_314_907_385_13,
         -0.018_476_183_761_250_380_182_645_15,
     ]),
-    source: "order conditions solved in verify/oracle/splitting_schemes.py; the kind is that of Blanes, Casas and Ros 2000",
+    source: "order conditions solved in verify/oracles/mpmath/splitting_schemes.py; the kind is that of Blanes, Casas and Ros 2000",
 };
 
 /// Every scheme.

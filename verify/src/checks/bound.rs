@@ -14,8 +14,8 @@ use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::derivation::Differentiable;
 use crate::golden::pulsar_bounds::{PrintedBounds, columns};
 use crate::identity::{self, Identity};
-use crate::pulsar_table::{Pulsar, ROUND_INERTIA_OVER_C};
 use crate::random::{Point, Random};
+use twofold_scene::pulsar_table::{Pulsar, ROUND_INERTIA_OVER_C};
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {

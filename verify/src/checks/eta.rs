@@ -19,8 +19,8 @@ use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Pert
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::derivation::Differentiable;
 use crate::eta::{PAPER_ASYMMETRY, eta_curve, numerical_axis_rate, seen_rate, twelve_turns};
-use crate::fit::order;
 use crate::identity::{self, Identity};
+use crate::measured_order::measured_order;
 use crate::paper_examples::{COEFFICIENTS, SPIN};
 use crate::random::{Point, Random};
 
@@ -430,7 +430,7 @@ fn secular_rate() -> Result<Measured, String> {
             Ok((k, (rate - secular).norm() / secular.norm()))
         })
         .collect::<Result<Vec<_>, String>>()?;
-    Ok(order(&points, 0.0)?.measured(&points))
+    measured_order(&points, 0.0)
 }
 
 fn by_numerical_motion() -> Result<Measured, String> {
@@ -479,7 +479,7 @@ fn estimate_order() -> Result<Measured, String> {
 fn small_inclinations() -> Result<Measured, String> {
     let points: Vec<_> =
         [1e-3, 1e-2, 1e-1].map(|beta| (beta, root_mean_square_along_motion(PAPER_ASYMMETRY, beta))).to_vec();
-    Ok(order(&points, 0.0)?.measured(&points))
+    measured_order(&points, 0.0)
 }
 
 fn near_right_angle() -> Result<Measured, String> {
@@ -494,5 +494,5 @@ fn near_right_angle() -> Result<Measured, String> {
 fn symmetric_limit() -> Result<Measured, String> {
     let points: Vec<_> =
         [1e-2, 1e-3, 1e-4].map(|ratio| (ratio, root_mean_square_along_motion(-ratio, FRAC_PI_2))).to_vec();
-    Ok(order(&points, 0.0)?.measured(&points))
+    measured_order(&points, 0.0)
 }

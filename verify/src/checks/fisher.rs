@@ -16,10 +16,10 @@ use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Pert
 use crate::check::{Bound, Check, Kind, Measured, largest};
 use crate::derivation::Differentiable;
 use crate::identity::{self, Identity};
-use crate::inference::{Fisher, Jacobian, Model, Observable, Signal, Unknown, data_of};
 use crate::paper_examples::{COEFFICIENTS, SPIN};
 use crate::random::Point;
-use crate::scene_file::Scene;
+use twofold_scene::inference::{Fisher, Jacobian, Model, Observable, Signal, Unknown, data_of};
+use twofold_scene::scene_file::Scene;
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {

@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
-use crate::inference::{
+use twofold_scene::inference::{
     Coverage, Datum, Event, Fisher, InferenceError, Model, Noise, Observable, Signal, Simulation, Unknown, data_of,
     forecast, jacobian, scaling,
 };
-use crate::scene_file::Scene;
+use twofold_scene::scene_file::Scene;
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
@@ -135,8 +135,8 @@ fn values(
         .iter()
         .filter(|datum| datum.observable == Observable::StrainPlus)
         .map(|datum| match datum.place {
-            crate::inference::Place::Time(t) => t,
-            crate::inference::Place::Turn { near, .. } => near,
+            twofold_scene::inference::Place::Time(t) => t,
+            twofold_scene::inference::Place::Turn { near, .. } => near,
         })
         .collect();
     let data = data_of(&signal, &moved, &samples, noise).map_err(text)?;
@@ -409,7 +409,10 @@ fn size_scaling() -> Result<Measured, String> {
     Ok(Measured::new(small / large, format!("{small:.2e} over {large:.2e}")))
 }
 
-fn power(found: Result<Vec<crate::inference::Forecast>, InferenceError>, which: usize) -> Result<Measured, String> {
+fn power(
+    found: Result<Vec<twofold_scene::inference::Forecast>, InferenceError>,
+    which: usize,
+) -> Result<Measured, String> {
     let found = found.map_err(text)?;
     let slope = scaling(&found)[which].ok_or("no slope")?;
     let listed: Vec<_> =

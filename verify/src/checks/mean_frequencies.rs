@@ -15,9 +15,9 @@ use twofold::solutions::symmetric::SymmetricSolution;
 use twofold::solutions::torus::{TorusFrequencies, separatrix_motion, states_with_integrals, torus_frequencies};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
-use crate::fit::slope;
 use crate::random::Random;
 use crate::reference::reference_motion;
+use twofold_scene::fit::slope;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {

@@ -12,8 +12,8 @@ use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_prefer
 
 use crate::check::{Bound, Check, Kind, Measured};
 use crate::derivation::Differentiable;
-use crate::fit::order;
 use crate::identity::{self, Identity};
+use crate::measured_order::measured_order;
 use crate::random::Point;
 
 /// The checks of this subject.
@@ -49,7 +49,7 @@ fn misaligned_nordtvedt() -> Result<Measured, String> {
         (angle, (rigid - nordtvedt_potential(1.0, 2.0, &w, &angular_velocity)).abs())
     });
     // Rounding: 1e-16 of C.
-    Ok(order(&points, 1e-15)?.measured(&points))
+    measured_order(&points, 1e-15)
 }
 
 struct PotentialInAngles;

@@ -14,9 +14,9 @@ use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::derivation::Differentiable;
 use crate::eta::seen_rate;
 use crate::identity::{self, Identity};
-use crate::pulsar_table::published::{GLOBAL_2014, SOLITARY_ALPHA_2};
-use crate::pulsar_table::{self, CONFIDENCE, CONSERVATIVE_ETA, Figure, Pulsar, Quantity, Spread, recommended};
 use crate::random::{Point, Random};
+use twofold_scene::pulsar_table::published::{GLOBAL_2014, SOLITARY_ALPHA_2};
+use twofold_scene::pulsar_table::{self, CONFIDENCE, CONSERVATIVE_ETA, Figure, Pulsar, Quantity, Spread, recommended};
 
 /// Changes of width of PSR B1937+21 (main pulse, interpulse) and PSR J1744-1134 in 1e-3 deg/yr, as Shao, Caballero,
 /// Kramer, Wex, Champion and Jessner, Class. Quantum Grav. 30, 165019 (2013) are remembered to give them: second-hand.

@@ -60,7 +60,7 @@ impl GoldenLine {
     }
 
     /// The paper's number, an order of magnitude with `~` before it.
-    pub(crate) fn printed_text(&self) -> String {
+    pub fn printed_text(&self) -> String {
         match self.printed {
             Printed::Decimal(text) => text.to_string(),
             Printed::Order(text) => format!("~{text}"),
@@ -69,7 +69,7 @@ impl GoldenLine {
     }
 
     /// Our number.
-    pub(crate) fn ours_text(&self) -> String {
+    pub fn ours_text(&self) -> String {
         significant(self.ours, self.digits)
     }
 }

@@ -1,17 +1,17 @@
 //! The table of the two solitary pulsars: change of `lambda` and the bounds from it.
 
 use super::{GoldenLine, GoldenTable, Printed};
-use crate::pulsar_table::{self, CONSERVATIVE_ETA, Pulsar, ROUND_INERTIA_OVER_C};
+use twofold_scene::pulsar_table::{self, CONSERVATIVE_ETA, Pulsar, ROUND_INERTIA_OVER_C};
 
 /// What the paper prints of one pulse beside what was observed of it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PrintedBounds {
+pub struct PrintedBounds {
     /// Change of `lambda` (1e-3 deg).
-    pub(crate) lambda_change: &'static str,
+    pub lambda_change: &'static str,
     /// Bound in 1e-16 with the factor eta left out.
-    pub(crate) bound: &'static str,
+    pub bound: &'static str,
     /// Bound in 1e-16 with eta = 10.
-    pub(crate) conservative: &'static str,
+    pub conservative: &'static str,
 }
 
 /// The last rows of the table, a column per pulse.
@@ -22,7 +22,7 @@ const PRINTED: [(&str, PrintedBounds); 3] = [
 ];
 
 /// The pulses of the paper with what is printed of them.
-pub(crate) fn columns() -> Vec<(Pulsar, PrintedBounds)> {
+pub fn columns() -> Vec<(Pulsar, PrintedBounds)> {
     let pulsars = pulsar_table::paper();
     let printed = |pulsar: &Pulsar| {
         let (_, printed) = PRINTED.iter().find(|(name, _)| *name == pulsar.name)?;

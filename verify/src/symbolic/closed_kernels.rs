@@ -1,4 +1,4 @@
-//! Kernels with roots or inverse functions, under the names of `verify/symbolic/quantities.py` and with its order of components.
+//! Kernels with roots or inverse functions, under the names of `verify/oracles/symbolic/quantities.py` and with its order of components.
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::Error;

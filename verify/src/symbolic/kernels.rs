@@ -1,4 +1,4 @@
-//! Kernels with rational values, under the names of `verify/symbolic/quantities.py` and with its order of components.
+//! Kernels with rational values, under the names of `verify/oracles/symbolic/quantities.py` and with its order of components.
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::angular_acceleration::angular_acceleration;

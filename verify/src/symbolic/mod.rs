@@ -1,4 +1,4 @@
-//! Comparison with a second derivation: SymPy derives the equations from the Lagrangian (`verify/symbolic/`), and its exact values at rational
+//! Comparison with a second derivation: SymPy derives the equations from the Lagrangian (`verify/oracles/symbolic/`), and its exact values at rational
 //! points stand in `verify/data/symbolic.json`. Python is not needed to compare.
 //!
 //! An angle of a point is given by `t = tan(angle / 2)`, so that all that is rational in sines and cosines is rational in `t`. Such kernels are
@@ -18,7 +18,7 @@ pub use point::{Coded, RationalPoint};
 use crate::conditioned::Conditioned;
 use crate::prime_field::Fp;
 
-/// The file that `verify/symbolic` writes.
+/// The file that `verify/oracles/symbolic` writes.
 pub const DATA: &str = include_str!("../../data/symbolic.json");
 
 /// A kernel whose values are rational functions of its input, over the three types of numbers that it is compared in.

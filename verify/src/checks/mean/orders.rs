@@ -8,9 +8,9 @@ use twofold::solutions::mean::{MeanMotion, MeanOrder};
 
 use super::scenes::{State, difference, random_state, text};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
-use crate::fit::slope;
 use crate::random::Random;
 use crate::reference::reference_motion;
+use twofold_scene::fit::slope;
 
 /// Checks of this subject.
 pub(super) fn checks() -> Vec<Check> {

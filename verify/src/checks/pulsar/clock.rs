@@ -15,10 +15,10 @@ use twofold::solutions::mean::{MeanMotion, MeanOrder, MeanPhases, MeanRates};
 use super::arrivals::text;
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::double_double::DoubleDouble;
-use crate::fit::order;
-use crate::pulsar_timing::PulsarScene;
+use crate::measured_order::measured_order;
 use crate::random::Random;
-use crate::scene_file::{PULSARS, Scene};
+use twofold_scene::pulsar_timing::PulsarScene;
+use twofold_scene::scene_file::{PULSARS, Scene};
 
 pub(super) fn checks() -> Vec<Check> {
     vec![
@@ -223,7 +223,7 @@ impl Exact {
 
 /// The text of a built-in pulsar with another `alpha_2`.
 fn pulsars(alpha_2: &str) -> Result<Vec<(String, Scene)>, String> {
-    let scene = |built_in: &crate::scene_file::BuiltIn| {
+    let scene = |built_in: &twofold_scene::scene_file::BuiltIn| {
         let text = built_in.toml.replace("alpha_2 = 1.6e-9", &format!("alpha_2 = {alpha_2}"));
         let name = format!("{} with alpha_2 = {alpha_2}", built_in.name);
         Scene::from_toml(&name, &text).map(|scene| (name, scene)).map_err(|error| error.to_string())
@@ -266,7 +266,7 @@ fn free_precession() -> Result<Measured, String> {
 fn free_precession_order() -> Result<Measured, String> {
     let point = |epsilon: f64| left_of_formula(Some(epsilon)).map(|[left, _]| (epsilon, left));
     let points = [1e-6, 1e-5, 1e-4, 1e-3].map(point).into_iter().collect::<Result<Vec<_>, _>>()?;
-    Ok(order(&points, 0.0)?.measured(&points))
+    measured_order(&points, 0.0)
 }
 
 /// B1828-11 without Lorentz violation, with its own or another `epsilon` at the same rotation about `L`, which is along Z.

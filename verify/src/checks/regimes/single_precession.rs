@@ -5,7 +5,7 @@ use twofold::solutions::perturbation::{Form, Kind as Precession};
 
 use super::perturbation_error::Case;
 use crate::check::{Bound, Check, Kind, Measured, Worst};
-use crate::fit::order;
+use crate::measured_order::measured_order;
 
 pub(super) fn checks() -> Vec<Check> {
     vec![
@@ -109,7 +109,7 @@ fn order_in_s() -> Result<Measured, String> {
             .into_iter()
             .map(|k| Ok((k, paper(form, k, 0.7, 0.0).errors_over_forced_period()?.axis)))
             .collect::<Result<Vec<_>, String>>()?;
-        let slope = order(&points, 0.0)?.measured(&points);
+        let slope = measured_order(&points, 0.0)?;
         slopes.push(Measured::new(slope.figure, format!("{form:?}: {}", slope.detail)));
     }
     farthest(slopes, 0.0)
@@ -127,7 +127,7 @@ fn order_in_asymmetry(form: Form, expected: f64) -> Result<Measured, String> {
                 Ok(((s.asymmetry() / s.combination()).abs(), case.axis_error_over_forced_period(1000)?))
             })
             .collect::<Result<Vec<_>, String>>()?;
-        let slope = order(&points, 0.0)?.measured(&points);
+        let slope = measured_order(&points, 0.0)?;
         slopes.push(Measured::new(slope.figure, format!("beta_0 = {beta_0}: {}", slope.detail)));
     }
     farthest(slopes, expected)

@@ -8,7 +8,7 @@ use twofold::solutions::perturbation::{Form, Kind as Precession};
 
 use super::perturbation_error::{Case, Errors};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
-use crate::fit::order;
+use crate::measured_order::measured_order;
 
 /// A case of twofold precession with the paper's numbers.
 fn paper(form: Form, k: f64, beta_0: f64, amplitude: f64) -> Case {
@@ -101,7 +101,7 @@ fn order_in_s(form: Form, half_decades: std::ops::RangeInclusive<i32>) -> Result
     let points = half_decades
         .map(|j| Ok((scale(j), paper(form, scale(j), 0.7, 0.0).errors(10.0, 400)?.beta)))
         .collect::<Result<Vec<_>, String>>()?;
-    Ok(order(&points, ROUNDING)?.measured(&points))
+    measured_order(&points, ROUNDING)
 }
 
 /// Error over 10 t_c of the homogeneous solution alone. `s` is too small to matter; zero would leave `a^(1)` without a sign.
@@ -126,7 +126,7 @@ fn corrected_tilt_order() -> Result<Measured, String> {
         .into_iter()
         .map(|amplitude| Ok((amplitude, tilt_error(Form::Corrected, amplitude)?.beta)))
         .collect::<Result<Vec<_>, String>>()?;
-    Ok(order(&points, ROUNDING)?.measured(&points))
+    measured_order(&points, ROUNDING)
 }
 
 fn growth_with_time() -> Result<Measured, String> {
@@ -139,7 +139,7 @@ fn growth_with_time() -> Result<Measured, String> {
         return Err(format!("the error of beta grew by {spread} from 10 to 640 t_c"));
     }
     let points: Vec<_> = durations.iter().zip(&errors).map(|(t, e)| (*t, e.alpha)).collect();
-    Ok(order(&points, ROUNDING)?.measured(&points))
+    measured_order(&points, ROUNDING)
 }
 
 fn corrected_is_better() -> Result<Measured, String> {

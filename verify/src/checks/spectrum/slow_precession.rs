@@ -9,7 +9,7 @@ use twofold::propagation::{Motion, propagate};
 use twofold::solutions::mean::slow_precession::slow_precession;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
-use crate::fit::order;
+use crate::measured_order::measured_order;
 use crate::random::Random;
 use crate::reference::reference_motion;
 
@@ -182,5 +182,5 @@ fn order_in_s() -> Result<Measured, String> {
         .map(|k| slow_frequency(k).map(|[formula, measured]| (k, (formula / measured - 1.0).abs())))
         .collect();
     let points = points?;
-    Ok(order(&points, 0.0)?.measured(&points))
+    measured_order(&points, 0.0)
 }

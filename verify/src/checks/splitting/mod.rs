@@ -13,9 +13,9 @@ use twofold::propagation::splitting::{
 use twofold::propagation::{AxisMotion, AxisState, Motion, propagate, propagate_axis};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
-use crate::fit::slope;
 use crate::physical_domain::{RandomScene, scenes, worst_over};
 use crate::reference::{reference_motion, reference_motions};
+use twofold_scene::fit::slope;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {

@@ -1,0 +1,145 @@
+//! Growth of errors over long motions: energy, K and phase.
+
+use nalgebra::Vector3;
+use twofold::dynamics::first_integrals::{clebsch_integral, energy};
+use twofold::propagation::splitting::propagate_by_best_splitting;
+use twofold::propagation::{AxisMotion, AxisState, propagate_axis};
+
+use super::Effort;
+use super::method::text;
+use super::scene::{BenchScene, rows};
+use twofold_scene::fit::{Slope, order};
+use twofold_verify::check::largest;
+use twofold_verify::double_double::DoubleDouble;
+
+/// A method over long spans, as it goes on from one stretch to the next.
+#[derive(Clone, Copy)]
+pub struct LongMethod {
+    /// Name.
+    pub name: &'static str,
+    /// The state after a duration.
+    pub advance: Advance,
+}
+
+/// From a state of a scene to the one after a duration.
+pub type Advance = fn(&BenchScene, &AxisState<f64>, f64) -> Result<AxisState<f64>, String>;
+
+/// All methods; a further one takes a line.
+pub const METHODS: &[LongMethod] =
+    &[LongMethod { name: "Taylor", advance: taylor }, LongMethod { name: "splitting", advance: splitting }];
+
+fn splitting(scene: &BenchScene, state: &AxisState<f64>, duration: f64) -> Result<AxisState<f64>, String> {
+    let motion = propagate_by_best_splitting(&scene.spheroid, &scene.violation, state, (0.0, duration), 1e-14);
+    motion.and_then(|motion| motion.axis_state(duration)).map_err(text)
+}
+
+fn taylor(scene: &BenchScene, state: &AxisState<f64>, duration: f64) -> Result<AxisState<f64>, String> {
+    let motion = propagate_axis(&scene.spheroid, &scene.violation, state, (0.0, duration), 1e-16).map_err(text)?;
+    motion.axis_state(duration).map_err(text)
+}
+
+/// Length of a stretch (t_c).
+const STRETCH: f64 = 1000.0;
+
+/// Errors after a time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// The method.
+    pub method: &'static str,
+    /// Time (t_c).
+    pub time: f64,
+    /// Largest change of the energy at the end of a stretch so far, over the sum of the magnitudes of its terms.
+    pub energy: f64,
+    /// The same of the third integral K.
+    pub clebsch: f64,
+    /// Largest error of a component of `n`: the phase.
+    pub phase: f64,
+}
+
+/// Reference states of tp-II: times and `n`.
+pub fn references() -> Vec<(f64, Vector3<DoubleDouble>)> {
+    let rows = rows(include_str!("../../data/bench_long.csv")).into_iter();
+    // Each component is the sum of two doubles, which are what their decimals are nearest to.
+    let component = |v: &[DoubleDouble], i: usize| DoubleDouble::sum_of(v[i].high(), v[i + 1].high());
+    let row = |v: Vec<DoubleDouble>| (v[0].high(), Vector3::new(component(&v, 1), component(&v, 3), component(&v, 5)));
+    rows.map(|(_, v)| row(v)).collect()
+}
+
+/// Errors of every method along tp-II, at every power of ten from 100 t_c to the longest time; `done` hears which part is over.
+///
+/// # Errors
+/// What a method reports.
+pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
+    let scene = BenchScene::named("tp-II");
+    let start = integrals(&scene, &scene.initial_axis());
+    let scale = scales(&scene);
+    let mut measured = Vec::new();
+    for (i, method) in METHODS.iter().enumerate() {
+        let (mut state, mut time, mut drift) = (scene.initial_axis(), 0.0, [0.0; 2]);
+        for (end, axis) in references().into_iter().filter(|(end, _)| *end <= effort.longest) {
+            while time < end {
+                let step = STRETCH.min(end - time);
+                state = (method.advance)(&scene, &state, step)?;
+                time += step;
+                let now = integrals(&scene, &state);
+                drift = [0, 1].map(|k| largest([drift[k], (now[k] - start[k]).high().abs() / scale[k]]));
+                done((i as f64 + time / effort.longest) / METHODS.len() as f64);
+            }
+            let lifted = state.axis.map(twofold::Scalar::from_f64);
+            let phase = largest((lifted - axis).iter().map(|x: &DoubleDouble| x.high().abs()));
+            measured.push(Row { method: method.name, time, energy: drift[0], clebsch: drift[1], phase });
+        }
+    }
+    Ok(measured)
+}
+
+/// Energy and K in double-double numbers: doubles would add their own rounding.
+fn integrals(scene: &BenchScene, state: &AxisState<f64>) -> [DoubleDouble; 2] {
+    let lift = <DoubleDouble as twofold::Scalar>::from_f64;
+    let spheroid = twofold::dynamics::RigidSpheroid {
+        inertia_xx: lift(scene.spheroid.inertia_xx),
+        inertia_zz: lift(scene.spheroid.inertia_zz),
+        constant_c: lift(scene.spheroid.constant_c),
+    };
+    let (s, n, l) = (scene.violation.map(lift), state.axis.map(lift), state.momentum.map(lift));
+    [energy(&spheroid, &s, &n, &l), clebsch_integral(&spheroid, &s, &n, &l)]
+}
+
+/// Sums of the magnitudes of the terms of energy and K.
+fn scales(scene: &BenchScene) -> [f64; 2] {
+    let (n, l, s) = (scene.initial.axis.abs(), scene.initial.momentum.abs(), scene.violation.abs());
+    let adjugate = twofold::dynamics::first_integrals::symmetric_adjugate(&scene.violation).abs();
+    [l.dot(&l) / 2.0 + n.dot(&(s * n)), l.dot(&(s * l)) + 2.0 * n.dot(&(adjugate * n))]
+}
+
+/// The exponent `p` of `error ~ time^p` by least squares in logarithms, over the rows of a method from 1,000 t_c on, if there are three:
+/// a random walk takes longer to show what it is.
+pub fn exponent(rows: &[Row], method: &str, error: impl Fn(&Row) -> f64) -> Option<Slope> {
+    let of_this = rows.iter().filter(|row| row.method == method && row.time >= 1e3);
+    order(&of_this.map(|row| (row.time, error(row))).collect::<Vec<_>>(), 0.0).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_exponent_of_a_power_is_found() {
+        let row = |time: f64| Row { method: "m", time, energy: 3e-16 * time.powf(0.5), clebsch: 1.0, phase: time };
+        let rows: Vec<_> = [1e2, 1e3, 1e4, 1e5].map(row).into();
+        assert!((exponent(&rows, "m", |row| row.energy).expect("points").value - 0.5).abs() < 1e-12);
+        assert!((exponent(&rows, "m", |row| row.phase).expect("points").value - 1.0).abs() < 1e-12);
+        assert_eq!(exponent(&rows, "other", |row| row.phase), None);
+    }
+
+    #[test]
+    fn the_long_reference_agrees_with_that_of_fifty_digits() {
+        let scene = BenchScene::named("tp-II");
+        for (t, axis) in references() {
+            if let Some((_, state)) = scene.references.iter().find(|(time, _)| *time == t) {
+                let error = largest((state.axis - axis).iter().map(|x| x.high().abs()));
+                assert!(error < 1e-18, "t = {t}: {error:e}");
+            }
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! What events, dense output, gradients, nested duals and wider numbers cost on top of a motion.
+
+use std::hint::black_box;
+
+use nalgebra::{Matrix3, SVector};
+use num_dual::{Derivative, Dual, Dual2_64, Dual64, DualSVec64, HyperDual64};
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::observables::Observer;
+use twofold::observables::pulsar::{Beam, propagated_pulse_train, pulse_train};
+use twofold::plan::{Output, Parameter, Plan, Request, Start, StateFunction, gradient};
+use twofold::propagation::{
+    AxisMotion, AxisState, ErrorEstimates, Motion, axis_states_at, propagate, propagate_axis, states_at,
+};
+use twofold::scalar::Real;
+
+use super::Effort;
+use super::method::{Carries, text};
+use super::scene::{BenchScene, DURATION};
+use super::timing::{Times, in_turn};
+use twofold_verify::double_double::DoubleDouble;
+
+/// Accuracy of the motions.
+pub const ACCURACY: f64 = 1e-12;
+
+/// Parameters of the gradient.
+const PARAMETERS: [Parameter; 10] = [
+    Parameter::InertiaXx,
+    Parameter::InertiaZz,
+    Parameter::ConstantC,
+    Parameter::S(0, 0),
+    Parameter::S(1, 1),
+    Parameter::S(2, 2),
+    Parameter::Beta,
+    Parameter::AlphaRate,
+    Parameter::BetaRate,
+    Parameter::GammaRate,
+];
+
+/// Something beside a motion, or a motion over other numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// What it is.
+    pub what: &'static str,
+    /// What the motion carries.
+    pub carries: Carries,
+    /// Times (s).
+    pub times: Times,
+    /// Over the least time of the bare motion of the same `carries`, or of the state at its end where that is what the row is of.
+    pub ratio: f64,
+}
+
+type Case<'a> = (&'static str, Carries, Box<dyn FnMut() -> Result<(), String> + 'a>);
+
+/// All of them on tp-II; `done` hears which part is over.
+///
+/// # Errors
+/// What a motion or a search reports.
+pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
+    let scene = &BenchScene::named("tp-II");
+    let span = (0.0, DURATION);
+    let (beam, observer) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0));
+    let whole = || propagate(&scene.spheroid, &scene.violation, &scene.initial, span, ACCURACY).map_err(text);
+    let axis =
+        || propagate_axis(&scene.spheroid, &scene.violation, &scene.initial_axis(), span, ACCURACY).map_err(text);
+    let sampled = |count: usize| {
+        move || {
+            let motion = axis()?;
+            for i in 0..count {
+                black_box(motion.axis_state(DURATION * i as f64 / count as f64).map_err(text)?);
+            }
+            Ok(())
+        }
+    };
+    let (n, full) = (Carries::Axis, Carries::Orientation);
+    let mut cases: Vec<Case> = vec![
+        ("the motion alone", n, Box::new(|| axis().map(drop))),
+        ("the motion alone", full, Box::new(|| whole().map(drop))),
+        (
+            "162 pulses, both edges of each",
+            full,
+            Box::new(|| pulse_train(&whole()?, &beam, &observer.direction, span).map(drop).map_err(text)),
+        ),
+        (
+            "162 pulses, the motion not kept",
+            full,
+            Box::new(|| {
+                let BenchScene { spheroid, violation, initial, .. } = scene;
+                let n = &observer.direction;
+                propagated_pulse_train(spheroid, violation, initial, span, ACCURACY, &beam, n).map(drop).map_err(text)
+            }),
+        ),
+        ("1,000 samples", n, Box::new(sampled(1000))),
+        ("10,000 samples", n, Box::new(sampled(10_000))),
+        (
+            "1,000 samples",
+            full,
+            Box::new(|| {
+                let motion = whole()?;
+                for i in 0..1000 {
+                    black_box(motion.state(f64::from(i)).map_err(text)?);
+                }
+                Ok(())
+            }),
+        ),
+        ("the state at the end alone", n, Box::new(|| at_end(scene, n))),
+        ("the state at the end alone", full, Box::new(|| at_end(scene, full))),
+        ("its gradient by 10 parameters", n, Box::new(|| gradient_at_end(scene, n))),
+        ("its gradient by 10 parameters", full, Box::new(|| gradient_at_end(scene, full))),
+        ("derivative by one parameter (Dual64)", n, Box::new(|| over(scene, Dual64::from_re, n))),
+        ("gradient by 10 parameters (DualSVec64)", n, Box::new(|| over(scene, seeded(), n))),
+        ("gradient by 10 parameters (DualSVec64)", full, Box::new(|| over(scene, seeded(), full))),
+        ("second derivative (Dual2_64)", n, Box::new(|| over(scene, Dual2_64::from_re, n))),
+        ("second derivative (HyperDual64)", n, Box::new(|| over(scene, HyperDual64::from_re, n))),
+        (
+            "nested duals (Dual<Dual64>)",
+            n,
+            Box::new(|| over(scene, |x| Dual::new(Dual64::new(x, 1.0), Dual64::new(1.0, 0.0)), n)),
+        ),
+        ("double-double numbers", n, Box::new(|| over(scene, <DoubleDouble as twofold::Scalar>::from_f64, n))),
+    ];
+    let mut runs: Vec<_> = cases.iter_mut().map(|(_, _, run)| run).collect();
+    let times = in_turn(&mut runs, effort.rounds, done)?;
+    let all = &times;
+    // The first two rows keep the motion, as what follows on them needs; a gradient does not.
+    let place = |sought: &str| cases.iter().position(|(what, ..)| *what == sought).unwrap_or_default();
+    let (kept, at_end) = (place("the motion alone"), place("the state at the end alone"));
+    let base = |what: &str| if what.starts_with("its gradient") { at_end } else { kept };
+    let row = |(&(what, carries, _), times): (&Case, &Times)| Row {
+        what,
+        carries,
+        times: *times,
+        ratio: times.least / all[base(what) + usize::from(carries == full)].least,
+    };
+    Ok(cases.iter().zip(all).map(row).collect())
+}
+
+/// Numbers that carry a derivative by each of the parameters. What the derivatives are does not matter to the time; that none
+/// is known to be zero does.
+fn seeded() -> impl Fn(f64) -> DualSVec64<{ PARAMETERS.len() }> {
+    |x| DualSVec64::new(x, Derivative::some(SVector::from_element(x)))
+}
+
+/// The state after the motion, of which nothing else is kept.
+fn at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
+    let (spheroid, s, none) = (&scene.spheroid, &scene.violation, ErrorEstimates::NotWanted);
+    match carries {
+        Carries::Axis => axis_states_at(spheroid, s, &scene.initial_axis(), 0.0, &[DURATION], ACCURACY, none)
+            .map(|x| drop(black_box(x))),
+        Carries::Orientation => {
+            states_at(spheroid, s, &scene.initial, 0.0, &[DURATION], ACCURACY, none).map(|x| drop(black_box(x)))
+        }
+    }
+    .map_err(text)
+}
+
+/// The components of a state.
+struct Components(Carries);
+
+impl StateFunction for Components {
+    fn len(&self) -> usize {
+        if self.0 == Carries::Axis { 6 } else { 9 }
+    }
+
+    fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
+        let components = state.axis.iter().chain(&state.momentum).chain(&state.equatorial_axis);
+        values.iter_mut().zip(components).for_each(|(value, component)| *value = *component);
+    }
+}
+
+/// That state with its derivatives.
+fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
+    let BenchScene { spheroid, violation, initial, .. } = scene;
+    let output = if carries == Carries::Axis { Output::AngularMomentum } else { Output::EquatorialAxis };
+    let request = Request { derivatives: PARAMETERS.to_vec(), ..Request::new(&[output], (0.0, DURATION), 1, ACCURACY) };
+    let plan = Plan::new(spheroid, violation, initial, &request).map_err(text)?;
+    let (angles, rates) = (initial.angles().map_err(text)?, initial.rates(spheroid).map_err(text)?);
+    let start = Start { spheroid: *spheroid, violation: *violation, angles, rates };
+    gradient(&plan, &start, &Components(carries), &[DURATION]).map(|found| drop(black_box(found))).map_err(text)
+}
+
+/// The motion over another scalar.
+fn over<S: Real>(scene: &BenchScene, lift: impl Fn(f64) -> S, carries: Carries) -> Result<(), String> {
+    let spheroid = RigidSpheroid {
+        inertia_xx: lift(scene.spheroid.inertia_xx),
+        inertia_zz: lift(scene.spheroid.inertia_zz),
+        constant_c: lift(scene.spheroid.constant_c),
+    };
+    let s = scene.violation.map(&lift);
+    let BodyState { axis, momentum, equatorial_axis } = scene.initial;
+    let (axis, momentum, span) = (axis.map(&lift), momentum.map(&lift), (0.0, DURATION));
+    match carries {
+        Carries::Axis => propagate_axis(&spheroid, &s, &AxisState { axis, momentum }, span, ACCURACY).map(drop),
+        Carries::Orientation => {
+            let state = BodyState { axis, momentum, equatorial_axis: equatorial_axis.map(&lift) };
+            propagate(&spheroid, &s, &state, span, ACCURACY).map(drop)
+        }
+    }
+    .map_err(text)
+}

@@ -1,0 +1,293 @@
+//! `twofold bounds`.
+
+use std::fmt::Write as _;
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, LineStyle, Table};
+use serde_json::{Value, json};
+
+use super::{BoundsArgs, Failure, print};
+use twofold_scene::pulsar_table::published::PUBLISHED;
+use twofold_scene::pulsar_table::{
+    COMBINATION, CONFIDENCE, CONSERVATIVE_ETA, Figure, Limit, Pulsar, ROUND_INERTIA_OVER_C, pulsars_in_file,
+    recommended,
+};
+use twofold_verify::golden::pulsar_bounds::{PrintedBounds, columns};
+
+/// What the recommended limit includes, and what it leaves out.
+const INCLUDES: [&str; 5] = [
+    "the error of Delta W, where one is given",
+    "the other numbers, uncertain by their last digits or as given",
+    "directions, unless eta or beta_0 is given: all orientations of the axes of s, for the known lambda, are as probable",
+    "s symmetric about Z, which has the largest eta at 95 % if nothing is known of its axes",
+    "the star's own deformation, unless I^zz/C is given: 4/Omega^2 by the paper's virial relation T_rot = 2C of a fluid",
+];
+const LEAVES_OUT: [&str; 2] = [
+    "relativistic structure of the star, beams that are no cones, other causes of a change of width",
+    "what several pulses together, and for alpha_2 the directions of w and of the pulsars, would add",
+];
+
+pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
+    let pulsars: Vec<(Pulsar, Option<PrintedBounds>)> = match &args.file {
+        None => columns().into_iter().map(|(pulsar, printed)| (pulsar, Some(printed))).collect(),
+        Some(path) => {
+            let pulsars = pulsars_in_file(path).map_err(|error| Failure::BadInput(error.to_string()))?;
+            pulsars.into_iter().map(|pulsar| (pulsar, None)).collect()
+        }
+    };
+    let rows = pulsars
+        .iter()
+        .map(|(pulsar, printed)| Ok((pulsar, rows(pulsar, *printed)?)))
+        .collect::<Result<Vec<_>, String>>()
+        .map_err(Failure::Failed)?;
+    let table: Vec<Pulsar> = pulsars.iter().map(|(pulsar, _)| pulsar.clone()).collect();
+    let (chosen, limit) = recommended(&table).map_err(Failure::Failed)?;
+    let of_chosen = rows.iter().find(|(pulsar, _)| *pulsar == chosen);
+    if args.json {
+        let pulses: Vec<Value> = rows.iter().map(|(pulsar, rows)| as_json(pulsar, rows)).collect();
+        let recommended = json!({
+            "pulse": chosen.name, "source": chosen.source, "quantity": COMBINATION, "limit": limit.all,
+            "limit_without_error": of_chosen.and_then(|(_, rows)| value_of(rows, "limit_without_error")),
+            "alpha_2": of_chosen.and_then(|(_, rows)| value_of(rows, "alpha_2_limit")),
+            "confidence": CONFIDENCE, "includes": INCLUDES, "leaves_out": LEAVES_OUT,
+        });
+        let published = PUBLISHED.iter().map(|p| {
+            json!({ "quantity": p.quantity, "limit": p.limit, "meaning": p.meaning, "source": p.source, "seen": p.seen.name() })
+        });
+        let all = json!({
+            "confidence": CONFIDENCE, "pulses": pulses, "recommended": recommended, "published": published.collect::<Vec<_>>(),
+        });
+        return print(&format!("{all:#}\n"));
+    }
+    let mut text = format!("Bounds and limits are on {COMBINATION}; limits hold at {}\n\n", percent());
+    for (pulsar, rows) in &rows {
+        let _ = writeln!(text, "{}", pulsar.name);
+        if let Some(source) = &pulsar.source {
+            let _ = writeln!(text, "Source: {source}");
+        }
+        if pulsar.measured_change().is_none() {
+            let _ = writeln!(text, "Delta W has no error: it is taken as a limit");
+        }
+        let _ = writeln!(text, "{}\n", table_of(rows).trim_fmt());
+    }
+    text.push_str(&recommendation(chosen, &limit, of_chosen.map_or(&[], |(_, rows)| rows)));
+    let _ = writeln!(text, "\nPublished by others; components in the Sun-centred frame, most with all of them free");
+    let _ = writeln!(text, "{}", published().trim_fmt());
+    print(&text)
+}
+
+/// A line of the table of a pulse.
+struct Row {
+    key: &'static str,
+    label: String,
+    value: f64,
+    /// Standard uncertainties from the change of width and from the other numbers, of what is no limit.
+    from_change: Option<f64>,
+    from_inputs: Option<f64>,
+    /// The paper's number.
+    printed: Option<String>,
+}
+
+impl Row {
+    fn limit(key: &'static str, label: String, value: f64) -> Self {
+        Self { key, label, value, from_change: None, from_inputs: None, printed: None }
+    }
+
+    fn over_printed(&self) -> Option<f64> {
+        let printed: f64 = self.printed.as_ref()?.trim_start_matches('~').parse().ok()?;
+        Some(self.value / printed)
+    }
+}
+
+impl From<Figure> for Row {
+    fn from(figure: Figure) -> Self {
+        let Figure { key, label, value, from_change, from_inputs } = figure;
+        Self { key, label, value, from_change, from_inputs: Some(from_inputs), printed: None }
+    }
+}
+
+fn rows(pulsar: &Pulsar, printed: Option<PrintedBounds>) -> Result<Vec<Row>, String> {
+    let text = |error: twofold::Error| error.to_string();
+    let mut rows = Vec::new();
+    for figure in pulsar.figures().map_err(text)? {
+        let (key, label, value) = (figure.key, figure.label.clone(), figure.value);
+        let scaled = |key, label, factor: f64| {
+            let from_change = figure.from_change.map(|x| x * factor);
+            Figure { key, label, value: value * factor, from_change, from_inputs: figure.from_inputs * factor }.into()
+        };
+        rows.push(Row::from(figure.clone()));
+        // Beside the paper's bounds stand those for its eta and its round I^zz/C.
+        if printed.is_none() {
+            continue;
+        }
+        let ten = format!("{}, eta = {CONSERVATIVE_ETA}", label.trim_end_matches(" / eta"));
+        match key {
+            "bound_over_eta_stated" => {
+                rows.push(scaled("bound_eta_ten_stated", ten, CONSERVATIVE_ETA));
+                let round = pulsar.bound_over_eta(ROUND_INERTIA_OVER_C).map_err(text)? / value;
+                rows.push(scaled("bound_over_eta_round", format!("{label}, I^zz/C = 1e-5 s^2"), round));
+            }
+            "bound_over_eta_own" => rows.push(scaled("bound_eta_ten_own", ten, CONSERVATIVE_ETA)),
+            _ => {}
+        }
+    }
+    let own = pulsar.figure("bound_over_eta_own")?;
+    let limit = pulsar.limit(&own).map_err(text)?;
+    let mut push = |key, label: &str, value| rows.push(Row::limit(key, label.to_owned(), value));
+    if let Some(by_change) = limit.over_eta_by_change {
+        push("limit_over_eta_by_change", "(c) as (b), by the error of Delta W: limit / eta", by_change);
+        if printed.is_some() {
+            let ten = format!("(c) as (b), by the error of Delta W: limit, eta = {CONSERVATIVE_ETA}");
+            push("limit_eta_ten_by_change", &ten, by_change * CONSERVATIVE_ETA);
+        }
+    }
+    push("limit_over_eta_by_inputs", "the other numbers alone: limit / eta", limit.over_eta_by_inputs);
+    let unknown = pulsar.directions().map_err(text)?.is_some();
+    push("eta", if unknown { "directions alone, lambda known: limit of eta" } else { "eta as given" }, limit.eta);
+    if limit.over_eta_by_change.is_some() {
+        let without = pulsar.limit(&Figure { from_change: None, ..own }).map_err(text)?.all;
+        push("limit_without_error", "both, Delta W as it stands: limit", without);
+    }
+    push("limit", "all together: limit", limit.all);
+    if let Ok(alpha_2) = pulsar.figure("alpha_2_over_eta_own") {
+        push("alpha_2_limit", "all together: limit on |alpha_2|", pulsar.limit(&alpha_2).map_err(text)?.all);
+    }
+    if let Some(printed) = printed {
+        let order = |text: &str| text.parse().map_or(text.to_owned(), |x: f64| format!("~{:.0e}", x * 1e-16));
+        for row in &mut rows {
+            row.printed = match row.key {
+                "lambda_change" => Some(printed.lambda_change.to_owned()),
+                "bound_over_eta_stated"
+                | "bound_over_eta_round"
+                | "bound_over_eta_own"
+                | "limit_over_eta_by_change" => Some(order(printed.bound)),
+                "bound_eta_ten_stated"
+                | "bound_eta_ten_own"
+                | "limit_eta_ten_by_change"
+                | "limit_without_error"
+                | "limit" => Some(order(printed.conservative)),
+                _ => None,
+            };
+        }
+    }
+    Ok(rows)
+}
+
+fn table_of(rows: &[Row]) -> Table {
+    let measured = rows.iter().any(|row| row.from_change.is_some());
+    let compares = rows.iter().any(|row| row.printed.is_some());
+    let mut header = vec!["", "value"];
+    header.extend(measured.then_some("+- by Delta W"));
+    header.push("+- by others");
+    header.extend(compares.then_some(["printed", "ours/printed"]).into_iter().flatten());
+    let mut table = plain_table(&header, 1..header.len());
+    let cell = |x: Option<f64>| x.map(rounded).unwrap_or_default();
+    for row in rows {
+        let mut cells = vec![row.label.clone(), rounded(row.value)];
+        cells.extend(measured.then(|| cell(row.from_change)));
+        cells.push(cell(row.from_inputs));
+        if compares {
+            cells.extend([
+                row.printed.clone().unwrap_or_default(),
+                row.over_printed().map_or(String::new(), two_digits),
+            ]);
+        }
+        table.add_row(cells);
+    }
+    table
+}
+
+fn published() -> Table {
+    let mut table = plain_table(&["", "limit", "", "source", "seen"], 1..2);
+    for p in PUBLISHED {
+        table.add_row([p.quantity, &format!("{:.1e}", p.limit), p.meaning, p.source, p.seen.name()]);
+    }
+    table
+}
+
+fn plain_table(header: &[&str], numbers: std::ops::Range<usize>) -> Table {
+    let mut table = Table::new();
+    let line = LineStyle::none().fill('─').junction('─');
+    table.load_style(NOTHING.header_separator(line).bottom_border(line));
+    table.set_header(header);
+    for column in numbers {
+        if let Some(column) = table.column_mut(column) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    table
+}
+
+fn recommendation(pulsar: &Pulsar, limit: &Limit, rows: &[Row]) -> String {
+    let mut text = format!("Recommended: {COMBINATION} < {:.1e} at {} confidence", limit.all, percent());
+    if let Some(alpha_2) = value_of(rows, "alpha_2_limit") {
+        let _ = write!(text, ", so that |alpha_2| < {alpha_2:.1e}");
+    }
+    let _ = writeln!(text, "\n  from {}", pulsar.name);
+    if let Some(source) = &pulsar.source {
+        let _ = writeln!(text, "  Source: {source}");
+    }
+    if let Some(without) = value_of(rows, "limit_without_error") {
+        let _ = writeln!(text, "  Without the error of Delta W, with its value as it stands: {without:.1e}");
+    }
+    text.push_str(
+        "  Of the pulses it has the strongest limit for a measured change of zero, or for the limit given: it is chosen by errors,\n\
+         \x20 not by what was found.",
+    );
+    text.push_str(match pulsar.measured_change() {
+        Some(_) => " With random directions and errors the limit is above the true value in 95 % of cases or more.\n",
+        None => " Delta W is taken as a limit: the confidence is that of the other numbers and directions.\n",
+    });
+    for (what, list) in [("Included", &INCLUDES[..]), ("Left out", &LEAVES_OUT[..])] {
+        let _ = writeln!(text, "  {what}:");
+        for item in list {
+            let _ = writeln!(text, "  - {item}");
+        }
+    }
+    text
+}
+
+fn value_of(rows: &[Row], key: &str) -> Option<f64> {
+    rows.iter().find(|row| row.key == key).map(|row| row.value)
+}
+
+/// The confidence of the limits.
+fn percent() -> String {
+    format!("{:.0} %", CONFIDENCE * 100.0)
+}
+
+/// Three digits, two of an exponent if there is one.
+fn rounded(x: f64) -> String {
+    if x == 0.0 {
+        "0".to_owned()
+    } else if (1e-2..1e4).contains(&x.abs()) {
+        format!("{x:.3}")
+    } else {
+        format!("{x:.2e}")
+    }
+}
+
+/// A ratio to two digits.
+fn two_digits(x: f64) -> String {
+    if x.abs() < 9.95 { format!("{x:.*}", if x.abs() < 0.995 { 2 } else { 1 }) } else { format!("{x:.0}") }
+}
+
+fn as_json(pulsar: &Pulsar, rows: &[Row]) -> Value {
+    let figure = |row: &Row| {
+        json!({
+            "figure": row.key,
+            "label": row.label,
+            "value": row.value,
+            "uncertainty_by_change": row.from_change,
+            "uncertainty_by_inputs": row.from_inputs,
+            "printed": row.printed,
+            "over_printed": row.over_printed(),
+        })
+    };
+    json!({
+        "name": pulsar.name,
+        "source": pulsar.source,
+        "change_is": if pulsar.measured_change().is_some() { "measured" } else { "a limit" },
+        "figures": rows.iter().map(figure).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,158 @@
+//! `--explain`: the plan of a computation, and nothing computed.
+
+use std::fmt::Write;
+
+use twofold::plan::{Candidate, MACHINE, Plan, Prediction, Promise, State};
+
+use twofold_scene::estimated_error::{ROUNDING_OF_COMPONENT, as_printed};
+use twofold_scene::scene_file::Scene;
+
+/// The plan as text.
+pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
+    let mut text = String::new();
+    let time = scene.units.time_name;
+    let in_output = |t: f64| scene.times.start() + t * scene.units.time;
+    let mut row =
+        |name: &str, value: String| writeln!(text, "{name:<13}{value}").expect("writing to a string succeeds");
+    row("outputs", plan.outputs.iter().map(|output| output.name()).collect::<Vec<_>>().join(", "));
+    row("state", plan.state.name().to_owned());
+    row(
+        "method",
+        match plan.method {
+            None => "none: no output needs a motion".to_owned(),
+            Some(method) if plan.forced => format!("{} ({}), as asked", method.name(), method.description()),
+            Some(method) => format!("{} ({})", method.name(), method.description()),
+        },
+    );
+    if let Some(why) = why(plan) {
+        row("why", why);
+    }
+    let (from, to) = (in_output(plan.stretch.0), in_output(plan.stretch.1));
+    let closed = plan.method.is_none_or(|method| method.is_closed_form());
+    row(
+        "stretch",
+        match plan.state {
+            State::Nothing => "none".to_owned(),
+            _ if closed => format!("none is integrated; times up to {to:?} {time}"),
+            _ => format!("{from:?} to {to:?} {time}"),
+        },
+    );
+    row(
+        "samples",
+        match plan.samples {
+            0 => "none".to_owned(),
+            samples => samples.to_string(),
+        },
+    );
+    row(
+        "derivatives",
+        match plan.derivatives.as_slice() {
+            [] => "none".to_owned(),
+            names => names.iter().map(|parameter| parameter.name()).collect::<Vec<_>>().join(", "),
+        },
+    );
+    if let Some(prediction) = &plan.prediction {
+        let work = &prediction.work;
+        if prediction.order > 0 {
+            let (steps, order) = (work.steps, prediction.order);
+            row("steps", format!("about {steps:.0} of order {order}: {:.0} right-hand sides", work.right_hand_sides));
+        }
+        row("evaluations", format!("about {:.0} of {}", work.evaluations(), plan.state.name()));
+        row("memory", format!("about {}", bytes(prediction.bytes)));
+        row("cost", format!("about {} on {MACHINE}", duration(prediction.cost)));
+        row(
+            "error",
+            format!(
+                "{} by the method{}; asked is {:.0e}",
+                foreseen(prediction),
+                meaning(prediction.promise),
+                plan.accuracy
+            ),
+        );
+        let rounding = as_printed(prediction.rounding, ROUNDING_OF_COMPONENT);
+        row("rounding", format!("about {rounding:.1e}, as the motion's error estimate will count it"));
+    }
+    let mut line = |line: std::fmt::Arguments<'_>| writeln!(text, "{line}").expect("writing to a string succeeds");
+    line(format_args!("\nskipped"));
+    for skipped in &plan.skipped {
+        line(format_args!("  {}: {}", skipped.what, skipped.why));
+    }
+    if !plan.considered.is_empty() {
+        line(format_args!("\nmethods considered"));
+    }
+    for Candidate { method, prediction } in &plan.considered {
+        let name = method.name();
+        match prediction {
+            Ok(prediction) if plan.admits(prediction) => {
+                line(format_args!("  {name}: {}, error {}", duration(prediction.cost), foreseen(prediction)));
+            }
+            Ok(prediction) if prediction.truncation <= plan.accuracy => {
+                let rounding = prediction.rounding;
+                line(format_args!("  {name}: loses digits that another keeps, about {rounding:.1e} by rounding"));
+            }
+            Ok(prediction) => {
+                line(format_args!("  {name}: not accurate enough, error {}", foreseen(prediction)));
+            }
+            Err(why) => line(format_args!("  {name}: not possible: {why}")),
+        }
+    }
+    text
+}
+
+/// The predicted error of the method alone.
+fn foreseen(prediction: &Prediction) -> String {
+    let word = match prediction.promise {
+        Promise::Bound => "at most",
+        Promise::Estimate => "estimated",
+        Promise::Goal(_) => "goal",
+    };
+    format!("{word} {:.1e}", as_printed(prediction.truncation, ROUNDING_OF_COMPONENT))
+}
+
+/// What its word means.
+fn meaning(promise: Promise) -> String {
+    match promise {
+        Promise::Bound => ", which is proved".to_owned(),
+        Promise::Estimate => ", which no random motion of its test exceeded".to_owned(),
+        Promise::Goal(share) => format!(", which {:.0} % of random motions stay below", 100.0 * share),
+    }
+}
+
+/// Why the method was taken, against the next best that meets the accuracy.
+fn why(plan: &Plan) -> Option<String> {
+    let (method, prediction) = (plan.method?, plan.prediction?);
+    if plan.forced {
+        return None;
+    }
+    let usable = plan.considered.iter().filter(|candidate| candidate.method != method).filter_map(|candidate| {
+        let other = candidate.prediction.as_ref().ok()?;
+        plan.admits(other).then_some((candidate.method, other.cost))
+    });
+    let next = usable.min_by(|a, b| a.1.total_cmp(&b.1));
+    let found = format!("the cheapest of those whose predicted error is at most {:.0e}", plan.accuracy);
+    Some(match next {
+        Some((other, cost)) => {
+            format!("{found}; next is {}, {:.1} times the cost", other.name(), cost / prediction.cost)
+        }
+        None => format!("{found}, and the only one"),
+    })
+}
+
+fn duration(ns: f64) -> String {
+    match ns {
+        ns if ns < 1e3 => format!("{ns:.0} ns"),
+        ns if ns < 1e6 => format!("{:.1} us", ns / 1e3),
+        ns if ns < 1e9 => format!("{:.1} ms", ns / 1e6),
+        ns => format!("{:.1} s", ns / 1e9),
+    }
+}
+
+pub(super) fn bytes(count: f64) -> String {
+    match count {
+        count if count < 1e3 => format!("{count:.0} bytes"),
+        count if count < 1e6 => format!("{:.1} kB", count / 1e3),
+        count if count < 1e9 => format!("{:.1} MB", count / 1e6),
+        count if count < 1e12 => format!("{:.1} GB", count / 1e9),
+        count => format!("{:.1} TB", count / 1e12),
+    }
+}

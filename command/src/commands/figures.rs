@@ -1,0 +1,147 @@
+//! `twofold figures`.
+
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::output_folder::OutputFolder;
+use super::run::read_scene;
+use super::{Failure, FiguresArgs, note, print, tell};
+use crate::figures::{self, Figure, OF_A_SCENE, RECIPES, Recipe, Subject};
+
+pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
+    let known = if args.scene.is_some() { OF_A_SCENE } else { RECIPES };
+    let mut chosen = chosen(known, &args.names)?;
+    if args.list {
+        return print(&list(&chosen));
+    }
+    let motions = match &args.scene {
+        Some(scene) => vec![motion_of(scene)?],
+        None => figures::examples().map_err(Failure::Failed)?.into(),
+    };
+    if let Some(scene) = &args.scene {
+        leave_out_what_is_lacking(&mut chosen, scene, &motions[0], !args.names.is_empty())?;
+    }
+    let would_write = |file: &str| chosen.iter().any(|recipe| is_file_of(file, recipe.name));
+    let folder = OutputFolder::at(&args.out, args.force, would_write)?;
+    draw_all(&chosen, &motions, &folder)?;
+    let files = folder.complete()?;
+    let s = if chosen.len() == 1 { "" } else { "s" };
+    tell(&format!("{}: {} figure{s}, {files} files\n", args.out.display(), chosen.len()))
+}
+
+/// The motion of a built-in scene or of a scene file.
+fn motion_of(scene: &str) -> Result<Subject, Failure> {
+    let read = read_scene(scene)?;
+    let name = Path::new(scene).file_stem().map_or_else(|| scene.into(), |stem| stem.to_string_lossy());
+    Subject::of_scene(&name, &read).map_err(Failure::Failed)
+}
+
+/// Leaves out the figures for which the scene lacks something; one that was asked for by name is refused.
+fn leave_out_what_is_lacking(
+    chosen: &mut Vec<Recipe>,
+    scene: &str,
+    motion: &Subject,
+    named: bool,
+) -> Result<(), Failure> {
+    for recipe in chosen.iter() {
+        if let Some(lacking) = recipe.lacks(motion) {
+            let name = recipe.name;
+            if named {
+                return Err(Failure::BadInput(format!(
+                    "{scene}: the scene lacks {lacking}; there is no figure `{name}` without it"
+                )));
+            }
+            note(&format!("no figure `{name}`: the scene lacks {lacking}"));
+        }
+    }
+    chosen.retain(|recipe| recipe.lacks(motion).is_none());
+    Ok(())
+}
+
+/// The figures asked for, by name or by number of the paper's figure, in the order of the list; all if none is named.
+fn chosen(known: &[Recipe], names: &[String]) -> Result<Vec<Recipe>, Failure> {
+    let meant = |recipe: &Recipe, name: &String| {
+        recipe.name == name || recipe.paper_figure.is_some_and(|number| number.to_string() == *name)
+    };
+    if let Some(unknown) = names.iter().find(|name| !known.iter().any(|recipe| meant(recipe, name))) {
+        let all = known.iter().map(|recipe| recipe.name).collect::<Vec<_>>();
+        let guess = twofold_scene::scene_file::nearest(unknown, &all).map(|name| format!(" Did you mean `{name}`?"));
+        return Err(Failure::BadInput(format!(
+            "no figure is called `{unknown}`.{} There are {}{}.",
+            guess.unwrap_or_default(),
+            all.join(", "),
+            if known.iter().any(|recipe| recipe.paper_figure.is_some()) {
+                ", or the number of a figure of the paper"
+            } else {
+                ""
+            }
+        )));
+    }
+    let wanted = |recipe: &&Recipe| names.is_empty() || names.iter().any(|name| meant(recipe, name));
+    Ok(known.iter().filter(wanted).copied().collect())
+}
+
+fn list(recipes: &[Recipe]) -> String {
+    let width = recipes.iter().map(|recipe| recipe.name.len()).max().unwrap_or(0);
+    let mut text = String::new();
+    for recipe in recipes {
+        let number = recipe.paper_figure.map_or(String::new(), |number| format!("Fig. {number}"));
+        text += &format!("{:width$}  {number:7}  {}\n", recipe.name, recipe.summary);
+    }
+    text
+}
+
+/// Whether `file` is a name under which the figure `name` is written.
+fn is_file_of(file: &str, name: &str) -> bool {
+    let ending = file.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'));
+    ending.is_some_and(|ending| matches!(ending, "svg" | "png" | "md") || ending.ends_with("csv"))
+}
+
+/// Draws and writes the figures on all processors, with a bar on a terminal.
+fn draw_all(recipes: &[Recipe], motions: &[Subject], folder: &OutputFolder) -> Result<(), Failure> {
+    let bar = ProgressBar::new(recipes.len() as u64);
+    if let Ok(style) = ProgressStyle::with_template("{pos}/{len} figures [{bar:40}] {elapsed} {msg}") {
+        bar.set_style(style);
+    }
+    let next = AtomicUsize::new(0);
+    let failure = Mutex::new(None);
+    let work = || {
+        while let Some(recipe) = recipes.get(next.fetch_add(1, Ordering::Relaxed)) {
+            bar.set_message(recipe.name);
+            let done = recipe.draw(motions).map_err(Failure::Failed).and_then(|figure| write(&figure, folder));
+            if let Err(error) = done {
+                if let Ok(mut failure) = failure.lock() {
+                    failure.get_or_insert(error);
+                }
+                next.store(recipes.len(), Ordering::Relaxed);
+            }
+            bar.inc(1);
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from).min(recipes.len()) {
+            scope.spawn(work);
+        }
+    });
+    bar.finish_and_clear();
+    match failure.into_inner() {
+        Ok(None) => Ok(()),
+        Ok(Some(error)) => Err(error),
+        Err(_) => Err(Failure::Failed("a figure could not be drawn".into())),
+    }
+}
+
+fn write(figure: &Figure, folder: &OutputFolder) -> Result<(), Failure> {
+    let name = &figure.name;
+    folder.write(&format!("{name}.svg"), figure.svg.as_bytes())?;
+    let png = figures::png(&figure.svg).map_err(|error| Failure::Failed(format!("{name}: {error}")))?;
+    folder.write(&format!("{name}.png"), &png)?;
+    for table in &figure.tables {
+        folder.write(&figure.table_file(table), table.csv().as_bytes())?;
+    }
+    folder.write(&format!("{name}.md"), figure.description().as_bytes())
+}

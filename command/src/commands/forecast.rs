@@ -1,0 +1,74 @@
+//! `twofold forecast`.
+
+use super::measurement::{Measurement, readable, write_csv};
+use super::{Failure, FisherArgs, ForecastArgs, note, print};
+use twofold_scene::estimated_error::as_printed;
+use twofold_scene::inference::{Observable, Unknown, check_span, forecast, scaling};
+
+pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
+    let FisherArgs { measurement, output } = &args.fisher;
+    let measurement = Measurement::read(measurement)?;
+    let refuse = |why: String| Failure::BadInput(format!("{}: {why}", measurement.name));
+    let target = Unknown::named(&args.of).filter(|target| measurement.unknowns.contains(target)).ok_or_else(|| {
+        let keys: Vec<_> = measurement.unknowns.iter().map(|unknown| unknown.key()).collect();
+        refuse(format!("--of {}: allowed is one of the parameters, {}", args.of, keys.join(", ")))
+    })?;
+    if measurement.noise.iter().any(|(observable, _)| *observable == Observable::Periods) {
+        return Err(refuse("--observe periods: allowed for a forecast is what one pulse alone gives".into()));
+    }
+    let unit = measurement.scene.units.time;
+    let spans = match &args.spans {
+        Some(spans) => spans.clone(),
+        None => (0..4).map(|k| measurement.end * unit * f64::from(1 << k)).collect(),
+    };
+    for &span in &spans {
+        if !(span > 0.0 && span.is_finite()) {
+            return Err(refuse(format!("--spans {span:?}: allowed are numbers above zero")));
+        }
+        check_span(&measurement.model, span / unit).map_err(|why| refuse(format!("--spans {span:?}: {why}")))?;
+    }
+    if let Some(count) = args.epochs.iter().find(|count| !(2..=100_000).contains(*count)) {
+        return Err(refuse(format!("--epochs {count}: allowed is from 2 to 100000")));
+    }
+    let in_tc: Vec<f64> = spans.iter().map(|span| span / unit).collect();
+    let Measurement { model, noise, unknowns, .. } = &measurement;
+    let found =
+        forecast(model, noise, unknowns, target, &in_tc, &args.epochs).map_err(|error| measurement.refused(error))?;
+    let (factor, target_unit) = measurement.unit(target);
+    let time = measurement.scene.units.time_name;
+    let header = [
+        format!("span [{time}]"),
+        "epochs".to_owned(),
+        "data of each".to_owned(),
+        format!("sigma_{} [{target_unit}]", target.key()),
+    ];
+    let mut rows = vec![header.to_vec()];
+    for (row, forecast) in found.iter().enumerate() {
+        let sigma = forecast.sigma * factor;
+        let sigma = if sigma.is_finite() { format!("{sigma:.6e}") } else { String::new() };
+        rows.push(vec![
+            format!("{:?}", spans[row / args.epochs.len()]),
+            forecast.epochs.to_string(),
+            forecast.data.to_string(),
+            sigma,
+        ]);
+    }
+    write_csv(output, &rows)?;
+    let unknown = found.iter().filter(|forecast| !forecast.sigma.is_finite()).count();
+    if unknown > 0 {
+        note(&format!(
+            "{unknown} of {} rows have no sigma: too few data, or data that do not determine {}; allowed are longer spans and more epochs",
+            found.len(),
+            target.key()
+        ));
+    }
+    let [by_span, by_epochs] = scaling(&found);
+    for (what, slope) in [("span", by_span), ("number of data", by_epochs)] {
+        if let Some(slope) = slope {
+            let error = as_printed(slope.error, 0.5e-3);
+            note(&format!("sigma goes as the {what} to the power of {:.3} +- {error:.3}", slope.value));
+        }
+    }
+    note("sigma is proportional to the errors of the data");
+    print(&readable(&rows))
+}

@@ -1,0 +1,205 @@
+//! What `fisher`, `fit` and `forecast` share: the scene, what is measured of it, what is not known.
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, LineStyle, Table};
+use nalgebra::DMatrix;
+
+use super::output_file::OutputFile;
+use super::run::{failed, read_scene};
+use super::{Failure, MeasurementArgs, TableArgs, note};
+use twofold_scene::inference::{Event, InferenceError, Model, Noise, Signal, Unknown, check_span, parse_noise};
+use twofold_scene::scene_file::{Scene, nearest};
+use twofold_scene::significant::significant;
+
+/// A scene, what is measured of it and what is not known of it.
+pub(super) struct Measurement {
+    pub(super) name: String,
+    pub(super) scene: Scene,
+    pub(super) model: Model<f64>,
+    pub(super) noise: Vec<Noise>,
+    pub(super) unknowns: Vec<Unknown>,
+    /// End of the span in t_c since the start.
+    pub(super) end: f64,
+}
+
+impl Measurement {
+    pub(super) fn read(args: &MeasurementArgs) -> Result<Self, Failure> {
+        let scene = read_scene(&args.scene)?;
+        let refuse = |why: String| Failure::BadInput(format!("{why} ({})", args.scene));
+        let noise = parse_noise(&args.observe, scene.units.time).map_err(|why| refuse(format!("--observe: {why}")))?;
+        for (observable, _) in &noise {
+            if let Some(section) = observable.missing_section(&scene) {
+                return Err(refuse(format!(
+                    "--observe {}: the scene lacks the section [{section}] (docs/scenes.md describes it)",
+                    observable.key()
+                )));
+            }
+        }
+        let sees_pulses = noise.iter().any(|(observable, _)| observable.is_of_pulses());
+        let unknowns = match args.parameters.as_deref() {
+            None if sees_pulses => Unknown::OF_PULSES.to_vec(),
+            None => Unknown::OF_STRAIN.to_vec(),
+            Some("all") => Unknown::ALL.to_vec(),
+            Some(list) => named(list).map_err(|why| refuse(format!("--parameters: {why}")))?,
+        };
+        let end = (scene.times.last() - scene.times.start()) / scene.units.time;
+        if end <= 0.0 {
+            return Err(refuse(format!("[time] has a span of {end:?} t_c: allowed here is one forwards, above zero")));
+        }
+        let model = Model::of_scene(&scene).map_err(failed)?;
+        check_span(&model, end).map_err(|why| refuse(why.to_string()))?;
+        Ok(Self { name: args.scene.clone(), scene, model, noise, unknowns, end })
+    }
+
+    /// The pulses of a signal that are data: all of them, or of a long span those near the samples of the scene.
+    pub(super) fn events(&self, signal: &Signal) -> Result<Vec<Event>, Failure> {
+        let refused = |error: twofold::Error| self.refused(error.into());
+        if self.noise.iter().all(|(observable, _)| !observable.is_of_pulses()) {
+            return Ok(Vec::new());
+        }
+        if !signal.is_long() {
+            return signal.events().map_err(refused);
+        }
+        note(
+            "a span of more than 1e5 rad of rotation: the pulses nearest to the samples of the scene, by the mean motion",
+        );
+        signal.events_after(&self.sample_times()?).map_err(refused)
+    }
+
+    /// Samples of the strain: those of the scene.
+    pub(super) fn samples(&self) -> Result<Vec<f64>, Failure> {
+        if self.noise.iter().all(|(observable, _)| observable.is_of_pulses()) {
+            return Ok(Vec::new());
+        }
+        self.sample_times()
+    }
+
+    /// The samples of the scene.
+    fn sample_times(&self) -> Result<Vec<f64>, Failure> {
+        const MOST: usize = 100_000;
+        let count = self.scene.times.count();
+        if count > MOST {
+            return Err(Failure::BadInput(format!(
+                "{}: `time.samples` = {count}: allowed here are at most {MOST}",
+                self.name
+            )));
+        }
+        let (start, unit) = (self.scene.times.start(), self.scene.units.time);
+        Ok(self.scene.times.iter().map(|time| ((time - start) / unit).min(self.end)).collect())
+    }
+
+    /// What a number of an unknown is multiplied by for the output, and its unit there.
+    pub(super) fn unit(&self, unknown: Unknown) -> (f64, String) {
+        let units = &self.scene.units;
+        match unknown {
+            Unknown::Spin | Unknown::AlphaRate | Unknown::BetaRate => {
+                (1.0 / units.time, format!("rad/{}", units.time_name))
+            }
+            Unknown::Alpha
+            | Unknown::Beta
+            | Unknown::Gamma
+            | Unknown::Chi
+            | Unknown::Delta
+            | Unknown::Rho
+            | Unknown::ThetaO
+            | Unknown::PhiO => (1.0, "rad".to_owned()),
+            _ => (1.0, "1".to_owned()),
+        }
+    }
+
+    pub(super) fn refused(&self, error: InferenceError) -> Failure {
+        match error {
+            InferenceError::Model(error) => failed(error),
+            error @ InferenceError::Rounding { .. } => Failure::BadInput(format!("{}: {error}", self.name)),
+            error => Failure::Failed(format!("{}: {error}", self.name)),
+        }
+    }
+}
+
+fn named(list: &str) -> Result<Vec<Unknown>, String> {
+    let mut found = Vec::new();
+    for name in list.split(',').map(str::trim) {
+        let unknown = Unknown::named(name).ok_or_else(|| {
+            let names: Vec<_> = Unknown::ALL.iter().map(|unknown| unknown.key()).collect();
+            let hint = nearest(name, &names).map_or(String::new(), |near| format!(" (did you mean `{near}`?)"));
+            format!("`{name}` is no parameter{hint}: allowed are {}, or all", names.join(", "))
+        })?;
+        if found.contains(&unknown) {
+            return Err(format!("`{name}` is named twice: allowed is once"));
+        }
+        found.push(unknown);
+    }
+    Ok(found)
+}
+
+/// Writes a table as CSV to the file that the arguments name, if they do.
+pub(super) fn write_csv(args: &TableArgs, rows: &[Vec<String>]) -> Result<(), Failure> {
+    let Some(path) = &args.out else { return Ok(()) };
+    let output = OutputFile::beside(path, args.force)?;
+    let cannot =
+        |error: &dyn std::fmt::Display| Failure::Failed(format!("{} cannot be written: {error}", path.display()));
+    let mut table = csv::Writer::from_writer(output.file());
+    for row in rows {
+        table.write_record(row).map_err(|error| cannot(&error))?;
+    }
+    table.flush().map_err(|error| cannot(&error))?;
+    drop(table);
+    output.complete()
+}
+
+/// A table for reading: the first row is its header, the first column on the left and the others on the right.
+pub(super) fn readable(rows: &[Vec<String>]) -> String {
+    let mut table = Table::new();
+    table.load_style(NOTHING.header_separator(LineStyle::none().fill('─').junction('─')));
+    for (place, row) in rows.iter().enumerate() {
+        if place == 0 {
+            table.set_header(row);
+        } else {
+            table.add_row(row);
+        }
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    format!("{}\n", table.trim_fmt())
+}
+
+/// Unknowns with their values, standard deviations and correlations: a table for reading, and one with all numbers.
+pub(super) fn uncertainties(
+    measurement: &Measurement,
+    values: &[f64],
+    covariance: &DMatrix<f64>,
+) -> [Vec<Vec<String>>; 2] {
+    let unknowns = &measurement.unknowns;
+    let sigmas: Vec<f64> = covariance.diagonal().iter().map(|variance| variance.sqrt()).collect();
+    let correlation = |i: usize, j: usize| covariance[(i, j)] / (sigmas[i] * sigmas[j]);
+    let mut short = vec![["", "value", "sigma", "sigma/|value|", "unit", "correlated most"].map(String::from).to_vec()];
+    let mut all = vec![["parameter", "value", "sigma", "unit"].map(String::from).to_vec()];
+    all[0].extend(unknowns.iter().map(|unknown| format!("correlation_{}", unknown.key())));
+    for (i, unknown) in unknowns.iter().enumerate() {
+        let (factor, unit) = measurement.unit(*unknown);
+        let (value, sigma) = (values[i] * factor, sigmas[i] * factor);
+        let others = (0..unknowns.len()).filter(|&j| j != i && correlation(i, j).is_finite());
+        let most = others.max_by(|a, b| correlation(i, *a).abs().total_cmp(&correlation(i, *b).abs()));
+        let most = most.map_or(String::new(), |j| format!("{:+.4} {}", correlation(i, j), unknowns[j].symbol()));
+        short.push(if sigma.is_finite() {
+            let relative = if value == 0.0 { String::new() } else { format!("{:.1e}", sigma / value.abs()) };
+            vec![
+                unknown.symbol().to_owned(),
+                significant(value, 10),
+                format!("{sigma:.2e}"),
+                relative,
+                unit.clone(),
+                most,
+            ]
+        } else {
+            let symbol = unknown.symbol().to_owned();
+            vec![symbol, significant(value, 10), "not determined".into(), String::new(), unit.clone(), most]
+        });
+        let number = |x: f64| if x.is_finite() { format!("{x:?}") } else { String::new() };
+        let mut row = vec![unknown.key().to_owned(), format!("{value:?}"), number(sigma), unit];
+        row.extend((0..unknowns.len()).map(|j| number(correlation(i, j))));
+        all.push(row);
+    }
+    [short, all]
+}

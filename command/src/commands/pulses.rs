@@ -1,0 +1,53 @@
+//! `twofold pulses`.
+
+use twofold::plan::Output;
+
+use super::explain::explained;
+use super::run::{failed, force_method, read_scene, write};
+use super::{Failure, PulsesArgs, note, print};
+use twofold_scene::scene_file::LARGEST_ROTATION;
+use twofold_scene::trajectory::write_pulses;
+
+pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
+    let mut scene = read_scene(&args.scene)?;
+    force_method(&mut scene, &args.plan, &args.scene)?;
+    let lacking = |section: &str| {
+        Failure::BadInput(format!(
+            "{}: the scene lacks the section [{section}], without which it has no pulses (docs/scenes.md describes it)",
+            args.scene
+        ))
+    };
+    let viewer = scene.observer.ok_or_else(|| lacking("observer"))?;
+    let mut pulsar = scene.pulsar.ok_or_else(|| lacking("pulsar"))?;
+    pulsar.second_beam |= args.second_beam;
+    let rotation = scene.rotation();
+    if rotation > LARGEST_ROTATION {
+        return Err(Failure::BadInput(format!(
+            "{}: [time] holds a rotation by {rotation:.1e} rad: allowed for a list of every pulse is at most {LARGEST_ROTATION:.0e} rad; \
+             shorten the span, or `twofold timing` computes the pulses near given epochs",
+            args.scene
+        )));
+    }
+    if args.plan.explain {
+        return print(&explained(&scene, &scene.plan(&[Output::Pulses]).map_err(failed)?));
+    }
+    let summary =
+        write(&args.output, &scene, |writer, progress| write_pulses(&scene, (&viewer, &pulsar), writer, progress))?;
+    let Some(summary) = summary else { return Ok(()) };
+    for (beam, _) in summary.pulses.iter().enumerate().filter(|(_, pulses)| **pulses == 0) {
+        note(&format!("no pulse of beam {}: the line of sight stays outside it", beam + 1));
+    }
+    for (beam, pulses, why) in &summary.without_turn {
+        note(&format!(
+            "turn and closest_approach are empty for {pulses} whole pulses of beam {beam}: turns cannot be counted: {why}"
+        ));
+    }
+    if let Some(time) = summary.first_grazing {
+        note(&format!(
+            "the line of sight grazes the edge of a beam {} times, first at t = {time:?} {}: a pulse there, or a gap between \
+             two, is one by rounding",
+            summary.grazings, scene.units.time_name
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,118 @@
+//! `twofold run`.
+
+use std::io::{self, BufWriter, IsTerminal, Write};
+
+use super::explain::{bytes, explained};
+use super::output_file::OutputFile;
+use super::progress::Progress;
+use super::standard_output::standard_output;
+use super::{Failure, OutputArgs, PlanArgs, RunArgs, note, print};
+use twofold_scene::scene_file::{Scene, SceneError};
+use twofold_scene::trajectory::{self, ErrorAtEnd, Summary, TrajectoryError};
+
+pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
+    let mut scene = match &args.columns {
+        None => accepted(&args.scene, Scene::named(&args.scene))?,
+        Some(columns) => {
+            let names: Vec<_> = columns.iter().map(|name| name.trim()).collect();
+            accepted(&args.scene, Scene::named_with_columns(&args.scene, &names))?
+        }
+    };
+    force_method(&mut scene, &args.plan, &args.scene)?;
+    if args.plan.explain {
+        return print(&explained(&scene, &scene.plan_of_columns().map_err(failed)?));
+    }
+    note_size(scene.times.count() as f64, trajectory::header(&scene).len());
+    let Some(summary) =
+        write(&args.output, &scene, |writer, progress| trajectory::write_csv(&scene, writer, progress))?
+    else {
+        return Ok(());
+    };
+    note_poles(&scene, &summary);
+    let (word, error) = match summary.error {
+        None => return Ok(()),
+        Some(ErrorAtEnd::Estimated(error)) => ("estimated error", error),
+        Some(ErrorAtEnd::Foreseen(error)) => ("error that the plan foresaw", error),
+    };
+    note(&format!("{word} of n, e_x and L / |L| at the end of the span: {error:.1e}"));
+    Ok(())
+}
+
+/// Uses the method that the arguments name.
+pub(super) fn force_method(scene: &mut Scene, args: &PlanArgs, name: &str) -> Result<(), Failure> {
+    let Some(method) = &args.method else { return Ok(()) };
+    scene.choose_method(method).map_err(|why| Failure::BadInput(format!("--method for {name}: {why}")))
+}
+
+pub(super) fn failed(error: twofold::Error) -> Failure {
+    Failure::Failed(error.to_string())
+}
+
+/// A scene of which the columns that it names are not used.
+pub(super) fn read_scene(name: &str) -> Result<Scene, Failure> {
+    accepted(name, Scene::named_without_columns(name))
+}
+
+/// The scene that was read, with notes of what in it looks like a mistake.
+fn accepted(name: &str, read: Result<Scene, SceneError>) -> Result<Scene, Failure> {
+    let scene = read.map_err(|error| Failure::BadInput(error.to_string()))?;
+    scene.cautions.iter().for_each(|caution| note(&format!("{name}: {caution}")));
+    Ok(scene)
+}
+
+/// Bytes of a number in a table: as a rule 16 or 17 digits, a point and a comma; some with a sign or an exponent.
+const BYTES_OF_A_NUMBER: f64 = 19.0;
+
+/// Size of a table from which on it is foretold.
+const LARGE: f64 = 1e7;
+
+/// Foretells the size of a large table.
+pub(super) fn note_size(rows: f64, columns: usize) {
+    let size = rows * columns as f64 * BYTES_OF_A_NUMBER;
+    if size >= LARGE {
+        note(&format!("the table will have {rows} rows of {columns} columns, about {}", bytes(size)));
+    }
+}
+
+/// Lets `table` write to the file that the arguments name, or to standard output. Nothing if a reader has gone away.
+pub(super) fn write<T>(
+    args: &OutputArgs,
+    scene: &Scene,
+    table: impl FnOnce(&mut dyn Write, &mut dyn FnMut(f64)) -> Result<T, TrajectoryError>,
+) -> Result<Option<T>, Failure> {
+    let output = args.out.as_deref().map(|path| OutputFile::beside(path, args.force)).transpose()?;
+    note_units(scene);
+    let mut progress = Progress::new(output.is_some() || !io::stdout().is_terminal());
+    let mut show = |part| progress.show(part);
+    let summary = match &output {
+        None => table(&mut standard_output()?, &mut show),
+        Some(output) => table(&mut BufWriter::new(output.file()), &mut show),
+    };
+    drop(progress);
+    match summary {
+        Err(error) if output.is_none() && error.is_closed_pipe() => Ok(None),
+        Err(error) => Err(Failure::Failed(error.to_string())),
+        Ok(summary) => {
+            output.map_or(Ok(()), OutputFile::complete)?;
+            Ok(Some(summary))
+        }
+    }
+}
+
+fn note_units(scene: &Scene) {
+    if scene.units.are_physical() {
+        let ratio = scene.spheroid.inertia_zz / scene.spheroid.inertia_xx;
+        note(&format!("t_c = {:.6e} s, I^zz/I^xx = {ratio:.9}; times are in s", scene.units.time));
+    }
+}
+
+fn note_poles(scene: &Scene, summary: &Summary) {
+    if let Some(time) = summary.first_on_pole {
+        note(&format!(
+            "an axis is on a pole in {} of {} rows, first at t = {time:?} {}: alpha, gamma and the rates do not exist where the \
+             symmetry axis is, Theta and Phi where the magnetic axis is, psi where that is along the line of sight; they are \
+             left empty",
+            summary.rows_on_pole, summary.rows, scene.units.time_name
+        ));
+    }
+}

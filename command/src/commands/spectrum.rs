@@ -1,0 +1,126 @@
+//! `twofold spectrum`.
+
+use twofold::Error;
+
+use super::explain::explained;
+use super::run::{failed, force_method, read_scene, write};
+use super::{Failure, SpectrumArgs, SpectrumTable, note, print};
+use twofold_scene::columns::Column;
+use twofold_scene::estimated_error::as_printed;
+use twofold_scene::scene_file::{Scene, Times};
+use twofold_scene::trajectory::{Floor, LinesSummary, LinesWanted, Sampling, TrajectoryError};
+
+pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
+    let mut scene = read_scene(&args.scene)?;
+    if let Some(span) = args.span {
+        let (start, end) = (scene.times.start(), scene.times.start() + span);
+        if !end.is_finite() || start == end {
+            return Err(Failure::BadInput(format!(
+                "--span {span:?}: allowed is a finite number, not zero beside `time.start`"
+            )));
+        }
+        scene.times = Times::Even { start, end, samples: 2 };
+    }
+    force_method(&mut scene, &args.plan, &args.scene)?;
+    let column = Column::oscillating(&args.of, &scene)
+        .map_err(|why| Failure::BadInput(format!("--of for {}: {why}", args.scene)))?;
+    if !(1e-12..=1.0).contains(&args.least) {
+        return Err(Failure::BadInput(format!("--least {:?}: allowed is from 1e-12 to 1", args.least)));
+    }
+    Sampling::check(&scene).map_err(|why| Failure::BadInput(format!("{}: {why}", args.scene)))?;
+    let wanted = LinesWanted { least: args.least, most: usize::from(args.most), identified: !args.unidentified };
+    let identified = wanted.identified && matches!(args.table, SpectrumTable::Lines);
+    let plan = Sampling::plan(&scene, &column, identified).map_err(failed)?;
+    if args.plan.explain {
+        return print(&explained(&scene, &plan));
+    }
+    let summary = write(&args.output, &scene, |writer, _| {
+        let sampling = Sampling::of(&scene, &column, &plan)?;
+        note_sampling(&scene, &column, &sampling);
+        match args.table {
+            SpectrumTable::Lines => sampling.write_lines(&scene, &column, &wanted, writer).map(Some).map_err(rounded),
+            SpectrumTable::Spectrum => sampling.write_spectrum(&scene, &column, writer).map(|()| None),
+        }
+    })?;
+    if let Some(Some(summary)) = summary {
+        note_lines(&scene, &column, &summary);
+    }
+    Ok(())
+}
+
+/// The error with the number in it as a reader wants it: three digits of the span that is too short.
+fn rounded(error: TrajectoryError) -> TrajectoryError {
+    match error {
+        TrajectoryError::NoFrequencies(Error::Domain { quantity, value, allowed }) => {
+            let value = format!("{value:.2e}").parse().unwrap_or(value);
+            TrajectoryError::NoFrequencies(Error::Domain { quantity, value, allowed })
+        }
+        error => error,
+    }
+}
+
+fn note_sampling(scene: &Scene, column: &Column, sampling: &Sampling) {
+    let (count, step, highest) = sampling.describe(scene);
+    let time = scene.units.time_name;
+    note(&format!(
+        "{} at {count} times {step:.6e} {time} apart, chosen from the rotation rate; frequencies up to {highest:.6e} rad/{time}",
+        column.name
+    ));
+}
+
+fn note_lines(scene: &Scene, column: &Column, summary: &LinesSummary) {
+    let (name, time) = (&column.name, scene.units.time_name);
+    let unit = if column.unit == "1" { String::new() } else { format!(" {}", column.unit) };
+    match &summary.fundamental {
+        None => {}
+        Some(Ok(fundamental)) => {
+            for g in fundamental {
+                let uncertainty = as_printed(g.uncertainty, 0.5 * f64::EPSILON * g.frequency.abs());
+                note(&format!("{} = {:?} +- {uncertainty:.1e} rad/{time}", g.symbol, g.frequency));
+            }
+        }
+        Some(Err(why)) => note(&format!("no line is identified: the motion has no fundamental frequencies: {why}")),
+    }
+    note(&format!("{name} has the constant term {:?}{unit}", summary.constant));
+    let least = format!("{:.1e}{unit}", summary.least);
+    match summary.floor {
+        Floor::Wanted => {}
+        Floor::Accuracy(size) => note(&format!(
+            "lines below {least} are not listed: the scene's accuracy is {:.0e}, of {size:.1e}{unit}",
+            scene.accuracy
+        )),
+        Floor::Noise => note(&format!(
+            "lines below {least} are not listed: that is six times the noise, what is left or the rounding of the values and their times"
+        )),
+    }
+    if summary.lines == 0 {
+        note(&format!("{name} has no line of an amplitude above {least}"));
+    }
+    if summary.found > summary.lines {
+        note(&format!("{} lines were found; --most writes more of them", summary.found));
+    }
+    if summary.remainder >= summary.least {
+        let part = match summary.strongest {
+            0.0 => String::new(),
+            strongest => format!(", {:.1e} of the strongest line", summary.remainder / strongest),
+        };
+        note(&format!(
+            "lines are missing: an amplitude of {:.1e}{unit} is left{part}, which the uncertainties count; lines nearer than about \
+             {:.1e} rad/{time} (8 / span) to one another or to zero are taken for one, or for the constant term, and a longer --span \
+             separates them",
+            summary.remainder, summary.resolution
+        ));
+    }
+    if summary.unresolved > 0 {
+        note(&format!(
+            "{} of the lines listed are `unresolved`: the frequency is uncertain by more than 1 / span, and the line may stand for several",
+            summary.unresolved
+        ));
+    }
+    if summary.near_highest > 0 {
+        note(&format!(
+            "{} of the lines are near the highest frequency, where others may be folded back from above it",
+            summary.near_highest
+        ));
+    }
+}

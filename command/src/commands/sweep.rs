@@ -1,0 +1,218 @@
+//! `twofold sweep`.
+
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use super::interrupt::stop_on_request;
+use super::output_file::{OutputFile, free_name};
+use super::progress::Progress;
+use super::run::note_size;
+use super::{Failure, SweepArgs, note};
+use twofold_scene::sweep::{
+    Done, Identity, MergeError, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, merge,
+};
+
+pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
+    let text = SweepText::read(&args.file).map_err(|error| Failure::BadInput(error.to_string()))?;
+    let sweep = Sweep::new(&text).map_err(|error| Failure::BadInput(error.to_string()))?;
+    sweep.cautions.iter().for_each(|caution| note(&format!("{}: {caution}", args.file)));
+    let format = Format::of(&args.out)?;
+    if !args.merge.is_empty() {
+        return merge_parts(args, &sweep, format);
+    }
+    let scenes = args.shard.unwrap_or(Shard::WHOLE).scenes(sweep.scenes);
+    let identity = Identity::new(&text, &scenes);
+    // A link is followed: the table grows beside what it points to.
+    let target = fs::canonicalize(&args.out).unwrap_or_else(|_| args.out.clone());
+    let files = SpoolFiles::of(&target);
+    if args.restart {
+        files.discard().map_err(|error| Failure::BadInput(format!("{}: {error}", files.rows.display())))?;
+    }
+    let named_before = files.are_complete(&identity);
+    if named_before && !files.rows.exists() && target.exists() {
+        // Only the tidying was interrupted.
+        files.remove().map_err(failed)?;
+        return if errors_beside(&target).exists() { Err(some_failed(&args.out)) } else { Ok(()) };
+    }
+    let out = free_name(&args.out, args.force || named_before)?;
+    let errors = errors_beside(&target);
+    free_name(&errors, args.force || named_before)?;
+
+    let headers = [csv_line(&sweep.header()), csv_line(&sweep.errors_header())];
+    let refuse = |error: SpoolError| {
+        let advice = if matches!(error, SpoolError::Different(_)) { "; --restart begins anew" } else { "" };
+        let why = format!("{}: {error}{advice}", files.rows.display());
+        // A disk that is full is no fault of the input.
+        match &error {
+            SpoolError::File(_, error) if is_full(error.kind()) => Failure::Failed(why),
+            _ => Failure::BadInput(why),
+        }
+    };
+    let stop = stop_on_request();
+    let mut spool =
+        Spool::open(files.clone(), &identity, [&headers[0], &headers[1]], scenes.clone()).map_err(refuse)?;
+    let (first, count) = (spool.next(), scenes.end - scenes.start);
+    if first > scenes.start {
+        note(&format!("{} of {count} scenes are there already", first - scenes.start));
+    }
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(args.threads.unwrap_or(0).into()).build();
+    let threads = threads.map_err(|error| Failure::Failed(format!("no threads can be started: {error}")))?;
+    note_size((scenes.end - first) as f64, sweep.header().len());
+    let start = Instant::now();
+    let mut progress = Progress::of_scenes(first - scenes.start, count);
+    let done = compute(&sweep, &mut spool, scenes.end, &threads, &stop, |next| progress.show_step(next - scenes.start));
+    drop(progress);
+    note_rate(spool.next() - first, spool.next() - scenes.start, start.elapsed(), spool.failed());
+    if done.map_err(failed)? == Done::Stopped {
+        return Err(Failure::Interrupted(format!(
+            "{} of {count} scenes are in {}; the same command goes on from there",
+            spool.next() - scenes.start,
+            files.rows.display()
+        )));
+    }
+    give_names(&mut spool, &out, &errors, (args.force || named_before, format))?;
+    if spool.failed() == 0 { Ok(()) } else { Err(some_failed(&args.out)) }
+}
+
+fn is_full(kind: io::ErrorKind) -> bool {
+    matches!(kind, io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge)
+}
+
+fn some_failed(out: &Path) -> Failure {
+    Failure::Partly(format!("some scenes failed: {} says which and why", errors_beside(out).display()))
+}
+
+/// Format of a table.
+#[derive(Clone, Copy, PartialEq)]
+enum Format {
+    Csv,
+    Parquet,
+}
+
+impl Format {
+    fn of(path: &Path) -> Result<Self, Failure> {
+        let is_parquet = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("parquet"));
+        match (is_parquet, cfg!(feature = "parquet")) {
+            (false, _) => Ok(Self::Csv),
+            (true, true) => Ok(Self::Parquet),
+            (true, false) => Err(Failure::BadInput(format!(
+                "--out {}: this program was built without Parquet; `cargo build --release --features twofold-verify/parquet` \
+                 builds it with, and CSV needs nothing",
+                path.display()
+            ))),
+        }
+    }
+}
+
+/// The table of errors of the table `out`.
+fn errors_beside(out: &Path) -> PathBuf {
+    let mut name = out.as_os_str().to_owned();
+    name.push(".errors.csv");
+    name.into()
+}
+
+fn failed(error: SpoolError) -> Failure {
+    Failure::Failed(error.to_string())
+}
+
+/// Gives complete tables their names: that of errors first, so that the table itself is the sign that all is there.
+fn give_names(spool: &mut Spool, out: &Path, errors: &Path, (replace, format): (bool, Format)) -> Result<(), Failure> {
+    let cannot = |path: &Path| {
+        let path = path.display().to_string();
+        move |error: io::Error| Failure::Failed(format!("{path} cannot be written: {error}"))
+    };
+    if !spool.complete {
+        spool.completed().map_err(failed)?;
+    }
+    let files = spool.files().clone();
+    if spool.failed() > 0 {
+        let output = OutputFile::beside(errors, replace)?;
+        let copied = File::open(&files.errors).and_then(|mut from| io::copy(&mut from, &mut output.file()));
+        copied.and_then(|_| output.file().sync_all()).map_err(cannot(errors))?;
+        output.complete()?;
+    } else if errors.is_file() {
+        fs::remove_file(errors).map_err(cannot(errors))?;
+    }
+    match format {
+        Format::Csv if !replace && out.exists() => {
+            return Err(Failure::Failed(format!("{} exists by now; --force replaces it", out.display())));
+        }
+        Format::Csv => fs::rename(&files.rows, out).map_err(cannot(out))?,
+        Format::Parquet => {
+            let output = OutputFile::beside(out, replace)?;
+            convert(File::open(&files.rows).map_err(cannot(&files.rows))?, output.file(), out)?;
+            output.complete()?;
+        }
+    }
+    let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if let Ok(folder) = File::open(folder) {
+        // The names outlive a loss of power, where the system can promise that.
+        let _ = folder.sync_all();
+    }
+    files.remove().map_err(failed)
+}
+
+/// Writes a table as Parquet.
+#[cfg(feature = "parquet")]
+fn convert(table: impl Read, file: &File, out: &Path) -> Result<(), Failure> {
+    let done = twofold_scene::sweep::parquet_file::write_parquet(BufReader::new(table), file);
+    done.map_err(|error| Failure::Failed(error.to_string()))?;
+    file.sync_all().map_err(|error| Failure::Failed(format!("{} cannot be written: {error}", out.display())))
+}
+
+/// Writes a table as Parquet.
+#[cfg(not(feature = "parquet"))]
+fn convert(_: impl Read, _: &File, out: &Path) -> Result<(), Failure> {
+    Format::of(out).map(|_| ())
+}
+
+/// Writes the tables of all shards as one, and their errors.
+fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<(), Failure> {
+    let bad = |path: &Path, error: io::Error| Failure::BadInput(format!("--merge {}: {error}", path.display()));
+    let mut parts: Vec<(String, Box<dyn BufRead>)> = Vec::new();
+    let output = OutputFile::beside(&args.out, args.force)?;
+    let errors_output = OutputFile::beside(&errors_beside(&args.out), args.force)?;
+    let mut errors = BufWriter::new(errors_output.file());
+    let cannot = |error: io::Error| Failure::Failed(format!("the table of errors cannot be written: {error}"));
+    errors.write_all(&csv_line(&sweep.errors_header())).map_err(cannot)?;
+    let mut any_failed = false;
+    for path in &args.merge {
+        let file = File::open(path).map_err(|error| bad(path, error))?;
+        parts.push((format!("--merge {}", path.display()), Box::new(BufReader::new(file))));
+        let Ok(part) = File::open(errors_beside(path)) else { continue };
+        let mut part = BufReader::new(part);
+        part.skip_until(b'\n').and_then(|_| io::copy(&mut part, &mut errors)).map_err(cannot)?;
+        any_failed = true;
+    }
+    errors.flush().map_err(cannot)?;
+    drop(errors);
+    let refused = |error: MergeError| Failure::BadInput(error.to_string());
+    match format {
+        Format::Csv => {
+            let mut writer = BufWriter::new(output.file());
+            merge(sweep, &mut parts, &mut writer).map_err(refused)?;
+            writer.flush().map_err(|error| Failure::Failed(format!("{}: {error}", args.out.display())))?;
+        }
+        Format::Parquet => {
+            let cannot = |error: io::Error| Failure::Failed(format!("a temporary file: {error}"));
+            let mut whole = tempfile::tempfile().map_err(cannot)?;
+            merge(sweep, &mut parts, BufWriter::new(&whole)).map_err(refused)?;
+            whole.rewind().map_err(cannot)?;
+            convert(whole, output.file(), &args.out)?;
+        }
+    }
+    if any_failed {
+        errors_output.complete()?;
+    }
+    output.complete()?;
+    if any_failed { Err(some_failed(&args.out)) } else { Ok(()) }
+}
+
+/// Says at the end how fast it was, of the scenes `computed` now and those that are `there` altogether.
+fn note_rate(computed: u64, there: u64, elapsed: Duration, failed: u64) {
+    let seconds = elapsed.as_secs_f64();
+    let rate = computed as f64 / seconds.max(1e-9);
+    note(&format!("{computed} scenes in {seconds:.2} s, {rate:.4e} scenes/s; {failed} of {there} failed"));
+}

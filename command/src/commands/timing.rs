@@ -1,0 +1,153 @@
+//! `twofold timing`.
+
+use std::path::Path;
+
+use twofold::epoch::{DAY, Epoch};
+
+use super::output_folder::OutputFolder;
+use super::run::{failed, read_scene};
+use super::{Failure, TimingArgs, note, tell};
+use twofold_scene::pulsar_timing::{PulsarScene, Series, Timing, TimingError, csv, decimal, par, strain_series, tim};
+use twofold_scene::scene_file::{Scene, like_julian_date};
+
+/// Most arrival times, and most samples of strain.
+const MOST: usize = 10_000_000;
+
+pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
+    let scene = read_scene(&args.scene)?;
+    for (option, date) in [("--from", &args.from), ("--to", &args.to)] {
+        if let Some(why) = date.as_ref().and_then(like_julian_date) {
+            note(&format!("{option}: {why}"));
+        }
+    }
+    let refused = |why: String| Failure::BadInput(format!("{}: {why}", args.scene));
+    let mut pulsar = PulsarScene::new(&scene).map_err(refused)?;
+    let epochs = epochs(args, &scene, &pulsar.epoch)?;
+    positive("--uncertainty", args.uncertainty)?;
+    let series = series(args, &epochs, pulsar.clock.period())?;
+    let name =
+        Path::new(&args.scene).file_stem().map_or_else(|| args.scene.clone(), |stem| stem.to_string_lossy().into());
+    let file = |ending: &str| format!("{name}.{ending}");
+    let endings = ["csv", "par", "tim", "h_plus.txt", "h_cross.txt"];
+    let folder = OutputFolder::at(&args.out, args.force, |found| endings.iter().any(|ending| found == file(ending)))?;
+    let timing = pulsar.timed(&epochs, args.f1).map_err(|error| match error {
+        TimingError::NoPulse(_) => refused(error.to_string()),
+        TimingError::Motion(error) => failed(error),
+    })?;
+    folder.write(&file("csv"), csv(&pulsar, &timing).as_bytes())?;
+    folder.write(&file("par"), par(&scene, &timing).map_err(failed)?.as_bytes())?;
+    folder.write(&file("tim"), tim(&timing, args.uncertainty * 1e-6).as_bytes())?;
+    match strain_series(&pulsar, &series) {
+        Some([plus, cross]) => {
+            folder.write(&file("h_plus.txt"), plus.as_bytes())?;
+            folder.write(&file("h_cross.txt"), cross.as_bytes())?;
+        }
+        None => {
+            note("no strain: the scene lacks `observer.distance`");
+            // Of another scene of this name: they do not belong to what is beside them now.
+            if args.force {
+                for old in ["h_plus.txt", "h_cross.txt"] {
+                    let _ = std::fs::remove_file(args.out.join(file(old)));
+                }
+            }
+        }
+    }
+    let files = folder.complete()?;
+    note_dark(&timing, epochs.len());
+    let farthest = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)[0].abs()).fold(0.0, f64::max);
+    note(&format!(
+        "estimated error of the residuals: {:.1e} s; an arrival time is rounded to 1e-16 d, 8.6e-12 s",
+        pulsar.residual_error(farthest)
+    ));
+    note(&format!(
+        "estimated error of the arrival times themselves: {:.1e} s at the farthest epoch; what it has beyond that of the residuals is the \
+         rounding of the initial angular momentum, linear in time and taken up by F0",
+        pulsar.arrival_error(farthest)
+    ));
+    tell(&format!("{}: {} arrival times, {files} files\n{}", args.out.display(), timing.pulses.len(), summary(&timing)))
+}
+
+fn summary(timing: &Timing) -> String {
+    let (fit, first) = (&timing.fit, &timing.pulses[0]);
+    let rate = if timing.with_rate { format!(", F1 = {:e} Hz/s", fit.frequency_rate) } else { String::new() };
+    let sizes = fit.residuals.iter().map(|residual| residual.abs());
+    format!(
+        "F0 = {} Hz at MJD {}{rate}; residuals: rms {:.3e} s, largest {:.3e} s\nfirst pulse {} at MJD {}\n",
+        decimal(fit.frequency),
+        timing.epoch,
+        timing.root_mean_square(),
+        sizes.fold(0.0, f64::max),
+        first.pulse.number,
+        first.arrival,
+    )
+}
+
+fn note_dark(timing: &Timing, asked: usize) {
+    if timing.dark > 0 {
+        note(&format!(
+            "{} of {asked} epochs have no pulse: in that turn the line of sight stays outside the beam, or inside it for longer than is \
+             searched, one and a half turns either way",
+            timing.dark
+        ));
+    }
+}
+
+/// The epochs asked for: of the scene, or of the options.
+fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>, Failure> {
+    let start = scene.times.start();
+    let of_time = |t: f64| epoch.after([t - start, 0.0]);
+    if args.from.is_none() && args.to.is_none() && args.every.is_none() && args.epochs.is_none() {
+        return scene.times.iter().map(of_time).collect::<Result<_, _>>().map_err(failed);
+    }
+    let from = args.from.map_or_else(|| of_time(start), Ok).map_err(failed)?;
+    let to = args.to.map_or_else(|| of_time(scene.times.last()), Ok).map_err(failed)?;
+    let [seconds, _] = to.seconds_since(&from);
+    if seconds <= 0.0 {
+        return Err(Failure::BadInput(format!(
+            "epochs from {from} to {to}: allowed is a later date for the last (--from, --to, or the scene's span)"
+        )));
+    }
+    let days = seconds / DAY;
+    let (count, step) = match args.every {
+        Some(every) => {
+            positive("--every", every)?;
+            ((days / every).floor() + 1.0, every)
+        }
+        None => {
+            let count = args.epochs.unwrap_or(scene.times.count());
+            (count as f64, days / (count.max(2) - 1) as f64)
+        }
+    };
+    if !(2.0..=MOST as f64).contains(&count) {
+        return Err(Failure::BadInput(format!("{count} epochs are asked for: allowed are from 2 to {MOST}")));
+    }
+    let epochs = (0..count as usize).map(|k| from.after([k as f64 * step * DAY, 0.0]));
+    epochs.collect::<Result<_, _>>().map_err(failed)
+}
+
+fn series(args: &TimingArgs, epochs: &[Epoch], period: f64) -> Result<Series, Failure> {
+    // Sixteen samples in the shorter of the wave's two periods, rounded up to a power of two.
+    let rate = args.strain_rate.unwrap_or_else(|| (32.0 / period).log2().ceil().exp2());
+    let span = args.strain_span.unwrap_or(64.0 * period);
+    positive("--strain-rate", rate)?;
+    positive("--strain-span", span)?;
+    let samples = (rate * span).ceil();
+    if !(2.0..=MOST as f64).contains(&samples) {
+        return Err(Failure::BadInput(format!(
+            "{samples} samples of strain are asked for: allowed are from 2 to {MOST}"
+        )));
+    }
+    Ok(Series { start: epochs[0], rate, samples: samples as usize })
+}
+
+fn positive(option: &str, value: f64) -> Result<(), Failure> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(Failure::BadInput(format!("{option} {value}: allowed is a number above zero")))
+}
+
+/// A date from the command line.
+pub(super) fn date(text: &str) -> Result<Epoch, String> {
+    text.parse().map_err(|_| "allowed is a modified Julian date from 0 to 1e7, as 55321.25".to_owned())
+}

@@ -1,0 +1,226 @@
+//! The authors' published data against the same numbers computed here.
+
+mod allowed;
+mod known;
+mod recompute;
+mod report;
+mod series;
+mod table;
+
+use std::fs;
+use std::path::Path;
+use std::sync::OnceLock;
+
+use allowed::{Allowed, allowed};
+use known::{Content, KNOWN, KnownFile};
+pub use report::{json, text};
+pub use table::FileFault;
+use table::Table;
+
+use self::recompute::Scales;
+use twofold_scene::scene_file::nearest;
+use twofold_verify::paper_examples::{PaperExample, paper_examples};
+
+/// Whether a column agrees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// It differs by no more than allowed.
+    Agrees,
+    /// It differs by more, or by what is not a number.
+    Differs,
+    /// There is nothing known to judge the difference by.
+    NotJudged,
+}
+
+/// The largest difference in a column.
+#[derive(Debug, Clone)]
+pub struct ColumnDifference {
+    /// Name of the column.
+    pub column: String,
+    /// Unit of the difference.
+    pub unit: &'static str,
+    /// Largest difference in size.
+    pub difference: f64,
+    /// Time of the row with the largest difference, in t_c.
+    pub time: f64,
+    /// Up to what it may differ.
+    pub allowed: Option<f64>,
+    /// Why so much, or why nothing is known.
+    pub reason: &'static str,
+    /// What follows.
+    pub verdict: Verdict,
+}
+
+/// A file beside what is computed here.
+#[derive(Debug, Clone)]
+pub struct ComparedFile {
+    /// Name of the file.
+    pub file: &'static str,
+    /// Initial values of the motion computed here.
+    pub start: String,
+    /// Rows compared.
+    pub rows: usize,
+    /// Its columns.
+    pub columns: Vec<ColumnDifference>,
+    /// What else was seen.
+    pub notes: Vec<String>,
+}
+
+/// A folder of the authors' files.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// The folder as it was named.
+    pub folder: String,
+    /// Files compared, in the order of the known names; the series of periods and widths twice.
+    pub files: Vec<ComparedFile>,
+    /// Known names that are not in the folder.
+    pub absent: Vec<&'static str>,
+    /// What else is in the folder, which is not read.
+    pub not_read: Vec<String>,
+}
+
+impl Comparison {
+    /// Names of the files with a column that differs.
+    pub fn differing(&self) -> Vec<&'static str> {
+        let differs = |file: &&ComparedFile| file.columns.iter().any(|column| column.verdict == Verdict::Differs);
+        self.files.iter().filter(differs).map(|file| file.file).collect()
+    }
+}
+
+/// Why there is no comparison.
+#[derive(Debug)]
+pub enum CompareError {
+    /// The folder, or files in it, are not what they should be.
+    Input(Vec<String>),
+    /// A motion could not be computed.
+    Motion(twofold::Error),
+}
+
+impl From<twofold::Error> for CompareError {
+    fn from(error: twofold::Error) -> Self {
+        CompareError::Motion(error)
+    }
+}
+
+/// Compares every known file in `folder`. All are read and checked before anything is computed.
+///
+/// # Errors
+/// A folder without any known file, a file that is malformed, and a motion that cannot be computed.
+pub fn compare(folder: &Path) -> Result<Comparison, CompareError> {
+    let input = |message: String| CompareError::Input(vec![message]);
+    let shown = folder.display();
+    let entries =
+        fs::read_dir(folder).map_err(|error| input(format!("{shown}: no folder that can be read: {error}")))?;
+    let mut names = Vec::new();
+    for entry in entries {
+        let entry = entry.map_err(|error| input(format!("{shown}: cannot be listed: {error}")))?;
+        names.push(entry.file_name().to_string_lossy().into_owned());
+    }
+    names.sort();
+    let known_names: Vec<_> = KNOWN.iter().map(|known| known.name).collect();
+    let (found, absent): (Vec<_>, Vec<_>) = KNOWN.iter().partition(|known| names.iter().any(|name| name == known.name));
+    if found.is_empty() {
+        let near = names.iter().find_map(|name| Some((name, nearest(name, &known_names)?)));
+        let guess = near.map(|(name, near)| format!("; `{name}` may be meant to be `{near}`")).unwrap_or_default();
+        return Err(input(format!("{shown}: has none of the authors' files {}{guess}", known_names.join(", "))));
+    }
+    let tables: Vec<_> = found.iter().map(|known| table::read(&folder.join(known.name), known)).collect();
+    let faults: Vec<_> = tables.iter().filter_map(|table| table.as_ref().err()).map(FileFault::to_string).collect();
+    if !faults.is_empty() {
+        return Err(CompareError::Input(faults));
+    }
+    let mut files = Vec::new();
+    for (known, table) in found.iter().zip(tables.into_iter().flatten()) {
+        files.extend(compare_file(known, &table)?);
+    }
+    Ok(Comparison {
+        folder: shown.to_string(),
+        files,
+        absent: absent.iter().map(|known| known.name).collect(),
+        not_read: names.into_iter().filter(|name| !known_names.contains(&name.as_str())).collect(),
+    })
+}
+
+/// What the comparison of `text` with the rows of a known file says; the first `rows` of them are all that it must have. For
+/// fuzzing: every outcome but a panic is a defined one.
+pub(crate) fn compare_text(kind: usize, text: &str, rows: usize) -> Option<Result<String, String>> {
+    static SHORT: OnceLock<Vec<KnownFile>> = OnceLock::new();
+    const LONGEST: usize = 16;
+    let short = SHORT.get_or_init(|| {
+        let with = |known: &KnownFile, rows| KnownFile { rows, ..*known };
+        KNOWN.iter().flat_map(|known| (1..=LONGEST).map(move |rows| with(known, rows))).collect()
+    });
+    let known = short.get(kind.checked_mul(LONGEST)?.checked_add(rows.checked_sub(1)?)?)?;
+    let compared = table::parse(known.name, text, known).map_err(|fault| fault.to_string()).and_then(|table| {
+        let files = compare_file(known, &table).map_err(|error| error.to_string())?;
+        Ok(Comparison { folder: String::new(), files, absent: Vec::new(), not_read: Vec::new() })
+    });
+    Some(compared.map(|comparison| report::text(&comparison) + &report::json(&comparison)))
+}
+
+fn compare_file(known: &'static KnownFile, table: &Table) -> Result<Vec<ComparedFile>, twofold::Error> {
+    let example = example(known.example);
+    match known.content {
+        Content::Angles => {
+            let (rows, scales) = recompute::angles(&example, table)?;
+            Ok(vec![by_rows(known, table, &rows, Some(&scales))])
+        }
+        Content::Signal => Ok(vec![by_rows(known, table, &recompute::signal(&example, table)?, None)]),
+        Content::Waves => Ok(vec![by_rows(known, table, &recompute::waves(&example, table)?, None)]),
+        Content::Periods | Content::Widths => series::by_stamps(known, table, &example),
+    }
+}
+
+fn example(name: &str) -> PaperExample {
+    let [first, ..] = paper_examples();
+    paper_examples().into_iter().find(|example| example.name == name).unwrap_or(first)
+}
+
+fn by_rows(known: &'static KnownFile, table: &Table, ours: &[Vec<f64>], scales: Option<&Scales>) -> ComparedFile {
+    let columns = known.columns().iter().enumerate().map(|(i, column)| {
+        let differences = table.rows.iter().zip(ours).map(|(theirs, ours)| (theirs[0], theirs[i + 1] - ours[i]));
+        judged(column.name, column.unit, differences, allowed(known, column.name, scales))
+    });
+    ComparedFile {
+        file: known.name,
+        start: "Eq. (34)".into(),
+        rows: table.rows.len(),
+        columns: columns.collect(),
+        notes: Vec::new(),
+    }
+}
+
+fn judged(
+    column: &str,
+    unit: &'static str,
+    differences: impl Iterator<Item = (f64, f64)>,
+    allowed: Allowed,
+) -> ColumnDifference {
+    let (mut time, mut difference) = (f64::NAN, f64::NEG_INFINITY);
+    for (t, d) in differences {
+        // What is not a number is the largest of all.
+        let size = if d.is_nan() { f64::INFINITY } else { d.abs() };
+        if size > difference {
+            (time, difference) = (t, size);
+        }
+    }
+    let verdict = match allowed.limit {
+        None => Verdict::NotJudged,
+        Some(limit) if difference <= limit => Verdict::Agrees,
+        Some(_) => Verdict::Differs,
+    };
+    let (allowed, reason) = (allowed.limit, allowed.reason);
+    ColumnDifference { column: column.to_owned(), unit, difference, time, allowed, reason, verdict }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Allowed, Verdict, judged};
+
+    #[test]
+    fn what_is_not_a_number_differs() {
+        let allowed = Allowed { limit: Some(1.0), reason: "" };
+        let found = judged("m.n", "1", [(0.0, 0.5), (1.0, f64::NAN), (2.0, -0.7)].into_iter(), allowed);
+        assert_eq!((found.verdict, found.time, found.difference), (Verdict::Differs, 1.0, f64::INFINITY));
+    }
+}

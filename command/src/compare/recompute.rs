@@ -1,0 +1,224 @@
+//! The numbers of a file, computed anew at its times.
+
+use twofold::Error;
+use twofold::dynamics::BodyState;
+use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::observables::Observer;
+use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
+use twofold::observables::pulsar::direction::magnetic_axis_direction;
+use twofold::observables::pulsar::period::{azimuth_offset_rate, instantaneous_period};
+use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
+use twofold::observables::pulsar::{Beam, PulseTrain, pulse_train};
+use twofold::propagation::{AxisMotion, ContinuousAngles, Motion, TaylorMotion, propagate};
+use twofold::solutions::perturbation::{Form, Perturbation};
+
+use super::table::Table;
+use twofold_verify::check::largest;
+use twofold_verify::paper_examples::{COEFFICIENTS, PaperExample, SPIN, spheroid};
+
+/// Truncation error asked of a motion.
+const ACCURACY: f64 = 1e-14;
+
+// The paper's observer and beam; phi_o = delta = 0.
+const THETA_O: f64 = 0.8;
+const CHI: f64 = 0.5;
+const RHO: f64 = 0.6;
+
+fn observer() -> Observer<f64> {
+    Observer::at(THETA_O, 0.0)
+}
+
+fn beam() -> Beam<f64> {
+    Beam::new(CHI, 0.0, RHO)
+}
+
+/// Where a motion starts.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Start {
+    angles: EulerAngles<f64>,
+    rates: EulerRates<f64>,
+}
+
+impl Start {
+    /// From alpha, beta and their rates, with gamma = 0 and Eq. (24).
+    fn new(alpha: f64, beta: f64, alpha_rate: f64, beta_rate: f64) -> Self {
+        let rates = EulerRates { alpha: alpha_rate, beta: beta_rate, gamma: SPIN - alpha_rate * beta.cos() };
+        Self { angles: EulerAngles { alpha, beta, gamma: 0.0 }, rates }
+    }
+
+    /// The initial values of an example, Eq. (34).
+    pub(super) fn of(example: &PaperExample) -> Result<Self, Error> {
+        let start = example.initial_values()?;
+        Ok(Self::new(start.alpha, start.beta, start.alpha_rate, start.beta_rate))
+    }
+
+    /// The same with beta and alpha' as in the caption of the example's figure, rounded to three decimals.
+    pub(super) fn of_caption(example: &PaperExample) -> Result<Self, Error> {
+        let start = example.initial_values()?;
+        let rounded = |x: f64| (x * 1e3).round() / 1e3;
+        Ok(Self::new(start.alpha, rounded(start.beta), rounded(start.alpha_rate), rounded(start.beta_rate)))
+    }
+
+    fn motion(&self, until: f64) -> Result<TaylorMotion<f64>, Error> {
+        let body = spheroid();
+        let state = BodyState::from_angles(&body, &self.angles, &self.rates);
+        propagate(&body, &COEFFICIENTS.tensor(), &state, (0.0, until), ACCURACY)
+    }
+}
+
+/// How large what the errors of the body axes depend on becomes in a motion.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Scales {
+    /// Length of the span in t_c.
+    pub(super) duration: f64,
+    /// Largest `sin beta`.
+    pub(super) sin_beta: f64,
+    /// Largest `|cos beta|`.
+    pub(super) cos_beta: f64,
+    /// Largest `|alpha'|`.
+    pub(super) alpha_rate: f64,
+    /// Largest `|beta'|`.
+    pub(super) beta_rate: f64,
+    /// Largest phase in Eq. (33), rad; that of the homogeneous solution times its amplitude.
+    pub(super) phase: f64,
+}
+
+/// Rows of `tp1.dat` and its like.
+pub(super) fn angles(example: &PaperExample, table: &Table) -> Result<(Vec<Vec<f64>>, Scales), Error> {
+    let start = Start::of(example)?;
+    let motion = start.motion(table.last_time())?;
+    let printed = Perturbation::new(Form::Printed, example.kind, &spheroid(), &COEFFICIENTS, SPIN, &example.constants)?;
+    let mut continuous = ContinuousAngles::new(&motion, 0.0, &start.angles)?;
+    let duration = table.last_time();
+    let oscillation = example.constants.amplitude * (1.0 + printed.homogeneous_ratio.abs());
+    let phase = example.constants.alpha_0.abs() + (printed.rate.abs() + oscillation) * duration;
+    let mut scales = Scales { duration, phase, ..Scales::default() };
+    let mut row = |t: f64| -> Result<Vec<f64>, Error> {
+        let (angles, state, approximate) = (continuous.at(t)?, motion.state(t)?, printed.at(t));
+        let rates = state.rates(motion.spheroid())?;
+        let (sin, cos) = angles.beta.sin_cos();
+        scales.sin_beta = largest([scales.sin_beta, sin]);
+        scales.cos_beta = largest([scales.cos_beta, cos.abs()]);
+        scales.alpha_rate = largest([scales.alpha_rate, rates.alpha.abs()]);
+        scales.beta_rate = largest([scales.beta_rate, rates.beta.abs()]);
+        let mut row = vec![angles.alpha, approximate.alpha, angles.beta, approximate.beta];
+        row.extend(state.equatorial_axis.iter().chain(state.axis.iter()));
+        Ok(row)
+    };
+    let rows = table.times().map(&mut row).collect::<Result<_, _>>()?;
+    Ok((rows, scales))
+}
+
+/// Rows of `mntp1.dat` and its like. The second column is the period of Eqs. (51), (52) at the instant; the third the width
+/// of Eq. (56) at the instant, zero where there is none, over the mean in time of that period's rate.
+pub(super) fn signal(example: &PaperExample, table: &Table) -> Result<Vec<Vec<f64>>, Error> {
+    let start = Start::of(example)?;
+    let motion = start.motion(table.last_time())?;
+    let (beam, observer, body) = (beam(), observer(), spheroid());
+    let mut rows = Vec::with_capacity(table.rows.len());
+    let mut rates = Vec::with_capacity(table.rows.len());
+    for t in table.times() {
+        let state = motion.state(t)?;
+        let (angles, euler_rates) = (state.angles()?, state.rates(&body)?);
+        let offset_rate = azimuth_offset_rate(angles.beta, angles.gamma, euler_rates.gamma, CHI, 0.0)?;
+        let rate = euler_rates.alpha + offset_rate;
+        let (theta, _) = magnetic_axis_direction(&angles, CHI, 0.0)?;
+        let width = match pulse_width(RHO, theta, THETA_O) {
+            PulseWidth::Pulsed(width) => width,
+            PulseWidth::AlwaysOn => std::f64::consts::TAU,
+            PulseWidth::NeverOn => 0.0,
+        };
+        rows.push(vec![beam.direction(&state).dot(&observer.direction), instantaneous_period(rate), width]);
+        rates.push((t, rate));
+    }
+    let mean = mean_in_time(&rates);
+    for row in &mut rows {
+        row[2] /= mean;
+    }
+    Ok(rows)
+}
+
+/// Mean of a series over its times by the trapezoidal rule.
+fn mean_in_time(series: &[(f64, f64)]) -> f64 {
+    let integral: f64 = series.windows(2).map(|pair| (pair[1].0 - pair[0].0) * (pair[0].1 + pair[1].1) / 2.0).sum();
+    match (series.first(), series.last()) {
+        (Some(first), Some(last)) if last.0 > first.0 => integral / (last.0 - first.0),
+        (Some(first), _) => first.1,
+        _ => f64::NAN,
+    }
+}
+
+/// Rows of `gwtp1.dat` and its like, with r = 1.
+pub(super) fn waves(example: &PaperExample, table: &Table) -> Result<Vec<Vec<f64>>, Error> {
+    let motion = Start::of(example)?.motion(table.last_time())?;
+    let (observer, body, s) = (observer(), spheroid(), COEFFICIENTS.tensor());
+    let row = |t: f64| {
+        let state = motion.state(t)?;
+        let acceleration = spheroid_inertia_acceleration(&body, &s, &state.axis, &state.momentum);
+        let h = polarizations(&observer, &metric_perturbation(1.0, &acceleration));
+        Ok(vec![h.plus, h.cross])
+    };
+    table.times().map(row).collect()
+}
+
+/// The pulses of a start, some turns beyond the last stamp of the table, and the slowest rate of `m.n` at an edge of one.
+pub(super) fn train(start: &Start, table: &Table) -> Result<(PulseTrain, f64), Error> {
+    let until = table.last_time() + 20.0;
+    let (motion, beam, n) = (start.motion(until)?, beam(), observer().direction);
+    let train = pulse_train(&motion, &beam, &n, (0.0, until))?;
+    let mut slowest = f64::INFINITY;
+    for pulse in train.pulses.iter().filter(|pulse| pulse.is_whole()) {
+        for edge in [pulse.start, pulse.end] {
+            let [_, rate, ..] = beam.margin_rates(motion.spheroid(), motion.violation(), &motion.state(edge)?, &n);
+            slowest = slowest.min(rate.abs());
+        }
+    }
+    Ok((train, slowest))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use twofold_verify::paper_examples::paper_examples;
+
+    /// The period is a turn over the rate of the azimuth of `m` at constant beta, here by a difference quotient along the motion. The pulse ends where
+    /// the triangle of `m`, `n` and Z on the sphere has the side `rho`; as a time it is divided by the mean of that rate.
+    #[test]
+    fn periods_and_widths_are_those_of_the_azimuth_of_the_magnetic_axis() {
+        let [example, ..] = paper_examples();
+        // Steps become longer: the mean of rows is not that of time.
+        let times: Vec<f64> = (0..=2000).map(|k| 0.1 + 25.0 * (f64::from(k) / 2000.0).powi(2)).collect();
+        let last = times[2000];
+        let table = Table { rows: times.iter().map(|t| vec![*t]).collect() };
+        let found = signal(&example, &table).unwrap();
+        let motion = Start::of(&example).unwrap().motion(last + 1.0).unwrap();
+        let angles = |t: f64| motion.state(t).unwrap().angles().unwrap();
+        let axis = |angles: EulerAngles<f64>| {
+            let rates = EulerRates { alpha: 0.0, beta: 0.0, gamma: 0.0 };
+            beam().direction(&BodyState::from_angles(&spheroid(), &angles, &rates))
+        };
+        let rate = |t: f64| {
+            let beta = angles(t).beta;
+            let step = 1e-4;
+            let [a, b] = [t - step, t + step].map(|t| axis(EulerAngles { beta, ..angles(t) }));
+            (a.x * b.y - a.y * b.x).atan2(a.x * b.x + a.y * b.y) / (2.0 * step)
+        };
+        let mean = (0..1000).map(|k| rate(0.1 + 25.0 * (f64::from(k) + 0.5) / 1000.0)).sum::<f64>() / 1000.0;
+        let mut pulsed = 0;
+        for (row, t) in found.iter().zip(times) {
+            // The quotient is off by 1e-8 / 6 of the third derivative.
+            let period = TAU / rate(t);
+            assert!((row[1] / period - 1.0).abs() < 1e-6, "t = {t}: {} and {period}", row[1]);
+            let theta = axis(angles(t)).z.acos();
+            let half = (RHO.cos() - theta.cos() * THETA_O.cos()) / (theta.sin() * THETA_O.sin());
+            // acos is 0 beyond 1 and pi beyond -1; means in steps of up to 0.025 are good to their square.
+            let width = 2.0 * half.clamp(-1.0, 1.0).acos() / mean;
+            assert!((row[2] - width).abs() < 1e-4 * width + 1e-12, "t = {t}: {} and {width}", row[2]);
+            pulsed += usize::from((0.1..TAU / mean - 0.1).contains(&width));
+        }
+        assert!(pulsed > 100, "{pulsed}");
+    }
+}

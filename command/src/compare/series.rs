@@ -1,0 +1,66 @@
+//! The series of periods and widths of the pulses beside ours.
+
+use twofold::observables::pulsar::Stamped;
+
+use super::allowed::{Allowed, allowed_of_series};
+use super::known::{Content, KnownFile};
+use super::recompute::{self, Start};
+use super::table::Table;
+use super::{ComparedFile, Verdict, judged};
+use twofold_verify::paper_examples::PaperExample;
+
+/// Two stamps nearer than this, in t_c, are of the same pulse; pulses of the examples are at least 3 t_c apart.
+const SAME_PULSE: f64 = 1.0;
+
+/// A series of stamps and values beside the one of ours with the nearest stamps: from the rounded initial values, with which
+/// the authors' series were made, and from those of Eq. (34).
+pub(super) fn by_stamps(
+    known: &'static KnownFile,
+    table: &Table,
+    example: &PaperExample,
+) -> Result<Vec<ComparedFile>, twofold::Error> {
+    let mut files = Vec::new();
+    for (start, name, of_the_file) in
+        [(Start::of_caption(example)?, "caption", true), (Start::of(example)?, "Eq. (34)", false)]
+    {
+        let (train, slowest) = recompute::train(&start, table)?;
+        let ours: Vec<Stamped> = match known.content {
+            Content::Periods => train.periods().collect(),
+            _ => train.durations().collect(),
+        };
+        let distance = |stamped: &Stamped, row: &[f64]| (stamped.time - row[0]).abs();
+        let near = |row: &[f64]| {
+            let nearest = ours.iter().min_by(|a, b| distance(a, row).total_cmp(&distance(b, row)));
+            nearest.filter(|stamped| distance(stamped, row) < SAME_PULSE)
+        };
+        let pairs: Vec<(&[f64], &Stamped)> =
+            table.rows.iter().filter_map(|row| near(row).map(|stamped| (row.as_slice(), stamped))).collect();
+        let alone = table.rows.len() - pairs.len();
+        let mut columns = Vec::new();
+        let [value] = known.columns() else { continue };
+        for (name, index) in [("stamp", 0), (value.name, 1)] {
+            let differences = pairs.iter().map(|(row, ours)| (row[0], row[index] - [ours.time, ours.value][index]));
+            let allowed = if of_the_file { allowed_of_series(known, name, slowest) } else { Allowed::OTHER_START };
+            let mut column = judged(name, value.unit, differences, allowed);
+            if alone > 0 && column.verdict == Verdict::Agrees {
+                column.verdict = Verdict::Differs;
+            }
+            columns.push(column);
+        }
+        let mut notes = Vec::new();
+        if alone > 0 {
+            let rows = if alone == 1 { "row of the file has" } else { "rows of the file have" };
+            notes.push(format!("{alone} {rows} nothing of ours within {SAME_PULSE} t_c"));
+        }
+        let (first, last) = (table.rows[0][0], table.last_time());
+        let in_file = |stamped: &Stamped| pairs.iter().any(|(_, ours)| *ours == stamped);
+        let left_out: Vec<_> =
+            ours.iter().filter(|ours| (first..=last).contains(&ours.time) && !in_file(ours)).collect();
+        if !left_out.is_empty() {
+            let shortest = left_out.iter().map(|stamped| stamped.value).fold(f64::INFINITY, f64::min);
+            notes.push(format!("{} of ours are not in the file, the shortest {shortest:.3} t_c long", left_out.len()));
+        }
+        files.push(ComparedFile { file: known.name, start: name.into(), rows: table.rows.len(), columns, notes });
+    }
+    Ok(files)
+}

@@ -1,0 +1,146 @@
+//! Reading a file of the authors: numbers in columns, separated by tabs or spaces, without a header.
+
+use std::fmt;
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::Path;
+
+use super::known::KnownFile;
+use twofold_scene::scene_file::shortened;
+
+/// Largest file that is read, in bytes; the published ones are below 3 MiB.
+const LARGEST_FILE: u64 = 64 << 20;
+
+/// Latest time in a file, in t_c; the published ones end at 1000.
+const LATEST_TIME: f64 = 1100.0;
+
+/// The numbers of a file by rows; the first of each row is a time.
+#[derive(Debug)]
+pub(super) struct Table {
+    pub(super) rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    pub(super) fn times(&self) -> impl Iterator<Item = f64> {
+        self.rows.iter().map(|row| row[0])
+    }
+
+    pub(super) fn last_time(&self) -> f64 {
+        self.rows.last().map_or(0.0, |row| row[0])
+    }
+}
+
+/// Why a file cannot be compared, with its place in the file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FileFault {
+    file: String,
+    place: Option<(usize, usize)>,
+    message: String,
+}
+
+impl FileFault {
+    fn of_file(file: &str, message: impl Into<String>) -> Self {
+        Self { file: file.to_owned(), place: None, message: message.into() }
+    }
+
+    fn at(file: &str, line: usize, column: usize, message: impl Into<String>) -> Self {
+        Self { file: file.to_owned(), place: Some((line, column)), message: message.into() }
+    }
+}
+
+impl fmt::Display for FileFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.place {
+            Some((line, column)) => write!(f, "{}:{line}:{column}: {}", self.file, self.message),
+            None => write!(f, "{}: {}", self.file, self.message),
+        }
+    }
+}
+
+/// Reads and checks a known file.
+pub(super) fn read(path: &Path, known: &KnownFile) -> Result<Table, FileFault> {
+    let name = path.display().to_string();
+    let refuse = |message: String| FileFault::of_file(&name, message);
+    if path.is_dir() {
+        return Err(refuse("is a directory, not a file of numbers".into()));
+    }
+    // A pipe or a device: opening it may wait for ever.
+    if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        return Err(refuse("is not a regular file".into()));
+    }
+    let file = File::open(path).map_err(|error| refuse(format!("cannot be opened: {error}")))?;
+    let mut bytes = Vec::new();
+    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|error| refuse(format!("cannot be read: {error}")))?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(refuse(format!("is longer than {} MiB, the most that is read", LARGEST_FILE >> 20)));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let before = &error.as_bytes()[..at];
+        let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let column = before.iter().rev().take_while(|&&byte| byte != b'\n').count() + 1;
+        FileFault::at(&name, line, column, "is not text: a byte that is not UTF-8")
+    })?;
+    parse(&name, &text, known)
+}
+
+pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, FileFault> {
+    let fault = |line, column, message: String| Err(FileFault::at(file, line, column, message));
+    let (rows_wanted, columns) = (known.rows, known.columns());
+    let width = columns.len() + 1;
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    let mut last_line = 0;
+    for (index, content) in text.lines().enumerate() {
+        let line = index + 1;
+        last_line = line;
+        if rows.len() == rows_wanted {
+            return fault(line, 1, format!("one row too many: the published file has {rows_wanted}"));
+        }
+        let mut row = Vec::with_capacity(width);
+        for (column, word) in words(content) {
+            if row.len() == width {
+                let names = std::iter::once("t").chain(columns.iter().map(|column| column.name));
+                let names = names.collect::<Vec<_>>().join(", ");
+                return fault(line, column, format!("a column too many: the file has {width} ({names})"));
+            }
+            match word.parse::<f64>() {
+                Ok(value) if value.is_finite() => row.push(value),
+                _ => return fault(line, column, format!("`{}` is not a finite decimal number", shortened(word))),
+            }
+        }
+        let end = content.chars().count() + 1;
+        if row.len() < width {
+            let why = if row.is_empty() { "an empty line" } else { "a truncated row" };
+            return fault(line, end, format!("{why}: {} of {width} numbers", row.len()));
+        }
+        let time = row[0];
+        let (start, _) = words(content).next().unwrap_or((1, ""));
+        if !(0.0..=LATEST_TIME).contains(&time) {
+            return fault(line, start, format!("time {time:?}: allowed is from 0 to {LATEST_TIME} t_c"));
+        }
+        if let Some(before) = rows.last().map(|row| row[0]).filter(|&before| time <= before) {
+            return fault(line, start, format!("time {time:?} after {before:?}: times must increase"));
+        }
+        rows.push(row);
+    }
+    if rows.is_empty() {
+        return Err(FileFault::of_file(file, "is empty"));
+    }
+    if rows.len() < rows_wanted {
+        let end = text.lines().last().map_or(0, |line| line.chars().count()) + 1;
+        let message = format!("truncated: ends after {} rows, the published file has {rows_wanted}", rows.len());
+        return fault(last_line, end, message);
+    }
+    Ok(Table { rows })
+}
+
+/// The words of a line with the columns, from one, at which they begin.
+fn words(line: &str) -> impl Iterator<Item = (usize, &str)> {
+    line.split([' ', '\t', '\r'])
+        .scan(1, |next, word| {
+            let column = *next;
+            *next += word.chars().count() + 1;
+            Some((column, word))
+        })
+        .filter(|(_, word)| !word.is_empty())
+}

@@ -1,0 +1,101 @@
+//! The factor `eta` of Eq. (41) against the inclination.
+
+use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::legend::{Sample, legend};
+use super::style::{BLACK, BLUE, COLUMN, GREY, Line, VERMILION, dash_dotted, dashed, dotted, solid};
+use super::svg::{Page, Rectangle};
+use super::table::Table;
+use super::{Caption, Sheet};
+use twofold_verify::eta::{PAPER_ASYMMETRY, eta_curve};
+
+const NAME: &str = "bound-factor";
+
+/// Inclinations of the curve (rad); at pi/2 the paper's estimate divides by zero.
+const INCLINATIONS: (f64, f64, usize) = (0.05, 1.565, 120);
+
+/// What the paper takes for the largest value.
+const CONSERVATIVE: f64 = 10.0;
+
+const PRINTED: Line = dashed(VERMILION, 1.2);
+const ROOT_MEAN_SQUARE: Line = solid(BLACK, 1.5);
+const MEDIAN: Line = dash_dotted(BLUE, 0.9);
+const HIGH: Line = dotted(BLUE, 1.1);
+const AXISYMMETRIC: Line = solid(GREY, 0.8);
+
+pub(super) fn sheet() -> Result<Sheet, String> {
+    let (from, to, steps) = INCLINATIONS;
+    let inclinations: Vec<_> = (0..=steps).map(|i| from + (to - from) * i as f64 / steps as f64).collect();
+    let curve = |ratio| eta_curve(ratio, &inclinations).map_err(|error| error.to_string());
+    let columns = [
+        "beta_0 [rad]",
+        "1/cos beta_0 [1]",
+        "eta [1]",
+        "eta at this inclination: median [1]",
+        "eta at this inclination: 97.5 % [1]",
+        "eta for s^XX = s^YY [1]",
+    ];
+    let mut table = Table::new("", columns);
+    for (paper, axisymmetric) in curve(PAPER_ASYMMETRY)?.iter().zip(curve(0.0)?) {
+        let at = paper.at_inclination;
+        table.push([
+            paper.beta_0,
+            paper.printed,
+            paper.along_motion,
+            at.median,
+            at.quantile_975,
+            axisymmetric.along_motion,
+        ]);
+    }
+    Ok(Sheet { svg: draw(&table), caption: caption(&table), tables: vec![table] })
+}
+
+fn draw(table: &Table) -> String {
+    let (top, height) = (10.0, 150.0);
+    let mut page = Page::new(NAME, COLUMN, top + height + BELOW + 42.0);
+    let frame = Rectangle { left: LEFT - 4.0, top, width: COLUMN - LEFT - 4.0, height };
+    let mut panel = Panel::new(frame, Axis::linear("*β*_{0} [rad]", 0.0, 1.6), Axis::logarithmic("*η*", 1.0, 1000.0));
+    panel.y_label_distance = 24.0;
+    panel.level(&mut page, CONSERVATIVE, solid("#c8c8c8", 0.8));
+    for (column, line) in [(5, AXISYMMETRIC), (3, MEDIAN), (4, HIGH), (1, PRINTED), (2, ROOT_MEAN_SQUARE)] {
+        panel.curve(&mut page, &table.points(0, column), line);
+    }
+    panel.draw_frame(&mut page);
+    let below = top + height + BELOW + 8.0;
+    let left = [
+        (Sample::Line(ROOT_MEAN_SQUARE), "root mean square"),
+        (Sample::Line(MEDIAN), "median"),
+        (Sample::Line(HIGH), "97.5 %"),
+    ];
+    legend(&mut page, [LEFT - 4.0, below], &left);
+    let right = [(Sample::Line(PRINTED), "1/cos *β*_{0}"), (Sample::Line(AXISYMMETRIC), "*s*^{*XX*} = *s*^{*YY*}")];
+    legend(&mut page, [LEFT + 104.0, below], &right);
+    page.finish("Factor eta against the inclination")
+}
+
+fn caption(table: &Table) -> Caption {
+    let near = |beta: f64| table.rows.iter().min_by(|a, b| (a[0] - beta).abs().total_cmp(&(b[0] - beta).abs()));
+    let at = |beta: f64| {
+        near(beta).map_or(String::new(), |row| {
+            format!("{:.1} at *β*_{{0}} = {:.2}, where 1/cos *β*_{{0}} is {:.1}", row[2], row[0], row[1])
+        })
+    };
+    Caption {
+        shows: "Factor *η* of Eq. (41) against the inclination *β*_{0} of the spin axis to *Z*, for single precession: 1/cos *β*_{0} as the paper \
+                estimates it (dashed); from the root mean square of d cos *λ*/d*t* over directions to the observer, azimuths of the axis and \
+                time (thick); not exceeded in half (dash-dotted) and in 97.5 % (dotted) of directions and azimuths at that inclination. Thin \
+                grey: the root mean square for *s*^{*XX*} = *s*^{*YY*}; the level is the paper's *η* = 10."
+            .to_owned(),
+        parameters: "(*s*^{*XX*} − *s*^{*YY*}) / (2*s*^{*ZZ*} − *s*^{*XX*} − *s*^{*YY*}) = −1/11, that of the paper's examples; the size of *s* does not matter."
+            .to_owned(),
+        method: "Mean motion of the spin axis, d**l**/d*t* = (2*C*/(*I*^{*zz*}*Ω*^{*z*})) (*s* **l**) × **l**; averages over time by elliptic integrals, those over \
+                 directions in closed form."
+            .to_owned(),
+        says: format!(
+            "The estimate 1/cos *β*_{{0}} is too small at small inclinations, where a spin axis near *Z* moves little: {}. It comes near at about 1.4 \
+             ({}), and at π/2 the root mean square stays below 10 or so, as the paper says. A single direction may see much less change, and \
+             *η* is then larger.",
+            at(0.2),
+            at(1.4)
+        ),
+    }
+}

@@ -1,0 +1,440 @@
+//! The data of figures against what the other commands write for the same scene, and against closed forms in SI units.
+
+use std::f64::consts::{PI, TAU};
+
+use super::drawn::{elements, frames};
+use super::layout_tests::{FIGURES, made_up_runs, scenes};
+use super::{Figure, OF_A_SCENE, RECIPES, Table};
+use crate::bench::work_precision::Row;
+use twofold_scene::columns::{in_order, named};
+use twofold_scene::scene_file::{Scene, Times};
+use twofold_scene::trajectory::{write_csv, write_pulses};
+
+/// The figures of the paper's examples and of the scenes, each with the scene and its name in the tables.
+fn drawn() -> Vec<(String, Scene, Vec<&'static Figure>)> {
+    let of_paper = FIGURES[..RECIPES.len()].iter().collect::<Vec<_>>();
+    let examples = [("tp-1", "tp-I"), ("tp-2", "tp-II"), ("sp-1", "sp-I"), ("sp-2", "sp-II")];
+    let mut drawn = Vec::new();
+    for (scene, name) in examples {
+        let others: Vec<_> = of_paper
+            .iter()
+            .filter(|figure| figure.name == format!("motion-{scene}") || !figure.name.starts_with("motion"))
+            .copied()
+            .collect();
+        drawn.push((name.to_owned(), Scene::named(scene).unwrap(), others));
+    }
+    for (figures, (name, scene)) in FIGURES[RECIPES.len()..].chunks(OF_A_SCENE.len()).zip(scenes()) {
+        drawn.push((name.to_owned(), scene, figures.iter().collect()));
+    }
+    drawn
+}
+
+/// Columns of a table of `run` or `pulses`.
+struct Columns(Vec<String>, Vec<Vec<f64>>);
+
+impl Columns {
+    fn of(csv: Vec<u8>) -> Self {
+        let text = String::from_utf8(csv).unwrap();
+        let mut lines = text.lines();
+        let heads = lines.next().unwrap().split(',').map(str::to_owned).collect();
+        Self(heads, lines.map(|line| line.split(',').map(|x| x.parse().unwrap_or(f64::NAN)).collect()).collect())
+    }
+
+    fn column(&self, head: &str) -> Vec<f64> {
+        let place = self.0.iter().position(|found| found == head).unwrap_or_else(|| panic!("{head} in {:?}", self.0));
+        self.1.iter().map(|row| row[place]).collect()
+    }
+}
+
+/// What `run` writes at some times since the start.
+fn run(scene: &Scene, group: &str, since_start: &[f64]) -> Columns {
+    let mut scene = scene.clone();
+    let start = scene.times.start();
+    scene.columns = in_order(&[named(group).unwrap()]);
+    scene.times = Times::Listed { start, times: since_start.iter().map(|t| start + t).collect() };
+    let mut csv = Vec::new();
+    write_csv(&scene, &mut csv, |_| ()).unwrap();
+    Columns::of(csv)
+}
+
+fn column(table: &Table, head: &str) -> usize {
+    table.columns.iter().position(|found| found == head).unwrap_or_else(|| panic!("{head} in {:?}", table.columns))
+}
+
+/// A head of the figure beside that of `run`, in the unit of a scene.
+fn heads(scene: &Scene, what: &str) -> (&'static str, Vec<(&'static str, &'static str)>) {
+    let wave = if scene.units.are_physical() {
+        ["h_+ [1]", "h_x [1]"]
+    } else {
+        ["h_+ [G I^xx / (c^4 t_c^2 r)]", "h_x [G I^xx / (c^4 t_c^2 r)]"]
+    };
+    match what {
+        "angles" => ("angles", vec![("alpha [rad]", "alpha [rad]"), ("beta [rad]", "beta [rad]")]),
+        "perturbation" => (
+            "perturbation",
+            vec![
+                ("alpha by perturbation printed [rad]", "alpha_printed [rad]"),
+                ("beta by perturbation printed [rad]", "beta_printed [rad]"),
+            ],
+        ),
+        "e_x" => ("e_x", ["e_x_X [1]", "e_x_Y [1]", "e_x_Z [1]"].map(|head| (head, head)).to_vec()),
+        "e_z" => ("e_z", ["e_z_X [1]", "e_z_Y [1]", "e_z_Z [1]"].map(|head| (head, head)).to_vec()),
+        "m.n" => ("m.n", vec![("m.n [1]", "m.n [1]")]),
+        _ => ("h", vec![(wave[0], "h_plus [1]"), (wave[1], "h_cross [1]")]),
+    }
+}
+
+/// Two motions of 1e-13 and 1e-14 over a hundred turns, near a pole and as strain of cancelling parts too: 1e-9 of the largest value, or of
+/// a radian, is a thousand times what they differ by and far below what a picture shows.
+const SAME: f64 = 1e-9;
+
+#[test]
+fn the_data_of_motions_are_the_columns_of_run_from_the_start_on() {
+    let mut compared = 0;
+    for (name, scene, figures) in drawn() {
+        let unit = if scene.units.are_physical() { "t [s]" } else { "t [t_c]" };
+        let beam = if name.starts_with("tp-I") || OF_A_SCENE.len() == figures.len() { "beam-alignment" } else { "" };
+        let of = |figure: &str, table: &str| {
+            let figure = figures.iter().find(|found| found.name.starts_with(figure) && !figure.is_empty())?;
+            figure.tables.iter().find(|found| found.name == table)
+        };
+        for (what, table) in [
+            ("angles", of("motion", "angles")),
+            ("perturbation", of("motion", "angles").filter(|_| scene.perturbation.is_ok())),
+            ("e_x", of("motion", "paths")),
+            ("e_z", of("motion", "paths")),
+            ("m.n", of(beam, &name)),
+            ("h", of(if beam.is_empty() { "" } else { "waves" }, &name)),
+        ] {
+            let Some(table) = table else { continue };
+            // What the motion does not know is drawn as none, and the caption says so.
+            if what == "h"
+                && figures.iter().any(|figure| figure.name == "waves" && figure.caption.says.contains("both are below"))
+            {
+                continue;
+            }
+            let time = column(table, unit);
+            // The first time is the start, at zero whatever the scene's clock shows.
+            assert_eq!(table.rows.first().map_or(0.0, |row| row[time]), 0.0, "{name}: {what}");
+            let rows: Vec<_> = table.rows.iter().skip(1).step_by(97).collect();
+            if rows.is_empty() {
+                continue;
+            }
+            let (group, heads) = heads(&scene, what);
+            let columns = run(&scene, group, &rows.iter().map(|row| row[time]).collect::<Vec<_>>());
+            for (ours, theirs) in heads {
+                let place = column(table, ours);
+                let expected = columns.column(theirs);
+                let size = if what == "h" { expected.iter().fold(0.0_f64, |size, x| size.max(x.abs())) } else { 1.0 };
+                for (i, (row, expected)) in rows.iter().zip(expected).enumerate() {
+                    // Near a pole angles are known no better than direction over distance from it.
+                    let beta = if what == "angles" || what == "perturbation" {
+                        row[column(table, "beta [rad]")].sin()
+                    } else {
+                        1.0
+                    };
+                    let off = (row[place] - expected).abs();
+                    assert!(
+                        off <= SAME * size / beta.min(1.0),
+                        "{name}: {ours} is {} at row {i}, `run` has {expected}",
+                        row[place]
+                    );
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 5000, "{compared}");
+}
+
+#[test]
+fn periods_and_lengths_are_those_of_the_pulses() {
+    let mut compared = 0;
+    for (name, mut scene, figures) in drawn() {
+        let Some(figure) = figures.iter().find(|figure| figure.name == "pulse-series") else { continue };
+        let unit = scene.units.time_name;
+        let table = |what: &str| figure.tables.iter().find(|table| table.name == format!("{name}-{what}"));
+        let Some((periods, lengths)) = table("periods").zip(table("lengths")) else { continue };
+        let heads = |what: &str| vec![format!("t [{unit}]"), format!("{what} [{unit}]")];
+        assert_eq!((&periods.columns, &lengths.columns), (&heads("period"), &heads("length")));
+        let Some(last) = lengths.rows.last() else { continue };
+        let (start, backwards) = (scene.times.start(), scene.times.last() < scene.times.start());
+        if backwards {
+            continue;
+        }
+        scene.times = Times::Even { start, end: start + last[0] + last[1], samples: 2 };
+        let mut csv = Vec::new();
+        let (viewer, mut pulsar) = (scene.observer.unwrap(), scene.pulsar.unwrap());
+        pulsar.second_beam = false;
+        write_pulses(&scene, (&viewer, &pulsar), &mut csv, |_| ()).unwrap();
+        let pulses = Columns::of(csv);
+        let whole: Vec<_> = pulses.column("cut").iter().map(|cut| cut.is_nan()).collect();
+        let of = |head: &str| {
+            pulses
+                .column(&format!("{head} [{unit}]"))
+                .into_iter()
+                .zip(&whole)
+                .filter(|(_, whole)| **whole)
+                .map(|(x, _)| x)
+                .collect::<Vec<_>>()
+        };
+        let (midpoints, durations) = (of("midpoint"), of("duration"));
+        for row in &lengths.rows {
+            let of_this = midpoints
+                .iter()
+                .zip(&durations)
+                .find(|(midpoint, _)| (**midpoint - start - row[0]).abs() < 1e-3 * row[1]);
+            let (midpoint, duration) = of_this.unwrap_or_else(|| panic!("{name}: no pulse at {}", row[0]));
+            // A time of day of 12 s is rounded to 1e-15 s.
+            let rounding = 4.0 * f64::EPSILON * midpoint.abs();
+            assert!(
+                (midpoint - start - row[0]).abs() < 1e-9 * row[1] + rounding,
+                "{name}: midpoint {midpoint} and {}",
+                row[0]
+            );
+            assert!((duration - row[1]).abs() < 1e-8 * row[1] + rounding, "{name}: duration {duration} and {}", row[1]);
+            compared += 1;
+        }
+        for row in &periods.rows {
+            let is_there = midpoints.windows(2).any(|pair| {
+                let (period, middle) = (pair[1] - pair[0], 0.5 * (pair[0] + pair[1]) - start);
+                let rounding = 4.0 * f64::EPSILON * pair[1].abs();
+                (period - row[1]).abs() < 1e-9 * period + rounding && (middle - row[0]).abs() < 1e-9 * period + rounding
+            });
+            assert!(is_there, "{name}: no two pulses are {} apart about {}", row[1], row[0]);
+            compared += 1;
+        }
+    }
+    assert!(compared > 500, "{compared}");
+}
+
+/// The curves with mean rates keep in step with those at the instant and with the pulses; those with the rates of Eq. (57) do not, as the caption
+/// says.
+#[test]
+fn curves_with_mean_rates_keep_in_step_and_others_drift() {
+    let figure = FIGURES.iter().find(|figure| figure.name == "pulse-series").unwrap();
+    let table = figure.tables.iter().find(|table| table.name == "tp-I-curves").unwrap();
+    let pulses = |what: &str| figure.tables.iter().find(|table| table.name == format!("tp-I-{what}s")).unwrap();
+    for what in ["period", "length"] {
+        // The largest distance from the series in the last quarter of the span, over the spread of the series.
+        let off = |of: &str| {
+            let place = column(table, &format!("{what} {of} [t_c]"));
+            let value = |t: f64| {
+                let after = table.rows.partition_point(|row| row[0] < t).clamp(1, table.rows.len() - 1);
+                let [a, b] = [&table.rows[after - 1], &table.rows[after]];
+                a[place] + (b[place] - a[place]) * (t - a[0]) / (b[0] - a[0])
+            };
+            let values = pulses(what).rows.iter().map(|row| row[1]);
+            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            let late = pulses(what).rows.iter().filter(|row| row[0] > 300.0);
+            late.map(|row| (row[1] - value(row[0])).abs()).fold(0.0, f64::max) / (high - low)
+        };
+        let [instant, mean, first] = ["at the instant", "with mean rates", "with rates (57)"].map(off);
+        assert!(
+            instant < 0.2 && mean < 0.45 && first > 2.0 * mean,
+            "{what}: off by {instant}, {mean}, {first} of the spread"
+        );
+    }
+}
+
+/// `m.n` of a star in free precession about Z at the inclination `b` and the rate `a`, of which the magnetic axis turns by `c` about the
+/// symmetry axis, is for an observer at the colatitude `i`
+/// `cos i (cos chi cos b - sin chi sin b cos c t) + sin i cos chi sin b cos(a t) + sin i sin chi / 2 [(1 + cos b) cos((a + c) t) - (1 - cos b) cos((a - c) t)]`
+/// up to phases: four lines. The wave has the lines `a` and `2 a` of the quadrupole formula. All in SI units, from the constants as they are defined.
+#[test]
+fn lines_of_free_precession_have_the_amplitudes_and_frequencies_of_the_closed_form() {
+    let (_, scene, figures) = drawn().into_iter().find(|(name, ..)| name == "tone").unwrap();
+    assert!(scene.units.are_physical());
+    let (epsilon, b, i, chi): (f64, f64, f64, f64) = (1e-3, 0.3, 1.1, 0.7);
+    let spin = TAU * 57.0;
+    let a = (1.0 + epsilon) * spin / b.cos();
+    let c = spin - a * b.cos();
+    let lines = |figure: &str, table: &str| -> Vec<[f64; 2]> {
+        let figure = figures.iter().find(|found| found.name == figure).unwrap();
+        let table = figure.tables.iter().find(|found| found.name == table).unwrap();
+        assert_eq!(table.columns[..2], ["frequency [Hz]", "amplitude [1]"]);
+        table.rows.iter().map(|row| [row[0], row[1]]).collect()
+    };
+    // Mass and mean radius in SI; 1.4 solar masses by the nominal mass parameter; 2.5 kpc.
+    let (gravity, light) = (6.674_30e-11, 299_792_458.0_f64);
+    let (mass, radius) = (1.4 * 1.327_124_4e20 / gravity, 12e3_f64);
+    let distance = 2500.0 * 648_000.0 / PI * 149_597_870_700.0;
+    // (I^zz - I^xx) / I^xx = epsilon: (a3 / a1)^2 = (1 - epsilon) / (1 + epsilon), and a1^2 a3 = R^3.
+    let flat = ((1.0 - epsilon) / (1.0 + epsilon)).sqrt();
+    let equatorial = radius * flat.powf(-1.0 / 3.0);
+    let difference = 0.2 * mass * equatorial.powi(2) * (1.0 - flat * flat);
+    let h = gravity * difference * a * a / (light.powi(4) * distance);
+    let (sb, cb, si, ci) = (b.sin(), b.cos(), i.sin(), i.cos());
+    let (once, twice) = (a / TAU, 2.0 * a / TAU);
+    let expected = [
+        (
+            "beam-alignment-spectra",
+            "tone-lines",
+            "amplitude [1]",
+            vec![
+                [once, si * chi.cos() * sb],
+                [(a + c) / TAU, si * chi.sin() * (1.0 + cb) / 2.0],
+                [(a - c) / TAU, si * chi.sin() * (1.0 - cb) / 2.0],
+                [c.abs() / TAU, ci * chi.sin() * sb],
+            ],
+        ),
+        (
+            "wave-spectra",
+            "tone-plus-lines",
+            "h_+ [1]",
+            vec![[once, h * (2.0 * i).sin() * sb * cb], [twice, 2.0 * h * sb * sb * (1.0 + ci * ci)]],
+        ),
+        (
+            "wave-spectra",
+            "tone-cross-lines",
+            "h_x [1]",
+            vec![[once, 2.0 * h * si * sb * cb], [twice, 4.0 * h * ci * sb * sb]],
+        ),
+    ];
+    for (figure, table, head, mut expected) in expected {
+        let found = lines(figure, table);
+        expected.sort_by(|a, b| b[1].total_cmp(&a[1]));
+        assert_eq!(found.len(), expected.len(), "{table}: {found:?}, expected {expected:?}");
+        for (found, expected) in found.iter().zip(&expected) {
+            // A joint fit over 4,000 turns of a line on its own.
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found / expected - 1.0).abs() < 1e-6, "{table}: {found}, expected {expected}");
+            }
+        }
+        // The curve of the spectrum has the strongest line at the nearest frequency; half a step beside it the window loses 6 %.
+        let figure = figures.iter().find(|found| found.name == figure).unwrap();
+        let spectrum = figure.tables.iter().find(|found| found.name == "tone-spectrum").unwrap();
+        let (frequency, amplitude) = (column(spectrum, "frequency [Hz]"), column(spectrum, head));
+        let [at, strongest] = expected[0];
+        let distance = |row: &&Vec<f64>| (row[frequency] - at).abs();
+        let peak = spectrum.rows.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()[amplitude];
+        let part = peak / strongest;
+        assert!((0.93..1.001).contains(&part), "{head}: the peak at {at} Hz is {part} of the line");
+    }
+}
+
+/// The level of a pulse, `cos rho`, and the rates of free precession by Eq. (48), `(1 + eps) Omega / cos beta_0` and `eps Omega`; in the
+/// spectra of the wave the first and twice that.
+#[test]
+fn levels_and_rates_are_where_they_belong() {
+    let (turning, rotating) = (1.1 / 0.7_f64.cos(), 0.1);
+    let mut looked = 0;
+    for (name, scene, figures) in drawn() {
+        for figure in figures {
+            for frame in frames(&elements(&figure.svg)).into_iter().filter(|frame| frame.heading == name) {
+                let within = |found: &[f64], expected: &[f64]| {
+                    // Places are rounded to 0.01 pt, in frames of more than 50.
+                    let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-3 * b.abs().max(1.0);
+                    assert!(
+                        found.len() == expected.len() && found.iter().zip(expected).all(near),
+                        "{} {name}: {found:?}, expected {expected:?}",
+                        figure.name
+                    );
+                };
+                let is_of_paper = name.starts_with("tp-");
+                match figure.name.as_str() {
+                    "beam-alignment" => within(&frame.levels, &[scene.pulsar.unwrap().rho.cos()]),
+                    "beam-alignment-spectra" if is_of_paper => within(&frame.uprights, &[turning, rotating]),
+                    // An inset has its own, three times the mean rate.
+                    "wave-spectra" if is_of_paper && frame.corners[2] - frame.corners[0] > 100.0 => {
+                        within(&frame.uprights, &[turning, 2.0 * turning]);
+                    }
+                    _ => continue,
+                }
+                looked += 1;
+            }
+        }
+    }
+    assert!(looked > 12, "{looked}");
+}
+
+/// Times of runs are in seconds, those of the picture in milliseconds.
+#[test]
+fn the_times_of_methods_are_in_the_unit_of_their_axis() {
+    let figure = FIGURES.iter().find(|figure| figure.name == "work-precision").unwrap();
+    let runs = made_up_runs();
+    let mut compared = 0;
+    for table in &figure.tables {
+        assert_eq!(table.columns, ["error [1]", "time [ms]"]);
+        for row in &table.rows {
+            let is_this = |run: &&Row| {
+                table.name.starts_with(&run.scene)
+                    && table.name.ends_with(&run.method)
+                    && (run.error / row[0] - 1.0).abs() < 1e-12
+            };
+            let run = runs.iter().find(is_this).unwrap();
+            assert!((row[1] / (1e3 * run.times.least) - 1.0).abs() < 1e-12, "{}: {} ms", table.name, row[1]);
+            compared += 1;
+        }
+    }
+    assert!(compared > 300, "{compared}");
+}
+
+/// A number of a caption at the beginning of `text`, as `0.0025` or `2.5 × 10^{−7}`.
+fn leading(text: &str) -> f64 {
+    let mut words = text.split(' ');
+    let [mantissa, times, power] = [words.next(), words.next(), words.next()].map(|word| word.unwrap_or_default());
+    let power = power.strip_prefix("10^{").and_then(|power| power.split('}').next()).filter(|_| times == "×");
+    format!("{mantissa}e{}", power.unwrap_or("0")).replace('−', "-").parse().unwrap_or_else(|_| panic!("{text}"))
+}
+
+#[test]
+fn differences_in_captions_are_those_of_the_columns() {
+    let mut compared = 0;
+    for figure in FIGURES.iter().filter(|figure| figure.name.starts_with("motion")) {
+        let table = figure.tables.iter().find(|table| table.name == "angles").unwrap();
+        for solution in ["printed", "corrected"] {
+            let Some((_, says)) = figure.caption.says.split_once(&format!("perturbation, {solution}: up to ")) else {
+                assert!(!table.columns.iter().any(|head| head.contains(solution)), "{}", figure.caption.says);
+                continue;
+            };
+            let (of_alpha, rest) = says.split_once(" rad in *α* and ").unwrap();
+            let (of_beta, _) = rest.split_once(" rad in *β*").unwrap();
+            for (angle, said) in [("alpha", leading(of_alpha)), ("beta", leading(of_beta))] {
+                let [ours, theirs] = ["", &format!(" by perturbation {solution}")]
+                    .map(|by| column(table, &format!("{angle}{by} [rad]")));
+                let off = table.rows.iter().map(|row| (row[ours] - row[theirs]).abs()).fold(0.0, f64::max);
+                // Two digits.
+                assert!(
+                    (said - off).abs() <= 0.0501 * off,
+                    "{}: {said} rad in {angle}, {off} in the table",
+                    figure.name
+                );
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared >= 16, "{compared}");
+}
+
+#[test]
+fn parts_of_the_time_in_captions_are_those_of_the_columns() {
+    let mut compared = 0;
+    for (name, scene, figures) in drawn() {
+        for figure in figures.into_iter().filter(|figure| figure.name == "beam-alignment") {
+            let Some(table) = figure.tables.iter().find(|table| table.name == name) else { continue };
+            let edge = scene.pulsar.unwrap().rho.cos();
+            let inside = table.rows.iter().filter(|row| row[column(table, "m.n [1]")] > edge).count();
+            let part = 100.0 * inside as f64 / table.rows.len() as f64;
+            let says = &figure.caption.says;
+            let Some((before, _)) = says.split_once(&format!(" % of the time for {name}")) else {
+                assert!(part == 0.0 || part == 100.0, "{name}: {part} % and `{says}`");
+                continue;
+            };
+            let words: Vec<_> = before.rsplit([',', ' ']).take(3).collect();
+            let said = leading(
+                &words
+                    .iter()
+                    .rev()
+                    .skip_while(|word| word.parse::<f64>().is_err())
+                    .copied()
+                    .collect::<Vec<_>>()
+                    .join(" "),
+            );
+            // Two digits.
+            assert!((said - part).abs() <= 0.0501 * part, "{name}: {said} %, {part} % of the rows");
+            compared += 1;
+        }
+    }
+    assert!(compared >= 4, "{compared}");
+}

@@ -1,0 +1,314 @@
+//! What a referee would send back: text that is cut off, too small, over other text, or not in the font.
+
+use std::sync::LazyLock;
+
+use rayon::prelude::*;
+use resvg::usvg::{Group, Node};
+
+use super::style::CENTIMETRE;
+use super::{DRAWN, Figure, OF_A_SCENE, Subject, html, markup, png, work_precision};
+use crate::bench::method::Carries;
+use crate::bench::timing::Times;
+use crate::bench::work_precision::Row;
+use twofold_scene::scene_file::Scene;
+
+/// Points in a CSS pixel, the unit of a resolved SVG.
+const POINTS: f32 = 0.75;
+
+/// Scenes unlike the paper's examples: other motions, one with constants, and physical stars.
+const SCENES: [&str; 5] = ["prolate", "through-the-pole", "sp-2", "b1937+21", "b1828-11"];
+
+/// The figures of the paper and of some scenes, drawn once.
+pub(super) static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
+    let mut figures = DRAWN.clone();
+    figures.par_extend(scenes().par_iter().flat_map(|(name, scene)| of_scene(name, scene)));
+    figures.push(work_precision(&made_up_runs()));
+    figures
+});
+
+/// The scenes with their names, in the order of their figures behind those of the paper.
+pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
+    let built_in = SCENES.iter().map(|name| (*name, Scene::named(name).unwrap()));
+    let files = [("tilted", TILTED), ("tone", TONE), ("askew", ASKEW)];
+    built_in.chain(files.map(|(name, text)| (name, Scene::from_toml(name, text).unwrap()))).collect()
+}
+
+/// A physical star in free precession about Z, of which every line is known in closed form.
+const TONE: &str = r#"
+[star]
+mass = 1.4
+radius = 12.0
+oblateness = 1e-3
+spin_frequency = 57.0
+[lorentz_violation]
+eigenvalues = [0.0, 0.0, 0.0]
+[initial]
+alpha = 0.4
+beta = 0.3
+gamma = 1.3
+alpha_rate = 375.2601393880295  # (1 + oblateness) 2 pi 57 / cos(beta): L is along Z
+beta_rate = 0.0
+[observer]
+theta_o = 1.1
+phi_o = 0.6
+distance = 2.5
+[pulsar]
+chi = 0.7
+delta = -0.8
+rho = 0.5
+[time]
+start = -3.0
+span = 2.0
+samples = 3
+"#;
+
+/// A physical star without any symmetry.
+const ASKEW: &str = r#"
+[star]
+mass = 1.4
+radius = 12.0
+oblateness = 1e-3
+spin_frequency = -57.0
+[lorentz_violation]
+tensor = [[2e-5, 1.1e-5, -0.7e-5], [1.1e-5, -0.9e-5, 0.5e-5], [-0.7e-5, 0.5e-5, -1.4e-5]]
+[initial]
+alpha = 0.4
+beta = 0.9
+gamma = 1.3
+alpha_rate = -380.0
+beta_rate = 21.0
+[observer]
+theta_o = 1.1
+phi_o = 0.6
+distance = 2.5
+[pulsar]
+chi = 0.7
+delta = -0.8
+rho = 0.5
+[time]
+start = 12.0
+span = 2.0
+samples = 41
+"#;
+
+/// A physical star given by constants in a frame that is not the principal one, seen from a known distance, with a beam that never passes.
+const TILTED: &str = r#"
+[star]
+mass = 1.4
+radius = 12.0
+oblateness = 2e-5
+spin_frequency = 50.0
+[lorentz_violation]
+tensor = [[1e-9, 2e-10, 0.0], [2e-10, -3e-10, 1e-10], [0.0, 1e-10, -7e-10]]
+[initial]
+kind = "twofold"
+alpha_0 = 0.3
+beta_0 = 0.7
+amplitude = 0.001
+phase = 0.0
+[observer]
+theta_o = 1.5
+phi_o = 0.0
+distance = 1.0
+[pulsar]
+chi = 0.1
+rho = 0.05
+[time]
+span = 5.0
+samples = 3
+"#;
+
+fn of_scene(name: &str, scene: &Scene) -> Vec<Figure> {
+    let motion = [Subject::of_scene(name, scene).unwrap()];
+    OF_A_SCENE.iter().map(|recipe| recipe.draw(&motion).unwrap()).collect()
+}
+
+/// Runs of more methods than there are.
+pub(super) fn made_up_runs() -> Vec<Row> {
+    let run = |scene: &str, carries, method: usize, i: i32| Row {
+        scene: scene.to_owned(),
+        method: format!("method {method} with a long name"),
+        carries,
+        setting: 0.0,
+        error: 10f64.powi(-2 * i),
+        times: Times { least: 1e-4 * f64::from(i) * (1 + method) as f64, median: 0.0 },
+        steps: 0,
+        evaluations: 0,
+    };
+    let scenes = ["tp-II", "nearly-free", "strongly-violated"];
+    let cases = scenes.iter().flat_map(|scene| Carries::ALL.map(|carries| (scene, carries)));
+    cases
+        .flat_map(|(scene, carries)| (0..9).flat_map(move |m| (1..8).map(move |i| run(scene, carries, m, i))))
+        .collect()
+}
+
+/// Texts with their boxes `[left, top, right, bottom]` in points, and their smallest letters.
+fn texts(group: &Group, found: &mut Vec<(String, [f32; 4], f32)>) {
+    for node in group.children() {
+        match node {
+            Node::Group(group) => texts(group, found),
+            Node::Text(text) => {
+                let b = text.abs_bounding_box();
+                let letters: String = text.chunks().iter().map(|chunk| chunk.text()).collect();
+                let sizes =
+                    text.chunks().iter().flat_map(|chunk| chunk.spans().iter().map(|span| span.font_size().get()));
+                let smallest = sizes.fold(f32::INFINITY, f32::min);
+                found.push((letters, [b.left(), b.top(), b.right(), b.bottom()].map(|x| x * POINTS), smallest));
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn text_is_whole_large_enough_and_apart() {
+    let mut faults = Vec::new();
+    for figure in FIGURES.iter() {
+        let tree = png::tree(&figure.svg).unwrap();
+        let (width, height) = (tree.size().width() * POINTS, tree.size().height() * POINTS);
+        let columns = [8.6, 17.8].map(|centimetres| (centimetres * CENTIMETRE) as f32);
+        assert!(columns.iter().any(|column| (column - width).abs() < 0.1), "{}: {width} pt wide", figure.name);
+        let mut found = Vec::new();
+        texts(tree.root(), &mut found);
+        assert!(found.len() > 5, "{}: {} texts", figure.name, found.len());
+        for (i, (text, b, size)) in found.iter().enumerate() {
+            if *size < 7.0 {
+                faults.push(format!("{}: `{text}` has letters of {size} pt", figure.name));
+            }
+            let inside = b[0] >= 0.0 && b[1] >= 0.0 && b[2] <= width && b[3] <= height;
+            if !inside {
+                faults.push(format!("{}: `{text}` at {b:.1?} is cut off", figure.name));
+            }
+            for (other, o, _) in &found[..i] {
+                let apart = b[2] < o[0] + 0.5 || o[2] < b[0] + 0.5 || b[3] < o[1] + 0.5 || o[3] < b[1] + 0.5;
+                if !apart {
+                    faults.push(format!("{}: `{text}` at {b:.1?} is over `{other}` at {o:.1?}", figure.name));
+                }
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn the_fonts_have_every_letter() {
+    let ranges = include_str!("fonts/README.md").split("U+").skip(1).map(|rest| {
+        let range: String = rest.chars().take_while(|c| c.is_ascii_hexdigit() || *c == '-').collect();
+        let (first, last) = range.split_once('-').unwrap_or((&range, &range));
+        u32::from_str_radix(first, 16).unwrap()..=u32::from_str_radix(last, 16).unwrap()
+    });
+    let ranges: Vec<_> = ranges.collect();
+    for figure in FIGURES.iter() {
+        let tree = png::tree(&figure.svg).unwrap();
+        let mut found = Vec::new();
+        texts(tree.root(), &mut found);
+        for letter in found.iter().flat_map(|(text, _, _)| text.chars()) {
+            let drawn = ranges.iter().any(|range| range.contains(&u32::from(letter)));
+            assert!(drawn, "{}: the fonts have no `{letter}`", figure.name);
+        }
+    }
+}
+
+#[test]
+fn data_are_numbers_in_columns_with_units() {
+    for figure in FIGURES.iter() {
+        assert!(!figure.tables.is_empty(), "{} has no data", figure.name);
+        for table in &figure.tables {
+            for column in &table.columns {
+                let has_unit = column.ends_with(']') || column.contains('[');
+                assert!(has_unit && !column.contains(','), "{}: `{column}`", figure.name);
+            }
+            for row in &table.rows {
+                assert_eq!(row.len(), table.columns.len(), "{} {}", figure.name, table.name);
+                assert!(row.iter().all(|x| x.is_finite()), "{} {}: {row:?}", figure.name, table.name);
+            }
+        }
+        assert!(figure.caption.paragraphs().iter().all(|part| part.ends_with('.')), "{}", figure.name);
+    }
+}
+
+#[test]
+fn captions_close_their_marks() {
+    for figure in FIGURES.iter() {
+        for paragraph in figure.caption.paragraphs() {
+            assert!(markup::is_balanced(paragraph), "{}: {paragraph}", figure.name);
+            let html = html(paragraph);
+            for tag in ["i", "b", "sub", "sup"] {
+                let count = |mark: String| html.matches(&mark).count();
+                assert_eq!(count(format!("<{tag}>")), count(format!("</{tag}>")), "{}: {html}", figure.name);
+            }
+            // Long stretches of bold or italics are a mark that was read as another.
+            let longest = markup::runs(paragraph).into_iter().filter(|run| run.bold || run.italic);
+            for run in longest {
+                assert!(run.text.chars().count() < 8, "{}: `{}`", figure.name, run.text);
+            }
+        }
+    }
+}
+
+/// A word of a caption beside what it stands for in the picture.
+#[test]
+fn captions_name_what_is_drawn_and_nothing_else() {
+    let (dashes, dots) = ("stroke-dasharray=\"5 2.5\"", "stroke-dasharray=\"1.2 1.8\"");
+    let mut looked = 0;
+    for figure in FIGURES.iter().filter(|figure| figure.name != "work-precision") {
+        let caption = figure.caption.paragraphs().join(" ");
+        let kinds: &[(&str, &str)] = match figure.name.as_str() {
+            name if name.starts_with("motion") => {
+                &[("Eqs. (30)-(33) as printed", "perturbation, printed"), ("and corrected", "perturbation, corrected")]
+            }
+            "beam-alignment" => &[("thick stretches", "stroke-width=\"1.7\""), ("(dashed)", dashes)],
+            "beam-alignment-spectra" => &[("Dashed:", dashes)],
+            "pulse-series" => {
+                &[("Solid curves", dashes), ("Dotted and dashed", dots), ("grey lines", "stroke=\"#8c8c8c\"")]
+            }
+            "wave-spectra" => &[("insets", "near 3"), ("(dotted)", dots), ("Dashed:", dashes)],
+            _ => &[],
+        };
+        for (words, drawn) in kinds {
+            assert_eq!(caption.contains(words), figure.svg.contains(drawn), "{}: `{words}`\n{caption}", figure.name);
+            looked += 1;
+        }
+    }
+    assert!(looked > 60, "{looked}");
+}
+
+/// A number that has lost its digits tells nothing: 0.00, or a ratio of 1 for a star that is not a sphere.
+#[test]
+fn captions_have_numbers_with_digits() {
+    for figure in FIGURES.iter() {
+        let caption = figure.caption.paragraphs().map(super::plain).join(" ");
+        for number in caption.split(|c: char| !(c.is_ascii_digit() || c == '.')).map(|word| word.trim_matches('.')) {
+            let is_lost = number.contains('.') && number.chars().all(|c| c == '0' || c == '.');
+            assert!(!is_lost, "{}: {number} in\n{caption}", figure.name);
+        }
+        assert!(!caption.contains("Izz/Ixx = 1,") && !caption.contains("from 0 to 0"), "{}: {caption}", figure.name);
+        assert!(!caption.contains("0 of the 0"), "{}: {caption}", figure.name);
+    }
+}
+
+/// A physical star is drawn in s, Hz and strain.
+#[test]
+fn physical_stars_are_drawn_in_si() {
+    let scene = Scene::named("b1828-11").unwrap();
+    for figure in of_scene("b1828-11", &scene) {
+        for column in figure.tables.iter().flat_map(|table| &table.columns) {
+            assert!(!column.contains("t_c") && !column.contains("I^xx"), "{}: `{column}`", figure.name);
+        }
+        let texts = figure.caption.paragraphs().join(" ");
+        assert!(texts.contains("time in s."), "{}: {texts}", figure.name);
+        if let ("pulse-series", Some(table)) = (figure.name.as_str(), figure.tables.first()) {
+            // What is taken off the lengths is named on their axis as in the panel.
+            let label = figure.svg.split("length − ").nth(1).expect("a label");
+            assert!(label[..80].contains(">W<"), "{}", &label[..80]);
+            // The period is 1 / F0 over ten years, and within 1e-8 of it at the start.
+            assert!((table.rows[0][1] * 2.468_871_714_7 - 1.0).abs() < 1e-7, "{:?}", table.rows[0]);
+        }
+    }
+    let tilted = of_scene("tilted", &Scene::from_toml("tilted.toml", TILTED).unwrap());
+    let motion = &tilted[0].caption.says;
+    assert!(
+        motion.contains("its angles are those of the principal frame, which is not the frame of this file"),
+        "{motion}"
+    );
+}

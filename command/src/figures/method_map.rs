@@ -1,0 +1,177 @@
+//! Which approximate motion meets a given error, over strength of the torque and time.
+
+use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::style::{BLACK, PAGE, SMALL, solid};
+use super::svg::{Anchor, Page, Rectangle};
+use super::table::Table;
+use super::{Caption, Sheet};
+use twofold_verify::checks::regimes::method_errors::{Errors, Geometry, errors};
+
+/// Powers of ten of the strength, two each decade.
+const STRENGTHS: (f64, f64, usize) = (-6.5, -1.5, 11);
+
+/// Powers of ten of the time in `t_c`, four each decade.
+const TIMES: (f64, f64, usize) = (0.0, 3.5, 15);
+
+/// Errors that are asked, of the rows of panels.
+const ASKED: [(f64, &str); 2] = [(1e-3, "10^{−3}"), (1e-6, "10^{−6}")];
+
+/// Methods from the last choice to the first, with their colours: viridis, so that they read in grey.
+const METHODS: [(&str, &str); 5] = [
+    ("numerical motion", "#ffffff"),
+    ("mean motion, order 2", "#fde725"),
+    ("mean motion, order 1", "#5ec962"),
+    ("perturbation, corrected", "#21918c"),
+    ("perturbation, printed", "#3b528b"),
+];
+
+/// Columns of the tables with the errors of these methods, in the same order.
+const COLUMNS: [&str; 4] = ["mean second", "mean first", "corrected", "printed"];
+
+pub(super) fn sheet() -> Result<Sheet, String> {
+    let maps: Vec<Map> = Geometry::ALL.into_iter().map(map).collect::<Result<_, _>>()?;
+    let svg = draw(&maps);
+    Ok(Sheet { svg, caption: caption(), tables: maps.into_iter().map(|map| map.table).collect() })
+}
+
+struct Map {
+    table: Table,
+    /// Methods in the table, by place in [`METHODS`], with their columns there.
+    methods: Vec<(usize, usize)>,
+}
+
+fn name(geometry: Geometry) -> &'static str {
+    match geometry {
+        Geometry::NearAxis => "near-axis",
+        Geometry::Tilted => "tilted",
+        Geometry::Single => "single",
+        Geometry::NearSeparatrix => "near-separatrix",
+    }
+}
+
+fn title(geometry: Geometry) -> &'static str {
+    match geometry {
+        Geometry::NearAxis => "twofold, *L* near *Z*",
+        Geometry::Tilted => "twofold, *L* tilted",
+        Geometry::Single => "single",
+        Geometry::NearSeparatrix => "near the separatrix",
+    }
+}
+
+fn powers((low, high, count): (f64, f64, usize)) -> impl Iterator<Item = f64> {
+    (0..count).map(move |i| 10f64.powf(low + (high - low) * i as f64 / (count - 1) as f64))
+}
+
+fn map(geometry: Geometry) -> Result<Map, String> {
+    let times: Vec<f64> = powers(TIMES).collect();
+    let rows: Vec<(f64, Vec<Errors>)> = powers(STRENGTHS)
+        .map(|x| errors(geometry, x, &times).map(|errors| (x, errors)))
+        .collect::<Result<_, String>>()?;
+    let sample = rows[0].1[0];
+    let present = [true, true, sample.corrected.is_some(), sample.printed.is_some()];
+    let shown = (0..4).filter(|&i| present[i]);
+    let methods: Vec<_> = shown.clone().enumerate().map(|(column, i)| (i + 1, column + 2)).collect();
+    let mut columns = vec!["x [1]".to_owned(), "t [t_c]".to_owned()];
+    columns.extend(shown.map(|i| format!("{}: error of n [rad]", COLUMNS[i])));
+    columns.extend(["second", "first"].map(|order| format!("mean {order}: error of n; L/G or e_x [1]")));
+    let mut table = Table::new(name(geometry), columns);
+    for (strength, errors) in &rows {
+        for Errors { time, printed, corrected, mean, mean_state } in errors {
+            let mut row = vec![*strength, *time, mean[1], mean[0]];
+            row.extend(*corrected);
+            row.extend(*printed);
+            row.extend([mean_state[1], mean_state[0]]);
+            table.push(row);
+        }
+    }
+    Ok(Map { table, methods })
+}
+
+fn draw(maps: &[Map]) -> String {
+    let (top, height, gap, between) = (16.0, 92.0, 20.0, 12.0);
+    let left = LEFT + 2.0;
+    let width = (PAGE - left - 22.0 - 3.0 * between) / 4.0;
+    let bottom = top + 2.0 * height + gap + BELOW;
+    let mut page = Page::new("method-regimes", PAGE, bottom + 18.0);
+    for (down, (asked, power)) in ASKED.into_iter().enumerate() {
+        for (across, (map, geometry)) in maps.iter().zip(Geometry::ALL).enumerate() {
+            let frame = Rectangle {
+                left: left + (width + between) * across as f64,
+                top: top + (height + gap) * down as f64,
+                width,
+                height,
+            };
+            let x = Axis::logarithmic("time [*t*_{c}]", 10f64.powf(TIMES.0), 10f64.powf(TIMES.1));
+            let x = if down == 0 { x.bare() } else { x };
+            let y = Axis::logarithmic("strength *x*", 10f64.powf(STRENGTHS.0), 10f64.powf(STRENGTHS.1));
+            let panel = Panel::new(frame, x, if across == 0 { y } else { y.bare() });
+            fill(&mut page, map, frame, asked);
+            panel.draw_frame(&mut page);
+            panel.letter(&mut page, 4 * down + across, 8, if down == 0 { title(geometry) } else { "" });
+        }
+        let middle = top + (height + gap) * down as f64 + height / 2.0;
+        page.turned_text([PAGE - 14.0, middle], 90.0, Anchor::Middle, SMALL, BLACK, &format!("error {power} rad"));
+    }
+    legend(&mut page, bottom + 8.0);
+    page.finish("Which approximate motion meets a given error")
+}
+
+/// Where each method of the map meets the error, the first choice on top.
+fn fill(page: &mut Page, map: &Map, frame: Rectangle, asked: f64) {
+    for &(method, column) in &map.methods {
+        let edge: Vec<_> = (0..TIMES.2)
+            .map(|i| {
+                let across = i as f64 / (TIMES.2 - 1) as f64;
+                let height = height(map, i, column, asked);
+                [frame.left + across * frame.width, frame.bottom() - height * frame.height]
+            })
+            .collect();
+        let corners = [[frame.right(), frame.bottom()], [frame.left, frame.bottom()]];
+        page.area(&[edge.as_slice(), &corners].concat(), METHODS[method].1);
+        page.path(&edge, solid(BLACK, 0.6));
+    }
+}
+
+/// Up to which height of the frame the error at a time is as asked: it grows with the strength.
+fn height(map: &Map, time: usize, column: usize, asked: f64) -> f64 {
+    let error = |row: usize| map.table.rows[time + TIMES.2 * row][column].max(1e-16).log10() - asked.log10();
+    let steps = STRENGTHS.2 - 1;
+    match (0..STRENGTHS.2).find(|&row| error(row) > 0.0) {
+        None => 1.0,
+        Some(0) => 0.0,
+        Some(row) => (row as f64 - error(row) / (error(row) - error(row - 1))) / steps as f64,
+    }
+}
+
+fn legend(page: &mut Page, top: f64) {
+    let widths = [100.0, 109.0, 103.0, 103.0, 80.0];
+    let mut left = 6.0;
+    for ((name, colour), width) in METHODS.iter().rev().zip(widths) {
+        let r = Rectangle { left, top, width: 12.0, height: 8.0 };
+        page.cell(r, colour);
+        let corners = [[left, top], [left + 12.0, top], [left + 12.0, top + 8.0], [left, top + 8.0], [left, top]];
+        page.path(&corners, solid(BLACK, 0.6));
+        page.text([left + 15.0, top + 7.0], Anchor::Start, SMALL, BLACK, name);
+        left += width;
+    }
+}
+
+fn caption() -> Caption {
+    Caption {
+        shows: "The simplest solution whose axis **e**_{*z*} stays within 10^{−3} rad (upper row) and 10^{−6} rad (lower row) of the true one up to a time, by \
+                strength *x* = *C*(*s*_{max} − *s*_{min})*I*^{*xx*}/*L*^{2} of the torque: the printed or the corrected perturbation solution, the mean motion of first or second \
+                order, or none of them. Lines: where each of them meets the error, also under a simpler one. Columns: motions like tp-I, tp-II and sp-I, \
+                and one near the separatrix (*k'*^{2} = 10^{−3})."
+            .to_owned(),
+        parameters: "*I*^{*zz*}/*I*^{*xx*} = 1.1, *s* = diag(0.02, 0.01, −0.04) scaled. Perturbation solutions: *Ω*^{*z*} = 1, *β*_{0} = 0.7, *α*_{0} = *φ* = π/2, *A* = 0, 0.4, and 0.01 times \
+                     the scale. Near the separatrix: |*L*| = 1.5, **e**_{*z*} at 0.7 rad from *L*."
+            .to_owned(),
+        method: "Largest error so far at 150 times, against numerical motion by Taylor series at 10^{−13}, which meets either error everywhere here. Perturbation solutions from their \
+                 own initial values."
+            .to_owned(),
+        says: "The mean motion of first order is off by less than 3*x*^{2} + 1.5*x*^{2}*t*/*t*_{c}, that of second order by less than 3*x*^{2} + 5*x*^{3}*t*/*t*_{c}, whatever the tilt of *L*, near the \
+               separatrix too. Where *L* is near *Z* the printed twofold solution is off by 0.01*x* soon, and like the corrected one by 2*x*^{2}*t*/*t*_{c} in the long run; where *L* is tilted, by *A* = 0.4, \
+               neither is of use. The printed single solution drifts by 0.03*xt*/*t*_{c}, the corrected one by 0.002 to 0.006 of *xt*/*t*_{c}."
+            .to_owned(),
+    }
+}

@@ -1,0 +1,142 @@
+//! The sphere of directions of the angular momentum: contours of `l.(s l)`, the separatrix and the paths of motions.
+
+use nalgebra::Vector3;
+use twofold::dynamics::BodyState;
+use twofold::euler_angles::EulerAngles;
+
+use super::sphere::{View, arc};
+use super::style::{
+    BLACK, BLUE, COLUMN, GREEN, GREY, LIGHT, Line, ORANGE, PURPLE, VERMILION, dash_dotted, dashed, solid,
+};
+use super::subject::{Start, Subject, times};
+use super::svg::Page;
+use super::table::Table;
+use super::{Caption, Sheet};
+use twofold_verify::paper_examples::{COEFFICIENTS, SPIN, spheroid};
+
+/// Values of `l.(s l)` between those of the three axes.
+const LEVELS: [f64; 7] = [-0.037, -0.03, -0.02, -0.01, 0.002, 0.013, 0.017];
+
+/// Tilt of the angular momentum from the middle axis in the motion near the separatrix (rad).
+const TILT: f64 = 0.05;
+
+const SPAN: f64 = 500.0;
+
+pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
+    let near = near_separatrix()?;
+    let motions: Vec<_> = subjects.iter().copied().chain([&near]).collect();
+    let mut columns = vec!["t [t_c]".to_owned()];
+    for motion in &motions {
+        columns.extend(["X", "Y", "Z"].map(|i| format!("l_{i} of {} [1]", motion.name)));
+        columns.push(format!("l.(s l) of {} [1]", motion.name));
+    }
+    let mut table = Table::new("", columns);
+    let s = COEFFICIENTS.tensor();
+    for t in times(SPAN, 5000) {
+        let mut row = vec![t];
+        for motion in &motions {
+            let l = motion.state(t)?.momentum.normalize();
+            row.extend([l.x, l.y, l.z, l.dot(&(s * l))]);
+        }
+        table.push(row);
+    }
+    Ok(Sheet { svg: draw(name, &motions, &table), caption: caption(), tables: vec![table] })
+}
+
+/// A star that spins about its symmetry axis, tilted by [`TILT`] from the middle axis.
+fn near_separatrix() -> Result<Subject, String> {
+    let spheroid = spheroid();
+    // Towards Z, so that L goes round Z after all.
+    let axis = Vector3::new(0.0, TILT.cos(), TILT.sin());
+    let state = BodyState { axis, momentum: axis * (spheroid.inertia_zz * SPIN), equatorial_axis: Vector3::x() };
+    let angles = state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 });
+    let start = Start { spheroid, violation: COEFFICIENTS.tensor(), state, angles };
+    Subject::new("near Y", start, SPAN)
+}
+
+/// The two closed lines with `l.(s l) = h`: about the axis of the smallest eigenvalue below the middle one, about that of
+/// the largest above.
+fn contour(h: f64) -> Vec<Vec<Vector3<f64>>> {
+    let [largest, middle, smallest] = [COEFFICIENTS.xx, COEFFICIENTS.yy, COEFFICIENTS.zz];
+    let about_z = h < middle;
+    let (own, a, b) = if about_z { (smallest, largest, middle) } else { (largest, middle, smallest) };
+    let line = |sign: f64| {
+        (0..=240)
+            .map(|i| {
+                let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / 240.0).sin_cos();
+                let across = ((h - own) / (a * cos * cos + b * sin * sin - own)).sqrt();
+                let along = sign * (1.0 - across * across).sqrt();
+                let (p, q) = (across * cos, across * sin);
+                if about_z { Vector3::new(p, q, along) } else { Vector3::new(along, p, q) }
+            })
+            .collect()
+    };
+    vec![line(1.0), line(-1.0)]
+}
+
+/// The two great circles through the middle axis that separate motion about the largest from motion about the smallest.
+fn separatrix() -> [Vec<Vector3<f64>>; 2] {
+    let (x, z) = ((COEFFICIENTS.yy - COEFFICIENTS.zz).sqrt(), (COEFFICIENTS.xx - COEFFICIENTS.yy).sqrt());
+    [1.0, -1.0].map(|sign| arc(&Vector3::y(), &Vector3::new(x, 0.0, sign * z).normalize(), 0.0, std::f64::consts::TAU))
+}
+
+fn draw(name: &str, motions: &[&Subject], table: &Table) -> String {
+    let height = 218.0;
+    let mut page = Page::new(name, COLUMN, height);
+    let view = View::new([COLUMN / 2.0, 115.0], 92.0, 40.0, 28.0);
+    page.circle([COLUMN / 2.0, 115.0], 92.0, "#fafafa", Some(solid(GREY, 0.6)));
+    for level in LEVELS {
+        for line in contour(level) {
+            view.line_on_sphere(&mut page, &line, solid(GREY, 0.5), Some(solid("#e4e4e4", 0.5)));
+        }
+    }
+    for circle in separatrix() {
+        view.line_on_sphere(&mut page, &circle, dashed(BLACK, 1.1), Some(dashed(LIGHT, 0.9)));
+    }
+    view.draw_axes(&mut page, 1.16, ["*X*", "*Y*", "*Z*"]);
+    let colours = [BLUE, VERMILION, GREEN, PURPLE, ORANGE];
+    let pale = ["#b3d0e4", "#f2c7a9", "#b0dccf", "#ead0dd", "#f5dba6"];
+    for (i, _) in motions.iter().enumerate().rev() {
+        let path: Vec<_> =
+            table.rows.iter().map(|row| Vector3::new(row[1 + 4 * i], row[2 + 4 * i], row[3 + 4 * i])).collect();
+        // sp-II and the star near Y run side by side: told apart in grey too.
+        let front: Line = if i == 4 { dash_dotted(colours[i], 1.1) } else { solid(colours[i], 1.0) };
+        view.line_on_sphere(&mut page, &path, front, Some(Line { colour: pale[i], ..front }));
+    }
+    // Each name at a point of its path, off it to a side that is free.
+    for (i, (motion, (row, offset))) in motions
+        .iter()
+        .zip([(0, [17.0, 4.0]), (400, [18.0, 4.0]), (100, [14.0, 8.0]), (200, [0.0, -10.0]), (0, [24.0, -4.0])])
+        .enumerate()
+    {
+        let row = &table.rows[row];
+        let v = Vector3::new(row[1 + 4 * i], row[2 + 4 * i], row[3 + 4 * i]);
+        view.name_beside(&mut page, &v, offset, colours[i], &motion.name);
+    }
+    page.finish("Directions of the angular momentum")
+}
+
+fn caption() -> Caption {
+    Caption {
+        shows: "Sphere of the directions **l** = **L**/|**L**| of the angular momentum. Grey: contours of **l** · (*s* **l**). Dashed: the separatrix, \
+                two great circles through the middle axis *Y*. Coloured: numerical paths of the four examples and of a star that \
+                spins about an axis near *Y*; what is behind the sphere is pale."
+            .to_owned(),
+        parameters: format!(
+            "*s*^{{*XX*}}, *s*^{{*YY*}}, *s*^{{*ZZ*}} = {}, {}, {}; contours at {}; paths over {SPAN} *t*_{{c}}; the star near *Y* starts {TILT} rad from \
+             it towards *Z*, with *Ω*^{{*z*}} = {SPIN}.",
+            COEFFICIENTS.xx,
+            COEFFICIENTS.yy,
+            COEFFICIENTS.zz,
+            LEVELS.map(|level| super::axes::signed(&level.to_string())).join(", ")
+        ),
+        method: "Averaged over the free precession, d**l**/d*t* = (2*C* *P*_{2}(*c*)/*G*) (*s* **l**) × **l** with *c* = **n** · **l**, *G* = |**L**|: the contours \
+                 are its solutions, those of a free asymmetric top. The paths are those of the full equations of motion."
+            .to_owned(),
+        says: "The mean path of the angular momentum is a contour; the loops on it are the fast motion. About *X* and *Z*, the axes of \
+               the largest and the smallest eigenvalue, precession is stable, about *Y* it is not: a star that starts near *Y* \
+               leaves it along the separatrix, goes round, and comes back. sp-II runs close to the separatrix, which is why no \
+               expansion about precession at constant inclination describes it."
+            .to_owned(),
+    }
+}

@@ -1,0 +1,266 @@
+//! The series of pulse periods and of pulse lengths, with the curves of Eqs. (51) and (56).
+
+use twofold::observables::pulsar::Stamped;
+use twofold::observables::pulsar::period::approximate_period;
+use twofold::solutions::perturbation::{Perturbation, ShiftedRates};
+
+use super::axes::{Axis, BELOW, LEFT, Mark, Panel};
+use super::legend::{Sample, legend};
+use super::number::{Spread, significant};
+use super::parameters::{line_of_sight, parameters};
+use super::style::{BLACK, BLUE, GREEN, GREY, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
+use super::subject::times;
+use super::svg::{Anchor, Page, Rectangle};
+use super::table::Table;
+use super::{Caption, Sheet, Subject};
+use twofold_verify::pulse_series::{PaperCurves, PulseSeries, Viewing, pulse_series};
+
+/// The curves with the names that the legend and the data give their angles and rates.
+const CURVES: [(Line, &str); 3] = [
+    (solid(BLUE, 1.0), "at the instant"),
+    (dotted(GREEN, 1.2), "with mean rates"),
+    (dashed(VERMILION, 1.0), "with rates (57)"),
+];
+
+/// Curves are drawn for an amplitude A below this part of omega.
+const MOST_SWING: f64 = 0.1;
+
+/// Series of one motion in the unit drawn, and curves where Eqs. (51), (56) are meant to hold.
+struct Series {
+    pulses: PulseSeries,
+    curves: Option<Table>,
+}
+
+impl Series {
+    /// A curve of periods (row 0) or lengths (row 1).
+    fn curve(&self, row: usize, i: usize) -> Option<Vec<(f64, f64)>> {
+        self.curves.as_ref().map(|table| table.points(0, 1 + row + 2 * i))
+    }
+
+    /// All values of a row, with those of its curves.
+    fn values(&self, row: usize) -> Vec<f64> {
+        let points = if row == 0 { &self.pulses.periods } else { &self.pulses.lengths };
+        let on_curves = (0..CURVES.len()).filter_map(|i| self.curve(row, i)).flatten().map(|(_, y)| y);
+        points.iter().map(|point| point.value).chain(on_curves).collect()
+    }
+
+    /// The stretches of a series between gaps.
+    fn stretches<'a>(&'a self, points: &'a [Stamped]) -> impl Iterator<Item = &'a [Stamped]> {
+        let gap_between = |a: f64, b: f64| self.pulses.gaps.iter().any(|gap| a < gap.time && gap.time < b);
+        points.chunk_by(move |a, b| !gap_between(a.time, b.time))
+    }
+}
+
+pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
+    let series = subjects.iter().map(|subject| series(subject)).collect::<Result<Vec<_>, _>>()?;
+    let mut tables = Vec::new();
+    for (subject, series) in subjects.iter().zip(&series) {
+        let pulses = &series.pulses;
+        for (what, points) in [("period", &pulses.periods), ("gap", &pulses.gaps), ("length", &pulses.lengths)] {
+            if what == "gap" && points.is_empty() {
+                continue;
+            }
+            let columns = ["t", what].map(|of| subject.scale.time_column(of));
+            let mut table = Table::new(format!("{}-{what}s", subject.name), columns);
+            points.iter().for_each(|point| table.push([point.time, point.value]));
+            tables.push(table);
+        }
+        tables.extend(series.curves.clone());
+    }
+    Ok(Sheet { svg: draw(name, subjects, &series), caption: caption(subjects, &series), tables })
+}
+
+fn series(subject: &Subject) -> Result<Series, String> {
+    let message = |error: twofold::Error| format!("{}: {error}", subject.name);
+    let (viewer, pulsar) = subject.line_of_sight()?;
+    let span = (0.0, subject.shown.pulses);
+    let mut pulses = pulse_series(&subject.motion, &pulsar.beam(), &viewer.basis().direction, span).map_err(message)?;
+    for point in pulses.periods.iter_mut().chain(&mut pulses.gaps).chain(&mut pulses.lengths) {
+        (point.time, point.value) = (subject.scale.time(point.time), subject.scale.time(point.value));
+    }
+    // The formulas take beta for constant during a turn: they fail for tp-II, whose A is 0.36 omega.
+    let steady = |solution: &&Perturbation<f64>| solution.constants.amplitude.abs() < MOST_SWING * solution.omega.abs();
+    let twofold = subject.printed.as_ref().ok().filter(|solution| solution.zeroth_rate != 0.0);
+    let curves = twofold.filter(steady).map(|solution| curves(subject, solution)).transpose()?;
+    Ok(Series { pulses, curves })
+}
+
+/// Period and length with the angles and rates of the motion at the instant; by Eqs. (51) and (56) with its mean rates, and with
+/// those of Eq. (57).
+fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, String> {
+    let message = |error: twofold::Error| format!("{}: {error}", subject.name);
+    let (viewer, pulsar) = subject.line_of_sight()?;
+    let viewing = Viewing { chi: pulsar.chi, delta: pulsar.delta, rho: pulsar.rho, theta_o: viewer.theta_o };
+    let (end, beta_0) = (subject.shown.pulses, solution.constants.beta_0);
+    let paper = PaperCurves::new(&subject.motion, viewing, end).map_err(message)?;
+    let angles = subject.angles(&[0.0, end])?;
+    let [(_, first), (_, last)] = angles[..] else { return Err("the axis is on a pole".into()) };
+    let mean = ShiftedRates { alpha: (last.alpha - first.alpha) / end, gamma: (last.gamma - first.gamma) / end };
+    let shifted = ShiftedRates { alpha: solution.rate, gamma: subject.start.spin() - solution.rate * beta_0.cos() };
+    let columns =
+        CURVES.iter().flat_map(|(_, of)| ["period", "length"].map(|q| subject.scale.time_column(&format!("{q} {of}"))));
+    let columns = std::iter::once(subject.scale.time_column("t")).chain(columns);
+    let mut table = Table::new(format!("{}-curves", subject.name), columns);
+    for t in times(end, 1000) {
+        let mut row = vec![t];
+        row.extend(paper.at(t).map_err(message)?);
+        for rates in [mean, shifted] {
+            let at = viewing.formulas([beta_0, first.gamma + rates.gamma * t], [rates.alpha, rates.gamma]);
+            let at = at.map_err(message)?;
+            row.extend([approximate_period(rates.alpha, at.offset_rate), at.width / at.azimuth_rate]);
+        }
+        table.push(row.into_iter().map(|time| subject.scale.time(time)).collect::<Vec<_>>());
+    }
+    Ok(table)
+}
+
+fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
+    let (left, top, panel_height, gap, between) = (LEFT, 18.0, 92.0, 8.0, 46.0);
+    let count = subjects.len() as f64;
+    let width = (PAGE - left - 8.0 - (count - 1.0) * between) / count;
+    let with_legend = series.iter().any(|series| series.curves.is_some());
+    let legend_height = if with_legend { 14.0 } else { 0.0 };
+    let mut page = Page::new(name, PAGE, top + 2.0 * panel_height + gap + BELOW + legend_height);
+    for (i, (subject, series)) in subjects.iter().zip(series).enumerate() {
+        let x = subject.scale.time_axis(subject.shown.pulses);
+        for (row, (points, label, taken_off)) in
+            [(&series.pulses.periods, "period", "*P*"), (&series.pulses.lengths, "length", "*W*")]
+                .into_iter()
+                .enumerate()
+        {
+            let frame = Rectangle {
+                left: left + (width + between) * i as f64,
+                top: top + (panel_height + gap) * row as f64,
+                width,
+                height: panel_height,
+            };
+            let curve = |i: usize| series.curve(row, i);
+            let values = series.values(row);
+            // Differences that would be lost on an axis are drawn as such.
+            let reference = reference(&values);
+            let shift = reference.unwrap_or(0.0);
+            let difference = reference.map_or(String::new(), |_| format!(" − {taken_off}"));
+            let label = subject.scale.time_label(&format!("{label}{difference}"));
+            let y = match values.is_empty() {
+                true => Axis::linear(&label, 0.0, 1.0).unnumbered(),
+                false => Axis::around(&label, values.iter().map(|value| value - shift)),
+            };
+            let mut panel = Panel::new(frame, if row == 0 { x.bare() } else { x.clone() }, y);
+            panel.y_label_distance = 26.0;
+            // The paper's curve over the others.
+            for (i, (line, _)) in CURVES.iter().enumerate().rev() {
+                if let Some(points) = curve(i) {
+                    panel.curve(&mut page, &shifted(points.into_iter(), shift), *line);
+                }
+            }
+            let pairs = |points: &[Stamped]| shifted(points.iter().map(|point| (point.time, point.value)), shift);
+            if series.curves.is_none() {
+                for stretch in series.stretches(points) {
+                    panel.curve(&mut page, &pairs(stretch), solid(GREY, 0.5));
+                }
+            }
+            let points = pairs(points);
+            panel.marks(&mut page, &points, Mark::Disc, 1.4, BLACK);
+            if points.is_empty() {
+                panel.remark(&mut page, "no whole pulse");
+            }
+            panel.draw_frame(&mut page);
+            if let Some(reference) = reference {
+                let text = format!("{taken_off} = {} {}", significant(reference, 15), subject.scale.time_unit());
+                page.text([frame.right() - 5.0, frame.top + 12.0], Anchor::End, SMALL, BLACK, &text);
+            }
+            if row == 0 {
+                panel.letter(&mut page, i, subjects.len(), &subject.name);
+            }
+        }
+    }
+    if with_legend {
+        let y = top + 2.0 * panel_height + gap + BELOW + 8.0;
+        legend(&mut page, [left, y], &[(Sample::Mark(Mark::Disc, BLACK), "pulses")]);
+        for ((line, of), x) in CURVES.iter().zip([66.0, 210.0, 316.0]) {
+            let name = if x < 70.0 { format!("Eqs. (51), (56) {of}") } else { (*of).to_owned() };
+            legend(&mut page, [left + x, y], &[(Sample::Line(*line), &name)]);
+        }
+    }
+    page.finish("Pulse periods and lengths in time")
+}
+
+/// What is taken off values whose differences would be lost on an axis.
+fn reference(values: &[f64]) -> Option<f64> {
+    Spread::of(values.iter().copied()).and_then(Spread::reference)
+}
+
+/// Points with a value taken off.
+fn shifted(points: impl Iterator<Item = (f64, f64)>, by: f64) -> Vec<(f64, f64)> {
+    points.map(|(t, value)| (t, value - by)).collect()
+}
+
+fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
+    let ranges = subjects.iter().zip(series).map(|(subject, Series { pulses, .. })| {
+        let name = &subject.name;
+        let unit = format!(" {}", subject.scale.time_unit());
+        let range = |points: &[Stamped]| {
+            Spread::of(points.iter().map(|point| point.value)).map(|spread| spread.in_words(&unit))
+        };
+        let whole = match pulses.lengths.len() {
+            0 => "no whole pulse".to_owned(),
+            1 => "1 whole pulse".to_owned(),
+            count => format!("{count} whole pulses"),
+        };
+        let left_out = match pulses.gaps.len() {
+            0 => String::new(),
+            count => format!(" ({count} of {} intervals left out)", count + pulses.periods.len()),
+        };
+        let periods = range(&pulses.periods).map_or(String::new(), |range| format!(", periods {range}{left_out}"));
+        let lengths = range(&pulses.lengths).map_or(String::new(), |range| format!(", lengths {range}"));
+        format!("{name}: {whole}{periods}{lengths}.")
+    });
+    let mut says: Vec<_> = ranges.collect();
+    if series.iter().any(|series| series.curves.is_some()) {
+        says.push(
+            "The formulas follow the series, with angles and rates at the instant as with mean ones; with the rates of Eq. (57), which are of \
+             first order, they drift out of step."
+                .to_owned(),
+        );
+    }
+    if subjects.len() > 1 {
+        says.push(
+            "Both are modulated with the period of *γ*, about 40 *t*_{c}; tp-II has a second modulation of about 180 *t*_{c}, that of \
+             its angular momentum about *Z*. In tp-I the rates of Eq. (57) are off by a radian of *γ* in 400 *t*_{c}."
+                .to_owned(),
+        );
+    }
+    let mut shows = "Periods (top) and lengths in time (bottom) of the pulses: the period is the time between the midpoints of two \
+                     consecutive pulses, at the mean of both midpoints, the length is at its midpoint."
+        .to_owned();
+    let mut method = "Edges of the pulses: roots of **m** · **n** = cos *ρ*, Eq. (44), along the numerical motion, with bounds that let none be \
+                      missed."
+        .to_owned();
+    if series.iter().any(|series| !series.pulses.gaps.is_empty()) {
+        shows += " Intervals that are not from one turn of the star to the next, because a turn has no pulse or a pulse lasts for more than a turn, \
+                  are left out.";
+    }
+    let apart = |row: usize| series.iter().any(|series| reference(&series.values(row)).is_some());
+    shows += match [apart(0), apart(1)] {
+        [true, true] => " Drawn are the differences from the *P* and *W* given in the panels.",
+        [true, false] => " Of the periods the differences from the *P* given in the panel are drawn.",
+        [false, true] => " Of the lengths the differences from the *W* given in the panel are drawn.",
+        [false, false] => "",
+    };
+    let is_joined = |series: &&Series| series.curves.is_none() && series.pulses.lengths.len() > 1;
+    if series.iter().any(|series| is_joined(&series)) {
+        let only = if series.iter().any(|series| series.curves.is_some()) { " where there are no curves" } else { "" };
+        let broken = match series.iter().filter(is_joined).any(|series| !series.pulses.gaps.is_empty()) {
+            true => ", broken where an interval is left out",
+            false => "",
+        };
+        shows += &format!(" Thin grey lines join points{only}{broken}.");
+    }
+    if series.iter().any(|series| series.curves.is_some()) {
+        method += " Solid curves, the paper's: 2π over the rate of azimuth *α*′ + Δ*Φ*′, the period of Eqs. (51) and (52) before it is \
+                   expanded, and the width (56) over the mean rate of azimuth, both with the angles and rates of the numerical motion at each \
+                   instant. Dotted and dashed, not in the paper: Eq. (51) to first order and the width over the rate of azimuth at constant \
+                   *β*_{0} and constant rates, the mean ones of the motion and those of Eq. (57).";
+    }
+    Caption { shows, parameters: parameters(&line_of_sight(subjects, true), subjects), method, says: says.join(" ") }
+}

@@ -1,0 +1,93 @@
+//! Units in which a motion is drawn: those of the paper, or seconds, hertz and strain for a physical star.
+
+use std::f64::consts::TAU;
+
+use super::axes::Axis;
+use twofold_scene::columns::strain_of_scene;
+use twofold_scene::scene_file::{Scene, Units};
+
+/// What is drawn for one `t_c` and for `h = 1`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// Units of the star.
+    pub(super) units: Units,
+    /// Strain of `h = 1` at the observer; in the paper's units one.
+    strain: f64,
+}
+
+impl Scale {
+    /// The paper's units.
+    pub const PAPER: Self = Self { units: Units::PAPER, strain: 1.0 };
+
+    /// That of a scene.
+    pub(super) fn of_scene(scene: &Scene) -> Self {
+        let distance = scene.observer.and_then(|observer| observer.distance);
+        Self { units: scene.units, strain: distance.map_or(1.0, |distance| strain_of_scene(scene, distance)) }
+    }
+
+    /// A time (t_c) in the unit drawn.
+    pub(super) fn time(&self, t: f64) -> f64 {
+        t * self.units.time
+    }
+
+    /// An angular frequency (rad/t_c) in the unit drawn: rad/t_c, or a frequency in Hz.
+    pub(super) fn frequency(&self, omega: f64) -> f64 {
+        if self.units.are_physical() { omega / (TAU * self.units.time) } else { omega }
+    }
+
+    /// A wave `h` of the paper's units at `r = 1` in the unit drawn.
+    pub(super) fn wave(&self, h: f64) -> f64 {
+        h * self.strain
+    }
+
+    /// The unit of time with markup.
+    pub(super) fn time_unit(&self) -> &'static str {
+        if self.units.are_physical() { "s" } else { "*t*_{c}" }
+    }
+
+    /// Label of an axis of something in time.
+    pub(super) fn time_label(&self, what: &str) -> String {
+        if self.units.are_physical() { format!("{what} [s]") } else { format!("{what} / *t*_{{c}}") }
+    }
+
+    /// The axis of time from the start to a time (t_c), forwards or backwards.
+    pub(super) fn time_axis(&self, end: f64) -> Axis {
+        let end = self.time(end);
+        Axis::linear(&self.time_label("*t*"), end.min(0.0), end.max(0.0))
+    }
+
+    /// Header of a column of times, or of anything in that unit.
+    pub(super) fn time_column(&self, what: &str) -> String {
+        format!("{what} [{}]", self.units.time_name)
+    }
+
+    /// Label of an axis of frequencies.
+    pub(super) fn frequency_label(&self) -> &'static str {
+        if self.units.are_physical() { "frequency [Hz]" } else { "angular frequency × *t*_{c}" }
+    }
+
+    /// Unit of frequencies in a sentence.
+    pub(super) fn frequency_unit(&self) -> &'static str {
+        if self.units.are_physical() { "Hz" } else { "rad/*t*_{c}" }
+    }
+
+    /// Header of a column of frequencies.
+    pub(super) fn frequency_column(&self) -> String {
+        format!("frequency [{}]", if self.units.are_physical() { "Hz" } else { "rad/t_c" })
+    }
+
+    /// Label of an axis of a wave in time.
+    pub(super) fn wave_label(&self, symbol: &str) -> String {
+        if self.units.are_physical() { symbol.to_owned() } else { format!("{symbol} *r* / *I*^{{*xx*}}") }
+    }
+
+    /// Unit of waves in a sentence.
+    pub(super) fn wave_unit(&self) -> &'static str {
+        if self.units.are_physical() { "as strain" } else { "in units of *G* *I*^{*xx*} / (*c*^{4} *t*_{c}^{2} *r*)" }
+    }
+
+    /// Unit of waves in the head of a column.
+    pub(super) fn wave_column_unit(&self) -> &'static str {
+        if self.units.are_physical() { "1" } else { "G I^xx / (c^4 t_c^2 r)" }
+    }
+}

@@ -1,0 +1,210 @@
+//! A motion as figures need it.
+
+use std::sync::OnceLock;
+
+use nalgebra::Matrix3;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::EulerAngles;
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
+use twofold::solutions::perturbation::{Form, Perturbation, constants_from_initial_values};
+
+use super::scale::Scale;
+use super::spectrum::{LongMotion, SERIES_ROTATION};
+use twofold_scene::scene_file::{Pulsar, Scene, Viewer};
+
+/// Truncation error of the motions, far below what a picture shows; the data of the figures have all their digits.
+pub(super) const ACCURACY: f64 = 1e-14;
+
+/// What a motion starts from. Units of the paper, `I^xx = C = 1`, time in `t_c` since the start.
+#[derive(Debug, Clone)]
+pub struct Start {
+    /// The star.
+    pub spheroid: RigidSpheroid<f64>,
+    /// `s^IJ` in the inertial frame of the state.
+    pub violation: Matrix3<f64>,
+    /// State at the start.
+    pub state: BodyState<f64>,
+    /// Euler angles of that state.
+    pub angles: EulerAngles<f64>,
+}
+
+impl Start {
+    /// `Omega^z`.
+    pub(super) fn spin(&self) -> f64 {
+        self.state.momentum.dot(&self.state.axis) / self.spheroid.inertia_zz
+    }
+}
+
+/// How much of a motion the figures show, in `t_c` from the start; none above the span of the motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shown {
+    /// Angles and the path of `e_z`.
+    pub angles: f64,
+    /// The path of `e_x`, which is wound more tightly.
+    pub equatorial_axis: f64,
+    /// `m.n`.
+    pub beam: f64,
+    /// Waves.
+    pub waves: f64,
+    /// Pulse series.
+    pub pulses: f64,
+}
+
+/// A motion with everything that figures of it need.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    /// Name in headings, `tp-I`.
+    pub name: String,
+    /// The star and its first state.
+    pub start: Start,
+    /// In which units it is drawn.
+    pub scale: Scale,
+    /// The perturbation solution whose constants give the motion, as printed, or why there is none.
+    pub printed: Result<Perturbation<f64>, &'static str>,
+    /// The corrected solution with the same initial values.
+    pub corrected: Option<Perturbation<f64>>,
+    /// Who looks on.
+    pub observer: Option<Viewer>,
+    /// What shines.
+    pub pulsar: Option<Pulsar>,
+    /// How much is shown.
+    pub shown: Shown,
+    /// The motion.
+    pub motion: TaylorMotion<f64>,
+    /// Length of the series of which spectra are taken, t_c.
+    pub(super) spectrum_duration: f64,
+    pub(super) long: OnceLock<Result<LongMotion, String>>,
+}
+
+/// Rotation that figures of any motion show at most (rad): some hundred turns, beyond which curves become a blot.
+const MOST_ROTATION: f64 = 600.0;
+
+impl Subject {
+    /// The motion of `duration` (t_c, forwards or backwards) from a start, without observer and beam.
+    ///
+    /// Long motions are shown from the start for as long as curves can be told apart.
+    ///
+    /// # Errors
+    /// A motion that cannot be computed.
+    pub fn new(name: &str, start: Start, duration: f64) -> Result<Self, String> {
+        let (spheroid, torque) = (&start.spheroid, start.spheroid.constant_c.abs() * start.violation.norm());
+        // A star at rest turns at the rate of its swing, one without a torque not at all.
+        let swing = (2.0 * torque / spheroid.inertia_xx).sqrt();
+        let rate = (start.state.momentum.norm() / spheroid.inertia_xx).max(swing);
+        let rate = if rate > 0.0 { rate } else { 1.0 / duration.abs() };
+        let at_most = |rotation: f64| duration.abs().min(rotation / rate).copysign(duration);
+        let all = at_most(MOST_ROTATION);
+        let shown = Shown {
+            angles: at_most(0.4 * MOST_ROTATION),
+            equatorial_axis: at_most(0.1 * MOST_ROTATION),
+            beam: at_most(0.5 * MOST_ROTATION),
+            waves: at_most(0.25 * MOST_ROTATION),
+            pulses: all,
+        };
+        let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, all), ACCURACY)
+            .map_err(|error| format!("{name}: {error}"))?;
+        Ok(Self {
+            name: name.to_owned(),
+            start,
+            scale: Scale::PAPER,
+            printed: Err("no constants are given"),
+            corrected: None,
+            observer: None,
+            pulsar: None,
+            shown,
+            motion,
+            spectrum_duration: SERIES_ROTATION / rate,
+            long: OnceLock::new(),
+        })
+    }
+
+    /// The motion of a scene.
+    ///
+    /// # Errors
+    /// A motion that cannot be computed.
+    pub fn of_scene(name: &str, scene: &Scene) -> Result<Self, String> {
+        let start = Start {
+            spheroid: scene.spheroid,
+            violation: scene.violation,
+            state: scene.initial,
+            angles: scene.initial_angles,
+        };
+        let duration = (scene.times.last() - scene.times.start()) / scene.units.time;
+        let motion = Self::new(name, start, duration)?;
+        let (scale, printed) = (Scale::of_scene(scene), scene.perturbation);
+        // A scene has a perturbation solution where its tensor is diagonal.
+        let s = scene.violation.diagonal();
+        let s = PrincipalCoefficients::new([s.x, s.y, s.z]);
+        let corrected = printed
+            .as_ref()
+            .ok()
+            .and_then(|printed| corrected_solution(printed, &scene.spheroid, &s, motion.start.spin()));
+        Ok(Self { scale, printed, corrected, observer: scene.observer, pulsar: scene.pulsar, ..motion })
+    }
+
+    /// The motion over the length of the spectra, computed once.
+    pub(super) fn long_motion(&self) -> Result<&LongMotion, String> {
+        let long = self.long.get_or_init(|| LongMotion::of(self, self.spectrum_duration));
+        long.as_ref().map_err(Clone::clone)
+    }
+
+    /// The observer.
+    ///
+    /// # Errors
+    /// A motion without one.
+    pub(super) fn viewer(&self) -> Result<Viewer, String> {
+        self.observer.ok_or_else(|| format!("{}: no observer is given", self.name))
+    }
+
+    /// Whether the strain at the observer is not known.
+    pub(super) fn lacks_distance(&self) -> bool {
+        self.scale.units.are_physical() && self.observer.is_some_and(|viewer| viewer.distance.is_none())
+    }
+
+    /// The observer and the beam.
+    ///
+    /// # Errors
+    /// A motion without one of them.
+    pub(super) fn line_of_sight(&self) -> Result<(Viewer, Pulsar), String> {
+        Ok((self.viewer()?, self.pulsar.ok_or_else(|| format!("{}: no beam is given", self.name))?))
+    }
+
+    /// `alpha'` and `|gamma'|` of free precession at the mean inclination, Eq. (48), as they are drawn, where the motion is twofold precession
+    /// by its constants.
+    pub(super) fn free_rates(&self) -> Vec<f64> {
+        let twofold = self.printed.ok().filter(|solution| solution.zeroth_rate != 0.0);
+        let gamma = self.start.spheroid.oblateness() * self.start.spin();
+        let drawn = |omega: f64| self.scale.frequency(omega.abs());
+        twofold.map_or(Vec::new(), |solution| vec![drawn(solution.zeroth_rate), drawn(gamma)])
+    }
+
+    /// State at a time of the motion.
+    pub(super) fn state(&self, t: f64) -> Result<BodyState<f64>, String> {
+        self.motion.state(t).map_err(|error| format!("{}: {error}", self.name))
+    }
+
+    /// Continuous Euler angles at times in order; those on a pole, where there are none, are left out.
+    pub(super) fn angles(&self, times: &[f64]) -> Result<Vec<(f64, EulerAngles<f64>)>, String> {
+        let mut angles = ContinuousAngles::new(&self.motion, 0.0, &self.start.angles)
+            .map_err(|error| format!("{}: {error}", self.name))?;
+        Ok(times.iter().filter_map(|&t| Some((t, angles.at(t).ok()?))).collect())
+    }
+}
+
+/// The corrected solution with the initial values of the printed one; none where none is found.
+pub(super) fn corrected_solution(
+    printed: &Perturbation<f64>,
+    spheroid: &RigidSpheroid<f64>,
+    s: &PrincipalCoefficients<f64>,
+    spin: f64,
+) -> Option<Perturbation<f64>> {
+    let (kind, start) = (printed.kind, printed.at(0.0));
+    let constants = constants_from_initial_values(Form::Corrected, kind, spheroid, s, spin, &start).ok()?;
+    Perturbation::new(Form::Corrected, kind, spheroid, s, spin, &constants).ok()
+}
+
+/// `count + 1` times from zero to `end`.
+pub(super) fn times(end: f64, count: usize) -> Vec<f64> {
+    (0..=count).map(|i| if i == count { end } else { end * i as f64 / count as f64 }).collect()
+}

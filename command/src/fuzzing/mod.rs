@@ -1,0 +1,36 @@
+//! What takes bytes from outside, one function for each kind: for a fuzzer to search, and for the suite to try what it has found.
+//!
+//! A function returns whatever the bytes are. It panics where a promise is broken: a file is used or refused with a message, a number
+//! that is written is finite, a table that goes on after damage is the undamaged one. The work of an input is bounded here where the
+//! program lets a user ask for hours. `scripts/fuzz` runs the search, `tools/fuzz/corpus` holds what it has found, and
+//! `docs/reliability/fuzzing.md` tells how much was searched.
+
+mod bytes;
+mod data;
+mod model;
+mod resume;
+mod scene;
+mod sweep;
+
+pub use crate::commands::fuzzed_arguments as command_line;
+pub use data::{authors_data, data_file, pulsars};
+pub use model::model;
+pub use resume::resume;
+pub(crate) use scene::is_small;
+pub use scene::scene;
+pub use sweep::sweep;
+
+/// A function that takes bytes, and its name.
+pub type Target = (&'static str, fn(&[u8]));
+
+/// All of them.
+pub const TARGETS: [Target; 8] = [
+    ("scene", scene),
+    ("sweep", sweep),
+    ("resume", resume),
+    ("authors_data", authors_data),
+    ("data_file", data_file),
+    ("pulsars", pulsars),
+    ("command_line", command_line),
+    ("model", model),
+];

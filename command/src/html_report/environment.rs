@@ -1,0 +1,74 @@
+//! On what and when the report was made. Nothing that names a person, a machine or a folder.
+
+use std::path::Path;
+use std::process::Command;
+use std::thread;
+use std::time::{Duration, SystemTime};
+
+/// Facts about the run, each with its name, in the order in which they are shown.
+#[derive(Debug, Clone)]
+pub struct Environment {
+    pub(super) facts: Vec<(&'static str, String)>,
+}
+
+impl Environment {
+    /// Of this process, now.
+    pub fn of_this_run() -> Self {
+        let mut facts = vec![("Version", concat!("twofold ", env!("CARGO_PKG_VERSION")).to_owned())];
+        facts.extend(source().map(|commit| ("Source", commit)));
+        let optimised = if cfg!(debug_assertions) { "with debug assertions" } else { "release" };
+        facts.extend([
+            ("Compiler", twofold_scene::COMPILER.to_owned()),
+            ("Target", format!("{}, {optimised}", twofold_scene::TARGET)),
+            ("Processors", thread::available_parallelism().map_or_else(|_| "unknown".to_owned(), |n| n.to_string())),
+            ("Date and time", date_and_time(SystemTime::now())),
+        ]);
+        Self { facts }
+    }
+
+    /// Version, source and date in a sentence.
+    pub(super) fn brief(&self) -> String {
+        let brief = |name: &str| ["Version", "Source", "Date and time"].contains(&name);
+        let facts: Vec<_> = self.facts.iter().filter(|(name, _)| brief(name)).map(|(_, fact)| fact.as_str()).collect();
+        format!("{}.", facts.join(", "))
+    }
+}
+
+/// The date in UTC, if the clock is one of our time: a machine may wake up in 1969 or in the year 10000.
+fn date_and_time(now: SystemTime) -> String {
+    const YEAR_10000: Duration = Duration::from_secs(253_402_300_800);
+    match now.duration_since(SystemTime::UNIX_EPOCH) {
+        Ok(since) if since < YEAR_10000 => {
+            humantime::format_rfc3339_seconds(now).to_string().replace(['T', 'Z'], " ") + "UTC"
+        }
+        _ => "unknown: the clock of this machine is outside the years 1970 to 9999".to_owned(),
+    }
+}
+
+/// The commit of the folder that this was built in, if that folder is still there and under git, as it is now.
+fn source() -> Option<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let git = |args: &[&str]| {
+        let output = Command::new("git").arg("-C").arg(folder).args(args).output().ok()?;
+        output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+    };
+    // Not the commit of another repository in which this one lies unpacked.
+    git(&["ls-files", "--error-unmatch", "Cargo.toml"])?;
+    let commit = git(&["rev-parse", "HEAD"])?;
+    let changes = git(&["status", "--porcelain", "--untracked-files=no", "--", ":/"])?;
+    Some(format!("commit {commit}{}", if changes.is_empty() { "" } else { ", with changes not committed" }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_clock_is_told() {
+        let at = |seconds| date_and_time(SystemTime::UNIX_EPOCH + Duration::from_secs(seconds));
+        assert_eq!(at(0), "1970-01-01 00:00:00 UTC");
+        assert_eq!(at(253_402_300_799), "9999-12-31 23:59:59 UTC");
+        assert!(at(253_402_300_800).starts_with("unknown"));
+        assert!(date_and_time(SystemTime::UNIX_EPOCH - Duration::from_secs(1)).starts_with("unknown"));
+    }
+}

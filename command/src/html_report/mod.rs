@@ -1,0 +1,197 @@
+//! The report: one page of HTML with everything in it, which needs no network, no script and no other file.
+//!
+//! The page is put together with maud, which escapes every text that it is given. What goes in as markup is named by
+//! `PreEscaped`: the MathML of our equations, the pages of `docs/`, the figures' SVG and the style sheets.
+
+mod checks;
+mod claims;
+mod cross_reference;
+mod environment;
+mod equation_source;
+mod equations;
+mod figures;
+mod golden;
+mod latex;
+mod markdown;
+mod summary;
+mod typography;
+
+pub use environment::Environment;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::figures::Figure;
+use cross_reference::Index;
+use twofold_verify::golden::GoldenTable;
+use twofold_verify::report;
+
+/// What a report is about.
+pub struct Content {
+    /// Every check with what became of it.
+    pub results: Vec<report::Result>,
+    /// Time that they took together.
+    pub seconds: f64,
+    /// The golden tables.
+    pub golden: Vec<GoldenTable>,
+    /// The figures.
+    pub figures: Vec<Figure>,
+    /// Where and when.
+    pub environment: Environment,
+}
+
+const TITLE: &str = "Precession of spheroids under Lorentz violation: verification report";
+
+/// Allows nothing but what is in the page itself.
+const POLICY: &str =
+    "default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:; base-uri 'none'; form-action 'none'";
+
+/// The page.
+///
+/// # Errors
+/// LaTeX or Markdown of ours that cannot be set.
+pub fn page(content: &Content) -> Result<String, String> {
+    let mut index = index(content);
+    claims::note(&mut index);
+    figures::note(content, &mut index);
+    let discrepancies = markdown::page(include_str!("../../../docs/discrepancies.md"), &mut index)?;
+    let equations = equations::section(content, &mut index)?;
+    let sections = [
+        ("claims", "Claims", claims::section(content, &index)),
+        ("discrepancies", "Discrepancies", discrepancies),
+        ("equations", "Equations", equations),
+        ("checks", "Checks", checks::section(content, &index)),
+        ("golden", "Golden tables", golden::section(content, &index)),
+        ("figures", "Figures", figures::section(content, &index)),
+        ("environment", "Environment", environment_section(content)),
+    ];
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (TITLE) }
+                style { (PreEscaped(include_str!("../../data/math-font.css"))) }
+                style { (PreEscaped(include_str!("style.css"))) }
+            }
+            body {
+                a.skip href="#main" { "Skip to the report" }
+                nav.contents aria-label="Contents" {
+                    h2 { "Contents" }
+                    ol {
+                        li { a href="#summary" { "Summary" } }
+                        @for (id, name, _) in &sections { li { a href={ "#" (id) } { (name) } } }
+                    }
+                }
+                main id="main" {
+                    (summary::header(content))
+                    @for (id, name, section) in &sections {
+                        section id=(id) aria-labelledby={ (id) "-heading" } {
+                            h2 id={ (id) "-heading" } { (name) }
+                            (section)
+                        }
+                    }
+                }
+            }
+        }
+    };
+    Ok(page.into_string())
+}
+
+/// Everything that can be linked to by name.
+fn index(content: &Content) -> Index {
+    let mut index = Index::default();
+    equations::numbers().for_each(|number| index.add(cross_reference::equation(number)));
+    content.results.iter().for_each(|(check, _)| index.add(cross_reference::check(check.id)));
+    let figures = content.figures.iter();
+    figures.for_each(|figure| index.add_figure(cross_reference::figure(&figure.name), figure.paper_figure));
+    content.golden.iter().for_each(|table| index.add(cross_reference::golden(table.name)));
+    markdown::numbers(include_str!("../../../docs/discrepancies.md"))
+        .for_each(|number| index.add(cross_reference::discrepancy(number)));
+    index
+}
+
+fn environment_section(content: &Content) -> Markup {
+    html! {
+        dl.facts {
+            @for (name, value) in &content.environment.facts { (equations::row(name, vec![html! { (value) }])) }
+            (equations::row("Checks", vec![html! { (content.results.len()) " in " (format!("{:.1}", content.seconds)) " s" }]))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+    use std::sync::LazyLock;
+
+    use super::*;
+    use twofold_verify::check::{Check, Measured, Outcome};
+
+    /// A page of all checks, none of them run, two of which fail; and their ids.
+    static FAILURES: LazyLock<(String, Vec<&'static str>)> = LazyLock::new(|| {
+        let measured = |id| match id {
+            "nordtvedt-form" => Ok(Measured::new(f64::NAN, "worst at <b>here</b> & there")),
+            "forced-precession-direction" => Err("panicked: <script>alert(1)</script>".to_owned()),
+            _ => Ok(Measured::new(0.0, "")),
+        };
+        let outcome = |check: &Check| {
+            let measured = measured(check.id);
+            Outcome { passed: measured.as_ref().is_ok_and(|m| !m.figure.is_nan()), measured, seconds: 0.0 }
+        };
+        let results: Vec<_> = twofold_verify::checks::all().into_iter().map(|check| (check, outcome(&check))).collect();
+        let ids = results.iter().map(|(check, _)| check.id).collect();
+        let figures = crate::figures::DRAWN.clone();
+        let golden = crate::figures::golden_tables(&figures).expect("numbers");
+        let content = Content { results, seconds: 1.0, golden, figures, environment: Environment::of_this_run() };
+        (page(&content).expect("a page"), ids)
+    });
+
+    /// The values of an attribute.
+    fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {
+        let start = format!(" {attribute}=\"");
+        let parts = page.split(start.as_str()).skip(1);
+        parts.filter_map(|rest| rest.split('"').next()).collect()
+    }
+
+    #[test]
+    fn failures_stand_on_top_escaped_and_links_lead_somewhere() {
+        let (page, checks) = &*FAILURES;
+        let top = page.split("<section").next().expect("a beginning");
+        for part in [
+            format!("2 of {} checks FAIL", checks.len()),
+            "#check-nordtvedt-form".to_owned(),
+            "#claim-opposite-forced-precession".to_owned(),
+            "worst at &lt;b&gt;here&lt;/b&gt; &amp; there".to_owned(),
+            "panicked: &lt;script&gt;alert(1)&lt;/script&gt;".to_owned(),
+        ] {
+            assert!(top.contains(&part), "no {part} at the top");
+        }
+        assert!(!page.contains("<script"));
+
+        let all = values(page, "id");
+        let ids: BTreeSet<_> = all.iter().copied().collect();
+        assert_eq!(all.len(), ids.len(), "an id is there twice");
+        for link in values(page, "href") {
+            assert!(link.strip_prefix('#').is_some_and(|id| ids.contains(id)), "a link to {link}, which is not there");
+        }
+        assert!(values(page, "src").is_empty() && !page.contains("@import"), "something from elsewhere");
+        for check in checks {
+            assert!(ids.contains(format!("check-{check}").as_str()), "{check} is not on the page");
+        }
+        for number in 1..=79 {
+            assert!(ids.contains(format!("eq-{number}").as_str()), "({number}) is not on the page");
+        }
+    }
+
+    #[test]
+    fn nothing_private_is_on_the_page() {
+        let (page, _) = &*FAILURES;
+        for variable in ["HOME", "USER", "HOSTNAME", "CARGO_MANIFEST_DIR", "PWD"] {
+            if let Some(value) = std::env::var(variable).ok().filter(|value| value.len() > 5) {
+                assert!(!page.contains(&value), "{variable} is on the page");
+            }
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! The command `twofold`: arguments, progress, figures, report.
+
+pub mod bench;
+pub mod commands;
+pub mod compare;
+pub mod figures;
+pub mod fuzzing;
+pub mod html_report;
+
+/// The example of the README, run as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

@@ -1,0 +1,385 @@
+//! `twofold compare` on files in the authors' format, made from our own motion, sound and with deliberate defects.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+use crate::common::{stderr, stdout};
+use tempfile::{TempDir, tempdir};
+use twofold_scene::scene_file::{BUILT_IN, Scene};
+use twofold_scene::trajectory;
+
+fn compare(folder: &Path, extra: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_twofold"));
+    command.arg("compare").arg("--authors-data").arg(folder).args(extra).output().expect("the command starts")
+}
+
+/// A built-in scene with other lines.
+fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
+    let toml = BUILT_IN.iter().find(|scene| scene.name == name).expect("scene").toml;
+    let text = changes.iter().fold(toml.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "no `{from}`");
+        text.replace(from, to)
+    });
+    Scene::from_toml(name, &text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Rows of a CSV table with the fields in another order, separated by tabs.
+fn rows(table: &[u8], fields: &[usize]) -> String {
+    let text = std::str::from_utf8(table).expect("text");
+    let row = |line: &str| {
+        let values: Vec<_> = line.split(',').collect();
+        fields.iter().map(|&i| values[i]).collect::<Vec<_>>().join("\t")
+    };
+    text.lines().skip(1).map(row).collect::<Vec<_>>().join("\n")
+}
+
+fn motion(mut scene: Scene, columns: &[&str], fields: &[usize]) -> String {
+    scene.choose_columns(columns).expect("columns");
+    let mut table = Vec::new();
+    trajectory::write_csv(&scene, &mut table, |_| {}).expect("motion");
+    rows(&table, fields)
+}
+
+/// `gwtp1.dat`, `sp1.dat`, `mntp1_widset.dat` and `mntp1_pset.dat` as the authors would have them without any error.
+fn files() -> &'static [(&'static str, String)] {
+    static FILES: OnceLock<Vec<(&str, String)>> = OnceLock::new();
+    FILES.get_or_init(|| {
+        let samples = ("samples = 4001", "samples = 10000");
+        // t, alpha (1), beta (2), gamma, e_x (4..7), e_z (7..10), alpha and beta by Eq. (33) (10, 11)
+        let angles = motion(
+            scene("sp-1", &[samples, ("span = 400", "span = 200")]),
+            &["angles", "perturbation", "e_x", "e_z"],
+            &[0, 1, 10, 2, 11, 4, 5, 6, 7, 8, 9],
+        );
+        let waves = motion(scene("tp-1", &[samples]), &["h"], &[0, 1, 2]);
+        let caption = "alpha = 1.5707963267948966\nbeta = 0.701\nalpha_rate = 1.509\nbeta_rate = 0.0\n\n[observer]";
+        let toml = BUILT_IN.iter().find(|scene| scene.name == "tp-1").expect("tp-1").toml;
+        let (before, rest) = toml.split_once("kind =").expect("constants");
+        let (_, after) = rest.split_once("[observer]").expect("observer");
+        let scene = Scene::from_toml("caption", &format!("{before}{caption}{after}")).expect("scene");
+        let mut table = Vec::new();
+        let (viewer, pulsar) = (scene.observer.expect("observer"), scene.pulsar.expect("pulsar"));
+        trajectory::write_pulses(&scene, (&viewer, &pulsar), &mut table, |_| {}).expect("pulses");
+        let widths: Vec<_> =
+            rows(&table, &[4, 5, 6]).lines().filter_map(|row| row.strip_suffix('\t').map(String::from)).collect();
+        let stamps: Vec<f64> =
+            widths.iter().map(|row| row.split('\t').next().expect("stamp").parse().expect("number")).collect();
+        let periods = stamps.windows(2).map(|pair| format!("{:?}\t{:?}", (pair[0] + pair[1]) / 2.0, pair[1] - pair[0]));
+        vec![
+            ("sp1.dat", angles),
+            ("gwtp1.dat", waves),
+            ("mntp1_pset.dat", periods.collect::<Vec<_>>().join("\n")),
+            ("mntp1_widset.dat", widths.join("\n")),
+        ]
+    })
+}
+
+fn folder_of(files: &[(&str, &[u8])]) -> TempDir {
+    let folder = tempdir().expect("a temporary folder");
+    for (name, bytes) in files {
+        fs::write(folder.path().join(name), bytes).expect("file");
+    }
+    folder
+}
+
+/// The sound files, one of them changed.
+fn with_change(name: &str, change: impl Fn(&str) -> Vec<u8>) -> TempDir {
+    let bytes: Vec<(&str, Vec<u8>)> = files()
+        .iter()
+        .map(|(file, text)| (*file, if *file == name { change(text) } else { text.clone().into_bytes() }))
+        .collect();
+    folder_of(&bytes.iter().map(|(name, bytes)| (*name, bytes.as_slice())).collect::<Vec<_>>())
+}
+
+/// The text with the line number `line`, from one, replaced.
+fn with_line(text: &str, line: usize, replace: impl Fn(&str) -> String) -> Vec<u8> {
+    let lines: Vec<_> =
+        text.lines().enumerate().map(|(i, l)| if i + 1 == line { replace(l) } else { l.to_owned() }).collect();
+    lines.join("\n").into_bytes()
+}
+
+#[test]
+fn sound_files_agree_and_the_rest_is_told() {
+    let folder = with_change("", |_| Vec::new());
+    fs::write(folder.path().join("LICENSE"), "MIT").expect("file");
+    fs::write(folder.path().join("cross1.dat"), "what it is nobody knows").expect("file");
+    let output = compare(folder.path(), &[]);
+    assert_eq!(output.status.code(), Some(0), "{}{}", stdout(&output), stderr(&output));
+    let text = stdout(&output);
+    for fragment in [
+        "16 columns agree, none differs, 4 not judged",
+        "not in the folder: tp1.dat, tp2.dat, sp2.dat, mntp1.dat, mntp2.dat, mntp2_pset.dat, mntp2_widset.dat, gwtp2.dat",
+        "not read, no name of a file that is known: LICENSE, cross1.dat",
+    ] {
+        assert!(text.contains(fragment), "expected `{fragment}` in\n{text}");
+    }
+    let json = compare(folder.path(), &["--json"]);
+    let json: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
+    assert_eq!(json["differing"].as_array().map(Vec::len), Some(0));
+    let file = |name: &str, start: &str| {
+        let files = json["files"].as_array().expect("files");
+        files.iter().find(|file| file["file"] == name && file["started_from"] == start).expect(name).clone()
+    };
+    for file in [file("sp1.dat", "Eq. (34)"), file("gwtp1.dat", "Eq. (34)"), file("mntp1_pset.dat", "caption")] {
+        for column in file["columns"].as_array().expect("columns") {
+            assert_eq!(column["verdict"], "agrees");
+            assert!(column["largest_difference"].as_f64().expect("number") < 1e-10, "{column}");
+            // A time of the file, not a difference.
+            let at = column["at"].as_f64().expect("a time");
+            assert!((0.0..=500.0).contains(&at) && (at == 0.0 || at > 1e-3), "{column}");
+        }
+    }
+    let other_start = &file("mntp1_pset.dat", "Eq. (34)")["columns"][0];
+    assert_eq!(other_start["verdict"], "not judged");
+    assert!((0.04..0.05).contains(&other_start["largest_difference"].as_f64().expect("number")));
+}
+
+/// What `docs/compare.md` says is allowed is what is: for each row of its table of results, and the errors in its table of reasons.
+#[test]
+fn what_the_page_says_is_allowed_is_allowed() {
+    let folder = with_change("", |_| Vec::new());
+    let samples = ("samples = 4001", "samples = 10000");
+    let angles = motion(
+        scene("tp-1", &[samples, ("span = 400", "span = 200")]),
+        &["angles", "perturbation", "e_x", "e_z"],
+        &[0, 1, 10, 2, 11, 4, 5, 6, 7, 8, 9],
+    );
+    // The curves beside m.n are not judged.
+    let signal = motion(scene("tp-1", &[samples]), &["m.n"], &[0, 1, 1, 1]);
+    for (name, text) in [("tp1.dat", angles), ("mntp1.dat", signal)] {
+        fs::write(folder.path().join(name), text).expect("file");
+    }
+    let output = compare(folder.path(), &["--json"]);
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let allowed = |name: &str, column: &str| -> Option<f64> {
+        let files = json["files"].as_array().expect("files").iter().filter(|file| file["file"] == name);
+        let columns = files.flat_map(|file| file["columns"].as_array().expect("columns"));
+        columns.filter(|found| found["column"] == column).find_map(|found| found["allowed"].as_f64())
+    };
+    let page = include_str!("../../../docs/compare.md");
+    let cells = |line: &'static str| line.trim_matches('|').split('|').map(str::trim).collect::<Vec<_>>();
+    let (mut file, mut judged) = ("", 0);
+    let (_, results) = page.split_once("## What was found").expect("a section");
+    for row in results.lines().filter(|line| line.starts_with("| ") && line.contains("e-")).map(cells) {
+        file = if row[0].is_empty() { file } else { row[0].trim_matches('`') };
+        let columns: &[&str] = match row[1] {
+            "alpha by perturbation" => &["alpha, Eq. (33)"],
+            "beta by perturbation" => &["beta, Eq. (33)"],
+            "e_x" => &["e_x X", "e_x Y", "e_x Z"],
+            "e_z X, Y" => &["e_z X", "e_z Y"],
+            "stamp; period" => &["stamp", "period"],
+            "stamp; duration" => &["stamp", "duration"],
+            "h_+; h_x" => &["h_+", "h_x"],
+            "curve of the period" => &["P, Eq. (51)"],
+            "curve of the width" => &["W / <Phi'>"],
+            other => &[other],
+        };
+        let stated: Vec<_> = row[4].split("; ").collect();
+        for (i, column) in columns.iter().enumerate() {
+            let stated = stated[i.min(stated.len() - 1)];
+            match allowed(file, column) {
+                // The published files have other last times than these, by less than a percent.
+                Some(limit) => {
+                    let part = limit / stated.parse::<f64>().unwrap_or(f64::NAN);
+                    assert!((part - 1.0).abs() < 1e-2, "{file}: {column}: {limit:e}, {stated} on the page");
+                }
+                None => assert_eq!(stated, "not judged", "{file}: {column}"),
+            }
+            judged += usize::from(stated != "not judged");
+        }
+    }
+    assert_eq!(judged, 27, "columns that can be judged");
+    // The errors of the files themselves, of two digits and up to half a unit more in the last.
+    let (_, reasons) = page.split_once("## What is allowed").expect("a section");
+    let half_more = |error: &str| {
+        let digit = error.split_once('e').expect("a power").1.parse::<i32>().expect("a power") - 1;
+        error.parse::<f64>().expect("a number") + 0.5 * 10f64.powi(digit)
+    };
+    for (row, places) in [
+        (
+            "alpha, beta of tp-I; of sp-I",
+            &[("tp1.dat", "alpha"), ("tp1.dat", "beta"), ("sp1.dat", "alpha"), ("sp1.dat", "beta")][..],
+        ),
+        ("m.n of tp-I; h of tp-I", &[("mntp1.dat", "m.n"), ("gwtp1.dat", "h_+")]),
+    ] {
+        let line = reasons.lines().map(cells).find(|cells| cells[0] == row).expect(row);
+        let errors: Vec<_> = line[1].split([',', ';']).map(str::trim).collect();
+        assert_eq!(errors.len(), places.len());
+        for (error, (file, column)) in errors.iter().zip(places) {
+            let (found, stated) = (allowed(file, column).expect("a limit"), half_more(error));
+            assert!((found / stated - 1.0).abs() < 1e-12, "{file} {column}: {found:e}, {error} on the page");
+        }
+    }
+}
+
+/// A file that differs by more than it is known to be off has status 1, and the place is told.
+#[test]
+fn a_difference_beyond_the_files_own_error_fails() {
+    let shifted = |column: usize, by: f64| {
+        move |line: &str| {
+            let mut fields: Vec<String> = line.split('\t').map(String::from).collect();
+            fields[column] = format!("{:?}", fields[column].parse::<f64>().expect("number") + by);
+            fields.join("\t")
+        }
+    };
+    for (file, line, column, by, within, named) in [
+        ("gwtp1.dat", 5000, 2, 3.5e-6, 3.4e-6, "h_x"),
+        ("sp1.dat", 7000, 1, -3.6e-6, 3.5e-6, "alpha "),
+        ("sp1.dat", 7000, 2, 1e-13, 1e-14, "alpha, Eq. (33)"),
+        ("sp1.dat", 10_000, 10, 1.5e-6, 1.3e-6, "e_z Z"),
+        ("sp1.dat", 1, 5, 5e-5, 4e-5, "e_x X"),
+        ("mntp1_widset.dat", 40, 0, 8e-5, 7e-5, "stamp"),
+        ("mntp1_pset.dat", 40, 1, 2e-4, 1.4e-4, "period"),
+    ] {
+        let output = compare(with_change(file, |text| with_line(text, line, shifted(column, by))).path(), &[]);
+        let text = stdout(&output);
+        assert_eq!(output.status.code(), Some(1), "{file} {named}\n{text}");
+        assert!(
+            stderr(&output).contains(&format!("files that differ by more than allowed: {file}")),
+            "{}",
+            stderr(&output)
+        );
+        let row = text.lines().find(|line| line.contains("DIFFERS")).unwrap_or_else(|| panic!("{text}"));
+        assert!(row.contains(named), "{row}");
+        let output =
+            compare(with_change(file, |text| with_line(text, line, shifted(column, by.signum() * within))).path(), &[]);
+        assert_eq!(output.status.code(), Some(0), "{file} {named}\n{}", stdout(&output));
+    }
+    let (_, series) = files().iter().find(|(name, _)| *name == "mntp1_pset.dat").expect("file");
+    let alone = folder_of(&[("mntp1_pset.dat", &with_line(series, 40, shifted(1, 2e-4)))]);
+    let text = stdout(&compare(alone.path(), &[]));
+    assert!(text.contains("\n1 column agrees, 1 DIFFERS, "), "{text}");
+    // A pulse of another star.
+    let output = compare(with_change("mntp1_widset.dat", |text| with_line(text, 40, shifted(0, 1.7))).path(), &[]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stdout(&output).contains("1 row of the file has nothing of ours within 1 t_c"), "{}", stdout(&output));
+}
+
+#[test]
+fn malformed_files_are_named_with_line_and_column() {
+    type Change = fn(&str) -> Vec<u8>;
+    let cases: [(&str, Change, &[&str]); 17] = [
+        (
+            "gwtp1.dat",
+            |text| with_line(text, 57, |line| line.replace('\t', "\tx")),
+            &["gwtp1.dat:57:", "`x", "is not a finite decimal number"],
+        ),
+        (
+            "gwtp1.dat",
+            |text| with_line(text, 3, |_| "0.08\tNaN\t0.1".into()),
+            &["gwtp1.dat:3:6: `NaN` is not a finite"],
+        ),
+        ("gwtp1.dat", |text| with_line(text, 3, |_| "0.08\t0.1\t1e999".into()), &["gwtp1.dat:3:10: `1e999`"]),
+        ("gwtp1.dat", |text| with_line(text, 3, |_| "0.08,0.1,0.2".into()), &["gwtp1.dat:3:1: `0.08,0.1,0.2`"]),
+        (
+            "gwtp1.dat",
+            |text| with_line(text, 3, |_| "0.08\t0.1".into()),
+            &["gwtp1.dat:3:9: a truncated row: 2 of 3 numbers"],
+        ),
+        (
+            "gwtp1.dat",
+            |text| with_line(text, 3, |_| "0.08\t0.1 0.2  7".into()),
+            &["gwtp1.dat:3:15: a column too many: the file has 3 (t, h_+, h_x)"],
+        ),
+        ("gwtp1.dat", |text| with_line(text, 4, |_| String::new()), &["gwtp1.dat:4:1: an empty line"]),
+        (
+            "gwtp1.dat",
+            |text| with_line(text, 4, |line| line.replacen("0.12", "0.02", 1)),
+            &["gwtp1.dat:4:1: time 0.02", "times must increase"],
+        ),
+        (
+            "gwtp1.dat",
+            |text| with_line(text, 1, |_| "-1.0\t0.1\t0.2".into()),
+            &["gwtp1.dat:1:1: time -1.0: allowed is from 0 to 1100"],
+        ),
+        (
+            "gwtp1.dat",
+            |text| with_line(text, 10_000, |_| "1e9\t0.1\t0.2".into()),
+            &["gwtp1.dat:10000:1: time 1000000000.0: allowed"],
+        ),
+        (
+            "gwtp1.dat",
+            |text| format!("{text}\n400.1\t0.1\t0.2").into_bytes(),
+            &["gwtp1.dat:10001:1: one row too many: the published file has 10000"],
+        ),
+        (
+            "gwtp1.dat",
+            |text| text.lines().take(9000).collect::<Vec<_>>().join("\n").into_bytes(),
+            &["gwtp1.dat:9000:", "truncated: ends after 9000 rows, the published file has 10000"],
+        ),
+        (
+            "gwtp1.dat",
+            |text| text.as_bytes()[..text.len() - 30].to_vec(),
+            &["gwtp1.dat:10000:", "a truncated row: 2 of 3 numbers"],
+        ),
+        ("gwtp1.dat", |_| Vec::new(), &["gwtp1.dat: is empty"]),
+        ("gwtp1.dat", |text| [text.as_bytes(), b"\n\xff\xfe"].concat(), &["gwtp1.dat:10001:1: is not text"]),
+        ("gwtp1.dat", |_| vec![0; 1000], &["gwtp1.dat:1:1: `\u{fffd}"]),
+        (
+            "mntp1_pset.dat",
+            |text| text.lines().skip(1).collect::<Vec<_>>().join("\n").into_bytes(),
+            &["mntp1_pset.dat:94:", "truncated: ends after 94 rows"],
+        ),
+    ];
+    for (file, change, fragments) in cases {
+        let output = compare(with_change(file, change).path(), &[]);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{fragments:?}: {message}");
+        assert!(output.stdout.is_empty(), "{fragments:?}");
+        assert!(message.starts_with("error: ") && !message.contains("panicked"), "{message}");
+        for fragment in fragments {
+            assert!(message.contains(fragment), "expected `{fragment}` in\n{message}");
+        }
+    }
+    // Every malformed file is named at once; line ends of another system and a line end at the end are no fault.
+    let folder = with_change("gwtp1.dat", |_| b"1 2".to_vec());
+    fs::write(folder.path().join("mntp1_pset.dat"), "1 two").expect("file");
+    let output = compare(folder.path(), &[]);
+    assert!(
+        stderr(&output).contains("gwtp1.dat:1:4: ") && stderr(&output).contains("mntp1_pset.dat:1:3: "),
+        "{}",
+        stderr(&output)
+    );
+    let folder = with_change("gwtp1.dat", |text| format!("{}\r\n", text.replace('\n', "\r\n")).into_bytes());
+    assert_eq!(compare(folder.path(), &[]).status.code(), Some(0));
+}
+
+#[test]
+fn folders_without_the_files_are_refused() {
+    let empty = folder_of(&[]);
+    let misnamed = folder_of(&[("README", b"data"), ("GWTP1.dat", b"0 0 0")]);
+    let nested = folder_of(&[]);
+    fs::create_dir(nested.path().join("tp1.dat")).expect("folder");
+    let file = folder_of(&[("tp1.dat", b"")]);
+    let file_itself = file.path().join("tp1.dat");
+    let nowhere = empty.path().join("none");
+    for (folder, fragments) in [
+        (empty.path(), &["has none of the authors' files tp1.dat, tp2.dat"][..]),
+        (misnamed.path(), &["has none of", "`GWTP1.dat` may be meant to be `gwtp1.dat`"]),
+        (nested.path(), &["tp1.dat: is a directory, not a file of numbers"]),
+        (file.path(), &["tp1.dat: is empty"]),
+        (&file_itself, &["no folder that can be read"]),
+        (&nowhere, &["no folder that can be read"]),
+    ] {
+        let output = compare(folder, &[]);
+        assert_eq!(output.status.code(), Some(2), "{fragments:?}");
+        assert!(output.stdout.is_empty());
+        for fragment in fragments {
+            assert!(stderr(&output).contains(fragment), "expected `{fragment}` in\n{}", stderr(&output));
+        }
+    }
+    // A pipe that nobody writes to.
+    #[cfg(unix)]
+    {
+        let pipes = folder_of(&[]);
+        let made = Command::new("mkfifo").arg(pipes.path().join("sp1.dat")).status();
+        assert!(made.expect("mkfifo").success());
+        let output = compare(pipes.path(), &[]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("sp1.dat: is not a regular file"), "{}", stderr(&output));
+    }
+    let without = Command::new(env!("CARGO_BIN_EXE_twofold")).arg("compare").output().expect("starts");
+    assert_eq!(without.status.code(), Some(2));
+}

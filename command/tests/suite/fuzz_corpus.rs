@@ -1,0 +1,60 @@
+//! Inputs that fuzzing has found, each once, in the functions that it searches: what covers something, and what once failed.
+
+use std::env;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use twofold_command::fuzzing::TARGETS;
+
+/// Set in the process that tries the inputs of one target.
+const TARGET: &str = "TWOFOLD_FUZZ_TARGET";
+
+/// A line of a corpus is a JSON string, one character for each byte: what covers something, and what once failed.
+fn inputs(target: &str) -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tools/fuzz/corpus");
+    let lines = |name: String, is_needed: bool| match fs::read_to_string(folder.join(&name)) {
+        Ok(text) => text.lines().map(str::to_owned).collect(),
+        Err(error) if is_needed => panic!("{name}: {error}"),
+        Err(_) => Vec::new(),
+    };
+    let mut all: Vec<String> = lines(format!("{target}.jsonl"), true);
+    all.extend(lines(format!("{target}.fixed.jsonl"), false));
+    all.sort_unstable();
+    all.dedup();
+    let bytes = |line: &String| {
+        let text: String = serde_json::from_str(line).expect("a JSON string");
+        text.chars().map(|byte| u8::try_from(byte).expect("a byte")).collect()
+    };
+    all.iter().map(bytes).collect()
+}
+
+#[test]
+fn every_input_is_used_or_refused() {
+    if let Ok(target) = env::var(TARGET) {
+        return try_all(&target);
+    }
+    let program = env::current_exe().expect("a path");
+    // A process for each: the command line prints, and changes the folder it is in.
+    let start = |(target, _): &(&'static str, _)| {
+        let mut command = Command::new(&program);
+        command.args(["--exact", "every_input_is_used_or_refused", "--nocapture"]).env(TARGET, target);
+        (*target, command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a process"))
+    };
+    for (target, child) in TARGETS.iter().map(start).collect::<Vec<_>>() {
+        let output = child.wait_with_output().expect("its end");
+        let message = String::from_utf8_lossy(&output.stderr);
+        let end: Vec<_> = message.lines().rev().take(20).collect();
+        assert!(output.status.success(), "{target}: {}", end.into_iter().rev().collect::<Vec<_>>().join("\n"));
+    }
+}
+
+fn try_all(target: &str) {
+    let (_, function) = TARGETS.iter().find(|(name, _)| *name == target).expect("a target");
+    for input in inputs(target) {
+        let shown = input.escape_ascii().to_string();
+        // Told before, for where a panic is no end.
+        eprintln!("{shown}");
+        function(&input);
+    }
+}

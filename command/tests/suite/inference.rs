@@ -1,0 +1,410 @@
+//! From data back to the scene: fits that recover and fits that are refused, and the commands `fisher`, `fit` and `forecast`.
+
+use std::fs;
+
+use crate::common::{folder, stderr, stdout, twofold};
+use twofold::euler_angles::EulerAngles;
+use twofold_scene::inference::{
+    Datum, Fisher, InferenceError, Model, Noise, Observable, Place, Signal, Simulation, Unknown, beside, data_of, fit,
+    with_noise,
+};
+use twofold_scene::scene_file::Scene;
+
+use rand::SeedableRng;
+use rand::rngs::ChaCha8Rng;
+
+const TIMES_AND_WIDTHS: [Noise; 2] = [(Observable::Arrivals, 1e-5), (Observable::Widths, 1e-5)];
+
+fn model(name: &str) -> Model<f64> {
+    Model::of_scene(&Scene::named(name).expect("scene")).expect("model")
+}
+
+/// Exact data of all pulses but those of the first turn.
+fn data(model: &Model<f64>, end: f64, noise: &[Noise]) -> Vec<Datum> {
+    let signal = Signal::new(model, end).expect("signal");
+    let mut events = signal.events().expect("pulses");
+    events.retain(|event| event.start > signal.turn());
+    let samples: Vec<f64> = (0..50).map(|k| end * (f64::from(k) / 49.0)).collect();
+    data_of(&signal, &events, &samples, noise).expect("data")
+}
+
+/// Data without errors lead back to the truth, from an offset of hundreds of error bars, to the digits of the motion.
+#[test]
+fn exact_data_give_the_truth() {
+    let truth = model("tp-2");
+    let strain = [(Observable::StrainPlus, 1e-6), (Observable::StrainCross, 1e-6)];
+    for (unknowns, noise) in [
+        (&Unknown::OF_PULSES[..], &TIMES_AND_WIDTHS[..]),
+        (
+            &Unknown::OF_PULSES,
+            &[(Observable::ClosestApproaches, 1e-5), (Observable::Periods, 1e-5), (Observable::Widths, 1e-5)],
+        ),
+        (&Unknown::OF_STRAIN, &strain),
+    ] {
+        let data = data(&truth, 100.0, noise);
+        let off: Vec<f64> = (0..unknowns.len()).map(|k| if k % 2 == 0 { 1e-4 } else { -1e-4 }).collect();
+        let found = fit(&truth.moved(unknowns, &off), &data, unknowns, 100.0).expect("fit");
+        assert!(found.chi_squared < 1e-6, "{noise:?}: chi^2 = {}", found.chi_squared);
+        for ((value, truth), sigma) in found.values.iter().zip(truth.values(unknowns)).zip(found.sigmas()) {
+            assert!((value - truth).abs() < 1e-4 * sigma + 1e-12, "{value} for {truth} +- {sigma}");
+        }
+    }
+}
+
+/// The covariance does not depend on the data's errors of this time, and is in proportion to their variance.
+#[test]
+fn error_bars_are_in_proportion_to_the_errors() {
+    let truth = model("tp-2");
+    let unknowns = &Unknown::OF_PULSES;
+    let exact = data(&truth, 100.0, &TIMES_AND_WIDTHS);
+    let large: Vec<Datum> = exact.iter().map(|datum| Datum { sigma: 3.0 * datum.sigma, ..*datum }).collect();
+    let sigmas = |data: &[Datum]| fit(&truth, data, unknowns, 100.0).expect("fit").sigmas();
+    for (small, large) in sigmas(&exact).iter().zip(sigmas(&large)) {
+        assert!((large / small / 3.0 - 1.0).abs() < 1e-6);
+    }
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let measured = with_noise(&exact, &mut random);
+    let noisy = fit(&truth, &measured, unknowns, 100.0).expect("fit");
+    assert!(noisy.nonlinearity(&measured, 100.0).expect("motions") < 0.1);
+    for (with, without) in noisy.sigmas().iter().zip(sigmas(&exact)) {
+        assert!((with / without - 1.0).abs() < 0.05, "{with} {without}");
+    }
+}
+
+/// After 1e9 turns exact data lead back to s of 1e-9, beam, observer and phase, the wobble known: its derivatives cancel to 1e-13, below their rounding.
+#[test]
+fn decades_give_the_truth() {
+    let near = model("tp-2");
+    let truth = Model { s: near.s * 1e-9, phi_o: 1.0, ..near };
+    use Unknown::{Chi, Gamma, PhiO, Rho, SAsymmetry, SAxial, Spin, ThetaO};
+    let (unknowns, end) = (&[SAxial, SAsymmetry, Spin, Gamma, Chi, Rho, ThetaO, PhiO], 6e9);
+    let signal = Signal::new(&truth, end).expect("signal");
+    assert!(signal.is_long() && signal.events().is_err());
+    let times: Vec<f64> = (1..60).map(|k| end * f64::from(k) / 60.0).collect();
+    let events = signal.events_after(&times).expect("pulses");
+    let data =
+        data_of(&signal, &events, &[], &[(Observable::Arrivals, 1e-3), (Observable::Widths, 1e-3)]).expect("data");
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let fisher = Fisher::of(&truth, &events, &data, unknowns).expect("Fisher matrix");
+    assert!(fisher.degenerate.is_empty() && fisher.weak.is_empty(), "{:?} {:?}", fisher.degenerate, fisher.weak);
+    let start = beside(&truth, unknowns, &fisher.covariance, 0.3, &mut random);
+    let found = fit(&start, &data, unknowns, end).expect("fit");
+    // A last digit of L is 1e-6 rad, a thousandth of an error.
+    assert!(found.chi_squared < 1e-3, "chi^2 = {}", found.chi_squared);
+    for ((value, truth), sigma) in found.values.iter().zip(truth.values(unknowns)).zip(found.sigmas()) {
+        assert!((value - truth).abs() < 0.05 * sigma, "{value} for {truth} +- {sigma}");
+    }
+}
+
+/// The same simulation twice is the same to the bit, another one is another.
+#[test]
+fn simulations_follow_from_their_number() {
+    let [a, b, c] = [4, 4, 5].map(|seed| Simulation::new(seed).expect("simulation"));
+    assert_eq!((a.truth, &a.data, a.start), (b.truth, &b.data, b.start));
+    assert_ne!(a.truth, c.truth);
+}
+
+fn refused(unknowns: &[Unknown], noise: &[Noise]) -> String {
+    let truth = model("tp-2");
+    match fit(&truth, &data(&truth, 100.0, noise), unknowns, 100.0) {
+        Err(error @ InferenceError::Degenerate(_)) => error.to_string(),
+        other => panic!("{unknowns:?}: {other:?}"),
+    }
+}
+
+#[test]
+fn what_the_data_do_not_determine_is_refused_with_the_reason() {
+    use Unknown::*;
+    let strain = [(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 1e-3)];
+    for (unknowns, noise, reasons) in [
+        (&[Gamma, Delta, Spin][..], &TIMES_AND_WIDTHS[..], &["only gamma + delta", "d(gamma) : d(delta) = "][..]),
+        (&[ConstantC, SScale], &TIMES_AND_WIDTHS, &["only C s^IJ / I^xx moves the star"]),
+        (&[STrace, Spin], &TIMES_AND_WIDTHS, &["a multiple of the unit tensor turns nothing", "d(tr s) alone"]),
+        (&[Alpha, PhiO, SXy, Spin], &TIMES_AND_WIDTHS, &["rotation of all (star, s^IJ and observer) about Z"]),
+        (&[Oblateness, Spin, StrainScale], &strain, &["h is in proportion to eps"]),
+        (&[Spin, Chi], &strain, &["no pulses are among the data"]),
+        // Determined in principle, but not by data as bad as these.
+        (&Unknown::OF_PULSES, &[(Observable::Arrivals, 1e3), (Observable::Widths, 1e3)], &["d("]),
+    ] {
+        let message = refused(unknowns, noise);
+        for reason in reasons {
+            assert!(message.contains(reason), "{unknowns:?}: {message}");
+        }
+    }
+}
+
+#[test]
+fn data_that_are_too_few_or_of_no_pulse_are_refused() {
+    let truth = model("tp-2");
+    let all = data(&truth, 100.0, &TIMES_AND_WIDTHS);
+    let too_few = fit(&truth, &all[..13], &Unknown::OF_PULSES, 100.0).expect_err("as many data as unknowns");
+    assert_eq!(too_few, InferenceError::TooFew { data: 13, unknowns: 13 });
+    let mut strange = all.clone();
+    let place = Place::Turn { number: 4000, near: 50.0 };
+    strange.push(Datum { observable: Observable::Arrivals, place, epoch: 0.0, value: 50.0, sigma: 1e-5 });
+    let error = fit(&truth, &strange, &Unknown::OF_PULSES, 100.0).expect_err("no such turn");
+    assert!(matches!(error, InferenceError::NoPulse { turn: 4000, .. }), "{error}");
+    assert!(error.to_string().contains("turn 4000"), "{error}");
+}
+
+/// More strain than the most oblate star has: the fit stops at the limit and says so.
+#[test]
+fn a_fit_that_ends_on_a_limit_is_refused() {
+    let truth = model("tp-2");
+    let noise = [(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 1e-3)];
+    let most = data(&Model { oblateness: 0.99, ..truth }, 0.2, &noise);
+    let more: Vec<Datum> = most.iter().map(|datum| Datum { value: 2.0 * datum.value, ..*datum }).collect();
+    let error = fit(&Model { oblateness: 0.9, ..truth }, &more, &[Unknown::Oblateness], 0.2).expect_err("limit");
+    assert!(matches!(error, InferenceError::OnLimit { unknown: "eps", .. }), "{error}");
+}
+
+/// tp-2 with another span, as a file.
+fn scene_file(folder: &std::path::Path, name: &str, spin: &str) -> String {
+    let text = fs::read_to_string("scenes/tp-2.toml").expect("scene");
+    let text = text.replace("spin = 1.0", &format!("spin = {spin}")).replace("span = 400", "span = 100");
+    let path = folder.join(name);
+    fs::write(&path, text.replace("samples = 4001", "samples = 201")).expect("file");
+    path.to_str().expect("path in UTF-8").to_owned()
+}
+
+#[test]
+fn series_written_by_the_command_are_fitted() {
+    let folder = folder();
+    let (truth, near) =
+        (scene_file(folder.path(), "truth.toml", "1.0"), scene_file(folder.path(), "near.toml", "1.0003"));
+    let path = |name: &str| folder.path().join(name).to_str().expect("path in UTF-8").to_owned();
+    let (pulses, strain, table) = (path("pulses.csv"), path("strain.csv"), path("table.csv"));
+    assert!(twofold(&["pulses", &truth, "--out", &pulses]).status.success());
+    assert!(twofold(&["run", &truth, "--columns", "h", "--out", &strain]).status.success());
+    let observed = "arrivals:1e-5,widths:1e-5,strain:1e-5";
+    let output = twofold(&["fit", &near, &pulses, &strain, "--observe", observed, "--out", &table]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let written = fs::read_to_string(&table).expect("table");
+    let spin: Vec<&str> = written.lines().find(|line| line.starts_with("spin,")).expect("spin").split(',').collect();
+    let (value, sigma): (f64, f64) = (spin[1].parse().expect("number"), spin[2].parse().expect("number"));
+    assert!((value - 1.0).abs() < 1e-9 && sigma > 0.0 && sigma < 1e-4, "{spin:?}");
+    assert!(stdout(&output).contains("Omega^z") && stderr(&output).contains("chi^2"), "{}", stdout(&output));
+    let noisy = twofold(&["fit", &near, &pulses, "--observe", "arrivals:1e-5,widths:1e-5", "--simulate", "3"]);
+    assert!(noisy.status.success(), "{}", stderr(&noisy));
+    assert_ne!(stdout(&noisy), stdout(&output));
+}
+
+#[test]
+fn commands_say_what_is_and_what_is_not_determined() {
+    let fisher = twofold(&["fisher", "tp-1", "--observe", "arrivals:1e-4,widths:1e-4", "--parameters", "all"]);
+    assert!(fisher.status.success(), "{}", stderr(&fisher));
+    for reason in ["the trace of s^IJ", "only gamma + delta", "about X", "about Y", "about Z", "C against s^IJ"] {
+        assert!(stderr(&fisher).contains(reason), "{reason}: {}", stderr(&fisher));
+    }
+    assert!(stdout(&fisher).contains("not determined"));
+    let simulated = twofold(&["fit", "tp-2", "--observe", "arrivals:1e-6,widths:1e-6", "--simulate", "1"]);
+    assert!(simulated.status.success(), "{}", stderr(&simulated));
+    let again = twofold(&["fit", "tp-2", "--observe", "arrivals:1e-6,widths:1e-6", "--simulate", "1"]);
+    assert_eq!(stdout(&simulated), stdout(&again));
+    let refused =
+        twofold(&["fit", "tp-2", "--observe", "arrivals:1e-6", "--simulate", "1", "--parameters", "gamma,delta"]);
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(stderr(&refused).contains("only gamma + delta"), "{}", stderr(&refused));
+    let forecast = twofold(&["forecast", "tp-2", "--observe", "arrivals:1e-6,widths:1e-6", "--spans", "100,200,400"]);
+    assert!(forecast.status.success(), "{}", stderr(&forecast));
+    assert_eq!(stdout(&forecast).lines().filter(|line| line.contains("e-")).count(), 9, "{}", stdout(&forecast));
+    assert!(stderr(&forecast).contains("sigma goes as the span to the power of"));
+}
+
+/// Status 2, nothing on standard output, field, value and what is allowed.
+#[test]
+fn bad_arguments_are_refused() {
+    for (args, fragments) in [
+        (&["fisher", "tp-1", "--observe", "arrivals"][..], &["`arrivals` is no NAME:SIGMA", "allowed"][..]),
+        (
+            &["fisher", "tp-1", "--observe", "arrival:1"],
+            &["`arrival` is no observable", "arrivals, closest_approaches"],
+        ),
+        (&["fisher", "tp-1", "--observe", "arrivals:-1"], &["standard deviation -1", "above zero"]),
+        (&["fisher", "tp-1", "--observe", "arrivals:1e-160"], &["standard deviation 1e-160", "from 1e-100 to 1e100"]),
+        (&["fit", "tp-1", "--simulate", "1", "--observe", "strain:1e101"], &["standard deviation 1e101", "to 1e100"]),
+        (&["fisher", "tp-1", "--observe", "arrivals:1,arrivals:2"], &["`arrivals` is named twice"]),
+        (
+            &["fisher", "tp-1", "--observe", "widths:1", "--parameters", "epss"],
+            &["`epss` is no parameter", "did you mean `eps`"],
+        ),
+        (&["fisher", "tp-1", "--observe", "widths:1", "--parameters", "eps,eps"], &["`eps` is named twice"]),
+        (&["fisher", "tp-11", "--observe", "widths:1"], &["did you mean `tp-1`?"]),
+        (&["fit", "tp-1", "--observe", "widths:1"], &["no data", "--simulate SEED"]),
+        (&["fit", "tp-1", "none.csv", "--observe", "widths:1"], &["none.csv"]),
+        (&["forecast", "tp-1", "--observe", "widths:1", "--of", "delta"], &["--of delta", "s_axial"]),
+        (
+            &["forecast", "tp-1", "--observe", "widths:1", "--spans", "1e9"],
+            &["more than 1e5 rad", "a weaker violation or a shorter span"],
+        ),
+        (&["forecast", "tp-1", "--observe", "widths:1", "--spans", "-1"], &["--spans"]),
+        (&["forecast", "tp-1", "--observe", "widths:1", "--epochs", "1"], &["--epochs 1"]),
+        (&["forecast", "tp-1", "--observe", "periods:1"], &["--observe periods"]),
+    ] {
+        let output = twofold(args);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {message}");
+        assert!(output.stdout.is_empty() && !message.contains("panicked"), "{args:?}: {message}");
+        for fragment in fragments {
+            assert!(message.contains(fragment), "{args:?}: expected `{fragment}` in\n{message}");
+        }
+    }
+}
+
+/// Pulses as `pulses` writes them, without errors: the scene that they are of is their model, whatever errors are stated. Of another
+/// scene it is not; and data with the errors stated are passed without a word.
+#[test]
+fn residuals_are_judged_on_both_sides() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name).to_str().expect("path in UTF-8").to_owned();
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../scene/scenes/tp-1.toml")).expect("scene");
+    let written = |name: &str, from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        let short =
+            text.replace(from, to).replace("span = 400", "span = 100").replace("samples = 4001", "samples = 101");
+        fs::write(path(name), short).expect("file");
+        path(name)
+    };
+    let (scene, pulses) = (written("scene.toml", "rho = 0.6", "rho = 0.6"), path("pulses.csv"));
+    assert!(twofold(&["pulses", &scene, "--out", &pulses]).status.success());
+    let fitted = |scene: &str, observe: &str, parameters: &str| {
+        let output = twofold(&["fit", scene, &pulses, "--observe", observe, "--parameters", parameters]);
+        (output.status.code(), stderr(&output), stdout(&output))
+    };
+    for observe in ["arrivals:1e-6,widths:1e-6", "arrivals:1e-9", "arrivals:1e-2,widths:1e-2"] {
+        for parameters in ["s_scale", "eps,spin"] {
+            let (code, notes, table) = fitted(&scene, observe, parameters);
+            assert_eq!(code, Some(0), "{observe} {parameters}: {notes}");
+            assert!(
+                !notes.contains("no model") && notes.contains("fits the data better than such errors allow"),
+                "{notes}"
+            );
+            assert!(parameters != "s_scale" || table.contains(" |s|   1.000000000 "), "{table}");
+        }
+    }
+    // Errors below what doubles tell.
+    for (observe, parameters) in [("arrivals:1e-15", "s_scale"), ("arrivals:1e-17,widths:1e-17", "eps,spin,s_scale")] {
+        let (code, message, table) = fitted(&scene, observe, parameters);
+        assert_eq!((code, table.as_str()), (Some(2), ""), "{observe} {parameters}: {message}");
+        for fragment in [
+            "the scene agrees with the data as far as doubles tell",
+            " t_c, and a fit is to a hundredth of an error",
+            "allowed in --observe are larger",
+        ] {
+            assert!(message.contains(fragment), "expected `{fragment}` in {message}");
+        }
+        assert!(!message.contains("nearer to the data"), "{message}");
+    }
+    // A scene of another beam, of which only |s| is fitted.
+    let other = written("other.toml", "rho = 0.6", "rho = 0.6001");
+    let (code, notes, _) = fitted(&other, "arrivals:1e-6,widths:1e-6", "s_scale");
+    assert_eq!(code, Some(0), "{notes}");
+    assert!(notes.contains("the scene is no model of the data, or their errors are larger"), "{notes}");
+    let simulated =
+        twofold(&["fit", &scene, "--simulate", "3", "--observe", "arrivals:1e-6", "--parameters", "s_scale,eps"]);
+    assert!(simulated.status.success() && !stderr(&simulated).contains("the residuals are"), "{}", stderr(&simulated));
+}
+
+/// Values are given with ten digits, however small; a span too short for data is told.
+#[test]
+fn numbers_at_extremes_are_readable() {
+    let folder = folder();
+    let small = folder.path().join("small.toml");
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../scene/scenes/tp-1.toml")).expect("scene");
+    fs::write(&small, text.replace("phi_o = 0.0", "phi_o = -1e-10")).expect("file");
+    assert_ne!(fs::read_to_string(&small).expect("file"), text);
+    let output = twofold(&["fisher", small.to_str().expect("path"), "--observe", "arrivals:1e-4,widths:1e-4"]);
+    let table = stdout(&output);
+    assert!(table.contains(" phi_o                  -1.000000000e-10 ") && !table.contains("-0.000"), "{table}");
+    assert!(table.contains(" gamma                                 0 "), "{table}");
+    for (spans, code, fragments) in [
+        ("1e-300", Some(0), &["3 of 3 rows have no sigma", "longer spans and more epochs"][..]),
+        ("1e300", Some(2), &["--spans 1e300: what the mean motion leaves out", "e296: allowed is at most 1e-3"]),
+    ] {
+        let output = twofold(&["forecast", "tp-1", "--observe", "arrivals:1e-4", "--of", "s_axial", "--spans", spans]);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), code, "{message}");
+        for fragment in fragments {
+            assert!(message.contains(fragment), "expected `{fragment}` in {message}");
+        }
+        assert!(message.lines().chain(stdout(&output).lines()).all(|line| line.len() < 250), "{message}");
+    }
+}
+
+#[test]
+fn tables_that_are_no_data_are_refused() {
+    let folder = folder();
+    let scene = scene_file(folder.path(), "scene.toml", "1.0");
+    let header = "beam,pulse,start [t_c],end [t_c],midpoint [t_c],duration [t_c],cut,period [t_c],turn,closest_approach [t_c],W_56 [rad]\n";
+    for (text, fragments) in [
+        ("a,b\n1,2\n".to_owned(), &["no column `t [t_c]`", "a, b"][..]),
+        (header.replace("midpoint [t_c]", "midpoint [s]"), &["no column `midpoint [t_c]`"]),
+        (format!("{header}1,1,8.0,9.0,soon,1.0,,,0,8.5,1.0\n"), &[":2: `midpoint [t_c]` is `soon`", "a finite number"]),
+        (format!("{header}1,1,8.0,9.0,8.5,1.0,,,first,8.5,1.0\n"), &[":2: `turn` is `first`"]),
+        (format!("{header}1,1,8.0,9.0,8000.5,1.0,,,0,8.5,1.0\n"), &["allowed is the span of the scene"]),
+        (header.to_owned(), &["there is no such datum"]),
+    ] {
+        let path = folder.path().join("data.csv");
+        fs::write(&path, &text).expect("file");
+        let output = twofold(&["fit", &scene, path.to_str().expect("path in UTF-8"), "--observe", "arrivals:1e-3"]);
+        assert_eq!(output.status.code(), Some(2), "{text}: {}", stderr(&output));
+        for fragment in fragments {
+            assert!(stderr(&output).contains(fragment), "expected `{fragment}` in\n{}", stderr(&output));
+        }
+    }
+}
+
+/// One datum of a linear model late by `d` standard deviations: of `d` its residual keeps the part `q`, with the sign of `d`, and `chi^2 = q d^2`.
+#[test]
+fn a_late_pulse_has_a_positive_residual() {
+    let truth = model("tp-2");
+    let unknowns = &Unknown::OF_PULSES;
+    for late in [3.0, -2.0] {
+        let mut data = data(&truth, 100.0, &TIMES_AND_WIDTHS);
+        let place = data.iter().position(|datum| datum.observable == Observable::Arrivals).expect("arrivals") + 8;
+        assert_eq!(data[place].observable, Observable::Arrivals);
+        data[place].value += late * data[place].sigma;
+        let found = fit(&truth, &data, unknowns, 100.0).expect("fit");
+        let residual = found.residuals[place];
+        // Errors of 1e-5 move the unknowns by so little that the model is linear to about as much.
+        assert!(residual / late > 0.1, "{residual} of {late}");
+        assert!((found.chi_squared / (residual * late) - 1.0).abs() < 1e-2, "{} and {residual}", found.chi_squared);
+        // An unbiased estimate of the variance: data less unknowns.
+        let sum: f64 = found.residuals.iter().map(|residual| residual * residual).sum();
+        let mean = sum / (data.len() - unknowns.len()) as f64;
+        assert!((found.root_mean_square().powi(2) / mean - 1.0).abs() < 1e-9, "{}", found.root_mean_square());
+    }
+}
+
+/// `-n` and `-m` have the `m.n` of `n` and `m`; and half a turn about X, which leaves a diagonal `s^IJ` as it is, changes nothing that is seen. So the
+/// data of a star are those of others with angles in the lower half.
+#[test]
+fn angles_beyond_a_right_angle_are_fitted() {
+    let truth = model("tp-2");
+    let half_turn = std::f64::consts::PI;
+    let of_truth = data(&truth, 100.0, &TIMES_AND_WIDTHS);
+    let opposite = Model {
+        chi: half_turn - truth.chi,
+        delta: truth.delta + half_turn,
+        theta_o: half_turn - truth.theta_o,
+        phi_o: truth.phi_o + half_turn,
+        ..truth
+    };
+    let EulerAngles { alpha, beta, gamma } = truth.angles;
+    let turned = Model {
+        angles: EulerAngles { alpha: half_turn - alpha, beta: half_turn - beta, gamma: gamma + half_turn },
+        alpha_rate: -truth.alpha_rate,
+        beta_rate: -truth.beta_rate,
+        theta_o: half_turn - truth.theta_o,
+        phi_o: -truth.phi_o,
+        ..truth
+    };
+    for (star, unknown) in [(opposite, Unknown::Chi), (opposite, Unknown::ThetaO), (turned, Unknown::Beta)] {
+        let unknowns = [unknown, Unknown::Spin];
+        let found = fit(&star.moved(&unknowns, &[1e-4, -1e-4]), &of_truth, &unknowns, 100.0).expect("fit");
+        for (value, expected) in found.values.iter().zip(star.values(&unknowns)) {
+            assert!((value - expected).abs() < 1e-8, "{unknown:?}: {value} for {expected}");
+        }
+        assert!(found.values[0] > half_turn / 2.0 && found.chi_squared < 1e-6, "{unknown:?}: {}", found.chi_squared);
+    }
+}

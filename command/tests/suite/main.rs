@@ -1,0 +1,21 @@
+//! The command, run as its users run it.
+
+mod bounds;
+mod command;
+mod common;
+mod compare;
+#[cfg(target_os = "linux")]
+mod faults;
+mod figures;
+mod fuzz_corpus;
+mod golden;
+mod inference;
+mod plans;
+mod second_program;
+#[cfg(target_os = "linux")]
+mod signals;
+mod spectrum;
+mod sweep;
+mod timing;
+#[cfg(unix)]
+mod worked_pages;

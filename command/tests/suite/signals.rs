@@ -1,0 +1,120 @@
+//! Interrupts, hang-ups and requests to terminate, each heeded or ignored by itself, as in a terminal, under `nohup` and in the background
+//! of a script. The tests pass where any of them is ignored: by this process, and so by those it starts.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+
+use crate::common::{comes_to, folder, names_in, send, stderr};
+
+const LONG: &str = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n\
+                    [initial]\nalpha = 0.0\nbeta = 0.7\nalpha_rate = 1.5\nbeta_rate = 0.0\n[time]\nspan = 4e7\nsamples = 2\n";
+
+const HUGE: &str = "scene = \"tp-2\"\nseed = 1\ndraws = 1000000000\n[time]\nend = 1.0\n[[vary]]\nparameter = \"pulsar.rho\"\n\
+                    random = { distribution = \"uniform\", from = 0.4, to = 0.7 }\n";
+
+/// Long commands that write files, and what they say when they are interrupted.
+const COMMANDS: [(&[&str], &str); 5] = [
+    (&["run", "long.toml", "--out", "out"], "error: interrupted: no file was left incomplete\n"),
+    (&["figures", "--out", "out"], "error: interrupted: no file was left incomplete\n"),
+    (&["report", "--out", "out"], "error: interrupted: no file was left incomplete\n"),
+    (&["bench", "--quick", "--out", "out"], "error: interrupted: no file was left incomplete\n"),
+    (&["sweep", "huge.toml", "--out", "out"], "scenes are in out.partial; the same command goes on from there\n"),
+];
+
+/// Signals by name and number.
+const SIGNALS: [(&str, u32); 3] = [("HUP", 1), ("INT", 2), ("TERM", 15)];
+
+/// The command, in a shell that ignores some signals.
+fn start(folder: &Path, args: &[&str], ignoring: &str) -> Child {
+    let trap = if ignoring.is_empty() { String::new() } else { format!("trap '' {ignoring}; ") };
+    let mut command = Command::new("sh");
+    command.args(["-c", &format!("{trap}exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_twofold")]).args(args);
+    command.current_dir(folder).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a shell")
+}
+
+/// Whether signal number `signal` is in a mask of a process.
+fn has_signal(process: &str, mask: &str, signal: u32) -> bool {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).expect("/proc");
+    let found = status.lines().find_map(|line| line.strip_prefix(mask)).expect("the mask");
+    u64::from_str_radix(found.trim(), 16).expect("mask") >> (signal - 1) & 1 == 1
+}
+
+/// What the command has written.
+fn written(folder: &Path) -> Vec<String> {
+    names_in(folder).into_iter().filter(|name| !name.ends_with(".toml")).collect()
+}
+
+/// Starts a command where some signals are ignored, waits for its first file, sends one signal and, where that is ignored, a request to
+/// terminate.
+fn ends_by(args: &[&str], message: &str, signal: &str, ignoring: &str) {
+    let what = format!("{args:?}, {signal}, ignoring `{ignoring}`");
+    let folder = folder();
+    fs::write(folder.path().join("long.toml"), LONG).expect("scene");
+    fs::write(folder.path().join("huge.toml"), HUGE).expect("sweep");
+    let mut child = start(folder.path(), args, ignoring);
+    assert!(comes_to(&mut child, || !written(folder.path()).is_empty()), "{what}: it ended by itself");
+    let process = child.id().to_string();
+    let is_ignored = |name: &str, number: u32| {
+        name != "TERM" && (ignoring.split(' ').any(|ignored| ignored == name) || has_signal("self", "SigIgn:", number))
+    };
+    // Handlers stand before the first file does.
+    for (name, number) in SIGNALS {
+        assert_eq!(has_signal(&process, "SigIgn:", number), is_ignored(name, number), "{what}: {name}");
+        assert_eq!(has_signal(&process, "SigCgt:", number), !is_ignored(name, number), "{what}: {name}");
+    }
+    send(&child, signal);
+    let number = SIGNALS.iter().find(|(name, _)| *name == signal).expect("a signal").1;
+    if is_ignored(signal, number) {
+        send(&child, "TERM");
+    }
+    let output = child.wait_with_output().expect("its end");
+    assert_eq!(output.status.code(), Some(130), "{what}: {}", stderr(&output));
+    assert!(stderr(&output).ends_with(message), "{what}: {}", stderr(&output));
+    let left = written(folder.path());
+    if args[0] == "sweep" {
+        assert_eq!(left, ["out.partial", "out.partial.errors", "out.partial.journal"], "{what}");
+    } else {
+        assert!(left.is_empty(), "{what}: {left:?}");
+    }
+}
+
+#[test]
+fn each_signal_ends_a_command_that_leaves_nothing_incomplete() {
+    for (args, message) in COMMANDS {
+        for (signal, _) in SIGNALS {
+            ends_by(args, message, signal, "");
+        }
+    }
+}
+
+#[test]
+fn a_signal_that_is_ignored_stays_so_and_leaves_the_others_alone() {
+    for (args, message) in COMMANDS {
+        for (signal, ignoring) in
+            [("TERM", "HUP"), ("TERM", "INT"), ("TERM", "HUP INT TERM"), ("HUP", "HUP"), ("INT", "INT"), ("INT", "HUP")]
+        {
+            ends_by(args, message, signal, ignoring);
+        }
+    }
+}
+
+/// A table on standard output has no file to take away; the status says that it is not whole.
+#[test]
+fn a_run_to_standard_output_is_interrupted_too() {
+    let folder = folder();
+    fs::write(folder.path().join("long.toml"), LONG.replace("samples = 2", "samples = 2000000")).expect("scene");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_twofold"))
+        .args(["run", "long.toml", "--columns", "e_z"])
+        .current_dir(folder.path())
+        .stdout(fs::File::create(folder.path().join("motion.csv")).expect("file"))
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    let rows = || fs::metadata(folder.path().join("motion.csv")).is_ok_and(|found| found.len() > 0);
+    assert!(comes_to(&mut child, rows), "it ended by itself");
+    send(&child, "TERM");
+    let output = child.wait_with_output().expect("its end");
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert!(stderr(&output).ends_with("error: interrupted\n"), "{}", stderr(&output));
+}

@@ -1,0 +1,273 @@
+//! The command `twofold spectrum` as a user meets it: status, messages, output.
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use crate::common::{folder, names_in, stderr, twofold};
+
+/// A built-in scene with a text replaced, as a file.
+fn altered(folder: &Path, name: &str, from: &str, to: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scene/scenes/{name}.toml"));
+    let text = fs::read_to_string(path).expect("scene");
+    assert!(text.contains(from), "{text}");
+    let file = folder.join("altered.toml");
+    fs::write(&file, text.replace(from, to)).expect("file");
+    file.to_str().expect("UTF-8").to_owned()
+}
+
+/// A neutron star in free precession at 100 Hz.
+fn physical(folder: &Path) -> String {
+    let star = "mass = 1.4\nradius = 12.0\noblateness = 1e-3\nspin_frequency = 100.0";
+    let text = format!(
+        "[star]\n{star}\n[lorentz_violation]\neigenvalues = [0.0, 0.0, 0.0]\n[initial]\nalpha = 0.0\nbeta = 0.5\n\
+         alpha_rate = 700.0\nbeta_rate = 0.0\n[observer]\ntheta_o = 0.8\nphi_o = 0.0\n[time]\nstart = 3.0\nspan = 2.0\nsamples = 3\n"
+    );
+    let file = folder.join("physical.toml");
+    fs::write(&file, text).expect("file");
+    file.to_str().expect("UTF-8").to_owned()
+}
+
+/// Rows of a list of lines: numbers, and what each is.
+fn lines_of(output: &Output) -> Vec<(Vec<f64>, String)> {
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(output));
+    let text = String::from_utf8_lossy(&output.stdout);
+    let row = |line: &str| {
+        let (numbers, name) = line.rsplit_once(',').expect("columns");
+        (numbers.split(',').map(|field| field.parse().expect("number")).collect(), name.to_owned())
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
+#[test]
+fn lines_of_a_spectrum_are_identified() {
+    let output = twofold(&["spectrum", "tp-1", "--of", "h_plus", "--span", "4000", "--least", "0.1"]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(
+        text.lines().next(),
+        Some("frequency [rad/t_c],amplitude [1],phase [rad],uncertainty [rad/t_c],combination")
+    );
+    // Free precession: the fundamental and its second harmonic.
+    let lines = lines_of(&output);
+    assert_eq!(lines.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>(), ["2 alpha'", "alpha'"]);
+    let notes = stderr(&output);
+    let told = |name: &str| -> f64 {
+        let line = notes.lines().find_map(|line| line.strip_prefix(&format!("note: {name} = "))).expect(name);
+        line.split(' ').next().expect("number").parse().expect("number")
+    };
+    assert!((lines[0].0[0] - 2.0 * told("alpha'")).abs() < 1e-10 && (lines[1].0[0] - told("alpha'")).abs() < 1e-10);
+    assert!((told("l'") + 0.027_972_468_2).abs() < 1e-9, "{notes}");
+    assert!(
+        notes.contains("chosen from the rotation rate") && notes.contains("h_plus has the constant term"),
+        "{notes}"
+    );
+
+    // The other way in time the same lines: amplitude cos(frequency (t - start) + phase), the motion is symmetric in time.
+    let back = lines_of(&twofold(&["spectrum", "tp-1", "--of", "h_plus", "--span", "-4000", "--least", "0.1"]));
+    for ((one, _), (other, _)) in lines.iter().zip(&back) {
+        assert!((one[0] - other[0]).abs() < 1e-10 && (one[1] - other[1]).abs() < 1e-8);
+        assert!((one[2].cos() - other[2].cos()).abs() < 1e-6, "{one:?} {other:?}");
+    }
+    assert_eq!(lines_of(&twofold(&["spectrum", "tp-1", "--of", "h_plus", "--span", "4000", "--most", "3"])).len(), 3);
+}
+
+#[test]
+fn a_spectrum_of_a_physical_star_is_in_seconds_from_its_start() {
+    let folder = folder();
+    let scene = physical(folder.path());
+    let output = twofold(&["spectrum", &scene, "--of", "cos_lambda"]);
+    let lines = lines_of(&output);
+    assert!(String::from_utf8_lossy(&output.stdout).starts_with("frequency [rad/s],"));
+    // Free precession: n goes round L at |L| / I^xx, here once in 9 ms; the line is cos lambda less its constant term.
+    assert_eq!((lines.len(), lines[0].1.as_str()), (1, "alpha'"));
+    let (spin, beta) = (1.001 * std::f64::consts::TAU * 100.0, 0.5_f64);
+    let along = spin * beta.cos() + 700.0 * beta.sin().powi(2);
+    let across = (700.0 * beta.cos() - spin) * beta.sin();
+    assert!((lines[0].0[0] / along.hypot(across) - 1.0).abs() < 1e-10, "{lines:?}");
+    let table = twofold(&["run", &scene, "--columns", "lambda"]);
+    let text = String::from_utf8_lossy(&table.stdout).into_owned();
+    let notes = stderr(&output);
+    let constant = notes.split("constant term ").nth(1).and_then(|rest| rest.lines().next()).expect("constant");
+    let constant: f64 = constant.parse().expect("number");
+    for row in text.lines().skip(1) {
+        let row: Vec<f64> = row.split(',').map(|field| field.parse().expect("number")).collect();
+        let [frequency, amplitude, phase, _] = lines[0].0[..] else { panic!("four numbers") };
+        let line = constant + amplitude * (frequency * (row[0] - 3.0) + phase).cos();
+        assert!((line - row[1]).abs() < 1e-9, "{line} at {row:?}");
+    }
+    // The amplitude spectrum in steps of 2 pi over the span of 2 s; between two steps the window takes a few hundredths.
+    let spectrum = twofold(&["spectrum", &scene, "--of", "cos_lambda", "--table", "spectrum"]);
+    let text = String::from_utf8_lossy(&spectrum.stdout).into_owned();
+    assert!(text.starts_with("frequency [rad/s],amplitude [1]\n"), "{text}");
+    let points = text.lines().skip(1).map(|row| {
+        let (frequency, amplitude) = row.split_once(',').expect("two columns");
+        [frequency, amplitude].map(|field| field.parse::<f64>().expect("number"))
+    });
+    // The window spreads the constant term over some steps.
+    let highest =
+        points.filter(|[frequency, _]| *frequency > 100.0).max_by(|a, b| a[1].total_cmp(&b[1])).expect("rows");
+    assert!((highest[0] - lines[0].0[0]).abs() < std::f64::consts::PI, "{highest:?} {lines:?}");
+    assert!((0.9..1.001).contains(&(highest[1] / lines[0].0[1])), "{highest:?} {lines:?}");
+}
+
+#[test]
+fn an_amplitude_spectrum_and_lines_without_names_need_no_long_span() {
+    let spectrum = twofold(&["spectrum", "tp-2", "--of", "m.n", "--table", "spectrum"]);
+    assert_eq!(spectrum.status.code(), Some(0), "{}", stderr(&spectrum));
+    let text = String::from_utf8_lossy(&spectrum.stdout).into_owned();
+    assert!(text.starts_with("frequency [rad/t_c],amplitude [1]\n0.0,"), "{text}");
+    let highest = text.lines().skip(1).map(|row| {
+        let (frequency, amplitude) = row.split_once(',').expect("two columns");
+        (amplitude.parse::<f64>().expect("number"), frequency.parse::<f64>().expect("number"))
+    });
+    let highest = highest.filter(|(_, frequency)| *frequency > 0.5).max_by(|a, b| a.0.total_cmp(&b.0)).expect("rows");
+    let lines = lines_of(&twofold(&["spectrum", "tp-2", "--of", "m.n", "--unidentified", "--least", "0.1"]));
+    assert!(lines.iter().all(|(_, name)| name == "unidentified"));
+    assert!(lines.iter().any(|(line, _)| (line[0] - highest.1).abs() < 0.02), "{highest:?} {lines:?}");
+
+    let short = twofold(&["spectrum", "tp-2", "--of", "m.n"]);
+    assert_eq!(short.status.code(), Some(1));
+    for fragment in ["too short", "--span", "--unidentified"] {
+        assert!(stderr(&short).contains(fragment), "{}", stderr(&short));
+    }
+    let shorter = twofold(&["spectrum", "tp-2", "--of", "m.n", "--span", "50"]);
+    assert_eq!(shorter.status.code(), Some(1));
+    assert!(stderr(&shorter).contains("turns of n about L") && stderr(&shorter).contains("--unidentified"));
+    let hardly = twofold(&["spectrum", "tp-2", "--of", "m.n", "--span", "1e-9"]);
+    let value =
+        stderr(&hardly).split("turns of n about L = ").nth(1).and_then(|rest| rest.split(':').next()).map(String::from);
+    let value = value.expect("the number");
+    let mantissa = value.split('e').next().unwrap_or_default();
+    let digits = mantissa.trim_start_matches(['0', '.']).chars().filter(char::is_ascii_digit).count();
+    assert!((1..=3).contains(&digits), "{}", stderr(&hardly));
+}
+
+/// 150 t_c are too short for lines that are 0.035 / t_c apart and as far from zero.
+#[test]
+fn lines_that_the_span_cannot_tell_apart_are_said_to_be_several() {
+    for (scene, column) in
+        [("tp-2", "m.n"), ("tp-2", "h_plus"), ("sp-2", "m.n"), ("sp-2", "h_plus"), ("sp-1", "h_plus")]
+    {
+        let near = twofold(&["spectrum", scene, "--of", column, "--span", "150", "--least", "1e-2", "--unidentified"]);
+        let lines = lines_of(&near);
+        let notes = stderr(&near);
+        assert!(lines.iter().any(|(_, name)| name == "unresolved"), "{scene} {column}: {lines:?}");
+        for (line, name) in &lines {
+            // The series is one step longer than the span.
+            let turns = line[3] * 150.0;
+            assert!(if name == "unresolved" { turns > 0.99 } else { turns <= 1.0 }, "{scene} {column}: {lines:?}");
+            assert!(
+                line[0] > 0.0 && line[1] < 1.0,
+                "{scene} {column}: a frequency {} with an amplitude {}",
+                line[0],
+                line[1]
+            );
+        }
+        for fragment in [
+            "lines are missing: ",
+            "of the strongest line, which the uncertainties count; lines nearer than about 5.3e-2 rad/t_c (8 / span)",
+            "longer --span",
+            "of the lines listed are `unresolved`: the frequency is uncertain by more than 1 / span",
+        ] {
+            assert!(notes.contains(fragment), "{scene} {column}: {notes}");
+        }
+    }
+    let longer = twofold(&["spectrum", "tp-2", "--of", "m.n", "--span", "1500", "--least", "1e-2", "--unidentified"]);
+    let strongest = &lines_of(&longer)[0];
+    assert!((strongest.0[0] - 1.394_678).abs() < 1e-5 && strongest.1 == "unidentified", "{strongest:?}");
+}
+
+#[test]
+fn rounding_beside_a_constant_is_not_listed() {
+    for (scene, column, span, floor) in [
+        // A star that spins about its axis: what oscillates in its wave is 1e13 times below the constant term.
+        ("b1937+21", "h_plus", "20", "six times the noise"),
+        // A component of L that is 1e-13 of |L|.
+        ("b1828-11", "L_Y", "600", "the scene's accuracy is 1e-13, of 2.5e46 g cm^2/s"),
+        ("tp-1", "E", "400", "the scene's accuracy is 1e-13, of 1.0e0 C"),
+    ] {
+        let output = twofold(&["spectrum", scene, "--of", column, "--span", span, "--unidentified"]);
+        assert!(lines_of(&output).is_empty(), "{scene} {column}: {}", String::from_utf8_lossy(&output.stdout));
+        let notes = stderr(&output);
+        for fragment in
+            ["constant term", "lines below ", " are not listed: ", floor, "has no line of an amplitude above"]
+        {
+            assert!(notes.contains(fragment), "{scene} {column}: {notes}");
+        }
+    }
+}
+
+#[test]
+fn a_motion_without_frequencies_has_lines_without_names() {
+    let folder = folder();
+    let scene = folder.path().join("upright.toml");
+    let text = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n[initial]\n\
+                alpha = 0.0\nbeta = 0.0\nalpha_rate = 0.0\nbeta_rate = 0.0\n[observer]\ntheta_o = 0.8\nphi_o = 0.0\n[pulsar]\n\
+                chi = 0.5\nrho = 0.6\n[time]\nspan = 3000.0\nsamples = 3\n";
+    fs::write(&scene, text).expect("scene");
+    let scene = scene.to_str().expect("UTF-8");
+    let output = twofold(&["spectrum", scene, "--of", "m.n"]);
+    let lines = lines_of(&output);
+    assert_eq!((lines.len(), lines[0].1.as_str()), (1, "unidentified"));
+    assert!((lines[0].0[0] - 1.0).abs() < 1e-12, "{lines:?}");
+    assert!(stderr(&output).contains("no line is identified: the motion has no fundamental frequencies"));
+    // Nothing moves here but rounding.
+    let constant = twofold(&["spectrum", scene, "--of", "L_Z"]);
+    assert!(lines_of(&constant).is_empty() && stderr(&constant).contains("L_Z has no line"), "{}", stderr(&constant));
+    let output = twofold(&["spectrum", scene, "--of", "beta"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("`beta` does not exist at t = 0.0 t_c"), "{}", stderr(&output));
+}
+
+#[test]
+fn what_has_no_spectrum_is_refused_before_anything_is_written() {
+    let folder = folder();
+    let out = folder.path().join("lines.csv");
+    let out = out.to_str().expect("UTF-8");
+    for (args, fragments) in [
+        (
+            &["tp-1", "--of", "h_plu"][..],
+            &["--of for tp-1: `h_plu` is no column", "`beta`,", "Did you mean `h_plus`?"][..],
+        ),
+        (&["tp-1", "--of", "h_plus [1]"], &["is no column"]),
+        (&["tp-1", "--of", "alpha"], &["`alpha` turns without end"]),
+        (&["free", "--of", "beta_printed"], &["the scene lacks a perturbation solution"]),
+        (&["tp-1", "--of", "beta", "--span", "0"], &["--span 0.0: allowed is"]),
+        (&["tp-1", "--of", "beta", "--span", "nan"], &["--span NaN: allowed is"]),
+        (&["tp-1", "--of", "beta", "--span", "1e9"], &["rotation", "at most 1e5 rad"]),
+        (&["tp-1", "--of", "beta", "--least", "0"], &["--least 0.0: allowed is from 1e-12 to 1"]),
+        (&["tp-1", "--of", "beta", "--most", "0"], &["--most", "1..=200"]),
+        (&["tp-1", "--of", "beta", "--table", "picture"], &["--table", "lines, spectrum"]),
+        (&["tp-1"], &["--of <COLUMN>"]),
+        (&["tp-11", "--of", "beta"], &["did you mean `tp-1`?"]),
+    ] {
+        let output = twofold(&[&["spectrum"], args, &["--out", out]].concat());
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {}", stderr(&output));
+        assert!(output.stdout.is_empty() && names_in(folder.path()).is_empty(), "{args:?}");
+        for fragment in fragments {
+            assert!(stderr(&output).contains(fragment), "expected `{fragment}` in {}", stderr(&output));
+        }
+    }
+    let failed = twofold(&["spectrum", "tp-1", "--of", "beta", "--out", out]);
+    assert_eq!((failed.status.code(), names_in(folder.path()).len()), (Some(1), 0));
+    let still = altered(folder.path(), "tp-1", "span = 400 # [t_c]\nsamples = 4001", "times = [0.0]");
+    let output = twofold(&["spectrum", &still, "--of", "beta"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("[time] has no length"), "{}", stderr(&output));
+    let written = twofold(&["spectrum", "free", "--of", "beta", "--out", out]);
+    assert_eq!(written.status.code(), Some(0), "{}", stderr(&written));
+    assert!(fs::read_to_string(out).expect("table").starts_with("frequency [rad/t_c],"));
+}
+
+#[test]
+fn units_of_a_physical_star_are_told_without_what_is_not_asked_for() {
+    let folder = folder();
+    let scene = physical(folder.path());
+    let output = twofold(&["run", &scene, "--columns", "e_z"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("times are in s\n") && !stderr(&output).contains("g cm^2/s"),
+        "{}",
+        stderr(&output)
+    );
+}

@@ -1,0 +1,23 @@
+//! Estimated errors as they are printed.
+
+/// Rounding of a component of a direction, or of `L` in units of its size, printed as a double.
+pub const ROUNDING_OF_COMPONENT: f64 = 0.5 * f64::EPSILON;
+
+/// An estimated error to be printed beside numbers that are rounded by `rounding`: below that no reader can see anything of it, and the rounding
+/// is the error. What is no number stays none.
+pub fn as_printed(error: f64, rounding: f64) -> f64 {
+    if error < rounding { rounding } else { error }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_below_the_rounding_of_what_is_printed_is_that_rounding() {
+        for (error, printed) in [(0.0, 9e-12), (2.1e-36, 9e-12), (1e-11, 1e-11), (f64::INFINITY, f64::INFINITY)] {
+            assert_eq!(as_printed(error, 9e-12), printed);
+        }
+        assert!(as_printed(f64::NAN, 9e-12).is_nan());
+    }
+}

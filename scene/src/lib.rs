@@ -1,0 +1,19 @@
+//! Scene files of the model `twofold` and what is computed from them: tables, sweeps, timing files, fits.
+
+pub mod columns;
+pub mod estimated_error;
+pub mod fit;
+pub mod inference;
+pub mod pulsar_table;
+pub mod pulsar_timing;
+pub mod random;
+pub mod scene_file;
+pub mod significant;
+pub mod sweep;
+pub mod trajectory;
+
+/// The compiler of this build.
+pub const COMPILER: &str = env!("TWOFOLD_RUSTC");
+
+/// The machine that this build is for, as a target triple.
+pub const TARGET: &str = env!("TWOFOLD_TARGET");

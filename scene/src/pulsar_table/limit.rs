@@ -1,0 +1,253 @@
+//! Limits at a stated confidence: what the measured change, the other numbers and the unknown directions contribute, and all of it.
+
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
+use std::num::NonZeroUsize;
+
+use gauss_quad::GaussLegendre;
+use twofold::Error;
+use twofold::units::DEGREE;
+
+use super::{Eta, Figure, Pulsar, Quantity, Spread};
+
+/// Confidence of the limits.
+pub const CONFIDENCE: f64 = 0.95;
+
+/// Limits on a quantity of which Eq. (41) bounds the ratio to `eta`, at the confidence [`CONFIDENCE`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// Over `eta`, by the measured error of the change of width alone; none if that change is given as a limit.
+    pub over_eta_by_change: Option<f64>,
+    /// Over `eta`, by the uncertainties of all other numbers alone.
+    pub over_eta_by_inputs: f64,
+    /// `eta`: by the unknown directions alone, or as given.
+    pub eta: f64,
+    /// By all of these together.
+    pub all: f64,
+}
+
+impl Pulsar {
+    /// The change of width with its measured error; none if it is a bare number, which is taken as a limit.
+    pub fn measured_change(&self) -> Option<Quantity> {
+        (self.width_change.spread == Spread::Given).then_some(self.width_change)
+    }
+
+    /// The directions that are not known, for a spin axis at the angle `lambda` to the line of sight: all orientations of the axes of the
+    /// tensor, or with `beta_0` those at that inclination. The tensor is taken as symmetric about Z, which has the largest `eta` at 95 % if
+    /// nothing is known of its axes. None if `eta` is given.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for an axis along the line of sight: a motion across it is not seen.
+    pub fn directions(&self) -> Result<Option<Directions>, Error> {
+        let inclination = match self.eta {
+            Eta::Given(_) => return Ok(None),
+            Eta::Unknown => None,
+            Eta::Inclination(beta_0) => Some(beta_0.value * DEGREE),
+        };
+        let sine = (self.lambda.value * DEGREE).sin().abs();
+        let allowed = "above 2.2e-16 in size: a motion across the line of sight is not seen";
+        Error::unless(sine > f64::EPSILON, "sine of the angle to the line of sight", sine, allowed)?;
+        Ok(Some(Directions { inclination, sine }))
+    }
+
+    /// Standard uncertainty of `eta`, relative to it, from the number given for it or for `beta_0`: `eta ~ 1 / (sin b0 cos b0)`.
+    fn relative_uncertainty_of_eta(&self) -> f64 {
+        match self.eta {
+            Eta::Given(eta) => eta.uncertainty / eta.value,
+            Eta::Unknown => 0.0,
+            Eta::Inclination(beta_0) => (2.0 * beta_0.uncertainty * DEGREE / (2.0 * beta_0.value * DEGREE).tan()).abs(),
+        }
+    }
+
+    /// Limits on the quantity whose bound over `eta` is `figure`.
+    ///
+    /// The change of `lambda` is normal about its measured value with its error, the effect of the other numbers normal to first
+    /// order, and directions, change and numbers do not depend on each other. [`Limit::all`] is what the bound times `eta` then does
+    /// not exceed with the probability [`CONFIDENCE`]: for given directions the quantile of a posterior with a flat prior.
+    ///
+    /// # Errors
+    /// As for [`directions`](Self::directions).
+    pub fn limit(&self, figure: &Figure) -> Result<Limit, Error> {
+        let inputs = figure.from_inputs.hypot(figure.value * self.relative_uncertainty_of_eta());
+        let together = Normal { mean: figure.value, deviation: figure.from_change.unwrap_or(0.0).hypot(inputs) };
+        let (eta, all) = match (self.directions()?, self.eta) {
+            (Some(directions), _) => {
+                let one = Normal { mean: 1.0, deviation: 0.0 };
+                (directions.quantile_of_eta_times(one), directions.quantile_of_eta_times(together))
+            }
+            (None, Eta::Given(eta)) => (eta.value, eta.value * together.size_quantile(CONFIDENCE)),
+            (None, Eta::Unknown | Eta::Inclination(_)) => unreachable!("only a given eta has no directions"),
+        };
+        let over_eta = |deviation| Normal { mean: figure.value, deviation }.size_quantile(CONFIDENCE);
+        Ok(Limit {
+            over_eta_by_change: figure.from_change.map(over_eta),
+            over_eta_by_inputs: over_eta(inputs),
+            eta,
+            all,
+        })
+    }
+
+    /// The limit that a measured change of zero with the same error would give: how sensitive the pulse is, whatever was found.
+    /// None if the change has no error.
+    ///
+    /// # Errors
+    /// As for [`limit`](Self::limit).
+    pub fn sensitivity(&self, figure: &Figure) -> Result<Option<f64>, Error> {
+        // Other uncertainties are relative to a change: to none they add nothing.
+        let unchanged = Figure { value: 0.0, from_inputs: 0.0, ..figure.clone() };
+        figure.from_change.map(|_| Ok(self.limit(&unchanged)?.all)).transpose()
+    }
+}
+
+/// The pulse of a table whose limit is recommended, and that limit: the pulse that would give the strongest one for a measured
+/// change of zero, or, where its change is given as a limit, for that. So it is chosen by errors and not by what was found.
+///
+/// # Errors
+/// For a table without pulses, and what [`Pulsar::limit`] reports.
+pub fn recommended(pulsars: &[Pulsar]) -> Result<(&Pulsar, Limit), String> {
+    let mut best: Option<(f64, &Pulsar, Limit)> = None;
+    for pulsar in pulsars {
+        let figure = pulsar.figure("bound_over_eta_own")?;
+        let text = |error: Error| error.to_string();
+        let limit = pulsar.limit(&figure).map_err(text)?;
+        let strength = pulsar.sensitivity(&figure).map_err(text)?.unwrap_or(limit.all);
+        if best.is_none_or(|(strongest, ..)| strength < strongest) {
+            best = Some((strength, pulsar, limit));
+        }
+    }
+    best.map(|(_, pulsar, limit)| (pulsar, limit)).ok_or_else(|| "a table without pulses".to_owned())
+}
+
+fn rule(nodes: usize) -> GaussLegendre {
+    GaussLegendre::new(NonZeroUsize::new(nodes).expect("a rule with nodes"))
+}
+
+/// Directions of the axes of a symmetric tensor that are not known, seen at a known angle to the spin axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Directions {
+    /// Angle (rad) of the spin axis to Z; every one if none.
+    inclination: Option<f64>,
+    /// Sine of the angle between the spin axis and the line of sight.
+    sine: f64,
+}
+
+impl Directions {
+    /// What `|x| eta` does not exceed with the probability [`CONFIDENCE`], for a normal `x` that does not depend on directions.
+    fn quantile_of_eta_times(self, x: Normal) -> f64 {
+        let sizes = x.sizes();
+        let rule = rule(60);
+        let beyond = |limit: f64| -> f64 {
+            sizes.iter().map(|(size, weight)| weight * self.is_slower_than(size / limit, &rule)).sum()
+        };
+        let largest = sizes.iter().fold(0.0, |largest: f64, (size, _)| largest.max(*size));
+        let (mut low, mut high) = (0.0, largest);
+        while beyond(high) > 1.0 - CONFIDENCE {
+            (low, high) = (high, 2.0 * high);
+        }
+        for _ in 0..50 {
+            let middle = (low + high) / 2.0;
+            *(if beyond(middle) > 1.0 - CONFIDENCE { &mut low } else { &mut high }) = middle;
+        }
+        high
+    }
+
+    /// Probability of `1 / eta < rate`. With the azimuth `psi` of the line of sight about the spin axis `l`, counted from the motion,
+    /// `1 / eta` is `sin(lambda) |l.Z| |(l x Z)| |cos psi|`. For an isotropic Z that is `sin(lambda)` times the product of two of its components,
+    /// `(1 - mu^2) |sin 2 phi| / 2` about the third axis: the mean over `mu` is known, and `t = 2 phi` is left.
+    fn is_slower_than(self, rate: f64, rule: &GaussLegendre) -> f64 {
+        let rate = rate / self.sine;
+        if let Some(beta) = self.inclination {
+            return FRAC_2_PI * (rate / (beta.sin() * beta.cos()).abs()).min(1.0).asin();
+        }
+        if rate >= 0.5 {
+            return 1.0;
+        }
+        let first = (2.0 * rate).asin();
+        if first == 0.0 {
+            return 0.0;
+        }
+        // In `t = first cosh(y)` the root at the first is smooth.
+        let faster = |y: f64| (1.0 - 2.0 * rate / (first * y.cosh()).sin()).max(0.0).sqrt() * first * y.sinh();
+        1.0 - FRAC_2_PI * rule.integrate(0.0, (FRAC_PI_2 / first).acosh(), faster)
+    }
+}
+
+/// A normal distribution.
+#[derive(Debug, Clone, Copy)]
+struct Normal {
+    mean: f64,
+    deviation: f64,
+}
+
+impl Normal {
+    /// Sizes `|x|` with weights that add up to one, so that the mean of a function of the size is a sum: Gauss and Legendre's rule in a
+    /// variable in which the ends are smooth, eight standard deviations to each side.
+    fn sizes(self) -> Vec<(f64, f64)> {
+        let Self { mean, deviation } = self;
+        if deviation == 0.0 {
+            return vec![(mean.abs(), 1.0)];
+        }
+        let mean = mean.abs() / deviation;
+        let (low, high) = ((mean - 8.0).max(0.0), mean + 8.0);
+        let density = |x: f64| [x - mean, x + mean].map(|off| (-0.5 * off * off).exp()).iter().sum::<f64>();
+        let size = |&(node, weight): &(f64, f64)| {
+            let u = (1.0 + node) / 2.0;
+            let x = low + (high - low) * u * u;
+            (x * deviation, weight * (high - low) * u * density(x) / (2.0 * PI).sqrt())
+        };
+        rule(100).iter().map(size).collect()
+    }
+
+    /// The number that the size `|x|` does not exceed with the given probability.
+    fn size_quantile(self, probability: f64) -> f64 {
+        let Self { mean, deviation } = self;
+        if deviation == 0.0 {
+            return mean.abs();
+        }
+        let rule = rule(60);
+        // In standard deviations.
+        let mean = mean.abs() / deviation;
+        let density = |x: f64| (-0.5 * (x - mean) * (x - mean)).exp() / (2.0 * PI).sqrt();
+        let below = |size: f64| rule.integrate((mean - 8.0).max(-size), size, density);
+        let (mut low, mut high) = ((mean - 8.0).max(0.0), mean + 8.0);
+        for _ in 0..60 {
+            let middle = (low + high) / 2.0;
+            *(if below(middle) < probability { &mut low } else { &mut high }) = middle;
+        }
+        high * deviation
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_of_normal_numbers_have_the_quantiles_of_tables() {
+        // 1.959964 and 1.644854 standard deviations: both sides of zero, and one side far from zero.
+        for (mean, deviation, expected) in
+            [(0.0, 2.0, 2.0 * 1.959964), (100.0, 1.0, 101.644854), (-1e9, 1.0, 1e9 + 1.644854), (3.0, 0.0, 3.0)]
+        {
+            let found = Normal { mean, deviation }.size_quantile(CONFIDENCE);
+            assert!((found - expected).abs() < 1e-6 * deviation.max(1e-9), "{mean} +- {deviation}: {found}");
+        }
+    }
+
+    /// Against adaptive quadratures of another program (`verify/oracles/second_program/bounds.py`), which random draws confirm to 1e-3.
+    #[test]
+    fn limits_over_directions_are_the_quantiles_of_integrals_done_another_way() {
+        for (lambda, inclination, mean, deviation, expected) in [
+            (100.0, None, 1.0, 0.0, 88.635_652_034_956_15),
+            (100.0, None, 1.0, 1.1, 103.199_948_360_082_8),
+            (40.0, None, 0.0, 1.0, 103.082_788_623_988_7),
+            (40.0, None, -30.0, 1.0, 4_073.544_488_652_147),
+            (75.0, Some(35.0), 1.0, 0.0, 28.083_879_615_124_71),
+            (75.0, Some(35.0), 1.0, 0.4, 28.142_660_688_733_76),
+            (75.0, Some(80.0), 0.0, 2.0, 123.404_499_675_616_7),
+        ] {
+            let directions =
+                Directions { inclination: inclination.map(f64::to_radians), sine: f64::to_radians(lambda).sin() };
+            let found = directions.quantile_of_eta_times(Normal { mean, deviation });
+            assert!((found / expected - 1.0).abs() < 1e-9, "{lambda} {inclination:?} {mean} {deviation}: {found}");
+        }
+    }
+}

@@ -1,0 +1,366 @@
+//! Sweep files: a scene, what is varied in it, the times and the columns, read from TOML and checked.
+
+use std::path::Path;
+
+use rand_distr::Normal;
+use toml::de::{DeTable, DeValue};
+use twofold::plan::Output;
+
+use super::outputs::{ERRORS, Outputs, Summary};
+use super::parameters::{Law, Parameters, Source};
+use super::{MOST_COLUMNS, MOST_SCENES, Sweep};
+use crate::columns;
+use crate::scene_file::{
+    BUILT_IN, Columns, Entry, Fault, FileKind, Replaced, SCENE, Scene, SceneError, Section, Times, listed, nearest,
+    read_accuracy_and_method, read_times,
+};
+
+/// A sweep, in the words of the messages.
+const SWEEP: FileKind = FileKind { name: "a sweep", built_in: None };
+
+/// Sections of a scene that can be varied.
+const VARIED_SECTIONS: [&str; 5] = ["star", "lorentz_violation", "initial", "observer", "pulsar"];
+
+/// The text of a sweep file and of the scene that it names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepText {
+    /// Path, as in messages.
+    pub file: String,
+    /// Text of the file.
+    pub text: String,
+    /// Name and text of the scene, where it is not in the file itself.
+    pub scene: Option<(String, String)>,
+}
+
+impl SweepText {
+    /// Reads the sweep file at `path`, and the scene that it names: a built-in one, or a file beside it.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is not TOML.
+    pub fn read(path: &str) -> Result<Self, SceneError> {
+        Self::of(path, SWEEP.read(path)?)
+    }
+
+    /// A sweep file at `path` whose text is known, and the scene that it names.
+    ///
+    /// # Errors
+    /// A scene that cannot be read, and text that is not TOML.
+    pub fn of(path: &str, text: String) -> Result<Self, SceneError> {
+        Self::with(path, text, |name| match BUILT_IN.iter().find(|scene| scene.name == name) {
+            Some(built_in) => Ok((name.to_owned(), built_in.toml.to_owned())),
+            None => {
+                let file = Path::new(path).parent().unwrap_or(Path::new("")).join(name);
+                let file = file.to_string_lossy().into_owned();
+                let text = SCENE.read(&file)?;
+                Ok((file, text))
+            }
+        })
+    }
+
+    /// A sweep file whose text is known, and what `find` has under the name of its scene, a name for messages and a text.
+    pub fn with(
+        path: &str,
+        text: String,
+        find: impl FnOnce(&str) -> Result<(String, String), SceneError>,
+    ) -> Result<Self, SceneError> {
+        let name = SWEEP.parse(path, &text, |document| {
+            Ok(document
+                .optional("scene")
+                .filter(Entry::is_string)
+                .map(|entry| entry.string())
+                .transpose()?
+                .map(String::from))
+        })?;
+        let scene = name.map(|name| find(&name));
+        Ok(Self { file: path.to_owned(), text, scene: scene.transpose()? })
+    }
+}
+
+/// The scene that is varied.
+#[derive(Debug)]
+pub(super) struct Base<'t> {
+    text: &'t str,
+    table: DeTable<'t>,
+    /// Whether the table is that of the sweep file, with the scene in its section `scene`.
+    inside: bool,
+}
+
+impl Base<'_> {
+    fn document(&self) -> Section<'_> {
+        let scene = self.table.iter().find(|(key, _)| self.inside && key.get_ref() == "scene");
+        let table = match scene.map(|(_, value)| value.get_ref()) {
+            Some(DeValue::Table(table)) => table,
+            _ => &self.table,
+        };
+        Section::document(self.text, table, "a scene")
+    }
+
+    /// The scene with `numbers` in place of those under `keys`, and the times of the sweep in place of its own.
+    pub(super) fn scene(&self, keys: &[String], numbers: &[f64], times: &Times) -> Result<Scene, String> {
+        let document = self.document().replacing(Replaced { keys, numbers });
+        Scene::from_document(&document, Columns::Unused, Some(times)).map_err(|fault| fault.message)
+    }
+}
+
+impl<'t> Sweep<'t> {
+    /// Reads and checks a sweep.
+    ///
+    /// # Errors
+    /// A [`SceneError`] for text that is not TOML, for keys that are unknown, missing or exclude one another, for values of a
+    /// wrong type or out of range, and for a scene that is not usable as it stands.
+    pub fn new(text: &'t SweepText) -> Result<Self, SceneError> {
+        let document = SWEEP.table(&text.file, &text.text)?;
+        let section = Section::document(&text.text, &document, SWEEP.name);
+        let in_sweep = |fault| SceneError::in_text(&text.file, &text.text, fault);
+        let about = check_keys(&section).map_err(in_sweep)?;
+        let (name, scene_text) = text.scene.as_ref().map_or((&text.file, &text.text), |(name, text)| (name, text));
+        let table = SCENE.table(name, scene_text)?;
+        let base = Base { text: scene_text, table, inside: text.scene.is_none() };
+        let in_scene = |fault| SceneError::in_text(name, scene_text, fault);
+        let times = times(&section).map_err(in_sweep)?;
+        let scene = base.document();
+        let with = |times| Scene::from_document(&scene, Columns::Unused, times).map_err(in_scene);
+        // The scene's own times, if it has any, are not used; they are checked all the same.
+        let own = scene.has("time").then(|| with(None)).transpose()?;
+        let mut scene = with(Some(&times))?;
+        let cautions = own.map_or_else(|| scene.cautions.clone(), |own| own.cautions);
+        let varied = VARIED_SECTIONS.iter().filter_map(|name| base.document().section(name).ok().flatten());
+        let known: Vec<_> = varied.flat_map(|section| section.numbers()).collect();
+        let parameters = parameters(&section, &known).map_err(in_sweep)?;
+        let outputs = outputs(&section, &mut scene, times).map_err(in_sweep)?;
+        // Means over the span and pulses go through every turn.
+        let mut needed = outputs.asked().outputs;
+        if outputs.summaries.iter().any(|summary| matches!(summary, Summary::Lambda | Summary::Pulses)) {
+            needed.push(Output::Pulses);
+        }
+        scene.check_rotation(&needed).map_err(|why| in_sweep(section.fault(why)))?;
+        let count = parameters.count().filter(|count| *count <= MOST_SCENES);
+        let scenes = count.ok_or_else(|| {
+            in_sweep(section.fault(format!("the sweep has too many scenes: allowed are {MOST_SCENES:.0e}")))
+        })?;
+        let (accuracy, method, units) = (scene.accuracy, scene.method, scene.units);
+        let rotation = scene.rotation();
+        let sweep = Sweep { about, base, parameters, outputs, scenes, cautions, accuracy, method, units, rotation };
+        let columns = sweep.header().len();
+        if columns > MOST_COLUMNS {
+            let why = format!("the sweep has {columns} columns: allowed are {MOST_COLUMNS}; ask for fewer times");
+            return Err(in_sweep(section.fault(why)));
+        }
+        Ok(sweep)
+    }
+}
+
+/// Checks the keys of the document; says what the sweep is about.
+fn check_keys(document: &Section<'_>) -> Result<String, Fault> {
+    document.only(&["about", "scene", "seed", "draws", "vary", "time", "output"])?;
+    let about = document.optional("about").map(|entry| entry.string()).transpose()?.unwrap_or("");
+    let scene = document.required("scene", "a built-in scene, the path of a scene file, or a section [scene]")?;
+    if !scene.is_string() {
+        document.table("scene", "the name of a scene, or a section [scene]")?;
+    }
+    Ok(about.to_owned())
+}
+
+/// The times of the columns: those of a scene's section, or the end of the span alone.
+fn times(document: &Section<'_>) -> Result<Times, Fault> {
+    let section = document.required_section("time", "the times of the columns")?;
+    if section.has("times") || section.has("samples") {
+        return read_times(&section);
+    }
+    section.only(&["start", "span", "end", "samples", "times"])?;
+    section.not_both("span", "end")?;
+    let start = section.optional("start").map_or(Ok(0.0), |entry| entry.number())?;
+    let end = match (section.optional("span"), section.optional("end")) {
+        (Some(span), _) => start + span.number_where("any number except zero", |x| x != 0.0)?,
+        (None, Some(end)) => end.number_where("any number except `time.start`", |x| x != start)?,
+        (None, None) => return Err(section.missing("one of `time.span`, `time.end` and `time.times`")),
+    };
+    if end == start || !end.is_finite() {
+        return Err(section.fault("[time] has a span that is lost in the rounding of its ends"));
+    }
+    Ok(Times::Listed { start, times: vec![end] })
+}
+
+fn parameters(document: &Section<'_>, known: &[String]) -> Result<Parameters, Fault> {
+    let mut found = Parameters { keys: Vec::new(), sources: Vec::new(), lengths: Vec::new(), seed: 0 };
+    let mut groups: Vec<(&str, usize)> = Vec::new();
+    let mut streams = 0;
+    for section in document.repeated_section("vary", "a parameter of the scene and its numbers")? {
+        section.only(&["parameter", "values", "grid", "random", "together"])?;
+        for (first, second) in [("values", "grid"), ("values", "random"), ("grid", "random"), ("together", "random")] {
+            section.not_both(first, second)?;
+        }
+        let parameter = section.required("parameter", "dotted key of a number of the scene")?;
+        found.keys.push(parameter_key(&parameter, known, &found.keys)?);
+        let (length, source) = match source(&section, streams)? {
+            (None, source) => {
+                streams += 1;
+                found.sources.push((usize::MAX, source));
+                continue;
+            }
+            (Some(length), source) => (length, source),
+        };
+        let name = section.optional("together").map(|entry| entry.string().map(|name| (entry, name))).transpose()?;
+        let group = name.as_ref().and_then(|(_, name)| groups.iter().find(|group| group.0 == *name));
+        let axis = group.map_or(found.lengths.len(), |group| group.1);
+        match (found.lengths.get(axis), name) {
+            (Some(first), Some((entry, _))) if *first != length => {
+                return Err(entry.refuse_because(&format!("{length} points beside {first}: allowed are as many")));
+            }
+            (Some(_), _) => {}
+            (None, name) => {
+                groups.extend(name.map(|(_, name)| (name, axis)));
+                found.lengths.push(length);
+            }
+        }
+        found.sources.push((axis, source));
+    }
+    random_axis(document, streams > 0, &mut found)?;
+    Ok(found)
+}
+
+/// The axis of the random parameters, the last one, and their seed.
+fn random_axis(document: &Section<'_>, is_random: bool, found: &mut Parameters) -> Result<(), Fault> {
+    for key in ["seed", "draws"] {
+        if let Some(entry) = document.optional(key).filter(|_| !is_random) {
+            return Err(entry.refuse_because("no parameter is random"));
+        }
+    }
+    if is_random {
+        let draws = document.required("draws", "number of random draws for each point of the grids and lists")?;
+        let seed = document.required("seed", "a whole number that the random draws follow from")?;
+        found.seed = seed.whole_number(0, i64::MAX as usize)? as u64;
+        let axis = found.lengths.len();
+        found.lengths.push(draws.whole_number(1, MOST_SCENES as usize)? as u64);
+        found.sources.iter_mut().filter(|source| source.0 == usize::MAX).for_each(|source| source.0 = axis);
+    }
+    Ok(())
+}
+
+/// The key that an entry names, if the scene has a number there and it is not varied already.
+fn parameter_key(entry: &Entry<'_>, known: &[String], taken: &[String]) -> Result<String, Fault> {
+    let key = entry.string()?;
+    if taken.iter().any(|taken| taken == key) {
+        return Err(entry.refuse_because("is varied already"));
+    }
+    if known.iter().any(|known| known == key) {
+        return Ok(key.to_owned());
+    }
+    let known: Vec<_> = known.iter().map(String::as_str).collect();
+    let guess = nearest(key, &known).map(|near| format!(" Did you mean `{near}`?")).unwrap_or_default();
+    Err(entry.refuse_because(&format!("allowed is a number that stands in the scene: {}.{guess}", listed(&known))))
+}
+
+/// Where the numbers come from, and how many there are; none where they are drawn.
+fn source(section: &Section<'_>, stream: u64) -> Result<(Option<u64>, Source), Fault> {
+    const LISTS: &str = "a list of one number or more";
+    if let Some(entry) = section.optional("values") {
+        let values = entry.list(LISTS)?.iter().map(Entry::number).collect::<Result<Vec<_>, _>>()?;
+        if values.is_empty() {
+            return Err(entry.refuse(LISTS));
+        }
+        return Ok((Some(values.len() as u64), Source::Values(values)));
+    }
+    if let Some(grid) = section.table("grid", "{ from = .., to = .., points = .. }")? {
+        return self::grid(&grid).map(|(points, source)| (Some(points), source));
+    }
+    match section.table("random", "{ distribution = \"..\", .. }")? {
+        Some(random) => Ok((None, Source::Random { stream, law: law(&random)? })),
+        None => Err(section.missing("one of `values`, `grid` and `random`")),
+    }
+}
+
+fn grid(section: &Section<'_>) -> Result<(u64, Source), Fault> {
+    section.only(&["from", "to", "points", "scale"])?;
+    let points = section.required("points", "number of points, both ends included")?;
+    let points = points.whole_number(2, MOST_SCENES as usize)? as u64;
+    let scale = section.optional("scale").map_or(Ok("linear"), |entry| entry.word(&["linear", "log"]))?;
+    let logarithmic = scale == "log";
+    let (from, to) = ends(section, logarithmic)?;
+    Ok((points, Source::Grid { from, to, logarithmic }))
+}
+
+fn law(section: &Section<'_>) -> Result<Law, Fault> {
+    const NAMES: [&str; 3] = ["uniform", "log-uniform", "normal"];
+    let name = section.required("distribution", "\"uniform\", \"log-uniform\" or \"normal\"")?.word(&NAMES)?;
+    if name == "normal" {
+        section.only(&["distribution", "mean", "deviation"])?;
+        let mean = section.required("mean", "mean")?.number()?;
+        let entry = section.required("deviation", "standard deviation")?;
+        let deviation = entry.number_where("a number above zero", |x| x > 0.0)?;
+        return Normal::new(mean, deviation).map(Law::Normal).map_err(|error| entry.refuse_because(&error.to_string()));
+    }
+    section.only(&["distribution", "from", "to"])?;
+    let (from, to) = ends(section, name == "log-uniform")?;
+    Ok(if name == "uniform" { Law::Uniform { from, to } } else { Law::LogUniform { from, to } })
+}
+
+/// The two ends of an interval, different, and of one sign where it is divided by ratios.
+fn ends(section: &Section<'_>, by_ratios: bool) -> Result<(f64, f64), Fault> {
+    let from_entry = section.required("from", "first end")?;
+    let from = if by_ratios {
+        from_entry.number_where("a number except zero: it is divided by ratios", |x| x != 0.0)?
+    } else {
+        from_entry.number()?
+    };
+    let to = section.required("to", "last end")?;
+    let to = if by_ratios {
+        to.number_where("a number of the sign of `from`, and another: it is divided by ratios", |x| {
+            x * from.signum() > 0.0 && x != from
+        })?
+    } else {
+        to.number_where("a number other than `from`", |x| x != from)?
+    };
+    Ok((from, to))
+}
+
+/// Reads the section `[output]`, its accuracy and method into the scene.
+fn outputs(document: &Section<'_>, scene: &mut Scene, times: Times) -> Result<Outputs, Fault> {
+    let mut outputs = Outputs { times, groups: Vec::new(), errors: true, summaries: Vec::new() };
+    outputs.groups = ["e_z", "L"].into_iter().filter_map(columns::named).collect();
+    let Some(section) = document.section("output")? else { return Ok(outputs) };
+    section.only(&["columns", "summaries", "accuracy", "method"])?;
+    read_accuracy_and_method(&section, scene)?;
+    if let Some(list) = section.optional("columns") {
+        let names: Vec<_> = columns::ALL.iter().map(|group| group.name).chain([ERRORS]).collect();
+        outputs.errors = false;
+        outputs.groups.clear();
+        let mut wanted = Vec::new();
+        for (entry, name) in words(&list, &names)? {
+            match columns::named(name) {
+                Some(group) => {
+                    group.available_in(scene).map_err(|why| entry.refuse_because(&why))?;
+                    wanted.push(group);
+                }
+                None => outputs.errors = true,
+            }
+        }
+        outputs.groups = columns::in_order(&wanted);
+    }
+    if let Some(list) = section.optional("summaries") {
+        for (entry, name) in words(&list, &Summary::ALL.map(|(name, _)| name))? {
+            for (_, summary) in Summary::ALL.iter().filter(|(known, _)| *known == name) {
+                summary.available_in(scene).map_err(|why| entry.refuse_because(&why))?;
+                outputs.summaries.push(*summary);
+            }
+        }
+    }
+    if outputs.groups.is_empty() && !outputs.errors && outputs.summaries.is_empty() {
+        return Err(section.fault("[output] asks for nothing: allowed are columns, summaries or both"));
+    }
+    Ok(outputs)
+}
+
+/// Different words out of `names`, each with its entry; none is allowed.
+fn words<'a>(list: &Entry<'a>, names: &[&str]) -> Result<Vec<(Entry<'a>, &'a str)>, Fault> {
+    let allowed = format!("a list of different names out of \"{}\"", names.join("\", \""));
+    let mut found: Vec<(Entry<'a>, &str)> = Vec::new();
+    for entry in list.list(&allowed)? {
+        let word = entry.word(names)?;
+        if found.iter().any(|(_, other)| *other == word) {
+            return Err(entry.refuse(&allowed));
+        }
+        found.push((entry, word));
+    }
+    Ok(found)
+}

@@ -1,0 +1,162 @@
+//! The journal of a table that grows: which of its bytes are known to be on the disk. A line is a checksum and a JSON value; a
+//! line that is torn ends what counts.
+
+use std::io::Read;
+use std::ops::Range;
+
+use serde_json::{Value, json};
+
+/// The table up to some scene.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct Mark {
+    /// First scene that is not in the table.
+    pub(super) next: u64,
+    /// Rows that say that their scene failed.
+    pub(super) failed: u64,
+    /// Length of the table.
+    pub(super) rows: Stretch,
+    /// Length of the table of errors.
+    pub(super) errors: Stretch,
+}
+
+/// A file up to some byte.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct Stretch {
+    /// Length in bytes.
+    pub(super) length: u64,
+    /// CRC-32 of the bytes since the mark before.
+    pub(super) checksum: u32,
+}
+
+/// A journal as far as it can be read.
+#[derive(Debug, Default)]
+pub(super) struct Journal {
+    /// What the table follows from.
+    pub(super) identity: Option<Value>,
+    /// Marks in order, each with the length of the journal up to it.
+    pub(super) marks: Vec<(Mark, u64)>,
+    /// Whether the table was complete and about to get its name.
+    pub(super) complete: bool,
+}
+
+/// A line of a journal.
+pub(super) fn line(value: &Value) -> Vec<u8> {
+    let text = value.to_string();
+    format!("{:08x} {text}\n", crc32fast::hash(text.as_bytes())).into_bytes()
+}
+
+fn value(line: &[u8]) -> Option<Value> {
+    let (checksum, text) = std::str::from_utf8(line).ok()?.split_once(' ')?;
+    let intact = checksum == format!("{:08x}", crc32fast::hash(text.as_bytes()));
+    if intact { serde_json::from_str(text).ok() } else { None }
+}
+
+/// The line that says that the table is complete.
+pub(super) fn completion() -> Value {
+    json!({ "complete": true })
+}
+
+impl Mark {
+    /// As a line of a journal holds it.
+    pub(super) fn to_value(self) -> Value {
+        json!({
+            "next": self.next,
+            "failed": self.failed,
+            "rows": [self.rows.length, self.rows.checksum],
+            "errors": [self.errors.length, self.errors.checksum],
+        })
+    }
+
+    /// Whether a table of `scenes` can be at this mark.
+    pub(super) fn is_of(&self, scenes: &Range<u64>) -> bool {
+        scenes.start <= self.next && self.next <= scenes.end && self.failed <= self.next - scenes.start
+    }
+
+    fn from_value(value: &Value) -> Option<Self> {
+        let stretch = |value: &Value| {
+            let checksum = u32::try_from(value[1].as_u64()?).ok()?;
+            Some(Stretch { length: value[0].as_u64()?, checksum })
+        };
+        Some(Self {
+            next: value["next"].as_u64()?,
+            failed: value["failed"].as_u64()?,
+            rows: stretch(&value["rows"])?,
+            errors: stretch(&value["errors"])?,
+        })
+    }
+}
+
+/// The journal `bytes` with the digits of its number `number` in line `line` replaced and the line signed anew: what is no accident.
+/// For fuzzing.
+pub fn signed_again(bytes: &[u8], line: usize, number: usize, digits: &[u8]) -> Vec<u8> {
+    let mut lines: Vec<Vec<u8>> = bytes.split_inclusive(|byte| *byte == b'\n').map(<[u8]>::to_vec).collect();
+    let Some(place) = lines.get_mut(line).filter(|line| line.len() > 9) else { return bytes.to_vec() };
+    let mut text = place[9..].to_vec();
+    let is_digit = |at: usize| text[at].is_ascii_digit();
+    let starts = (0..text.len()).filter(|&at| is_digit(at) && !text[..at].last().is_some_and(u8::is_ascii_digit));
+    let Some(start) = starts.into_iter().nth(number) else { return bytes.to_vec() };
+    let end = (start..text.len()).find(|&at| !is_digit(at)).unwrap_or(text.len());
+    text.splice(start..end, digits.iter().copied());
+    let Ok(value) = serde_json::from_slice(&text) else { return bytes.to_vec() };
+    *place = self::line(&value);
+    lines.concat()
+}
+
+impl Journal {
+    /// Reads the lines that are intact.
+    pub(super) fn read(mut file: impl Read) -> std::io::Result<Self> {
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes)?;
+        let mut journal = Self::default();
+        let mut length = 0;
+        // What follows the last end of a line is torn.
+        for line in bytes.split_inclusive(|byte| *byte == b'\n').filter(|line| line.ends_with(b"\n")) {
+            let Some(value) = value(&line[..line.len() - 1]) else { break };
+            length += line.len() as u64;
+            if journal.identity.is_none() {
+                journal.identity = Some(value);
+            } else if value == completion() {
+                journal.complete = true;
+            } else {
+                let Some(mark) = Mark::from_value(&value) else { break };
+                journal.marks.push((mark, length));
+            }
+        }
+        Ok(journal)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_journal_torn_or_damaged_anywhere_is_read_up_to_there() {
+        let mark = |next| Mark { next, failed: 1, ..Mark::default() };
+        let lines = [line(&json!({ "sweep": "text" })), line(&mark(4).to_value()), line(&mark(9).to_value())];
+        let whole = lines.concat();
+        let ends: Vec<_> = lines
+            .iter()
+            .scan(0, |end, line| {
+                *end += line.len();
+                Some(*end)
+            })
+            .collect();
+        for cut in 0..=whole.len() {
+            let complete = ends.iter().filter(|end| **end <= cut).count();
+            let journal = Journal::read(&whole[..cut]).expect("memory can be read");
+            assert_eq!(journal.identity.is_some(), complete > 0, "{cut}");
+            assert_eq!(journal.marks.len(), complete.saturating_sub(1), "{cut}");
+            if let Some((last, length)) = journal.marks.last() {
+                assert_eq!((last.next, *length), ([4, 9][journal.marks.len() - 1], ends[complete - 1] as u64));
+            }
+        }
+        for damaged in 0..whole.len() {
+            let mut bytes = whole.clone();
+            bytes[damaged] ^= 0x15;
+            let journal = Journal::read(bytes.as_slice()).expect("memory can be read");
+            let before = ends.iter().filter(|end| **end <= damaged).count();
+            assert_eq!(usize::from(journal.identity.is_some()) + journal.marks.len(), before, "{damaged}");
+        }
+    }
+}

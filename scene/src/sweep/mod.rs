@@ -1,0 +1,115 @@
+//! Many scenes: grids, lists and random draws over the parameters of one, computed on all cores, with tables that grow in
+//! order, survive any interruption and are the same to the byte whoever computed which part when.
+//!
+//! A scene's parameters are a function of its number alone, and a row of the table is a function of its scene alone: neither
+//! knows of chunks, threads or shards. The format of a sweep file is described in `docs/sweep.md`.
+
+mod chunk;
+mod engine;
+mod file;
+mod identity;
+mod journal;
+mod merge;
+mod motion;
+mod outputs;
+mod parameters;
+#[cfg(feature = "parquet")]
+pub mod parquet_file;
+mod shard;
+mod spin_axis_angle;
+mod spool;
+
+pub use engine::{Done, compute};
+pub use file::SweepText;
+pub use identity::Identity;
+pub use journal::signed_again;
+pub use merge::{MergeError, csv_line, merge};
+pub use shard::Shard;
+pub use spool::{Spool, SpoolError, SpoolFiles};
+
+use twofold::plan::Method;
+
+use crate::scene_file::{BuiltIn, Scene, Units};
+use outputs::Outputs;
+use parameters::Parameters;
+
+/// Most scenes of a sweep: their numbers are exact as doubles.
+pub const MOST_SCENES: u64 = 1_000_000_000_000_000;
+
+/// Most columns of its table.
+const MOST_COLUMNS: usize = 10_000;
+
+/// Name of the first column: the number of the scene, from zero.
+const NUMBER: &str = "scene";
+
+/// Name of the column that says whether the scene could be computed.
+const STATUS: &str = "status";
+
+/// Sweeps that come with the command, as files to start from.
+pub const SWEEPS: &[BuiltIn] = &[BuiltIn { name: "grid", toml: include_str!("../../sweeps/grid.toml") }];
+
+/// A checked sweep.
+#[derive(Debug)]
+pub struct Sweep<'t> {
+    /// What the sweep is, one line; may be empty.
+    pub about: String,
+    base: file::Base<'t>,
+    parameters: Parameters,
+    outputs: Outputs,
+    /// Number of scenes.
+    pub scenes: u64,
+    /// What in the scene as it stands looks like a mistake, a sentence each.
+    pub cautions: Vec<String>,
+    accuracy: f64,
+    /// The method of every row, where one is named.
+    method: Option<Method>,
+    units: Units,
+    /// Upper estimate of the rotation of the scene as it stands, over its span.
+    rotation: f64,
+}
+
+impl Sweep<'_> {
+    /// Names of the columns of the table.
+    pub fn header(&self) -> Vec<String> {
+        let mut names = vec![NUMBER.to_owned()];
+        names.extend(self.parameters.keys.iter().cloned());
+        names.push(STATUS.to_owned());
+        names.extend(self.outputs.header(&self.units));
+        names
+    }
+
+    /// Names of the columns of the table of errors.
+    pub fn errors_header(&self) -> Vec<String> {
+        let mut names = vec![NUMBER.to_owned()];
+        names.extend(self.parameters.keys.iter().cloned());
+        names.push("error".to_owned());
+        names
+    }
+
+    /// The scene with `parameters`.
+    ///
+    /// # Errors
+    /// A sentence about a parameter out of its range.
+    fn scene(&self, parameters: &[f64]) -> Result<Scene, String> {
+        let scene = self.base.scene(&self.parameters.keys, parameters, &self.outputs.times)?;
+        Ok(Scene { accuracy: self.accuracy, method: self.method, ..scene })
+    }
+
+    /// The lines of the table and of that of errors for one scene, if it cannot be read or is `wanted`.
+    pub fn row_if(&self, number: u64, wanted: fn(&Scene) -> bool) -> Option<[Vec<u8>; 2]> {
+        let scene = self.scene(&self.parameters.of_scene(number));
+        if scene.is_ok_and(|scene| !wanted(&scene)) {
+            return None;
+        }
+        let chunk::ChunkText { rows, errors, .. } = chunk::chunk_text(self, number..number + 1).ok()?;
+        Some([rows, errors])
+    }
+
+    /// Scenes that are computed together. It decides about speed and memory, not about results: a chunk is about a quarter of a
+    /// second's work or less, and its rows take a few megabytes.
+    fn chunk_length(&self) -> u64 {
+        let by_time = (5e4 / self.rotation.max(1.0)) as usize;
+        let by_memory = 65_536 / self.header().len();
+        by_time.min(by_memory).clamp(1, 256).next_multiple_of(8) as u64
+    }
+}

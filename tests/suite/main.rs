@@ -1,0 +1,19 @@
+//! Properties of the model, and tables that are kept true.
+
+mod allocations;
+mod arrival_times;
+mod boundaries;
+mod claims;
+mod equations;
+mod error_estimate;
+mod exact_arithmetic;
+mod examples;
+mod higher_derivatives;
+mod mean_parts;
+mod mutation_lists;
+mod orientation_properties;
+mod other_dynamics;
+mod pulsars;
+mod scenes;
+mod stability;
+mod values;

@@ -1,0 +1,248 @@
+//! Scene files: every built-in scene is accepted and is what it says, every bad one is refused for the reason expected.
+
+use std::f64::consts::FRAC_PI_2;
+use std::fs;
+use std::path::Path;
+
+use twofold::observables::pulsar::direction::magnetic_axis_direction;
+use twofold::observables::pulsar::position_angle::rotating_vector_position_angle;
+use twofold_scene::columns;
+use twofold_scene::scene_file::{BUILT_IN, Scene};
+use twofold_scene::trajectory;
+
+#[test]
+fn every_built_in_scene_runs() {
+    assert_eq!(BUILT_IN.len(), 10);
+    for built_in in BUILT_IN {
+        let scene = Scene::named(built_in.name).unwrap_or_else(|error| panic!("{error}"));
+        assert!(!scene.about.is_empty() && scene.about.len() < 100, "{}", built_in.name);
+        let mut table = Vec::new();
+        let summary = trajectory::write_csv(&scene, &mut table, |_| {}).expect(built_in.name);
+        assert_eq!(summary.rows, scene.times.iter().count(), "{}", built_in.name);
+        assert_eq!(summary.rows_on_pole, 0, "{}", built_in.name);
+    }
+}
+
+/// Captions of the figures of the four examples: alpha, beta, their rates at t = 0, to the three decimals printed.
+#[test]
+fn the_four_examples_start_as_the_captions_say() {
+    let captions =
+        [("tp-1", [0.701, 1.509]), ("tp-2", [1.065, 0.889]), ("sp-1", [0.671, -0.068]), ("sp-2", [1.146, -0.008])];
+    for (name, [beta, alpha_rate]) in captions {
+        let scene = Scene::named(name).expect(name);
+        let angles = scene.initial.angles().expect(name);
+        let rates = scene.initial.rates(&scene.spheroid).expect(name);
+        let differences =
+            [angles.alpha - FRAC_PI_2, angles.beta - beta, angles.gamma, rates.alpha - alpha_rate, rates.beta];
+        let printed_to = [1e-15, 5e-4, 1e-15, 5e-4, 1e-15];
+        for (difference, bound) in differences.into_iter().zip(printed_to) {
+            assert!(difference.abs() <= bound, "{name}: off by {difference:e}");
+        }
+    }
+}
+
+/// The examples of `docs/scenes.md`, as they stand there.
+#[test]
+fn the_documented_scenes_run() {
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scenes.md")).expect("page");
+    let examples: Vec<_> = page.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    assert_eq!(examples.len(), 3);
+    for example in examples {
+        let scene = Scene::from_toml("docs/scenes.md", example).unwrap_or_else(|error| panic!("{error}"));
+        trajectory::write_csv(&scene, std::io::sink(), |_| {}).expect("motion");
+    }
+}
+
+#[test]
+fn every_bad_scene_is_refused_for_the_reason_expected() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/bad-scenes");
+    let mut count = 0;
+    for entry in fs::read_dir(folder).expect("folder of bad scenes") {
+        let path = entry.expect("file").path();
+        let text = fs::read_to_string(&path).expect("readable file");
+        let expected = text.lines().next().and_then(|line| line.strip_prefix("# expect: "));
+        let expected = expected.unwrap_or_else(|| panic!("{}: no `# expect:`", path.display()));
+        let file = path.to_str().expect("a path in UTF-8");
+        let message = Scene::named(file).expect_err(file).to_string();
+        for fragment in expected.split(" | ") {
+            assert!(message.contains(fragment), "{file}: expected `{fragment}` in\n{message}");
+        }
+        count += 1;
+    }
+    assert!(count >= 95, "only {count} bad scenes found");
+}
+
+/// A tensor given in a rotated frame is the same physics: the motion of the rotated star is the rotated motion.
+#[test]
+fn a_tensor_in_a_rotated_frame_gives_the_rotated_motion() {
+    // A quarter turn about X: (X, Y, Z) -> (X, -Z, Y), so that s^ZZ of tp-1 becomes s^YY.
+    let constants = "[initial]\nkind = \"twofold\"\nalpha_0 = 1.5707963267948966\nbeta_0 = 0.7\namplitude = 0.0\n\
+                     phase = 1.5707963267948966\n[time]\nspan = 10.0\nsamples = 3\n[star]\ninertia_ratio = 1.1\nspin = 1.0\n";
+    let turned = format!("{constants}[lorentz_violation]\ntensor = [[0.02, 0, 0], [0, -0.04, 0], [0, 0, 0.01]]\n");
+    let principal = format!("{constants}[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n");
+    let turned = Scene::from_toml("turned", &turned).expect("turned");
+    let principal = Scene::from_toml("principal", &principal).expect("principal");
+    let (a, b) = (turned.initial, principal.initial);
+    let along = |v: nalgebra::Vector3<f64>| [v.x.abs(), v.y.abs(), v.z.abs()];
+    let expected = |v: nalgebra::Vector3<f64>| [v.x.abs(), v.z.abs(), v.y.abs()];
+    for (turned, principal) in [(a.axis, b.axis), (a.momentum, b.momentum), (a.equatorial_axis, b.equatorial_axis)] {
+        for (x, y) in along(turned).into_iter().zip(expected(principal)) {
+            assert!((x - y).abs() < 1e-15, "{x} instead of {y}");
+        }
+    }
+    let n = a.axis;
+    let energy_of_axis = n.dot(&(turned.violation * n)) - b.axis.dot(&(principal.violation * b.axis));
+    assert!(energy_of_axis.abs() < 1e-16, "{energy_of_axis:e}");
+}
+
+/// A physical star is the same motion in other units.
+#[test]
+fn a_physical_star_moves_as_in_its_own_units() {
+    let rest = "[initial]\nalpha = 0.3\nbeta = 0.7\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n";
+    let star = "[star]\nmass = 1.4\nradius = 12.0\noblateness = 0.1\nspin_frequency = 50.0\n";
+    let read = |text: &str| Scene::from_toml("scene", text).unwrap_or_else(|error| panic!("{error}"));
+    let rates = "alpha_rate = 20.0\nbeta_rate = 3.0\n[time]\nspan = 0.1\nsamples = 5\n";
+    let physical = read(&format!("{star}{}", rest.replace("0.7\n", &format!("0.7\n{rates}"))));
+    let unit = physical.units.time;
+    let rates = format!(
+        "alpha_rate = {:?}\nbeta_rate = {:?}\n[time]\nspan = {:?}\nsamples = 5\n",
+        20.0 * unit,
+        3.0 * unit,
+        0.1 / unit
+    );
+    let spin = std::f64::consts::TAU * 50.0 * unit;
+    let star = format!("[star]\ninertia_ratio = 1.1\nspin = {spin:?}\n");
+    let dimensionless = read(&format!("{star}{}", rest.replace("0.7\n", &format!("0.7\n{rates}"))));
+    let table = |scene: &Scene| {
+        let mut bytes = Vec::new();
+        trajectory::write_csv(scene, &mut bytes, |_| {}).expect("motion");
+        let text = String::from_utf8(bytes).expect("text");
+        text.lines()
+            .skip(1)
+            .map(|line| line.split(',').map(|field| field.parse().expect("number")).collect::<Vec<f64>>())
+            .collect::<Vec<_>>()
+    };
+    let (in_seconds, in_tc) = (table(&physical), table(&dimensionless));
+    let (momentum, energy) = (physical.units.momentum, physical.units.energy);
+    let mut factors = vec![unit, 1.0, 1.0, 1.0];
+    factors.extend([1.0 / unit; 3]);
+    factors.extend([1.0; 6]);
+    factors.extend([momentum; 3]);
+    factors.extend([energy, 1.0 / unit, momentum * momentum]);
+    for (seconds, tc) in in_seconds.iter().zip(&in_tc) {
+        assert_eq!(seconds.len(), factors.len());
+        for ((x, y), factor) in seconds.iter().zip(tc).zip(&factors) {
+            // The motion is accurate to 1e-13 per component; components are compared against one.
+            assert!((x / factor - y).abs() < 1e-11 * y.abs().max(1.0), "{x} / {factor} instead of {y}");
+        }
+    }
+}
+
+/// Rows of numbers of a table without empty fields.
+fn numbers(table: &[u8]) -> Vec<Vec<f64>> {
+    let text = std::str::from_utf8(table).expect("text");
+    let row = |line: &str| line.split(',').map(|field| field.parse().expect("number")).collect();
+    text.lines().skip(1).map(row).collect()
+}
+
+/// A scene with the columns `names` and its table.
+fn table_of(mut scene: Scene, names: &[&str]) -> Vec<Vec<f64>> {
+    scene.choose_columns(names).expect("columns");
+    let mut bytes = Vec::new();
+    trajectory::write_csv(&scene, &mut bytes, |_| {}).expect("motion");
+    numbers(&bytes)
+}
+
+#[test]
+fn columns_are_those_asked_for_in_their_order() {
+    let mut scene = Scene::named("tp-1").expect("tp-1");
+    assert_eq!(
+        scene.columns.iter().map(|group| group.name).collect::<Vec<_>>(),
+        ["angles", "rates", "e_x", "e_z", "L", "integrals"]
+    );
+    scene.choose_columns(&["h", "e_z", "lambda"]).expect("columns");
+    let expected = [
+        "t [t_c]",
+        "e_z_X [1]",
+        "e_z_Y [1]",
+        "e_z_Z [1]",
+        "cos_lambda [1]",
+        "cos_lambda_rate [1/t_c]",
+        "h_plus [1]",
+        "h_cross [1]",
+    ];
+    assert_eq!(trajectory::header(&scene), expected);
+    for names in [&["h", "h"][..], &["H"], &[], &["corrected"]] {
+        assert!(scene.choose_columns(names).is_err(), "{names:?}");
+    }
+    assert_eq!(trajectory::header(&scene), expected, "a refusal changes nothing");
+    for group in columns::ALL {
+        let mut scene = Scene::named("tp-1").expect("tp-1");
+        scene.choose_columns(&[group.name]).unwrap_or_else(|why| panic!("{why}"));
+        let mut table = Vec::new();
+        trajectory::write_csv(&scene, &mut table, |_| {}).expect("motion");
+        let width = (group.header)(&scene.units).len() + 1;
+        assert!(numbers(&table).iter().all(|row| row.len() == width), "{}", group.name);
+    }
+}
+
+/// Each rate column is the slope of the column beside it, and the direction of the magnetic axis is Eq. (49).
+#[test]
+fn columns_of_observables_agree_with_one_another() {
+    let scene = || {
+        let toml = BUILT_IN.iter().find(|scene| scene.name == "tp-2").expect("tp-2").toml;
+        let toml = toml.replace("span = 400", "span = 2").replace("samples = 4001", "samples = 2001");
+        Scene::from_toml("tp-2", &toml).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let rows = table_of(scene(), &["lambda", "m.n", "magnetic_axis", "e_z", "angles", "position_angle"]);
+    let step = rows[1][0] - rows[0][0];
+    for triple in rows.windows(3) {
+        // t, alpha, beta, gamma, e_z (3), cos lambda, rate, m.n, rate, Theta, Phi, psi, rate
+        for value in [7, 9] {
+            let slope = (triple[2][value] - triple[0][value]) / (2.0 * step);
+            assert!((slope - triple[1][value + 1]).abs() < 1e-5, "column {value}: {slope}");
+        }
+        let turn = |angle: f64| (angle + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
+        let slope = turn(triple[2][13] - triple[0][13]) / (2.0 * step);
+        assert!((slope - triple[1][14]).abs() < 1e-4, "psi: {slope} instead of {}", triple[1][14]);
+        let row = &triple[1];
+        let psi = rotating_vector_position_angle(row[11], row[12], 0.8, 0.0).expect("off the line of sight");
+        assert!(turn(psi - row[13]).abs() < 1e-11, "{row:?}");
+        let angles = twofold::euler_angles::EulerAngles { alpha: row[1], beta: row[2], gamma: row[3] };
+        let (theta, phi) = magnetic_axis_direction(&angles, 0.5, 0.0).expect("off the pole");
+        assert!((theta - row[11]).abs() < 1e-12 && turn(phi - row[12]).abs() < 1e-12, "{row:?}");
+        assert!((row[7] - (0.8_f64.sin() * row[4] + 0.8_f64.cos() * row[6])).abs() < 1e-15);
+    }
+}
+
+/// The perturbation columns start with the motion; the strain of a physical star is that of the paper's units times
+/// `G I^xx / (c^4 t_c^2 r)`.
+#[test]
+fn perturbation_starts_with_the_motion_and_strain_scales() {
+    for name in ["tp-1", "tp-2", "sp-1", "sp-2"] {
+        let rows = table_of(Scene::named(name).expect(name), &["angles", "perturbation"]);
+        assert!((rows[0][1] - rows[0][4]).abs() < 1e-15 && (rows[0][2] - rows[0][5]).abs() < 1e-15, "{name}");
+    }
+    let scene = |star: &str, rate: f64, span: f64, observer: &str| {
+        let text = format!(
+            "[star]\n{star}\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n[initial]\nalpha = 0.3\nbeta = 0.7\n\
+             alpha_rate = {rate:?}\nbeta_rate = 0.0\n[observer]\ntheta_o = 0.8\nphi_o = 0.1\n{observer}\n[time]\n\
+             span = {span:?}\nsamples = 5\n"
+        );
+        Scene::from_toml("scene", &text).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let star = "mass = 1.4\nradius = 12.0\noblateness = 0.1\nspin_frequency = 50.0";
+    let physical = |observer: &str| scene(star, 20.0, 0.1, observer);
+    let units = physical("distance = 1.0").units;
+    let spin = std::f64::consts::TAU * 50.0 * units.time;
+    let paper = scene(&format!("inertia_ratio = 1.1\nspin = {spin:?}"), 20.0 * units.time, 0.1 / units.time, "");
+    // I^xx / t_c^2 in SI; G / c^4 = 8.2627e-45 s^2 / (kg m); 1 kpc = 3.0857e19 m.
+    let unit = 8.262_7e-45 * (units.momentum * 1e-7 / units.time) / 3.085_677_6e19;
+    let (near, far) = (table_of(physical("distance = 1.0"), &["h"]), table_of(physical("distance = 10.0"), &["h"]));
+    for ((near, far), paper) in near.iter().zip(&far).zip(table_of(paper, &["h"])) {
+        for i in [1, 2] {
+            assert!((near[i] / unit - paper[i]).abs() < 1e-4 * paper[i].abs().max(1e-3), "{near:?} {paper:?}");
+            assert!((near[i] / far[i] - 10.0).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! The score by file, what was not caught, and the record that is kept in the repository.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+
+use super::listed;
+
+/// Columns of the record.
+const HEADER: &str = "file,content,date,mutants,caught,equivalent,lives,open,unreached";
+
+/// The numbers of every file that was run whole.
+pub const RECORD: &str = "tools/mutation/record.csv";
+
+/// Those of the record that are not caught: outcome, then where it stands and what it is.
+pub const NOT_CAUGHT: &str = "tools/mutation/not_caught.tsv";
+
+/// Hashes of the sources of the mutants, without their own tests, which hold none, in the twelve digits of the record.
+pub fn contents(mutants: &[Value]) -> Result<HashMap<String, String>, String> {
+    let files: BTreeSet<&str> = mutants.iter().filter_map(|mutant| mutant["file"].as_str()).collect();
+    let hash = |file: &str| {
+        let text = fs::read_to_string(Path::new("target/mutation/tree/original").join(file))
+            .map_err(|e| format!("{file}: {e}"))?;
+        Ok((file.to_string(), hash_without_tests(&text)))
+    };
+    files.into_iter().map(hash).collect()
+}
+
+/// FNV-1a of what stands before the module of tests.
+fn hash_without_tests(text: &str) -> String {
+    let code = text.split("\n#[cfg(test)]\nmod ").next().unwrap_or(text);
+    let hash = code
+        .trim_end()
+        .bytes()
+        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
+    format!("{:012x}", hash >> 16)
+}
+
+/// Where a mutant stands and what it is, as in the list of those that are not caught.
+pub fn place(mutant: &Value) -> String {
+    let of = |key| text(mutant, key).split_whitespace().collect::<Vec<_>>().join(" ");
+    let [file, function, change, code] = ["file", "function", "change", "code"].map(of);
+    format!("{file}\t{}\t{function}\t{change}\t{code}", mutant["line"])
+}
+
+/// Numbers of one file.
+#[derive(Default)]
+struct Counts {
+    mutants: usize,
+    caught: usize,
+    equivalent: usize,
+    lives: usize,
+    open: usize,
+    unreached: usize,
+    not_run: usize,
+}
+
+/// Prints the score, writes `missed.txt`, and puts the files that were run whole into `tools/mutation/record.csv` of the folder above.
+pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
+    let (equivalent, edited) = (listed::equivalent(mutants), listed::edited(mutants));
+    let mut last: HashMap<u64, Value> = HashMap::new();
+    for result in super::lines(&tree.join("results.jsonl"))? {
+        last.insert(result["number"].as_u64().unwrap_or(0), result);
+    }
+    let mut by_file: BTreeMap<String, Counts> = BTreeMap::new();
+    let mut missed = String::new();
+    for mutant in mutants {
+        let counts = by_file.entry(text(mutant, "file")).or_default();
+        counts.mutants += 1;
+        let number = mutant["number"].as_u64().unwrap_or(0);
+        if equivalent.contains(&number) {
+            counts.equivalent += 1;
+            continue;
+        }
+        if edited.contains(&number) {
+            counts.caught += 1;
+            continue;
+        }
+        let Some(result) = last.get(&number) else {
+            counts.not_run += 1;
+            continue;
+        };
+        let (count, word) = match (text(result, "outcome").as_str(), result["complete"] == false) {
+            ("caught", _) => (&mut counts.caught, ""),
+            ("unreached", _) => (&mut counts.unreached, "unreached"),
+            (_, true) => (&mut counts.open, "open"),
+            (_, false) => (&mut counts.lives, "lives"),
+        };
+        *count += 1;
+        if !word.is_empty() {
+            missed += &format!("{word}\t{}\n", place(mutant));
+        }
+    }
+    println!(
+        "{:<56} {:>7} {:>10} {:>7} {:>7} {:>10} {:>8}",
+        "file", "caught", "equivalent", "lives", "open", "unreached", "not run"
+    );
+    let mut total = Counts::default();
+    for (file, counts) in &by_file {
+        print(file, counts);
+        total.caught += counts.caught;
+        total.equivalent += counts.equivalent;
+        total.lives += counts.lives;
+        total.open += counts.open;
+        total.unreached += counts.unreached;
+        total.not_run += counts.not_run;
+    }
+    print("all", &total);
+    fs::write(tree.join("missed.txt"), &missed).map_err(|e| e.to_string())?;
+    if total.not_run == 0 {
+        // With the record, which is read against it.
+        fs::write(NOT_CAUGHT, missed).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
+    }
+    println!("those not caught: {}", tree.join("missed.txt").display());
+    keep(mutants, &by_file)
+}
+
+fn print(name: &str, c: &Counts) {
+    println!(
+        "{name:<56} {:>7} {:>10} {:>7} {:>7} {:>10} {:>8}",
+        c.caught, c.equivalent, c.lives, c.open, c.unreached, c.not_run
+    );
+}
+
+fn text(value: &Value, key: &str) -> String {
+    value[key].as_str().unwrap_or("").to_string()
+}
+
+/// Replaces the rows of the files that were run whole; a row tells by a hash whether it is of today's source.
+fn keep(mutants: &[Value], by_file: &BTreeMap<String, Counts>) -> Result<(), String> {
+    let mut rows: BTreeMap<String, String> = fs::read_to_string(RECORD)
+        .unwrap_or_default()
+        .lines()
+        .skip(1)
+        .filter_map(|line| Some((line.split(',').next()?.to_string(), line.to_string())))
+        // Sources that are gone are of no account.
+        .filter(|(file, _)| Path::new(file).exists())
+        .collect();
+    let output = Command::new("date").arg("-I").output().map_err(|e| format!("date: {e}"))?;
+    let date = String::from_utf8_lossy(&output.stdout).trim().to_string();
+    let contents = contents(mutants)?;
+    for (file, c) in by_file.iter().filter(|(_, c)| c.not_run == 0) {
+        let content = contents.get(file).ok_or_else(|| format!("no source {file}"))?;
+        let counts = [c.mutants, c.caught, c.equivalent, c.lives, c.open, c.unreached].map(|n| n.to_string()).join(",");
+        rows.insert(file.clone(), format!("{file},{content},{date},{counts}"));
+    }
+    let lines: Vec<String> = std::iter::once(HEADER.to_string()).chain(rows.into_values()).collect();
+    fs::write(RECORD, lines.join("\n") + "\n").map_err(|e| format!("{RECORD}: {e}"))
+}

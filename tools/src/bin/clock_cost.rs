@@ -1,0 +1,41 @@
+//! What arrival times over decades cost: `cargo run --release --example clock_cost`. The least of 20 rounds for 10,000 epochs of 15 years.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use twofold_scene::pulsar_timing::PulsarScene;
+use twofold_scene::scene_file::{PULSARS, Scene};
+
+const EPOCHS: u32 = 10_000;
+const ROUNDS: usize = 20;
+
+fn least(mut work: impl FnMut()) -> f64 {
+    let mut best = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let start = Instant::now();
+        work();
+        best = best.min(start.elapsed().as_secs_f64());
+    }
+    best * 1e3
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    println!("scene        set-up [ms]  states [ms]  pulses [ms]  with fit [ms]");
+    for built_in in PULSARS {
+        let scene = Scene::named(built_in.name)?;
+        let pulsar = PulsarScene::new(&scene)?;
+        let step = 15.0 * 31_557_600.0 / f64::from(EPOCHS);
+        let epochs = (0..EPOCHS).map(|k| pulsar.epoch.after([f64::from(k) * step, 0.0]));
+        let epochs: Vec<_> = epochs.collect::<Result<_, _>>()?;
+        let times: Vec<_> = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)).collect();
+        let set_up = least(|| drop(black_box(PulsarScene::new(&scene))));
+        let mean = pulsar.clock.mean_motion();
+        let states = least(|| times.iter().for_each(|t| _ = black_box(mean.state_at(&mean.phases_at(*t)))));
+        let mut clock = pulsar.clock.clone();
+        let pulses = least(|| times.iter().for_each(|t| _ = black_box(clock.pulse_near(*t))));
+        let mut timed = pulsar.clone();
+        let with_fit = least(|| drop(black_box(timed.timed(&epochs, true))));
+        println!("{:11} {set_up:12.4} {states:12.2} {pulses:12.2} {with_fit:14.2}", built_in.name);
+    }
+    Ok(())
+}

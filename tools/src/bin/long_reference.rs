@@ -1,0 +1,58 @@
+//! Reference states of tp-II at 1e2 to 1e7 t_c, by the Taylor series over double-double numbers:
+//!
+//! ```sh
+//! cargo run --release -p twofold-verify --example long_reference > command/data/bench_long.csv
+//! ```
+//!
+//! Half an hour on one core; less with `RUSTFLAGS="-C target-feature=+fma"`. The motion is made of stretches of 25,000 t_c,
+//! restarted from the end of the one before: over one stretch the accuracy 1e-16 asks for a truncation below 2e-25 per t_c, which a
+//! phase that grows for 1e7 t_c makes 1e-11 at most.
+
+use std::io::Write as _;
+
+use nalgebra::Matrix3;
+use twofold::dynamics::RigidSpheroid;
+use twofold::propagation::{AxisMotion, AxisState, propagate_axis};
+use twofold::scalar::Scalar;
+use twofold_command::bench::scene::BenchScene;
+use twofold_verify::double_double::DoubleDouble;
+
+const STRETCH: f64 = 25_000.0;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let scene = BenchScene::named("tp-II");
+    let lift = DoubleDouble::from_f64;
+    let spheroid = RigidSpheroid {
+        inertia_xx: lift(scene.spheroid.inertia_xx),
+        inertia_zz: lift(scene.spheroid.inertia_zz),
+        constant_c: lift(scene.spheroid.constant_c),
+    };
+    let s: Matrix3<DoubleDouble> = scene.violation.map(lift);
+    let mut state = AxisState { axis: scene.initial.axis.map(lift), momentum: scene.initial.momentum.map(lift) };
+    let mut out = std::io::stdout().lock();
+    writeln!(
+        out,
+        "# tp-II of bench_scenes.csv by the Taylor series over double-double numbers (tools/src/bin/long_reference.rs);"
+    )?;
+    writeln!(out, "# each component as the sum of two doubles; t in t_c. Truncation below 1e-11 at the end.")?;
+    let names = ["n_x", "n_y", "n_z", "l_x", "l_y", "l_z"].map(|name| format!("{name},{name}_low"));
+    writeln!(out, "scene,t,{}", names.join(","))?;
+    let mut time = 0.0;
+    for decade in 2..=7 {
+        let end = 10f64.powi(decade);
+        while time < end {
+            let step = STRETCH.min(end - time);
+            // Also a part of a stretch is computed with the small truncation of a whole one.
+            state = propagate_axis(&spheroid, &s, &state, (0.0, STRETCH), 1e-16)?.axis_state(lift(step))?;
+            time += step;
+            if time % 1e6 == 0.0 {
+                eprintln!("{time:e}");
+            }
+        }
+        let numbers = state.axis.iter().chain(&state.momentum);
+        let cells: Vec<_> = numbers.map(|x| format!("{:?},{:?}", x.high(), x.low())).collect();
+        writeln!(out, "tp-II,{time},{}", cells.join(","))?;
+        out.flush()?;
+    }
+    Ok(())
+}
