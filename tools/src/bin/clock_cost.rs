@@ -1,4 +1,4 @@
-//! What arrival times over decades cost: `cargo run --release --example clock_cost`. The least of 20 rounds for 10,000 epochs of 15 years.
+//! What arrival times over decades cost: `cargo run --release -p twofold-tools --bin clock_cost`. The least of 20 rounds for 10,000 epochs of 15 years.
 
 use std::hint::black_box;
 use std::time::Instant;

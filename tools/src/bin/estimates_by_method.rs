@@ -1,6 +1,6 @@
 //! Error estimates of every method beside true errors, in random scenes that the method is made for.
 //!
-//! `cargo run --release -p twofold-verify --example estimates_by_method [SCENES] [SEED] [METHOD...]`: 10,000 scenes of seed 1 for each method
+//! `cargo run --release -p twofold-tools --bin estimates_by_method [SCENES] [SEED] [METHOD...]`: 10,000 scenes of seed 1 for each method
 //! unless said. An estimate below the true error is listed with the number of its scene and makes the exit status 1.
 
 use std::process::ExitCode;

@@ -1,7 +1,7 @@
 //! Measures what the methods of a plan cost and prints the constants of `src/plan/cost.rs`:
 //!
 //! ```sh
-//! cargo run -p twofold-verify --example fit_cost
+//! cargo run -p twofold-tools --bin fit_cost
 //! ```
 //!
 //! Each time is the least of many runs. The cost of a step is fitted over the orders that accuracies from 1e-2 to 1e-16 give,

@@ -1,7 +1,7 @@
 //! The hot kernels, one at a time, for `scripts/instructions`, which counts their instructions:
 //!
 //! ```sh
-//! cargo run --release -p twofold-verify --example instructions -- KERNEL REPEATS
+//! cargo run --release -p twofold-tools --bin instructions -- KERNEL REPEATS
 //! ```
 //!
 //! Without a kernel it lists them. Reading the scene and starting the program count too; the script takes the difference of two

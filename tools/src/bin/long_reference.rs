@@ -1,7 +1,7 @@
 //! Reference states of tp-II at 1e2 to 1e7 t_c, by the Taylor series over double-double numbers:
 //!
 //! ```sh
-//! cargo run --release -p twofold-verify --example long_reference > command/data/bench_long.csv
+//! cargo run --release -p twofold-tools --bin long_reference > command/data/bench_long.csv
 //! ```
 //!
 //! Half an hour on one core; less with `RUSTFLAGS="-C target-feature=+fma"`. The motion is made of stretches of 25,000 t_c,

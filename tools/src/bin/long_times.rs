@@ -1,6 +1,6 @@
 //! Errors over long times by every method, with the exponents of their growth: the tables of docs/reliability/long-times.md.
 //!
-//! `cargo run --release -p twofold-verify --example long_times [LONGEST, default 1e7 t_c]`: some minutes.
+//! `cargo run --release -p twofold-tools --bin long_times [LONGEST, default 1e7 t_c]`: some minutes.
 //!
 //! Numerical methods and mean motion along tp-II against the reference of command/data/bench_long.csv; closed forms against themselves in
 //! double-double numbers, along motions that they are made for.

@@ -1,6 +1,6 @@
 //! True error over estimate of the mean motion: its distribution over random motions.
 //!
-//! `cargo run --release -p twofold-verify --example mean_estimate [SCENES] [SEED] [RADIANS]`: 10,000 scenes of seed 1 that turn by up to
+//! `cargo run --release -p twofold-tools --bin mean_estimate [SCENES] [SEED] [RADIANS]`: 10,000 scenes of seed 1 that turn by up to
 //! 3,000 rad unless said. Scenes whose estimate is below the error are listed.
 
 use twofold::solutions::mean::MeanOrder;

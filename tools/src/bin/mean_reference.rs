@@ -2,7 +2,7 @@
 //! numbers:
 //!
 //! ```sh
-//! cargo run --release -p twofold-verify --example mean_reference > verify/data/mean_reference.csv
+//! cargo run --release -p twofold-tools --bin mean_reference > verify/data/mean_reference.csv
 //! ```
 //!
 //! Three hours on one core, nearly all for 1e-6, which may be cut off: tenths are written as they come. Stretches as in `long_reference.rs`.

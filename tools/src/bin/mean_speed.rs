@@ -1,7 +1,7 @@
 //! What the mean motion costs, and how much less that is than a numerical motion of the same error:
 //!
 //! ```sh
-//! cargo run --release -p twofold-verify --example mean_speed
+//! cargo run --release -p twofold-tools --bin mean_speed
 //! ```
 //!
 //! Times are the least of many runs, in the work of this thread where the system tells it.

@@ -1,4 +1,4 @@
-//! Draws the picture of the README: `cargo run --release -p twofold-verify --example readme_picture`.
+//! Draws the picture of the README: `cargo run --release -p twofold-tools --bin readme_picture`.
 //!
 //! Left, a small tilt of the angular momentum without Lorentz violation: numerical motion and perturbation solutions from the
 //! same initial values. Right, the error of the printed and of the corrected perturbation solution for tp-I as the

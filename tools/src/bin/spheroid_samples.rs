@@ -1,7 +1,7 @@
 //! Prints A_0, A_1, A_3 and C of random spheroids, for `verify/oracles/mpmath/spheroid_ulps.py` to judge in multiprecision:
 //!
 //! ```sh
-//! cargo run --release -p twofold-verify --example spheroid_samples | python3 verify/oracles/mpmath/spheroid_ulps.py
+//! cargo run --release -p twofold-tools --bin spheroid_samples | python3 verify/oracles/mpmath/spheroid_ulps.py
 //! ```
 
 use std::io::Write;

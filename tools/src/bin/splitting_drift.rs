@@ -1,6 +1,6 @@
 //! Conservation over very many steps of tp-II: `|n| - 1`, drift of L.n and of the energy, with the slope of the last by time.
 //!
-//!     cargo run --release -p twofold-verify --example splitting_drift [STEPS, default 1e9]
+//!     cargo run --release -p twofold-tools --bin splitting_drift [STEPS, default 1e9]
 
 use twofold::propagation::AxisState;
 use twofold::propagation::splitting::{GRADIENT_8_6_6, Splitting};

@@ -1,6 +1,6 @@
 //! Error estimate over true error of splitting motions, and true error over the accuracy asked, in random scenes.
 //!
-//!     cargo run --release -p twofold-verify --example splitting_estimate [SCENES, default 3000] [SEED, default 777]
+//!     cargo run --release -p twofold-tools --bin splitting_estimate [SCENES, default 3000] [SEED, default 777]
 //!
 //! Half of the scenes leave the choice of scheme to the accuracy, the others go through all schemes. True errors by the Taylor
 //! motion at accuracy 1e-15.

@@ -1,6 +1,6 @@
 //! Time against true error of every splitting scheme, and of the Taylor motion, for n and L of tp-II at 1000 t_c.
 //!
-//!     cargo run --release -p twofold-verify --example splitting_work
+//!     cargo run --release -p twofold-tools --bin splitting_work
 //!
 //! The end state is that of verify/oracles/mpmath/axis_end_state.py, 32 digits. Times are the least of 15 runs of everything in turn.
 

@@ -2,7 +2,7 @@
 //! as the shortest decimal that stands for its double, and the sum of the magnitudes of its terms.
 //!
 //! ```text
-//! cargo run -p twofold-verify --example symbolic_points -- FILE [POINTS] [SEED]
+//! cargo run -p twofold-tools --bin symbolic_points -- FILE [POINTS] [SEED]
 //! ```
 
 use std::collections::BTreeMap;
