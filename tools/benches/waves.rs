@@ -1,7 +1,7 @@
 //! Time of 3,000 samples of `h_+` and `h_x` of tp-I over 200 t_c, the motion included, on one core:
 //!
 //! ```sh
-//! cargo bench -p twofold-verify --bench waves
+//! cargo bench -p twofold-tools --bench waves
 //! ```
 //!
 //! Beside it the same samples by the Runge-Kutta method of another crate, at the largest tolerance at which its error is below
