@@ -1,18 +1,28 @@
 //! `twofold bounds`.
 
+use clap::Args;
 use std::fmt::Write as _;
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, LineStyle, Table};
 use serde_json::{Value, json};
 
-use super::{BoundsArgs, Failure, print};
+use super::{Failure, print};
 use twofold_scene::pulsar_table::published::PUBLISHED;
 use twofold_scene::pulsar_table::{
     COMBINATION, CONFIDENCE, CONSERVATIVE_ETA, Figure, Limit, Pulsar, ROUND_INERTIA_OVER_C, pulsars_in_file,
     recommended,
 };
 use twofold_verify::golden::pulsar_bounds::{PrintedBounds, columns};
+
+#[derive(Args)]
+pub(crate) struct BoundsArgs {
+    /// A table of pulsars (TOML)
+    pub(crate) file: Option<String>,
+    /// Print the same as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 /// What the recommended limit includes, and what it leaves out.
 const INCLUDES: [&str; 5] = [
@@ -31,7 +41,7 @@ pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
     let pulsars: Vec<(Pulsar, Option<PrintedBounds>)> = match &args.file {
         None => columns().into_iter().map(|(pulsar, printed)| (pulsar, Some(printed))).collect(),
         Some(path) => {
-            let pulsars = pulsars_in_file(path).map_err(|error| Failure::BadInput(error.to_string()))?;
+            let pulsars = pulsars_in_file(path)?;
             pulsars.into_iter().map(|pulsar| (pulsar, None)).collect()
         }
     };

@@ -1,6 +1,7 @@
 //! `twofold figures`.
 
-use std::path::Path;
+use clap::Args;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
@@ -9,8 +10,28 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::output_folder::OutputFolder;
 use super::run::read_scene;
-use super::{Failure, FiguresArgs, note, print, tell};
+use super::{Failure, note, print, tell};
 use crate::figures::{self, Figure, OF_A_SCENE, RECIPES, Recipe, Subject};
+use twofold_scene::scene_file::did_you_mean;
+
+#[derive(Args)]
+pub(crate) struct FiguresArgs {
+    /// Figures to draw, by name or by number of the paper's figure; all if none is named
+    #[arg(value_name = "NAME")]
+    pub(crate) names: Vec<String>,
+    /// Folder for the files, made if it is not there
+    #[arg(long, value_name = "DIR", default_value = "figures")]
+    pub(crate) out: PathBuf,
+    /// Draw the figures of a motion for this built-in scene or scene file (TOML)
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: Option<String>,
+    /// Replace files that exist
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// List the figures instead of drawing them
+    #[arg(long)]
+    pub(crate) list: bool,
+}
 
 pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
     let known = if args.scene.is_some() { OF_A_SCENE } else { RECIPES };
@@ -69,10 +90,9 @@ fn chosen(known: &[Recipe], names: &[String]) -> Result<Vec<Recipe>, Failure> {
     };
     if let Some(unknown) = names.iter().find(|name| !known.iter().any(|recipe| meant(recipe, name))) {
         let all = known.iter().map(|recipe| recipe.name).collect::<Vec<_>>();
-        let guess = twofold_scene::scene_file::nearest(unknown, &all).map(|name| format!(" Did you mean `{name}`?"));
         return Err(Failure::BadInput(format!(
             "no figure is called `{unknown}`.{} There are {}{}.",
-            guess.unwrap_or_default(),
+            did_you_mean(unknown, &all),
             all.join(", "),
             if known.iter().any(|recipe| recipe.paper_figure.is_some()) {
                 ", or the number of a figure of the paper"

@@ -1,5 +1,6 @@
 //! `twofold verify`.
 
+use clap::Args;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
@@ -8,9 +9,19 @@ use std::time::{Duration, Instant};
 use console::Term;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Failure, VerifyArgs, print, tell};
+use super::{Failure, print, tell};
 use twofold_verify::check::{Check, Outcome};
 use twofold_verify::{checks, report};
+
+#[derive(Args, Default)]
+pub(crate) struct VerifyArgs {
+    /// Only checks whose id contains this text, and what each of their figures is
+    #[arg(long, value_name = "ID")]
+    pub(crate) filter: Option<String>,
+    /// Print the results as a JSON array instead of tables
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 /// Width of the tables where the output is not a terminal.
 const WIDTH: u16 = 130;

@@ -9,7 +9,6 @@ use twofold::plan::Start;
 use twofold::{Error, Scalar};
 
 use super::Unknown;
-use crate::columns::strain_of_scene;
 use crate::scene_file::Scene;
 
 /// Everything that a signal depends on, in units `I^xx = C = 1` of the scene, time in `t_c`.
@@ -60,7 +59,6 @@ impl Model<f64> {
         let angles = scene.initial_angles;
         let (chi, delta, rho) = scene.pulsar.map_or((0.5, 0.0, 0.5), |pulsar| (pulsar.chi, pulsar.delta, pulsar.rho));
         let (theta_o, phi_o) = scene.observer.map_or((0.5, 0.0), |viewer| (viewer.theta_o, viewer.phi_o));
-        let distance = scene.observer.and_then(|viewer| viewer.distance);
         Ok(Self {
             oblateness: scene.spheroid.oblateness(),
             constant_c: scene.spheroid.constant_c,
@@ -76,7 +74,7 @@ impl Model<f64> {
             theta_o,
             phi_o,
             strain_scale: 1.0,
-            strain_unit: distance.map_or(1.0, |distance| strain_of_scene(scene, distance)),
+            strain_unit: scene.strain_unit(),
         })
     }
 

@@ -38,9 +38,9 @@ pub struct PulsarScene {
     pub violation: Matrix3<f64>,
     /// State at the epoch, `L` in 1/s.
     pub initial: BodyState<f64>,
-    /// Who looks on.
+    /// Direction to the observer.
     pub observer: Observer<f64>,
-    /// What is seen.
+    /// The beam.
     pub beam: Beam<f64>,
     /// The pulses.
     pub clock: PulsarClock,

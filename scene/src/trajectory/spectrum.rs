@@ -10,8 +10,8 @@ use twofold::observables::spectrum::{
 use twofold::plan::{Counted, Output, Plan, PlannedAxisMotion, PlannedMotion, Request, Samples, State, Work};
 
 use super::TrajectoryError;
-use super::stretches::{PlannedState, since_start};
-use crate::columns::{Carried, Column, Moment};
+use crate::columns::Column;
+use crate::samples::{Sample, SampledState, SegmentMotion};
 use crate::scene_file::Scene;
 
 /// Highest frequency of a series over the upper estimate of the rotation rate: what is observed has harmonics.
@@ -37,7 +37,7 @@ pub struct Sampling {
 /// Most lines that are fitted, however few are written: the error of each counts the strongest one that is left out.
 const MOST_FITTED: usize = 200;
 
-/// What is asked of a list of lines.
+/// Which lines are written.
 #[derive(Debug, Clone, Copy)]
 pub struct LinesWanted {
     /// Least amplitude as a part of the largest one.
@@ -59,7 +59,7 @@ pub enum Floor {
     Noise,
 }
 
-/// What there is to say about a list of lines.
+/// Constant term, counts and limits of a list of lines.
 #[derive(Debug, Clone)]
 pub struct LinesSummary {
     /// Constant term, in the unit of the column.
@@ -92,7 +92,7 @@ impl Sampling {
     /// # Errors
     /// A sentence about the span.
     pub fn check(scene: &Scene) -> Result<(), String> {
-        let rotation = duration(scene).abs() * scene.turning_rate();
+        let rotation = scene.rotation();
         if rotation == 0.0 {
             return Err("[time] has no length, so nothing has a spectrum".into());
         }
@@ -112,8 +112,8 @@ impl Sampling {
     /// A method that the scene does not allow.
     pub fn plan(scene: &Scene, column: &Column, identified: bool) -> Result<Plan, Error> {
         let frequencies = identified.then_some(Output::FundamentalFrequencies);
-        let outputs: Vec<_> = [column.output()].into_iter().chain(frequencies).collect();
-        let (intervals, span) = (intervals(scene), (0.0, duration(scene)));
+        let outputs: Vec<_> = [column.group].into_iter().chain(frequencies).collect();
+        let (intervals, span) = (intervals(scene), (0.0, scene.duration()));
         let samples = Samples { count: intervals as usize + 1, last: span.1 };
         let request = Request { method: scene.method, samples, ..Request::new(&outputs, span, 0, scene.accuracy) };
         Plan::new(&scene.spheroid, &scene.violation, &scene.initial, &request)
@@ -128,21 +128,18 @@ impl Sampling {
         let (body, s, initial) = (&scene.spheroid, &scene.violation, &scene.initial);
         match plan.state {
             State::Nothing => {
-                let (series, size) = series(scene, column, |_| Ok(Carried::Nothing))?;
+                let (series, size) = series(scene, column, |_| Ok(SampledState::Nothing))?;
                 Ok(Self { motion: None, series, size, work: Work::default() })
             }
             State::Axis | State::AxisAndMomentum => {
                 let motion = Counted::new(plan.axis_motion(body, s, initial)?);
-                let (series, size) = series(scene, column, |t| PlannedAxisMotion::carried(&motion, [t, 0.0]))?;
-                let mut work = motion.inner().work();
-                work += motion.evaluations();
-                Ok(Self { motion: None, series, size, work })
+                let (series, size) = series(scene, column, |t| PlannedAxisMotion::sampled(&motion, [t, 0.0]))?;
+                Ok(Self { motion: None, series, size, work: work_of(&motion) })
             }
             State::Orientation => {
                 let motion = Counted::new(plan.motion(body, s, initial)?);
-                let (series, size) = series(scene, column, |t| PlannedMotion::carried(&motion, [t, 0.0]))?;
-                let mut work = motion.inner().work();
-                work += motion.evaluations();
+                let (series, size) = series(scene, column, |t| PlannedMotion::sampled(&motion, [t, 0.0]))?;
+                let work = work_of(&motion);
                 Ok(Self { motion: Some(motion), series, size, work })
             }
         }
@@ -256,29 +253,27 @@ const SHORT_SPAN: &str = "span in turns of n about L";
 
 /// Steps of the series.
 fn intervals(scene: &Scene) -> f64 {
-    (duration(scene).abs() * scene.turning_rate() * HARMONICS / std::f64::consts::PI).ceil().max(15.0)
+    (scene.rotation() * HARMONICS / std::f64::consts::PI).ceil().max(15.0)
 }
 
 /// A column in equal steps over the span, and the largest size of what it is a part of.
 fn series(
     scene: &Scene,
     column: &Column,
-    carried: impl Fn(f64) -> Result<Carried, Error>,
+    state_at: impl Fn(f64) -> Result<SampledState, Error>,
 ) -> Result<(Series, f64), TrajectoryError> {
-    let (intervals, span) = (intervals(scene), duration(scene));
+    let (intervals, span) = (intervals(scene), scene.duration());
     let start = span.min(0.0);
     let step = span.abs() / intervals;
     let value = |index: usize| {
         let since_start = (start + step * index as f64).min(start + span.abs());
-        let state = carried(since_start)?;
-        let mut angles = || match &state {
-            Carried::Orientation(state) => state.angles().ok(),
-            Carried::Nothing | Carried::Axis(_) => None,
-        };
-        let mut moment = Moment { since_start, state, angles: &mut angles };
-        column.value_and_size(scene, &mut moment).ok_or_else(|| TrajectoryError::Undefined {
+        let mut sample = Sample::new(since_start, state_at(since_start)?);
+        if column.group == Output::EulerAngles {
+            sample.angles = sample.orientation().angles().ok();
+        }
+        column.value_and_size(scene, &sample).ok_or_else(|| TrajectoryError::Undefined {
             column: column.name.clone(),
-            time: format!("{:?} {}", since_start * scene.units.time + scene.times.start(), scene.units.time_name),
+            time: format!("{:?} {}", scene.output_time(since_start), scene.units.time_name),
         })
     };
     let (mut values, mut largest) = (Vec::new(), 0.0_f64);
@@ -290,9 +285,11 @@ fn series(
     Ok((Series { start, step, values }, largest))
 }
 
-/// Length of the span in t_c, negative backwards.
-fn duration(scene: &Scene) -> f64 {
-    since_start(scene, scene.times.last())
+/// What a motion took so far.
+fn work_of<M: SegmentMotion>(motion: &Counted<M>) -> Work {
+    let mut work = motion.inner().work();
+    work += motion.evaluations();
+    work
 }
 
 fn frequency_title(scene: &Scene, name: &str) -> String {
