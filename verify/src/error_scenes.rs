@@ -194,8 +194,8 @@ impl ErrorScene {
     pub fn estimated_and_true_by(&self, method: Method) -> Result<(f64, f64), String> {
         let motion =
             PlannedMotion::by(method, &self.spheroid, &self.violation, &self.initial, self.span, self.accuracy);
-        let motion = motion.map_err(|error| error.to_string())?;
-        let state = motion.state(self.time).map_err(|error| error.to_string())?;
+        let motion = motion?;
+        let state = motion.state(self.time)?;
         Ok((motion.error_estimate(self.time), largest(self.true_errors(&state))))
     }
 

@@ -513,3 +513,9 @@ impl fmt::Display for SceneError {
 }
 
 impl std::error::Error for SceneError {}
+
+impl From<SceneError> for String {
+    fn from(error: SceneError) -> Self {
+        error.to_string()
+    }
+}

@@ -151,7 +151,7 @@ impl Outputs {
         };
         let samples = known.unwrap_or_else(|| self.samples_of(scene, angle.as_mut()));
         let mut values = Vec::new();
-        for sample in &samples.map_err(|error| error.to_string())? {
+        for sample in &samples? {
             self.append_columns(scene, sample, &mut values)?;
         }
         for summary in &self.summaries {

@@ -85,16 +85,15 @@ fn foreseen_and_true(
 ) -> Result<Option<(f64, f64, Promise)>, String> {
     let Ok(plan) = plan(scene, method, derivatives) else { return Ok(None) };
     let prediction = plan.prediction.ok_or("a plan without a prediction")?;
-    let text = |error: twofold::Error| error.to_string();
     let state = if derivatives.is_empty() {
-        let motion = plan.motion(&scene.spheroid, &scene.violation, &scene.initial).map_err(text)?;
-        motion.state(scene.time).map_err(text)?
+        let motion = plan.motion(&scene.spheroid, &scene.violation, &scene.initial)?;
+        motion.state(scene.time)?
     } else {
         let (Ok(angles), Ok(rates)) = (scene.initial.angles(), scene.initial.rates(&scene.spheroid)) else {
             return Ok(None);
         };
         let start = Start { spheroid: scene.spheroid, violation: scene.violation, angles, rates };
-        Components::state(&gradient(&plan, &start, &Components, &[scene.time]).map_err(text)?.values)
+        Components::state(&gradient(&plan, &start, &Components, &[scene.time])?.values)
     };
     let error = largest(scene.true_errors(&state));
     Ok(Some((prediction.truncation + prediction.rounding, error, prediction.promise)))

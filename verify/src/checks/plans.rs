@@ -91,10 +91,6 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-fn text(error: twofold::Error) -> String {
-    error.to_string()
-}
-
 /// Largest component of the difference of two states of a scene in units `I^xx = C = 1`, `L` in units of that at the start and of
 /// what the torque makes of it.
 fn difference(a: &BodyState<f64>, b: &BodyState<f64>, s: &Matrix3<f64>, initial: &BodyState<f64>) -> f64 {
@@ -116,13 +112,10 @@ fn counts() -> Result<Measured, String> {
             method: Some(Method::Taylor),
             ..Request::new(&[output], (0.0, 10f64.powf(span)), 10, 10f64.powf(accuracy))
         };
-        let plan = Plan::new(&body, &s, &initial, &request).map_err(text)?;
+        let plan = Plan::new(&body, &s, &initial, &request)?;
         let foreseen = plan.prediction.ok_or("a plan without prediction")?.work.right_hand_sides;
-        let counted = if full {
-            plan.motion(&body, &s, &initial).map_err(text)?.work()
-        } else {
-            plan.axis_motion(&body, &s, &initial).map_err(text)?.work()
-        };
+        let counted =
+            if full { plan.motion(&body, &s, &initial)?.work() } else { plan.axis_motion(&body, &s, &initial)?.work() };
         let ratio = counted.right_hand_sides / foreseen;
         Ok(ratio.max(1.0 / ratio))
     })
@@ -151,7 +144,7 @@ fn cheapest() -> Result<Measured, String> {
             derivatives: [Parameter::Beta, Parameter::InertiaZz][..derivatives].to_vec(),
             ..Request::new(&[Output::EquatorialAxis], (0.0, 10f64.powf(span)), samples, 10f64.powf(accuracy))
         };
-        let plan = Plan::new(&body, &s, &initial, &request).map_err(text)?;
+        let plan = Plan::new(&body, &s, &initial, &request)?;
         let (method, prediction) = plan.method.zip(plan.prediction).ok_or("a plan without a method")?;
         let less = |candidate: &Candidate| {
             candidate.prediction.as_ref().is_ok_and(|other| plan.admits(other) && other.cost < prediction.cost)
@@ -178,9 +171,9 @@ fn free_bound() -> Result<Measured, String> {
         let (body, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
         let span = (0.0, 10f64.powf(log));
         let free = UniformMotion::free(&body, &s, &initial, span);
-        let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
+        let exact = propagate(&body, &s, &initial, span, 1e-15)?;
         let figure = |t: f64| {
-            let off = difference(&free.state(t).map_err(text)?, &exact.state(t).map_err(text)?, &s, &initial);
+            let off = difference(&free.state(t)?, &exact.state(t)?, &s, &initial);
             Ok::<_, String>(off / (free.error_estimate(t) + exact.error_estimate(t)))
         };
         Ok(largest([figure(span.1)?, figure(0.3 * span.1)?]))
@@ -207,9 +200,9 @@ fn symmetric_motion() -> Result<Measured, String> {
         let span = (0.0, 10f64.powf(span));
         let Ok(motion) = SymmetricMotion::new(&body, &s, &initial, span) else { return Ok(0.0) };
         solved.set(solved.get() + 1);
-        let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
+        let exact = propagate(&body, &s, &initial, span, 1e-15)?;
         let figure = |t: f64| {
-            let off = difference(&motion.state(t).map_err(text)?, &exact.state(t).map_err(text)?, &s, &initial);
+            let off = difference(&motion.state(t)?, &exact.state(t)?, &s, &initial);
             Ok::<_, String>(off / (motion.error_estimate(t) + exact.error_estimate(t)))
         };
         Ok(largest([figure(0.0)?, figure(span.1)?, figure(0.37 * span.1)?]))
@@ -244,8 +237,8 @@ fn steady_motion() -> Result<Measured, String> {
         if noticed && UniformMotion::steady(&body, &s, &beside, span).is_ok() {
             return Err("a state beside steady precession was taken for one".into());
         }
-        let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
-        let off = difference(&motion.state(50.0).map_err(text)?, &exact.state(50.0).map_err(text)?, &s, &initial);
+        let exact = propagate(&body, &s, &initial, span, 1e-15)?;
+        let off = difference(&motion.state(50.0)?, &exact.state(50.0)?, &s, &initial);
         Ok(off / (motion.error_estimate(50.0) + exact.error_estimate(50.0)))
     })?;
     if solved.get() < 150 {
@@ -289,8 +282,8 @@ fn gradients() -> Result<Measured, String> {
         let times: Vec<f64> = scene.derivatives.iter().map(|(t, _)| *t).collect();
         for method in [None, Some(Method::Taylor)] {
             let request = Request { method, ..request.clone() };
-            let plan = Plan::new(&start.spheroid, &start.violation, &start.state(), &request).map_err(text)?;
-            let found = gradient(&plan, start, &Components, &times).map_err(text)?;
+            let plan = Plan::new(&start.spheroid, &start.violation, &start.state(), &request)?;
+            let found = gradient(&plan, start, &Components, &times)?;
             for ((t, expected), found) in scene.derivatives.iter().zip(&found.jacobians) {
                 for (i, parameter) in Parameter::ALL.iter().enumerate() {
                     let size = largest(expected[i].iter().map(|x| x.abs())).max(f64::MIN_POSITIVE);

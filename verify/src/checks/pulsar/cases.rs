@@ -45,8 +45,8 @@ pub(super) fn for_random_cases(
     let cell = std::cell::RefCell::new((&mut random, &mut index, &mut see));
     crate::physical_domain::worst_over(seed, count, &scenes(), |scene| {
         let (random, index, see) = &mut *cell.borrow_mut();
-        let motion = propagate(&scene.spheroid(), &scene.coefficients().tensor(), &scene.state(), (0.0, end), accuracy)
-            .map_err(|e| e.to_string())?;
+        let motion =
+            propagate(&scene.spheroid(), &scene.coefficients().tensor(), &scene.state(), (0.0, end), accuracy)?;
         let (chi, delta) = (random.within(0.0, PI), random.within(-PI, PI));
         let (theta, phi) = (random.within(0.0, PI), random.within(-PI, PI));
         let observer = Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos());
