@@ -31,7 +31,7 @@ pub struct ContinuousAngles<'m, S, M> {
     scalar: core::marker::PhantomData<S>,
 }
 
-impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
+impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M> {
     /// Starts at the time `t0` with the angles `start` there, whose turns are kept. They must be those of the motion up to
     /// whole turns; on a pole, where the motion has no angles of its own, any `start` is taken as given.
     ///
@@ -101,7 +101,7 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
         let spheroid = self.motion.spheroid();
         let (xx, zz) = (spheroid.inertia_xx.re().abs(), spheroid.inertia_zz.re().abs());
         let by_violation =
-            (4.0 * spheroid.constant_c.re().abs() * self.motion.violation().map(S::re).norm() / xx).sqrt();
+            (4.0 * spheroid.constant_c.re().abs() * self.motion.coefficients().map(S::re).norm() / xx).sqrt();
         (state.momentum.norm() / xx.min(zz) + by_violation) * duration.abs()
     }
 
@@ -137,7 +137,7 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
             inertia_zz: self.motion.spheroid().inertia_zz.re(),
             constant_c: self.motion.spheroid().constant_c.re(),
         };
-        let s = self.motion.violation().map(S::re);
+        let s = self.motion.coefficients().map(S::re);
         let (xx, t) = (spheroid.inertia_xx, duration.abs());
         let (axis_rate, torque) = reduced_rates(&spheroid, &s, &state.axis, &state.momentum);
         let acceleration = torque.norm() / xx;

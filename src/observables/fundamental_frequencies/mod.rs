@@ -50,6 +50,7 @@ use core::f64::consts::TAU;
 
 use nalgebra::Matrix3;
 
+use crate::dynamics::BodyState;
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
 use crate::observables::spectrum::{FrequencyBasis, Generator};
@@ -134,10 +135,12 @@ impl FundamentalFrequencies {
 /// [`Error::NotConverged`] where the span is too short for the slow precession to be known to 1e-5 of the rotation rate, or where it
 /// has no mean rate (on a separatrix); [`Error::Domain`] for a span of less than 35 turns of `n` about `L`, for a motion that is
 /// exactly on a pole of the axis at one of the sampled times, and for what the motion refuses.
-pub fn fundamental_frequencies<M: Motion<f64>>(motion: &M) -> Result<FundamentalFrequencies, Error> {
+pub fn fundamental_frequencies<M: Motion<f64, State = BodyState<f64>>>(
+    motion: &M,
+) -> Result<FundamentalFrequencies, Error> {
     let samples = Samples::of(motion)?;
     let averages = samples.averages()?;
-    let frame = frame_of_precession(&principal_frame(motion.violation())?.principal_from_given, &averages);
+    let frame = frame_of_precession(&principal_frame(motion.coefficients())?.principal_from_given, &averages);
     about(motion, &frame, &samples, &averages)
 }
 
@@ -146,7 +149,10 @@ pub fn fundamental_frequencies<M: Motion<f64>>(motion: &M) -> Result<Fundamental
 ///
 /// # Errors
 /// As for [`fundamental_frequencies`], and [`Error::Domain`] unless `frame` is a rotation (to 1e-9).
-pub fn mean_rates_about<M: Motion<f64>>(motion: &M, frame: &Matrix3<f64>) -> Result<FundamentalFrequencies, Error> {
+pub fn mean_rates_about<M: Motion<f64, State = BodyState<f64>>>(
+    motion: &M,
+    frame: &Matrix3<f64>,
+) -> Result<FundamentalFrequencies, Error> {
     let defect = (frame * frame.transpose() - Matrix3::identity()).norm() + (frame.determinant() - 1.0).abs();
     Error::unless(defect < 1e-9, "distance of the frame from a rotation", defect, "below 1e-9")?;
     let samples = Samples::of(motion)?;
@@ -154,7 +160,7 @@ pub fn mean_rates_about<M: Motion<f64>>(motion: &M, frame: &Matrix3<f64>) -> Res
     about(motion, frame, &samples, &averages)
 }
 
-fn about<M: Motion<f64>>(
+fn about<M: Motion<f64, State = BodyState<f64>>>(
     motion: &M,
     frame: &Matrix3<f64>,
     samples: &Samples,

@@ -36,13 +36,13 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    pub(super) fn of<M: Motion<f64>>(motion: &M) -> Result<Self, Error> {
+    pub(super) fn of<M: Motion<f64, State = BodyState<f64>>>(motion: &M) -> Result<Self, Error> {
         let (from, to) = motion.span();
         let (start, end) = (from.min(to), from.max(to));
         let body = motion.spheroid();
         let momentum = motion.state(start)?.momentum.norm();
         // The torque 2 C |n x s n| works within its own time sqrt(I^xx / (2 C |s|)).
-        let pull = (2.0 * body.constant_c.abs() * motion.violation().norm() / body.inertia_xx).sqrt();
+        let pull = (2.0 * body.constant_c.abs() * motion.coefficients().norm() / body.inertia_xx).sqrt();
         let rotation = momentum / body.inertia_xx.min(body.inertia_zz) + pull;
         Error::unless(rotation > 0.0 && rotation.is_finite(), "rate of rotation", rotation, "above zero and finite")?;
         let intervals = ((end - start) * rotation / ROTATION_PER_STEP).ceil();

@@ -35,9 +35,9 @@ use super::Beam;
 use super::edge_search::{BySeries, ByStates, EdgeSearch, Event, Margin};
 use super::hermite::Jet;
 use super::rate_bounds::{RateBounds, rate_bounds};
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::{Motion, Samples, projected_by_stretches, propagate};
+use crate::propagation::{Motion, Samples, projected_by_stretches};
 
 /// An extremum of `m.n` this near to `cos rho` is a grazing: whether the line of sight passes the edge there is beyond
 /// doubles, whose `m.n` along a numerical motion is in error by about as much.
@@ -118,7 +118,7 @@ impl PulseTrain {
 /// The span is divided until `m.n` and its derivatives at the ends of a piece, and a bound on the sixth derivative, prove that it holds no
 /// edge, or one, or one extremum; an edge is then a root between two times of different sign. Derivatives and bounds are those of
 /// [`Motion::turning`]: by the equations of motion, with bounds from energy and spin, or as a motion by another law states them. This holds for the exact motion;
-/// a numerical one adds its error, see [`error_estimate`](crate::propagation::AxisMotion::error_estimate). Edges are as exact as `m.n` allows: its error divided by
+/// a numerical one adds its error, see [`error_estimate`](crate::propagation::Motion::error_estimate). Edges are as exact as `m.n` allows: its error divided by
 /// its rate, about 1e-16 over the rotation rate plus the rounding of `t`, more for a short pulse, whose `m.n` is slow at the
 /// edges (a pulse of the length `w` radian multiplies the error by about `2 / w`).
 ///
@@ -126,7 +126,7 @@ impl PulseTrain {
 /// [`Error::Domain`] for a span outside the motion's, vectors that are not of unit length (to 1e-9), a semi-open angle outside
 /// (0, pi), a motion that is not finite or turns faster than it states, a line of sight that stays on the edge of the beam to [`GRAZING`] for a while, a span of more than
 /// [`MOST_COUNTED`](crate::propagation::MOST_COUNTED) radian by the bound on `|Omega|`, and times at which doubles do not resolve 0.2 rad.
-pub fn pulse_train<M: Motion<f64>>(
+pub fn pulse_train<M: Motion<f64, State = BodyState<f64>>>(
     motion: &M,
     beam: &Beam<f64>,
     line_of_sight: &Vector3<f64>,
@@ -137,16 +137,48 @@ pub fn pulse_train<M: Motion<f64>>(
     let turning = motion.turning();
     let bounds = RateBounds::of_motion(motion, &turning, from)?;
     match motion.projection(&beam.axis, line_of_sight) {
-        Some(projection) => EdgeSearch::new(BySeries::new(&projection, beam), bounds).train(from, to),
+        Some(projection) => EdgeSearch::new(BySeries::new(&*projection, beam), bounds).train(from, to),
         None => EdgeSearch::new(ByStates { motion, turning, beam, line_of_sight }, bounds).train(from, to),
     }
 }
 
-/// The pulse train of the numerical motion from `initial`, without keeping the motion: the edges of [`pulse_train`] of the motion by
-/// [`propagate`], to rounding. Also the state at the end of the span, with the number and order of the steps.
-///
-/// # Errors
-/// As for [`pulse_train`] and [`propagate`], but for the number of steps.
+impl Problem<f64> {
+    /// The pulse train of the numerical motion over a span, without keeping the motion: the edges of [`pulse_train`] of
+    /// [`taylor`](Self::taylor), to rounding. Also the state at the end of the span, with the number and order of the steps.
+    ///
+    /// # Errors
+    /// As for [`pulse_train`] and [`taylor`](Self::taylor), but for the number of steps.
+    pub fn taylor_pulse_train(
+        &self,
+        span: (f64, f64),
+        accuracy: f64,
+        beam: &Beam<f64>,
+        line_of_sight: &Vector3<f64>,
+    ) -> Result<(PulseTrain, Samples<BodyState<f64>>), Error> {
+        check_beam(beam, line_of_sight)?;
+        let bounds = rate_bounds(self.spheroid(), self.coefficients(), self.initial());
+        bounds.check_countable(span.0, span.1)?;
+        let (mut train, mut node) = (Unfinished::default(), None);
+        let end = projected_by_stretches(self, span, accuracy, (&beam.axis, line_of_sight), |projection, end| {
+            let search = EdgeSearch::new(BySeries::new(projection, beam), bounds);
+            let start = match node {
+                Some(start) => start,
+                None => train.begin(search.jet(span.0)?),
+            };
+            node = Some(search.events(start, end, &mut |event| train.take(event))?);
+            Ok(())
+        })?;
+        if let Some(end) = end {
+            return Ok((train.finished(span.1), end));
+        }
+        let motion = self.taylor(span, accuracy)?;
+        let train = pulse_train(&motion, beam, line_of_sight, span)?;
+        let (step_count, order) = (motion.step_count(), motion.order());
+        Ok((train, Samples { states: vec![motion.state(span.1)?], error_estimates: Vec::new(), step_count, order }))
+    }
+}
+
+/// By [`Problem::taylor_pulse_train`].
 pub fn propagated_pulse_train(
     spheroid: &RigidSpheroid<f64>,
     s: &Matrix3<f64>,
@@ -156,32 +188,8 @@ pub fn propagated_pulse_train(
     beam: &Beam<f64>,
     line_of_sight: &Vector3<f64>,
 ) -> Result<(PulseTrain, Samples<BodyState<f64>>), Error> {
-    check_beam(beam, line_of_sight)?;
-    let bounds = rate_bounds(spheroid, s, initial);
-    bounds.check_countable(span.0, span.1)?;
-    let (mut train, mut node) = (Unfinished::default(), None);
-    let end = projected_by_stretches(
-        (spheroid, s, initial),
-        span,
-        accuracy,
-        (&beam.axis, line_of_sight),
-        |projection, end| {
-            let search = EdgeSearch::new(BySeries::new(projection, beam), bounds);
-            let start = match node {
-                Some(start) => start,
-                None => train.begin(search.jet(span.0)?),
-            };
-            node = Some(search.events(start, end, &mut |event| train.take(event))?);
-            Ok(())
-        },
-    )?;
-    if let Some(end) = end {
-        return Ok((train.finished(span.1), end));
-    }
-    let motion = propagate(spheroid, s, initial, span, accuracy)?;
-    let train = pulse_train(&motion, beam, line_of_sight, span)?;
-    let (step_count, order) = (motion.step_count(), motion.order());
-    Ok((train, Samples { states: vec![motion.state(span.1)?], error_estimates: Vec::new(), step_count, order }))
+    // old entry: goes when its callers have moved
+    Problem::new(*spheroid, *s, *initial)?.taylor_pulse_train(span, accuracy, beam, line_of_sight)
 }
 
 /// A train in the making.
@@ -245,7 +253,7 @@ mod tests {
     use nalgebra::Matrix3;
 
     use super::*;
-    use crate::dynamics::{BodyState, RigidSpheroid};
+    use crate::dynamics::{BodyState, Problem, RigidSpheroid};
     use crate::propagation::{TaylorMotion, propagate};
 
     /// A star that spins about Z at one radian per unit of time.

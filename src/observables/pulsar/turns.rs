@@ -27,7 +27,7 @@ pub(super) struct Turns<'a, M> {
     phase: f64,
 }
 
-impl<'a, M: Motion<f64>> Turns<'a, M> {
+impl<'a, M: Motion<f64, State = BodyState<f64>>> Turns<'a, M> {
     /// Starts at the time `t`; `rate` bounds the angular velocity.
     pub(super) fn new(
         motion: &'a M,

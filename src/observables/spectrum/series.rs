@@ -22,7 +22,7 @@ impl Series {
     ///
     /// # Errors
     /// [`Error::Domain`] for fewer than [`LEAST_LENGTH`] values or a span of no length, and for what the motion refuses.
-    pub fn of_motion<M: Motion<f64>>(
+    pub fn of_motion<M: Motion<f64, State = BodyState<f64>>>(
         motion: &M,
         count: usize,
         observable: impl Fn(&BodyState<f64>) -> f64,
