@@ -354,7 +354,7 @@ mod tests {
     /// With `|L| / I^xx = 0.5`, over times from 0 to `end`.
     fn made(end: f64, error: f64, state: State) -> Made<State> {
         let spheroid = RigidSpheroid { inertia_xx: 3.0, inertia_zz: 3.3, constant_c: 1.0 };
-        Made { spheroid, violation: Matrix3::zeros(), span: (0.0, end), error, state }
+        Made { spheroid, coefficients: Matrix3::zeros(), span: (0.0, end), error, state }
     }
 
     fn turning(of: Turning, end: f64, error: f64) -> Made<State> {

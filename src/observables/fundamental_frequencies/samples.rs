@@ -133,7 +133,7 @@ mod tests {
         let spheroid = RigidSpheroid { inertia_xx: 2.0, inertia_zz, constant_c: -0.6 };
         let violation = Matrix3::from_diagonal(&Vector3::new(0.2, -0.1, 0.2));
         let state = |t| Ok(state(Vector3::new(0.48, 0.0, -0.64), t));
-        Samples::of(&Made { spheroid, violation, span, error: 0.0, state })
+        Samples::of(&Made { spheroid, coefficients: violation, span, error: 0.0, state })
     }
 
     #[test]
@@ -179,7 +179,13 @@ mod tests {
             Ok(state(Vector3::new(0.0, momentum, 0.0), t))
         };
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-        match Samples::of(&Made { spheroid, violation: Matrix3::zeros(), span: (0.0, end), error: 0.0, state: known }) {
+        match Samples::of(&Made {
+            spheroid,
+            coefficients: Matrix3::zeros(),
+            span: (0.0, end),
+            error: 0.0,
+            state: known,
+        }) {
             Err(Error::Domain { quantity, .. }) => quantity,
             other => panic!("{:?}", other.map(|samples| samples.states.len())),
         }

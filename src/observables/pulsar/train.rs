@@ -253,7 +253,7 @@ mod tests {
     use nalgebra::Matrix3;
 
     use super::*;
-    use crate::dynamics::{BodyState, Problem, RigidSpheroid};
+    use crate::dynamics::{BodyState, RigidSpheroid};
     use crate::propagation::{TaylorMotion, propagate};
 
     /// A star that spins about Z at one radian per unit of time.
