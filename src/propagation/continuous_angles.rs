@@ -245,7 +245,7 @@ mod tests {
         let s = Vector3::new(-0.68, -0.29, 1.06);
         let axis: Vector3<f64> = Vector3::new(-0.4, 0.02, 0.92).normalize();
         let state = BodyState { axis, momentum: axis * 0.74, equatorial_axis: Vector3::y() };
-        let motion = UniformMotion::free(&Problem::new(star, Matrix3::from_diagonal(&s), state).unwrap(), (0.0, 1.0));
+        let motion = UniformMotion::free(&Problem::unchecked(star, Matrix3::from_diagonal(&s), state), (0.0, 1.0));
         let angles = ContinuousAngles::new(&motion, 0.0, &START).unwrap();
 
         let (w, spin) = (0.74 / 2.0, 0.74 / 0.64);

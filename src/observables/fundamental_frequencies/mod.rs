@@ -14,26 +14,18 @@
 //! # Example
 //!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
-//! use twofold::observables::fundamental_frequencies::{fundamental_frequencies, mean_rate, mean_rates_about};
-//! use twofold::propagation::propagate;
+//! use nalgebra::{Matrix3, Vector3};
+//! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
+//! use twofold::observables::fundamental_frequencies::{fundamental_frequencies, mean_rates_about};
 //!
-//! let motion = propagate(&star, &s.tensor(), &state, (0.0, 3000.0), 1e-12)?;
+//! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
+//! let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(-0.7, 0.1, 1.5));
+//! let start = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
+//! let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?;
+//! let motion = problem.taylor((0.0, 3000.0), 1e-12)?;
 //! let found = fundamental_frequencies(&motion)?;
 //! assert!(found.basis()?.generators().len() >= 2);
-//! let same = mean_rates_about(&motion, &found.frame)?;
-//! assert_eq!(same.alpha, found.alpha);
-//! // Of any angle in equal steps.
-//! let steps: Vec<f64> = (0..2000).map(|k| 0.3 * f64::from(k) + (0.1 * f64::from(k)).sin()).collect();
-//! assert!((mean_rate(&steps, 1.0)?.value - 0.3).abs() < 1e-6);
+//! assert_eq!(mean_rates_about(&motion, &found.frame)?.alpha, found.alpha);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
@@ -229,11 +221,12 @@ mod tests {
     use nalgebra::{Rotation3, Vector3};
 
     use super::*;
+    use crate::dynamics::Problem;
     use crate::dynamics::{BodyState, RigidSpheroid};
     use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::lorentz_violation::PrincipalCoefficients;
     use crate::observables::tests::Made;
-    use crate::propagation::{TaylorMotion, propagate};
+    use crate::propagation::TaylorMotion;
 
     fn with_rates(rates: [Option<MeanRate>; 5]) -> FundamentalFrequencies {
         let [alpha, gamma, slow, nutation, body] = rates;
@@ -291,7 +284,7 @@ mod tests {
         let angles = EulerAngles { alpha: 0.0, beta, gamma: 0.0 };
         let rates = EulerRates { alpha: 1.1 / beta.cos(), beta: 0.0, gamma: -0.1 };
         let start = BodyState::from_angles(&spheroid, &angles, &rates);
-        propagate(&spheroid, &PrincipalCoefficients::new(s).tensor(), &start, span, 1e-13).unwrap()
+        Problem::new(spheroid, PrincipalCoefficients::new(s).tensor(), start).unwrap().taylor(span, 1e-13).unwrap()
     }
 
     #[test]

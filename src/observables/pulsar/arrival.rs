@@ -124,11 +124,11 @@ mod tests {
     use nalgebra::Matrix3;
 
     use super::*;
+    use crate::dynamics::Problem;
     use crate::dynamics::{BodyState, RigidSpheroid};
     use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::observables::Observer;
     use crate::observables::pulsar::{Pulse, pulse_train};
-    use crate::propagation::propagate;
 
     /// A margin by a function, looked at so many times.
     struct Given<F>(F, Cell<usize>);
@@ -293,7 +293,7 @@ mod tests {
         let (spheroid, beta) = (RigidSpheroid::in_units_of_tc(1.2), 0.6_f64);
         let rates = EulerRates { alpha: 1.2 / beta.cos(), beta: 0.0, gamma: -0.2 };
         let start = BodyState::from_angles(&spheroid, &EulerAngles { alpha: 0.0, beta, gamma: 0.0 }, &rates);
-        let motion = propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 100.0), 1e-12).unwrap();
+        let motion = Problem::new(spheroid, Matrix3::zeros(), start).unwrap().taylor((0.0, 100.0), 1e-12).unwrap();
         let beam = Beam::new(0.4, 0.0, 0.5);
         let seen = |observer: Observer<f64>| {
             let n = observer.direction;

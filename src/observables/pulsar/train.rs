@@ -3,28 +3,23 @@
 //! # Example
 //!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use nalgebra::{Matrix3, Vector3};
+//! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 //! use twofold::observables::Observer;
-//! use twofold::observables::pulsar::{Beam, arrivals, propagated_pulse_train, pulse_train};
-//! use twofold::propagation::propagate;
+//! use twofold::observables::pulsar::{Beam, arrivals, pulse_train};
 //!
+//! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
+//! let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(-0.7, 0.1, 1.5));
+//! let start = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
+//! let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?;
 //! let (beam, sight) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0).direction);
-//! let span = (0.0, 50.0);
-//! let motion = propagate(&star, &s.tensor(), &state, span, 1e-13)?;
-//! let train = pulse_train(&motion, &beam, &sight, span)?;
-//! assert!(train.periods().count() + 1 == train.durations().count() && train.durations().count() > 5);
+//! let motion = problem.taylor((0.0, 50.0), 1e-13)?;
+//! let train = pulse_train(&motion, &beam, &sight, (0.0, 50.0))?;
+//! assert!(train.durations().count() > 5);
 //! let numbered = arrivals(&motion, &beam, &sight, &train)?;
 //! assert!(numbered.windows(2).all(|pair| pair[0].number < pair[1].number));
 //! // The same without keeping the motion.
-//! let (same, _) = propagated_pulse_train(&star, &s.tensor(), &state, span, 1e-13, &beam, &sight)?;
+//! let (same, _) = problem.taylor_pulse_train((0.0, 50.0), 1e-13, &beam, &sight)?;
 //! assert_eq!(same.pulses.len(), train.pulses.len());
 //! # Ok::<(), twofold::Error>(())
 //! ```
@@ -254,13 +249,13 @@ mod tests {
 
     use super::*;
     use crate::dynamics::{BodyState, RigidSpheroid};
-    use crate::propagation::{TaylorMotion, propagate};
+    use crate::propagation::TaylorMotion;
 
     /// A star that spins about Z at one radian per unit of time.
     fn upright() -> TaylorMotion<f64> {
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);
         let start = BodyState { axis: Vector3::z(), momentum: Vector3::z() * 1.1, equatorial_axis: Vector3::x() };
-        propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 30.0), 1e-14).unwrap()
+        Problem::new(spheroid, Matrix3::zeros(), start).unwrap().taylor((0.0, 30.0), 1e-14).unwrap()
     }
 
     #[test]
@@ -299,8 +294,12 @@ mod tests {
         // Backwards in time, with the state at the end of the span.
         let start = motion.state(25.0)?;
         let s = Matrix3::zeros();
-        let (found, end) =
-            propagated_pulse_train(&RigidSpheroid::in_units_of_tc(1.1), &s, &start, (25.0, 4.0), 1e-14, &beam, &n)?;
+        let (found, end) = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?.taylor_pulse_train(
+            (25.0, 4.0),
+            1e-14,
+            &beam,
+            &n,
+        )?;
         assert_eq!(found.pulses.len(), train.pulses.len());
         for (a, b) in found.pulses.iter().zip(&train.pulses) {
             assert!((a.start - b.start).abs() < 1e-11 && (a.end - b.end).abs() < 1e-11, "{a:?} {b:?}");

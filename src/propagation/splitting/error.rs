@@ -169,7 +169,7 @@ mod tests {
     fn motions_are_compared_at_256_times_or_half_as_many() {
         for (count, times, stride) in [(512.0, 256, 1.0), (514.0, 129, 2.0)] {
             let estimate =
-                ErrorEstimate::new(&motion([0.3, 0.1, -0.4], FAST, &GRADIENT_8_8_6, 0.0625, count).axis_states());
+                ErrorEstimate::new(motion([0.3, 0.1, -0.4], FAST, &GRADIENT_8_8_6, 0.0625, count).axis_states());
             assert_eq!((estimate.largest.len(), estimate.interval), (times, 2.0 * stride * 0.0625));
             assert!(estimate.largest.iter().all(|&error| error < 1e-10), "{:?}", estimate.largest.last());
         }
