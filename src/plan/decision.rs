@@ -47,14 +47,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan for a request: of the methods whose [predicted error](Prediction::truncation) is at most the accuracy asked, the cheapest one.
-    ///
-    /// A method asked for by name is taken if it can be used at all, whatever its error: [`prediction`](Plan::prediction) tells it.
-    ///
-    /// # Errors
-    /// [`Error::Domain`] for a method asked for that the problem does not allow, and for what no method takes (accuracy out of
-    /// range).
-    pub fn new<X: RotationState<f64>>(problem: &Problem<f64, X>, request: &Request) -> Result<Self, Error> {
+    pub(super) fn new<X: RotationState<f64>>(problem: &Problem<f64, X>, request: &Request) -> Result<Self, Error> {
         let state = request.outputs.iter().map(|output| output.need().state).max().unwrap_or(State::Nothing);
         let evaluated =
             |wanted: fn(Evaluations) -> bool| request.outputs.iter().any(|output| wanted(output.need().evaluations));
@@ -164,7 +157,7 @@ impl Plan {
         problem.motion_by(self.needed_method()?, self.stretch, self.accuracy)
     }
 
-    /// By [`Plan::new`].
+    /// By [`Problem::plan`].
     pub fn from_parts(
         spheroid: &RigidSpheroid<f64>,
         s: &Matrix3<f64>,

@@ -15,7 +15,7 @@
 //! use nalgebra::Matrix3;
 //! use twofold::dynamics::{BodyState, RigidSpheroid};
 //! use twofold::euler_angles::{EulerAngles, EulerRates};
-//! use twofold::plan::{Output, Parameter, Request, Start, StateFunction, gradient};
+//! use twofold::plan::{Output, Parameter, Request, Start, StateFunction, gradient, gradient_in_parts};
 //! use twofold::scalar::Real;
 //!
 //! struct Height;
@@ -37,6 +37,7 @@
 //! assert!(plan.method.is_some() && plan.prediction.is_some());
 //! let found = gradient(&plan, &start, &Height, &[0.0])?;
 //! assert!((found.jacobians[0][(0, 1)] + angles.beta.sin()).abs() < 1e-14);
+//! assert_eq!(found, gradient_in_parts(&plan, &start, &Height, &[[0.0, 0.0]])?);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 

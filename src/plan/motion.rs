@@ -33,7 +33,7 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     /// `accuracy`: the largest error wanted at the end in the components of `n`, `e_x` and of `L` in units of its size, rounding apart.
     ///
     /// # Errors
-    /// As for [`Plan::new`] and [`taylor`](Self::taylor).
+    /// As for [`plan`](Self::plan) and [`taylor`](Self::taylor).
     pub fn motion(&self, span: (f64, f64), accuracy: f64) -> Result<PlannedMotion<X>, Error> {
         let output = if X::VECTORS == 3 { Output::EquatorialAxis } else { Output::AngularMomentum };
         self.plan(&Request::new(&[output], span, SAMPLES, accuracy))?.motion(self)
@@ -47,10 +47,13 @@ impl<X: RotationState<f64>> Problem<f64, X> {
         PlannedMotion::of(method, &self.with_equatorial_axis(), span, accuracy)
     }
 
-    /// What is computed for a request, and how: see [`Plan::new`].
+    /// The plan for a request: of the methods whose [predicted error](super::Prediction::truncation) is at most the accuracy asked, the cheapest one.
+    ///
+    /// A method asked for by name is taken if it can be used at all, whatever its error: [`prediction`](Plan::prediction) tells it.
     ///
     /// # Errors
-    /// As for [`Plan::new`].
+    /// [`Error::Domain`] for a method asked for that the problem does not allow, and for what no method takes (accuracy out of
+    /// range).
     pub fn plan(&self, request: &Request) -> Result<Plan, Error> {
         Plan::new(self, request)
     }

@@ -43,6 +43,21 @@ impl core::ops::AddAssign for Work {
 }
 
 /// A motion that counts how often it is evaluated.
+///
+/// ```
+/// use nalgebra::{Matrix3, Vector3};
+/// use twofold::dynamics::{AxisState, Problem, RigidSpheroid};
+/// use twofold::plan::{Cost, Counted, Method, State};
+/// use twofold::propagation::Motion;
+///
+/// let start = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.1, 0.2, 1.3) };
+/// let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), Matrix3::zeros(), start)?;
+/// let motion = Counted::new(problem.motion_by(Method::Free, (0.0, 100.0), 1e-12)?);
+/// motion.state(42.0)?;
+/// assert_eq!(motion.evaluations().axis_evaluations, 1.0);
+/// assert!(Cost::of(Method::Free, State::Axis).setup < Cost::of(Method::Taylor, State::Axis).setup);
+/// # Ok::<(), twofold::Error>(())
+/// ```
 #[derive(Debug)]
 pub struct Counted<M> {
     motion: M,

@@ -16,7 +16,7 @@
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
 //! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-//! use twofold::observables::fundamental_frequencies::{fundamental_frequencies, mean_rates_about};
+//! use twofold::observables::fundamental_frequencies::{fundamental_frequencies, mean_rate, mean_rates_about};
 //!
 //! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
 //! let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(-0.7, 0.1, 1.5));
@@ -26,6 +26,9 @@
 //! let found = fundamental_frequencies(&motion)?;
 //! assert!(found.basis()?.generators().len() >= 2);
 //! assert_eq!(mean_rates_about(&motion, &found.frame)?.alpha, found.alpha);
+//! // Of any angle in equal steps.
+//! let steps: Vec<f64> = (0..2000).map(|k| 0.3 * f64::from(k) + (0.1 * f64::from(k)).sin()).collect();
+//! assert!((mean_rate(&steps, 1.0)?.value - 0.3).abs() < 1e-6);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 

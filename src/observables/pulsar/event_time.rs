@@ -7,7 +7,7 @@
 //! use num_dual::Dual64;
 //! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 //! use twofold::observables::Observer;
-//! use twofold::observables::pulsar::event_time::{edge_time, event_time};
+//! use twofold::observables::pulsar::event_time::{closest_approach_time, edge_time, event_time};
 //! use twofold::observables::pulsar::{Beam, pulse_train};
 //! use twofold::propagation::Motion;
 //!
@@ -21,8 +21,10 @@
 //! let motion = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?.taylor((0.0, 20.0), 1e-13)?;
 //! let (beam, sight) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0).direction);
 //! let pulse = pulse_train(&motion, &beam, &sight, (0.0, 20.0))?.pulses[1];
-//! let edge = edge_time(pulse.start, &beam, &sight, (motion.spheroid(), &s), &motion.state(pulse.start)?)?;
+//! let (place, near) = ((motion.spheroid(), &s), pulse.midpoint());
+//! let edge = edge_time(pulse.start, &beam, &sight, place, &motion.state(pulse.start)?)?;
 //! assert!((edge - pulse.start).abs() < 1e-12);
+//! assert!((closest_approach_time(near, &beam, &sight, place, &motion.state(near)?)? - near).abs() < 0.1);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
