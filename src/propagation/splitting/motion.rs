@@ -327,14 +327,6 @@ impl<X: RotationState<f64>> Motion<f64> for SplittingMotion<X> {
     }
 }
 
-#[cfg(test)]
-impl SplittingMotion<AxisState<f64>> {
-    pub(super) fn axis_states(&self) -> &KeptStates<2> {
-        let Kept::Axis(states) = &self.kept else { unreachable!("it has no e_x") };
-        states
-    }
-}
-
 /// By [`Problem::splitting_by`].
 pub fn propagate_by_splitting(
     spheroid: &RigidSpheroid<f64>,
@@ -367,6 +359,13 @@ mod tests {
 
     use super::*;
     use crate::propagation::splitting::{STRANG, Splitting};
+
+    impl SplittingMotion<AxisState<f64>> {
+        pub(in crate::propagation::splitting) fn axis_states(&self) -> &KeptStates<2> {
+            let Kept::Axis(states) = &self.kept else { unreachable!("it has no e_x") };
+            states
+        }
+    }
 
     const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
 

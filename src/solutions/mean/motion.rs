@@ -9,8 +9,7 @@ use super::hamiltonian::{MeanOrder, MeanPotential};
 use super::phases::{Added, MeanPhases, MeanRates, MeanTurns, Turns, excess_of_length, turning};
 use super::top::{Top, TopPhases, TopShape};
 use crate::double_double::DoubleDouble;
-use crate::dynamics::problem::check;
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, RigidSpheroid, check_problem};
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
 use crate::scalar::{Real, length};
@@ -100,7 +99,7 @@ impl<S: Real> MeanMotion<S> {
         initial: &BodyState<S>,
         order: MeanOrder,
     ) -> Result<Self, Error> {
-        check(spheroid, &s.tensor(), initial)?;
+        check_problem(spheroid, &s.tensor(), initial)?;
         let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
         let values = Vector3::new(s.xx, s.yy, s.zz);
         let s = values.map(|value| value - (values.x + values.y + values.z) / 3.0);
