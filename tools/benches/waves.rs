@@ -15,7 +15,7 @@ use twofold::dynamics::RigidSpheroid;
 use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
-use twofold::propagation::{AxisMotion, AxisState, Motion, propagate, propagate_axis};
+use twofold::propagation::{AxisState, Motion, propagate, propagate_axis};
 use twofold_verify::check::largest;
 use twofold_verify::reference::{ReferenceMotion, reference_motion};
 use twofold_verify::second_integrator::axis_states;

@@ -7,7 +7,7 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::plan::{Method, PlannedMotion};
-use twofold::propagation::{AxisMotion, Motion};
+use twofold::propagation::Motion;
 use twofold::scalar::{Real, Scalar};
 use twofold::solutions::perturbation::Kind;
 use twofold::solutions::steady::steady_precession_rate;

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use num_dual::Dual64;
 use twofold::dynamics::RigidSpheroid;
 use twofold::dynamics::regular_equations::reduced_rates;
-use twofold::propagation::{AxisMotion, AxisState, Motion, propagate, propagate_axis};
+use twofold::propagation::{AxisState, Motion, propagate, propagate_axis};
 use twofold::scalar::constant_vector;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};

@@ -490,7 +490,7 @@ fn unstable(k: f64, nutation: f64) -> Result<(Scene, f64), String> {
         let initial = twofold::propagation::AxisState { axis, momentum };
         let tensor = s.tensor().map(Dual64::from_re);
         let moved = twofold::propagation::propagate_axis(&lifted, &tensor, &initial, (0.0, period), 1e-16)?;
-        let end = twofold::propagation::AxisMotion::axis_state(&moved, Dual64::from_re(period))?;
+        let end = twofold::propagation::Motion::axis_state(&moved, Dual64::from_re(period))?;
         excess += [end.axis, end.momentum][place / 3][place % 3].eps;
     }
     // 2 cosh(mu T) - 2 = 4 sinh^2(mu T / 2).

@@ -1,7 +1,7 @@
 //! The errors that plans foresee, of every method against true ones, in random scenes that it is made for.
 
 use twofold::plan::{Method, Output, Parameter, Plan, Promise, Request, Start, gradient};
-use twofold::propagation::{AxisMotion, Motion};
+use twofold::propagation::Motion;
 
 use super::plans::Components;
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
@@ -74,7 +74,7 @@ fn plan(scene: &ErrorScene, method: Method, derivatives: &[Parameter]) -> Result
         derivatives: derivatives.to_vec(),
         ..Request::new(&[Output::EquatorialAxis], scene.span, 3, scene.accuracy)
     };
-    Plan::new(&scene.spheroid, &scene.violation, &scene.initial, &request)
+    Plan::from_parts(&scene.spheroid, &scene.violation, &scene.initial, &request)
 }
 
 /// Error foreseen, true error, and what the plan promises; none of a scene that the method refuses.
@@ -86,7 +86,7 @@ fn foreseen_and_true(
     let Ok(plan) = plan(scene, method, derivatives) else { return Ok(None) };
     let prediction = plan.prediction.ok_or("a plan without a prediction")?;
     let state = if derivatives.is_empty() {
-        let motion = plan.motion(&scene.spheroid, &scene.violation, &scene.initial)?;
+        let motion = plan.motion_from_parts(&scene.spheroid, &scene.violation, &scene.initial)?;
         motion.state(scene.time)?
     } else {
         let (Ok(angles), Ok(rates)) = (scene.initial.angles(), scene.initial.rates(&scene.spheroid)) else {
@@ -170,7 +170,7 @@ fn rounding() -> Result<Measured, String> {
             let fault = |error: twofold::Error| format!("{}, scene {number} of seed {SEED}: {error}", method.name());
             let plan = plan(&scene, method, &[]).map_err(fault)?;
             let prediction = plan.prediction.ok_or("a plan without a prediction")?;
-            let motion = plan.motion(&scene.spheroid, &scene.violation, &scene.initial).map_err(fault)?;
+            let motion = plan.motion_from_parts(&scene.spheroid, &scene.violation, &scene.initial).map_err(fault)?;
             let ratio = motion.error_estimate(scene.time) / prediction.rounding;
             let off = ratio.max(1.0 / ratio);
             all += 1;

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use proptest::prelude::*;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::plan::{Candidate, Method, Output, Parameter, Plan, Request, Start, StateFunction, gradient};
-use twofold::propagation::{AxisMotion, Motion, SymmetricMotion, UniformMotion, propagate};
+use twofold::propagation::{Motion, SymmetricMotion, UniformMotion, propagate};
 use twofold::scalar::Real;
 use twofold::solutions::perturbation::Kind as Precession;
 use twofold::solutions::steady::steady_precession_rate;
@@ -112,10 +112,13 @@ fn counts() -> Result<Measured, String> {
             method: Some(Method::Taylor),
             ..Request::new(&[output], (0.0, 10f64.powf(span)), 10, 10f64.powf(accuracy))
         };
-        let plan = Plan::new(&body, &s, &initial, &request)?;
+        let plan = Plan::from_parts(&body, &s, &initial, &request)?;
         let foreseen = plan.prediction.ok_or("a plan without prediction")?.work.right_hand_sides;
-        let counted =
-            if full { plan.motion(&body, &s, &initial)?.work() } else { plan.axis_motion(&body, &s, &initial)?.work() };
+        let counted = if full {
+            plan.motion_from_parts(&body, &s, &initial)?.work()
+        } else {
+            plan.axis_motion(&body, &s, &initial)?.work()
+        };
         let ratio = counted.right_hand_sides / foreseen;
         Ok(ratio.max(1.0 / ratio))
     })
@@ -144,7 +147,7 @@ fn cheapest() -> Result<Measured, String> {
             derivatives: [Parameter::Beta, Parameter::InertiaZz][..derivatives].to_vec(),
             ..Request::new(&[Output::EquatorialAxis], (0.0, 10f64.powf(span)), samples, 10f64.powf(accuracy))
         };
-        let plan = Plan::new(&body, &s, &initial, &request)?;
+        let plan = Plan::from_parts(&body, &s, &initial, &request)?;
         let (method, prediction) = plan.method.zip(plan.prediction).ok_or("a plan without a method")?;
         let less = |candidate: &Candidate| {
             candidate.prediction.as_ref().is_ok_and(|other| plan.admits(other) && other.cost < prediction.cost)
@@ -170,7 +173,7 @@ fn free_bound() -> Result<Measured, String> {
     worst_over(43, 400, &strategy, |&(scene, log)| {
         let (body, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
         let span = (0.0, 10f64.powf(log));
-        let free = UniformMotion::free(&body, &s, &initial, span);
+        let free = UniformMotion::free_from_parts(&body, &s, &initial, span);
         let exact = propagate(&body, &s, &initial, span, 1e-15)?;
         let figure = |t: f64| {
             let off = difference(&free.state(t)?, &exact.state(t)?, &s, &initial);
@@ -198,7 +201,7 @@ fn symmetric_motion() -> Result<Measured, String> {
         // Axes exchanged, too: the symmetry axis need not be that of the last eigenvalue.
         let (s, initial) = if kind == 1 { (s, initial) } else { turned(&s, &initial, frame) };
         let span = (0.0, 10f64.powf(span));
-        let Ok(motion) = SymmetricMotion::new(&body, &s, &initial, span) else { return Ok(0.0) };
+        let Ok(motion) = SymmetricMotion::from_parts(&body, &s, &initial, span) else { return Ok(0.0) };
         solved.set(solved.get() + 1);
         let exact = propagate(&body, &s, &initial, span, 1e-15)?;
         let figure = |t: f64| {
@@ -226,7 +229,7 @@ fn steady_motion() -> Result<Measured, String> {
         let (s, initial) = (coefficients.tensor(), scene.state());
         let (s, initial) = if is_turned { turned(&s, &initial, frame) } else { (s, initial) };
         let span = (0.0, 50.0);
-        let Ok(motion) = UniformMotion::steady(&body, &s, &initial, span) else { return Ok(0.0) };
+        let Ok(motion) = UniformMotion::steady_from_parts(&body, &s, &initial, span) else { return Ok(0.0) };
         solved.set(solved.get() + 1);
         // What turns faster or slower by 1e-6 is not steady, wherever the torque is above rounding.
         let beside = BodyState { momentum: initial.momentum * (1.0 + 1e-6), ..initial };
@@ -234,7 +237,7 @@ fn steady_motion() -> Result<Measured, String> {
         let (sin, cos) = angles.beta.sin_cos();
         let speed = rate.abs() + initial.momentum.norm() + (2.0 * pull.abs()).sqrt();
         let noticed = 1e-6 * (2.0 * pull * sin * cos).abs() / (speed * speed) > 1e-13;
-        if noticed && UniformMotion::steady(&body, &s, &beside, span).is_ok() {
+        if noticed && UniformMotion::steady_from_parts(&body, &s, &beside, span).is_ok() {
             return Err("a state beside steady precession was taken for one".into());
         }
         let exact = propagate(&body, &s, &initial, span, 1e-15)?;
@@ -282,7 +285,7 @@ fn gradients() -> Result<Measured, String> {
         let times: Vec<f64> = scene.derivatives.iter().map(|(t, _)| *t).collect();
         for method in [None, Some(Method::Taylor)] {
             let request = Request { method, ..request.clone() };
-            let plan = Plan::new(&start.spheroid, &start.violation, &start.state(), &request)?;
+            let plan = Plan::from_parts(&start.spheroid, &start.violation, &start.state(), &request)?;
             let found = gradient(&plan, start, &Components, &times)?;
             for ((t, expected), found) in scene.derivatives.iter().zip(&found.jacobians) {
                 for (i, parameter) in Parameter::ALL.iter().enumerate() {
@@ -317,7 +320,7 @@ fn gradients_both_ways() -> Result<Measured, String> {
                 method,
                 ..Request::new(&[Output::EquatorialAxis], (0.0, end), 3, if method.is_some() { 1e-15 } else { 1e-11 })
             };
-            let plan = Plan::new(&start.spheroid, &s, &start.state(), &request)?;
+            let plan = Plan::from_parts(&start.spheroid, &s, &start.state(), &request)?;
             gradient(&plan, &start, &Components, &[end, 0.3 * end, 0.0])
         });
         let [Ok(ours), Ok(theirs)] = both else { return Err(format!("{both:?}")) };

@@ -6,7 +6,7 @@ use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerat
 use twofold::dynamics::first_integrals::{first_integrals, symmetric_adjugate};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{AxisMotion, Motion, propagate};
+use twofold::propagation::{Motion, propagate};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
 use crate::physical_domain::{RandomScene, scenes, worst_over};

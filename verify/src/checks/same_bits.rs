@@ -2,7 +2,7 @@
 
 use twofold::dynamics::BodyState;
 use twofold::plan::{Method, PlannedMotion};
-use twofold::propagation::{AxisMotion, Motion};
+use twofold::propagation::Motion;
 
 use crate::check::{Bound, Check, Kind, Measured};
 use crate::error_scenes::ErrorScene;

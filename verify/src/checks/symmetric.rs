@@ -11,7 +11,7 @@ use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerat
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{AxisMotion, Motion, propagate};
+use twofold::propagation::{Motion, propagate};
 use twofold::scalar::Real;
 use twofold::solutions::free::free_rotation;
 use twofold::solutions::perturbation::Kind as Precession;

@@ -11,7 +11,7 @@ use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{
     Polarizations, metric_perturbation, polarization_tensors, polarizations, strain_unit,
 };
-use twofold::propagation::{AxisMotion, AxisState, Motion, TaylorMotion, propagate, propagate_axis};
+use twofold::propagation::{AxisState, Motion, TaylorMotion, propagate, propagate_axis};
 use twofold::units::geometrised::HERTZ;
 use twofold::units::si::KILOPARSEC;
 

@@ -86,7 +86,7 @@ fn epochs() -> Result<Measured, String> {
         let s = nalgebra::Matrix3::from_diagonal(&(state.s * 10f64.powf(random.within(-15.0, -3.0))));
         let across = state.n.cross(&Vector3::new(0.3, -0.5, 0.8)).normalize();
         let initial = BodyState { axis: state.n, momentum: state.momentum, equatorial_axis: across };
-        let motion = AveragedMotion::new(&state.body, &s, &initial, (0.0, 1e17), MeanOrder::Second)?;
+        let motion = AveragedMotion::from_parts(&state.body, &s, &initial, (0.0, 1e17), MeanOrder::Second)?;
         let epoch = 10f64.powf(random.within(0.0, 15.0));
         let epoch = [epoch, epoch * f64::EPSILON * random.within(-0.4, 0.4)];
         let later = random.within(0.0, 1e-3) * epoch[0].min(100.0);

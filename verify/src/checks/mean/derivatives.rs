@@ -82,7 +82,7 @@ impl Family {
             }
         }
         let principal = frame_of(&tensor)?;
-        AveragedMotion::in_frame(&body, &tensor, &state, (0.0, *end), MeanOrder::Second, principal)?.state(t)
+        AveragedMotion::in_frame_from_parts(&body, &tensor, &state, (0.0, *end), MeanOrder::Second, principal)?.state(t)
     }
 
     fn components<S: twofold::Real>(&self, x: S, frame_of: Frame<S>) -> Result<[S; 9], twofold::Error> {

@@ -8,7 +8,7 @@ use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::observables::Observer;
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod, arrivals, pulse_train};
-use twofold::propagation::{AxisMotion, TaylorMotion, propagate};
+use twofold::propagation::{Motion, TaylorMotion, propagate};
 
 use super::cases::for_random_cases;
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};

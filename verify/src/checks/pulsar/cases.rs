@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use twofold::Error;
 use twofold::dynamics::BodyState;
 use twofold::observables::pulsar::{Beam, PulseTrain, pulse_train};
-use twofold::propagation::{AxisMotion, Motion, TaylorMotion, propagate};
+use twofold::propagation::{Motion, TaylorMotion, propagate};
 
 use crate::physical_domain::scenes;
 use crate::random::Random;
@@ -24,7 +24,7 @@ impl Case {
     pub(super) fn margin(&self, t: f64) -> [f64; 4] {
         let motion = &self.motion;
         let state = motion.state(t).expect("a time of the span");
-        self.beam.margin_rates(motion.spheroid(), motion.violation(), &state, &self.observer)
+        self.beam.margin_rates(motion.spheroid(), motion.coefficients(), &state, &self.observer)
     }
 
     pub(super) fn train(&self) -> Result<PulseTrain, String> {

@@ -8,7 +8,7 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame};
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Arrival, Beam, PulsarClock, arrivals, pulse_train};
-use twofold::propagation::{AveragedMotion, AxisMotion};
+use twofold::propagation::{AveragedMotion, Motion};
 use twofold::scalar::Scalar;
 use twofold::solutions::mean::{MeanMotion, MeanOrder, MeanPhases, MeanRates};
 
@@ -107,7 +107,9 @@ fn numbers() -> Result<Measured, String> {
         tried += 1;
         let star = Star::any(&mut random);
         let (spheroid, s, start) = (&star.spheroid, star.s.tensor(), &star.initial);
-        let Ok(motion) = AveragedMotion::new(spheroid, &s, start, (0.0, 2000.0), MeanOrder::Second) else { continue };
+        let Ok(motion) = AveragedMotion::from_parts(spheroid, &s, start, (0.0, 2000.0), MeanOrder::Second) else {
+            continue;
+        };
         let n = &star.observer.direction;
         let train = pulse_train(&motion, &star.beam, n, motion.span())?;
         let Ok(found) = arrivals(&motion, &star.beam, n, &train) else { continue };

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{AveragedMotion, AxisMotion, ContinuousAngles, Motion, TaylorMotion, propagate};
+use twofold::propagation::{AveragedMotion, ContinuousAngles, Motion, TaylorMotion, propagate};
 use twofold::solutions::mean::MeanOrder;
 use twofold::solutions::perturbation::{Constants, Form, Kind, Perturbation};
 
@@ -64,7 +64,7 @@ impl Case {
     pub fn averaged_motion(&self, duration: f64) -> Result<AveragedMotion<f64>, String> {
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);
         let (initial, _) = self.start(&spheroid)?;
-        AveragedMotion::new(&spheroid, &self.s.tensor(), &initial, (0.0, duration), MeanOrder::Second)
+        AveragedMotion::from_parts(&spheroid, &self.s.tensor(), &initial, (0.0, duration), MeanOrder::Second)
             .map_err(String::from)
     }
 

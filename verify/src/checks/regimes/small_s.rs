@@ -7,7 +7,7 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::bound::SpinAxisDrift;
-use twofold::propagation::{AveragedMotion, AxisMotion};
+use twofold::propagation::{AveragedMotion, Motion};
 use twofold::solutions::mean::MeanOrder;
 use twofold::solutions::perturbation::{Form, Kind as Precession};
 use twofold::units::JULIAN_YEAR;
@@ -122,7 +122,7 @@ fn drift() -> Result<Measured, String> {
             momentum: axis * (spin * spheroid.inertia_zz),
             equatorial_axis: Vector3::new(beta_0.cos(), 0.0, -beta_0.sin()),
         };
-        let motion = AveragedMotion::new(&spheroid, &s.tensor(), &initial, (0.0, interval), MeanOrder::Second);
+        let motion = AveragedMotion::from_parts(&spheroid, &s.tensor(), &initial, (0.0, interval), MeanOrder::Second);
         let end = motion.and_then(|motion| motion.axis_state(interval))?.axis;
         // Over all directions o of observers the mean square of o.d is |d|^2 / 3.
         let cos_lambda_change = (end - axis).norm() / 3.0_f64.sqrt();

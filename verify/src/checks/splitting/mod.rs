@@ -10,7 +10,7 @@ use twofold::propagation::splitting::{
     Scheme, Splitting, propagate_by_splitting, propagate_orientation_by_best_splitting,
     propagate_orientation_by_splitting,
 };
-use twofold::propagation::{AxisMotion, AxisState, Motion, propagate, propagate_axis};
+use twofold::propagation::{AxisState, Motion, propagate, propagate_axis};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
 use crate::physical_domain::{RandomScene, scenes, worst_over};
@@ -182,7 +182,7 @@ fn casimirs() -> Result<Measured, String> {
     let (spheroid, s, start) = tp_2();
     let mut worst = Worst::default();
     for scheme in SCHEMES {
-        let mut motion = Splitting::new(&spheroid, &s, &start, scheme, 0.1 * scheme.stages() as f64)?;
+        let mut motion = Splitting::from_parts(&spheroid, &s, &start, scheme, 0.1 * scheme.stages() as f64)?;
         // Not a multiple of the steps between projections.
         for _ in 0..10 {
             motion.advance(99_999);
@@ -200,9 +200,9 @@ fn time_reversal() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for scheme in SCHEMES {
         let step = 0.1 * scheme.stages() as f64;
-        let mut motion = Splitting::new(&spheroid, &s, &start, scheme, step)?;
+        let mut motion = Splitting::from_parts(&spheroid, &s, &start, scheme, step)?;
         motion.advance(300);
-        let mut back = Splitting::new(&spheroid, &s, &motion.state(), scheme, -step)?;
+        let mut back = Splitting::from_parts(&spheroid, &s, &motion.state(), scheme, -step)?;
         back.advance(300);
         worst.see(difference(&back.state(), &start), || scheme.name.to_string());
     }
