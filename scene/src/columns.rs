@@ -44,7 +44,7 @@ pub fn header(group: Output, units: &Units) -> Vec<String> {
 /// # Panics
 /// If the sample has less of the state than the group needs.
 pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>> {
-    let (body, s, units) = (&scene.spheroid, &scene.violation, &scene.units);
+    let (body, s, units) = (scene.problem.spheroid(), scene.problem.coefficients(), &scene.units);
     Some(match group {
         Output::EulerAngles => sample.angles.map(|a| vec![a.alpha, a.beta, a.gamma])?,
         Output::EulerRates => {

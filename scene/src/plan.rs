@@ -1,7 +1,6 @@
 //! Times of a scene in `t_c`, its rotation, and the plan by which its motion is computed.
 
 use twofold::Error;
-use twofold::dynamics::BodyState;
 use twofold::dynamics::regular_equations::angular_velocity;
 use twofold::plan::{Output, Plan, Request};
 
@@ -51,9 +50,9 @@ impl Scene {
 
     /// Upper estimate of the rate at which directions turn, per `t_c`.
     pub(crate) fn turning_rate(&self) -> f64 {
-        let BodyState { axis, momentum, .. } = &self.initial;
-        let omega = angular_velocity(&self.spheroid, axis, momentum).norm();
-        omega.max(momentum.norm()) + (2.0 * self.violation.norm()).sqrt()
+        let (problem, initial) = (&self.problem, self.problem.initial());
+        let omega = angular_velocity(problem.spheroid(), &initial.axis, &initial.momentum).norm();
+        omega.max(initial.momentum.norm()) + (2.0 * problem.coefficients().norm()).sqrt()
     }
 
     /// The plan for some outputs over the span and at the samples of the scene. Times are those since the start, in t_c.
@@ -63,7 +62,7 @@ impl Scene {
     pub fn plan(&self, outputs: &[Output]) -> Result<Plan, Error> {
         let span = (0.0, self.duration());
         let request = Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.accuracy) };
-        let plan = Plan::new(&self.spheroid, &self.violation, &self.initial, &request)?;
+        let plan = self.problem.plan(&request)?;
         let rotation = self.rotation();
         Error::unless(
             rotation <= LARGEST_ROTATION || plan.costs_the_same_at_any_time(),

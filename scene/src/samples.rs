@@ -1,10 +1,10 @@
 //! The motion of a scene at the times of its output. A long motion is computed segment by segment, so that memory does not grow with its span.
 
 use twofold::Error;
-use twofold::dynamics::BodyState;
+use twofold::dynamics::{AxisState, BodyState, Problem, RotationState};
 use twofold::euler_angles::EulerAngles;
-use twofold::plan::{Counted, Method, Output, Plan, PlannedAxisMotion, PlannedMotion, State, Work};
-use twofold::propagation::{ACCURACY_RANGE, AxisMotion, AxisState, ContinuousAngles, Motion};
+use twofold::plan::{Counted, Method, Output, Plan, PlannedMotion, State, Work};
+use twofold::propagation::{ACCURACY_RANGE, ContinuousAngles, Motion};
 
 use crate::scene_file::Scene;
 
@@ -20,7 +20,7 @@ pub struct Sample {
     pub state: SampledState,
     /// The Euler angles with their turns, where the plan counts turns; none where the symmetry axis is on a pole.
     pub angles: Option<EulerAngles<f64>>,
-    /// Estimated error, see [`AxisMotion::error_estimate`], where it is wanted.
+    /// Estimated error, see [`Motion::error_estimate`], where it is wanted.
     pub error_estimate: Option<f64>,
 }
 
@@ -106,13 +106,13 @@ pub(crate) fn for_each_sample<E: From<Error>>(
             Ok(Sampled::default())
         }
         State::Axis | State::AxisAndMomentum => {
-            sample_segments::<PlannedAxisMotion, E>(scene, plan, estimates, take, after_segment)
+            sample_segments::<AxisState<f64>, E>(scene, plan, estimates, take, after_segment)
         }
-        State::Orientation => sample_segments::<PlannedMotion, E>(scene, plan, estimates, take, after_segment),
+        State::Orientation => sample_segments::<BodyState<f64>, E>(scene, plan, estimates, take, after_segment),
     }
 }
 
-fn sample_segments<M: SegmentMotion, E: From<Error>>(
+fn sample_segments<X: SegmentState, E: From<Error>>(
     scene: &Scene,
     plan: &Plan,
     estimates: ErrorEstimates,
@@ -121,19 +121,19 @@ fn sample_segments<M: SegmentMotion, E: From<Error>>(
 ) -> Result<Sampled, E> {
     let counts_turns = plan.outputs.contains(&Output::EulerAngles);
     let mut times = scene.times.iter().peekable();
-    let mut segments = Segments::<M>::new(scene, plan)?;
+    let mut segments = Segments::<X>::new(scene, plan)?;
     let mut start_angles = scene.initial_angles;
     let mut earlier = EarlierErrors::default();
     let mut sampled = Sampled::default();
     while let Some(Segment { motion, from, to, is_last }) = segments.next()? {
         let mut angles: Angles<'_> =
-            if counts_turns { M::angles(&motion, from, &start_angles)? } else { Box::new(|_| None) };
+            if counts_turns { X::angles(&motion, from, &start_angles)? } else { Box::new(|_| None) };
         while let Some(time) = times.next_if(|time| is_last || scene.since_start(*time).abs() <= to.abs()) {
             let parts = since_start_within(scene, time, from, to);
             let t = parts[0];
             let error = || earlier.at(t, scene.turning_rate()) + motion.error_estimate(t);
             let error_estimate = (estimates == ErrorEstimates::OfEachSample).then(error);
-            let (state, angles) = (M::sampled(&motion, parts)?, angles(t));
+            let (state, angles) = (X::sampled(&motion, parts)?, angles(t));
             take(time, &Sample { since_start: t, state, angles, error_estimate })?;
         }
         if counts_turns && !is_last {
@@ -174,93 +174,49 @@ impl EarlierErrors {
 /// The Euler angles at a time, where they exist.
 type Angles<'m> = Box<dyn FnMut(f64) -> Option<EulerAngles<f64>> + 'm>;
 
-/// A motion that a plan can make, with as much of the state as it carries.
-pub(crate) trait SegmentMotion: AxisMotion<f64> + Sized {
-    /// The motion by a method.
-    fn by(
-        method: Method,
-        scene: &Scene,
-        start: &BodyState<f64>,
-        span: (f64, f64),
-        accuracy: f64,
-    ) -> Result<Self, Error>;
-
-    /// The state at the time `t[0] + t[1]`.
-    fn sampled(motion: &Counted<Self>, t: [f64; 2]) -> Result<SampledState, Error>;
-
-    /// A start for the next segment; what the motion does not have is that of `before`.
-    fn start_at(&self, t: f64, before: &BodyState<f64>) -> Result<BodyState<f64>, Error>;
+/// A state of the segments of a motion: `n` and `L`, or the whole orientation.
+pub(crate) trait SegmentState: RotationState<f64> {
+    /// The state of a motion at the time `t[0] + t[1]`.
+    fn sampled(motion: &Counted<PlannedMotion<Self>>, t: [f64; 2]) -> Result<SampledState, Error>;
 
     /// The Euler angles with their turns from the time `from`, where they are `start`; none where they do not exist.
     ///
     /// # Errors
     /// A time outside the motion.
-    fn angles<'m>(motion: &'m Counted<Self>, from: f64, start: &EulerAngles<f64>) -> Result<Angles<'m>, Error>;
-
-    /// Steps and right-hand sides.
-    fn work(&self) -> Work;
+    fn angles<'m>(
+        motion: &'m Counted<PlannedMotion<Self>>,
+        from: f64,
+        start: &EulerAngles<f64>,
+    ) -> Result<Angles<'m>, Error>;
 }
 
-impl SegmentMotion for PlannedAxisMotion {
-    fn by(
-        method: Method,
-        scene: &Scene,
-        start: &BodyState<f64>,
-        span: (f64, f64),
-        accuracy: f64,
-    ) -> Result<Self, Error> {
-        PlannedAxisMotion::by(method, &scene.spheroid, &scene.violation, start, span, accuracy)
-    }
-
-    fn sampled(motion: &Counted<Self>, t: [f64; 2]) -> Result<SampledState, Error> {
+impl SegmentState for AxisState<f64> {
+    fn sampled(motion: &Counted<PlannedMotion<Self>>, t: [f64; 2]) -> Result<SampledState, Error> {
         motion.axis_state_in_parts(t).map(SampledState::Axis)
     }
 
-    fn start_at(&self, t: f64, before: &BodyState<f64>) -> Result<BodyState<f64>, Error> {
-        let AxisState { axis, momentum } = self.axis_state(t)?;
-        Ok(BodyState { axis, momentum, ..*before })
-    }
-
-    fn angles<'m>(_: &'m Counted<Self>, _: f64, _: &EulerAngles<f64>) -> Result<Angles<'m>, Error> {
+    fn angles<'m>(_: &'m Counted<PlannedMotion<Self>>, _: f64, _: &EulerAngles<f64>) -> Result<Angles<'m>, Error> {
         Ok(Box::new(|_| None))
-    }
-
-    fn work(&self) -> Work {
-        PlannedAxisMotion::work(self)
     }
 }
 
-impl SegmentMotion for PlannedMotion {
-    fn by(
-        method: Method,
-        scene: &Scene,
-        start: &BodyState<f64>,
-        span: (f64, f64),
-        accuracy: f64,
-    ) -> Result<Self, Error> {
-        PlannedMotion::by(method, &scene.spheroid, &scene.violation, start, span, accuracy)
-    }
-
-    fn sampled(motion: &Counted<Self>, t: [f64; 2]) -> Result<SampledState, Error> {
+impl SegmentState for BodyState<f64> {
+    fn sampled(motion: &Counted<PlannedMotion<Self>>, t: [f64; 2]) -> Result<SampledState, Error> {
         motion.state_in_parts(t).map(SampledState::Orientation)
     }
 
-    fn start_at(&self, t: f64, _: &BodyState<f64>) -> Result<BodyState<f64>, Error> {
-        self.state(t)
-    }
-
-    fn angles<'m>(motion: &'m Counted<Self>, from: f64, start: &EulerAngles<f64>) -> Result<Angles<'m>, Error> {
+    fn angles<'m>(
+        motion: &'m Counted<PlannedMotion<Self>>,
+        from: f64,
+        start: &EulerAngles<f64>,
+    ) -> Result<Angles<'m>, Error> {
         let mut angles = ContinuousAngles::new(motion, from, start)?;
         Ok(Box::new(move |t| angles.at(t).ok()))
-    }
-
-    fn work(&self) -> Work {
-        PlannedMotion::work(self)
     }
 }
 
 /// The motion of a scene over the span of a plan, segment by segment.
-pub(crate) struct Segments<'s, M> {
+pub(crate) struct Segments<'s, X> {
     scene: &'s Scene,
     method: Method,
     /// Length of the span in t_c, negative backwards.
@@ -268,10 +224,11 @@ pub(crate) struct Segments<'s, M> {
     count: usize,
     next: usize,
     from: f64,
-    state: BodyState<f64>,
+    /// The problem from the start of the scene, and from that of the next segment.
+    whole: Problem<f64, X>,
+    problem: Problem<f64, X>,
     /// Steps and right-hand sides so far.
     pub(crate) work: Work,
-    motion: std::marker::PhantomData<M>,
 }
 
 /// Error of the components of `n`, `e_x` and of `L` in units of its size at the end of a span.
@@ -284,9 +241,9 @@ pub enum ErrorAtEnd {
 }
 
 /// One segment; times since the start, in t_c.
-pub(crate) struct Segment<M> {
+pub(crate) struct Segment<X> {
     /// The motion from `from` to `to`.
-    pub motion: Counted<M>,
+    pub motion: Counted<PlannedMotion<X>>,
     /// First time; later than `to` where the span leads backwards.
     pub from: f64,
     /// Last time.
@@ -295,7 +252,7 @@ pub(crate) struct Segment<M> {
     pub is_last: bool,
 }
 
-impl<'s, M: SegmentMotion> Segments<'s, M> {
+impl<'s, X: SegmentState> Segments<'s, X> {
     /// The segments of a plan for `scene`, one at least.
     ///
     /// # Errors
@@ -312,15 +269,16 @@ impl<'s, M: SegmentMotion> Segments<'s, M> {
         let total = plan.stretch.1;
         let whole = plan.costs_the_same_at_any_time();
         let count = if whole { 1 } else { (total.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize };
-        let (work, motion) = (Work::default(), std::marker::PhantomData);
-        Ok(Self { scene, method, total, count, next: 0, from: 0.0, state: scene.initial, work, motion })
+        let initial = X::from_vectors(scene.problem.initial().vectors());
+        let whole = Problem::new(*scene.problem.spheroid(), *scene.problem.coefficients(), initial)?;
+        Ok(Self { scene, method, total, count, next: 0, from: 0.0, whole, problem: whole, work: Work::default() })
     }
 
     /// Computes the next segment, if there is one.
     ///
     /// # Errors
     /// A motion that cannot be computed.
-    pub fn next(&mut self) -> Result<Option<Segment<M>>, Error> {
+    pub fn next(&mut self) -> Result<Option<Segment<X>>, Error> {
         if self.next == self.count {
             return Ok(None);
         }
@@ -328,11 +286,10 @@ impl<'s, M: SegmentMotion> Segments<'s, M> {
         let (from, to) = (self.from, self.total * (self.next as f64 / self.count as f64));
         let motion = if self.method.is_closed_form() {
             // From the start of the scene: nothing adds up from segment to segment.
-            M::by(self.method, self.scene, &self.scene.initial, (0.0, self.total), self.scene.accuracy)?
+            self.whole.motion_by(self.method, (0.0, self.total), self.scene.accuracy)?
         } else {
-            let accuracy = self.share_of_accuracy(to - from);
-            let motion = M::by(self.method, self.scene, &self.state, (from, to), accuracy)?;
-            self.state = motion.start_at(to, &self.state)?;
+            let motion = self.problem.motion_by(self.method, (from, to), self.share_of_accuracy(to - from))?;
+            self.problem = self.problem.starting_from(motion.state(to)?)?;
             motion
         };
         self.work += motion.work();
@@ -344,14 +301,14 @@ impl<'s, M: SegmentMotion> Segments<'s, M> {
     ///
     /// # Errors
     /// A time outside the segment.
-    pub fn resume_at(&mut self, segment: &Segment<M>, time: f64) -> Result<(), Error> {
-        self.state = segment.motion.inner().start_at(time, &self.state)?;
+    pub fn resume_at(&mut self, segment: &Segment<X>, time: f64) -> Result<(), Error> {
+        self.problem = self.problem.starting_from(segment.motion.inner().state(time)?)?;
         self.from = time;
         Ok(())
     }
 
     /// Error at the end.
-    fn error_at_end(&self, last: &Counted<M>, to: f64, plan: &Plan) -> ErrorAtEnd {
+    fn error_at_end(&self, last: &Counted<PlannedMotion<X>>, to: f64, plan: &Plan) -> ErrorAtEnd {
         if self.count == 1 || self.method.is_closed_form() {
             return ErrorAtEnd::Estimated(last.error_estimate(to));
         }
@@ -379,8 +336,6 @@ fn since_start_within(scene: &Scene, time: f64, from: f64, to: f64) -> [f64; 2] 
 
 #[cfg(test)]
 mod tests {
-    use twofold::plan::PlannedAxisMotion;
-
     use super::*;
 
     /// An error of the time `t` grows to `1 + rate (end - t)` times itself by the end. All of the segments together are to stay below the accuracy.
@@ -393,7 +348,7 @@ mod tests {
         let plan = scene.plan(&scene.columns).unwrap();
         let rate = scene.turning_rate();
         let end = plan.stretch.1;
-        let mut segments = Segments::<PlannedAxisMotion>::with_rotation(&scene, &plan, rate * end / 20.5).unwrap();
+        let mut segments = Segments::<AxisState<f64>>::with_rotation(&scene, &plan, rate * end / 20.5).unwrap();
         let (mut sum, mut count) = (0.0, 0);
         while let Some(segment) = segments.next().unwrap() {
             sum += segment.motion.error_estimate(segment.to) * (1.0 + rate * (end - segment.to));

@@ -137,7 +137,7 @@ pub(super) fn write<T>(
 
 fn note_units(scene: &Scene) {
     if scene.units.are_physical() {
-        let ratio = scene.spheroid.inertia_zz / scene.spheroid.inertia_xx;
+        let ratio = scene.problem.spheroid().inertia_zz / scene.problem.spheroid().inertia_xx;
         note(&format!("t_c = {:.6e} s, I^zz/I^xx = {ratio:.9}; times are in s", scene.units.time));
     }
 }

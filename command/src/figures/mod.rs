@@ -49,7 +49,7 @@ pub use png::png;
 use rayon::prelude::*;
 use recipe::Sheet;
 pub use recipe::{OF_A_SCENE, RECIPES, Recipe};
-pub use subject::{Shown, Start, Subject};
+pub use subject::{Shown, Subject};
 pub use table::Table;
 pub use work_precision::work_precision;
 

@@ -96,7 +96,7 @@ fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, Stri
     let angles = subject.angles(&[0.0, end])?;
     let [(_, first), (_, last)] = angles[..] else { return Err("the axis is on a pole".into()) };
     let mean = ShiftedRates { alpha: (last.alpha - first.alpha) / end, gamma: (last.gamma - first.gamma) / end };
-    let shifted = ShiftedRates { alpha: solution.rate, gamma: subject.start.spin() - solution.rate * beta_0.cos() };
+    let shifted = ShiftedRates { alpha: solution.rate, gamma: subject.spin() - solution.rate * beta_0.cos() };
     let columns =
         CURVES.iter().flat_map(|(_, of)| ["period", "length"].map(|q| subject.scale.time_column(&format!("{q} {of}"))));
     let columns = std::iter::once(subject.scale.time_column("t")).chain(columns);

@@ -1,18 +1,18 @@
 //! `h_+` and `h_x` at the observer in time.
 
-use twofold::dynamics::BodyState;
-use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
-use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
+use twofold::dynamics::{AxisState, BodyState};
+use twofold::observables::gravitational_wave::Polarizations;
 use twofold::units::si::KILOPARSEC;
 
 use super::axes::{Axis, BELOW, LEFT, Panel};
 use super::number::{ALIKE, Spread, significant};
 use super::parameters::{line_of_sight, parameters};
 use super::style::{BLUE, PAGE, VERMILION, solid};
-use super::subject::{Start, times};
+use super::subject::times;
 use super::svg::{Page, Rectangle};
 use super::table::Table;
 use super::{Caption, Sheet, Subject};
+use twofold_scene::wave::spheroid_wave;
 
 pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
     let tables = subjects.iter().map(|subject| waves(subject)).collect::<Result<Vec<_>, _>>()?;
@@ -21,18 +21,22 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
 
 /// The two polarizations in a state, as they are drawn.
 pub(super) fn wave(subject: &Subject, state: &BodyState<f64>) -> Result<Polarizations<f64>, String> {
-    let start = &subject.start;
-    let source = spheroid_inertia_acceleration(&start.spheroid, &start.violation, &state.axis, &state.momentum);
-    let h = polarizations(&subject.viewer()?.basis(), &metric_perturbation(1.0, &source));
-    Ok(Polarizations { plus: subject.scale.wave(h.plus), cross: subject.scale.wave(h.cross) })
+    let (problem, observer) = (&subject.problem, subject.viewer()?.basis());
+    Ok(spheroid_wave(
+        problem.spheroid(),
+        problem.coefficients(),
+        &AxisState::from(state),
+        &observer,
+        subject.scale.wave(1.0),
+    ))
 }
 
 /// What an error of the numerical motion makes of a wave, as it is drawn: the acceleration is that of a product of `n` and `L`, of the size
 /// `epsilon Omega^2`, and the torque. A wave below that is not known.
 pub(super) fn error(subject: &Subject) -> f64 {
-    let Start { spheroid, violation, state, .. } = &subject.start;
-    let rate = state.momentum.norm() / spheroid.inertia_xx;
-    subject.scale.wave(ALIKE * (spheroid.oblateness().abs() * rate * rate + violation.norm()))
+    let (problem, spheroid) = (&subject.problem, subject.problem.spheroid());
+    let rate = problem.initial().momentum.norm() / spheroid.inertia_xx;
+    subject.scale.wave(ALIKE * (spheroid.oblateness().abs() * rate * rate + problem.coefficients().norm()))
 }
 
 fn waves(subject: &Subject) -> Result<Table, String> {

@@ -55,14 +55,14 @@ impl Model<f64> {
     pub fn of_scene(scene: &Scene) -> Result<Self, Error> {
         let sine = scene.initial_angles.beta.sin();
         Error::unless(sine > 1e-6, "sin(beta) at the start", sine, "above 1e-6: on a pole angles are no parameters")?;
-        let rates = scene.initial.rates(&scene.spheroid)?;
+        let rates = scene.problem.initial().rates(scene.problem.spheroid())?;
         let angles = scene.initial_angles;
         let (chi, delta, rho) = scene.pulsar.map_or((0.5, 0.0, 0.5), |pulsar| (pulsar.chi, pulsar.delta, pulsar.rho));
         let (theta_o, phi_o) = scene.observer.map_or((0.5, 0.0), |viewer| (viewer.theta_o, viewer.phi_o));
         Ok(Self {
-            oblateness: scene.spheroid.oblateness(),
-            constant_c: scene.spheroid.constant_c,
-            s: scene.violation,
+            oblateness: scene.problem.spheroid().oblateness(),
+            constant_c: scene.problem.spheroid().constant_c,
+            s: *scene.problem.coefficients(),
             s_scale: 1.0,
             angles,
             alpha_rate: rates.alpha,

@@ -23,7 +23,13 @@ pub struct Series {
 impl PulsarScene {
     /// The wave at the observer, at the scene's distance, of a state.
     pub fn wave(&self, state: &AxisState<f64>) -> Option<Polarizations<f64>> {
-        Some(spheroid_wave(&self.spheroid, &self.violation, state, &self.observer, self.strain_unit?))
+        Some(spheroid_wave(
+            self.problem.spheroid(),
+            self.problem.coefficients(),
+            state,
+            &self.observer,
+            self.strain_unit?,
+        ))
     }
 }
 

@@ -8,8 +8,7 @@ mod document;
 mod motion;
 mod observation;
 
-use nalgebra::Matrix3;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::Problem;
 use twofold::epoch::Epoch;
 use twofold::euler_angles::EulerAngles;
 use twofold::plan::{Method, Output};
@@ -30,12 +29,8 @@ pub const LARGEST_FILE: u64 = 64 << 20;
 pub struct Scene {
     /// What the scene is, one line; may be empty.
     pub about: String,
-    /// The star.
-    pub spheroid: RigidSpheroid<f64>,
-    /// `s^IJ` in the inertial frame of the output.
-    pub violation: Matrix3<f64>,
-    /// State at the time `times.start()`, in the inertial frame of the output.
-    pub initial: BodyState<f64>,
+    /// The star, `s^IJ` and the state at the time `times.start()`, in the inertial frame of the output.
+    pub problem: Problem<f64>,
     /// Euler angles of that state, with their turns, and on a pole as given.
     pub initial_angles: EulerAngles<f64>,
     /// Times of the output, in units of the output.
@@ -145,6 +140,8 @@ impl Scene {
             motion::read_violation(&document.required_section("lorentz_violation", "the coefficients s^IJ")?)?;
         let initial_section = document.required_section("initial", "the initial orientation and motion")?;
         let initial = motion::read_initial(&initial_section, &star, &violation)?;
+        let problem = Problem::new(star.spheroid, violation.tensor, initial.state);
+        let problem = problem.map_err(|error| initial_section.fault(format!("no motion starts so: {error}")))?;
         let observer = document.section("observer")?;
         let observer = observer.map(|section| observation::read_observer(&section, &star.units)).transpose()?;
         let pulsar_section = document.section("pulsar")?;
@@ -162,9 +159,7 @@ impl Scene {
         let output = document.section("output")?;
         let mut scene = Scene {
             about,
-            spheroid: star.spheroid,
-            violation: violation.tensor,
-            initial: initial.state,
+            problem,
             initial_angles: initial.angles,
             times,
             epoch,

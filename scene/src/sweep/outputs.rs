@@ -5,7 +5,7 @@ use twofold::dynamics::BodyState;
 use twofold::dynamics::first_integrals::first_integrals;
 use twofold::lorentz_violation::principal_frame;
 use twofold::plan::{Method, Output, Plan, State};
-use twofold::propagation::{AxisScene, AxisState, axis_states_of_many};
+use twofold::propagation::{AxisState, SampledProblem, states_of_many};
 use twofold::solutions::mean::slow_precession::slow_precession;
 
 use super::chunk::guarded;
@@ -111,16 +111,12 @@ impl Outputs {
         let plain: Vec<_> = (0..scenes.len()).filter(|&i| scenes[i].plan(&outputs).is_ok_and(is_plain)).collect();
         let times = |&i: &usize| scenes[i].times.iter().map(|time| scenes[i].since_start(time)).collect::<Vec<_>>();
         let times: Vec<_> = plain.iter().map(times).collect();
-        let motion = |(&i, times): (&usize, _)| AxisScene {
-            spheroid: scenes[i].spheroid,
-            violation: scenes[i].violation,
-            initial: AxisState::from(&scenes[i].initial),
-            start: 0.0,
-            times,
-            accuracy: scenes[i].accuracy,
+        let motion = |(&i, times): (&usize, _)| {
+            let Scene { problem, accuracy, .. } = scenes[i];
+            SampledProblem { problem: problem.reduced(), start: 0.0, times, accuracy: *accuracy }
         };
         let motions: Vec<_> = plain.iter().zip(times.iter().map(Vec::as_slice)).map(motion).collect();
-        for ((i, times), states) in plain.into_iter().zip(&times).zip(axis_states_of_many(&motions)) {
+        for ((i, times), states) in plain.into_iter().zip(&times).zip(states_of_many(&motions)) {
             let sample = |(&since_start, state)| Sample::new(since_start, SampledState::Axis(state));
             found[i] = Some(states.map(|states| times.iter().zip(states.states).map(sample).collect()));
         }
@@ -145,7 +141,7 @@ impl Outputs {
     fn values_of(&self, scene: &Scene, known: Option<Result<Vec<Sample>, Error>>) -> Result<Vec<f64>, String> {
         let mut angle = match scene.observer {
             Some(observer) if self.summaries.contains(&Summary::Lambda) => {
-                Some(SpinAxisAngle::new(scene.spheroid, observer.basis().direction, scene.turning_rate()))
+                Some(SpinAxisAngle::new(*scene.problem.spheroid(), observer.basis().direction, scene.turning_rate()))
             }
             _ => None,
         };
@@ -207,14 +203,15 @@ fn errors_header(units: &Units) -> Vec<String> {
 
 /// The estimated error of the state, and by how much what is constant has changed since the start.
 fn errors(scene: &Scene, sample: &Sample) -> [f64; 5] {
+    let initial = scene.problem.initial();
     let state = match sample.state {
-        SampledState::Axis(AxisState { axis, momentum }) => BodyState { axis, momentum, ..scene.initial },
+        SampledState::Axis(AxisState { axis, momentum }) => BodyState { axis, momentum, ..*initial },
         SampledState::Orientation(state) => state,
-        SampledState::Nothing => scene.initial,
+        SampledState::Nothing => *initial,
     };
     // The integrals are functions of n and L alone.
-    let integrals = |state| first_integrals(&scene.spheroid, &scene.violation, state);
-    let (now, start) = (integrals(&state), integrals(&scene.initial));
+    let integrals = |state| first_integrals(scene.problem.spheroid(), scene.problem.coefficients(), state);
+    let (now, start) = (integrals(&state), integrals(initial));
     let units = &scene.units;
     [
         as_printed(sample.error_estimate.unwrap_or(f64::NAN), ROUNDING_OF_COMPONENT),
@@ -233,9 +230,10 @@ fn count_pulses(scene: &Scene) -> Result<f64, String> {
 /// Number of the principal axis that L goes round, one for that of the largest eigenvalue and three for that of the smallest, and
 /// the rate about the end at which L is; none on a separatrix.
 fn slow_precession_of(scene: &Scene) -> [f64; 2] {
-    let found = principal_frame(&scene.violation).and_then(|frame| {
-        let state = scene.initial.rotated(&frame.principal_from_given);
-        let found = slow_precession(&scene.spheroid, &frame.coefficients, &state.momentum, &state.axis)?;
+    let problem = &scene.problem;
+    let found = principal_frame(problem.coefficients()).and_then(|frame| {
+        let state = problem.initial().rotated(&frame.principal_from_given);
+        let found = slow_precession(problem.spheroid(), &frame.coefficients, &state.momentum, &state.axis)?;
         Ok((found, state.momentum[found.axis]))
     });
     found.map_or([f64::NAN; 2], |(found, along)| {

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 use twofold::Error;
+use twofold::dynamics::BodyState;
 use twofold::observables::pulsar::{Arrival, Beam, Pulse, PulseTrain, arrivals, pulse_train};
-use twofold::plan::PlannedMotion;
 use twofold::propagation::Motion;
 
 use crate::samples::Segment;
@@ -69,7 +69,7 @@ impl Source {
 
     /// Whether it is beyond doubt at a time of the segment if the beam is seen, and which turn it is: the magnetic axis neither
     /// on the edge nor opposite to the line of sight.
-    pub(super) fn is_clear_at(&self, segment: &Segment<PlannedMotion>, time: f64) -> Result<(bool, bool), Error> {
+    pub(super) fn is_clear_at(&self, segment: &Segment<BodyState<f64>>, time: f64) -> Result<(bool, bool), Error> {
         const CLEAR: f64 = 1e-6;
         let state = segment.motion.state(time)?;
         let (l, n, m) = (state.momentum.normalize(), &self.line_of_sight, self.beam.direction(&state));
@@ -80,7 +80,7 @@ impl Source {
     /// The pulses that are over at the time `to` of a stretch, in the order of the motion, and the times of grazing.
     pub(super) fn take(
         &mut self,
-        segment: &Segment<PlannedMotion>,
+        segment: &Segment<BodyState<f64>>,
         to: f64,
     ) -> Result<(Vec<Numbered>, Vec<f64>), Error> {
         let backwards = to < segment.from;
@@ -115,7 +115,7 @@ impl Source {
     /// The closest approach in each of the pulses that are wanted, their turns counted on from the segment before.
     fn approaches(
         &mut self,
-        segment: &Segment<PlannedMotion>,
+        segment: &Segment<BodyState<f64>>,
         to: f64,
         pulses: &[Pulse],
         wanted: &[bool],

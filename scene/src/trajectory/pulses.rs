@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use twofold::Error;
+use twofold::dynamics::BodyState;
 use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::plan::{Counted, Output, PlannedMotion, Work};
@@ -54,7 +55,7 @@ pub fn write_pulses(
 
 pub(super) fn write_by_segments(
     scene: &Scene,
-    mut segments: Segments<'_, PlannedMotion>,
+    mut segments: Segments<'_, BodyState<f64>>,
     writer: impl Write,
     mut progress: impl FnMut(f64),
 ) -> Result<PulseSummary, TrajectoryError> {
@@ -116,7 +117,7 @@ pub(super) fn write_by_segments(
 
 /// A time near the end of the segment at which every source is clear: cut there, no pulse is torn or counted twice by
 /// rounding, and no turn. If turns are nowhere clear, as of a beam along the axis of rotation, that much is left to rounding.
-fn cut(scene: &Scene, segment: &Segment<PlannedMotion>, sources: &[Source]) -> Result<f64, Error> {
+fn cut(scene: &Scene, segment: &Segment<BodyState<f64>>, sources: &[Source]) -> Result<f64, Error> {
     const TRIES: usize = 1000;
     const ROTATION_PER_TRY: f64 = 0.35;
     let half = (segment.from - segment.to) / 2.0;

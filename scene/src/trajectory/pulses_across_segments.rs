@@ -2,7 +2,6 @@
 
 use twofold::observables::pulsar::{arrivals, pulse_train};
 use twofold::plan::Output;
-use twofold::propagation::propagate;
 
 use super::{PulseSummary, pulses::write_by_segments};
 use crate::samples::Segments;
@@ -41,7 +40,7 @@ fn pulses_across_segments_are_whole() {
         assert!(summary.without_turn.is_empty());
 
         let mut longest = 0.0_f64;
-        let motion = propagate(&scene.spheroid, &scene.violation, &scene.initial, (0.0, span), 1e-13).expect("motion");
+        let motion = scene.problem.taylor((0.0, span), 1e-13).expect("motion");
         for (beam, number) in [(pulsar.beam(), "1"), (pulsar.beam().opposite(), "2")] {
             let train = pulse_train(&motion, &beam, &n, (0.0, span)).expect("train");
             let (mut pulses, mut expected) =

@@ -7,11 +7,11 @@ use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::spectrum::{
     FrequencyBasis, Generator, LineList, Series, SpectralLine, Window, amplitude_spectrum, spectral_lines,
 };
-use twofold::plan::{Counted, Output, Plan, PlannedAxisMotion, PlannedMotion, Request, Samples, State, Work};
+use twofold::plan::{Counted, Output, Plan, PlannedMotion, Request, Samples, State, Work};
 
 use super::TrajectoryError;
 use crate::columns::Column;
-use crate::samples::{Sample, SampledState, SegmentMotion};
+use crate::samples::{Sample, SampledState, SegmentState};
 use crate::scene_file::Scene;
 
 /// Highest frequency of a series over the upper estimate of the rotation rate: what is observed has harmonics.
@@ -116,7 +116,7 @@ impl Sampling {
         let (intervals, span) = (intervals(scene), (0.0, scene.duration()));
         let samples = Samples { count: intervals as usize + 1, last: span.1 };
         let request = Request { method: scene.method, samples, ..Request::new(&outputs, span, 0, scene.accuracy) };
-        Plan::new(&scene.spheroid, &scene.violation, &scene.initial, &request)
+        scene.problem.plan(&request)
     }
 
     /// Computes the motion by a [`plan`](Sampling::plan) and samples a column. The step follows from the rotation rate alone, not
@@ -125,24 +125,31 @@ impl Sampling {
     /// # Errors
     /// A motion that cannot be computed, and a time at which the column does not exist.
     pub fn of(scene: &Scene, column: &Column, plan: &Plan) -> Result<Self, TrajectoryError> {
-        let (body, s, initial) = (&scene.spheroid, &scene.violation, &scene.initial);
         match plan.state {
             State::Nothing => {
                 let (series, size) = series(scene, column, |_| Ok(SampledState::Nothing))?;
                 Ok(Self { motion: None, series, size, work: Work::default() })
             }
             State::Axis | State::AxisAndMomentum => {
-                let motion = Counted::new(plan.axis_motion(body, s, initial)?);
-                let (series, size) = series(scene, column, |t| PlannedAxisMotion::sampled(&motion, [t, 0.0]))?;
-                Ok(Self { motion: None, series, size, work: work_of(&motion) })
+                Self::of_motion(scene, column, plan.motion(&scene.problem.reduced())?).map(|(sampling, _)| sampling)
             }
             State::Orientation => {
-                let motion = Counted::new(plan.motion(body, s, initial)?);
-                let (series, size) = series(scene, column, |t| PlannedMotion::sampled(&motion, [t, 0.0]))?;
-                let work = work_of(&motion);
-                Ok(Self { motion: Some(motion), series, size, work })
+                let (sampling, motion) = Self::of_motion(scene, column, plan.motion(&scene.problem)?)?;
+                Ok(Self { motion: Some(motion), ..sampling })
             }
         }
+    }
+
+    fn of_motion<X: SegmentState>(
+        scene: &Scene,
+        column: &Column,
+        motion: PlannedMotion<X>,
+    ) -> Result<(Self, Counted<PlannedMotion<X>>), TrajectoryError> {
+        let motion = Counted::new(motion);
+        let (series, size) = series(scene, column, |t| X::sampled(&motion, [t, 0.0]))?;
+        let mut work = motion.inner().work();
+        work += motion.evaluations();
+        Ok((Self { motion: None, series, size, work }, motion))
     }
 
     /// Number of values, time between two in the unit of the output, and Nyquist's frequency in rad per unit of time.
@@ -283,13 +290,6 @@ fn series(
         largest = largest.max(size);
     }
     Ok((Series { start, step, values }, largest))
-}
-
-/// What a motion took so far.
-fn work_of<M: SegmentMotion>(motion: &Counted<M>) -> Work {
-    let mut work = motion.inner().work();
-    work += motion.evaluations();
-    work
 }
 
 fn frequency_title(scene: &Scene, name: &str) -> String {
