@@ -1,7 +1,7 @@
 //! The columns of a table: the header of each group and its values at a sample of the motion.
 
+use twofold::dynamics::equations_of_motion::{angular_velocity, euler_rates_of_axis};
 use twofold::dynamics::first_integrals::{clebsch_integral, energy, spin};
-use twofold::dynamics::regular_equations::{angular_velocity, euler_rates_of_axis};
 use twofold::observables::pulsar::position_angle::{position_angle, position_angle_rate};
 use twofold::observables::spin_axis::{cos_lambda, cos_lambda_rate};
 use twofold::plan::Output;

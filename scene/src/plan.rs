@@ -1,7 +1,7 @@
 //! Times of a scene in `t_c`, its rotation, and the plan by which its motion is computed.
 
 use twofold::Error;
-use twofold::dynamics::regular_equations::angular_velocity;
+use twofold::dynamics::equations_of_motion::angular_velocity;
 use twofold::plan::{Output, Plan, Request};
 
 use crate::scene_file::Scene;
@@ -64,7 +64,7 @@ impl Scene {
         let request = Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.accuracy) };
         let plan = self.problem.plan(&request)?;
         let rotation = self.rotation();
-        Error::unless(
+        Error::ensure(
             rotation <= LARGEST_ROTATION || plan.costs_the_same_at_any_time(),
             "rotation over the span (rad)",
             rotation,

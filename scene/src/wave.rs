@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 use twofold::dynamics::RigidSpheroid;
-use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations, strain_unit};
 use twofold::propagation::AxisState;

@@ -5,11 +5,11 @@ use std::hint::black_box;
 use nalgebra::{Matrix3, SVector};
 use num_dual::{Derivative, Dual, Dual2_64, Dual64, DualSVec64, HyperDual64};
 use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::numerics::scalar::Real;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, pulse_train};
 use twofold::plan::{Output, Parameter, Request, Start, StateFunction, gradient};
 use twofold::propagation::{ErrorEstimates, Motion};
-use twofold::scalar::Real;
 
 use super::Effort;
 use super::method::Carries;

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
-use twofold::scalar::Scalar;
+use twofold::numerics::scalar::Scalar;
 
 use super::method::End;
 use twofold_verify::check::largest;

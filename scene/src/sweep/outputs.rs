@@ -6,7 +6,7 @@ use twofold::dynamics::first_integrals::first_integrals;
 use twofold::lorentz_violation::principal_frame;
 use twofold::plan::{Method, Output, Plan, State};
 use twofold::propagation::{AxisState, SampledProblem, states_of_many};
-use twofold::solutions::mean::slow_precession::slow_precession;
+use twofold::solutions::averaged::slow_precession::slow_precession;
 
 use super::chunk::guarded;
 use super::spin_axis_angle::SpinAxisAngle;
