@@ -2,13 +2,9 @@
 
 use clap::Args;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
-
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::output_folder::OutputFolder;
+use super::progress::on_all_processors;
 use super::run::read_scene;
 use super::{Failure, note, print, tell};
 use crate::figures::{self, Figure, OF_A_SCENE, RECIPES, Recipe, Subject};
@@ -48,7 +44,15 @@ pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
     }
     let would_write = |file: &str| chosen.iter().any(|recipe| is_file_of(file, recipe.name));
     let folder = OutputFolder::at(&args.out, args.force, would_write)?;
-    draw_all(&chosen, &motions, &folder)?;
+    on_all_processors(
+        &chosen,
+        "figures",
+        |recipe| recipe.name,
+        |recipe| {
+            let figure = recipe.draw(&motions).map_err(Failure::Failed)?;
+            write(&figure, &folder)
+        },
+    )?;
     let files = folder.complete()?;
     let s = if chosen.len() == 1 { "" } else { "s" };
     tell(&format!("{}: {} figure{s}, {files} files\n", args.out.display(), chosen.len()))
@@ -119,40 +123,6 @@ fn list(recipes: &[Recipe]) -> String {
 fn is_file_of(file: &str, name: &str) -> bool {
     let ending = file.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'));
     ending.is_some_and(|ending| matches!(ending, "svg" | "png" | "md") || ending.ends_with("csv"))
-}
-
-/// Draws and writes the figures on all processors, with a bar on a terminal.
-fn draw_all(recipes: &[Recipe], motions: &[Subject], folder: &OutputFolder) -> Result<(), Failure> {
-    let bar = ProgressBar::new(recipes.len() as u64);
-    if let Ok(style) = ProgressStyle::with_template("{pos}/{len} figures [{bar:40}] {elapsed} {msg}") {
-        bar.set_style(style);
-    }
-    let next = AtomicUsize::new(0);
-    let failure = Mutex::new(None);
-    let work = || {
-        while let Some(recipe) = recipes.get(next.fetch_add(1, Ordering::Relaxed)) {
-            bar.set_message(recipe.name);
-            let done = recipe.draw(motions).map_err(Failure::Failed).and_then(|figure| write(&figure, folder));
-            if let Err(error) = done {
-                if let Ok(mut failure) = failure.lock() {
-                    failure.get_or_insert(error);
-                }
-                next.store(recipes.len(), Ordering::Relaxed);
-            }
-            bar.inc(1);
-        }
-    };
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from).min(recipes.len()) {
-            scope.spawn(work);
-        }
-    });
-    bar.finish_and_clear();
-    match failure.into_inner() {
-        Ok(None) => Ok(()),
-        Ok(Some(error)) => Err(error),
-        Err(_) => Err(Failure::Failed("a figure could not be drawn".into())),
-    }
 }
 
 fn write(figure: &Figure, folder: &OutputFolder) -> Result<(), Failure> {
