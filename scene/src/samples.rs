@@ -224,9 +224,10 @@ pub(crate) struct Segments<'s, X> {
     count: usize,
     next: usize,
     from: f64,
-    /// The problem from the start of the scene, and from that of the next segment.
-    whole: Problem<f64, X>,
+    /// The problem from the start of the scene.
     problem: Problem<f64, X>,
+    /// State at the start of the next segment.
+    state: X,
     /// Steps and right-hand sides so far.
     pub(crate) work: Work,
 }
@@ -270,8 +271,8 @@ impl<'s, X: SegmentState> Segments<'s, X> {
         let whole = plan.costs_the_same_at_any_time();
         let count = if whole { 1 } else { (total.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize };
         let initial = X::from_vectors(scene.problem.initial().vectors());
-        let whole = Problem::new(*scene.problem.spheroid(), *scene.problem.coefficients(), initial)?;
-        Ok(Self { scene, method, total, count, next: 0, from: 0.0, whole, problem: whole, work: Work::default() })
+        let problem = Problem::new(*scene.problem.spheroid(), *scene.problem.coefficients(), initial)?;
+        Ok(Self { scene, method, total, count, next: 0, from: 0.0, problem, state: initial, work: Work::default() })
     }
 
     /// Computes the next segment, if there is one.
@@ -286,10 +287,11 @@ impl<'s, X: SegmentState> Segments<'s, X> {
         let (from, to) = (self.from, self.total * (self.next as f64 / self.count as f64));
         let motion = if self.method.is_closed_form() {
             // From the start of the scene: nothing adds up from segment to segment.
-            self.whole.motion_by(self.method, (0.0, self.total), self.scene.accuracy)?
+            self.problem.motion_by(self.method, (0.0, self.total), self.scene.accuracy)?
         } else {
-            let motion = self.problem.motion_by(self.method, (from, to), self.share_of_accuracy(to - from))?;
-            self.problem = self.problem.starting_from(motion.state(to)?)?;
+            let problem = self.problem.starting_from(self.state)?;
+            let motion = problem.motion_by(self.method, (from, to), self.share_of_accuracy(to - from))?;
+            self.state = motion.state(to)?;
             motion
         };
         self.work += motion.work();
@@ -302,7 +304,7 @@ impl<'s, X: SegmentState> Segments<'s, X> {
     /// # Errors
     /// A time outside the segment.
     pub fn resume_at(&mut self, segment: &Segment<X>, time: f64) -> Result<(), Error> {
-        self.problem = self.problem.starting_from(segment.motion.inner().state(time)?)?;
+        self.state = segment.motion.inner().state(time)?;
         self.from = time;
         Ok(())
     }

@@ -132,7 +132,7 @@ fn a_method_is_forced_or_refused() {
     assert_eq!(file("taylor").expect("scene").method, Some(Method::Taylor));
     for (method, reason) in [
         ("steady", "does not allow"),
-        ("tailor", "one of \"free\", \"steady\", \"symmetric\", \"mean\", \"splitting\", \"taylor\""),
+        ("tailor", "one of \"free\", \"steady\", \"symmetric\", \"averaged\", \"splitting\", \"taylor\""),
     ] {
         let error = file(method).expect_err("refused").to_string();
         assert!(error.contains("`output.method`") && error.contains(reason), "{error}");
