@@ -20,7 +20,6 @@ mod operators;
 pub mod paper_examples;
 pub mod physical_domain;
 pub mod prime_field;
-pub mod public_items;
 pub mod pulse_series;
 pub mod random;
 pub mod reference;

@@ -24,7 +24,7 @@ fn wide(x: f64) -> Wide {
 }
 
 functions! {
-    Multipoles(x) {
+    Multipoles: "axisymmetric_integrals", (x) {
         let shape = SpheroidShape::from_eccentricity(x[0]).expect("a shape");
         let star = UniformSpheroid::new(S::one(), S::one(), shape).expect("a star");
         axisymmetric_integrals(&star, 4).map_or(none(6), |all| {
@@ -155,19 +155,16 @@ pub(super) fn cases() -> Vec<Case> {
     let small = [Signed(-8.0, -3.0), Signed(-8.0, -3.0), Signed(-8.0, -3.0)];
     let two = [Log(-5.0, 0.0), Log(-5.0, 0.0), In(0.1, 1.0), In(0.1, 1.0)];
     vec![
-        Case::new::<Multipoles>(
-            &["star::axisymmetric::axisymmetric_integrals"],
-            "sphere, e -> 0: rounding of the quadrature of degree 4",
-            &[Log(-8.0, -0.1)],
-        )
-        .except(
-            1e15,
-            "C of nearly a sphere is what is left of integrals over the whole star: condition number e^-2. `UniformSpheroid::c` is regular.",
-        )
-        .derivatives_except(1e15, "As for the value.")
-        .with_points(2),
+        Multipoles::case("sphere, e -> 0: rounding of the quadrature of degree 4", &[Log(-8.0, -0.1)])
+            .except(
+                1e15,
+                "C of nearly a sphere is what is left of integrals over the whole star: condition number \
+e^-2. `UniformSpheroid::c` is regular.",
+            )
+            .derivatives_except(1e15, "As for the value.")
+            .with_points(2),
         Case::of_doubles::<Asked>(
-            &["solutions::torus::states_with_integrals", "solutions::torus::TorusStates::components"],
+            "states_with_integrals, TorusStates::components",
             "s -> 0, energy, spin and K of the state found",
             &scene(small, In(0.3, 1.2)),
             states,
@@ -175,7 +172,7 @@ pub(super) fn cases() -> Vec<Case> {
         .composite()
         .vector(),
         Case::of_doubles::<AskedOfSeparatrix>(
-            &["solutions::torus::separatrix_motion"],
+            "separatrix_motion",
             "s -> 0, energy and spin of the state found",
             &scene([Signed(-8.0, -4.0), Fixed(0.01), Fixed(-0.01)], In(0.3, 1.2)),
             separatrix,
@@ -183,7 +180,7 @@ pub(super) fn cases() -> Vec<Case> {
         .composite()
         .vector(),
         Case::of_doubles::<OfSymmetric>(
-            &["solutions::torus::torus_frequencies"],
+            "torus_frequencies",
             "s -> 0, against the exact motion for a symmetric tensor",
             &[Signed(-6.0, -1.5), In(0.6, 1.0), In(1.05, 1.2), Signed(-3.0, -1.5), Signed(-3.0, -1.5)],
             frequencies,
@@ -192,29 +189,25 @@ pub(super) fn cases() -> Vec<Case> {
         .vector()
         .with_points(4),
         Case::of_doubles::<Probability>(
-            &[
-                "observables::eta_distribution::EtaDistribution::from_speeds",
-                "observables::eta_distribution::EtaDistribution::quantile",
-                "observables::eta_distribution::EtaDistribution::probability_above",
-            ],
+            "EtaDistribution: from_speeds, quantile, probability_above",
             "probability -> 0 and 1",
             &[&[In(0.001, 0.999)], &two[..]].concat(),
             probability,
         ),
         Case::of_doubles::<RootMeanSquare>(
-            &["observables::eta_distribution::EtaDistribution::root_mean_square"],
+            "EtaDistribution::root_mean_square",
             "speeds -> 0",
             &[&[Fixed(0.5)], &two[..]].concat(),
             root_mean_square,
         ),
         Case::of_doubles::<Seconds>(
-            &["epoch::Epoch::after", "epoch::Epoch::seconds_since"],
+            "Epoch: after, seconds_since",
             "from 1 day to 27,000 years and back",
             &[Log(4.95, 11.5), Fixed(0.0)],
             seconds,
         ),
         Case::of_doubles::<Fraction>(
-            &["epoch::Epoch::new", "epoch::Epoch::after", "epoch::Epoch::day", "epoch::Epoch::fraction"],
+            "Epoch: new, after, day, fraction",
             "a time from 1e-12 s to 1e11 s",
             &[Signed(-12.0, 9.0), In(0.0, 0.999)],
             fraction,
