@@ -57,9 +57,3 @@ fn families_and_checks_are_the_same() {
     let checks = ids.iter().filter(|id| id.starts_with("stability-")).count();
     assert_eq!(checks, FAMILIES.len(), "one check for each family");
 }
-
-#[test]
-#[ignore]
-fn zz_page() {
-    fs::write("/tmp/wt/tests-tmp/page.md", table::markdown(table::ROUNDS)).unwrap();
-}

@@ -44,7 +44,7 @@ impl Plans {
     fn add(&mut self, name: &str, request: &Request, s: &Matrix3<f64>, with_candidates: impl FnOnce(&Plan) -> bool) {
         self.table.found(name, Plan::new(&STAR, s, &state(), request), |table, plan| {
             let method = plan.method.map_or("no method", Method::name);
-            let cost = if plan.costs_the_same_at_any_time() { "any time" } else { "steps" };
+            let cost = if plan.costs_the_same_at_any_time() { "the same at any time" } else { "by steps" };
             let skipped: Vec<_> = plan.skipped.iter().map(|skipped| skipped.what).collect();
             self.skipped.extend(plan.skipped.iter().map(|skipped| format!("{}: {}", skipped.what, skipped.why)));
             let stretch = format!("{} to {}", plan.stretch.0, plan.stretch.1);
@@ -52,7 +52,7 @@ impl Plans {
                 name,
                 &[
                     ("", &format!("{} by {method}", plan.state.name())),
-                    ("cost of", &cost),
+                    ("cost", &cost),
                     ("stretch", &stretch),
                     ("samples", &plan.samples),
                     ("accuracy", &plan.accuracy),
@@ -66,7 +66,7 @@ impl Plans {
                     table.row(
                         &name,
                         &[
-                            (if plan.admits(&found) { "admitted," } else { "not admitted," }, &""),
+                            ("", &if plan.admits(&found) { "admitted" } else { "not admitted" }),
                             ("truncation", &found.truncation),
                             // Part of which is that of the state given.
                             ("rounding 2 to the", &(found.rounding.log2().round() as i64)),

@@ -36,7 +36,7 @@ of_families! {
     6: "stability-mean",
     7: "stability-observables",
     8: "stability-tensor",
-    9: "stability-remaining"
+    9: "stability-torus"
 }
 
 fn measure(family: &Family) -> Result<Measured, String> {

@@ -1,10 +1,11 @@
-//! What an observer sees: spin axis, bounds, beams, pulses, position angle, wave harmonics, eta.
+//! What an observer sees: spin axis, bounds, beams, pulses, position angle, wave harmonics, eta, epochs.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector3;
 use twofold::Real;
 use twofold::dynamics::BodyState;
+use twofold::epoch::{DAY, Epoch};
 use twofold::observables::Observer;
 use twofold::observables::bound::{
     SpinAxisDrift, cos_opening_angle, eta_from_inclination, fluid_inertia_over_c, lambda_change, preferred_frame_bound,
@@ -14,6 +15,7 @@ use twofold::observables::eta::{
     mean_squared_speed, root_mean_square_eta, secular_axis_rate, single_precession_start, squared_speed,
     squared_speed_along_motion,
 };
+use twofold::observables::eta_distribution::EtaDistribution;
 use twofold::observables::gravitational_wave::strain_unit;
 use twofold::observables::pulsar::beam::{Beam, axis_along_line_of_sight};
 use twofold::observables::pulsar::direction::{
@@ -267,6 +269,19 @@ functions! {
         result(event_time(0.0, x[0] * 1.0, rate))
     }
     ExactEventTime(x) { vec![-(x[0] / S::from_f64(x[1].re()))] }
+    EventTimes: "edge_time, closest_approach_time".values_only(), (x) { times(x) }
+    // probability, speeds (2), weights (2)
+    Probability(x) { vec![S::one() - x[0]] }
+    RootMeanSquare(x) {
+        let (v, w) = ([x[1], x[2]], [x[3], x[4]]);
+        vec![(S::from_f64(3.0) * (w[0] + w[1]) / (w[0] * v[0] * v[0] + w[1] * v[1] * v[1])).sqrt()]
+    }
+    // seconds, fraction
+    Seconds(x) { vec![x[0]] }
+    Fraction(x) {
+        let days = x[1] + x[0] / DAY;
+        vec![days - S::from_f64(days.re().floor())]
+    }
 }
 
 /// The observer of a case of the position angle: its basis is that of the frame.
@@ -286,8 +301,33 @@ fn times<S: Real>(x: &[S]) -> Vec<S> {
     .concat()
 }
 
-functions! {
-    EventTimes: "edge_time, closest_approach_time".values_only(), (x) { times(x) }
+fn two_speeds(x: &[f64]) -> Option<EtaDistribution> {
+    EtaDistribution::from_speeds([(x[1], x[3]), (x[2], x[4])]).ok()
+}
+
+fn probability(x: &[f64]) -> Vec<f64> {
+    two_speeds(x).map_or(none(1), |of| of.quantile(x[0]).map_or(none(1), |eta| vec![of.probability_above(eta)]))
+}
+
+fn root_mean_square(x: &[f64]) -> Vec<f64> {
+    two_speeds(x).map_or(none(1), |of| vec![of.root_mean_square()])
+}
+
+fn epoch(x: &[f64]) -> Option<Epoch> {
+    Epoch::new(50_000, x[1]).ok()
+}
+
+fn seconds(x: &[f64]) -> Vec<f64> {
+    // From the start of the day, where the fraction is that of the seconds.
+    let (start, days) = (Epoch::new(50_000, 0.0).expect("a date"), x[0] / DAY);
+    let end = start.after([x[0], 0.0]).expect("a date");
+    let [high, low] = end.seconds_since(&start);
+    debug_assert!(days.is_finite());
+    vec![high + low]
+}
+
+fn fraction(x: &[f64]) -> Vec<f64> {
+    epoch(x).map_or(none(1), |start| start.after([x[0], 0.0]).map_or(none(1), |end| vec![end.fraction()]))
 }
 
 const TURN: Input = In(-3.1, 3.1);
@@ -300,6 +340,7 @@ const SMALL: Input = Signed(-6.0, -1.0);
 pub(super) fn cases() -> Vec<Case> {
     let (c, i, t) = (COMPONENT, INERTIA, TURN);
     let moving = [SMALL, SMALL, SMALL, SMALL, SMALL, SMALL, c, c, c, c, c, c, c, c, c, c, c, c, i, i, i];
+    let two = [Log(-5.0, 0.0), Log(-5.0, 0.0), In(0.1, 1.0), In(0.1, 1.0)];
     let mut cases = Vec::new();
     for (limit, theta) in [("theta_o -> 0", Log(-300.0, 0.4)), ("theta_o -> pi", Near(PI, -15.0, -0.3))] {
         cases.extend([
@@ -376,6 +417,31 @@ condition number 1 / rho^2. `pulse_width` is regular.",
             "Of a cone of rho = 0.03 and less `m.n - cos rho` is rounded as one is: condition number \
 1 / rho^2 of the cosine, which the scale does not hold against the input.",
         ),
+        Case::of_doubles::<Probability>(
+            "EtaDistribution: from_speeds, quantile, probability_above",
+            "probability -> 0 and 1",
+            &[&[In(0.001, 0.999)], &two[..]].concat(),
+            probability,
+        ),
+        Case::of_doubles::<RootMeanSquare>(
+            "EtaDistribution::root_mean_square",
+            "speeds -> 0",
+            &[&[Fixed(0.5)], &two[..]].concat(),
+            root_mean_square,
+        ),
+        Case::of_doubles::<Seconds>(
+            "Epoch: after, seconds_since",
+            "from 1 day to 27,000 years and back",
+            &[Log(4.95, 11.5), Fixed(0.0)],
+            seconds,
+        ),
+        Case::of_doubles::<Fraction>(
+            "Epoch: new, after, day, fraction",
+            "a time from 1e-12 s to 1e11 s",
+            &[Signed(-12.0, 9.0), In(0.0, 0.999)],
+            fraction,
+        )
+        .unit(),
     ]);
     cases
 }

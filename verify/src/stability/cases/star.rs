@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 use twofold::Real;
+use twofold::star::axisymmetric::axisymmetric_integrals;
 use twofold::star::deformation::{centrifugal_oblateness, centrifugal_oblateness_scaled};
 use twofold::star::ellipsoid::UniformEllipsoid;
 use twofold::star::estimates::{inertia_over_c_estimate, time_unit_estimate};
@@ -11,6 +12,7 @@ use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 use twofold::units::si;
 
+use super::parts::none;
 use crate::stability::Input::{Above, Below, Fixed, In, Log, Near, Signed};
 use crate::stability::oracle::{self, pi, ratio};
 use crate::stability::{Case, functions};
@@ -126,7 +128,7 @@ fn cube_root<S: Real>(x: S) -> S {
 
 functions! {
     ShapeByE: "SpheroidShape::from_eccentricity".against::<ExactShapeByE>(), (x) {
-        SpheroidShape::from_eccentricity(x[0]).map_or(vec![S::from_f64(f64::NAN); 4], |s| shape(&s))
+        SpheroidShape::from_eccentricity(x[0]).map_or(none(4), |s| shape(&s))
     }
     ExactShapeByE(x) { exact_shape(by_e(x[0])) }
     NaiveShapeByE(x) {
@@ -263,6 +265,14 @@ functions! {
             my + mz, mz + mx, mx + my,
         ]
     }
+    Multipoles: "axisymmetric_integrals", (x) {
+        let shape = SpheroidShape::from_eccentricity(x[0]).expect("a shape");
+        let star = UniformSpheroid::new(S::one(), S::one(), shape).expect("a star");
+        axisymmetric_integrals(&star, 4).map_or(none(6), |all| {
+            let (i, u) = (all.moment_of_inertia, all.potential_energy_tensor);
+            vec![all.mass, i.xx, i.zz, u.xx, u.zz, all.c]
+        })
+    }
     Estimates: "inertia_over_c_estimate, time_unit_estimate".against::<ExactEstimates>(), (x) {
         vec![inertia_over_c_estimate(x[1], x[0]), time_unit_estimate(x[1], x[0]).expect("oblate").seconds()]
     }
@@ -321,5 +331,13 @@ pub(super) fn cases() -> Vec<Case> {
         Estimates::case("oblateness -> 0", &[Log(-60.0, 0.0), Log(-60.0, 60.0)]),
         Deformation::case("rate -> 0 and large, any units", &[Log(-60.0, 60.0), Log(-40.0, 40.0), Log(-40.0, 40.0)]),
         DeformationScaled::case("frequency from 1e-5 to 1e5 Hz", &[Log(-5.0, 5.0), In(5.0, 20.0), In(0.5, 3.0)]),
+        Multipoles::case("sphere, e -> 0: rounding of the quadrature of degree 4", &[Log(-8.0, -0.1)])
+            .except(
+                1e15,
+                "C of nearly a sphere is what is left of integrals over the whole star: condition number \
+e^-2. `UniformSpheroid::c` is regular.",
+            )
+            .derivatives_except(1e15, "As for the value.")
+            .with_points(2),
     ]
 }
