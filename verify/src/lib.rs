@@ -3,7 +3,6 @@
 pub mod check;
 pub mod checks;
 pub mod claims;
-pub mod conditioned;
 pub mod derivation;
 pub mod double_double;
 pub mod dual;
@@ -14,6 +13,7 @@ pub mod given_states;
 pub mod golden;
 pub mod identity;
 pub mod independent_taylor;
+pub mod magnitudes;
 pub mod mean_scenes;
 pub mod measured_order;
 mod operators;

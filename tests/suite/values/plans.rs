@@ -59,8 +59,11 @@ impl Plans {
                     ("without", &skipped.join(", ")),
                 ],
             );
-            let considered = if with_candidates(&plan) { &plan.considered[..] } else { &[] };
-            for candidate in considered {
+            if !with_candidates(&plan) {
+                let names: Vec<_> = plan.considered.iter().map(|candidate| candidate.method.name()).collect();
+                return table.row("  considered", &[("", &names.join(", "))]);
+            }
+            for candidate in &plan.considered {
                 let name = format!("  {}", candidate.method.name());
                 table.found(&name, candidate.prediction.clone(), |table, found| {
                     table.row(
