@@ -242,7 +242,7 @@ fn dual_samples(table: &mut Table) {
     };
     let found = states_at(&star, &s, &initial, 2.0, &[3.0, 12.0], 1e-11, ErrorEstimates::Wanted).expect("states");
     for (state, error) in found.states.iter().zip(&found.error_estimates) {
-        let BodyState { axis, momentum, equatorial_axis } = state.clone();
+        let BodyState { axis, momentum, equatorial_axis } = *state;
         let slopes =
             BodyState { axis: slope(&axis), momentum: slope(&momentum), equatorial_axis: slope(&equatorial_axis) };
         let value = equatorial_axis.map(|x| x.re());
