@@ -2,9 +2,10 @@
 
 use nalgebra::Matrix3;
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid};
+use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
-use crate::scalar::Scalar;
+use crate::scalar::{Real, Scalar};
 
 /// A scene as its parameters give it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,11 +121,7 @@ impl Start<f64> {
         let of = S::from_f64;
         let Self { spheroid, violation, angles, rates } = self;
         Start {
-            spheroid: RigidSpheroid {
-                inertia_xx: of(spheroid.inertia_xx),
-                inertia_zz: of(spheroid.inertia_zz),
-                constant_c: of(spheroid.constant_c),
-            },
+            spheroid: spheroid.map(of),
             violation: violation.map(of),
             angles: EulerAngles { alpha: of(angles.alpha), beta: of(angles.beta), gamma: of(angles.gamma) },
             rates: EulerRates { alpha: of(rates.alpha), beta: of(rates.beta), gamma: of(rates.gamma) },
@@ -132,7 +129,15 @@ impl Start<f64> {
     }
 }
 
-impl<S: Scalar> Start<S> {
+impl<S: Real> Start<S> {
+    /// What moves.
+    ///
+    /// # Errors
+    /// As for [`Problem::new`].
+    pub fn problem(&self) -> Result<Problem<S>, Error> {
+        Problem::from_angles(self.spheroid, self.violation, &self.angles, &self.rates)
+    }
+
     /// The initial state.
     pub fn state(&self) -> BodyState<S> {
         BodyState::from_angles(&self.spheroid, &self.angles, &self.rates)

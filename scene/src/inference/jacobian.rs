@@ -174,7 +174,7 @@ impl States {
             method: is_long.then_some(Method::Mean),
             ..Request::new(&[output], (0.0, end), times.len(), ACCURACY)
         };
-        let plan = Plan::new(&start.spheroid, &start.violation, &start.state(), &request)?;
+        let plan = Plan::from_parts(&start.spheroid, &start.violation, &start.state(), &request)?;
         let found = gradient_in_parts(&plan, start, &Vectors, &times)?;
         Ok(Self { times, found, is_long })
     }

@@ -32,7 +32,7 @@ pub fn check_span(model: &Model<f64>, end: f64) -> Result<(), Error> {
     }
     let start = model.start();
     let (spheroid, s) = (&start.spheroid, &start.violation);
-    let motion = AveragedMotion::new(spheroid, s, &start.state(), (0.0, end), MeanOrder::Second)?;
+    let motion = AveragedMotion::from_parts(spheroid, s, &start.state(), (0.0, end), MeanOrder::Second)?;
     let left_out = motion.truncation(end);
     Error::unless(
         left_out <= MOST_LEFT_OUT,

@@ -6,7 +6,7 @@ use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
 use twofold::observables::pulsar::{Beam, Pulse, arrivals, pulse_train};
 use twofold::plan::{Method, Output, Plan, PlannedMotion, Request};
-use twofold::propagation::AxisMotion;
+use twofold::propagation::Motion;
 
 use super::{Model, Observable, long_span};
 
@@ -77,11 +77,11 @@ impl Signal {
             Request::new(&[Output::Pulses], (0.0, end), 2, ACCURACY)
         };
         let state = start.state();
-        let plan = Plan::new(&start.spheroid, &start.violation, &state, &request)?;
+        let plan = Plan::from_parts(&start.spheroid, &start.violation, &state, &request)?;
         Ok(Self {
             model: *model,
             end,
-            motion: plan.motion(&start.spheroid, &start.violation, &state)?,
+            motion: plan.motion_from_parts(&start.spheroid, &start.violation, &state)?,
             is_long,
             beam: model.beam(),
             line_of_sight: model.observer().direction,
@@ -178,7 +178,7 @@ impl Signal {
     /// A time outside the span.
     pub fn strain(&self, observable: Observable, t: f64) -> Result<f64, Error> {
         let state = self.motion.axis_state(t)?;
-        let (spheroid, s) = (self.motion.spheroid(), self.motion.violation());
+        let (spheroid, s) = (self.motion.spheroid(), self.motion.coefficients());
         let acceleration = spheroid_inertia_acceleration(spheroid, s, &state.axis, &state.momentum);
         let h = polarizations(&self.model.observer(), &metric_perturbation(1.0, &acceleration));
         let h = if observable == Observable::StrainPlus { h.plus } else { h.cross };

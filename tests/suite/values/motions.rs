@@ -50,7 +50,7 @@ fn look<M: Motion<f64>>(table: &mut Table, name: &str, motion: &M) {
 fn closed_forms() {
     let mut table = Table::default();
     for (name, span) in [("free", SPAN), ("free backwards", BACK)] {
-        let motion = UniformMotion::free(&STAR, &(general() * 1e-6), &state(), span);
+        let motion = UniformMotion::free_from_parts(&STAR, &(general() * 1e-6), &state(), span);
         look(&mut table, name, &motion);
         for t in [5.0, 1e6] {
             let (truncation, rounding) = (motion.truncation(t), motion.rounding(t));
@@ -69,7 +69,7 @@ fn steady(table: &mut Table) {
     let s = PrincipalCoefficients::new([0.02, 0.02, -0.03]);
     let turn = body_from_inertial(&EulerAngles { alpha: -0.3, beta: 0.6, gamma: 0.2 });
     let look_at = |table: &mut Table, name: &str, s: &Matrix3<f64>, initial: &BodyState<f64>, span| {
-        table.found(name, UniformMotion::steady(&STAR, s, initial, span), |table, motion| {
+        table.found(name, UniformMotion::steady_from_parts(&STAR, s, initial, span), |table, motion| {
             look(table, name, &motion);
             let (rounding, truncation) = (motion.rounding(50.0), motion.truncation(50.0));
             table.row(&format!("{name}, after 50"), &[("rounding", &rounding), ("truncation", &truncation)]);
@@ -87,7 +87,7 @@ fn steady(table: &mut Table) {
             look_at(table, &format!("steady {kind:?} to {}", span.1), &s, &given, span);
         }
         let off = BodyState { momentum: given.momentum * (1.0 + 1e-9), ..given };
-        table.refusal(&format!("not steady {kind:?}"), UniformMotion::steady(&STAR, &s, &off, SPAN));
+        table.refusal(&format!("not steady {kind:?}"), UniformMotion::steady_from_parts(&STAR, &s, &off, SPAN));
     }
     let s = PrincipalCoefficients::new([0.021, -0.004, 0.009]).tensor();
     for size in [3.0, 0.0, -2.0] {
@@ -115,7 +115,7 @@ fn symmetric_motions() {
     ] {
         for span in [SPAN, BACK] {
             let name = format!("{name} to {}", span.1);
-            table.found(&name, SymmetricMotion::new(&STAR, &s, &initial, span), |table, motion| {
+            table.found(&name, SymmetricMotion::from_parts(&STAR, &s, &initial, span), |table, motion| {
                 look(table, &name, &motion);
                 for t in [-400.0, 1e7] {
                     let (truncation, rounding) = (motion.truncation(t), motion.rounding(t));
@@ -139,7 +139,7 @@ fn mean_motions() {
     ] {
         for order in [MeanOrder::First, MeanOrder::Second] {
             let name = format!("{name}, {order:?}");
-            table.found(&name, AveragedMotion::new(&STAR, &s, &initial, SPAN, order), |table, motion| {
+            table.found(&name, AveragedMotion::from_parts(&STAR, &s, &initial, SPAN, order), |table, motion| {
                 look(table, &name, &motion);
                 let mean = motion.mean();
                 let rates = mean.rates();

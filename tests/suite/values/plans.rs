@@ -42,7 +42,7 @@ struct Plans {
 impl Plans {
     /// What is computed, in a sentence; and predictions of the methods that were considered.
     fn add(&mut self, name: &str, request: &Request, s: &Matrix3<f64>, with_candidates: impl FnOnce(&Plan) -> bool) {
-        self.table.found(name, Plan::new(&STAR, s, &state(), request), |table, plan| {
+        self.table.found(name, Plan::from_parts(&STAR, s, &state(), request), |table, plan| {
             let method = plan.method.map_or("no method", Method::name);
             let cost = if plan.costs_the_same_at_any_time() { "the same at any time" } else { "by steps" };
             let skipped: Vec<_> = plan.skipped.iter().map(|skipped| skipped.what).collect();
@@ -193,7 +193,7 @@ fn costs_and_counts() {
     table.row("counted", &[("", &counted.evaluations())]);
     let plan = |output| {
         let request = Request::new(&[output], (0.0, 9.0), 3, 1e-9);
-        Plan::new(&STAR, &general(), &state(), &request).expect("a plan")
+        Plan::from_parts(&STAR, &general(), &state(), &request).expect("a plan")
     };
     let (axis, none) = (plan(Output::SymmetryAxis), plan(Output::PerturbationAngles));
     table.refusal("orientation of a plan for the axis", axis.motion(&STAR, &general(), &state()));

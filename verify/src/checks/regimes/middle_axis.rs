@@ -62,12 +62,12 @@ fn tilts(axis: usize, s: &PrincipalCoefficients<f64>, duration: f64) -> Result<V
     let equatorial_axis = (side - l * l.dot(&side)).normalize();
     let initial = BodyState { axis: l, momentum: l * MOMENTUM, equatorial_axis };
     let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-    let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12).map_err(|e| e.to_string())?;
+    let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12)?;
     let samples = 4000;
     (0..=samples)
         .map(|i| {
             let t = duration * f64::from(i) / f64::from(samples);
-            let momentum = motion.state(t).map_err(|e| e.to_string())?.momentum;
+            let momentum = motion.state(t)?.momentum;
             let across = (0..3).filter(|&k| k != axis).map(|k| momentum[k].powi(2)).sum::<f64>().sqrt();
             Ok((t, across / momentum.norm()))
         })
