@@ -16,7 +16,7 @@
 //! use twofold::dynamics::{BodyState, RigidSpheroid};
 //! use twofold::euler_angles::{EulerAngles, EulerRates};
 //! use twofold::plan::{Output, Parameter, Request, Start, StateFunction, gradient, gradient_in_parts};
-//! use twofold::scalar::Real;
+//! use twofold::numerics::scalar::Real;
 //!
 //! struct Height;
 //! impl StateFunction for Height {

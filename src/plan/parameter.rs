@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
-use crate::scalar::{Real, Scalar};
+use crate::numerics::scalar::{Real, Scalar};
 
 /// A scene as its parameters give it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -76,7 +76,7 @@ equations! {
         ["dynamics::potential::anisotropic_potential_in_angles"
          "dynamics::potential::potential_gradient_in_angles"] []
     22 "angvel1" "angular velocity in the body frame"
-        ["euler_angles::body_rates" "euler_angles::euler_rates" "dynamics::regular_equations::angular_velocity"]
+        ["euler_angles::body_rates" "euler_angles::euler_rates" "dynamics::equations_of_motion::angular_velocity"]
          []
     23 "" "rotational kinetic energy"
         ["dynamics::kinetic_energy::kinetic_energy" "dynamics::kinetic_energy::kinetic_energy_of_body"
@@ -89,7 +89,7 @@ equations! {
     25 "eleq" "equations of motion"
         ["dynamics::euler_angle_equations::euler_angle_residuals"
          "dynamics::euler_angle_equations::euler_angle_accelerations"
-         "dynamics::regular_equations::reduced_rates" "dynamics::regular_equations::body_state_rates"
+         "dynamics::equations_of_motion::reduced_rates" "dynamics::equations_of_motion::body_state_rates"
          "propagation::propagate" "propagation::propagate_axis" "propagation::TaylorMotion"
          "propagation::splitting::propagate_by_splitting" "propagation::splitting::propagate_by_best_splitting"
          "propagation::splitting::propagate_orientation_by_splitting"
@@ -107,7 +107,7 @@ equations! {
          ["perturbation_constants"]
     29 "eleq1" "first-order equations, as printed and in full"
         ["solutions::perturbation::linearised::printed_residuals"
-         "solutions::perturbation::linearised::full_residuals" "solutions::perturbation::Kind"] []
+         "solutions::perturbation::linearised::full_residuals" "solutions::perturbation::Precession"] []
     30 "sol2" "first-order rates"
         ["solutions::perturbation::Perturbation::first_order_rates" "solutions::perturbation::Form"] []
     31 "consdef" "a^(1), C~, eta_alpha, eta_beta"
@@ -188,19 +188,19 @@ equations! {
     57 "tpconstant" "shifted rates" ["solutions::perturbation::shifted_rates"] ["perturbation_constants"]
     58 "" "estimate of t_c" ["star::estimates::time_unit_estimate"] ["star_estimates"]
     59 "" "quadrupole formula" ["observables::gravitational_wave::metric_perturbation"] []
-    60 "" "I^{IJ} in the inertial frame" ["dynamics::inertia_tensor_rate::tensor_in_inertial_frame"] []
-    61 "" "infinitesimal rotation of the body axes" ["dynamics::inertia_tensor_rate::rotation_rate"] []
-    62 "1stdrmat" "rate of the rotation matrix" ["dynamics::inertia_tensor_rate::rotation_rate"] []
+    60 "" "I^{IJ} in the inertial frame" ["dynamics::wave_source::tensor_in_inertial_frame"] []
+    61 "" "infinitesimal rotation of the body axes" ["dynamics::wave_source::rotation_rate"] []
+    62 "1stdrmat" "rate of the rotation matrix" ["dynamics::wave_source::rotation_rate"] []
     63 "" "equation of motion with torque" ["dynamics::angular_acceleration::angular_acceleration"] []
     64 "" "ddot I^{IJ} = R R A"
-        ["dynamics::inertia_tensor_rate::tensor_in_inertial_frame"
-         "dynamics::inertia_tensor_rate::spheroid_inertia_acceleration"] []
-    65 "gwa" "body-frame tensor A^ij" ["dynamics::inertia_tensor_rate::wave_tensor"] []
+        ["dynamics::wave_source::tensor_in_inertial_frame"
+         "dynamics::wave_source::spheroid_inertia_acceleration"] []
+    65 "gwa" "body-frame tensor A^ij" ["dynamics::wave_source::wave_tensor"] []
     66 "" "torque"
         ["dynamics::torque::torque_from_gradient" "dynamics::torque::torque_from_gradient_off_pole"
-         "dynamics::torque::torque_on_body" "dynamics::regular_equations::torque_on_axis"] []
+         "dynamics::torque::torque_on_body" "dynamics::equations_of_motion::torque_on_axis"] []
     67 "" "differences of the moments of inertia" ["dynamics::PrincipalInertia::differences"] []
-    68 "gwwf" "ddot I^{IJ} of free precession" ["dynamics::inertia_tensor_rate::free_inertia_acceleration"] []
+    68 "gwwf" "ddot I^{IJ} of free precession" ["dynamics::wave_source::free_inertia_acceleration"] []
     69 "" "polarization tensors" ["observables::gravitational_wave::polarization_tensors"] []
     70 "thphinertial" "basis normal to the line of sight" ["observables::Observer::at"] []
     71 "hpluscross" "h_+ and h_x"

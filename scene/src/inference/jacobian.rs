@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector, Matrix3};
 use num_dual::Dual64;
-use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
@@ -74,7 +74,7 @@ pub fn jacobian(
                 term.value(&seeded, (&still.spheroid, &still.violation), datum.observable, &state)?.eps;
         }
     }
-    // The mean motion keeps its phases in 32 digits.
+    // The averaged motion keeps its phases in 32 digits.
     let rotation = if states.is_long { 0.0 } else { 1.0 } * states.end() * start.state().momentum.norm()
         / start.spheroid.inertia_xx;
     let found = Jacobian {
@@ -171,7 +171,7 @@ impl States {
         let output = if needs_beam { Output::PulseProfile } else { Output::GravitationalWave };
         let request = Request {
             derivatives: parameters.to_vec(),
-            method: is_long.then_some(Method::Mean),
+            method: is_long.then_some(Method::Averaged),
             ..Request::new(&[output], (0.0, end), times.len(), ACCURACY)
         };
         let plan = Plan::from_parts(&start.spheroid, &start.violation, &start.state(), &request)?;

@@ -1,16 +1,16 @@
-//! Spans of more turns than can be followed one by one: pulses near given epochs, by the mean motion.
+//! Spans of more turns than can be followed one by one: pulses near given epochs, by the averaged motion.
 
 use twofold::Error;
 use twofold::observables::pulsar::{ClockPulse, PulsarClock};
 use twofold::propagation::AveragedMotion;
-use twofold::solutions::mean::MeanOrder;
+use twofold::solutions::averaged::AveragingOrder;
 
 use super::{Event, Model};
 
 /// Rotation (rad) up to which every turn is followed.
 const LARGEST_FOLLOWED: f64 = 1e5;
 
-/// Most that the mean motion may leave out of directions (rad): derivatives are then right to about as much.
+/// Most that the averaged motion may leave out of directions (rad): derivatives are then right to about as much.
 const MOST_LEFT_OUT: f64 = 1e-3;
 
 /// Most corrections of the time at which a turn with a number is looked for.
@@ -22,7 +22,7 @@ pub(super) fn is_long(model: &Model<f64>, end: f64) -> bool {
     end * start.state().momentum.norm() / start.spheroid.inertia_xx > LARGEST_FOLLOWED
 }
 
-/// Refuses a span to `end` that can neither be followed turn by turn nor by the mean motion.
+/// Refuses a span to `end` that can neither be followed turn by turn nor by the averaged motion.
 ///
 /// # Errors
 /// [`Error::Domain`] as for [`AveragedMotion::new`], and for what it leaves out.
@@ -32,11 +32,11 @@ pub fn check_span(model: &Model<f64>, end: f64) -> Result<(), Error> {
     }
     let start = model.start();
     let (spheroid, s) = (&start.spheroid, &start.violation);
-    let motion = AveragedMotion::from_parts(spheroid, s, &start.state(), (0.0, end), MeanOrder::Second)?;
+    let motion = AveragedMotion::from_parts(spheroid, s, &start.state(), (0.0, end), AveragingOrder::Second)?;
     let left_out = motion.truncation(end);
-    Error::unless(
+    Error::ensure(
         left_out <= MOST_LEFT_OUT,
-        "what the mean motion leaves out (rad) over a span of more than 1e5 rad of rotation",
+        "what the averaged motion leaves out (rad) over a span of more than 1e5 rad of rotation",
         left_out,
         "at most 1e-3: a weaker violation or a shorter span",
     )
@@ -45,7 +45,7 @@ pub fn check_span(model: &Model<f64>, end: f64) -> Result<(), Error> {
 fn clock(model: &Model<f64>) -> Result<PulsarClock, Error> {
     let start = model.start();
     let (beam, observer) = (model.beam(), model.observer());
-    PulsarClock::new(&start.spheroid, &start.violation, &start.state(), &beam, &observer, MeanOrder::Second)
+    PulsarClock::new(&start.spheroid, &start.violation, &start.state(), &beam, &observer, AveragingOrder::Second)
 }
 
 /// A pulse with its times counted from the double nearest to its midpoint. The closest approach is not looked for.

@@ -55,7 +55,7 @@ impl Model<f64> {
     /// A scene that starts on a pole or within 1e-6 rad of it, where its angles are no parameters.
     pub fn of_scene(scene: &Scene) -> Result<Self, Error> {
         let sine = scene.initial_angles.beta.sin();
-        Error::unless(sine > 1e-6, "sin(beta) at the start", sine, "above 1e-6: on a pole angles are no parameters")?;
+        Error::ensure(sine > 1e-6, "sin(beta) at the start", sine, "above 1e-6: on a pole angles are no parameters")?;
         let rates = scene.initial.rates(&scene.spheroid)?;
         let angles = scene.initial_angles;
         let (chi, delta, rho) = scene.pulsar.map_or((0.5, 0.0, 0.5), |pulsar| (pulsar.chi, pulsar.delta, pulsar.rho));

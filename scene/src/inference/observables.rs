@@ -133,7 +133,7 @@ pub struct Datum {
 pub fn data_of(signal: &Signal, events: &[Event], samples: &[f64], noise: &[Noise]) -> Result<Vec<Datum>, Error> {
     let mut data = Vec::new();
     let whole_turns = [Observable::ClosestApproaches, Observable::Periods];
-    Error::unless(
+    Error::ensure(
         !(signal.is_long() && noise.iter().any(|(kind, _)| whole_turns.contains(kind))),
         "span for closest approaches and periods",
         signal.end,

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use twofold::Error;
-use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
 use twofold::observables::pulsar::{Beam, Pulse, arrivals, pulse_train};
 use twofold::plan::{Method, Output, Plan, PlannedMotion, Request};
@@ -72,7 +72,7 @@ impl Signal {
         let request = if is_long {
             long_span::check_span(model, end)?;
             let request = Request::new(&[Output::PulseProfile], (0.0, end), 2, ACCURACY);
-            Request { method: Some(Method::Mean), ..request }
+            Request { method: Some(Method::Averaged), ..request }
         } else {
             Request::new(&[Output::Pulses], (0.0, end), 2, ACCURACY)
         };
@@ -88,7 +88,7 @@ impl Signal {
         })
     }
 
-    /// Whether the span is one of more than 1e5 rad of rotation. Its pulses are those near given times, by the mean motion of second order.
+    /// Whether the span is one of more than 1e5 rad of rotation. Its pulses are those near given times, by the averaged motion of second order.
     pub fn is_long(&self) -> bool {
         self.is_long
     }
@@ -98,7 +98,7 @@ impl Signal {
     /// # Errors
     /// A beam or line of sight that has no pulses to be counted, and a long span.
     pub fn events(&self) -> Result<Vec<Event>, Error> {
-        Error::unless(!self.is_long, "span for every pulse", self.end, "one of at most 1e5 rad of rotation")?;
+        Error::ensure(!self.is_long, "span for every pulse", self.end, "one of at most 1e5 rad of rotation")?;
         let found = self.events_in((0.0, self.end))?;
         let once = |turn: i64| found.iter().filter(|event| event.turn == turn).count() == 1;
         Ok(if found.windows(2).all(|pair| pair[0].turn < pair[1].turn) {

@@ -15,9 +15,9 @@ use twofold::propagation::{
     AveragedMotion, AxisMotion, AxisScene, AxisState, ContinuousAngles, ErrorEstimates, Motion, SymmetricMotion,
     UniformMotion, axis_states_at, axis_states_of_many, propagate, propagate_axis, states_at, taylor_forecast,
 };
+use twofold::solutions::averaged::AveragingOrder;
 use twofold::solutions::free::{free_precession_rates, free_rotation};
-use twofold::solutions::mean::MeanOrder;
-use twofold::solutions::perturbation::Kind;
+use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
 
 use crate::values::scene::{ANGLES, PROLATE, STAR, general, start, state, tensor};
@@ -75,7 +75,7 @@ fn steady(table: &mut Table) {
             table.row(&format!("{name}, after 50"), &[("rounding", &rounding), ("truncation", &truncation)]);
         });
     };
-    for kind in [Kind::Twofold, Kind::Single] {
+    for kind in [Precession::Twofold, Precession::Single] {
         let (spin, beta) = (1.9, 0.8);
         let rate = steady_precession_rate(kind, &STAR, &s, spin, beta).expect("a rate");
         table.row(&format!("steady {kind:?}"), &[("rate", &rate)]);
@@ -137,7 +137,7 @@ fn mean_motions() {
         ("upside down", general() * 0.1, BodyState { momentum: -state().momentum, ..state() }),
         ("n on L", general() * 0.01, BodyState { momentum: state().axis * 2.0, ..state() }),
     ] {
-        for order in [MeanOrder::First, MeanOrder::Second] {
+        for order in [AveragingOrder::First, AveragingOrder::Second] {
             let name = format!("{name}, {order:?}");
             table.found(&name, AveragedMotion::from_parts(&STAR, &s, &initial, SPAN, order), |table, motion| {
                 look(table, &name, &motion);
@@ -156,7 +156,7 @@ fn mean_motions() {
                         &[
                             ("truncation", &motion.truncation(t)),
                             ("rounding", &motion.rounding(t)),
-                            ("of the mean motion", &mean.truncation(t)),
+                            ("of the averaged motion", &mean.truncation(t)),
                             ("and", &mean.rounding(t)),
                             ("error", &mean.error_estimate(t)),
                         ],
@@ -385,8 +385,8 @@ fn gradients() {
     let mut table = Table::default();
     let of = |violation| Start { violation, ..start() };
     let scenes = [
-        ("general", start(), vec![None, Some(Method::Taylor), Some(Method::Mean), Some(Method::Splitting)]),
-        ("weak", of(general() * 1e-3), vec![Some(Method::Mean)]),
+        ("general", start(), vec![None, Some(Method::Taylor), Some(Method::Averaged), Some(Method::Splitting)]),
+        ("weak", of(general() * 1e-3), vec![Some(Method::Averaged)]),
         ("none", of(Matrix3::zeros()), vec![Some(Method::Free)]),
         ("symmetric", of(tensor([0.02, 0.02, -0.03])), vec![Some(Method::Symmetric)]),
     ];

@@ -10,7 +10,7 @@ use twofold::observables::pulsar::period::{
 use twofold::observables::pulsar::rate_bounds::rate_bounds;
 use twofold::observables::pulsar::{Beam, PulsarClock, PulseTrain, arrivals, propagated_pulse_train, pulse_train};
 use twofold::propagation::propagate;
-use twofold::solutions::mean::MeanOrder;
+use twofold::solutions::averaged::AveragingOrder;
 use twofold::star::axisymmetric::axisymmetric_integrals;
 use twofold::star::maclaurin::MaclaurinSpheroid;
 use twofold::star::uniform_spheroid::UniformSpheroid;
@@ -95,11 +95,11 @@ fn clocks() {
         ("wide", Beam::new(1.2, 0.0, 1.0), Observer::at(1.0, 0.0)),
     ];
     for (of, star, s, initial, orders) in [
-        ("general", STAR, general() * 0.1, state(), &[MeanOrder::First, MeanOrder::Second][..]),
-        ("weak", STAR, general() * 1e-8, state(), &[MeanOrder::Second]),
-        ("none", STAR, general() * 0.0, state(), &[MeanOrder::Second]),
-        ("reversed", STAR, general() * 0.1, reversed, &[MeanOrder::Second]),
-        ("prolate", PROLATE, general() * 0.1, state(), &[MeanOrder::Second]),
+        ("general", STAR, general() * 0.1, state(), &[AveragingOrder::First, AveragingOrder::Second][..]),
+        ("weak", STAR, general() * 1e-8, state(), &[AveragingOrder::Second]),
+        ("none", STAR, general() * 0.0, state(), &[AveragingOrder::Second]),
+        ("reversed", STAR, general() * 0.1, reversed, &[AveragingOrder::Second]),
+        ("prolate", PROLATE, general() * 0.1, state(), &[AveragingOrder::Second]),
     ] {
         for order in orders {
             for (name, beam, observer) in &beams[..if of == "general" { 4 } else { 2 }] {

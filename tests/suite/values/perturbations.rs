@@ -3,7 +3,7 @@
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::{
-    Constants, Form, Kind, constants_from_initial_values, initial_values, shifted_rates,
+    Constants, Form, Precession, constants_from_initial_values, initial_values, shifted_rates,
 };
 use twofold::solutions::symmetric::SymmetricSolution;
 
@@ -15,7 +15,7 @@ fn constants_of_integration() {
     let mut table = Table::default();
     for (strength, s) in [("weak", [0.021, -0.004, 0.009]), ("strong", [0.3, -0.1, 0.2])] {
         let s = PrincipalCoefficients::new(s);
-        for kind in [Kind::Twofold, Kind::Single] {
+        for kind in [Precession::Twofold, Precession::Single] {
             for (alpha_0, beta_0, amplitude, phase) in
                 [(0.4, 0.9, 0.1, -1.1), (7.4, 2.2, 0.0, 0.0), (-1.0, 0.3, 0.05, 2.0)]
             {

@@ -130,7 +130,8 @@ fn long_and_forced() {
         ("nearly symmetric", tensor([0.02, 0.02 + 1e-8, -0.03])),
     ] {
         for (what, request) in &requests {
-            let named = [Method::Free, Method::Steady, Method::Symmetric, Method::Mean, Method::Splitting].map(Some);
+            let named =
+                [Method::Free, Method::Steady, Method::Symmetric, Method::Averaged, Method::Splitting].map(Some);
             let named = if ["usual", "some"].contains(what) { &named[..] } else { &[] };
             for method in [None].iter().chain(named).copied() {
                 let request = Request { method, ..request.clone() };

@@ -4,8 +4,8 @@ use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::AxisState;
-use twofold::solutions::mean::slow_precession::slow_precession;
-use twofold::solutions::mean::{MeanMotion, MeanOrder, middle_axis_growth, period_near_separatrix};
+use twofold::solutions::averaged::slow_precession::slow_precession;
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder, middle_axis_growth, period_near_separatrix};
 use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};
 
 use crate::values::scene::{PROLATE, STAR, state};
@@ -59,12 +59,12 @@ fn states_on_tori() {
         table.found("  slow precession", slow, |table, found| {
             table.row("  slow precession", &[("axis", &found.axis), ("rate", &found.rate)]);
         });
-        for order in [MeanOrder::First, MeanOrder::Second] {
+        for order in [AveragingOrder::First, AveragingOrder::Second] {
             let label = format!("  {order:?}");
             table.found(&label, middle_axis_growth(&star, &s, energy, spin, order), |table, growth| {
                 table.row(&label, &[("growth about the middle axis", &growth)]);
             });
-            table.found(&label, MeanMotion::new(&star, &s, &initial, order), |table, mean| {
+            table.found(&label, AveragedSolution::new(&star, &s, &initial, order), |table, mean| {
                 let (rates, phases) = (mean.rates(), mean.phases(13.0));
                 table.row(
                     &label,

@@ -5,10 +5,10 @@ use std::cell::Cell;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use proptest::prelude::*;
 use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::numerics::scalar::Real;
 use twofold::plan::{Candidate, Method, Output, Parameter, Plan, Request, Start, StateFunction, gradient};
 use twofold::propagation::{Motion, SymmetricMotion, UniformMotion, propagate};
-use twofold::scalar::Real;
-use twofold::solutions::perturbation::Kind as Precession;
+use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
