@@ -11,14 +11,17 @@ pub mod elliptic;
 pub mod epoch;
 pub mod error;
 pub mod euler_angles;
+pub mod inference;
 pub mod lorentz_violation;
 pub mod observables;
+pub mod parameters;
 pub mod plan;
 pub mod propagation;
 mod rounding;
 pub mod scalar;
 pub mod solutions;
 pub mod star;
+pub mod straight_line;
 pub mod units;
 
 pub use error::Error;

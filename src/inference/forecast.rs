@@ -1,7 +1,8 @@
 //! How well an unknown will be known: its standard deviation against span, number of data and their errors.
 
-use super::{Datum, Fisher, InferenceError, Model, Noise, Observable, Signal, Unknown, data_of};
-use crate::fit::{Slope, slope};
+use super::{Datum, Fisher, InferenceError, Noise, Observable, Signal, data_of};
+use crate::parameters::{Parameter, Parameters};
+use crate::straight_line::{Slope, slope};
 
 /// What a campaign of measurements will tell.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,22 +22,21 @@ pub struct Forecast {
 /// The standard deviation of `target` for every pair of a span and a number of epochs.
 ///
 /// # Errors
-/// A motion that cannot be computed, and periods, for which an epoch has one pulse too few.
+/// A motion that cannot be computed; [`InferenceError::PeriodsForecast`].
 pub fn forecast(
-    model: &Model<f64>,
+    parameters: &Parameters<f64>,
     noise: &[Noise],
-    unknowns: &[Unknown],
-    target: Unknown,
+    unknowns: &[Parameter],
+    target: Parameter,
     spans: &[f64],
     epochs: &[usize],
 ) -> Result<Vec<Forecast>, InferenceError> {
     if noise.iter().any(|(observable, _)| *observable == Observable::Periods) {
-        let (quantity, allowed) = ("pulses at an epoch", "two for a period: arrivals or widths are forecast");
-        return Err(twofold::Error::Domain { quantity, value: 1.0, allowed }.into());
+        return Err(InferenceError::PeriodsForecast);
     }
     let mut found = Vec::new();
     for &span in spans {
-        let signal = Signal::new(model, span)?;
+        let signal = Signal::new(parameters, span)?;
         for &count in epochs {
             // So that the last pulse ends within the span.
             let last = (span - 2.2 * signal.turn()).max(0.0);
@@ -44,7 +44,7 @@ pub fn forecast(
             let has_pulses = noise.iter().any(|(observable, _)| observable.is_of_pulses());
             let events = if has_pulses { signal.events_after(&times)? } else { Vec::new() };
             let data: Vec<Datum> = data_of(&signal, &events, &times, noise)?;
-            let sigma = match Fisher::of(model, &events, &data, unknowns) {
+            let sigma = match Fisher::of(parameters, &events, &data, unknowns) {
                 Ok(fisher) => fisher.sigma(target).unwrap_or(f64::NAN),
                 Err(InferenceError::TooFew { .. }) => f64::NAN,
                 Err(error) => return Err(error),

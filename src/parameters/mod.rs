@@ -1,27 +1,55 @@
-//! A scene as a function of its unknowns.
+//! A star, its beam and its observer as named numbers, by which derivatives are taken and which are fitted.
+//!
+//! A change of one [`Parameter`] holds all other numbers of [`Parameters`] fixed. Of the rate of `gamma` and `Omega^z = gamma' + alpha' cos(beta)`
+//! the struct has one, its [`ThirdRate`]: that one is held when `beta` or `alpha'` change.
+//!
+//! # Example
+//!
+//! ```
+//! use nalgebra::Matrix3;
+//! use twofold::dynamics::RigidSpheroid;
+//! use twofold::euler_angles::{EulerAngles, EulerRates};
+//! use twofold::parameters::{Parameter, Parameters};
+//!
+//! let star = RigidSpheroid::in_units_of_tc(1.1);
+//! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
+//! let parameters = Parameters::new(star, Matrix3::zeros(), angles, rates);
+//! // The spin with beta a little larger: with gamma' held, and with Omega^z held.
+//! let spin = |parameters: Parameters<f64>| parameters.moved(&[Parameter::Beta], &[0.01]).spin() - parameters.spin();
+//! assert!((spin(parameters) - 1.4 * (0.71_f64.cos() - 0.7_f64.cos())).abs() < 1e-15);
+//! assert_eq!(spin(parameters.holding_spin()), 0.0);
+//! ```
+
+mod parameter;
+
+pub use parameter::Parameter;
 
 use nalgebra::Matrix3;
-use twofold::dynamics::RigidSpheroid;
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::observables::Observer;
-use twofold::observables::pulsar::Beam;
-use twofold::plan::Start;
-use twofold::{Error, Scalar};
+use num_dual::Dual64;
 
-use super::Unknown;
-use crate::columns::strain_of_scene;
-use crate::scene_file::Scene;
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::euler_angles::{EulerAngles, EulerRates};
+use crate::observables::Observer;
+use crate::observables::pulsar::Beam;
+use crate::scalar::Scalar;
 
-/// Everything that a signal depends on, in units `I^xx = C = 1` of the scene, time in `t_c`.
+/// The rate that stays when `beta` or the rate of `alpha` change.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Model<S> {
-    /// `(I^zz - I^xx) / I^xx`.
-    pub oblateness: S,
-    /// `C`.
-    pub constant_c: S,
-    /// `s^IJ`, but for its factor.
-    pub s: Matrix3<S>,
-    /// Factor of `s^IJ`.
+pub enum ThirdRate<S> {
+    /// Rate of `gamma`.
+    Gamma(S),
+    /// `Omega^z`.
+    Spin(S),
+}
+
+/// Everything that motions and data depend on. Time and length are in any units; those of fits have `I^xx = 1`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameters<S> {
+    /// The body.
+    pub spheroid: RigidSpheroid<S>,
+    /// `s^IJ`.
+    pub violation: Matrix3<S>,
+    /// By how much `s^IJ` has been multiplied, one at first.
     pub s_scale: S,
     /// Euler angles at the start.
     pub angles: EulerAngles<S>,
@@ -29,113 +57,82 @@ pub struct Model<S> {
     pub alpha_rate: S,
     /// Rate of `beta` there.
     pub beta_rate: S,
-    /// `Omega^z`; the rate of `gamma` follows from it.
-    pub spin: S,
-    /// Magnetic axis, Eq. (45).
+    /// Rate of `gamma` or `Omega^z` there.
+    pub third_rate: ThirdRate<S>,
+    /// Angle of the magnetic axis to the symmetry axis, Eq. (45).
     pub chi: S,
     /// Its azimuth.
     pub delta: S,
     /// Semi-open angle of the beam.
     pub rho: S,
-    /// Observer, Eq. (46).
+    /// Colatitude of the observer, Eq. (46).
     pub theta_o: S,
-    /// Its azimuth.
+    /// Azimuth of the observer.
     pub phi_o: S,
-    /// Factor of the strain.
+    /// By how much the strain has been multiplied, one at first.
     pub strain_scale: S,
-    /// Strain of `h = 1` at `r = 1`, not an unknown.
+    /// Strain of `h = 1` at `r = 1`, not a parameter.
     pub strain_unit: f64,
 }
 
-impl Model<f64> {
-    /// The model that a scene is. A beam or an observer that the scene lacks are taken as any: nothing that needs them can be
-    /// observed (see [`missing_section`](super::Observable::missing_section)).
-    ///
-    /// # Errors
-    /// A scene that starts on a pole or within 1e-6 rad of it, where its angles are no parameters.
-    pub fn of_scene(scene: &Scene) -> Result<Self, Error> {
-        let sine = scene.initial_angles.beta.sin();
-        Error::unless(sine > 1e-6, "sin(beta) at the start", sine, "above 1e-6: on a pole angles are no parameters")?;
-        let rates = scene.initial.rates(&scene.spheroid)?;
-        let angles = scene.initial_angles;
-        let (chi, delta, rho) = scene.pulsar.map_or((0.5, 0.0, 0.5), |pulsar| (pulsar.chi, pulsar.delta, pulsar.rho));
-        let (theta_o, phi_o) = scene.observer.map_or((0.5, 0.0), |viewer| (viewer.theta_o, viewer.phi_o));
-        let distance = scene.observer.and_then(|viewer| viewer.distance);
-        Ok(Self {
-            oblateness: scene.spheroid.oblateness(),
-            constant_c: scene.spheroid.constant_c,
-            s: scene.violation,
-            s_scale: 1.0,
+impl<S: Scalar> Parameters<S> {
+    /// A body with its initial values, the rate of `gamma` held. Beam and observer are some until their fields are set: a motion does not depend
+    /// on them.
+    pub fn new(
+        spheroid: RigidSpheroid<S>,
+        violation: Matrix3<S>,
+        angles: EulerAngles<S>,
+        rates: EulerRates<S>,
+    ) -> Self {
+        let [zero, half, one] = [0.0, 0.5, 1.0].map(S::from_f64);
+        Self {
+            spheroid,
+            violation,
+            s_scale: one,
             angles,
             alpha_rate: rates.alpha,
             beta_rate: rates.beta,
-            spin: rates.gamma + rates.alpha * angles.beta.cos(),
-            chi,
-            delta,
-            rho,
-            theta_o,
-            phi_o,
-            strain_scale: 1.0,
-            strain_unit: distance.map_or(1.0, |distance| strain_of_scene(scene, distance)),
-        })
-    }
-
-    /// The same model with zero derivatives.
-    pub fn lifted<S: Scalar>(&self) -> Model<S> {
-        let of = S::from_f64;
-        let EulerAngles { alpha, beta, gamma } = self.angles;
-        Model {
-            oblateness: of(self.oblateness),
-            constant_c: of(self.constant_c),
-            s: self.s.map(of),
-            s_scale: of(self.s_scale),
-            angles: EulerAngles { alpha: of(alpha), beta: of(beta), gamma: of(gamma) },
-            alpha_rate: of(self.alpha_rate),
-            beta_rate: of(self.beta_rate),
-            spin: of(self.spin),
-            chi: of(self.chi),
-            delta: of(self.delta),
-            rho: of(self.rho),
-            theta_o: of(self.theta_o),
-            phi_o: of(self.phi_o),
-            strain_scale: of(self.strain_scale),
-            strain_unit: self.strain_unit,
+            third_rate: ThirdRate::Gamma(rates.gamma),
+            chi: half,
+            delta: zero,
+            rho: half,
+            theta_o: half,
+            phi_o: zero,
+            strain_scale: one,
+            strain_unit: 1.0,
         }
     }
 
-    /// The model with unknowns moved by some changes.
-    pub fn moved(&self, unknowns: &[Unknown], changes: &[f64]) -> Self {
-        let mut moved = *self;
-        unknowns.iter().zip(changes).for_each(|(unknown, change)| unknown.add(&mut moved, *change));
-        moved
+    /// The same with `Omega^z` held in place of the rate of `gamma`.
+    pub fn holding_spin(self) -> Self {
+        Self { third_rate: ThirdRate::Spin(self.spin()), ..self }
     }
 
-    /// The values of some unknowns.
-    pub fn values(&self, unknowns: &[Unknown]) -> Vec<f64> {
-        unknowns.iter().map(|unknown| unknown.value(self)).collect()
-    }
-}
-
-impl<S: Scalar> Model<S> {
-    /// `s^IJ`.
-    pub fn violation(&self) -> Matrix3<S> {
-        self.s * self.s_scale
+    /// The same with the rate of `gamma` held.
+    pub fn holding_gamma_rate(self) -> Self {
+        Self { third_rate: ThirdRate::Gamma(self.rates().gamma), ..self }
     }
 
-    /// Body, tensor and initial values.
-    pub fn start(&self) -> Start<S> {
-        let one = S::one();
-        let (_, cos) = self.angles.beta.sin_cos();
-        Start {
-            spheroid: RigidSpheroid { inertia_xx: one, inertia_zz: one + self.oblateness, constant_c: self.constant_c },
-            violation: self.violation(),
-            angles: self.angles,
-            rates: EulerRates {
-                alpha: self.alpha_rate,
-                beta: self.beta_rate,
-                gamma: self.spin - self.alpha_rate * cos,
-            },
+    /// `Omega^z`.
+    pub fn spin(&self) -> S {
+        match self.third_rate {
+            ThirdRate::Gamma(rate) => rate + self.alpha_rate * self.angles.beta.sin_cos().1,
+            ThirdRate::Spin(spin) => spin,
         }
+    }
+
+    /// Euler rates at the start.
+    pub fn rates(&self) -> EulerRates<S> {
+        let gamma = match self.third_rate {
+            ThirdRate::Gamma(rate) => rate,
+            ThirdRate::Spin(spin) => spin - self.alpha_rate * self.angles.beta.sin_cos().1,
+        };
+        EulerRates { alpha: self.alpha_rate, beta: self.beta_rate, gamma }
+    }
+
+    /// The initial state.
+    pub fn state(&self) -> BodyState<S> {
+        BodyState::from_angles(&self.spheroid, &self.angles, &self.rates())
     }
 
     /// The beam.
@@ -146,5 +143,55 @@ impl<S: Scalar> Model<S> {
     /// The observer.
     pub fn observer(&self) -> Observer<S> {
         Observer::at(self.theta_o, self.phi_o)
+    }
+}
+
+impl Parameters<f64> {
+    /// The same numbers with zero derivatives.
+    pub fn lifted<S: Scalar>(&self) -> Parameters<S> {
+        let of = S::from_f64;
+        let Self { spheroid, angles, .. } = self;
+        Parameters {
+            spheroid: RigidSpheroid {
+                inertia_xx: of(spheroid.inertia_xx),
+                inertia_zz: of(spheroid.inertia_zz),
+                constant_c: of(spheroid.constant_c),
+            },
+            violation: self.violation.map(of),
+            s_scale: of(self.s_scale),
+            angles: EulerAngles { alpha: of(angles.alpha), beta: of(angles.beta), gamma: of(angles.gamma) },
+            alpha_rate: of(self.alpha_rate),
+            beta_rate: of(self.beta_rate),
+            third_rate: match self.third_rate {
+                ThirdRate::Gamma(rate) => ThirdRate::Gamma(of(rate)),
+                ThirdRate::Spin(spin) => ThirdRate::Spin(of(spin)),
+            },
+            chi: of(self.chi),
+            delta: of(self.delta),
+            rho: of(self.rho),
+            theta_o: of(self.theta_o),
+            phi_o: of(self.phi_o),
+            strain_scale: of(self.strain_scale),
+            strain_unit: self.strain_unit,
+        }
+    }
+
+    /// The same numbers as functions of one parameter, at the value it has.
+    pub fn seeded(&self, parameter: Parameter) -> Parameters<Dual64> {
+        let mut seeded = self.lifted();
+        parameter.add(&mut seeded, Dual64::new(0.0, 1.0));
+        seeded
+    }
+
+    /// With some parameters changed.
+    pub fn moved(&self, parameters: &[Parameter], changes: &[f64]) -> Self {
+        let mut moved = *self;
+        parameters.iter().zip(changes).for_each(|(parameter, change)| parameter.add(&mut moved, *change));
+        moved
+    }
+
+    /// The values of some parameters.
+    pub fn values(&self, parameters: &[Parameter]) -> Vec<f64> {
+        parameters.iter().map(|parameter| parameter.value(self)).collect()
     }
 }

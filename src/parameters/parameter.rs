@@ -1,33 +1,29 @@
-//! The unknowns of a fit, one number each.
+//! The parameters by which derivatives are taken and which are fitted.
 
-use nalgebra::Matrix3;
-use twofold::Scalar;
+use super::{Parameters, ThirdRate};
+use crate::scalar::Scalar;
 
-use super::Model;
-
-/// Something that is not known of a scene. Others are kept when one is changed; `I^xx = 1` sets the unit of `C`.
+/// One number of [`Parameters`], or a combination of some.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Unknown {
-    /// Oblateness `eps = (I^zz - I^xx) / I^xx`.
+pub enum Parameter {
+    /// `I^xx`.
+    InertiaXx,
+    /// `I^zz`.
+    InertiaZz,
+    /// Oblateness `eps = (I^zz - I^xx) / I^xx`, by a change of `I^zz`.
     Oblateness,
-    /// `Omega^z`.
-    Spin,
     /// The constant `C`.
     ConstantC,
-    /// A factor of the whole tensor `s^IJ`, one for that of the scene.
+    /// The component `s^IJ` for two of the indices 0, 1, 2, in either order. The tensor is symmetric: `s^JI` changes with it.
+    S(usize, usize),
+    /// A factor of the whole tensor `s^IJ`.
     SScale,
-    /// `2 s^ZZ - s^XX - s^YY`.
+    /// `2 s^ZZ - s^XX - s^YY`. A change of one of this, the next and the trace keeps the other two.
     SAxial,
     /// `s^XX - s^YY`.
     SAsymmetry,
     /// The trace of `s^IJ`.
     STrace,
-    /// `s^XY`.
-    SXy,
-    /// `s^XZ`.
-    SXz,
-    /// `s^YZ`.
-    SYz,
     /// Initial `alpha`.
     Alpha,
     /// Initial `beta`.
@@ -38,6 +34,10 @@ pub enum Unknown {
     AlphaRate,
     /// Initial rate of `beta`.
     BetaRate,
+    /// Initial rate of `gamma`.
+    GammaRate,
+    /// Initial `Omega^z`. The other rates held, a change of it is the same change of the rate of `gamma`.
+    Spin,
     /// Angle of the magnetic axis to the symmetry axis.
     Chi,
     /// Azimuth of the magnetic axis in the body.
@@ -48,13 +48,35 @@ pub enum Unknown {
     ThetaO,
     /// Azimuth of the observer.
     PhiO,
-    /// A factor of the strain, `I^xx` over distance; one for the scene.
+    /// A factor of the strain, `I^xx` over distance.
     StrainScale,
 }
 
-impl Unknown {
-    /// Every unknown.
-    pub const ALL: [Self; 21] = [
+impl Parameter {
+    /// Those that a motion depends on, each in itself.
+    pub const OF_MOTION: [Self; 15] = [
+        Self::InertiaXx,
+        Self::InertiaZz,
+        Self::ConstantC,
+        Self::S(0, 0),
+        Self::S(1, 1),
+        Self::S(2, 2),
+        Self::S(0, 1),
+        Self::S(0, 2),
+        Self::S(1, 2),
+        Self::Alpha,
+        Self::Beta,
+        Self::Gamma,
+        Self::AlphaRate,
+        Self::BetaRate,
+        Self::GammaRate,
+    ];
+
+    /// Those that data depend on beside the motion.
+    pub const OF_SIGHT: [Self; 6] = [Self::Chi, Self::Delta, Self::Rho, Self::ThetaO, Self::PhiO, Self::StrainScale];
+
+    /// Those that can be fitted in units of `I^xx = 1`.
+    pub const FITTED: [Self; 21] = [
         Self::Oblateness,
         Self::Spin,
         Self::ConstantC,
@@ -62,9 +84,9 @@ impl Unknown {
         Self::SAxial,
         Self::SAsymmetry,
         Self::STrace,
-        Self::SXy,
-        Self::SXz,
-        Self::SYz,
+        Self::S(0, 1),
+        Self::S(0, 2),
+        Self::S(1, 2),
         Self::Alpha,
         Self::Beta,
         Self::Gamma,
@@ -95,7 +117,7 @@ impl Unknown {
         Self::PhiO,
     ];
 
-    /// Those that the strain determines in the same frame, the distance known: it knows no beam and no third angle.
+    /// Those that the strain determines in the same frame where the distance is known. It depends on no beam and not on `gamma`.
     pub const OF_STRAIN: [Self; 10] = [
         Self::Oblateness,
         Self::Spin,
@@ -109,74 +131,64 @@ impl Unknown {
         Self::PhiO,
     ];
 
+    fn names(self) -> [&'static str; 2] {
+        match self {
+            Self::InertiaXx => ["inertia_xx", "I^xx"],
+            Self::InertiaZz => ["inertia_zz", "I^zz"],
+            Self::Oblateness => ["eps"; 2],
+            Self::ConstantC => ["c", "C"],
+            Self::S(0, 0) => ["s_xx", "s^XX"],
+            Self::S(1, 1) => ["s_yy", "s^YY"],
+            Self::S(2, 2) => ["s_zz", "s^ZZ"],
+            Self::S(0, 1) | Self::S(1, 0) => ["s_xy", "s^XY"],
+            Self::S(0, 2) | Self::S(2, 0) => ["s_xz", "s^XZ"],
+            Self::S(..) => ["s_yz", "s^YZ"],
+            Self::SScale => ["s_scale", "|s|"],
+            Self::SAxial => ["s_axial", "2 s^ZZ - s^XX - s^YY"],
+            Self::SAsymmetry => ["s_asymmetry", "s^XX - s^YY"],
+            Self::STrace => ["s_trace", "tr s"],
+            Self::Alpha => ["alpha"; 2],
+            Self::Beta => ["beta"; 2],
+            Self::Gamma => ["gamma"; 2],
+            Self::AlphaRate => ["alpha_rate", "alpha'"],
+            Self::BetaRate => ["beta_rate", "beta'"],
+            Self::GammaRate => ["gamma_rate", "gamma'"],
+            Self::Spin => ["spin", "Omega^z"],
+            Self::Chi => ["chi"; 2],
+            Self::Delta => ["delta"; 2],
+            Self::Rho => ["rho"; 2],
+            Self::ThetaO => ["theta_o"; 2],
+            Self::PhiO => ["phi_o"; 2],
+            Self::StrainScale => ["strain_scale", "I^xx / r"],
+        }
+    }
+
     /// Name for commands and files.
     pub fn key(self) -> &'static str {
-        match self {
-            Self::Oblateness => "eps",
-            Self::Spin => "spin",
-            Self::ConstantC => "c",
-            Self::SScale => "s_scale",
-            Self::SAxial => "s_axial",
-            Self::SAsymmetry => "s_asymmetry",
-            Self::STrace => "s_trace",
-            Self::SXy => "s_xy",
-            Self::SXz => "s_xz",
-            Self::SYz => "s_yz",
-            Self::Alpha => "alpha",
-            Self::Beta => "beta",
-            Self::Gamma => "gamma",
-            Self::AlphaRate => "alpha_rate",
-            Self::BetaRate => "beta_rate",
-            Self::Chi => "chi",
-            Self::Delta => "delta",
-            Self::Rho => "rho",
-            Self::ThetaO => "theta_o",
-            Self::PhiO => "phi_o",
-            Self::StrainScale => "strain_scale",
-        }
+        self.names()[0]
     }
 
     /// In symbols.
     pub fn symbol(self) -> &'static str {
-        match self {
-            Self::Oblateness => "eps",
-            Self::Spin => "Omega^z",
-            Self::ConstantC => "C",
-            Self::SScale => "|s|",
-            Self::SAxial => "2 s^ZZ - s^XX - s^YY",
-            Self::SAsymmetry => "s^XX - s^YY",
-            Self::STrace => "tr s",
-            Self::SXy => "s^XY",
-            Self::SXz => "s^XZ",
-            Self::SYz => "s^YZ",
-            Self::AlphaRate => "alpha'",
-            Self::BetaRate => "beta'",
-            Self::StrainScale => "I^xx / r",
-            other => other.key(),
-        }
+        self.names()[1]
     }
 
-    /// The unknown with a name.
+    /// The one of [`FITTED`](Self::FITTED) with a name.
     pub fn named(key: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|unknown| unknown.key() == key)
-    }
-
-    /// Whether the pulses of a beam depend on it, of all that a scene has.
-    pub fn is_of_beam(self) -> bool {
-        matches!(self, Self::Chi | Self::Delta | Self::Rho)
+        Self::FITTED.into_iter().find(|parameter| parameter.key() == key)
     }
 
     /// Whether it is a part of `s^IJ`.
     pub fn is_of_s(self) -> bool {
-        (Self::SScale..=Self::SYz).contains(&self)
+        matches!(self, Self::S(..) | Self::SScale | Self::SAxial | Self::SAsymmetry | Self::STrace)
     }
 
-    /// How far it can be from a known value at all: a radian, a turning rate, one. A direction along which all of this is less than
-    /// one standard deviation of the data is not determined by them.
-    pub fn range(self, model: &Model<f64>) -> f64 {
+    /// How far its value can be from a known one at all: a radian, the rate of rotation, one.
+    pub fn range(self, parameters: &Parameters<f64>) -> f64 {
         match self {
-            Self::Spin | Self::AlphaRate | Self::BetaRate => {
-                model.alpha_rate.abs().max(model.spin.abs()).max(model.beta_rate.abs())
+            Self::Spin | Self::GammaRate | Self::AlphaRate | Self::BetaRate => {
+                let Parameters { alpha_rate, beta_rate, .. } = parameters;
+                alpha_rate.abs().max(parameters.spin().abs()).max(beta_rate.abs())
             }
             _ => 1.0,
         }
@@ -194,73 +206,74 @@ impl Unknown {
         }
     }
 
-    /// Its value in a model.
-    pub fn value(self, model: &Model<f64>) -> f64 {
-        let s = model.violation();
+    /// Its value.
+    pub fn value<S: Scalar>(self, parameters: &Parameters<S>) -> S {
+        let Parameters { spheroid, violation: s, angles, .. } = parameters;
         match self {
-            Self::Oblateness => model.oblateness,
-            Self::Spin => model.spin,
-            Self::ConstantC => model.constant_c,
-            Self::SScale => model.s_scale,
-            Self::SAxial => 2.0 * s[(2, 2)] - s[(0, 0)] - s[(1, 1)],
+            Self::InertiaXx => spheroid.inertia_xx,
+            Self::InertiaZz => spheroid.inertia_zz,
+            Self::Oblateness => spheroid.oblateness(),
+            Self::ConstantC => spheroid.constant_c,
+            Self::S(i, j) => s[(i, j)],
+            Self::SScale => parameters.s_scale,
+            Self::SAxial => s[(2, 2)] * 2.0 - s[(0, 0)] - s[(1, 1)],
             Self::SAsymmetry => s[(0, 0)] - s[(1, 1)],
             Self::STrace => s.trace(),
-            Self::SXy => s[(0, 1)],
-            Self::SXz => s[(0, 2)],
-            Self::SYz => s[(1, 2)],
-            Self::Alpha => model.angles.alpha,
-            Self::Beta => model.angles.beta,
-            Self::Gamma => model.angles.gamma,
-            Self::AlphaRate => model.alpha_rate,
-            Self::BetaRate => model.beta_rate,
-            Self::Chi => model.chi,
-            Self::Delta => model.delta,
-            Self::Rho => model.rho,
-            Self::ThetaO => model.theta_o,
-            Self::PhiO => model.phi_o,
-            Self::StrainScale => model.strain_scale,
+            Self::Alpha => angles.alpha,
+            Self::Beta => angles.beta,
+            Self::Gamma => angles.gamma,
+            Self::AlphaRate => parameters.alpha_rate,
+            Self::BetaRate => parameters.beta_rate,
+            Self::GammaRate => parameters.rates().gamma,
+            Self::Spin => parameters.spin(),
+            Self::Chi => parameters.chi,
+            Self::Delta => parameters.delta,
+            Self::Rho => parameters.rho,
+            Self::ThetaO => parameters.theta_o,
+            Self::PhiO => parameters.phi_o,
+            Self::StrainScale => parameters.strain_scale,
         }
     }
 
-    /// Changes it by `change` in a model.
-    pub fn add<S: Scalar>(self, model: &mut Model<S>, change: S) {
-        // Of s with its factor, so that a change is that of the tensor.
-        let share = change / model.s_scale;
-        let mut diagonal = |parts: [f64; 3]| {
-            model.s += Matrix3::from_diagonal(&nalgebra::Vector3::from(parts).map(|part| share * part));
-        };
-        match self {
+    /// Adds `change` to it; all other numbers of the struct stay.
+    ///
+    /// # Panics
+    /// For an index of `s^IJ` above 2.
+    pub fn add<S: Scalar>(self, parameters: &mut Parameters<S>, change: S) {
+        let Parameters { spheroid, violation: s, angles, .. } = parameters;
+        let mut diagonal = |parts: [f64; 3]| (0..3).for_each(|i| s[(i, i)] += change * parts[i]);
+        *match self {
+            Self::InertiaXx => &mut spheroid.inertia_xx,
+            Self::InertiaZz => &mut spheroid.inertia_zz,
+            Self::Oblateness => return spheroid.inertia_zz += spheroid.inertia_xx * change,
+            Self::ConstantC => &mut spheroid.constant_c,
+            Self::S(i, j) => {
+                if i != j {
+                    s[(j, i)] += change;
+                }
+                &mut s[(i, j)]
+            }
+            Self::SScale => {
+                *s *= (parameters.s_scale + change) / parameters.s_scale;
+                &mut parameters.s_scale
+            }
             Self::SAxial => return diagonal([-1.0 / 6.0, -1.0 / 6.0, 1.0 / 3.0]),
             Self::SAsymmetry => return diagonal([0.5, -0.5, 0.0]),
             Self::STrace => return diagonal([1.0 / 3.0; 3]),
-            _ => {}
-        }
-        let mut off_diagonal = |i: usize, j: usize| {
-            model.s[(i, j)] += share;
-            model.s[(j, i)] += share;
-        };
-        match self {
-            Self::SXy => return off_diagonal(0, 1),
-            Self::SXz => return off_diagonal(0, 2),
-            Self::SYz => return off_diagonal(1, 2),
-            _ => {}
-        }
-        *match self {
-            Self::Oblateness => &mut model.oblateness,
-            Self::Spin => &mut model.spin,
-            Self::ConstantC => &mut model.constant_c,
-            Self::Alpha => &mut model.angles.alpha,
-            Self::Beta => &mut model.angles.beta,
-            Self::Gamma => &mut model.angles.gamma,
-            Self::AlphaRate => &mut model.alpha_rate,
-            Self::BetaRate => &mut model.beta_rate,
-            Self::Chi => &mut model.chi,
-            Self::Delta => &mut model.delta,
-            Self::Rho => &mut model.rho,
-            Self::ThetaO => &mut model.theta_o,
-            Self::PhiO => &mut model.phi_o,
-            Self::StrainScale => &mut model.strain_scale,
-            _ => &mut model.s_scale,
+            Self::Alpha => &mut angles.alpha,
+            Self::Beta => &mut angles.beta,
+            Self::Gamma => &mut angles.gamma,
+            Self::AlphaRate => &mut parameters.alpha_rate,
+            Self::BetaRate => &mut parameters.beta_rate,
+            Self::GammaRate | Self::Spin => match &mut parameters.third_rate {
+                ThirdRate::Gamma(rate) | ThirdRate::Spin(rate) => rate,
+            },
+            Self::Chi => &mut parameters.chi,
+            Self::Delta => &mut parameters.delta,
+            Self::Rho => &mut parameters.rho,
+            Self::ThetaO => &mut parameters.theta_o,
+            Self::PhiO => &mut parameters.phi_o,
+            Self::StrainScale => &mut parameters.strain_scale,
         } += change;
     }
 }

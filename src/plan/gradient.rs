@@ -3,10 +3,11 @@
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use num_dual::Dual64;
 
-use super::{Method, Parameter, Plan, Start, State};
+use super::{Method, Plan, State};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame_along;
+use crate::parameters::Parameters;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::check_time;
 #[cfg(target_arch = "x86_64")]
@@ -54,7 +55,7 @@ pub struct Gradient {
 /// doubles, for which no plan chooses it.
 pub fn gradient(
     plan: &Plan,
-    start: &Start<f64>,
+    start: &Parameters<f64>,
     outputs: &impl StateFunction,
     times: &[f64],
 ) -> Result<Gradient, Error> {
@@ -69,7 +70,7 @@ pub fn gradient(
 /// As for [`gradient`].
 pub fn gradient_in_parts(
     plan: &Plan,
-    start: &Start<f64>,
+    start: &Parameters<f64>,
     outputs: &impl StateFunction,
     times: &[[f64; 2]],
 ) -> Result<Gradient, Error> {
@@ -85,9 +86,9 @@ pub fn gradient_in_parts(
         found.values = values(plan, start, outputs, times)?;
         return Ok(found);
     }
-    let seeded: Vec<Start<Dual64>> = plan.derivatives.iter().map(|parameter| start.seeded(*parameter)).collect();
+    let seeded: Vec<Parameters<Dual64>> = plan.derivatives.iter().map(|parameter| start.seeded(*parameter)).collect();
     let mut here = vec![Dual64::from_re(0.0); width];
-    let mut write = |row: usize, index: usize, seeded: &Start<Dual64>, state: &BodyState<Dual64>| {
+    let mut write = |row: usize, index: usize, seeded: &Parameters<Dual64>, state: &BodyState<Dual64>| {
         outputs.values(&seeded.spheroid, &seeded.violation, state, &mut here);
         for (column, value) in here.iter().enumerate() {
             found.values[(row, column)] = value.re;
@@ -119,12 +120,12 @@ pub fn gradient_in_parts(
 
 fn values(
     plan: &Plan,
-    start: &Start<f64>,
+    start: &Parameters<f64>,
     outputs: &impl StateFunction,
     times: &[[f64; 2]],
 ) -> Result<DMatrix<f64>, Error> {
     let mut found = DMatrix::zeros(times.len(), outputs.len());
-    let Start { spheroid, violation, .. } = start;
+    let Parameters { spheroid, violation, .. } = start;
     let initial = start.state();
     let times = times.iter();
     let states: Result<Vec<BodyState<f64>>, Error> = if plan.state == State::Orientation {
@@ -146,20 +147,11 @@ fn without_equatorial_axis<S: Real>(state: AxisState<S>) -> BodyState<S> {
     BodyState { axis: state.axis, momentum: state.momentum, equatorial_axis: Vector3::zeros() }
 }
 
-impl Start<f64> {
-    /// The scene as a function of one parameter, at the value it has.
-    fn seeded(&self, parameter: Parameter) -> Start<Dual64> {
-        let mut seeded = self.lifted();
-        parameter.add(&mut seeded, Dual64::new(0.0, 1.0));
-        seeded
-    }
-}
-
 /// The state at each time as a function of each parameter, by splitting.
 #[cfg(target_arch = "x86_64")]
 fn states_by_splitting(
     plan: &Plan,
-    seeded: &[Start<Dual64>],
+    seeded: &[Parameters<Dual64>],
     times: &[f64],
 ) -> Result<Vec<Vec<BodyState<Dual64>>>, Error> {
     let (first, _) = plan.stretch;
@@ -186,18 +178,18 @@ fn states_by_splitting(
 /// The scenes with those vectors of their initial states that a motion carries.
 #[cfg(target_arch = "x86_64")]
 fn carrying<const V: usize>(
-    starts: &[Start<Dual64>],
+    starts: &[Parameters<Dual64>],
     vectors: impl Fn(BodyState<Dual64>) -> [Vector3<Dual64>; V],
 ) -> Vec<Seeded<V>> {
-    let seeded = |start: &Start<Dual64>| {
-        let Start { spheroid, violation, .. } = *start;
+    let seeded = |start: &Parameters<Dual64>| {
+        let Parameters { spheroid, violation, .. } = *start;
         Seeded { spheroid, violation, initial: vectors(start.state()) }
     };
     starts.iter().map(seeded).collect()
 }
 
 #[cfg(not(target_arch = "x86_64"))]
-fn states_by_splitting(_: &Plan, _: &[Start<Dual64>], _: &[f64]) -> Result<Vec<Vec<BodyState<Dual64>>>, Error> {
+fn states_by_splitting(_: &Plan, _: &[Parameters<Dual64>], _: &[f64]) -> Result<Vec<Vec<BodyState<Dual64>>>, Error> {
     unreachable!("no other processor has the tangent maps")
 }
 
@@ -211,8 +203,8 @@ enum SeededMotion {
 }
 
 impl SeededMotion {
-    fn new(plan: &Plan, start: &Start<Dual64>) -> Result<Self, Error> {
-        let Start { spheroid, violation, .. } = start;
+    fn new(plan: &Plan, start: &Parameters<Dual64>) -> Result<Self, Error> {
+        let Parameters { spheroid, violation, .. } = start;
         let (initial, span) = (&start.state(), plan.stretch);
         Ok(match plan.method {
             Some(Method::Free) => Self::Uniform(UniformMotion::free(spheroid, violation, initial, span)),
@@ -248,6 +240,7 @@ mod tests {
     use super::*;
     use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::lorentz_violation::PrincipalCoefficients;
+    use crate::parameters::Parameter;
     use crate::plan::{Output, Request};
     use crate::solutions::perturbation::Kind;
     use crate::solutions::steady::steady_precession_rate;
@@ -265,16 +258,14 @@ mod tests {
         }
     }
 
-    fn start(s: [f64; 3]) -> Start<f64> {
-        Start {
-            spheroid: RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 },
-            violation: Matrix3::from_diagonal(&Vector3::from(s)),
-            angles: EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 },
-            rates: EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 },
-        }
+    fn start(s: [f64; 3]) -> Parameters<f64> {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+        Parameters::new(spheroid, Matrix3::from_diagonal(&Vector3::from(s)), angles, rates)
     }
 
-    fn plan(start: &Start<f64>, method: Method, span: (f64, f64), accuracy: f64) -> Plan {
+    fn plan(start: &Parameters<f64>, method: Method, span: (f64, f64), accuracy: f64) -> Plan {
         let derivatives = vec![Parameter::Beta, Parameter::ConstantC];
         let request = Request::new(&[Output::SymmetryAxis], span, 3, accuracy);
         let request = Request { method: Some(method), derivatives, ..request };
@@ -327,7 +318,7 @@ mod tests {
         assert_eq!(method(&[]), Some(Method::Taylor));
         let with_maps = if require_tangent_maps().is_ok() { Method::Splitting } else { Method::Taylor };
         for count in [1, 3, 15] {
-            assert_eq!(method(&Parameter::ALL[..count]), Some(with_maps), "{count}");
+            assert_eq!(method(&Parameter::OF_MOTION[..count]), Some(with_maps), "{count}");
         }
     }
 
@@ -338,7 +329,8 @@ mod tests {
         let coefficients = PrincipalCoefficients::new([0.2, 0.2, -0.4]);
         let (spin, beta) = (1.5, start.angles.beta);
         let rate = steady_precession_rate(Kind::Twofold, &start.spheroid, &coefficients, spin, beta).unwrap();
-        start.rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
+        let rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
+        start = Parameters::new(start.spheroid, start.violation, start.angles, rates);
         let request =
             Request { method: Some(Method::Steady), ..Request::new(&[Output::SymmetryAxis], (0.0, 20.0), 3, 1e-9) };
         let plan = Plan::new(&start.spheroid, &start.violation, &start.state(), &request).unwrap();

@@ -23,8 +23,9 @@
 //! let state = BodyState::from_angles(&star, &angles, &rates);
 //! use twofold::dynamics::regular_equations::BodyState as State;
 //! use twofold::plan::{
-//!     Cost, Counted, Method, Output, Parameter, Plan, Promise, Request, Start, StateFunction, gradient, gradient_in_parts,
+//!     Cost, Counted, Method, Output, Plan, Promise, Request, StateFunction, gradient, gradient_in_parts,
 //! };
+//! use twofold::parameters::{Parameter, Parameters};
 //! use twofold::propagation::{AxisMotion, Motion};
 //! use twofold::scalar::Real;
 //!
@@ -52,7 +53,7 @@
 //! }
 //! let derivatives = vec![Parameter::S(2, 2), Parameter::Beta];
 //! let plan = Plan::new(&star, &s.tensor(), &state, &Request { derivatives, method: Some(Method::Taylor), ..request })?;
-//! let start = Start { spheroid: star, violation: s.tensor(), angles, rates };
+//! let start = Parameters::new(star, s.tensor(), angles, rates);
 //! let found = gradient(&plan, &start, &Height, &[0.0])?;
 //! assert!((found.jacobians[0][(0, 1)] + angles.beta.sin()).abs() < 1e-14);
 //! assert_eq!(found.values, gradient_in_parts(&plan, &start, &Height, &[[0.0, 0.0]])?.values);
@@ -66,7 +67,6 @@ mod gradient;
 mod method;
 mod motion;
 mod output;
-mod parameter;
 mod request;
 mod work;
 
@@ -77,6 +77,5 @@ pub use gradient::{Gradient, StateFunction, gradient, gradient_in_parts};
 pub use method::Method;
 pub use motion::{PlannedAxisMotion, PlannedMotion};
 pub use output::{Evaluations, Need, Output, State};
-pub use parameter::{Parameter, Start};
 pub use request::{Request, Samples};
 pub use work::{Counted, Work};

@@ -7,7 +7,8 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
 
-use twofold::plan::{Method, Output, Parameter, Plan, Request, Start, StateFunction, gradient_in_parts};
+use twofold::parameters::{Parameter, Parameters};
+use twofold::plan::{Method, Output, Plan, Request, StateFunction, gradient_in_parts};
 use twofold::propagation::splitting::{
     SCHEMES, propagate_by_best_splitting, propagate_by_splitting, propagate_orientation_by_best_splitting,
     propagate_orientation_by_splitting, splitting_forecast,
@@ -406,9 +407,9 @@ impl StateFunction for Whole {
 #[test]
 fn gradients() {
     let mut table = Table::default();
-    let weak = Start { violation: general() * 1e-3, ..start() };
-    let none = Start { violation: Matrix3::zeros(), ..start() };
-    let symmetric = Start { violation: tensor([0.02, 0.02, -0.03]), ..start() };
+    let weak = Parameters { violation: general() * 1e-3, ..start() };
+    let none = Parameters { violation: Matrix3::zeros(), ..start() };
+    let symmetric = Parameters { violation: tensor([0.02, 0.02, -0.03]), ..start() };
     let scenes = [
         ("general", start(), vec![None, Some(Method::Taylor), Some(Method::Mean), Some(Method::Splitting)]),
         ("weak", weak, vec![Some(Method::Mean)]),
@@ -419,7 +420,7 @@ fn gradients() {
     for (name, start, methods) in scenes {
         for method in methods {
             for (what, outputs) in [("whole", Output::EquatorialAxis), ("axis", Output::AngularMomentum)] {
-                let all = Parameter::ALL.to_vec();
+                let all = Parameter::OF_MOTION.to_vec();
                 let without_tensor: Vec<_> =
                     all.iter().copied().filter(|parameter| !matches!(parameter, Parameter::S(..))).collect();
                 for derivatives in [all, without_tensor, Vec::new()] {

@@ -2,9 +2,9 @@
 
 use twofold::dynamics::BodyState;
 use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::parameters::Parameter;
 use twofold::plan::{
-    Cost, Counted, Method, Output, Parameter, Plan, PlannedAxisMotion, PlannedMotion, Prediction, Request, Samples,
-    State, Work,
+    Cost, Counted, Method, Output, Plan, PlannedAxisMotion, PlannedMotion, Prediction, Request, Samples, State, Work,
 };
 use twofold::propagation::{AxisMotion, Motion, largest_torque, propagate};
 

@@ -17,7 +17,7 @@ use twofold::solutions::torus::{TorusFrequencies, separatrix_motion, states_with
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::random::Random;
 use crate::reference::reference_motion;
-use twofold_scene::fit::slope;
+use twofold::straight_line::slope;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {
@@ -397,7 +397,7 @@ fn slopes() -> Result<Measured, String> {
         let points = [0.1, 0.03, 0.01, 3e-3, 1e-3]
             .map(|k| error_of_slow(order, k).map(|(error, ..)| (f64::log10(k), error.log10())));
         let points: Vec<_> = points.into_iter().collect::<Result<_, _>>()?;
-        let fit = slope(&points)?;
+        let fit = slope(&points).map_err(|e| e.to_string())?;
         worst.see((fit.value - expected).abs(), || format!("{order:?}: {:.3} +- {:.3}", fit.value, fit.error));
     }
     worst.finish()
@@ -519,7 +519,7 @@ fn growth_orders() -> Result<Measured, String> {
             let points =
                 [0.3, 0.1, 0.03].map(|k| growth_error(order, k, nutation).map(|error| (f64::log10(k), error.log10())));
             let points: Vec<_> = points.into_iter().collect::<Result<_, _>>()?;
-            let fit = slope(&points)?;
+            let fit = slope(&points).map_err(|e| e.to_string())?;
             worst.see((fit.value - expected).abs(), || {
                 format!("{order:?}, {nutation}: {:.3} +- {:.3}, {points:?}", fit.value, fit.error)
             });

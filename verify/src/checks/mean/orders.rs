@@ -10,7 +10,7 @@ use super::scenes::{State, difference, random_state, text};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::random::Random;
 use crate::reference::reference_motion;
-use twofold_scene::fit::slope;
+use twofold::straight_line::slope;
 
 /// Checks of this subject.
 pub(super) fn checks() -> Vec<Check> {
@@ -117,7 +117,7 @@ fn gain_of_second_order() -> Result<Measured, String> {
 fn slopes_of_errors() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for (order, expected) in [(MeanOrder::First, 1.0), (MeanOrder::Second, 2.0)] {
-        let fit = slope(&tp_2(order)?.1)?;
+        let fit = slope(&tp_2(order)?.1).map_err(|e| e.to_string())?;
         worst.see((fit.value - expected).abs(), || format!("{order:?}: {:.3} +- {:.3}", fit.value, fit.error));
     }
     worst.finish()
@@ -212,7 +212,7 @@ fn slopes_of_reference() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for (place, expected) in [(0, 1.0), (1, 2.0)] {
         let points: Vec<_> = errors.iter().map(|(k, errors)| (k.log10(), errors[place].log10())).collect();
-        let fit = slope(&points)?;
+        let fit = slope(&points).map_err(|e| e.to_string())?;
         worst.see((fit.value - expected).abs(), || format!("order {expected}: {:.4} +- {:.4}", fit.value, fit.error));
     }
     worst.finish()

@@ -6,7 +6,7 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{Motion, propagate};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst};
-use twofold_scene::fit::slope;
+use twofold::straight_line::slope;
 
 pub(super) fn checks() -> Vec<Check> {
     vec![
@@ -88,7 +88,7 @@ fn growth_about_middle_axis() -> Result<Measured, String> {
             .filter(|(t, tilt)| t * growth_rate() > 3.0 && *tilt < 0.03)
             .map(|(t, tilt)| (t, tilt.ln()))
             .collect();
-        let rate = slope(&window)?;
+        let rate = slope(&window).map_err(|e| e.to_string())?;
         worst.see((rate.value / growth_rate() - 1.0).abs(), || {
             format!(
                 "about {}: rate {:.6e} +- {:.0e}, formula {:.6e}",

@@ -15,7 +15,7 @@ use twofold::propagation::{AxisMotion, AxisState, Motion, propagate, propagate_a
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
 use crate::physical_domain::{RandomScene, scenes, worst_over};
 use crate::reference::{reference_motion, reference_motions};
-use twofold_scene::fit::slope;
+use twofold::straight_line::slope;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {
@@ -154,7 +154,7 @@ fn measured_orders() -> Result<Measured, String> {
             }
         }
         let points = points.split_off(points.len().saturating_sub(5));
-        let fit = slope(&points)?;
+        let fit = slope(&points).map_err(|e| e.to_string())?;
         worst.see((fit.value - f64::from(scheme.order())).abs(), || {
             format!("{}: {:.3} +- {:.3}", scheme.name, fit.value, fit.error)
         });
@@ -176,7 +176,7 @@ fn factor_of_violation() -> Result<Measured, String> {
             let factor = 1e-4 / 4f64.powi(k);
             points.push((factor.log10(), error_of(scheme, factor, step)?.1.log10()));
         }
-        let fit = slope(&points)?;
+        let fit = slope(&points).map_err(|e| e.to_string())?;
         worst.see((fit.value - 1.0).abs(), || format!("{}: {:.4} +- {:.4}", scheme.name, fit.value, fit.error));
     }
     worst.finish()
