@@ -25,6 +25,13 @@ pub enum Error {
     },
 }
 
+/// The error in words, so that `?` serves functions whose errors are texts.
+impl From<Error> for String {
+    fn from(error: Error) -> Self {
+        error.to_string()
+    }
+}
+
 impl Error {
     /// Refuses `value` unless `allowed_if` holds (NaN never does).
     pub fn unless(allowed_if: bool, quantity: &'static str, value: f64, allowed: &'static str) -> Result<(), Self> {

@@ -9,8 +9,13 @@ pub mod kinetic_energy;
 pub mod lagrangian;
 pub mod point_masses;
 pub mod potential;
+mod problem;
 pub mod regular_equations;
+mod state;
 pub mod torque;
 
 pub use inertia::{PrincipalInertia, RigidSpheroid};
+pub use problem::Problem;
+pub(crate) use problem::check as check_problem;
 pub use regular_equations::BodyState;
+pub use state::{AxisState, RotationState};

@@ -57,6 +57,12 @@ impl From<Error> for InferenceError {
     }
 }
 
+impl From<InferenceError> for String {
+    fn from(error: InferenceError) -> Self {
+        error.to_string()
+    }
+}
+
 impl fmt::Display for InferenceError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -15,7 +15,7 @@ use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::observables::pulsar::event_time::{closest_approach_time, edge_time};
 use crate::parameters::{Parameter, Parameters};
-use crate::plan::{Gradient, Method, Output, Plan, Request, StateFunction, gradient_in_parts};
+use crate::plan::{Gradient, Method, Output, Request, StateFunction, gradient_in_parts};
 use crate::scalar::Real;
 
 /// Derivatives of data by unknowns.
@@ -121,7 +121,7 @@ impl States {
             method: is_long.then_some(Method::Mean),
             ..Request::new(&[output], (0.0, end), times.len(), ACCURACY)
         };
-        let plan = Plan::new(&parameters.spheroid, &parameters.violation, &parameters.state(), &request)?;
+        let plan = parameters.problem()?.plan(&request)?;
         let found = gradient_in_parts(&plan, parameters, &Vectors, &times)?;
         Ok(Self { times, found, is_long })
     }

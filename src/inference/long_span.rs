@@ -30,8 +30,7 @@ pub fn check_span(parameters: &Parameters<f64>, end: f64) -> Result<(), Error> {
     if !is_long(parameters, end) {
         return Ok(());
     }
-    let Parameters { spheroid, violation, .. } = parameters;
-    let motion = AveragedMotion::new(spheroid, violation, &parameters.state(), (0.0, end), MeanOrder::Second)?;
+    let motion = AveragedMotion::new(&parameters.problem()?, (0.0, end), MeanOrder::Second)?;
     let left_out = motion.truncation(end);
     Error::unless(
         left_out <= MOST_LEFT_OUT,

@@ -8,8 +8,8 @@ use crate::error::Error;
 use crate::observables::gravitational_wave::{metric_perturbation, polarizations};
 use crate::observables::pulsar::{Beam, arrivals, pulse_train};
 use crate::parameters::Parameters;
-use crate::plan::{Method, Output, Plan, PlannedMotion, Request};
-use crate::propagation::AxisMotion;
+use crate::plan::{Method, Output, PlannedMotion, Request};
+use crate::propagation::Motion;
 use crate::scalar::Scalar;
 
 /// A whole pulse.
@@ -94,11 +94,11 @@ impl Signal {
         } else {
             Request::new(&[Output::Pulses], (0.0, end), 2, ACCURACY)
         };
-        let (spheroid, s, state) = (&parameters.spheroid, &parameters.violation, parameters.state());
+        let problem = parameters.problem()?;
         Ok(Self {
             parameters: *parameters,
             end,
-            motion: Plan::new(spheroid, s, &state, &request)?.motion(spheroid, s, &state)?,
+            motion: problem.plan(&request)?.motion(&problem)?,
             is_long,
             beam: parameters.beam(),
             line_of_sight: parameters.observer().direction,

@@ -19,48 +19,40 @@ mod tests {
 
     use crate::dynamics::{BodyState, RigidSpheroid};
     use crate::error::Error;
-    use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
+    use crate::propagation::Motion;
 
     /// A motion by a formula, whether a star could move so or not.
     pub(super) struct Made<F> {
         pub(super) spheroid: RigidSpheroid<f64>,
-        pub(super) violation: Matrix3<f64>,
+        pub(super) coefficients: Matrix3<f64>,
         pub(super) span: (f64, f64),
         pub(super) error: f64,
         pub(super) state: F,
     }
 
-    impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> AxisMotion<f64> for Made<F> {
+    impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> Motion<f64> for Made<F> {
+        type State = BodyState<f64>;
+
         fn spheroid(&self) -> &RigidSpheroid<f64> {
             &self.spheroid
         }
 
-        fn violation(&self) -> &Matrix3<f64> {
-            &self.violation
+        fn coefficients(&self) -> &Matrix3<f64> {
+            &self.coefficients
         }
 
         fn span(&self) -> (f64, f64) {
             self.span
         }
 
-        fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
-            Ok(AxisState::from(&self.state(t)?))
-        }
-
-        fn error_estimate(&self, _t: f64) -> f64 {
-            self.error
-        }
-    }
-
-    impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> Motion<f64> for Made<F> {
         fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
             let (from, to) = self.span;
             Error::unless((from.min(to)..=from.max(to)).contains(&t), "time t", t, "in the span")?;
             (self.state)(t)
         }
 
-        fn turning(&self) -> Turning<'_> {
-            Turning::Equations
+        fn error_estimate(&self, _t: f64) -> f64 {
+            self.error
         }
     }
 }

@@ -17,7 +17,7 @@
 //! use twofold::observables::Observer;
 //! use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
 //! use twofold::observables::wave_harmonics::WaveHarmonics;
-//! use twofold::propagation::AxisState;
+//! use twofold::dynamics::AxisState;
 //!
 //! // Without Lorentz violation the two harmonics are the whole wave.
 //! let observer = Observer::at(0.8, 0.4);
@@ -28,12 +28,12 @@
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
+use crate::dynamics::AxisState;
 use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
 use crate::observables::Observer;
 use crate::observables::gravitational_wave::Polarizations;
 use crate::observables::pulsar::position_angle::position_angle;
-use crate::propagation::AxisState;
 use crate::scalar::{Real, length};
 
 /// Amplitudes and phase of the wave while `L` is constant, as it nearly is over a turn:

@@ -27,11 +27,12 @@ pub use parameter::Parameter;
 use nalgebra::Matrix3;
 use num_dual::Dual64;
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid};
+use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::observables::Observer;
 use crate::observables::pulsar::Beam;
-use crate::scalar::Scalar;
+use crate::scalar::{Real, Scalar};
 
 /// The rate that stays when `beta` or the rate of `alpha` change.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -146,17 +147,23 @@ impl<S: Scalar> Parameters<S> {
     }
 }
 
+impl<S: Real> Parameters<S> {
+    /// What moves.
+    ///
+    /// # Errors
+    /// As for [`Problem::new`].
+    pub fn problem(&self) -> Result<Problem<S>, Error> {
+        Problem::new(self.spheroid, self.violation, self.state())
+    }
+}
+
 impl Parameters<f64> {
     /// The same numbers with zero derivatives.
     pub fn lifted<S: Scalar>(&self) -> Parameters<S> {
         let of = S::from_f64;
         let Self { spheroid, angles, .. } = self;
         Parameters {
-            spheroid: RigidSpheroid {
-                inertia_xx: of(spheroid.inertia_xx),
-                inertia_zz: of(spheroid.inertia_zz),
-                constant_c: of(spheroid.constant_c),
-            },
+            spheroid: spheroid.map(of),
             violation: self.violation.map(of),
             s_scale: of(self.s_scale),
             angles: EulerAngles { alpha: of(angles.alpha), beta: of(angles.beta), gamma: of(angles.gamma) },

@@ -1,15 +1,11 @@
 //! Each method before it is used: whether it holds for a scene, how large its error and its work will be.
 
-use nalgebra::Matrix3;
-
 use super::{Cost, Method, Output, Request, State, Work};
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::Problem;
 use crate::error::Error;
 use crate::lorentz_violation::{error_of_principal_frame_along, principal_frame};
-use crate::propagation::splitting::{SplittingForecast, splitting_forecast, splitting_forecast_with_derivatives};
-use crate::propagation::{
-    AveragedMotion, AxisState, SymmetricMotion, TaylorForecast, UniformMotion, largest_torque, taylor_forecast,
-};
+use crate::propagation::splitting::SplittingForecast;
+use crate::propagation::{AveragedMotion, SymmetricMotion, TaylorForecast, UniformMotion, largest_torque};
 use crate::solutions::mean::MeanOrder;
 
 /// What the predicted error of a method promises of the true one, rounding apart.
@@ -31,7 +27,7 @@ pub struct Prediction {
     pub truncation: f64,
     /// What that promises.
     pub promise: Promise,
-    /// What the motion's [`error_estimate`](crate::propagation::AxisMotion::error_estimate) will take for rounding at the end.
+    /// What the motion's [`error_estimate`](crate::propagation::Motion::error_estimate) will take for rounding at the end.
     pub rounding: f64,
     /// Order of the series; zero without.
     pub order: usize,
@@ -52,30 +48,23 @@ pub struct Candidate {
     pub prediction: Result<Prediction, Error>,
 }
 
-/// The scene of a plan.
-pub(super) struct Scene<'a> {
-    pub(super) spheroid: &'a RigidSpheroid<f64>,
-    pub(super) violation: &'a Matrix3<f64>,
-    pub(super) initial: &'a BodyState<f64>,
-}
-
 impl Candidate {
     /// Considers a method for `evaluations` of a `state` up to the end of `stretch`.
     pub(super) fn of(
         method: Method,
-        scene: &Scene<'_>,
+        problem: &Problem<f64>,
         request: &Request,
         state: State,
         stretch: (f64, f64),
         evaluations: f64,
     ) -> Self {
         let errors = match method {
-            Method::Free => free(scene, request, stretch),
-            Method::Steady => steady(scene, request, stretch),
-            Method::Symmetric => symmetric(scene, request, stretch),
-            Method::Mean => mean(scene, request, stretch),
-            Method::Splitting => splitting(scene, request, stretch),
-            Method::Taylor => taylor(scene, request, state, stretch),
+            Method::Free => free(problem, request, stretch),
+            Method::Steady => steady(problem, request, stretch),
+            Method::Symmetric => symmetric(problem, request, stretch),
+            Method::Mean => mean(problem, request, stretch),
+            Method::Splitting => splitting(problem, request, stretch),
+            Method::Taylor => taylor(problem, request, state, stretch),
         };
         Self {
             method,
@@ -129,36 +118,36 @@ impl Forecast {
     }
 }
 
-/// A closed form holds for a family of tensors: it has no derivatives by changes that leave the family.
+/// A closed form for a family of tensors has no derivatives by changes of the tensor that leave the family.
 fn refuse_derivatives(request: &Request, family: &'static str) -> Result<(), Error> {
     let by_tensor = request.derivatives.iter().filter(|parameter| parameter.is_of_s()).count();
     Error::unless(by_tensor == 0, "number of derivatives by components of s^IJ", by_tensor as f64, family)
 }
 
-fn free(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+fn free(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
     refuse_derivatives(request, "none: free rotation knows no tensor")?;
-    let torque = largest_torque(scene.spheroid, scene.violation);
+    let torque = largest_torque(problem.spheroid(), problem.coefficients());
     Error::unless(
         request.derivatives.is_empty() || torque == 0.0,
         "largest torque C |s^IJ|",
         torque,
         "zero, if derivatives are wanted",
     )?;
-    let motion = UniformMotion::free(scene.spheroid, scene.violation, scene.initial, stretch);
+    let motion = UniformMotion::free(problem, stretch);
     let elapsed = stretch.1 - stretch.0;
     Ok(Forecast::closed(Promise::Bound, motion.truncation(elapsed), motion.rounding(elapsed)))
 }
 
-fn steady(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+fn steady(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
     let wanted = request.derivatives.len();
     Error::unless(wanted == 0, "number of derivatives", wanted as f64, "none: a steady precession has no neighbours")?;
-    let motion = UniformMotion::steady(scene.spheroid, scene.violation, scene.initial, stretch)?;
+    let motion = UniformMotion::steady(problem, stretch)?;
     Ok(Forecast::closed(Promise::Bound, 0.0, motion.rounding(stretch.1 - stretch.0)))
 }
 
-fn symmetric(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+fn symmetric(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
     refuse_derivatives(request, "none: elliptic functions have those within equal eigenvalues only")?;
-    let motion = SymmetricMotion::new(scene.spheroid, scene.violation, scene.initial, stretch)?;
+    let motion = SymmetricMotion::new(problem, stretch)?;
     let elapsed = stretch.1 - stretch.0;
     let truncation = motion.truncation(elapsed);
     Error::unless(
@@ -173,25 +162,25 @@ fn symmetric(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Resul
     Ok(Forecast::closed(Promise::Bound, truncation, rounding))
 }
 
-fn mean(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
-    let Scene { spheroid, violation, initial } = scene;
-    let motion = AveragedMotion::new(spheroid, violation, initial, stretch, MeanOrder::Second)?;
+fn mean(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+    let motion = AveragedMotion::new(problem, stretch, MeanOrder::Second)?;
     let (mut truncation, rounding) = (motion.truncation(stretch.1), motion.rounding(stretch.1));
     if !request.derivatives.is_empty() {
         motion.require_derivatives()?;
         // A derivative by s^IJ has one order less, in its own unit.
         truncation /= motion.mean().relative_strength();
-        truncation += error_of_principal_frame_along(principal_frame(violation)?.coefficients);
+        truncation += error_of_principal_frame_along(principal_frame(problem.coefficients())?.coefficients);
     }
     Ok(Forecast::closed(Promise::Estimate, truncation, rounding))
 }
 
-fn splitting(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
-    let Scene { spheroid, violation, initial } = scene;
-    let forecast =
-        if request.derivatives.is_empty() { splitting_forecast } else { splitting_forecast_with_derivatives };
-    let forecast = forecast(spheroid, violation, &AxisState::from(*initial), stretch, request.accuracy)?;
-    let SplittingForecast { scheme, steps, truncation, coverage, rounding, .. } = forecast;
+fn splitting(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+    let forecast = if request.derivatives.is_empty() {
+        problem.splitting_forecast(stretch, request.accuracy)
+    } else {
+        problem.splitting_forecast_with_derivatives(stretch, request.accuracy)
+    };
+    let SplittingForecast { scheme, steps, truncation, coverage, rounding, .. } = forecast?;
     // Rotations and kicks.
     let order = 2 * scheme.stages();
     Ok(Forecast { truncation, promise: Promise::Goal(coverage), rounding, order, steps })
@@ -201,12 +190,13 @@ fn splitting(scene: &Scene<'_>, request: &Request, stretch: (f64, f64)) -> Resul
 /// above, and 0.3 % of 3,000 of every kind (`docs/plans.md`).
 const TAYLOR_COVERAGE: f64 = 0.99;
 
-fn taylor(scene: &Scene<'_>, request: &Request, state: State, stretch: (f64, f64)) -> Result<Forecast, Error> {
+fn taylor(problem: &Problem<f64>, request: &Request, state: State, stretch: (f64, f64)) -> Result<Forecast, Error> {
     let duration = (stretch.1 - stretch.0).abs();
-    let full = state == State::Orientation;
-    let Scene { spheroid, violation, initial } = scene;
-    let TaylorForecast { order, steps, rounding } =
-        taylor_forecast(spheroid, violation, initial, full, duration, request.accuracy)?;
+    let TaylorForecast { order, steps, rounding } = if state == State::Orientation {
+        problem.taylor_forecast(duration, request.accuracy)?
+    } else {
+        problem.reduced().taylor_forecast(duration, request.accuracy)?
+    };
     Ok(Forecast { truncation: request.accuracy, promise: Promise::Goal(TAYLOR_COVERAGE), rounding, order, steps })
 }
 
@@ -230,9 +220,10 @@ pub(super) fn evaluations(request: &Request, rotation: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use approx::assert_relative_eq;
-    use nalgebra::Vector3;
+    use nalgebra::{Matrix3, Vector3};
 
     use super::*;
+    use crate::dynamics::RigidSpheroid;
     use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::parameters::Parameter;
 
@@ -241,10 +232,10 @@ mod tests {
     /// What a method would do over a stretch with a tensor of those principal values.
     fn forecast(method: Method, s: [f64; 3], stretch: (f64, f64), derivatives: Vec<Parameter>) -> Candidate {
         let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
-        let initial = BodyState::from_angles(&STAR, &angles, &EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
-        let scene = Scene { spheroid: &STAR, violation: &Matrix3::from_diagonal(&Vector3::from(s)), initial: &initial };
+        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+        let problem = Problem::from_angles(STAR, Matrix3::from_diagonal(&Vector3::from(s)), &angles, &rates).unwrap();
         let request = Request::new(&[Output::SymmetryAxis], stretch, 5, 1e-9);
-        Candidate::of(method, &scene, &Request { derivatives, ..request }, State::Axis, stretch, 5.0)
+        Candidate::of(method, &problem, &Request { derivatives, ..request }, State::Axis, stretch, 5.0)
     }
 
     #[test]

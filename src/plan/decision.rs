@@ -2,11 +2,11 @@
 
 use nalgebra::Matrix3;
 
-use super::candidate::{Scene, evaluations};
+use super::candidate::evaluations;
 use super::{Candidate, Evaluations, Method, Output, PlannedAxisMotion, PlannedMotion, Prediction};
 use super::{Request, State};
 use crate::dynamics::regular_equations::angular_velocity;
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::parameters::Parameter;
 use crate::propagation::largest_torque;
@@ -48,19 +48,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan for a request: of the methods whose [predicted error](Prediction::truncation) is at most the accuracy asked, the cheapest one.
-    ///
-    /// A method asked for by name is taken if it can be used at all, whatever its error: [`prediction`](Plan::prediction) tells it.
-    ///
-    /// # Errors
-    /// [`Error::Domain`] for a method asked for that the scene does not allow, and for what no method takes (accuracy out of
-    /// range, states and parameters that are not finite).
-    pub fn new(
-        spheroid: &RigidSpheroid<f64>,
-        s: &Matrix3<f64>,
-        initial: &BodyState<f64>,
-        request: &Request,
-    ) -> Result<Self, Error> {
+    pub(super) fn new<X: RotationState<f64>>(problem: &Problem<f64, X>, request: &Request) -> Result<Self, Error> {
         let state = request.outputs.iter().map(|output| output.need().state).max().unwrap_or(State::Nothing);
         let evaluated =
             |wanted: fn(Evaluations) -> bool| request.outputs.iter().any(|output| wanted(output.need().evaluations));
@@ -68,7 +56,7 @@ impl Plan {
         let for_events = evaluated(|e| matches!(e, Evaluations::ForEvents { .. }));
         let end = if for_events { request.span.1 } else { request.samples.last };
         let stretch = (request.span.0, end);
-        let rotation = (end - stretch.0).abs() * turning_rate(spheroid, s, initial);
+        let rotation = (end - stretch.0).abs() * turning_rate(problem);
         let count = evaluations(request, rotation);
         let mut plan = Self {
             outputs: request.outputs.clone(),
@@ -84,12 +72,12 @@ impl Plan {
             skipped: Vec::new(),
         };
         if state != State::Nothing {
-            let scene = Scene { spheroid, violation: s, initial };
+            let problem = problem.with_equatorial_axis();
             let wanted = |method: &Method| request.method.is_none_or(|forced| forced == *method);
             plan.considered = Method::ALL
                 .into_iter()
                 .filter(wanted)
-                .map(|method| Candidate::of(method, &scene, request, state, stretch, count))
+                .map(|method| Candidate::of(method, &problem, request, state, stretch, count))
                 .collect();
             let (method, prediction) = plan.choose()?;
             (plan.method, plan.prediction) = (Some(method), Some(prediction));
@@ -159,32 +147,48 @@ impl Plan {
         skipped
     }
 
-    /// The motion of `(n, L)`, from the same scene as the plan's or, stretch by stretch, from a later state of it.
+    /// The motion of the plan's problem or, stretch by stretch, from a later state of it; with or without `e_x`, as the problem has it.
     ///
     /// # Errors
-    /// As for [`propagate_axis`](crate::propagation::propagate_axis), or for the closed form chosen.
+    /// As for [`Problem::taylor`], or for the closed form chosen; [`Error::Domain`] for a problem with `e_x` if the plan carries less.
+    pub fn motion<X: RotationState<f64>>(&self, problem: &Problem<f64, X>) -> Result<PlannedMotion<X>, Error> {
+        let vectors = if self.state == State::Orientation { 3 } else { 2 };
+        let allowed = "three: no output of the plan needs e_x";
+        Error::unless(vectors >= X::VECTORS, "number of vectors carried", vectors as f64, allowed)?;
+        problem.motion_by(self.needed_method()?, self.stretch, self.accuracy)
+    }
+
+    /// By [`Problem::plan`].
+    pub fn from_parts(
+        spheroid: &RigidSpheroid<f64>,
+        s: &Matrix3<f64>,
+        initial: &BodyState<f64>,
+        request: &Request,
+    ) -> Result<Self, Error> {
+        // old entry: goes when its callers have moved
+        Self::new(&Problem::new(*spheroid, *s, *initial)?, request)
+    }
+
+    /// By [`Plan::motion`].
     pub fn axis_motion(
         &self,
         spheroid: &RigidSpheroid<f64>,
         s: &Matrix3<f64>,
         initial: &BodyState<f64>,
     ) -> Result<PlannedAxisMotion, Error> {
-        PlannedAxisMotion::by(self.needed_method()?, spheroid, s, initial, self.stretch, self.accuracy)
+        // old entry: goes when its callers have moved
+        PlannedAxisMotion::axis_by(self.needed_method()?, spheroid, s, initial, self.stretch, self.accuracy)
     }
 
-    /// The motion of the full orientation.
-    ///
-    /// # Errors
-    /// As for [`propagate`](crate::propagation::propagate), or for the closed form chosen; [`Error::Domain`] if the plan carries less.
-    pub fn motion(
+    /// By [`Plan::motion`].
+    pub fn motion_from_parts(
         &self,
         spheroid: &RigidSpheroid<f64>,
         s: &Matrix3<f64>,
         initial: &BodyState<f64>,
     ) -> Result<PlannedMotion, Error> {
-        let vectors = if self.state == State::Orientation { 3.0 } else { 2.0 };
-        Error::unless(vectors == 3.0, "number of vectors carried", vectors, "three: no output of the plan needs e_x")?;
-        PlannedMotion::by(self.needed_method()?, spheroid, s, initial, self.stretch, self.accuracy)
+        // old entry: goes when its callers have moved
+        self.motion(&Problem::new(*spheroid, *s, *initial)?)
     }
 
     /// Whether a time costs the same however many turns lie before it: in closed form, and without events or turns to be counted.
@@ -205,10 +209,11 @@ impl Plan {
 }
 
 /// Upper estimate of the rate at which directions turn.
-fn turning_rate(spheroid: &RigidSpheroid<f64>, s: &Matrix3<f64>, initial: &BodyState<f64>) -> f64 {
-    let omega = angular_velocity(spheroid, &initial.axis, &initial.momentum).norm();
-    omega.max(initial.momentum.norm() / spheroid.inertia_xx)
-        + (2.0 * largest_torque(spheroid, s) / spheroid.inertia_xx).sqrt()
+fn turning_rate<X: RotationState<f64>>(problem: &Problem<f64, X>) -> f64 {
+    let (spheroid, AxisState { axis, momentum }) = (problem.spheroid(), problem.initial().axis_state());
+    let omega = angular_velocity(spheroid, &axis, &momentum).norm();
+    omega.max(momentum.norm() / spheroid.inertia_xx)
+        + (2.0 * largest_torque(spheroid, problem.coefficients()) / spheroid.inertia_xx).sqrt()
 }
 
 #[cfg(test)]
@@ -221,22 +226,21 @@ mod tests {
 
     const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
 
-    fn start() -> (Matrix3<f64>, BodyState<f64>) {
+    fn problem() -> Problem<f64> {
         let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
         let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-        (Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03)), BodyState::from_angles(&STAR, &angles, &rates))
+        Problem::from_angles(STAR, Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03)), &angles, &rates).unwrap()
     }
 
     /// The plan for one output over a span, with seven samples.
     fn plan(output: Output, method: Option<Method>, span: (f64, f64)) -> Plan {
-        let (s, initial) = start();
         let request = Request { method, ..Request::new(&[output], span, 7, 1e-9) };
-        Plan::new(&STAR, &s, &initial, &request).unwrap()
+        problem().plan(&request).unwrap()
     }
 
     #[test]
     fn events_take_evaluations_by_the_angle_turned_forwards_and_backwards() {
-        let (_, BodyState { axis, momentum, .. }) = start();
+        let BodyState { axis, momentum, .. } = *problem().initial();
         // A prolate body turns faster than |L| / I^xx.
         let along = momentum.dot(&axis);
         let omega = ((momentum - axis * along) / 1.3).norm().hypot(along / 1.1);
@@ -270,8 +274,7 @@ mod tests {
 
     #[test]
     fn a_plan_without_a_motion_tells_that_no_output_needs_one() {
-        let (s, initial) = start();
-        let motion = plan(Output::PerturbationAngles, None, (0.0, 50.0)).axis_motion(&STAR, &s, &initial);
+        let motion = plan(Output::PerturbationAngles, None, (0.0, 50.0)).motion(&problem().reduced());
         let Err(Error::Domain { quantity, value, .. }) = motion else { panic!("{motion:?}") };
         assert_eq!((quantity, value), ("number of outputs that need a motion", 0.0));
     }

@@ -1,22 +1,19 @@
 //! Outputs and their derivatives by named parameters of a scene.
 
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3};
 use num_dual::Dual64;
 
 use super::{Method, Plan, State};
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame_along;
 use crate::parameters::Parameters;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::check_time;
 #[cfg(target_arch = "x86_64")]
-use crate::propagation::splitting::derivatives::{Seeded, states_with_derivatives};
+use crate::propagation::splitting::derivatives::states_with_derivatives;
 use crate::propagation::splitting::require_tangent_maps;
-use crate::propagation::{
-    AveragedMotion, AxisMotion, AxisState, Motion, SymmetricMotion, TaylorAxisMotion, TaylorMotion, UniformMotion,
-    propagate, propagate_axis,
-};
+use crate::propagation::{AveragedMotion, Motion, SymmetricMotion, UniformMotion};
 use crate::scalar::Real;
 use crate::solutions::mean::MeanOrder;
 
@@ -86,10 +83,11 @@ pub fn gradient_in_parts(
         found.values = values(plan, start, outputs, times)?;
         return Ok(found);
     }
-    let seeded: Vec<Parameters<Dual64>> = plan.derivatives.iter().map(|parameter| start.seeded(*parameter)).collect();
+    let seeded = plan.derivatives.iter().map(|parameter| start.seeded(*parameter).problem());
+    let seeded: Vec<Problem<Dual64>> = seeded.collect::<Result<_, Error>>()?;
     let mut here = vec![Dual64::from_re(0.0); width];
-    let mut write = |row: usize, index: usize, seeded: &Parameters<Dual64>, state: &BodyState<Dual64>| {
-        outputs.values(&seeded.spheroid, &seeded.violation, state, &mut here);
+    let mut write = |row: usize, index: usize, seeded: &Problem<Dual64>, state: &BodyState<Dual64>| {
+        outputs.values(seeded.spheroid(), seeded.coefficients(), state, &mut here);
         for (column, value) in here.iter().enumerate() {
             found.values[(row, column)] = value.re;
             found.jacobians[row][(column, index)] = value.eps;
@@ -106,9 +104,9 @@ pub fn gradient_in_parts(
         return Ok(found);
     }
     for (index, seeded) in seeded.iter().enumerate() {
-        let motion = SeededMotion::new(plan, seeded)?;
+        let state_at = seeded_motion(plan, seeded)?;
         for (row, &t) in times.iter().enumerate() {
-            write(row, index, seeded, &motion.state(t)?);
+            write(row, index, seeded, &state_at(t)?);
         }
     }
     if plan.method == Some(Method::Mean) {
@@ -125,33 +123,30 @@ fn values(
     times: &[[f64; 2]],
 ) -> Result<DMatrix<f64>, Error> {
     let mut found = DMatrix::zeros(times.len(), outputs.len());
-    let Parameters { spheroid, violation, .. } = start;
-    let initial = start.state();
-    let times = times.iter();
-    let states: Result<Vec<BodyState<f64>>, Error> = if plan.state == State::Orientation {
-        let motion = plan.motion(spheroid, violation, &initial)?;
-        times.map(|&t| motion.state_in_parts(t)).collect()
+    let problem = start.problem()?;
+    let states = if plan.state == State::Orientation {
+        states(&plan.motion(&problem)?, times)
     } else {
-        let motion = plan.axis_motion(spheroid, violation, &initial)?;
-        times.map(|&t| motion.axis_state_in_parts(t).map(without_equatorial_axis)).collect()
+        states(&plan.motion(&problem.reduced())?, times)
     };
     let mut here = vec![0.0; outputs.len()];
     for (row, state) in states?.iter().enumerate() {
-        outputs.values(spheroid, violation, state, &mut here);
+        outputs.values(problem.spheroid(), problem.coefficients(), state, &mut here);
         found.row_mut(row).iter_mut().zip(&here).for_each(|(value, here)| *value = *here);
     }
     Ok(found)
 }
 
-fn without_equatorial_axis<S: Real>(state: AxisState<S>) -> BodyState<S> {
-    BodyState { axis: state.axis, momentum: state.momentum, equatorial_axis: Vector3::zeros() }
+/// The states of a motion; `e_x` is zero where it is not carried.
+fn states<M: Motion<f64>>(motion: &M, times: &[[f64; 2]]) -> Result<Vec<BodyState<f64>>, Error> {
+    times.iter().map(|&t| Ok(BodyState::from_vectors(motion.state_in_parts(t)?.vectors()))).collect()
 }
 
 /// The state at each time as a function of each parameter, by splitting.
 #[cfg(target_arch = "x86_64")]
 fn states_by_splitting(
     plan: &Plan,
-    seeded: &[Parameters<Dual64>],
+    seeded: &[Problem<Dual64>],
     times: &[f64],
 ) -> Result<Vec<Vec<BodyState<Dual64>>>, Error> {
     let (first, _) = plan.stretch;
@@ -160,11 +155,10 @@ fn states_by_splitting(
     order.sort_by(|&a, &b| (times[a] - first).abs().total_cmp(&(times[b] - first).abs()));
     let sorted: Vec<f64> = order.iter().map(|&place| times[place]).collect();
     let found = if plan.state == State::Orientation {
-        let vectors = |state: BodyState<_>| [state.axis, state.momentum, state.equatorial_axis];
-        states_with_derivatives(&carrying(seeded, vectors), first, &sorted, plan.accuracy)?
+        states_with_derivatives(seeded, first, &sorted, plan.accuracy)?
     } else {
-        let vectors = |state: BodyState<_>| [state.axis, state.momentum];
-        states_with_derivatives(&carrying(seeded, vectors), first, &sorted, plan.accuracy)?
+        let reduced: Vec<_> = seeded.iter().map(Problem::reduced).collect();
+        states_with_derivatives(&reduced, first, &sorted, plan.accuracy)?
     };
     let mut states = vec![Vec::new(); times.len()];
     for (place, state) in
@@ -175,68 +169,36 @@ fn states_by_splitting(
     Ok(states)
 }
 
-/// The scenes with those vectors of their initial states that a motion carries.
-#[cfg(target_arch = "x86_64")]
-fn carrying<const V: usize>(
-    starts: &[Parameters<Dual64>],
-    vectors: impl Fn(BodyState<Dual64>) -> [Vector3<Dual64>; V],
-) -> Vec<Seeded<V>> {
-    let seeded = |start: &Parameters<Dual64>| {
-        let Parameters { spheroid, violation, .. } = *start;
-        Seeded { spheroid, violation, initial: vectors(start.state()) }
-    };
-    starts.iter().map(seeded).collect()
-}
-
 #[cfg(not(target_arch = "x86_64"))]
-fn states_by_splitting(_: &Plan, _: &[Parameters<Dual64>], _: &[f64]) -> Result<Vec<Vec<BodyState<Dual64>>>, Error> {
+fn states_by_splitting(_: &Plan, _: &[Problem<Dual64>], _: &[f64]) -> Result<Vec<Vec<BodyState<Dual64>>>, Error> {
     unreachable!("no other processor has the tangent maps")
 }
 
+type StateAt = Box<dyn Fn([f64; 2]) -> Result<BodyState<Dual64>, Error>>;
+
 /// The motion of a plan for duals, by any method but splitting.
-enum SeededMotion {
-    Uniform(UniformMotion<Dual64>),
-    Symmetric(SymmetricMotion<Dual64>),
-    Mean(AveragedMotion<Dual64>),
-    Taylor(TaylorMotion<Dual64>),
-    TaylorAxis(TaylorAxisMotion<Dual64>),
-}
-
-impl SeededMotion {
-    fn new(plan: &Plan, start: &Parameters<Dual64>) -> Result<Self, Error> {
-        let Parameters { spheroid, violation, .. } = start;
-        let (initial, span) = (&start.state(), plan.stretch);
-        Ok(match plan.method {
-            Some(Method::Free) => Self::Uniform(UniformMotion::free(spheroid, violation, initial, span)),
-            Some(Method::Steady) => Self::Uniform(UniformMotion::steady(spheroid, violation, initial, span)?),
-            Some(Method::Symmetric) => Self::Symmetric(SymmetricMotion::new(spheroid, violation, initial, span)?),
-            Some(Method::Mean) => {
-                let frame = principal_frame_along(violation)?;
-                Self::Mean(AveragedMotion::in_frame(spheroid, violation, initial, span, MeanOrder::Second, frame)?)
-            }
-            _ if plan.state == State::Orientation => {
-                Self::Taylor(propagate(spheroid, violation, initial, span, plan.accuracy)?)
-            }
-            _ => {
-                let initial = AxisState::from(initial);
-                Self::TaylorAxis(propagate_axis(spheroid, violation, &initial, span, plan.accuracy)?)
-            }
-        })
+fn seeded_motion(plan: &Plan, problem: &Problem<Dual64>) -> Result<StateAt, Error> {
+    fn states(motion: impl Motion<Dual64> + 'static) -> StateAt {
+        Box::new(move |t| Ok(BodyState::from_vectors(motion.state_in_parts(t)?.vectors())))
     }
-
-    fn state(&self, t: [f64; 2]) -> Result<BodyState<Dual64>, Error> {
-        match self {
-            Self::Uniform(motion) => motion.state_in_parts(t),
-            Self::Symmetric(motion) => motion.state_in_parts(t),
-            Self::Mean(motion) => motion.state_in_parts(t),
-            Self::Taylor(motion) => motion.state_in_parts(t),
-            Self::TaylorAxis(motion) => motion.axis_state_in_parts(t).map(without_equatorial_axis),
+    let span = plan.stretch;
+    Ok(match plan.method {
+        Some(Method::Free) => states(UniformMotion::free(problem, span)),
+        Some(Method::Steady) => states(UniformMotion::steady(problem, span)?),
+        Some(Method::Symmetric) => states(SymmetricMotion::new(problem, span)?),
+        Some(Method::Mean) => {
+            let frame = principal_frame_along(problem.coefficients())?;
+            states(AveragedMotion::in_frame(problem, span, MeanOrder::Second, frame)?)
         }
-    }
+        _ if plan.state == State::Orientation => states(problem.taylor(span, plan.accuracy)?),
+        _ => states(problem.reduced().taylor(span, plan.accuracy)?),
+    })
 }
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
     use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::lorentz_violation::PrincipalCoefficients;
@@ -269,7 +231,7 @@ mod tests {
         let derivatives = vec![Parameter::Beta, Parameter::ConstantC];
         let request = Request::new(&[Output::SymmetryAxis], span, 3, accuracy);
         let request = Request { method: Some(method), derivatives, ..request };
-        Plan::new(&start.spheroid, &start.violation, &start.state(), &request).unwrap()
+        start.problem().unwrap().plan(&request).unwrap()
     }
 
     #[test]
@@ -291,7 +253,7 @@ mod tests {
             };
             for (method, derivatives) in [(Method::Taylor, true), (Method::Taylor, false), (Method::Splitting, false)] {
                 let plan = plan(&start, method, (0.0, 20.0), 1e-5);
-                let motion = plan.axis_motion(&start.spheroid, &start.violation, &start.state()).unwrap();
+                let motion = plan.motion(&start.problem().unwrap().reduced()).unwrap();
                 let found = by(method, derivatives).unwrap().values;
                 for (row, t) in times.into_iter().enumerate() {
                     let off = (found.row(row).transpose() - motion.axis_state(t).unwrap().axis).amax();
@@ -313,7 +275,7 @@ mod tests {
         let request = Request::new(&[Output::SymmetryAxis], (0.0, 200.0), 3, 1e-11);
         let method = |derivatives: &[Parameter]| {
             let request = Request { derivatives: derivatives.to_vec(), ..request.clone() };
-            Plan::new(&start.spheroid, &start.violation, &start.state(), &request).unwrap().method
+            start.problem().unwrap().plan(&request).unwrap().method
         };
         assert_eq!(method(&[]), Some(Method::Taylor));
         let with_maps = if require_tangent_maps().is_ok() { Method::Splitting } else { Method::Taylor };
@@ -333,11 +295,11 @@ mod tests {
         start = Parameters::new(start.spheroid, start.violation, start.angles, rates);
         let request =
             Request { method: Some(Method::Steady), ..Request::new(&[Output::SymmetryAxis], (0.0, 20.0), 3, 1e-9) };
-        let plan = Plan::new(&start.spheroid, &start.violation, &start.state(), &request).unwrap();
+        let plan = start.problem().unwrap().plan(&request).unwrap();
         let found = gradient(&plan, &start, &Components(3), &[17.0]).unwrap().values;
-        let expected = UniformMotion::steady(&start.spheroid, &start.violation, &start.state(), (0.0, 20.0)).unwrap();
+        let expected = UniformMotion::steady(&start.problem().unwrap(), (0.0, 20.0)).unwrap();
         assert_eq!(found.row(0).transpose(), expected.axis_state(17.0).unwrap().axis);
-        let free = UniformMotion::free(&start.spheroid, &start.violation, &start.state(), (0.0, 20.0));
+        let free = UniformMotion::free(&start.problem().unwrap(), (0.0, 20.0));
         assert!((free.axis_state(17.0).unwrap().axis - found.row(0).transpose()).amax() > 0.1);
     }
 

@@ -2,22 +2,17 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Method, Work};
-use crate::dynamics::{BodyState, RigidSpheroid};
+use super::{Method, Output, Plan, Request, Work};
+use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::propagation::splitting::{
-    SplittingMotion, propagate_by_best_splitting, propagate_orientation_by_best_splitting,
-};
-use crate::propagation::{
-    AveragedMotion, AxisMotion, AxisState, Motion, SeriesProjection, SymmetricMotion, TaylorAxisMotion, TaylorMotion,
-    Turning, UniformMotion, propagate, propagate_axis,
-};
+use crate::propagation::splitting::SplittingMotion;
+use crate::propagation::{AveragedMotion, Motion, Projection, SymmetricMotion, TaylorMotion, UniformMotion};
 use crate::solutions::mean::MeanOrder;
 
-/// A motion of the symmetry axis and the angular momentum, by any method.
+/// A motion by any method, with the states of its problem.
 #[derive(Debug, Clone)]
 #[allow(clippy::large_enum_variant, reason = "one motion at a time, and nothing on the heap")]
-pub enum PlannedAxisMotion {
+pub enum PlannedMotion<X = BodyState<f64>> {
     /// [`Method::Free`] or [`Method::Steady`].
     Uniform(UniformMotion<f64>),
     /// [`Method::Symmetric`].
@@ -25,50 +20,55 @@ pub enum PlannedAxisMotion {
     /// [`Method::Mean`].
     Mean(AveragedMotion<f64>),
     /// [`Method::Splitting`].
-    Splitting(SplittingMotion),
+    Splitting(SplittingMotion<X>),
     /// [`Method::Taylor`].
-    Taylor(TaylorAxisMotion<f64>),
+    Taylor(TaylorMotion<f64, X>),
 }
 
-/// A motion of the full orientation, by any method that has it.
-#[derive(Debug, Clone)]
-#[allow(clippy::large_enum_variant, reason = "one motion at a time, and nothing on the heap")]
-pub enum PlannedMotion {
-    /// [`Method::Free`] or [`Method::Steady`].
-    Uniform(UniformMotion<f64>),
-    /// [`Method::Symmetric`].
-    Symmetric(SymmetricMotion<f64>),
-    /// [`Method::Mean`].
-    Mean(AveragedMotion<f64>),
-    /// [`Method::Splitting`].
-    Splitting(SplittingMotion<3>),
-    /// [`Method::Taylor`].
-    Taylor(TaylorMotion<f64>),
-}
+/// Samples for which [`Problem::motion`] chooses the cheapest method.
+const SAMPLES: usize = 1000;
 
-impl PlannedAxisMotion {
-    /// The motion from `initial` at `span.0`, by a given method.
+impl<X: RotationState<f64>> Problem<f64, X> {
+    /// The motion from the initial state at `span.0` to `span.1` (forwards or backwards), by the cheapest method that is foreseen to meet the
+    /// `accuracy`: the largest error wanted at the end in the components of `n`, `e_x` and of `L` in units of its size, rounding apart.
+    ///
+    /// # Errors
+    /// As for [`plan`](Self::plan) and [`taylor`](Self::taylor).
+    pub fn motion(&self, span: (f64, f64), accuracy: f64) -> Result<PlannedMotion<X>, Error> {
+        let output = if X::VECTORS == 3 { Output::EquatorialAxis } else { Output::AngularMomentum };
+        self.plan(&Request::new(&[output], span, SAMPLES, accuracy))?.motion(self)
+    }
+
+    /// The motion from the initial state at `span.0`, by a given method.
     ///
     /// # Errors
     /// Those of the method.
-    pub fn by(
-        method: Method,
-        spheroid: &RigidSpheroid<f64>,
-        s: &Matrix3<f64>,
-        initial: &BodyState<f64>,
-        span: (f64, f64),
-        accuracy: f64,
-    ) -> Result<Self, Error> {
+    pub fn motion_by(&self, method: Method, span: (f64, f64), accuracy: f64) -> Result<PlannedMotion<X>, Error> {
+        PlannedMotion::of(method, &self.with_equatorial_axis(), span, accuracy)
+    }
+
+    /// The plan for a request: of the methods whose [predicted error](super::Prediction::truncation) is at most the accuracy asked, the cheapest one.
+    ///
+    /// A method asked for by name is taken if it can be used at all, whatever its error: [`prediction`](Plan::prediction) tells it.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a method asked for that the problem does not allow, and for what no method takes (accuracy out of
+    /// range).
+    pub fn plan(&self, request: &Request) -> Result<Plan, Error> {
+        Plan::new(self, request)
+    }
+}
+
+impl<X: RotationState<f64>> PlannedMotion<X> {
+    /// Closed forms give either state from one that has `e_x`.
+    fn of(method: Method, problem: &Problem<f64>, span: (f64, f64), accuracy: f64) -> Result<Self, Error> {
         Ok(match method {
-            Method::Free => Self::Uniform(UniformMotion::free(spheroid, s, initial, span)),
-            Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
-            Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
-            Method::Mean => Self::Mean(AveragedMotion::new(spheroid, s, initial, span, MeanOrder::Second)?),
-            Method::Splitting => {
-                let initial = AxisState::from(initial);
-                Self::Splitting(propagate_by_best_splitting(spheroid, s, &initial, span, accuracy)?)
-            }
-            Method::Taylor => Self::Taylor(propagate_axis(spheroid, s, &AxisState::from(initial), span, accuracy)?),
+            Method::Free => Self::Uniform(UniformMotion::free(problem, span)),
+            Method::Steady => Self::Uniform(UniformMotion::steady(problem, span)?),
+            Method::Symmetric => Self::Symmetric(SymmetricMotion::new(problem, span)?),
+            Method::Mean => Self::Mean(AveragedMotion::new(problem, span, MeanOrder::Second)?),
+            Method::Splitting => Self::Splitting(problem.carrying().splitting(span, accuracy)?),
+            Method::Taylor => Self::Taylor(problem.carrying().taylor(span, accuracy)?),
         })
     }
 
@@ -76,123 +76,104 @@ impl PlannedAxisMotion {
     pub fn work(&self) -> Work {
         match self {
             Self::Uniform(_) | Self::Symmetric(_) | Self::Mean(_) => Work::default(),
-            Self::Splitting(motion) => Work::of_splitting(motion),
+            Self::Splitting(motion) => Work::of_series(motion.step_count() as usize, 2 * motion.scheme().stages()),
             Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
         }
     }
 }
 
-impl PlannedMotion {
-    /// The motion from `initial` at `span.0`, by a given method.
-    ///
-    /// # Errors
-    /// Those of the method.
-    pub fn by(
-        method: Method,
-        spheroid: &RigidSpheroid<f64>,
-        s: &Matrix3<f64>,
-        initial: &BodyState<f64>,
-        span: (f64, f64),
-        accuracy: f64,
-    ) -> Result<Self, Error> {
-        Ok(match method {
-            Method::Free => Self::Uniform(UniformMotion::free(spheroid, s, initial, span)),
-            Method::Steady => Self::Uniform(UniformMotion::steady(spheroid, s, initial, span)?),
-            Method::Symmetric => Self::Symmetric(SymmetricMotion::new(spheroid, s, initial, span)?),
-            Method::Mean => Self::Mean(AveragedMotion::new(spheroid, s, initial, span, MeanOrder::Second)?),
-            Method::Splitting => {
-                Self::Splitting(propagate_orientation_by_best_splitting(spheroid, s, initial, span, accuracy)?)
-            }
-            Method::Taylor => Self::Taylor(propagate(spheroid, s, initial, span, accuracy)?),
-        })
-    }
-
-    /// Steps and right-hand sides that it took.
-    pub fn work(&self) -> Work {
-        match self {
-            Self::Uniform(_) | Self::Symmetric(_) | Self::Mean(_) => Work::default(),
-            Self::Splitting(motion) => Work::of_splitting(motion),
-            Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
-        }
-    }
-}
-
-/// The arms of both: the enums differ in what the numerical methods carry.
-macro_rules! planned {
-    ($planned:ident, $($method:ident),+) => {
-        impl AxisMotion<f64> for $planned {
-            fn spheroid(&self) -> &RigidSpheroid<f64> {
-                match self {
-                    $(Self::$method(motion) => motion.spheroid(),)+
-                }
-            }
-
-            fn violation(&self) -> &Matrix3<f64> {
-                match self {
-                    $(Self::$method(motion) => motion.violation(),)+
-                }
-            }
-
-            fn span(&self) -> (f64, f64) {
-                match self {
-                    $(Self::$method(motion) => motion.span(),)+
-                }
-            }
-
-            fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
-                match self {
-                    $(Self::$method(motion) => motion.axis_state(t),)+
-                }
-            }
-
-            fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<f64>, Error> {
-                match self {
-                    $(Self::$method(motion) => motion.axis_state_in_parts(t),)+
-                }
-            }
-
-            fn error_estimate(&self, t: f64) -> f64 {
-                match self {
-                    $(Self::$method(motion) => motion.error_estimate(t),)+
-                }
-            }
+/// Something done with a motion by whichever method.
+macro_rules! by_any {
+    ($planned:expr, $motion:ident => $work:expr) => {
+        match $planned {
+            PlannedMotion::Uniform($motion) => $work,
+            PlannedMotion::Symmetric($motion) => $work,
+            PlannedMotion::Mean($motion) => $work,
+            PlannedMotion::Splitting($motion) => $work,
+            PlannedMotion::Taylor($motion) => $work,
         }
     };
 }
 
-planned!(PlannedAxisMotion, Uniform, Symmetric, Mean, Splitting, Taylor);
-planned!(PlannedMotion, Uniform, Symmetric, Mean, Splitting, Taylor);
+impl<X: RotationState<f64>> Motion<f64> for PlannedMotion<X> {
+    type State = X;
 
-impl Motion<f64> for PlannedMotion {
-    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
-        match self {
-            Self::Uniform(motion) => motion.state(t),
-            Self::Symmetric(motion) => motion.state(t),
-            Self::Mean(motion) => motion.state(t),
-            Self::Splitting(motion) => motion.state(t),
-            Self::Taylor(motion) => motion.state(t),
-        }
+    fn spheroid(&self) -> &RigidSpheroid<f64> {
+        by_any!(self, motion => motion.spheroid())
     }
 
-    fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<f64>, Error> {
+    fn coefficients(&self) -> &Matrix3<f64> {
+        by_any!(self, motion => motion.coefficients())
+    }
+
+    fn span(&self) -> (f64, f64) {
+        by_any!(self, motion => motion.span())
+    }
+
+    fn state(&self, t: f64) -> Result<X, Error> {
+        // Without e_x where that is not asked for.
+        Ok(X::from_vectors(if X::VECTORS == 3 {
+            by_any!(self, motion => motion.state(t)?.vectors())
+        } else {
+            self.axis_state(t)?.vectors()
+        }))
+    }
+
+    fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
+        by_any!(self, motion => motion.axis_state(t))
+    }
+
+    fn state_in_parts(&self, t: [f64; 2]) -> Result<X, Error> {
         match self {
-            Self::Mean(motion) => motion.state_in_parts(t),
+            Self::Mean(motion) => Ok(X::from_vectors(motion.state_in_parts(t)?.vectors())),
             _ => self.state(t[0] + t[1]),
         }
     }
 
-    fn turning(&self) -> Turning<'_> {
-        Turning::Equations
+    fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<f64>, Error> {
+        by_any!(self, motion => motion.axis_state_in_parts(t))
     }
 
-    fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
-        match self {
-            Self::Uniform(motion) => motion.projection(in_body, direction),
-            Self::Symmetric(motion) => motion.projection(in_body, direction),
-            Self::Mean(motion) => motion.projection(in_body, direction),
-            Self::Splitting(motion) => motion.projection(in_body, direction),
-            Self::Taylor(motion) => motion.projection(in_body, direction),
-        }
+    fn error_estimate(&self, t: f64) -> f64 {
+        by_any!(self, motion => motion.error_estimate(t))
+    }
+
+    fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<Box<dyn Projection + '_>> {
+        by_any!(self, motion => motion.projection(in_body, direction))
+    }
+}
+
+/// A motion of `n` and `L` by any method.
+// old entry: goes when its callers have moved
+pub type PlannedAxisMotion = PlannedMotion<AxisState<f64>>;
+
+impl PlannedMotion<AxisState<f64>> {
+    /// By [`Problem::motion_by`].
+    pub fn axis_by(
+        method: Method,
+        spheroid: &RigidSpheroid<f64>,
+        s: &Matrix3<f64>,
+        initial: &BodyState<f64>,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        // old entry: goes when its callers have moved
+        Self::of(method, &Problem::new(*spheroid, *s, *initial)?, span, accuracy)
+    }
+}
+
+impl PlannedMotion {
+    /// By [`Problem::motion_by`].
+    pub fn by(
+        method: Method,
+        spheroid: &RigidSpheroid<f64>,
+        s: &Matrix3<f64>,
+        initial: &BodyState<f64>,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        // old entry: goes when its callers have moved
+        Self::of(method, &Problem::new(*spheroid, *s, *initial)?, span, accuracy)
     }
 }
 
@@ -203,14 +184,30 @@ mod tests {
 
     #[test]
     fn a_time_in_two_parts_is_their_sum() {
-        let star = RigidSpheroid::in_units_of_tc(1.1);
         let s = Matrix3::from_diagonal(&Vector3::new(2e-6, 1e-6, -3e-6));
         let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
-        let initial = BodyState::from_angles(&star, &angles, &EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
+        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+        let problem = Problem::from_angles(RigidSpheroid::in_units_of_tc(1.1), s, &angles, &rates).unwrap();
         for method in [Method::Free, Method::Mean, Method::Splitting, Method::Taylor] {
-            let motion = PlannedMotion::by(method, &star, &s, &initial, (0.0, 10.0), 1e-9).unwrap();
+            let motion = problem.motion_by(method, (0.0, 10.0), 1e-9).unwrap();
             let (parts, sum) = (motion.state_in_parts([5.0, 0.375]).unwrap(), motion.state(5.375).unwrap());
             assert!((parts.axis - sum.axis).amax() < 1e-14, "{method:?}");
+        }
+    }
+
+    /// `n` and `L` do not depend on the equatorial axis that a closed form of a reduced problem is given.
+    #[test]
+    fn a_reduced_motion_is_that_of_n_and_l() {
+        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+        for (method, s) in Method::ALL.into_iter().zip([[0.0; 3], [0.0; 3], [0.1, 0.1, -0.2], [0.02, 0.01, -0.03]]) {
+            let s = Matrix3::from_diagonal(&Vector3::from(s));
+            let problem = Problem::from_angles(RigidSpheroid::in_units_of_tc(1.1), s, &angles, &rates).unwrap();
+            let whole = problem.motion_by(method, (0.0, 10.0), 1e-9).unwrap();
+            let reduced = problem.reduced().motion_by(method, (0.0, 10.0), 1e-9).unwrap();
+            for t in [0.0, 0.7, 7.3] {
+                assert_eq!(whole.axis_state(t).unwrap(), reduced.state(t).unwrap(), "{method:?}");
+            }
         }
     }
 }

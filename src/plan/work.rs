@@ -4,10 +4,9 @@ use core::cell::Cell;
 
 use nalgebra::Matrix3;
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{AxisState, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::propagation::splitting::SplittingMotion;
-use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
+use crate::propagation::{Motion, Turning};
 
 /// Work done or planned.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -28,11 +27,6 @@ impl Work {
         Self { steps: steps as f64, right_hand_sides: (steps * order) as f64, ..Self::default() }
     }
 
-    /// Steps of a splitting scheme, each of so many rotations and kicks.
-    pub(super) fn of_splitting<const V: usize>(motion: &SplittingMotion<V>) -> Self {
-        Self::of_series(motion.step_count() as usize, 2 * motion.scheme().stages())
-    }
-
     /// Evaluations of either kind.
     pub fn evaluations(&self) -> f64 {
         self.axis_evaluations + self.orientation_evaluations
@@ -49,6 +43,21 @@ impl core::ops::AddAssign for Work {
 }
 
 /// A motion that counts how often it is evaluated.
+///
+/// ```
+/// use nalgebra::{Matrix3, Vector3};
+/// use twofold::dynamics::{AxisState, Problem, RigidSpheroid};
+/// use twofold::plan::{Cost, Counted, Method, State};
+/// use twofold::propagation::Motion;
+///
+/// let start = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.1, 0.2, 1.3) };
+/// let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), Matrix3::zeros(), start)?;
+/// let motion = Counted::new(problem.motion_by(Method::Free, (0.0, 100.0), 1e-12)?);
+/// motion.state(42.0)?;
+/// assert_eq!(motion.evaluations().axis_evaluations, 1.0);
+/// assert!(Cost::of(Method::Free, State::Axis).setup < Cost::of(Method::Taylor, State::Axis).setup);
+/// # Ok::<(), twofold::Error>(())
+/// ```
 #[derive(Debug)]
 pub struct Counted<M> {
     motion: M,
@@ -77,43 +86,51 @@ impl<M> Counted<M> {
     }
 }
 
-impl<M: AxisMotion<f64>> AxisMotion<f64> for Counted<M> {
+impl<M> Counted<M> {
+    fn count<X: RotationState<f64>>(&self) {
+        let counter = if X::VECTORS == 3 { &self.orientation } else { &self.axis };
+        counter.set(counter.get() + 1);
+    }
+}
+
+/// Without a projection of its own: every look at the motion is counted.
+impl<M: Motion<f64>> Motion<f64> for Counted<M> {
+    type State = M::State;
+
     fn spheroid(&self) -> &RigidSpheroid<f64> {
         self.motion.spheroid()
     }
 
-    fn violation(&self) -> &Matrix3<f64> {
-        self.motion.violation()
+    fn coefficients(&self) -> &Matrix3<f64> {
+        self.motion.coefficients()
     }
 
     fn span(&self) -> (f64, f64) {
         self.motion.span()
     }
 
+    fn state(&self, t: f64) -> Result<M::State, Error> {
+        self.count::<M::State>();
+        self.motion.state(t)
+    }
+
     fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
-        self.axis.set(self.axis.get() + 1);
+        self.count::<AxisState<f64>>();
         self.motion.axis_state(t)
     }
 
+    fn state_in_parts(&self, t: [f64; 2]) -> Result<M::State, Error> {
+        self.count::<M::State>();
+        self.motion.state_in_parts(t)
+    }
+
     fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<f64>, Error> {
-        self.axis.set(self.axis.get() + 1);
+        self.count::<AxisState<f64>>();
         self.motion.axis_state_in_parts(t)
     }
 
     fn error_estimate(&self, t: f64) -> f64 {
         self.motion.error_estimate(t)
-    }
-}
-
-impl<M: Motion<f64>> Motion<f64> for Counted<M> {
-    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
-        self.orientation.set(self.orientation.get() + 1);
-        self.motion.state(t)
-    }
-
-    fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<f64>, Error> {
-        self.orientation.set(self.orientation.get() + 1);
-        self.motion.state_in_parts(t)
     }
 
     fn turning(&self) -> Turning<'_> {

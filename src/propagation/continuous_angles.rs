@@ -31,7 +31,7 @@ pub struct ContinuousAngles<'m, S, M> {
     scalar: core::marker::PhantomData<S>,
 }
 
-impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
+impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M> {
     /// Starts at the time `t0` with the angles `start` there, whose turns are kept. They must be those of the motion up to
     /// whole turns; on a pole, where the motion has no angles of its own, any `start` is taken as given.
     ///
@@ -101,7 +101,7 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
         let spheroid = self.motion.spheroid();
         let (xx, zz) = (spheroid.inertia_xx.re().abs(), spheroid.inertia_zz.re().abs());
         let by_violation =
-            (4.0 * spheroid.constant_c.re().abs() * self.motion.violation().map(S::re).norm() / xx).sqrt();
+            (4.0 * spheroid.constant_c.re().abs() * self.motion.coefficients().map(S::re).norm() / xx).sqrt();
         (state.momentum.norm() / xx.min(zz) + by_violation) * duration.abs()
     }
 
@@ -137,7 +137,7 @@ impl<'m, S: Real, M: Motion<S>> ContinuousAngles<'m, S, M> {
             inertia_zz: self.motion.spheroid().inertia_zz.re(),
             constant_c: self.motion.spheroid().constant_c.re(),
         };
-        let s = self.motion.violation().map(S::re);
+        let s = self.motion.coefficients().map(S::re);
         let (xx, t) = (spheroid.inertia_xx, duration.abs());
         let (axis_rate, torque) = reduced_rates(&spheroid, &s, &state.axis, &state.momentum);
         let acceleration = torque.norm() / xx;
@@ -184,6 +184,7 @@ mod tests {
     use nalgebra::Matrix3;
 
     use super::*;
+    use crate::dynamics::Problem;
     use crate::euler_angles::EulerRates;
     use crate::plan::Counted;
     use crate::propagation::UniformMotion;
@@ -196,7 +197,7 @@ mod tests {
         let spin = 1.3 * START.beta.cos() / 1.1;
         let rates = EulerRates { alpha: 1.0, beta: 0.0, gamma: 0.2 / 1.3 * spin };
         let initial = BodyState::from_angles(&STAR, &START, &rates);
-        (UniformMotion::free(&STAR, &Matrix3::zeros(), &initial, (from, from + 100.0)), rates)
+        (UniformMotion::free(&Problem::new(STAR, Matrix3::zeros(), initial).unwrap(), (from, from + 100.0)), rates)
     }
 
     /// A path of length `x exp(x)` times the distance to the pole, for a rotation `x`, is short enough up to `x = 0.567`.
@@ -244,7 +245,7 @@ mod tests {
         let s = Vector3::new(-0.68, -0.29, 1.06);
         let axis: Vector3<f64> = Vector3::new(-0.4, 0.02, 0.92).normalize();
         let state = BodyState { axis, momentum: axis * 0.74, equatorial_axis: Vector3::y() };
-        let motion = UniformMotion::free(&star, &Matrix3::from_diagonal(&s), &state, (0.0, 1.0));
+        let motion = UniformMotion::free(&Problem::unchecked(star, Matrix3::from_diagonal(&s), state), (0.0, 1.0));
         let angles = ContinuousAngles::new(&motion, 0.0, &START).unwrap();
 
         let (w, spin) = (0.74 / 2.0, 0.74 / 0.64);

@@ -30,143 +30,113 @@ pub(super) trait Register: Copy {
     fn run<R>(self, work: impl FnOnce() -> R) -> R;
 }
 
-impl Register for V3 {
-    type Lanes = f64x4;
-    const COUNT: usize = 4;
+/// A register of pulp, whose functions have its name for an ending.
+macro_rules! register {
+    ($token:ident, $lanes:ident, $count:literal, $splat:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $mul_add:ident,
+     $mul_sub:ident, $select:ident, $equal:ident, $greater:ident, $abs:ident) => {
+        impl Register for $token {
+            type Lanes = $lanes;
+            const COUNT: usize = $count;
 
-    #[inline(always)]
-    fn splat(self, value: f64) -> f64x4 {
-        self.splat_f64x4(value)
-    }
+            #[inline(always)]
+            fn splat(self, value: f64) -> $lanes {
+                self.$splat(value)
+            }
 
-    #[inline(always)]
-    fn add(self, a: f64x4, b: f64x4) -> f64x4 {
-        self.add_f64x4(a, b)
-    }
+            #[inline(always)]
+            fn add(self, a: $lanes, b: $lanes) -> $lanes {
+                self.$add(a, b)
+            }
 
-    #[inline(always)]
-    fn sub(self, a: f64x4, b: f64x4) -> f64x4 {
-        self.sub_f64x4(a, b)
-    }
+            #[inline(always)]
+            fn sub(self, a: $lanes, b: $lanes) -> $lanes {
+                self.$sub(a, b)
+            }
 
-    #[inline(always)]
-    fn mul(self, a: f64x4, b: f64x4) -> f64x4 {
-        self.mul_f64x4(a, b)
-    }
+            #[inline(always)]
+            fn mul(self, a: $lanes, b: $lanes) -> $lanes {
+                self.$mul(a, b)
+            }
 
-    #[inline(always)]
-    fn div(self, a: f64x4, b: f64x4) -> f64x4 {
-        self.div_f64x4(a, b)
-    }
+            #[inline(always)]
+            fn div(self, a: $lanes, b: $lanes) -> $lanes {
+                self.$div(a, b)
+            }
 
-    #[inline(always)]
-    fn mul_add(self, a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
-        self.mul_add_f64x4(a, b, c)
-    }
+            #[inline(always)]
+            fn mul_add(self, a: $lanes, b: $lanes, c: $lanes) -> $lanes {
+                self.$mul_add(a, b, c)
+            }
 
-    #[inline(always)]
-    fn mul_sub(self, a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
-        self.mul_sub_f64x4(a, b, c)
-    }
+            #[inline(always)]
+            fn mul_sub(self, a: $lanes, b: $lanes, c: $lanes) -> $lanes {
+                self.$mul_sub(a, b, c)
+            }
 
-    #[inline(always)]
-    fn div_or_zero(self, a: f64x4, b: f64x4) -> f64x4 {
-        let zero = self.splat_f64x4(0.0);
-        self.select_f64x4(self.cmp_eq_f64x4(b, zero), zero, self.div_f64x4(a, b))
-    }
+            #[inline(always)]
+            fn div_or_zero(self, a: $lanes, b: $lanes) -> $lanes {
+                let zero = self.$splat(0.0);
+                self.$select(self.$equal(b, zero), zero, self.$div(a, b))
+            }
 
-    #[inline(always)]
-    fn larger(self, a: f64x4, b: f64x4) -> f64x4 {
-        let (a, b) = (self.abs_f64x4(a), self.abs_f64x4(b));
-        self.select_f64x4(self.cmp_gt_f64x4(b, a), b, a)
-    }
+            #[inline(always)]
+            fn larger(self, a: $lanes, b: $lanes) -> $lanes {
+                let (a, b) = (self.$abs(a), self.$abs(b));
+                self.$select(self.$greater(b, a), b, a)
+            }
 
-    #[inline(always)]
-    fn get(self, a: &f64x4, lane: usize) -> f64 {
-        pulp::cast::<f64x4, [f64; 4]>(*a)[lane]
-    }
+            #[inline(always)]
+            fn get(self, a: &$lanes, lane: usize) -> f64 {
+                pulp::cast::<$lanes, [f64; $count]>(*a)[lane]
+            }
 
-    #[inline(always)]
-    fn set(self, a: &mut f64x4, lane: usize, value: f64) {
-        let mut lanes: [f64; 4] = pulp::cast(*a);
-        lanes[lane] = value;
-        *a = pulp::cast(lanes);
-    }
+            #[inline(always)]
+            fn set(self, a: &mut $lanes, lane: usize, value: f64) {
+                let mut lanes: [f64; $count] = pulp::cast(*a);
+                lanes[lane] = value;
+                *a = pulp::cast(lanes);
+            }
 
-    #[inline(always)]
-    fn run<R>(self, work: impl FnOnce() -> R) -> R {
-        self.vectorize(work)
-    }
+            #[inline(always)]
+            fn run<R>(self, work: impl FnOnce() -> R) -> R {
+                self.vectorize(work)
+            }
+        }
+    };
 }
 
-impl Register for V4 {
-    type Lanes = f64x8;
-    const COUNT: usize = 8;
-
-    #[inline(always)]
-    fn splat(self, value: f64) -> f64x8 {
-        self.splat_f64x8(value)
-    }
-
-    #[inline(always)]
-    fn add(self, a: f64x8, b: f64x8) -> f64x8 {
-        self.add_f64x8(a, b)
-    }
-
-    #[inline(always)]
-    fn sub(self, a: f64x8, b: f64x8) -> f64x8 {
-        self.sub_f64x8(a, b)
-    }
-
-    #[inline(always)]
-    fn mul(self, a: f64x8, b: f64x8) -> f64x8 {
-        self.mul_f64x8(a, b)
-    }
-
-    #[inline(always)]
-    fn div(self, a: f64x8, b: f64x8) -> f64x8 {
-        self.div_f64x8(a, b)
-    }
-
-    #[inline(always)]
-    fn mul_add(self, a: f64x8, b: f64x8, c: f64x8) -> f64x8 {
-        self.mul_add_f64x8(a, b, c)
-    }
-
-    #[inline(always)]
-    fn mul_sub(self, a: f64x8, b: f64x8, c: f64x8) -> f64x8 {
-        self.mul_sub_f64x8(a, b, c)
-    }
-
-    #[inline(always)]
-    fn div_or_zero(self, a: f64x8, b: f64x8) -> f64x8 {
-        let zero = self.splat_f64x8(0.0);
-        self.select_f64x8(self.cmp_eq_f64x8(b, zero), zero, self.div_f64x8(a, b))
-    }
-
-    #[inline(always)]
-    fn larger(self, a: f64x8, b: f64x8) -> f64x8 {
-        let (a, b) = (self.abs_f64x8(a), self.abs_f64x8(b));
-        self.select_f64x8(self.cmp_gt_f64x8(b, a), b, a)
-    }
-
-    #[inline(always)]
-    fn get(self, a: &f64x8, lane: usize) -> f64 {
-        pulp::cast::<f64x8, [f64; 8]>(*a)[lane]
-    }
-
-    #[inline(always)]
-    fn set(self, a: &mut f64x8, lane: usize, value: f64) {
-        let mut lanes: [f64; 8] = pulp::cast(*a);
-        lanes[lane] = value;
-        *a = pulp::cast(lanes);
-    }
-
-    #[inline(always)]
-    fn run<R>(self, work: impl FnOnce() -> R) -> R {
-        self.vectorize(work)
-    }
-}
+register!(
+    V3,
+    f64x4,
+    4,
+    splat_f64x4,
+    add_f64x4,
+    sub_f64x4,
+    mul_f64x4,
+    div_f64x4,
+    mul_add_f64x4,
+    mul_sub_f64x4,
+    select_f64x4,
+    cmp_eq_f64x4,
+    cmp_gt_f64x4,
+    abs_f64x4
+);
+register!(
+    V4,
+    f64x8,
+    8,
+    splat_f64x8,
+    add_f64x8,
+    sub_f64x8,
+    mul_f64x8,
+    div_f64x8,
+    mul_add_f64x8,
+    mul_sub_f64x8,
+    select_f64x8,
+    cmp_eq_f64x8,
+    cmp_gt_f64x8,
+    abs_f64x8
+);
 
 /// Vectors of as many motions as a register has lanes, each in the principal frame of its own tensor `s^IJ`.
 #[derive(Clone, Copy)]

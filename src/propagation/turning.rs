@@ -14,19 +14,17 @@ use crate::error::Error;
 /// use twofold::Error;
 /// use twofold::dynamics::{BodyState, RigidSpheroid};
 /// use twofold::observables::pulsar::{Beam, pulse_train};
-/// use twofold::propagation::{AxisMotion, AxisState, Motion, Turning};
+/// use twofold::propagation::{Motion, Turning};
 ///
 /// struct Driven(RigidSpheroid<f64>, Matrix3<f64>);
 ///
-/// impl AxisMotion<f64> for Driven {
-///     fn spheroid(&self) -> &RigidSpheroid<f64> { &self.0 }
-///     fn violation(&self) -> &Matrix3<f64> { &self.1 }
-///     fn span(&self) -> (f64, f64) { (0.0, 100.0) }
-///     fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> { Ok(AxisState::from(&self.state(t)?)) }
-///     fn error_estimate(&self, _t: f64) -> f64 { 1e-14 }
-/// }
-///
 /// impl Motion<f64> for Driven {
+///     type State = BodyState<f64>;
+///     fn spheroid(&self) -> &RigidSpheroid<f64> { &self.0 }
+///     fn coefficients(&self) -> &Matrix3<f64> { &self.1 }
+///     fn span(&self) -> (f64, f64) { (0.0, 100.0) }
+///     fn error_estimate(&self, _t: f64) -> f64 { 1e-14 }
+///
 ///     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
 ///         let (sin, cos) = (2.0 * t + 0.3 * (1.0 - t.cos())).sin_cos();
 ///         let momentum = Vector3::z() * (self.0.inertia_zz * (2.0 + 0.3 * t.sin()));

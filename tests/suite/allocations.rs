@@ -3,7 +3,7 @@
 use allocation_counter::{AllocationInfo, measure};
 use twofold::Error;
 use twofold::plan::{Method, Output, Plan, Request, State};
-use twofold::propagation::{AxisMotion, Motion, propagate, propagate_axis};
+use twofold::propagation::{Motion, propagate, propagate_axis};
 use twofold_verify::reference::{ReferenceMotion, reference_motion};
 
 /// Makes the motion of a plan and evaluates it at its samples; what that took, the plan apart.
@@ -18,7 +18,7 @@ fn carried_out(scene: &ReferenceMotion, plan: &Plan) -> Result<AllocationInfo, E
                 .axis_motion(&body, &s, &initial)
                 .and_then(|motion| (0..plan.samples).try_for_each(|i| motion.axis_state(times(i)).map(drop))),
             State::Orientation => plan
-                .motion(&body, &s, &initial)
+                .motion_from_parts(&body, &s, &initial)
                 .and_then(|motion| (0..plan.samples).try_for_each(|i| motion.state(times(i)).map(drop))),
         };
     });
@@ -39,7 +39,7 @@ fn plans_take_no_more_than_listed() -> Result<(), Error> {
             let mut first = None;
             for samples in [10, 1000] {
                 let request = Request::new(outputs, (0.0, 200.0), samples, 1e-10);
-                let plan = Plan::new(&body, &s, &initial, &request)?;
+                let plan = Plan::from_parts(&body, &s, &initial, &request)?;
                 let info = carried_out(&scene, &plan)?;
                 let Some(prediction) = plan.prediction else {
                     assert_eq!((plan.state, info.count_total), (State::Nothing, 0), "{name}: {outputs:?}");
@@ -93,7 +93,7 @@ fn a_plan_is_small() -> Result<(), Error> {
     let (body, s, initial) = (scene.spheroid, scene.violation(), scene.initial());
     let request = Request::new(&Output::ALL, (0.0, 1e4), 10_000, 1e-13);
     let mut made = Err(Error::NotConverged { what: "plan", iterations: 0, residual: 0.0 });
-    let info = measure(|| made = Plan::new(&body, &s, &initial, &request));
+    let info = measure(|| made = Plan::from_parts(&body, &s, &initial, &request));
     made?;
     assert!(info.bytes_total < 16_384, "{} bytes", info.bytes_total);
     Ok(())

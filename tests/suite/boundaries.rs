@@ -17,7 +17,7 @@ use twofold::observables::bound::{
 };
 use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::pulsar::{Beam, PulsarClock, arrivals, propagated_pulse_train, pulse_train};
-use twofold::propagation::{AxisMotion, ContinuousAngles, Motion, UniformMotion, propagate};
+use twofold::propagation::{ContinuousAngles, Motion, UniformMotion, propagate};
 use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::mean::MeanOrder;
 use twofold::solutions::perturbation::{
@@ -310,9 +310,9 @@ fn spans_for_frequencies_are_told_in_turns() {
         momentum: Vector3::new(0.3, -0.4, 1.2),
         equatorial_axis: Vector3::y(),
     };
-    let value = |state: &BodyState<f64>, s: &Matrix3<f64>, span| match fundamental_frequencies(&UniformMotion::free(
-        &body, s, state, span,
-    )) {
+    let value = |state: &BodyState<f64>, s: &Matrix3<f64>, span| match fundamental_frequencies(
+        &UniformMotion::free_from_parts(&body, s, state, span),
+    ) {
         Err(Error::Domain { quantity, value, .. }) => (quantity, value),
         other => panic!("{other:?}"),
     };
@@ -388,7 +388,7 @@ fn turns_next_to_a_pole_are_refused_where_they_cannot_be_counted() {
     let count = |off: f64, spin: f64| {
         let angles = EulerAngles { alpha: 0.3, beta: off, gamma: 0.1 };
         let start = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 0.0, beta: 0.0, gamma: spin });
-        let motion = UniformMotion::free(&star(), &s, &start, (0.0, 30.0));
+        let motion = UniformMotion::free_from_parts(&star(), &s, &start, (0.0, 30.0));
         ContinuousAngles::new(&motion, 0.0, &angles).and_then(|mut turns| turns.at(30.0))
     };
     refused(count(1e-13, 0.0), "pieces");
@@ -402,7 +402,7 @@ fn turns_go_on_after_a_refusal() {
     let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
     let start = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 2.4, beta: 0.0, gamma: 0.5 });
     let none = Matrix3::zeros();
-    let whole = UniformMotion::free(&star(), &none, &start, (0.0, 30.0));
+    let whole = UniformMotion::free_from_parts(&star(), &none, &start, (0.0, 30.0));
     let exact = ContinuousAngles::new(&whole, 0.0, &angles).and_then(|mut turns| turns.at(15.0)).expect("angles");
     // Not finite for a moment.
     let broken = GivenStates::like(&whole, |t| {
@@ -452,7 +452,7 @@ fn the_unit_of_time_does_not_matter() {
 #[test]
 fn what_exerts_no_torque_makes_no_error() {
     let state = BodyState { axis: Vector3::z(), momentum: Vector3::new(0.1, 0.7, 1.3), equatorial_axis: Vector3::x() };
-    let free = UniformMotion::free(&star(), &Matrix3::zeros(), &state, (0.0, 1e6));
+    let free = UniformMotion::free_from_parts(&star(), &Matrix3::zeros(), &state, (0.0, 1e6));
     assert_eq!(free.state(77_777.7).expect("a state").momentum, state.momentum);
     let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
     let slow = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 1.2e-6, beta: 3e-7, gamma: -2e-7 });

@@ -18,7 +18,7 @@ fn star() -> RigidSpheroid<f64> {
 }
 
 /// Times at which the margin of a beam changes its sign, by a scan in steps of 1e-3 and bisection, and whether upwards.
-fn scanned<M: Motion<f64>>(motion: &M, beam: &Beam<f64>, n: &Vector3<f64>) -> Vec<(f64, bool)> {
+fn scanned<M: Motion<f64, State = BodyState<f64>>>(motion: &M, beam: &Beam<f64>, n: &Vector3<f64>) -> Vec<(f64, bool)> {
     let inside = |t: f64| beam.margin(&motion.state(t).expect("a state"), n) > 0.0;
     let changes = (0..100_000).map(|k| f64::from(k) * 1e-3).filter(|&t| inside(t) != inside(t + 1e-3));
     let root = |from: f64| {
@@ -47,7 +47,7 @@ fn edges(train: &PulseTrain) -> Vec<(f64, bool)> {
         .collect()
 }
 
-fn assert_all_found<M: Motion<f64>>(motion: &M, least: usize) {
+fn assert_all_found<M: Motion<f64, State = BodyState<f64>>>(motion: &M, least: usize) {
     for (chi, zeta, rho) in [(0.5, 0.6, 0.3), (1.2, 1.1, 0.11), (0.9, 1.5, 1.1), (1.4, 1.4, 2.2)] {
         let (beam, n) = (Beam::new(chi, 0.4, rho), Observer::at(zeta, 0.3).direction);
         let train = pulse_train(motion, &beam, &n, SPAN).expect("pulses");

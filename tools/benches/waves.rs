@@ -1,7 +1,7 @@
 //! Time of 3,000 samples of `h_+` and `h_x` of tp-I over 200 t_c, the motion included, on one core:
 //!
 //! ```sh
-//! cargo bench -p twofold-verify --bench waves
+//! cargo bench -p twofold-tools --bench waves
 //! ```
 //!
 //! Beside it the same samples by the Runge-Kutta method of another crate, at the largest tolerance at which its error is below
@@ -15,7 +15,7 @@ use twofold::dynamics::RigidSpheroid;
 use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
-use twofold::propagation::{AxisMotion, AxisState, Motion, propagate, propagate_axis};
+use twofold::propagation::{AxisState, Motion, propagate, propagate_axis};
 use twofold_verify::check::largest;
 use twofold_verify::reference::{ReferenceMotion, reference_motion};
 use twofold_verify::second_integrator::axis_states;

@@ -7,7 +7,7 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::plan::{Method, PlannedMotion};
-use twofold::propagation::{AxisMotion, Motion};
+use twofold::propagation::Motion;
 use twofold::scalar::{Real, Scalar};
 use twofold::solutions::perturbation::Kind;
 use twofold::solutions::steady::steady_precession_rate;
@@ -194,8 +194,8 @@ impl ErrorScene {
     pub fn estimated_and_true_by(&self, method: Method) -> Result<(f64, f64), String> {
         let motion =
             PlannedMotion::by(method, &self.spheroid, &self.violation, &self.initial, self.span, self.accuracy);
-        let motion = motion.map_err(|error| error.to_string())?;
-        let state = motion.state(self.time).map_err(|error| error.to_string())?;
+        let motion = motion?;
+        let state = motion.state(self.time)?;
         Ok((motion.error_estimate(self.time), largest(self.true_errors(&state))))
     }
 

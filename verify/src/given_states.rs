@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use twofold::Error;
 use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::propagation::{AxisMotion, AxisState, Motion, Turning};
+use twofold::propagation::{Motion, Turning};
 
 /// `Omega`, `Omega'` and `Omega''` at a time, and bounds on `|Omega|` and its first five derivatives.
 pub type Law = (fn(f64) -> [Vector3<f64>; 3], [f64; 6]);
@@ -25,17 +25,19 @@ pub struct GivenStates<F> {
 
 impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> GivenStates<F> {
     /// With the body, the tensor and the span of another motion, by the equations of motion.
-    pub fn like<M: Motion<f64>>(motion: &M, state: F) -> Self {
-        Self { spheroid: *motion.spheroid(), violation: *motion.violation(), span: motion.span(), state, law: None }
+    pub fn like<M: Motion<f64, State = BodyState<f64>>>(motion: &M, state: F) -> Self {
+        Self { spheroid: *motion.spheroid(), violation: *motion.coefficients(), span: motion.span(), state, law: None }
     }
 }
 
-impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> AxisMotion<f64> for GivenStates<F> {
+impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> Motion<f64> for GivenStates<F> {
+    type State = BodyState<f64>;
+
     fn spheroid(&self) -> &RigidSpheroid<f64> {
         &self.spheroid
     }
 
-    fn violation(&self) -> &Matrix3<f64> {
+    fn coefficients(&self) -> &Matrix3<f64> {
         &self.violation
     }
 
@@ -43,18 +45,12 @@ impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> AxisMotion<f64> for GivenState
         self.span
     }
 
-    fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
-        Ok(AxisState::from(&(self.state)(t)?))
+    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
+        (self.state)(t)
     }
 
     fn error_estimate(&self, _t: f64) -> f64 {
         f64::NAN
-    }
-}
-
-impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> Motion<f64> for GivenStates<F> {
-    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
-        (self.state)(t)
     }
 
     fn turning(&self) -> Turning<'_> {

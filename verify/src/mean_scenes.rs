@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use nalgebra::Vector3;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{AxisMotion, Motion, propagate};
+use twofold::propagation::{Motion, propagate};
 use twofold::solutions::mean::{MeanMotion, MeanOrder};
 use twofold::{Error, Real};
 

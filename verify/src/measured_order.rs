@@ -10,7 +10,7 @@ use crate::check::Measured;
 /// # Errors
 /// If too few points are left.
 pub fn measured_order(points: &[(f64, f64)], floor: f64) -> Result<Measured, String> {
-    let slope = order(points, floor).map_err(|e| e.to_string())?;
+    let slope = order(points, floor)?;
     let listed: Vec<_> = points.iter().map(|(x, y)| format!("{x:.1e}: {y:.2e}")).collect();
     Ok(Measured::new(slope.value, format!("+- {:.4}; {}", slope.error, listed.join(", "))))
 }

@@ -9,7 +9,19 @@ use std::path::Path;
 pub fn public_items(folder: &Path) -> BTreeSet<String> {
     let mut items = BTreeSet::new();
     collect(folder, &folder.join("lib.rs"), &[], &mut items);
-    items
+    // Methods of a type that another module defines: by the path of the type.
+    let types: Vec<String> = items.iter().filter_map(|item| Some(item.strip_suffix("::<type>")?.to_string())).collect();
+    let by_type = items.into_iter().map(|item| {
+        let Some((owner, method)) = item.rsplit_once("::").filter(|(owner, _)| !types.iter().any(|t| t == owner))
+        else {
+            return item;
+        };
+        let name = owner.rsplit("::").next().unwrap_or(owner);
+        let defined =
+            types.iter().find(|t| name.starts_with(char::is_uppercase) && t.rsplit("::").next() == Some(name));
+        defined.map_or(item.clone(), |defined| format!("{defined}::{method}"))
+    });
+    by_type.collect()
 }
 
 fn collect(folder: &Path, file: &Path, path: &[String], items: &mut BTreeSet<String>) {

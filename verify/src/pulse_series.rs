@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 use twofold::Error;
+use twofold::dynamics::BodyState;
 use twofold::observables::pulsar::direction::cosine_of_colatitude;
 use twofold::observables::pulsar::period::{azimuth_offset_rate, instantaneous_period};
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
@@ -23,7 +24,7 @@ pub struct PulseSeries {
 
 /// The series of a beam in a span of a motion, the turns counted as in [`arrivals`].
 pub fn pulse_series(
-    motion: &impl Motion<f64>,
+    motion: &impl Motion<f64, State = BodyState<f64>>,
     beam: &Beam<f64>,
     line_of_sight: &Vector3<f64>,
     span: (f64, f64),
@@ -87,7 +88,7 @@ impl Viewing {
     }
 
     /// The formulas for the angles and rates that a motion has at a time.
-    fn at(&self, motion: &impl Motion<f64>, t: f64) -> Result<Formulas, Error> {
+    fn at(&self, motion: &impl Motion<f64, State = BodyState<f64>>, t: f64) -> Result<Formulas, Error> {
         let state = motion.state(t)?;
         let (angles, rates) = (state.angles()?, state.rates(motion.spheroid())?);
         self.formulas([angles.beta, angles.gamma], [rates.alpha, rates.gamma])
@@ -103,7 +104,7 @@ pub struct PaperCurves<'m, M> {
     mean_rate: f64,
 }
 
-impl<'m, M: Motion<f64>> PaperCurves<'m, M> {
+impl<'m, M: Motion<f64, State = BodyState<f64>>> PaperCurves<'m, M> {
     /// The curves from time zero to `end`.
     pub fn new(motion: &'m M, viewing: Viewing, end: f64) -> Result<Self, Error> {
         // Some ten looks each radian: beyond the digits that the mean needs.

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use twofold::dynamics::first_integrals::{clebsch_integral, energy};
 use twofold::propagation::splitting::propagate_by_best_splitting;
-use twofold::propagation::{AxisMotion, AxisState, propagate_axis};
+use twofold::propagation::{AxisState, Motion, propagate_axis};
 
 use super::Effort;
 use super::method::text;

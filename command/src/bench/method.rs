@@ -8,7 +8,7 @@ use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, propagated_pulse_train};
 use twofold::propagation::splitting::{propagate_by_best_splitting, propagate_orientation_by_best_splitting};
 use twofold::propagation::{
-    AxisMotion, AxisScene, AxisState, ErrorEstimates, Motion, Samples, axis_states_at, axis_states_of_many, states_at,
+    AxisScene, AxisState, ErrorEstimates, Motion, Samples, axis_states_at, axis_states_of_many, states_at,
 };
 
 use super::runge_kutta;

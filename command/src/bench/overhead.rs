@@ -9,9 +9,7 @@ use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, propagated_pulse_train, pulse_train};
 use twofold::parameters::{Parameter, Parameters};
 use twofold::plan::{Output, Plan, Request, StateFunction, gradient};
-use twofold::propagation::{
-    AxisMotion, AxisState, ErrorEstimates, Motion, axis_states_at, propagate, propagate_axis, states_at,
-};
+use twofold::propagation::{AxisState, ErrorEstimates, Motion, axis_states_at, propagate, propagate_axis, states_at};
 use twofold::scalar::Real;
 
 use super::Effort;
@@ -173,7 +171,7 @@ fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
     let BenchScene { spheroid, violation, initial, .. } = scene;
     let output = if carries == Carries::Axis { Output::AngularMomentum } else { Output::EquatorialAxis };
     let request = Request { derivatives: PARAMETERS.to_vec(), ..Request::new(&[output], (0.0, DURATION), 1, ACCURACY) };
-    let plan = Plan::new(spheroid, violation, initial, &request).map_err(text)?;
+    let plan = Plan::from_parts(spheroid, violation, initial, &request).map_err(text)?;
     let (angles, rates) = (initial.angles().map_err(text)?, initial.rates(spheroid).map_err(text)?);
     let start = Parameters::new(*spheroid, *violation, angles, rates);
     gradient(&plan, &start, &Components(carries), &[DURATION]).map(|found| drop(black_box(found))).map_err(text)

@@ -4,7 +4,7 @@ use std::num::NonZero;
 use std::thread;
 use std::time::Instant;
 
-use twofold::propagation::{AxisMotion, AxisScene, axis_states_of_many, propagate_axis};
+use twofold::propagation::{AxisScene, Motion, axis_states_of_many, propagate_axis};
 
 use super::Effort;
 use super::method::text;

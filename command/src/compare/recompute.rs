@@ -10,7 +10,7 @@ use twofold::observables::pulsar::direction::magnetic_axis_direction;
 use twofold::observables::pulsar::period::{azimuth_offset_rate, instantaneous_period};
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{Beam, PulseTrain, pulse_train};
-use twofold::propagation::{AxisMotion, ContinuousAngles, Motion, TaylorMotion, propagate};
+use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
 use twofold::solutions::perturbation::{Form, Perturbation};
 
 use super::table::Table;
@@ -170,7 +170,7 @@ pub(super) fn train(start: &Start, table: &Table) -> Result<(PulseTrain, f64), E
     let mut slowest = f64::INFINITY;
     for pulse in train.pulses.iter().filter(|pulse| pulse.is_whole()) {
         for edge in [pulse.start, pulse.end] {
-            let [_, rate, ..] = beam.margin_rates(motion.spheroid(), motion.violation(), &motion.state(edge)?, &n);
+            let [_, rate, ..] = beam.margin_rates(motion.spheroid(), motion.coefficients(), &motion.state(edge)?, &n);
             slowest = slowest.min(rate.abs());
         }
     }

@@ -23,8 +23,8 @@ use twofold::propagation::splitting::{
     SCHEMES, propagate_by_best_splitting, propagate_orientation_by_splitting, splitting_forecast,
 };
 use twofold::propagation::{
-    AveragedMotion, AxisMotion, AxisScene, AxisState, ContinuousAngles, ErrorEstimates, Motion, SymmetricMotion,
-    UniformMotion, axis_states_of_many, propagate, states_at, taylor_forecast,
+    AveragedMotion, AxisScene, AxisState, ContinuousAngles, ErrorEstimates, Motion, SymmetricMotion, UniformMotion,
+    axis_states_of_many, propagate, states_at, taylor_forecast,
 };
 use twofold::solutions::free::free_precession_rates;
 use twofold::solutions::mean::slow_precession::slow_precession;
@@ -146,7 +146,7 @@ fn numerical(asked: &Asked) {
 }
 
 /// A motion is asked within its span only.
-fn look_within<M: Motion<f64>>(motion: &M, asked: &Asked) {
+fn look_within<M: Motion<f64, State = BodyState<f64>>>(motion: &M, asked: &Asked) {
     for time in asked.times() {
         let _ = black_box((motion.state(time), motion.error_estimate(time)));
     }
@@ -181,14 +181,14 @@ fn by_splitting(asked: &Asked, scheme: u8) {
 
 fn closed(asked: &Asked) {
     let Asked { body, tensor, state, span, .. } = asked;
-    if let Ok(motion) = UniformMotion::steady(body, tensor, state, *span) {
+    if let Ok(motion) = UniformMotion::steady_from_parts(body, tensor, state, *span) {
         look_within(&motion, asked);
     }
-    if let Ok(motion) = SymmetricMotion::new(body, tensor, state, *span) {
+    if let Ok(motion) = SymmetricMotion::from_parts(body, tensor, state, *span) {
         look_within(&motion, asked);
     }
     for order in [MeanOrder::First, MeanOrder::Second] {
-        if let Ok(motion) = AveragedMotion::new(body, tensor, state, *span, order) {
+        if let Ok(motion) = AveragedMotion::from_parts(body, tensor, state, *span, order) {
             look_within(&motion, asked);
         }
     }
@@ -201,7 +201,7 @@ fn planned(asked: &Asked, bytes: &mut Bytes<'_>) {
         Output::ALL.into_iter().enumerate().filter(|(i, _)| wanted >> i & 1 == 1).map(|(_, o)| o).collect();
     let method = Method::ALL.get(bytes.below(12)).copied();
     let request = Request { method, ..Request::new(&outputs, *span, bytes.below(1000), *accuracy) };
-    let Ok(plan) = Plan::new(body, tensor, state, &request) else { return };
+    let Ok(plan) = Plan::from_parts(body, tensor, state, &request) else { return };
     let _ = black_box(format!("{plan:?}"));
     let is_closed = plan.method.is_some_and(Method::is_closed_form);
     if !is_closed && !asked.is_moderate() {
@@ -210,7 +210,7 @@ fn planned(asked: &Asked, bytes: &mut Bytes<'_>) {
     if let Ok(motion) = plan.axis_motion(body, tensor, state) {
         let _ = black_box((motion.axis_state(span.1), motion.error_estimate(span.1)));
     }
-    if let Ok(motion) = plan.motion(body, tensor, state) {
+    if let Ok(motion) = plan.motion_from_parts(body, tensor, state) {
         let _ = black_box((motion.state(span.1), motion.error_estimate(span.1)));
     }
 }

@@ -67,6 +67,12 @@ impl From<Error> for TimingError {
     }
 }
 
+impl From<TimingError> for String {
+    fn from(error: TimingError) -> Self {
+        error.to_string()
+    }
+}
+
 impl fmt::Display for TimingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -73,6 +73,12 @@ impl Place {
     }
 }
 
+impl From<SceneError> for String {
+    fn from(error: SceneError) -> Self {
+        error.to_string()
+    }
+}
+
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.file)?;

@@ -233,7 +233,7 @@ impl Scene {
     pub fn plan(&self, outputs: &[Output]) -> Result<Plan, Error> {
         let span = (0.0, (self.times.last() - self.times.start()) / self.units.time);
         let request = Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.accuracy) };
-        let plan = Plan::new(&self.spheroid, &self.violation, &self.initial, &request)?;
+        let plan = Plan::from_parts(&self.spheroid, &self.violation, &self.initial, &request)?;
         let rotation = self.rotation();
         Error::unless(
             rotation <= LARGEST_ROTATION || plan.costs_the_same_at_any_time(),

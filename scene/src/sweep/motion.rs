@@ -3,7 +3,7 @@
 use twofold::Error;
 use twofold::euler_angles::EulerAngles;
 use twofold::plan::{Method, Output, Plan, PlannedAxisMotion, PlannedMotion, State};
-use twofold::propagation::{AxisMotion, AxisScene, AxisState, axis_states_of_many};
+use twofold::propagation::{AxisScene, AxisState, Motion, axis_states_of_many};
 
 use super::spin_axis_angle::SpinAxisAngle;
 use crate::columns::Carried;
@@ -18,7 +18,7 @@ pub(super) struct Instant {
     pub(super) state: Carried,
     /// Euler angles with their turns, where they are needed and exist.
     pub(super) angles: Option<EulerAngles<f64>>,
-    /// Estimated error, see [`AxisMotion::error_estimate`], where it is needed.
+    /// Estimated error, see [`Motion::error_estimate`], where it is needed.
     pub(super) error_estimate: Option<f64>,
 }
 

@@ -7,7 +7,7 @@ use gauss_quad::GaussLegendre;
 use nalgebra::Vector3;
 use twofold::Error;
 use twofold::observables::spin_axis::{cos_lambda, cos_lambda_rate};
-use twofold::propagation::AxisMotion;
+use twofold::propagation::Motion;
 
 /// Panels of the quadrature per turn at the upper estimate of the turning rate.
 const PANELS_PER_TURN: f64 = 16.0;
@@ -48,7 +48,7 @@ impl SpinAxisAngle {
     ///
     /// # Errors
     /// A time that the motion does not hold.
-    pub(super) fn add<M: AxisMotion<f64>>(&mut self, motion: &M, from: f64, to: f64) -> Result<(), Error> {
+    pub(super) fn add<M: Motion<f64>>(&mut self, motion: &M, from: f64, to: f64) -> Result<(), Error> {
         let panels = ((to - from).abs() * self.turning_rate / TAU * PANELS_PER_TURN).ceil().max(1.0);
         let half = (to - from) / panels / 2.0;
         let mut last = self.take(motion, from)?;
@@ -63,7 +63,7 @@ impl SpinAxisAngle {
 
     /// Takes the panel `middle` +- `half` into account after the place `last`, in halves where the axis comes nearer to the line of sight, or to
     /// its opposite, than it turns within the panel. The last place taken.
-    fn add_panel<M: AxisMotion<f64>>(
+    fn add_panel<M: Motion<f64>>(
         &mut self,
         motion: &M,
         mut last: Place,
@@ -88,7 +88,7 @@ impl SpinAxisAngle {
         Ok(last)
     }
 
-    fn take<M: AxisMotion<f64>>(&mut self, motion: &M, time: f64) -> Result<Place, Error> {
+    fn take<M: Motion<f64>>(&mut self, motion: &M, time: f64) -> Result<Place, Error> {
         let state = motion.axis_state(time)?;
         let across = self.direction.cross(&state.axis).norm();
         let angle = across.atan2(cos_lambda(&self.direction, &state.axis));
@@ -100,7 +100,7 @@ impl SpinAxisAngle {
 
     /// Takes the extremum between two times at which the rate has different signs, by the rule of false position and halving in
     /// turn. The angle is flat there: a rate of 1e-8 of those around it is as good as none.
-    fn take_extremum<M: AxisMotion<f64>>(&mut self, motion: &M, a: &Place, b: &Place) -> Result<(), Error> {
+    fn take_extremum<M: Motion<f64>>(&mut self, motion: &M, a: &Place, b: &Place) -> Result<(), Error> {
         let (mut a, mut b) = (*a, *b);
         let enough = 1e-8 * (a.rate.abs() + b.rate.abs());
         let mut halve = false;

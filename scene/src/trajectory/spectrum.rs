@@ -116,7 +116,7 @@ impl Sampling {
         let (intervals, span) = (intervals(scene), (0.0, duration(scene)));
         let samples = Samples { count: intervals as usize + 1, last: span.1 };
         let request = Request { method: scene.method, samples, ..Request::new(&outputs, span, 0, scene.accuracy) };
-        Plan::new(&scene.spheroid, &scene.violation, &scene.initial, &request)
+        Plan::from_parts(&scene.spheroid, &scene.violation, &scene.initial, &request)
     }
 
     /// Computes the motion by a [`plan`](Sampling::plan) and samples a column. The step follows from the rotation rate alone, not
@@ -139,7 +139,7 @@ impl Sampling {
                 Ok(Self { motion: None, series, size, work })
             }
             State::Orientation => {
-                let motion = Counted::new(plan.motion(body, s, initial)?);
+                let motion = Counted::new(plan.motion_from_parts(body, s, initial)?);
                 let (series, size) = series(scene, column, |t| PlannedMotion::carried(&motion, [t, 0.0]))?;
                 let mut work = motion.inner().work();
                 work += motion.evaluations();

@@ -4,7 +4,7 @@ use twofold::Error;
 use twofold::dynamics::BodyState;
 use twofold::euler_angles::EulerAngles;
 use twofold::plan::{Counted, Method, Plan, PlannedAxisMotion, PlannedMotion, Work};
-use twofold::propagation::{ACCURACY_RANGE, AxisMotion, AxisState, ContinuousAngles, Motion};
+use twofold::propagation::{ACCURACY_RANGE, AxisState, ContinuousAngles, Motion};
 
 use crate::columns::Carried;
 use crate::scene_file::Scene;
@@ -16,7 +16,7 @@ pub(crate) const ROTATION_PER_STRETCH: f64 = 5e4;
 pub(super) type Angles<'m> = Box<dyn FnMut(f64) -> Option<EulerAngles<f64>> + 'm>;
 
 /// A motion that a plan can make, with as much of the state as it carries.
-pub(crate) trait PlannedState: AxisMotion<f64> + Sized {
+pub(crate) trait PlannedState: Motion<f64> + Sized {
     /// The motion by a method.
     fn by(
         method: Method,
@@ -50,7 +50,7 @@ impl PlannedState for PlannedAxisMotion {
         span: (f64, f64),
         accuracy: f64,
     ) -> Result<Self, Error> {
-        PlannedAxisMotion::by(method, &scene.spheroid, &scene.violation, start, span, accuracy)
+        PlannedAxisMotion::axis_by(method, &scene.spheroid, &scene.violation, start, span, accuracy)
     }
 
     fn carried(motion: &Counted<Self>, t: [f64; 2]) -> Result<Carried, Error> {

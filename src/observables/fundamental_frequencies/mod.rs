@@ -14,23 +14,18 @@
 //! # Example
 //!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use nalgebra::{Matrix3, Vector3};
+//! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 //! use twofold::observables::fundamental_frequencies::{fundamental_frequencies, mean_rate, mean_rates_about};
-//! use twofold::propagation::propagate;
 //!
-//! let motion = propagate(&star, &s.tensor(), &state, (0.0, 3000.0), 1e-12)?;
+//! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
+//! let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(-0.7, 0.1, 1.5));
+//! let start = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
+//! let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?;
+//! let motion = problem.taylor((0.0, 3000.0), 1e-12)?;
 //! let found = fundamental_frequencies(&motion)?;
 //! assert!(found.basis()?.generators().len() >= 2);
-//! let same = mean_rates_about(&motion, &found.frame)?;
-//! assert_eq!(same.alpha, found.alpha);
+//! assert_eq!(mean_rates_about(&motion, &found.frame)?.alpha, found.alpha);
 //! // Of any angle in equal steps.
 //! let steps: Vec<f64> = (0..2000).map(|k| 0.3 * f64::from(k) + (0.1 * f64::from(k)).sin()).collect();
 //! assert!((mean_rate(&steps, 1.0)?.value - 0.3).abs() < 1e-6);
@@ -50,6 +45,7 @@ use core::f64::consts::TAU;
 
 use nalgebra::Matrix3;
 
+use crate::dynamics::BodyState;
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
 use crate::observables::spectrum::{FrequencyBasis, Generator};
@@ -134,10 +130,12 @@ impl FundamentalFrequencies {
 /// [`Error::NotConverged`] where the span is too short for the slow precession to be known to 1e-5 of the rotation rate, or where it
 /// has no mean rate (on a separatrix); [`Error::Domain`] for a span of less than 35 turns of `n` about `L`, for a motion that is
 /// exactly on a pole of the axis at one of the sampled times, and for what the motion refuses.
-pub fn fundamental_frequencies<M: Motion<f64>>(motion: &M) -> Result<FundamentalFrequencies, Error> {
+pub fn fundamental_frequencies<M: Motion<f64, State = BodyState<f64>>>(
+    motion: &M,
+) -> Result<FundamentalFrequencies, Error> {
     let samples = Samples::of(motion)?;
     let averages = samples.averages()?;
-    let frame = frame_of_precession(&principal_frame(motion.violation())?.principal_from_given, &averages);
+    let frame = frame_of_precession(&principal_frame(motion.coefficients())?.principal_from_given, &averages);
     about(motion, &frame, &samples, &averages)
 }
 
@@ -146,7 +144,10 @@ pub fn fundamental_frequencies<M: Motion<f64>>(motion: &M) -> Result<Fundamental
 ///
 /// # Errors
 /// As for [`fundamental_frequencies`], and [`Error::Domain`] unless `frame` is a rotation (to 1e-9).
-pub fn mean_rates_about<M: Motion<f64>>(motion: &M, frame: &Matrix3<f64>) -> Result<FundamentalFrequencies, Error> {
+pub fn mean_rates_about<M: Motion<f64, State = BodyState<f64>>>(
+    motion: &M,
+    frame: &Matrix3<f64>,
+) -> Result<FundamentalFrequencies, Error> {
     let defect = (frame * frame.transpose() - Matrix3::identity()).norm() + (frame.determinant() - 1.0).abs();
     Error::unless(defect < 1e-9, "distance of the frame from a rotation", defect, "below 1e-9")?;
     let samples = Samples::of(motion)?;
@@ -154,7 +155,7 @@ pub fn mean_rates_about<M: Motion<f64>>(motion: &M, frame: &Matrix3<f64>) -> Res
     about(motion, frame, &samples, &averages)
 }
 
-fn about<M: Motion<f64>>(
+fn about<M: Motion<f64, State = BodyState<f64>>>(
     motion: &M,
     frame: &Matrix3<f64>,
     samples: &Samples,
@@ -223,11 +224,12 @@ mod tests {
     use nalgebra::{Rotation3, Vector3};
 
     use super::*;
+    use crate::dynamics::Problem;
     use crate::dynamics::{BodyState, RigidSpheroid};
     use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::lorentz_violation::PrincipalCoefficients;
     use crate::observables::tests::Made;
-    use crate::propagation::{TaylorMotion, propagate};
+    use crate::propagation::TaylorMotion;
 
     fn with_rates(rates: [Option<MeanRate>; 5]) -> FundamentalFrequencies {
         let [alpha, gamma, slow, nutation, body] = rates;
@@ -285,7 +287,7 @@ mod tests {
         let angles = EulerAngles { alpha: 0.0, beta, gamma: 0.0 };
         let rates = EulerRates { alpha: 1.1 / beta.cos(), beta: 0.0, gamma: -0.1 };
         let start = BodyState::from_angles(&spheroid, &angles, &rates);
-        propagate(&spheroid, &PrincipalCoefficients::new(s).tensor(), &start, span, 1e-13).unwrap()
+        Problem::new(spheroid, PrincipalCoefficients::new(s).tensor(), start).unwrap().taylor(span, 1e-13).unwrap()
     }
 
     #[test]
@@ -348,7 +350,7 @@ mod tests {
     /// With `|L| / I^xx = 0.5`, over times from 0 to `end`.
     fn made(end: f64, error: f64, state: State) -> Made<State> {
         let spheroid = RigidSpheroid { inertia_xx: 3.0, inertia_zz: 3.3, constant_c: 1.0 };
-        Made { spheroid, violation: Matrix3::zeros(), span: (0.0, end), error, state }
+        Made { spheroid, coefficients: Matrix3::zeros(), span: (0.0, end), error, state }
     }
 
     fn turning(of: Turning, end: f64, error: f64) -> Made<State> {

@@ -2,35 +2,41 @@
 
 use nalgebra::Matrix3;
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{AxisState, BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
+use crate::propagation::{Motion, Turning};
 
 /// The motion `inner` in components of another frame.
 pub(super) struct Rotated<'m, M> {
     inner: &'m M,
     other_from_this: Matrix3<f64>,
-    violation: Matrix3<f64>,
+    coefficients: Matrix3<f64>,
 }
 
 impl<'m, M: Motion<f64>> Rotated<'m, M> {
     pub(super) fn new(inner: &'m M, other_from_this: &Matrix3<f64>) -> Self {
-        let violation = other_from_this * inner.violation() * other_from_this.transpose();
-        Self { inner, other_from_this: *other_from_this, violation }
+        let coefficients = other_from_this * inner.coefficients() * other_from_this.transpose();
+        Self { inner, other_from_this: *other_from_this, coefficients }
     }
 }
 
-impl<M: AxisMotion<f64>> AxisMotion<f64> for Rotated<'_, M> {
+impl<M: Motion<f64, State = BodyState<f64>>> Motion<f64> for Rotated<'_, M> {
+    type State = BodyState<f64>;
+
     fn spheroid(&self) -> &RigidSpheroid<f64> {
         self.inner.spheroid()
     }
 
-    fn violation(&self) -> &Matrix3<f64> {
-        &self.violation
+    fn coefficients(&self) -> &Matrix3<f64> {
+        &self.coefficients
     }
 
     fn span(&self) -> (f64, f64) {
         self.inner.span()
+    }
+
+    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
+        Ok(self.inner.state(t)?.rotated(&self.other_from_this))
     }
 
     fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
@@ -39,12 +45,6 @@ impl<M: AxisMotion<f64>> AxisMotion<f64> for Rotated<'_, M> {
 
     fn error_estimate(&self, t: f64) -> f64 {
         self.inner.error_estimate(t)
-    }
-}
-
-impl<M: Motion<f64>> Motion<f64> for Rotated<'_, M> {
-    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
-        Ok(self.inner.state(t)?.rotated(&self.other_from_this))
     }
 
     fn turning(&self) -> Turning<'_> {
@@ -68,7 +68,7 @@ mod tests {
         };
         let motion = Made {
             spheroid: RigidSpheroid::in_units_of_tc(1.1),
-            violation: Matrix3::new(0.3, -0.5, 0.8, -0.5, 0.6, 0.35, 0.8, 0.35, -0.2),
+            coefficients: Matrix3::new(0.3, -0.5, 0.8, -0.5, 0.6, 0.35, 0.8, 0.35, -0.2),
             span: (0.0, 3.0),
             error: 1e-7,
             state: |_| Ok(given),
@@ -80,7 +80,9 @@ mod tests {
             (given.axis, given.momentum, state.axis, state.momentum),
             (given.momentum, given.equatorial_axis, state.momentum, state.equatorial_axis),
         ] {
-            assert!((u.dot(&(motion.violation * v)) - u_turned.dot(&(turned.violation() * v_turned))).abs() < 1e-14);
+            assert!(
+                (u.dot(&(motion.coefficients * v)) - u_turned.dot(&(turned.coefficients() * v_turned))).abs() < 1e-14
+            );
             assert!((u.dot(&v) - u_turned.dot(&v_turned)).abs() < 1e-14);
         }
         assert!((state.axis - given.axis).norm() > 0.1);

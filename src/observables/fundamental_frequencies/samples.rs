@@ -36,13 +36,13 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    pub(super) fn of<M: Motion<f64>>(motion: &M) -> Result<Self, Error> {
+    pub(super) fn of<M: Motion<f64, State = BodyState<f64>>>(motion: &M) -> Result<Self, Error> {
         let (from, to) = motion.span();
         let (start, end) = (from.min(to), from.max(to));
         let body = motion.spheroid();
         let momentum = motion.state(start)?.momentum.norm();
         // The torque 2 C |n x s n| works within its own time sqrt(I^xx / (2 C |s|)).
-        let pull = (2.0 * body.constant_c.abs() * motion.violation().norm() / body.inertia_xx).sqrt();
+        let pull = (2.0 * body.constant_c.abs() * motion.coefficients().norm() / body.inertia_xx).sqrt();
         let rotation = momentum / body.inertia_xx.min(body.inertia_zz) + pull;
         Error::unless(rotation > 0.0 && rotation.is_finite(), "rate of rotation", rotation, "above zero and finite")?;
         let intervals = ((end - start) * rotation / ROTATION_PER_STEP).ceil();
@@ -133,7 +133,7 @@ mod tests {
         let spheroid = RigidSpheroid { inertia_xx: 2.0, inertia_zz, constant_c: -0.6 };
         let violation = Matrix3::from_diagonal(&Vector3::new(0.2, -0.1, 0.2));
         let state = |t| Ok(state(Vector3::new(0.48, 0.0, -0.64), t));
-        Samples::of(&Made { spheroid, violation, span, error: 0.0, state })
+        Samples::of(&Made { spheroid, coefficients: violation, span, error: 0.0, state })
     }
 
     #[test]
@@ -179,7 +179,13 @@ mod tests {
             Ok(state(Vector3::new(0.0, momentum, 0.0), t))
         };
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-        match Samples::of(&Made { spheroid, violation: Matrix3::zeros(), span: (0.0, end), error: 0.0, state: known }) {
+        match Samples::of(&Made {
+            spheroid,
+            coefficients: Matrix3::zeros(),
+            span: (0.0, end),
+            error: 0.0,
+            state: known,
+        }) {
             Err(Error::Domain { quantity, .. }) => quantity,
             other => panic!("{:?}", other.map(|samples| samples.states.len())),
         }

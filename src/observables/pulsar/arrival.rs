@@ -9,6 +9,7 @@ use super::rate_bounds::RateBounds;
 use super::root::root;
 use super::turns::Turns;
 use super::{Beam, PulseTrain};
+use crate::dynamics::BodyState;
 use crate::error::Error;
 use crate::propagation::Motion;
 
@@ -45,7 +46,7 @@ pub struct Arrival {
 /// # Errors
 /// [`Error::Domain`] for a train outside the span of the motion, a line of sight or a magnetic axis that lies along L, and a
 /// motion that is not finite or has no angular momentum, and for turns that cannot be counted, as for [`pulse_train`](super::pulse_train).
-pub fn arrivals<M: Motion<f64>>(
+pub fn arrivals<M: Motion<f64, State = BodyState<f64>>>(
     motion: &M,
     beam: &Beam<f64>,
     line_of_sight: &Vector3<f64>,
@@ -58,7 +59,7 @@ pub fn arrivals<M: Motion<f64>>(
     let mut turns = Turns::new(motion, beam, line_of_sight, bounds.first, first.start)?;
     let mut turn_at = |t| turns.at(t).map(|phase| (phase / TAU).round() as i64);
     match motion.projection(&beam.axis, line_of_sight) {
-        Some(projection) => EdgeSearch::new(BySeries::new(&projection, beam), bounds).arrivals(train, &mut turn_at),
+        Some(projection) => EdgeSearch::new(BySeries::new(&*projection, beam), bounds).arrivals(train, &mut turn_at),
         None => {
             EdgeSearch::new(ByStates { motion, turning, beam, line_of_sight }, bounds).arrivals(train, &mut turn_at)
         }
@@ -123,11 +124,11 @@ mod tests {
     use nalgebra::Matrix3;
 
     use super::*;
+    use crate::dynamics::Problem;
     use crate::dynamics::{BodyState, RigidSpheroid};
     use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::observables::Observer;
     use crate::observables::pulsar::{Pulse, pulse_train};
-    use crate::propagation::propagate;
 
     /// A margin by a function, looked at so many times.
     struct Given<F>(F, Cell<usize>);
@@ -292,7 +293,7 @@ mod tests {
         let (spheroid, beta) = (RigidSpheroid::in_units_of_tc(1.2), 0.6_f64);
         let rates = EulerRates { alpha: 1.2 / beta.cos(), beta: 0.0, gamma: -0.2 };
         let start = BodyState::from_angles(&spheroid, &EulerAngles { alpha: 0.0, beta, gamma: 0.0 }, &rates);
-        let motion = propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 100.0), 1e-12).unwrap();
+        let motion = Problem::new(spheroid, Matrix3::zeros(), start).unwrap().taylor((0.0, 100.0), 1e-12).unwrap();
         let beam = Beam::new(0.4, 0.0, 0.5);
         let seen = |observer: Observer<f64>| {
             let n = observer.direction;

@@ -38,7 +38,7 @@ use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
 use crate::observables::Observer;
-use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
+use crate::propagation::{Motion, Turning};
 use crate::solutions::mean::{MeanMotion, MeanOrder};
 
 /// Most rotation of the body in one turn about L (rad): the search takes a tenth of a second.
@@ -116,12 +116,14 @@ struct Near<'a> {
     mean: MeanMotion<f64>,
 }
 
-impl AxisMotion<f64> for Near<'_> {
+impl Motion<f64> for Near<'_> {
+    type State = BodyState<f64>;
+
     fn spheroid(&self) -> &RigidSpheroid<f64> {
         &self.clock.spheroid
     }
 
-    fn violation(&self) -> &Matrix3<f64> {
+    fn coefficients(&self) -> &Matrix3<f64> {
         &self.clock.violation
     }
 
@@ -129,22 +131,12 @@ impl AxisMotion<f64> for Near<'_> {
         (f64::NEG_INFINITY, f64::INFINITY)
     }
 
-    fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
-        Ok(AxisState::from(&self.mean.state(t)))
-    }
-
-    fn error_estimate(&self, t: f64) -> f64 {
-        self.mean.error_estimate(t)
-    }
-}
-
-impl Motion<f64> for Near<'_> {
     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
         Ok(self.mean.state(t))
     }
 
-    fn turning(&self) -> Turning<'_> {
-        Turning::Equations
+    fn error_estimate(&self, t: f64) -> f64 {
+        self.mean.error_estimate(t)
     }
 }
 

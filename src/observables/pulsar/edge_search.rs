@@ -8,8 +8,9 @@ use super::hermite::{Jet, Quintic};
 use super::rate_bounds::RateBounds;
 use super::root::{Look, root};
 use super::{Beam, train::GRAZING};
+use crate::dynamics::BodyState;
 use crate::error::Error;
-use crate::propagation::{Motion, SeriesProjection, Turning};
+use crate::propagation::{Motion, Projection, Turning};
 
 /// Rotation (rad) in a piece to begin with, and in one so short that an extremum near the edge is worth finding exactly.
 const PIECE: f64 = 2.4;
@@ -42,14 +43,14 @@ pub(super) trait Margin {
 
 /// From the series of a motion, which are cheapest where they start.
 pub(super) struct BySeries<'a> {
-    projection: &'a SeriesProjection<'a>,
+    projection: &'a dyn Projection,
     /// `cos rho`.
     edge: f64,
 }
 
 impl<'a> BySeries<'a> {
     /// `projection` is that of the axis of the beam on the line of sight.
-    pub(super) fn new(projection: &'a SeriesProjection<'a>, beam: &Beam<f64>) -> Self {
+    pub(super) fn new(projection: &'a dyn Projection, beam: &Beam<f64>) -> Self {
         Self { projection, edge: beam.half_opening.cos() }
     }
 }
@@ -61,7 +62,7 @@ impl Margin for BySeries<'_> {
     }
 
     fn cheapest_time(&self, after: f64, t: f64) -> f64 {
-        self.projection.step_start(after, t).unwrap_or(t)
+        self.projection.cheapest_time(after, t).unwrap_or(t)
     }
 }
 
@@ -73,12 +74,12 @@ pub(super) struct ByStates<'a, M> {
     pub(super) line_of_sight: &'a Vector3<f64>,
 }
 
-impl<M: Motion<f64>> Margin for ByStates<'_, M> {
+impl<M: Motion<f64, State = BodyState<f64>>> Margin for ByStates<'_, M> {
     fn at(&self, t: f64) -> Result<[f64; 4], Error> {
         let (state, motion) = (self.motion.state(t)?, self.motion);
         match &self.turning {
             Turning::Equations => {
-                Ok(self.beam.margin_rates(motion.spheroid(), motion.violation(), &state, self.line_of_sight))
+                Ok(self.beam.margin_rates(motion.spheroid(), motion.coefficients(), &state, self.line_of_sight))
             }
             Turning::Given { rates, bounds } => {
                 let rates = rates(t)?;

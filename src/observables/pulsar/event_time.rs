@@ -3,32 +3,27 @@
 //! # Example
 //!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use nalgebra::{Matrix3, Vector3};
 //! use num_dual::Dual64;
+//! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 //! use twofold::observables::Observer;
-//! use twofold::observables::pulsar::{Beam, pulse_train};
 //! use twofold::observables::pulsar::event_time::{closest_approach_time, edge_time, event_time};
-//! use twofold::propagation::{Motion, propagate};
+//! use twofold::observables::pulsar::{Beam, pulse_train};
+//! use twofold::propagation::Motion;
 //!
 //! // The root of t^2 = p at p = 4, by p: dt/dp = 1/4.
 //! let root = event_time(2.0, Dual64::from_re(4.0) - Dual64::new(4.0, 1.0), 4.0)?;
 //! assert_eq!((root.re, root.eps), (2.0, 0.25));
 //! // The edge of a pulse by itself, where nothing carries a derivative.
+//! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
+//! let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(-0.7, 0.1, 1.5));
+//! let start = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
+//! let motion = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?.taylor((0.0, 20.0), 1e-13)?;
 //! let (beam, sight) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0).direction);
-//! let motion = propagate(&star, &s.tensor(), &state, (0.0, 20.0), 1e-13)?;
 //! let pulse = pulse_train(&motion, &beam, &sight, (0.0, 20.0))?.pulses[1];
-//! let place = (&star, &s.tensor());
+//! let (place, near) = ((motion.spheroid(), &s), pulse.midpoint());
 //! let edge = edge_time(pulse.start, &beam, &sight, place, &motion.state(pulse.start)?)?;
 //! assert!((edge - pulse.start).abs() < 1e-12);
-//! let near = pulse.midpoint();
 //! assert!((closest_approach_time(near, &beam, &sight, place, &motion.state(near)?)? - near).abs() < 0.1);
 //! # Ok::<(), twofold::Error>(())
 //! ```

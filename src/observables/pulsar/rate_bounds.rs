@@ -60,9 +60,13 @@ impl RateBounds {
     }
 
     /// Those of a motion, which its state at a time of the span and its [`Turning`] give.
-    pub(super) fn of_motion<M: Motion<f64>>(motion: &M, turning: &Turning<'_>, t: f64) -> Result<Self, Error> {
+    pub(super) fn of_motion<M: Motion<f64, State = BodyState<f64>>>(
+        motion: &M,
+        turning: &Turning<'_>,
+        t: f64,
+    ) -> Result<Self, Error> {
         let Turning::Given { bounds, .. } = turning else {
-            return Ok(rate_bounds(motion.spheroid(), motion.violation(), &motion.state(t)?));
+            return Ok(rate_bounds(motion.spheroid(), motion.coefficients(), &motion.state(t)?));
         };
         for &bound in bounds {
             let allowed = "a number, zero or above";

@@ -3,28 +3,23 @@
 //! # Example
 //!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use nalgebra::{Matrix3, Vector3};
+//! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 //! use twofold::observables::Observer;
-//! use twofold::observables::pulsar::{Beam, arrivals, propagated_pulse_train, pulse_train};
-//! use twofold::propagation::propagate;
+//! use twofold::observables::pulsar::{Beam, arrivals, pulse_train};
 //!
+//! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
+//! let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(-0.7, 0.1, 1.5));
+//! let start = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
+//! let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?;
 //! let (beam, sight) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0).direction);
-//! let span = (0.0, 50.0);
-//! let motion = propagate(&star, &s.tensor(), &state, span, 1e-13)?;
-//! let train = pulse_train(&motion, &beam, &sight, span)?;
-//! assert!(train.periods().count() + 1 == train.durations().count() && train.durations().count() > 5);
+//! let motion = problem.taylor((0.0, 50.0), 1e-13)?;
+//! let train = pulse_train(&motion, &beam, &sight, (0.0, 50.0))?;
+//! assert!(train.durations().count() > 5);
 //! let numbered = arrivals(&motion, &beam, &sight, &train)?;
 //! assert!(numbered.windows(2).all(|pair| pair[0].number < pair[1].number));
 //! // The same without keeping the motion.
-//! let (same, _) = propagated_pulse_train(&star, &s.tensor(), &state, span, 1e-13, &beam, &sight)?;
+//! let (same, _) = problem.taylor_pulse_train((0.0, 50.0), 1e-13, &beam, &sight)?;
 //! assert_eq!(same.pulses.len(), train.pulses.len());
 //! # Ok::<(), twofold::Error>(())
 //! ```
@@ -35,9 +30,9 @@ use super::Beam;
 use super::edge_search::{BySeries, ByStates, EdgeSearch, Event, Margin};
 use super::hermite::Jet;
 use super::rate_bounds::{RateBounds, rate_bounds};
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::{Motion, Samples, projected_by_stretches, propagate};
+use crate::propagation::{Motion, Samples, projected_by_stretches};
 
 /// An extremum of `m.n` this near to `cos rho` is a grazing: whether the line of sight passes the edge there is beyond
 /// doubles, whose `m.n` along a numerical motion is in error by about as much.
@@ -118,7 +113,7 @@ impl PulseTrain {
 /// The span is divided until `m.n` and its derivatives at the ends of a piece, and a bound on the sixth derivative, prove that it holds no
 /// edge, or one, or one extremum; an edge is then a root between two times of different sign. Derivatives and bounds are those of
 /// [`Motion::turning`]: by the equations of motion, with bounds from energy and spin, or as a motion by another law states them. This holds for the exact motion;
-/// a numerical one adds its error, see [`error_estimate`](crate::propagation::AxisMotion::error_estimate). Edges are as exact as `m.n` allows: its error divided by
+/// a numerical one adds its error, see [`error_estimate`](crate::propagation::Motion::error_estimate). Edges are as exact as `m.n` allows: its error divided by
 /// its rate, about 1e-16 over the rotation rate plus the rounding of `t`, more for a short pulse, whose `m.n` is slow at the
 /// edges (a pulse of the length `w` radian multiplies the error by about `2 / w`).
 ///
@@ -126,7 +121,7 @@ impl PulseTrain {
 /// [`Error::Domain`] for a span outside the motion's, vectors that are not of unit length (to 1e-9), a semi-open angle outside
 /// (0, pi), a motion that is not finite or turns faster than it states, a line of sight that stays on the edge of the beam to [`GRAZING`] for a while, a span of more than
 /// [`MOST_COUNTED`](crate::propagation::MOST_COUNTED) radian by the bound on `|Omega|`, and times at which doubles do not resolve 0.2 rad.
-pub fn pulse_train<M: Motion<f64>>(
+pub fn pulse_train<M: Motion<f64, State = BodyState<f64>>>(
     motion: &M,
     beam: &Beam<f64>,
     line_of_sight: &Vector3<f64>,
@@ -137,16 +132,48 @@ pub fn pulse_train<M: Motion<f64>>(
     let turning = motion.turning();
     let bounds = RateBounds::of_motion(motion, &turning, from)?;
     match motion.projection(&beam.axis, line_of_sight) {
-        Some(projection) => EdgeSearch::new(BySeries::new(&projection, beam), bounds).train(from, to),
+        Some(projection) => EdgeSearch::new(BySeries::new(&*projection, beam), bounds).train(from, to),
         None => EdgeSearch::new(ByStates { motion, turning, beam, line_of_sight }, bounds).train(from, to),
     }
 }
 
-/// The pulse train of the numerical motion from `initial`, without keeping the motion: the edges of [`pulse_train`] of the motion by
-/// [`propagate`], to rounding. Also the state at the end of the span, with the number and order of the steps.
-///
-/// # Errors
-/// As for [`pulse_train`] and [`propagate`], but for the number of steps.
+impl Problem<f64> {
+    /// The pulse train of the numerical motion over a span, without keeping the motion: the edges of [`pulse_train`] of
+    /// [`taylor`](Self::taylor), to rounding. Also the state at the end of the span, with the number and order of the steps.
+    ///
+    /// # Errors
+    /// As for [`pulse_train`] and [`taylor`](Self::taylor), but for the number of steps.
+    pub fn taylor_pulse_train(
+        &self,
+        span: (f64, f64),
+        accuracy: f64,
+        beam: &Beam<f64>,
+        line_of_sight: &Vector3<f64>,
+    ) -> Result<(PulseTrain, Samples<BodyState<f64>>), Error> {
+        check_beam(beam, line_of_sight)?;
+        let bounds = rate_bounds(self.spheroid(), self.coefficients(), self.initial());
+        bounds.check_countable(span.0, span.1)?;
+        let (mut train, mut node) = (Unfinished::default(), None);
+        let end = projected_by_stretches(self, span, accuracy, (&beam.axis, line_of_sight), |projection, end| {
+            let search = EdgeSearch::new(BySeries::new(projection, beam), bounds);
+            let start = match node {
+                Some(start) => start,
+                None => train.begin(search.jet(span.0)?),
+            };
+            node = Some(search.events(start, end, &mut |event| train.take(event))?);
+            Ok(())
+        })?;
+        if let Some(end) = end {
+            return Ok((train.finished(span.1), end));
+        }
+        let motion = self.taylor(span, accuracy)?;
+        let train = pulse_train(&motion, beam, line_of_sight, span)?;
+        let (step_count, order) = (motion.step_count(), motion.order());
+        Ok((train, Samples { states: vec![motion.state(span.1)?], error_estimates: Vec::new(), step_count, order }))
+    }
+}
+
+/// By [`Problem::taylor_pulse_train`].
 pub fn propagated_pulse_train(
     spheroid: &RigidSpheroid<f64>,
     s: &Matrix3<f64>,
@@ -156,32 +183,8 @@ pub fn propagated_pulse_train(
     beam: &Beam<f64>,
     line_of_sight: &Vector3<f64>,
 ) -> Result<(PulseTrain, Samples<BodyState<f64>>), Error> {
-    check_beam(beam, line_of_sight)?;
-    let bounds = rate_bounds(spheroid, s, initial);
-    bounds.check_countable(span.0, span.1)?;
-    let (mut train, mut node) = (Unfinished::default(), None);
-    let end = projected_by_stretches(
-        (spheroid, s, initial),
-        span,
-        accuracy,
-        (&beam.axis, line_of_sight),
-        |projection, end| {
-            let search = EdgeSearch::new(BySeries::new(projection, beam), bounds);
-            let start = match node {
-                Some(start) => start,
-                None => train.begin(search.jet(span.0)?),
-            };
-            node = Some(search.events(start, end, &mut |event| train.take(event))?);
-            Ok(())
-        },
-    )?;
-    if let Some(end) = end {
-        return Ok((train.finished(span.1), end));
-    }
-    let motion = propagate(spheroid, s, initial, span, accuracy)?;
-    let train = pulse_train(&motion, beam, line_of_sight, span)?;
-    let (step_count, order) = (motion.step_count(), motion.order());
-    Ok((train, Samples { states: vec![motion.state(span.1)?], error_estimates: Vec::new(), step_count, order }))
+    // old entry: goes when its callers have moved
+    Problem::new(*spheroid, *s, *initial)?.taylor_pulse_train(span, accuracy, beam, line_of_sight)
 }
 
 /// A train in the making.
@@ -246,13 +249,13 @@ mod tests {
 
     use super::*;
     use crate::dynamics::{BodyState, RigidSpheroid};
-    use crate::propagation::{TaylorMotion, propagate};
+    use crate::propagation::TaylorMotion;
 
     /// A star that spins about Z at one radian per unit of time.
     fn upright() -> TaylorMotion<f64> {
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);
         let start = BodyState { axis: Vector3::z(), momentum: Vector3::z() * 1.1, equatorial_axis: Vector3::x() };
-        propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 30.0), 1e-14).unwrap()
+        Problem::new(spheroid, Matrix3::zeros(), start).unwrap().taylor((0.0, 30.0), 1e-14).unwrap()
     }
 
     #[test]
@@ -291,8 +294,12 @@ mod tests {
         // Backwards in time, with the state at the end of the span.
         let start = motion.state(25.0)?;
         let s = Matrix3::zeros();
-        let (found, end) =
-            propagated_pulse_train(&RigidSpheroid::in_units_of_tc(1.1), &s, &start, (25.0, 4.0), 1e-14, &beam, &n)?;
+        let (found, end) = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?.taylor_pulse_train(
+            (25.0, 4.0),
+            1e-14,
+            &beam,
+            &n,
+        )?;
         assert_eq!(found.pulses.len(), train.pulses.len());
         for (a, b) in found.pulses.iter().zip(&train.pulses) {
             assert!((a.start - b.start).abs() < 1e-11 && (a.end - b.end).abs() < 1e-11, "{a:?} {b:?}");

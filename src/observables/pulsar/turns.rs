@@ -27,7 +27,7 @@ pub(super) struct Turns<'a, M> {
     phase: f64,
 }
 
-impl<'a, M: Motion<f64>> Turns<'a, M> {
+impl<'a, M: Motion<f64, State = BodyState<f64>>> Turns<'a, M> {
     /// Starts at the time `t`; `rate` bounds the angular velocity.
     pub(super) fn new(
         motion: &'a M,
@@ -90,7 +90,7 @@ mod tests {
     use nalgebra::Matrix3;
 
     use super::*;
-    use crate::dynamics::RigidSpheroid;
+    use crate::dynamics::{Problem, RigidSpheroid};
     use crate::propagation::UniformMotion;
 
     /// A freely precessing star whose magnetic axis passes L, in each turn about the axis, at a hundredth of a radian on either side.
@@ -101,7 +101,7 @@ mod tests {
         let across = l.cross(&Vector3::z()).normalize();
         let axis = l * theta.cos() + across * theta.sin();
         let start = BodyState { axis, momentum: l * 2.1, equatorial_axis: axis.cross(&l).normalize() };
-        let motion = UniformMotion::free(&spheroid, &Matrix3::zeros(), &start, (3.0, 60.0));
+        let motion = UniformMotion::free(&Problem::new(spheroid, Matrix3::zeros(), start).unwrap(), (3.0, 60.0));
         let n = Vector3::new(0.1, -0.3, 0.6).normalize();
         for chi in [theta - 0.01, theta + 0.01, 0.3, 1.9, PI - theta - 0.01, PI - theta + 0.01] {
             let beam = Beam::new(chi, 0.3, 0.2);
@@ -137,7 +137,7 @@ mod tests {
         let (axis, rate) = (Vector3::new(0.36, 0.48, 0.8), 300.0);
         let equatorial_axis = axis.cross(&Vector3::z()).normalize();
         let start = BodyState { axis, momentum: axis * (0.8 * rate), equatorial_axis };
-        let motion = UniformMotion::free(&spheroid, &Matrix3::zeros(), &start, (1.0, 2.0));
+        let motion = UniformMotion::free(&Problem::new(spheroid, Matrix3::zeros(), start).unwrap(), (1.0, 2.0));
         let (beam, n) = (Beam::new(0.6, 0.3, 0.2), Vector3::new(0.1, -0.3, 0.6).normalize());
         let mut turns = Turns::new(&motion, &beam, &n, rate, 1.0).unwrap();
         let first = turns.at(1.0).unwrap();
@@ -153,7 +153,7 @@ mod tests {
         let (l, theta) = (Vector3::new(0.36, 0.48, 0.8), 0.7_f64);
         let axis = l * theta.cos() + l.cross(&Vector3::z()).normalize() * theta.sin();
         let start = BodyState { axis, momentum: l * 2.1, equatorial_axis: axis.cross(&l).normalize() };
-        let motion = UniformMotion::free(&spheroid, &Matrix3::zeros(), &start, (3.0, 60.0));
+        let motion = UniformMotion::free(&Problem::new(spheroid, Matrix3::zeros(), start).unwrap(), (3.0, 60.0));
         let n = Vector3::new(0.1, -0.3, 0.6).normalize();
         for chi in [theta - 1e-3, theta + 1e-3, PI - theta - 1e-3, PI - theta + 1e-3] {
             let beam = Beam::new(chi, 0.3, 0.2);

@@ -22,7 +22,7 @@ impl Series {
     ///
     /// # Errors
     /// [`Error::Domain`] for fewer than [`LEAST_LENGTH`] values or a span of no length, and for what the motion refuses.
-    pub fn of_motion<M: Motion<f64>>(
+    pub fn of_motion<M: Motion<f64, State = BodyState<f64>>>(
         motion: &M,
         count: usize,
         observable: impl Fn(&BodyState<f64>) -> f64,
@@ -82,7 +82,7 @@ mod tests {
                 Ok(BodyState { axis: Vector3::z(), momentum: Vector3::new(t, 0.0, 1.0), equatorial_axis: Vector3::x() })
             };
             let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-            let motion = Made { spheroid, violation: Matrix3::zeros(), span, error: 0.0, state };
+            let motion = Made { spheroid, coefficients: Matrix3::zeros(), span, error: 0.0, state };
             // Some of these steps, added up, pass the end by rounding.
             for count in 16..200 {
                 let series = Series::of_motion(&motion, count, |state| state.momentum.x).unwrap();

@@ -3,11 +3,11 @@
 use nalgebra::Matrix3;
 
 use crate::double_double::DoubleDouble;
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::{PrincipalCoefficients, principal_frame_with_derivatives};
+use crate::propagation::Motion;
 use crate::propagation::input::check_time;
-use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
 use crate::scalar::Real;
 use crate::solutions::mean::{MeanMotion, MeanOrder, MeanPhases, MeanTurns};
 
@@ -15,8 +15,7 @@ use crate::solutions::mean::{MeanMotion, MeanOrder, MeanPhases, MeanTurns};
 /// number of turns.
 #[derive(Debug, Clone, Copy)]
 pub struct AveragedMotion<S> {
-    spheroid: RigidSpheroid<S>,
-    violation: Matrix3<S>,
+    problem: Problem<S>,
     span: (f64, f64),
     /// Time of the initial state, in two parts.
     origin: [f64; 2],
@@ -25,18 +24,12 @@ pub struct AveragedMotion<S> {
 }
 
 impl<S: Real> AveragedMotion<S> {
-    /// The motion from `initial` at `span.0`.
+    /// The motion from the initial state at `span.0`.
     ///
     /// # Errors
     /// As for [`MeanMotion::new`] and [`principal_frame_with_derivatives`].
-    pub fn new(
-        spheroid: &RigidSpheroid<S>,
-        s: &Matrix3<S>,
-        initial: &BodyState<S>,
-        span: (f64, f64),
-        order: MeanOrder,
-    ) -> Result<Self, Error> {
-        Self::in_frame(spheroid, s, initial, span, order, principal_frame_with_derivatives(s)?)
+    pub fn new(problem: &Problem<S>, span: (f64, f64), order: MeanOrder) -> Result<Self, Error> {
+        Self::in_frame(problem, span, order, principal_frame_with_derivatives(problem.coefficients())?)
     }
 
     /// As [`new`](Self::new), with the eigenvalues of `s` and the proper rotation to its principal frame: for derivatives, of which those of the
@@ -45,22 +38,45 @@ impl<S: Real> AveragedMotion<S> {
     /// # Errors
     /// As for [`MeanMotion::new`].
     pub fn in_frame(
+        problem: &Problem<S>,
+        span: (f64, f64),
+        order: MeanOrder,
+        (coefficients, principal_from_given): (PrincipalCoefficients<S>, Matrix3<S>),
+    ) -> Result<Self, Error> {
+        let (body, initial) = (problem.spheroid(), problem.initial());
+        let turned = initial.rotated(&principal_from_given);
+        Ok(Self {
+            problem: *problem,
+            span,
+            origin: [span.0, 0.0],
+            mean: MeanMotion::with_free_rotation_of(initial, body, &coefficients, &turned, order)?,
+            given_from_principal: principal_from_given.transpose(),
+        })
+    }
+
+    /// By [`new`](Self::new).
+    pub fn from_parts(
         spheroid: &RigidSpheroid<S>,
         s: &Matrix3<S>,
         initial: &BodyState<S>,
         span: (f64, f64),
         order: MeanOrder,
-        (coefficients, principal_from_given): (PrincipalCoefficients<S>, Matrix3<S>),
     ) -> Result<Self, Error> {
-        let turned = initial.rotated(&principal_from_given);
-        Ok(Self {
-            spheroid: *spheroid,
-            violation: *s,
-            span,
-            origin: [span.0, 0.0],
-            mean: MeanMotion::with_free_rotation_of(initial, spheroid, &coefficients, &turned, order)?,
-            given_from_principal: principal_from_given.transpose(),
-        })
+        // old entry: goes when its callers have moved
+        Self::new(&Problem::unchecked(*spheroid, *s, *initial), span, order)
+    }
+
+    /// By [`in_frame`](Self::in_frame).
+    pub fn in_frame_from_parts(
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        initial: &BodyState<S>,
+        span: (f64, f64),
+        order: MeanOrder,
+        frame: (PrincipalCoefficients<S>, Matrix3<S>),
+    ) -> Result<Self, Error> {
+        // old entry: goes when its callers have moved
+        Self::in_frame(&Problem::unchecked(*spheroid, *s, *initial), span, order, frame)
     }
 
     /// The same motion with the time counted from `epoch[0] + epoch[1]`: near it a double is enough for a time, after any number of turns.
@@ -122,34 +138,21 @@ impl<S: Real> AveragedMotion<S> {
     }
 }
 
-impl<S: Real> AxisMotion<S> for AveragedMotion<S> {
+impl<S: Real> Motion<S> for AveragedMotion<S> {
+    type State = BodyState<S>;
+
     fn spheroid(&self) -> &RigidSpheroid<S> {
-        &self.spheroid
+        self.problem.spheroid()
     }
 
-    fn violation(&self) -> &Matrix3<S> {
-        &self.violation
+    fn coefficients(&self) -> &Matrix3<S> {
+        self.problem.coefficients()
     }
 
     fn span(&self) -> (f64, f64) {
         self.span
     }
 
-    fn axis_state(&self, t: S) -> Result<AxisState<S>, Error> {
-        self.state(t).map(|state| AxisState::from(&state))
-    }
-
-    fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<S>, Error> {
-        self.state_in_parts(t).map(|state| AxisState::from(&state))
-    }
-
-    /// [`truncation`](AveragedMotion::truncation) and [`rounding`](AveragedMotion::rounding); the rounding of `t` itself is not counted.
-    fn error_estimate(&self, t: f64) -> f64 {
-        self.mean.error_estimate(t - self.origin[0])
-    }
-}
-
-impl<S: Real> Motion<S> for AveragedMotion<S> {
     fn state(&self, t: S) -> Result<BodyState<S>, Error> {
         let phases = self.phases([t.re(), 0.0])?;
         let later = |phases: MeanPhases<S>| phases.later(self.mean.rates(), t - S::from_f64(t.re()));
@@ -160,8 +163,13 @@ impl<S: Real> Motion<S> for AveragedMotion<S> {
         Ok(self.state_of(&self.phases(t)?))
     }
 
-    fn turning(&self) -> Turning<'_> {
-        Turning::Equations
+    fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<S>, Error> {
+        self.state_in_parts(t).map(|state| AxisState::from(&state))
+    }
+
+    /// [`truncation`](AveragedMotion::truncation) and [`rounding`](AveragedMotion::rounding); the rounding of `t` itself is not counted.
+    fn error_estimate(&self, t: f64) -> f64 {
+        self.mean.error_estimate(t - self.origin[0])
     }
 }
 
@@ -177,8 +185,9 @@ mod tests {
         let star = RigidSpheroid::in_units_of_tc(1.1);
         let s = Matrix3::from_diagonal(&Vector3::new(2e-6, 1e-6, -3e-6));
         let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
-        let initial = BodyState::from_angles(&star, &angles, &EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
-        let motion = AveragedMotion::new(&star, &s, &initial, (0.0, 100.0), MeanOrder::Second).unwrap();
+        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+        let problem = Problem::from_angles(star, s, &angles, &rates).unwrap();
+        let motion = AveragedMotion::new(&problem, (0.0, 100.0), MeanOrder::Second).unwrap();
         let allows = |epoch| motion.near(epoch).is_ok();
         assert!(allows([110.0, -20.0]) && allows([40.0, 50.0]) && allows([-20.0, 30.0]));
         assert!(!allows([90.0, 20.0]) && !allows([60.0, -70.0]));

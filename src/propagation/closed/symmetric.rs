@@ -4,12 +4,12 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 
 use super::uniform::largest_torque;
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::lorentz_violation::{PrincipalCoefficients, SymmetryOfTensor};
+use crate::propagation::Motion;
 use crate::propagation::input::check_time;
-use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
 use crate::scalar::{Real, real_part};
 use crate::solutions::symmetric::SymmetricSolution;
 
@@ -19,8 +19,7 @@ use crate::solutions::symmetric::SymmetricSolution;
 /// Derivatives (duals) are those within tensors of the same symmetry axis.
 #[derive(Debug, Clone, Copy)]
 pub struct SymmetricMotion<S> {
-    spheroid: RigidSpheroid<S>,
-    violation: Matrix3<S>,
+    problem: Problem<S>,
     span: (f64, f64),
     solution: SymmetricSolution<S>,
     given_from_principal: Matrix3<S>,
@@ -45,18 +44,14 @@ struct Start {
 const NEAREST_TO_POLE: f64 = 1e-9;
 
 impl<S: Real> SymmetricMotion<S> {
-    /// The motion from `initial` at `span.0`.
+    /// The motion from the initial state at `span.0`.
     ///
     /// # Errors
     /// [`Error::Domain`] for a tensor that is not symmetric, for a state within 1e-9 of a pole of the symmetry axis at the start or
     /// at any time, and for what [`SymmetricSolution::new`] refuses. Eigenvalues that differ are not refused: see
     /// [`truncation`](Self::truncation).
-    pub fn new(
-        spheroid: &RigidSpheroid<S>,
-        s: &Matrix3<S>,
-        initial: &BodyState<S>,
-        span: (f64, f64),
-    ) -> Result<Self, Error> {
+    pub fn new(problem: &Problem<S>, span: (f64, f64)) -> Result<Self, Error> {
+        let (spheroid, s, initial) = (problem.spheroid(), problem.coefficients(), problem.initial());
         let symmetry = SymmetryOfTensor::of(&s.map(S::re))?;
         let principal_from_given = symmetry.principal_from_given.map(S::from_f64);
         let diagonal = (principal_from_given * s * principal_from_given.transpose()).diagonal();
@@ -73,11 +68,7 @@ impl<S: Real> SymmetricMotion<S> {
             nearest,
             "at least 1e-9: nearer to it the Euler angles are singular",
         )?;
-        let real = RigidSpheroid {
-            inertia_xx: spheroid.inertia_xx.re(),
-            inertia_zz: spheroid.inertia_zz.re(),
-            constant_c: spheroid.constant_c.re(),
-        };
+        let real = spheroid.map(S::re);
         let start = Start {
             spheroid: real,
             coefficients: PrincipalCoefficients { xx: equal.re(), yy: equal.re(), zz: diagonal.z.re() },
@@ -85,8 +76,7 @@ impl<S: Real> SymmetricMotion<S> {
             rates: EulerRates { alpha: rates.alpha.re(), beta: rates.beta.re(), gamma: rates.gamma.re() },
         };
         Ok(Self {
-            spheroid: *spheroid,
-            violation: *s,
+            problem: *problem,
             span,
             solution,
             given_from_principal: principal_from_given.transpose(),
@@ -99,8 +89,19 @@ impl<S: Real> SymmetricMotion<S> {
         })
     }
 
+    /// By [`new`](Self::new).
+    pub fn from_parts(
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        initial: &BodyState<S>,
+        span: (f64, f64),
+    ) -> Result<Self, Error> {
+        // old entry: goes when its callers have moved
+        Self::new(&Problem::unchecked(*spheroid, *s, *initial), span)
+    }
+
     /// Bound on the components of `n` and `L` of what the difference of the two eigenvalues does within a time; zero where they
-    /// are equal within rounding, which [`AxisMotion::error_estimate`] counts.
+    /// are equal within rounding, which [`Motion::error_estimate`] counts.
     ///
     /// With `T` the torque left out and `D` the largest one, `|dn|' <= |dL| / I^xx` and `|dL|' <= 2 D |dn| + T`, hence
     /// `|dn| <= T (cosh(k t) - 1) / (2 D)` with `k^2 = 2 D / I^xx` (Gronwall): rigorous, and useless over many times `1 / k`.
@@ -109,7 +110,7 @@ impl<S: Real> SymmetricMotion<S> {
             return 0.0;
         }
         let body = &self.start.spheroid;
-        let largest = largest_torque(body, &self.violation.map(S::re));
+        let largest = largest_torque(body, &self.problem.coefficients().map(S::re));
         let (k, t) = ((2.0 * largest / body.inertia_xx).sqrt(), elapsed.abs());
         let push = self.neglected_torque / body.inertia_xx;
         let axis = push * ((k * t).cosh() - 1.0) / (k * k);
@@ -144,11 +145,7 @@ impl<S: Real> SymmetricMotion<S> {
     fn sensitivity(&self, elapsed: f64, seed: fn(&mut EulerAngles<Dual64>, &mut EulerRates<Dual64>)) -> f64 {
         let Start { spheroid, coefficients, angles, rates } = &self.start;
         let dual = Dual64::from_re;
-        let body = RigidSpheroid {
-            inertia_xx: dual(spheroid.inertia_xx),
-            inertia_zz: dual(spheroid.inertia_zz),
-            constant_c: dual(spheroid.constant_c),
-        };
+        let body = spheroid.map(dual);
         let s =
             PrincipalCoefficients { xx: dual(coefficients.xx), yy: dual(coefficients.yy), zz: dual(coefficients.zz) };
         let mut angles = EulerAngles { alpha: dual(angles.alpha), beta: dual(angles.beta), gamma: dual(angles.gamma) };
@@ -161,51 +158,38 @@ impl<S: Real> SymmetricMotion<S> {
         let most = [part(&state.axis), part(&state.equatorial_axis), part(&state.momentum) / size];
         most.into_iter().fold(0.0, |most, x| if x.is_finite() { x.max(most) } else { f64::INFINITY })
     }
-
-    /// State in the frame of the caller.
-    fn at(&self, t: S) -> Result<BodyState<S>, Error> {
-        check_time(self.span, t.re())?;
-        let state = state_of(&self.spheroid, &self.solution, t - S::from_f64(self.span.0));
-        Ok(state.rotated(&self.given_from_principal))
-    }
 }
 
 fn state_of<S: Real>(spheroid: &RigidSpheroid<S>, solution: &SymmetricSolution<S>, t: S) -> BodyState<S> {
     BodyState::from_angles(spheroid, &solution.angles(t), &solution.rates(t))
 }
 
-impl<S: Real> AxisMotion<S> for SymmetricMotion<S> {
+/// The precession angle and the rotation angle are sums of the same two integrals: the third angle costs nothing here.
+impl<S: Real> Motion<S> for SymmetricMotion<S> {
+    type State = BodyState<S>;
+
     fn spheroid(&self) -> &RigidSpheroid<S> {
-        &self.spheroid
+        self.problem.spheroid()
     }
 
-    fn violation(&self) -> &Matrix3<S> {
-        &self.violation
+    fn coefficients(&self) -> &Matrix3<S> {
+        self.problem.coefficients()
     }
 
     fn span(&self) -> (f64, f64) {
         self.span
     }
 
-    /// The precession angle and the rotation angle are sums of the same two integrals: the third angle costs nothing here.
-    fn axis_state(&self, t: S) -> Result<AxisState<S>, Error> {
-        self.at(t).map(|state| AxisState::from(&state))
+    fn state(&self, t: S) -> Result<BodyState<S>, Error> {
+        check_time(self.span, t.re())?;
+        let state = state_of(self.problem.spheroid(), &self.solution, t - S::from_f64(self.span.0));
+        Ok(state.rotated(&self.given_from_principal))
     }
 
     /// [`truncation`](SymmetricMotion::truncation) and [`rounding`](SymmetricMotion::rounding); some evaluations of the solution.
     fn error_estimate(&self, t: f64) -> f64 {
         let elapsed = t - self.span.0;
         self.truncation(elapsed) + self.rounding(elapsed)
-    }
-}
-
-impl<S: Real> Motion<S> for SymmetricMotion<S> {
-    fn state(&self, t: S) -> Result<BodyState<S>, Error> {
-        self.at(t)
-    }
-
-    fn turning(&self) -> Turning<'_> {
-        Turning::Equations
     }
 }
 
@@ -220,8 +204,8 @@ mod tests {
     fn motion(s: [f64; 3], beta: f64, [alpha, inclining, gamma]: [f64; 3]) -> Result<SymmetricMotion<f64>, Error> {
         let (angles, rates) =
             (EulerAngles { alpha: 0.3, beta, gamma: 0.1 }, EulerRates { alpha, beta: inclining, gamma });
-        let initial = BodyState::from_angles(&STAR, &angles, &rates);
-        SymmetricMotion::new(&STAR, &Matrix3::from_diagonal(&Vector3::from(s)), &initial, (0.0, 10.0))
+        let problem = Problem::from_angles(STAR, Matrix3::from_diagonal(&Vector3::from(s)), &angles, &rates).unwrap();
+        SymmetricMotion::new(&problem, (0.0, 10.0))
     }
 
     #[test]

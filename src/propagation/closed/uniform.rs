@@ -3,11 +3,11 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::regular_equations::{angular_velocity, torque_on_axis};
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::SymmetryOfTensor;
+use crate::propagation::Motion;
 use crate::propagation::input::check_time;
-use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
 use crate::scalar::{Real, real_part};
 use crate::solutions::free::rotated_by;
 
@@ -15,10 +15,8 @@ use crate::solutions::free::rotated_by;
 /// constant rate `g` about `n`: free rotation, steady precession, and a body that spins about a principal axis of `s^IJ` or rests.
 #[derive(Debug, Clone, Copy)]
 pub struct UniformMotion<S> {
-    spheroid: RigidSpheroid<S>,
-    violation: Matrix3<S>,
+    problem: Problem<S>,
     span: (f64, f64),
-    start: BodyState<S>,
     /// The rotation vector `p`.
     turn: Vector3<S>,
     /// `g = (Omega - p).n`.
@@ -33,42 +31,37 @@ pub struct UniformMotion<S> {
 }
 
 impl<S: Real> UniformMotion<S> {
-    /// Free rotation from `initial` at `span.0`, Eq. (48) `[angfreqfre]`: exact where `s^IJ` is isotropic, otherwise an
+    /// Free rotation from the initial state at `span.0`, Eq. (48) `[angfreqfre]`: exact where `s^IJ` is isotropic, otherwise an
     /// approximation that leaves the torque out and bounds what that does.
     ///
     /// With `T` the largest torque ([`largest_torque`]), `|dL| <= T t`, and since free rotation keeps the length of what it
     /// turns, `|dn| <= T t^2 / (2 I^xx)` and `|d e_x| <= T t^2 / (2 I^xx) (1 + |epsilon Omega^z| t / 3)`: these bounds are
     /// rigorous and part of the error estimate.
-    pub fn free(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, initial: &BodyState<S>, span: (f64, f64)) -> Self {
+    pub fn free(problem: &Problem<S>, span: (f64, f64)) -> Self {
+        let (spheroid, initial) = (problem.spheroid(), problem.initial());
         let turn = initial.momentum / spheroid.inertia_xx;
         let spin = initial.momentum.dot(&initial.axis) / spheroid.inertia_zz;
         Self {
-            spheroid: *spheroid,
-            violation: *s,
+            problem: *problem,
             span,
-            start: *initial,
             turn,
             body_rate: -(spheroid.oblateness() * spin),
             momentum_is_constant: true,
-            neglected_torque: largest_torque(spheroid, s),
+            neglected_torque: largest_torque(spheroid, problem.coefficients()),
             condition: 1.0,
             residual: 0.0,
         }
     }
 
-    /// Steady motion from `initial` at `span.0`: the steady precession of Eq. (26) `[sol1]` about the symmetry axis of a
+    /// Steady motion from the initial state at `span.0`: the steady precession of Eq. (26) `[sol1]` about the symmetry axis of a
     /// tensor with two equal eigenvalues, or, for any tensor, a body whose axis is a principal one and along `L`.
     ///
     /// # Errors
     /// [`Error::Domain`] unless the state satisfies `p x n = L x n / I^xx` and `p x L = Gamma` for some `p` along the symmetry
     /// axis to 32 roundings of the turning rate, and where that precession is not stable (rounding would grow
     /// exponentially). A body that neither turns its axis nor feels a torque must do so exactly.
-    pub fn steady(
-        spheroid: &RigidSpheroid<S>,
-        s: &Matrix3<S>,
-        initial: &BodyState<S>,
-        span: (f64, f64),
-    ) -> Result<Self, Error> {
+    pub fn steady(problem: &Problem<S>, span: (f64, f64)) -> Result<Self, Error> {
+        let (spheroid, s, initial) = (problem.spheroid(), problem.coefficients(), problem.initial());
         let BodyState { axis, momentum, .. } = initial;
         let axis_rate = momentum.cross(axis) / spheroid.inertia_xx;
         let torque = torque_on_axis(spheroid.constant_c, s, axis);
@@ -76,13 +69,9 @@ impl<S: Real> UniformMotion<S> {
         let (turn, condition, residual) = if at_rest {
             (Vector3::zeros(), 1.0, 0.0)
         } else {
-            let (pole, rate) = precession_of(spheroid, s, initial, &axis_rate)?;
+            let (pole, rate) = precession_of(problem, &axis_rate)?;
             let turn = pole * rate;
-            let real = RigidSpheroid {
-                inertia_xx: spheroid.inertia_xx.re(),
-                inertia_zz: spheroid.inertia_zz.re(),
-                constant_c: spheroid.constant_c.re(),
-            };
+            let real = spheroid.map(S::re);
             let (pole, rate, n) = (real_part(&pole), rate.re(), real_part(axis));
             let omega = real.free_precession_constant(real_part(momentum).dot(&n) / real.inertia_zz);
             let pull = real.constant_c * SymmetryOfTensor::of(&s.map(S::re))?.difference * 2.0 / real.inertia_xx;
@@ -111,10 +100,8 @@ impl<S: Real> UniformMotion<S> {
         };
         let omega = angular_velocity(spheroid, axis, momentum);
         Ok(Self {
-            spheroid: *spheroid,
-            violation: *s,
+            problem: *problem,
             span,
-            start: *initial,
             turn,
             body_rate: (omega - turn).dot(axis),
             momentum_is_constant: false,
@@ -122,6 +109,28 @@ impl<S: Real> UniformMotion<S> {
             condition,
             residual,
         })
+    }
+
+    /// By [`free`](Self::free).
+    pub fn free_from_parts(
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        initial: &BodyState<S>,
+        span: (f64, f64),
+    ) -> Self {
+        // old entry: goes when its callers have moved
+        Self::free(&Problem::unchecked(*spheroid, *s, *initial), span)
+    }
+
+    /// By [`steady`](Self::steady).
+    pub fn steady_from_parts(
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        initial: &BodyState<S>,
+        span: (f64, f64),
+    ) -> Result<Self, Error> {
+        // old entry: goes when its callers have moved
+        Self::steady(&Problem::unchecked(*spheroid, *s, *initial), span)
     }
 
     /// Time since the start of the motion.
@@ -132,8 +141,8 @@ impl<S: Real> UniformMotion<S> {
 
     /// Bound on the components of `n`, `L` and `e_x` of what the torque left out does within a time.
     pub fn truncation(&self, elapsed: f64) -> f64 {
-        let (inertia, t) = (self.spheroid.inertia_xx.re(), elapsed.abs());
-        let size = real_part(&self.start.momentum).norm() + (inertia * self.neglected_torque).sqrt();
+        let (inertia, t) = (self.problem.spheroid().inertia_xx.re(), elapsed.abs());
+        let size = real_part(&self.problem.initial().momentum).norm() + (inertia * self.neglected_torque).sqrt();
         if self.neglected_torque == 0.0 {
             return 0.0;
         }
@@ -158,12 +167,8 @@ pub fn largest_torque<S: Real>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>) -> f
 }
 
 /// Pole and rate of the steady precession that a state may be on.
-fn precession_of<S: Real>(
-    spheroid: &RigidSpheroid<S>,
-    s: &Matrix3<S>,
-    initial: &BodyState<S>,
-    axis_rate: &Vector3<S>,
-) -> Result<(Vector3<S>, S), Error> {
+fn precession_of<S: Real>(problem: &Problem<S>, axis_rate: &Vector3<S>) -> Result<(Vector3<S>, S), Error> {
+    let (spheroid, s, initial) = (problem.spheroid(), problem.coefficients(), problem.initial());
     let symmetry = SymmetryOfTensor::of(&s.map(S::re))?;
     symmetry.refuse_asymmetry()?;
     if largest_torque(spheroid, s) == 0.0 {
@@ -183,45 +188,41 @@ fn precession_of<S: Real>(
     Ok((pole, across.dot(axis_rate) / square))
 }
 
-impl<S: Real> AxisMotion<S> for UniformMotion<S> {
+impl<S: Real> Motion<S> for UniformMotion<S> {
+    type State = BodyState<S>;
+
     fn spheroid(&self) -> &RigidSpheroid<S> {
-        &self.spheroid
+        self.problem.spheroid()
     }
 
-    fn violation(&self) -> &Matrix3<S> {
-        &self.violation
+    fn coefficients(&self) -> &Matrix3<S> {
+        self.problem.coefficients()
     }
 
     fn span(&self) -> (f64, f64) {
         self.span
     }
 
+    fn state(&self, t: S) -> Result<BodyState<S>, Error> {
+        let elapsed = self.elapsed(t)?;
+        let AxisState { axis, momentum } = self.axis_state(t)?;
+        let (sin, cos) = (self.body_rate * elapsed).sin_cos();
+        let start = self.problem.initial();
+        let turned = start.equatorial_axis * cos + start.axis.cross(&start.equatorial_axis) * sin;
+        Ok(BodyState { axis, momentum, equatorial_axis: rotated_by(&(self.turn * elapsed), &turned) })
+    }
+
     fn axis_state(&self, t: S) -> Result<AxisState<S>, Error> {
         let turn = self.turn * self.elapsed(t)?;
-        let momentum = &self.start.momentum;
+        let BodyState { axis, momentum, .. } = self.problem.initial();
         let momentum = if self.momentum_is_constant { *momentum } else { rotated_by(&turn, momentum) };
-        Ok(AxisState { axis: rotated_by(&turn, &self.start.axis), momentum })
+        Ok(AxisState { axis: rotated_by(&turn, axis), momentum })
     }
 
     /// [`truncation`](UniformMotion::truncation) and [`rounding`](UniformMotion::rounding).
     fn error_estimate(&self, t: f64) -> f64 {
         let elapsed = t - self.span.0;
         self.truncation(elapsed) + self.rounding(elapsed)
-    }
-}
-
-impl<S: Real> Motion<S> for UniformMotion<S> {
-    fn state(&self, t: S) -> Result<BodyState<S>, Error> {
-        let elapsed = self.elapsed(t)?;
-        let AxisState { axis, momentum } = self.axis_state(t)?;
-        let (sin, cos) = (self.body_rate * elapsed).sin_cos();
-        let start = &self.start;
-        let turned = start.equatorial_axis * cos + start.axis.cross(&start.equatorial_axis) * sin;
-        Ok(BodyState { axis, momentum, equatorial_axis: rotated_by(&(self.turn * elapsed), &turned) })
-    }
-
-    fn turning(&self) -> Turning<'_> {
-        Turning::Equations
     }
 }
 
@@ -236,7 +237,7 @@ mod tests {
         let star = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
         let momentum = Vector3::new(0.3, -0.7, 1.1);
         let initial = BodyState { axis: Vector3::new(0.6, 0.0, 0.8), momentum, equatorial_axis: Vector3::y() };
-        let motion = UniformMotion::free(&star, &Matrix3::zeros(), &initial, (0.0, 100.0));
+        let motion = UniformMotion::free(&Problem::new(star, Matrix3::zeros(), initial).unwrap(), (0.0, 100.0));
         for t in [0.7, 13.1, 47.9, 99.3] {
             assert_eq!(motion.axis_state(t).unwrap().momentum, momentum);
         }
@@ -250,7 +251,7 @@ mod tests {
         let with_spin = |momentum: f64| {
             let momentum = Vector3::new(momentum, 0.0, 1.0);
             let initial = BodyState { axis: Vector3::x(), momentum, equatorial_axis: Vector3::y() };
-            UniformMotion::steady(&star, &s, &initial, (0.0, 100.0))
+            UniformMotion::steady(&Problem::new(star, s, initial).unwrap(), (0.0, 100.0))
         };
         // Rate times momentum over |L| + I^xx / 2 = 3, against the speed 1/4 + 1/2.
         let momentum = |roundings: f64| roundings * f64::EPSILON * 0.75 * 3.0 / 0.25;
@@ -267,7 +268,8 @@ mod tests {
         let (sin, cos) = 0.7_f64.sin_cos();
         for axis in [Vector3::new(sin, 0.0, cos), Vector3::new(sin, 0.0, -cos)] {
             let initial = BodyState { axis, momentum: Vector3::z() * 1.7, equatorial_axis: Vector3::y() };
-            let motion = UniformMotion::steady(&star, &Matrix3::zeros(), &initial, (0.0, 100.0)).unwrap();
+            let motion =
+                UniformMotion::steady(&Problem::new(star, Matrix3::zeros(), initial).unwrap(), (0.0, 100.0)).unwrap();
             assert_relative_eq!(motion.condition, 1.0 + ((1.0 + cos) / sin).powi(2), max_relative = 1e-12);
         }
     }
@@ -279,7 +281,7 @@ mod tests {
         for constant_c in [0.7, -0.7] {
             let star = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c };
             assert_relative_eq!(largest_torque(&star, &s), 0.7 * (2.0 * 14e-4_f64).sqrt(), max_relative = 1e-12);
-            let motion = UniformMotion::free(&star, &s, &initial, (0.0, 100.0));
+            let motion = UniformMotion::free(&Problem::new(star, s, initial).unwrap(), (0.0, 100.0));
             for neglected_torque in [0.1, 1.0] {
                 let short = UniformMotion { neglected_torque, ..motion }.truncation(0.01);
                 let of_momentum = neglected_torque * 0.01 / (2.0 + (1.3 * neglected_torque).sqrt());

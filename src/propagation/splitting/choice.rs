@@ -1,16 +1,13 @@
 //! Which scheme, and which step, for an accuracy asked.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::propagation::AxisState;
 use crate::propagation::fused::detect_fused;
-use crate::propagation::input::check_input;
+use crate::propagation::input::check_request;
 use crate::propagation::splitting::error::expected_rounding;
-use crate::propagation::splitting::motion::{
-    SPLITTING_STEP_LIMIT, Scene, SplittingMotion, propagate_checked, vectors_of_axis, vectors_of_body,
-};
+use crate::propagation::splitting::motion::{SPLITTING_STEP_LIMIT, Scene, SplittingMotion};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::schemes::{
     GRADIENT_8_6_4, GRADIENT_8_6_6, GRADIENT_8_8_6, KAHAN_LI_8, NEAR_INTEGRABLE_6_2, NEAR_INTEGRABLE_10_4, SRKN_6B,
@@ -99,7 +96,7 @@ impl Model {
 
 /// What steps are chosen for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Goal {
+pub(super) enum Goal {
     /// The state.
     State,
     /// The state with its derivatives by parameters. They cost several times what the motion does, so that the steps are for the error of the
@@ -132,7 +129,7 @@ impl Goal {
     }
 }
 
-/// What [`propagate_by_best_splitting`] will do.
+/// What [`Problem::splitting`] will do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SplittingForecast {
     /// The scheme that the model finds cheapest.
@@ -146,15 +143,35 @@ pub struct SplittingForecast {
     pub truncation: f64,
     /// That share.
     pub coverage: f64,
-    /// What [`error_estimate`](crate::propagation::AxisMotion::error_estimate) will take for rounding at the end, but for what an
+    /// What [`error_estimate`](crate::propagation::Motion::error_estimate) will take for rounding at the end, but for what an
     /// instability makes of it.
     pub rounding: f64,
 }
 
-/// The scheme and the step that a model of cost and error chooses for [`propagate_by_best_splitting`].
-///
-/// # Errors
-/// As for [`propagate_by_best_splitting`].
+impl<X: RotationState<f64>> Problem<f64, X> {
+    /// The scheme and the step that a model of cost and error chooses for [`splitting`](Self::splitting).
+    ///
+    /// # Errors
+    /// As for [`splitting`](Self::splitting).
+    pub fn splitting_forecast(&self, span: (f64, f64), accuracy: f64) -> Result<SplittingForecast, Error> {
+        checked_forecast(self, span, accuracy, Goal::State)
+    }
+
+    /// The same for [`gradient`](crate::plan::gradient).
+    ///
+    /// # Errors
+    /// As for [`splitting_forecast`](Self::splitting_forecast), and on a processor without the instructions for tangent maps.
+    pub(crate) fn splitting_forecast_with_derivatives(
+        &self,
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<SplittingForecast, Error> {
+        require_tangent_maps()?;
+        checked_forecast(self, span, accuracy, Goal::Derivatives)
+    }
+}
+
+/// By [`Problem::splitting_forecast`].
 pub fn splitting_forecast(
     spheroid: &RigidSpheroid<f64>,
     s: &Matrix3<f64>,
@@ -162,22 +179,8 @@ pub fn splitting_forecast(
     span: (f64, f64),
     accuracy: f64,
 ) -> Result<SplittingForecast, Error> {
-    checked_forecast(spheroid, s, initial, span, accuracy, Goal::State)
-}
-
-/// The same for [`gradient`](crate::plan::gradient).
-///
-/// # Errors
-/// As for [`splitting_forecast`], and on a processor without the instructions for tangent maps.
-pub(crate) fn splitting_forecast_with_derivatives(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &AxisState<f64>,
-    span: (f64, f64),
-    accuracy: f64,
-) -> Result<SplittingForecast, Error> {
-    require_tangent_maps()?;
-    checked_forecast(spheroid, s, initial, span, accuracy, Goal::Derivatives)
+    // old entry: goes when its callers have moved
+    Problem::new(*spheroid, *s, *initial)?.splitting_forecast(span, accuracy)
 }
 
 /// Parameters whose tangent maps go along with one motion: four registers of four doubles.
@@ -192,23 +195,25 @@ pub(crate) fn require_tangent_maps() -> Result<(), Error> {
     Error::unless(doubles == 4.0, "doubles in a register", doubles, "four (AVX2, FMA), for derivatives by splitting")
 }
 
-fn checked_forecast(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &AxisState<f64>,
+fn checked_forecast<X: RotationState<f64>>(
+    problem: &Problem<f64, X>,
     span: (f64, f64),
     accuracy: f64,
     goal: Goal,
 ) -> Result<SplittingForecast, Error> {
-    let initial = vectors_of_axis(initial);
-    check_input(spheroid, s, &initial, span, accuracy)?;
-    let forecast = cheapest(&Scene::new(spheroid, s, &initial)?, span, accuracy, goal);
+    check_request(span, accuracy)?;
+    let forecast = cheapest(&Scene::of(problem)?, span, accuracy, goal);
     Error::unless(forecast.steps <= SPLITTING_STEP_LIMIT, "number of steps", forecast.steps, "at most 1e10")?;
     Ok(forecast)
 }
 
 /// The scheme that costs least with its largest step for the goal.
-fn cheapest<const V: usize>(scene: &Scene<V>, span: (f64, f64), accuracy: f64, goal: Goal) -> SplittingForecast {
+pub(super) fn cheapest<const V: usize>(
+    scene: &Scene<V>,
+    span: (f64, f64),
+    accuracy: f64,
+    goal: Goal,
+) -> SplittingForecast {
     let (rate, duration) = (scene.largest_rate, (span.1 - span.0).abs());
     let epsilon = if rate > 0.0 { scene.spread / rate.powi(2) } else { 0.0 };
     let turn = rate * duration;
@@ -227,50 +232,28 @@ fn cheapest<const V: usize>(scene: &Scene<V>, span: (f64, f64), accuracy: f64, g
     }
 }
 
-/// The motion of `n` and `L` by the scheme and the step that a model of cost and error chooses for `accuracy` at the end of the
-/// span (components of `n`, and of `L` in units of `|L| + sqrt(2 I^xx C |s|)`), between 1e-16 and 1e-2.
-///
-/// The model is one formula for all motions. It does not foresee the growth of errors near the unstable middle axis;
-/// [`error_estimate`](crate::propagation::AxisMotion::error_estimate) does. Rounding limits what can be reached to some 1e-16 times the angle turned.
-///
-/// # Errors
-/// As for [`propagate_by_splitting`](crate::propagation::splitting::propagate_by_splitting), and for an accuracy out of range.
+/// By [`Problem::splitting`].
 pub fn propagate_by_best_splitting(
     spheroid: &RigidSpheroid<f64>,
     s: &Matrix3<f64>,
     initial: &AxisState<f64>,
     span: (f64, f64),
     accuracy: f64,
-) -> Result<SplittingMotion, Error> {
-    propagate_by_best(spheroid, s, &vectors_of_axis(initial), span, accuracy)
+) -> Result<SplittingMotion<AxisState<f64>>, Error> {
+    // old entry: goes when its callers have moved
+    Problem::new(*spheroid, *s, *initial)?.splitting(span, accuracy)
 }
 
-/// The whole rotation by the scheme and the step that the model chooses for `accuracy`, as [`propagate_by_best_splitting`].
-///
-/// # Errors
-/// As for [`propagate_orientation_by_splitting`](crate::propagation::splitting::propagate_orientation_by_splitting), and for an
-/// accuracy out of range.
+/// By [`Problem::splitting`].
 pub fn propagate_orientation_by_best_splitting(
     spheroid: &RigidSpheroid<f64>,
     s: &Matrix3<f64>,
     initial: &BodyState<f64>,
     span: (f64, f64),
     accuracy: f64,
-) -> Result<SplittingMotion<3>, Error> {
-    propagate_by_best(spheroid, s, &vectors_of_body(initial), span, accuracy)
-}
-
-fn propagate_by_best<const V: usize>(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &[Vector3<f64>; V],
-    span: (f64, f64),
-    accuracy: f64,
-) -> Result<SplittingMotion<V>, Error> {
-    check_input(spheroid, s, initial, span, accuracy)?;
-    let scene = Scene::new(spheroid, s, initial)?;
-    let SplittingForecast { scheme, step, .. } = cheapest(&scene, span, accuracy, Goal::State);
-    propagate_checked(spheroid, s, span, scheme, scene, step)
+) -> Result<SplittingMotion, Error> {
+    // old entry: goes when its callers have moved
+    Problem::new(*spheroid, *s, *initial)?.splitting(span, accuracy)
 }
 
 /// Scheme and largest step for a motion with its derivatives.
@@ -339,6 +322,7 @@ pub(super) fn sampled_forecast<const V: usize>(
 #[cfg(test)]
 mod tests {
     use approx::assert_relative_eq;
+    use nalgebra::Vector3;
 
     use super::*;
 
@@ -422,7 +406,8 @@ mod tests {
     #[test]
     fn without_torque_a_stage_turns_by_three_tenths_up_to_the_limit_of_steps() {
         let initial = AxisState { axis: Vector3::x(), momentum: Vector3::z() * 0.65 };
-        let forecast = |duration| splitting_forecast(&STAR, &Matrix3::zeros(), &initial, (0.0, duration), 1e-2);
+        let problem = Problem::new(STAR, Matrix3::zeros(), initial).unwrap();
+        let forecast = |duration| problem.splitting_forecast((0.0, duration), 1e-2);
         let short = forecast(10.0).unwrap();
         assert_relative_eq!(0.5 * short.step, 0.3 * short.scheme.stages() as f64, max_relative = 1e-12);
         assert_relative_eq!(forecast(0.9e10 * short.step).unwrap().steps, 0.9e10, max_relative = 1e-9);

@@ -3,9 +3,9 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::propagation::input::check_input;
+use crate::propagation::input::check_request;
 use crate::propagation::registers::Register;
 use crate::propagation::splitting::choice::{SplittingForecast, TANGENTS_AT_ONCE, derivatives_forecast};
 use crate::propagation::splitting::flows::{AXIS, COMPANION, Moving, RATE};
@@ -17,15 +17,14 @@ use crate::propagation::splitting::stepper::{Steps, angles};
 use crate::propagation::splitting::tangents::{Tangents, WithTangents};
 use crate::propagation::third_angle::{body_state, rate_about_axis};
 
-/// A scene as a function of one parameter: body, tensor and initial vectors `n`, `L` and, with `V = 3`, `e_x`.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Seeded<const V: usize> {
-    pub(crate) spheroid: RigidSpheroid<Dual64>,
-    pub(crate) violation: Matrix3<Dual64>,
-    pub(crate) initial: [Vector3<Dual64>; V],
+/// A problem as a function of one parameter, with the vectors that a motion carries.
+struct Seeded<const V: usize> {
+    spheroid: RigidSpheroid<Dual64>,
+    violation: Matrix3<Dual64>,
+    initial: [Vector3<Dual64>; V],
 }
 
-/// What the flows need of the derivatives of a scene, in the principal frame.
+/// What the flows need of the derivatives of a problem, in the principal frame.
 struct Seed<const V: usize> {
     vectors: [Vector3<f64>; V],
     tensor: Matrix3<f64>,
@@ -35,27 +34,50 @@ struct Seed<const V: usize> {
 const LANES: usize = 4;
 
 /// The states at `times` (in the order in which the motion reaches them) with their derivatives by the parameter of each of the `seeded`
-/// scenes, which have the same values; `e_x` is zero where it is not carried. None where the processor lacks the instructions, and of no scenes
+/// problems, which have the same values; `e_x` is zero where it is not carried. None where the processor lacks the instructions, and of no scenes
 /// or times.
 ///
 /// One motion by splitting is done for every [`TANGENTS_AT_ONCE`] parameters, with the tangent map of each of its flows: its derivatives are
 /// those of the numerical motion to rounding.
 ///
 /// # Errors
-/// As for [`propagate_by_best_splitting`](crate::propagation::splitting::propagate_by_best_splitting).
-pub(crate) fn states_with_derivatives<const V: usize>(
-    seeded: &[Seeded<V>],
+/// As for [`Problem::splitting`].
+pub(crate) fn states_with_derivatives<X: RotationState<Dual64>>(
+    seeded: &[Problem<Dual64, X>],
     start: f64,
     times: &[f64],
     accuracy: f64,
 ) -> Result<Option<Vec<Vec<BodyState<Dual64>>>>, Error> {
-    let (Some(register), Some(first), Some(last)) = (pulp::x86::V3::try_new(), seeded.first(), times.last()) else {
+    if X::VECTORS == 3 {
+        states_of(seeded, |[n, l, e_x]| [n, l, e_x], start, times, accuracy)
+    } else {
+        states_of(seeded, |[n, l, _]| [n, l], start, times, accuracy)
+    }
+}
+
+/// `carried` are those of the vectors of a state that the motion carries.
+fn states_of<X: RotationState<Dual64>, const V: usize>(
+    problems: &[Problem<Dual64, X>],
+    carried: impl Fn([Vector3<Dual64>; 3]) -> [Vector3<Dual64>; V],
+    start: f64,
+    times: &[f64],
+    accuracy: f64,
+) -> Result<Option<Vec<Vec<BodyState<Dual64>>>>, Error> {
+    let (Some(register), Some(first), Some(last)) = (pulp::x86::V3::try_new(), problems.first(), times.last()) else {
         return Ok(None);
     };
-    let (spheroid, violation) = (first.spheroid.map(|value| value.re), first.violation.map(|value| value.re));
-    let initial = first.initial.map(|v| v.map(|value| value.re));
-    check_input(&spheroid, &violation, &initial, (start, *last), accuracy)?;
-    let scene = Scene::new(&spheroid, &violation, &initial)?;
+    check_request((start, *last), accuracy)?;
+    let seeded: Vec<Seeded<V>> = problems
+        .iter()
+        .map(|problem| Seeded {
+            spheroid: *problem.spheroid(),
+            violation: *problem.coefficients(),
+            initial: carried(problem.initial().vectors()),
+        })
+        .collect();
+    let first = first.map(|value| value.re);
+    let initial = seeded[0].initial.map(|v| v.map(|value| value.re));
+    let scene = Scene::new(first.spheroid(), first.coefficients(), &initial)?;
     let SplittingForecast { scheme, step, steps, .. } = derivatives_forecast(&scene, (start, *last), accuracy);
     // Each of the times may cut a step in two.
     let count = steps + times.len() as f64;
@@ -177,20 +199,16 @@ mod tests {
     use crate::solutions::free::rotated_by;
 
     /// A scene with derivatives of all its numbers, others for each `direction`.
-    fn seeded(direction: usize, s: f64, momentum: f64) -> Seeded<3> {
+    fn seeded(direction: usize, s: f64, momentum: f64) -> Problem<Dual64> {
         let slope = |place: usize| ((7 * direction + 3 * place + 1) as f64).sin();
         let dual = |value: f64, place: usize| Dual64::new(value, slope(place));
         let vector = |[x, y, z]: [f64; 3], place| Vector3::new(dual(x, place), dual(y, place + 1), dual(z, place + 2));
         let entry = |i: usize, j: usize| if i == j { [0.2, 0.1, -0.3][i] } else { 0.02 * (i + j) as f64 };
-        Seeded {
-            spheroid: RigidSpheroid { inertia_xx: dual(1.3, 0), inertia_zz: dual(1.1, 1), constant_c: dual(0.7, 2) },
-            violation: Matrix3::from_fn(|i, j| dual(s * entry(i, j), 3 + i + j)),
-            initial: [
-                vector([0.6, 0.0, 0.8], 10),
-                vector([0.3, -0.7, 1.1].map(|x| momentum * x), 13),
-                vector([0.0, 1.0, 0.0], 16),
-            ],
-        }
+        let body = RigidSpheroid { inertia_xx: dual(1.3, 0), inertia_zz: dual(1.1, 1), constant_c: dual(0.7, 2) };
+        let momentum = vector([0.3, -0.7, 1.1].map(|x| momentum * x), 13);
+        let vectors = [vector([0.6, 0.0, 0.8], 10), momentum, vector([0.0, 1.0, 0.0], 16)];
+        let tensor = Matrix3::from_fn(|i, j| dual(s * entry(i, j), 3 + i + j));
+        Problem::new(body, tensor, BodyState::from_vectors(vectors)).unwrap()
     }
 
     fn numbers(state: &BodyState<Dual64>) -> Vec<(f64, f64)> {
@@ -200,7 +218,7 @@ mod tests {
     #[test]
     fn a_derivative_does_not_depend_on_those_beside_it() {
         let seeds: Vec<_> = (0..17).map(|direction| seeded(direction, 1.0, 1.0)).collect();
-        let of = |seeds: &[Seeded<3>]| states_with_derivatives(seeds, 1.0, &[2.0, 5.5], 1e-5).unwrap();
+        let of = |seeds: &[Problem<Dual64>]| states_with_derivatives(seeds, 1.0, &[2.0, 5.5], 1e-5).unwrap();
         let Some(together) = of(&seeds) else { return };
         for (place, seeded) in seeds.iter().enumerate() {
             let alone = of(core::slice::from_ref(seeded)).unwrap();
@@ -213,14 +231,14 @@ mod tests {
     /// Without torque the flows are exact: each time costs no more than rounding, however large the angles of a step.
     #[test]
     fn free_rotation_and_its_derivatives_are_exact_both_ways() {
-        let mut seeded = seeded(3, 0.0, 15.0);
-        seeded.violation = Matrix3::zeros();
-        let [axis, momentum, _] = seeded.initial;
+        let seeded = seeded(3, 0.0, 15.0);
+        let seeded = Problem::new(*seeded.spheroid(), Matrix3::zeros(), *seeded.initial()).unwrap();
+        let BodyState { axis, momentum, .. } = *seeded.initial();
         for way in [1.0, -1.0] {
             let times = [0.01, 0.02, 2.5, 5.0].map(|elapsed| 1.0 + way * elapsed);
             let Some(found) = states_with_derivatives(&[seeded], 1.0, &times, 1e-3).unwrap() else { return };
             for (states, time) in found.iter().zip(times) {
-                let turn = momentum * (Dual64::from_re(time - 1.0) / seeded.spheroid.inertia_xx);
+                let turn = momentum * (Dual64::from_re(time - 1.0) / seeded.spheroid().inertia_xx);
                 for (found, exact) in states[0].axis.iter().zip(&rotated_by(&turn, &axis)) {
                     assert_relative_eq!(found.re, exact.re, epsilon = 2e-13);
                     assert_relative_eq!(found.eps, exact.eps, epsilon = 1e-11);
@@ -232,8 +250,7 @@ mod tests {
     #[test]
     fn the_steps_that_are_refused_are_those_of_the_motion_and_of_its_samples() {
         let seeded = seeded(0, 1.0, 1.0);
-        let (body, s) = (seeded.spheroid.map(|x| x.re), seeded.violation.map(|x| x.re));
-        let scene = Scene::new(&body, &s, &seeded.initial.map(|v| v.map(|x| x.re))).unwrap();
+        let scene = Scene::of(&seeded.map(|x| x.re)).unwrap();
         for end in [2e12, -2e12] {
             let step = derivatives_forecast(&scene, (0.0, end), 1e-5).step;
             match states_with_derivatives(&[seeded], 0.0, &[0.5 * end, 0.7 * end, end], 1e-5) {

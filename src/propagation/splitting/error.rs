@@ -1,8 +1,9 @@
 //! The error of a motion by splitting, from the same motion by a better scheme.
 
+use crate::propagation::splitting::GRADIENT_8_8_6;
 use crate::propagation::splitting::flows::{Field, Moving, RATE};
+use crate::propagation::splitting::motion::KeptStates;
 use crate::propagation::splitting::one_motion::OneMotion;
-use crate::propagation::splitting::{GRADIENT_8_8_6, SplittingMotion};
 
 /// Most times at which the two motions are compared.
 const COMPARISONS: u64 = 256;
@@ -47,22 +48,22 @@ pub(super) struct ErrorEstimate {
 }
 
 impl ErrorEstimate {
-    pub(super) fn new<const V: usize>(motion: &SplittingMotion<V>) -> Self {
+    pub(super) fn new<const V: usize>(motion: &KeptStates<V>) -> Self {
         let scene = &motion.scene;
-        let twos = motion.step_count() / 2;
+        let twos = motion.step_count / 2;
         let stride = twos.div_ceil(COMPARISONS);
-        let by_stages = (4 * motion.scheme().stages()).div_ceil(GRADIENT_8_8_6.stages()) as u64;
-        let interval = 2.0 * stride as f64 * motion.step().abs();
+        let by_stages = (4 * motion.scheme.stages()).div_ceil(GRADIENT_8_8_6.stages()) as u64;
+        let interval = 2.0 * stride as f64 * motion.step.abs();
         let shared_rounding = SHARED * f64::EPSILON * scene.largest_rate;
-        let by_angle = (2.0 * motion.step().abs() * scene.largest_rate / LONGEST_STEP).ceil();
+        let by_angle = (2.0 * motion.step.abs() * scene.largest_rate / LONGEST_STEP).ceil();
         if by_angle > MOST_FINER {
             return Self { interval, largest: vec![f64::INFINITY], shared_rounding };
         }
         let per_two = by_stages.max(by_angle as u64);
         let other = |step| OneMotion::new(&GRADIENT_8_8_6, &scene.field, step, scene.largest_rate);
-        let finer = other(2.0 * motion.step() / per_two as f64);
-        let half_back = other(-0.5 * motion.step());
-        let half_forth = OneMotion::new(motion.scheme(), &scene.field, 0.5 * motion.step(), scene.largest_rate);
+        let finer = other(2.0 * motion.step / per_two as f64);
+        let half_back = other(-0.5 * motion.step);
+        let half_forth = OneMotion::new(motion.scheme, &scene.field, 0.5 * motion.step, scene.largest_rate);
         // From a start that is off by a rounding: so the difference knows what an instability makes of those that both motions share.
         let mut state = off(&scene.start, OFF, scene.largest_rate);
         let largest_eigenvalue = scene.eigenvalues.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
@@ -70,7 +71,7 @@ impl ErrorEstimate {
         finer.open(&mut state);
         let rounded = |k: usize| scene.eigenvalues[k] + EIGENVALUES_OFF[k] * f64::EPSILON * largest_eigenvalue;
         let field = Field::new(scene.field.strength, [0, 1, 2].map(rounded));
-        let along = OneMotion::new(motion.scheme(), &field, motion.step(), scene.largest_rate);
+        let along = OneMotion::new(motion.scheme, &field, motion.step, scene.largest_rate);
         along.open(&mut beside);
         let (mut largest, mut most, mut done) = (Vec::new(), 0.0_f64, 0);
         while done < twos {
@@ -148,24 +149,27 @@ mod tests {
     use nalgebra::{Matrix3, Vector3};
 
     use super::*;
-    use crate::dynamics::RigidSpheroid;
+    use crate::dynamics::{AxisState, Problem, RigidSpheroid};
+    use crate::propagation::Motion;
     use crate::propagation::splitting::flows::AXIS;
-    use crate::propagation::splitting::{STRANG, Scheme, propagate_by_splitting};
-    use crate::propagation::{AxisMotion, AxisState};
+    use crate::propagation::splitting::{STRANG, Scheme, SplittingMotion};
 
     const FAST: [f64; 3] = [0.3, -0.7, 1.1];
 
-    fn motion(s: [f64; 3], momentum: [f64; 3], scheme: &'static Scheme, step: f64, count: f64) -> SplittingMotion {
+    type Reduced = SplittingMotion<AxisState<f64>>;
+
+    fn motion(s: [f64; 3], momentum: [f64; 3], scheme: &'static Scheme, step: f64, count: f64) -> Reduced {
         let star = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
         let initial = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::from(momentum) };
         let s = Matrix3::from_diagonal(&Vector3::from(s));
-        propagate_by_splitting(&star, &s, &initial, (3.0, 3.0 + step * count), scheme, step).unwrap()
+        Problem::new(star, s, initial).unwrap().splitting_by(scheme, (3.0, 3.0 + step * count), step).unwrap()
     }
 
     #[test]
     fn motions_are_compared_at_256_times_or_half_as_many() {
         for (count, times, stride) in [(512.0, 256, 1.0), (514.0, 129, 2.0)] {
-            let estimate = ErrorEstimate::new(&motion([0.3, 0.1, -0.4], FAST, &GRADIENT_8_8_6, 0.0625, count));
+            let estimate =
+                ErrorEstimate::new(motion([0.3, 0.1, -0.4], FAST, &GRADIENT_8_8_6, 0.0625, count).axis_states());
             assert_eq!((estimate.largest.len(), estimate.interval), (times, 2.0 * stride * 0.0625));
             assert!(estimate.largest.iter().all(|&error| error < 1e-10), "{:?}", estimate.largest.last());
         }
@@ -184,7 +188,7 @@ mod tests {
     #[test]
     fn at_the_start_alone_nothing_but_rounding_is_off() {
         let motion = motion([0.3, 0.1, -0.4], FAST, &STRANG, 0.5, 8.0);
-        assert_eq!(ErrorEstimate::new(&motion).interval, 1.0);
+        assert_eq!(ErrorEstimate::new(motion.axis_states()).interval, 1.0);
         assert_eq!(motion.error_estimate(3.0), 4.0 * f64::EPSILON);
         for elapsed in [0.3, 1.0, 2.7] {
             assert!(motion.error_estimate(3.0 + elapsed) > 1e-5);
@@ -203,7 +207,7 @@ mod tests {
     fn the_motion_beside_is_off_by_some_roundings_of_its_start_and_eigenvalues() {
         let eigenvalues = [0.5012, 0.5004, 0.4984];
         let motion = motion(eigenvalues, [0.22, 0.14, -0.08], &GRADIENT_8_8_6, 0.3125, 4000.0);
-        let (scene, rounding) = (&motion.scene, 0.5012 * f64::EPSILON);
+        let (scene, rounding) = (&motion.axis_states().scene, 0.5012 * f64::EPSILON);
         let [x, y, z] = eigenvalues;
         let rounded = [x + 3.7 * rounding, y - 5.3 * rounding, z + 4.1 * rounding];
         let field = Field::new(scene.field.strength, rounded);
@@ -221,9 +225,9 @@ mod tests {
             along.advance(&mut beside, scene.casimir, 16);
             let mut closed = beside;
             along.close(&mut closed);
-            most = most.max(largest_difference(&closed, &motion.after(16 * time), scene.largest_rate));
+            most = most.max(largest_difference(&closed, &motion.axis_states().after(16 * time), scene.largest_rate));
         }
-        let estimate = ErrorEstimate::new(&motion);
+        let estimate = ErrorEstimate::new(motion.axis_states());
         assert_eq!(estimate.largest.len(), 250);
         assert_relative_eq!(estimate.largest[249], 6.0 * most, max_relative = 1e-9);
     }

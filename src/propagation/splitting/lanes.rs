@@ -1,15 +1,16 @@
 //! Many motions at once by splitting, one in each lane of the vector registers.
 
+use crate::dynamics::AxisState;
 use crate::error::Error;
-use crate::propagation::input::check_input;
+use crate::propagation::input::check_request;
 use crate::propagation::registers::Register;
 use crate::propagation::splitting::choice::{SampledForecast, sampled_forecast};
 use crate::propagation::splitting::flows::{Angles, Field, Moved, Moving};
-use crate::propagation::splitting::motion::{Scene, vectors_of_axis};
+use crate::propagation::splitting::motion::Scene;
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::side_by_side::SideBySide;
 use crate::propagation::splitting::stepper::{STEPS_BETWEEN_PROJECTIONS, Steps, angles};
-use crate::propagation::{AxisScene, AxisState, Samples};
+use crate::propagation::{SampledProblem, Samples};
 
 type Outcome = Result<Samples<AxisState<f64>>, Error>;
 
@@ -32,12 +33,11 @@ impl<'t> Ready<'t> {
     ///
     /// # Errors
     /// What is wrong with the scene.
-    pub(in crate::propagation) fn new(index: usize, scene: &AxisScene<'t>) -> Result<Option<Self>, Error> {
-        let AxisScene { spheroid, violation, initial, start, times, accuracy } = scene;
+    pub(in crate::propagation) fn new(index: usize, motion: &SampledProblem<'t>) -> Result<Option<Self>, Error> {
+        let SampledProblem { problem, start, times, accuracy } = motion;
         let span = (*start, times.last().copied().unwrap_or(*start));
-        let initial = vectors_of_axis(initial);
-        check_input(spheroid, violation, &initial, span, *accuracy)?;
-        let scene = Scene::new(spheroid, violation, &initial)?;
+        check_request(span, *accuracy)?;
+        let scene = Scene::of(problem)?;
         let Some(SampledForecast { scheme, step, steps }) = sampled_forecast(&scene, *start, times, *accuracy) else {
             return Ok(None);
         };
@@ -168,20 +168,17 @@ mod tests {
     use pulp::x86::V3;
 
     use super::*;
-    use crate::dynamics::RigidSpheroid;
+    use crate::dynamics::{Problem, RigidSpheroid};
     use crate::propagation::splitting::NEAR_INTEGRABLE_6_2;
     use crate::propagation::splitting::one_motion::OneMotion;
     use crate::solutions::free::rotated_by;
 
-    fn scene(s: [f64; 3], momentum: f64, start: f64, times: &[f64], accuracy: f64) -> AxisScene<'_> {
-        AxisScene {
-            spheroid: RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 },
-            violation: Matrix3::from_diagonal(&Vector3::from(s)),
-            initial: AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.7, 1.1) * momentum },
-            start,
-            times,
-            accuracy,
-        }
+    fn scene(s: [f64; 3], momentum: f64, start: f64, times: &[f64], accuracy: f64) -> SampledProblem<'_> {
+        let body = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+        let momentum = Vector3::new(0.3, -0.7, 1.1) * momentum;
+        let initial = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum };
+        let problem = Problem::new(body, Matrix3::from_diagonal(&Vector3::from(s)), initial).unwrap();
+        SampledProblem { problem, start, times, accuracy }
     }
 
     fn states(register: V3, ready: Ready<'_>) -> Vec<AxisState<f64>> {
@@ -200,8 +197,9 @@ mod tests {
             let scene = scene([0.0; 3], 15.0, 1.0, &times, 1e-3);
             let states = states(register, Ready::new(0, &scene).unwrap().unwrap());
             for (state, time) in states.iter().zip(times) {
-                let turn = scene.initial.momentum * ((time - 1.0) / 1.3);
-                assert!((state.axis - rotated_by(&turn, &scene.initial.axis)).amax() < 3e-13, "{time}: {state:?}");
+                let AxisState { axis, momentum } = scene.problem.initial();
+                let turn = momentum * ((time - 1.0) / 1.3);
+                assert!((state.axis - rotated_by(&turn, axis)).amax() < 3e-13, "{time}: {state:?}");
             }
         }
     }
@@ -210,7 +208,7 @@ mod tests {
     fn steps_to_a_sample_are_equal_and_none_to_the_same_time() {
         let times = [1.0, 1.25, 1.25, 0.0];
         let scene = scene([0.2, 0.1, -0.3], 1.0, 1.0, &times, 1e-3);
-        let ready = Ready { step: 0.3, ..Ready::new(0, &AxisScene { times: &[2.0], ..scene }).unwrap().unwrap() };
+        let ready = Ready { step: 0.3, ..Ready::new(0, &SampledProblem { times: &[2.0], ..scene }).unwrap().unwrap() };
         let ready = Ready { times: &times, ..ready };
         assert_eq!([0, 1, 2, 3].map(|sample| ready.steps_to(sample)), [(0.0, 0), (0.25, 1), (0.0, 0), (-0.25, 5)]);
     }

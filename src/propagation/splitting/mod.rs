@@ -3,35 +3,18 @@
 //! # Example
 //!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
-//! use twofold::propagation::splitting::{
-//!     SRKN_14A, Splitting, propagate_by_best_splitting, propagate_by_splitting, propagate_orientation_by_best_splitting,
-//!     propagate_orientation_by_splitting, splitting_forecast,
-//! };
-//! use twofold::propagation::{AxisMotion, AxisState, Motion};
+//! use nalgebra::{Matrix3, Vector3};
+//! use twofold::dynamics::{AxisState, Problem, RigidSpheroid};
+//! use twofold::propagation::{Motion, splitting::SRKN_14A};
 //!
-//! let (tensor, axis, span) = (s.tensor(), AxisState::from(&state), (0.0, 50.0));
-//! let forecast = splitting_forecast(&star, &tensor, &axis, span, 1e-10)?;
-//! let best = propagate_by_best_splitting(&star, &tensor, &axis, span, 1e-10)?;
-//! assert_eq!(best.scheme().name, forecast.scheme.name);
-//! let end = propagate_orientation_by_best_splitting(&star, &tensor, &state, span, 1e-10)?.state(50.0)?;
-//! assert!((best.axis_state(50.0)?.axis - end.axis).amax() < 1e-8);
-//!
-//! // A scheme and a step of one's own choice, with or without e_x, and for ever.
-//! let own = propagate_by_splitting(&star, &tensor, &axis, span, &SRKN_14A, 0.1)?;
-//! let with_e_x = propagate_orientation_by_splitting(&star, &tensor, &state, span, &SRKN_14A, 0.1)?;
-//! assert!((own.axis_state(50.0)?.axis - with_e_x.state(50.0)?.axis).amax() < 1e-12);
-//! let mut steps = Splitting::new(&star, &tensor, &axis, &SRKN_14A, 0.1)?;
-//! steps.advance(500);
-//! assert!((steps.state().axis - end.axis).amax() < 1e-8);
+//! let start = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.1, 0.2, 1.3) };
+//! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
+//! let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?;
+//! let best = problem.splitting((0.0, 50.0), 1e-10)?;
+//! assert_eq!(best.scheme().name, problem.splitting_forecast((0.0, 50.0), 1e-10)?.scheme.name);
+//! // A scheme and a step of one's own choice.
+//! let own = problem.splitting_by(&SRKN_14A, (0.0, 50.0), 0.1)?;
+//! assert!((best.axis_state(50.0)?.axis - own.axis_state(50.0)?.axis).amax() < 1e-8);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
@@ -57,7 +40,7 @@ mod tangents;
 pub use choice::{
     SplittingForecast, propagate_by_best_splitting, propagate_orientation_by_best_splitting, splitting_forecast,
 };
-pub(crate) use choice::{TANGENTS_AT_ONCE, require_tangent_maps, splitting_forecast_with_derivatives};
+pub(crate) use choice::{TANGENTS_AT_ONCE, require_tangent_maps};
 pub use motion::{SPLITTING_STEP_LIMIT, SplittingMotion, propagate_by_splitting, propagate_orientation_by_splitting};
 pub use scheme::{Ends, Scheme};
 pub use schemes::{

@@ -1,19 +1,21 @@
 //! A motion kept as states at the steps of a splitting scheme.
 
+use core::marker::PhantomData;
 use std::sync::OnceLock;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
-use crate::propagation::input::{check_input, check_time};
+use crate::propagation::input::{check_request, check_time};
+use crate::propagation::splitting::choice::{Goal, SplittingForecast, cheapest};
 use crate::propagation::splitting::error::ErrorEstimate;
 use crate::propagation::splitting::flows::{AXIS, Field, Moving, RATE, dot};
 use crate::propagation::splitting::one_motion::OneMotion;
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::third_angle::{body_state, rate_about_axis};
-use crate::propagation::{ACCURACY_RANGE, AxisMotion, AxisState, Motion, Turning};
+use crate::propagation::{ACCURACY_RANGE, Motion};
 use crate::rounding::two_product;
 
 /// Most steps of one motion.
@@ -39,6 +41,14 @@ pub(super) struct Scene<const V: usize = 2> {
     pub(super) spread: f64,
     /// Bound of `|w|` by the energy.
     pub(super) largest_rate: f64,
+}
+
+impl Scene {
+    /// Of `n` and `L`.
+    pub(super) fn of<X: RotationState<f64>>(problem: &Problem<f64, X>) -> Result<Self, Error> {
+        let [n, l, _] = problem.initial().vectors();
+        Self::new(problem.spheroid(), problem.coefficients(), &[n, l])
+    }
 }
 
 impl<const V: usize> Scene<V> {
@@ -100,19 +110,43 @@ impl Scene<3> {
     }
 }
 
-/// The motion of `n`, `L` and, with `V = 3`, `e_x` by a splitting scheme, kept as states at its steps.
+/// A motion by a splitting scheme, kept as states at its steps: [`Problem::splitting`].
 ///
 /// Between two kept states the motion is found by whole steps and one partial step of the same scheme; no more than one
 /// whole step for spans below 100,000 steps, and in any case a number that does not depend on the time asked.
 #[derive(Debug, Clone)]
-pub struct SplittingMotion<const V: usize = 2> {
+pub struct SplittingMotion<X = BodyState<f64>> {
+    kept: Kept,
+    state: PhantomData<X>,
+}
+
+#[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "one motion at a time")]
+enum Kept {
+    Axis(KeptStates<2>),
+    Body(KeptStates<3>),
+}
+
+/// Something done with the states of either.
+macro_rules! of_either {
+    ($motion:expr, $states:ident => $work:expr) => {
+        match &$motion.kept {
+            Kept::Axis($states) => $work,
+            Kept::Body($states) => $work,
+        }
+    };
+}
+
+/// The states of `n`, `L` and, with `V = 3`, the vector carried along.
+#[derive(Debug, Clone)]
+pub(super) struct KeptStates<const V: usize> {
     spheroid: RigidSpheroid<f64>,
     violation: Matrix3<f64>,
     span: (f64, f64),
-    scheme: &'static Scheme,
+    pub(super) scheme: &'static Scheme,
     pub(super) scene: Scene<V>,
-    step: f64,
-    step_count: u64,
+    pub(super) step: f64,
+    pub(super) step_count: u64,
     /// Whole steps between two kept states.
     stride: u64,
     steps: OneMotion,
@@ -122,129 +156,91 @@ pub struct SplittingMotion<const V: usize = 2> {
     estimate: OnceLock<ErrorEstimate>,
 }
 
-/// The motion of `n` and `L` from `initial` at `span.0` to `span.1` (forwards or backwards), by equal steps of `scheme` no longer
-/// than `step`; their number is even, for the sake of the error estimate.
-///
-/// Every step is a composition of exact flows, so that `|n|` and `L.n` keep their values to rounding for any number of
-/// steps and the energy has no secular error. `s` is the tensor `s^IJ` in the inertial frame of `initial`, which may be any.
-///
-/// # Errors
-/// [`Error::Domain`] for a state, parameter or span that is not finite, an axis that is not a unit vector (to 1e-9), moments of
-/// inertia that are not positive, a tensor that is not symmetric, a step that is not above zero, or so long that the numbers of the
-/// motion overflow (several radians), and more than [`SPLITTING_STEP_LIMIT`] steps.
-pub fn propagate_by_splitting(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &AxisState<f64>,
-    span: (f64, f64),
-    scheme: &'static Scheme,
-    step: f64,
-) -> Result<SplittingMotion, Error> {
-    propagate_by(spheroid, s, &vectors_of_axis(initial), span, scheme, step)
+/// Which steps a motion takes.
+#[derive(Clone, Copy)]
+enum Steps {
+    /// Those of a scheme, no longer than a length.
+    Of(&'static Scheme, f64),
+    /// The cheapest ones for an accuracy.
+    For { accuracy: f64 },
 }
 
-/// The whole rotation by equal steps of `scheme` no longer than `step`, as [`propagate_by_splitting`]: the third angle costs little
-/// beside the axis, which does not wait for it.
-///
-/// # Errors
-/// As for [`propagate_by_splitting`], and for `e_x` that is not a unit vector normal to the axis (to 1e-9).
-pub fn propagate_orientation_by_splitting(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &BodyState<f64>,
-    span: (f64, f64),
-    scheme: &'static Scheme,
-    step: f64,
-) -> Result<SplittingMotion<3>, Error> {
-    propagate_by(spheroid, s, &vectors_of_body(initial), span, scheme, step)
+impl<X: RotationState<f64>> Problem<f64, X> {
+    /// The motion from the initial state at `span.0` to `span.1` (forwards or backwards), by equal steps of `scheme` no longer than `step`;
+    /// their number is even, for the sake of the error estimate.
+    ///
+    /// Every step is a composition of exact flows, so that `|n|` and `L.n` keep their values to rounding for any number of
+    /// steps and the energy has no secular error. The third angle costs little beside the axis, which does not wait for it.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a span that is not finite, a step that is not above zero, or so long that the numbers of the
+    /// motion overflow (several radians), and more than [`SPLITTING_STEP_LIMIT`] steps.
+    pub fn splitting_by(
+        &self,
+        scheme: &'static Scheme,
+        span: (f64, f64),
+        step: f64,
+    ) -> Result<SplittingMotion<X>, Error> {
+        check_request(span, ACCURACY_RANGE.0)?;
+        self.split(span, Steps::Of(scheme, step))
+    }
+
+    /// The motion by the scheme and the step that a model of cost and error chooses for `accuracy` at the end of the
+    /// span (components of `n`, and of `L` in units of `|L| + sqrt(2 I^xx C |s|)`), between 1e-16 and 1e-2.
+    ///
+    /// The model is one formula for all motions. It does not foresee the growth of errors near the unstable middle axis;
+    /// [`error_estimate`](Motion::error_estimate) does. Rounding limits what can be reached to some 1e-16 times the angle turned.
+    ///
+    /// # Errors
+    /// As for [`splitting_by`](Self::splitting_by), and for an accuracy out of range.
+    pub fn splitting(&self, span: (f64, f64), accuracy: f64) -> Result<SplittingMotion<X>, Error> {
+        check_request(span, accuracy)?;
+        self.split(span, Steps::For { accuracy })
+    }
+
+    fn split(&self, span: (f64, f64), steps: Steps) -> Result<SplittingMotion<X>, Error> {
+        let (body, s, [n, l, e_x]) = (self.spheroid(), self.coefficients(), self.initial().vectors());
+        let kept = if X::VECTORS == 3 {
+            Kept::Body(KeptStates::new(body, s, &[n, l, e_x], span, steps)?)
+        } else {
+            Kept::Axis(KeptStates::new(body, s, &[n, l], span, steps)?)
+        };
+        Ok(SplittingMotion { kept, state: PhantomData })
+    }
 }
 
-pub(super) fn vectors_of_axis(state: &AxisState<f64>) -> [Vector3<f64>; 2] {
-    [state.axis, state.momentum]
-}
-
-pub(super) fn vectors_of_body(state: &BodyState<f64>) -> [Vector3<f64>; 3] {
-    [state.axis, state.momentum, state.equatorial_axis]
-}
-
-fn propagate_by<const V: usize>(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &[Vector3<f64>; V],
-    span: (f64, f64),
-    scheme: &'static Scheme,
-    step: f64,
-) -> Result<SplittingMotion<V>, Error> {
-    check_input(spheroid, s, initial, span, ACCURACY_RANGE.0)?;
-    let scene = Scene::new(spheroid, s, initial)?;
-    propagate_checked(spheroid, s, span, scheme, scene, step)
-}
-
-/// The motion from input that has been checked.
-pub(super) fn propagate_checked<const V: usize>(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    span: (f64, f64),
-    scheme: &'static Scheme,
-    scene: Scene<V>,
-    step: f64,
-) -> Result<SplittingMotion<V>, Error> {
-    Error::unless(step > 0.0 && step.is_finite(), "step", step, "above zero and finite")?;
-    let duration = span.1 - span.0;
-    let count = 2.0 * (duration.abs() / step / 2.0 * (1.0 - 1e-14)).ceil().max(1.0);
-    Error::unless(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
-    let motion = SplittingMotion::run(spheroid, s, span, scheme, scene, duration / count, count as u64);
-    let end = motion.states.last().map_or(0.0, |state| state.vectors.iter().flatten().sum());
-    Error::unless(end.is_finite(), "step", step, "shorter: with this one the motion leaves the range of numbers")?;
-    Ok(motion)
-}
-
-impl<const V: usize> SplittingMotion<V> {
-    fn run(
+impl<const V: usize> KeptStates<V> {
+    fn new(
         spheroid: &RigidSpheroid<f64>,
         s: &Matrix3<f64>,
+        initial: &[Vector3<f64>; V],
         span: (f64, f64),
-        scheme: &'static Scheme,
-        scene: Scene<V>,
-        step: f64,
-        step_count: u64,
-    ) -> Self {
+        steps: Steps,
+    ) -> Result<Self, Error> {
+        let scene = Scene::new(spheroid, s, initial)?;
+        let (scheme, step) = match steps {
+            Steps::Of(scheme, step) => (scheme, step),
+            Steps::For { accuracy } => {
+                let SplittingForecast { scheme, step, .. } = cheapest(&scene, span, accuracy, Goal::State);
+                (scheme, step)
+            }
+        };
+        Error::unless(step > 0.0 && step.is_finite(), "step", step, "above zero and finite")?;
+        let duration = span.1 - span.0;
+        let count = 2.0 * (duration.abs() / step / 2.0 * (1.0 - 1e-14)).ceil().max(1.0);
+        Error::unless(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
+        let (step_count, whole) = (count as u64, duration / count);
         let stride = step_count.div_ceil(MOST_STATES);
-        let steps = OneMotion::new(scheme, &scene.field, step, scene.largest_rate);
+        let steps = OneMotion::new(scheme, &scene.field, whole, scene.largest_rate);
         let mut states = Vec::with_capacity((step_count / stride + 1) as usize);
         let mut state = scene.start;
         steps.open(&mut state);
         states.push(state);
         steps.keep(&mut state, scene.casimir, (stride, step_count / stride), &mut states);
-        let (spheroid, violation) = (*spheroid, *s);
-        Self {
-            spheroid,
-            violation,
-            span,
-            scheme,
-            scene,
-            step,
-            step_count,
-            stride,
-            steps,
-            states,
-            estimate: OnceLock::new(),
-        }
-    }
-
-    /// The scheme.
-    pub fn scheme(&self) -> &'static Scheme {
-        self.scheme
-    }
-
-    /// Length of one step, negative for a motion backwards in time.
-    pub fn step(&self) -> f64 {
-        self.step
-    }
-
-    /// Number of steps, even.
-    pub fn step_count(&self) -> u64 {
-        self.step_count
+        let end = states.last().map_or(0.0, |state| state.vectors.iter().flatten().sum());
+        Error::unless(end.is_finite(), "step", step, "shorter: with this one the motion leaves the range of numbers")?;
+        let (spheroid, violation, estimate) = (*spheroid, *s, OnceLock::new());
+        Ok(Self { spheroid, violation, span, scheme, scene, step: whole, step_count, stride, steps, states, estimate })
     }
 
     /// The state after a number of whole steps.
@@ -271,27 +267,7 @@ impl<const V: usize> SplittingMotion<V> {
         }
         Ok(state)
     }
-}
 
-impl<const V: usize> AxisMotion<f64> for SplittingMotion<V> {
-    fn spheroid(&self) -> &RigidSpheroid<f64> {
-        &self.spheroid
-    }
-
-    fn violation(&self) -> &Matrix3<f64> {
-        &self.violation
-    }
-
-    fn span(&self) -> (f64, f64) {
-        self.span
-    }
-
-    fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
-        Ok(self.scene.state(&self.at(t)?))
-    }
-
-    /// Six times the difference from a motion by a better scheme, found when it is first asked for: that motion takes at least
-    /// two and a half times as long as this one.
     fn error_estimate(&self, t: f64) -> f64 {
         if check_time(self.span, t).is_err() {
             return f64::NAN;
@@ -301,14 +277,80 @@ impl<const V: usize> AxisMotion<f64> for SplittingMotion<V> {
     }
 }
 
-impl Motion<f64> for SplittingMotion<3> {
-    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
-        Ok(self.scene.body_state(&self.at(t)?, t - self.span.0))
+impl<X: RotationState<f64>> SplittingMotion<X> {
+    /// The scheme.
+    pub fn scheme(&self) -> &'static Scheme {
+        of_either!(self, states => states.scheme)
     }
 
-    fn turning(&self) -> Turning<'_> {
-        Turning::Equations
+    /// Length of one step, negative for a motion backwards in time.
+    pub fn step(&self) -> f64 {
+        of_either!(self, states => states.step)
     }
+
+    /// Number of steps, even.
+    pub fn step_count(&self) -> u64 {
+        of_either!(self, states => states.step_count)
+    }
+}
+
+impl<X: RotationState<f64>> Motion<f64> for SplittingMotion<X> {
+    type State = X;
+
+    fn spheroid(&self) -> &RigidSpheroid<f64> {
+        of_either!(self, states => &states.spheroid)
+    }
+
+    fn coefficients(&self) -> &Matrix3<f64> {
+        of_either!(self, states => &states.violation)
+    }
+
+    fn span(&self) -> (f64, f64) {
+        of_either!(self, states => states.span)
+    }
+
+    fn state(&self, t: f64) -> Result<X, Error> {
+        Ok(X::from_vectors(match &self.kept {
+            Kept::Axis(states) => states.scene.state(&states.at(t)?).vectors(),
+            Kept::Body(states) => states.scene.body_state(&states.at(t)?, t - states.span.0).vectors(),
+        }))
+    }
+
+    fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
+        of_either!(self, states => Ok(states.scene.state(&states.at(t)?)))
+    }
+
+    /// Six times the difference from a motion by a better scheme, found when it is first asked for: that motion takes at least
+    /// two and a half times as long as this one.
+    fn error_estimate(&self, t: f64) -> f64 {
+        of_either!(self, states => states.error_estimate(t))
+    }
+}
+
+/// By [`Problem::splitting_by`].
+pub fn propagate_by_splitting(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    initial: &AxisState<f64>,
+    span: (f64, f64),
+    scheme: &'static Scheme,
+    step: f64,
+) -> Result<SplittingMotion<AxisState<f64>>, Error> {
+    // old entry: goes when its callers have moved
+    Problem::new(*spheroid, *s, *initial)?.splitting_by(scheme, span, step)
+}
+
+/// By [`Problem::splitting_by`].
+pub fn propagate_orientation_by_splitting(
+    spheroid: &RigidSpheroid<f64>,
+    s: &Matrix3<f64>,
+    initial: &BodyState<f64>,
+    span: (f64, f64),
+    scheme: &'static Scheme,
+    step: f64,
+) -> Result<SplittingMotion, Error> {
+    // old entry: goes when its callers have moved
+    Problem::new(*spheroid, *s, *initial)?.splitting_by(scheme, span, step)
 }
 
 #[cfg(test)]
@@ -318,18 +360,22 @@ mod tests {
     use super::*;
     use crate::propagation::splitting::{STRANG, Splitting};
 
+    impl SplittingMotion<AxisState<f64>> {
+        pub(in crate::propagation::splitting) fn axis_states(&self) -> &KeptStates<2> {
+            let Kept::Axis(states) = &self.kept else { unreachable!("it has no e_x") };
+            states
+        }
+    }
+
     const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
 
-    fn tensor() -> Matrix3<f64> {
-        Matrix3::from_diagonal(&Vector3::new(0.3, 0.1, -0.4))
+    fn problem() -> Problem<f64, AxisState<f64>> {
+        let start = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.7, 1.1) };
+        Problem::new(STAR, Matrix3::from_diagonal(&Vector3::new(0.3, 0.1, -0.4)), start).unwrap()
     }
 
-    fn start() -> AxisState<f64> {
-        AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.7, 1.1) }
-    }
-
-    fn motion(span: (f64, f64), step: f64) -> Result<SplittingMotion, Error> {
-        propagate_by_splitting(&STAR, &tensor(), &start(), span, &STRANG, step)
+    fn motion(span: (f64, f64), step: f64) -> Result<SplittingMotion<AxisState<f64>>, Error> {
+        problem().splitting_by(&STRANG, span, step)
     }
 
     #[test]
@@ -356,10 +402,11 @@ mod tests {
     #[test]
     fn long_motions_keep_some_of_their_states() {
         let (step, count) = (0.01, 200_002);
-        let long = motion((0.0, step * count as f64), step).unwrap();
-        assert_eq!((long.step_count(), long.stride), (count, 3));
+        let motion = motion((0.0, step * count as f64), step).unwrap();
+        let long = motion.axis_states();
+        assert_eq!((long.step_count, long.stride), (count, 3));
         assert_eq!((long.states.len(), long.states.capacity()), (66_668, 66_668));
-        let mut alone = Splitting::new(&STAR, &tensor(), &start(), &STRANG, long.step()).unwrap();
+        let mut alone = Splitting::new(&problem(), &STRANG, long.step).unwrap();
         let mut done = 0;
         for whole in [1, 2, 3, 1004, 9998] {
             alone.advance(whole - done);
@@ -368,17 +415,18 @@ mod tests {
             assert!((found.axis - alone.state().axis).amax() < 1e-11, "{whole}");
             assert!((found.momentum - alone.state().momentum).amax() < 1e-11, "{whole}");
         }
-        assert_relative_eq!(long.axis_state(step * count as f64).unwrap().axis.norm(), 1.0, max_relative = 1e-12);
+        assert_relative_eq!(motion.axis_state(step * count as f64).unwrap().axis.norm(), 1.0, max_relative = 1e-12);
     }
 
     #[test]
     fn between_its_steps_a_motion_goes_by_one_step_of_the_rest() {
         let motion = motion((0.0, 8.0), 2.0).unwrap();
         for (time, whole, rest) in [(0.7, 0, 0.7), (1.0, 0, 1.0), (4.5, 2, 0.5), (7.0, 3, 1.0)] {
-            let mut state = motion.after(whole);
-            let partial = OneMotion::new(&STRANG, &motion.scene.field, rest, motion.scene.largest_rate);
-            partial.single(&mut state, motion.scene.casimir);
-            let (found, expected) = (motion.axis_state(time).unwrap(), motion.scene.state(&state));
+            let kept = motion.axis_states();
+            let mut state = kept.after(whole);
+            let partial = OneMotion::new(&STRANG, &kept.scene.field, rest, kept.scene.largest_rate);
+            partial.single(&mut state, kept.scene.casimir);
+            let (found, expected) = (motion.axis_state(time).unwrap(), kept.scene.state(&state));
             assert!((found.axis - expected.axis).amax() < 1e-15 && (found.momentum - expected.momentum).amax() < 1e-15);
         }
     }
@@ -391,11 +439,12 @@ mod tests {
         let late: Vec<u64> = (740..1000).filter(|&whole| lost(whole) > 4e-14).collect();
         assert!(late.len() > 3);
         for whole in late {
-            let mut state = motion.after(whole);
-            let rest = OneMotion::new(&STRANG, &motion.scene.field, lost(whole), motion.scene.largest_rate);
-            rest.single(&mut state, motion.scene.casimir);
+            let kept = motion.axis_states();
+            let mut state = kept.after(whole);
+            let rest = OneMotion::new(&STRANG, &kept.scene.field, lost(whole), kept.scene.largest_rate);
+            rest.single(&mut state, kept.scene.casimir);
             let found = motion.axis_state(whole as f64 * motion.step()).unwrap();
-            assert!((found.axis - motion.scene.state(&state).axis).amax() < 1e-15, "{whole}");
+            assert!((found.axis - kept.scene.state(&state).axis).amax() < 1e-15, "{whole}");
         }
     }
 }

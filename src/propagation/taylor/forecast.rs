@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::propagation::arithmetic::Plain;
 use crate::propagation::taylor::error_growth::{ErrorGrowth, READING};
@@ -11,24 +11,35 @@ use crate::propagation::taylor::series::COMPANION;
 use crate::propagation::taylor::setup::Setup;
 use crate::propagation::taylor::{fused_for, work_of};
 
-/// What [`propagate`](crate::propagation::propagate) will do, from its first step.
+/// What [`Problem::taylor`] will do, from its first step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TaylorForecast {
     /// Order of the series.
     pub order: usize,
     /// Steps, if all are as long as the first; at least one.
     pub steps: f64,
-    /// What [`error_estimate`](crate::propagation::AxisMotion::error_estimate) will take for rounding at the end, as far as the start
+    /// What [`error_estimate`](crate::propagation::Motion::error_estimate) will take for rounding at the end, as far as the start
     /// tells: for steps alike, a torque as large as it can be, and constants each rounded by half a unit in the last place of a rate. Of
     /// a motion beside the unstable middle axis it does not know the growth.
     pub rounding: f64,
 }
 
-/// What [`propagate`](crate::propagation::propagate), or without `e_x` [`propagate_axis`](crate::propagation::propagate_axis),
-/// will do over a `duration`: the work of one step tells it.
-///
-/// # Errors
-/// As for [`propagate`](crate::propagation::propagate), but for the number of steps.
+impl<X: RotationState<f64>> Problem<f64, X> {
+    /// What [`taylor`](Self::taylor) will do over a `duration`: the work of one step tells it.
+    ///
+    /// # Errors
+    /// As for [`taylor`](Self::taylor), but for the number of steps.
+    pub fn taylor_forecast(&self, duration: f64, accuracy: f64) -> Result<TaylorForecast, Error> {
+        let (body, s, [n, l, e_x]) = (self.spheroid(), self.coefficients(), self.initial().vectors());
+        if X::VECTORS == 3 {
+            forecast(body, s, [n, l, e_x], duration, accuracy)
+        } else {
+            forecast(body, s, [n, l], duration, accuracy)
+        }
+    }
+}
+
+/// By [`Problem::taylor_forecast`].
 pub fn taylor_forecast(
     spheroid: &RigidSpheroid<f64>,
     s: &Matrix3<f64>,
@@ -37,11 +48,12 @@ pub fn taylor_forecast(
     duration: f64,
     accuracy: f64,
 ) -> Result<TaylorForecast, Error> {
-    let [n, l, e_x] = [initial.axis, initial.momentum, initial.equatorial_axis];
+    // old entry: goes when its callers have moved
+    let problem = Problem::new(*spheroid, *s, *initial)?;
     if with_equatorial_axis {
-        forecast(spheroid, s, [n, l, e_x], duration, accuracy)
+        problem.taylor_forecast(duration, accuracy)
     } else {
-        forecast(spheroid, s, [n, l], duration, accuracy)
+        problem.reduced().taylor_forecast(duration, accuracy)
     }
 }
 
@@ -96,9 +108,10 @@ mod tests {
         let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
         let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.5, 1.2));
         let initial = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
-        for (duration, with_equatorial_axis) in [(0.0, true), (1e-3, false), (-1e-3, true)] {
-            let forecast = taylor_forecast(&spheroid, &violation, &initial, with_equatorial_axis, duration, 1e-10);
-            assert_eq!(forecast.unwrap().steps, 1.0, "{duration}");
+        let problem = Problem::new(spheroid, violation, initial).unwrap();
+        for duration in [0.0, 1e-3, -1e-3] {
+            assert_eq!(problem.taylor_forecast(duration, 1e-10).unwrap().steps, 1.0, "{duration}");
+            assert_eq!(problem.reduced().taylor_forecast(duration, 1e-10).unwrap().steps, 1.0, "{duration}");
         }
     }
 }

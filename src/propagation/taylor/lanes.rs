@@ -2,7 +2,9 @@
 
 use nalgebra::Vector3;
 
+use crate::dynamics::AxisState;
 use crate::error::Error;
+use crate::propagation::SampledProblem;
 use crate::propagation::arithmetic::Arithmetic;
 use crate::propagation::registers::{Lanes, Register};
 use crate::propagation::taylor::clock::Clock;
@@ -11,7 +13,6 @@ use crate::propagation::taylor::samples::{LIMIT, Samples, span_of};
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Recurrence, change};
 use crate::propagation::taylor::setup::Setup;
 use crate::propagation::taylor::step_size::{Work, step_size};
-use crate::propagation::{AxisScene, AxisState};
 
 type Outcome = Result<Samples<AxisState<f64>>, Error>;
 
@@ -23,14 +24,16 @@ struct Ready<'t> {
 }
 
 /// States of motions at their times, by Taylor series in the lanes of `register`.
-pub(in crate::propagation) fn axis_states_in_lanes<R: Register>(register: R, scenes: &[AxisScene<'_>]) -> Vec<Outcome> {
+pub(in crate::propagation) fn axis_states_in_lanes<R: Register>(
+    register: R,
+    scenes: &[SampledProblem<'_>],
+) -> Vec<Outcome> {
     let mut outcomes = Vec::with_capacity(scenes.len());
     let mut ready = Vec::with_capacity(scenes.len());
-    for (scene, AxisScene { spheroid, violation, initial, start, times, accuracy }) in scenes.iter().enumerate() {
-        let vectors = [initial.axis, initial.momentum];
-        let setup = span_of(*start, times).and_then(|span| {
-            Setup::<f64, 2>::new((true, Work::Quadratic), spheroid, violation, vectors, span, *accuracy)
-        });
+    for (scene, SampledProblem { problem, start, times, accuracy }) in scenes.iter().enumerate() {
+        let (body, s, AxisState { axis, momentum }) = (problem.spheroid(), problem.coefficients(), *problem.initial());
+        let setup = span_of(*start, times)
+            .and_then(|span| Setup::new((true, Work::Quadratic), body, s, [axis, momentum], span, *accuracy));
         outcomes.push(setup.map(|setup| {
             let samples = Samples::with_room(times.len(), setup.order);
             ready.push(Ready { scene, times, setup });
@@ -130,8 +133,8 @@ mod tests {
     use nalgebra::Matrix3;
 
     use super::*;
-    use crate::dynamics::RigidSpheroid;
-    use crate::propagation::{ErrorEstimates, axis_states_at};
+    use crate::dynamics::{Problem, RigidSpheroid};
+    use crate::propagation::ErrorEstimates;
 
     /// More motions than lanes, half of them backwards: the same bits as alone, whatever was in a lane before, and the motion of one that
     /// goes by itself.
@@ -143,22 +146,20 @@ mod tests {
             [0.31 * end, 0.55 * end, 0.78 * end, end]
         };
         let times: Vec<_> = (0..11).map(times).collect();
-        let scene = |i: usize| AxisScene {
-            spheroid: RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 },
-            violation: Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, -0.3)) * (1.0 + 0.01 * i as f64),
-            initial: AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.5, 1.2) },
-            start: 0.0,
-            times: &times[i],
-            accuracy: 1e-9,
+        let body = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+        let initial = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.5, 1.2) };
+        let scene = |i: usize| {
+            let s = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, -0.3)) * (1.0 + 0.01 * i as f64);
+            let problem = Problem::new(body, s, initial).unwrap();
+            SampledProblem { problem, start: 0.0, times: &times[i], accuracy: 1e-9 }
         };
         let scenes: Vec<_> = (0..11).map(scene).collect();
         let together = axis_states_in_lanes(register, &scenes);
         for (scene, together) in scenes.iter().zip(&together) {
             let alone = axis_states_in_lanes(register, core::slice::from_ref(scene));
             assert_eq!(&alone[0], together);
-            let AxisScene { spheroid, violation, initial, start, times, accuracy } = scene;
-            let wanted = ErrorEstimates::NotWanted;
-            let exact = axis_states_at(spheroid, violation, initial, *start, times, *accuracy, wanted).unwrap();
+            let SampledProblem { problem, start, times, accuracy } = scene;
+            let exact = problem.taylor_states(*start, times, *accuracy, ErrorEstimates::NotWanted).unwrap();
             for (found, exact) in together.as_ref().unwrap().states.iter().zip(&exact.states) {
                 let error = (found.axis - exact.axis).amax().max((found.momentum - exact.momentum).amax());
                 assert!(error < 1e-7, "{times:?}: {error:e}");

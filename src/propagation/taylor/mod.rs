@@ -19,15 +19,16 @@ mod step_size;
 mod stretches;
 
 use core::any::{Any, TypeId};
+use core::marker::PhantomData;
 use std::sync::OnceLock;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::propagation::arithmetic::{OneMotion, Plain, Stored};
 use crate::propagation::fused::{Fused, detect_fused, run_fused};
-use crate::propagation::{AxisMotion, AxisState, Motion, Turning};
+use crate::propagation::{Motion, Projection};
 use crate::scalar::Real;
 use clock::StepLimit;
 use compensated::Compensated;
@@ -35,7 +36,7 @@ use errors::{StepError, TaylorErrors};
 pub use forecast::{TaylorForecast, taylor_forecast};
 #[cfg(target_arch = "x86_64")]
 pub(super) use lanes::axis_states_in_lanes;
-pub use projection::SeriesProjection;
+use projection::SeriesProjection;
 #[cfg(target_arch = "x86_64")]
 pub(super) use samples::span_of;
 pub use samples::{ErrorEstimates, Samples, axis_states_at, states_at};
@@ -45,7 +46,7 @@ use series::{AXIS, MOMENTUM, Vectors};
 use setup::Setup;
 use step_size::Work;
 
-/// Smallest and largest accuracy that [`propagate`] takes.
+/// Smallest and largest accuracy of a numerical motion.
 pub const ACCURACY_RANGE: (f64, f64) = (1e-16, 1e-2);
 
 /// Most steps that one motion may keep: each holds about 2 kB of coefficients for `f64`.
@@ -56,50 +57,34 @@ const LIMIT: StepLimit = StepLimit {
     allowed: "at most 500,000 steps: take a shorter span (and go on from its end) or a lower accuracy",
 };
 
-/// The numerical motion of a spheroid from `initial` at `span.0` to `span.1` (forwards or backwards).
-///
-/// `s` is the tensor `s^IJ` in the inertial frame of `initial`, which may be any. `accuracy` is the truncation error wanted
-/// in the components of `n`, `e_x` and of `L` in units of `|L| + sqrt(2 I^xx C |s|)` at the end of the span, in
-/// [`ACCURACY_RANGE`]; rounding adds about `2e-16 sqrt(steps)` and its growth, see [`AxisMotion::error_estimate`]. A
-/// truncation below rounding costs little: the order of the series rises by one for each factor of four.
-///
-/// Step sizes and order follow from the real parts alone, so that derivatives (duals) are those of the motion and not of
-/// the choice of steps. Motion in doubles uses fused multiply-add and vector instructions where the processor has them: the
-/// last digits may differ between processors, never between runs.
-///
-/// # Errors
-/// [`Error::Domain`] for an accuracy out of range, a state, parameter or span that is not finite, an axis that is not a unit
-/// vector or not normal to `e_x` (to 1e-9), moments of inertia that are not positive, a tensor `s^IJ` that is not symmetric
-/// (to 1e-12), and a span that needs more than [`STEP_LIMIT`] steps.
-pub fn propagate<S: Real>(
-    spheroid: &RigidSpheroid<S>,
-    s: &Matrix3<S>,
-    initial: &BodyState<S>,
-    span: (f64, f64),
-    accuracy: f64,
-) -> Result<TaylorMotion<S>, Error> {
-    TaylorMotion::from_start(spheroid, s, [initial.axis, initial.momentum, initial.equatorial_axis], span, accuracy)
-}
-
-/// The numerical motion of the symmetry axis and the angular momentum alone: [`propagate`] without `e_x`, which neither
-/// follows nor influences them here. For the spin axis and the gravitational wave; a third of the work is saved.
-///
-/// # Errors
-/// As for [`propagate`].
-pub fn propagate_axis<S: Real>(
-    spheroid: &RigidSpheroid<S>,
-    s: &Matrix3<S>,
-    initial: &AxisState<S>,
-    span: (f64, f64),
-    accuracy: f64,
-) -> Result<TaylorAxisMotion<S>, Error> {
-    TaylorMotion::from_start(spheroid, s, [initial.axis, initial.momentum], span, accuracy)
-}
-
-/// A motion kept as Taylor series on adjoining steps, of the `V` vectors `n`, `L` and, with `V = 3`, a vector normal to `n`
-/// from which `e_x` follows by a turn about `n` at a constant rate.
+/// A motion kept as Taylor series on adjoining steps: [`Problem::taylor`].
 #[derive(Debug, Clone)]
-pub struct TaylorMotion<S, const V: usize = 3> {
+pub struct TaylorMotion<S, X = BodyState<S>> {
+    kept: Kept<S>,
+    state: PhantomData<X>,
+}
+
+#[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "one motion at a time")]
+enum Kept<S> {
+    Axis(KeptSeries<S, 2>),
+    Body(KeptSeries<S, 3>),
+}
+
+/// Something done with the series of either.
+macro_rules! of_either {
+    ($motion:expr, $series:ident => $work:expr) => {
+        match &$motion.kept {
+            Kept::Axis($series) => $work,
+            Kept::Body($series) => $work,
+        }
+    };
+}
+
+/// The series of the `V` vectors `n`, `L` and, with `V = 3`, a vector normal to `n` from which `e_x` follows by a turn about `n` at a
+/// constant rate.
+#[derive(Debug, Clone)]
+struct KeptSeries<S, const V: usize> {
     setup: Setup<S, V>,
     /// The instructions by which the series are summed, for doubles.
     fused: Option<Fused>,
@@ -107,9 +92,6 @@ pub struct TaylorMotion<S, const V: usize = 3> {
     /// Estimated error of each step, found when first asked for: most motions never are.
     errors: OnceLock<Vec<StepError>>,
 }
-
-/// The motion of the symmetry axis and the angular momentum, kept as Taylor series.
-pub type TaylorAxisMotion<S> = TaylorMotion<S, 2>;
 
 /// Adjoining steps with their series.
 #[derive(Debug, Clone)]
@@ -236,8 +218,8 @@ fn work_of(fused: Option<Fused>) -> (bool, Work) {
     if fused.is_some() { (true, Work::Latent) } else { (false, Work::Quadratic) }
 }
 
-impl<S: Real, const V: usize> TaylorMotion<S, V> {
-    fn from_start(
+impl<S: Real, const V: usize> KeptSeries<S, V> {
+    fn new(
         spheroid: &RigidSpheroid<S>,
         s: &Matrix3<S>,
         start: [Vector3<S>; V],
@@ -253,22 +235,12 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
                 || Steps::kept(&setup, fused),
             )?;
             let motion: Box<dyn Any> =
-                Box::new(TaylorMotion { setup, fused: Some(fused), steps, errors: OnceLock::new() });
+                Box::new(KeptSeries { setup, fused: Some(fused), steps, errors: OnceLock::new() });
             return Ok(*motion.downcast().expect("the scalar is f64"));
         }
         let setup = Setup::new((false, Work::Quadratic), spheroid, s, start, span, accuracy)?;
         let steps = Steps::kept(&setup, Plain::new())?;
         Ok(Self { setup, fused: None, steps, errors: OnceLock::new() })
-    }
-
-    /// Number of steps.
-    pub fn step_count(&self) -> usize {
-        self.steps.starts.len()
-    }
-
-    /// Order of the series.
-    pub fn order(&self) -> usize {
-        self.setup.order
     }
 
     /// Index of the step that holds the time `t`, and the time since the start.
@@ -280,7 +252,7 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
     /// The vectors of the series at time `t`, in the given frame.
     fn at(&self, t: S) -> Result<[Vector3<S>; V], Error> {
         let (index, _) = self.step_at(t.re())?;
-        if let (Some(fused), Some(motion)) = (self.fused, (self as &dyn Any).downcast_ref::<TaylorMotion<f64, V>>()) {
+        if let (Some(fused), Some(motion)) = (self.fused, (self as &dyn Any).downcast_ref::<KeptSeries<f64, V>>()) {
             let vectors = run_fused(
                 fused,
                 #[inline(always)]
@@ -301,30 +273,97 @@ impl<S: Real, const V: usize> TaylorMotion<S, V> {
     /// The estimated errors of all steps.
     fn step_errors(&self) -> Vec<StepError> {
         let mut errors = TaylorErrors::of(&self.setup);
-        let steps = (0..self.step_count()).map(|step| {
+        let steps = (0..self.steps.count()).map(|step| {
             let h = self.length(step) * self.setup.direction() / self.setup.scale.time;
             errors.step(self.steps.series(step), |v| v.vector().map(S::re), h)
         });
         steps.collect()
     }
+
+    fn error_estimate(&self, t: f64) -> f64 {
+        let Ok((index, elapsed)) = self.step_at(t) else { return f64::NAN };
+        let error = self.errors.get_or_init(|| self.step_errors())[index];
+        let (into, length) = (elapsed - self.steps.starts[index].high, self.length(index));
+        let into = if into > 0.0 { into / length } else { 0.0 };
+        error.at(into, self.setup.order) + self.setup.error_of_time(t)
+    }
 }
 
-impl<S: Real, const V: usize> AxisMotion<S> for TaylorMotion<S, V> {
-    fn spheroid(&self) -> &RigidSpheroid<S> {
-        &self.setup.spheroid
+impl<S: Real, X: RotationState<S>> Problem<S, X> {
+    /// The numerical motion from the initial state at `span.0` to `span.1` (forwards or backwards), by Taylor series. Without `e_x` a third
+    /// of the work is saved.
+    ///
+    /// `accuracy` is the truncation error wanted in the components of `n`, `e_x` and of `L` in units of `|L| + sqrt(2 I^xx C |s|)` at the
+    /// end of the span, in [`ACCURACY_RANGE`]; rounding adds about `2e-16 sqrt(steps)` and its growth, see [`Motion::error_estimate`]. A
+    /// truncation below rounding costs little: the order of the series rises by one for each factor of four.
+    ///
+    /// Step sizes and order follow from the real parts alone, so that derivatives (duals) are those of the motion and not of
+    /// the choice of steps. Motion in doubles uses fused multiply-add and vector instructions where the processor has them: the
+    /// last digits may differ between processors, never between runs.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for an accuracy out of range, a span that is not finite, and one that needs more than [`STEP_LIMIT`] steps.
+    pub fn taylor(&self, span: (f64, f64), accuracy: f64) -> Result<TaylorMotion<S, X>, Error> {
+        let (body, s, [n, l, e_x]) = (self.spheroid(), self.coefficients(), self.initial().vectors());
+        let kept = if X::VECTORS == 3 {
+            Kept::Body(KeptSeries::new(body, s, [n, l, e_x], span, accuracy)?)
+        } else {
+            Kept::Axis(KeptSeries::new(body, s, [n, l], span, accuracy)?)
+        };
+        Ok(TaylorMotion { kept, state: PhantomData })
+    }
+}
+
+impl<S: Real, X: RotationState<S>> TaylorMotion<S, X> {
+    /// Number of steps.
+    pub fn step_count(&self) -> usize {
+        of_either!(self, series => series.steps.count())
     }
 
-    fn violation(&self) -> &Matrix3<S> {
-        &self.setup.violation
+    /// Order of the series.
+    pub fn order(&self) -> usize {
+        of_either!(self, series => series.setup.order)
+    }
+
+    /// For doubles, on a processor with vector instructions.
+    fn series_projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
+        let Kept::Body(series) = &self.kept else { return None };
+        let KeptSeries { setup, steps, fused, .. } = (series as &dyn Any).downcast_ref::<KeptSeries<f64, 3>>()?;
+        Some(SeriesProjection::new(setup, steps, (*fused)?, in_body, direction))
+    }
+}
+
+impl<S: Real, X: RotationState<S>> Motion<S> for TaylorMotion<S, X> {
+    type State = X;
+
+    fn spheroid(&self) -> &RigidSpheroid<S> {
+        of_either!(self, series => &series.setup.spheroid)
+    }
+
+    fn coefficients(&self) -> &Matrix3<S> {
+        of_either!(self, series => &series.setup.violation)
     }
 
     fn span(&self) -> (f64, f64) {
-        self.setup.span
+        of_either!(self, series => series.setup.span)
+    }
+
+    fn state(&self, t: S) -> Result<X, Error> {
+        Ok(X::from_vectors(match &self.kept {
+            Kept::Axis(series) => {
+                let [n, l] = series.at(t)?;
+                [n, l, Vector3::zeros()]
+            }
+            Kept::Body(series) => series.setup.body_state(series.at(t)?, t).vectors(),
+        }))
     }
 
     fn axis_state(&self, t: S) -> Result<AxisState<S>, Error> {
-        let vectors = self.at(t)?;
-        Ok(AxisState { axis: vectors[AXIS], momentum: vectors[MOMENTUM] })
+        let [axis, momentum] = of_either!(self, series => {
+            let vectors = series.at(t)?;
+            [vectors[AXIS], vectors[MOMENTUM]]
+        });
+        Ok(AxisState { axis, momentum })
     }
 
     /// The truncation of each step by its defect and the rounding that all steps share (of the constants, of the frame), with their
@@ -336,27 +375,36 @@ impl<S: Real, const V: usize> AxisMotion<S> for TaylorMotion<S, V> {
     /// hundred times, and in none of them below. Where it reaches one,
     /// nothing more is known of the phase and it is 2.5 from there on.
     fn error_estimate(&self, t: f64) -> f64 {
-        let Ok((index, elapsed)) = self.step_at(t) else { return f64::NAN };
-        let error = self.errors.get_or_init(|| self.step_errors())[index];
-        let (into, length) = (elapsed - self.steps.starts[index].high, self.length(index));
-        let into = if into > 0.0 { into / length } else { 0.0 };
-        error.at(into, self.setup.order) + self.setup.error_of_time(t)
+        of_either!(self, series => series.error_estimate(t))
+    }
+
+    fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<Box<dyn Projection + '_>> {
+        Some(Box::new(self.series_projection(in_body, direction)?))
     }
 }
 
-impl<S: Real> Motion<S> for TaylorMotion<S> {
-    fn state(&self, t: S) -> Result<BodyState<S>, Error> {
-        Ok(self.setup.body_state(self.at(t)?, t))
-    }
+/// By [`Problem::taylor`].
+pub fn propagate<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    initial: &BodyState<S>,
+    span: (f64, f64),
+    accuracy: f64,
+) -> Result<TaylorMotion<S>, Error> {
+    // old entry: goes when its callers have moved
+    Problem::new(*spheroid, *s, *initial)?.taylor(span, accuracy)
+}
 
-    fn turning(&self) -> Turning<'_> {
-        Turning::Equations
-    }
-
-    fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
-        let motion = (self as &dyn Any).downcast_ref::<TaylorMotion<f64>>()?;
-        Some(SeriesProjection::new(&motion.setup, &motion.steps, motion.fused?, in_body, direction))
-    }
+/// By [`Problem::taylor`].
+pub fn propagate_axis<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    initial: &AxisState<S>,
+    span: (f64, f64),
+    accuracy: f64,
+) -> Result<TaylorMotion<S, AxisState<S>>, Error> {
+    // old entry: goes when its callers have moved
+    Problem::new(*spheroid, *s, *initial)?.taylor(span, accuracy)
 }
 
 #[cfg(test)]
@@ -395,13 +443,10 @@ mod tests {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.6, constant_c: 0.8 };
         let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
         let initial = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.5, 1.2) };
-        let kept = |start: f64| {
-            let motion = propagate_axis(&spheroid, &violation, &initial, (start, 30.0), 1e-6).unwrap();
-            motion.error_estimate(30.0)
-        };
+        let problem = Problem::new(spheroid, violation, initial).unwrap();
+        let kept = |start: f64| problem.taylor((start, 30.0), 1e-6).unwrap().error_estimate(30.0);
         let sampled = |start: f64| {
-            let wanted = ErrorEstimates::Wanted;
-            axis_states_at(&spheroid, &violation, &initial, start, &[30.0], 1e-6, wanted).unwrap().error_estimates[0]
+            problem.taylor_states(start, &[30.0], 1e-6, ErrorEstimates::Wanted).unwrap().error_estimates[0]
         };
         let size: f64 = violation.norm();
         let momentum = initial.momentum.norm() + (2.6 * 0.8 * size).sqrt();

@@ -2,9 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::propagation::AxisState;
 use crate::propagation::arithmetic::{OneMotion, Plain};
 use crate::propagation::fused::run_fused;
 use crate::propagation::taylor::clock::{Interval, StepLimit};
@@ -24,7 +23,7 @@ pub(super) const LIMIT: StepLimit =
 pub struct Samples<T> {
     /// One state for each time asked, in their order.
     pub states: Vec<T>,
-    /// Estimated error of each, as [`AxisMotion::error_estimate`](crate::propagation::AxisMotion::error_estimate); none if not
+    /// Estimated error of each, as [`Motion::error_estimate`](crate::propagation::Motion::error_estimate); none if not
     /// wanted.
     pub error_estimates: Vec<f64>,
     /// Number of steps of the motion.
@@ -42,13 +41,35 @@ pub enum ErrorEstimates {
     NotWanted,
 }
 
-/// States of the numerical motion that begins as `initial` at the time `start`, at the `times` asked: the same numbers as
-/// those of [`propagate`](crate::propagation::propagate) over the span from `start` to the last of them, without keeping the
-/// motion in between. Memory does not grow with the span; a motion may have 1e10 steps.
-///
-/// # Errors
-/// As for [`propagate`](crate::propagation::propagate) but for the number of steps, and [`Error::Domain`] for no times or
-/// times that do not lie on one side of `start`, in the order in which the motion reaches them.
+impl<S: Real, X: RotationState<S>> Problem<S, X> {
+    /// States of the numerical motion that begins at the time `start`, at the `times` asked: the same numbers as those of
+    /// [`taylor`](Self::taylor) over the span from `start` to the last of them, without keeping the motion in between. Memory does not
+    /// grow with the span; a motion may have 1e10 steps.
+    ///
+    /// # Errors
+    /// As for [`taylor`](Self::taylor) but for the number of steps, and [`Error::Domain`] for no times or
+    /// times that do not lie on one side of `start`, in the order in which the motion reaches them.
+    pub fn taylor_states(
+        &self,
+        start: f64,
+        times: &[f64],
+        accuracy: f64,
+        estimates: ErrorEstimates,
+    ) -> Result<Samples<X>, Error> {
+        let (body, s, [n, l, e_x]) = (self.spheroid(), self.coefficients(), self.initial().vectors());
+        let asked = (accuracy, estimates);
+        if X::VECTORS == 3 {
+            let rate = rate_about_axis(body, &n, &l);
+            let state = |vectors, t| X::from_vectors(body_state(vectors, rate * (t - S::from_f64(start))).vectors());
+            sampled(body, s, [n, l, e_x], start, times, asked, state)
+        } else {
+            let state = |[n, l]: [Vector3<S>; 2], _| X::from_vectors([n, l, Vector3::zeros()]);
+            sampled(body, s, [n, l], start, times, asked, state)
+        }
+    }
+}
+
+/// By [`Problem::taylor_states`].
 pub fn states_at<S: Real>(
     spheroid: &RigidSpheroid<S>,
     s: &Matrix3<S>,
@@ -58,17 +79,11 @@ pub fn states_at<S: Real>(
     accuracy: f64,
     estimates: ErrorEstimates,
 ) -> Result<Samples<BodyState<S>>, Error> {
-    let vectors = [initial.axis, initial.momentum, initial.equatorial_axis];
-    let rate = rate_about_axis(spheroid, &initial.axis, &initial.momentum);
-    let state = |vectors, t| body_state(vectors, rate * (t - S::from_f64(start)));
-    sampled(spheroid, s, vectors, start, times, (accuracy, estimates), state)
+    // old entry: goes when its callers have moved
+    Problem::new(*spheroid, *s, *initial)?.taylor_states(start, times, accuracy, estimates)
 }
 
-/// Axis and angular momentum alone: to [`states_at`] what [`propagate_axis`](crate::propagation::propagate_axis) is to
-/// [`propagate`](crate::propagation::propagate).
-///
-/// # Errors
-/// As for [`states_at`].
+/// By [`Problem::taylor_states`].
 pub fn axis_states_at<S: Real>(
     spheroid: &RigidSpheroid<S>,
     s: &Matrix3<S>,
@@ -78,11 +93,8 @@ pub fn axis_states_at<S: Real>(
     accuracy: f64,
     estimates: ErrorEstimates,
 ) -> Result<Samples<AxisState<S>>, Error> {
-    let vectors = [initial.axis, initial.momentum];
-    sampled(spheroid, s, vectors, start, times, (accuracy, estimates), |[axis, momentum], _| AxisState {
-        axis,
-        momentum,
-    })
+    // old entry: goes when its callers have moved
+    Problem::new(*spheroid, *s, *initial)?.taylor_states(start, times, accuracy, estimates)
 }
 
 /// The span from the start to the last of the times, which must be in the order in which a motion reaches them.

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::propagation::arithmetic::{OneMotion, Stored};
-use crate::propagation::input::{check_input, check_time};
+use crate::propagation::input::{check_request, check_time};
 use crate::propagation::taylor::compensated::Compensated;
 use crate::propagation::taylor::drive::Drive;
 use crate::propagation::taylor::frame::SeriesFrame;
@@ -42,7 +42,7 @@ impl<S: Real, const V: usize> Setup<S, V> {
         span: (f64, f64),
         accuracy: f64,
     ) -> Result<Self, Error> {
-        check_input(spheroid, s, &start, span, accuracy)?;
+        check_request(span, accuracy)?;
         let duration = (span.1 - span.0).abs();
         // An isotropic part of s^IJ exerts no torque; left in, its rounding would.
         let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);

@@ -1,9 +1,10 @@
 //! The projection of a direction in the body, stretch by stretch, without keeping the motion.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RotationState};
 use crate::error::Error;
+use crate::propagation::Projection;
 use crate::propagation::fused::run_fused;
 use crate::propagation::taylor::projection::SeriesProjection;
 use crate::propagation::taylor::samples::{LIMIT, Samples};
@@ -17,19 +18,19 @@ const STEPS: usize = 32;
 /// Takes the steps of a stretch and the time at which it ends.
 type Visit<'a> = dyn FnMut(&Steps<f64, 3>, f64) -> Result<(), Error> + 'a;
 
-/// Follows the numerical motion from `initial` over a span forwards in time, and gives `visit` the projection on `direction` of the
+/// Follows the numerical motion over a span forwards in time, and gives `visit` the projection on `direction` of the
 /// vector `in_body` over one stretch after another, with the time at which it ends. Returns the state at the end of the span.
 ///
 /// `None` where the series has no projection: on a processor without vector instructions, and backwards in time.
 pub(crate) fn projected_by_stretches(
-    (spheroid, s, initial): (&RigidSpheroid<f64>, &Matrix3<f64>, &BodyState<f64>),
+    problem: &Problem<f64>,
     span: (f64, f64),
     accuracy: f64,
     (in_body, direction): (&Vector3<f64>, &Vector3<f64>),
-    mut visit: impl FnMut(&SeriesProjection<'_>, f64) -> Result<(), Error>,
+    mut visit: impl FnMut(&dyn Projection, f64) -> Result<(), Error>,
 ) -> Result<Option<Samples<BodyState<f64>>>, Error> {
     let Some(fused) = fused_for::<f64>().filter(|_| span.0 <= span.1) else { return Ok(None) };
-    let start = [initial.axis, initial.momentum, initial.equatorial_axis];
+    let (spheroid, s, start) = (problem.spheroid(), problem.coefficients(), problem.initial().vectors());
     let setup = Setup::new((true, Work::Latent), spheroid, s, start, span, accuracy)?;
     let mut kept = Steps::with_places(STEPS, setup.order);
     let mut step_count = 0;
@@ -63,9 +64,12 @@ pub(crate) fn projected_by_stretches(
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Matrix3;
+
     use super::*;
+    use crate::dynamics::RigidSpheroid;
     use crate::observables::pulsar::Beam;
-    use crate::propagation::{Motion, propagate};
+    use crate::propagation::Motion;
 
     /// Thirty-two steps in each but the last; forwards in time alone.
     #[test]
@@ -74,10 +78,10 @@ mod tests {
         let violation = Matrix3::from_diagonal(&Vector3::new(0.21, -0.1, -0.11));
         let axis = Vector3::new(0.6, 0.0, 0.8);
         let start = BodyState { axis, momentum: Vector3::new(0.5, -0.9, 1.7), equatorial_axis: Vector3::y() };
-        let scene = (&spheroid, &violation, &start);
+        let problem = Problem::new(spheroid, violation, start).unwrap();
         let (beam, n) = (Beam::new(0.7, 0.9, 0.2), Vector3::new(0.36, 0.48, 0.8));
-        let follow = |span: (f64, f64), visit: &mut dyn FnMut(&SeriesProjection<'_>, f64)| {
-            projected_by_stretches(scene, span, 1e-5, (&beam.axis, &n), |projection, end| {
+        let follow = |span: (f64, f64), visit: &mut dyn FnMut(&dyn Projection, f64)| {
+            projected_by_stretches(&problem, span, 1e-5, (&beam.axis, &n), |projection, end| {
                 visit(projection, end);
                 Ok(())
             })
@@ -85,7 +89,7 @@ mod tests {
         };
         assert!(follow((70.0, 2.0), &mut |_, _| panic!("backwards")).is_none());
         let span = (2.0, 70.0);
-        let kept = propagate(&spheroid, &violation, &start, span, 1e-5).unwrap();
+        let kept = problem.taylor(span, 1e-5).unwrap();
         let mut ends = Vec::new();
         let last = follow(span, &mut |projection, end| {
             for t in [end - 0.3, end] {

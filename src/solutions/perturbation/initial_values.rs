@@ -54,11 +54,7 @@ pub fn constants_from_initial_values<S: Real>(
     let real = Inversion {
         form,
         kind,
-        spheroid: RigidSpheroid {
-            inertia_xx: spheroid.inertia_xx.re(),
-            inertia_zz: spheroid.inertia_zz.re(),
-            constant_c: spheroid.constant_c.re(),
-        },
+        spheroid: spheroid.map(S::re),
         s: PrincipalCoefficients { xx: s.xx.re(), yy: s.yy.re(), zz: s.zz.re() },
         spin: spin.re(),
         initial: AxisAngles {

@@ -14,8 +14,8 @@ use twofold::propagation::splitting::{
     propagate_orientation_by_splitting, splitting_forecast,
 };
 use twofold::propagation::{
-    AveragedMotion, AxisMotion, AxisScene, AxisState, ContinuousAngles, ErrorEstimates, Motion, SymmetricMotion,
-    UniformMotion, axis_states_at, axis_states_of_many, propagate, propagate_axis, states_at, taylor_forecast,
+    AveragedMotion, AxisScene, AxisState, ContinuousAngles, ErrorEstimates, Motion, SymmetricMotion, UniformMotion,
+    axis_states_at, axis_states_of_many, propagate, propagate_axis, states_at, taylor_forecast,
 };
 use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::mean::MeanOrder;
@@ -28,7 +28,7 @@ use crate::values::table::Table;
 const SPAN: (f64, f64) = (2.0, 31.0);
 const BACK: (f64, f64) = (2.0, -17.0);
 
-fn look<M: Motion<f64>>(table: &mut Table, name: &str, motion: &M) {
+fn look<M: Motion<f64, State = BodyState<f64>>>(table: &mut Table, name: &str, motion: &M) {
     let (from, to) = motion.span();
     for share in [0.0, 0.31, 0.77, 1.0] {
         let t = from + share * (to - from);
@@ -53,7 +53,7 @@ fn look<M: Motion<f64>>(table: &mut Table, name: &str, motion: &M) {
 fn closed_forms() {
     let mut table = Table::default();
     for (name, span) in [("free", SPAN), ("free backwards", BACK)] {
-        let motion = UniformMotion::free(&STAR, &(general() * 1e-6), &state(), span);
+        let motion = UniformMotion::free_from_parts(&STAR, &(general() * 1e-6), &state(), span);
         look(&mut table, name, &motion);
         for elapsed in [5.0, -5.0, 1e6] {
             table.number(&format!("{name}, truncation after {elapsed}"), motion.truncation(elapsed));
@@ -80,7 +80,7 @@ fn steady(table: &mut Table) {
         let upright = BodyState::from_angles(&STAR, &angles, &rates);
         let (given, s) = (upright.rotated(&turn.transpose()), turn.transpose() * s.tensor() * turn);
         for span in [SPAN, BACK] {
-            match UniformMotion::steady(&STAR, &s, &given, span) {
+            match UniformMotion::steady_from_parts(&STAR, &s, &given, span) {
                 Ok(motion) => {
                     look(table, &format!("steady {kind:?} {span:?}"), &motion);
                     table.number(&format!("steady {kind:?}, rounding after 50"), motion.rounding(50.0));
@@ -90,7 +90,7 @@ fn steady(table: &mut Table) {
             }
         }
         let off = BodyState { momentum: given.momentum * (1.0 + 1e-9), ..given };
-        table.refusal(&format!("not steady {kind:?}"), &UniformMotion::steady(&STAR, &s, &off, SPAN));
+        table.refusal(&format!("not steady {kind:?}"), &UniformMotion::steady_from_parts(&STAR, &s, &off, SPAN));
     }
     let resting = |momentum: f64| BodyState {
         axis: Vector3::z(),
@@ -99,7 +99,7 @@ fn steady(table: &mut Table) {
     };
     let s = PrincipalCoefficients::new([0.021, -0.004, 0.009]).tensor();
     for momentum in [3.0, 0.0, -2.0] {
-        match UniformMotion::steady(&STAR, &s, &resting(momentum), SPAN) {
+        match UniformMotion::steady_from_parts(&STAR, &s, &resting(momentum), SPAN) {
             Ok(motion) => {
                 look(table, &format!("axis at rest, L = {momentum}"), &motion);
                 table.number(&format!("axis at rest, L = {momentum}: rounding"), motion.rounding(29.0));
@@ -130,7 +130,7 @@ fn symmetric_motions() {
     ];
     for (name, s, initial) in &cases {
         for span in [SPAN, BACK] {
-            match SymmetricMotion::new(&STAR, s, initial, span) {
+            match SymmetricMotion::from_parts(&STAR, s, initial, span) {
                 Ok(motion) => {
                     look(&mut table, &format!("{name} {span:?}"), &motion);
                     for elapsed in [3.0, -400.0, 1e7] {
@@ -158,7 +158,7 @@ fn mean_motions() {
     for (name, s, initial) in &cases {
         for order in [MeanOrder::First, MeanOrder::Second] {
             let name = format!("{name} {order:?}");
-            let motion = match AveragedMotion::new(&STAR, s, initial, SPAN, order) {
+            let motion = match AveragedMotion::from_parts(&STAR, s, initial, SPAN, order) {
                 Ok(motion) => motion,
                 Err(error) => {
                     table.error(&name, &error);
@@ -427,7 +427,7 @@ fn gradients() {
                     let count = derivatives.len();
                     let request = Request { method, derivatives, ..Request::new(&[outputs], SPAN, 3, 1e-10) };
                     let name = format!("{name}, {what}, {method:?}, {count}");
-                    let found = Plan::new(&start.spheroid, &start.violation, &start.state(), &request)
+                    let found = Plan::from_parts(&start.spheroid, &start.violation, &start.state(), &request)
                         .and_then(|plan| gradient_in_parts(&plan, &start, &Whole, &times));
                     match found {
                         Ok(gradient) => {

@@ -6,7 +6,7 @@ use twofold::parameters::Parameter;
 use twofold::plan::{
     Cost, Counted, Method, Output, Plan, PlannedAxisMotion, PlannedMotion, Prediction, Request, Samples, State, Work,
 };
-use twofold::propagation::{AxisMotion, Motion, largest_torque, propagate};
+use twofold::propagation::{Motion, largest_torque, propagate};
 
 use crate::values::scene::{STAR, general, state, tensor};
 use crate::values::table::Table;
@@ -46,7 +46,7 @@ fn requests() {
     for (name, s) in &scenes {
         for output in Output::ALL {
             let request = Request::new(&[output], (1.0, 40.0), 25, 1e-9);
-            match Plan::new(&STAR, s, &state(), &request) {
+            match Plan::from_parts(&STAR, s, &state(), &request) {
                 Ok(found) => plan(&mut table, &format!("{name}, {}", output.name()), &found),
                 Err(error) => table.error(&format!("{name}, {}", output.name()), &error),
             }
@@ -88,7 +88,7 @@ fn long_and_forced() {
             for method in [None].iter().chain(named).copied() {
                 let request = Request { method, ..request.clone() };
                 let name = format!("{name}, {what}, {method:?}");
-                match Plan::new(&STAR, s, &state(), &request) {
+                match Plan::from_parts(&STAR, s, &state(), &request) {
                     Ok(found) => plan(&mut table, &name, &found),
                     Err(error) => table.error(&name, &error),
                 }
@@ -134,7 +134,7 @@ fn costs_and_counts() {
             }
             Err(error) => table.error(method.name(), &error),
         }
-        match PlannedAxisMotion::by(method, &STAR, &s, &initial, (0.0, 9.0), 1e-9) {
+        match PlannedAxisMotion::axis_by(method, &STAR, &s, &initial, (0.0, 9.0), 1e-9) {
             Ok(motion) => {
                 work(&mut table, &format!("axis by {}", method.name()), &motion.work());
                 table.axis_state(method.name(), &motion.axis_state(8.0).expect("a state"));
@@ -150,13 +150,18 @@ fn costs_and_counts() {
     counted.state(4.0).expect("a state");
     counted.state_in_parts([1.0, 2.0]).expect("a state");
     work(&mut table, "counted", &counted.evaluations());
-    let plan = Plan::new(&STAR, &general(), &state(), &Request::new(&[Output::SymmetryAxis], (0.0, 9.0), 3, 1e-9))
-        .expect("a plan");
-    table.refusal("orientation of a plan for the axis", &plan.motion(&STAR, &general(), &state()));
-    table.refusal("axis of a plan for the axis", &plan.axis_motion(&STAR, &general(), &state()));
-    let none =
-        Plan::new(&STAR, &general(), &state(), &Request::new(&[Output::PerturbationAngles], (0.0, 9.0), 3, 1e-9))
+    let plan =
+        Plan::from_parts(&STAR, &general(), &state(), &Request::new(&[Output::SymmetryAxis], (0.0, 9.0), 3, 1e-9))
             .expect("a plan");
+    table.refusal("orientation of a plan for the axis", &plan.motion_from_parts(&STAR, &general(), &state()));
+    table.refusal("axis of a plan for the axis", &plan.axis_motion(&STAR, &general(), &state()));
+    let none = Plan::from_parts(
+        &STAR,
+        &general(),
+        &state(),
+        &Request::new(&[Output::PerturbationAngles], (0.0, 9.0), 3, 1e-9),
+    )
+    .expect("a plan");
     table.refusal("motion of a plan for none", &none.axis_motion(&STAR, &general(), &state()));
     table.check("costs_and_counts");
 }

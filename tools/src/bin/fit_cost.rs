@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector, Matrix3};
 use twofold::Error;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::plan::{Cost, Method, PlannedAxisMotion, PlannedMotion, State};
-use twofold::propagation::{AxisMotion, Motion};
+use twofold::propagation::Motion;
 use twofold_verify::reference::reference_motion;
 
 /// The least time of many runs, in ns.
@@ -63,7 +63,7 @@ fn taylor(case: &Case, state: State) -> Result<(), Error> {
             let each = time(|| times.iter().map(|&t| motion.state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
             (series.order(), series.step_count(), time(make), each)
         } else {
-            let make = || PlannedAxisMotion::by(Method::Taylor, spheroid, s, initial, span, accuracy);
+            let make = || PlannedAxisMotion::axis_by(Method::Taylor, spheroid, s, initial, span, accuracy);
             let motion = make()?;
             let PlannedAxisMotion::Taylor(series) = &motion else { unreachable!("asked for") };
             let each =
@@ -112,7 +112,7 @@ fn splitting(case: &Case, state: State) -> Result<(), Error> {
             let each = time(|| times.iter().map(|&t| motion.state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
             (motion.work(), time(make), each)
         } else {
-            let make = || PlannedAxisMotion::by(Method::Splitting, spheroid, s, initial, span, accuracy);
+            let make = || PlannedAxisMotion::axis_by(Method::Splitting, spheroid, s, initial, span, accuracy);
             let motion = make()?;
             let each =
                 time(|| times.iter().map(|&t| motion.axis_state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;

@@ -11,7 +11,7 @@ use std::hint::black_box;
 
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, pulse_train};
-use twofold::propagation::{AxisMotion, Motion, TaylorMotion, propagate, propagate_axis};
+use twofold::propagation::{Motion, TaylorMotion, propagate, propagate_axis};
 use twofold_command::bench::method::{MANY_SCENES, METHODS};
 use twofold_command::bench::scene::BenchScene;
 

@@ -49,7 +49,7 @@ fn main() -> Result<(), Failure> {
     let scene = BenchScene::named("tp-II");
     let span = (0.0, longest);
     let mean = |order| -> Result<ErrorAt, Failure> {
-        let motion = AveragedMotion::new(&scene.spheroid, &scene.violation, &scene.initial, span, order)?;
+        let motion = AveragedMotion::from_parts(&scene.spheroid, &scene.violation, &scene.initial, span, order)?;
         Ok(Box::new(move |t| {
             let axis = motion.state(t)?.axis.map(<DoubleDouble as Scalar>::from_f64);
             let reference = references().into_iter().find(|(time, _)| *time == t).ok_or("no reference at this time")?;
@@ -60,19 +60,22 @@ fn main() -> Result<(), Failure> {
     let methods: [(&str, ErrorAt); 5] = [
         ("mean motion, first order", mean(MeanOrder::First)?),
         ("mean motion, second order", mean(MeanOrder::Second)?),
-        ("symmetric solution", against_itself(&scene, &symmetric, SymmetricMotion::new, SymmetricMotion::new)?),
+        (
+            "symmetric solution",
+            against_itself(&scene, &symmetric, SymmetricMotion::from_parts, SymmetricMotion::from_parts)?,
+        ),
         (
             "free rotation",
             against_itself(
                 &scene,
                 &Matrix3::zeros(),
-                |body, s, start, span| Ok(UniformMotion::free(body, s, start, span)),
-                |body, s, start, span| Ok(UniformMotion::free(body, s, start, span)),
+                |body, s, start, span| Ok(UniformMotion::free_from_parts(body, s, start, span)),
+                |body, s, start, span| Ok(UniformMotion::free_from_parts(body, s, start, span)),
             )?,
         ),
         ("steady precession", {
             let upright = upright();
-            against_itself(&upright, &symmetric, UniformMotion::steady, UniformMotion::steady)?
+            against_itself(&upright, &symmetric, UniformMotion::steady_from_parts, UniformMotion::steady_from_parts)?
         }),
     ];
     let decades: Vec<f64> = (2..=7).map(|k| 10f64.powi(k)).filter(|t| *t <= longest).collect();
@@ -110,7 +113,11 @@ fn upright() -> BenchScene {
 type Make<S, M> = fn(&RigidSpheroid<S>, &Matrix3<S>, &BodyState<S>, (f64, f64)) -> Result<M, twofold::Error>;
 
 /// A closed form in doubles against itself in double-double numbers, from the same start.
-fn against_itself<'a, M: Motion<f64> + 'a, D: Motion<DoubleDouble> + 'a>(
+fn against_itself<
+    'a,
+    M: Motion<f64, State = BodyState<f64>> + 'a,
+    D: Motion<DoubleDouble, State = BodyState<DoubleDouble>> + 'a,
+>(
     scene: &BenchScene,
     s: &Matrix3<f64>,
     make: Make<f64, M>,

@@ -11,7 +11,7 @@ use std::hint::black_box;
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::plan::{Method, PlannedMotion};
-use twofold::propagation::{AveragedMotion, AxisMotion, ErrorEstimates, Motion, states_at};
+use twofold::propagation::{AveragedMotion, ErrorEstimates, Motion, states_at};
 use twofold::solutions::mean::MeanOrder;
 use twofold_command::bench::timing::clock;
 
@@ -34,11 +34,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (body, s, initial) = scene(1e-9);
     let set_up = least(200, || {
         (0..100)
-            .filter(|_| AveragedMotion::new(&body, &s, black_box(&initial), (0.0, 1e17), MeanOrder::Second).is_ok())
+            .filter(|_| {
+                AveragedMotion::from_parts(&body, &s, black_box(&initial), (0.0, 1e17), MeanOrder::Second).is_ok()
+            })
             .count()
     });
     println!("set-up {:.2} us", set_up * 1e4);
-    let motion = AveragedMotion::new(&body, &s, &initial, (0.0, 1e17), MeanOrder::Second)?;
+    let motion = AveragedMotion::from_parts(&body, &s, &initial, (0.0, 1e17), MeanOrder::Second)?;
     for t in [1.0, 1e5, 1e10, 1e15] {
         let each = least(500, || {
             (0..1000)
@@ -59,7 +61,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let fifteen_years = 15.0 * 365.25 * 86_400.0 / 0.01;
     let sampled = least(50, || {
-        let motion = AveragedMotion::new(&body, &s, &initial, (0.0, fifteen_years), MeanOrder::Second).expect("fast");
+        let motion =
+            AveragedMotion::from_parts(&body, &s, &initial, (0.0, fifteen_years), MeanOrder::Second).expect("fast");
         (0..10_000)
             .map(|i| {
                 let t = fifteen_years * f64::from(i) / 9_999.0;
@@ -73,7 +76,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (body, s, initial) = scene(1e-6);
     let times: Vec<f64> = (1..=100).map(|i| 1e5 * f64::from(i)).collect();
     let last = 1e7;
-    let mean = || AveragedMotion::new(&body, &s, &initial, (0.0, last), MeanOrder::Second);
+    let mean = || AveragedMotion::from_parts(&body, &s, &initial, (0.0, last), MeanOrder::Second);
     let states = || -> Result<Vec<BodyState<f64>>, twofold::Error> {
         let mean = mean()?;
         times.iter().map(|&t| mean.state(t)).collect()

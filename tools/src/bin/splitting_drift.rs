@@ -14,7 +14,7 @@ fn main() {
     let (s, start) = (scene.violation(), AxisState::from(&scene.initial()));
     let step = 0.6;
     let mut motion =
-        Splitting::new(&scene.spheroid, &s, &start, &GRADIENT_8_6_6, step).expect("tp-II is in the domain");
+        Splitting::from_parts(&scene.spheroid, &s, &start, &GRADIENT_8_6_6, step).expect("tp-II is in the domain");
     let energy = |state: &AxisState<f64>| {
         state.momentum.norm_squared() / 2.0 + scene.spheroid.constant_c * state.axis.dot(&(s * state.axis))
     };

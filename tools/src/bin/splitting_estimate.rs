@@ -8,7 +8,7 @@
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::RigidSpheroid;
 use twofold::propagation::splitting::{SCHEMES, propagate_by_best_splitting, propagate_by_splitting};
-use twofold::propagation::{AxisMotion, AxisState, propagate_axis};
+use twofold::propagation::{AxisState, Motion, propagate_axis};
 use twofold_verify::check::{largest, largest_component};
 use twofold_verify::random::Random;
 

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use nalgebra::Vector3;
 use twofold::propagation::splitting::{SCHEMES, propagate_by_best_splitting, propagate_by_splitting};
-use twofold::propagation::{AxisMotion, AxisState, propagate_axis};
+use twofold::propagation::{AxisState, Motion, propagate_axis};
 use twofold_verify::reference::reference_motion;
 
 const END: f64 = 1000.0;
@@ -21,7 +21,7 @@ fn main() {
     let numbers: Vec<f64> = row.split(',').skip(2).map(|cell| cell.parse().expect("a number")).collect();
     let axis = Vector3::new(numbers[0], numbers[1], numbers[2]);
 
-    type Run<'a> = Box<dyn Fn() -> Box<dyn AxisMotion<f64>> + 'a>;
+    type Run<'a> = Box<dyn Fn() -> Box<dyn Motion<f64, State = AxisState<f64>>> + 'a>;
     let mut runs: Vec<(String, Run)> = Vec::new();
     for scheme in SCHEMES {
         for k in 0..7 {

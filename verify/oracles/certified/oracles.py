@@ -13,7 +13,7 @@ from motions import digits_for
 import coordinates  # noqa: E402  (verify/oracles/symbolic, on the path by examples)
 import lagrangian  # noqa: E402
 
-DATA = Path(__file__).parent.parent / "data"
+DATA = Path(__file__).parent.parent.parent / "data"
 
 
 def rows(name):

@@ -12,7 +12,7 @@ import os
 import mpmath as mp
 
 mp.mp.dps = 45
-DATA = os.path.join(os.path.dirname(__file__), "..", "data")
+DATA = os.path.join(os.path.dirname(__file__), "..", "..", "data")
 ORDER, STEP, END = 44, mp.mpf("0.125"), 1000
 S = [mp.mpf("0.02"), mp.mpf("0.01"), mp.mpf("-0.04")]
 

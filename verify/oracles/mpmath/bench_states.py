@@ -29,7 +29,8 @@ import gmpy2
 from gmpy2 import mpfr
 
 gmpy2.get_context().precision = 180
-DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data")
+DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "data")
+OUT = os.path.join(DATA, "..", "..", "command", "data")
 TIMES = [10, 100, 1000]
 
 
@@ -146,12 +147,12 @@ def main():
     with Pool(os.cpu_count()) as pool:
         references = pool.map(reference, found, chunksize=1)
     components = [f"{v}_{i}" for v in ("n", "l", "ex") for i in "xyz"]
-    with open(os.path.join(DATA, "bench_scenes.csv"), "w") as file:
+    with open(os.path.join(OUT, "bench_scenes.csv"), "w") as file:
         file.write("# Initial values of the reference motions in bench_states.csv, doubles written out in full; I^xx = C = 1, L in I^xx/t_c.\n")
         file.write("scene,inertia_ratio,s_xx,s_yy,s_zz," + ",".join(components) + "\n")
         for name, inertia, s, n, l, e in found:
             file.write(",".join([name, *(repr(float(x)) for x in [inertia, *s, *n, *l, *e])]) + "\n")
-    with open(os.path.join(DATA, "bench_states.csv"), "w") as file:
+    with open(os.path.join(OUT, "bench_states.csv"), "w") as file:
         file.write("# Motions of bench_scenes.csv by Taylor series of order 44 in 54 digits (verify/oracles/mpmath/bench_states.py), 30 digits; t in t_c.\n")
         file.write("scene,t," + ",".join(components) + "\n")
         for name, states in references:

@@ -12,7 +12,7 @@ import random
 import mpmath as mp
 
 mp.mp.dps = 60
-DATA = os.path.join(os.path.dirname(__file__), "..", "data")
+DATA = os.path.join(os.path.dirname(__file__), "..", "..", "data")
 random.seed(20)
 
 

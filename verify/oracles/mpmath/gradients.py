@@ -14,7 +14,7 @@ import os
 import mpmath as mp
 
 mp.mp.dps = 45
-DATA = os.path.join(os.path.dirname(__file__), "..", "data")
+DATA = os.path.join(os.path.dirname(__file__), "..", "..", "data")
 ORDER, TOLERANCE, H = 32, mp.mpf(10) ** -40, mp.mpf(10) ** -14
 TIMES = [5, 20]
 NAMES = ["i_xx", "i_zz", "c", "s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz"]

@@ -19,7 +19,7 @@ import os
 import mpmath as mp
 
 mp.mp.dps = 50
-DATA = os.path.join(os.path.dirname(__file__), "..", "data")
+DATA = os.path.join(os.path.dirname(__file__), "..", "..", "data")
 ORDER, TOLERANCE, SAMPLES, PULSES = 40, mp.mpf(10) ** -40, 40, 160
 INERTIA, SPIN = mp.mpf("1.1"), mp.mpf(1)
 S = [mp.mpf("0.02"), mp.mpf("0.01"), mp.mpf("-0.04")]

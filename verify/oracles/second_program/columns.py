@@ -5,7 +5,7 @@ import numpy as np
 from motion import FINE, Motion
 from scene import magnetic_axis
 
-G_OVER_C4_R = 6.67430e-11 / 299792458.0**4
+G_OVER_C4 = 6.67430e-11 / 299792458.0**4
 
 
 def motion_over_times(scene, numerics=FINE):
@@ -78,8 +78,21 @@ def strain(motion, times):
 
     # I^IJ = I^xx delta^IJ + (I^zz - I^xx) n^I n^J, and h^IJ = -(2/r) d2 I^IJ/dt2.
     second = (scene.inertia_zz - scene.inertia_xx) * motion.derivative(quadrupole, times, 2)
-    scale = G_OVER_C4_R / observer.distance if scene.physical else 1.0
+    scale = G_OVER_C4 / observer.distance if scene.physical else 1.0
     return -scale * second[:, 0], -scale * second[:, 1]
+
+
+def position_angle_and_rate(motion, times):
+    """Position angle of the magnetic axis, and its rate."""
+    observer = motion.scene.observer
+
+    def on_sky(t):
+        m = direction_of_beam(motion, t)
+        return np.column_stack([-m @ observer.theta, -m @ observer.phi])
+
+    here, rate = on_sky(times), motion.derivative(on_sky, times, 1)
+    turning = (here[:, 0] * rate[:, 1] - here[:, 1] * rate[:, 0]) / (here**2).sum(axis=1)
+    return np.arctan2(here[:, 1], here[:, 0]), turning
 
 
 def columns(motion, groups=None):
@@ -124,17 +137,8 @@ def columns(motion, groups=None):
 
         add("magnetic_axis", ["Theta [rad]", "Phi [rad]"], magnetic)
     if observer is not None and scene.pulsar is not None:
-
-        def polarization():
-            def on_sky(t):
-                m = direction_of_beam(motion, t)
-                return np.column_stack([-m @ observer.theta, -m @ observer.phi])
-
-            here, rate = value_and_rate(on_sky)
-            turning = (here[:, 0] * rate[:, 1] - here[:, 1] * rate[:, 0]) / (here**2).sum(axis=1)
-            return np.arctan2(here[:, 1], here[:, 0]), turning
-
-        add("position_angle", ["psi [rad]", f"psi_rate [rad/{unit}]"], polarization)
+        names = ["psi [rad]", f"psi_rate [rad/{unit}]"]
+        add("position_angle", names, lambda: position_angle_and_rate(motion, times))
     if observer is not None and (observer.distance is not None or not scene.physical):
         add("h", ["h_plus [1]", "h_cross [1]"], lambda: strain(motion, times))
     return table

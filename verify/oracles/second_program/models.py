@@ -11,7 +11,7 @@ import dataclasses
 
 import numpy as np
 
-from columns import G_OVER_C4_R
+from columns import G_OVER_C4
 from scene import Observer, body_axes
 
 
@@ -57,7 +57,7 @@ class Model:
         unit, pulsar, strain = scene.time_unit, scene.pulsar or {}, 1.0
         observer = scene.document.get("observer", {})
         if "distance" in observer:
-            strain = G_OVER_C4_R / scene.observer.distance * scene.inertia_xx / unit**2
+            strain = G_OVER_C4 / scene.observer.distance * scene.inertia_xx / unit**2
         alpha, gamma = scene.angles
         z, (p, q, _) = scene.axes[2], scene.omega * unit
         sin = np.hypot(z[0], z[1])

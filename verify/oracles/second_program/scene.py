@@ -9,7 +9,7 @@ import tomllib
 
 import numpy as np
 
-from star import DAY, JULIAN_YEAR, PARSEC, SOLAR_MASS, uniform_spheroid
+from star import JULIAN_YEAR, PARSEC, SOLAR_MASS, uniform_spheroid
 
 PATH = re.compile(r"^(?:(\w+)\.)?(\w+)((?:\[\d+\])*)$")
 
@@ -190,6 +190,3 @@ def magnetic_axis(pulsar):
     """The magnetic axis in the body, Eq. (45)."""
     chi, delta = pulsar["chi"], pulsar.get("delta", 0.0)
     return np.array([np.sin(chi) * np.cos(delta), np.sin(chi) * np.sin(delta), np.cos(chi)])
-
-
-__all__ = ["Scene", "Observer", "body_axes", "magnetic_axis", "DAY", "JULIAN_YEAR"]

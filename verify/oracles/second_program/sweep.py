@@ -12,7 +12,7 @@ from draws import draw
 from pulses import pulses
 from scene import Scene
 
-BUILT_IN = pathlib.Path(__file__).parent.parent / "scenes"
+BUILT_IN = pathlib.Path(__file__).parents[3] / "scene/scenes"
 
 
 def read(path):

@@ -4,9 +4,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from columns import direction_of_beam, position_angle, strain
+from columns import G_OVER_C4, direction_of_beam, position_angle, position_angle_and_rate, strain
 from pulses import Beam, stretches
-from scene import DAY
 
 HEADER = (
     "pulse,arrival_day [MJD],arrival_fraction [d],residual [s],duration [s],psi [rad],psi_rate [rad/s],swing [rad],inclination [rad],"
@@ -39,7 +38,7 @@ def described(motion, rows):
     """What the .csv says of each pulse but for its residual: duration, position angle, its rate and swing, L, the wave."""
     scene = motion.scene
     middle = np.array([(start + end) / 2 for _, start, end in rows])
-    psi, psi_rate = _position_angle(motion, middle)
+    psi, psi_rate = position_angle_and_rate(motion, middle)
     wave = _harmonics(motion, middle)
     h = np.array(strain(motion, middle)) if scene.observer.distance is not None else None
     described = []
@@ -118,18 +117,6 @@ def _phase(beam, first, last):
     return number, (phase[-1] - phase[0]) / (last - first)
 
 
-def _position_angle(motion, times):
-    observer = motion.scene.observer
-
-    def on_sky(t):
-        m = direction_of_beam(motion, t)
-        return np.column_stack([-m @ observer.theta, -m @ observer.phi])
-
-    here, rate = on_sky(times), motion.derivative(on_sky, times, 1)
-    turning = (here[:, 0] * rate[:, 1] - here[:, 1] * rate[:, 0]) / (here**2).sum(axis=1)
-    return np.arctan2(here[:, 1], here[:, 0]), turning
-
-
 def _harmonics(motion, times):
     """Rows of inclination and orientation of L, wobble, azimuth of n about L from the observer's, and the two amplitudes of the wave."""
     scene, observer = motion.scene, motion.scene.observer
@@ -140,7 +127,7 @@ def _harmonics(motion, times):
     wobble = np.arctan2(np.linalg.norm(np.cross(l, n), axis=1), (l * n).sum(axis=1))
     along, beside = o - l * (l @ o)[:, None], np.cross(l, o)
     phase = np.arctan2((n * beside).sum(axis=1), (n * along).sum(axis=1))
-    scale = 6.67430e-11 / 299792458.0**4 / (observer.distance or np.nan)
+    scale = G_OVER_C4 / (observer.distance or np.nan)
     scale = scale * 2 * (scene.inertia_zz - scene.inertia_xx) * (size / scene.inertia_xx) ** 2
     once, twice = scale * np.sin(wobble) * np.cos(wobble), 2 * scale * np.sin(wobble) ** 2
     return np.column_stack([inclination, position_angle(observer, l), wobble, phase, once, twice]).tolist()

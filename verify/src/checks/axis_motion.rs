@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use num_dual::Dual64;
 use twofold::dynamics::RigidSpheroid;
 use twofold::dynamics::regular_equations::reduced_rates;
-use twofold::propagation::{AxisMotion, AxisState, Motion, propagate, propagate_axis};
+use twofold::propagation::{AxisState, Motion, propagate, propagate_axis};
 use twofold::scalar::constant_vector;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
@@ -68,10 +68,6 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-fn text(error: twofold::Error) -> String {
-    error.to_string()
-}
-
 /// Largest differences of a component of `n` and of `L`.
 fn differences(a: &AxisState<f64>, b: &AxisState<f64>) -> [f64; 2] {
     [largest_component(&(a.axis - b.axis)), largest_component(&(a.momentum - b.momentum))]
@@ -81,10 +77,9 @@ fn differences(a: &AxisState<f64>, b: &AxisState<f64>) -> [f64; 2] {
 fn errors(reference: &ReferenceMotion, accuracy: f64) -> Result<Vec<([f64; 2], f64, f64)>, String> {
     let end = reference.states.last().map_or(0.0, |(t, _)| *t);
     let start = AxisState::from(&reference.initial());
-    let motion =
-        propagate_axis(&reference.spheroid, &reference.violation(), &start, (0.0, end), accuracy).map_err(text)?;
+    let motion = propagate_axis(&reference.spheroid, &reference.violation(), &start, (0.0, end), accuracy)?;
     let at = |(t, state): &(f64, _)| {
-        let ours = motion.axis_state(*t).map_err(text)?;
+        let ours = motion.axis_state(*t)?;
         Ok((differences(&ours, &AxisState::from(state)), *t, motion.error_estimate(*t)))
     };
     reference.states.iter().map(at).collect()
@@ -120,14 +115,14 @@ fn against_whole_motion() -> Result<Measured, String> {
         let (spheroid, s, start) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
         let mut most = 0.0;
         for end in [30.0, -30.0] {
-            let whole = propagate(&spheroid, &s, &start, (0.0, end), 1e-13).map_err(text)?;
-            let alone = propagate_axis(&spheroid, &s, &(&start).into(), (0.0, end), 1e-13).map_err(text)?;
+            let whole = propagate(&spheroid, &s, &start, (0.0, end), 1e-13)?;
+            let alone = propagate_axis(&spheroid, &s, &(&start).into(), (0.0, end), 1e-13)?;
             for part in [0.37, 1.0] {
                 let t = part * end;
-                let ours = alone.axis_state(t).map_err(text)?;
+                let ours = alone.axis_state(t)?;
                 let estimates = alone.error_estimate(t) + whole.error_estimate(t);
                 let size = start.momentum.norm().max(1.0);
-                for state in [whole.axis_state(t).map_err(text)?, AxisState::from(&whole.state(t).map_err(text)?)] {
+                for state in [whole.axis_state(t)?, AxisState::from(&whole.state(t)?)] {
                     let [axis, momentum] = differences(&ours, &state);
                     most = largest([most, largest([axis, momentum / size]) / estimates]);
                 }
@@ -143,9 +138,9 @@ fn against_second_integrator() -> Result<Measured, String> {
     for name in ["tp-1", "tp-2", "sp-1", "sp-2"] {
         let scene = reference_motion(name);
         let (s, start) = (scene.violation(), AxisState::from(&scene.initial()));
-        let motion = propagate_axis(&scene.spheroid, &s, &start, (0.0, 100.0), 1e-14).map_err(text)?;
+        let motion = propagate_axis(&scene.spheroid, &s, &start, (0.0, 100.0), 1e-14)?;
         for (t, theirs) in times.iter().zip(axis_states(&scene.spheroid, &s, &start, &times, 1e-14)?) {
-            let ours = motion.axis_state(*t).map_err(text)?;
+            let ours = motion.axis_state(*t)?;
             worst.see(largest(differences(&ours, &theirs)), || format!("{name} at t = {t}"));
         }
     }
@@ -157,10 +152,10 @@ fn dense_output_solves_equations() -> Result<Measured, String> {
         let (spheroid, s, start) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
         let lifted = RigidSpheroid::in_units_of_tc(Dual64::from_re(scene.inertia_ratio));
         let start = AxisState { axis: constant_vector(&start.axis), momentum: constant_vector(&start.momentum) };
-        let motion = propagate_axis(&lifted, &s.map(Dual64::from_re), &start, (0.0, 10.0), 1e-16).map_err(text)?;
+        let motion = propagate_axis(&lifted, &s.map(Dual64::from_re), &start, (0.0, 10.0), 1e-16)?;
         let mut most = 0.0;
         for i in 1..40 {
-            let state = motion.axis_state(Dual64::new(0.25 * f64::from(i), 1.0)).map_err(text)?;
+            let state = motion.axis_state(Dual64::new(0.25 * f64::from(i), 1.0))?;
             let real = |v: &Vector3<Dual64>| v.map(|x| x.re);
             let (axis_rate, momentum_rate) = reduced_rates(&spheroid, &s, &real(&state.axis), &real(&state.momentum));
             let residuals = [state.axis.map(|x| x.eps) - axis_rate, state.momentum.map(|x| x.eps) - momentum_rate];

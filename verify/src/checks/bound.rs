@@ -133,7 +133,7 @@ fn estimate_of_known_change() -> Result<Measured, String> {
             interval,
             cos_lambda_change: cos_lambda_change(theta, phi, (constants.alpha_0, constants.beta_0), changes),
         };
-        let estimate = drift.combination_bound_at(constants.beta_0).map_err(|e| e.to_string())?;
+        let estimate = drift.combination_bound_at(constants.beta_0)?;
         let expected = (s.combination() * factor).abs();
         worst.see((estimate / expected - 1.0).abs() / f64::EPSILON, || format!("point {index} of seed 40"));
     }
@@ -146,11 +146,11 @@ fn bound_of_known_tensor() -> Result<Measured, String> {
     for index in 0..200 {
         let alpha_2 = random.within(-1e-3, 1e-3);
         let w = Vector3::from_fn(|_, _| random.within(-1e-3, 1e-3));
-        let frame = principal_frame(&coefficients_from_preferred_frame(alpha_2, &w)).map_err(|e| e.to_string())?;
+        let frame = principal_frame(&coefficients_from_preferred_frame(alpha_2, &w))?;
         // The odd eigenvalue is the first or the last; the axis of that one is Z.
         let s = frame.coefficients;
         let about_w = if alpha_2 < 0.0 { s.permuted() } else { s };
-        let bound = preferred_frame_bound(about_w.combination(), &w).map_err(|e| e.to_string())?;
+        let bound = preferred_frame_bound(about_w.combination(), &w)?;
         worst.see((bound / alpha_2.abs() - 1.0).abs() / f64::EPSILON, || format!("case {index} of seed 41"));
     }
     worst.finish()
@@ -159,7 +159,7 @@ fn bound_of_known_tensor() -> Result<Measured, String> {
 fn printed_changes() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for (pulsar, printed) in columns() {
-        let ours = pulsar.lambda_change().map_err(|e| e.to_string())? * 1e3;
+        let ours = pulsar.lambda_change()? * 1e3;
         let printed = printed.lambda_change;
         let unit = if printed.contains('.') { 0.1 } else { 1.0 };
         let value: f64 = printed.parse().map_err(|_| format!("{printed} is not a number"))?;
@@ -182,7 +182,7 @@ fn over_printed(bound_over_eta: impl Fn(&Pulsar) -> Result<f64, String>) -> Resu
 }
 
 fn stated_inertia() -> Result<Measured, String> {
-    let ratios = over_printed(|pulsar| pulsar.bound_over_eta(ROUND_INERTIA_OVER_C).map_err(|e| e.to_string()))?;
+    let ratios = over_printed(|pulsar| pulsar.bound_over_eta(ROUND_INERTIA_OVER_C).map_err(String::from))?;
     let smallest = ratios.iter().copied().fold(f64::INFINITY, f64::min);
     Ok(Measured::new(smallest, format!("main pulse, interpulse, J1744: {ratios:.2?}")))
 }

@@ -163,7 +163,7 @@ pub fn checks() -> Vec<Check> {
             bound: Bound::AtMost(1e-3),
             reason: "sqrt(6) x 11 to four digits",
             measure: || {
-                let eta: f64 = root_mean_square_eta(PAPER_ASYMMETRY, FRAC_PI_2).map_err(|e| e.to_string())?;
+                let eta: f64 = root_mean_square_eta(PAPER_ASYMMETRY, FRAC_PI_2)?;
                 Ok(Measured::new((eta / 26.94 - 1.0).abs(), format!("{eta:.4}")))
             },
         },
@@ -312,7 +312,7 @@ fn distribution() -> Result<Measured, String> {
     let mut random = Random::with_seed(41);
     let mut worst = Worst::default();
     for beta in [0.3, 1.0, 1.4, 1.55] {
-        let expected = EtaDistribution::at_inclination(PAPER_ASYMMETRY, beta).map_err(|e| e.to_string())?;
+        let expected = EtaDistribution::at_inclination(PAPER_ASYMMETRY, beta)?;
         let samples = (0..count)
             .map(|_| {
                 let axis = symmetry_axis(random.within(0.0, TAU), beta);
@@ -332,10 +332,10 @@ fn known_angle() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for ratio in SHAPES {
         let s = PrincipalCoefficients::new([ratio / 2.0 - 1.0 / 6.0, -ratio / 2.0 - 1.0 / 6.0, 1.0 / 3.0]).tensor();
-        let unknown = EtaDistribution::of_unknown_axis(ratio).map_err(|e| e.to_string())?;
+        let unknown = EtaDistribution::of_unknown_axis(ratio)?;
         for degrees in [30.0_f64, 95.0, 100.0] {
             let lambda = degrees.to_radians();
-            let expected = unknown.clone().seen_at(lambda).map_err(|e| e.to_string())?;
+            let expected = unknown.clone().seen_at(lambda)?;
             let samples = (0..count).map(|_| 1.0 / seen_rate(&mut random, &s, lambda).abs()).collect();
             worst
                 .see(kolmogorov_smirnov(samples, &expected, 200), || format!("r = {ratio:.3}, lambda = {degrees} deg"));
@@ -347,8 +347,8 @@ fn known_angle() -> Result<Measured, String> {
 fn known_angle_integral() -> Result<Measured, String> {
     let rule = GaussLegendre::new(NonZeroUsize::new(80).ok_or("no nodes")?);
     let lambda = 1.745_f64;
-    let unknown = EtaDistribution::of_unknown_axis(0.0).map_err(|e| e.to_string())?;
-    let distribution = unknown.seen_at(lambda).map_err(|e| e.to_string())?;
+    let unknown = EtaDistribution::of_unknown_axis(0.0)?;
+    let distribution = unknown.seen_at(lambda)?;
     let mut worst = Worst::default();
     for scaled in [2.1_f64, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0] {
         // n.dl/dt = sin(lambda) (Z.l)(Z.b) with b at right angles to l: half of (1 - mu^2) sin(2 phi) about the third axis, so that
@@ -367,10 +367,10 @@ fn known_angle_integral() -> Result<Measured, String> {
 
 fn symmetric_is_largest() -> Result<Measured, String> {
     let of_shape = |ratio: f64| EtaDistribution::of_unknown_axis(ratio)?.seen_at(FRAC_PI_2)?.quantile(0.95);
-    let symmetric = of_shape(0.0).map_err(|e| e.to_string())?;
+    let symmetric = of_shape(0.0)?;
     let mut worst = Worst::default();
     for ratio in [0.01, 0.03, 1.0 / 11.0, 0.2, 1.0 / 3.0, 1.0, 3.0] {
-        let eta = of_shape(-ratio).map_err(|e| e.to_string())?;
+        let eta = of_shape(-ratio)?;
         worst.see(eta / symmetric, || format!("|r| = {ratio:.3}: {eta:.2}, r = 0: {symmetric:.2}"));
     }
     worst.finish()
@@ -381,12 +381,12 @@ fn ten_exceeded() -> Result<Measured, String> {
     for i in 0..=152 {
         let beta = 0.05 + 0.01 * f64::from(i);
         let eta = EtaDistribution::at_inclination(PAPER_ASYMMETRY, beta).and_then(|eta| eta.quantile(0.95));
-        let eta = eta.map_err(|e| e.to_string())?;
+        let eta = eta?;
         if eta < smallest {
             (smallest, at) = (eta, beta);
         }
     }
-    let unknown = EtaDistribution::of_unknown_axis(PAPER_ASYMMETRY).map_err(|e| e.to_string())?;
+    let unknown = EtaDistribution::of_unknown_axis(PAPER_ASYMMETRY)?;
     let share = unknown.probability_above(10.0);
     Ok(Measured::new(
         smallest,
@@ -406,7 +406,7 @@ fn kolmogorov_smirnov(mut samples: Vec<f64>, expected: &EtaDistribution, every: 
 }
 
 fn unknown_axis() -> Result<Measured, String> {
-    let distribution = EtaDistribution::of_unknown_axis(0.0).map_err(|e| e.to_string())?;
+    let distribution = EtaDistribution::of_unknown_axis(0.0)?;
     let mut worst = Worst::default();
     for x in [2.1_f64, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0] {
         // P = int_0^1 min(1, 1 / (x mu sqrt(1 - mu^2))) d mu; the integrand leaves 1 where mu^2 (1 - mu^2) = 1 / x^2.
@@ -424,8 +424,7 @@ fn secular_rate() -> Result<Measured, String> {
         .into_iter()
         .map(|k| {
             let s = COEFFICIENTS.scaled(k);
-            let (rate, axis) =
-                numerical_axis_rate(&s, SPIN, (0.4, 0.9), twelve_turns(SPIN)).map_err(|e| e.to_string())?;
+            let (rate, axis) = numerical_axis_rate(&s, SPIN, (0.4, 0.9), twelve_turns(SPIN))?;
             let secular = secular_axis_rate(1.1, SPIN, &s.tensor(), &axis);
             Ok((k, (rate - secular).norm() / secular.norm()))
         })
@@ -441,15 +440,14 @@ fn by_numerical_motion() -> Result<Measured, String> {
     for beta in [0.2, 0.7, 1.1, 1.3, 1.5] {
         let (mut numerical, mut secular) = (Vec::new(), Vec::new());
         for &alpha in &azimuths {
-            let (rate, _) =
-                numerical_axis_rate(&s, SPIN, (alpha, beta), twelve_turns(SPIN)).map_err(|e| e.to_string())?;
+            let (rate, _) = numerical_axis_rate(&s, SPIN, (alpha, beta), twelve_turns(SPIN))?;
             numerical.push((rate.norm() / unit, 1.0));
             secular.push((squared_speed(PAPER_ASYMMETRY, alpha, beta).sqrt(), 1.0));
         }
         let [numerical, secular] = [numerical, secular].map(EtaDistribution::from_speeds);
-        let (numerical, secular) = (numerical.map_err(|e| e.to_string())?, secular.map_err(|e| e.to_string())?);
+        let (numerical, secular) = (numerical?, secular?);
         for probability in [0.5, 0.84, 0.975] {
-            let quantile = |d: &EtaDistribution| d.quantile(probability).map_err(|e| e.to_string());
+            let quantile = |d: &EtaDistribution| d.quantile(probability).map_err(String::from);
             let (numerical, secular) = (quantile(&numerical)?, quantile(&secular)?);
             worst.see((numerical / secular - 1.0).abs(), || {
                 format!("beta_0 = {beta}, probability {probability}: {numerical:.4}, {secular:.4}")
@@ -463,7 +461,7 @@ fn estimate_order() -> Result<Measured, String> {
     let inclinations: Vec<f64> = (0..=90).map(|i| 0.2 + 0.01 * f64::from(i)).collect();
     let mut worst = Worst::default();
     for ratio in SHAPES {
-        for point in eta_curve(ratio, &inclinations).map_err(|e| e.to_string())? {
+        for point in eta_curve(ratio, &inclinations)? {
             let (along, at) = (point.along_motion, point.at_inclination.root_mean_square);
             for eta in [along, at] {
                 let excess = (eta / point.printed).log10();

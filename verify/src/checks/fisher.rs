@@ -122,8 +122,8 @@ const UNKNOWNS: [Parameter; 8] = [
 ];
 
 fn tp_1() -> Result<Parameters<f64>, String> {
-    let scene = Scene::named("tp-1").map_err(|e| e.to_string())?;
-    parameters_of(&scene).map_err(|e| e.to_string())
+    let scene = Scene::named("tp-1")?;
+    parameters_of(&scene).map_err(String::from)
 }
 
 /// The constants of tp-I in place of its initial values.
@@ -159,8 +159,7 @@ fn formulas<S: Real>(model: &Parameters<S>) -> Result<Vec<S>, twofold::Error> {
 fn fisher_of_formulas() -> Result<Fisher, String> {
     let model = constants()?;
     let column = |unknown: &Parameter| {
-        let derivatives: Vec<f64> =
-            formulas(&model.seeded(*unknown)).map_err(|e| e.to_string())?.iter().map(|value| value.eps).collect();
+        let derivatives: Vec<f64> = formulas(&model.seeded(*unknown))?.iter().map(|value| value.eps).collect();
         Ok(DVector::from_vec(derivatives))
     };
     let columns = UNKNOWNS.iter().map(column).collect::<Result<Vec<_>, String>>()?;
@@ -199,12 +198,12 @@ fn null_direction() -> Result<Measured, String> {
 
 fn rank_of_signal() -> Result<Measured, String> {
     let (model, end) = (tp_1()?, 200.0);
-    let signal = Signal::new(&model, end).map_err(|e| e.to_string())?;
-    let events = signal.events().map_err(|e| e.to_string())?;
+    let signal = Signal::new(&model, end)?;
+    let events = signal.events()?;
     // Edges known to 1e-3 t_c, each by itself.
     let noise = [(Observable::Arrivals, 1e-3 / SQRT_2), (Observable::Widths, 1e-3 * SQRT_2)];
-    let data = data_of(&signal, &events, &[], &noise).map_err(|e| e.to_string())?;
-    let fisher = Fisher::of(&model, &events, &data, &Parameter::OF_PULSES).map_err(|e| e.to_string())?;
+    let data = data_of(&signal, &events, &[], &noise)?;
+    let fisher = Fisher::of(&model, &events, &data, &Parameter::OF_PULSES)?;
     let smallest = fisher.singular_values.last().ok_or("no singular values")?;
     let percent = |unknown| fisher.sigma(unknown).unwrap_or(f64::NAN) / f64::abs(unknown.value(&model)) * 100.0;
     Ok(Measured::new(

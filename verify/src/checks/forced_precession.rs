@@ -92,10 +92,9 @@ fn steady_rates_to_first_order() -> Result<Measured, String> {
             let small = PrincipalCoefficients::new([s.xx, s.yy, s.zz].map(|x| Dual64::new(0.0, x)));
             let spheroid = fixed_spheroid(&p.spheroid);
             let exact = steady_precession_rate(kind, &spheroid, &small, Dual64::from(spin), beta);
-            let printed =
-                Perturbation::new(Form::Printed, kind, &p.spheroid, &s, spin, &constants).map_err(|e| e.to_string())?;
+            let printed = Perturbation::new(Form::Printed, kind, &p.spheroid, &s, spin, &constants)?;
             let shift = -kind.sign() * printed.forced_rate;
-            let slope = exact.map_err(|e| e.to_string())?.eps;
+            let slope = exact?.eps;
             let cancelled = 2.0 * (s.zz.abs() + s.xx.abs()) / s.combination().abs();
             let place = || format!("{kind:?}, point {index} of seed 26: {slope:e}, a^(1) {shift:e}");
             worst.see((slope - shift).abs() / (f64::EPSILON * shift.abs() * cancelled), place);
@@ -110,10 +109,10 @@ fn shifted_rates_of_spin() -> Result<Measured, String> {
         let (beta, spheroid) = (p.angles.beta, &p.spheroid);
         let printed =
             Perturbation::new_unchecked(Form::Printed, Precession::Twofold, spheroid, &s, spin, &constants(&p));
-        let shifted = shifted_rates(spheroid, &s, spin, beta).map_err(|e| e.to_string())?;
+        let shifted = shifted_rates(spheroid, &s, spin, beta)?;
         let none = PrincipalCoefficients::new([0.0; 3]);
-        let unshifted = shifted_rates(spheroid, &none, spin, beta).map_err(|e| e.to_string())?;
-        let free = free_precession_rates(spheroid, spin, beta).map_err(|e| e.to_string())?;
+        let unshifted = shifted_rates(spheroid, &none, spin, beta)?;
+        let free = free_precession_rates(spheroid, spin, beta)?;
         let cos_beta = beta.cos();
         let differences = [
             (shifted.alpha - printed.rate) * cos_beta,

@@ -111,12 +111,8 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-fn text(error: impl ToString) -> String {
-    error.to_string()
-}
-
 fn tp_1() -> Result<Parameters<f64>, String> {
-    parameters_of(&Scene::named("tp-1").map_err(text)?).map_err(text)
+    parameters_of(&Scene::named("tp-1")?).map_err(String::from)
 }
 
 /// Values of the data `wanted` of a model: of the same turns, counted from the pulse nearest to the first.
@@ -127,8 +123,8 @@ fn values(
     wanted: &[Datum],
     noise: &[Noise],
 ) -> Result<Vec<f64>, String> {
-    let signal = Signal::new(model, end).map_err(text)?;
-    let mut moved = signal.events().map_err(text)?;
+    let signal = Signal::new(model, end)?;
+    let mut moved = signal.events()?;
     if let Some(first) = events.first() {
         let distance = |event: &&Event| (event.midpoint() - first.midpoint()).abs();
         let nearest = moved.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).ok_or("no pulse")?;
@@ -145,7 +141,7 @@ fn values(
             Place::Turn { near, .. } => near,
         })
         .collect();
-    let data = data_of(&signal, &moved, &samples, noise).map_err(text)?;
+    let data = data_of(&signal, &moved, &samples, noise)?;
     if data.len() != wanted.len() {
         return Err(format!("{} data of a moved scene for {}", data.len(), wanted.len()));
     }
@@ -159,17 +155,17 @@ fn derivatives() -> Result<Measured, String> {
     let mut worst = Worst::default();
     let mut models = vec![("tp-1".to_owned(), tp_1()?)];
     for seed in 0..6 {
-        models.push((format!("seed {seed}"), Simulation::new(3 * seed).map_err(text)?.truth));
+        models.push((format!("seed {seed}"), Simulation::new(3 * seed)?.truth));
     }
     for (name, model) in &models {
-        let signal = Signal::new(model, end).map_err(text)?;
+        let signal = Signal::new(model, end)?;
         let turn = signal.turn();
-        let mut events = signal.events().map_err(text)?;
+        let mut events = signal.events()?;
         // Pulses that a moved scene has as well, and none so short that its edges go as a root of the step.
         events.retain(|event| event.start > turn && event.end < end - turn && event.end - event.start > 0.1 * turn);
         let samples = [0.0, 13.0, 39.0];
-        let data = data_of(&signal, &events, &samples, &noise).map_err(text)?;
-        let exact = jacobian(model, &events, &data, &Parameter::FITTED).map_err(text)?.matrix;
+        let data = data_of(&signal, &events, &samples, &noise)?;
+        let exact = jacobian(model, &events, &data, &Parameter::FITTED)?.matrix;
         for (column, unknown) in Parameter::FITTED.iter().enumerate() {
             let at = |steps: f64| values(&model.moved(&[*unknown], &[steps * STEP]), end, &events, &data, &noise);
             let [two, one, minus_one, minus_two] = [at(2.0)?, at(1.0)?, at(-1.0)?, at(-2.0)?];
@@ -219,10 +215,10 @@ fn decades() -> Result<Measured, String> {
         for of_alpha_2 in [false, true] {
             let model = slow_star(size, of_alpha_2);
             let times: Vec<f64> = (0..12).map(|k| end * (f64::from(k) + 0.4) / 12.0).collect();
-            let signal = Signal::new(&model, end).map_err(text)?;
-            let events = signal.events_after(&times).map_err(text)?;
-            let data = data_of(&signal, &events, &times, &strain).map_err(text)?;
-            let exact = jacobian(&model, &events, &data, &Parameter::FITTED).map_err(text)?.matrix;
+            let signal = Signal::new(&model, end)?;
+            let events = signal.events_after(&times)?;
+            let data = data_of(&signal, &events, &times, &strain)?;
+            let exact = jacobian(&model, &events, &data, &Parameter::FITTED)?.matrix;
             let turns: Vec<(i64, f64)> =
                 events.iter().map(|event| (event.turn, event.epoch + event.midpoint())).collect();
             for (column, unknown) in Parameter::FITTED.iter().enumerate() {
@@ -238,9 +234,9 @@ fn decades() -> Result<Measured, String> {
                 };
                 let step = STEP * scale;
                 let at = |steps: f64| -> Result<Vec<Datum>, String> {
-                    let moved = Signal::new(&model.moved(&[*unknown], &[steps * step]), end).map_err(text)?;
-                    let events = moved.events_of_turns(&turns).map_err(text)?;
-                    data_of(&moved, &events, &times, &strain).map_err(text)
+                    let moved = Signal::new(&model.moved(&[*unknown], &[steps * step]), end)?;
+                    let events = moved.events_of_turns(&turns)?;
+                    data_of(&moved, &events, &times, &strain).map_err(String::from)
                 };
                 let [two, one, minus_one, minus_two] = [at(2.0)?, at(1.0)?, at(-1.0)?, at(-2.0)?];
                 for kind in [Observable::Arrivals, Observable::Widths, Observable::StrainPlus, Observable::StrainCross]
@@ -271,11 +267,11 @@ fn directions_of_decades() -> Result<Measured, String> {
     let (mut wrong, mut detail) = (0, Vec::new());
     for of_alpha_2 in [false, true] {
         let (model, end) = (slow_star(1e-9, of_alpha_2), 6e9);
-        let signal = Signal::new(&model, end).map_err(text)?;
+        let signal = Signal::new(&model, end)?;
         let times: Vec<f64> = (0..200).map(|k| end * f64::from(k) / 200.0).collect();
-        let events = signal.events_after(&times).map_err(text)?;
-        let data = data_of(&signal, &events, &[], &LONG_NOISE).map_err(text)?;
-        let found = Fisher::of(&model, &events, &data, &Parameter::FITTED).map_err(text)?;
+        let events = signal.events_after(&times)?;
+        let data = data_of(&signal, &events, &[], &LONG_NOISE)?;
+        let found = Fisher::of(&model, &events, &data, &Parameter::FITTED)?;
         let named = found.degenerate.iter().filter(|direction| direction.words.is_some()).count();
         let amiss = 8_usize.abs_diff(named) + found.degenerate.len() - named;
         detail.push(format!("{named} named of {}, rounding {:.1e}", found.degenerate.len(), found.rounding));
@@ -290,14 +286,14 @@ fn directions_of_decades() -> Result<Measured, String> {
 
 /// Data and the Fisher matrix of a built-in scene.
 fn fisher(scene: &str, noise: &[Noise], unknowns: &[Parameter]) -> Result<Fisher, String> {
-    let scene = Scene::named(scene).map_err(text)?;
-    let model = parameters_of(&scene).map_err(text)?;
+    let scene = Scene::named(scene)?;
+    let model = parameters_of(&scene)?;
     let end = 100.0;
-    let signal = Signal::new(&model, end).map_err(text)?;
-    let events = signal.events().map_err(text)?;
+    let signal = Signal::new(&model, end)?;
+    let events = signal.events()?;
     let samples: Vec<f64> = (0..60).map(|k| end * (f64::from(k) / 59.0)).collect();
-    let data = data_of(&signal, &events, &samples, noise).map_err(text)?;
-    Fisher::of(&model, &events, &data, unknowns).map_err(text)
+    let data = data_of(&signal, &events, &samples, noise)?;
+    Fisher::of(&model, &events, &data, unknowns).map_err(String::from)
 }
 
 /// A built-in scene, what is measured of it, what is unknown, and pieces of the words of every degenerate direction.
@@ -377,7 +373,7 @@ const TIMES_AND_WIDTHS: [Noise; 2] = [(Observable::Arrivals, 1e-4), (Observable:
 
 /// A built-in scene with s scaled, seen from an azimuth at which the first drift of the spin axis is seen.
 fn scaled(name: &str, scale: f64) -> Result<Parameters<f64>, String> {
-    let model = parameters_of(&Scene::named(name).map_err(text)?).map_err(text)?;
+    let model = parameters_of(&Scene::named(name)?)?;
     Ok(Parameters { violation: model.violation * scale, phi_o: 1.0, ..model })
 }
 
@@ -403,14 +399,14 @@ fn size_scaling() -> Result<Measured, String> {
     let sigma = |scale: f64| {
         let unknowns = Parameter::OF_PULSES;
         forecast(&scaled("sp-1", scale)?, &TIMES_AND_WIDTHS, &unknowns, Parameter::SAxial, &[8000.0], &[1000])
-            .map_err(text)
+            .map_err(String::from)
     };
     let (small, large) = (sigma(1.0 / 8000.0)?[0].sigma, sigma(1.0 / 4000.0)?[0].sigma);
     Ok(Measured::new(small / large, format!("{small:.2e} over {large:.2e}")))
 }
 
 fn power(found: Result<Vec<Forecast>, InferenceError>, which: usize) -> Result<Measured, String> {
-    let found = found.map_err(text)?;
+    let found = found?;
     let slope = scaling(&found)[which].ok_or("no slope")?;
     let listed: Vec<_> =
         found.iter().map(|f| format!("{} t_c, {} epochs: {:.2e}", f.span, f.epochs, f.sigma)).collect();

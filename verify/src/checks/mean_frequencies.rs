@@ -165,10 +165,6 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-fn text(error: twofold::Error) -> String {
-    error.to_string()
-}
-
 struct Scene {
     body: RigidSpheroid<f64>,
     s: PrincipalCoefficients<f64>,
@@ -182,7 +178,7 @@ impl Scene {
     }
 
     fn torus(&self) -> Result<TorusFrequencies, String> {
-        torus_frequencies(&self.body, &self.s, &self.start).map_err(text)
+        torus_frequencies(&self.body, &self.s, &self.start).map_err(String::from)
     }
 
     /// Exact rates: `slow`, `about_momentum`, `about_axis`.
@@ -194,7 +190,7 @@ impl Scene {
 
     /// Rates of the mean motion with the names and signs of the exact ones.
     fn mean(&self, order: MeanOrder) -> Result<[f64; 3], String> {
-        let mean = MeanMotion::new(&self.body, &self.s, &self.start, order).map_err(text)?;
+        let mean = MeanMotion::new(&self.body, &self.s, &self.start, order)?;
         let rates = mean.rates();
         Ok([rates.slow.abs(), rates.about_momentum, rates.about_axis])
     }
@@ -251,7 +247,7 @@ fn states() -> Result<Measured, String> {
         }
         followed += 1;
         let (integrals, axis, exact) = (scene.integrals(), scene.torus()?.axis, scene.exact()?);
-        let found = states_with_integrals(&scene.body, &scene.s, &integrals).map_err(text)?;
+        let found = states_with_integrals(&scene.body, &scene.s, &integrals)?;
         if found.round != Some(axis) {
             return Err(format!("case {case} of seed 71: L goes round {:?}, not {axis}", found.round));
         }
@@ -326,7 +322,7 @@ fn symmetric() -> Result<Measured, String> {
         let twofold = case % 2 == 0;
         let (alpha_rate, gamma_rate) = if twofold { (1.5, -0.15) } else { (-0.07, 1.1) };
         let rates = EulerRates { alpha: alpha_rate, beta: random.within(0.05, 0.1), gamma: gamma_rate };
-        let closed = SymmetricSolution::new(&body, &s, &angles, &rates).map_err(text)?;
+        let closed = SymmetricSolution::new(&body, &s, &angles, &rates)?;
         let scene = Scene { body, s, start: BodyState::from_angles(&body, &angles, &rates) };
         let exact = scene.exact()?;
         let (mean, nutation) = (closed.mean_rates(), TAU / closed.period());
@@ -350,9 +346,9 @@ fn same_torus() -> Result<Measured, String> {
     for (name, k) in [("tp-1", 1.0), ("tp-2", 1.0), ("sp-1", 1.0), ("sp-2", 1.0), ("tp-2", 0.3), ("tp-2", 0.1)] {
         let scene = Scene::example(name, k);
         let (first, known) = (scene.exact()?, scene.torus()?.uncertainty);
-        let motion = propagate(&scene.body, &scene.s.tensor(), &scene.start, (0.0, 300.0), 1e-15).map_err(text)?;
+        let motion = propagate(&scene.body, &scene.s.tensor(), &scene.start, (0.0, 300.0), 1e-15)?;
         for t in [7.3, 41.0, 300.0] {
-            let later = Scene { start: motion.state(t).map_err(text)?, ..scene };
+            let later = Scene { start: motion.state(t)?, ..scene };
             let (rates, errors) = (later.exact()?, later.torus()?.uncertainty);
             for i in 0..3 {
                 let (a, b) = (first[i], rates[i]);
@@ -371,8 +367,8 @@ fn averages() -> Result<Measured, String> {
     let exact = scene.exact()?;
     let mut worst = Worst::default();
     for span in [4800.0, 9600.0] {
-        let motion = propagate(&scene.body, &scene.s.tensor(), &scene.start, (0.0, span), 1e-16).map_err(text)?;
-        let slow = fundamental_frequencies(&motion).map_err(text)?.slow.ok_or("no slow precession")?;
+        let motion = propagate(&scene.body, &scene.s.tensor(), &scene.start, (0.0, span), 1e-16)?;
+        let slow = fundamental_frequencies(&motion)?.slow.ok_or("no slow precession")?;
         worst.see((slow.value / exact[0] - 1.0).abs(), || format!("{span}: {:.16} and {:.16}", slow.value, exact[0]));
     }
     worst.finish()
@@ -397,7 +393,7 @@ fn slopes() -> Result<Measured, String> {
         let points = [0.1, 0.03, 0.01, 3e-3, 1e-3]
             .map(|k| error_of_slow(order, k).map(|(error, ..)| (f64::log10(k), error.log10())));
         let points: Vec<_> = points.into_iter().collect::<Result<_, _>>()?;
-        let fit = slope(&points).map_err(|e| e.to_string())?;
+        let fit = slope(&points)?;
         worst.see((fit.value - expected).abs(), || format!("{order:?}: {:.3} +- {:.3}", fit.value, fit.error));
     }
     worst.finish()
@@ -413,8 +409,7 @@ fn random_rates() -> Result<Measured, String> {
         followed += 1;
         let exact = scene.exact()?;
         let mean = scene.mean(MeanOrder::Second)?;
-        let x =
-            MeanMotion::new(&scene.body, &scene.s, &scene.start, MeanOrder::Second).map_err(text)?.relative_strength();
+        let x = MeanMotion::new(&scene.body, &scene.s, &scene.start, MeanOrder::Second)?.relative_strength();
         let differences = [mean[0] - exact[0].abs(), mean[1] - exact[1], mean[2] - exact[2]]
             .map(|d| d.abs() / (x.powi(3) * scene.rotation()));
         worst.see(largest(differences), || {
@@ -461,11 +456,11 @@ fn unstable(k: f64, nutation: f64) -> Result<(Scene, f64), String> {
     }
     let spin = g * f64::cos(nutation) / body.inertia_zz;
     let energy = (g * f64::sin(nutation)).powi(2) / 2.0 + body.inertia_zz * spin * spin / 2.0;
-    let start = separatrix_motion(&body, &s, energy, spin).map_err(text)?;
+    let start = separatrix_motion(&body, &s, energy, spin)?;
     let scene = Scene { body, s, start };
     // The period: n and L are in the same plane again, twice each turn.
-    let motion = propagate(&body, &s.tensor(), &start, (0.0, 10.0), 1e-16).map_err(text)?;
-    let out = |t: f64| motion.state(t).map(|state| state.axis.z).map_err(text);
+    let motion = propagate(&body, &s.tensor(), &start, (0.0, 10.0), 1e-16)?;
+    let out = |t: f64| motion.state(t).map(|state| state.axis.z).map_err(String::from);
     let (mut left, mut right) = (0.9 * TAU / g, 1.1 * TAU / g);
     let sign = out(left)?;
     if sign * out(right)? >= 0.0 {
@@ -476,7 +471,7 @@ fn unstable(k: f64, nutation: f64) -> Result<(Scene, f64), String> {
         if out(middle)? * sign > 0.0 { left = middle } else { right = middle }
     }
     let period = 0.5 * (left + right);
-    let back = motion.state(period).map_err(text)?;
+    let back = motion.state(period)?;
     let off = largest([(back.axis - start.axis).norm(), (back.momentum - start.momentum).norm()]);
     if off.is_nan() || off > 1e-9 {
         return Err(format!("the motion about the middle axis is not periodic: {off:e}"));
@@ -494,9 +489,8 @@ fn unstable(k: f64, nutation: f64) -> Result<(Scene, f64), String> {
         let [axis, momentum] = vectors;
         let initial = twofold::propagation::AxisState { axis, momentum };
         let tensor = s.tensor().map(Dual64::from_re);
-        let moved =
-            twofold::propagation::propagate_axis(&lifted, &tensor, &initial, (0.0, period), 1e-16).map_err(text)?;
-        let end = twofold::propagation::AxisMotion::axis_state(&moved, Dual64::from_re(period)).map_err(text)?;
+        let moved = twofold::propagation::propagate_axis(&lifted, &tensor, &initial, (0.0, period), 1e-16)?;
+        let end = twofold::propagation::Motion::axis_state(&moved, Dual64::from_re(period))?;
         excess += [end.axis, end.momentum][place / 3][place % 3].eps;
     }
     // 2 cosh(mu T) - 2 = 4 sinh^2(mu T / 2).
@@ -506,7 +500,7 @@ fn unstable(k: f64, nutation: f64) -> Result<(Scene, f64), String> {
 fn growth_error(order: MeanOrder, k: f64, nutation: f64) -> Result<f64, String> {
     let (scene, exact) = unstable(k, nutation)?;
     let FirstIntegrals { energy, spin, .. } = scene.integrals();
-    let formula = middle_axis_growth(&scene.body, &scene.s, energy, spin, order).map_err(text)?;
+    let formula = middle_axis_growth(&scene.body, &scene.s, energy, spin, order)?;
     Ok((formula / exact - 1.0).abs())
 }
 
@@ -519,7 +513,7 @@ fn growth_orders() -> Result<Measured, String> {
             let points =
                 [0.3, 0.1, 0.03].map(|k| growth_error(order, k, nutation).map(|error| (f64::log10(k), error.log10())));
             let points: Vec<_> = points.into_iter().collect::<Result<_, _>>()?;
-            let fit = slope(&points).map_err(|e| e.to_string())?;
+            let fit = slope(&points)?;
             worst.see((fit.value - expected).abs(), || {
                 format!("{order:?}, {nutation}: {:.3} +- {:.3}, {points:?}", fit.value, fit.error)
             });
@@ -545,7 +539,7 @@ fn near_separatrix(k: f64, complement: f64) -> Result<(f64, f64, Scene), String>
     let mut integrals = scene.integrals();
     let PrincipalCoefficients { xx: s1, yy: s2, zz: s3 } = scene.s;
     integrals.clebsch += complement * (s1 - s2) * (s2 - s3) / (s1 - s3) * scene.start.momentum.norm_squared();
-    let found = states_with_integrals(&scene.body, &scene.s, &integrals).map_err(text)?;
+    let found = states_with_integrals(&scene.body, &scene.s, &integrals)?;
     let start = *found.states.first().ok_or("no state")?;
     let torus = Scene { start, ..scene };
     Ok((TAU / torus.torus()?.slow.abs(), growth, torus))
@@ -577,9 +571,8 @@ fn separatrix_formula() -> Result<Measured, String> {
                 let complement = 10f64.powi(power);
                 let (period, _, torus) = near_separatrix(k, side * complement)?;
                 let FirstIntegrals { energy, spin, .. } = torus.integrals();
-                let growth =
-                    middle_axis_growth(&torus.body, &torus.s, energy, spin, MeanOrder::Second).map_err(text)?;
-                let formula = period_near_separatrix(growth, complement).map_err(text)?;
+                let growth = middle_axis_growth(&torus.body, &torus.s, energy, spin, MeanOrder::Second)?;
+                let formula = period_near_separatrix(growth, complement)?;
                 let x = 0.06 * k / torus.start.momentum.norm_squared();
                 let off = (formula / period - 1.0).abs();
                 worst.see(off / x, || {

@@ -2,7 +2,7 @@
 
 use twofold::parameters::{Parameter, Parameters};
 use twofold::plan::{Method, Output, Plan, Promise, Request, gradient};
-use twofold::propagation::{AxisMotion, Motion};
+use twofold::propagation::Motion;
 
 use super::plans::Components;
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
@@ -75,7 +75,7 @@ fn plan(scene: &ErrorScene, method: Method, derivatives: &[Parameter]) -> Result
         derivatives: derivatives.to_vec(),
         ..Request::new(&[Output::EquatorialAxis], scene.span, 3, scene.accuracy)
     };
-    Plan::new(&scene.spheroid, &scene.violation, &scene.initial, &request)
+    Plan::from_parts(&scene.spheroid, &scene.violation, &scene.initial, &request)
 }
 
 /// Error foreseen, true error, and what the plan promises; none of a scene that the method refuses.
@@ -86,16 +86,15 @@ fn foreseen_and_true(
 ) -> Result<Option<(f64, f64, Promise)>, String> {
     let Ok(plan) = plan(scene, method, derivatives) else { return Ok(None) };
     let prediction = plan.prediction.ok_or("a plan without a prediction")?;
-    let text = |error: twofold::Error| error.to_string();
     let state = if derivatives.is_empty() {
-        let motion = plan.motion(&scene.spheroid, &scene.violation, &scene.initial).map_err(text)?;
-        motion.state(scene.time).map_err(text)?
+        let motion = plan.motion_from_parts(&scene.spheroid, &scene.violation, &scene.initial)?;
+        motion.state(scene.time)?
     } else {
         let (Ok(angles), Ok(rates)) = (scene.initial.angles(), scene.initial.rates(&scene.spheroid)) else {
             return Ok(None);
         };
         let start = Parameters::new(scene.spheroid, scene.violation, angles, rates);
-        Components::state(&gradient(&plan, &start, &Components, &[scene.time]).map_err(text)?.values)
+        Components::state(&gradient(&plan, &start, &Components, &[scene.time])?.values)
     };
     let error = largest(scene.true_errors(&state));
     Ok(Some((prediction.truncation + prediction.rounding, error, prediction.promise)))
@@ -172,7 +171,7 @@ fn rounding() -> Result<Measured, String> {
             let fault = |error: twofold::Error| format!("{}, scene {number} of seed {SEED}: {error}", method.name());
             let plan = plan(&scene, method, &[]).map_err(fault)?;
             let prediction = plan.prediction.ok_or("a plan without a prediction")?;
-            let motion = plan.motion(&scene.spheroid, &scene.violation, &scene.initial).map_err(fault)?;
+            let motion = plan.motion_from_parts(&scene.spheroid, &scene.violation, &scene.initial).map_err(fault)?;
             let ratio = motion.error_estimate(scene.time) / prediction.rounding;
             let off = ratio.max(1.0 / ratio);
             all += 1;

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::parameters::{Parameter, Parameters};
 use twofold::plan::{Candidate, Method, Output, Plan, Request, StateFunction, gradient};
-use twofold::propagation::{AxisMotion, Motion, SymmetricMotion, UniformMotion, propagate};
+use twofold::propagation::{Motion, SymmetricMotion, UniformMotion, propagate};
 use twofold::scalar::Real;
 use twofold::solutions::perturbation::Kind as Precession;
 use twofold::solutions::steady::steady_precession_rate;
@@ -92,10 +92,6 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-fn text(error: twofold::Error) -> String {
-    error.to_string()
-}
-
 /// Largest component of the difference of two states of a scene in units `I^xx = C = 1`, `L` in units of that at the start and of
 /// what the torque makes of it.
 fn difference(a: &BodyState<f64>, b: &BodyState<f64>, s: &Matrix3<f64>, initial: &BodyState<f64>) -> f64 {
@@ -117,12 +113,12 @@ fn counts() -> Result<Measured, String> {
             method: Some(Method::Taylor),
             ..Request::new(&[output], (0.0, 10f64.powf(span)), 10, 10f64.powf(accuracy))
         };
-        let plan = Plan::new(&body, &s, &initial, &request).map_err(text)?;
+        let plan = Plan::from_parts(&body, &s, &initial, &request)?;
         let foreseen = plan.prediction.ok_or("a plan without prediction")?.work.right_hand_sides;
         let counted = if full {
-            plan.motion(&body, &s, &initial).map_err(text)?.work()
+            plan.motion_from_parts(&body, &s, &initial)?.work()
         } else {
-            plan.axis_motion(&body, &s, &initial).map_err(text)?.work()
+            plan.axis_motion(&body, &s, &initial)?.work()
         };
         let ratio = counted.right_hand_sides / foreseen;
         Ok(ratio.max(1.0 / ratio))
@@ -152,7 +148,7 @@ fn cheapest() -> Result<Measured, String> {
             derivatives: [Parameter::Beta, Parameter::InertiaZz][..derivatives].to_vec(),
             ..Request::new(&[Output::EquatorialAxis], (0.0, 10f64.powf(span)), samples, 10f64.powf(accuracy))
         };
-        let plan = Plan::new(&body, &s, &initial, &request).map_err(text)?;
+        let plan = Plan::from_parts(&body, &s, &initial, &request)?;
         let (method, prediction) = plan.method.zip(plan.prediction).ok_or("a plan without a method")?;
         let less = |candidate: &Candidate| {
             candidate.prediction.as_ref().is_ok_and(|other| plan.admits(other) && other.cost < prediction.cost)
@@ -178,10 +174,10 @@ fn free_bound() -> Result<Measured, String> {
     worst_over(43, 400, &strategy, |&(scene, log)| {
         let (body, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
         let span = (0.0, 10f64.powf(log));
-        let free = UniformMotion::free(&body, &s, &initial, span);
-        let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
+        let free = UniformMotion::free_from_parts(&body, &s, &initial, span);
+        let exact = propagate(&body, &s, &initial, span, 1e-15)?;
         let figure = |t: f64| {
-            let off = difference(&free.state(t).map_err(text)?, &exact.state(t).map_err(text)?, &s, &initial);
+            let off = difference(&free.state(t)?, &exact.state(t)?, &s, &initial);
             Ok::<_, String>(off / (free.error_estimate(t) + exact.error_estimate(t)))
         };
         Ok(largest([figure(span.1)?, figure(0.3 * span.1)?]))
@@ -206,11 +202,11 @@ fn symmetric_motion() -> Result<Measured, String> {
         // Axes exchanged, too: the symmetry axis need not be that of the last eigenvalue.
         let (s, initial) = if kind == 1 { (s, initial) } else { turned(&s, &initial, frame) };
         let span = (0.0, 10f64.powf(span));
-        let Ok(motion) = SymmetricMotion::new(&body, &s, &initial, span) else { return Ok(0.0) };
+        let Ok(motion) = SymmetricMotion::from_parts(&body, &s, &initial, span) else { return Ok(0.0) };
         solved.set(solved.get() + 1);
-        let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
+        let exact = propagate(&body, &s, &initial, span, 1e-15)?;
         let figure = |t: f64| {
-            let off = difference(&motion.state(t).map_err(text)?, &exact.state(t).map_err(text)?, &s, &initial);
+            let off = difference(&motion.state(t)?, &exact.state(t)?, &s, &initial);
             Ok::<_, String>(off / (motion.error_estimate(t) + exact.error_estimate(t)))
         };
         Ok(largest([figure(0.0)?, figure(span.1)?, figure(0.37 * span.1)?]))
@@ -234,7 +230,7 @@ fn steady_motion() -> Result<Measured, String> {
         let (s, initial) = (coefficients.tensor(), scene.state());
         let (s, initial) = if is_turned { turned(&s, &initial, frame) } else { (s, initial) };
         let span = (0.0, 50.0);
-        let Ok(motion) = UniformMotion::steady(&body, &s, &initial, span) else { return Ok(0.0) };
+        let Ok(motion) = UniformMotion::steady_from_parts(&body, &s, &initial, span) else { return Ok(0.0) };
         solved.set(solved.get() + 1);
         // What turns faster or slower by 1e-6 is not steady, wherever the torque is above rounding.
         let beside = BodyState { momentum: initial.momentum * (1.0 + 1e-6), ..initial };
@@ -242,11 +238,11 @@ fn steady_motion() -> Result<Measured, String> {
         let (sin, cos) = angles.beta.sin_cos();
         let speed = rate.abs() + initial.momentum.norm() + (2.0 * pull.abs()).sqrt();
         let noticed = 1e-6 * (2.0 * pull * sin * cos).abs() / (speed * speed) > 1e-13;
-        if noticed && UniformMotion::steady(&body, &s, &beside, span).is_ok() {
+        if noticed && UniformMotion::steady_from_parts(&body, &s, &beside, span).is_ok() {
             return Err("a state beside steady precession was taken for one".into());
         }
-        let exact = propagate(&body, &s, &initial, span, 1e-15).map_err(text)?;
-        let off = difference(&motion.state(50.0).map_err(text)?, &exact.state(50.0).map_err(text)?, &s, &initial);
+        let exact = propagate(&body, &s, &initial, span, 1e-15)?;
+        let off = difference(&motion.state(50.0)?, &exact.state(50.0)?, &s, &initial);
         Ok(off / (motion.error_estimate(50.0) + exact.error_estimate(50.0)))
     })?;
     if solved.get() < 150 {
@@ -290,8 +286,8 @@ fn gradients() -> Result<Measured, String> {
         let times: Vec<f64> = scene.derivatives.iter().map(|(t, _)| *t).collect();
         for method in [None, Some(Method::Taylor)] {
             let request = Request { method, ..request.clone() };
-            let plan = Plan::new(&start.spheroid, &start.violation, &start.state(), &request).map_err(text)?;
-            let found = gradient(&plan, start, &Components, &times).map_err(text)?;
+            let plan = Plan::from_parts(&start.spheroid, &start.violation, &start.state(), &request)?;
+            let found = gradient(&plan, start, &Components, &times)?;
             for ((t, expected), found) in scene.derivatives.iter().zip(&found.jacobians) {
                 for (i, parameter) in Parameter::OF_MOTION.iter().enumerate() {
                     let size = largest(expected[i].iter().map(|x| x.abs())).max(f64::MIN_POSITIVE);
@@ -325,7 +321,7 @@ fn gradients_both_ways() -> Result<Measured, String> {
                 method,
                 ..Request::new(&[Output::EquatorialAxis], (0.0, end), 3, if method.is_some() { 1e-15 } else { 1e-11 })
             };
-            let plan = Plan::new(&start.spheroid, &s, &start.state(), &request)?;
+            let plan = Plan::from_parts(&start.spheroid, &s, &start.state(), &request)?;
             gradient(&plan, &start, &Components, &[end, 0.3 * end, 0.0])
         });
         let [Ok(ours), Ok(theirs)] = both else { return Err(format!("{both:?}")) };

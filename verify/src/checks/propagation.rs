@@ -6,7 +6,7 @@ use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerat
 use twofold::dynamics::first_integrals::{first_integrals, symmetric_adjugate};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{AxisMotion, Motion, propagate};
+use twofold::propagation::{Motion, propagate};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
 use crate::physical_domain::{RandomScene, scenes, worst_over};
@@ -120,10 +120,9 @@ fn against_reference() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for reference in reference_motions() {
         let end = reference.states.last().map_or(0.0, |(t, _)| *t);
-        let motion = propagate(&reference.spheroid, &reference.violation(), &reference.initial(), (0.0, end), 1e-14)
-            .map_err(text)?;
+        let motion = propagate(&reference.spheroid, &reference.violation(), &reference.initial(), (0.0, end), 1e-14)?;
         for (t, state) in &reference.states {
-            let ours = motion.state(*t).map_err(text)?;
+            let ours = motion.state(*t)?;
             let differences =
                 [ours.axis - state.axis, ours.momentum - state.momentum, ours.equatorial_axis - state.equatorial_axis];
             worst.see(largest(differences.iter().map(largest_component)), || format!("{} at t = {t}", reference.name));
@@ -139,10 +138,9 @@ fn estimate_against_reference() -> Result<Measured, String> {
         for exponent in 3..=14 {
             let accuracy = 10f64.powi(-exponent);
             let motion =
-                propagate(&reference.spheroid, &reference.violation(), &reference.initial(), (0.0, end), accuracy)
-                    .map_err(text)?;
+                propagate(&reference.spheroid, &reference.violation(), &reference.initial(), (0.0, end), accuracy)?;
             for (t, state) in &reference.states {
-                let error = largest_difference(&motion.state(*t).map_err(text)?, state);
+                let error = largest_difference(&motion.state(*t)?, state);
                 worst.see(error / motion.error_estimate(*t), || {
                     format!("{} at t = {t}, accuracy {accuracy:e}, error {error:e}", reference.name)
                 });
@@ -174,11 +172,11 @@ fn integrals_of_examples() -> Result<Measured, String> {
     for name in ["tp-1", "tp-2", "sp-1", "sp-2"] {
         let scene = reference_motion(name);
         let s = scene.violation();
-        let motion = propagate(&scene.spheroid, &s, &scene.initial(), (0.0, 400.0), 1e-14).map_err(text)?;
+        let motion = propagate(&scene.spheroid, &s, &scene.initial(), (0.0, 400.0), 1e-14)?;
         let (start, scale) = integrals_and_scales(&scene.spheroid, &s, &scene.initial());
         for i in 0..=800 {
             let t = f64::from(i) / 2.0;
-            let (now, _) = integrals_and_scales(&scene.spheroid, &s, &motion.state(t).map_err(text)?);
+            let (now, _) = integrals_and_scales(&scene.spheroid, &s, &motion.state(t)?);
             for (k, label) in ["E", "Omega^z", "K"].iter().enumerate() {
                 worst.see((now[k] - start[k]).abs() / scale[k], || format!("{label} of {name} at t = {t}"));
             }
@@ -190,8 +188,8 @@ fn integrals_of_examples() -> Result<Measured, String> {
 fn integrals_of_random_motions() -> Result<Measured, String> {
     worst_over(1, 200, &scenes(), |scene| {
         let (spheroid, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
-        let motion = propagate(&spheroid, &s, &initial, (0.0, 50.0), 1e-14).map_err(text)?;
-        let end = motion.state(50.0).map_err(text)?;
+        let motion = propagate(&spheroid, &s, &initial, (0.0, 50.0), 1e-14)?;
+        let end = motion.state(50.0)?;
         let ((before, scale), (after, _)) =
             (integrals_and_scales(&spheroid, &s, &initial), integrals_and_scales(&spheroid, &s, &end));
         let drift = largest((0..3).map(|k| (after[k] - before[k]).abs() / scale[k]));
@@ -213,11 +211,11 @@ fn dense_output_solves_equations() -> Result<Measured, String> {
             equatorial_axis: lift_vector(&initial.equatorial_axis),
         };
         // The truncation must be far below rounding: two derivatives multiply it by (order / step)^2.
-        let motion = propagate(&spheroid, &s, &initial, (0.0, 10.0), 1e-16).map_err(text)?;
+        let motion = propagate(&spheroid, &s, &initial, (0.0, 10.0), 1e-16)?;
         let mut most = 0.0_f64;
         for i in 1..20 {
-            let state = motion.state(Dual2_64::new(0.5 * f64::from(i), 1.0, 0.0)).map_err(text)?;
-            let angles = state.angles().map_err(text)?;
+            let state = motion.state(Dual2_64::new(0.5 * f64::from(i), 1.0, 0.0))?;
+            let angles = state.angles()?;
             let sin = angles.beta.re.sin();
             if sin.abs() < 1e-3 {
                 continue;
@@ -242,7 +240,9 @@ fn derivatives_by_duals() -> Result<Measured, String> {
     let scene = reference_motion("tp-2");
     let at = |s_yy: f64| -> Result<BodyState<f64>, String> {
         let s = PrincipalCoefficients { yy: s_yy, ..scene.coefficients }.tensor();
-        propagate(&scene.spheroid, &s, &scene.initial(), (0.0, 50.0), 1e-15).and_then(|m| m.state(50.0)).map_err(text)
+        propagate(&scene.spheroid, &s, &scene.initial(), (0.0, 50.0), 1e-15)
+            .and_then(|m| m.state(50.0))
+            .map_err(String::from)
     };
     let lift = |x: f64| Dual64::from_re(x);
     let mut s = scene.violation().map(lift);
@@ -254,8 +254,7 @@ fn derivatives_by_duals() -> Result<Measured, String> {
         momentum: initial.momentum.map(lift),
         equatorial_axis: initial.equatorial_axis.map(lift),
     };
-    let dual =
-        propagate(&spheroid, &s, &initial, (0.0, 50.0), 1e-15).and_then(|m| m.state(lift(50.0))).map_err(text)?;
+    let dual = propagate(&spheroid, &s, &initial, (0.0, 50.0), 1e-15).and_then(|m| m.state(lift(50.0)))?;
     let step = 1e-5;
     let (above, below) = (at(scene.coefficients.yy + step)?, at(scene.coefficients.yy - step)?);
     let mut worst = Worst::default();
@@ -278,8 +277,8 @@ fn end_of(
     initial: &BodyState<f64>,
     span: (f64, f64),
 ) -> Result<(BodyState<f64>, f64), String> {
-    let motion = propagate(spheroid, s, initial, span, 1e-13).map_err(text)?;
-    Ok((motion.state(span.1).map_err(text)?, motion.error_estimate(span.1)))
+    let motion = propagate(spheroid, s, initial, span, 1e-13)?;
+    Ok((motion.state(span.1)?, motion.error_estimate(span.1)))
 }
 
 fn time_reversal() -> Result<Measured, String> {
@@ -319,10 +318,6 @@ fn frame_covariance() -> Result<Measured, String> {
         let permuted = twofold::euler_angles::permuted_from_inertial();
         Ok(largest([compare(scene, &any)?, compare(scene, &permuted)?]))
     })
-}
-
-fn text(error: twofold::Error) -> String {
-    error.to_string()
 }
 
 #[cfg(test)]

@@ -163,12 +163,12 @@ fn uncertainties() -> Result<Measured, String> {
     let mut random = Random::with_seed(42);
     let mut worst = Worst::default();
     for pulsar in pulsar_table::paper() {
-        let figures = pulsar.figures().map_err(|e| e.to_string())?;
+        let figures = pulsar.figures()?;
         // The measured error of the change is as large as the change: its effect is in `pulsar-limits-monte-carlo`.
         let pulsar = Pulsar { width_change: Quantity::exact(pulsar.width_change.value), ..pulsar };
         let (mut sums, mut squares) = (vec![0.0; figures.len()], vec![0.0; figures.len()]);
         for _ in 0..DRAWS {
-            let drawn = pulsar.random_figures(&mut random).map_err(|e| e.to_string())?;
+            let drawn = pulsar.random_figures(&mut random)?;
             for (i, (value, figure)) in drawn.iter().zip(&figures).enumerate() {
                 let deviation = value / figure.value - 1.0;
                 sums[i] += deviation;
@@ -194,13 +194,13 @@ fn limits_by_draws() -> Result<Measured, String> {
     let mut random = Random::with_seed(95);
     let mut worst = Worst::default();
     for pulsar in pulsar_table::paper() {
-        let figures = pulsar.figures().map_err(|e| e.to_string())?;
+        let figures = pulsar.figures()?;
         let own = figures.iter().position(|figure| figure.key == "bound_over_eta_own").ok_or("no bound")?;
-        let limit = pulsar.limit(&figures[own]).map_err(|e| e.to_string())?.all;
+        let limit = pulsar.limit(&figures[own])?.all;
         let s = PrincipalCoefficients::new([0.0, 0.0, 0.5]).tensor();
         let mut above = 0;
         for _ in 0..DRAWS {
-            let over_eta = pulsar.random_figures(&mut random).map_err(|e| e.to_string())?[own];
+            let over_eta = pulsar.random_figures(&mut random)?[own];
             let rate = seen_rate(&mut random, &s, pulsar.lambda.value * DEGREE);
             above += u32::from(over_eta > limit * rate.abs());
         }
@@ -223,7 +223,7 @@ fn coverage() -> Result<Measured, String> {
     let s = PrincipalCoefficients::new([0.0, 0.0, 0.5]).tensor();
     // In errors of the bound over eta.
     let figure = |value| Figure { key: "", label: String::new(), value, from_change: Some(1.0), from_inputs: 0.0 };
-    let limit = |i: u32| Ok(pulsar.limit(&figure(f64::from(i) * STEPS.1)).map_err(|e| e.to_string())?.all);
+    let limit = |i: u32| Ok(pulsar.limit(&figure(f64::from(i) * STEPS.1))?.all);
     let limits = (0..=STEPS.0).map(limit).collect::<Result<Vec<f64>, String>>()?;
     let limit = |measured: f64| {
         let place = measured.abs() / STEPS.1;
@@ -262,7 +262,7 @@ fn limits_with_error() -> Result<Measured, String> {
     let mut ratios = Vec::new();
     for pulsar in pulsar_table::paper() {
         let bound = pulsar.figure("bound_over_eta_own")?;
-        let limit = pulsar.limit(&bound).map_err(|e| e.to_string())?;
+        let limit = pulsar.limit(&bound)?;
         ratios.push(limit.over_eta_by_change.ok_or("a change without an error")? / bound.value);
     }
     let last = *ratios.last().ok_or("no pulse")?;
@@ -272,7 +272,7 @@ fn limits_with_error() -> Result<Measured, String> {
 fn alpha_2() -> Result<Measured, String> {
     let pulsars = pulsar_table::paper();
     let (pulsar, _) = recommended(&pulsars)?;
-    let limit = pulsar.limit(&pulsar.figure("alpha_2_over_eta_own")?).map_err(|e| e.to_string())?.all;
+    let limit = pulsar.limit(&pulsar.figure("alpha_2_over_eta_own")?)?.all;
     // The bound that the paper prints, with eta = 10.
     let speed = 369e3 / si::SPEED_OF_LIGHT;
     let printed = 1e-15 / (2.0 * speed * speed);
@@ -289,7 +289,7 @@ fn beyond_global() -> Result<Measured, String> {
     let mut orders = Vec::new();
     for pulsar in pulsar_table::paper() {
         let bound = pulsar.figure("bound_over_eta_own")?;
-        let limit = pulsar.limit(&bound).map_err(|e| e.to_string())?.all;
+        let limit = pulsar.limit(&bound)?.all;
         orders.extend([bound.value * CONSERVATIVE_ETA, limit].map(|bound| (GLOBAL_2014.limit / bound).log10()));
     }
     least_below_five(&orders)

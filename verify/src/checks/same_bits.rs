@@ -2,7 +2,7 @@
 
 use twofold::dynamics::BodyState;
 use twofold::plan::{Method, PlannedMotion};
-use twofold::propagation::{AxisMotion, Motion};
+use twofold::propagation::Motion;
 
 use crate::check::{Bound, Check, Kind, Measured};
 use crate::error_scenes::ErrorScene;
@@ -42,16 +42,12 @@ fn scene(method: Method, number: u64) -> Option<ErrorScene> {
     Some(scene)
 }
 
-fn text(error: twofold::Error) -> String {
-    error.to_string()
-}
-
 /// State and estimate, or what the method refuses.
 fn state_of(method: Method, scene: &ErrorScene) -> Result<(BodyState<f64>, f64), String> {
     let motion =
         PlannedMotion::by(method, &scene.spheroid, &scene.violation, &scene.initial, scene.span, scene.accuracy);
-    let motion = motion.map_err(text)?;
-    Ok((motion.state(scene.time).map_err(text)?, motion.error_estimate(scene.time)))
+    let motion = motion?;
+    Ok((motion.state(scene.time)?, motion.error_estimate(scene.time)))
 }
 
 fn reversal() -> Result<Measured, String> {

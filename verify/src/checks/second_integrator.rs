@@ -38,9 +38,8 @@ fn regular_forms() -> Result<Measured, String> {
     worst_over(21, 200, &scenes(), |scene| {
         let (spheroid, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
         let other = regular_motion(&spheroid, &s, &initial, DURATION, 1e-13)?;
-        let ours = propagate(&spheroid, &s, &initial, (0.0, DURATION), 1e-14)
-            .and_then(|motion| motion.state(DURATION))
-            .map_err(|e| e.to_string())?;
+        let ours =
+            propagate(&spheroid, &s, &initial, (0.0, DURATION), 1e-14).and_then(|motion| motion.state(DURATION))?;
         let differences =
             [ours.axis - other.axis, ours.momentum - other.momentum, ours.equatorial_axis - other.equatorial_axis];
         Ok(largest(differences.iter().map(largest_component)))
@@ -51,11 +50,10 @@ fn forms_agree() -> Result<Measured, String> {
     let measured = std::cell::Cell::new(0);
     let worst = worst_over(22, 200, &scenes(), |scene| {
         let motion =
-            propagate(&scene.spheroid(), &scene.coefficients().tensor(), &scene.state(), (0.0, DURATION), 1e-14)
-                .map_err(|e| e.to_string())?;
+            propagate(&scene.spheroid(), &scene.coefficients().tensor(), &scene.state(), (0.0, DURATION), 1e-14)?;
         let mut closest = f64::INFINITY;
         for i in 0..=2000 {
-            let axis = motion.state(DURATION * f64::from(i) / 2000.0).map_err(|e| e.to_string())?.axis;
+            let axis = motion.state(DURATION * f64::from(i) / 2000.0)?.axis;
             closest = closest.min(axis.x.hypot(axis.y));
         }
         if closest < 0.1 {
@@ -69,9 +67,7 @@ fn forms_agree() -> Result<Measured, String> {
             DURATION,
             1e-13,
         )?;
-        let ours = ContinuousAngles::new(&motion, 0.0, &scene.angles())
-            .and_then(|mut angles| angles.at(DURATION))
-            .map_err(|e| e.to_string())?;
+        let ours = ContinuousAngles::new(&motion, 0.0, &scene.angles()).and_then(|mut angles| angles.at(DURATION))?;
         let differences = [ours.alpha - other.alpha, ours.beta - other.beta, ours.gamma - other.gamma];
         Ok(largest(differences.map(f64::abs)))
     })?;

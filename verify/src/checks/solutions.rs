@@ -44,7 +44,7 @@ pub fn checks() -> Vec<Check> {
             bound: Bound::AtMost(0.0),
             reason: "rounding of the printed digits",
             measure: || {
-                let table = captions::initial_values().map_err(|e| e.to_string())?;
+                let table = captions::initial_values()?;
                 let differing: Vec<_> = table.lines.iter().filter(|line| line.verdict() != "confirmed").collect();
                 let labels: Vec<_> = differing.iter().map(|line| line.label.as_str()).collect();
                 Ok(Measured::new(differing.len() as f64, labels.join(", ")))
@@ -172,7 +172,7 @@ fn free_rates() -> Result<Measured, String> {
         &(0.2..2.0f64, -3.0..3.0f64, 0.01..1.5f64, -PI..PI, -PI..PI),
         |&(ratio, spin, beta, alpha, gamma)| {
             let spheroid = RigidSpheroid::in_units_of_tc(ratio);
-            let rates = free_precession_rates(&spheroid, spin, beta).map_err(|e| e.to_string())?;
+            let rates = free_precession_rates(&spheroid, spin, beta)?;
             let state = BodyState::from_angles(&spheroid, &EulerAngles { alpha, beta, gamma }, &rates);
             Ok(state.momentum.xy().norm() / (f64::EPSILON * state.momentum.norm()))
         },
@@ -212,8 +212,7 @@ fn steady_limit() -> Result<Measured, String> {
         for spin in [1.0, -0.7] {
             let zz = -0.4 * 10f64.powi(-exponent);
             let s = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz };
-            let rate =
-                steady_precession_rate(Precession::Single, &spheroid, &s, spin, 0.7).map_err(|e| e.to_string())?;
+            let rate = steady_precession_rate(Precession::Single, &spheroid, &s, spin, 0.7)?;
             let p = 1.1 * spin;
             let x = 2.0 * zz * 0.7f64.cos().powi(2) / (p * p);
             let series = 2.0 * zz * 0.7f64.cos() / p * (1.0 + x + 2.0 * x * x);
@@ -228,9 +227,8 @@ const S: [f64; 3] = [0.02, 0.01, -0.04];
 fn inverse_round_trip() -> Result<Measured, String> {
     let (spheroid, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new(S));
     let round_trip = |form: Form, kind: Precession, constants: &Constants<f64>, spin: f64| -> Result<f64, String> {
-        let initial = initial_values(form, kind, &spheroid, &s, spin, constants).map_err(|e| e.to_string())?;
-        let found =
-            constants_from_initial_values(form, kind, &spheroid, &s, spin, &initial).map_err(|e| e.to_string())?;
+        let initial = initial_values(form, kind, &spheroid, &s, spin, constants)?;
+        let found = constants_from_initial_values(form, kind, &spheroid, &s, spin, &initial)?;
         let vector = |c: &Constants<f64>| {
             let (sin, cos) = c.phase.sin_cos();
             Vector4::new(c.alpha_0, c.beta_0, c.amplitude * cos, c.amplitude * sin)
@@ -261,11 +259,9 @@ fn inverse_at_random() -> Result<Measured, String> {
     for (form, kind) in FORMS.into_iter().flat_map(|form| KINDS.map(|kind| (form, kind))) {
         let random = worst_over(14, 200, &domain, |&(alpha_0, beta_0, amplitude, phase, spin)| {
             let constants = Constants { alpha_0, beta_0, amplitude, phase };
-            let forward =
-                |c: &Constants<f64>| initial_values(form, kind, &spheroid, &s, spin, c).map_err(|e| e.to_string());
+            let forward = |c: &Constants<f64>| initial_values(form, kind, &spheroid, &s, spin, c).map_err(String::from);
             let initial = forward(&constants)?;
-            let found =
-                constants_from_initial_values(form, kind, &spheroid, &s, spin, &initial).map_err(|e| e.to_string())?;
+            let found = constants_from_initial_values(form, kind, &spheroid, &s, spin, &initial)?;
             if found.amplitude > amplitude + 1e-12 {
                 return Err(format!("A = {} where {amplitude} is possible", found.amplitude));
             }
@@ -308,11 +304,11 @@ fn inverse_derivatives() -> Result<Measured, String> {
         };
         let jacobian = |f: &dyn Fn([Dual64; 4]) -> Result<[Dual64; 4], twofold::Error>, x: [f64; 4]| {
             let columns = (0..4)
-                .map(|i| Ok(Vector4::from(f(seeded(x, i)).map_err(|e| e.to_string())?.map(|y| y.eps))))
+                .map(|i| Ok(Vector4::from(f(seeded(x, i))?.map(|y| y.eps))))
                 .collect::<Result<Vec<_>, String>>()?;
             Ok::<_, String>(Matrix4::from_columns(&columns))
         };
-        let initial = forward(constants.map(lift)).map_err(|e| e.to_string())?.map(|x| x.re);
+        let initial = forward(constants.map(lift))?.map(|x| x.re);
         let product = jacobian(&backward, initial)? * jacobian(&forward, constants)?;
         worst.see(largest((product - Matrix4::identity()).iter().map(|x: &f64| x.abs())), || {
             format!("{form:?} {kind:?}")

@@ -143,15 +143,14 @@ fn error(s: &PrincipalCoefficients<f64>, amplitude: f64, interval: f64) -> Resul
     let body = spheroid();
     // A general phase and, below, a direction that leaves neither term of Eq. (38) out.
     let constants = Constants { alpha_0: FRAC_PI_2, beta_0: 0.7, amplitude, phase: 0.4 };
-    let solution =
-        Perturbation::new(Form::Printed, Precession::Single, &body, s, SPIN, &constants).map_err(|e| e.to_string())?;
+    let solution = Perturbation::new(Form::Printed, Precession::Single, &body, s, SPIN, &constants)?;
     let start = solution.at(0.0);
     let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
     let gamma_rate = SPIN - start.alpha_rate * start.beta.cos();
     let rates = EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma: gamma_rate };
     let initial = BodyState::from_angles(&body, &angles, &rates);
-    let motion = propagate(&body, &s.tensor(), &initial, (0.0, interval), 1e-15).map_err(|e| e.to_string())?;
-    let end = motion.state(interval).map_err(|e| e.to_string())?;
+    let motion = propagate(&body, &s.tensor(), &initial, (0.0, interval), 1e-15)?;
+    let end = motion.state(interval)?;
     let (theta, phi) = (0.8, 0.5);
     let direction = Observer::at(theta, phi).direction;
     let moved: Vector3<f64> = end.axis - initial.axis;

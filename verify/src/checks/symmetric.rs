@@ -11,7 +11,7 @@ use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerat
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{AxisMotion, Motion, propagate};
+use twofold::propagation::{Motion, propagate};
 use twofold::scalar::Real;
 use twofold::solutions::free::free_rotation;
 use twofold::solutions::perturbation::Kind as Precession;
@@ -140,7 +140,7 @@ fn lifted<S: Real>(scene: &RandomScene) -> (RigidSpheroid<S>, PrincipalCoefficie
 
 fn solution<S: Real>(scene: &RandomScene) -> Result<SymmetricSolution<S>, String> {
     let (spheroid, s, angles, rates) = lifted(scene);
-    SymmetricSolution::new(&spheroid, &s, &angles, &rates).map_err(text)
+    SymmetricSolution::new(&spheroid, &s, &angles, &rates).map_err(String::from)
 }
 
 /// The state of a solution in inertial components.
@@ -184,8 +184,7 @@ fn against_reference() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for name in ["axisymmetric-violation", "free"] {
         let scene = reference_motion(name);
-        let motion =
-            SymmetricSolution::new(&scene.spheroid, &scene.coefficients, &scene.angles, &scene.rates).map_err(text)?;
+        let motion = SymmetricSolution::new(&scene.spheroid, &scene.coefficients, &scene.angles, &scene.rates)?;
         for (t, expected) in &scene.states {
             worst.see(difference(&state(&scene.spheroid, &motion, *t), expected), || format!("{name} at t = {t}"));
         }
@@ -204,13 +203,13 @@ fn compare_with_propagation(scene: &RandomScene) -> Result<f64, String> {
         } else {
             rates.beta.eps = 1.0
         }
-        SymmetricSolution::new(&spheroid, &s, &angles, &rates).map_err(text)
+        SymmetricSolution::new(&spheroid, &s, &angles, &rates).map_err(String::from)
     });
     let [by_angle, by_rate] = solutions;
     let (by_angle, by_rate) = (by_angle?, by_rate?);
     let spheroid = lifted::<Dual64>(scene).0;
     let (violation, initial) = (scene.coefficients().tensor(), scene.state());
-    let numerical = propagate(&scene.spheroid(), &violation, &initial, (0.0, 50.0), 1e-15).map_err(text)?;
+    let numerical = propagate(&scene.spheroid(), &violation, &initial, (0.0, 50.0), 1e-15)?;
     let mut most = 0.0_f64;
     for i in 0..=25 {
         let t = 2.0 * f64::from(i);
@@ -223,7 +222,7 @@ fn compare_with_propagation(scene: &RandomScene) -> Result<f64, String> {
         let BodyState { axis, momentum, equatorial_axis } = sensitive[1];
         let real = |v: &Vector3<Dual64>| v.map(|x| x.re);
         let ours = BodyState { axis: real(&axis), momentum: real(&momentum), equatorial_axis: real(&equatorial_axis) };
-        let difference = difference(&ours, &numerical.state(t).map_err(text)?);
+        let difference = difference(&ours, &numerical.state(t)?);
         most = largest([most, difference / (numerical.error_estimate(t) + rounding)]);
     }
     Ok(most)
@@ -254,14 +253,13 @@ fn derivatives() -> Result<Measured, String> {
             _ => rates.gamma.eps = 1.0,
         }
         let t = Dual64::from_re(10.0);
-        let exact = SymmetricSolution::new(&spheroid, &s, &angles, &rates).map_err(text)?;
+        let exact = SymmetricSolution::new(&spheroid, &s, &angles, &rates)?;
         let (smallest, most) = exact.inclinations();
         let sin = smallest.re.sin().min(most.re.sin());
         let exact = state(&spheroid, &exact, t);
         let initial = BodyState::from_angles(&spheroid, &angles, &rates);
-        let numerical = propagate(&spheroid, &s.tensor(), &initial, (0.0, 10.0), 1e-16)
-            .and_then(|motion| motion.state(t))
-            .map_err(text)?;
+        let numerical =
+            propagate(&spheroid, &s.tensor(), &initial, (0.0, 10.0), 1e-16).and_then(|motion| motion.state(t))?;
         let part = |v: &Vector3<Dual64>| v.map(|x| x.eps);
         let error = [
             part(&exact.axis) - part(&numerical.axis),
@@ -359,8 +357,4 @@ fn refusals() -> Result<Measured, String> {
     let missed: Vec<&str> =
         cases.iter().filter(|(_, r)| !matches!(r, Err(Error::Domain { .. }))).map(|(name, _)| *name).collect();
     Ok(Measured::new(missed.len() as f64, format!("not refused: {missed:?}")))
-}
-
-fn text(error: Error) -> String {
-    error.to_string()
 }

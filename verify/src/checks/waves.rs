@@ -11,7 +11,7 @@ use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{
     Polarizations, metric_perturbation, polarization_tensors, polarizations, strain_unit,
 };
-use twofold::propagation::{AxisMotion, AxisState, Motion, TaylorMotion, propagate, propagate_axis};
+use twofold::propagation::{AxisState, Motion, TaylorMotion, propagate, propagate_axis};
 use twofold::units::geometrised::HERTZ;
 use twofold::units::si::KILOPARSEC;
 
@@ -260,7 +260,7 @@ impl Identity for FreePrecession {
 }
 
 fn motion_of(scene: &ReferenceMotion, end: f64) -> Result<TaylorMotion<f64>, String> {
-    propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, end), 1e-15).map_err(|e| e.to_string())
+    propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, end), 1e-15).map_err(String::from)
 }
 
 /// The wave by the body-frame tensor `A^ij` with the torque, from the rotation matrix: no part of the short form.
@@ -288,7 +288,7 @@ fn two_forms_along_motion() -> Result<Measured, String> {
         let observer = Observer::at(0.8, 0.3);
         for i in 0..=2000 {
             let t = 0.1 * f64::from(i);
-            let state = motion.state(t.min(200.0)).map_err(|e| e.to_string())?;
+            let state = motion.state(t.min(200.0))?;
             let short = wave_of_state(&observer, &scene.spheroid, &scene.violation(), &AxisState::from(&state));
             worst.see(difference(&short, &wave_by_general_form(&observer, &scene, &state)), || {
                 format!("{name}, t = {t}")
@@ -305,11 +305,11 @@ fn against_reference() -> Result<Measured, String> {
         let end = scene.states.last().ok_or("a scene without states")?.0;
         let (s, start) = (scene.violation(), AxisState::from(&scene.initial()));
         let motion = motion_of(&scene, end)?;
-        let alone = propagate_axis(&scene.spheroid, &s, &start, (0.0, end), 1e-15).map_err(|e| e.to_string())?;
+        let alone = propagate_axis(&scene.spheroid, &s, &start, (0.0, end), 1e-15)?;
         for (t, reference) in &scene.states {
             let theirs = wave_by_general_form(&observer, &scene, reference);
             for state in [motion.axis_state(*t), alone.axis_state(*t)] {
-                let ours = wave_of_state(&observer, &scene.spheroid, &s, &state.map_err(|e| e.to_string())?);
+                let ours = wave_of_state(&observer, &scene.spheroid, &s, &state?);
                 worst.see(difference(&ours, &theirs), || format!("{}, t = {t}", scene.name));
             }
         }
@@ -332,7 +332,7 @@ fn against_published_data() -> Result<Measured, String> {
     let observer = Observer::at(0.8, 0.0);
     let mut worst = Worst::default();
     for [t, plus, cross] in PUBLISHED {
-        let state = motion.state(t).map_err(|e| e.to_string())?;
+        let state = motion.state(t)?;
         let ours = wave_of_state(&observer, &scene.spheroid, &scene.violation(), &AxisState::from(&state));
         worst.see(difference(&ours, &Polarizations { plus, cross }), || format!("t = {t}: {ours:?}"));
     }

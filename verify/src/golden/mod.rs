@@ -41,14 +41,13 @@ impl std::fmt::Display for GoldenTable {
 /// # Errors
 /// If a number cannot be computed.
 pub fn tables() -> Result<Vec<GoldenTable>, String> {
-    let text = |error: twofold::Error| error.to_string();
     Ok(vec![
-        captions::initial_values().map_err(text)?,
-        captions::constants().map_err(text)?,
+        captions::initial_values()?,
+        captions::constants()?,
         pulsar_bounds::table()?,
-        eta::table().map_err(text)?,
-        star::estimates().map_err(text)?,
-        star::expansions().map_err(text)?,
+        eta::table()?,
+        star::estimates()?,
+        star::expansions()?,
         regimes::twofold()?,
         regimes::single()?,
         spectral_lines::table()?,

@@ -35,17 +35,16 @@ pub fn columns() -> Vec<(Pulsar, PrintedBounds)> {
 pub(super) fn table() -> Result<GoldenTable, String> {
     let mut lines = Vec::new();
     for (pulsar, printed) in columns() {
-        let text = |error: twofold::Error| error.to_string();
         let own = pulsar.figure("bound_over_eta_own")?;
-        let limit = pulsar.limit(&own).map_err(text)?;
+        let limit = pulsar.limit(&own)?;
         let by_change = limit.over_eta_by_change.ok_or("the paper's table has errors of the changes")?;
         let by_change = GoldenLine { digits: 4, ..GoldenLine::new("", Printed::No, by_change * 1e16) };
         let stated = pulsar.figure("bound_over_eta_stated")?.value * 1e16;
-        let round = pulsar.bound_over_eta(ROUND_INERTIA_OVER_C).map_err(text)? * 1e16;
+        let round = pulsar.bound_over_eta(ROUND_INERTIA_OVER_C)? * 1e16;
         let own = own.value * 1e16;
         let (over_eta, with_ten) = (Printed::Order(printed.bound), Printed::Order(printed.conservative));
         let short = |value| GoldenLine { digits: 4, ..GoldenLine::new("", Printed::No, value) };
-        let change = pulsar.lambda_change().map_err(text)? * 1e3;
+        let change = pulsar.lambda_change()? * 1e3;
         for (label, line) in [
             ("Delta lambda (1e-3 deg)", GoldenLine::new("", Printed::Decimal(printed.lambda_change), change)),
             ("(a) bound / eta (1e-16), I^zz/C by Eq. (43)", GoldenLine::new("", over_eta, stated)),

@@ -7,7 +7,7 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{AveragedMotion, Motion};
 use twofold::solutions::mean::{MeanMotion, MeanOrder};
 
-use super::scenes::{difference, random_state, text};
+use super::scenes::{difference, random_state};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::double_double::DoubleDouble;
 use crate::random::Random;
@@ -49,8 +49,7 @@ fn phases() -> Result<Measured, String> {
         let order = if case % 2 == 0 { MeanOrder::First } else { MeanOrder::Second };
         let across = state.n.cross(&Vector3::new(0.3, -0.5, 0.8)).normalize();
         let initial = BodyState { axis: state.n, momentum: state.momentum, equatorial_axis: across };
-        let mean =
-            MeanMotion::new(&state.body, &PrincipalCoefficients::new(s.into()), &initial, order).map_err(text)?;
+        let mean = MeanMotion::new(&state.body, &PrincipalCoefficients::new(s.into()), &initial, order)?;
         let exact = MeanMotion::new(
             &RigidSpheroid {
                 inertia_xx: DoubleDouble::from_f64(state.body.inertia_xx),
@@ -60,8 +59,7 @@ fn phases() -> Result<Measured, String> {
             &PrincipalCoefficients::new(lift(&s).into()),
             &BodyState { axis: lift(&state.n), momentum: lift(&state.momentum), equatorial_axis: lift(&across) },
             order,
-        )
-        .map_err(text)?;
+        )?;
         let turns = 4e11;
         let time = [turns / mean.rates().about_momentum * core::f64::consts::TAU, 1e-9 * random.within(-1.0, 1.0)];
         let found = mean.turns(time);
@@ -88,13 +86,13 @@ fn epochs() -> Result<Measured, String> {
         let s = nalgebra::Matrix3::from_diagonal(&(state.s * 10f64.powf(random.within(-15.0, -3.0))));
         let across = state.n.cross(&Vector3::new(0.3, -0.5, 0.8)).normalize();
         let initial = BodyState { axis: state.n, momentum: state.momentum, equatorial_axis: across };
-        let motion = AveragedMotion::new(&state.body, &s, &initial, (0.0, 1e17), MeanOrder::Second).map_err(text)?;
+        let motion = AveragedMotion::from_parts(&state.body, &s, &initial, (0.0, 1e17), MeanOrder::Second)?;
         let epoch = 10f64.powf(random.within(0.0, 15.0));
         let epoch = [epoch, epoch * f64::EPSILON * random.within(-0.4, 0.4)];
         let later = random.within(0.0, 1e-3) * epoch[0].min(100.0);
-        let near = motion.near(epoch).map_err(text)?.state(later).map_err(text)?;
+        let near = motion.near(epoch)?.state(later)?;
         let time = twofold_sum(epoch, later);
-        let from_start = motion.state_in_parts(time).map_err(text)?;
+        let from_start = motion.state_in_parts(time)?;
         worst.see(largest([difference(&near, &from_start)]), || format!("case {case} of seed 63, epoch {epoch:?}"));
     }
     worst.finish()

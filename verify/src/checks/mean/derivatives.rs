@@ -7,7 +7,6 @@ use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame_along, p
 use twofold::propagation::{AveragedMotion, Motion};
 use twofold::solutions::mean::{MeanMotion, MeanOrder};
 
-use super::scenes::text;
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::mean_scenes::MeanScene;
 use crate::random::Random;
@@ -83,7 +82,7 @@ impl Family {
             }
         }
         let principal = frame_of(&tensor)?;
-        AveragedMotion::in_frame(&body, &tensor, &state, (0.0, *end), MeanOrder::Second, principal)?.state(t)
+        AveragedMotion::in_frame_from_parts(&body, &tensor, &state, (0.0, *end), MeanOrder::Second, principal)?.state(t)
     }
 
     fn components<S: twofold::Real>(&self, x: S, frame_of: Frame<S>) -> Result<[S; 9], twofold::Error> {
@@ -108,11 +107,11 @@ fn derivatives() -> Result<Measured, String> {
             let equal = number % 5 < 2;
             let direction = Vector3::from_fn(|_, _| random.within(-1.0, 1.0));
             let family = Family { scene: scene.clone(), frame, kind, equal, direction };
-            let found = family.components(Dual64::new(0.0, 1.0), principal_frame_along).map_err(text)?;
+            let found = family.components(Dual64::new(0.0, 1.0), principal_frame_along)?;
             // The state changes by a part of itself while the parameter changes by this much.
             let size = largest(found.iter().map(|x| x.eps.abs())).max(1.0);
             let step = 5e-4 / size;
-            let at = |x: f64| family.components(x * step, principal_frame_with_derivatives).map_err(text);
+            let at = |x: f64| family.components(x * step, principal_frame_with_derivatives).map_err(String::from);
             let [a, b, c, d] = [at(-2.0)?, at(-1.0)?, at(1.0)?, at(2.0)?];
             let off = (0..9).map(|i| {
                 let difference = ((a[i] - d[i]) + (c[i] - b[i]) * 8.0) / (12.0 * step);

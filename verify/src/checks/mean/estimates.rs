@@ -7,7 +7,7 @@ use twofold::Scalar;
 use twofold::dynamics::BodyState;
 use twofold::solutions::mean::{MeanOrder, MeanPhases};
 
-use super::scenes::{difference, text};
+use super::scenes::difference;
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::double_double::DoubleDouble;
 use crate::mean_scenes::{EstimateSeen, MeanScene};
@@ -77,7 +77,7 @@ fn measured(order: MeanOrder) -> AllSeen {
     (0..SCENES)
         .map(|number| {
             let scene = MeanScene::draw(11, number, 1500.0);
-            scene.estimate_seen(order, number).map(|seen| (number, seen)).map_err(text)
+            scene.estimate_seen(order, number).map(|seen| (number, seen)).map_err(String::from)
         })
         .collect()
 }
@@ -100,7 +100,7 @@ fn beside_separatrix() -> Result<Measured, String> {
     for number in 0..300 {
         let scene = MeanScene::beside_separatrix(13, number);
         for order in [MeanOrder::First, MeanOrder::Second] {
-            let seen = scene.estimate_seen(order, number).map_err(text)?;
+            let seen = scene.estimate_seen(order, number)?;
             let [error, estimate, t] = seen.at;
             worst.see(seen.worst, || {
                 format!("scene {number} of seed 13, {order:?}: {error:.2e} at t = {t}, estimated {estimate:.2e}")
@@ -115,8 +115,8 @@ fn rounding() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for number in 0..60 {
         let scene = MeanScene::draw(19, number, 10.0);
-        let mean = scene.motion::<f64>(MeanOrder::Second).map_err(text)?;
-        let exact = scene.motion::<DoubleDouble>(MeanOrder::Second).map_err(text)?;
+        let mean = scene.motion::<f64>(MeanOrder::Second)?;
+        let exact = scene.motion::<DoubleDouble>(MeanOrder::Second)?;
         let t = 10f64.powf(random.within(0.0, 12.0));
         // Only the part that grows with the slow phase: in double-double numbers phases are not reduced, and the fast ones are the same theory.
         let rates = exact.rates();

@@ -6,7 +6,7 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{Motion, propagate};
 use twofold::solutions::mean::{MeanMotion, MeanOrder};
 
-use super::scenes::{State, difference, random_state, text};
+use super::scenes::{State, difference, random_state};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::random::Random;
 use crate::reference::reference_motion;
@@ -86,12 +86,12 @@ fn error_of_tp_2(order: MeanOrder, k: f64) -> Result<f64, String> {
     let values = [scene.coefficients.xx, scene.coefficients.yy, scene.coefficients.zz].map(|value| value * k);
     let coefficients = PrincipalCoefficients::new(values);
     let initial = scene.initial();
-    let exact = propagate(&scene.spheroid, &coefficients.tensor(), &initial, (0.0, 30.0 / k), 1e-13).map_err(text)?;
-    let mean = MeanMotion::new(&scene.spheroid, &coefficients, &initial, order).map_err(text)?;
+    let exact = propagate(&scene.spheroid, &coefficients.tensor(), &initial, (0.0, 30.0 / k), 1e-13)?;
+    let mean = MeanMotion::new(&scene.spheroid, &coefficients, &initial, order)?;
     let mut most = 0.0;
     for i in 0..=200 {
         let t = 30.0 / k * f64::from(i) / 200.0;
-        most = largest([most, difference(&mean.state(t), &exact.state(t).map_err(text)?)]);
+        most = largest([most, difference(&mean.state(t), &exact.state(t)?)]);
     }
     Ok(most)
 }
@@ -117,7 +117,7 @@ fn gain_of_second_order() -> Result<Measured, String> {
 fn slopes_of_errors() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for (order, expected) in [(MeanOrder::First, 1.0), (MeanOrder::Second, 2.0)] {
-        let fit = slope(&tp_2(order)?.1).map_err(|e| e.to_string())?;
+        let fit = slope(&tp_2(order)?.1)?;
         worst.see((fit.value - expected).abs(), || format!("{order:?}: {:.3} +- {:.3}", fit.value, fit.error));
     }
     worst.finish()
@@ -155,13 +155,13 @@ fn random_geometries() -> Result<Measured, String> {
         followed += 1;
         let equatorial_axis = n.cross(&Vector3::new(0.3, -0.5, 0.8)).normalize();
         let initial = BodyState { axis: n, momentum, equatorial_axis };
-        let mean = MeanMotion::new(&body, &coefficients, &initial, MeanOrder::Second).map_err(text)?;
+        let mean = MeanMotion::new(&body, &coefficients, &initial, MeanOrder::Second)?;
         let (x, rate) = (mean.relative_strength(), momentum.norm() / body.inertia_xx);
         let end = 3.0 / (x * rate);
-        let exact = propagate(&body, &coefficients.tensor(), &initial, (0.0, end), 1e-13).map_err(text)?;
+        let exact = propagate(&body, &coefficients.tensor(), &initial, (0.0, end), 1e-13)?;
         for i in 0..=20 {
             let t = (end * f64::from(i) / 20.0).min(end);
-            let off = difference(&mean.state(t), &exact.state(t).map_err(text)?);
+            let off = difference(&mean.state(t), &exact.state(t)?);
             let allowed = x * x * (1.0 + x * rate * t);
             worst.see(off / allowed, || {
                 format!("case {case} of seed 59 at t = {t}: s = {s:?}, n = {n:?}, L = {momentum:?}")
@@ -191,8 +191,7 @@ fn errors_of_reference() -> Result<Vec<(f64, [f64; 2])>, String> {
         }
         let (_, most) = errors.last_mut().ok_or("no k")?;
         for (order, most) in [MeanOrder::First, MeanOrder::Second].into_iter().zip(most) {
-            let mean =
-                MeanMotion::new(&scene.spheroid, &PrincipalCoefficients::new(values), &initial, order).map_err(text)?;
+            let mean = MeanMotion::new(&scene.spheroid, &PrincipalCoefficients::new(values), &initial, order)?;
             *most = largest([*most, difference(&mean.state(t), &exact)]);
         }
     }
@@ -212,7 +211,7 @@ fn slopes_of_reference() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for (place, expected) in [(0, 1.0), (1, 2.0)] {
         let points: Vec<_> = errors.iter().map(|(k, errors)| (k.log10(), errors[place].log10())).collect();
-        let fit = slope(&points).map_err(|e| e.to_string())?;
+        let fit = slope(&points)?;
         worst.see((fit.value - expected).abs(), || format!("order {expected}: {:.4} +- {:.4}", fit.value, fit.error));
     }
     worst.finish()

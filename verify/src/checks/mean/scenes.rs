@@ -8,10 +8,6 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use crate::check::{largest, largest_component};
 use crate::random::Random;
 
-pub(super) fn text(error: twofold::Error) -> String {
-    error.to_string()
-}
-
 /// A body, a diagonal tensor and a state.
 pub(super) struct State {
     pub(super) body: RigidSpheroid<f64>,

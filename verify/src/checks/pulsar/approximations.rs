@@ -134,7 +134,7 @@ fn tilted_momentum() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for eighth in 0..8 {
         let azimuth = f64::from(eighth) * FRAC_PI_4;
-        let (missed, detail) = tilted_momentum_in(azimuth).map_err(|e| e.to_string())?;
+        let (missed, detail) = tilted_momentum_in(azimuth)?;
         worst.see(missed, || format!("L in the azimuth {azimuth:.2} from the observer: {detail}"));
     }
     worst.finish()

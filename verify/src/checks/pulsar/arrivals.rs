@@ -8,7 +8,7 @@ use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::observables::Observer;
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod, arrivals, pulse_train};
-use twofold::propagation::{AxisMotion, TaylorMotion, propagate};
+use twofold::propagation::{Motion, TaylorMotion, propagate};
 
 use super::cases::for_random_cases;
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
@@ -60,16 +60,12 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-pub(super) fn text(error: twofold::Error) -> String {
-    error.to_string()
-}
-
 fn highest_in_pulse() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for_random_cases(81, 300, (20.0, 1e-14), |case| {
         let train = case.train()?;
         let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
-        let found = arrivals(&case.motion, &case.beam, &case.observer, &train).map_err(text)?;
+        let found = arrivals(&case.motion, &case.beam, &case.observer, &train)?;
         if found.len() != whole.len() {
             worst.see(f64::INFINITY, || format!("{} arrivals of {} pulses, {}", found.len(), whole.len(), case.name));
         }
@@ -93,8 +89,8 @@ pub(super) fn arrivals_of(
     beam: &Beam<f64>,
     n: &Vector3<f64>,
 ) -> Result<Vec<Arrival>, String> {
-    let train = pulse_train(motion, beam, n, motion.span()).map_err(text)?;
-    arrivals(motion, beam, n, &train).map_err(text)
+    let train = pulse_train(motion, beam, n, motion.span())?;
+    arrivals(motion, beam, n, &train).map_err(String::from)
 }
 
 /// A random rotation.
@@ -115,8 +111,7 @@ fn steady_rotation() -> Result<Measured, String> {
         let spin = if stars % 2 == 0 { spin } else { -spin };
         let start = BodyState::from_angles(&spheroid, &upright, &EulerRates { alpha: 0.0, beta: 0.0, gamma: spin });
         let frame = any_frame(&mut random);
-        let motion =
-            propagate(&spheroid, &Matrix3::zeros(), &start.rotated(&frame), (0.0, 100.0), 1e-15).map_err(text)?;
+        let motion = propagate(&spheroid, &Matrix3::zeros(), &start.rotated(&frame), (0.0, 100.0), 1e-15)?;
         let observer = Observer::at(theta_o, random.within(-PI, PI)).rotated(&frame);
         let found = arrivals_of(&motion, &Beam::new(chi, random.within(-PI, PI), rho), &observer.direction)?;
         // m.n changes by this much per radian at an edge, and its rate by this much at the maximum.
@@ -129,7 +124,7 @@ fn steady_rotation() -> Result<Measured, String> {
             (across, |a| a.closest_approach),
         ] {
             let points: Vec<_> = found.iter().map(|a| (a.number, time(a))).collect();
-            let fit = ConstantPeriod::fit(&points).map_err(text)?;
+            let fit = ConstantPeriod::fit(&points)?;
             let scale = rounding(100.0, slope);
             let period = (fit.period - TAU / spin.abs()).abs() * found.len() as f64;
             figure = largest([figure, period / scale, largest(fit.residuals.iter().map(|r| r.abs() / scale))]);
@@ -152,8 +147,7 @@ fn free_precession() -> Result<Measured, String> {
             let rates = EulerRates { alpha: (1.0 + oblateness) / beta.cos(), beta: 0.0, gamma: -oblateness };
             let frame = any_frame(&mut random);
             let start = BodyState::from_angles(&spheroid, &angles, &rates).rotated(&frame);
-            let motion =
-                propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 4.2 * repetition), 1e-15).map_err(text)?;
+            let motion = propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 4.2 * repetition), 1e-15)?;
             let observer = Observer::at(theta_o, random.within(-PI, PI)).rotated(&frame);
             let found = arrivals_of(&motion, &Beam::new(chi, random.within(-PI, PI), 0.5), &observer.direction)?;
             let mut figure = 0.0;
@@ -162,7 +156,7 @@ fn free_precession() -> Result<Measured, String> {
                 let errors = found.iter().filter_map(|a| later(a).map(|t| (t - time(a) - repetition).abs()));
                 let errors: Vec<f64> = errors.collect();
                 let points: Vec<_> = found.iter().map(|a| (a.number, time(a))).collect();
-                let modulation = largest(ConstantPeriod::fit(&points).map_err(text)?.residuals.iter().map(|r| r.abs()));
+                let modulation = largest(ConstantPeriod::fit(&points)?.residuals.iter().map(|r| r.abs()));
                 // Three of four periods have a later one; in the least favourable case they hold four pulses each.
                 let enough = errors.len() >= 12 && modulation > 1e-3;
                 figure = largest([figure, if enough { largest(errors) } else { f64::INFINITY }]);
@@ -185,7 +179,7 @@ fn least_squares() -> Result<Measured, String> {
             })
             .collect();
         let weights: Vec<f64> = points.iter().map(|_| random.within(0.0, 2.0)).collect();
-        let fit = ConstantPeriod::fit_weighted(&points, &weights).map_err(text)?;
+        let fit = ConstantPeriod::fit_weighted(&points, &weights)?;
         let mut figure = 0.0;
         let (mut sums, mut sizes) = ([0.0; 2], [0.0; 2]);
         for ((&(number, time), weight), residual) in points.iter().zip(&weights).zip(&fit.residuals) {
@@ -200,7 +194,7 @@ fn least_squares() -> Result<Measured, String> {
         }
         let normal = largest([0, 1].map(|k| sums[k].abs() / (f64::EPSILON * sizes[k])));
         let halved: Vec<f64> = weights.iter().map(|w| w / 2.0).collect();
-        let same = ConstantPeriod::fit_weighted(&points, &halved).map_err(text)? == fit;
+        let same = ConstantPeriod::fit_weighted(&points, &halved)? == fit;
         let refused = ConstantPeriod::fit(&points[..1]).is_err()
             && ConstantPeriod::fit(&[]).is_err()
             && ConstantPeriod::fit_weighted(&points, &weights[1..]).is_err()

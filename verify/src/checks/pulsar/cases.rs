@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use twofold::Error;
 use twofold::dynamics::BodyState;
 use twofold::observables::pulsar::{Beam, PulseTrain, pulse_train};
-use twofold::propagation::{AxisMotion, Motion, TaylorMotion, propagate};
+use twofold::propagation::{Motion, TaylorMotion, propagate};
 
 use crate::physical_domain::scenes;
 use crate::random::Random;
@@ -24,7 +24,7 @@ impl Case {
     pub(super) fn margin(&self, t: f64) -> [f64; 4] {
         let motion = &self.motion;
         let state = motion.state(t).expect("a time of the span");
-        self.beam.margin_rates(motion.spheroid(), motion.violation(), &state, &self.observer)
+        self.beam.margin_rates(motion.spheroid(), motion.coefficients(), &state, &self.observer)
     }
 
     pub(super) fn train(&self) -> Result<PulseTrain, String> {
@@ -45,8 +45,8 @@ pub(super) fn for_random_cases(
     let cell = std::cell::RefCell::new((&mut random, &mut index, &mut see));
     crate::physical_domain::worst_over(seed, count, &scenes(), |scene| {
         let (random, index, see) = &mut *cell.borrow_mut();
-        let motion = propagate(&scene.spheroid(), &scene.coefficients().tensor(), &scene.state(), (0.0, end), accuracy)
-            .map_err(|e| e.to_string())?;
+        let motion =
+            propagate(&scene.spheroid(), &scene.coefficients().tensor(), &scene.state(), (0.0, end), accuracy)?;
         let (chi, delta) = (random.within(0.0, PI), random.within(-PI, PI));
         let (theta, phi) = (random.within(0.0, PI), random.within(-PI, PI));
         let observer = Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos());

@@ -8,11 +8,10 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame};
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Arrival, Beam, PulsarClock, arrivals, pulse_train};
-use twofold::propagation::{AveragedMotion, AxisMotion};
+use twofold::propagation::{AveragedMotion, Motion};
 use twofold::scalar::Scalar;
 use twofold::solutions::mean::{MeanMotion, MeanOrder, MeanPhases, MeanRates};
 
-use super::arrivals::text;
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::double_double::DoubleDouble;
 use crate::measured_order::measured_order;
@@ -108,9 +107,11 @@ fn numbers() -> Result<Measured, String> {
         tried += 1;
         let star = Star::any(&mut random);
         let (spheroid, s, start) = (&star.spheroid, star.s.tensor(), &star.initial);
-        let Ok(motion) = AveragedMotion::new(spheroid, &s, start, (0.0, 2000.0), MeanOrder::Second) else { continue };
+        let Ok(motion) = AveragedMotion::from_parts(spheroid, &s, start, (0.0, 2000.0), MeanOrder::Second) else {
+            continue;
+        };
         let n = &star.observer.direction;
-        let train = pulse_train(&motion, &star.beam, n, motion.span()).map_err(text)?;
+        let train = pulse_train(&motion, &star.beam, n, motion.span())?;
         let Ok(found) = arrivals(&motion, &star.beam, n, &train) else { continue };
         let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
         // Pulses that share their turn with none, and are shorter than half of it.
@@ -125,13 +126,12 @@ fn numbers() -> Result<Measured, String> {
             continue;
         }
         stars += 1;
-        let mut clock =
-            PulsarClock::new(spheroid, &s, start, &star.beam, &star.observer, MeanOrder::Second).map_err(text)?;
+        let mut clock = PulsarClock::new(spheroid, &s, start, &star.beam, &star.observer, MeanOrder::Second)?;
         let mut offset = None;
         for _ in 0..30.min(single.len()) {
             let i = single.swap_remove((random.word() % single.len() as u64) as usize);
             let near = found[i].midpoint + random.within(-0.3, 0.3) * clock.period();
-            let pulse = clock.pulse_near([near, 0.0]).map_err(text)?;
+            let pulse = clock.pulse_near([near, 0.0])?;
             let place = || format!("pulsar {tried} of seed 91 at t = {}", found[i].midpoint);
             let Some(pulse) = pulse else {
                 worst.see(f64::INFINITY, || format!("no pulse: {}", place()));
@@ -165,7 +165,7 @@ struct Exact {
 impl Exact {
     fn of(pulsar: &PulsarScene, beam: &Beam<f64>) -> Result<Self, String> {
         let number = DoubleDouble::from_f64;
-        let frame = principal_frame(&pulsar.violation).map_err(text)?;
+        let frame = principal_frame(&pulsar.violation)?;
         let turned = pulsar.initial.rotated(&frame.principal_from_given);
         let lifted = |state: &BodyState<f64>| BodyState {
             axis: lift(&state.axis),
@@ -180,8 +180,7 @@ impl Exact {
         let c = frame.coefficients;
         let s = PrincipalCoefficients::new([c.xx, c.yy, c.zz].map(number));
         let (given, turned) = (lifted(&pulsar.initial), lifted(&turned));
-        let mean =
-            MeanMotion::with_free_rotation_of(&given, &spheroid, &s, &turned, MeanOrder::Second).map_err(text)?;
+        let mean = MeanMotion::with_free_rotation_of(&given, &spheroid, &s, &turned, MeanOrder::Second)?;
         Ok(Self {
             rates: *mean.rates(),
             start: mean.phases_at([0.0; 2]),
@@ -226,7 +225,7 @@ fn pulsars(alpha_2: &str) -> Result<Vec<(String, Scene)>, String> {
     let scene = |built_in: &twofold_scene::scene_file::BuiltIn| {
         let text = built_in.toml.replace("alpha_2 = 1.6e-9", &format!("alpha_2 = {alpha_2}"));
         let name = format!("{} with alpha_2 = {alpha_2}", built_in.name);
-        Scene::from_toml(&name, &text).map(|scene| (name, scene)).map_err(|error| error.to_string())
+        Scene::from_toml(&name, &text).map(|scene| (name, scene)).map_err(String::from)
     };
     PULSARS.iter().map(scene).collect()
 }
@@ -242,7 +241,7 @@ fn twenty_years() -> Result<Measured, String> {
         for k in 0..=400 {
             let t = [f64::from(k - 200) * (0.1 * 31_557_600.0), 1.7e-10];
             // With |s| of 1e-9 millisecond pulsars turn out of the line of sight and back.
-            let Some(pulse) = pulsar.clock.pulse_near(t).map_err(text)? else { continue };
+            let Some(pulse) = pulsar.clock.pulse_near(t)? else { continue };
             seen += 1;
             let middle = DoubleDouble::sum_of(pulse.midpoint[0], pulse.midpoint[1]);
             let half = DoubleDouble::from_f64(pulse.duration / 2.0);
@@ -286,7 +285,7 @@ fn free_b1828(epsilon: Option<f64>) -> Result<Scene, String> {
         _ => line.to_owned(),
     });
     let text = lines.collect::<Vec<_>>().join("\n");
-    Scene::from_toml(&name, &text).map_err(|error| error.to_string())
+    Scene::from_toml(&name, &text).map_err(String::from)
 }
 
 /// Largest difference of the residuals of free precession from the formula, and the largest residual.
@@ -295,8 +294,8 @@ fn left_of_formula(epsilon: Option<f64>) -> Result<[f64; 2], String> {
     let mut pulsar = PulsarScene::new(&scene)?;
     let (chi, theta) = (scene.pulsar.ok_or("no beam")?.chi, scene.initial_angles.beta);
     let epochs = (0..500).map(|k| pulsar.epoch.after([f64::from(k) * 631_152.0, 0.0]));
-    let epochs = epochs.collect::<Result<Vec<_>, _>>().map_err(text)?;
-    let timing = pulsar.timed(&epochs, false).map_err(|error| error.to_string())?;
+    let epochs = epochs.collect::<Result<Vec<_>, _>>()?;
+    let timing = pulsar.timed(&epochs, false)?;
     let period = 1.0 / timing.fit.frequency[0];
     // The azimuth about L, gamma + (D - gamma), is that of the line of sight: a pulse is late where D falls behind gamma.
     let late = |state: &BodyState<f64>| {
@@ -316,7 +315,7 @@ fn left_of_formula(epsilon: Option<f64>) -> Result<[f64; 2], String> {
         .zip(&timing.fit.residuals)
         .map(|(timed, residual)| (timed.pulse.number, residual - late(&timed.pulse.state)))
         .collect();
-    let fit = twofold::observables::pulsar::ConstantPeriod::fit(&points).map_err(text)?;
+    let fit = twofold::observables::pulsar::ConstantPeriod::fit(&points)?;
     let size = largest(timing.fit.residuals.iter().map(|r| r.abs()));
     Ok([largest(fit.residuals.iter().map(|r| r.abs())), size])
 }

@@ -45,14 +45,12 @@ pub(super) fn checks() -> Vec<Check> {
 }
 
 fn signal_of_reference_motion() -> Result<Measured, String> {
-    let text = |e: twofold::Error| e.to_string();
     let mut worst = Worst::default();
     for scene in reference_motions() {
         let end = scene.states.last().map_or(0.0, |(t, _)| *t);
-        let motion =
-            propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, end), 1e-14).map_err(text)?;
+        let motion = propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, end), 1e-14)?;
         for (t, reference) in &scene.states {
-            let state = motion.state(*t).map_err(text)?;
+            let state = motion.state(*t)?;
             for (chi, delta) in [(0.5, 0.0), (1.3, 0.7), (2.8, -2.0)] {
                 for (theta_o, phi_o) in [(0.8, 0.0), (1.5, 2.2), (2.9, -1.1)] {
                     let (beam, observer) = (Beam::new(chi, delta, 0.6), Observer::at(theta_o, phi_o));
@@ -81,9 +79,9 @@ fn worst_pulse(error: fn(&Pulse, &Arrival, &ReferencePulse) -> f64) -> Result<Me
     for name in ["tp-1", "tp-2"] {
         let expected = reference_pulses(name);
         let end = expected.last().map_or(f64::NAN, |pulse| pulse.end + 0.1);
-        let Signal { motion, beam, observer } = paper_signal_until(name, end).map_err(|e| e.to_string())?;
-        let train = pulse_train(&motion, &beam, &observer, (0.0, end)).map_err(|e| e.to_string())?;
-        let found = arrivals(&motion, &beam, &observer, &train).map_err(|e| e.to_string())?;
+        let Signal { motion, beam, observer } = paper_signal_until(name, end)?;
+        let train = pulse_train(&motion, &beam, &observer, (0.0, end))?;
+        let found = arrivals(&motion, &beam, &observer, &train)?;
         let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
         if whole.len() != expected.len() || expected.len() < 150 {
             return Ok(Measured::new(f64::INFINITY, format!("{name}: {} pulses of {}", whole.len(), expected.len())));

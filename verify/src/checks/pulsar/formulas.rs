@@ -65,7 +65,7 @@ fn angles_of_axis() -> Result<Measured, String> {
         let q =
             EulerAngles { alpha: random.within(-PI, PI), beta: random.within(0.0, PI), gamma: random.within(-PI, PI) };
         let (chi, delta) = (random.within(0.0, PI), random.within(-PI, PI));
-        let (theta, phi) = magnetic_axis_direction(&q, chi, delta).map_err(|e| e.to_string())?;
+        let (theta, phi) = magnetic_axis_direction(&q, chi, delta)?;
         let rotation = twofold::euler_angles::body_from_inertial(&q);
         let m = rotation.transpose() * Beam::new(chi, delta, 1.0).axis;
         let by_angles = [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];

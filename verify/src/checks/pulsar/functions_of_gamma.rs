@@ -37,11 +37,10 @@ fn functions_of_gamma() -> Result<Measured, String> {
 /// What the best sum of harmonics of the mean phase of gamma up to the sixth leaves of the period and the width series, root mean
 /// square in units of that of the series from its mean.
 fn left_by_functions_of_gamma(example: &str) -> Result<[f64; 2], String> {
-    let message = |e: twofold::Error| e.to_string();
-    let Signal { motion, beam, observer } = paper_signal(example).map_err(message)?;
-    let series = pulse_series(&motion, &beam, &observer, (0.0, SPAN)).map_err(message)?;
-    let start = motion.state(0.0).and_then(|state| state.angles()).map_err(message)?;
-    let last = ContinuousAngles::new(&motion, 0.0, &start).and_then(|mut angles| angles.at(SPAN)).map_err(message)?;
+    let Signal { motion, beam, observer } = paper_signal(example)?;
+    let series = pulse_series(&motion, &beam, &observer, (0.0, SPAN))?;
+    let start = motion.state(0.0).and_then(|state| state.angles())?;
+    let last = ContinuousAngles::new(&motion, 0.0, &start).and_then(|mut angles| angles.at(SPAN))?;
     let rate = (last.gamma - start.gamma) / SPAN;
     let left = |series: &[Stamped]| -> Result<f64, String> {
         let functions = DMatrix::from_fn(series.len(), 13, |row, k| {

@@ -44,7 +44,7 @@ fn grazing_by_construction() -> Result<Measured, String> {
             let with_offset = |offset: f64| {
                 let beam = Beam { half_opening: (product + offset).acos(), ..case.beam };
                 let span = ((low - 0.05).max(0.0), (low + 0.05).min(END));
-                pulse_train(&case.motion, &beam, &case.observer, span).map_err(|e| e.to_string())
+                pulse_train(&case.motion, &beam, &case.observer, span).map_err(String::from)
             };
             let touching = with_offset(0.0)?;
             let mut figure = if touching.grazings.iter().any(|t| (t - low).abs() < 1e-5) { 0.0 } else { f64::INFINITY };

@@ -63,12 +63,12 @@ fn high_rates_within_bounds() -> Result<Measured, String> {
     worst_over(45, 40, &scenes(), |scene| {
         let (spheroid, s, start) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
         let bounds = rate_bounds(&spheroid, &s, &start);
-        let motion = propagate(&spheroid, &s, &start, (0.0, 20.0), 1e-15).map_err(|e| e.to_string())?;
+        let motion = propagate(&spheroid, &s, &start, (0.0, 20.0), 1e-15)?;
         let [chi, theta, azimuth] = scene.angles;
         let beam = Beam::new(chi, azimuth, 0.7);
         let observer = Vector3::new(theta.sin() * chi.cos(), theta.sin() * chi.sin(), theta.cos());
         let third = |i: u32| {
-            let state = motion.state(STEP * f64::from(i)).map_err(|e| e.to_string())?;
+            let state = motion.state(STEP * f64::from(i))?;
             Ok::<_, String>(beam.margin_rates(&spheroid, &s, &state, &observer)[3])
         };
         let thirds = (0..500).map(third).collect::<Result<Vec<_>, _>>()?;
@@ -81,7 +81,7 @@ fn high_rates_within_bounds() -> Result<Measured, String> {
 /// The largest figure of the three bounds at the start, the margin and its rates by the kernel, and its first derivatives by
 /// duals, at 25 times of 40 random motions over 20 t_c.
 fn along_motions(figure: fn([f64; 3], [f64; 4], [f64; 4]) -> f64) -> Result<Measured, String> {
-    worst_over(44, 40, &scenes(), |scene| of_motion(scene, figure).map_err(|e| e.to_string()))
+    worst_over(44, 40, &scenes(), |scene| of_motion(scene, figure).map_err(String::from))
 }
 
 fn of_motion(scene: &RandomScene, figure: fn([f64; 3], [f64; 4], [f64; 4]) -> f64) -> Result<f64, twofold::Error> {

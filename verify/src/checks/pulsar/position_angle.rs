@@ -174,10 +174,6 @@ impl Identity for RateOfPositionAngle {
     }
 }
 
-fn text(error: twofold::Error) -> String {
-    error.to_string()
-}
-
 /// An angle brought to (-pi, pi].
 fn wrapped(angle: f64) -> f64 {
     angle.sin().atan2(angle.cos())
@@ -191,19 +187,19 @@ fn upright_star() -> Result<Measured, String> {
         let spheroid = RigidSpheroid::in_units_of_tc(random.within(0.5, 1.8));
         let upright = EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 };
         let start = BodyState::from_angles(&spheroid, &upright, &EulerRates { alpha: 0.0, beta: 0.0, gamma: spin });
-        let motion = propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 20.0), 1e-15).map_err(text)?;
+        let motion = propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 20.0), 1e-15)?;
         let (beam, observer) = (Beam::new(chi, delta, 0.5), Observer::at(zeta, phi_o));
         for i in 0..40 {
             let t = 0.5 * f64::from(i);
-            let state = motion.state(t).map_err(text)?;
+            let state = motion.state(t)?;
             let m = beam.direction(&state);
-            let psi = position_angle(&m, &observer).map_err(text)?;
+            let psi = position_angle(&m, &observer)?;
             let phi = spin * t + delta - phi_o;
             let across = m.cross(&observer.direction).norm();
             let (down, along) = (chi.sin() * phi.sin(), zeta.sin() * chi.cos() - zeta.cos() * chi.sin() * phi.cos());
             let printed = down.atan2(along);
             let omega = angular_velocity(&spheroid, &state.axis, &state.momentum);
-            let rate = position_angle_rate(&m, &omega, &observer).map_err(text)?;
+            let rate = position_angle_rate(&m, &omega, &observer)?;
             let gradient = rotating_vector_gradient(chi, spin * t + delta, zeta, phi_o).1 * spin;
             let scale = f64::EPSILON * (4.0 + (4.0 + phi.abs()) / across);
             let errors = [wrapped(psi + printed).abs(), (rate - gradient).abs() * across / (4.0 * spin.abs().max(0.1))];
@@ -221,11 +217,11 @@ fn state_and_angles() -> Result<Measured, String> {
         let [alpha, gamma, delta, phi_o] = [0; 4].map(|_| random.within(-3.1, 3.1));
         let [beta, chi, theta_o] = [0; 3].map(|_| random.within(0.05, 3.09));
         let q = EulerAngles { alpha, beta, gamma };
-        let (theta, phi) = magnetic_axis_direction(&q, chi, delta).map_err(text)?;
+        let (theta, phi) = magnetic_axis_direction(&q, chi, delta)?;
         let observer = Observer::at(theta_o, phi_o);
         let m = body_from_inertial(&q).transpose() * Beam::new(chi, delta, 0.5).axis;
-        let by_angles = rotating_vector_position_angle(theta, phi, theta_o, phi_o).map_err(text)?;
-        let difference = wrapped(position_angle(&m, &observer).map_err(text)? - by_angles).abs();
+        let by_angles = rotating_vector_position_angle(theta, phi, theta_o, phi_o)?;
+        let difference = wrapped(position_angle(&m, &observer)? - by_angles).abs();
         let across = m.cross(&observer.direction).norm();
         let refused = position_angle(&observer.direction, &observer).is_err()
             && position_angle_rate(&-observer.direction, &m, &observer).is_err()

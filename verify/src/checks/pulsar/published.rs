@@ -42,9 +42,9 @@ fn against_authors() -> Result<Measured, String> {
     let rates = EulerRates { alpha: 1.509, beta: 0.0, gamma: reference.spin - 1.509 * angles.beta.cos() };
     let rounded = BodyState::from_angles(&reference.spheroid, &angles, &rates);
     let train = |start: &BodyState<f64>| {
-        let Signal { motion, beam, observer } = signal_from(&reference, start, 400.0).map_err(|e| e.to_string())?;
+        let Signal { motion, beam, observer } = signal_from(&reference, start, 400.0)?;
         let at_start = beam.direction(start).dot(&observer);
-        pulse_train(&motion, &beam, &observer, (0.0, 400.0)).map(|train| (train, at_start)).map_err(|e| e.to_string())
+        pulse_train(&motion, &beam, &observer, (0.0, 400.0)).map(|train| (train, at_start)).map_err(String::from)
     };
     let (exact, at_start) = train(&reference.initial())?;
     let (rounded, _) = train(&rounded)?;

@@ -9,7 +9,7 @@ use twofold::observables::pulsar::direction::azimuth_offset_point;
 use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod};
 use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
 
-use super::arrivals::{arrivals_of, text};
+use super::arrivals::arrivals_of;
 use super::cases::{Signal, for_random_cases, paper_signal_until};
 use crate::check::{Bound, Check, Kind, Measured, largest};
 use crate::reference::reference_motion;
@@ -44,13 +44,13 @@ pub(super) fn checks() -> Vec<Check> {
 fn numbers_about_z() -> Result<Measured, String> {
     let (mut wrong, mut details) = (0, Vec::new());
     for name in ["tp-1", "tp-2"] {
-        let Signal { motion, beam, observer } = paper_signal_until(name, 1000.0).map_err(text)?;
+        let Signal { motion, beam, observer } = paper_signal_until(name, 1000.0)?;
         let found = arrivals_of(&motion, &beam, &observer)?;
-        let start = motion.state(0.0).and_then(|state| state.angles()).map_err(text)?;
-        let mut angles = ContinuousAngles::new(&motion, 0.0, &start).map_err(text)?;
+        let start = motion.state(0.0).and_then(|state| state.angles())?;
+        let mut angles = ContinuousAngles::new(&motion, 0.0, &start)?;
         let mut first = None;
         for arrival in &found {
-            let EulerAngles { alpha, beta, gamma } = angles.at(arrival.closest_approach).map_err(text)?;
+            let EulerAngles { alpha, beta, gamma } = angles.at(arrival.closest_approach)?;
             // For chi < beta the offset swings about -pi/2 and never turns; here beta falls below chi now and then.
             let (x, y) = azimuth_offset_point(beta, gamma, 0.5, 0.0);
             let offset = x.atan2(-y) - FRAC_PI_2;
@@ -59,7 +59,7 @@ fn numbers_about_z() -> Result<Measured, String> {
             wrong += i32::from(number != arrival.number as f64);
         }
         let points: Vec<_> = found.iter().map(|a| (a.number, a.closest_approach)).collect();
-        let fit = ConstantPeriod::fit(&points).map_err(text)?;
+        let fit = ConstantPeriod::fit(&points)?;
         wrong += fit.residuals.iter().map(|r| i32::from(r.abs() >= fit.period / 2.0)).sum::<i32>();
         let most = largest(fit.residuals.iter().map(|r| r.abs()));
         let turns = found.last().map_or(0, |a| a.number + 1);
@@ -97,8 +97,7 @@ fn numbers_of_missed_turns() -> Result<Measured, String> {
     };
     for name in ["tp-2", "sp-1", "sp-2"] {
         let scene = reference_motion(name);
-        let motion =
-            propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, 300.0), 1e-13).map_err(text)?;
+        let motion = propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, 300.0), 1e-13)?;
         for theta_o in [0.4, 0.8, 1.2, 1.6] {
             let observer = Observer::at(theta_o, 0.0);
             see(compare_beams(&motion, &Beam::new(0.5, 0.0, 0.4), &observer.direction)?);

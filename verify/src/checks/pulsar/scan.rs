@@ -1,7 +1,7 @@
 //! The pulse train against a scan of `m.n`. Eq. (44).
 
 use twofold::dynamics::regular_equations::angular_velocity;
-use twofold::propagation::{AxisMotion, Motion};
+use twofold::propagation::Motion;
 
 use super::cases::{Case, edges, for_random_cases};
 use crate::check::{Bound, Check, Kind, Measured};

@@ -8,7 +8,7 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{Beam, pulse_train};
-use twofold::propagation::{AxisMotion, Motion, propagate};
+use twofold::propagation::{Motion, propagate};
 
 use super::cases::{edges, for_random_cases};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use twofold::Error;
 use twofold::observables::pulsar::{PulseTrain, propagated_pulse_train, pulse_train};
-use twofold::propagation::{AxisMotion, Motion};
+use twofold::propagation::Motion;
 
 use super::cases::{Case, edges, for_random_cases};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
@@ -44,7 +44,7 @@ fn ways_agree() -> Result<Measured, String> {
     for_random_cases(48, 300, (END, ACCURACY), |case| {
         let Case { motion, beam, observer, .. } = case;
         let message = |e: Error| format!("{}: {e}", case.name);
-        let (spheroid, s, start) = (motion.spheroid(), motion.violation(), motion.state(0.0).map_err(message)?);
+        let (spheroid, s, start) = (motion.spheroid(), motion.coefficients(), motion.state(0.0).map_err(message)?);
         let by_series = case.train()?;
         let alone = GivenStates::like(motion, |t| motion.state(t));
         let by_states = pulse_train(&alone, beam, observer, (0.0, END)).map_err(message)?;

@@ -113,9 +113,9 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
     let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]).scaled(k);
     let start = start(k)?;
     let last = *times.last().ok_or("no times")?;
-    let exact = propagate(&body, &s.tensor(), &start, (0.0, last), ACCURACY).map_err(text)?;
-    let means =
-        [MeanOrder::First, MeanOrder::Second].map(|order| MeanMotion::new(&body, &s, &start, order).map_err(text));
+    let exact = propagate(&body, &s.tensor(), &start, (0.0, last), ACCURACY)?;
+    let means = [MeanOrder::First, MeanOrder::Second]
+        .map(|order| MeanMotion::new(&body, &s, &start, order).map_err(String::from));
     let [first, second] = means;
     let means = [first?, second?];
     // Each perturbation solution against the motion from its own initial values.
@@ -126,7 +126,7 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
             None
         } else {
             let start = initial(&body, &solution);
-            Some(propagate(&body, &s.tensor(), &start, (0.0, last), ACCURACY).map_err(text)?)
+            Some(propagate(&body, &s.tensor(), &start, (0.0, last), ACCURACY)?)
         };
         solutions.push((solution, own, 0.0));
     }
@@ -135,7 +135,7 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
     for &time in times {
         for sample in 1..=SAMPLES {
             let t = (from + (time - from) * f64::from(sample) / f64::from(SAMPLES)).min(last);
-            let state = exact.state(t).map_err(text)?;
+            let state = exact.state(t)?;
             for (i, motion) in means.iter().enumerate() {
                 let BodyState { axis, momentum, equatorial_axis } = motion.state(t);
                 let off = (axis - state.axis).norm();
@@ -146,7 +146,7 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
             }
             for (solution, own, error) in &mut solutions {
                 let axis = match own {
-                    Some(own) => own.state(t).map_err(text)?.axis,
+                    Some(own) => own.state(t)?.axis,
                     None => state.axis,
                 };
                 let at = solution.at(t);
@@ -158,10 +158,6 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
         from = time;
     }
     Ok(rows)
-}
-
-fn text(error: twofold::Error) -> String {
-    error.to_string()
 }
 
 /// The state from which a perturbation solution starts.

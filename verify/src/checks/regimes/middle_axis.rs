@@ -62,12 +62,12 @@ fn tilts(axis: usize, s: &PrincipalCoefficients<f64>, duration: f64) -> Result<V
     let equatorial_axis = (side - l * l.dot(&side)).normalize();
     let initial = BodyState { axis: l, momentum: l * MOMENTUM, equatorial_axis };
     let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-    let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12).map_err(|e| e.to_string())?;
+    let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12)?;
     let samples = 4000;
     (0..=samples)
         .map(|i| {
             let t = duration * f64::from(i) / f64::from(samples);
-            let momentum = motion.state(t).map_err(|e| e.to_string())?.momentum;
+            let momentum = motion.state(t)?.momentum;
             let across = (0..3).filter(|&k| k != axis).map(|k| momentum[k].powi(2)).sum::<f64>().sqrt();
             Ok((t, across / momentum.norm()))
         })
@@ -88,7 +88,7 @@ fn growth_about_middle_axis() -> Result<Measured, String> {
             .filter(|(t, tilt)| t * growth_rate() > 3.0 && *tilt < 0.03)
             .map(|(t, tilt)| (t, tilt.ln()))
             .collect();
-        let rate = slope(&window).map_err(|e| e.to_string())?;
+        let rate = slope(&window)?;
         worst.see((rate.value / growth_rate() - 1.0).abs(), || {
             format!(
                 "about {}: rate {:.6e} +- {:.0e}, formula {:.6e}",

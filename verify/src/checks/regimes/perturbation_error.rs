@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{AveragedMotion, AxisMotion, ContinuousAngles, Motion, TaylorMotion, propagate};
+use twofold::propagation::{AveragedMotion, ContinuousAngles, Motion, TaylorMotion, propagate};
 use twofold::solutions::mean::MeanOrder;
 use twofold::solutions::perturbation::{Constants, Form, Kind, Perturbation};
 
@@ -37,7 +37,7 @@ impl Case {
         let (spheroid, spin) = (RigidSpheroid::in_units_of_tc(1.1), 1.0);
         let constants =
             Constants { alpha_0: FRAC_PI_2, beta_0: self.beta_0, amplitude: self.amplitude, phase: FRAC_PI_2 };
-        Perturbation::new(self.form, self.kind, &spheroid, &self.s, spin, &constants).map_err(|e| e.to_string())
+        Perturbation::new(self.form, self.kind, &spheroid, &self.s, spin, &constants).map_err(String::from)
     }
 
     /// The state with the initial values of the solution, and its angles.
@@ -56,8 +56,7 @@ impl Case {
     pub fn motion(&self, duration: f64) -> Result<(TaylorMotion<f64>, EulerAngles<f64>), String> {
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);
         let (initial, angles) = self.start(&spheroid)?;
-        let motion =
-            propagate(&spheroid, &self.s.tensor(), &initial, (0.0, duration), 1e-15).map_err(|e| e.to_string())?;
+        let motion = propagate(&spheroid, &self.s.tensor(), &initial, (0.0, duration), 1e-15)?;
         Ok((motion, angles))
     }
 
@@ -65,8 +64,8 @@ impl Case {
     pub fn averaged_motion(&self, duration: f64) -> Result<AveragedMotion<f64>, String> {
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);
         let (initial, _) = self.start(&spheroid)?;
-        AveragedMotion::new(&spheroid, &self.s.tensor(), &initial, (0.0, duration), MeanOrder::Second)
-            .map_err(|e| e.to_string())
+        AveragedMotion::from_parts(&spheroid, &self.s.tensor(), &initial, (0.0, duration), MeanOrder::Second)
+            .map_err(String::from)
     }
 
     /// Largest distance of the heads of the axes over one forced period, against the averaged motion: for `s` so small that the
@@ -79,7 +78,7 @@ impl Case {
         for i in 0..=samples {
             let t = (period * f64::from(i) / f64::from(samples)).min(period);
             let approximate = solution.at(t);
-            let axis = motion.axis_state(t).map_err(|e| e.to_string())?.axis;
+            let axis = motion.axis_state(t)?.axis;
             distances.push((axis - symmetry_axis(approximate.alpha, approximate.beta)).norm());
         }
         Ok(largest(distances))
@@ -94,12 +93,12 @@ impl Case {
     pub fn errors(&self, duration: f64, samples: u32) -> Result<Errors, String> {
         let solution = self.solution()?;
         let (motion, start) = self.motion(duration)?;
-        let mut angles = ContinuousAngles::new(&motion, 0.0, &start).map_err(|e| e.to_string())?;
+        let mut angles = ContinuousAngles::new(&motion, 0.0, &start)?;
         let mut errors = Errors::default();
         for i in 0..=samples {
             let t = duration * f64::from(i) / f64::from(samples);
-            let (exact, approximate) = (angles.at(t).map_err(|e| e.to_string())?, solution.at(t));
-            let axis = motion.state(t).map_err(|e| e.to_string())?.axis;
+            let (exact, approximate) = (angles.at(t)?, solution.at(t));
+            let axis = motion.state(t)?.axis;
             errors.alpha = largest([errors.alpha, (exact.alpha - approximate.alpha).abs()]);
             errors.beta = largest([errors.beta, (exact.beta - approximate.beta).abs()]);
             errors.axis = largest([errors.axis, (axis - symmetry_axis(approximate.alpha, approximate.beta)).norm()]);

@@ -47,9 +47,8 @@ pub(super) fn checks() -> Vec<Check> {
 /// Mean rates of `alpha` and of the azimuth of `L` about Z.
 fn mean_rates(name: &str) -> Result<[f64; 2], String> {
     let scene = reference_motion(name);
-    let motion = propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, 2000.0), 1e-13)
-        .map_err(|e| e.to_string())?;
-    let found = fundamental_frequencies(&motion).map_err(|e| e.to_string())?;
+    let motion = propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, 2000.0), 1e-13)?;
+    let found = fundamental_frequencies(&motion)?;
     let rates = found.alpha.zip(found.momentum).ok_or_else(|| format!("{name} has no mean rates"))?;
     Ok([rates.0.value, rates.1.value])
 }
@@ -59,10 +58,10 @@ fn momentum_azimuth_rate(motion: &TaylorMotion<f64>, duration: f64, samples: usi
     let step = duration / samples as f64;
     let mut azimuths = Vec::new();
     for i in 0..=samples {
-        let momentum = motion.state((step * i as f64).min(duration)).map_err(|e| e.to_string())?.momentum;
+        let momentum = motion.state((step * i as f64).min(duration))?.momentum;
         azimuths.push(continued(azimuths.last().copied(), momentum.y.atan2(momentum.x)));
     }
-    mean_rate(&azimuths, step).map(|rate| rate.value).map_err(|e| e.to_string())
+    mean_rate(&azimuths, step).map(|rate| rate.value).map_err(String::from)
 }
 
 fn continued(last: Option<f64>, angle: f64) -> f64 {
@@ -84,9 +83,8 @@ fn directions() -> Result<Measured, String> {
 fn ratios_of_rates() -> Result<Measured, String> {
     let ratios = ["tp-1", "tp-2"].map(|name| {
         let scene = reference_motion(name);
-        let motion = propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, 2000.0), 1e-13)
-            .map_err(|e| e.to_string())?;
-        let found = fundamental_frequencies(&motion).map_err(|e| e.to_string())?;
+        let motion = propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, 2000.0), 1e-13)?;
+        let found = fundamental_frequencies(&motion)?;
         let (gamma, alpha) = found.gamma.zip(found.alpha).ok_or_else(|| format!("{name} has no mean rates"))?;
         Ok::<_, String>(gamma.value.abs() / alpha.value)
     });
@@ -108,7 +106,7 @@ fn momentum_rate_across_magic_angle() -> Result<Measured, String> {
         let axis = l * c + across * (1.0 - c2).sqrt();
         let initial = BodyState { axis, momentum: l * g, equatorial_axis: Vector3::y() };
         let duration = 4000.0;
-        let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12).map_err(|e| e.to_string())?;
+        let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12)?;
         let rate = momentum_azimuth_rate(&motion, duration, 20_000)?;
         let size = 2.0 * (s.zz - s.xx) / g;
         let formula = size * (1.5 * c2 - 0.5) * l.z;

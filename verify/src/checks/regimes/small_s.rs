@@ -7,7 +7,7 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::bound::SpinAxisDrift;
-use twofold::propagation::{AveragedMotion, AxisMotion};
+use twofold::propagation::{AveragedMotion, Motion};
 use twofold::solutions::mean::MeanOrder;
 use twofold::solutions::perturbation::{Form, Kind as Precession};
 use twofold::units::JULIAN_YEAR;
@@ -61,10 +61,6 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-fn text(error: twofold::Error) -> String {
-    error.to_string()
-}
-
 /// The least and the largest of the largest distances over one forced period.
 fn single(inclinations: &[f64]) -> Result<[Measured; 2], String> {
     let mut worst = Worst::default();
@@ -96,7 +92,7 @@ fn twofold() -> Result<Measured, String> {
         for i in 0..16 {
             let t = half_turn - f64::from(i) * TAU / 16.0 / solution.rate.abs();
             let approximate = solution.at(t);
-            let axis = motion.axis_state(t).map_err(text)?.axis;
+            let axis = motion.axis_state(t)?.axis;
             off += (axis - symmetry_axis(approximate.alpha, approximate.beta)) / 16.0;
         }
         let figure = off.norm() / beta_0.cos() / (amplitude / solution.rate.abs());
@@ -126,12 +122,12 @@ fn drift() -> Result<Measured, String> {
             momentum: axis * (spin * spheroid.inertia_zz),
             equatorial_axis: Vector3::new(beta_0.cos(), 0.0, -beta_0.sin()),
         };
-        let motion = AveragedMotion::new(&spheroid, &s.tensor(), &initial, (0.0, interval), MeanOrder::Second);
-        let end = motion.and_then(|motion| motion.axis_state(interval)).map_err(text)?.axis;
+        let motion = AveragedMotion::from_parts(&spheroid, &s.tensor(), &initial, (0.0, interval), MeanOrder::Second);
+        let end = motion.and_then(|motion| motion.axis_state(interval))?.axis;
         // Over all directions o of observers the mean square of o.d is |d|^2 / 3.
         let cos_lambda_change = (end - axis).norm() / 3.0_f64.sqrt();
         let drift = SpinAxisDrift { polar_inertia_over_c: spheroid.inertia_zz, spin, interval, cos_lambda_change };
-        let estimate = drift.combination_bound_at(beta_0).map_err(text)?;
+        let estimate = drift.combination_bound_at(beta_0)?;
         let expected = s.combination().abs() * beta_0.sin() / 3.0_f64.sqrt();
         worst.see((estimate / expected - 1.0).abs(), || {
             format!("star {case} of seed 71: s of {size:.1e}, {gone:.1e} rad gone")

@@ -166,7 +166,7 @@ fn large_tilt() -> Result<Measured, String> {
     let case = paper(Form::Printed, 1.0, 0.7, 0.4);
     let (motion, _) = case.motion(40.0)?;
     let inclination = |i: u32| Ok(motion.state(40.0 * f64::from(i) / 800.0)?.angles()?.beta);
-    let betas = (0..=800).map(inclination).collect::<Result<Vec<_>, twofold::Error>>().map_err(|e| e.to_string())?;
+    let betas = (0..=800).map(inclination).collect::<Result<Vec<_>, twofold::Error>>()?;
     let (most, least) = (largest(betas.iter().copied()), PI - largest(betas.iter().map(|beta| PI - beta)));
     let error = case.errors(40.0, 800)?.beta;
     Ok(Measured::new(error / (most - least), format!("beta from {least:.3} to {most:.3}, largest error {error:.3}")))

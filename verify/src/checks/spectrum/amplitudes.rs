@@ -46,10 +46,6 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-fn message(e: twofold::Error) -> String {
-    e.to_string()
-}
-
 fn amplitudes() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for count in [256, 257] {
@@ -62,7 +58,7 @@ fn amplitudes() -> Result<Measured, String> {
                     step,
                     values: (0..count).map(|j| constant + wave(j)).collect(),
                 };
-                let spectrum = amplitude_spectrum(&series(amplitude), window).map_err(message)?;
+                let spectrum = amplitude_spectrum(&series(amplitude), window)?;
                 let frequency = TAU * bin as f64 / (count as f64 * step);
                 let errors = [
                     spectrum.amplitudes[bin] / amplitude - 1.0,
@@ -81,9 +77,9 @@ fn parseval() -> Result<Measured, String> {
     for count in [16, 17, 100, 243, 512, 1000] {
         for window in WINDOWS {
             let values: Vec<f64> = (0..count).map(|_| random.within(-1.0, 3.0)).collect();
-            let weights = window.weights(count).map_err(message)?;
+            let weights = window.weights(count)?;
             let square: f64 = values.iter().zip(&weights).map(|(x, w)| (x * w).powi(2)).sum::<f64>() / count as f64;
-            let spectrum = amplitude_spectrum(&Series { start: 0.0, step: 0.1, values }, window).map_err(message)?;
+            let spectrum = amplitude_spectrum(&Series { start: 0.0, step: 0.1, values }, window)?;
             let whole = |index: usize| index == 0 || 2 * index == count;
             let share = |(index, a): (usize, &f64)| if whole(index) { a * a } else { a * a / 2.0 };
             let sum: f64 = spectrum.amplitudes.iter().enumerate().map(share).sum();
@@ -98,7 +94,7 @@ fn windows() -> Result<Measured, String> {
     // The documentation's table: sidelobe, half width times T.
     let documented = [(0.217, TAU), (0.0267, 2.0 * TAU), (2.0e-4, 21.0), (1.79e-8, 40.5)];
     for (window, (sidelobe, width)) in WINDOWS.into_iter().zip(documented) {
-        let weights = window.weights(128).map_err(message)?;
+        let weights = window.weights(128)?;
         let transform = |f: f64| {
             let cosines = weights.iter().enumerate().map(|(j, w)| w * (f * ((j as f64 + 0.5) / 128.0 - 0.5)).cos());
             cosines.sum::<f64>() / 128.0

@@ -63,10 +63,6 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-fn message(e: twofold::Error) -> String {
-    e.to_string()
-}
-
 fn known(rate: Option<MeanRate>, what: &str) -> Result<f64, String> {
     rate.map(|rate| rate.value).ok_or_else(|| format!("no mean rate of {what}"))
 }
@@ -81,8 +77,8 @@ fn rates_of_examples() -> Result<Measured, String> {
     ];
     let mut worst = Worst::default();
     for (name, alpha, gamma, momentum, digit) in expected {
-        let motion = motion_of(&reference_motion(name), AVERAGING).map_err(message)?;
-        let found = fundamental_frequencies(&motion).map_err(message)?;
+        let motion = motion_of(&reference_motion(name), AVERAGING)?;
+        let found = fundamental_frequencies(&motion)?;
         for (label, rate, expected) in
             [("alpha", found.alpha, alpha), ("gamma", found.gamma, gamma), ("L", found.momentum, momentum)]
         {
@@ -104,10 +100,10 @@ fn symmetric_motions() -> Result<Measured, String> {
         let angles = EulerAngles { alpha: 0.3, beta: random.within(0.6, 0.9), gamma: -1.0 };
         let (alpha_rate, gamma_rate) = if case % 2 == 0 { (1.5, -0.15) } else { (-0.07, 1.1) };
         let rates = EulerRates { alpha: alpha_rate, beta: random.within(-0.1, 0.1), gamma: gamma_rate };
-        let exact = SymmetricSolution::new(&spheroid, &s, &angles, &rates).map_err(message)?;
+        let exact = SymmetricSolution::new(&spheroid, &s, &angles, &rates)?;
         let start = BodyState::from_angles(&spheroid, &angles, &rates);
-        let motion = propagate(&spheroid, &s.tensor(), &start, (0.0, AVERAGING), 1e-13).map_err(message)?;
-        let found = fundamental_frequencies(&motion).map_err(message)?;
+        let motion = propagate(&spheroid, &s.tensor(), &start, (0.0, AVERAGING), 1e-13)?;
+        let found = fundamental_frequencies(&motion)?;
         let (mean, nutation) = (exact.mean_rates(), TAU / exact.period());
         let (alpha, slow) = (known(found.alpha, "alpha")?, known(found.slow, "L")?);
         // The inclination repeats, so alpha, L and the axes differ by whole turns of the nutation.
@@ -137,8 +133,8 @@ fn frames() -> Result<Measured, String> {
         for _ in 0..3 {
             let s = turn * scene.violation() * turn.transpose();
             let start = scene.initial().rotated(&turn);
-            let motion = propagate(&scene.spheroid, &s, &start, (0.0, AVERAGING), 1e-13).map_err(message)?;
-            let found = fundamental_frequencies(&motion).map_err(message)?;
+            let motion = propagate(&scene.spheroid, &s, &start, (0.0, AVERAGING), 1e-13)?;
+            let found = fundamental_frequencies(&motion)?;
             let axis = (turn.transpose() * found.frame.row(2).transpose(), found.frame.row(2).transpose());
             let reference = *first.get_or_insert(found);
             let differences = [
@@ -152,9 +148,9 @@ fn frames() -> Result<Measured, String> {
             turn = permuted * turn;
         }
         // About the next axis, which L does not go round.
-        let motion = motion_of(&scene, AVERAGING).map_err(message)?;
+        let motion = motion_of(&scene, AVERAGING)?;
         let frame = first.map_or(Matrix3::identity(), |first| permuted * first.frame);
-        let about_another = mean_rates_about(&motion, &frame).map_err(message)?;
+        let about_another = mean_rates_about(&motion, &frame)?;
         worst.see(known(about_another.slow, "L")?.abs(), || format!("{name}, about another axis"));
     }
     worst.finish()
@@ -165,7 +161,7 @@ fn uncertainties() -> Result<Measured, String> {
     for name in ["tp-1", "tp-2", "sp-1", "sp-2"] {
         let scene = reference_motion(name);
         let over = |span| motion_of(&scene, span).and_then(|motion| fundamental_frequencies(&motion));
-        let long = over(AVERAGING).map_err(message)?;
+        let long = over(AVERAGING)?;
         for span in [800.0, 1400.0] {
             // A span that is too short is refused, which is right as well.
             let Ok(short) = over(span) else { continue };

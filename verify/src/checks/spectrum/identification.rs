@@ -30,15 +30,11 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-fn message(e: twofold::Error) -> String {
-    e.to_string()
-}
-
 /// The frequencies of tp-II.
 fn basis(uncertainty: f64) -> Result<FrequencyBasis, String> {
     let generators = [("alpha'", 1.39467831103), ("gamma'", -0.14421753117), ("l'", -0.03546436867)];
     let generator = |(symbol, frequency)| Generator { symbol, frequency, uncertainty };
-    FrequencyBasis::new(generators.map(generator).to_vec()).map_err(message)
+    FrequencyBasis::new(generators.map(generator).to_vec()).map_err(String::from)
 }
 
 fn random_frequencies() -> Result<Measured, String> {

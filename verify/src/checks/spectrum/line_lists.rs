@@ -45,10 +45,6 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-fn message(e: twofold::Error) -> String {
-    e.to_string()
-}
-
 fn sum_of(lines: &[SpectralLine], constant: f64, start: f64, step: f64, count: usize) -> Series {
     let value = |j: usize| {
         let t = start + step * j as f64;
@@ -93,7 +89,7 @@ fn synthetic_sums() -> Result<Measured, String> {
         }
         let constant = random.within(-1.0, 1.0);
         let series = sum_of(&lines, constant, -700.0, 4000.0 / 8192.0, 8192);
-        let list = spectral_lines(&series, 3e-7, 100).map_err(message)?;
+        let list = spectral_lines(&series, 3e-7, 100)?;
         let [frequency, amplitude, phase] = compare(&list, &lines, 1e-10);
         others = largest([others, amplitude, phase, (list.constant - constant).abs() / 1e-10]);
         worst.see(frequency, || format!("sum {case} of seed 1990, {} lines found", list.lines.len()));
@@ -125,7 +121,7 @@ fn close_lines() -> Result<Measured, String> {
                     lines.push(line(first + distance / span, ratio, &mut random));
                 }
                 let series = sum_of(&lines, ratio, 0.0, span / count as f64, count);
-                let list = spectral_lines(&series, 1e-7, 20).map_err(message)?;
+                let list = spectral_lines(&series, 1e-7, 20)?;
                 let [frequency, ..] = compare(&list, &lines, 1.0);
                 worst.see(frequency * span / 2.0, || {
                     format!("{distance} / T apart, ratio {ratio}, near zero: {near_zero}; {} lines", list.lines.len())
@@ -139,12 +135,12 @@ fn close_lines() -> Result<Measured, String> {
 fn incomplete_lists() -> Result<Measured, String> {
     let (example, mut worst) = (&examples()?[1], Worst::default());
     for span in [3000.0, 4000.0, 6000.0, 8000.0] {
-        let motion = motion_of(&reference_motion("tp-2"), span).map_err(message)?;
+        let motion = motion_of(&reference_motion("tp-2"), span)?;
         let (beam, observer) = (beam(), line_of_sight());
         let series = Series::of_motion(&motion, (span * 4.0) as usize, |state| beam.direction(state).dot(&observer));
-        let series = series.map_err(message)?;
+        let series = series?;
         for most in [10, 25, 50] {
-            let list = spectral_lines(&series, 1e-6, most).map_err(message)?;
+            let list = spectral_lines(&series, 1e-6, most)?;
             for line in list.lines.iter().take(10) {
                 let away = |known: &SpectralLine| (known.frequency - line.frequency).abs();
                 let error = example.pulsar.lines.iter().map(away).fold(f64::INFINITY, f64::min);

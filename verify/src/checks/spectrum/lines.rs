@@ -92,10 +92,6 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-fn message(e: twofold::Error) -> String {
-    e.to_string()
-}
-
 fn each_line(
     least_wave: f64,
 ) -> Result<impl Iterator<Item = (&'static Example, &'static str, &'static SpectralLine)>, String> {
@@ -143,12 +139,12 @@ fn lines_against_rates() -> Result<Measured, String> {
 
 fn free_precession() -> Result<Measured, String> {
     let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-    let free = free_precession_rates(&spheroid, 1.0, 0.7).map_err(message)?;
+    let free = free_precession_rates(&spheroid, 1.0, 0.7)?;
     let angles = EulerAngles { alpha: 0.4, beta: 0.7, gamma: 0.2 };
     let start =
         BodyState::from_angles(&spheroid, &angles, &EulerRates { alpha: free.alpha, beta: 0.0, gamma: free.gamma });
     let s = PrincipalCoefficients::new([0.0; 3]).tensor();
-    let motion = propagate(&spheroid, &s, &start, (0.0, 2000.0), 1e-15).map_err(message)?;
+    let motion = propagate(&spheroid, &s, &start, (0.0, 2000.0), 1e-15)?;
     let (beam, observer) = (beam(), Observer::at(0.8, 0.0));
     let wave = |state: &BodyState<f64>| {
         let source = spheroid_inertia_acceleration(&spheroid, &s, &state.axis, &state.momentum);
@@ -157,7 +153,7 @@ fn free_precession() -> Result<Measured, String> {
     let list = |observable: &dyn Fn(&BodyState<f64>) -> f64| {
         Series::of_motion(&motion, 4096, observable)
             .and_then(|series| spectral_lines(&series, 1e-9, 20))
-            .map_err(message)
+            .map_err(String::from)
     };
     let (a, g) = (free.alpha, free.gamma.abs());
     let mut worst = Worst::default();

@@ -35,10 +35,6 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-fn message(e: twofold::Error) -> String {
-    e.to_string()
-}
-
 /// Period of gamma in the series of both examples: that whose first four multiples fit best.
 fn period_of_gamma() -> Result<Measured, String> {
     let mut worst = Worst::default();
@@ -97,8 +93,7 @@ fn highest(range: std::ops::Range<f64>, function: impl Fn(f64) -> f64) -> Result
 /// The series of an example, without intervals over turns that have no pulse.
 fn series(example: &Example) -> Result<[(&'static str, Vec<Stamped>); 2], String> {
     let PulseSeries { periods, lengths, .. } =
-        crate::pulse_series::pulse_series(&example.motion, &beam(), &line_of_sight(), (0.0, SERIES))
-            .map_err(message)?;
+        crate::pulse_series::pulse_series(&example.motion, &beam(), &line_of_sight(), (0.0, SERIES))?;
     Ok([("periods", periods), ("widths", lengths)])
 }
 

@@ -58,10 +58,6 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-fn message(e: twofold::Error) -> String {
-    e.to_string()
-}
-
 fn averaged_equation() -> Result<Measured, String> {
     let (mut random, mut worst, mut axes) = (Random::with_seed(37), Worst::default(), [0; 3]);
     let permutations = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
@@ -77,7 +73,7 @@ fn averaged_equation() -> Result<Measured, String> {
         let (spheroid, g, c) = (RigidSpheroid::in_units_of_tc(1.1), random.within(0.5, 2.0), random.within(-1.0, 1.0));
         let across = l.cross(&Vector3::new(0.36, 0.48, 0.8)).normalize();
         let axis = l * c + across * (1.0 - c * c).sqrt();
-        let formula = slow_precession(&spheroid, &s, &(l * g), &axis).map_err(message)?;
+        let formula = slow_precession(&spheroid, &s, &(l * g), &axis)?;
         let kappa = (3.0 * c * c - 1.0) / g;
         let scale = kappa.abs() * 0.06;
         let (step, count) = (0.02 / scale, 12_000);
@@ -94,7 +90,7 @@ fn averaged_equation() -> Result<Measured, String> {
             let d = rate(&(at + c * step));
             at += (a + b * 2.0 + c * 2.0 + d) * (step / 6.0);
         }
-        let measured = mean_rate(&azimuths, step).map_err(message)?;
+        let measured = mean_rate(&azimuths, step)?;
         axes[formula.axis] += 1;
         worst.see((formula.rate - measured.value).abs() / scale, || {
             format!(
@@ -121,7 +117,7 @@ fn limits() -> Result<Measured, String> {
         let third = case % 3;
         let mut values = [equal; 3];
         values[third] = other;
-        let found = slow_precession(&spheroid, &PrincipalCoefficients::new(values), &momentum, &n).map_err(message)?;
+        let found = slow_precession(&spheroid, &PrincipalCoefficients::new(values), &momentum, &n)?;
         let c = n.dot(&momentum) / momentum.norm();
         let size = (3.0 * c * c + 1.0) / momentum.norm() * (equal - other).abs() * l[third].abs();
         let kappa = (3.0 * c * c - 1.0) / momentum.norm();
@@ -132,7 +128,7 @@ fn limits() -> Result<Measured, String> {
             format!("case {case} of seed 26: {} and {expected}", found.rate)
         });
         let isotropic = slow_precession(&spheroid, &PrincipalCoefficients::new([equal; 3]), &momentum, &n);
-        worst.see(isotropic.map_err(message)?.rate.abs() / f64::EPSILON, || format!("case {case}, isotropic"));
+        worst.see(isotropic?.rate.abs() / f64::EPSILON, || format!("case {case}, isotropic"));
     }
     worst.finish()
 }
@@ -142,14 +138,14 @@ fn slow_frequency(k: f64) -> Result<[f64; 2], String> {
     let scene = reference_motion("tp-2");
     let s = scene.coefficients.scaled(k);
     let span = 1600.0 / k;
-    let motion = propagate(&scene.spheroid, &s.tensor(), &scene.initial(), (0.0, span), 1e-12).map_err(message)?;
-    let measured = fundamental_frequencies(&motion).map_err(message)?.slow.ok_or("no slow precession")?;
+    let motion = propagate(&scene.spheroid, &s.tensor(), &scene.initial(), (0.0, span), 1e-12)?;
+    let measured = fundamental_frequencies(&motion)?.slow.ok_or("no slow precession")?;
     // Averages over 24 t_c, five turns of n about L: of the direction of L and of its size.
     let count = 96;
-    let weights = Window::Kaiser { shape: 14.0 }.weights(count).map_err(message)?;
+    let weights = Window::Kaiser { shape: 14.0 }.weights(count)?;
     let (mut direction, mut g) = (Vector3::zeros(), 0.0);
     for (i, weight) in weights.iter().enumerate() {
-        let state: BodyState<f64> = motion.state(0.25 * i as f64).map_err(message)?;
+        let state: BodyState<f64> = motion.state(0.25 * i as f64)?;
         direction += state.momentum * *weight;
         g += state.momentum.norm() * weight / count as f64;
     }
@@ -157,7 +153,7 @@ fn slow_frequency(k: f64) -> Result<[f64; 2], String> {
     let c = scene.spheroid.inertia_zz * scene.spin / g;
     let mean = l * g;
     let axis = l * c + l.cross(&Vector3::x()).normalize() * (1.0 - c * c).sqrt();
-    let formula = slow_precession(&scene.spheroid, &s, &mean, &axis).map_err(message)?;
+    let formula = slow_precession(&scene.spheroid, &s, &mean, &axis)?;
     if formula.axis != 2 {
         return Err("the formula has L go round another axis than Z".into());
     }
@@ -168,7 +164,7 @@ fn formula_of_tp_2() -> Result<Measured, String> {
     let [averaged, measured] = slow_frequency(1.0)?;
     let scene = reference_motion("tp-2");
     let BodyState { axis, momentum, .. } = scene.initial();
-    let initial = slow_precession(&scene.spheroid, &scene.coefficients, &momentum, &axis).map_err(message)?.rate;
+    let initial = slow_precession(&scene.spheroid, &scene.coefficients, &momentum, &axis)?.rate;
     let error = largest([averaged, initial].map(|formula| (formula / measured - 1.0).abs()));
     Ok(Measured::new(
         error,

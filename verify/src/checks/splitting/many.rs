@@ -4,7 +4,7 @@ use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use twofold::propagation::{AxisScene, AxisState, ErrorEstimates, Samples, axis_states_at, axis_states_of_many};
 
-use super::{difference, text};
+use super::difference;
 use crate::check::{Measured, Worst, largest};
 use crate::physical_domain::{RandomScene, scenes};
 
@@ -94,9 +94,9 @@ pub(super) fn accuracy() -> Result<Measured, String> {
         let truth = axis_states_at(spheroid, violation, initial, *start, times, finest, ErrorEstimates::Wanted);
         let truth = match (&found, truth) {
             (Err(ours), Err(theirs)) if ours.to_string() == theirs.to_string() => continue,
-            (_, truth) => truth.map_err(text)?,
+            (_, truth) => truth?,
         };
-        let found = found.map_err(text)?;
+        let found = found?;
         if found.states.len() != times.len() {
             return Err(format!("{} states of motion {i}", found.states.len()));
         }

@@ -10,7 +10,7 @@ use twofold::propagation::splitting::{
     Scheme, Splitting, propagate_by_splitting, propagate_orientation_by_best_splitting,
     propagate_orientation_by_splitting,
 };
-use twofold::propagation::{AxisMotion, AxisState, Motion, propagate, propagate_axis};
+use twofold::propagation::{AxisState, Motion, propagate, propagate_axis};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
 use crate::physical_domain::{RandomScene, scenes, worst_over};
@@ -113,10 +113,6 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-fn text(error: twofold::Error) -> String {
-    error.to_string()
-}
-
 fn tp_2() -> (RigidSpheroid<f64>, Matrix3<f64>, AxisState<f64>) {
     let scene = reference_motion("tp-2");
     (scene.spheroid, scene.violation(), AxisState::from(&scene.initial()))
@@ -130,12 +126,12 @@ fn difference(a: &AxisState<f64>, b: &AxisState<f64>) -> f64 {
 fn error_of(scheme: &'static Scheme, factor: f64, step: f64) -> Result<(f64, f64), String> {
     let (spheroid, s, start) = tp_2();
     let s = s * factor;
-    let truth = propagate_axis(&spheroid, &s, &start, (0.0, 10.0), 1e-16).map_err(text)?;
-    let motion = propagate_by_splitting(&spheroid, &s, &start, (0.0, 10.0), scheme, step).map_err(text)?;
+    let truth = propagate_axis(&spheroid, &s, &start, (0.0, 10.0), 1e-16)?;
+    let motion = propagate_by_splitting(&spheroid, &s, &start, (0.0, 10.0), scheme, step)?;
     let mut most = 0.0;
     for i in 1..=20 {
         let t = 0.5 * f64::from(i);
-        let error = difference(&motion.axis_state(t).map_err(text)?, &truth.axis_state(t).map_err(text)?);
+        let error = difference(&motion.axis_state(t)?, &truth.axis_state(t)?);
         most = largest([most, error]);
     }
     Ok((motion.step(), most))
@@ -154,7 +150,7 @@ fn measured_orders() -> Result<Measured, String> {
             }
         }
         let points = points.split_off(points.len().saturating_sub(5));
-        let fit = slope(&points).map_err(|e| e.to_string())?;
+        let fit = slope(&points)?;
         worst.see((fit.value - f64::from(scheme.order())).abs(), || {
             format!("{}: {:.3} +- {:.3}", scheme.name, fit.value, fit.error)
         });
@@ -176,7 +172,7 @@ fn factor_of_violation() -> Result<Measured, String> {
             let factor = 1e-4 / 4f64.powi(k);
             points.push((factor.log10(), error_of(scheme, factor, step)?.1.log10()));
         }
-        let fit = slope(&points).map_err(|e| e.to_string())?;
+        let fit = slope(&points)?;
         worst.see((fit.value - 1.0).abs(), || format!("{}: {:.4} +- {:.4}", scheme.name, fit.value, fit.error));
     }
     worst.finish()
@@ -186,7 +182,7 @@ fn casimirs() -> Result<Measured, String> {
     let (spheroid, s, start) = tp_2();
     let mut worst = Worst::default();
     for scheme in SCHEMES {
-        let mut motion = Splitting::new(&spheroid, &s, &start, scheme, 0.1 * scheme.stages() as f64).map_err(text)?;
+        let mut motion = Splitting::from_parts(&spheroid, &s, &start, scheme, 0.1 * scheme.stages() as f64)?;
         // Not a multiple of the steps between projections.
         for _ in 0..10 {
             motion.advance(99_999);
@@ -204,9 +200,9 @@ fn time_reversal() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for scheme in SCHEMES {
         let step = 0.1 * scheme.stages() as f64;
-        let mut motion = Splitting::new(&spheroid, &s, &start, scheme, step).map_err(text)?;
+        let mut motion = Splitting::from_parts(&spheroid, &s, &start, scheme, step)?;
         motion.advance(300);
-        let mut back = Splitting::new(&spheroid, &s, &motion.state(), scheme, -step).map_err(text)?;
+        let mut back = Splitting::from_parts(&spheroid, &s, &motion.state(), scheme, -step)?;
         back.advance(300);
         worst.see(difference(&back.state(), &start), || scheme.name.to_string());
     }
@@ -219,9 +215,9 @@ fn against_reference() -> Result<Measured, String> {
         let end = reference.states.last().map_or(0.0, |(t, _)| *t);
         let (spheroid, s, start) = (reference.spheroid, reference.violation(), reference.initial());
         let motion = propagate_orientation_by_splitting(&spheroid, &s, &start, (0.0, end), &GRADIENT_8_8_6, 0.1);
-        let motion = motion.map_err(text)?;
+        let motion = motion?;
         for (t, state) in &reference.states {
-            let ours = motion.state(*t).map_err(text)?;
+            let ours = motion.state(*t)?;
             let third_angle = largest_component(&(ours.equatorial_axis - state.equatorial_axis));
             let error = largest([difference(&AxisState::from(&ours), &AxisState::from(state)), third_angle]);
             worst.see(error, || format!("{} at t = {t}", reference.name));
@@ -238,20 +234,20 @@ fn against_taylor_motion() -> Result<Measured, String> {
         let mut most = 0.0;
         for end in [40.0, -40.0] {
             let span = (0.0, end);
-            let taylor = propagate(&spheroid, &s, &state, span, 1e-14).map_err(text)?;
-            let forced = propagate_by_splitting(&spheroid, &s, &start, span, &SRKN_6B, 0.3).map_err(text)?;
-            let chosen = propagate_orientation_by_best_splitting(&spheroid, &s, &state, span, 1e-9).map_err(text)?;
+            let taylor = propagate(&spheroid, &s, &state, span, 1e-14)?;
+            let forced = propagate_by_splitting(&spheroid, &s, &start, span, &SRKN_6B, 0.3)?;
+            let chosen = propagate_orientation_by_best_splitting(&spheroid, &s, &state, span, 1e-9)?;
             for part in [0.13, 0.5, 0.77, 1.0] {
                 let t = part * end;
-                let theirs = taylor.state(t).map_err(text)?;
+                let theirs = taylor.state(t)?;
                 let size = start.momentum.norm().max(1.0);
                 let apart = |ours: &AxisState<f64>| {
                     let apart = [ours.axis - theirs.axis, (ours.momentum - theirs.momentum) / size];
                     largest(apart.iter().map(largest_component))
                 };
                 let estimates = forced.error_estimate(t) + taylor.error_estimate(t);
-                most = largest([most, apart(&forced.axis_state(t).map_err(text)?) / estimates]);
-                let ours = chosen.state(t).map_err(text)?;
+                most = largest([most, apart(&forced.axis_state(t)?) / estimates]);
+                let ours = chosen.state(t)?;
                 let third_angle = largest_component(&(ours.equatorial_axis - theirs.equatorial_axis));
                 let estimates = chosen.error_estimate(t) + taylor.error_estimate(t);
                 most = largest([most, largest([apart(&AxisState::from(&ours)), third_angle]) / estimates]);

@@ -48,7 +48,7 @@ pub(super) fn checks() -> Vec<Check> {
 }
 
 fn maclaurin(q: f64) -> Result<MaclaurinSpheroid<f64>, String> {
-    MaclaurinSpheroid::new(unit_spheroid(q)?).map_err(|e| e.to_string())
+    MaclaurinSpheroid::new(unit_spheroid(q)?).map_err(String::from)
 }
 
 /// `|Omega|^2` from equal `-Phi + |Omega|^2 varpi^2 / 2` at equator and pole, for `a1 = rho = 1`.

@@ -120,7 +120,7 @@ fn centrifugal_forms() -> Result<Measured, String> {
 const DENSITY: f64 = 1e15 * GRAM_PER_CUBIC_CENTIMETRE;
 
 fn estimates() -> Result<[f64; 3], String> {
-    let seconds = |oblateness| time_unit_estimate(DENSITY, oblateness).map(|t| t.seconds()).map_err(|e| e.to_string());
+    let seconds = |oblateness| time_unit_estimate(DENSITY, oblateness).map(|t| t.seconds()).map_err(String::from);
     Ok([inertia_over_c_estimate(DENSITY, 1e-3), seconds(1e-8)?, seconds(0.1)?])
 }
 
@@ -138,17 +138,17 @@ fn estimate_magnitudes() -> Result<Measured, String> {
 }
 
 fn spheroid(oblateness: f64) -> Result<UniformSpheroid<f64>, String> {
-    let shape = SpheroidShape::from_oblateness(oblateness).map_err(|e| e.to_string())?;
-    UniformSpheroid::new(1.0, 1.0, shape).map_err(|e| e.to_string())
+    let shape = SpheroidShape::from_oblateness(oblateness)?;
+    UniformSpheroid::new(1.0, 1.0, shape).map_err(String::from)
 }
 
 fn estimate_regime() -> Result<Measured, String> {
     let left = |eps: f64| {
         let star = spheroid(eps)?;
         let estimate = inertia_over_c_estimate(1.0, eps);
-        let ratio = star.polar_inertia_over_c().map_err(|e| e.to_string())? / estimate;
-        let t_c = star.time_unit().map_err(|e| e.to_string())?.seconds();
-        let estimated_t_c = time_unit_estimate(1.0, eps).map_err(|e| e.to_string())?.seconds();
+        let ratio = star.polar_inertia_over_c()? / estimate;
+        let t_c = star.time_unit()?.seconds();
+        let estimated_t_c = time_unit_estimate(1.0, eps)?.seconds();
         let first = 1.0 + 5.0 / 7.0 * eps;
         // The quotient of the two first-order factors differs from 1 + (5/7 - 1) eps at second order, as wanted here.
         Ok::<_, String>([ratio - first, (t_c / estimated_t_c).powi(2) - (1.0 - 2.0 / 7.0 * eps)])
@@ -161,7 +161,7 @@ fn estimate_regime() -> Result<Measured, String> {
 
 fn centrifugal_regime() -> Result<Measured, String> {
     let deviation = |eps: f64| {
-        let star = MaclaurinSpheroid::new(spheroid(eps)?).map_err(|e| e.to_string())?;
+        let star = MaclaurinSpheroid::new(spheroid(eps)?)?;
         let (rate, body) = (star.rotation_rate(), star.spheroid());
         Ok::<_, String>(eps / (1.25 * centrifugal_oblateness(rate, body.mean_radius(), body.mass())) - 1.0)
     };
@@ -171,7 +171,7 @@ fn centrifugal_regime() -> Result<Measured, String> {
 
 fn units() -> Result<Measured, String> {
     let exact = 1e-15;
-    let t_c = TimeUnit::new(4.0).map_err(|e| e.to_string())?;
+    let t_c = TimeUnit::new(4.0)?;
     against_digits(&[
         (geometrised::SOLAR_MASS, 4.925_491e-6, 1e-12),
         (geometrised::SOLAR_MASS / geometrised::KILOMETRE, 1.476_625, 1e-6),

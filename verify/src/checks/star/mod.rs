@@ -27,8 +27,8 @@ pub fn checks() -> Vec<Check> {
 
 /// Spheroid with `a1 = rho = 1`.
 fn unit_spheroid(axis_ratio: f64) -> Result<UniformSpheroid<f64>, String> {
-    let shape = SpheroidShape::from_axis_ratio(axis_ratio).map_err(|e| e.to_string())?;
-    UniformSpheroid::new(1.0, 1.0, shape).map_err(|e| e.to_string())
+    let shape = SpheroidShape::from_axis_ratio(axis_ratio)?;
+    UniformSpheroid::new(1.0, 1.0, shape).map_err(String::from)
 }
 
 /// `A_1`, `A_2`, `A_3` of Eq. (73) by the Carlson integrals of the crate `ellip`.

@@ -113,14 +113,10 @@ fn digits(decimal: &str) -> (i128, i32) {
     (mantissa.replace('.', "").parse().expect("digits"), exponent - fraction as i32)
 }
 
-fn text(e: Error) -> String {
-    e.to_string()
-}
-
 fn coefficients_against_table() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for row in table() {
-        let a = potential_coefficients(&row.shape().map_err(text)?);
+        let a = potential_coefficients(&row.shape()?);
         for (i, value) in [a.a0, a.a1, a.a3].into_iter().enumerate() {
             worst.see(error_in_ulp(value, &row.entries[i][0]), || format!("A_{} at {}", [0, 1, 3][i], row.name()));
         }
@@ -131,7 +127,7 @@ fn coefficients_against_table() -> Result<Measured, String> {
 fn c_against_table() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for row in table() {
-        let spheroid = UniformSpheroid::new(1.0, 1.0, row.shape().map_err(text)?).map_err(text)?;
+        let spheroid = UniformSpheroid::new(1.0, 1.0, row.shape()?)?;
         worst.see(error_in_ulp(spheroid.c(), &row.entries[3][0]), || format!("C at {}", row.name()));
     }
     worst.finish()
@@ -146,8 +142,8 @@ fn derivatives_against_table() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for row in table() {
         let e2 = row.eccentricity_squared();
-        let by_e2 = four(SpheroidShape::from_eccentricity_squared(Dual2_64::new(e2, 1.0, 0.0)).map_err(text)?);
-        for (i, f) in by_e2.map_err(text)?.into_iter().enumerate() {
+        let by_e2 = four(SpheroidShape::from_eccentricity_squared(Dual2_64::new(e2, 1.0, 0.0))?);
+        for (i, f) in by_e2?.into_iter().enumerate() {
             let size = row.number(i, 0).abs() + row.number(i, 1).abs();
             let unit = f64::EPSILON / (1.0 - e2).min(1.0);
             let first = (f.v1 - row.number(i, 1)).abs() / (unit * size);
@@ -157,7 +153,7 @@ fn derivatives_against_table() -> Result<Measured, String> {
         }
         if !row.prolate {
             let e = row.parameter;
-            let by_e = four(SpheroidShape::from_eccentricity(Dual64::new(e, 1.0)).map_err(text)?).map_err(text)?;
+            let by_e = four(SpheroidShape::from_eccentricity(Dual64::new(e, 1.0))?)?;
             for (i, f) in by_e.into_iter().enumerate() {
                 let exact = 2.0 * e * row.number(i, 1);
                 let size = row.number(i, 0).abs() * e + exact.abs();

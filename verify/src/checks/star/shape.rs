@@ -65,7 +65,7 @@ fn oblateness() -> Result<Measured, String> {
         let spheroid = unit_spheroid(q)?;
         let i = spheroid.moment_of_inertia();
         let epsilon = spheroid.oblateness();
-        let again = SpheroidShape::from_oblateness(epsilon).map_err(|e| e.to_string())?.oblateness();
+        let again = SpheroidShape::from_oblateness(epsilon)?.oblateness();
         Ok(largest([(i.zz - i.xx) / i.xx - epsilon, again - epsilon].map(f64::abs)) / f64::EPSILON)
     })
 }
@@ -85,15 +85,15 @@ fn mass_and_radius() -> Result<Measured, String> {
             ];
             Ok(largest(errors.map(f64::abs)) / f64::EPSILON)
         };
-        build().map_err(|e: twofold::Error| e.to_string())
+        build()
     })
 }
 
 /// Remainders of A_0, A_1, A_3 (units of the leading term) and of C / (16 pi^2 a3 / 225) after the terms in `e^2`.
 fn remainders(e: f64) -> Result<[f64; 4], String> {
-    let shape = SpheroidShape::from_eccentricity(e).map_err(|e| e.to_string())?;
+    let shape = SpheroidShape::from_eccentricity(e)?;
     let a = potential_coefficients(&shape);
-    let c = UniformSpheroid::new(1.0, 1.0, shape).map_err(|e| e.to_string())?.c();
+    let c = UniformSpheroid::new(1.0, 1.0, shape)?.c();
     let e2 = e * e;
     Ok([
         a.a0 / 2.0 - (1.0 - e2 / 3.0),

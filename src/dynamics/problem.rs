@@ -1,0 +1,201 @@
+//! What moves: a body, the tensor `s^IJ` around it and its state at the start, from which every motion is made.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::dynamics::{AxisState, BodyState, RigidSpheroid, RotationState};
+use crate::error::Error;
+use crate::euler_angles::{EulerAngles, EulerRates};
+use crate::scalar::{Real, Scalar, real_part};
+
+/// A spheroid, the tensor `s^IJ` and the initial state, in one inertial frame, which may be any.
+///
+/// ```
+/// use twofold::dynamics::{Problem, RigidSpheroid};
+/// use twofold::euler_angles::{EulerAngles, EulerRates};
+/// use twofold::lorentz_violation::PrincipalCoefficients;
+/// use twofold::propagation::Motion;
+///
+/// let star = RigidSpheroid::in_units_of_tc(1.1);
+/// let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]).tensor();
+/// let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+/// let problem = Problem::from_angles(star, s, &angles, &EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 })?;
+/// let motion = problem.motion((0.0, 100.0), 1e-12)?;
+/// assert!((motion.state(100.0)?.axis.norm() - 1.0).abs() < 1e-12);
+/// # Ok::<(), twofold::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Problem<S, X = BodyState<S>> {
+    spheroid: RigidSpheroid<S>,
+    coefficients: Matrix3<S>,
+    initial: X,
+}
+
+impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
+    /// The body.
+    pub fn spheroid(&self) -> &RigidSpheroid<S> {
+        &self.spheroid
+    }
+
+    /// The tensor `s^IJ`.
+    pub fn coefficients(&self) -> &Matrix3<S> {
+        &self.coefficients
+    }
+
+    /// The state at the start.
+    pub fn initial(&self) -> &X {
+        &self.initial
+    }
+
+    /// Without the angle about the symmetry axis, which neither follows nor influences `n` and `L` here.
+    pub fn reduced(&self) -> Problem<S, AxisState<S>> {
+        self.carrying()
+    }
+
+    /// With what a state of another type needs of this one.
+    pub(crate) fn carrying<Y: RotationState<S>>(&self) -> Problem<S, Y> {
+        Problem::unchecked(self.spheroid, self.coefficients, Y::from_vectors(self.initial.vectors()))
+    }
+
+    /// Seen from another inertial frame: vectors multiplied by the rotation `other_from_this`.
+    pub fn rotated(&self, other_from_this: &Matrix3<S>) -> Self {
+        Self {
+            spheroid: self.spheroid,
+            coefficients: other_from_this * self.coefficients * other_from_this.transpose(),
+            initial: X::from_vectors(self.initial.vectors().map(|vector| other_from_this * vector)),
+        }
+    }
+
+    /// In another type of numbers.
+    pub fn map<T: Scalar>(&self, convert: impl Fn(S) -> T) -> Problem<T, X::In<T>> {
+        Problem {
+            spheroid: self.spheroid.map(&convert),
+            coefficients: self.coefficients.map(&convert),
+            initial: X::In::<T>::from_vectors(self.initial.vectors().map(|vector| vector.map(&convert))),
+        }
+    }
+
+    /// From parts that have been checked, or are checked by what is made of them.
+    pub(crate) fn unchecked(spheroid: RigidSpheroid<S>, coefficients: Matrix3<S>, initial: X) -> Self {
+        Self { spheroid, coefficients, initial }
+    }
+}
+
+impl<S: Real, X: RotationState<S>> Problem<S, X> {
+    /// The problem of a spheroid with the tensor `s^IJ` that starts with the state `initial`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a state or parameter that is not finite, an axis that is not a unit vector or not normal to `e_x` (to 1e-9),
+    /// moments of inertia that are not positive, and a tensor that is not symmetric (to 1e-12).
+    pub fn new(spheroid: RigidSpheroid<S>, coefficients: Matrix3<S>, initial: X) -> Result<Self, Error> {
+        check(&spheroid, &coefficients, &initial)?;
+        Ok(Self { spheroid, coefficients, initial })
+    }
+
+    /// The same star from another state.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn starting_from(&self, initial: X) -> Result<Self, Error> {
+        Self::new(self.spheroid, self.coefficients, initial)
+    }
+
+    /// With `e_x`; any one where the state does not have it.
+    pub(crate) fn with_equatorial_axis(&self) -> Problem<S> {
+        let mut problem: Problem<S> = self.carrying();
+        if X::VECTORS < 3 {
+            let axis = problem.initial.axis;
+            let across = axis.cross(&Vector3::ith(real_part(&axis).iamin(), S::one()));
+            problem.initial.equatorial_axis = across / crate::scalar::length(&across);
+        }
+        problem
+    }
+}
+
+impl<S: Real> Problem<S> {
+    /// The problem of a star that starts with given Euler angles and rates.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn from_angles(
+        spheroid: RigidSpheroid<S>,
+        coefficients: Matrix3<S>,
+        angles: &EulerAngles<S>,
+        rates: &EulerRates<S>,
+    ) -> Result<Self, Error> {
+        Self::new(spheroid, coefficients, BodyState::from_angles(&spheroid, angles, rates))
+    }
+}
+
+/// Refuses what is not finite, not a frame, or out of range.
+pub(crate) fn check<S: Real, X: RotationState<S>>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    state: &X,
+) -> Result<(), Error> {
+    for inertia in [spheroid.inertia_xx.re(), spheroid.inertia_zz.re()] {
+        Error::unless(inertia > 0.0 && inertia.is_finite(), "moment of inertia", inertia, "above zero and finite")?;
+    }
+    let c = spheroid.constant_c.re();
+    Error::unless(c.is_finite(), "constant C of the anisotropic self-energy", c, "a finite number")?;
+    for entry in s.iter() {
+        Error::unless(entry.re().is_finite(), "entry of s^IJ", entry.re(), "a finite number")?;
+    }
+    let asymmetry = (s - s.transpose()).map(S::re).amax();
+    Error::unless(
+        asymmetry <= 1e-12 * s.map(S::re).amax(),
+        "largest |s^IJ - s^JI|",
+        asymmetry,
+        "at most 1e-12 of the largest entry: s^IJ is symmetric",
+    )?;
+    let [axis, momentum, equatorial_axis] = state.vectors().each_ref().map(real_part);
+    for component in momentum.iter() {
+        Error::unless(component.is_finite(), "component of L", *component, "a finite number")?;
+    }
+    let unit = |vector: &Vector3<f64>, name| {
+        let length = vector.norm();
+        Error::unless((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")
+    };
+    unit(&axis, "length of the axis n")?;
+    if X::VECTORS == 3 {
+        unit(&equatorial_axis, "length of the axis e_x")?;
+        let overlap = axis.dot(&equatorial_axis);
+        Error::unless(overlap.abs() < 1e-9, "n . e_x", overlap, "zero, to 1e-9")?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Rotation3;
+
+    use super::*;
+
+    #[test]
+    fn an_equatorial_axis_is_chosen_only_where_there_is_none() {
+        let star = RigidSpheroid::in_units_of_tc(1.1);
+        for axis in [Vector3::x(), Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.48, -0.64, 0.6)] {
+            let state = AxisState { axis, momentum: Vector3::new(0.3, -0.7, 1.1) };
+            let chosen = Problem::new(star, Matrix3::zeros(), state).unwrap().with_equatorial_axis();
+            assert!(check(&star, chosen.coefficients(), chosen.initial()).is_ok());
+            let other = BodyState { equatorial_axis: -chosen.initial().equatorial_axis, ..*chosen.initial() };
+            assert_eq!(chosen.starting_from(other).unwrap().with_equatorial_axis().initial(), &other);
+        }
+    }
+
+    /// `n.(s n)` and `n.L` do not know the frame.
+    #[test]
+    fn a_problem_turns_with_its_tensor() {
+        let state = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.7, 1.1) };
+        let s = Matrix3::new(0.3, -0.5, 0.8, -0.5, 0.6, 0.35, 0.8, 0.35, -0.2);
+        let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, state).unwrap();
+        let turned = problem.rotated(Rotation3::from_euler_angles(0.3, -0.8, 1.7).matrix());
+        let scalars = |problem: &Problem<f64, AxisState<f64>>| {
+            let AxisState { axis, momentum } = problem.initial();
+            [axis.dot(&(problem.coefficients() * axis)), axis.dot(momentum)]
+        };
+        for (scalar, same) in scalars(&problem).into_iter().zip(scalars(&turned)) {
+            assert!((scalar - same).abs() < 1e-14);
+        }
+        assert!((turned.initial().axis - state.axis).norm() > 0.1);
+    }
+}

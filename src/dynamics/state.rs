@@ -1,0 +1,97 @@
+//! The two states of rotation that motions carry: with and without the angle about the symmetry axis.
+
+use core::fmt::Debug;
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::dynamics::BodyState;
+use crate::scalar::Scalar;
+
+/// State of the reduced motion of a spheroid in inertial components: what its potential energy, its spin axis and its
+/// gravitational wave depend on. The rotation about the symmetry axis is left out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisState<S> {
+    /// Symmetry axis `n = e_z`, a unit vector.
+    pub axis: Vector3<S>,
+    /// Angular momentum `L`.
+    pub momentum: Vector3<S>,
+}
+
+impl<S: Scalar> AxisState<S> {
+    /// The same motion seen from another inertial frame: both vectors multiplied by the rotation `other_from_this`.
+    pub fn rotated(&self, other_from_this: &Matrix3<S>) -> Self {
+        Self { axis: other_from_this * self.axis, momentum: other_from_this * self.momentum }
+    }
+}
+
+impl<S: Scalar> From<&BodyState<S>> for AxisState<S> {
+    fn from(state: &BodyState<S>) -> Self {
+        Self { axis: state.axis, momentum: state.momentum }
+    }
+}
+
+/// A state of rotation: [`AxisState`] or [`BodyState`]. The type of the state of a [`Problem`](super::Problem) decides whether its
+/// motions follow the angle about the symmetry axis.
+pub trait RotationState<S: Scalar>: Copy + Debug + PartialEq + 'static {
+    /// How many vectors it has: two, or three.
+    const VECTORS: usize;
+
+    /// The same state in another type of numbers.
+    type In<T: Scalar>: RotationState<T>;
+
+    /// `n`, `L` and `e_x`, which is zero where the state does not have it.
+    fn vectors(&self) -> [Vector3<S>; 3];
+
+    /// From `n`, `L` and `e_x`, which is ignored where the state does not have it.
+    fn from_vectors(vectors: [Vector3<S>; 3]) -> Self;
+
+    /// `n` and `L`.
+    #[inline]
+    fn axis_state(&self) -> AxisState<S> {
+        AxisState::from_vectors(self.vectors())
+    }
+}
+
+impl<S: Scalar> RotationState<S> for AxisState<S> {
+    const VECTORS: usize = 2;
+    type In<T: Scalar> = AxisState<T>;
+
+    #[inline]
+    fn vectors(&self) -> [Vector3<S>; 3] {
+        [self.axis, self.momentum, Vector3::zeros()]
+    }
+
+    #[inline]
+    fn from_vectors([axis, momentum, _]: [Vector3<S>; 3]) -> Self {
+        Self { axis, momentum }
+    }
+}
+
+impl<S: Scalar> RotationState<S> for BodyState<S> {
+    const VECTORS: usize = 3;
+    type In<T: Scalar> = BodyState<T>;
+
+    #[inline]
+    fn vectors(&self) -> [Vector3<S>; 3] {
+        [self.axis, self.momentum, self.equatorial_axis]
+    }
+
+    #[inline]
+    fn from_vectors([axis, momentum, equatorial_axis]: [Vector3<S>; 3]) -> Self {
+        Self { axis, momentum, equatorial_axis }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_vectors_turn_with_the_frame() {
+        let quarter = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+        let state = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(2.0, 3.0, 5.0) };
+        let turned = state.rotated(&quarter);
+        assert_eq!(turned.axis, Vector3::new(0.0, 0.6, 0.8));
+        assert_eq!(turned.momentum, Vector3::new(-3.0, 2.0, 5.0));
+    }
+}
