@@ -13,7 +13,7 @@
 //! ```
 //! use twofold::dynamics::RigidSpheroid;
 //! use twofold::euler_angles::{EulerAngles, EulerRates};
-//! use twofold::inference::{Observable, Signal, data_of, fit};
+//! use twofold::inference::{Observable, Signal, data_of, fit, nonlinearity};
 //! use twofold::lorentz_violation::PrincipalCoefficients;
 //! use twofold::parameters::{Parameter, Parameters};
 //!
@@ -25,6 +25,8 @@
 //! let unknowns = [Parameter::Spin, Parameter::SAxial];
 //! let found = fit(&truth.moved(&unknowns, &[1e-4, -1e-4]), &data, &unknowns, 60.0)?;
 //! assert!((found.fisher.values()[1] + 0.11).abs() < 0.01 * found.fisher.sigmas()[1]);
+//! // Error bars hold where chi^2 is a parabola over them.
+//! assert!(nonlinearity(&found.fisher, &data, 60.0)? < 0.1);
 //! # Ok::<(), twofold::inference::InferenceError>(())
 //! ```
 

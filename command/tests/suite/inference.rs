@@ -164,7 +164,7 @@ fn a_fit_that_ends_on_a_limit_is_refused() {
 
 /// tp-2 with another span, as a file.
 fn scene_file(folder: &std::path::Path, name: &str, spin: &str) -> String {
-    let text = fs::read_to_string("scenes/tp-2.toml").expect("scene");
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../scene/scenes/tp-2.toml")).expect("scene");
     let text = text.replace("spin = 1.0", &format!("spin = {spin}")).replace("span = 400", "span = 100");
     let path = folder.join(name);
     fs::write(&path, text.replace("samples = 4001", "samples = 201")).expect("file");
