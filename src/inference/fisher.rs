@@ -26,7 +26,7 @@
 //! # Ok::<(), twofold::inference::InferenceError>(())
 //! ```
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::degenerate::Directions;
 use super::scaled_jacobian::ScaledJacobian;
@@ -118,12 +118,11 @@ impl Fisher {
         DMatrix::from_fn(sigmas.len(), sigmas.len(), |i, j| self.covariance[(i, j)] / (sigmas[i] * sigmas[j]))
     }
 
-    /// The changes of the unknowns by one standard deviation along each principal axis of the correlations, as columns.
-    pub fn principal_changes(&self) -> DMatrix<f64> {
+    /// The parameters with the unknowns moved along the principal axes of their correlations, by so many standard deviations each, all times `factor`.
+    pub fn beside(&self, deviations: &DVector<f64>, factor: f64) -> Parameters<f64> {
         let axes = self.correlations().symmetric_eigen();
-        let mut changes = axes.eigenvectors;
-        changes.row_iter_mut().zip(self.sigmas()).for_each(|(mut row, sigma)| row *= sigma);
-        changes.column_iter_mut().zip(&axes.eigenvalues).for_each(|(mut axis, value)| axis *= value.max(0.0).sqrt());
-        changes
+        let along = deviations.zip_map(&axes.eigenvalues, |deviation, value| deviation * value.max(0.0).sqrt());
+        let change = (axes.eigenvectors * along).component_mul(&DVector::from_vec(self.sigmas())) * factor;
+        self.parameters.moved(&self.unknowns, change.as_slice())
     }
 }

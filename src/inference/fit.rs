@@ -65,10 +65,11 @@ pub fn nonlinearity(fisher: &Fisher, data: &[Datum], end: f64) -> Result<f64, In
     let chi_squared = |parameters: &Parameters<f64>| compared(parameters, data, end).map(|found| squares(&found.0));
     let least = chi_squared(&fisher.parameters)?;
     let mut worst: f64 = 0.0;
-    for change in fisher.principal_changes().column_iter() {
-        for change in [change.into_owned(), -change] {
-            let moved = fisher.parameters.moved(&fisher.unknowns, change.as_slice());
-            worst = worst.max((chi_squared(&moved)? - least - 1.0).abs());
+    let count = fisher.unknowns.len();
+    for axis in 0..count {
+        let one = DVector::from_fn(count, |k, _| if k == axis { 1.0 } else { 0.0 });
+        for sign in [1.0, -1.0] {
+            worst = worst.max((chi_squared(&fisher.beside(&one, sign))? - least - 1.0).abs());
         }
     }
     Ok(worst)

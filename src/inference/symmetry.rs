@@ -41,10 +41,10 @@ pub(super) fn symmetries(parameters: &Parameters<f64>) -> Vec<Symmetry> {
             vec![
                 (Oblateness, -oblateness),
                 (Spin, parameters.spin() * oblateness / (1.0 + oblateness)),
-                (StrainScale, strain_scale),
+                (Strain, strain_scale),
             ],
         ),
-        ("the strain scale: there is no strain among the data", vec![(StrainScale, 1.0)]),
+        ("the strain scale: there is no strain among the data", vec![(Strain, 1.0)]),
     ];
     let turns = [
         (Vector3::z(), "a rotation of all (star, s^IJ and observer) about Z: no direction in space is marked"),

@@ -1,5 +1,7 @@
 //! The parameters by which derivatives are taken and which are fitted.
 
+use Parameter::*;
+
 use super::{Parameters, ThirdRate};
 use crate::scalar::Scalar;
 
@@ -48,118 +50,95 @@ pub enum Parameter {
     ThetaO,
     /// Azimuth of the observer.
     PhiO,
-    /// A factor of the strain, `I^xx` over distance.
-    StrainScale,
+    /// A factor of the strain, as `I^xx` over distance is one.
+    Strain,
 }
 
 impl Parameter {
     /// Those that a motion depends on, each in itself.
     pub const OF_MOTION: [Self; 15] = [
-        Self::InertiaXx,
-        Self::InertiaZz,
-        Self::ConstantC,
-        Self::S(0, 0),
-        Self::S(1, 1),
-        Self::S(2, 2),
-        Self::S(0, 1),
-        Self::S(0, 2),
-        Self::S(1, 2),
-        Self::Alpha,
-        Self::Beta,
-        Self::Gamma,
-        Self::AlphaRate,
-        Self::BetaRate,
-        Self::GammaRate,
+        InertiaXx,
+        InertiaZz,
+        ConstantC,
+        S(0, 0),
+        S(1, 1),
+        S(2, 2),
+        S(0, 1),
+        S(0, 2),
+        S(1, 2),
+        Alpha,
+        Beta,
+        Gamma,
+        AlphaRate,
+        BetaRate,
+        GammaRate,
     ];
 
     /// Those that data depend on beside the motion.
-    pub const OF_SIGHT: [Self; 6] = [Self::Chi, Self::Delta, Self::Rho, Self::ThetaO, Self::PhiO, Self::StrainScale];
+    pub const OF_SIGHT: [Self; 6] = [Chi, Delta, Rho, ThetaO, PhiO, Strain];
 
     /// Those that can be fitted in units of `I^xx = 1`.
     pub const FITTED: [Self; 21] = [
-        Self::Oblateness,
-        Self::Spin,
-        Self::ConstantC,
-        Self::SScale,
-        Self::SAxial,
-        Self::SAsymmetry,
-        Self::STrace,
-        Self::S(0, 1),
-        Self::S(0, 2),
-        Self::S(1, 2),
-        Self::Alpha,
-        Self::Beta,
-        Self::Gamma,
-        Self::AlphaRate,
-        Self::BetaRate,
-        Self::Chi,
-        Self::Delta,
-        Self::Rho,
-        Self::ThetaO,
-        Self::PhiO,
-        Self::StrainScale,
+        Oblateness,
+        Spin,
+        ConstantC,
+        SScale,
+        SAxial,
+        SAsymmetry,
+        STrace,
+        S(0, 1),
+        S(0, 2),
+        S(1, 2),
+        Alpha,
+        Beta,
+        Gamma,
+        AlphaRate,
+        BetaRate,
+        Chi,
+        Delta,
+        Rho,
+        ThetaO,
+        PhiO,
+        Strain,
     ];
 
     /// Those that the pulses of a beam determine, where the frame is the principal one of `s^IJ`.
-    pub const OF_PULSES: [Self; 13] = [
-        Self::Oblateness,
-        Self::Spin,
-        Self::SAxial,
-        Self::SAsymmetry,
-        Self::Alpha,
-        Self::Beta,
-        Self::Gamma,
-        Self::AlphaRate,
-        Self::BetaRate,
-        Self::Chi,
-        Self::Rho,
-        Self::ThetaO,
-        Self::PhiO,
-    ];
+    pub const OF_PULSES: [Self; 13] =
+        [Oblateness, Spin, SAxial, SAsymmetry, Alpha, Beta, Gamma, AlphaRate, BetaRate, Chi, Rho, ThetaO, PhiO];
 
     /// Those that the strain determines in the same frame where the distance is known. It depends on no beam and not on `gamma`.
-    pub const OF_STRAIN: [Self; 10] = [
-        Self::Oblateness,
-        Self::Spin,
-        Self::SAxial,
-        Self::SAsymmetry,
-        Self::Alpha,
-        Self::Beta,
-        Self::AlphaRate,
-        Self::BetaRate,
-        Self::ThetaO,
-        Self::PhiO,
-    ];
+    pub const OF_STRAIN: [Self; 10] =
+        [Oblateness, Spin, SAxial, SAsymmetry, Alpha, Beta, AlphaRate, BetaRate, ThetaO, PhiO];
 
     fn names(self) -> [&'static str; 2] {
         match self {
-            Self::InertiaXx => ["inertia_xx", "I^xx"],
-            Self::InertiaZz => ["inertia_zz", "I^zz"],
-            Self::Oblateness => ["eps"; 2],
-            Self::ConstantC => ["c", "C"],
-            Self::S(0, 0) => ["s_xx", "s^XX"],
-            Self::S(1, 1) => ["s_yy", "s^YY"],
-            Self::S(2, 2) => ["s_zz", "s^ZZ"],
-            Self::S(0, 1) | Self::S(1, 0) => ["s_xy", "s^XY"],
-            Self::S(0, 2) | Self::S(2, 0) => ["s_xz", "s^XZ"],
-            Self::S(..) => ["s_yz", "s^YZ"],
-            Self::SScale => ["s_scale", "|s|"],
-            Self::SAxial => ["s_axial", "2 s^ZZ - s^XX - s^YY"],
-            Self::SAsymmetry => ["s_asymmetry", "s^XX - s^YY"],
-            Self::STrace => ["s_trace", "tr s"],
-            Self::Alpha => ["alpha"; 2],
-            Self::Beta => ["beta"; 2],
-            Self::Gamma => ["gamma"; 2],
-            Self::AlphaRate => ["alpha_rate", "alpha'"],
-            Self::BetaRate => ["beta_rate", "beta'"],
-            Self::GammaRate => ["gamma_rate", "gamma'"],
-            Self::Spin => ["spin", "Omega^z"],
-            Self::Chi => ["chi"; 2],
-            Self::Delta => ["delta"; 2],
-            Self::Rho => ["rho"; 2],
-            Self::ThetaO => ["theta_o"; 2],
-            Self::PhiO => ["phi_o"; 2],
-            Self::StrainScale => ["strain_scale", "I^xx / r"],
+            InertiaXx => ["inertia_xx", "I^xx"],
+            InertiaZz => ["inertia_zz", "I^zz"],
+            Oblateness => ["eps"; 2],
+            ConstantC => ["c", "C"],
+            S(0, 0) => ["s_xx", "s^XX"],
+            S(1, 1) => ["s_yy", "s^YY"],
+            S(2, 2) => ["s_zz", "s^ZZ"],
+            S(0, 1) | S(1, 0) => ["s_xy", "s^XY"],
+            S(0, 2) | S(2, 0) => ["s_xz", "s^XZ"],
+            S(..) => ["s_yz", "s^YZ"],
+            SScale => ["s_scale", "|s|"],
+            SAxial => ["s_axial", "2 s^ZZ - s^XX - s^YY"],
+            SAsymmetry => ["s_asymmetry", "s^XX - s^YY"],
+            STrace => ["s_trace", "tr s"],
+            Alpha => ["alpha"; 2],
+            Beta => ["beta"; 2],
+            Gamma => ["gamma"; 2],
+            AlphaRate => ["alpha_rate", "alpha'"],
+            BetaRate => ["beta_rate", "beta'"],
+            GammaRate => ["gamma_rate", "gamma'"],
+            Spin => ["spin", "Omega^z"],
+            Chi => ["chi"; 2],
+            Delta => ["delta"; 2],
+            Rho => ["rho"; 2],
+            ThetaO => ["theta_o"; 2],
+            PhiO => ["phi_o"; 2],
+            Strain => ["strain_scale", "I^xx / r"],
         }
     }
 
@@ -180,13 +159,13 @@ impl Parameter {
 
     /// Whether it is a part of `s^IJ`.
     pub fn is_of_s(self) -> bool {
-        matches!(self, Self::S(..) | Self::SScale | Self::SAxial | Self::SAsymmetry | Self::STrace)
+        matches!(self, S(..) | SScale | SAxial | SAsymmetry | STrace)
     }
 
     /// How far its value can be from a known one at all: a radian, the rate of rotation, one.
     pub fn range(self, parameters: &Parameters<f64>) -> f64 {
         match self {
-            Self::Spin | Self::GammaRate | Self::AlphaRate | Self::BetaRate => {
+            Spin | GammaRate | AlphaRate | BetaRate => {
                 let Parameters { alpha_rate, beta_rate, .. } = parameters;
                 alpha_rate.abs().max(parameters.spin().abs()).max(beta_rate.abs())
             }
@@ -198,40 +177,52 @@ impl Parameter {
     pub fn limits(self) -> (Option<f64>, Option<f64>) {
         use std::f64::consts::PI;
         match self {
-            Self::Beta | Self::ThetaO | Self::Chi => (Some(0.0), Some(PI)),
-            Self::Rho => (Some(1e-6), Some(PI - 1e-6)),
+            Beta | ThetaO | Chi => (Some(0.0), Some(PI)),
+            Rho => (Some(1e-6), Some(PI - 1e-6)),
             // I^zz <= I^xx + I^yy.
-            Self::Oblateness => (Some(-0.999), Some(1.0)),
+            Oblateness => (Some(-0.999), Some(1.0)),
             _ => (None, None),
         }
     }
 
     /// Its value.
-    pub fn value<S: Scalar>(self, parameters: &Parameters<S>) -> S {
+    pub fn value<T: Scalar>(self, parameters: &Parameters<T>) -> T {
+        let s = &parameters.violation;
+        match self {
+            Oblateness => parameters.spheroid.oblateness(),
+            SAxial => s[(2, 2)] * 2.0 - s[(0, 0)] - s[(1, 1)],
+            SAsymmetry => s[(0, 0)] - s[(1, 1)],
+            STrace => s.trace(),
+            GammaRate => parameters.rates().gamma,
+            Spin => parameters.spin(),
+            number => *number.number(&mut { *parameters }),
+        }
+    }
+
+    /// The number that it is, if it is no combination of several.
+    fn number<T: Scalar>(self, parameters: &mut Parameters<T>) -> &mut T {
         let Parameters { spheroid, violation: s, angles, .. } = parameters;
         match self {
-            Self::InertiaXx => spheroid.inertia_xx,
-            Self::InertiaZz => spheroid.inertia_zz,
-            Self::Oblateness => spheroid.oblateness(),
-            Self::ConstantC => spheroid.constant_c,
-            Self::S(i, j) => s[(i, j)],
-            Self::SScale => parameters.s_scale,
-            Self::SAxial => s[(2, 2)] * 2.0 - s[(0, 0)] - s[(1, 1)],
-            Self::SAsymmetry => s[(0, 0)] - s[(1, 1)],
-            Self::STrace => s.trace(),
-            Self::Alpha => angles.alpha,
-            Self::Beta => angles.beta,
-            Self::Gamma => angles.gamma,
-            Self::AlphaRate => parameters.alpha_rate,
-            Self::BetaRate => parameters.beta_rate,
-            Self::GammaRate => parameters.rates().gamma,
-            Self::Spin => parameters.spin(),
-            Self::Chi => parameters.chi,
-            Self::Delta => parameters.delta,
-            Self::Rho => parameters.rho,
-            Self::ThetaO => parameters.theta_o,
-            Self::PhiO => parameters.phi_o,
-            Self::StrainScale => parameters.strain_scale,
+            InertiaXx => &mut spheroid.inertia_xx,
+            InertiaZz => &mut spheroid.inertia_zz,
+            ConstantC => &mut spheroid.constant_c,
+            S(i, j) => &mut s[(i, j)],
+            SScale => &mut parameters.s_scale,
+            Alpha => &mut angles.alpha,
+            Beta => &mut angles.beta,
+            Gamma => &mut angles.gamma,
+            AlphaRate => &mut parameters.alpha_rate,
+            BetaRate => &mut parameters.beta_rate,
+            GammaRate | Spin => match &mut parameters.third_rate {
+                ThirdRate::Gamma(rate) | ThirdRate::Spin(rate) => rate,
+            },
+            Chi => &mut parameters.chi,
+            Delta => &mut parameters.delta,
+            Rho => &mut parameters.rho,
+            ThetaO => &mut parameters.theta_o,
+            PhiO => &mut parameters.phi_o,
+            Strain => &mut parameters.strain_scale,
+            Oblateness | SAxial | SAsymmetry | STrace => unreachable!("combinations of numbers"),
         }
     }
 
@@ -239,41 +230,22 @@ impl Parameter {
     ///
     /// # Panics
     /// For an index of `s^IJ` above 2.
-    pub fn add<S: Scalar>(self, parameters: &mut Parameters<S>, change: S) {
-        let Parameters { spheroid, violation: s, angles, .. } = parameters;
+    pub fn add<T: Scalar>(self, parameters: &mut Parameters<T>, change: T) {
+        let s = &mut parameters.violation;
         let mut diagonal = |parts: [f64; 3]| (0..3).for_each(|i| s[(i, i)] += change * parts[i]);
-        *match self {
-            Self::InertiaXx => &mut spheroid.inertia_xx,
-            Self::InertiaZz => &mut spheroid.inertia_zz,
-            Self::Oblateness => return spheroid.inertia_zz += spheroid.inertia_xx * change,
-            Self::ConstantC => &mut spheroid.constant_c,
-            Self::S(i, j) => {
-                if i != j {
-                    s[(j, i)] += change;
+        match self {
+            SAxial => diagonal([-1.0 / 6.0, -1.0 / 6.0, 1.0 / 3.0]),
+            SAsymmetry => diagonal([0.5, -0.5, 0.0]),
+            STrace => diagonal([1.0 / 3.0; 3]),
+            Oblateness => parameters.spheroid.inertia_zz += parameters.spheroid.inertia_xx * change,
+            number => {
+                match number {
+                    S(i, j) if i != j => s[(j, i)] += change,
+                    SScale => *s *= (parameters.s_scale + change) / parameters.s_scale,
+                    _ => {}
                 }
-                &mut s[(i, j)]
+                *number.number(parameters) += change;
             }
-            Self::SScale => {
-                *s *= (parameters.s_scale + change) / parameters.s_scale;
-                &mut parameters.s_scale
-            }
-            Self::SAxial => return diagonal([-1.0 / 6.0, -1.0 / 6.0, 1.0 / 3.0]),
-            Self::SAsymmetry => return diagonal([0.5, -0.5, 0.0]),
-            Self::STrace => return diagonal([1.0 / 3.0; 3]),
-            Self::Alpha => &mut angles.alpha,
-            Self::Beta => &mut angles.beta,
-            Self::Gamma => &mut angles.gamma,
-            Self::AlphaRate => &mut parameters.alpha_rate,
-            Self::BetaRate => &mut parameters.beta_rate,
-            Self::GammaRate | Self::Spin => match &mut parameters.third_rate {
-                ThirdRate::Gamma(rate) | ThirdRate::Spin(rate) => rate,
-            },
-            Self::Chi => &mut parameters.chi,
-            Self::Delta => &mut parameters.delta,
-            Self::Rho => &mut parameters.rho,
-            Self::ThetaO => &mut parameters.theta_o,
-            Self::PhiO => &mut parameters.phi_o,
-            Self::StrainScale => &mut parameters.strain_scale,
-        } += change;
+        }
     }
 }

@@ -124,7 +124,7 @@ fn what_the_data_do_not_determine_is_refused_with_the_reason() {
         (&[ConstantC, SScale], &TIMES_AND_WIDTHS, &["only C s^IJ / I^xx moves the star"]),
         (&[STrace, Spin], &TIMES_AND_WIDTHS, &["a multiple of the unit tensor turns nothing", "d(tr s) alone"]),
         (&[Alpha, PhiO, S(0, 1), Spin], &TIMES_AND_WIDTHS, &["rotation of all (star, s^IJ and observer) about Z"]),
-        (&[Oblateness, Spin, StrainScale], &strain, &["h is in proportion to eps"]),
+        (&[Oblateness, Spin, Strain], &strain, &["h is in proportion to eps"]),
         (&[Spin, Chi], &strain, &["no pulses are among the data"]),
         // Determined in principle, but not by data as bad as these.
         (&Parameter::OF_PULSES, &[(Observable::Arrivals, 1e3), (Observable::Widths, 1e3)], &["d("]),

@@ -15,5 +15,5 @@ pub fn with_noise(data: &[Datum], random: &mut ChaCha8Rng) -> Vec<Datum> {
 /// A start for a fit: the parameters of a Fisher matrix with its unknowns moved by a draw of their normal distribution, `factor` times as wide.
 pub fn beside(fisher: &Fisher, factor: f64, random: &mut ChaCha8Rng) -> Parameters<f64> {
     let normal = DVector::from_fn(fisher.unknowns.len(), |_, _| StandardNormal.sample(random));
-    fisher.parameters.moved(&fisher.unknowns, (fisher.principal_changes() * normal * factor).as_slice())
+    fisher.beside(&normal, factor)
 }

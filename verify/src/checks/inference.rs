@@ -310,7 +310,7 @@ fn directions() -> Result<Measured, String> {
         ("tp-2", &pulses, &Parameter::OF_PULSES, &[]),
         ("sp-1", &pulses, &Parameter::OF_PULSES, &[]),
         ("tp-1", &strain, &Parameter::OF_STRAIN, &[]),
-        ("tp-1", &both, &[Oblateness, Spin, SAxial, SAsymmetry, Alpha, Beta, AlphaRate, StrainScale], &[]),
+        ("tp-1", &both, &[Oblateness, Spin, SAxial, SAsymmetry, Alpha, Beta, AlphaRate, Strain], &[]),
         (
             "tp-1",
             &pulses,
@@ -325,7 +325,7 @@ fn directions() -> Result<Measured, String> {
         ),
         ("tp-2", &pulses, &frame, &["Z: no direction", "Y: no direction", "X: no direction"]),
         ("tp-2", &strain, &frame, &["gamma: a spheroid", "Z: no direction", "Y: no direction"]),
-        ("sp-1", &strain, &[Oblateness, Spin, StrainScale, SAxial], &["eps against Omega^z"]),
+        ("sp-1", &strain, &[Oblateness, Spin, Strain, SAxial], &["eps against Omega^z"]),
         (
             "tp-1",
             &pulses,
