@@ -44,17 +44,15 @@ pub fn jacobian(
     unknowns: &[Parameter],
 ) -> Result<Jacobian, InferenceError> {
     let by_turn: BTreeMap<i64, &Event> = events.iter().map(|event| (event.turn, event)).collect();
-    let terms = data.iter().map(|datum| term(datum, &by_turn)).collect::<Result<Vec<_>, _>>()?;
+    let terms = data.iter().map(|datum| Term::of(datum, &by_turn)).collect::<Result<Vec<_>, _>>()?;
     let (numbers, weights) = weights(parameters, unknowns);
     let base = parameters.holding_gamma_rate();
     let states = States::new(&base, &terms, &numbers)?;
     let mut by_numbers = DMatrix::zeros(data.len(), numbers.len());
     for (column, number) in numbers.iter().enumerate() {
         let seeded = base.seeded(*number);
-        for (row, term) in terms.iter().enumerate() {
-            for &(weight, part, t) in term {
-                by_numbers[(row, column)] += weight * part.value(t, &seeded, &states.at(t, column))?.eps;
-            }
+        for (row, (datum, term)) in data.iter().zip(&terms).enumerate() {
+            by_numbers[(row, column)] = term.value(&seeded, datum.observable, &|t| states.at(t, column))?.eps;
         }
     }
     // The mean motion keeps its phases in 32 digits.
@@ -110,12 +108,12 @@ struct States {
 
 impl States {
     fn new(parameters: &Parameters<f64>, terms: &[Term], numbers: &[Parameter]) -> Result<Self, Error> {
-        let mut times: Vec<[f64; 2]> = terms.iter().flatten().map(|(_, _, t)| *t).collect();
+        let mut times: Vec<[f64; 2]> = terms.iter().flat_map(Term::times).collect();
         times.sort_by(order);
         times.dedup();
         let end = last(&times);
         let is_long = long_span::is_long(parameters, end);
-        let needs_beam = terms.iter().flatten().any(|(_, part, _)| !matches!(part, Part::Strain(_)));
+        let needs_beam = terms.iter().any(|term| !matches!(term, Term::Sample(_)));
         let output = if needs_beam { Output::PulseProfile } else { Output::GravitationalWave };
         let of_motion = numbers.iter().copied().filter(|number| Parameter::OF_MOTION.contains(number));
         let request = Request {
@@ -148,47 +146,65 @@ fn last(times: &[[f64; 2]]) -> f64 {
     times.iter().fold(0.0, |last, [epoch, t]| last.max(epoch + t))
 }
 
-/// What data are made of.
-#[derive(Clone, Copy)]
-enum Part {
-    /// Time at which the line of sight crosses the edge of the beam.
-    Edge,
-    /// Time at which the magnetic axis is nearest to it.
-    ClosestApproach,
-    /// A polarization.
-    Strain(Observable),
+/// What a datum is a function of.
+enum Term {
+    /// One pulse.
+    Pulse(Event),
+    /// Two pulses of consecutive turns.
+    Pulses(Event, Event),
+    /// The state at a time.
+    Sample(f64),
 }
 
-/// A datum: parts with their weights, each at a time in two parts.
-type Term = Vec<(f64, Part, [f64; 2])>;
+impl Term {
+    fn of(datum: &Datum, events: &BTreeMap<i64, &Event>) -> Result<Self, InferenceError> {
+        let (number, near) = match datum.place {
+            Place::Time(t) => return Ok(Self::Sample(t)),
+            Place::Turn { number, near } => (number, near),
+        };
+        let event =
+            |turn: i64| events.get(&turn).map(|event| **event).ok_or(InferenceError::NoPulse { turn: number, near });
+        Ok(match datum.observable {
+            Observable::Periods => Self::Pulses(event(number - 1)?, event(number)?),
+            _ => Self::Pulse(event(number)?),
+        })
+    }
 
-fn term(datum: &Datum, events: &BTreeMap<i64, &Event>) -> Result<Term, InferenceError> {
-    let (turn, near) = match datum.place {
-        Place::Time(t) => return Ok(vec![(1.0, Part::Strain(datum.observable), [t, 0.0])]),
-        Place::Turn { number, near } => (number, near),
-    };
-    let event = |turn_of_event: i64| events.get(&turn_of_event).copied().ok_or(InferenceError::NoPulse { turn, near });
-    let edges = |event: &Event, [start, end]: [f64; 2]| {
-        vec![(start, Part::Edge, [event.epoch, event.start]), (end, Part::Edge, [event.epoch, event.end])]
-    };
-    let here = event(turn)?;
-    Ok(match datum.observable {
-        Observable::Widths => edges(here, [-1.0, 1.0]),
-        Observable::ClosestApproaches => vec![(1.0, Part::ClosestApproach, [here.epoch, here.closest])],
-        Observable::Periods => [edges(here, [0.5, 0.5]), edges(event(turn - 1)?, [-0.5, -0.5])].concat(),
-        _ => edges(here, [0.5, 0.5]),
-    })
-}
+    fn times(&self) -> Vec<[f64; 2]> {
+        let of = |event: &Event, times: &[f64]| -> Vec<[f64; 2]> {
+            times.iter().filter(|t| t.is_finite()).map(|t| [event.epoch, *t]).collect()
+        };
+        match self {
+            Self::Pulse(event) => of(event, &[event.start, event.end, event.closest]),
+            Self::Pulses(before, event) => {
+                [of(before, &[before.start, before.end]), of(event, &[event.start, event.end])].concat()
+            }
+            Self::Sample(t) => vec![[*t, 0.0]],
+        }
+    }
 
-impl Part {
-    /// As a function of one number.
-    fn value(self, t: [f64; 2], parameters: &Parameters<Dual64>, state: &BodyState<Dual64>) -> Result<Dual64, Error> {
+    /// The datum as a function of one number.
+    fn value(
+        &self,
+        parameters: &Parameters<Dual64>,
+        observable: Observable,
+        state: &impl Fn([f64; 2]) -> BodyState<Dual64>,
+    ) -> Result<Dual64, Error> {
         let (beam, n) = (parameters.beam(), parameters.observer().direction);
         let star = (&parameters.spheroid, &parameters.violation);
-        match self {
-            Self::Edge => edge_time(t[1], &beam, &n, star, state),
-            Self::ClosestApproach => closest_approach_time(t[1], &beam, &n, star, state),
-            Self::Strain(observable) => Ok(strain(parameters, [&state.axis, &state.momentum], observable)),
+        let edge = |event: &Event, t: f64| edge_time(t, &beam, &n, star, &state([event.epoch, t]));
+        let midpoint = |event: &Event| Ok((edge(event, event.start)? + edge(event, event.end)?) / 2.0);
+        match (self, observable) {
+            (Self::Pulse(event), Observable::Widths) => Ok(edge(event, event.end)? - edge(event, event.start)?),
+            (Self::Pulse(event), Observable::ClosestApproaches) => {
+                closest_approach_time(event.closest, &beam, &n, star, &state([event.epoch, event.closest]))
+            }
+            (Self::Pulse(event), _) => midpoint(event),
+            (Self::Pulses(before, event), _) => Ok(midpoint(event)? - midpoint(before)?),
+            (Self::Sample(t), _) => {
+                let BodyState { axis, momentum, .. } = state([*t, 0.0]);
+                Ok(strain(parameters, [&axis, &momentum], observable))
+            }
         }
     }
 }

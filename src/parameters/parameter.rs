@@ -237,7 +237,10 @@ impl Parameter {
             SAxial => diagonal([-1.0 / 6.0, -1.0 / 6.0, 1.0 / 3.0]),
             SAsymmetry => diagonal([0.5, -0.5, 0.0]),
             STrace => diagonal([1.0 / 3.0; 3]),
-            Oblateness => parameters.spheroid.inertia_zz += parameters.spheroid.inertia_xx * change,
+            Oblateness => {
+                let spheroid = &mut parameters.spheroid;
+                spheroid.inertia_zz = spheroid.inertia_xx * (spheroid.oblateness() + change + T::one());
+            }
             number => {
                 match number {
                     S(i, j) if i != j => s[(j, i)] += change,
