@@ -17,7 +17,7 @@
 
 use nalgebra::Matrix4;
 
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// A tensor of the fourth rank with the symmetries of the Riemann tensor, `k[a][b][c][d] = k^{abcd}`; index 0 is time.
 pub type CurvatureTensor<S> = [[[[S; 4]; 4]; 4]; 4];

@@ -29,8 +29,8 @@
 use core::fmt;
 use core::str::FromStr;
 
-use crate::double_double::DoubleDouble;
 use crate::error::Error;
+use crate::numerics::double_double::DoubleDouble;
 
 pub use crate::units::DAY;
 
@@ -59,7 +59,7 @@ impl Epoch {
         let date = day as f64 + fraction;
         // The parts as well: large ones of opposite signs lose the date.
         let near = day.unsigned_abs() <= 2 * LAST_DAY as u64;
-        Error::unless(near && (0.0..=LAST_DAY).contains(&date), "epoch (MJD)", date, ALLOWED)?;
+        Error::ensure(near && (0.0..=LAST_DAY).contains(&date), "epoch (MJD)", date, ALLOWED)?;
         Ok(Self { day, fraction: 0.0 }.with_days(fraction.into()))
     }
 
@@ -85,7 +85,7 @@ impl Epoch {
     /// [`Error::Domain`] for a time that is not finite or longer than 1e9 days, some three million years.
     pub fn after(&self, seconds: [f64; 2]) -> Result<Self, Error> {
         let days = (seconds[0] + seconds[1]) / DAY;
-        Error::unless(days.abs() <= LONGEST, "time from an epoch (d)", days, "at most 1e9 days, either way")?;
+        Error::ensure(days.abs() <= LONGEST, "time from an epoch (d)", days, "at most 1e9 days, either way")?;
         Ok(self.with_days(DoubleDouble::from(seconds).over(DAY.into())))
     }
 

@@ -34,7 +34,7 @@ impl From<Error> for String {
 
 impl Error {
     /// Refuses `value` unless `allowed_if` holds (NaN never does).
-    pub fn unless(allowed_if: bool, quantity: &'static str, value: f64, allowed: &'static str) -> Result<(), Self> {
+    pub fn ensure(allowed_if: bool, quantity: &'static str, value: f64, allowed: &'static str) -> Result<(), Self> {
         if allowed_if { Ok(()) } else { Err(Error::Domain { quantity, value, allowed }) }
     }
 }

@@ -29,7 +29,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::error::Error;
-use crate::scalar::{Real, Scalar};
+use crate::numerics::scalar::{Real, Scalar};
 
 /// Euler angles of the body frame x-y-z in the inertial frame X-Y-Z (rad).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -141,7 +141,7 @@ pub fn permuted_from_inertial<S: Scalar>() -> Matrix3<S> {
 
 /// Refuses an axis on a pole, where the Euler angles are singular.
 pub(crate) fn refuse_pole(sin_beta: f64) -> Result<(), Error> {
-    Error::unless(
+    Error::ensure(
         sin_beta.abs() > f64::EPSILON,
         "sine of the inclination, sin beta",
         sin_beta,

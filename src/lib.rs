@@ -5,24 +5,21 @@
 //! Nothing here reads a file, prints or starts a thread.
 
 pub mod curvature_coupling;
-mod double_double;
 pub mod dynamics;
-pub mod elliptic;
 pub mod epoch;
 pub mod error;
 pub mod euler_angles;
 pub mod inference;
 pub mod lorentz_violation;
+pub mod numerics;
 pub mod observables;
 pub mod parameters;
 pub mod plan;
 pub mod propagation;
-mod rounding;
-pub mod scalar;
 pub mod solutions;
 pub mod star;
 pub mod straight_line;
 pub mod units;
 
 pub use error::Error;
-pub use scalar::{Real, Scalar};
+pub use numerics::scalar::{Real, Scalar};

@@ -32,7 +32,7 @@ use num_dual::Dual64;
 
 use crate::error::Error;
 use crate::euler_angles::permuted_from_inertial;
-use crate::scalar::{Real, Scalar};
+use crate::numerics::scalar::{Real, Scalar};
 
 /// Eigenvalues of `s^IJ` (dimensionless) along the axes X, Y, Z of its principal frame, the inertial frame of the paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,10 +96,10 @@ pub struct PrincipalFrame {
 /// [`Error::Domain`] for an entry that is not finite or above 1e300 in size, and for an asymmetry above `1e-12` of the largest entry.
 pub fn principal_frame(tensor: &Matrix3<f64>) -> Result<PrincipalFrame, Error> {
     for &entry in tensor.iter() {
-        Error::unless(entry.abs() <= 1e300, "entry of s^IJ", entry, "a finite number of at most 1e300 in size")?;
+        Error::ensure(entry.abs() <= 1e300, "entry of s^IJ", entry, "a finite number of at most 1e300 in size")?;
     }
     let asymmetry = (tensor - tensor.transpose()).amax();
-    Error::unless(
+    Error::ensure(
         asymmetry <= 1e-12 * tensor.amax(),
         "largest |s^IJ - s^JI|",
         asymmetry,
@@ -143,7 +143,7 @@ pub fn principal_frame_with_derivatives<S: Real>(
         for (axis, i, j, gap) in [(0, 1, 2, yy - zz), (1, 2, 0, zz - xx), (2, 0, 1, xx - yy)] {
             let off = (turned[(i, j)] + turned[(j, i)]) / 2.0;
             let off = off - S::from_f64(off.re());
-            Error::unless(
+            Error::ensure(
                 gap.abs() > 1e-12 * size,
                 "difference of two eigenvalues of s^IJ",
                 gap,
@@ -182,7 +182,7 @@ pub fn principal_frame_along(
     let PrincipalFrame { coefficients, principal_from_given: mut frame } =
         principal_frame(&tensor.map(|entry| entry.re))?;
     let PrincipalCoefficients { xx, yy, zz } = coefficients;
-    Error::unless(
+    Error::ensure(
         xx - zz > 1e-12 * xx.abs().max(zz.abs()),
         "difference of two eigenvalues of s^IJ",
         xx - zz,
@@ -259,7 +259,7 @@ impl SymmetryOfTensor {
     /// # Errors
     /// [`Error::Domain`] with the part that is not symmetric.
     pub fn refuse_asymmetry(&self) -> Result<(), Error> {
-        Error::unless(
+        Error::ensure(
             self.is_symmetric_within_rounding(),
             "part of s^IJ without symmetry about an axis, relative",
             self.asymmetry.norm() / self.size,
@@ -286,10 +286,10 @@ pub fn coefficients_from_preferred_frame<S: Scalar>(alpha_2: S, w: &Vector3<S>) 
 /// of preferred-frame form.
 pub fn preferred_frame_parameter<S: Real>(s: &Matrix3<S>, w: &Vector3<S>) -> Result<S, Error> {
     let w2 = w.dot(w);
-    Error::unless(w2.re() > 0.0, "squared velocity |w|^2", w2.re(), "above zero")?;
+    Error::ensure(w2.re() > 0.0, "squared velocity |w|^2", w2.re(), "above zero")?;
     let alpha_2 = -(w.dot(&(s * w)) / (w2 * w2));
     let rest = (s - coefficients_from_preferred_frame(alpha_2, w)).map(S::re).amax();
-    Error::unless(
+    Error::ensure(
         rest <= 1e-9 * s.map(S::re).amax(),
         "largest |s^ij + alpha_2 w^i w^j|",
         rest,

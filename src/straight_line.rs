@@ -29,7 +29,7 @@ pub struct Slope {
 /// With fewer than three points there is no scatter to judge the fit by.
 pub fn slope(points: &[(f64, f64)]) -> Result<Slope, Error> {
     let n = points.len() as f64;
-    Error::unless(n >= 3.0, "number of points of a slope", n, "three or more")?;
+    Error::ensure(n >= 3.0, "number of points of a slope", n, "three or more")?;
     let mean_x = points.iter().map(|p| p.0).sum::<f64>() / n;
     let mean_y = points.iter().map(|p| p.1).sum::<f64>() / n;
     let sxx: f64 = points.iter().map(|p| (p.0 - mean_x).powi(2)).sum();

@@ -22,7 +22,7 @@
 //! ```
 
 use crate::error::Error;
-use crate::scalar::Real;
+use crate::numerics::scalar::Real;
 
 /// Degree in rad.
 pub const DEGREE: f64 = core::f64::consts::PI / 180.0;
@@ -111,7 +111,7 @@ impl<S: Real> TimeUnit<S> {
     /// (`C < 0`) would need the opposite sign in Eq. (35).
     pub fn new(inertia_over_c: S) -> Result<Self, Error> {
         let value = inertia_over_c.re();
-        Error::unless(value > 0.0 && value.is_finite(), "I^xx / C", value, "positive and finite: an oblate star")?;
+        Error::ensure(value > 0.0 && value.is_finite(), "I^xx / C", value, "positive and finite: an oblate star")?;
         Ok(Self { seconds: inertia_over_c.sqrt() })
     }
 

@@ -16,7 +16,7 @@
 use nalgebra::Vector3;
 
 use crate::dynamics::PrincipalInertia;
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// Angular acceleration in the body frame, the solution of Eq. (63) for `d Omega / dt` in principal axes:
 ///

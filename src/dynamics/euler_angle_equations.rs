@@ -23,7 +23,7 @@
 use crate::dynamics::RigidSpheroid;
 use crate::dynamics::potential::potential_gradient_in_angles;
 use crate::lorentz_violation::PrincipalCoefficients;
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// Position and velocity of the symmetry axis in the angles of Eq. (25) `[eleq]`, and its acceleration where it is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,7 +67,7 @@ pub fn euler_angle_residuals<S: Scalar>(
 /// Accelerations `(a'', b'')` from Eq. (25) `[eleq]`.
 ///
 /// Divides by `sin b`: on the poles, where `alpha` has no meaning, the result is not finite. The regular equations of
-/// [`regular_equations`](crate::dynamics::regular_equations) have no such points; numerical motion uses those.
+/// [`equations_of_motion`](crate::dynamics::equations_of_motion) have no such points; numerical motion uses those.
 pub fn euler_angle_accelerations<S: Scalar>(
     spheroid: &RigidSpheroid<S>,
     s: &PrincipalCoefficients<S>,

@@ -30,12 +30,12 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
+use crate::dynamics::equations_of_motion::BodyState;
 use crate::dynamics::kinetic_energy::kinetic_energy;
 use crate::dynamics::potential::{anisotropic_potential_in_angles, anisotropic_potential_of_axis};
-use crate::dynamics::regular_equations::BodyState;
 use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::lorentz_violation::PrincipalCoefficients;
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// Energy `E = T_rot + delta U` in Euler angles, Eq. (24) `[firstint]`.
 pub fn energy_in_angles<S: Scalar>(

@@ -1,7 +1,7 @@
 //! The rigid bodies whose rotation is studied: moments of inertia and the constant of the anisotropic self-energy.
 
 use crate::error::Error;
-use crate::scalar::{Real, Scalar};
+use crate::numerics::scalar::{Real, Scalar};
 
 /// Principal moments of inertia `I^xx, I^yy, I^zz` of any rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,7 +72,7 @@ impl<S: Real> RigidSpheroid<S> {
     /// [`Error::Domain`] unless `C > 0`, which an oblate star has.
     pub fn time_unit(&self) -> Result<S, Error> {
         let c = self.constant_c.re();
-        Error::unless(c > 0.0, "constant C of the anisotropic self-energy", c, "above zero, as for an oblate star")?;
+        Error::ensure(c > 0.0, "constant C of the anisotropic self-energy", c, "above zero, as for an oblate star")?;
         Ok((self.inertia_xx / self.constant_c).sqrt())
     }
 }

@@ -23,7 +23,7 @@ use nalgebra::Vector3;
 
 use crate::dynamics::{PrincipalInertia, RigidSpheroid};
 use crate::euler_angles::EulerRates;
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// `T = (1/2) I^ij Omega^i Omega^j` from the body-frame angular velocity, three moments of inertia.
 pub fn kinetic_energy_of_body<S: Scalar>(inertia: &PrincipalInertia<S>, omega_body: &Vector3<S>) -> S {

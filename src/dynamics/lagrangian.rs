@@ -25,7 +25,7 @@ use crate::dynamics::kinetic_energy::kinetic_energy;
 use crate::dynamics::potential::anisotropic_potential_in_angles;
 use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::lorentz_violation::PrincipalCoefficients;
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// `L = T_rot - delta U` with Eqs. (23) and (21) `[anisopot]`, above Eq. (24).
 pub fn lagrangian<S: Scalar>(

@@ -23,7 +23,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// `delta U = -(1/2) s^ij m_A m_B n^i n^j / r` of two point masses, Eq. (2) `[pecorrect]`, with `r n = x_A - x_B`: `direction` is the unit
 /// vector `n` in the frame of `s`, `distance` is `r`, not zero. Energies, masses and lengths in geometrised units.

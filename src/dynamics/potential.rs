@@ -35,7 +35,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::lorentz_violation::PrincipalCoefficients;
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// `delta U = C s^zz` of a spheroid from the body-frame component `s^zz`, Eq. (11) `[pecorrect2]`.
 ///

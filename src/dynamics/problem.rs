@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::{AxisState, BodyState, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
-use crate::scalar::{Real, Scalar, real_part};
+use crate::numerics::scalar::{Real, Scalar, real_part};
 
 /// A spheroid, the tensor `s^IJ` and the initial state, in one inertial frame, which may be any.
 ///
@@ -105,7 +105,7 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
         if X::VECTORS < 3 {
             let axis = problem.initial.axis;
             let across = axis.cross(&Vector3::ith(real_part(&axis).iamin(), S::one()));
-            problem.initial.equatorial_axis = across / crate::scalar::length(&across);
+            problem.initial.equatorial_axis = across / crate::numerics::scalar::length(&across);
         }
         problem
     }
@@ -133,15 +133,15 @@ pub(crate) fn check<S: Real, X: RotationState<S>>(
     state: &X,
 ) -> Result<(), Error> {
     for inertia in [spheroid.inertia_xx.re(), spheroid.inertia_zz.re()] {
-        Error::unless(inertia > 0.0 && inertia.is_finite(), "moment of inertia", inertia, "above zero and finite")?;
+        Error::ensure(inertia > 0.0 && inertia.is_finite(), "moment of inertia", inertia, "above zero and finite")?;
     }
     let c = spheroid.constant_c.re();
-    Error::unless(c.is_finite(), "constant C of the anisotropic self-energy", c, "a finite number")?;
+    Error::ensure(c.is_finite(), "constant C of the anisotropic self-energy", c, "a finite number")?;
     for entry in s.iter() {
-        Error::unless(entry.re().is_finite(), "entry of s^IJ", entry.re(), "a finite number")?;
+        Error::ensure(entry.re().is_finite(), "entry of s^IJ", entry.re(), "a finite number")?;
     }
     let asymmetry = (s - s.transpose()).map(S::re).amax();
-    Error::unless(
+    Error::ensure(
         asymmetry <= 1e-12 * s.map(S::re).amax(),
         "largest |s^IJ - s^JI|",
         asymmetry,
@@ -149,17 +149,17 @@ pub(crate) fn check<S: Real, X: RotationState<S>>(
     )?;
     let [axis, momentum, equatorial_axis] = state.vectors().each_ref().map(real_part);
     for component in momentum.iter() {
-        Error::unless(component.is_finite(), "component of L", *component, "a finite number")?;
+        Error::ensure(component.is_finite(), "component of L", *component, "a finite number")?;
     }
     let unit = |vector: &Vector3<f64>, name| {
         let length = vector.norm();
-        Error::unless((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")
+        Error::ensure((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")
     };
     unit(&axis, "length of the axis n")?;
     if X::VECTORS == 3 {
         unit(&equatorial_axis, "length of the axis e_x")?;
         let overlap = axis.dot(&equatorial_axis);
-        Error::unless(overlap.abs() < 1e-9, "n . e_x", overlap, "zero, to 1e-9")?;
+        Error::ensure(overlap.abs() < 1e-9, "n . e_x", overlap, "zero, to 1e-9")?;
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ use core::fmt::Debug;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::BodyState;
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// State of the reduced motion of a spheroid in inertial components: what its potential energy, its spin axis and its
 /// gravitational wave depend on. The rotation about the symmetry axis is left out.

@@ -32,7 +32,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::error::Error;
 use crate::euler_angles::{EulerAngles, refuse_pole};
-use crate::scalar::{Real, Scalar};
+use crate::numerics::scalar::{Real, Scalar};
 
 /// Body-frame torque from the derivatives of any potential by the Euler angles, Eq. (66):
 ///

@@ -13,10 +13,10 @@ use super::signal::{ACCURACY, strain, turning_rate};
 use super::{Datum, Event, InferenceError, Observable, Place, long_span};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
+use crate::numerics::scalar::Real;
 use crate::observables::pulsar::event_time::{closest_approach_time, edge_time};
 use crate::parameters::{Parameter, Parameters};
 use crate::plan::{Gradient, Method, Output, Request, StateFunction, gradient_in_parts};
-use crate::scalar::Real;
 
 /// Derivatives of data by unknowns.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,7 +55,7 @@ pub fn jacobian(
             by_numbers[(row, column)] = term.value(&seeded, datum.observable, &|t| states.at(t, column))?.eps;
         }
     }
-    // The mean motion keeps its phases in 32 digits.
+    // The averaged motion keeps its phases in 32 digits.
     let rotation = if states.is_long { 0.0 } else { states.end() * turning_rate(parameters) };
     let found = Jacobian {
         matrix: &by_numbers * &weights,
@@ -118,7 +118,7 @@ impl States {
         let of_motion = numbers.iter().copied().filter(|number| Parameter::OF_MOTION.contains(number));
         let request = Request {
             derivatives: of_motion.collect(),
-            method: is_long.then_some(Method::Mean),
+            method: is_long.then_some(Method::Averaged),
             ..Request::new(&[output], (0.0, end), times.len(), ACCURACY)
         };
         let plan = parameters.problem()?.plan(&request)?;

@@ -1,4 +1,4 @@
-//! Spans of more turns than can be followed one by one: pulses near given epochs, by the mean motion.
+//! Spans of more turns than can be followed one by one: pulses near given epochs, by the averaged motion.
 
 use super::Event;
 use super::signal::turning_rate;
@@ -6,12 +6,12 @@ use crate::error::Error;
 use crate::observables::pulsar::{ClockPulse, PulsarClock};
 use crate::parameters::Parameters;
 use crate::propagation::AveragedMotion;
-use crate::solutions::mean::MeanOrder;
+use crate::solutions::averaged::AveragingOrder;
 
 /// Rotation (rad) up to which every turn is followed.
 const LARGEST_FOLLOWED: f64 = 1e5;
 
-/// Most that the mean motion may leave out of directions (rad): derivatives are then right to about as much.
+/// Most that the averaged motion may leave out of directions (rad): derivatives are then right to about as much.
 const MOST_LEFT_OUT: f64 = 1e-3;
 
 /// Most corrections of the time at which a turn with a number is looked for.
@@ -22,7 +22,7 @@ pub(super) fn is_long(parameters: &Parameters<f64>, end: f64) -> bool {
     end * turning_rate(parameters) > LARGEST_FOLLOWED
 }
 
-/// Refuses a span to `end` that can neither be followed turn by turn nor by the mean motion.
+/// Refuses a span to `end` that can neither be followed turn by turn nor by the averaged motion.
 ///
 /// # Errors
 /// [`Error::Domain`] as for [`AveragedMotion::new`], and for what it leaves out.
@@ -30,11 +30,11 @@ pub fn check_span(parameters: &Parameters<f64>, end: f64) -> Result<(), Error> {
     if !is_long(parameters, end) {
         return Ok(());
     }
-    let motion = AveragedMotion::new(&parameters.problem()?, (0.0, end), MeanOrder::Second)?;
+    let motion = AveragedMotion::new(&parameters.problem()?, (0.0, end), AveragingOrder::Second)?;
     let left_out = motion.truncation(end);
-    Error::unless(
+    Error::ensure(
         left_out <= MOST_LEFT_OUT,
-        "what the mean motion leaves out (rad) over a span of more than 1e5 rad of rotation",
+        "what the averaged motion leaves out (rad) over a span of more than 1e5 rad of rotation",
         left_out,
         "at most 1e-3: a weaker violation or a shorter span",
     )
@@ -43,7 +43,7 @@ pub fn check_span(parameters: &Parameters<f64>, end: f64) -> Result<(), Error> {
 fn clock(parameters: &Parameters<f64>) -> Result<PulsarClock, Error> {
     let Parameters { spheroid, violation, .. } = parameters;
     let (beam, observer) = (parameters.beam(), parameters.observer());
-    PulsarClock::new(spheroid, violation, &parameters.state(), &beam, &observer, MeanOrder::Second)
+    PulsarClock::new(spheroid, violation, &parameters.state(), &beam, &observer, AveragingOrder::Second)
 }
 
 /// A pulse with its times counted from the double nearest to its midpoint. The closest approach is not looked for.

@@ -83,7 +83,7 @@ pub struct Datum {
 pub fn data_of(signal: &Signal, events: &[Event], samples: &[f64], noise: &[Noise]) -> Result<Vec<Datum>, Error> {
     let mut data = Vec::new();
     let of_every_turn = [Observable::ClosestApproaches, Observable::Periods];
-    Error::unless(
+    Error::ensure(
         !(signal.is_long() && noise.iter().any(|(kind, _)| of_every_turn.contains(kind))),
         "span for closest approaches and periods",
         signal.end,

@@ -3,14 +3,14 @@
 use nalgebra::Vector3;
 
 use super::{Observable, long_span};
-use crate::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use crate::dynamics::wave_source::spheroid_inertia_acceleration;
 use crate::error::Error;
+use crate::numerics::scalar::Scalar;
 use crate::observables::gravitational_wave::{metric_perturbation, polarizations};
 use crate::observables::pulsar::{Beam, arrivals, pulse_train};
 use crate::parameters::Parameters;
 use crate::plan::{Method, Output, PlannedMotion, Request};
 use crate::propagation::Motion;
-use crate::scalar::Scalar;
 
 /// A whole pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,7 +90,7 @@ impl Signal {
         let request = if is_long {
             long_span::check_span(parameters, end)?;
             let request = Request::new(&[Output::PulseProfile], (0.0, end), 2, ACCURACY);
-            Request { method: Some(Method::Mean), ..request }
+            Request { method: Some(Method::Averaged), ..request }
         } else {
             Request::new(&[Output::Pulses], (0.0, end), 2, ACCURACY)
         };
@@ -105,7 +105,7 @@ impl Signal {
         })
     }
 
-    /// Whether the span is one of more than 1e5 rad of rotation. Its pulses are those near given times, by the mean motion of second order.
+    /// Whether the span is one of more than 1e5 rad of rotation. Its pulses are those near given times, by the averaged motion of second order.
     pub fn is_long(&self) -> bool {
         self.is_long
     }
@@ -115,7 +115,7 @@ impl Signal {
     /// # Errors
     /// A beam or line of sight that has no pulses to be counted, and a long span.
     pub fn events(&self) -> Result<Vec<Event>, Error> {
-        Error::unless(!self.is_long, "span for every pulse", self.end, "one of at most 1e5 rad of rotation")?;
+        Error::ensure(!self.is_long, "span for every pulse", self.end, "one of at most 1e5 rad of rotation")?;
         let found = self.events_in((0.0, self.end))?;
         let once = |turn: i64| found.iter().filter(|event| event.turn == turn).count() == 1;
         Ok(if found.windows(2).all(|pair| pair[0].turn < pair[1].turn) {

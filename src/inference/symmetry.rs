@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 
+use crate::numerics::scalar::Real;
 use crate::parameters::{Parameter, Parameters};
-use crate::scalar::Real;
 
 /// A change of the unknowns, the same for all data of some kind, in words.
 pub(super) struct Symmetry {

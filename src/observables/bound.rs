@@ -28,7 +28,7 @@
 use nalgebra::Vector3;
 
 use crate::error::Error;
-use crate::scalar::{Real, Scalar};
+use crate::numerics::scalar::{Real, Scalar};
 
 /// What an observation says of the spin axis of a star: by how much `cos lambda` changed at most, and in what time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +55,7 @@ impl<S: Real> SpinAxisDrift<S> {
     /// [`Error::Domain`] for an interval of zero.
     pub fn combination_bound(&self, eta: S) -> Result<S, Error> {
         let interval = self.interval.re();
-        Error::unless(interval.abs() > 0.0, "interval Delta t", interval, "not zero")?;
+        Error::ensure(interval.abs() > 0.0, "interval Delta t", interval, "not zero")?;
         Ok((eta * self.polar_inertia_over_c * self.spin * self.cos_lambda_change / self.interval).abs())
     }
 
@@ -77,7 +77,7 @@ impl<S: Real> SpinAxisDrift<S> {
 pub fn eta_from_inclination<S: Real>(beta_0: S) -> Result<S, Error> {
     let (_, cb) = beta_0.sin_cos();
     let allowed = "|cos beta_0| > 2.2e-16: the estimate (40) divides by it";
-    Error::unless(cb.re().abs() > f64::EPSILON, "cosine of the mean inclination, cos beta_0", cb.re(), allowed)?;
+    Error::ensure(cb.re().abs() > f64::EPSILON, "cosine of the mean inclination, cos beta_0", cb.re(), allowed)?;
     Ok(S::one() / cb.abs())
 }
 
@@ -104,7 +104,7 @@ pub fn fluid_inertia_over_c<S: Scalar>(spin: S) -> S {
 /// [`Error::Domain`] for `w = 0`.
 pub fn preferred_frame_bound<S: Real>(combination_bound: S, w: &Vector3<S>) -> Result<S, Error> {
     let w2 = w.dot(w);
-    Error::unless(w2.re() > 0.0, "squared velocity |w|^2", w2.re(), "above zero")?;
+    Error::ensure(w2.re() > 0.0, "squared velocity |w|^2", w2.re(), "above zero")?;
     Ok(combination_bound.abs() / (w2 * 2.0))
 }
 
@@ -168,7 +168,7 @@ pub fn lambda_change_terms<S: Scalar>(lambda: S, chi: S, width: S) -> [S; 2] {
 }
 
 fn refuse_stationary_width<S: Real>(turning: S) -> Result<(), Error> {
-    Error::unless(
+    Error::ensure(
         turning.re().abs() > f64::EPSILON,
         "derivative of cos rho by the angle to the line of sight",
         turning.re(),

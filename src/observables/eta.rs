@@ -1,4 +1,4 @@
-//! The factor `eta` of Eq. (41) `[est1]`, derived from the mean motion of the spin axis in single precession.
+//! The factor `eta` of Eq. (41) `[est1]`, derived from the averaged motion of the spin axis in single precession.
 //!
 //! The symmetry axis stays within a nutation, of first order in `s`, of the direction `l` of the angular momentum. Over many
 //! turns of the star what is left of the motion is [`secular_axis_rate`]. A direction `n-hat` to the observer then sees
@@ -38,8 +38,8 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::error::Error;
-use crate::scalar::{Real, Scalar};
-use crate::solutions::mean::mean_of_cn2;
+use crate::numerics::scalar::{Real, Scalar};
+use crate::solutions::averaged::mean_of_cn2;
 
 /// Mean rate of the spin axis `l` (unit vector) in single precession, `dl/dt = (2 C / (I^zz Omega^z)) (s l) x l`, from
 /// `I^zz / C` and the spin `Omega^z`: the torque on a star that spins about its symmetry axis, divided by its angular momentum.
@@ -89,7 +89,7 @@ pub fn root_mean_square_eta<S: Real>(asymmetry_ratio: S, beta: S) -> Result<S, E
     let mean = mean_squared_speed(asymmetry_ratio, beta);
     let speed = mean.re().sqrt();
     let allowed = "above 2.2e-16 of C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z): an axis at rest bounds nothing";
-    Error::unless(speed > f64::EPSILON, "root mean square speed of the spin axis", speed, allowed)?;
+    Error::ensure(speed > f64::EPSILON, "root mean square speed of the spin axis", speed, allowed)?;
     Ok((S::from_f64(3.0) / mean).sqrt())
 }
 

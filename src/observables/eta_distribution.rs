@@ -58,7 +58,7 @@ impl EtaDistribution {
         let mut inverse_speeds = Vec::new();
         for (speed, weight) in speeds {
             let allowed = "finite and not negative";
-            Error::unless((0.0..f64::INFINITY).contains(&speed), "speed of the spin axis", speed, allowed)?;
+            Error::ensure((0.0..f64::INFINITY).contains(&speed), "speed of the spin axis", speed, allowed)?;
             inverse_speeds.push((1.0 / speed, weight));
         }
         Self::from_inverse_speeds(inverse_speeds)
@@ -66,10 +66,10 @@ impl EtaDistribution {
 
     fn from_inverse_speeds(mut inverse_speeds: Vec<(f64, f64)>) -> Result<Self, Error> {
         for &(_, weight) in &inverse_speeds {
-            Error::unless((0.0..f64::INFINITY).contains(&weight), "weight", weight, "finite and not negative")?;
+            Error::ensure((0.0..f64::INFINITY).contains(&weight), "weight", weight, "finite and not negative")?;
         }
         let total: f64 = inverse_speeds.iter().map(|(_, weight)| weight).sum();
-        Error::unless(total > 0.0 && total.is_finite(), "sum of the weights", total, "above zero")?;
+        Error::ensure(total > 0.0 && total.is_finite(), "sum of the weights", total, "above zero")?;
         inverse_speeds.iter_mut().for_each(|(_, weight)| *weight /= total);
         inverse_speeds.sort_by(|a, b| b.0.total_cmp(&a.0));
         Ok(Self { inverse_speeds, directions: Directions::Isotropic })
@@ -89,7 +89,7 @@ impl EtaDistribution {
     pub fn seen_at(self, lambda: f64) -> Result<Self, Error> {
         let sine = lambda.sin();
         let allowed = "above 2.2e-16 in size: a motion across the line of sight is not seen";
-        Error::unless(sine.abs() > f64::EPSILON, "sine of the angle to the line of sight", sine, allowed)?;
+        Error::ensure(sine.abs() > f64::EPSILON, "sine of the angle to the line of sight", sine, allowed)?;
         Ok(Self { directions: Directions::OnCone { sine: sine.abs() }, ..self })
     }
 
@@ -101,7 +101,7 @@ impl EtaDistribution {
     pub fn times(&self, factors: impl IntoIterator<Item = (f64, f64)>) -> Result<Self, Error> {
         let mut speeds = Vec::new();
         for (factor, weight) in factors {
-            Error::unless((0.0..f64::INFINITY).contains(&factor), "factor of eta", factor, "finite and not negative")?;
+            Error::ensure((0.0..f64::INFINITY).contains(&factor), "factor of eta", factor, "finite and not negative")?;
             speeds.extend(self.inverse_speeds.iter().map(|&(inverse, w)| {
                 // An axis at rest bounds nothing, whatever was measured.
                 (if inverse.is_infinite() { inverse } else { inverse * factor }, w * weight)
@@ -133,7 +133,7 @@ impl EtaDistribution {
         let mut speeds = Vec::with_capacity(NODES);
         for (alpha_0, weight) in quarter_turn() {
             let (alpha, beta) = single_precession_start(asymmetry_ratio, alpha_0, beta_0);
-            Error::unless((0.0..=core::f64::consts::PI).contains(&beta), "inclination by Eq. (34)", beta, allowed)?;
+            Error::ensure((0.0..=core::f64::consts::PI).contains(&beta), "inclination by Eq. (34)", beta, allowed)?;
             speeds.push((squared_speed(asymmetry_ratio, alpha, beta).sqrt(), weight));
         }
         Self::from_speeds(speeds)
@@ -185,7 +185,7 @@ impl EtaDistribution {
     /// # Errors
     /// [`Error::Domain`] for a probability outside (0, 1).
     pub fn quantile(&self, probability: f64) -> Result<f64, Error> {
-        Error::unless(0.0 < probability && probability < 1.0, "probability", probability, "in (0, 1)")?;
+        Error::ensure(0.0 < probability && probability < 1.0, "probability", probability, "in (0, 1)")?;
         let isotropic = self.isotropic_quantile(probability);
         let Directions::OnCone { sine } = self.directions else { return Ok(isotropic) };
         // Since (2/pi) asin(u) <= u, eta sin(lambda) is not above the quantile of isotropic directions; below 1 / (fastest speed) it never is.

@@ -1,9 +1,9 @@
 //! Gravitational wave of a rotating star in the quadrupole approximation. Eqs. (59), (69)-(71).
 //!
 //! The source is `ddot I^{IJ}`, the second time derivative of the moment-of-inertia tensor, from
-//! [`wave_tensor`](crate::dynamics::inertia_tensor_rate::wave_tensor),
-//! [`spheroid_inertia_acceleration`](crate::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration) or, for the free
-//! waveform, [`free_inertia_acceleration`](crate::dynamics::inertia_tensor_rate::free_inertia_acceleration).
+//! [`wave_tensor`](crate::dynamics::wave_source::wave_tensor),
+//! [`spheroid_inertia_acceleration`](crate::dynamics::wave_source::spheroid_inertia_acceleration) or, for the free
+//! waveform, [`free_inertia_acceleration`](crate::dynamics::wave_source::free_inertia_acceleration).
 //!
 //! Everything is in geometrised units, or in those of the paper with `I^xx = t_c = r = 1`, where `h` counts multiples of
 //! [`strain_unit`].
@@ -20,7 +20,7 @@
 //! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
 //! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! let state = BodyState::from_angles(&star, &angles, &rates);
-//! use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+//! use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 //! use twofold::observables::Observer;
 //! use twofold::observables::gravitational_wave::{metric_perturbation, polarization_tensors, polarizations, strain_unit};
 //!
@@ -36,8 +36,8 @@
 
 use nalgebra::Matrix3;
 
+use crate::numerics::scalar::{Real, Scalar};
 use crate::observables::Observer;
-use crate::scalar::{Real, Scalar};
 use crate::units::geometrised::{KILOGRAM, METRE};
 
 /// Metric perturbation `h^{IJ} = -(2 / r) ddot I^{IJ}` at the distance `r`, Eq. (59), geometrised units.

@@ -47,7 +47,7 @@ mod tests {
 
         fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
             let (from, to) = self.span;
-            Error::unless((from.min(to)..=from.max(to)).contains(&t), "time t", t, "in the span")?;
+            Error::ensure((from.min(to)..=from.max(to)).contains(&t), "time t", t, "in the span")?;
             (self.state)(t)
         }
 

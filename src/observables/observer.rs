@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// A distant observer: three unit vectors in inertial components, `theta_hat x phi_hat = direction`.
 #[derive(Debug, Clone, Copy, PartialEq)]

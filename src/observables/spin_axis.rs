@@ -19,7 +19,7 @@
 //! use twofold::observables::spin_axis::{
 //!     changes_from_start, cos_lambda, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
 //! };
-//! use twofold::solutions::perturbation::{Constants, Form, Kind, Perturbation};
+//! use twofold::solutions::perturbation::{Constants, Form, Precession, Perturbation};
 //!
 //! let direction = Observer::at(0.8, 0.4).direction;
 //! let found = cos_lambda(&direction, &state.axis);
@@ -28,7 +28,7 @@
 //! let change = cos_lambda_change(0.8, 0.4, (angles.alpha, angles.beta), (rates.alpha, rates.beta));
 //! assert!((change - cos_lambda_rate(&star, &direction, &state.axis, &state.momentum)).abs() < 1e-14);
 //! let constants = Constants { alpha_0: 0.3, beta_0: 0.7, amplitude: 0.01, phase: 0.0 };
-//! let solution = Perturbation::new(Form::Printed, Kind::Single, &star, &s, 1.0, &constants)?;
+//! let solution = Perturbation::new(Form::Printed, Precession::Single, &star, &s, 1.0, &constants)?;
 //! assert_eq!(changes_from_start(&solution, 0.0), (0.0, 0.0));
 //! # Ok::<(), twofold::Error>(())
 //! ```
@@ -36,7 +36,7 @@
 use nalgebra::Vector3;
 
 use crate::dynamics::RigidSpheroid;
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 use crate::solutions::perturbation::Perturbation;
 
 /// `cos lambda = sin t sin b sin(a - p) + cos t cos b` for the direction of colatitude `t = theta_o` and azimuth `p = phi_o`

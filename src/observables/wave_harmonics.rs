@@ -13,7 +13,7 @@
 //! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
 //! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! let state = BodyState::from_angles(&star, &angles, &rates);
-//! use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+//! use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 //! use twofold::observables::Observer;
 //! use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
 //! use twofold::observables::wave_harmonics::WaveHarmonics;
@@ -31,10 +31,10 @@
 use crate::dynamics::AxisState;
 use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
+use crate::numerics::scalar::{Real, length};
 use crate::observables::Observer;
 use crate::observables::gravitational_wave::Polarizations;
 use crate::observables::pulsar::position_angle::position_angle;
-use crate::scalar::{Real, length};
 
 /// Amplitudes and phase of the wave while `L` is constant, as it nearly is over a turn:
 ///
@@ -101,7 +101,7 @@ mod tests {
     use nalgebra::{Matrix3, Vector3};
 
     use super::*;
-    use crate::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+    use crate::dynamics::wave_source::spheroid_inertia_acceleration;
     use crate::observables::gravitational_wave::{metric_perturbation, polarizations};
 
     #[test]

@@ -30,9 +30,9 @@ use num_dual::Dual64;
 use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
+use crate::numerics::scalar::{Real, Scalar};
 use crate::observables::Observer;
 use crate::observables::pulsar::Beam;
-use crate::scalar::{Real, Scalar};
 
 /// The rate that stays when `beta` or the rate of `alpha` change.
 #[derive(Debug, Clone, Copy, PartialEq)]

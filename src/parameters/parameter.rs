@@ -3,7 +3,7 @@
 use Parameter::*;
 
 use super::{Parameters, ThirdRate};
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// One number of [`Parameters`], or a combination of some.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

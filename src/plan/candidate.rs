@@ -6,14 +6,14 @@ use crate::error::Error;
 use crate::lorentz_violation::{error_of_principal_frame_along, principal_frame};
 use crate::propagation::splitting::SplittingForecast;
 use crate::propagation::{AveragedMotion, SymmetricMotion, TaylorForecast, UniformMotion, largest_torque};
-use crate::solutions::mean::MeanOrder;
+use crate::solutions::averaged::AveragingOrder;
 
 /// What the predicted error of a method promises of the true one, rounding apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Promise {
     /// It is never above: a bound that is proved.
     Bound,
-    /// It was above in none of the random motions of its test ([`mean`](Method::Mean): `docs/mean-motion.md`).
+    /// It was above in none of the random motions of its test ([`mean`](Method::Averaged): `docs/averaged-solution.md`).
     Estimate,
     /// A goal that the steps are chosen for: this share of random motions of every kind stays below. Most of the others start beside the
     /// unstable middle axis, whose growth is not foreseen.
@@ -62,7 +62,7 @@ impl Candidate {
             Method::Free => free(problem, request, stretch),
             Method::Steady => steady(problem, request, stretch),
             Method::Symmetric => symmetric(problem, request, stretch),
-            Method::Mean => mean(problem, request, stretch),
+            Method::Averaged => mean(problem, request, stretch),
             Method::Splitting => splitting(problem, request, stretch),
             Method::Taylor => taylor(problem, request, state, stretch),
         };
@@ -121,13 +121,13 @@ impl Forecast {
 /// A closed form for a family of tensors has no derivatives by changes of the tensor that leave the family.
 fn refuse_derivatives(request: &Request, family: &'static str) -> Result<(), Error> {
     let by_tensor = request.derivatives.iter().filter(|parameter| parameter.is_of_s()).count();
-    Error::unless(by_tensor == 0, "number of derivatives by components of s^IJ", by_tensor as f64, family)
+    Error::ensure(by_tensor == 0, "number of derivatives by components of s^IJ", by_tensor as f64, family)
 }
 
 fn free(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
     refuse_derivatives(request, "none: free rotation knows no tensor")?;
     let torque = largest_torque(problem.spheroid(), problem.coefficients());
-    Error::unless(
+    Error::ensure(
         request.derivatives.is_empty() || torque == 0.0,
         "largest torque C |s^IJ|",
         torque,
@@ -140,7 +140,7 @@ fn free(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Resul
 
 fn steady(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
     let wanted = request.derivatives.len();
-    Error::unless(wanted == 0, "number of derivatives", wanted as f64, "none: a steady precession has no neighbours")?;
+    Error::ensure(wanted == 0, "number of derivatives", wanted as f64, "none: a steady precession has no neighbours")?;
     let motion = UniformMotion::steady(problem, stretch)?;
     Ok(Forecast::closed(Promise::Bound, 0.0, motion.rounding(stretch.1 - stretch.0)))
 }
@@ -150,7 +150,7 @@ fn symmetric(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> 
     let motion = SymmetricMotion::new(problem, stretch)?;
     let elapsed = stretch.1 - stretch.0;
     let truncation = motion.truncation(elapsed);
-    Error::unless(
+    Error::ensure(
         request.derivatives.is_empty() || truncation == 0.0,
         "part of s^IJ without symmetry about an axis",
         truncation,
@@ -163,7 +163,7 @@ fn symmetric(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> 
 }
 
 fn mean(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
-    let motion = AveragedMotion::new(problem, stretch, MeanOrder::Second)?;
+    let motion = AveragedMotion::new(problem, stretch, AveragingOrder::Second)?;
     let (mut truncation, rounding) = (motion.truncation(stretch.1), motion.rounding(stretch.1));
     if !request.derivatives.is_empty() {
         motion.require_derivatives()?;

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use super::candidate::evaluations;
 use super::{Candidate, Evaluations, Method, Output, PlannedAxisMotion, PlannedMotion, Prediction};
 use super::{Request, State};
-use crate::dynamics::regular_equations::angular_velocity;
+use crate::dynamics::equations_of_motion::angular_velocity;
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::parameters::Parameter;
@@ -154,7 +154,7 @@ impl Plan {
     pub fn motion<X: RotationState<f64>>(&self, problem: &Problem<f64, X>) -> Result<PlannedMotion<X>, Error> {
         let vectors = if self.state == State::Orientation { 3 } else { 2 };
         let allowed = "three: no output of the plan needs e_x";
-        Error::unless(vectors >= X::VECTORS, "number of vectors carried", vectors as f64, allowed)?;
+        Error::ensure(vectors >= X::VECTORS, "number of vectors carried", vectors as f64, allowed)?;
         problem.motion_by(self.needed_method()?, self.stretch, self.accuracy)
     }
 

@@ -7,6 +7,7 @@ use super::{Method, Plan, State};
 use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame_along;
+use crate::numerics::scalar::Real;
 use crate::parameters::Parameters;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::check_time;
@@ -14,8 +15,7 @@ use crate::propagation::check_time;
 use crate::propagation::splitting::derivatives::states_with_derivatives;
 use crate::propagation::splitting::require_tangent_maps;
 use crate::propagation::{AveragedMotion, Motion, SymmetricMotion, UniformMotion};
-use crate::scalar::Real;
-use crate::solutions::mean::MeanOrder;
+use crate::solutions::averaged::AveragingOrder;
 
 /// Functions of the state at one time, for any scalar. How the derivatives of the state are made is not their concern.
 pub trait StateFunction {
@@ -60,7 +60,7 @@ pub fn gradient(
     gradient_in_parts(plan, start, outputs, &in_parts)
 }
 
-/// As [`gradient`], at times that are sums of two doubles. The mean motion uses both: after 1e10 turns a double does not hold where in its
+/// As [`gradient`], at times that are sums of two doubles. The averaged motion uses both: after 1e10 turns a double does not hold where in its
 /// turn a body is. Other motions take the sum.
 ///
 /// # Errors
@@ -109,7 +109,7 @@ pub fn gradient_in_parts(
             write(row, index, seeded, &state_at(t)?);
         }
     }
-    if plan.method == Some(Method::Mean) {
+    if plan.method == Some(Method::Averaged) {
         // Derivatives take nearly equal eigenvalues for equal: values do not.
         found.values = values(plan, start, outputs, times)?;
     }
@@ -186,9 +186,9 @@ fn seeded_motion(plan: &Plan, problem: &Problem<Dual64>) -> Result<StateAt, Erro
         Some(Method::Free) => states(UniformMotion::free(problem, span)),
         Some(Method::Steady) => states(UniformMotion::steady(problem, span)?),
         Some(Method::Symmetric) => states(SymmetricMotion::new(problem, span)?),
-        Some(Method::Mean) => {
+        Some(Method::Averaged) => {
             let frame = principal_frame_along(problem.coefficients())?;
-            states(AveragedMotion::in_frame(problem, span, MeanOrder::Second, frame)?)
+            states(AveragedMotion::in_frame(problem, span, AveragingOrder::Second, frame)?)
         }
         _ if plan.state == State::Orientation => states(problem.taylor(span, plan.accuracy)?),
         _ => states(problem.reduced().taylor(span, plan.accuracy)?),
@@ -204,7 +204,7 @@ mod tests {
     use crate::lorentz_violation::PrincipalCoefficients;
     use crate::parameters::Parameter;
     use crate::plan::{Output, Request};
-    use crate::solutions::perturbation::Kind;
+    use crate::solutions::perturbation::Precession;
     use crate::solutions::steady::steady_precession_rate;
 
     /// The first of the components of `n`.
@@ -290,7 +290,7 @@ mod tests {
         let mut start = start([0.2, 0.2, -0.4]);
         let coefficients = PrincipalCoefficients::new([0.2, 0.2, -0.4]);
         let (spin, beta) = (1.5, start.angles.beta);
-        let rate = steady_precession_rate(Kind::Twofold, &start.spheroid, &coefficients, spin, beta).unwrap();
+        let rate = steady_precession_rate(Precession::Twofold, &start.spheroid, &coefficients, spin, beta).unwrap();
         let rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
         start = Parameters::new(start.spheroid, start.violation, start.angles, rates);
         let request =
@@ -315,11 +315,11 @@ mod tests {
         }
     }
 
-    /// Derivatives of the mean motion take eigenvalues for equal that are nearly so.
+    /// Derivatives of the averaged motion take eigenvalues for equal that are nearly so.
     #[test]
     fn values_of_the_mean_motion_are_those_without_derivatives() {
         let start = start([2e-6, -1e-6 + 1.2e-14, -1e-6 - 1.2e-14]);
-        let with_derivatives = plan(&start, Method::Mean, (0.0, 1e6), 1e-2);
+        let with_derivatives = plan(&start, Method::Averaged, (0.0, 1e6), 1e-2);
         let without = Plan { derivatives: Vec::new(), ..with_derivatives.clone() };
         let values = |plan: &Plan| gradient(plan, &start, &Components(3), &[3e5, 1e6]).unwrap().values;
         assert_eq!(values(&with_derivatives), values(&without));

@@ -11,8 +11,8 @@ pub enum Method {
     Steady,
     /// Elliptic functions for two equal eigenvalues of `s^IJ`.
     Symmetric,
-    /// The mean motion to second order in `s^IJ`, for bodies that turn fast against the torque.
-    Mean,
+    /// The averaged motion to second order in `s^IJ`, for bodies that turn fast against the torque.
+    Averaged,
     /// A splitting scheme and a step that suit the accuracy.
     Splitting,
     /// Taylor series with adaptive steps and dense output.
@@ -21,7 +21,8 @@ pub enum Method {
 
 impl Method {
     /// Every method, in the order in which plans list them.
-    pub const ALL: [Self; 6] = [Self::Free, Self::Steady, Self::Symmetric, Self::Mean, Self::Splitting, Self::Taylor];
+    pub const ALL: [Self; 6] =
+        [Self::Free, Self::Steady, Self::Symmetric, Self::Averaged, Self::Splitting, Self::Taylor];
 
     /// Name for files and commands.
     pub fn name(self) -> &'static str {
@@ -29,7 +30,7 @@ impl Method {
             Self::Free => "free",
             Self::Steady => "steady",
             Self::Symmetric => "symmetric",
-            Self::Mean => "mean",
+            Self::Averaged => "averaged",
             Self::Splitting => "splitting",
             Self::Taylor => "taylor",
         }
@@ -41,7 +42,7 @@ impl Method {
             Self::Free => "free rotation in closed form",
             Self::Steady => "steady precession in closed form",
             Self::Symmetric => "elliptic functions for two equal eigenvalues of s^IJ",
-            Self::Mean => "mean motion to second order in s^IJ",
+            Self::Averaged => "averaged motion to second order in s^IJ",
             Self::Splitting => "splitting into exact rotations and kicks",
             Self::Taylor => "Taylor series with adaptive steps and dense output",
         }

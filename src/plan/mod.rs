@@ -17,7 +17,7 @@
 //! use twofold::euler_angles::{EulerAngles, EulerRates};
 //! use twofold::parameters::{Parameter, Parameters};
 //! use twofold::plan::{Output, Request, StateFunction, gradient, gradient_in_parts};
-//! use twofold::scalar::Real;
+//! use twofold::numerics::scalar::Real;
 //!
 //! struct Height;
 //! impl StateFunction for Height {

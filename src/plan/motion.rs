@@ -7,7 +7,7 @@ use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationStat
 use crate::error::Error;
 use crate::propagation::splitting::SplittingMotion;
 use crate::propagation::{AveragedMotion, Motion, Projection, SymmetricMotion, TaylorMotion, UniformMotion};
-use crate::solutions::mean::MeanOrder;
+use crate::solutions::averaged::AveragingOrder;
 
 /// A motion by any method, with the states of its problem.
 #[derive(Debug, Clone)]
@@ -17,8 +17,8 @@ pub enum PlannedMotion<X = BodyState<f64>> {
     Uniform(UniformMotion<f64>),
     /// [`Method::Symmetric`].
     Symmetric(SymmetricMotion<f64>),
-    /// [`Method::Mean`].
-    Mean(AveragedMotion<f64>),
+    /// [`Method::Averaged`].
+    Averaged(AveragedMotion<f64>),
     /// [`Method::Splitting`].
     Splitting(SplittingMotion<X>),
     /// [`Method::Taylor`].
@@ -66,7 +66,7 @@ impl<X: RotationState<f64>> PlannedMotion<X> {
             Method::Free => Self::Uniform(UniformMotion::free(problem, span)),
             Method::Steady => Self::Uniform(UniformMotion::steady(problem, span)?),
             Method::Symmetric => Self::Symmetric(SymmetricMotion::new(problem, span)?),
-            Method::Mean => Self::Mean(AveragedMotion::new(problem, span, MeanOrder::Second)?),
+            Method::Averaged => Self::Averaged(AveragedMotion::new(problem, span, AveragingOrder::Second)?),
             Method::Splitting => Self::Splitting(problem.carrying().splitting(span, accuracy)?),
             Method::Taylor => Self::Taylor(problem.carrying().taylor(span, accuracy)?),
         })
@@ -75,7 +75,7 @@ impl<X: RotationState<f64>> PlannedMotion<X> {
     /// Steps and right-hand sides that it took.
     pub fn work(&self) -> Work {
         match self {
-            Self::Uniform(_) | Self::Symmetric(_) | Self::Mean(_) => Work::default(),
+            Self::Uniform(_) | Self::Symmetric(_) | Self::Averaged(_) => Work::default(),
             Self::Splitting(motion) => Work::of_series(motion.step_count() as usize, 2 * motion.scheme().stages()),
             Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
         }
@@ -88,7 +88,7 @@ macro_rules! by_any {
         match $planned {
             PlannedMotion::Uniform($motion) => $work,
             PlannedMotion::Symmetric($motion) => $work,
-            PlannedMotion::Mean($motion) => $work,
+            PlannedMotion::Averaged($motion) => $work,
             PlannedMotion::Splitting($motion) => $work,
             PlannedMotion::Taylor($motion) => $work,
         }
@@ -125,7 +125,7 @@ impl<X: RotationState<f64>> Motion<f64> for PlannedMotion<X> {
 
     fn state_in_parts(&self, t: [f64; 2]) -> Result<X, Error> {
         match self {
-            Self::Mean(motion) => Ok(X::from_vectors(motion.state_in_parts(t)?.vectors())),
+            Self::Averaged(motion) => Ok(X::from_vectors(motion.state_in_parts(t)?.vectors())),
             _ => self.state(t[0] + t[1]),
         }
     }
@@ -188,7 +188,7 @@ mod tests {
         let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
         let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
         let problem = Problem::from_angles(RigidSpheroid::in_units_of_tc(1.1), s, &angles, &rates).unwrap();
-        for method in [Method::Free, Method::Mean, Method::Splitting, Method::Taylor] {
+        for method in [Method::Free, Method::Averaged, Method::Splitting, Method::Taylor] {
             let motion = problem.motion_by(method, (0.0, 10.0), 1e-9).unwrap();
             let (parts, sum) = (motion.state_in_parts([5.0, 0.375]).unwrap(), motion.state(5.375).unwrap());
             assert!((parts.axis - sum.axis).amax() < 1e-14, "{method:?}");

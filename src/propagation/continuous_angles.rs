@@ -4,12 +4,12 @@ use core::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use crate::dynamics::regular_equations::{angular_velocity, reduced_rates};
+use crate::dynamics::equations_of_motion::{angular_velocity, reduced_rates};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::euler_angles::EulerAngles;
+use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::Motion;
-use crate::scalar::{Real, real_part};
 
 /// Largest rotation (rad) of which the turns are counted in one call; it takes minutes.
 pub const MOST_COUNTED: f64 = 1e9;
@@ -54,10 +54,10 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
         let rotation = self.rotation(&from, target - from_time);
         let is_finite = |state: &BodyState<f64>, time: f64| {
             let allowed = "a time at which every component is finite";
-            Error::unless(finite(state), "state of the motion at time t", time, allowed)
+            Error::ensure(finite(state), "state of the motion at time t", time, allowed)
         };
         is_finite(&from, from_time)?;
-        Error::unless(
+        Error::ensure(
             rotation <= MOST_COUNTED,
             "rotation (rad)",
             rotation,
@@ -67,7 +67,7 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
         let (mut pieces, most) = (0.0, LEAST_PIECES + PIECES_PER_RADIAN * rotation);
         while let Some((to_time, to)) = ends.pop() {
             pieces += 1.0;
-            Error::unless(
+            Error::ensure(
                 pieces <= most,
                 "number of pieces in which turns are counted",
                 pieces,

@@ -6,16 +6,16 @@ use crate::propagation::ACCURACY_RANGE;
 /// Refuses an accuracy out of range and a span that is not finite.
 pub(crate) fn check_request(span: (f64, f64), accuracy: f64) -> Result<(), Error> {
     let (least, most) = ACCURACY_RANGE;
-    Error::unless(least <= accuracy && accuracy <= most, "accuracy", accuracy, "between 1e-16 and 1e-2")?;
+    Error::ensure(least <= accuracy && accuracy <= most, "accuracy", accuracy, "between 1e-16 and 1e-2")?;
     for time in [span.0, span.1] {
-        Error::unless(time.is_finite(), "end of the time span", time, "a finite number")?;
+        Error::ensure(time.is_finite(), "end of the time span", time, "a finite number")?;
     }
     Ok(())
 }
 
 /// Refuses a time outside the span of a motion, whose ends may be in either order.
 pub(crate) fn check_time((first, last): (f64, f64), t: f64) -> Result<(), Error> {
-    Error::unless(
+    Error::ensure(
         first.min(last) <= t && t <= first.max(last),
         "time t",
         t,

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use crate::dynamics::{AxisState, Problem, RigidSpheroid};
 use crate::error::Error;
 #[cfg(target_arch = "x86_64")]
-use crate::propagation::registers::Register;
+use crate::numerics::registers::Register;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::splitting::lanes::{Ready, propagate_in_lanes};
 #[cfg(target_arch = "x86_64")]

@@ -20,16 +20,11 @@
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
-mod arithmetic;
 mod closed;
 mod continuous_angles;
-#[cfg_attr(not(target_arch = "x86_64"), path = "unfused.rs")]
-mod fused;
 mod input;
 mod many;
 mod motion;
-#[cfg(target_arch = "x86_64")]
-pub(crate) mod registers;
 pub mod splitting;
 mod taylor;
 mod third_angle;
@@ -40,7 +35,7 @@ pub use continuous_angles::{ContinuousAngles, MOST_COUNTED};
 pub(crate) use input::check_time;
 pub use many::{AxisScene, SampledProblem, axis_states_of_many, states_of_many};
 pub use motion::{Motion, Projection};
-pub(crate) use taylor::projected_by_stretches;
+pub(crate) use taylor::projected_by_segments;
 pub use taylor::{
     ACCURACY_RANGE, ErrorEstimates, STEP_LIMIT, Samples, TaylorForecast, TaylorMotion, axis_states_at, propagate,
     propagate_axis, states_at, taylor_forecast,

@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{AxisState, RigidSpheroid, RotationState};
 use crate::error::Error;
+use crate::numerics::scalar::Scalar;
 use crate::propagation::Turning;
-use crate::scalar::Scalar;
 
 /// The motion of one spheroid over a span of time. Observables take a motion and never know the method behind it; those that need the
 /// orientation ask for `Motion<f64, State = BodyState<f64>>`.

@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 
 use crate::dynamics::{BodyState, RigidSpheroid};
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// Rate at which `e_x` turns about `n` against a vector that turns with `L / I^xx`, as `n` does: `-epsilon Omega^z`, from
 /// `Omega = L / I^xx - epsilon Omega^z n`. Constant, since `Omega^z = L.n / I^zz` is.

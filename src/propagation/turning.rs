@@ -44,7 +44,7 @@ use crate::error::Error;
 /// # Ok::<(), twofold::Error>(())
 /// ```
 pub enum Turning<'m> {
-    /// The equations of motion of this package, [`body_state_rates`](crate::dynamics::regular_equations::body_state_rates), with the
+    /// The equations of motion of this package, [`body_state_rates`](crate::dynamics::equations_of_motion::body_state_rates), with the
     /// spheroid, the tensor and the states of the motion.
     Equations,
     /// Another law, as of a star with a torque of its own.

@@ -27,7 +27,7 @@ use nalgebra::Vector3;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::euler_angles::EulerRates;
-use crate::scalar::{Real, length};
+use crate::numerics::scalar::{Real, length};
 
 /// Euler rates of free precession about `Z`, Eq. (48) `[angfreqfre]`: `a' = I^zz Omega^z / (I^xx cos b)`, `b' = 0`,
 /// `g' = -epsilon Omega^z`.
@@ -37,7 +37,7 @@ use crate::scalar::{Real, length};
 /// component to fix the rate.
 pub fn free_precession_rates<S: Real>(spheroid: &RigidSpheroid<S>, spin: S, beta: S) -> Result<EulerRates<S>, Error> {
     let (_, cb) = beta.sin_cos();
-    Error::unless(
+    Error::ensure(
         cb.re().abs() > f64::EPSILON,
         "cosine of the inclination, cos beta",
         cb.re(),

@@ -1,7 +1,7 @@
 //! Solutions in closed form, exact and perturbative. Eqs. (26)-(34), (48), (57).
 
+pub mod averaged;
 pub mod free;
-pub mod mean;
 pub mod perturbation;
 pub mod steady;
 pub mod symmetric;

@@ -11,22 +11,22 @@
 //! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
 //! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
 //! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! use twofold::solutions::perturbation::Kind;
+//! use twofold::solutions::perturbation::Precession;
 //! use twofold::solutions::steady::steady_precession_rate;
 //!
 //! // Without Lorentz violation the two roots are free precession and rest.
 //! let none = PrincipalCoefficients::new([0.0; 3]);
 //! let rate = |kind| steady_precession_rate(kind, &star, &none, 1.0, 0.7_f64);
-//! assert!((rate(Kind::Twofold)? - 1.1 / 0.7_f64.cos()).abs() < 1e-14);
-//! assert_eq!(rate(Kind::Single)?, 0.0);
+//! assert!((rate(Precession::Twofold)? - 1.1 / 0.7_f64.cos()).abs() < 1e-14);
+//! assert_eq!(rate(Precession::Single)?, 0.0);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
 use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
-use crate::scalar::Real;
-use crate::solutions::perturbation::Kind;
+use crate::numerics::scalar::Real;
+use crate::solutions::perturbation::Precession;
 
 /// Rate `a'` of exact steady precession at constant `beta`, Eq. (26) `[sol1]` with `s^ZZ` read as `s^ZZ - s^XX` for
 /// `s^XX = s^YY`:
@@ -35,7 +35,7 @@ use crate::solutions::perturbation::Kind;
 /// a' = [ I^zz Omega^z +- sqrt((I^zz Omega^z)^2 - 8 (s^ZZ - s^XX) C I^xx cos^2 b) ] / (2 I^xx cos b)
 /// ```
 ///
-/// [`Kind::Twofold`] is the root that becomes free precession as `s -> 0`, [`Kind::Single`] the one that becomes a
+/// [`Precession::Twofold`] is the root that becomes free precession as `s -> 0`, [`Precession::Single`] the one that becomes a
 /// stationary spin: the upper and lower sign for positive spin. The smaller root comes from the product of the two, so that
 /// none loses digits however small `s` is.
 ///
@@ -45,19 +45,19 @@ use crate::solutions::perturbation::Kind;
 /// [`Error::Domain`] if `s^XX != s^YY` (no steady precession exists), if the root is not real, and for the twofold root
 /// where `|cos beta|` is not above 2.2e-16 or both the spin and the root vanish.
 pub fn steady_precession_rate<S: Real>(
-    kind: Kind,
+    kind: Precession,
     spheroid: &RigidSpheroid<S>,
     s: &PrincipalCoefficients<S>,
     spin: S,
     beta: S,
 ) -> Result<S, Error> {
     let asymmetry = s.asymmetry().re();
-    Error::unless(asymmetry == 0.0, "s^XX - s^YY", asymmetry, "zero: Eq. (26) holds for s symmetric about Z")?;
+    Error::ensure(asymmetry == 0.0, "s^XX - s^YY", asymmetry, "zero: Eq. (26) holds for s symmetric about Z")?;
     let (_, cb) = beta.sin_cos();
     let momentum = spheroid.inertia_zz * spin;
     let well = (s.zz - s.xx) * spheroid.constant_c * spheroid.inertia_xx * cb * cb * 8.0;
     let radicand = momentum * momentum - well;
-    Error::unless(
+    Error::ensure(
         radicand.re() >= 0.0,
         "(I^zz Omega^z)^2 - 8 (s^ZZ - s^XX) C I^xx cos^2 beta",
         radicand.re(),
@@ -66,8 +66,8 @@ pub fn steady_precession_rate<S: Real>(
     let root = if radicand.re() == 0.0 { S::zero() } else { radicand.sqrt() };
     let larger = (if momentum.re() < 0.0 { momentum - root } else { momentum + root }) / 2.0;
     match kind {
-        Kind::Twofold => {
-            Error::unless(
+        Precession::Twofold => {
+            Error::ensure(
                 cb.re().abs() > f64::EPSILON,
                 "cosine of the inclination, cos beta",
                 cb.re(),
@@ -75,8 +75,8 @@ pub fn steady_precession_rate<S: Real>(
             )?;
             Ok(larger / (spheroid.inertia_xx * cb))
         }
-        Kind::Single => {
-            Error::unless(
+        Precession::Single => {
+            Error::ensure(
                 larger.re() != 0.0,
                 "I^zz Omega^z",
                 momentum.re(),

@@ -14,7 +14,7 @@
 
 use core::f64::consts::PI;
 
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 use crate::units::si;
 
 /// Coefficient of Eq. (20) `[epf]` as printed, in place of [`centrifugal_coefficient`].

@@ -20,9 +20,9 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use crate::elliptic::carlson;
 use crate::error::Error;
-use crate::scalar::Real;
+use crate::numerics::elliptic::carlson;
+use crate::numerics::scalar::Real;
 
 /// Ellipsoid `x^2 / a1^2 + y^2 / a2^2 + z^2 / a3^2 = 1` of uniform density. Units with G = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +39,7 @@ impl<S: Real> UniformEllipsoid<S> {
     pub fn new(semi_axes: Vector3<S>, density: S) -> Result<Self, Error> {
         let named = semi_axes.iter().map(|a| (a.re(), "semi-axis")).chain([(density.re(), "density rho")]);
         for (value, quantity) in named {
-            Error::unless(value > 0.0 && value.is_finite(), quantity, value, "positive and finite")?;
+            Error::ensure(value > 0.0 && value.is_finite(), quantity, value, "positive and finite")?;
         }
         Ok(Self { semi_axes, density })
     }

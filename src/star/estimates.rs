@@ -19,7 +19,7 @@
 use core::f64::consts::PI;
 
 use crate::error::Error;
-use crate::scalar::Real;
+use crate::numerics::scalar::Real;
 use crate::units::TimeUnit;
 
 /// Estimate `I^zz / C ~ 15 / (4 pi rho eps)`, Eq. (43) [time^2].

@@ -15,7 +15,7 @@
 use core::f64::consts::PI;
 
 use crate::error::Error;
-use crate::scalar::Real;
+use crate::numerics::scalar::Real;
 use crate::star::AxisymmetricTensor;
 use crate::star::potential_coefficients::potential_coefficients;
 use crate::star::uniform_spheroid::UniformSpheroid;
@@ -33,7 +33,7 @@ impl<S: Real> MaclaurinSpheroid<S> {
     /// [`Error::Domain`] for a prolate spheroid: Eq. (77) would ask for `|Omega|^2 < 0`.
     pub fn new(spheroid: UniformSpheroid<S>) -> Result<Self, Error> {
         let e2 = spheroid.shape().eccentricity_squared().re();
-        Error::unless(e2 >= 0.0, "squared eccentricity e^2", e2, "not negative: no equilibrium is prolate")?;
+        Error::ensure(e2 >= 0.0, "squared eccentricity e^2", e2, "not negative: no equilibrium is prolate")?;
         Ok(Self { spheroid })
     }
 

@@ -36,8 +36,8 @@
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
-use crate::rounding::{two_product, two_sum};
-use crate::scalar::Real;
+use crate::numerics::rounding::{two_product, two_sum};
+use crate::numerics::scalar::Real;
 use crate::star::spheroid_shape::SpheroidShape;
 
 /// Below this `|e^2|` the series in `e^2` is summed: the first term left out is 2e-22 of the sum, and still 1e-16 of it

@@ -18,8 +18,8 @@
 //! ```
 
 use crate::error::Error;
-use crate::rounding::{two_product, two_sum};
-use crate::scalar::Real;
+use crate::numerics::rounding::{two_product, two_sum};
+use crate::numerics::scalar::Real;
 
 /// Shape of the spheroid `(x^2 + y^2) / a1^2 + z^2 / a3^2 = 1`, Eq. (10) `[spheroid]`: oblate, spherical or prolate.
 ///
@@ -41,7 +41,7 @@ impl<S: Real> SpheroidShape<S> {
     /// # Errors
     /// [`Error::Domain`] unless `0 <= e < 1`.
     pub fn from_eccentricity(e: S) -> Result<Self, Error> {
-        Error::unless((0.0..1.0).contains(&e.re()), "eccentricity e", e.re(), "0 <= e < 1")?;
+        Error::ensure((0.0..1.0).contains(&e.re()), "eccentricity e", e.re(), "0 <= e < 1")?;
         let (e2, e2_lost) = two_product(e, e);
         let (q2, q2_lost) = one_minus(e2, e2_lost);
         Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost: (q2_lost, e2_lost) })
@@ -52,7 +52,7 @@ impl<S: Real> SpheroidShape<S> {
     /// # Errors
     /// [`Error::Domain`] unless `-1e200 <= e^2 < 1`.
     pub fn from_eccentricity_squared(e2: S) -> Result<Self, Error> {
-        Error::unless((-1e200..1.0).contains(&e2.re()), "squared eccentricity e^2", e2.re(), "-1e200 <= e^2 < 1")?;
+        Error::ensure((-1e200..1.0).contains(&e2.re()), "squared eccentricity e^2", e2.re(), "-1e200 <= e^2 < 1")?;
         let (q2, lost) = one_minus(e2, S::zero());
         Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost: (lost, S::zero()) })
     }
@@ -63,7 +63,7 @@ impl<S: Real> SpheroidShape<S> {
     /// [`Error::Domain`] unless `1e-100 <= q <= 1e100`.
     pub fn from_axis_ratio(q: S) -> Result<Self, Error> {
         let allowed = "1e-100 to 1e100, so that no power of it over- or underflows";
-        Error::unless((1e-100..=1e100).contains(&q.re()), "axis ratio a3 / a1", q.re(), allowed)?;
+        Error::ensure((1e-100..=1e100).contains(&q.re()), "axis ratio a3 / a1", q.re(), allowed)?;
         let (q2, q2_lost) = two_product(q, q);
         let (e2, e2_lost) = one_minus(q2, q2_lost);
         Ok(Self { axis_ratio: q, axis_ratio_squared: q2, eccentricity_squared: e2, lost: (q2_lost, e2_lost) })
@@ -75,7 +75,7 @@ impl<S: Real> SpheroidShape<S> {
     /// [`Error::Domain`] unless both are positive and finite and their ratio is between 1e-100 and 1e100.
     pub fn from_semi_axes(a1: S, a3: S) -> Result<Self, Error> {
         for (a, name) in [(a1.re(), "equatorial semi-axis a1"), (a3.re(), "polar semi-axis a3")] {
-            Error::unless(a > 0.0 && a.is_finite(), name, a, "positive and finite")?;
+            Error::ensure(a > 0.0 && a.is_finite(), name, a, "positive and finite")?;
         }
         let shape = Self::from_axis_ratio(a3 / a1)?;
         // a1 - a3 is exact for axes within a factor of two.
@@ -88,7 +88,7 @@ impl<S: Real> SpheroidShape<S> {
     /// # Errors
     /// [`Error::Domain`] unless `-1 < epsilon < 1`.
     pub fn from_oblateness(epsilon: S) -> Result<Self, Error> {
-        Error::unless(epsilon.re().abs() < 1.0, "oblateness epsilon", epsilon.re(), "-1 < epsilon < 1")?;
+        Error::ensure(epsilon.re().abs() < 1.0, "oblateness epsilon", epsilon.re(), "-1 < epsilon < 1")?;
         let q2 = (S::one() - epsilon) / (S::one() + epsilon);
         let e2 = epsilon * 2.0 / (S::one() + epsilon);
         let lost = (S::zero(), S::zero());

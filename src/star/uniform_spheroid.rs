@@ -20,8 +20,8 @@
 use core::f64::consts::PI;
 
 use crate::error::Error;
-use crate::rounding::two_product;
-use crate::scalar::Real;
+use crate::numerics::rounding::two_product;
+use crate::numerics::scalar::Real;
 use crate::star::AxisymmetricTensor;
 use crate::star::potential_coefficients::{potential_coefficients, reduced_difference};
 use crate::star::spheroid_shape::SpheroidShape;
@@ -158,7 +158,7 @@ impl<S: Real> UniformSpheroid<S> {
     /// [`Error::Domain`] for the sphere, where `C = 0`.
     pub fn polar_inertia_over_c(&self) -> Result<S, Error> {
         let ratio = self.c_over_polar_inertia();
-        Error::unless(ratio.re() != 0.0, "C / I^zz", ratio.re(), "not zero: a sphere has no anisotropic energy")?;
+        Error::ensure(ratio.re() != 0.0, "C / I^zz", ratio.re(), "not zero: a sphere has no anisotropic energy")?;
         Ok(S::one() / ratio)
     }
 
@@ -172,7 +172,7 @@ impl<S: Real> UniformSpheroid<S> {
 }
 
 fn positive(value: f64, quantity: &'static str) -> Result<(), Error> {
-    Error::unless(value > 0.0 && value.is_finite(), quantity, value, "positive and finite")
+    Error::ensure(value > 0.0 && value.is_finite(), quantity, value, "positive and finite")
 }
 
 /// Of a number above zero. The exponential has the rounding of its argument, a hundred ulp for `x = 1e90`; Newton's step takes it away.

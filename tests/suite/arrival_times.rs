@@ -11,7 +11,7 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, PulsarClock, SpinFit, propagated_pulse_train, pulse_train};
 use twofold::propagation::propagate;
-use twofold::solutions::mean::MeanOrder;
+use twofold::solutions::averaged::AveragingOrder;
 
 /// The phase `3.25 + 2 t + 0.05 t^2` at whole numbers from 30 on: far from the time zero, and far from a straight line.
 fn of_a_parabola() -> Vec<(i64, [f64; 2])> {
@@ -119,7 +119,7 @@ fn the_error_of_a_clock_is_that_of_its_motion_over_the_rate_of_turns() -> Result
         &state,
         &Beam::new(1.2, 0.0, 0.6),
         &Observer::at(0.8, 0.0),
-        MeanOrder::Second,
+        AveragingOrder::Second,
     )?;
     let truncation = clock.truncation(40.0);
     assert!(truncation > 0.0);
@@ -135,7 +135,7 @@ fn a_clock_refuses_a_beam_that_may_go_round_either() -> Result<(), Error> {
     let [beside, off] = [wobble, wobble + 0.1].map(|chi| Beam::new(chi, 0.0, 0.6));
     let observer = Observer::at(0.8, 0.0);
     let clock = |s: &PrincipalCoefficients<f64>, beam: &Beam<f64>| {
-        PulsarClock::new(&star, &s.tensor(), &state, beam, &observer, MeanOrder::Second)
+        PulsarClock::new(&star, &s.tensor(), &state, beam, &observer, AveragingOrder::Second)
     };
     assert!(clock(&s, &beside).is_err());
     clock(&s, &off)?;

@@ -8,9 +8,9 @@ use twofold::Error;
 use twofold::dynamics::euler_angle_equations::AxisAngles;
 use twofold::dynamics::torque::{torque_from_gradient, torque_from_gradient_off_pole};
 use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, euler_rates};
 use twofold::lorentz_violation::{PrincipalCoefficients, preferred_frame_parameter, principal_frame};
+use twofold::numerics::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::observables::Observer;
 use twofold::observables::bound::{
     SpinAxisDrift, eta_from_inclination, lambda_change, preferred_frame_bound, zeta_change,
@@ -18,10 +18,10 @@ use twofold::observables::bound::{
 use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::pulsar::{Beam, PulsarClock, arrivals, propagated_pulse_train, pulse_train};
 use twofold::propagation::{ContinuousAngles, Motion, UniformMotion, propagate};
+use twofold::solutions::averaged::AveragingOrder;
 use twofold::solutions::free::{free_precession_rates, free_rotation};
-use twofold::solutions::mean::MeanOrder;
 use twofold::solutions::perturbation::{
-    Constants, Form, Kind, Perturbation, constants_from_initial_values, shifted_rates,
+    Constants, Form, Perturbation, Precession, constants_from_initial_values, shifted_rates,
 };
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::solutions::symmetric::SymmetricSolution;
@@ -68,47 +68,55 @@ fn poles_are_reported() {
 fn perturbation_solutions_know_where_they_hold() {
     let constants = |beta_0| Constants { alpha_0: 0.1, beta_0, amplitude: 0.01, phase: 0.2 };
     let printed = |kind, s, spin, beta_0| Perturbation::new(Form::Printed, kind, &star(), &s, spin, &constants(beta_0));
-    refused(printed(Kind::Single, S, 1.0, 0.0), "sin beta_0");
-    refused(printed(Kind::Twofold, S, 1.0, FRAC_PI_2), "cos beta_0");
-    refused(printed(Kind::Twofold, S, 0.0, 0.7), "spin");
-    refused(Perturbation::new(Form::Corrected, Kind::Twofold, &star(), &S, 1.0, &constants(FRAC_PI_2)), "cos beta_0");
+    refused(printed(Precession::Single, S, 1.0, 0.0), "sin beta_0");
+    refused(printed(Precession::Twofold, S, 1.0, FRAC_PI_2), "cos beta_0");
+    refused(printed(Precession::Twofold, S, 0.0, 0.7), "spin");
+    refused(
+        Perturbation::new(Form::Corrected, Precession::Twofold, &star(), &S, 1.0, &constants(FRAC_PI_2)),
+        "cos beta_0",
+    );
     refused(shifted_rates(&star(), &S, 0.0, 0.7), "spin");
     // 2 s^ZZ - s^XX - s^YY vanishes up to the rounding of 0.015.
     let balanced = PrincipalCoefficients { xx: 0.02, yy: 0.01, zz: 0.015 };
-    refused(printed(Kind::Single, balanced, 1.0, 0.7), "precession rate");
-    refused(printed(Kind::Single, balanced, 1e-3, 0.7), "precession rate");
-    refused(printed(Kind::Single, PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: 0.0 }, 1.0, 0.7), "precession rate");
-    assert!(printed(Kind::Twofold, balanced, 1.0, 0.7).is_ok());
+    refused(printed(Precession::Single, balanced, 1.0, 0.7), "precession rate");
+    refused(printed(Precession::Single, balanced, 1e-3, 0.7), "precession rate");
+    refused(
+        printed(Precession::Single, PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: 0.0 }, 1.0, 0.7),
+        "precession rate",
+    );
+    assert!(printed(Precession::Twofold, balanced, 1.0, 0.7).is_ok());
     let nearly = PrincipalCoefficients { zz: 0.015 + 1e-14, ..balanced };
-    assert!(printed(Kind::Single, nearly, 1.0, 0.7).is_ok());
+    assert!(printed(Precession::Single, nearly, 1.0, 0.7).is_ok());
     // Forced and free precession cancel: a^(1) = omega / cos beta_0 up to rounding.
     let zz = 1.21 * 0.01 / (2.0 * 0.7f64.cos().powi(2));
     let cancelling = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz };
-    refused(printed(Kind::Twofold, cancelling, 0.1, 0.7), "precession rate");
-    assert!(printed(Kind::Twofold, PrincipalCoefficients { zz: zz * (1.0 + 1e-14), ..cancelling }, 0.1, 0.7).is_ok());
-    refused(printed(Kind::Twofold, S, 1e-310, 0.7), "precession rate");
+    refused(printed(Precession::Twofold, cancelling, 0.1, 0.7), "precession rate");
+    assert!(
+        printed(Precession::Twofold, PrincipalCoefficients { zz: zz * (1.0 + 1e-14), ..cancelling }, 0.1, 0.7).is_ok()
+    );
+    refused(printed(Precession::Twofold, S, 1e-310, 0.7), "precession rate");
     let tiny = f64::EPSILON;
-    refused(printed(Kind::Single, S, 1.0, tiny), "sin beta_0");
-    assert!(printed(Kind::Single, S, 1.0, 2.0 * tiny).is_ok());
-    assert!(printed(Kind::Single, S, 1.0, 0.7).is_ok());
-    assert!(printed(Kind::Single, S.scaled(1e-200), 1.0, 0.7).is_ok());
+    refused(printed(Precession::Single, S, 1.0, tiny), "sin beta_0");
+    assert!(printed(Precession::Single, S, 1.0, 2.0 * tiny).is_ok());
+    assert!(printed(Precession::Single, S, 1.0, 0.7).is_ok());
+    assert!(printed(Precession::Single, S.scaled(1e-200), 1.0, 0.7).is_ok());
 }
 
 #[test]
 fn steady_precession_knows_where_it_exists() {
     let symmetric = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: 0.2 };
-    let rate = |s, spin, beta| steady_precession_rate(Kind::Single, &star(), &s, spin, beta);
+    let rate = |s, spin, beta| steady_precession_rate(Precession::Single, &star(), &s, spin, beta);
     refused(rate(S, 1.0, 0.7), "s^XX - s^YY");
     refused(rate(symmetric, 0.5, 0.1), "8 (s^ZZ - s^XX)");
-    refused(steady_precession_rate(Kind::Twofold, &star(), &symmetric, 1.0, FRAC_PI_2), "cos beta");
+    refused(steady_precession_rate(Precession::Twofold, &star(), &symmetric, 1.0, FRAC_PI_2), "cos beta");
     refused(rate(PrincipalCoefficients { xx: 0.1, yy: 0.1, zz: 0.1 }, 0.0, 0.7), "I^zz Omega^z");
     assert!(rate(symmetric, 3.0, 0.1).is_ok());
     refused(free_precession_rates(&star(), 1.0, FRAC_PI_2), "cos beta");
     // Without spin the two roots differ in sign only, and the twofold one is the upper.
     let pendulum = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: -0.2 };
     let spinless = |kind| steady_precession_rate(kind, &star(), &pendulum, 0.0, 0.7).expect("real roots");
-    assert!(spinless(Kind::Twofold) > 0.0);
-    assert_eq!(spinless(Kind::Single), -spinless(Kind::Twofold));
+    assert!(spinless(Precession::Twofold) > 0.0);
+    assert_eq!(spinless(Precession::Single), -spinless(Precession::Twofold));
 }
 
 #[test]
@@ -180,7 +188,7 @@ fn coefficients_scale_and_combine() {
 fn steady_rates_carry_the_derivatives_of_the_angles() {
     let lift = |x: f64| Dual64::from_re(x);
     let symmetric = PrincipalCoefficients { xx: 0.01, yy: 0.01, zz: -0.04 };
-    let rate = steady_precession_rate(Kind::Twofold, &star(), &symmetric, 1.0, 0.7).expect("a root");
+    let rate = steady_precession_rate(Precession::Twofold, &star(), &symmetric, 1.0, 0.7).expect("a root");
     let spheroid = RigidSpheroid::in_units_of_tc(lift(1.1));
     let s = PrincipalCoefficients { xx: lift(0.01), yy: lift(0.01), zz: lift(-0.04) };
     let angles = EulerAngles { alpha: lift(0.0), beta: lift(0.7), gamma: lift(0.0) };
@@ -276,8 +284,8 @@ fn pulses_are_searched_in_turns_that_can_be_counted() {
 fn a_clock_takes_finite_times_of_two_parts() {
     let start = BodyState { axis: Vector3::z(), momentum: Vector3::z() * 2.2, equatorial_axis: Vector3::x() };
     let (beam, observer) = (Beam::new(0.5, 0.0, 0.3), Observer::at(0.6, 0.0));
-    let mut clock =
-        PulsarClock::new(&star(), &Matrix3::zeros(), &start, &beam, &observer, MeanOrder::Second).expect("a clock");
+    let mut clock = PulsarClock::new(&star(), &Matrix3::zeros(), &start, &beam, &observer, AveragingOrder::Second)
+        .expect("a clock");
     let (endless, huge) = (f64::INFINITY, f64::MAX);
     for t in [[endless, 0.0], [0.0, endless], [huge, huge], [-huge, -huge], [1.0, f64::NAN], [endless, -endless]] {
         refused(clock.pulse_near(t), "time t");
@@ -295,7 +303,7 @@ fn a_clock_turns_about_its_momentum() {
         let needle = RigidSpheroid { inertia_xx: 1.0, inertia_zz, constant_c: 0.0 };
         let axis = Vector3::new(0.6, 0.0, 0.8);
         let start = BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() };
-        PulsarClock::new(&needle, &Matrix3::zeros(), &start, &beam, &observer, MeanOrder::Second)
+        PulsarClock::new(&needle, &Matrix3::zeros(), &start, &beam, &observer, AveragingOrder::Second)
     };
     assert!(clock(1e-4).is_ok());
     refused(clock(1e-5), "rotation (rad) of the body");
@@ -343,10 +351,10 @@ fn constants_have_amplitudes_of_both_parts() {
     let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.43, constant_c: 0.13 };
     let none = PrincipalCoefficients::new([0.0; 3]);
     let (spin, beta) = (-0.3, 0.7_f64);
-    let steady = steady_precession_rate(Kind::Twofold, &spheroid, &none, spin, beta).expect("a rate");
+    let steady = steady_precession_rate(Precession::Twofold, &spheroid, &none, spin, beta).expect("a rate");
     let of = |alpha_rate: f64, beta_rate: f64| {
         let initial = AxisAngles { alpha: 0.2, beta, alpha_rate, beta_rate };
-        constants_from_initial_values(Form::Printed, Kind::Twofold, &spheroid, &none, spin, &initial)
+        constants_from_initial_values(Form::Printed, Precession::Twofold, &spheroid, &none, spin, &initial)
             .expect("constants")
     };
     let nothing = of(steady, 0.0);
@@ -354,7 +362,7 @@ fn constants_have_amplitudes_of_both_parts() {
     for (alpha, beta_rate) in [(1e-3, 0.0), (0.0, 1e-3), (-1e-3, 2e-3)] {
         let found = of(steady + alpha, beta_rate);
         let solution =
-            Perturbation::new(Form::Printed, Kind::Twofold, &spheroid, &none, spin, &found).expect("a solution");
+            Perturbation::new(Form::Printed, Precession::Twofold, &spheroid, &none, spin, &found).expect("a solution");
         let at = solution.at(0.0);
         assert!((at.alpha - 0.2).abs() < 1e-12 && (at.beta - 0.7).abs() < 1e-12, "{found:?}");
         assert!(

@@ -1,11 +1,11 @@
-//! The parts of the mean motion against their definitions: theta functions by their series, the top by its equations of motion.
+//! The parts of the averaged motion against their definitions: theta functions by their series, the top by its equations of motion.
 
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use num_dual::{Dual64, DualNum};
-use twofold::elliptic::jacobi::{complete_integral, jacobi};
-use twofold::elliptic::theta::{Nome, ThetaSeries};
-use twofold::solutions::mean::Top;
+use twofold::numerics::elliptic::jacobi::{complete_integral, jacobi};
+use twofold::numerics::elliptic::theta::{Nome, ThetaSeries};
+use twofold::solutions::averaged::Top;
 
 /// `theta_1(z + i eta)` (real and imaginary part), `theta_4(z)` and its slope, term by term.
 fn theta(q: f64, z: f64, eta: f64) -> ([f64; 2], [f64; 2]) {

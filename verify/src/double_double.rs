@@ -8,7 +8,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use core::str::FromStr;
 
 use num_traits::Zero;
-use twofold::scalar::{Real, Scalar};
+use twofold::numerics::scalar::{Real, Scalar};
 use xprec::Df64;
 
 use crate::operators::complete_operators;

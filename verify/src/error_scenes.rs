@@ -6,10 +6,10 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::numerics::scalar::{Real, Scalar};
 use twofold::plan::{Method, PlannedMotion};
 use twofold::propagation::Motion;
-use twofold::scalar::{Real, Scalar};
-use twofold::solutions::perturbation::Kind;
+use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
 
 use crate::check::{largest, largest_component};
@@ -129,7 +129,7 @@ impl ErrorScene {
     }
 
     /// A scene like this one that a method is made for: [`Method::Symmetric`] takes a tensor symmetric about an axis, [`Method::Steady`] a
-    /// state that precesses steadily about it, [`Method::Mean`] a weaker torque. `None` where there is no such state.
+    /// state that precesses steadily about it, [`Method::Averaged`] a weaker torque. `None` where there is no such state.
     pub fn for_method(mut self, method: Method, seed: u64) -> Option<Self> {
         let random = &mut Random::with_seed(seed);
         let frame = random_frame(random);
@@ -144,7 +144,7 @@ impl ErrorScene {
                 let weaker = [0.0, 1e-12, 1e-6, 1.0][(random.word() % 4) as usize];
                 self.violation = self.violation * weaker + Matrix3::from_diagonal_element(equal);
             }
-            Method::Mean => {
+            Method::Averaged => {
                 let weakest =
                     self.initial.momentum.norm_squared() / (self.spheroid.inertia_xx * self.spheroid.constant_c.abs());
                 self.violation *= (10f64.powf(random.within(-8.0, -0.5)) * weakest / self.strength).min(1.0);
@@ -172,7 +172,7 @@ impl ErrorScene {
         let s = PrincipalCoefficients { xx: equal, yy: equal, zz: other };
         let spin = self.initial.momentum.norm() / self.spheroid.inertia_zz
             * if random.word().is_multiple_of(2) { 1.0 } else { -1.0 };
-        let kind = if random.word().is_multiple_of(2) { Kind::Single } else { Kind::Twofold };
+        let kind = if random.word().is_multiple_of(2) { Precession::Single } else { Precession::Twofold };
         let (alpha, beta, gamma) = (random.within(0.0, TAU), random.within(0.01, PI - 0.01), random.within(0.0, TAU));
         let rate = steady_precession_rate(kind, &self.spheroid, &s, spin, beta).ok()?;
         let rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };

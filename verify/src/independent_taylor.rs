@@ -1,7 +1,7 @@
 //! A Taylor integrator of its own for true errors: no code of the model, any number type, no dense output.
 
 use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::scalar::Real;
+use twofold::numerics::scalar::Real;
 
 type Vector<S> = [S; 3];
 

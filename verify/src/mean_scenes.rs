@@ -1,4 +1,4 @@
-//! Random fast rotations against a weak torque, over the whole domain of the mean motion, and its error beside its estimate.
+//! Random fast rotations against a weak torque, over the whole domain of the averaged motion, and its error beside its estimate.
 
 use core::f64::consts::TAU;
 
@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{Motion, propagate};
-use twofold::solutions::mean::{MeanMotion, MeanOrder};
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
 use twofold::{Error, Real};
 
 use crate::check::{largest, largest_component};
@@ -121,11 +121,11 @@ impl MeanScene {
         scene
     }
 
-    /// The mean motion over any scalar.
+    /// The averaged motion over any scalar.
     ///
     /// # Errors
     /// A motion that is refused.
-    pub fn motion<S: Real>(&self, order: MeanOrder) -> Result<MeanMotion<S>, Error> {
+    pub fn motion<S: Real>(&self, order: AveragingOrder) -> Result<AveragedSolution<S>, Error> {
         let lift = |v: &Vector3<f64>| v.map(S::from_f64);
         let spheroid = RigidSpheroid {
             inertia_xx: S::from_f64(self.spheroid.inertia_xx),
@@ -137,17 +137,17 @@ impl MeanScene {
             momentum: lift(&self.initial.momentum),
             equatorial_axis: lift(&self.initial.equatorial_axis),
         };
-        MeanMotion::new(&spheroid, &PrincipalCoefficients::new(lift(&self.s).into()), &initial, order)
+        AveragedSolution::new(&spheroid, &PrincipalCoefficients::new(lift(&self.s).into()), &initial, order)
     }
 
     /// True error over estimate of an order, at random times and the end. What the numerical motion may be off does not count.
     ///
     /// # Errors
     /// A motion that is refused.
-    pub fn estimate_seen(&self, order: MeanOrder, seed: u64) -> Result<EstimateSeen, Error> {
+    pub fn estimate_seen(&self, order: AveragingOrder, seed: u64) -> Result<EstimateSeen, Error> {
         let coefficients = PrincipalCoefficients::new(self.s.into());
         let exact = propagate(&self.spheroid, &coefficients.tensor(), &self.initial, (0.0, self.end), 1e-13)?;
-        let mean = MeanMotion::new(&self.spheroid, &coefficients, &self.initial, order)?;
+        let mean = AveragedSolution::new(&self.spheroid, &coefficients, &self.initial, order)?;
         let mut random = Random::with_seed(seed);
         let mut seen = EstimateSeen { worst: f64::NEG_INFINITY, at: [f64::NAN; 3] };
         for i in 0..12 {

@@ -6,7 +6,7 @@ use twofold::dynamics::euler_angle_equations::AxisAngles;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::{Constants, Form, Kind, initial_values};
+use twofold::solutions::perturbation::{Constants, Form, Precession, initial_values};
 
 /// `Omega^z` of all four examples [1/t_c].
 pub const SPIN: f64 = 1.0;
@@ -24,8 +24,8 @@ pub fn spheroid() -> RigidSpheroid<f64> {
 pub struct PaperExample {
     /// Name in the paper.
     pub name: &'static str,
-    /// Kind of precession.
-    pub kind: Kind,
+    /// Precession of precession.
+    pub kind: Precession,
     /// Constants of integration in Eq. (34).
     pub constants: Constants<f64>,
 }
@@ -60,9 +60,9 @@ pub fn paper_examples() -> [PaperExample; 4] {
         constants: Constants { alpha_0: FRAC_PI_2, beta_0, amplitude, phase: FRAC_PI_2 },
     };
     [
-        example("tp-I", Kind::Twofold, 0.7, 0.0),
-        example("tp-II", Kind::Twofold, 0.7, 0.4),
-        example("sp-I", Kind::Single, 0.7, 0.01),
-        example("sp-II", Kind::Single, 1.4, 0.01),
+        example("tp-I", Precession::Twofold, 0.7, 0.0),
+        example("tp-II", Precession::Twofold, 0.7, 0.4),
+        example("sp-I", Precession::Single, 0.7, 0.01),
+        example("sp-II", Precession::Single, 1.4, 0.01),
     ]
 }

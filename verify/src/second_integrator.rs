@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Vector3};
 use numeris::Vector;
 use numeris::ode::{AdaptiveSettings, RKAdaptive, RKV98, RKV98NoInterp};
+use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates};
 use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations};
-use twofold::dynamics::regular_equations::{body_state_rates, reduced_rates};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;

@@ -5,12 +5,12 @@ use std::hint::black_box;
 use nalgebra::{Matrix3, SVector};
 use num_dual::{Derivative, Dual, Dual2_64, Dual64, DualSVec64, HyperDual64};
 use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::numerics::scalar::Real;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, propagated_pulse_train, pulse_train};
 use twofold::parameters::{Parameter, Parameters};
 use twofold::plan::{Output, Plan, Request, StateFunction, gradient};
 use twofold::propagation::{AxisState, ErrorEstimates, Motion, axis_states_at, propagate, propagate_axis, states_at};
-use twofold::scalar::Real;
 
 use super::Effort;
 use super::method::{Carries, text};

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use numeris::Vector;
 use numeris::ode::{AdaptiveSettings, RKAdaptive, RKV98NoInterp};
 use twofold::dynamics::BodyState;
-use twofold::dynamics::regular_equations::{body_state_rates, reduced_rates};
+use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates};
 
 use super::method::End;
 use super::scene::BenchScene;

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::numerics::scalar::Scalar;
 use twofold::propagation::AxisState;
-use twofold::scalar::Scalar;
 
 use super::method::End;
 use twofold_verify::check::largest;

@@ -62,7 +62,7 @@ impl Measurement {
             return signal.events().map_err(refused);
         }
         note(
-            "a span of more than 1e5 rad of rotation: the pulses nearest to the samples of the scene, by the mean motion",
+            "a span of more than 1e5 rad of rotation: the pulses nearest to the samples of the scene, by the averaged motion",
         );
         signal.events_after(&self.sample_times()?).map_err(refused)
     }

@@ -103,7 +103,7 @@ enum Command {
     ///
     /// Writes SCENE.csv, SCENE.par and SCENE.tim (FORMAT 1, barycentre), and the strain at the beginning as SCENE.h_plus.txt and
     /// SCENE.h_cross.txt. Pulses are those nearest to the epochs asked for; without options, to the times of the scene. The motion is
-    /// the mean motion of second order (docs/mean-motion.md), the files are described in docs/pulsars.md.
+    /// the averaged motion of second order (docs/averaged-solution.md), the files are described in docs/pulsars.md.
     Timing(TimingArgs),
     /// Find the spectral lines of what a scene gives, name them by the fundamental frequencies of the motion, write them as CSV
     ///

@@ -2,7 +2,7 @@
 
 use twofold::Error;
 use twofold::dynamics::BodyState;
-use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};

@@ -87,7 +87,7 @@ fn caption(table: &Table) -> Caption {
             .to_owned(),
         parameters: "(*s*^{*XX*} − *s*^{*YY*}) / (2*s*^{*ZZ*} − *s*^{*XX*} − *s*^{*YY*}) = −1/11, that of the paper's examples; the size of *s* does not matter."
             .to_owned(),
-        method: "Mean motion of the spin axis, d**l**/d*t* = (2*C*/(*I*^{*zz*}*Ω*^{*z*})) (*s* **l**) × **l**; averages over time by elliptic integrals, those over \
+        method: "Averaged motion of the spin axis, d**l**/d*t* = (2*C*/(*I*^{*zz*}*Ω*^{*z*})) (*s* **l**) × **l**; averages over time by elliptic integrals, those over \
                  directions in closed form."
             .to_owned(),
         says: format!(

@@ -525,8 +525,8 @@ fn the_map_of_the_methods_is_its_tables() {
         ("near the separatrix", "near-separatrix"),
     ];
     let methods = [
-        ("mean motion, order 2", "mean second: error of n [rad]"),
-        ("mean motion, order 1", "mean first: error of n [rad]"),
+        ("averaged motion, order 2", "mean second: error of n [rad]"),
+        ("averaged motion, order 1", "mean first: error of n [rad]"),
         ("perturbation, corrected", "corrected: error of n [rad]"),
         ("perturbation, printed", "printed: error of n [rad]"),
     ];

@@ -19,8 +19,8 @@ const ASKED: [(f64, &str); 2] = [(1e-3, "10^{−3}"), (1e-6, "10^{−6}")];
 /// Methods from the last choice to the first, with their colours: viridis, so that they read in grey.
 const METHODS: [(&str, &str); 5] = [
     ("numerical motion", "#ffffff"),
-    ("mean motion, order 2", "#fde725"),
-    ("mean motion, order 1", "#5ec962"),
+    ("averaged motion, order 2", "#fde725"),
+    ("averaged motion, order 1", "#5ec962"),
     ("perturbation, corrected", "#21918c"),
     ("perturbation, printed", "#3b528b"),
 ];
@@ -159,7 +159,7 @@ fn legend(page: &mut Page, top: f64) {
 fn caption() -> Caption {
     Caption {
         shows: "The simplest solution whose axis **e**_{*z*} stays within 10^{−3} rad (upper row) and 10^{−6} rad (lower row) of the true one up to a time, by \
-                strength *x* = *C*(*s*_{max} − *s*_{min})*I*^{*xx*}/*L*^{2} of the torque: the printed or the corrected perturbation solution, the mean motion of first or second \
+                strength *x* = *C*(*s*_{max} − *s*_{min})*I*^{*xx*}/*L*^{2} of the torque: the printed or the corrected perturbation solution, the averaged motion of first or second \
                 order, or none of them. Lines: where each of them meets the error, also under a simpler one. Columns: motions like tp-I, tp-II and sp-I, \
                 and one near the separatrix (*k'*^{2} = 10^{−3})."
             .to_owned(),
@@ -169,7 +169,7 @@ fn caption() -> Caption {
         method: "Largest error so far at 150 times, against numerical motion by Taylor series at 10^{−13}, which meets either error everywhere here. Perturbation solutions from their \
                  own initial values."
             .to_owned(),
-        says: "The mean motion of first order is off by less than 3*x*^{2} + 1.5*x*^{2}*t*/*t*_{c}, that of second order by less than 3*x*^{2} + 5*x*^{3}*t*/*t*_{c}, whatever the tilt of *L*, near the \
+        says: "The averaged motion of first order is off by less than 3*x*^{2} + 1.5*x*^{2}*t*/*t*_{c}, that of second order by less than 3*x*^{2} + 5*x*^{3}*t*/*t*_{c}, whatever the tilt of *L*, near the \
                separatrix too. Where *L* is near *Z* the printed twofold solution is off by 0.01*x* soon, and like the corrected one by 2*x*^{2}*t*/*t*_{c} in the long run; where *L* is tilted, by *A* = 0.4, \
                neither is of use. The printed single solution drifts by 0.03*xt*/*t*_{c}, the corrected one by 0.002 to 0.006 of *xt*/*t*_{c}."
             .to_owned(),

@@ -1,7 +1,7 @@
 //! Error of the perturbation solutions over their parameters.
 
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::{Form, Kind};
+use twofold::solutions::perturbation::{Form, Precession};
 
 use super::axes::{Axis, BELOW, Mark, Panel, draw_mark};
 use super::contour::{bands, isoline};
@@ -46,7 +46,9 @@ struct Map {
 pub(super) fn sheet() -> Result<Sheet, String> {
     let twofold = |form, name: &str| {
         map(name, "A [1/t_c]", POWERS, |beta_0, amplitude| {
-            Case::paper(form, Kind::Twofold, SCALE, beta_0, amplitude).errors(DURATION, 64).map(|errors| errors.axis)
+            Case::paper(form, Precession::Twofold, SCALE, beta_0, amplitude)
+                .errors(DURATION, 64)
+                .map(|errors| errors.axis)
         })
     };
     let single = |form, name: &str| {
@@ -68,7 +70,7 @@ fn single_error(form: Form, beta_0: f64, asymmetry: f64) -> Result<f64, String> 
     let half = asymmetry * COMBINATION / 2.0;
     let s = PrincipalCoefficients::new([0.015 + half, 0.015 - half, -0.04]).scaled(SINGLE_SCALE);
     let amplitude = SINGLE_AMPLITUDE * SINGLE_SCALE;
-    Case { form, kind: Kind::Single, s, beta_0, amplitude }.axis_error_over_forced_period(256)
+    Case { form, kind: Precession::Single, s, beta_0, amplitude }.axis_error_over_forced_period(256)
 }
 
 fn map(

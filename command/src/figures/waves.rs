@@ -1,7 +1,7 @@
 //! `h_+` and `h_x` at the observer in time.
 
 use twofold::dynamics::BodyState;
-use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
 use twofold::units::si::KILOPARSEC;
 

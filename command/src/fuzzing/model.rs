@@ -5,11 +5,11 @@ use std::hint::black_box;
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::first_integrals::first_integrals;
 use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::elliptic::carlson::{rc, rd, rf, rj};
-use twofold::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::epoch::Epoch;
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame};
+use twofold::numerics::elliptic::carlson::{rc, rd, rf, rj};
+use twofold::numerics::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::observables::Observer;
 use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination, lambda_change, zeta_change};
 use twofold::observables::eta_distribution::EtaDistribution;
@@ -26,11 +26,11 @@ use twofold::propagation::{
     AveragedMotion, AxisScene, AxisState, ContinuousAngles, ErrorEstimates, Motion, SymmetricMotion, UniformMotion,
     axis_states_of_many, propagate, states_at, taylor_forecast,
 };
+use twofold::solutions::averaged::slow_precession::slow_precession;
+use twofold::solutions::averaged::{AveragingOrder, middle_axis_growth};
 use twofold::solutions::free::free_precession_rates;
-use twofold::solutions::mean::slow_precession::slow_precession;
-use twofold::solutions::mean::{MeanOrder, middle_axis_growth};
 use twofold::solutions::perturbation::{
-    Constants, Form, Kind, Perturbation, constants_from_initial_values, shifted_rates,
+    Constants, Form, Perturbation, Precession, constants_from_initial_values, shifted_rates,
 };
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::solutions::symmetric::SymmetricSolution;
@@ -187,7 +187,7 @@ fn closed(asked: &Asked) {
     if let Ok(motion) = SymmetricMotion::from_parts(body, tensor, state, *span) {
         look_within(&motion, asked);
     }
-    for order in [MeanOrder::First, MeanOrder::Second] {
+    for order in [AveragingOrder::First, AveragingOrder::Second] {
         if let Ok(motion) = AveragedMotion::from_parts(body, tensor, state, *span, order) {
             look_within(&motion, asked);
         }
@@ -231,7 +231,7 @@ fn pulses(asked: &Asked) {
 
 fn clock(asked: &Asked, time: f64) {
     let Asked { body, tensor, state, beam, observer, .. } = asked;
-    if let Ok(mut clock) = PulsarClock::new(body, tensor, state, beam, observer, MeanOrder::Second) {
+    if let Ok(mut clock) = PulsarClock::new(body, tensor, state, beam, observer, AveragingOrder::Second) {
         let _ = black_box((clock.period(), clock.truncation(time)));
         for time in [[0.0, 0.0], [time, 0.0], [time, time * 1e-17]] {
             let _ = black_box(clock.pulse_near(time));
@@ -244,7 +244,7 @@ fn solutions(asked: &Asked, time: f64) {
     let spin = rates.gamma;
     let _ = black_box((free_precession_rates(body, spin, angles.beta), shifted_rates(body, s, spin, angles.beta)));
     let constants = Constants { alpha_0: angles.alpha, beta_0: angles.beta, amplitude: rates.alpha, phase: rates.beta };
-    for kind in [Kind::Twofold, Kind::Single] {
+    for kind in [Precession::Twofold, Precession::Single] {
         let _ = black_box(steady_precession_rate(kind, body, s, spin, angles.beta));
         for form in [Form::Printed, Form::Corrected] {
             if let Ok(solution) = Perturbation::new(form, kind, body, s, spin, &constants) {
@@ -258,7 +258,7 @@ fn solutions(asked: &Asked, time: f64) {
         let _ = black_box((solution.angles(time), solution.rates(time), solution.period(), solution.mean_rates()));
     }
     let _ = black_box(slow_precession(body, s, &state.momentum, &state.axis));
-    let _ = black_box(middle_axis_growth(body, s, spin, angles.alpha, MeanOrder::Second));
+    let _ = black_box(middle_axis_growth(body, s, spin, angles.alpha, AveragingOrder::Second));
 }
 
 fn torus(asked: &Asked, bytes: &mut Bytes<'_>) {

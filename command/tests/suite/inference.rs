@@ -323,7 +323,7 @@ fn numbers_at_extremes_are_readable() {
     assert!(table.contains(" gamma                                 0 "), "{table}");
     for (spans, code, fragments) in [
         ("1e-300", Some(0), &["3 of 3 rows have no sigma", "longer spans and more epochs"][..]),
-        ("1e300", Some(2), &["--spans 1e300: what the mean motion leaves out", "e296: allowed is at most 1e-3"]),
+        ("1e300", Some(2), &["--spans 1e300: what the averaged motion leaves out", "e296: allowed is at most 1e-3"]),
     ] {
         let output = twofold(&["forecast", "tp-1", "--observe", "arrivals:1e-4", "--of", "s_axial", "--spans", spans]);
         let message = stderr(&output);

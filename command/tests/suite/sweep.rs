@@ -115,7 +115,7 @@ fn rows_are_computed_by_the_method_that_is_named() {
         )
     };
     let mut all = Vec::new();
-    for method in ["taylor", "splitting", "mean"] {
+    for method in ["taylor", "splitting", "averaged"] {
         let key = format!("method = \"{method}\"\n");
         written(folder.path(), "named.toml", &(scene.clone() + "\n[output]\n" + &key));
         let args =

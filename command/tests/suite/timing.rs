@@ -375,7 +375,7 @@ fn other_commands_take_a_pulsar_or_say_why_not() {
         "{twice} {once}"
     );
     let explained = twofold(&["run", "b1937+21", "--explain"]);
-    assert!(stdout(&explained).contains("mean motion to second order"), "{}", stdout(&explained));
+    assert!(stdout(&explained).contains("averaged motion to second order"), "{}", stdout(&explained));
     let pulses = twofold(&["pulses", "b1937+21"]);
     assert_eq!(pulses.status.code(), Some(2));
     assert!(stderr(&pulses).contains("`twofold timing` computes the pulses near given epochs"), "{}", stderr(&pulses));

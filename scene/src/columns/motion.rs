@@ -1,7 +1,7 @@
 //! Columns of the motion itself and of its perturbation solutions.
 
+use twofold::dynamics::equations_of_motion::euler_rates_of_axis;
 use twofold::dynamics::first_integrals::{clebsch_integral, energy, spin};
-use twofold::dynamics::regular_equations::euler_rates_of_axis;
 use twofold::plan::Output;
 use twofold::propagation::AxisState;
 

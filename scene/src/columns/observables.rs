@@ -1,7 +1,7 @@
 //! Columns of what an observer measures.
 
-use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
-use twofold::dynamics::regular_equations::angular_velocity;
+use twofold::dynamics::equations_of_motion::angular_velocity;
+use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations, strain_unit};
 use twofold::observables::pulsar::position_angle::{position_angle, position_angle_rate};
 use twofold::observables::spin_axis::{cos_lambda, cos_lambda_rate};

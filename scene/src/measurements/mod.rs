@@ -21,7 +21,7 @@ use crate::scene_file::Scene;
 pub fn parameters_of(scene: &Scene) -> Result<Parameters<f64>, Error> {
     let angles = scene.initial_angles;
     let sine = angles.beta.sin();
-    Error::unless(sine > 1e-6, "sin(beta) at the start", sine, "above 1e-6: on a pole angles are no parameters")?;
+    Error::ensure(sine > 1e-6, "sin(beta) at the start", sine, "above 1e-6: on a pole angles are no parameters")?;
     let rates = scene.initial.rates(&scene.spheroid)?;
     let mut parameters = Parameters::new(scene.spheroid, scene.violation, angles, rates).holding_spin();
     if let Some(pulsar) = scene.pulsar {

@@ -45,7 +45,7 @@ impl Pulsar {
         };
         let sine = (self.lambda.value * DEGREE).sin().abs();
         let allowed = "above 2.2e-16 in size: a motion across the line of sight is not seen";
-        Error::unless(sine > f64::EPSILON, "sine of the angle to the line of sight", sine, allowed)?;
+        Error::ensure(sine > f64::EPSILON, "sine of the angle to the line of sight", sine, allowed)?;
         Ok(Some(Directions { inclination, sine }))
     }
 

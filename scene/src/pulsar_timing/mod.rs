@@ -16,7 +16,7 @@ use twofold::epoch::{DAY, Epoch};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::strain_unit;
 use twofold::observables::pulsar::{Beam, ClockPulse, PulsarClock, SpinFit};
-use twofold::solutions::mean::MeanOrder;
+use twofold::solutions::averaged::AveragingOrder;
 
 use crate::scene_file::Scene;
 
@@ -54,7 +54,7 @@ impl PulsarScene {
     /// Of a scene.
     ///
     /// # Errors
-    /// A sentence about what the scene lacks, or why the mean motion does not hold for it.
+    /// A sentence about what the scene lacks, or why the averaged motion does not hold for it.
     pub fn new(scene: &Scene) -> Result<Self, String> {
         let lacks =
             |what: &str| format!("the scene lacks {what}, without which it has no arrival times (docs/pulsars.md)");
@@ -73,8 +73,8 @@ impl PulsarScene {
                 .into());
         }
         let observer = viewer.basis();
-        let clock = PulsarClock::new(&spheroid, &scene.violation, &initial, &beam, &observer, MeanOrder::Second)
-            .map_err(|why| format!("the scene has no mean motion: {why}"))?;
+        let clock = PulsarClock::new(&spheroid, &scene.violation, &initial, &beam, &observer, AveragingOrder::Second)
+            .map_err(|why| format!("the scene has no averaged motion: {why}"))?;
         Ok(Self {
             spheroid,
             violation: scene.violation,
@@ -87,7 +87,7 @@ impl PulsarScene {
         })
     }
 
-    /// Estimated error (s) of the residuals of a pulse at the time `t` (s, from the epoch) after `F0` is fitted: what the order of the mean motion
+    /// Estimated error (s) of the residuals of a pulse at the time `t` (s, from the epoch) after `F0` is fitted: what the order of the averaged motion
     /// leaves out, the rounding of directions, and that of an arrival time to 1e-16 d.
     pub fn residual_error(&self, t: f64) -> f64 {
         let motion = self.clock.mean_motion();

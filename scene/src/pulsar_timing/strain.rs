@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::epoch::Epoch;
 use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
 use twofold::propagation::AxisState;

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use twofold::dynamics::BodyState;
 use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::solutions::perturbation::{Constants, Form, Kind, Perturbation};
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
 use super::error::Fault;
 use super::section::Section;
@@ -69,8 +69,8 @@ fn from_angles(section: &Section<'_>, star: &Star) -> Result<Initial, Fault> {
 fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> Result<Initial, Fault> {
     let kind_entry = section.required("kind", "\"twofold\" or \"single\"")?;
     let kind = match kind_entry.word(&["twofold", "single"])? {
-        "twofold" => Kind::Twofold,
-        _ => Kind::Single,
+        "twofold" => Precession::Twofold,
+        _ => Precession::Single,
     };
     if star.spin == 0.0 {
         return Err(
@@ -82,7 +82,7 @@ fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> 
         .number_where("an angle above 0 and below pi [rad]: Eq. (34) divides by sin(beta_0)", |x| {
             x > 0.0 && x < PI && x.sin() > f64::EPSILON
         })?;
-    if kind == Kind::Twofold && beta_0.cos().abs() < 1e-12 {
+    if kind == Precession::Twofold && beta_0.cos().abs() < 1e-12 {
         return Err(beta_entry.refuse("not pi/2 for kind \"twofold\": its rate is omega / cos(beta_0)"));
     }
     let constants = Constants {

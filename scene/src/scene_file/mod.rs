@@ -16,7 +16,7 @@ mod violation;
 
 use nalgebra::Matrix3;
 use twofold::Error;
-use twofold::dynamics::regular_equations::angular_velocity;
+use twofold::dynamics::equations_of_motion::angular_velocity;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::epoch::Epoch;
 use twofold::euler_angles::EulerAngles;
@@ -235,7 +235,7 @@ impl Scene {
         let request = Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.accuracy) };
         let plan = Plan::from_parts(&self.spheroid, &self.violation, &self.initial, &request)?;
         let rotation = self.rotation();
-        Error::unless(
+        Error::ensure(
             rotation <= LARGEST_ROTATION || plan.costs_the_same_at_any_time(),
             "rotation over the span (rad)",
             rotation,

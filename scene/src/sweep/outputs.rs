@@ -6,7 +6,7 @@ use twofold::dynamics::first_integrals::first_integrals;
 use twofold::lorentz_violation::principal_frame;
 use twofold::plan::Output;
 use twofold::propagation::AxisState;
-use twofold::solutions::mean::slow_precession::slow_precession;
+use twofold::solutions::averaged::slow_precession::slow_precession;
 
 use super::chunk::guarded;
 use super::motion::{Asked, Instant, instants, instants_of_many};

@@ -31,10 +31,10 @@ pub struct MeanRate {
 /// [`Error::Domain`] for fewer than 16 angles, one that is not finite, or a step that is not above zero.
 pub fn mean_rate(angles: &[f64], step: f64) -> Result<MeanRate, Error> {
     let count = angles.len();
-    Error::unless(count >= 16, "number of angles", count as f64, "at least 16")?;
-    Error::unless(step > 0.0 && step.is_finite(), "time step", step, "above zero and finite")?;
+    Error::ensure(count >= 16, "number of angles", count as f64, "at least 16")?;
+    Error::ensure(step > 0.0 && step.is_finite(), "time step", step, "above zero and finite")?;
     for &angle in angles {
-        Error::unless(angle.is_finite(), "angle", angle, "a finite number")?;
+        Error::ensure(angle.is_finite(), "angle", angle, "a finite number")?;
     }
     let part = (PART * count as f64) as usize;
     let [whole, first, last] = [angles, &angles[..part], &angles[count - part..]].map(|angles| average(angles, step));

@@ -149,7 +149,7 @@ pub fn mean_rates_about<M: Motion<f64, State = BodyState<f64>>>(
     frame: &Matrix3<f64>,
 ) -> Result<FundamentalFrequencies, Error> {
     let defect = (frame * frame.transpose() - Matrix3::identity()).norm() + (frame.determinant() - 1.0).abs();
-    Error::unless(defect < 1e-9, "distance of the frame from a rotation", defect, "below 1e-9")?;
+    Error::ensure(defect < 1e-9, "distance of the frame from a rotation", defect, "below 1e-9")?;
     let samples = Samples::of(motion)?;
     let averages = samples.averages()?;
     about(motion, frame, &samples, &averages)

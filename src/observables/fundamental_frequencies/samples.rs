@@ -44,16 +44,16 @@ impl Samples {
         // The torque 2 C |n x s n| works within its own time sqrt(I^xx / (2 C |s|)).
         let pull = (2.0 * body.constant_c.abs() * motion.coefficients().norm() / body.inertia_xx).sqrt();
         let rotation = momentum / body.inertia_xx.min(body.inertia_zz) + pull;
-        Error::unless(rotation > 0.0 && rotation.is_finite(), "rate of rotation", rotation, "above zero and finite")?;
+        Error::ensure(rotation > 0.0 && rotation.is_finite(), "rate of rotation", rotation, "above zero and finite")?;
         let intervals = ((end - start) * rotation / ROTATION_PER_STEP).ceil();
-        Error::unless(intervals <= MOST_SAMPLES, "length of the span in half radians", intervals, "at most 1e7")?;
+        Error::ensure(intervals <= MOST_SAMPLES, "length of the span in half radians", intervals, "at most 1e7")?;
         let step = (end - start) / intervals.max(1.0);
         let times = (0..=intervals as usize).map(|i| (start + step * i as f64).min(end));
         let states: Vec<_> = times.map(|time| motion.state(time)).collect::<Result<_, _>>()?;
         let reach = (SMOOTHING_ROTATION / 2.0 * body.inertia_xx / (momentum * step)).ceil();
         // So many that the averages are left with something to average.
         let most = states.len() as f64 / (4 * PASSES) as f64;
-        Error::unless(
+        Error::ensure(
             reach < most,
             "span in turns of n about L",
             (end - start) * momentum / body.inertia_xx / TAU,
@@ -175,7 +175,7 @@ mod tests {
     /// What is refused, of a motion that is known at its first time alone.
     fn refused(momentum: f64, end: f64) -> &'static str {
         let known = |t: f64| {
-            Error::unless(t == 0.0, "later time", t, "zero")?;
+            Error::ensure(t == 0.0, "later time", t, "zero")?;
             Ok(state(Vector3::new(0.0, momentum, 0.0), t))
         };
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);

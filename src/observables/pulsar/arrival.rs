@@ -137,7 +137,7 @@ mod tests {
         fn at(&self, t: f64) -> Result<[f64; 4], Error> {
             self.1.set(self.1.get() + 1);
             // A search takes some dozens.
-            Error::unless(self.1.get() < 10_000, "looks", 1e4, "fewer")?;
+            Error::ensure(self.1.get() < 10_000, "looks", 1e4, "fewer")?;
             Ok((self.0)(t))
         }
 

@@ -27,10 +27,10 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::sin_cos_of_sum;
-use crate::dynamics::regular_equations::{angular_velocity, reduced_rates};
+use crate::dynamics::equations_of_motion::{angular_velocity, reduced_rates};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::euler_angles::EulerAngles;
-use crate::scalar::Scalar;
+use crate::numerics::scalar::Scalar;
 
 /// A cone of radiation fixed in the body.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -14,11 +14,11 @@
 //! let state = BodyState::from_angles(&star, &angles, &rates);
 //! use twofold::observables::Observer;
 //! use twofold::observables::pulsar::{Beam, PulsarClock};
-//! use twofold::solutions::mean::MeanOrder;
+//! use twofold::solutions::averaged::AveragingOrder;
 //!
 //! // 1e10 t_c from now, of a violation as weak as in real stars.
 //! let weak = s.scaled(1e-12).tensor();
-//! let mut clock = PulsarClock::new(&star, &weak, &state, &Beam::new(0.5, 0.0, 0.6), &Observer::at(0.8, 0.0), MeanOrder::Second)?;
+//! let mut clock = PulsarClock::new(&star, &weak, &state, &Beam::new(0.5, 0.0, 0.6), &Observer::at(0.8, 0.0), AveragingOrder::Second)?;
 //! let pulse = clock.pulse_near([1e10, 0.0])?.expect("the beam passes the line of sight");
 //! assert!((pulse.midpoint[0] - 1e10).abs() < clock.period());
 //! # Ok::<(), twofold::Error>(())
@@ -32,40 +32,40 @@ use super::rate_bounds::{RateBounds, rate_bounds};
 use super::train::{PulseTrain, check_beam};
 use super::turn_count::TurnCount;
 use super::{Beam, Pulse};
-use crate::double_double::DoubleDouble;
-use crate::dynamics::regular_equations::angular_velocity;
+use crate::dynamics::equations_of_motion::angular_velocity;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
+use crate::numerics::double_double::DoubleDouble;
 use crate::observables::Observer;
 use crate::propagation::{Motion, Turning};
-use crate::solutions::mean::{MeanMotion, MeanOrder};
+use crate::solutions::averaged::{AveragedSolution, AveragingOrder};
 
 /// Most rotation of the body in one turn about L (rad): the search takes a tenth of a second.
 const MOST_ROTATION: f64 = 1e5;
 
-/// A pulsar in mean motion, its beam and who looks at it.
+/// A pulsar in averaged motion, its beam and who looks at it.
 ///
 /// ```
 /// use nalgebra::{Matrix3, Vector3};
 /// use twofold::dynamics::{BodyState, RigidSpheroid};
 /// use twofold::observables::Observer;
 /// use twofold::observables::pulsar::{Beam, PulsarClock};
-/// use twofold::solutions::mean::MeanOrder;
+/// use twofold::solutions::averaged::AveragingOrder;
 ///
 /// // 641.9 turns in a second about Z, without Lorentz violation; the unit of time is the second.
 /// let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.001, constant_c: 1.0e5 };
 /// let spin = 4033.0;
 /// let start = BodyState { axis: Vector3::z(), momentum: Vector3::z() * (1.001 * spin), equatorial_axis: Vector3::x() };
 /// let (beam, observer) = (Beam::new(1.3, 0.0, 0.15), Observer::at(1.35, 0.0));
-/// let mut clock = PulsarClock::new(&spheroid, &Matrix3::zeros(), &start, &beam, &observer, MeanOrder::Second)?;
+/// let mut clock = PulsarClock::new(&spheroid, &Matrix3::zeros(), &start, &beam, &observer, AveragingOrder::Second)?;
 /// let pulse = clock.pulse_near([4.7e8, 0.0])?.expect("a pulse in every turn");
 /// assert_eq!(pulse.number, (4.7e8 * spin / core::f64::consts::TAU).round() as i64);
 /// # Ok::<(), twofold::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct PulsarClock {
-    mean: MeanMotion<f64>,
+    mean: AveragedSolution<f64>,
     spheroid: RigidSpheroid<f64>,
     /// All in the principal frame of `s`.
     violation: Matrix3<f64>,
@@ -99,7 +99,7 @@ pub struct ClockPulse {
 /// States near a time, in the frame of the initial state.
 #[derive(Debug, Clone, Copy)]
 pub struct NearState {
-    mean: MeanMotion<f64>,
+    mean: AveragedSolution<f64>,
     given_from_principal: Matrix3<f64>,
 }
 
@@ -113,7 +113,7 @@ impl NearState {
 /// The motion near a time.
 struct Near<'a> {
     clock: &'a PulsarClock,
-    mean: MeanMotion<f64>,
+    mean: AveragedSolution<f64>,
 }
 
 impl Motion<f64> for Near<'_> {
@@ -144,7 +144,7 @@ impl PulsarClock {
     /// The pulsar whose state at the time zero is `initial`; `initial`, `s` and `observer` in one inertial frame.
     ///
     /// # Errors
-    /// [`Error::Domain`] as for [`MeanMotion::new`] and [`pulse_train`](super::pulse_train), where the line of sight or the magnetic
+    /// [`Error::Domain`] as for [`AveragedSolution::new`] and [`pulse_train`](super::pulse_train), where the line of sight or the magnetic
     /// axis is along L, about which turns are counted, and for a body that turns by more than 1e5 rad in one such turn.
     pub fn new(
         spheroid: &RigidSpheroid<f64>,
@@ -152,18 +152,18 @@ impl PulsarClock {
         initial: &BodyState<f64>,
         beam: &Beam<f64>,
         observer: &Observer<f64>,
-        order: MeanOrder,
+        order: AveragingOrder,
     ) -> Result<Self, Error> {
         check_beam(beam, &observer.direction)?;
         let frame = principal_frame(s)?;
         let turned = initial.rotated(&frame.principal_from_given);
-        let mean = MeanMotion::with_free_rotation_of(initial, spheroid, &frame.coefficients, &turned, order)?;
+        let mean = AveragedSolution::with_free_rotation_of(initial, spheroid, &frame.coefficients, &turned, order)?;
         let observer = observer.rotated(&frame.principal_from_given);
         let violation = frame.coefficients.tensor();
         let turns = TurnCount::new(&mean, beam, &observer.direction)?;
         let bounds = rate_bounds(spheroid, &violation, &turned);
         let rotation = core::f64::consts::TAU * bounds.first / turns.rate(&mean);
-        Error::unless(
+        Error::ensure(
             (0.0..=MOST_ROTATION).contains(&rotation),
             "rotation (rad) of the body in a turn of the magnetic axis about L",
             rotation,
@@ -182,7 +182,7 @@ impl PulsarClock {
     }
 
     /// The motion, in the principal frame of `s`.
-    pub fn mean_motion(&self) -> &MeanMotion<f64> {
+    pub fn mean_motion(&self) -> &AveragedSolution<f64> {
         &self.mean
     }
 
@@ -191,7 +191,7 @@ impl PulsarClock {
         core::f64::consts::TAU / self.turns.rate(&self.mean)
     }
 
-    /// Error of a midpoint at the time `t` by what the order of the mean motion leaves out: that of directions over the rate of turns.
+    /// Error of a midpoint at the time `t` by what the order of the averaged motion leaves out: that of directions over the rate of turns.
     pub fn truncation(&self, t: f64) -> f64 {
         self.mean.truncation(t) / self.turns.rate(&self.mean)
     }
@@ -205,14 +205,14 @@ impl PulsarClock {
     /// is dark, or if an edge of the pulse is farther than a turn and a half from the middle of the turn.
     ///
     /// A pulse is a stretch of time with `m.n > cos rho`. The search takes derivatives and their bounds from the exact equations of motion; those
-    /// of the mean motion differ by `x^2`, `x = C |s| I^xx / |L|^2`, as the mean motion itself does. For `x` below 1e-6 edges are as exact as
+    /// of the averaged motion differ by `x^2`, `x = C |s| I^xx / |L|^2`, as the averaged motion itself does. For `x` below 1e-6 edges are as exact as
     /// those of [`pulse_train`](super::pulse_train), else to some `1e-4 x^2` rad. The cost does not depend on the turns before `t`, but the slow
     /// precession since the last call is followed in steps of a quarter radian, a microsecond each, so that numbers have no break.
     ///
     /// # Errors
     /// [`Error::Domain`] where turns cannot be counted, for times that are not finite, and after 4e18 turns.
     pub fn pulse_near(&mut self, t: [f64; 2]) -> Result<Option<ClockPulse>, Error> {
-        Error::unless((t[0] + t[1]).is_finite(), "time t", t[0] + t[1], "a finite number")?;
+        Error::ensure((t[0] + t[1]).is_finite(), "time t", t[0] + t[1], "a finite number")?;
         // The parts of a sum that is much less than they are would tell no turns apart.
         let t = DoubleDouble::sum(t[0], t[1]).into();
         let mean = self.mean.near(t);
@@ -338,7 +338,7 @@ mod tests {
         let start = BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() };
         let beam = Beam::new(0.3, 0.4, half_opening);
         let observer = Observer::at(0.01, 0.0);
-        PulsarClock::new(&spheroid, &Matrix3::zeros(), &start, &beam, &observer, MeanOrder::Second).unwrap()
+        PulsarClock::new(&spheroid, &Matrix3::zeros(), &start, &beam, &observer, AveragingOrder::Second).unwrap()
     }
 
     #[test]
@@ -373,7 +373,8 @@ mod tests {
             let axis = Vector3::new(theta.sin(), 0.0, theta.cos());
             let start = BodyState { axis, momentum: Vector3::z() * 0.8, equatorial_axis: Vector3::y() };
             let (beam, observer) = (Beam::new(1.2, 0.4, 0.3), Observer::at(1.1, 0.0));
-            let clock = PulsarClock::new(&spheroid, &Matrix3::zeros(), &start, &beam, &observer, MeanOrder::Second);
+            let clock =
+                PulsarClock::new(&spheroid, &Matrix3::zeros(), &start, &beam, &observer, AveragingOrder::Second);
             assert_eq!(clock.is_err(), is_refused, "{theta}: {:?}", clock.err());
             if let Err(Error::Domain { quantity, value, .. }) = clock {
                 let rotation = TAU / (theta / 2.0).tan();

@@ -86,7 +86,7 @@ impl<M: Motion<f64, State = BodyState<f64>>> Margin for ByStates<'_, M> {
                 for (rate, bound) in rates.iter().zip(bounds) {
                     let size = rate.norm();
                     let allowed = "at most the bound that the motion states for it";
-                    Error::unless(size <= bound * (1.0 + 1e-9), "size of Omega or a derivative of it", size, allowed)?;
+                    Error::ensure(size <= bound * (1.0 + 1e-9), "size of Omega or a derivative of it", size, allowed)?;
                 }
                 Ok(self.beam.margin_rates_turning(&rates, &state, self.line_of_sight))
             }
@@ -142,7 +142,7 @@ impl<P: Margin> EdgeSearch<P> {
         let mismatch = (h * h * h * dddf - of_polynomial).abs();
         let allowed = self.bounds.sixth * h.powi(6) / 120.0 + 0.3;
         // The estimate may take a second motion: only where it decides.
-        Error::unless(
+        Error::ensure(
             mismatch <= allowed || mismatch <= allowed + 300.0 * self.margin.estimated_error(to.time),
             "third derivative of m.n times h^3, over a stretch of length h, by the stated law less that by the states",
             mismatch,
@@ -155,7 +155,7 @@ impl<P: Margin> EdgeSearch<P> {
         let margin = self.margin.at(t)?;
         // A number that is not finite spoils the sum, which does not overflow otherwise.
         let all = margin.iter().sum::<f64>();
-        Error::unless(all.is_finite(), "m.n or a time derivative of it", all, "a finite number")?;
+        Error::ensure(all.is_finite(), "m.n or a time derivative of it", all, "a finite number")?;
         Ok(margin)
     }
 
@@ -212,13 +212,13 @@ impl<P: Margin> EdgeSearch<P> {
             value + length * (rate + length * (second / 2.0 + length * third / 6.0))
         };
         let reach = size(from).max(size(to));
-        Error::unless(
+        Error::ensure(
             reach > GRAZING && from.time < middle && middle < to.time,
             "|m.n - cos rho| over a stretch of time",
             reach,
             "above 1e-13: the line of sight stays on the edge of the beam, and rounding decides what it sees",
         )?;
-        Error::unless(
+        Error::ensure(
             self.divisions.get() > 0,
             "length of time after 10,000 divisions of a piece of the search for edges",
             length,

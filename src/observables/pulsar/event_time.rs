@@ -33,7 +33,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::Beam;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::scalar::Real;
+use crate::numerics::scalar::Real;
 
 /// The root `t` of `f(t, p) = 0` as a function of the parameters `p`, to first order:
 ///
@@ -47,7 +47,7 @@ use crate::scalar::Real;
 /// # Errors
 /// [`Error::Domain`] for a rate of zero or one that is not finite: the root is a touch, and no function of `p`.
 pub fn event_time<S: Real>(t: f64, value: S, rate: f64) -> Result<S, Error> {
-    Error::unless(rate.abs() > 0.0 && rate.is_finite(), "rate at a root", rate, "finite and not zero: no touch")?;
+    Error::ensure(rate.abs() > 0.0 && rate.is_finite(), "rate at a root", rate, "finite and not zero: no touch")?;
     Ok(S::from_f64(t) - value / rate)
 }
 
@@ -90,7 +90,7 @@ mod tests {
     use num_dual::Dual64;
 
     use super::*;
-    use crate::scalar::Scalar;
+    use crate::numerics::scalar::Scalar;
 
     /// `cos(p t) = 0` at `t = pi / (2 p)`.
     #[test]

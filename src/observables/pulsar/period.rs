@@ -12,7 +12,7 @@
 //! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
 //! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! let state = BodyState::from_angles(&star, &angles, &rates);
-//! use twofold::dynamics::regular_equations::angular_velocity;
+//! use twofold::dynamics::equations_of_motion::angular_velocity;
 //! use twofold::observables::pulsar::Beam;
 //! use twofold::observables::pulsar::period::{
 //!     approximate_period, azimuth_offset_rate, azimuth_offset_rate_off_pole, azimuth_rate, azimuth_rate_off_pole,
@@ -40,7 +40,7 @@ use nalgebra::Vector3;
 use super::direction::{azimuth_offset_point, refuse_pole};
 use super::sin_cos_of_sum;
 use crate::error::Error;
-use crate::scalar::{Real, Scalar};
+use crate::numerics::scalar::{Real, Scalar};
 
 /// Exact rate of the azimuth, `Phi' = [Omega_Z - (Omega.m) m_Z] / (m_X^2 + m_Y^2)`, of an axis `m` fixed in a body that
 /// turns with `omega` (both in inertial components); the denominator of Eq. (51) `[pulsep]`.

@@ -25,7 +25,7 @@
 //! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
 //! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! let state = BodyState::from_angles(&star, &angles, &rates);
-//! use twofold::dynamics::regular_equations::angular_velocity;
+//! use twofold::dynamics::equations_of_motion::angular_velocity;
 //! use twofold::observables::Observer;
 //! use twofold::observables::pulsar::Beam;
 //! use twofold::observables::pulsar::position_angle::{
@@ -55,8 +55,8 @@ use nalgebra::{Matrix3, Vector3};
 use super::period::azimuth_rate_off_pole;
 use super::sin_cos_of_sum;
 use crate::error::Error;
+use crate::numerics::scalar::{Real, Scalar};
 use crate::observables::Observer;
-use crate::scalar::{Real, Scalar};
 
 /// Rotation from the inertial frame to the sky of an observer: rows north `-theta-hat_o`, east `-phi-hat_o` and, towards the
 /// observer, `n-hat`, Eqs. (46), (70) `[thphinertial]`.
@@ -152,5 +152,5 @@ pub fn rotating_vector_gradient<S: Scalar>(theta: S, phi: S, theta_o: S, phi_o: 
 fn refuse_line_of_sight<S: Real>(north: S, east: S) -> Result<(), Error> {
     let across = north.re().hypot(east.re());
     let allowed = "above 2.2e-16: along the line of sight it has no position angle";
-    Error::unless(across > f64::EPSILON, "sine of the angle between m and the line of sight", across, allowed)
+    Error::ensure(across > f64::EPSILON, "sine of the angle between m and the line of sight", across, allowed)
 }

@@ -16,17 +16,17 @@
 //!
 //! // No component of a vector of the body changes faster, ever.
 //! let bounds = rate_bounds(&star, &s.tensor(), &state);
-//! let omega = twofold::dynamics::regular_equations::angular_velocity(&star, &state.axis, &state.momentum);
+//! let omega = twofold::dynamics::equations_of_motion::angular_velocity(&star, &state.axis, &state.momentum);
 //! assert!(bounds.first >= omega.norm() && bounds.second >= omega.norm_squared());
 //! ```
 
 use nalgebra::Matrix3;
 
-use crate::dynamics::regular_equations::angular_velocity;
+use crate::dynamics::equations_of_motion::angular_velocity;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
+use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::{MOST_COUNTED, Motion, Turning};
-use crate::scalar::{Real, real_part};
 
 /// Bounds on time derivatives of any unit vector fixed in the body, hence of `m.n`, that hold at all times of the motion
 /// through a state.
@@ -70,7 +70,7 @@ impl RateBounds {
         };
         for &bound in bounds {
             let allowed = "a number, zero or above";
-            Error::unless(bound >= 0.0 && bound.is_finite(), "bound on a derivative of Omega", bound, allowed)?;
+            Error::ensure(bound >= 0.0 && bound.is_finite(), "bound on a derivative of Omega", bound, allowed)?;
         }
         Ok(Self::of_angular_velocity(bounds))
     }
@@ -82,14 +82,14 @@ impl RateBounds {
             // Refused with the state that it comes of.
             return Ok(());
         }
-        Error::unless(
+        Error::ensure(
             rotation <= MOST_COUNTED,
             "rotation (rad)",
             rotation,
             "at most 1e9: turns are looked at one by one",
         )?;
         let latest = from.abs().max(to.abs());
-        Error::unless(
+        Error::ensure(
             // A sum changes by what is more than half the spacing of doubles.
             from == to || latest + LEAST_RESOLVED / 2.0 / self.first > latest,
             "time t",

@@ -14,8 +14,8 @@
 //! ```
 
 use super::timing::check_number;
-use crate::double_double::DoubleDouble;
 use crate::error::Error;
+use crate::numerics::double_double::DoubleDouble;
 
 /// The phase `phase + F0 t + F1 t^2 / 2` (turns) fitted to pulse numbers by least squares, as timing programs do.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,18 +46,18 @@ impl SpinFit {
             check_number(number)?;
         }
         for time in &different {
-            Error::unless(time.is_finite(), "time of arrival", *time, "a finite number")?;
+            Error::ensure(time.is_finite(), "time of arrival", *time, "a finite number")?;
         }
         different.sort_by(f64::total_cmp);
         different.dedup();
         let count = different.len() as f64;
-        Error::unless(count >= wanted, "number of different times", count, "at least two, or three with F1")?;
+        Error::ensure(count >= wanted, "number of different times", count, "at least two, or three with F1")?;
 
         let mut numbers: Vec<_> = points.iter().map(|(number, _)| *number).collect();
         numbers.sort_unstable();
         numbers.dedup();
         let pulses = numbers.len() as f64;
-        Error::unless(pulses >= wanted, "number of different pulses", pulses, "at least two, or three with F1")?;
+        Error::ensure(pulses >= wanted, "number of different pulses", pulses, "at least two, or three with F1")?;
 
         let (first, start) = points[0];
         let start = DoubleDouble::from(start);

@@ -32,11 +32,11 @@ impl ConstantPeriod {
     /// 2^53 in size, and two numbers at least differ among the points with weight.
     pub fn fit_weighted(points: &[(i64, f64)], weights: &[f64]) -> Result<Self, Error> {
         let (counted, wanted) = (weights.len() as f64, "one weight for each point");
-        Error::unless(weights.len() == points.len(), "number of weights", counted, wanted)?;
+        Error::ensure(weights.len() == points.len(), "number of weights", counted, wanted)?;
         for (&(number, time), &weight) in points.iter().zip(weights) {
             check_number(number)?;
-            Error::unless(time.is_finite(), "time of arrival", time, "a finite number")?;
-            Error::unless(weight >= 0.0 && weight.is_finite(), "weight", weight, "a finite number, not negative")?;
+            Error::ensure(time.is_finite(), "time of arrival", time, "a finite number")?;
+            Error::ensure(weight >= 0.0 && weight.is_finite(), "weight", weight, "a finite number, not negative")?;
         }
         // From the first point, so that nothing is lost in the means.
         let (first, start) = points.first().copied().unwrap_or_default();
@@ -49,7 +49,7 @@ impl ConstantPeriod {
         let centred = || offsets().map(|(number, time)| (number - mean_number, time - mean_time));
         let variance = mean(&mut centred().map(|(number, _)| number * number));
         let covariance = mean(&mut centred().map(|(number, time)| number * time));
-        Error::unless(variance > 0.0, "variance of the pulse numbers", variance, "above zero: two different numbers")?;
+        Error::ensure(variance > 0.0, "variance of the pulse numbers", variance, "above zero: two different numbers")?;
         let period = covariance / variance;
         Ok(Self {
             period,
@@ -63,7 +63,7 @@ impl ConstantPeriod {
 pub(super) fn check_number(number: i64) -> Result<(), Error> {
     const LARGEST: u64 = 1 << 53;
     let allowed = "a whole number of at most 2^53 in size, which a double holds";
-    Error::unless(number.unsigned_abs() <= LARGEST, "pulse number", number as f64, allowed)
+    Error::ensure(number.unsigned_abs() <= LARGEST, "pulse number", number as f64, allowed)
 }
 
 #[cfg(test)]

@@ -32,7 +32,7 @@ use super::hermite::Jet;
 use super::rate_bounds::{RateBounds, rate_bounds};
 use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
-use crate::propagation::{Motion, Samples, projected_by_stretches};
+use crate::propagation::{Motion, Samples, projected_by_segments};
 
 /// An extremum of `m.n` this near to `cos rho` is a grazing: whether the line of sight passes the edge there is beyond
 /// doubles, whose `m.n` along a numerical motion is in error by about as much.
@@ -154,7 +154,7 @@ impl Problem<f64> {
         let bounds = rate_bounds(self.spheroid(), self.coefficients(), self.initial());
         bounds.check_countable(span.0, span.1)?;
         let (mut train, mut node) = (Unfinished::default(), None);
-        let end = projected_by_stretches(self, span, accuracy, (&beam.axis, line_of_sight), |projection, end| {
+        let end = projected_by_segments(self, span, accuracy, (&beam.axis, line_of_sight), |projection, end| {
             let search = EdgeSearch::new(BySeries::new(projection, beam), bounds);
             let start = match node {
                 Some(start) => start,
@@ -237,10 +237,10 @@ impl<P: Margin> EdgeSearch<P> {
 
 pub(super) fn check_beam(beam: &Beam<f64>, line_of_sight: &Vector3<f64>) -> Result<(), Error> {
     for (length, name) in [(beam.axis.norm(), "length of the magnetic axis m"), (line_of_sight.norm(), "length of n")] {
-        Error::unless((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")?;
+        Error::ensure((length - 1.0).abs() < 1e-9, name, length, "one, to 1e-9")?;
     }
     let opening = beam.half_opening;
-    Error::unless(0.0 < opening && opening < core::f64::consts::PI, "semi-open angle rho", opening, "in (0, pi) rad")
+    Error::ensure(0.0 < opening && opening < core::f64::consts::PI, "semi-open angle rho", opening, "in (0, pi) rad")
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The number of a turn, without a break over decades: from the phases of the mean motion.
+//! The number of a turn, without a break over decades: from the phases of the averaged motion.
 //!
 //! [`Turns`](super::turns) follows a motion from one half radian to the next. Over 1e11 turns the whole turns must come of the phases:
 //! with the symmetry axis `n` at the angle `theta` to `l` and the magnetic axis `m` at `chi` to `n`, the azimuth of `m` about `l` is
@@ -20,7 +20,7 @@ use super::Beam;
 use super::turns::phase;
 use crate::dynamics::BodyState;
 use crate::error::Error;
-use crate::solutions::mean::{MeanMotion, MeanTurns};
+use crate::solutions::averaged::{AveragedSolution, AveragedTurns};
 
 /// Slow precession (rad) between two looks.
 const STRIDE: f64 = 0.25;
@@ -66,14 +66,18 @@ fn wrapped(angle: f64) -> f64 {
 }
 
 impl TurnCount {
-    pub(super) fn new(motion: &MeanMotion<f64>, beam: &Beam<f64>, line_of_sight: &Vector3<f64>) -> Result<Self, Error> {
+    pub(super) fn new(
+        motion: &AveragedSolution<f64>,
+        beam: &Beam<f64>,
+        line_of_sight: &Vector3<f64>,
+    ) -> Result<Self, Error> {
         let start = motion.state(0.0);
         let c = start.axis.dot(&start.momentum.normalize());
         let (theta, chi) = (c.abs().min(1.0).acos(), beam.axis.z.clamp(-1.0, 1.0).acos());
         // The wobble changes by some x along the motion: nearer than that the axis of the beam goes now round L, now round n.
         let nearest = (theta - chi).abs().min((core::f64::consts::PI - theta - chi).abs());
         let changes = motion.relative_strength();
-        Error::unless(
+        Error::ensure(
             nearest > changes || changes == 0.0,
             "distance of the wobble from the angle of the beam (rad)",
             nearest,
@@ -92,7 +96,7 @@ impl TurnCount {
     }
 
     /// Rate (rad per unit of time) at which turns follow one another.
-    pub(super) fn rate(&self, motion: &MeanMotion<f64>) -> f64 {
+    pub(super) fn rate(&self, motion: &AveragedSolution<f64>) -> f64 {
         let rates = motion.rates();
         rates.about_momentum + self.weight() * rates.about_axis
     }
@@ -108,7 +112,7 @@ impl TurnCount {
     /// The turn at the time `t`, whose state `motion.near(t)` has at the time zero.
     pub(super) fn look(
         &mut self,
-        motion: &MeanMotion<f64>,
+        motion: &AveragedSolution<f64>,
         t: [f64; 2],
         state: &BodyState<f64>,
     ) -> Result<Look, Error> {
@@ -127,10 +131,10 @@ impl TurnCount {
     }
 
     /// Follows the slow part to the time `t`.
-    fn follow(&mut self, motion: &MeanMotion<f64>, t: [f64; 2], parts: &Parts) -> Result<(), Error> {
+    fn follow(&mut self, motion: &AveragedSolution<f64>, t: [f64; 2], parts: &Parts) -> Result<(), Error> {
         let step = STRIDE / motion.rates().slow.abs();
         let strides = self.since_last(t).abs() / step;
-        Error::unless(
+        Error::ensure(
             strides <= MOST_STRIDES,
             "slow precession since the last pulse, in quarter radians",
             strides,
@@ -160,7 +164,7 @@ impl TurnCount {
         }
     }
 
-    fn parts(&self, state: &BodyState<f64>, turns: &MeanTurns) -> Result<Parts, Error> {
+    fn parts(&self, state: &BodyState<f64>, turns: &AveragedTurns) -> Result<Parts, Error> {
         let phase = phase(&self.beam, &self.line_of_sight, state)?;
         let (m, l) = (self.beam.direction(state), state.momentum.normalize());
         let sign = if self.upright { 1.0 } else { -1.0 };
@@ -178,7 +182,7 @@ impl TurnCount {
         let (momentum, axis) = (turns.about_momentum, turns.about_axis);
         for turns in [momentum.whole, axis.whole] {
             let allowed = "at most 4e18 either way, for a number of 64 bits";
-            Error::unless(
+            Error::ensure(
                 turns.unsigned_abs() <= MOST_TURNS,
                 "number of turns since the start",
                 turns as f64,
@@ -210,15 +214,16 @@ mod tests {
     use super::*;
     use crate::dynamics::RigidSpheroid;
     use crate::lorentz_violation::PrincipalCoefficients;
-    use crate::solutions::mean::MeanOrder;
+    use crate::solutions::averaged::AveragingOrder;
 
-    fn motion() -> MeanMotion<f64> {
+    fn motion() -> AveragedSolution<f64> {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
         let s = PrincipalCoefficients::new([2e-4, -1e-4, 0.5e-4]);
         let momentum = Vector3::new(0.3, 0.7, 2.0);
         let axis = Vector3::new(0.1, -0.2, 0.9).normalize();
         let equatorial_axis = axis.cross(&Vector3::x()).normalize();
-        MeanMotion::new(&spheroid, &s, &BodyState { axis, momentum, equatorial_axis }, MeanOrder::Second).unwrap()
+        AveragedSolution::new(&spheroid, &s, &BodyState { axis, momentum, equatorial_axis }, AveragingOrder::Second)
+            .unwrap()
     }
 
     /// A count whose beam is at the angle `chi` to the axis, and the state in which the axis is at `theta` to L, at the azimuth `about_l`, and the
@@ -376,12 +381,12 @@ mod tests {
     }
 
     /// The slow part at a time, modulo a turn.
-    fn slow_at(count: &TurnCount, motion: &MeanMotion<f64>, t: [f64; 2]) -> f64 {
+    fn slow_at(count: &TurnCount, motion: &AveragedSolution<f64>, t: [f64; 2]) -> f64 {
         count.parts(&motion.near(t).state(0.0), &motion.turns(t)).unwrap().slow()
     }
 
     /// What the slow part grows by along times that are close together.
-    fn followed(count: &TurnCount, motion: &MeanMotion<f64>, times: impl Iterator<Item = [f64; 2]>) -> f64 {
+    fn followed(count: &TurnCount, motion: &AveragedSolution<f64>, times: impl Iterator<Item = [f64; 2]>) -> f64 {
         let slow: Vec<_> = times.map(|t| slow_at(count, motion, t)).collect();
         let steps: Vec<_> = slow.windows(2).map(|pair| wrapped(pair[1] - pair[0])).collect();
         assert!(steps.iter().all(|step| step.abs() < 1.0), "{steps:?}");
@@ -478,7 +483,7 @@ mod tests {
             let equatorial_axis = axis.cross(&Vector3::z()).normalize();
             for sign in [1.0, -1.0] {
                 let state = BodyState { axis, momentum: axis * (sign * 2.7), equatorial_axis };
-                let motion = MeanMotion::new(&spheroid, &s, &state, MeanOrder::Second).unwrap();
+                let motion = AveragedSolution::new(&spheroid, &s, &state, AveragingOrder::Second).unwrap();
                 let count = TurnCount::new(&motion, &Beam::new(0.5, 0.2, 0.3), &n).unwrap();
                 assert!(count.encloses && count.upright == (sign > 0.0));
             }
@@ -492,7 +497,7 @@ mod tests {
         let initial = motion().state(0.0);
         for (s, is_refused) in [([0.0; 3], false), ([2e-4, -1e-4, 0.5e-4], true)] {
             let s = PrincipalCoefficients::new(s);
-            let motion = MeanMotion::new(&spheroid, &s, &initial, MeanOrder::Second).unwrap();
+            let motion = AveragedSolution::new(&spheroid, &s, &initial, AveragingOrder::Second).unwrap();
             let start = motion.state(0.0);
             let cos = start.axis.dot(&start.momentum.normalize());
             let beam = Beam { axis: Vector3::new((1.0 - cos * cos).sqrt(), 0.0, cos), half_opening: 0.3 };

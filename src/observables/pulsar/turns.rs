@@ -74,7 +74,7 @@ pub(super) fn phase(beam: &Beam<f64>, n: &Vector3<f64>, state: &BodyState<f64>) 
     let (l, m) = (state.momentum.normalize(), beam.direction(state));
     let (x, y) = (n.dot(&m) - l.dot(n) * l.dot(&m), l.dot(&n.cross(&m)));
     let allowed = "above 2.2e-16: along L neither m nor n has an azimuth about it";
-    Error::unless(
+    Error::ensure(
         x.hypot(y) > f64::EPSILON,
         "product of the sines of the angles of m and n with L",
         x.hypot(y),

@@ -13,7 +13,7 @@
 //! assert_eq!(pulse_width(0.1_f64, 0.3, 1.0), PulseWidth::NeverOn);
 //! ```
 
-use crate::scalar::{Real, Scalar};
+use crate::numerics::scalar::{Real, Scalar};
 
 /// What an observer sees of a magnetic axis that turns about Z at constant colatitude.
 #[derive(Debug, Clone, Copy, PartialEq)]

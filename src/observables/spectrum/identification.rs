@@ -120,12 +120,12 @@ impl FrequencyBasis {
     /// negative or not finite.
     pub fn new(generators: Vec<Generator>) -> Result<Self, Error> {
         let count = generators.len();
-        Error::unless((1..=3).contains(&count), "number of generators", count as f64, "one to three")?;
+        Error::ensure((1..=3).contains(&count), "number of generators", count as f64, "one to three")?;
         for g in &generators {
             let error = g.uncertainty;
-            Error::unless(error >= 0.0 && error.is_finite(), "error of a generator", error, "zero or above, finite")?;
+            Error::ensure(error >= 0.0 && error.is_finite(), "error of a generator", error, "zero or above, finite")?;
             let apart = g.frequency.abs() > error && g.frequency.is_finite();
-            Error::unless(apart, "frequency of a generator", g.frequency, "farther from zero than its error, finite")?;
+            Error::ensure(apart, "frequency of a generator", g.frequency, "farther from zero than its error, finite")?;
         }
         let range = |i: usize| if i < count { HIGHEST_ORDER } else { 0 };
         let mut combinations = Vec::new();

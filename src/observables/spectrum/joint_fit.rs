@@ -5,7 +5,7 @@ use core::f64::consts::FRAC_PI_2;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::error::Error;
-use crate::rounding::two_product;
+use crate::numerics::rounding::two_product;
 
 /// Cells in which the window is summed for products of two waves: exact for smooth weights up to frequencies far above
 /// those at which the products vanish.

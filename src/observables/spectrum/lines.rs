@@ -70,7 +70,7 @@ pub struct LineList {
 /// [`Error::Domain`] for a series that has no spectrum (too short, not finite), and for a `least` that is not above zero.
 pub fn spectral_lines(series: &Series, least: f64, most: usize) -> Result<LineList, Error> {
     series.check()?;
-    Error::unless(least > 0.0 && least.is_finite(), "least amplitude", least, "above zero and finite")?;
+    Error::ensure(least > 0.0 && least.is_finite(), "least amplitude", least, "above zero and finite")?;
     let weights = WINDOW.weights(series.values.len())?;
     let Fitted { fit, amplifications, residual } = separated(series, &weights, least, most)?;
     let spectrum = ResidualSpectrum::of(&residual, &weights);

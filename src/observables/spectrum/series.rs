@@ -52,12 +52,12 @@ impl Series {
     /// Refuses what has no spectrum.
     pub(super) fn check(&self) -> Result<(), Error> {
         let length = self.values.len();
-        Error::unless(length >= LEAST_LENGTH, "length of the series", length as f64, "at least 16 values")?;
-        Error::unless(self.step > 0.0 && self.step.is_finite(), "time step", self.step, "above zero and finite")?;
-        Error::unless(self.start.is_finite(), "time of the first value", self.start, "a finite number")?;
+        Error::ensure(length >= LEAST_LENGTH, "length of the series", length as f64, "at least 16 values")?;
+        Error::ensure(self.step > 0.0 && self.step.is_finite(), "time step", self.step, "above zero and finite")?;
+        Error::ensure(self.start.is_finite(), "time of the first value", self.start, "a finite number")?;
         for &value in &self.values {
             // The square must not overflow either.
-            Error::unless(value.abs() <= 1e150, "value of the series", value, "a finite number of at most 1e150")?;
+            Error::ensure(value.abs() <= 1e150, "value of the series", value, "a finite number of at most 1e150")?;
         }
         Ok(())
     }

@@ -38,7 +38,7 @@ impl Window {
     /// [`Error::Domain`] for a shape outside [0, 100].
     pub fn weights(self, count: usize) -> Result<Vec<f64>, Error> {
         if let Window::Kaiser { shape } = self {
-            Error::unless((0.0..=100.0).contains(&shape), "shape of the Kaiser window", shape, "between 0 and 100")?;
+            Error::ensure((0.0..=100.0).contains(&shape), "shape of the Kaiser window", shape, "between 0 and 100")?;
         }
         let mut weights: Vec<f64> = (0..count).map(|j| self.value((j as f64 + 0.5) / count as f64)).collect();
         let mean = weights.iter().sum::<f64>() / count as f64;

@@ -1,17 +1,17 @@
-//! The mean motion in any frame and over any span.
+//! The averaged motion in any frame and over any span.
 
 use nalgebra::Matrix3;
 
-use crate::double_double::DoubleDouble;
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::{PrincipalCoefficients, principal_frame_with_derivatives};
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::scalar::Real;
 use crate::propagation::Motion;
 use crate::propagation::input::check_time;
-use crate::scalar::Real;
-use crate::solutions::mean::{MeanMotion, MeanOrder, MeanPhases, MeanTurns};
+use crate::solutions::averaged::{AveragedPhases, AveragedSolution, AveragedTurns, AveragingOrder};
 
-/// A motion by [`MeanMotion`], whatever the frame in which the tensor is given: for a body that turns fast against the torque, over any
+/// A motion by [`AveragedSolution`], whatever the frame in which the tensor is given: for a body that turns fast against the torque, over any
 /// number of turns.
 #[derive(Debug, Clone, Copy)]
 pub struct AveragedMotion<S> {
@@ -19,7 +19,7 @@ pub struct AveragedMotion<S> {
     span: (f64, f64),
     /// Time of the initial state, in two parts.
     origin: [f64; 2],
-    mean: MeanMotion<S>,
+    mean: AveragedSolution<S>,
     given_from_principal: Matrix3<S>,
 }
 
@@ -27,8 +27,8 @@ impl<S: Real> AveragedMotion<S> {
     /// The motion from the initial state at `span.0`.
     ///
     /// # Errors
-    /// As for [`MeanMotion::new`] and [`principal_frame_with_derivatives`].
-    pub fn new(problem: &Problem<S>, span: (f64, f64), order: MeanOrder) -> Result<Self, Error> {
+    /// As for [`AveragedSolution::new`] and [`principal_frame_with_derivatives`].
+    pub fn new(problem: &Problem<S>, span: (f64, f64), order: AveragingOrder) -> Result<Self, Error> {
         Self::in_frame(problem, span, order, principal_frame_with_derivatives(problem.coefficients())?)
     }
 
@@ -36,11 +36,11 @@ impl<S: Real> AveragedMotion<S> {
     /// frame are part (see [`principal_frame_along`](crate::lorentz_violation::principal_frame_along)).
     ///
     /// # Errors
-    /// As for [`MeanMotion::new`].
+    /// As for [`AveragedSolution::new`].
     pub fn in_frame(
         problem: &Problem<S>,
         span: (f64, f64),
-        order: MeanOrder,
+        order: AveragingOrder,
         (coefficients, principal_from_given): (PrincipalCoefficients<S>, Matrix3<S>),
     ) -> Result<Self, Error> {
         let (body, initial) = (problem.spheroid(), problem.initial());
@@ -49,7 +49,7 @@ impl<S: Real> AveragedMotion<S> {
             problem: *problem,
             span,
             origin: [span.0, 0.0],
-            mean: MeanMotion::with_free_rotation_of(initial, body, &coefficients, &turned, order)?,
+            mean: AveragedSolution::with_free_rotation_of(initial, body, &coefficients, &turned, order)?,
             given_from_principal: principal_from_given.transpose(),
         })
     }
@@ -60,7 +60,7 @@ impl<S: Real> AveragedMotion<S> {
         s: &Matrix3<S>,
         initial: &BodyState<S>,
         span: (f64, f64),
-        order: MeanOrder,
+        order: AveragingOrder,
     ) -> Result<Self, Error> {
         // old entry: goes when its callers have moved
         Self::new(&Problem::unchecked(*spheroid, *s, *initial), span, order)
@@ -72,7 +72,7 @@ impl<S: Real> AveragedMotion<S> {
         s: &Matrix3<S>,
         initial: &BodyState<S>,
         span: (f64, f64),
-        order: MeanOrder,
+        order: AveragingOrder,
         frame: (PrincipalCoefficients<S>, Matrix3<S>),
     ) -> Result<Self, Error> {
         // old entry: goes when its callers have moved
@@ -95,12 +95,12 @@ impl<S: Real> AveragedMotion<S> {
     }
 
     /// Phases at the time `t[0] + t[1]`: whole turns since the initial state or the epoch of [`near`](Self::near), and the rest.
-    pub fn turns(&self, t: [f64; 2]) -> MeanTurns {
+    pub fn turns(&self, t: [f64; 2]) -> AveragedTurns {
         self.mean.turns(self.elapsed(t))
     }
 
     /// The motion in the principal frame of `s`, and its rates.
-    pub fn mean(&self) -> &MeanMotion<S> {
+    pub fn mean(&self) -> &AveragedSolution<S> {
         &self.mean
     }
 
@@ -110,12 +110,12 @@ impl<S: Real> AveragedMotion<S> {
         [sum.high, sum.low]
     }
 
-    fn phases(&self, t: [f64; 2]) -> Result<MeanPhases<S>, Error> {
+    fn phases(&self, t: [f64; 2]) -> Result<AveragedPhases<S>, Error> {
         check_time(self.span, t[0] + t[1])?;
         Ok(self.mean.phases_at(self.elapsed(t)))
     }
 
-    fn state_of(&self, phases: &MeanPhases<S>) -> BodyState<S> {
+    fn state_of(&self, phases: &AveragedPhases<S>) -> BodyState<S> {
         self.mean.state_at(phases).rotated(&self.given_from_principal)
     }
 
@@ -127,12 +127,12 @@ impl<S: Real> AveragedMotion<S> {
         self.mean.require_derivatives()
     }
 
-    /// Of what the order leaves out, at the time `t`: see [`MeanMotion::truncation`].
+    /// Of what the order leaves out, at the time `t`: see [`AveragedSolution::truncation`].
     pub fn truncation(&self, t: f64) -> f64 {
         self.mean.truncation(t - self.origin[0])
     }
 
-    /// See [`MeanMotion::rounding`].
+    /// See [`AveragedSolution::rounding`].
     pub fn rounding(&self, t: f64) -> f64 {
         self.mean.rounding(t - self.origin[0])
     }
@@ -155,7 +155,7 @@ impl<S: Real> Motion<S> for AveragedMotion<S> {
 
     fn state(&self, t: S) -> Result<BodyState<S>, Error> {
         let phases = self.phases([t.re(), 0.0])?;
-        let later = |phases: MeanPhases<S>| phases.later(self.mean.rates(), t - S::from_f64(t.re()));
+        let later = |phases: AveragedPhases<S>| phases.later(self.mean.rates(), t - S::from_f64(t.re()));
         Ok(self.state_of(&if S::HAS_DERIVATIVES { later(phases) } else { phases }))
     }
 
@@ -187,7 +187,7 @@ mod tests {
         let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
         let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
         let problem = Problem::from_angles(star, s, &angles, &rates).unwrap();
-        let motion = AveragedMotion::new(&problem, (0.0, 100.0), MeanOrder::Second).unwrap();
+        let motion = AveragedMotion::new(&problem, (0.0, 100.0), AveragingOrder::Second).unwrap();
         let allows = |epoch| motion.near(epoch).is_ok();
         assert!(allows([110.0, -20.0]) && allows([40.0, 50.0]) && allows([-20.0, 30.0]));
         assert!(!allows([90.0, 20.0]) && !allows([60.0, -70.0]));

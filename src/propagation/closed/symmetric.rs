@@ -8,9 +8,9 @@ use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::lorentz_violation::{PrincipalCoefficients, SymmetryOfTensor};
+use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::Motion;
 use crate::propagation::input::check_time;
-use crate::scalar::{Real, real_part};
 use crate::solutions::symmetric::SymmetricSolution;
 
 /// A motion by [`SymmetricSolution`], whatever the frame in which the tensor is given.
@@ -62,7 +62,7 @@ impl<S: Real> SymmetricMotion<S> {
         let solution = SymmetricSolution::new(spheroid, &coefficients, &angles, &rates)?;
         let (low, high) = solution.inclinations();
         let nearest = low.re().sin().min(high.re().sin()).min(angles.beta.re().sin());
-        Error::unless(
+        Error::ensure(
             nearest >= NEAREST_TO_POLE,
             "least distance from the symmetry axis of s^IJ (sine)",
             nearest,

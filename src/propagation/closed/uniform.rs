@@ -2,13 +2,13 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::dynamics::regular_equations::{angular_velocity, torque_on_axis};
+use crate::dynamics::equations_of_motion::{angular_velocity, torque_on_axis};
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::SymmetryOfTensor;
+use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::Motion;
 use crate::propagation::input::check_time;
-use crate::scalar::{Real, real_part};
 use crate::solutions::free::rotated_by;
 
 /// A motion `n(t) = R(p t) n`, `L(t) = R(p t) L`, `e_x(t) = R(p t) R_n(g t) e_x` with a constant rotation vector `p` and a
@@ -82,7 +82,7 @@ impl<S: Real> UniformMotion<S> {
                 real_part(&(turn.cross(momentum) - torque)).norm() / size,
             ];
             let off = residual[0].max(residual[1]) / speed;
-            Error::unless(
+            Error::ensure(
                 off <= 32.0 * f64::EPSILON,
                 "distance of the state from a steady precession, relative",
                 off,
@@ -90,7 +90,7 @@ impl<S: Real> UniformMotion<S> {
             )?;
             let (cos, sin) = (pole.dot(&n), pole.cross(&n).norm());
             let stiffness = (rate * sin).powi(2) + omega * omega + pull * (sin * sin - 4.0 * cos * cos);
-            Error::unless(
+            Error::ensure(
                 stiffness > 0.0,
                 "squared frequency about the steady precession",
                 stiffness,
@@ -173,13 +173,13 @@ fn precession_of<S: Real>(problem: &Problem<S>, axis_rate: &Vector3<S>) -> Resul
     symmetry.refuse_asymmetry()?;
     if largest_torque(spheroid, s) == 0.0 {
         // Without torque any state precesses steadily about L.
-        let length = crate::scalar::length(&initial.momentum);
+        let length = crate::numerics::scalar::length(&initial.momentum);
         return Ok((initial.momentum / length, length / spheroid.inertia_xx));
     }
     let pole = symmetry.principal_from_given.row(2).transpose().map(S::from_f64);
     let across = pole.cross(&initial.axis);
     let square = across.dot(&across);
-    Error::unless(
+    Error::ensure(
         square.re() > f64::EPSILON * f64::EPSILON,
         "sine of the inclination to the symmetry axis of s^IJ, squared",
         square.re(),

@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::propagation::fused::detect_fused;
+use crate::numerics::fused::detect_fused;
 use crate::propagation::input::check_request;
 use crate::propagation::splitting::error::expected_rounding;
 use crate::propagation::splitting::motion::{SPLITTING_STEP_LIMIT, Scene, SplittingMotion};
@@ -192,7 +192,7 @@ pub(crate) const TANGENTS_AT_ONCE: usize = 16;
 /// [`Error::Domain`] there.
 pub(crate) fn require_tangent_maps() -> Result<(), Error> {
     let doubles = if detect_fused().is_some() { 4.0 } else { 1.0 };
-    Error::unless(doubles == 4.0, "doubles in a register", doubles, "four (AVX2, FMA), for derivatives by splitting")
+    Error::ensure(doubles == 4.0, "doubles in a register", doubles, "four (AVX2, FMA), for derivatives by splitting")
 }
 
 fn checked_forecast<X: RotationState<f64>>(
@@ -203,7 +203,7 @@ fn checked_forecast<X: RotationState<f64>>(
 ) -> Result<SplittingForecast, Error> {
     check_request(span, accuracy)?;
     let forecast = cheapest(&Scene::of(problem)?, span, accuracy, goal);
-    Error::unless(forecast.steps <= SPLITTING_STEP_LIMIT, "number of steps", forecast.steps, "at most 1e10")?;
+    Error::ensure(forecast.steps <= SPLITTING_STEP_LIMIT, "number of steps", forecast.steps, "at most 1e10")?;
     Ok(forecast)
 }
 

@@ -5,8 +5,8 @@ use num_dual::Dual64;
 
 use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
+use crate::numerics::registers::Register;
 use crate::propagation::input::check_request;
-use crate::propagation::registers::Register;
 use crate::propagation::splitting::choice::{SplittingForecast, TANGENTS_AT_ONCE, derivatives_forecast};
 use crate::propagation::splitting::flows::{AXIS, COMPANION, Moving, RATE};
 use crate::propagation::splitting::motion::{SPLITTING_STEP_LIMIT, Scene};
@@ -81,7 +81,7 @@ fn states_of<X: RotationState<Dual64>, const V: usize>(
     let SplittingForecast { scheme, step, steps, .. } = derivatives_forecast(&scene, (start, *last), accuracy);
     // Each of the times may cut a step in two.
     let count = steps + times.len() as f64;
-    Error::unless(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
+    Error::ensure(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
     let mut found = vec![Vec::with_capacity(seeded.len()); times.len()];
     for seeded in seeded.chunks(TANGENTS_AT_ONCE) {
         let moving = Derivatives { scene: &scene, scheme, step, start, times, seeded };

@@ -2,8 +2,8 @@
 
 use crate::dynamics::AxisState;
 use crate::error::Error;
+use crate::numerics::registers::Register;
 use crate::propagation::input::check_request;
-use crate::propagation::registers::Register;
 use crate::propagation::splitting::choice::{SampledForecast, sampled_forecast};
 use crate::propagation::splitting::flows::{Angles, Field, Moved, Moving};
 use crate::propagation::splitting::motion::Scene;

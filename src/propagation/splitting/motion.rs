@@ -8,6 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
+use crate::numerics::rounding::two_product;
 use crate::propagation::input::{check_request, check_time};
 use crate::propagation::splitting::choice::{Goal, SplittingForecast, cheapest};
 use crate::propagation::splitting::error::ErrorEstimate;
@@ -16,7 +17,6 @@ use crate::propagation::splitting::one_motion::OneMotion;
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::third_angle::{body_state, rate_about_axis};
 use crate::propagation::{ACCURACY_RANGE, Motion};
-use crate::rounding::two_product;
 
 /// Most steps of one motion.
 pub const SPLITTING_STEP_LIMIT: f64 = 1e10;
@@ -70,7 +70,7 @@ impl<const V: usize> Scene<V> {
         let [axis, rate] = [start.vectors[AXIS], start.vectors[RATE]];
         let spread = strength.abs() * (eigenvalues[0] - eigenvalues[2]);
         let largest_rate = (dot(&rate, &rate) + spread).sqrt();
-        Error::unless(
+        Error::ensure(
             largest_rate.is_finite(),
             "rate at which the body turns",
             largest_rate,
@@ -225,10 +225,10 @@ impl<const V: usize> KeptStates<V> {
                 (scheme, step)
             }
         };
-        Error::unless(step > 0.0 && step.is_finite(), "step", step, "above zero and finite")?;
+        Error::ensure(step > 0.0 && step.is_finite(), "step", step, "above zero and finite")?;
         let duration = span.1 - span.0;
         let count = 2.0 * (duration.abs() / step / 2.0 * (1.0 - 1e-14)).ceil().max(1.0);
-        Error::unless(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
+        Error::ensure(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
         let (step_count, whole) = (count as u64, duration / count);
         let stride = step_count.div_ceil(MOST_STATES);
         let steps = OneMotion::new(scheme, &scene.field, whole, scene.largest_rate);
@@ -238,7 +238,7 @@ impl<const V: usize> KeptStates<V> {
         states.push(state);
         steps.keep(&mut state, scene.casimir, (stride, step_count / stride), &mut states);
         let end = states.last().map_or(0.0, |state| state.vectors.iter().flatten().sum());
-        Error::unless(end.is_finite(), "step", step, "shorter: with this one the motion leaves the range of numbers")?;
+        Error::ensure(end.is_finite(), "step", step, "shorter: with this one the motion leaves the range of numbers")?;
         let (spheroid, violation, estimate) = (*spheroid, *s, OnceLock::new());
         Ok(Self { spheroid, violation, span, scheme, scene, step: whole, step_count, stride, steps, states, estimate })
     }

@@ -1,6 +1,6 @@
 //! Steps of one motion, with fused multiply-add where the processor has it.
 
-use crate::propagation::fused::{Fused, detect_fused, run_fused};
+use crate::numerics::fused::{Fused, detect_fused, run_fused};
 use crate::propagation::splitting::flows::{Field, Moving};
 use crate::propagation::splitting::ring::{Double, FusedDouble};
 use crate::propagation::splitting::scheme::Scheme;

@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Mul, Sub};
 
-use crate::propagation::registers::Register;
+use crate::numerics::registers::Register;
 use crate::propagation::splitting::flows::{Field, Moving};
 use crate::propagation::splitting::ring::Ring;
 

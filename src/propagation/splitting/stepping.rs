@@ -40,7 +40,7 @@ impl Splitting {
     /// As for [`Problem::splitting_by`], and for a step that is zero or not finite.
     pub fn new<X: RotationState<f64>>(problem: &Problem<f64, X>, scheme: &Scheme, step: f64) -> Result<Self, Error> {
         check_request((0.0, step), ACCURACY_RANGE.0)?;
-        Error::unless(step != 0.0, "step", step, "not zero")?;
+        Error::ensure(step != 0.0, "step", step, "not zero")?;
         let scene = Scene::of(problem)?;
         let steps = OneMotion::new(scheme, &scene.field, step, scene.largest_rate);
         let mut state = scene.start;

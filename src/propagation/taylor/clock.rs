@@ -42,7 +42,7 @@ impl Clock {
     #[inline(always)]
     pub(super) fn advance(&mut self, wanted: f64, duration: f64, limit: StepLimit) -> Result<Interval, Error> {
         check_length(self.steps, limit, self.elapsed.high, duration)?;
-        Error::unless(
+        Error::ensure(
             wanted > 0.0,
             "step of the motion",
             wanted,
@@ -63,5 +63,5 @@ impl Clock {
 fn check_length(steps: usize, limit: StepLimit, elapsed: f64, duration: f64) -> Result<(), Error> {
     let foreseen = steps as f64 * duration / elapsed.max(f64::MIN_POSITIVE);
     let hopeless = steps >= 256 && foreseen > 2.0 * limit.steps as f64;
-    Error::unless(steps < limit.steps && !hopeless, "length of the motion in its own steps", foreseen, limit.allowed)
+    Error::ensure(steps < limit.steps && !hopeless, "length of the motion in its own steps", foreseen, limit.allowed)
 }

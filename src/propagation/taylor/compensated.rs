@@ -1,8 +1,8 @@
 //! Sums that keep what each addition loses.
 
-use crate::propagation::arithmetic::Arithmetic;
+use crate::numerics::arithmetic::Arithmetic;
+use crate::numerics::rounding::two_sum;
 use crate::propagation::taylor::series::Vectors;
-use crate::rounding::two_sum;
 
 /// A time as an unevaluated sum, so that many small steps do not add up their rounding.
 #[derive(Debug, Clone, Copy)]

@@ -3,13 +3,13 @@
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::dynamics::RigidSpheroid;
-use crate::dynamics::regular_equations::reduced_rates;
+use crate::dynamics::equations_of_motion::reduced_rates;
+use crate::numerics::scalar::Real;
 use crate::propagation::taylor::error_growth::{Difference, ErrorGrowth};
 use crate::propagation::taylor::linearised_flow::LinearisedFlow;
+use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::series::{AXIS, COMPANION, MOMENTUM};
-use crate::propagation::taylor::setup::Setup;
 use crate::propagation::taylor::shared_rounding::{SHARES, SharedRounding, excess_of_shares};
-use crate::scalar::Real;
 
 /// The vectors of a series in real numbers, by columns.
 type Columns<const V: usize> = SMatrix<f64, 3, V>;
@@ -65,7 +65,7 @@ pub(super) struct TaylorErrors<const V: usize> {
 
 impl<const V: usize> TaylorErrors<V> {
     /// At the start of a motion.
-    pub(super) fn of<S: Real>(setup: &Setup<S, V>) -> Self {
+    pub(super) fn of<S: Real>(setup: &ScaledProblem<S, V>) -> Self {
         let (scale, spheroid) = (&setup.scale, setup.spheroid.map(S::re));
         let violation = setup.frame.violation.map(S::re);
         let unit = scale.time;
@@ -209,7 +209,8 @@ mod tests {
         let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
         let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 2.9)];
         let setup =
-            Setup::<f64, 2>::new((true, Work::Latent), &spheroid, &violation, vectors, (0.0, -1.0), 1e-10).unwrap();
+            ScaledProblem::<f64, 2>::new((true, Work::Latent), &spheroid, &violation, vectors, (0.0, -1.0), 1e-10)
+                .unwrap();
         let mut errors = TaylorErrors::of(&setup);
         let unit = errors.unit / 1.3;
         let strength = (2.0_f64 * 1.3).sqrt() * (0.8 * violation.norm()).sqrt();

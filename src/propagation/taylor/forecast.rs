@@ -4,11 +4,11 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::propagation::arithmetic::Plain;
+use crate::numerics::arithmetic::Plain;
 use crate::propagation::taylor::error_growth::{ErrorGrowth, READING};
 use crate::propagation::taylor::errors::ROUNDING;
+use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::series::COMPANION;
-use crate::propagation::taylor::setup::Setup;
 use crate::propagation::taylor::{fused_for, work_of};
 
 /// What [`Problem::taylor`] will do, from its first step.
@@ -64,7 +64,7 @@ fn forecast<const V: usize>(
     duration: f64,
     accuracy: f64,
 ) -> Result<TaylorForecast, Error> {
-    let setup = Setup::new(work_of(fused_for::<f64>()), spheroid, s, start, (0.0, duration), accuracy)?;
+    let setup = ScaledProblem::new(work_of(fused_for::<f64>()), spheroid, s, start, (0.0, duration), accuracy)?;
     let steps = (duration.abs() / setup.drive().first_step(Plain::new())).ceil().max(1.0);
     let scale = &setup.scale;
     let pull = 2.0 * (spheroid.constant_c / spheroid.inertia_xx).abs() * setup.frame.violation.norm();

@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
-use crate::propagation::arithmetic::{OneMotion, Stored};
-use crate::scalar::Real;
+use crate::numerics::arithmetic::{OneMotion, Stored};
+use crate::numerics::scalar::Real;
 
 /// The tensor `s^IJ` without its isotropic part, in the frame of a series, and the way back.
 #[derive(Debug, Clone, Copy)]

@@ -4,14 +4,14 @@ use nalgebra::Vector3;
 
 use crate::dynamics::AxisState;
 use crate::error::Error;
+use crate::numerics::arithmetic::Arithmetic;
+use crate::numerics::registers::{Lanes, Register};
 use crate::propagation::SampledProblem;
-use crate::propagation::arithmetic::Arithmetic;
-use crate::propagation::registers::{Lanes, Register};
 use crate::propagation::taylor::clock::Clock;
 use crate::propagation::taylor::compensated::CompensatedState;
 use crate::propagation::taylor::samples::{LIMIT, Samples, span_of};
+use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Recurrence, change};
-use crate::propagation::taylor::setup::Setup;
 use crate::propagation::taylor::step_size::{Work, step_size};
 
 type Outcome = Result<Samples<AxisState<f64>>, Error>;
@@ -20,7 +20,7 @@ type Outcome = Result<Samples<AxisState<f64>>, Error>;
 struct Ready<'t> {
     scene: usize,
     times: &'t [f64],
-    setup: Setup<f64, 2>,
+    setup: ScaledProblem<f64, 2>,
 }
 
 /// States of motions at their times, by Taylor series in the lanes of `register`.
@@ -33,7 +33,7 @@ pub(in crate::propagation) fn axis_states_in_lanes<R: Register>(
     for (scene, SampledProblem { problem, start, times, accuracy }) in scenes.iter().enumerate() {
         let (body, s, AxisState { axis, momentum }) = (problem.spheroid(), problem.coefficients(), *problem.initial());
         let setup = span_of(*start, times)
-            .and_then(|span| Setup::new((true, Work::Quadratic), body, s, [axis, momentum], span, *accuracy));
+            .and_then(|span| ScaledProblem::new((true, Work::Quadratic), body, s, [axis, momentum], span, *accuracy));
         outcomes.push(setup.map(|setup| {
             let samples = Samples::with_room(times.len(), setup.order);
             ready.push(Ready { scene, times, setup });

@@ -147,7 +147,7 @@ mod tests {
     use num_dual::Dual64;
 
     use super::*;
-    use crate::propagation::taylor::setup::Setup;
+    use crate::propagation::taylor::scaled_problem::ScaledProblem;
     use crate::propagation::taylor::step_size::Work;
 
     fn flow() -> LinearisedFlow {
@@ -155,7 +155,8 @@ mod tests {
         let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
         let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 1.0)];
         let setup =
-            Setup::<f64, 2>::new((true, Work::Quadratic), &spheroid, &violation, vectors, (0.0, 1.0), 1e-10).unwrap();
+            ScaledProblem::<f64, 2>::new((true, Work::Quadratic), &spheroid, &violation, vectors, (0.0, 1.0), 1e-10)
+                .unwrap();
         LinearisedFlow::new(&spheroid, &violation, 1.0, SharedRounding::of(&setup).0)
     }
 

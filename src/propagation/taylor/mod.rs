@@ -2,7 +2,6 @@
 
 mod clock;
 mod compensated;
-mod drive;
 mod error_growth;
 mod errors;
 mod forecast;
@@ -12,11 +11,12 @@ mod lanes;
 mod linearised_flow;
 mod projection;
 mod samples;
+mod scaled_problem;
+mod segments;
 mod series;
-mod setup;
 mod shared_rounding;
 mod step_size;
-mod stretches;
+mod stepper;
 
 use core::any::{Any, TypeId};
 use core::marker::PhantomData;
@@ -26,10 +26,10 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::propagation::arithmetic::{OneMotion, Plain, Stored};
-use crate::propagation::fused::{Fused, detect_fused, run_fused};
+use crate::numerics::arithmetic::{OneMotion, Plain, Stored};
+use crate::numerics::fused::{Fused, detect_fused, run_fused};
+use crate::numerics::scalar::Real;
 use crate::propagation::{Motion, Projection};
-use crate::scalar::Real;
 use clock::StepLimit;
 use compensated::Compensated;
 use errors::{StepError, TaylorErrors};
@@ -40,10 +40,10 @@ use projection::SeriesProjection;
 #[cfg(target_arch = "x86_64")]
 pub(super) use samples::span_of;
 pub use samples::{ErrorEstimates, Samples, axis_states_at, states_at};
-pub(crate) use stretches::projected_by_stretches;
+pub(crate) use segments::projected_by_segments;
 
+use scaled_problem::ScaledProblem;
 use series::{AXIS, MOMENTUM, Vectors};
-use setup::Setup;
 use step_size::Work;
 
 /// Smallest and largest accuracy of a numerical motion.
@@ -85,7 +85,7 @@ macro_rules! of_either {
 /// constant rate.
 #[derive(Debug, Clone)]
 struct KeptSeries<S, const V: usize> {
-    setup: Setup<S, V>,
+    setup: ScaledProblem<S, V>,
     /// The instructions by which the series are summed, for doubles.
     fused: Option<Fused>,
     steps: Steps<S, V>,
@@ -106,7 +106,7 @@ struct Steps<S, const V: usize> {
 
 impl<S: Real, const V: usize> Steps<S, V> {
     #[inline(always)]
-    fn kept<A: OneMotion<Scalar = S>>(setup: &Setup<S, V>, a: A) -> Result<Self, Error> {
+    fn kept<A: OneMotion<Scalar = S>>(setup: &ScaledProblem<S, V>, a: A) -> Result<Self, Error> {
         let mut steps = Self { starts: Vec::new(), coefficients: Vec::new(), length: setup.order + 1 };
         setup.drive().run(a, LIMIT, |step, series| {
             if let [_] = steps.starts.as_slice() {
@@ -170,7 +170,7 @@ impl<S: Real, const V: usize> Steps<S, V> {
 
     /// The vectors at the time `t` by the series of one step, in the given frame.
     #[inline(always)]
-    fn sum<A: OneMotion<Scalar = S>>(&self, setup: &Setup<S, V>, a: A, step: usize, t: S) -> [Stored<S>; V] {
+    fn sum<A: OneMotion<Scalar = S>>(&self, setup: &ScaledProblem<S, V>, a: A, step: usize, t: S) -> [Stored<S>; V] {
         let series = self.series(step);
         setup.sum(a, |k| series[k].each_ref().map(|v| a.load(v)), &self.starts[step], t)
     }
@@ -228,7 +228,7 @@ impl<S: Real, const V: usize> KeptSeries<S, V> {
     ) -> Result<Self, Error> {
         if let Some(fused) = fused_for::<S>() {
             let (spheroid, s, start) = (spheroid.map(S::re), s.map(S::re), start.map(|v| v.map(S::re)));
-            let setup = Setup::new((true, Work::Latent), &spheroid, &s, start, span, accuracy)?;
+            let setup = ScaledProblem::new((true, Work::Latent), &spheroid, &s, start, span, accuracy)?;
             let steps = run_fused(
                 fused,
                 #[inline(always)]
@@ -238,7 +238,7 @@ impl<S: Real, const V: usize> KeptSeries<S, V> {
                 Box::new(KeptSeries { setup, fused: Some(fused), steps, errors: OnceLock::new() });
             return Ok(*motion.downcast().expect("the scalar is f64"));
         }
-        let setup = Setup::new((false, Work::Quadratic), spheroid, s, start, span, accuracy)?;
+        let setup = ScaledProblem::new((false, Work::Quadratic), spheroid, s, start, span, accuracy)?;
         let steps = Steps::kept(&setup, Plain::new())?;
         Ok(Self { setup, fused: None, steps, errors: OnceLock::new() })
     }

@@ -5,12 +5,12 @@ use core::cell::Cell;
 use nalgebra::Vector3;
 
 use crate::error::Error;
+use crate::numerics::arithmetic::{OneMotion, Stored};
+use crate::numerics::fused::{Fused, run_fused};
 use crate::propagation::Projection;
-use crate::propagation::arithmetic::{OneMotion, Stored};
-use crate::propagation::fused::{Fused, run_fused};
 use crate::propagation::taylor::Steps;
+use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::series::{AXIS, COMPANION, MOMENTUM, change};
-use crate::propagation::taylor::setup::Setup;
 
 /// A projection of a motion that is kept as Taylor series in doubles.
 ///
@@ -18,7 +18,7 @@ use crate::propagation::taylor::setup::Setup;
 /// of every state out of it. The same time gives the same digits, whatever was asked for before.
 #[derive(Debug, Clone)]
 pub(crate) struct SeriesProjection<'a> {
-    setup: &'a Setup<f64, 3>,
+    setup: &'a ScaledProblem<f64, 3>,
     steps: &'a Steps<f64, 3>,
     fused: Fused,
     /// `o` in the frame of the series.
@@ -38,7 +38,7 @@ pub(crate) struct SeriesProjection<'a> {
 
 impl<'a> SeriesProjection<'a> {
     pub(super) fn new(
-        setup: &'a Setup<f64, 3>,
+        setup: &'a ScaledProblem<f64, 3>,
         steps: &'a Steps<f64, 3>,
         fused: Fused,
         in_body: &Vector3<f64>,

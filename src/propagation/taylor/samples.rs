@@ -4,15 +4,15 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::propagation::arithmetic::{OneMotion, Plain};
-use crate::propagation::fused::run_fused;
+use crate::numerics::arithmetic::{OneMotion, Plain};
+use crate::numerics::fused::run_fused;
+use crate::numerics::scalar::{Real, Scalar};
 use crate::propagation::taylor::clock::{Interval, StepLimit};
 use crate::propagation::taylor::errors::{StepError, TaylorErrors};
 use crate::propagation::taylor::fused_for;
-use crate::propagation::taylor::setup::Setup;
+use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::step_size::Work;
 use crate::propagation::third_angle::{body_state, rate_about_axis};
-use crate::scalar::{Real, Scalar};
 
 /// An hour or so.
 pub(super) const LIMIT: StepLimit =
@@ -105,7 +105,7 @@ pub(in crate::propagation) fn span_of(start: f64, times: &[f64]) -> Result<(f64,
     let mut before = start;
     for &t in times {
         let onwards = if last >= start { before <= t && t <= last } else { before >= t && t >= last };
-        Error::unless(onwards, "time t", t, "times in the order in which the motion reaches them from its start")?;
+        Error::ensure(onwards, "time t", t, "times in the order in which the motion reaches them from its start")?;
         before = t;
     }
     Ok((start, last))
@@ -123,7 +123,8 @@ fn sampled<S: Real, T, const V: usize>(
     let span = span_of(start, times)?;
     if let Some(fused) = fused_for::<S>() {
         let (spheroid, s) = (spheroid.map(S::re), s.map(S::re));
-        let real = Setup::new((true, Work::Latent), &spheroid, &s, vectors.map(|v| v.map(S::re)), span, accuracy)?;
+        let real =
+            ScaledProblem::new((true, Work::Latent), &spheroid, &s, vectors.map(|v| v.map(S::re)), span, accuracy)?;
         let samples = run_fused(
             fused,
             #[inline(always)]
@@ -133,14 +134,14 @@ fn sampled<S: Real, T, const V: usize>(
         let given = |(vectors, t): ([Vector3<f64>; V], f64)| state(vectors.map(|v| v.map(S::from_f64)), S::from_f64(t));
         return Ok(Samples { states: states.into_iter().map(given).collect(), error_estimates, step_count, order });
     }
-    let setup = Setup::new((false, Work::Quadratic), spheroid, s, vectors, span, accuracy)?;
+    let setup = ScaledProblem::new((false, Work::Quadratic), spheroid, s, vectors, span, accuracy)?;
     visited(&setup, Plain::new(), times, estimates, state)
 }
 
 /// Evaluates each step at the times within it.
 #[inline(always)]
 fn visited<A: OneMotion, T, const V: usize>(
-    setup: &Setup<A::Scalar, V>,
+    setup: &ScaledProblem<A::Scalar, V>,
     a: A,
     times: &[f64],
     estimates: ErrorEstimates,
@@ -174,7 +175,7 @@ impl<T> Samples<T> {
     #[inline(always)]
     pub(super) fn take<S: Real, const V: usize>(
         &mut self,
-        setup: &Setup<S, V>,
+        setup: &ScaledProblem<S, V>,
         times: &[f64],
         step: &Interval,
         state_at: impl Fn(f64) -> T,
@@ -191,7 +192,7 @@ impl<T> Samples<T> {
     /// The errors of what [`take`](Self::take) takes.
     fn take_errors<S: Real, const V: usize>(
         &mut self,
-        setup: &Setup<S, V>,
+        setup: &ScaledProblem<S, V>,
         times: &[f64],
         step: &Interval,
         error: &StepError,

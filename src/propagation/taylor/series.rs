@@ -1,6 +1,6 @@
 //! Taylor series of a motion about one time: the recurrences of the quadratic equations of motion.
 
-use crate::propagation::arithmetic::Arithmetic;
+use crate::numerics::arithmetic::Arithmetic;
 
 /// What a series carries: `n`, `L` and, with `V = 3`, a vector `u` that turns with `L / I^xx` as `n` does.
 pub(super) type Vectors<T, const V: usize> = [T; V];

@@ -7,10 +7,10 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
+use crate::numerics::rounding::{two_product, two_sum};
+use crate::numerics::scalar::Real;
+use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::series::{AXIS, COMPANION, MOMENTUM};
-use crate::propagation::taylor::setup::Setup;
-use crate::rounding::{two_product, two_sum};
-use crate::scalar::Real;
 
 /// Coefficients of which the rounding of the factors matters: the terms of the later ones are small.
 pub(super) const SHARES: usize = 12;
@@ -33,7 +33,7 @@ pub(super) struct SharedRounding {
 
 impl SharedRounding {
     /// Of a motion, and the difference of its start in `n`, `L` and the vector carried along.
-    pub(super) fn of<S: Real, const V: usize>(setup: &Setup<S, V>) -> (Self, [Vector3<f64>; V]) {
+    pub(super) fn of<S: Real, const V: usize>(setup: &ScaledProblem<S, V>) -> (Self, [Vector3<f64>; V]) {
         let spheroid = setup.spheroid.map(S::re);
         let given = setup.violation.map(S::re);
         let frame = &setup.frame;
@@ -98,7 +98,7 @@ impl SharedRounding {
 
 /// What the rounded factors of the recurrences, `rate / (k + 1)`, are more than that, relative: of `n` (and the vector carried
 /// along) and of the components of `L`, for the coefficients `k + 1 = 1, 2, ...`.
-pub(super) fn excess_of_shares<S: Real, const V: usize>(setup: &Setup<S, V>) -> [[Vector3<f64>; 2]; SHARES] {
+pub(super) fn excess_of_shares<S: Real, const V: usize>(setup: &ScaledProblem<S, V>) -> [[Vector3<f64>; 2]; SHARES] {
     let rates = setup.drive().rates();
     let of_momentum = if setup.frame.is_principal() { rates.momentum_of_principal } else { [rates.momentum; 3] };
     let rates = [[rates.axis; 3], of_momentum].map(|rates| Vector3::from(rates.map(S::re)));
@@ -149,14 +149,14 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
-    use crate::double_double::DoubleDouble;
+    use crate::numerics::double_double::DoubleDouble;
     use crate::propagation::taylor::step_size::Work;
     use crate::propagation::third_angle::rate_about_axis;
 
     const SPHEROID: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.1, constant_c: 0.8 };
 
-    fn setup<const V: usize>(violation: &Matrix3<f64>, vectors: [Vector3<f64>; V]) -> Setup<f64, V> {
-        Setup::new((true, Work::Latent), &SPHEROID, violation, vectors, (0.0, 1.0), 1e-10).unwrap()
+    fn setup<const V: usize>(violation: &Matrix3<f64>, vectors: [Vector3<f64>; V]) -> ScaledProblem<f64, V> {
+        ScaledProblem::new((true, Work::Latent), &SPHEROID, violation, vectors, (0.0, 1.0), 1e-10).unwrap()
     }
 
     /// `U - (B^T T B - U) + (S U + U S)` with `S = (B^T B - 1) / 2`, in 32 digits.
@@ -214,7 +214,8 @@ mod tests {
         let violation = Matrix3::from_diagonal(&Vector3::new(0.021, 0.021, -0.042));
         let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.0, constant_c: 0.8 };
         let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 1.1)];
-        let setup = Setup::new((true, Work::Latent), &spheroid, &violation, vectors, (0.0, 1.0), 1e-10).unwrap();
+        let setup =
+            ScaledProblem::new((true, Work::Latent), &spheroid, &violation, vectors, (0.0, 1.0), 1e-10).unwrap();
         let rates = setup.drive().rates();
         assert_eq!((rates.axis, rates.momentum_of_principal[2]), (1.0, 0.0));
         let found = excess_of_shares(&setup);

@@ -3,9 +3,9 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
-use crate::propagation::arithmetic::OneMotion;
+use crate::numerics::arithmetic::OneMotion;
+use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::taylor::series::{MAX_ORDER, MOMENTUM, Vectors};
-use crate::scalar::{Real, real_part};
 
 /// Sizes by which errors are measured.
 #[derive(Debug, Clone, Copy)]

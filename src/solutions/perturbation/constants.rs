@@ -11,19 +11,19 @@ pub enum Form {
 
 /// Which free motion is perturbed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Kind {
+pub enum Precession {
     /// A freely precessing star: the upper signs of Eqs. (29)-(34).
     Twofold,
     /// A star in stationary spin: the lower signs.
     Single,
 }
 
-impl Kind {
+impl Precession {
     /// `+1` for the upper sign, `-1` for the lower.
     pub fn sign(self) -> f64 {
         match self {
-            Kind::Twofold => 1.0,
-            Kind::Single => -1.0,
+            Precession::Twofold => 1.0,
+            Precession::Single => -1.0,
         }
     }
 }

@@ -9,8 +9,8 @@ use crate::dynamics::RigidSpheroid;
 use crate::dynamics::euler_angle_equations::AxisAngles;
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
-use crate::scalar::{Real, Scalar};
-use crate::solutions::perturbation::{Constants, Form, Kind, Perturbation};
+use crate::numerics::scalar::{Real, Scalar};
+use crate::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
 /// Initial angles and rates of a perturbation solution, in the printed form Eq. (34) `[integraltoinitial]`:
 /// [`Perturbation::at`] zero.
@@ -19,7 +19,7 @@ use crate::solutions::perturbation::{Constants, Form, Kind, Perturbation};
 /// As for [`Perturbation::new`].
 pub fn initial_values<S: Real>(
     form: Form,
-    kind: Kind,
+    kind: Precession,
     spheroid: &RigidSpheroid<S>,
     s: &PrincipalCoefficients<S>,
     spin: S,
@@ -41,13 +41,13 @@ pub fn initial_values<S: Real>(
 /// motion; [`Error::Domain`] for zero spin.
 pub fn constants_from_initial_values<S: Real>(
     form: Form,
-    kind: Kind,
+    kind: Precession,
     spheroid: &RigidSpheroid<S>,
     s: &PrincipalCoefficients<S>,
     spin: S,
     initial: &AxisAngles<S>,
 ) -> Result<Constants<S>, Error> {
-    Error::unless(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero: Eq. (34) divides by it")?;
+    Error::ensure(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero: Eq. (34) divides by it")?;
     // Eq. (34) repeats itself after a turn of alpha: near zero Newton's method loses no digits to it.
     let whole_turns = (initial.alpha.re() / TAU).round() * TAU;
     let initial = &AxisAngles { alpha: initial.alpha - S::from_f64(whole_turns), ..*initial };
@@ -80,7 +80,7 @@ pub fn constants_from_initial_values<S: Real>(
 /// Eq. (34) as two equations for `(alpha_0, beta_0)`.
 struct Inversion<S> {
     form: Form,
-    kind: Kind,
+    kind: Precession,
     spheroid: RigidSpheroid<S>,
     s: PrincipalCoefficients<S>,
     spin: S,
@@ -231,9 +231,12 @@ mod tests {
         ] {
             let (spheroid, s, initial) = (body(inertia_zz, 1.0), PrincipalCoefficients::new(s), angles(initial));
             let found =
-                constants_from_initial_values(Form::Printed, Kind::Single, &spheroid, &s, 1.0, &initial).unwrap();
+                constants_from_initial_values(Form::Printed, Precession::Single, &spheroid, &s, 1.0, &initial).unwrap();
             assert!(found.amplitude < amplitude, "{found:?}");
-            assert_same(&initial_values(Form::Printed, Kind::Single, &spheroid, &s, 1.0, &found).unwrap(), &initial);
+            assert_same(
+                &initial_values(Form::Printed, Precession::Single, &spheroid, &s, 1.0, &found).unwrap(),
+                &initial,
+            );
         }
     }
 
@@ -244,8 +247,14 @@ mod tests {
         let (alpha, beta) = (0.4, 0.9_f64);
         let initial = angles([alpha, beta, 1.1 / beta.cos(), 0.0]);
         let s = PrincipalCoefficients::new([0.0; 3]);
-        let inversion =
-            Inversion { form: Form::Printed, kind: Kind::Twofold, spheroid: body(1.1, 0.0), s, spin: 1.0, initial };
+        let inversion = Inversion {
+            form: Form::Printed,
+            kind: Precession::Twofold,
+            spheroid: body(1.1, 0.0),
+            s,
+            spin: 1.0,
+            initial,
+        };
         let lifted = inversion.lifted();
         let from = |distance: f64, off: f64| inversion.newton(&lifted, Vector2::new(alpha + distance, beta + off));
         for (distance, off) in [(11.7, 0.0), (-11.7, 0.0), (11.5, 5.2e-4), (0.0, 0.0)] {
@@ -263,12 +272,15 @@ mod tests {
         let (spheroid, s) = (body(1.1, 0.3), PrincipalCoefficients::new([0.02, 0.01, -0.04]));
         for alpha_rate in [1.3, 1.9] {
             let initial = angles([0.0, 0.8, alpha_rate, 0.0]);
-            let found =
-                constants_from_initial_values(Form::Printed, Kind::Twofold, &spheroid, &s, 1.0, &initial).unwrap();
+            let found = constants_from_initial_values(Form::Printed, Precession::Twofold, &spheroid, &s, 1.0, &initial)
+                .unwrap();
             assert_eq!(found.alpha_0, 0.0);
             assert_relative_eq!(found.phase.abs(), PI / 2.0, max_relative = 1e-15);
             assert!(found.amplitude > 0.05, "{found:?}");
-            assert_same(&initial_values(Form::Printed, Kind::Twofold, &spheroid, &s, 1.0, &found).unwrap(), &initial);
+            assert_same(
+                &initial_values(Form::Printed, Precession::Twofold, &spheroid, &s, 1.0, &found).unwrap(),
+                &initial,
+            );
         }
     }
 
@@ -279,7 +291,8 @@ mod tests {
         // With omega one the quotients of duals are those of doubles.
         let initial = angles([0.4, 0.9, 1.0 / 0.9_f64.sin_cos().1, 0.0]);
         let found =
-            constants_from_initial_values(Form::Printed, Kind::Twofold, &body(1.0, 0.0), &s, 1.0, &initial).unwrap();
+            constants_from_initial_values(Form::Printed, Precession::Twofold, &body(1.0, 0.0), &s, 1.0, &initial)
+                .unwrap();
         assert_eq!((found.amplitude, found.phase), (0.0, 0.0));
         let lift = |value: f64| Dual64::new(value, 1.0);
         let (spheroid, s) = (body(1.0, 0.0), PrincipalCoefficients::new([Dual64::from(0.0); 3]));
@@ -291,7 +304,8 @@ mod tests {
             beta_rate: lift(beta_rate),
         };
         let found =
-            constants_from_initial_values(Form::Printed, Kind::Twofold, &spheroid, &s, lift(1.0), &varied).unwrap();
+            constants_from_initial_values(Form::Printed, Precession::Twofold, &spheroid, &s, lift(1.0), &varied)
+                .unwrap();
         assert_eq!((found.amplitude, found.phase), (Dual64::from(0.0), Dual64::from(0.0)));
         assert!(found.alpha_0.eps.is_finite() && found.beta_0.eps != 0.0);
     }
@@ -303,7 +317,7 @@ mod tests {
         let initial = angles([1.13, 0.61, 0.25, 0.71]);
         let at = |amplitude: f64, phase: f64| {
             let constants = Constants { alpha_0: initial.alpha, beta_0: initial.beta, amplitude, phase };
-            initial_values(Form::Printed, Kind::Single, &spheroid, &s, 1.0, &constants).unwrap()
+            initial_values(Form::Printed, Precession::Single, &spheroid, &s, 1.0, &constants).unwrap()
         };
         let forced = at(0.0, 0.0);
         let p = initial.beta_rate - forced.beta_rate;
@@ -311,7 +325,7 @@ mod tests {
         let there = at(p.hypot(q), q.atan2(p));
         assert_relative_eq!(there.alpha_rate, initial.alpha_rate, max_relative = 1e-12);
         let left = (there.alpha - initial.alpha).hypot(there.beta - initial.beta);
-        match constants_from_initial_values(Form::Printed, Kind::Single, &spheroid, &s, 1.0, &initial) {
+        match constants_from_initial_values(Form::Printed, Precession::Single, &spheroid, &s, 1.0, &initial) {
             Err(Error::NotConverged { iterations, residual, .. }) => {
                 assert_eq!(iterations, 60);
                 assert_relative_eq!(residual, left, max_relative = 1e-12);
@@ -333,9 +347,10 @@ mod tests {
             phase: linear(0.5, 0.9),
         };
         let spheroid = body(1.1, 0.3);
-        let start = initial_values(Form::Printed, Kind::Twofold, &spheroid, &s, number(1.0), &exact).unwrap();
+        let start = initial_values(Form::Printed, Precession::Twofold, &spheroid, &s, number(1.0), &exact).unwrap();
         let found =
-            constants_from_initial_values(Form::Printed, Kind::Twofold, &spheroid, &s, number(1.0), &start).unwrap();
+            constants_from_initial_values(Form::Printed, Precession::Twofold, &spheroid, &s, number(1.0), &start)
+                .unwrap();
         for (found, exact) in [
             (found.alpha_0, exact.alpha_0),
             (found.beta_0, exact.beta_0),

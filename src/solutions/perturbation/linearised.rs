@@ -3,8 +3,8 @@
 use crate::dynamics::RigidSpheroid;
 use crate::dynamics::potential::potential_gradient_in_angles;
 use crate::lorentz_violation::PrincipalCoefficients;
-use crate::scalar::Scalar;
-use crate::solutions::perturbation::Kind;
+use crate::numerics::scalar::Scalar;
+use crate::solutions::perturbation::Precession;
 
 /// First-order parts of the angles and their time derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,7 @@ pub struct FirstOrderMotion<S> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ZerothOrder<S> {
     /// Upper signs (twofold) or lower signs (single).
-    pub kind: Kind,
+    pub kind: Precession,
     /// Spin component `Omega^z`.
     pub spin: S,
     /// `alpha_0 + a t` (rad).
@@ -79,11 +79,11 @@ pub fn full_residuals<S: Scalar>(
     let (along_alpha, along_beta) = printed_residuals(spheroid, s, zeroth, first);
     let (sb, cb) = zeroth.beta.sin_cos();
     let stiffness = match zeroth.kind {
-        Kind::Twofold => {
+        Precession::Twofold => {
             let a = spheroid.free_precession_constant(zeroth.spin) / cb;
             a * a
         }
-        Kind::Single => spheroid.constant_c * s.combination() / spheroid.inertia_xx,
+        Precession::Single => spheroid.constant_c * s.combination() / spheroid.inertia_xx,
     };
     (along_alpha, along_beta + stiffness * sb * sb * first.beta)
 }

@@ -23,20 +23,20 @@
 //! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
 //! use twofold::solutions::perturbation::{
-//!     Constants, Form, Kind, Perturbation, constants_from_initial_values, initial_values, shifted_rates,
+//!     Constants, Form, Precession, Perturbation, constants_from_initial_values, initial_values, shifted_rates,
 //! };
 //!
 //! // tp-I: constants to initial values and back.
 //! let constants = Constants { alpha_0: 0.3, beta_0: 0.7, amplitude: 0.01, phase: 0.5 };
-//! let start = initial_values(Form::Printed, Kind::Twofold, &star, &s, 1.0, &constants)?;
-//! let back = constants_from_initial_values(Form::Printed, Kind::Twofold, &star, &s, 1.0, &start)?;
+//! let start = initial_values(Form::Printed, Precession::Twofold, &star, &s, 1.0, &constants)?;
+//! let back = constants_from_initial_values(Form::Printed, Precession::Twofold, &star, &s, 1.0, &start)?;
 //! assert!((back.beta_0 - constants.beta_0).abs() < 1e-12);
-//! let solution = Perturbation::new(Form::Corrected, Kind::Twofold, &star, &s, 1.0, &constants)?;
+//! let solution = Perturbation::new(Form::Corrected, Precession::Twofold, &star, &s, 1.0, &constants)?;
 //! assert!(solution.at(1.0).alpha > start.alpha);
 //! assert!((shifted_rates(&star, &s, 1.0, 0.7)?.alpha - solution.rate).abs() < 1e-12);
 //!
 //! // Eq. (29) lacks a term.
-//! let zeroth = ZerothOrder { kind: Kind::Twofold, spin: 1.0, alpha: 0.3, beta: 0.7 };
+//! let zeroth = ZerothOrder { kind: Precession::Twofold, spin: 1.0, alpha: 0.3, beta: 0.7 };
 //! let first =
 //!     FirstOrderMotion { beta: 0.01, alpha_rate: 0.0, beta_rate: 0.0, alpha_acceleration: 0.0, beta_acceleration: 0.0 };
 //! assert_ne!(printed_residuals(&star, &s, &zeroth, &first), full_residuals(&star, &s, &zeroth, &first));
@@ -48,6 +48,6 @@ mod initial_values;
 pub mod linearised;
 mod solution;
 
-pub use constants::{Constants, Form, Kind};
+pub use constants::{Constants, Form, Precession};
 pub use initial_values::{constants_from_initial_values, initial_values};
 pub use solution::{Perturbation, ShiftedRates, shifted_rates};

@@ -4,8 +4,8 @@ use crate::dynamics::RigidSpheroid;
 use crate::dynamics::euler_angle_equations::AxisAngles;
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
-use crate::scalar::{Real, Scalar};
-use crate::solutions::perturbation::{Constants, Form, Kind};
+use crate::numerics::scalar::{Real, Scalar};
+use crate::solutions::perturbation::{Constants, Form, Precession};
 
 /// A first-order solution: the numbers of Eqs. (28), (31) `[consdef]`, (32) `[precangvel]` for given constants.
 ///
@@ -18,7 +18,7 @@ use crate::solutions::perturbation::{Constants, Form, Kind};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Perturbation<S> {
     /// The kind of precession.
-    pub kind: Kind,
+    pub kind: Precession,
     /// Constants of integration.
     pub constants: Constants<S>,
     /// `omega = I^zz Omega^z / I^xx`, Eq. (28).
@@ -45,7 +45,7 @@ impl<S: Scalar> Perturbation<S> {
     /// The solution without checks of its domain, for exact fields: see [`new`](Self::new).
     pub fn new_unchecked(
         form: Form,
-        kind: Kind,
+        kind: Precession,
         spheroid: &RigidSpheroid<S>,
         s: &PrincipalCoefficients<S>,
         spin: S,
@@ -58,17 +58,17 @@ impl<S: Scalar> Perturbation<S> {
         let c_tilde = spheroid.constant_c * s.asymmetry() / momentum;
         let one = S::one();
         let (zeroth_rate, rate) = match kind {
-            Kind::Twofold => (omega / cb, omega / cb - forced_rate),
-            Kind::Single => (S::zero(), forced_rate),
+            Precession::Twofold => (omega / cb, omega / cb - forced_rate),
+            Precession::Single => (S::zero(), forced_rate),
         };
         let (eta_alpha, eta_beta, homogeneous_frequency, homogeneous_ratio) = match (form, kind) {
-            (Form::Printed, Kind::Twofold) => {
+            (Form::Printed, Precession::Twofold) => {
                 let denominator = one * 4.0 - cb * cb;
                 (cb * (one * 2.0 + cb * cb) / denominator, sb * cb * cb * 3.0 / denominator, omega, one / sb)
             }
-            (Form::Corrected, Kind::Twofold) => (cb * (one + cb * cb) / 2.0, sb * cb * cb, rate, cb / sb),
-            (Form::Printed, Kind::Single) => (cb, sb, omega, -one / sb),
-            (Form::Corrected, Kind::Single) => ((one + cb * cb) / (cb * 2.0), sb, omega, -one / sb),
+            (Form::Corrected, Precession::Twofold) => (cb * (one + cb * cb) / 2.0, sb * cb * cb, rate, cb / sb),
+            (Form::Printed, Precession::Single) => (cb, sb, omega, -one / sb),
+            (Form::Corrected, Precession::Single) => ((one + cb * cb) / (cb * 2.0), sb, omega, -one / sb),
         };
         Self {
             kind,
@@ -145,7 +145,7 @@ impl<S: Real> Perturbation<S> {
     /// and where `a` vanishes, by which Eq. (33) divides.
     pub fn new(
         form: Form,
-        kind: Kind,
+        kind: Precession,
         spheroid: &RigidSpheroid<S>,
         s: &PrincipalCoefficients<S>,
         spin: S,
@@ -167,7 +167,7 @@ impl<S: Real> Perturbation<S> {
         let forced_terms = (spheroid.constant_c * coefficients * cb / (spheroid.inertia_zz * spin)).re().abs();
         let terms = self.zeroth_rate.re().abs() + forced_terms;
         let rate = self.rate.re();
-        Error::unless(
+        Error::ensure(
             rate.abs() > 4.0 * f64::EPSILON * terms,
             "precession rate a of Eq. (32)",
             rate,
@@ -196,7 +196,7 @@ pub fn shifted_rates<S: Real>(
     spin: S,
     beta_0: S,
 ) -> Result<ShiftedRates<S>, Error> {
-    check_domain(Kind::Twofold, spin, beta_0)?;
+    check_domain(Precession::Twofold, spin, beta_0)?;
     let (_, cb) = beta_0.sin_cos();
     let forced_rate = spheroid.constant_c * s.combination() * cb / (spheroid.inertia_zz * spin);
     Ok(ShiftedRates {
@@ -205,21 +205,21 @@ pub fn shifted_rates<S: Real>(
     })
 }
 
-fn check_domain<S: Real>(kind: Kind, spin: S, beta_0: S) -> Result<(), Error> {
+fn check_domain<S: Real>(kind: Precession, spin: S, beta_0: S) -> Result<(), Error> {
     let (sb, cb) = beta_0.sin_cos();
-    Error::unless(
+    Error::ensure(
         sb.re().abs() > f64::EPSILON,
         "sine of the mean inclination, sin beta_0",
         sb.re(),
         "|sin beta_0| > 2.2e-16: Eqs. (30)-(34) divide by it",
     )?;
-    Error::unless(
-        kind == Kind::Single || cb.re().abs() > f64::EPSILON,
+    Error::ensure(
+        kind == Precession::Single || cb.re().abs() > f64::EPSILON,
         "cosine of the mean inclination, cos beta_0",
         cb.re(),
         "|cos beta_0| > 2.2e-16 for twofold precession: a = omega / cos beta_0",
     )?;
-    Error::unless(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero: Eq. (31) divides by it")
+    Error::ensure(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero: Eq. (31) divides by it")
 }
 
 /// Sine and cosine of twice the angle.

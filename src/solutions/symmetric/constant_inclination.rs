@@ -1,7 +1,7 @@
 //! Steady precession and the first-order motion about it, which carries its derivatives. Eq. (26).
 
 use crate::euler_angles::{EulerAngles, EulerRates};
-use crate::scalar::Real;
+use crate::numerics::scalar::Real;
 
 /// Constant inclination. The terms beside the rates are zero up to rounding; they carry the first derivatives.
 #[derive(Debug, Clone, Copy)]

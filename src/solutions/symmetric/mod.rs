@@ -47,7 +47,7 @@ use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::lorentz_violation::PrincipalCoefficients;
-use crate::scalar::Real;
+use crate::numerics::scalar::Real;
 
 /// The motion through given initial angles and rates at `t = 0`, ready to be evaluated at any time.
 ///
@@ -82,14 +82,14 @@ impl<S: Real> SymmetricSolution<S> {
         angles: &EulerAngles<S>,
         rates: &EulerRates<S>,
     ) -> Result<Self, Error> {
-        Error::unless(
+        Error::ensure(
             s.asymmetry().re() == 0.0,
             "asymmetry s^XX - s^YY",
             s.asymmetry().re(),
             "zero: use a frame whose Z axis is the symmetry axis of s^IJ",
         )?;
         let (sin, cos) = angles.beta.sin_cos();
-        Error::unless(sin.re() > f64::EPSILON, "sin beta", sin.re(), "above 2.2e-16: beta in (0, pi), not on a pole")?;
+        Error::ensure(sin.re() > f64::EPSILON, "sin beta", sin.re(), "above 2.2e-16: beta in (0, pi), not on a pole")?;
         let spin = rates.alpha * cos + rates.gamma;
         let omega = spheroid.free_precession_constant(spin);
         let k = spheroid.constant_c * (s.zz - s.xx) * 2.0 / spheroid.inertia_xx;
@@ -119,7 +119,7 @@ impl<S: Real> SymmetricSolution<S> {
         let rounding = 8.0 * f64::EPSILON * slope.iter().map(|x| x.re().abs()).sum::<f64>();
         let [p0, p1, p2, ..] = quartic.coefficients;
         let motion = if p1.re().abs() <= rounding && p0.re() * p2.re().abs() <= rounding * rounding {
-            Error::unless(p2.re() < 0.0, "half of P'' at the steady inclination", p2.re(), "below zero: stable")?;
+            Error::ensure(p2.re() < 0.0, "half of P'' at the steady inclination", p2.re(), "below zero: stable")?;
             Motion::Steady(Steady { rates: *rates, frequency: (-p2).sqrt(), sin, cos, acceleration: p1 * 0.5 })
         } else {
             Motion::Nutating(Nutating::new(&quartic, angles, rates)?)

@@ -4,7 +4,7 @@ use super::oscillation::{Oscillation, Place, Pole, PoleTerm};
 use super::quartic::InclinationQuartic;
 use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
-use crate::scalar::Real;
+use crate::numerics::scalar::Real;
 
 /// Inclination between two different turning points.
 #[derive(Debug, Clone, Copy)]
@@ -67,7 +67,7 @@ impl<S: Real> Nutating<S> {
             + south_start.re()
             + north_term.mean_rate(oscillation.half_period).re()
             + south_term.mean_rate(oscillation.half_period).re();
-        Error::unless(
+        Error::ensure(
             period > 0.0 && turns.is_finite(),
             "half the period of the inclination",
             period,

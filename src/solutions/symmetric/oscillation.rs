@@ -15,10 +15,10 @@
 use core::f64::consts::FRAC_PI_2;
 
 use super::quartic::TurningPoints;
-use crate::elliptic::carlson::{rf_of_roots, rj_of_roots};
-use crate::elliptic::jacobi::ArithmeticGeometricMean;
 use crate::error::Error;
-use crate::scalar::Real;
+use crate::numerics::elliptic::carlson::{rf_of_roots, rj_of_roots};
+use crate::numerics::elliptic::jacobi::ArithmeticGeometricMean;
+use crate::numerics::scalar::Real;
 
 /// Rounding of the values of `P`, relative.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -89,7 +89,7 @@ impl<S: Real> Oscillation<S> {
         // path between them (M + H -> 0). Rounding of P moves a root by its square root in the first case.
         let largest = d_low.re().abs().max(d_high.re().abs()).max(mean.re().abs());
         let between = |quantity: f64, least: f64| {
-            Error::unless(
+            Error::ensure(
                 quantity > least * largest,
                 "distance of the roots of P(cos beta), relative",
                 quantity / largest,

@@ -1,6 +1,6 @@
 //! The quartic that drives the inclination, its turning points and its quotient by them.
 
-use crate::scalar::Real;
+use crate::numerics::scalar::Real;
 
 /// `u'^2 = P(u0 + v) = p0 + p1 v + p2 v^2 + p3 v^3 + p4 v^4` for `u = cos beta`, about the initial `u0`.
 ///

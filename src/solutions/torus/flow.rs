@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::dynamics::RigidSpheroid;
-use crate::scalar::{Real, length};
+use crate::numerics::scalar::{Real, length};
 
 /// Order of the series.
 const ORDER: usize = 26;

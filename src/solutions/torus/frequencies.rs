@@ -10,12 +10,12 @@ use super::slow_course::SlowCourse;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
-use crate::solutions::mean::{MeanMotion, MeanOrder, MeanRates};
+use crate::solutions::averaged::{AveragedRates, AveragedSolution, AveragingOrder};
 
-/// Difference from the rates of the mean motion, in slow ones, up to which it names the others.
+/// Difference from the rates of the averaged motion, in slow ones, up to which it names the others.
 const CLEAREST: f64 = 0.2;
 
-/// Exact frequencies of a motion (rad per unit of time), named as in [`MeanRates`](crate::solutions::mean::MeanRates).
+/// Exact frequencies of a motion (rad per unit of time), named as in [`AveragedRates`](crate::solutions::averaged::AveragedRates).
 ///
 /// Where `L` goes round the positive end of Z: in twofold precession `alpha' = about_momentum`, `gamma' = about_axis`; in single precession
 /// `alpha' = slow`, `gamma' = about_momentum + about_axis - slow`; the nutation, `n` about `L` from the plane of `L` and Z, is `about_momentum - slow`. (With
@@ -26,7 +26,7 @@ pub struct TorusFrequencies {
     pub axis: usize,
     /// Mean rate of the azimuth of `L`, averaged over the fast rotation, about the positive end of that axis.
     pub slow: f64,
-    /// Of the body about `L`. None where the mean motion is not near enough to tell it from its sums with the slow one, as close to the
+    /// Of the body about `L`. None where the averaged motion is not near enough to tell it from its sums with the slow one, as close to the
     /// separatrix.
     pub about_momentum: Option<f64>,
     /// Of the body about its symmetry axis. None with `about_momentum`.
@@ -47,22 +47,22 @@ pub struct TorusFrequencies {
 ///
 /// The body comes back turned about `n` by `psi_i`, and the third frequency is `(w_1 psi_1 + w_2 psi_2) / (2 pi)` and the constant rate
 /// `-epsilon Omega^z`. Nothing is averaged and no way is long, however slow the precession: exact but for rounding, about 1e-15 of the rotation rate for
-/// all three. (So where the strength of the torque is below 1e-5 the mean motion to second order has the better slow rate.) Which whole sums of them the
-/// frequencies are is a matter of names: those nearest to the rates of the mean motion are taken.
+/// all three. (So where the strength of the torque is below 1e-5 the averaged motion to second order has the better slow rate.) Which whole sums of them the
+/// frequencies are is a matter of names: those nearest to the rates of the averaged motion are taken.
 ///
 /// # Errors
-/// [`Error::Domain`] as for [`MeanMotion::new`], and for isotropic `s`. [`Error::NotConverged`] where the torus is thin or no torus: `n` on `L`, `L` on an axis, the
+/// [`Error::Domain`] as for [`AveragedSolution::new`], and for isotropic `s`. [`Error::NotConverged`] where the torus is thin or no torus: `n` on `L`, `L` on an axis, the
 /// separatrix.
 pub fn torus_frequencies(
     spheroid: &RigidSpheroid<f64>,
     s: &PrincipalCoefficients<f64>,
     initial: &BodyState<f64>,
 ) -> Result<TorusFrequencies, Error> {
-    let mean = MeanMotion::new(spheroid, s, initial, MeanOrder::Second)?;
+    let mean = AveragedSolution::new(spheroid, s, initial, AveragingOrder::Second)?;
     let values = Vector3::new(s.xx, s.yy, s.zz);
     let values = values.map(|value| value - values.mean());
     let spread = values.max() - values.min();
-    Error::unless(spread > 0.0, "s_max - s_min", spread, "above zero: without it there is no torque")?;
+    Error::ensure(spread > 0.0, "s_max - s_min", spread, "above zero: without it there is no torque")?;
     let integrals = Integrals::new(spheroid, &values, spread);
     let size = initial.momentum.norm();
     let not_closed = |what| Error::NotConverged { what, iterations: MOST_CORRECTIONS, residual: f64::NAN };
@@ -72,7 +72,7 @@ pub fn torus_frequencies(
     let torus = Torus { integrals, start: course.fastest, size };
     let [t, k] = fast_turn(spheroid, spread, initial);
     let fast = torus.period([t, k]).ok_or(not_closed("way of n round L on the torus: n is on L, or L on an axis"))?;
-    // The time along K for a turn is well known from the mean motion away from the separatrix, and from the course near it.
+    // The time along K for a turn is well known from the averaged motion away from the separatrix, and from the course near it.
     let once = |found: &Period| {
         let area = fast.times[0] * found.times[1] - fast.times[1] * found.times[0];
         (0.7..1.4).contains(&(area / (t * course.period)))
@@ -120,9 +120,9 @@ fn errors_of_rates(inverse: &Matrix2<f64>, of_periods: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|i| TAU * moved * (inverse[(i, 0)].abs() + inverse[(i, 1)].abs()))
 }
 
-/// The two fast rates `about_momentum` and `about_axis` by the names of the mean motion: with whole sums of the others beside them. None if it is not near
+/// The two fast rates `about_momentum` and `about_axis` by the names of the averaged motion: with whole sums of the others beside them. None if it is not near
 /// enough to tell.
-fn named([round_l, turned]: [f64; 2], round_axis: f64, mean: &MeanRates<f64>) -> Option<[f64; 2]> {
+fn named([round_l, turned]: [f64; 2], round_axis: f64, mean: &AveragedRates<f64>) -> Option<[f64; 2]> {
     let by_whole = |value: f64, base: f64, wanted: f64| value + ((wanted - value) / base).round() * base;
     let about_momentum = by_whole(round_l, round_axis, mean.about_momentum);
     let about_axis = by_whole(by_whole(turned, about_momentum, mean.about_axis), round_axis, mean.about_axis);
@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn names_are_those_nearest_to_the_mean_motion() {
-        let mean = MeanRates { slow: 0.01, about_momentum: 1.3, about_axis: -0.4 };
+        let mean = AveragedRates { slow: 0.01, about_momentum: 1.3, about_axis: -0.4 };
         let base = 0.0101;
         let (about_momentum, about_axis) = (1.3004, -0.4003);
         for (turns, more) in [(0.0, 0.0), (3.0, 0.0), (-7.0, 2.0), (5.0, -1.0)] {

@@ -26,13 +26,13 @@ pub fn separatrix_motion(
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| values[j].total_cmp(&values[i]));
     let gap = (values[order[0]] - values[order[1]]).min(values[order[1]] - values[order[2]]);
-    Error::unless(
+    Error::ensure(
         gap > 0.0,
         "least difference of two eigenvalues of s",
         gap,
         "above zero: else there is no separatrix",
     )?;
-    Error::unless(
+    Error::ensure(
         inertia_xx > 0.0 && inertia_zz > 0.0,
         "moments of inertia",
         inertia_xx.min(inertia_zz),
@@ -45,7 +45,7 @@ pub fn separatrix_motion(
     let [mut left, mut right] = wanted.about_second_axis(values.max() - values.min());
     let first = plane.slope(left);
     let other = first.signum() * plane.slope(right);
-    Error::unless(
+    Error::ensure(
         other < 0.0,
         "slope of K along the plane of the largest and the middle eigenvalue, at one end with the sign of that at the other",
         other,

@@ -8,9 +8,9 @@ use super::flow::{Axes, Integrals};
 use super::lattice::PARTS_OF_TURN;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::solutions::mean::{Top, mean_direction};
+use crate::solutions::averaged::{Top, mean_direction};
 
-/// A slow turn may take so many times what the mean motion says, near the separatrix.
+/// A slow turn may take so many times what the averaged motion says, near the separatrix.
 const LONGEST_TURN: usize = 5;
 
 /// The averaged `L` along the flow of `K`, once round its axis.
@@ -89,7 +89,7 @@ impl SlowCourse {
 mod tests {
     use super::*;
     use crate::lorentz_violation::PrincipalCoefficients;
-    use crate::solutions::mean::{MeanMotion, MeanOrder};
+    use crate::solutions::averaged::{AveragedSolution, AveragingOrder};
     use crate::solutions::torus::lattice::Torus;
 
     const BODY: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
@@ -122,7 +122,7 @@ mod tests {
             let (size, c) = (initial.momentum.norm(), initial.momentum.dot(&initial.axis) / initial.momentum.norm());
             let p2 = (3.0 * c * c - 1.0) / 2.0;
             let s = PrincipalCoefficients::new([VALUES.x, VALUES.y, VALUES.z]);
-            let mean = MeanMotion::new(&BODY, &s, &initial, MeanOrder::First).unwrap().rates().slow.abs();
+            let mean = AveragedSolution::new(&BODY, &s, &initial, AveragingOrder::First).unwrap().rates().slow.abs();
             let spread = VALUES.max() - VALUES.min();
             let ratio = size * size / (BODY.inertia_xx * spread * BODY.constant_c * p2).abs();
             assert!(

@@ -61,16 +61,16 @@ pub fn states_with_integrals(
     for (name, value) in
         [("energy E", energy), ("spin Omega^z", spin), ("third integral K", clebsch), ("C", constant_c)]
     {
-        Error::unless(value.is_finite(), name, value, "a finite number")?;
+        Error::ensure(value.is_finite(), name, value, "a finite number")?;
     }
-    Error::unless(
+    Error::ensure(
         inertia_xx > 0.0 && inertia_zz > 0.0,
         "moments of inertia",
         inertia_xx.min(inertia_zz),
         "above zero",
     )?;
     let spread = values.max() - values.min();
-    Error::unless(spread > 0.0, "s_max - s_min", spread, "above zero: without it K says no more than E and Omega^z")?;
+    Error::ensure(spread > 0.0, "s_max - s_min", spread, "above zero: without it K says no more than E and Omega^z")?;
     let along = inertia_zz * spin;
     let spin_energy = along * spin / 2.0;
     let wanted = Wanted {
@@ -81,7 +81,7 @@ pub fn states_with_integrals(
         third: clebsch,
     };
     let pull = values * constant_c;
-    Error::unless(
+    Error::ensure(
         energy - spin_energy >= pull.min(),
         "energy E without that of the spin, I^zz Omega^z^2 / 2",
         energy - spin_energy,
@@ -93,7 +93,7 @@ pub fn states_with_integrals(
     let mut states = planes.concat();
     let along_axis = wanted.on_axis(&values, pull.imin());
     states.extend(along_axis.filter(|state| !states.iter().any(|other| is_image(other, state))));
-    Error::unless(
+    Error::ensure(
         !states.is_empty(),
         "third integral K",
         clebsch,

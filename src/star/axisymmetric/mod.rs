@@ -42,7 +42,7 @@
 mod multipoles;
 
 use crate::error::Error;
-use crate::scalar::Real;
+use crate::numerics::scalar::Real;
 use crate::star::AxisymmetricTensor;
 use crate::star::axisymmetric::multipoles::{Multipoles, unit_rule};
 use crate::star::uniform_spheroid::UniformSpheroid;
@@ -110,16 +110,16 @@ pub fn axisymmetric_integrals<S: Real>(
     degree: usize,
 ) -> Result<AxisymmetricIntegrals<S>, Error> {
     let allowed = "a positive multiple of 4: half of it is used for the extrapolation";
-    Error::unless(degree > 0 && degree.is_multiple_of(4), "highest Legendre degree", degree as f64, allowed)?;
+    Error::ensure(degree > 0 && degree.is_multiple_of(4), "highest Legendre degree", degree as f64, allowed)?;
     let rule = unit_rule(degree);
     let (equator, pole) = (body.surface(S::zero()).0, body.surface(S::one()).0);
     let oblate = equator.re() >= pole.re();
     for &(mu, _) in &rule {
         let (radius, slope) = body.surface(S::from_f64(mu));
-        Error::unless(radius.re() > 0.0, "radius of the surface r_s", radius.re(), "positive")?;
+        Error::ensure(radius.re() > 0.0, "radius of the surface r_s", radius.re(), "positive")?;
         let rise = if oblate { -slope.re() } else { slope.re() };
         // The slope of a sphere may be rounding.
-        Error::unless(rise >= -1e-14 * radius.re(), "rise of r_s towards its larger end", rise, "not negative")?;
+        Error::ensure(rise >= -1e-14 * radius.re(), "rise of r_s towards its larger end", rise, "not negative")?;
     }
     let star = Multipoles { body, rule, terms: degree / 2 + 1, oblate };
     Ok(star.integrals(if oblate { pole } else { equator }))

@@ -5,7 +5,7 @@ use core::num::NonZeroUsize;
 
 use gauss_quad::GaussLegendre;
 
-use crate::scalar::Real;
+use crate::numerics::scalar::Real;
 use crate::star::AxisymmetricTensor;
 use crate::star::axisymmetric::{AxisymmetricBody, AxisymmetricIntegrals};
 

@@ -17,9 +17,9 @@ use twofold::propagation::{
     AveragedMotion, AxisScene, AxisState, ContinuousAngles, ErrorEstimates, Motion, SymmetricMotion, UniformMotion,
     axis_states_at, axis_states_of_many, propagate, propagate_axis, states_at, taylor_forecast,
 };
+use twofold::solutions::averaged::AveragingOrder;
 use twofold::solutions::free::{free_precession_rates, free_rotation};
-use twofold::solutions::mean::MeanOrder;
-use twofold::solutions::perturbation::Kind;
+use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
 
 use crate::values::scene::{ANGLES, PROLATE, RATES, STAR, general, start, state, tensor};
@@ -71,7 +71,7 @@ fn closed_forms() {
 fn steady(table: &mut Table) {
     let s = PrincipalCoefficients::new([0.02, 0.02, -0.03]);
     let turn = body_from_inertial(&EulerAngles { alpha: -0.3, beta: 0.6, gamma: 0.2 });
-    for kind in [Kind::Twofold, Kind::Single] {
+    for kind in [Precession::Twofold, Precession::Single] {
         let (spin, beta) = (1.9, 0.8);
         let rate = steady_precession_rate(kind, &STAR, &s, spin, beta).expect("a rate");
         table.number(&format!("steady rate, {kind:?}"), rate);
@@ -156,7 +156,7 @@ fn mean_motions() {
         ("n on L", general() * 0.01, BodyState { momentum: state().axis * 2.0, ..state() }),
     ];
     for (name, s, initial) in &cases {
-        for order in [MeanOrder::First, MeanOrder::Second] {
+        for order in [AveragingOrder::First, AveragingOrder::Second] {
             let name = format!("{name} {order:?}");
             let motion = match AveragedMotion::from_parts(&STAR, s, initial, SPAN, order) {
                 Ok(motion) => motion,
@@ -411,8 +411,8 @@ fn gradients() {
     let none = Parameters { violation: Matrix3::zeros(), ..start() };
     let symmetric = Parameters { violation: tensor([0.02, 0.02, -0.03]), ..start() };
     let scenes = [
-        ("general", start(), vec![None, Some(Method::Taylor), Some(Method::Mean), Some(Method::Splitting)]),
-        ("weak", weak, vec![Some(Method::Mean)]),
+        ("general", start(), vec![None, Some(Method::Taylor), Some(Method::Averaged), Some(Method::Splitting)]),
+        ("weak", weak, vec![Some(Method::Averaged)]),
         ("none", none, vec![Some(Method::Free)]),
         ("symmetric", symmetric, vec![Some(Method::Symmetric)]),
     ];

@@ -9,7 +9,7 @@ use twofold::observables::pulsar::period::{
 use twofold::observables::pulsar::rate_bounds::rate_bounds;
 use twofold::observables::pulsar::{Beam, PulsarClock, PulseTrain, arrivals, propagated_pulse_train, pulse_train};
 use twofold::propagation::propagate;
-use twofold::solutions::mean::MeanOrder;
+use twofold::solutions::averaged::AveragingOrder;
 use twofold::star::axisymmetric::axisymmetric_integrals;
 use twofold::star::maclaurin::MaclaurinSpheroid;
 use twofold::star::uniform_spheroid::UniformSpheroid;
@@ -98,8 +98,8 @@ fn clocks() {
         ("prolate", PROLATE, general() * 0.1, state()),
     ] {
         for (name, beam, observer) in &beams {
-            for order in [MeanOrder::First, MeanOrder::Second] {
-                if order == MeanOrder::First && of != "general" {
+            for order in [AveragingOrder::First, AveragingOrder::Second] {
+                if order == AveragingOrder::First && of != "general" {
                     continue;
                 }
                 let name = format!("{of}, {name}, {order:?}");

@@ -3,7 +3,7 @@
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::{
-    Constants, Form, Kind, constants_from_initial_values, initial_values, shifted_rates,
+    Constants, Form, Precession, constants_from_initial_values, initial_values, shifted_rates,
 };
 use twofold::solutions::symmetric::SymmetricSolution;
 
@@ -14,7 +14,7 @@ use crate::values::table::Table;
 fn constants_of_integration() {
     let mut table = Table::default();
     for s in [[0.021, -0.004, 0.009], [0.3, -0.1, 0.2]].map(PrincipalCoefficients::new) {
-        for kind in [Kind::Twofold, Kind::Single] {
+        for kind in [Precession::Twofold, Precession::Single] {
             for constants in [
                 Constants { alpha_0: 0.4, beta_0: 0.9, amplitude: 0.1, phase: -1.1 },
                 Constants { alpha_0: 7.4, beta_0: 2.2, amplitude: 0.0, phase: 0.0 },

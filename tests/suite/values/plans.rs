@@ -83,7 +83,8 @@ fn long_and_forced() {
             ("backwards", &backwards),
             ("events", &events),
         ] {
-            let forced = [Method::Free, Method::Steady, Method::Symmetric, Method::Mean, Method::Splitting].map(Some);
+            let forced =
+                [Method::Free, Method::Steady, Method::Symmetric, Method::Averaged, Method::Splitting].map(Some);
             let named = if ["usual", "some"].contains(&what) { &forced[..] } else { &[] };
             for method in [None].iter().chain(named).copied() {
                 let request = Request { method, ..request.clone() };

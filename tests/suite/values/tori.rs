@@ -3,8 +3,8 @@
 use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::mean::slow_precession::slow_precession;
-use twofold::solutions::mean::{MeanMotion, MeanOrder, middle_axis_growth, period_near_separatrix};
+use twofold::solutions::averaged::slow_precession::slow_precession;
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder, middle_axis_growth, period_near_separatrix};
 use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};
 
 use crate::values::scene::{PROLATE, STAR, state};
@@ -62,12 +62,12 @@ fn states_on_tori() {
             Ok(found) => table.parts(&format!("{name}: slow precession"), [found.axis as f64, found.rate * 1e3]),
             Err(error) => table.error(&format!("{name}: slow precession"), &error),
         }
-        for order in [MeanOrder::First, MeanOrder::Second] {
+        for order in [AveragingOrder::First, AveragingOrder::Second] {
             match middle_axis_growth(&star, &s, energy, spin, order) {
                 Ok(growth) => table.number(&format!("{name}: growth, {order:?}"), growth),
                 Err(error) => table.error(&format!("{name}: growth, {order:?}"), &error),
             }
-            match MeanMotion::new(&star, &s, &initial, order) {
+            match AveragedSolution::new(&star, &s, &initial, order) {
                 Ok(mean) => {
                     let rates = mean.rates();
                     table.parts(&format!("{name}: mean rates"), [rates.slow, rates.about_momentum, rates.about_axis]);
@@ -79,7 +79,7 @@ fn states_on_tori() {
                         table.number(&format!("{name}: error estimate"), mean.error_estimate(t));
                     }
                 }
-                Err(error) => table.error(&format!("{name}: mean motion"), &error),
+                Err(error) => table.error(&format!("{name}: averaged motion"), &error),
             }
         }
     }

@@ -12,8 +12,8 @@ use std::io::Write as _;
 
 use nalgebra::Matrix3;
 use twofold::dynamics::RigidSpheroid;
+use twofold::numerics::scalar::Scalar;
 use twofold::propagation::{AxisState, Motion, propagate_axis};
-use twofold::scalar::Scalar;
 use twofold_command::bench::scene::BenchScene;
 use twofold_verify::double_double::DoubleDouble;
 

@@ -2,14 +2,14 @@
 //!
 //! `cargo run --release -p twofold-tools --bin long_times [LONGEST, default 1e7 t_c]`: some minutes.
 //!
-//! Numerical methods and mean motion along tp-II against the reference of command/data/bench_long.csv; closed forms against themselves in
+//! Numerical methods and averaged motion along tp-II against the reference of command/data/bench_long.csv; closed forms against themselves in
 //! double-double numbers, along motions that they are made for.
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::numerics::scalar::{Real, Scalar};
 use twofold::propagation::{AveragedMotion, Motion, SymmetricMotion, UniformMotion};
-use twofold::scalar::{Real, Scalar};
-use twofold::solutions::mean::MeanOrder;
+use twofold::solutions::averaged::AveragingOrder;
 use twofold::straight_line::{Slope, order};
 use twofold_command::bench::growth::{self, references};
 use twofold_command::bench::scene::BenchScene;
@@ -58,8 +58,8 @@ fn main() -> Result<(), Failure> {
     };
     let symmetric = Matrix3::from_diagonal(&Vector3::new(0.013, 0.013, -0.04));
     let methods: [(&str, ErrorAt); 5] = [
-        ("mean motion, first order", mean(MeanOrder::First)?),
-        ("mean motion, second order", mean(MeanOrder::Second)?),
+        ("averaged motion, first order", mean(AveragingOrder::First)?),
+        ("averaged motion, second order", mean(AveragingOrder::Second)?),
         (
             "symmetric solution",
             against_itself(&scene, &symmetric, SymmetricMotion::from_parts, SymmetricMotion::from_parts)?,

@@ -1,9 +1,9 @@
-//! True error over estimate of the mean motion: its distribution over random motions.
+//! True error over estimate of the averaged motion: its distribution over random motions.
 //!
 //! `cargo run --release -p twofold-tools --bin mean_estimate [SCENES] [SEED] [RADIANS]`: 10,000 scenes of seed 1 that turn by up to
 //! 3,000 rad unless said. Scenes whose estimate is below the error are listed.
 
-use twofold::solutions::mean::MeanOrder;
+use twofold::solutions::averaged::AveragingOrder;
 use twofold_verify::mean_scenes::MeanScene;
 
 fn main() {
@@ -11,7 +11,7 @@ fn main() {
     let argument = |index: usize, otherwise| arguments.get(index).copied().unwrap_or(otherwise);
     let (scenes, seed, turned) = (argument(0, 10_000), argument(1, 1), argument(2, 3000));
     println!("{scenes} scenes of seed {seed}, up to {turned} rad");
-    for order in [MeanOrder::First, MeanOrder::Second] {
+    for order in [AveragingOrder::First, AveragingOrder::Second] {
         let mut ratios = Vec::new();
         for number in 0..scenes {
             match MeanScene::draw(seed, number, turned as f64).estimate_seen(order, number) {

@@ -11,8 +11,8 @@ use std::io::Write as _;
 
 use nalgebra::Matrix3;
 use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::numerics::scalar::Scalar;
 use twofold::propagation::{Motion, propagate};
-use twofold::scalar::Scalar;
 use twofold_verify::double_double::DoubleDouble;
 use twofold_verify::reference::reference_motion;
 

@@ -1,4 +1,4 @@
-//! What the mean motion costs, and how much less that is than a numerical motion of the same error:
+//! What the averaged motion costs, and how much less that is than a numerical motion of the same error:
 //!
 //! ```sh
 //! cargo run --release -p twofold-tools --bin mean_speed
@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::plan::{Method, PlannedMotion};
 use twofold::propagation::{AveragedMotion, ErrorEstimates, Motion, states_at};
-use twofold::solutions::mean::MeanOrder;
+use twofold::solutions::averaged::AveragingOrder;
 use twofold_command::bench::timing::clock;
 
 /// The least time of some runs (s).
@@ -35,12 +35,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let set_up = least(200, || {
         (0..100)
             .filter(|_| {
-                AveragedMotion::from_parts(&body, &s, black_box(&initial), (0.0, 1e17), MeanOrder::Second).is_ok()
+                AveragedMotion::from_parts(&body, &s, black_box(&initial), (0.0, 1e17), AveragingOrder::Second).is_ok()
             })
             .count()
     });
     println!("set-up {:.2} us", set_up * 1e4);
-    let motion = AveragedMotion::from_parts(&body, &s, &initial, (0.0, 1e17), MeanOrder::Second)?;
+    let motion = AveragedMotion::from_parts(&body, &s, &initial, (0.0, 1e17), AveragingOrder::Second)?;
     for t in [1.0, 1e5, 1e10, 1e15] {
         let each = least(500, || {
             (0..1000)
@@ -61,8 +61,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let fifteen_years = 15.0 * 365.25 * 86_400.0 / 0.01;
     let sampled = least(50, || {
-        let motion =
-            AveragedMotion::from_parts(&body, &s, &initial, (0.0, fifteen_years), MeanOrder::Second).expect("fast");
+        let motion = AveragedMotion::from_parts(&body, &s, &initial, (0.0, fifteen_years), AveragingOrder::Second)
+            .expect("fast");
         (0..10_000)
             .map(|i| {
                 let t = fifteen_years * f64::from(i) / 9_999.0;
@@ -72,11 +72,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     });
     println!("10,000 epochs over 15 years at 642 Hz, set-up included: {:.2} ms", sampled * 1e3);
 
-    // s = 1e-6 over 1e7 t_c: 100 states. The mean motion is the reference: its own error is far below, which checks show.
+    // s = 1e-6 over 1e7 t_c: 100 states. The averaged motion is the reference: its own error is far below, which checks show.
     let (body, s, initial) = scene(1e-6);
     let times: Vec<f64> = (1..=100).map(|i| 1e5 * f64::from(i)).collect();
     let last = 1e7;
-    let mean = || AveragedMotion::from_parts(&body, &s, &initial, (0.0, last), MeanOrder::Second);
+    let mean = || AveragedMotion::from_parts(&body, &s, &initial, (0.0, last), AveragingOrder::Second);
     let states = || -> Result<Vec<BodyState<f64>>, twofold::Error> {
         let mean = mean()?;
         times.iter().map(|&t| mean.state(t)).collect()
@@ -84,7 +84,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let right = states()?;
     let mean_time = least(100, states);
     println!(
-        "s = 1e-6 over 1e7 t_c, 100 states: mean motion {:.1} us, its error estimate {:.1e}",
+        "s = 1e-6 over 1e7 t_c, 100 states: averaged motion {:.1} us, its error estimate {:.1e}",
         mean_time * 1e6,
         mean()?.error_estimate(last)
     );

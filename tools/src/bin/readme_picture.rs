@@ -10,7 +10,7 @@ use plotters::coord::Shift;
 use plotters::coord::combinators::IntoLogRange;
 use plotters::prelude::*;
 use twofold::propagation::Motion;
-use twofold::solutions::perturbation::{Form, Kind};
+use twofold::solutions::perturbation::{Form, Precession};
 use twofold_verify::checks::regimes::perturbation_error::Case;
 
 // Okabe and Ito's colours, told apart by readers who see red and green alike.
@@ -38,7 +38,7 @@ fn inclination(area: &Area) -> Result<(), Box<dyn Error>> {
     let duration = 20.0;
     let tilt = 0.01;
     // The same tilt by both: A / omega as printed, A / a corrected. Too small an s to matter, since a^(1) needs a sign.
-    let case = |form, frequency: f64| Case::paper(form, Kind::Twofold, 1e-40, 0.7, tilt * frequency);
+    let case = |form, frequency: f64| Case::paper(form, Precession::Twofold, 1e-40, 0.7, tilt * frequency);
     let printed = case(Form::Printed, 1.1);
     let corrected = case(Form::Corrected, 1.1 / 0.7f64.cos());
     let (motion, _) = printed.motion(duration)?;
@@ -105,7 +105,7 @@ fn errors(area: &Area) -> Result<(), Box<dyn Error>> {
     for (form, colour, label) in forms {
         let points = scales
             .iter()
-            .map(|&k| Ok((k, Case::paper(form, Kind::Twofold, k, 0.7, 0.0).errors(10.0, 400)?.beta)))
+            .map(|&k| Ok((k, Case::paper(form, Precession::Twofold, k, 0.7, 0.0).errors(10.0, 400)?.beta)))
             .collect::<Result<Vec<_>, String>>()?;
         chart
             .draw_series(LineSeries::new(points.clone(), colour.stroke_width(2 * UNIT)))?

@@ -14,7 +14,7 @@ what |n| is. Scenes:
     tp-I, tp-II, sp-I, sp-II   the initial states of the paper's examples, rounded to doubles
     nearly-free                tp-II with s times 2.5e-5: s ~ 1e-6
     nearly-separatrix          tp-II turned as a whole, so that L is 1e-4 rad from the middle eigenvector (Y) of s, towards X and Z
-                               alike: the mean motion of L/|L| starts that near to the saddle of l.(s l)
+                               alike: the averaged motion of L/|L| starts that near to the saddle of l.(s l)
     strongly-violated          s = (0.3, 0.1, -0.4), otherwise the initial state of tp-II
 
 It refuses to write unless the integrals (energy, L.n, K, n.n, e_x.e_x, n.e_x) are constant to 1e-40, and unless a second run with

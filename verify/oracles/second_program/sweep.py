@@ -115,7 +115,7 @@ def angle_to_observer(motion):
 
 
 def slow_precession(scene):
-    """The principal axis that L goes round, and the rate about the end at which L is: the mean motion of first order, at the start.
+    """The principal axis that L goes round, and the rate about the end at which L is: the averaged motion of first order, at the start.
 
     With l = L/G and c = n.l it is dl/dt = (2 C P2(c) / G) (s l) x l; its period is an integral over the azimuth about the axis.
     """

@@ -166,7 +166,7 @@ def fluid_inertia_over_c():
 
 
 def mean_quantities():
-    """Mean motion in the principal frame, l from the angles of the frame, traceless s."""
+    """Averaged motion in the principal frame, l from the angles of the frame, traceless s."""
     trace_free = {s_z: -s_x - s_y}
     diagonal = dict(zip(flat(S), flat(S_PRINCIPAL))) | {S[0, 1]: 0, S[0, 2]: 0, S[1, 2]: 0}
     direction = rotation(*symbols("frame_alpha frame_beta frame_gamma")).row(2).T
@@ -203,7 +203,7 @@ def cos_polynomial(expression):
 def growth():
     """Growth about the middle axis: dl/dt = <H>_L x l linearised, l = e_Y + small, s_x > s_y > s_z; as a function of G and c = x_1.
 
-    The kernel is asked with the energy at which the first-order mean motion has this G.
+    The kernel is asked with the energy at which the first-order averaged motion has this G.
     """
     size, cosine = mean.size, symbols("x_1")
     p2 = (mean.BY_H).subs(sin(mean.theta) ** 2, 1 - cosine**2)

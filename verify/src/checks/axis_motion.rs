@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use num_dual::Dual64;
 use twofold::dynamics::RigidSpheroid;
-use twofold::dynamics::regular_equations::reduced_rates;
+use twofold::dynamics::equations_of_motion::reduced_rates;
+use twofold::numerics::scalar::constant_vector;
 use twofold::propagation::{AxisState, Motion, propagate, propagate_axis};
-use twofold::scalar::constant_vector;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
 use crate::physical_domain::{scenes, worst_over};

@@ -8,7 +8,7 @@ use twofold::observables::bound::{
     SpinAxisDrift, cos_opening_angle, lambda_change_terms, preferred_frame_bound, zeta_change_terms,
 };
 use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change};
-use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Perturbation};
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::derivation::Differentiable;

@@ -2,9 +2,9 @@
 
 use num_dual::{Dual3_64, third_derivative};
 use proptest::prelude::*;
-use twofold::elliptic::carlson::{rc, rd, rf, rf_of_roots, rj, rj_of_roots};
-use twofold::elliptic::jacobi::{JacobiFunctions, complete_integral, jacobi};
-use twofold::scalar::Real;
+use twofold::numerics::elliptic::carlson::{rc, rd, rf, rf_of_roots, rj, rj_of_roots};
+use twofold::numerics::elliptic::jacobi::{JacobiFunctions, complete_integral, jacobi};
+use twofold::numerics::scalar::Real;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::physical_domain::worst_over;

@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 use twofold::dynamics::BodyState;
+use twofold::dynamics::equations_of_motion::{angular_velocity, body_state_rates, reduced_rates, torque_on_axis};
 use twofold::dynamics::euler_angle_equations::euler_angle_residuals;
 use twofold::dynamics::first_integrals::spin_in_angles;
-use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
-use twofold::dynamics::regular_equations::{angular_velocity, body_state_rates, reduced_rates, torque_on_axis};
+use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::euler_angles::{body_from_inertial, body_rates};
 
 use crate::check::{Check, Kind};

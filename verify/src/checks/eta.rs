@@ -1,20 +1,20 @@
-//! The factor eta of the bound, from the mean motion of the spin axis. Eqs. (31), (32), (34), (37)-(41).
+//! The factor eta of the bound, from the averaged motion of the spin axis. Eqs. (31), (32), (34), (37)-(41).
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use std::num::NonZeroUsize;
 
 use gauss_quad::GaussLegendre;
 use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::regular_equations::reduced_rates;
-use twofold::elliptic::jacobi::complete_integral;
+use twofold::dynamics::equations_of_motion::reduced_rates;
 use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::numerics::elliptic::jacobi::complete_integral;
 use twofold::observables::eta::{
     mean_squared_speed, root_mean_square_eta, secular_axis_rate, single_precession_start, squared_speed,
     squared_speed_along_motion,
 };
 use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
-use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Perturbation};
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::derivation::Differentiable;

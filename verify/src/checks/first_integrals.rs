@@ -2,10 +2,10 @@
 
 use nalgebra::Matrix3;
 use twofold::dynamics::BodyState;
+use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates};
 use twofold::dynamics::first_integrals::{
     clebsch_integral, energy, energy_in_angles, first_integrals, spin_in_angles, symmetric_adjugate,
 };
-use twofold::dynamics::regular_equations::{body_state_rates, reduced_rates};
 
 use crate::check::{Check, Kind};
 use crate::derivation::spheroid_motion::{accelerations, fixed_coefficients, fixed_spheroid};

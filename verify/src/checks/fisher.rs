@@ -10,7 +10,7 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::pulsar::direction::cosine_of_colatitude;
 use twofold::observables::pulsar::period::{approximate_period, azimuth_offset_rate};
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
-use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Perturbation, shifted_rates};
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession, shifted_rates};
 
 use crate::check::{Bound, Check, Kind, Measured, largest};
 use crate::derivation::Differentiable;

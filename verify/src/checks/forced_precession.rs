@@ -3,7 +3,7 @@
 use num_dual::Dual64;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::free::free_precession_rates;
-use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Perturbation, shifted_rates};
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession, shifted_rates};
 use twofold::solutions::steady::steady_precession_rate;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};

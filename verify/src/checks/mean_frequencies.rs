@@ -1,4 +1,4 @@
-//! Frequencies: exact ones from the periods of the torus, against known ones; those of the mean motion, against the exact ones.
+//! Frequencies: exact ones from the periods of the torus, against known ones; those of the averaged motion, against the exact ones.
 
 use core::f64::consts::{PI, TAU};
 
@@ -10,7 +10,7 @@ use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::propagation::{Motion, propagate};
-use twofold::solutions::mean::{MeanMotion, MeanOrder, middle_axis_growth, period_near_separatrix};
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder, middle_axis_growth, period_near_separatrix};
 use twofold::solutions::symmetric::SymmetricSolution;
 use twofold::solutions::torus::{TorusFrequencies, separatrix_motion, states_with_integrals, torus_frequencies};
 
@@ -76,11 +76,11 @@ pub fn checks() -> Vec<Check> {
             id: "mean-frequency-first",
             kind: Kind::Regime,
             equations: &[57],
-            statement: "the slow frequency of tp-II, 0.03546436867 / t_c, follows from the mean motion of first order to 5 %",
+            statement: "the slow frequency of tp-II, 0.03546436867 / t_c, follows from the averaged motion of first order to 5 %",
             figure: "relative error",
             bound: Bound::AtMost(0.05),
             reason: "asked of it; of first order in the strength of the torque, 0.024",
-            measure: || slow_frequency(MeanOrder::First, 1.0),
+            measure: || slow_frequency(AveragingOrder::First, 1.0),
         },
         Check {
             id: "mean-frequency-second",
@@ -90,7 +90,7 @@ pub fn checks() -> Vec<Check> {
             figure: "relative error",
             bound: Bound::AtMost(0.005),
             reason: "asked of it; of second order in the strength of the torque",
-            measure: || slow_frequency(MeanOrder::Second, 1.0),
+            measure: || slow_frequency(AveragingOrder::Second, 1.0),
         },
         Check {
             id: "mean-frequency-slopes",
@@ -116,7 +116,7 @@ pub fn checks() -> Vec<Check> {
             id: "mean-lines-of-examples",
             kind: Kind::Regime,
             equations: &[57],
-            statement: "the lines that the paper marks at the free values 1.438 and 0.1 are at alpha' and gamma' by sums of the mean motion's rates to second order",
+            statement: "the lines that the paper marks at the free values 1.438 and 0.1 are at alpha' and gamma' by sums of the averaged motion's rates to second order",
             figure: "largest |formula - exact| / |free value - exact|, alpha' and gamma' of tp-I and tp-II",
             bound: Bound::AtMost(0.01),
             reason: "third order against first, at a strength of 0.03",
@@ -188,9 +188,9 @@ impl Scene {
         Ok([found.slow, name(found.about_momentum)?, name(found.about_axis)?])
     }
 
-    /// Rates of the mean motion with the names and signs of the exact ones.
-    fn mean(&self, order: MeanOrder) -> Result<[f64; 3], String> {
-        let mean = MeanMotion::new(&self.body, &self.s, &self.start, order)?;
+    /// Rates of the averaged motion with the names and signs of the exact ones.
+    fn mean(&self, order: AveragingOrder) -> Result<[f64; 3], String> {
+        let mean = AveragedSolution::new(&self.body, &self.s, &self.start, order)?;
         let rates = mean.rates();
         Ok([rates.slow.abs(), rates.about_momentum, rates.about_axis])
     }
@@ -374,13 +374,13 @@ fn averages() -> Result<Measured, String> {
     worst.finish()
 }
 
-fn error_of_slow(order: MeanOrder, k: f64) -> Result<(f64, f64, f64), String> {
+fn error_of_slow(order: AveragingOrder, k: f64) -> Result<(f64, f64, f64), String> {
     let scene = Scene::example("tp-2", k);
     let (exact, mean) = (scene.exact()?[0].abs(), scene.mean(order)?[0]);
     Ok(((mean / exact - 1.0).abs(), mean, exact))
 }
 
-fn slow_frequency(order: MeanOrder, k: f64) -> Result<Measured, String> {
+fn slow_frequency(order: AveragingOrder, k: f64) -> Result<Measured, String> {
     let (error, mean, exact) = error_of_slow(order, k)?;
     let others = [0.3, 0.1].map(|k| error_of_slow(order, k).map(|(error, ..)| format!("k = {k}: {error:.2e}")));
     let [a, b] = others;
@@ -389,7 +389,7 @@ fn slow_frequency(order: MeanOrder, k: f64) -> Result<Measured, String> {
 
 fn slopes() -> Result<Measured, String> {
     let mut worst = Worst::default();
-    for (order, expected) in [(MeanOrder::First, 1.0), (MeanOrder::Second, 2.0)] {
+    for (order, expected) in [(AveragingOrder::First, 1.0), (AveragingOrder::Second, 2.0)] {
         let points = [0.1, 0.03, 0.01, 3e-3, 1e-3]
             .map(|k| error_of_slow(order, k).map(|(error, ..)| (f64::log10(k), error.log10())));
         let points: Vec<_> = points.into_iter().collect::<Result<_, _>>()?;
@@ -408,8 +408,8 @@ fn random_rates() -> Result<Measured, String> {
         }
         followed += 1;
         let exact = scene.exact()?;
-        let mean = scene.mean(MeanOrder::Second)?;
-        let x = MeanMotion::new(&scene.body, &scene.s, &scene.start, MeanOrder::Second)?.relative_strength();
+        let mean = scene.mean(AveragingOrder::Second)?;
+        let x = AveragedSolution::new(&scene.body, &scene.s, &scene.start, AveragingOrder::Second)?.relative_strength();
         let differences = [mean[0] - exact[0].abs(), mean[1] - exact[1], mean[2] - exact[2]]
             .map(|d| d.abs() / (x.powi(3) * scene.rotation()));
         worst.see(largest(differences), || {
@@ -428,7 +428,7 @@ fn lines() -> Result<Measured, String> {
     for name in ["tp-1", "tp-2"] {
         let scene = Scene::example(name, 1.0);
         let exact = scene.exact()?;
-        let mut mean = scene.mean(MeanOrder::Second)?;
+        let mut mean = scene.mean(AveragingOrder::Second)?;
         mean[0] *= exact[0].signum();
         for (what, multiples, free) in [("alpha'", TWOFOLD.alpha, free[0]), ("gamma'", TWOFOLD.gamma, free[1])] {
             let (exact, mean) = (sum(exact, multiples), sum(mean, multiples));
@@ -497,7 +497,7 @@ fn unstable(k: f64, nutation: f64) -> Result<(Scene, f64), String> {
     Ok((scene, 2.0 * (excess.max(0.0).sqrt() / 2.0).asinh() / period))
 }
 
-fn growth_error(order: MeanOrder, k: f64, nutation: f64) -> Result<f64, String> {
+fn growth_error(order: AveragingOrder, k: f64, nutation: f64) -> Result<f64, String> {
     let (scene, exact) = unstable(k, nutation)?;
     let FirstIntegrals { energy, spin, .. } = scene.integrals();
     let formula = middle_axis_growth(&scene.body, &scene.s, energy, spin, order)?;
@@ -509,7 +509,7 @@ const NUTATIONS: [f64; 3] = [0.0, 0.4, 1.1];
 fn growth_orders() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for nutation in NUTATIONS {
-        for (order, expected) in [(MeanOrder::First, 1.0), (MeanOrder::Second, 2.0)] {
+        for (order, expected) in [(AveragingOrder::First, 1.0), (AveragingOrder::Second, 2.0)] {
             let points =
                 [0.3, 0.1, 0.03].map(|k| growth_error(order, k, nutation).map(|error| (f64::log10(k), error.log10())));
             let points: Vec<_> = points.into_iter().collect::<Result<_, _>>()?;
@@ -525,8 +525,8 @@ fn growth_orders() -> Result<Measured, String> {
 fn growth_of_examples() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for nutation in NUTATIONS {
-        let first = growth_error(MeanOrder::First, 1.0, nutation)?;
-        worst.see(growth_error(MeanOrder::Second, 1.0, nutation)?, || {
+        let first = growth_error(AveragingOrder::First, 1.0, nutation)?;
+        worst.see(growth_error(AveragingOrder::Second, 1.0, nutation)?, || {
             format!("at {nutation}; to first order {first:.4}")
         });
     }
@@ -571,7 +571,7 @@ fn separatrix_formula() -> Result<Measured, String> {
                 let complement = 10f64.powi(power);
                 let (period, _, torus) = near_separatrix(k, side * complement)?;
                 let FirstIntegrals { energy, spin, .. } = torus.integrals();
-                let growth = middle_axis_growth(&torus.body, &torus.s, energy, spin, MeanOrder::Second)?;
+                let growth = middle_axis_growth(&torus.body, &torus.s, energy, spin, AveragingOrder::Second)?;
                 let formula = period_near_separatrix(growth, complement)?;
                 let x = 0.06 * k / torus.start.momentum.norm_squared();
                 let off = (formula / period - 1.0).abs();

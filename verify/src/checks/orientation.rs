@@ -1,8 +1,8 @@
 //! The rotation matrix, the angular velocity and the permuted axes. Eqs. (7)-(9), (22), (36), (61), (62).
 
 use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::inertia_tensor_rate::rotation_rate;
 use twofold::dynamics::potential::{anisotropic_potential_in_angles, anisotropic_potential_of_axis};
+use twofold::dynamics::wave_source::rotation_rate;
 use twofold::euler_angles::{
     body_from_inertial, body_rates, permuted_from_inertial, symmetry_axis, tensor_in_body_frame,
 };

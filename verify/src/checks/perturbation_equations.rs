@@ -2,7 +2,7 @@
 
 use twofold::Scalar;
 use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
-use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Perturbation};
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
 use crate::check::{Check, Kind};
 use crate::derivation::Differentiable;

@@ -118,7 +118,7 @@ fn found(method: Method, derivatives: &[Parameter], count: usize) -> Result<Vec<
 
 fn bounds() -> Result<Measured, String> {
     let mut worst = Worst::default();
-    for method in [Method::Free, Method::Steady, Method::Symmetric, Method::Mean] {
+    for method in [Method::Free, Method::Steady, Method::Symmetric, Method::Averaged] {
         for (number, foreseen, error, promise) in found(method, &[], 100)? {
             if matches!(promise, Promise::Goal(_)) {
                 return Err(format!("{} promises {promise:?}", method.name()));

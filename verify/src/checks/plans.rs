@@ -5,11 +5,11 @@ use std::cell::Cell;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use proptest::prelude::*;
 use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::numerics::scalar::Real;
 use twofold::parameters::{Parameter, Parameters};
 use twofold::plan::{Candidate, Method, Output, Plan, Request, StateFunction, gradient};
 use twofold::propagation::{Motion, SymmetricMotion, UniformMotion, propagate};
-use twofold::scalar::Real;
-use twofold::solutions::perturbation::Kind as Precession;
+use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};

@@ -5,15 +5,13 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 use num_dual::Dual64;
 use proptest::prelude::*;
+use twofold::dynamics::equations_of_motion::body_state_rates;
 use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_residuals};
-use twofold::dynamics::regular_equations::body_state_rates;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::EulerAngles;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::free::{free_precession_rates, free_rotation};
-use twofold::solutions::perturbation::{
-    Constants, Form, Kind as Precession, constants_from_initial_values, initial_values,
-};
+use twofold::solutions::perturbation::{Constants, Form, Precession, constants_from_initial_values, initial_values};
 use twofold::solutions::steady::steady_precession_rate;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};

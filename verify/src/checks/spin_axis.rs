@@ -11,7 +11,7 @@ use twofold::observables::spin_axis::{
     changes_from_start, cos_lambda, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
 };
 use twofold::propagation::{Motion, propagate};
-use twofold::solutions::perturbation::{Constants, Form, Kind as Precession, Perturbation};
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
 use crate::check::{Bound, Check, Kind, Measured};
 use crate::checks::observer::observer;

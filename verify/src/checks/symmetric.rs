@@ -11,10 +11,10 @@ use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerat
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::numerics::scalar::Real;
 use twofold::propagation::{Motion, propagate};
-use twofold::scalar::Real;
 use twofold::solutions::free::free_rotation;
-use twofold::solutions::perturbation::Kind as Precession;
+use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::solutions::symmetric::SymmetricSolution;
 

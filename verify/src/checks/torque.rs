@@ -1,8 +1,8 @@
 //! Torques as generalised forces. Eq. (66).
 
 use nalgebra::{Matrix3, Vector3};
+use twofold::dynamics::equations_of_motion::torque_on_axis;
 use twofold::dynamics::potential::potential_gradient_in_angles;
-use twofold::dynamics::regular_equations::torque_on_axis;
 use twofold::dynamics::torque::{torque_from_gradient_off_pole, torque_on_body};
 use twofold::euler_angles::{body_from_inertial, body_rates, tensor_in_body_frame};
 

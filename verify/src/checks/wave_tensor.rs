@@ -2,10 +2,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::angular_acceleration::angular_acceleration;
-use twofold::dynamics::inertia_tensor_rate::{
+use twofold::dynamics::equations_of_motion::torque_on_axis;
+use twofold::dynamics::wave_source::{
     free_inertia_acceleration, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
 };
-use twofold::dynamics::regular_equations::torque_on_axis;
 use twofold::dynamics::{BodyState, PrincipalInertia};
 use twofold::euler_angles::{EulerRates, body_from_inertial, body_rates};
 use twofold::observables::gravitational_wave::metric_perturbation;

@@ -1,10 +1,10 @@
 //! The two polarizations of the quadrupole wave. Eqs. (69)-(71).
 
 use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::inertia_tensor_rate::{
+use twofold::dynamics::equations_of_motion::{angular_velocity, torque_on_axis};
+use twofold::dynamics::wave_source::{
     free_inertia_acceleration, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
 };
-use twofold::dynamics::regular_equations::{angular_velocity, torque_on_axis};
 use twofold::dynamics::{BodyState, PrincipalInertia, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial, body_rates};
 use twofold::observables::Observer;

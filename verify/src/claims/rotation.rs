@@ -189,9 +189,9 @@ pub(super) const CLAIMS: &[Claim] = &[
         finding: "A series about Z cannot. The averaged equations of motion can: their solution describes n, L and e_x at leading order over the whole slow precession, and at the next order as well.",
         checks: &[
             "twofold-fails-for-large-tilt",
-            "mean-motion-first-order",
-            "mean-motion-slopes",
-            "mean-motion-regimes",
+            "averaged-motion-first-order",
+            "averaged-motion-slopes",
+            "averaged-motion-regimes",
         ],
         golden: &[],
     },
@@ -221,7 +221,7 @@ pub(super) const CLAIMS: &[Claim] = &[
         finding: "To first order in s it is the same: averaged over the fast rotation the direction of L moves as the angular velocity of a free asymmetric top, with a separatrix through the middle axis near which the time for a turn grows as the logarithm of the distance.",
         checks: &[
             "slow-precession-averaged",
-            "mean-motion-first-order",
+            "averaged-motion-first-order",
             "separatrix-period-logarithm",
             "separatrix-period-formula",
         ],

@@ -4,7 +4,7 @@ use twofold::dynamics::RigidSpheroid;
 use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_residuals};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::linearised::FirstOrderMotion;
-use twofold::solutions::perturbation::{Constants, Kind, Perturbation};
+use twofold::solutions::perturbation::{Constants, Perturbation, Precession};
 
 use crate::derivation::Differentiable;
 use crate::derivation::spheroid_motion::fixed_spheroid;
@@ -13,7 +13,7 @@ use crate::derivation::spheroid_motion::fixed_spheroid;
 #[derive(Debug, Clone, Copy)]
 pub struct UnperturbedMotion<F> {
     /// Free precession or a stationary spin.
-    pub kind: Kind,
+    pub kind: Precession,
     /// Spin component `Omega^z`.
     pub spin: F,
     /// Angle `alpha` at the moment.
@@ -34,8 +34,8 @@ pub fn first_order_equations<F: Differentiable>(
     first: &FirstOrderMotion<F>,
 ) -> [F; 2] {
     let [of_alpha, of_beta] = match zeroth.kind {
-        Kind::Twofold => about_free_precession(spheroid, s, zeroth, first),
-        Kind::Single => about_stationary_spin(spheroid, s, zeroth, first),
+        Precession::Twofold => about_free_precession(spheroid, s, zeroth, first),
+        Precession::Single => about_stationary_spin(spheroid, s, zeroth, first),
     };
     let (sin_beta, _) = zeroth.beta.sin_cos();
     [of_alpha / (sin_beta * sin_beta), of_beta]
@@ -105,8 +105,8 @@ pub fn first_order_motion<F: Differentiable>(solution: &Perturbation<F>, nu: F) 
     let Constants { alpha_0, beta_0, amplitude, phase } = solution.constants;
     // About a stationary spin the forced beta1 divides by a^(1), and the homogeneous one is smaller by the order of s.
     let (rate, amplitude_of_beta) = match solution.kind {
-        Kind::Twofold => (solution.zeroth_rate, amplitude),
-        Kind::Single => (solution.rate, F::zero()),
+        Precession::Twofold => (solution.zeroth_rate, amplitude),
+        Precession::Single => (solution.rate, F::zero()),
     };
     let of_beta = Perturbation {
         constants: Constants { amplitude: amplitude_of_beta, ..solution.constants },

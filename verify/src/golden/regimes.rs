@@ -1,7 +1,7 @@
 //! Errors of the perturbation solutions over their parameters.
 
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::{Form, Kind};
+use twofold::solutions::perturbation::{Form, Precession};
 
 use super::{GoldenLine, GoldenTable, Printed};
 use crate::checks::regimes::perturbation_error::Case;
@@ -25,7 +25,7 @@ pub(super) fn twofold() -> Result<GoldenTable, String> {
     let mut lines = Vec::new();
     for (form, name) in FORMS {
         let error = |asymmetry: f64, beta_0: f64, amplitude: f64| {
-            Case { form, kind: Kind::Twofold, s: coefficients(asymmetry, k), beta_0, amplitude }
+            Case { form, kind: Precession::Twofold, s: coefficients(asymmetry, k), beta_0, amplitude }
                 .errors(10.0, 400)
                 .map(|errors| errors.beta)
         };
@@ -65,7 +65,7 @@ pub(super) fn single() -> Result<GoldenTable, String> {
     for (form, name) in FORMS {
         let cases = inclinations.iter().chain(&amplitudes).chain(&asymmetries).chain(&scales);
         for &(asymmetry, k, beta_0, amplitude) in cases {
-            let case = Case { form, kind: Kind::Single, s: coefficients(asymmetry, k), beta_0, amplitude };
+            let case = Case { form, kind: Precession::Single, s: coefficients(asymmetry, k), beta_0, amplitude };
             let label = format!("{name}, beta_0 = {beta_0}, A = {amplitude}, k = {k}, s^XX - s^YY = {asymmetry} k");
             lines.push(line(label, case.errors_over_forced_period()?.axis));
         }

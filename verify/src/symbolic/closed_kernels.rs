@@ -9,11 +9,11 @@ use twofold::observables::Observer;
 use twofold::observables::bound::{SpinAxisDrift, fluid_inertia_over_c};
 use twofold::observables::wave_harmonics::WaveHarmonics;
 use twofold::propagation::AxisState;
-use twofold::solutions::free::{free_precession_rates, free_rotation};
-use twofold::solutions::mean::{
-    MeanOrder, generator, generator_slopes, mean_angular_velocity, mean_potential, middle_axis_growth,
+use twofold::solutions::averaged::{
+    AveragingOrder, generator, generator_slopes, mean_angular_velocity, mean_potential, middle_axis_growth,
 };
-use twofold::solutions::perturbation::Kind;
+use twofold::solutions::free::{free_precession_rates, free_rotation};
+use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::star::estimates::inertia_over_c_estimate;
 use twofold::star::maclaurin::MaclaurinSpheroid;
@@ -34,8 +34,8 @@ pub(super) fn all() -> Vec<ClosedKernel> {
         ("uniform-spheroid", spheroid),
         ("inertia-over-c", inertia_over_c),
         ("mean-potential", potential),
-        ("mean-angular-velocity-first", |p| mean_rate(p, MeanOrder::First)),
-        ("mean-angular-velocity-second", |p| mean_rate(p, MeanOrder::Second)),
+        ("mean-angular-velocity-first", |p| mean_rate(p, AveragingOrder::First)),
+        ("mean-angular-velocity-second", |p| mean_rate(p, AveragingOrder::Second)),
         ("generator", generating),
         ("generator-slopes", generating_slopes),
         ("growth-at-middle-axis", growth),
@@ -85,10 +85,10 @@ fn mean_point(p: &Point) -> (Vector3<f64>, Vector3<f64>, Vector3<f64>) {
 fn potential(p: &Point) -> Components {
     let (s, n, l) = mean_point(p);
     let value = |order| mean_potential(&p.spheroid(), &s, p.at("size"), n.dot(&l), &l, order);
-    Ok(vec![value(MeanOrder::First), value(MeanOrder::Second)])
+    Ok(vec![value(AveragingOrder::First), value(AveragingOrder::Second)])
 }
 
-fn mean_rate(p: &Point, order: MeanOrder) -> Components {
+fn mean_rate(p: &Point, order: AveragingOrder) -> Components {
     let (s, n, l) = mean_point(p);
     let (along_l, tensor, along_n) = mean_angular_velocity(&p.spheroid(), &s, p.at("size"), n.dot(&l), &l, order);
     Ok((l * along_l + tensor.component_mul(&l) + n * along_n).as_slice().to_vec())
@@ -104,7 +104,7 @@ fn generating_slopes(p: &Point) -> Components {
     Ok(generator_slopes(&p.spheroid(), &s, &n, &(l * p.at("size"))).iter().flatten().copied().collect())
 }
 
-/// At the energy of the first-order mean motion on the middle axis with the size G and the cosine c of the point.
+/// At the energy of the first-order averaged motion on the middle axis with the size G and the cosine c of the point.
 fn growth(p: &Point) -> Components {
     let (spheroid, s, size, cosine) = (p.spheroid(), p.coefficients(), p.at("size"), p.at("x_1"));
     let mean = (s.xx + s.yy + s.zz) / 3.0;
@@ -114,14 +114,14 @@ fn growth(p: &Point) -> Components {
         + spheroid.constant_c * ((3.0 * cosine * cosine - 1.0) / 2.0 * (s.yy - mean) + mean)
         + along * spin / 2.0
         - along * along / (2.0 * spheroid.inertia_xx);
-    Ok(vec![middle_axis_growth(&spheroid, &s, energy, spin, MeanOrder::First)?])
+    Ok(vec![middle_axis_growth(&spheroid, &s, energy, spin, AveragingOrder::First)?])
 }
 
 fn steady(p: &Point) -> Components {
     let (xx, zz) = (p.at("s_x"), p.at("s_z"));
     let s = PrincipalCoefficients { xx, yy: xx, zz };
     let rate = |kind| steady_precession_rate(kind, &p.spheroid(), &s, p.at("spin"), p.at("beta"));
-    Ok(vec![rate(Kind::Twofold)?, rate(Kind::Single)?])
+    Ok(vec![rate(Precession::Twofold)?, rate(Precession::Single)?])
 }
 
 fn free_rates(p: &Point) -> Components {

@@ -2,19 +2,19 @@
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::angular_acceleration::angular_acceleration;
+use twofold::dynamics::equations_of_motion::{angular_velocity, body_state_rates, torque_on_axis};
 use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations, euler_angle_residuals};
 use twofold::dynamics::first_integrals::{energy_in_angles, first_integrals, spin_in_angles};
-use twofold::dynamics::inertia_tensor_rate::{
-    free_inertia_acceleration, rotation_rate, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
-};
 use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
 use twofold::dynamics::lagrangian::lagrangian;
 use twofold::dynamics::potential::{
     anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body, nordtvedt_potential,
     potential_gradient_in_angles,
 };
-use twofold::dynamics::regular_equations::{angular_velocity, body_state_rates, torque_on_axis};
 use twofold::dynamics::torque::{torque_from_gradient_off_pole, torque_on_body};
+use twofold::dynamics::wave_source::{
+    free_inertia_acceleration, rotation_rate, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
+};
 use twofold::euler_angles::{body_from_inertial, body_rates, symmetry_axis, tensor_in_body_frame};
 use twofold::observables::Observer;
 use twofold::observables::bound::{cos_opening_angle, lambda_change_terms, zeta_change_terms};
@@ -30,7 +30,7 @@ use twofold::observables::spin_axis::{
     changes_from_start, cos_lambda, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
 };
 use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
-use twofold::solutions::perturbation::{Constants, Form, Kind, Perturbation};
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
 use super::point::Coded;
 use super::{RationalKernel, RationalPoint};
@@ -332,7 +332,7 @@ type Residuals<F> = fn(
     &FirstOrderMotion<F>,
 ) -> (F, F);
 
-fn first_order<F: Coded>(p: &Point<F>, kind: Kind, residuals: Residuals<F>) -> Vec<F> {
+fn first_order<F: Coded>(p: &Point<F>, kind: Precession, residuals: Residuals<F>) -> Vec<F> {
     let zeroth = ZerothOrder { kind, spin: p.at("spin"), alpha: p.at("alpha"), beta: p.at("beta") };
     let [beta, alpha_rate, beta_rate, alpha_acceleration, beta_acceleration] =
         ["x_1", "x_2", "x_3", "x_4", "x_5"].map(|name| p.at(name));
@@ -342,19 +342,19 @@ fn first_order<F: Coded>(p: &Point<F>, kind: Kind, residuals: Residuals<F>) -> V
 }
 
 fn full_twofold<F: Coded>(p: &Point<F>) -> Vec<F> {
-    first_order(p, Kind::Twofold, full_residuals)
+    first_order(p, Precession::Twofold, full_residuals)
 }
 
 fn full_single<F: Coded>(p: &Point<F>) -> Vec<F> {
-    first_order(p, Kind::Single, full_residuals)
+    first_order(p, Precession::Single, full_residuals)
 }
 
 fn printed_twofold<F: Coded>(p: &Point<F>) -> Vec<F> {
-    first_order(p, Kind::Twofold, printed_residuals)
+    first_order(p, Precession::Twofold, printed_residuals)
 }
 
 fn printed_single<F: Coded>(p: &Point<F>) -> Vec<F> {
-    first_order(p, Kind::Single, printed_residuals)
+    first_order(p, Precession::Single, printed_residuals)
 }
 
 fn constants<F: Coded>(p: &Point<F>) -> Constants<F> {
@@ -385,22 +385,22 @@ fn solved<F: Coded>(p: &Point<F>, solution: &Perturbation<F>) -> Vec<F> {
     ]
 }
 
-fn solution<F: Coded>(p: &Point<F>, form: Form, kind: Kind) -> Vec<F> {
+fn solution<F: Coded>(p: &Point<F>, form: Form, kind: Precession) -> Vec<F> {
     solved(p, &Perturbation::new_unchecked(form, kind, &p.spheroid(), &p.coefficients(), p.at("spin"), &constants(p)))
 }
 
 fn solution_twofold<F: Coded>(p: &Point<F>) -> Vec<F> {
-    solution(p, Form::Printed, Kind::Twofold)
+    solution(p, Form::Printed, Precession::Twofold)
 }
 
 fn solution_single<F: Coded>(p: &Point<F>) -> Vec<F> {
-    solution(p, Form::Printed, Kind::Single)
+    solution(p, Form::Printed, Precession::Single)
 }
 
 fn corrected_twofold<F: Coded>(p: &Point<F>) -> Vec<F> {
-    solution(p, Form::Corrected, Kind::Twofold)
+    solution(p, Form::Corrected, Precession::Twofold)
 }
 
 fn corrected_single<F: Coded>(p: &Point<F>) -> Vec<F> {
-    solution(p, Form::Corrected, Kind::Single)
+    solution(p, Form::Corrected, Precession::Single)
 }

@@ -5,8 +5,10 @@ use core::f64::consts::TAU;
 use nalgebra::{Rotation3, Unit, Vector3};
 use num_dual::Dual64;
 use twofold::dynamics::RigidSpheroid;
-use twofold::scalar::length;
-use twofold::solutions::mean::{MeanOrder, generator, generator_slopes, mean_angular_velocity, mean_potential};
+use twofold::numerics::scalar::length;
+use twofold::solutions::averaged::{
+    AveragingOrder, generator, generator_slopes, mean_angular_velocity, mean_potential,
+};
 
 use super::scenes::{State, random_state};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
@@ -19,7 +21,7 @@ pub(super) fn checks() -> Vec<Check> {
             id: "mean-generator-slopes",
             kind: Kind::Autodiff,
             equations: &[25],
-            statement: "the slopes of the generator of the mean motion by n and L are its automatic derivatives",
+            statement: "the slopes of the generator of the averaged motion by n and L are its automatic derivatives",
             figure: "largest difference / (C I^xx |s| / G), 200 random states",
             bound: Bound::AtMost(1e-14),
             reason: "some thirty roundings",
@@ -101,7 +103,7 @@ fn mean_of_potential(state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual
     let size = length(momentum);
     let l = momentum / size;
     let c = n.dot(&l);
-    mean_potential(&lifted(&state.body), &dual(&state.s), size, c, &l, MeanOrder::First)
+    mean_potential(&lifted(&state.body), &dual(&state.s), size, c, &l, AveragingOrder::First)
 }
 
 fn of_generator(state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual64>) -> Dual64 {
@@ -152,19 +154,19 @@ fn second_order() -> Result<Measured, String> {
         let c = n.dot(&l);
         let order = |order| mean_potential(body, s, size, c, &l, order);
         let unit = body.constant_c.powi(2) * body.inertia_xx * s.norm_squared() / (size * size);
-        (order(MeanOrder::Second) - order(MeanOrder::First) - sum / 18.0).abs() / unit
+        (order(AveragingOrder::Second) - order(AveragingOrder::First) - sum / 18.0).abs() / unit
     })
 }
 
 fn to_second_order(state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual64>) -> Dual64 {
-    of_order(state, n, momentum, MeanOrder::Second)
+    of_order(state, n, momentum, AveragingOrder::Second)
 }
 
 fn to_first_order(state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual64>) -> Dual64 {
-    of_order(state, n, momentum, MeanOrder::First)
+    of_order(state, n, momentum, AveragingOrder::First)
 }
 
-fn of_order(state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual64>, order: MeanOrder) -> Dual64 {
+fn of_order(state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual64>, order: AveragingOrder) -> Dual64 {
     let size = length(momentum);
     let l = momentum / size;
     let c = n.dot(&l);
@@ -176,8 +178,8 @@ fn rates_of_frame() -> Result<Measured, String> {
         let State { body, s, n, momentum } = state;
         let size = momentum.norm();
         let l = momentum / size;
-        let orders: [(Function, MeanOrder); 2] =
-            [(to_first_order, MeanOrder::First), (to_second_order, MeanOrder::Second)];
+        let orders: [(Function, AveragingOrder); 2] =
+            [(to_first_order, AveragingOrder::First), (to_second_order, AveragingOrder::Second)];
         largest(orders.map(|(function, order)| {
             let [by_axis, by_momentum] = slopes_of(function, state);
             let (about_momentum, tensor, about_axis) = mean_angular_velocity(body, s, size, n.dot(&l), &l, order);

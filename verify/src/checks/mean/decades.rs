@@ -1,11 +1,11 @@
-//! Phases of the mean motion over decades.
+//! Phases of the averaged motion over decades.
 
 use nalgebra::Vector3;
 use twofold::Scalar;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{AveragedMotion, Motion};
-use twofold::solutions::mean::{MeanMotion, MeanOrder};
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
 
 use super::scenes::{difference, random_state};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
@@ -46,11 +46,11 @@ fn phases() -> Result<Measured, String> {
         let state = random_state(&mut random);
         let size = 10f64.powf(random.within(-15.0, -6.0));
         let s = state.s * size;
-        let order = if case % 2 == 0 { MeanOrder::First } else { MeanOrder::Second };
+        let order = if case % 2 == 0 { AveragingOrder::First } else { AveragingOrder::Second };
         let across = state.n.cross(&Vector3::new(0.3, -0.5, 0.8)).normalize();
         let initial = BodyState { axis: state.n, momentum: state.momentum, equatorial_axis: across };
-        let mean = MeanMotion::new(&state.body, &PrincipalCoefficients::new(s.into()), &initial, order)?;
-        let exact = MeanMotion::new(
+        let mean = AveragedSolution::new(&state.body, &PrincipalCoefficients::new(s.into()), &initial, order)?;
+        let exact = AveragedSolution::new(
             &RigidSpheroid {
                 inertia_xx: DoubleDouble::from_f64(state.body.inertia_xx),
                 inertia_zz: DoubleDouble::from_f64(state.body.inertia_zz),
@@ -86,7 +86,7 @@ fn epochs() -> Result<Measured, String> {
         let s = nalgebra::Matrix3::from_diagonal(&(state.s * 10f64.powf(random.within(-15.0, -3.0))));
         let across = state.n.cross(&Vector3::new(0.3, -0.5, 0.8)).normalize();
         let initial = BodyState { axis: state.n, momentum: state.momentum, equatorial_axis: across };
-        let motion = AveragedMotion::from_parts(&state.body, &s, &initial, (0.0, 1e17), MeanOrder::Second)?;
+        let motion = AveragedMotion::from_parts(&state.body, &s, &initial, (0.0, 1e17), AveragingOrder::Second)?;
         let epoch = 10f64.powf(random.within(0.0, 15.0));
         let epoch = [epoch, epoch * f64::EPSILON * random.within(-0.4, 0.4)];
         let later = random.within(0.0, 1e-3) * epoch[0].min(100.0);

@@ -1,11 +1,11 @@
-//! Derivatives of the mean motion by duals.
+//! Derivatives of the averaged motion by duals.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use num_dual::Dual64;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame_along, principal_frame_with_derivatives};
 use twofold::propagation::{AveragedMotion, Motion};
-use twofold::solutions::mean::{MeanMotion, MeanOrder};
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::mean_scenes::MeanScene;
@@ -17,7 +17,7 @@ pub(super) fn checks() -> Vec<Check> {
         id: "mean-derivatives",
         kind: Kind::Autodiff,
         equations: &[25],
-        statement: "the mean motion in any frame over duals has the derivatives that differences of it have: by s^IJ (two equal eigenvalues, split along their axes or any others, included), L, n and the moments of inertia",
+        statement: "the averaged motion in any frame over duals has the derivatives that differences of it have: by s^IJ (two equal eigenvalues, split along their axes or any others, included), L, n and the moments of inertia",
         figure: "largest |dual - difference| / largest component of the derivative, 60 random motions, 24 of them with two equal eigenvalues, of five parameters",
         bound: Bound::AtMost(1e-8),
         reason: "differences of fourth order in steps of 1e-3 of the scale of change: 1e-14 / 1e-3 by rounding, 1e-12 / 30 times a fifth derivative of some hundred",
@@ -61,7 +61,7 @@ impl Family {
                 let values = lift(s) + direction * S::from_f64(s.amax()) * x;
                 let initial = state.rotated(&frame.transpose());
                 let coefficients = PrincipalCoefficients::new(values.into());
-                return Ok(MeanMotion::new(&body, &coefficients, &initial, MeanOrder::Second)?.state(t));
+                return Ok(AveragedSolution::new(&body, &coefficients, &initial, AveragingOrder::Second)?.state(t));
             }
             0 => tensor += frame * Matrix3::from_diagonal(&(direction * S::from_f64(s.amax()))) * frame.transpose() * x,
             // The axes turn as well.
@@ -75,14 +75,15 @@ impl Family {
                 let angle = direction * x;
                 let turned = |v: &Vector3<S>| v + angle.cross(v);
                 (state.axis, state.equatorial_axis) = (turned(&state.axis), turned(&state.equatorial_axis));
-                let size = twofold::scalar::length(&state.axis);
+                let size = twofold::numerics::scalar::length(&state.axis);
                 state.axis /= size;
                 let across = state.equatorial_axis - state.axis * state.axis.dot(&state.equatorial_axis);
-                state.equatorial_axis = across / twofold::scalar::length(&across);
+                state.equatorial_axis = across / twofold::numerics::scalar::length(&across);
             }
         }
         let principal = frame_of(&tensor)?;
-        AveragedMotion::in_frame_from_parts(&body, &tensor, &state, (0.0, *end), MeanOrder::Second, principal)?.state(t)
+        AveragedMotion::in_frame_from_parts(&body, &tensor, &state, (0.0, *end), AveragingOrder::Second, principal)?
+            .state(t)
     }
 
     fn components<S: twofold::Real>(&self, x: S, frame_of: Frame<S>) -> Result<[S; 9], twofold::Error> {

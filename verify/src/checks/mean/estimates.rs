@@ -1,11 +1,11 @@
-//! The error estimate of the mean motion.
+//! The error estimate of the averaged motion.
 
 use core::f64::consts::TAU;
 use std::sync::LazyLock;
 
 use twofold::Scalar;
 use twofold::dynamics::BodyState;
-use twofold::solutions::mean::{MeanOrder, MeanPhases};
+use twofold::solutions::averaged::{AveragedPhases, AveragingOrder};
 
 use super::scenes::difference;
 use crate::check::{Bound, Check, Kind, Measured, Worst};
@@ -20,7 +20,7 @@ pub(super) fn checks() -> Vec<Check> {
             id: "mean-error-not-below",
             kind: Kind::Property,
             equations: &[25],
-            statement: "the error estimate of the mean motion, of either order, is not below its error: any strength, symmetric tensors, near the separatrix, c = 1, c^2 = 1/3",
+            statement: "the error estimate of the averaged motion, of either order, is not below its error: any strength, symmetric tensors, near the separatrix, c = 1, c^2 = 1/3",
             figure: "largest true error / estimate, 400 random motions at 12 times, up to 1,500 rad",
             bound: Bound::AtMost(1.0),
             reason: "what an estimate is for",
@@ -64,16 +64,16 @@ const SCENES: u64 = 400;
 type AllSeen = Result<Vec<(u64, EstimateSeen)>, String>;
 
 /// What two checks look at, for each order.
-fn seen(order: MeanOrder) -> &'static AllSeen {
+fn seen(order: AveragingOrder) -> &'static AllSeen {
     static SEEN: [LazyLock<AllSeen>; 2] =
-        [LazyLock::new(|| measured(MeanOrder::First)), LazyLock::new(|| measured(MeanOrder::Second))];
+        [LazyLock::new(|| measured(AveragingOrder::First)), LazyLock::new(|| measured(AveragingOrder::Second))];
     match order {
-        MeanOrder::First => &SEEN[0],
-        MeanOrder::Second => &SEEN[1],
+        AveragingOrder::First => &SEEN[0],
+        AveragingOrder::Second => &SEEN[1],
     }
 }
 
-fn measured(order: MeanOrder) -> AllSeen {
+fn measured(order: AveragingOrder) -> AllSeen {
     (0..SCENES)
         .map(|number| {
             let scene = MeanScene::draw(11, number, 1500.0);
@@ -84,7 +84,7 @@ fn measured(order: MeanOrder) -> AllSeen {
 
 fn not_below() -> Result<Measured, String> {
     let mut worst = Worst::default();
-    for order in [MeanOrder::First, MeanOrder::Second] {
+    for order in [AveragingOrder::First, AveragingOrder::Second] {
         for (number, seen) in seen(order).as_ref().map_err(Clone::clone)? {
             let [error, estimate, t] = seen.at;
             worst.see(seen.worst, || {
@@ -99,7 +99,7 @@ fn beside_separatrix() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for number in 0..300 {
         let scene = MeanScene::beside_separatrix(13, number);
-        for order in [MeanOrder::First, MeanOrder::Second] {
+        for order in [AveragingOrder::First, AveragingOrder::Second] {
             let seen = scene.estimate_seen(order, number)?;
             let [error, estimate, t] = seen.at;
             worst.see(seen.worst, || {
@@ -115,8 +115,8 @@ fn rounding() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for number in 0..60 {
         let scene = MeanScene::draw(19, number, 10.0);
-        let mean = scene.motion::<f64>(MeanOrder::Second)?;
-        let exact = scene.motion::<DoubleDouble>(MeanOrder::Second)?;
+        let mean = scene.motion::<f64>(AveragingOrder::Second)?;
+        let exact = scene.motion::<DoubleDouble>(AveragingOrder::Second)?;
         let t = 10f64.powf(random.within(0.0, 12.0));
         // Only the part that grows with the slow phase: in double-double numbers phases are not reduced, and the fast ones are the same theory.
         let rates = exact.rates();
@@ -124,7 +124,7 @@ fn rounding() -> Result<Measured, String> {
         let tau = DoubleDouble::tau();
         let reduced = phases.map(|phase| phase - tau * DoubleDouble::from_f64((phase.high() / TAU).round()));
         let start = exact.phases(DoubleDouble::from_f64(0.0));
-        let right = exact.state_at(&MeanPhases {
+        let right = exact.state_at(&AveragedPhases {
             slow: start.slow + reduced[0],
             about_momentum: reduced[1],
             about_axis: reduced[2],
@@ -146,7 +146,7 @@ fn rounding() -> Result<Measured, String> {
 }
 
 fn not_idle() -> Result<Measured, String> {
-    let seen = seen(MeanOrder::Second).as_ref().map_err(Clone::clone)?;
+    let seen = seen(AveragingOrder::Second).as_ref().map_err(Clone::clone)?;
     let mut ratios: Vec<f64> = seen.iter().map(|(_, seen)| 1.0 / seen.worst).collect();
     ratios.sort_by(f64::total_cmp);
     Ok(Measured::new(ratios[ratios.len() / 2], format!("median of {} motions", ratios.len())))

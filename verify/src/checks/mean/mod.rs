@@ -1,4 +1,4 @@
-//! The mean motion in closed form.
+//! The averaged motion in closed form.
 
 mod averaging;
 mod decades;

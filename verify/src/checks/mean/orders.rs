@@ -1,10 +1,10 @@
-//! Both orders of the mean motion against numerical motion.
+//! Both orders of the averaged motion against numerical motion.
 
 use nalgebra::Vector3;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{Motion, propagate};
-use twofold::solutions::mean::{MeanMotion, MeanOrder};
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
 
 use super::scenes::{State, difference, random_state};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
@@ -16,17 +16,17 @@ use twofold::straight_line::slope;
 pub(super) fn checks() -> Vec<Check> {
     vec![
         Check {
-            id: "mean-motion-first-order",
+            id: "averaged-motion-first-order",
             kind: Kind::Regime,
             equations: &[25, 57],
-            statement: "with tp-II's geometry and s scaled by k from 1e-1 to 1e-3 n, L and e_x of the first-order mean motion are off by at most 0.03 k over 30/k t_c",
+            statement: "with tp-II's geometry and s scaled by k from 1e-1 to 1e-3 n, L and e_x of the first-order averaged motion are off by at most 0.03 k over 30/k t_c",
             figure: "largest error of a component of n, L or e_x over k",
             bound: Bound::AtMost(0.03),
             reason: "asked of it: the periodic part of second order, and the rates of second order over a time 1/k",
-            measure: || tp_2(MeanOrder::First).map(|(measured, _)| measured),
+            measure: || tp_2(AveragingOrder::First).map(|(measured, _)| measured),
         },
         Check {
-            id: "mean-motion-second-order",
+            id: "averaged-motion-second-order",
             kind: Kind::Regime,
             equations: &[25, 57],
             statement: "to second order the error is at least 20 times smaller than to first at k = 0.1",
@@ -36,17 +36,17 @@ pub(super) fn checks() -> Vec<Check> {
             measure: gain_of_second_order,
         },
         Check {
-            id: "mean-motion-slopes",
+            id: "averaged-motion-slopes",
             kind: Kind::Regime,
             equations: &[25, 57],
-            statement: "the errors of the first and second order of the mean motion fall with the first and second power of s over times 1/s",
+            statement: "the errors of the first and second order of the averaged motion fall with the first and second power of s over times 1/s",
             figure: "largest |measured slope - order|, k from 1e-1 to 1e-3",
             bound: Bound::AtMost(0.1),
             reason: "corrections of relative order k",
             measure: slopes_of_errors,
         },
         Check {
-            id: "mean-motion-reference",
+            id: "averaged-motion-reference",
             kind: Kind::Oracle,
             equations: &[25, 57],
             statement: "with tp-II's geometry and s scaled by k from 1e-1 to 1e-6 the first order is off by at most 0.03 k over 30/k t_c, against motion in double-double numbers",
@@ -56,7 +56,7 @@ pub(super) fn checks() -> Vec<Check> {
             measure: first_order_of_reference,
         },
         Check {
-            id: "mean-motion-reference-slopes",
+            id: "averaged-motion-reference-slopes",
             kind: Kind::Oracle,
             equations: &[25, 57],
             statement: "and the errors of both orders fall with their powers of s down to 1e-5 k",
@@ -66,10 +66,10 @@ pub(super) fn checks() -> Vec<Check> {
             measure: slopes_of_reference,
         },
         Check {
-            id: "mean-motion-regular",
+            id: "averaged-motion-regular",
             kind: Kind::Regime,
             equations: &[25, 26],
-            statement: "the second-order mean motion holds for random geometries, single precession with n on L, c^2 = 1/3 and tensors with two equal values among them",
+            statement: "the second-order averaged motion holds for random geometries, single precession with n on L, c^2 = 1/3 and tensors with two equal values among them",
             figure: "largest error of n, L / G or e_x over x^2 (1 + x G t / I^xx), x = C (s_max - s_min) I^xx / G^2, away from the separatrix",
             bound: Bound::AtMost(6.0),
             reason: "the periodic part of second order and rates of third, with coefficients of order one; 3.3 was seen",
@@ -81,13 +81,13 @@ pub(super) fn checks() -> Vec<Check> {
 const SCALES: [f64; 5] = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3];
 
 /// Largest error of n, L and e_x over 30/k t_c.
-fn error_of_tp_2(order: MeanOrder, k: f64) -> Result<f64, String> {
+fn error_of_tp_2(order: AveragingOrder, k: f64) -> Result<f64, String> {
     let scene = reference_motion("tp-2");
     let values = [scene.coefficients.xx, scene.coefficients.yy, scene.coefficients.zz].map(|value| value * k);
     let coefficients = PrincipalCoefficients::new(values);
     let initial = scene.initial();
     let exact = propagate(&scene.spheroid, &coefficients.tensor(), &initial, (0.0, 30.0 / k), 1e-13)?;
-    let mean = MeanMotion::new(&scene.spheroid, &coefficients, &initial, order)?;
+    let mean = AveragedSolution::new(&scene.spheroid, &coefficients, &initial, order)?;
     let mut most = 0.0;
     for i in 0..=200 {
         let t = 30.0 / k * f64::from(i) / 200.0;
@@ -96,7 +96,7 @@ fn error_of_tp_2(order: MeanOrder, k: f64) -> Result<f64, String> {
     Ok(most)
 }
 
-fn tp_2(order: MeanOrder) -> Result<(Measured, Vec<(f64, f64)>), String> {
+fn tp_2(order: AveragingOrder) -> Result<(Measured, Vec<(f64, f64)>), String> {
     let mut worst = Worst::default();
     let mut errors = Vec::new();
     for k in SCALES {
@@ -109,14 +109,14 @@ fn tp_2(order: MeanOrder) -> Result<(Measured, Vec<(f64, f64)>), String> {
 
 fn gain_of_second_order() -> Result<Measured, String> {
     let mut worst = Worst::default();
-    let ratio = error_of_tp_2(MeanOrder::Second, 0.1)? / error_of_tp_2(MeanOrder::First, 0.1)?;
+    let ratio = error_of_tp_2(AveragingOrder::Second, 0.1)? / error_of_tp_2(AveragingOrder::First, 0.1)?;
     worst.see(ratio, || "k = 0.1".to_owned());
     worst.finish()
 }
 
 fn slopes_of_errors() -> Result<Measured, String> {
     let mut worst = Worst::default();
-    for (order, expected) in [(MeanOrder::First, 1.0), (MeanOrder::Second, 2.0)] {
+    for (order, expected) in [(AveragingOrder::First, 1.0), (AveragingOrder::Second, 2.0)] {
         let fit = slope(&tp_2(order)?.1)?;
         worst.see((fit.value - expected).abs(), || format!("{order:?}: {:.3} +- {:.3}", fit.value, fit.error));
     }
@@ -155,7 +155,7 @@ fn random_geometries() -> Result<Measured, String> {
         followed += 1;
         let equatorial_axis = n.cross(&Vector3::new(0.3, -0.5, 0.8)).normalize();
         let initial = BodyState { axis: n, momentum, equatorial_axis };
-        let mean = MeanMotion::new(&body, &coefficients, &initial, MeanOrder::Second)?;
+        let mean = AveragedSolution::new(&body, &coefficients, &initial, AveragingOrder::Second)?;
         let (x, rate) = (mean.relative_strength(), momentum.norm() / body.inertia_xx);
         let end = 3.0 / (x * rate);
         let exact = propagate(&body, &coefficients.tensor(), &initial, (0.0, end), 1e-13)?;
@@ -190,8 +190,8 @@ fn errors_of_reference() -> Result<Vec<(f64, [f64; 2])>, String> {
             errors.push((k, [0.0; 2]));
         }
         let (_, most) = errors.last_mut().ok_or("no k")?;
-        for (order, most) in [MeanOrder::First, MeanOrder::Second].into_iter().zip(most) {
-            let mean = MeanMotion::new(&scene.spheroid, &PrincipalCoefficients::new(values), &initial, order)?;
+        for (order, most) in [AveragingOrder::First, AveragingOrder::Second].into_iter().zip(most) {
+            let mean = AveragedSolution::new(&scene.spheroid, &PrincipalCoefficients::new(values), &initial, order)?;
             *most = largest([*most, difference(&mean.state(t), &exact)]);
         }
     }

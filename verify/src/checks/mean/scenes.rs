@@ -1,4 +1,4 @@
-//! Random states for the checks of the mean motion.
+//! Random states for the checks of the averaged motion.
 
 use core::f64::consts::TAU;
 

@@ -1,7 +1,7 @@
 //! The top by integration.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use twofold::solutions::mean::Top;
+use twofold::solutions::averaged::Top;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::random::Random;

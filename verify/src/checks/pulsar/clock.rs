@@ -6,11 +6,11 @@ use nalgebra::Vector3;
 use num_traits::Zero;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame};
+use twofold::numerics::scalar::Scalar;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Arrival, Beam, PulsarClock, arrivals, pulse_train};
 use twofold::propagation::{AveragedMotion, Motion};
-use twofold::scalar::Scalar;
-use twofold::solutions::mean::{MeanMotion, MeanOrder, MeanPhases, MeanRates};
+use twofold::solutions::averaged::{AveragedPhases, AveragedRates, AveragedSolution, AveragingOrder};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::double_double::DoubleDouble;
@@ -25,7 +25,7 @@ pub(super) fn checks() -> Vec<Check> {
             id: "pulsar-clock-numbers",
             kind: Kind::Oracle,
             equations: &[44],
-            statement: "numbers and midpoints of single pulses, asked in any order over 2000 t_c of a mean motion, are those of the pulse train, whose \
+            statement: "numbers and midpoints of single pulses, asked in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose \
                  turns are followed from one half radian to the next: chi less or more than the wobble and its supplement, spins of both signs, \
                  L that goes round the line of sight or not",
             figure: "largest error of a midpoint [t_c]; infinite if a number is wrong, 40 random pulsars of 10 pulses or more",
@@ -38,7 +38,7 @@ pub(super) fn checks() -> Vec<Check> {
             kind: Kind::Oracle,
             equations: &[44],
             statement: "arrival times of the four built-in pulsars 20 years before and after their epochs, with their coefficients and with |s| of 1e-9, \
-                 are those of the same mean motion in double-double arithmetic",
+                 are those of the same averaged motion in double-double arithmetic",
             figure: "largest difference of a midpoint [s], 401 epochs each, those without a pulse left out",
             bound: Bound::AtMost(1e-12),
             reason: "directions are rounded to 1e-15 rad, at the edges of a pulse of 3 degrees 40 times that, and a radian is 65 ms at most",
@@ -107,7 +107,7 @@ fn numbers() -> Result<Measured, String> {
         tried += 1;
         let star = Star::any(&mut random);
         let (spheroid, s, start) = (&star.spheroid, star.s.tensor(), &star.initial);
-        let Ok(motion) = AveragedMotion::from_parts(spheroid, &s, start, (0.0, 2000.0), MeanOrder::Second) else {
+        let Ok(motion) = AveragedMotion::from_parts(spheroid, &s, start, (0.0, 2000.0), AveragingOrder::Second) else {
             continue;
         };
         let n = &star.observer.direction;
@@ -126,7 +126,7 @@ fn numbers() -> Result<Measured, String> {
             continue;
         }
         stars += 1;
-        let mut clock = PulsarClock::new(spheroid, &s, start, &star.beam, &star.observer, MeanOrder::Second)?;
+        let mut clock = PulsarClock::new(spheroid, &s, start, &star.beam, &star.observer, AveragingOrder::Second)?;
         let mut offset = None;
         for _ in 0..30.min(single.len()) {
             let i = single.swap_remove((random.word() % single.len() as u64) as usize);
@@ -152,11 +152,11 @@ fn lift(v: &Vector3<f64>) -> Vector3<DoubleDouble> {
     v.map(DoubleDouble::from_f64)
 }
 
-/// The same mean motion with every operation in 31 digits.
+/// The same averaged motion with every operation in 31 digits.
 struct Exact {
-    mean: MeanMotion<DoubleDouble>,
-    rates: MeanRates<DoubleDouble>,
-    start: MeanPhases<DoubleDouble>,
+    mean: AveragedSolution<DoubleDouble>,
+    rates: AveragedRates<DoubleDouble>,
+    start: AveragedPhases<DoubleDouble>,
     beam: Beam<DoubleDouble>,
     line_of_sight: Vector3<DoubleDouble>,
     turn: DoubleDouble,
@@ -180,7 +180,7 @@ impl Exact {
         let c = frame.coefficients;
         let s = PrincipalCoefficients::new([c.xx, c.yy, c.zz].map(number));
         let (given, turned) = (lifted(&pulsar.initial), lifted(&turned));
-        let mean = MeanMotion::with_free_rotation_of(&given, &spheroid, &s, &turned, MeanOrder::Second)?;
+        let mean = AveragedSolution::with_free_rotation_of(&given, &spheroid, &s, &turned, AveragingOrder::Second)?;
         Ok(Self {
             rates: *mean.rates(),
             start: mean.phases_at([0.0; 2]),
@@ -198,7 +198,7 @@ impl Exact {
             let turns = (whole / self.turn).high().round();
             whole - self.turn * DoubleDouble::from_f64(turns)
         };
-        let phases = MeanPhases {
+        let phases = AveragedPhases {
             slow: phase(start.slow, rates.slow),
             about_momentum: phase(start.about_momentum, rates.about_momentum),
             about_axis: phase(start.about_axis, rates.about_axis),

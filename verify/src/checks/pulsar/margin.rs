@@ -3,10 +3,10 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual3_64;
 use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::numerics::scalar::constant_vector;
 use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::rate_bounds::rate_bounds;
 use twofold::propagation::{Motion, propagate};
-use twofold::scalar::constant_vector;
 
 use crate::check::{Bound, Check, Kind, Measured, largest};
 use crate::physical_domain::{RandomScene, scenes, worst_over};

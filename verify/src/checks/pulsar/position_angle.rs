@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::Scalar;
-use twofold::dynamics::regular_equations::angular_velocity;
+use twofold::dynamics::equations_of_motion::angular_velocity;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial, body_rates};
 use twofold::observables::Observer;

@@ -1,6 +1,6 @@
 //! The pulse train against a scan of `m.n`. Eq. (44).
 
-use twofold::dynamics::regular_equations::angular_velocity;
+use twofold::dynamics::equations_of_motion::angular_velocity;
 use twofold::propagation::Motion;
 
 use super::cases::{Case, edges, for_random_cases};

@@ -5,8 +5,8 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{Motion, propagate};
-use twofold::solutions::mean::{MeanMotion, MeanOrder};
-use twofold::solutions::perturbation::{Form, Kind, Perturbation};
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
+use twofold::solutions::perturbation::{Form, Perturbation, Precession};
 
 use super::perturbation_error::Case;
 use crate::check::{Bound, Check, Kind as Checked, Measured, Worst, largest};
@@ -25,10 +25,10 @@ const SAMPLES: u32 = 10;
 
 pub(super) fn checks() -> Vec<Check> {
     vec![Check {
-        id: "mean-motion-regimes",
+        id: "averaged-motion-regimes",
         kind: Checked::Regime,
         equations: &[25, 57],
-        statement: "n, L and e_x of the mean motion are off by less than 3 x^2 + 1.5 x^2 t to first order and 3 x^2 + 5 x^3 t to second, t in t_c: L near Z and tilted, single precession, near the separatrix",
+        statement: "n, L and e_x of the averaged motion are off by less than 3 x^2 + 1.5 x^2 t to first order and 3 x^2 + 5 x^3 t to second, t in t_c: L near Z and tilted, single precession, near the separatrix",
         figure: "largest error over that, x from 1e-5 to 1e-2, t to 3,000 t_c",
         bound: Bound::AtMost(1.0),
         reason: "the periodic part of second order, and rates of the order after the last, with coefficients of order one",
@@ -74,9 +74,9 @@ impl Geometry {
     /// `k`. The amplitude `A` of single precession is of the order of `s`.
     fn cases(self, k: f64) -> Option<[Case; 2]> {
         let (kind, amplitude) = match self {
-            Self::NearAxis => (Kind::Twofold, 0.0),
-            Self::Tilted => (Kind::Twofold, 0.4),
-            Self::Single => (Kind::Single, 0.01 * k),
+            Self::NearAxis => (Precession::Twofold, 0.0),
+            Self::Tilted => (Precession::Twofold, 0.4),
+            Self::Single => (Precession::Single, 0.01 * k),
             Self::NearSeparatrix => return None,
         };
         Some([Form::Printed, Form::Corrected].map(|form| Case::paper(form, kind, k, 0.7, amplitude)))
@@ -92,7 +92,7 @@ pub struct Errors {
     pub printed: Option<f64>,
     /// As `printed`.
     pub corrected: Option<f64>,
-    /// By the mean motion of first and second order: of the axis.
+    /// By the averaged motion of first and second order: of the axis.
     pub mean: [f64; 2],
     /// And the largest distance of `n`, `L / |L|` or `e_x`.
     pub mean_state: [f64; 2],
@@ -114,8 +114,8 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
     let start = start(k)?;
     let last = *times.last().ok_or("no times")?;
     let exact = propagate(&body, &s.tensor(), &start, (0.0, last), ACCURACY)?;
-    let means = [MeanOrder::First, MeanOrder::Second]
-        .map(|order| MeanMotion::new(&body, &s, &start, order).map_err(String::from));
+    let means = [AveragingOrder::First, AveragingOrder::Second]
+        .map(|order| AveragedSolution::new(&body, &s, &start, order).map_err(String::from));
     let [first, second] = means;
     let means = [first?, second?];
     // Each perturbation solution against the motion from its own initial values.

@@ -6,8 +6,8 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{AveragedMotion, ContinuousAngles, Motion, TaylorMotion, propagate};
-use twofold::solutions::mean::MeanOrder;
-use twofold::solutions::perturbation::{Constants, Form, Kind, Perturbation};
+use twofold::solutions::averaged::AveragingOrder;
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
 use crate::check::largest;
 
@@ -17,7 +17,7 @@ pub struct Case {
     /// Form of the solution under test.
     pub form: Form,
     /// Its kind of precession.
-    pub kind: Kind,
+    pub kind: Precession,
     /// Eigenvalues of `s^IJ`.
     pub s: PrincipalCoefficients<f64>,
     /// Mean inclination.
@@ -28,7 +28,7 @@ pub struct Case {
 
 impl Case {
     /// The paper's numbers with `s` scaled by `k`.
-    pub fn paper(form: Form, kind: Kind, k: f64, beta_0: f64, amplitude: f64) -> Self {
+    pub fn paper(form: Form, kind: Precession, k: f64, beta_0: f64, amplitude: f64) -> Self {
         Self { form, kind, s: PrincipalCoefficients::new([0.02, 0.01, -0.04]).scaled(k), beta_0, amplitude }
     }
 
@@ -64,7 +64,7 @@ impl Case {
     pub fn averaged_motion(&self, duration: f64) -> Result<AveragedMotion<f64>, String> {
         let spheroid = RigidSpheroid::in_units_of_tc(1.1);
         let (initial, _) = self.start(&spheroid)?;
-        AveragedMotion::from_parts(&spheroid, &self.s.tensor(), &initial, (0.0, duration), MeanOrder::Second)
+        AveragedMotion::from_parts(&spheroid, &self.s.tensor(), &initial, (0.0, duration), AveragingOrder::Second)
             .map_err(String::from)
     }
 

@@ -1,7 +1,7 @@
 //! Single precession: where the perturbation solution mimics the motion, and what its small parameter is.
 
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::{Form, Kind as Precession};
+use twofold::solutions::perturbation::{Form, Precession};
 
 use super::perturbation_error::Case;
 use crate::check::{Bound, Check, Kind, Measured, Worst};

@@ -1,4 +1,4 @@
-//! What the paper says of precession, at the small `s` of real stars over years: by the mean motion, where integration does not reach.
+//! What the paper says of precession, at the small `s` of real stars over years: by the averaged motion, where integration does not reach.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,8 +8,8 @@ use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::bound::SpinAxisDrift;
 use twofold::propagation::{AveragedMotion, Motion};
-use twofold::solutions::mean::MeanOrder;
-use twofold::solutions::perturbation::{Form, Kind as Precession};
+use twofold::solutions::averaged::AveragingOrder;
+use twofold::solutions::perturbation::{Form, Precession};
 use twofold::units::JULIAN_YEAR;
 
 use super::perturbation_error::Case;
@@ -122,7 +122,8 @@ fn drift() -> Result<Measured, String> {
             momentum: axis * (spin * spheroid.inertia_zz),
             equatorial_axis: Vector3::new(beta_0.cos(), 0.0, -beta_0.sin()),
         };
-        let motion = AveragedMotion::from_parts(&spheroid, &s.tensor(), &initial, (0.0, interval), MeanOrder::Second);
+        let motion =
+            AveragedMotion::from_parts(&spheroid, &s.tensor(), &initial, (0.0, interval), AveragingOrder::Second);
         let end = motion.and_then(|motion| motion.axis_state(interval))?.axis;
         // Over all directions o of observers the mean square of o.d is |d|^2 / 3.
         let cos_lambda_change = (end - axis).norm() / 3.0_f64.sqrt();

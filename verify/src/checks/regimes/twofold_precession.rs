@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::Motion;
-use twofold::solutions::perturbation::{Form, Kind as Precession};
+use twofold::solutions::perturbation::{Form, Precession};
 
 use super::perturbation_error::{Case, Errors};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use nalgebra::Vector3;
 use twofold::Error;
 use twofold::dynamics::BodyState;
-use twofold::dynamics::inertia_tensor_rate::spheroid_inertia_acceleration;
+use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::observables::Observer;
 use twofold::observables::fundamental_frequencies::{FundamentalFrequencies, fundamental_frequencies};
 use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};

@@ -6,7 +6,7 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::fundamental_frequencies::{fundamental_frequencies, mean_rate};
 use twofold::observables::spectrum::Window;
 use twofold::propagation::{Motion, propagate};
-use twofold::solutions::mean::slow_precession::slow_precession;
+use twofold::solutions::averaged::slow_precession::slow_precession;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::measured_order::measured_order;

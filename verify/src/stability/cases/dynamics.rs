@@ -5,11 +5,11 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector3;
 use twofold::Real;
 use twofold::dynamics::angular_acceleration::angular_acceleration;
+use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates, torque_on_axis};
 use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations, euler_angle_residuals};
 use twofold::dynamics::first_integrals::{
     clebsch_integral, energy, energy_in_angles, first_integrals, spin, spin_in_angles, symmetric_adjugate,
 };
-use twofold::dynamics::inertia_tensor_rate::{free_inertia_acceleration, spheroid_inertia_acceleration, wave_tensor};
 use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
 use twofold::dynamics::lagrangian::lagrangian;
 use twofold::dynamics::point_masses::{anisotropic_potential_of_masses, preferred_frame_potential_of_masses};
@@ -17,8 +17,8 @@ use twofold::dynamics::potential::{
     anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body, nordtvedt_potential,
     potential_gradient_in_angles,
 };
-use twofold::dynamics::regular_equations::{body_state_rates, reduced_rates, torque_on_axis};
 use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
+use twofold::dynamics::wave_source::{free_inertia_acceleration, spheroid_inertia_acceleration, wave_tensor};
 use twofold::dynamics::{BodyState, PrincipalInertia, RigidSpheroid};
 use twofold::lorentz_violation::{coefficients_from_preferred_frame, preferred_frame_parameter};
 use twofold::observables::Observer;
@@ -192,7 +192,7 @@ const ENERGIES: &[&str] = &[
     "dynamics::lagrangian::lagrangian",
     "dynamics::first_integrals::spin_in_angles",
 ];
-const FREE_WAVE: &[&str] = &["dynamics::inertia_tensor_rate::free_inertia_acceleration"];
+const FREE_WAVE: &[&str] = &["dynamics::wave_source::free_inertia_acceleration"];
 const STRAIN: &[&str] = &[
     "observables::gravitational_wave::metric_perturbation",
     "observables::gravitational_wave::polarizations",
@@ -242,20 +242,16 @@ pub(super) fn cases() -> Vec<Case> {
     for (limit, inputs) in [("s from 1e-300 to 1", &TENSOR), ("equal and nearly equal eigenvalues", &ISOTROPIC)] {
         cases.extend([
             Case::new::<PotentialOfAxis>(&["dynamics::potential::anisotropic_potential_of_axis"], limit, &inputs[..10]),
-            Case::new::<TorqueOnAxis>(&["dynamics::regular_equations::torque_on_axis"], limit, &inputs[..10]),
+            Case::new::<TorqueOnAxis>(&["dynamics::equations_of_motion::torque_on_axis"], limit, &inputs[..10]),
             Case::new::<PotentialOfBody>(&["dynamics::potential::anisotropic_potential_of_body"], limit, &inputs[..12]),
             Case::new::<TorqueOnBody>(&["dynamics::torque::torque_on_body"], limit, &inputs[..12]),
-            Case::new::<ReducedRates>(&["dynamics::regular_equations::reduced_rates"], limit, inputs).composite(),
-            Case::new::<StateRates>(&["dynamics::regular_equations::body_state_rates"], limit, inputs).composite(),
+            Case::new::<ReducedRates>(&["dynamics::equations_of_motion::reduced_rates"], limit, inputs).composite(),
+            Case::new::<StateRates>(&["dynamics::equations_of_motion::body_state_rates"], limit, inputs).composite(),
             Case::new::<Integrals>(&["dynamics::first_integrals::first_integrals"], limit, inputs).composite(),
             Case::new::<Clebsch>(&["dynamics::first_integrals::clebsch_integral"], limit, inputs),
             Case::new::<Adjugate>(&["dynamics::first_integrals::symmetric_adjugate"], limit, &inputs[..6]),
-            Case::new::<InertiaAcceleration>(
-                &["dynamics::inertia_tensor_rate::spheroid_inertia_acceleration"],
-                limit,
-                inputs,
-            )
-            .composite(),
+            Case::new::<InertiaAcceleration>(&["dynamics::wave_source::spheroid_inertia_acceleration"], limit, inputs)
+                .composite(),
         ]);
     }
     cases.extend([
@@ -299,12 +295,12 @@ pub(super) fn cases() -> Vec<Case> {
             &[Signed(-100.0, 100.0), RATE, RATE, COMPONENT, COMPONENT, COMPONENT, INERTIA, INERTIA, INERTIA],
         ),
         Case::new::<WaveTensor>(
-            &["dynamics::inertia_tensor_rate::wave_tensor"],
+            &["dynamics::wave_source::wave_tensor"],
             "rates from 1e-100 to 1e100",
             &[Signed(-100.0, 100.0), RATE, RATE, COMPONENT, COMPONENT, COMPONENT, INERTIA, INERTIA, INERTIA],
         ),
         Case::new::<WaveTensor>(
-            &["dynamics::inertia_tensor_rate::wave_tensor"],
+            &["dynamics::wave_source::wave_tensor"],
             "equal moments of inertia",
             &[RATE, RATE, RATE, SMALL, SMALL, SMALL, Near(1.0, -15.5, -0.5), Near(1.0, -15.5, -0.5), Fixed(1.0)],
         ),

@@ -3,9 +3,9 @@
 use core::f64::consts::FRAC_PI_2;
 
 use twofold::Real;
-use twofold::elliptic::carlson::{rc, rd, rf, rf_of_roots, rj, rj_of_roots};
-use twofold::elliptic::jacobi::{ArithmeticGeometricMean, JacobiFunctions, complete_integral, jacobi};
-use twofold::elliptic::theta::{Nome, ThetaSeries};
+use twofold::numerics::elliptic::carlson::{rc, rd, rf, rf_of_roots, rj, rj_of_roots};
+use twofold::numerics::elliptic::jacobi::{ArithmeticGeometricMean, JacobiFunctions, complete_integral, jacobi};
+use twofold::numerics::elliptic::theta::{Nome, ThetaSeries};
 
 use crate::stability::Input::{Above, Below, Fixed, In, Log, Near, Signed};
 use crate::stability::oracle::{self, pi};

@@ -1,13 +1,13 @@
-//! The mean motion: Hamiltonian, generator, slow precession, top, separatrix.
+//! The averaged motion: Hamiltonian, generator, slow precession, top, separatrix.
 
 use nalgebra::Vector3;
 use twofold::Real;
 use twofold::dynamics::BodyState;
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::mean::slow_precession::slow_precession;
-use twofold::solutions::mean::{
-    MeanMotion, MeanOrder, Top, generator, generator_slopes, mean_angular_velocity, mean_potential, middle_axis_growth,
-    period_near_separatrix,
+use twofold::solutions::averaged::slow_precession::slow_precession;
+use twofold::solutions::averaged::{
+    AveragedSolution, AveragingOrder, Top, generator, generator_slopes, mean_angular_velocity, mean_potential,
+    middle_axis_growth, period_near_separatrix,
 };
 
 use super::parts::{body, joined, none, vector};
@@ -16,7 +16,7 @@ use crate::stability::oracle::pi;
 use crate::stability::{Case, functions};
 
 /// `c`, `s` (3), `G`, `l` (3), body.
-fn hamiltonian<S: Real>(x: &[S], order: MeanOrder) -> Vec<S> {
+fn hamiltonian<S: Real>(x: &[S], order: AveragingOrder) -> Vec<S> {
     let (s, l, spheroid) = (vector(&x[1..]), vector(&x[5..]), body(&x[8..]));
     let (along, tensor, about) = mean_angular_velocity(&spheroid, &s, x[4], x[0], &l, order);
     vec![mean_potential(&spheroid, &s, x[4], x[0], &l, order), along, tensor.x, tensor.y, tensor.z, about]
@@ -36,8 +36,8 @@ fn unit<S: Real>(v: Vector3<S>) -> Vector3<S> {
 }
 
 functions! {
-    First(x) { hamiltonian(x, MeanOrder::First) }
-    Second(x) { hamiltonian(x, MeanOrder::Second) }
+    First(x) { hamiltonian(x, AveragingOrder::First) }
+    Second(x) { hamiltonian(x, AveragingOrder::Second) }
     // n (3), L (3), s (3), body
     OfGenerator(x) {
         let (spheroid, s, n, momentum) = (body(&x[9..]), vector(&x[6..]), vector(x), vector(&x[3..]));
@@ -73,7 +73,7 @@ functions! {
         let across = n.cross(&unit(vector(&x[9..])));
         let state = BodyState { axis: n, momentum: vector(&x[6..]), equatorial_axis: unit(across) };
         let s = PrincipalCoefficients { xx: x[0], yy: x[1], zz: x[2] };
-        MeanMotion::new(&body(&x[12..]), &s, &state, MeanOrder::Second).map_or(none(3), |motion| {
+        AveragedSolution::new(&body(&x[12..]), &s, &state, AveragingOrder::Second).map_or(none(3), |motion| {
             let rates = motion.rates();
             vec![rates.slow, rates.about_momentum, rates.about_axis]
         })
@@ -110,13 +110,13 @@ functions! {
         let s = Vector3::from(s);
         let mut size = x[5];
         for _ in 0..60 {
-            let value = mean_potential(&spheroid, &s, size, along / size, &direction, MeanOrder::First);
+            let value = mean_potential(&spheroid, &s, size, along / size, &direction, AveragingOrder::First);
             let c = along / size;
             let slope = size - c * s.y * 3.0 * c / size;
             size -= (size * size / 2.0 + value - hamiltonian) / slope;
         }
         let _ = (h, m);
-        let (_, k, _) = mean_angular_velocity(&spheroid, &s, size, along / size, &direction, MeanOrder::First);
+        let (_, k, _) = mean_angular_velocity(&spheroid, &s, size, along / size, &direction, AveragingOrder::First);
         vec![((k.z - k.y) * (k.y - k.x)).sqrt()]
     }
     ExactPeriodNearSeparatrix(x) {
@@ -144,7 +144,7 @@ fn turns(x: &[f64]) -> Vec<f64> {
         equatorial_axis: Vector3::new(0.0, 1.0, 0.0),
     };
     let s = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: 0.0 };
-    MeanMotion::new(&spheroid, &s, &state, MeanOrder::Second).map_or(none(2), |motion| {
+    AveragedSolution::new(&spheroid, &s, &state, AveragingOrder::Second).map_or(none(2), |motion| {
         let turns = motion.turns([x[0], 0.0]);
         vec![turns.about_momentum.fraction, turns.about_axis.fraction]
     })
@@ -154,7 +154,7 @@ fn growth(x: &[f64]) -> Vec<f64> {
     let spheroid = body(&[1.0, x[1], 1.0]);
     let s = PrincipalCoefficients { xx: x[2], yy: x[3], zz: x[4] };
     let (energy, spin) = energy_and_spin(x);
-    middle_axis_growth(&spheroid, &s, energy, spin, MeanOrder::First).map_or(none(1), |rate| vec![rate])
+    middle_axis_growth(&spheroid, &s, energy, spin, AveragingOrder::First).map_or(none(1), |rate| vec![rate])
 }
 
 fn period(x: &[f64]) -> Vec<f64> {
@@ -164,17 +164,17 @@ fn period(x: &[f64]) -> Vec<f64> {
 const COMPONENT: Input = In(-1.0, 1.0);
 const SMALL: Input = Signed(-4.0, -1.0);
 const INERTIA: Input = In(0.5, 2.0);
-const HAMILTONIAN: &[&str] = &["solutions::mean::mean_potential", "solutions::mean::mean_angular_velocity"];
-const GENERATOR: &[&str] = &["solutions::mean::generator", "solutions::mean::generator_slopes"];
-const SLOW: &[&str] = &["solutions::mean::slow_precession::slow_precession"];
+const HAMILTONIAN: &[&str] = &["solutions::averaged::mean_potential", "solutions::averaged::mean_angular_velocity"];
+const GENERATOR: &[&str] = &["solutions::averaged::generator", "solutions::averaged::generator_slopes"];
+const SLOW: &[&str] = &["solutions::averaged::slow_precession::slow_precession"];
 const TOP: &[&str] = &[
-    "solutions::mean::Top::new",
-    "solutions::mean::Top::rates",
-    "solutions::mean::Top::start",
-    "solutions::mean::Top::mean_squares",
-    "solutions::mean::Top::at",
+    "solutions::averaged::Top::new",
+    "solutions::averaged::Top::rates",
+    "solutions::averaged::Top::start",
+    "solutions::averaged::Top::mean_squares",
+    "solutions::averaged::Top::at",
 ];
-const MOTION: &[&str] = &["solutions::mean::MeanMotion::new", "solutions::mean::MeanMotion::rates"];
+const MOTION: &[&str] = &["solutions::averaged::AveragedSolution::new", "solutions::averaged::AveragedSolution::rates"];
 
 pub(super) fn cases() -> Vec<Case> {
     let (c, i) = (COMPONENT, INERTIA);
@@ -196,7 +196,7 @@ pub(super) fn cases() -> Vec<Case> {
         )
         .composite(),
         Case::new::<NearMomentum>(
-            &["solutions::mean::generator"],
+            &["solutions::averaged::generator"],
             "n -> L",
             &[Signed(-15.0, 0.0), Signed(-15.0, 0.0), SMALL, SMALL, SMALL, In(0.5, 2.0), i, i, i],
         )
@@ -264,7 +264,7 @@ pub(super) fn cases() -> Vec<Case> {
         )
         .composite(),
         Case::of_doubles::<ExactTurns>(
-            &["solutions::mean::MeanMotion::turns"],
+            &["solutions::averaged::AveragedSolution::turns"],
             "t to 1e15, in turns",
             &[Log(0.0, 15.0), Fixed(0.8), Fixed(0.6), In(0.5, 2.0), i, i],
             turns,
@@ -273,14 +273,14 @@ pub(super) fn cases() -> Vec<Case> {
         .composite()
         .unit(),
         Case::of_doubles::<ExactGrowth>(
-            &["solutions::mean::middle_axis_growth"],
+            &["solutions::averaged::middle_axis_growth"],
             "c^2 -> 1/3",
             &[Near(0.577_350_269_189_625_7, -8.0, -1.0), In(1.0, 1.2), three[0], three[1], three[2], In(0.8, 1.5)],
             growth,
         )
         .composite(),
         Case::of_doubles::<ExactPeriodNearSeparatrix>(
-            &["solutions::mean::period_near_separatrix"],
+            &["solutions::averaged::period_near_separatrix"],
             "k' -> 0",
             &[Log(-190.0, 0.0), Log(-10.0, 10.0)],
             period,

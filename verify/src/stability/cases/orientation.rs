@@ -4,8 +4,8 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Matrix3;
 use twofold::dynamics::BodyState;
-use twofold::dynamics::inertia_tensor_rate::{rotation_rate, tensor_in_inertial_frame};
-use twofold::dynamics::regular_equations::{angular_velocity, euler_rates_of_axis};
+use twofold::dynamics::equations_of_motion::{angular_velocity, euler_rates_of_axis};
+use twofold::dynamics::wave_source::{rotation_rate, tensor_in_inertial_frame};
 use twofold::euler_angles::{
     angles_from_rotation, body_from_inertial, body_rates, euler_rates, symmetry_axis, tensor_in_body_frame,
 };
@@ -97,8 +97,8 @@ const AXIS: &[&str] = &["euler_angles::symmetry_axis"];
 const BODY_RATES: &[&str] = &["euler_angles::body_rates"];
 const EULER_RATES: &[&str] = &["euler_angles::euler_rates"];
 const ANGLES: &[&str] = &["euler_angles::angles_from_rotation"];
-const OF_AXIS: &[&str] = &["dynamics::regular_equations::euler_rates_of_axis"];
-const VELOCITY: &[&str] = &["dynamics::regular_equations::angular_velocity"];
+const OF_AXIS: &[&str] = &["dynamics::equations_of_motion::euler_rates_of_axis"];
+const VELOCITY: &[&str] = &["dynamics::equations_of_motion::angular_velocity"];
 const FROM_ANGLES: &[&str] = &["dynamics::BodyState::from_angles"];
 const BACK: &[&str] = &["dynamics::BodyState::angles", "dynamics::BodyState::rates"];
 const OBSERVER: &[&str] = &["observables::Observer::at"];
@@ -189,7 +189,7 @@ pub(super) fn cases() -> Vec<Case> {
             ],
         ),
         Case::new::<TensorInInertial>(
-            &["dynamics::inertia_tensor_rate::tensor_in_inertial_frame"],
+            &["dynamics::wave_source::tensor_in_inertial_frame"],
             "entries from 1e-300 to 1",
             &[
                 Signed(-300.0, 0.0),
@@ -210,7 +210,7 @@ pub(super) fn cases() -> Vec<Case> {
             ],
         ),
         Case::new::<RotationRate>(
-            &["dynamics::inertia_tensor_rate::rotation_rate"],
+            &["dynamics::wave_source::rotation_rate"],
             "rates from 1e-300 to 1e300",
             &[
                 Signed(-300.0, 299.0),

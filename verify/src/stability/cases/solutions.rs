@@ -11,7 +11,7 @@ use twofold::observables::spin_axis::changes_from_start;
 use twofold::solutions::free::{free_precession_rates, free_rotation, rotated_by};
 use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
 use twofold::solutions::perturbation::{
-    Constants, Form, Kind, Perturbation, constants_from_initial_values, initial_values, shifted_rates,
+    Constants, Form, Perturbation, Precession, constants_from_initial_values, initial_values, shifted_rates,
 };
 use twofold::solutions::steady::steady_precession_rate;
 
@@ -28,13 +28,13 @@ fn constants<S: Real>(x: &[S]) -> Constants<S> {
 }
 
 /// `s^ZZ`, `s^XX = s^YY`, spin, `beta`, body.
-fn steady<S: Real>(kind: Kind, x: &[S]) -> Vec<S> {
+fn steady<S: Real>(kind: Precession, x: &[S]) -> Vec<S> {
     let s = PrincipalCoefficients { xx: x[1], yy: x[1], zz: x[0] };
     steady_precession_rate(kind, &body(&x[4..]), &s, x[2], x[3]).map_or(none(1), |rate| vec![rate])
 }
 
 /// Constants (4), `s` (3), spin, time, body.
-fn perturbation<S: Real>(form: Form, kind: Kind, x: &[S]) -> Option<Perturbation<S>> {
+fn perturbation<S: Real>(form: Form, kind: Precession, x: &[S]) -> Option<Perturbation<S>> {
     Perturbation::new(form, kind, &body(&x[9..]), &principal(&x[4..]), x[7], &constants(x)).ok()
 }
 
@@ -47,8 +47,8 @@ fn all_of<S: Real>(solution: Option<Perturbation<S>>, t: S) -> Vec<S> {
 }
 
 functions! {
-    SteadyTwofold(x) { steady(Kind::Twofold, x) }
-    SteadySingle(x) { steady(Kind::Single, x) }
+    SteadyTwofold(x) { steady(Precession::Twofold, x) }
+    SteadySingle(x) { steady(Precession::Single, x) }
     /// Eq. (26) as printed, lower sign.
     PrintedSingle(x) {
         let (_, cb) = x[3].sin_cos();
@@ -85,10 +85,10 @@ functions! {
         let across = turn.cross(&v);
         joined(&[v + across * (sin / angle) + turn.cross(&across) * ((S::one() - cos) / (angle * angle))])
     }
-    Twofold(x) { all_of(perturbation(Form::Printed, Kind::Twofold, x), x[8]) }
-    Single(x) { all_of(perturbation(Form::Printed, Kind::Single, x), x[8]) }
-    Corrected(x) { all_of(perturbation(Form::Corrected, Kind::Twofold, x), x[8]) }
-    CorrectedSingle(x) { all_of(perturbation(Form::Corrected, Kind::Single, x), x[8]) }
+    Twofold(x) { all_of(perturbation(Form::Printed, Precession::Twofold, x), x[8]) }
+    Single(x) { all_of(perturbation(Form::Printed, Precession::Single, x), x[8]) }
+    Corrected(x) { all_of(perturbation(Form::Corrected, Precession::Twofold, x), x[8]) }
+    CorrectedSingle(x) { all_of(perturbation(Form::Corrected, Precession::Single, x), x[8]) }
     /// With `s^ZZ` first, then `s^XX`, `s^YY`, constants, spin, time, body.
     SingleByZ(x) { Single::of(&by_z(x)) }
     TwofoldByZ(x) { Twofold::of(&by_z(x)) }
@@ -97,7 +97,7 @@ functions! {
     SingleByTime(x) { Single::of(&by_time(x)) }
     CorrectedByTime(x) { Corrected::of(&by_time(x)) }
     Parts(x) {
-        perturbation(Form::Printed, Kind::Twofold, x).map_or(none(6), |p| {
+        perturbation(Form::Printed, Precession::Twofold, x).map_or(none(6), |p| {
             let (first, rates) = (p.first_order(x[8], x[0]), p.first_order_rates(x[8], x[0]));
             let change = changes_from_start(&p, x[8]);
             vec![first.0, first.1, rates.0, rates.1, change.0, change.1]
@@ -109,14 +109,14 @@ functions! {
     // beta_0, s (3), spin, alpha_0, A, phi, body
     InitialValues(x) {
         let constants = Constants { alpha_0: x[5], beta_0: x[0], amplitude: x[6], phase: x[7] };
-        initial_values(Form::Printed, Kind::Twofold, &body(&x[8..]), &principal(&x[1..]), x[4], &constants)
+        initial_values(Form::Printed, Precession::Twofold, &body(&x[8..]), &principal(&x[1..]), x[4], &constants)
             .map_or(none(4), |initial| axis_angles(&initial))
     }
     // s^ZZ, s^XX, s^YY, spin, alpha, beta, their rates, body
-    ConstantsTwofold(x) { found_constants(Form::Printed, Kind::Twofold, x) }
-    ConstantsSingle(x) { found_constants(Form::Printed, Kind::Single, x) }
-    CorrectedConstantsTwofold(x) { found_constants(Form::Corrected, Kind::Twofold, x) }
-    CorrectedConstantsSingle(x) { found_constants(Form::Corrected, Kind::Single, x) }
+    ConstantsTwofold(x) { found_constants(Form::Printed, Precession::Twofold, x) }
+    ConstantsSingle(x) { found_constants(Form::Printed, Precession::Single, x) }
+    CorrectedConstantsTwofold(x) { found_constants(Form::Corrected, Precession::Twofold, x) }
+    CorrectedConstantsSingle(x) { found_constants(Form::Corrected, Precession::Single, x) }
     // beta, alpha, spin, first-order motion (5), s, body
     Linearised(x) {
         let zeroth = |kind| ZerothOrder { kind, spin: x[2], alpha: x[1], beta: x[0] };
@@ -124,9 +124,9 @@ functions! {
             beta: x[3], alpha_rate: x[4], beta_rate: x[5], alpha_acceleration: x[6], beta_acceleration: x[7],
         };
         let (spheroid, s) = (body(&x[11..]), principal(&x[8..]));
-        let printed = printed_residuals(&spheroid, &s, &zeroth(Kind::Single), &first);
+        let printed = printed_residuals(&spheroid, &s, &zeroth(Precession::Single), &first);
         let [twofold, single] =
-            [Kind::Twofold, Kind::Single].map(|kind| full_residuals(&spheroid, &s, &zeroth(kind), &first));
+            [Precession::Twofold, Precession::Single].map(|kind| full_residuals(&spheroid, &s, &zeroth(kind), &first));
         vec![printed.0, printed.1, twofold.0, twofold.1, single.0, single.1]
     }
 }
@@ -139,7 +139,7 @@ fn by_time<S: Real>(x: &[S]) -> Vec<S> {
     [&x[1..9], &x[..1], &x[9..]].concat()
 }
 
-fn found_constants<S: Real>(form: Form, kind: Kind, x: &[S]) -> Vec<S> {
+fn found_constants<S: Real>(form: Form, kind: Precession, x: &[S]) -> Vec<S> {
     let s = PrincipalCoefficients { xx: x[1], yy: x[2], zz: x[0] };
     let initial = AxisAngles { alpha: x[4], beta: x[5], alpha_rate: x[6], beta_rate: x[7] };
     constants_from_initial_values(form, kind, &body(&x[8..]), &s, x[3], &initial)

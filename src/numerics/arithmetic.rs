@@ -1,0 +1,179 @@
+//! What the recurrences of a Taylor series need of three-component vectors, so that one code serves every scalar and every
+//! set of vector instructions.
+
+use nalgebra::Vector3;
+
+use crate::numerics::scalar::{Real, Scalar};
+
+/// A vector as it is kept: three components and padding to 32 bytes for doubles, which is one register.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+pub(crate) struct Stored<S>(pub(crate) [S; 4]);
+
+impl<S: Scalar> Stored<S> {
+    pub(crate) fn zero() -> Self {
+        Self([S::zero(); 4])
+    }
+
+    pub(crate) fn vector(&self) -> Vector3<S> {
+        Vector3::new(self.0[0], self.0[1], self.0[2])
+    }
+}
+
+impl<S: Scalar> From<Vector3<S>> for Stored<S> {
+    fn from(v: Vector3<S>) -> Self {
+        Self([v.x, v.y, v.z, S::zero()])
+    }
+}
+
+/// Three-component vectors whose components are multiplied one by one. Cross products are made of the two cyclic
+/// permutations: `a x b = a.yzx * b.zxy - a.zxy * b.yzx`.
+pub(crate) trait Arithmetic: Copy {
+    /// Three components.
+    type Vector: Copy;
+    /// A vector from which either permutation is at hand.
+    type Turned: Copy;
+    /// Whether the recurrences may take the tensor `s^IJ` to be diagonal. Turning to its principal axes is exact to
+    /// rounding for real numbers; a dual number may have derivatives by the other components.
+    const PRINCIPAL_FRAME: bool;
+    /// Whether the vectors are those of many motions, and so fill the registers by themselves.
+    const MANY: bool = false;
+
+    fn zero(self) -> Self::Vector;
+    fn add(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    fn sub(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// `a * b + c`, rounded once or twice.
+    fn mul_add(self, a: Self::Vector, b: Self::Vector, c: Self::Vector) -> Self::Vector;
+    /// A small whole number divides better than its rounded inverse multiplies, for wider numbers.
+    fn divide(self, a: Self::Vector, divisor: f64) -> Self::Vector;
+    /// The sum of the three columns multiplied by the components of `v`.
+    fn combine(self, columns: &[Self::Vector; 3], v: Self::Vector) -> Self::Vector;
+
+    fn turned(self, v: Self::Vector) -> Self::Turned;
+    /// The components in the order y, z, x.
+    fn yzx(self, v: Self::Turned) -> Self::Vector;
+    /// The components in the order z, x, y.
+    fn zxy(self, v: Self::Turned) -> Self::Vector;
+}
+
+/// Vectors of one motion.
+pub(crate) trait OneMotion: Arithmetic {
+    /// A component.
+    type Scalar: Real;
+
+    fn load(self, stored: &Stored<Self::Scalar>) -> Self::Vector;
+    fn store(self, v: Self::Vector) -> Stored<Self::Scalar>;
+    /// All components alike.
+    fn splat(self, value: Self::Scalar) -> Self::Vector;
+    /// Largest component in size, by real parts; NaN if one is NaN.
+    fn largest(self, v: Self::Vector) -> f64;
+}
+
+/// Any scalar, without instructions of its own.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plain<S>(core::marker::PhantomData<S>);
+
+impl<S> Plain<S> {
+    pub(crate) fn new() -> Self {
+        Self(core::marker::PhantomData)
+    }
+}
+
+impl<S: Real> Arithmetic for Plain<S> {
+    type Vector = [S; 3];
+    type Turned = [S; 3];
+    const PRINCIPAL_FRAME: bool = false;
+
+    #[inline(always)]
+    fn zero(self) -> [S; 3] {
+        [S::zero(); 3]
+    }
+
+    #[inline(always)]
+    fn add(self, a: [S; 3], b: [S; 3]) -> [S; 3] {
+        [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+    }
+
+    #[inline(always)]
+    fn sub(self, a: [S; 3], b: [S; 3]) -> [S; 3] {
+        [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+    }
+
+    #[inline(always)]
+    fn mul(self, a: [S; 3], b: [S; 3]) -> [S; 3] {
+        [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: [S; 3], b: [S; 3], c: [S; 3]) -> [S; 3] {
+        [a[0] * b[0] + c[0], a[1] * b[1] + c[1], a[2] * b[2] + c[2]]
+    }
+
+    #[inline(always)]
+    fn divide(self, a: [S; 3], divisor: f64) -> [S; 3] {
+        a.map(|component| component / S::from_f64(divisor))
+    }
+
+    #[inline(always)]
+    fn combine(self, [a, b, c]: &[[S; 3]; 3], v: [S; 3]) -> [S; 3] {
+        [0, 1, 2].map(|i| a[i] * v[0] + b[i] * v[1] + c[i] * v[2])
+    }
+
+    #[inline(always)]
+    fn turned(self, v: [S; 3]) -> [S; 3] {
+        v
+    }
+
+    #[inline(always)]
+    fn yzx(self, [x, y, z]: [S; 3]) -> [S; 3] {
+        [y, z, x]
+    }
+
+    #[inline(always)]
+    fn zxy(self, [x, y, z]: [S; 3]) -> [S; 3] {
+        [z, x, y]
+    }
+}
+
+impl<S: Real> OneMotion for Plain<S> {
+    type Scalar = S;
+
+    #[inline(always)]
+    fn load(self, stored: &Stored<S>) -> [S; 3] {
+        [stored.0[0], stored.0[1], stored.0[2]]
+    }
+
+    #[inline(always)]
+    fn store(self, [x, y, z]: [S; 3]) -> Stored<S> {
+        Stored([x, y, z, S::zero()])
+    }
+
+    #[inline(always)]
+    fn splat(self, value: S) -> [S; 3] {
+        [value; 3]
+    }
+
+    #[inline(always)]
+    fn largest(self, v: [S; 3]) -> f64 {
+        largest(v.map(S::re))
+    }
+}
+
+/// Largest of three numbers in size; NaN if one is NaN.
+#[inline(always)]
+pub(crate) fn largest(v: [f64; 3]) -> f64 {
+    let [x, y, z] = v.map(f64::abs);
+    let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
+    larger(larger(x, y), z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_of_vectors_are_by_components() {
+        assert_eq!(Plain::new().mul([2.0, 3.0, 5.0], [7.0, 11.0, 13.0]), [14.0, 33.0, 65.0]);
+    }
+}

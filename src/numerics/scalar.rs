@@ -1,0 +1,167 @@
+//! The number types that the equations run on.
+//!
+//! Two bounds, so that a signature says what an equation needs:
+//!
+//! * [`Scalar`] — field operations and the sine and cosine of an angle. Enough for every equation of motion, and for
+//!   exact arithmetic: a prime field implements it with angles coded as rational points of the circle.
+//! * [`Real`] — an ordered field with roots and inverse functions, for stars, closed solutions and propagation.
+//!
+//! Both hold for `f64` and for every dual number of [`num_dual`], by one blanket implementation each. Another crate can
+//! implement [`Scalar`] for a type of its own.
+//!
+//! ```
+//! use num_dual::{Dual64, first_derivative};
+//! use twofold::numerics::scalar::Scalar;
+//!
+//! fn tilt<S: Scalar>(beta: S) -> S {
+//!     let (sin, cos) = beta.sin_cos();
+//!     sin * cos * 2.0
+//! }
+//! let (value, slope) = first_derivative(tilt::<Dual64>, 0.7);
+//! assert_eq!(value, tilt(0.7));
+//! assert!((slope - 2.0 * (2.0 * 0.7_f64).cos()).abs() < 1e-15);
+//! ```
+//!
+//! # Example
+//!
+//! ```
+//! use nalgebra::Vector3;
+//! use num_dual::Dual64;
+//! use twofold::numerics::scalar::{constant_vector, length, real_part};
+//!
+//! // The length of (3, 4 + x, 0) and its derivative at x = 0.
+//! let mut v = constant_vector::<Dual64>(&Vector3::new(3.0, 4.0, 0.0));
+//! v.y.eps = 1.0;
+//! let found = length(&v);
+//! assert_eq!((found.re, found.eps), (5.0, 0.8));
+//! assert_eq!(real_part(&v), Vector3::new(3.0, 4.0, 0.0));
+//! ```
+
+use core::ops::{Div, Mul, Neg};
+
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Vector3};
+use num_dual::DualNum;
+use num_traits::{One, Zero};
+
+/// A field with angles: what the equations of motion need.
+///
+/// Constants enter as `f64` on the right of a product (`x * 2.0`) or through [`from_f64`](Scalar::from_f64). An exact
+/// field accepts those that are small dyadic rationals, which is all that a `Scalar` kernel uses.
+pub trait Scalar:
+    nalgebra::Scalar
+    + Copy
+    + Zero
+    + One
+    + Neg<Output = Self>
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + ClosedDivAssign
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+{
+    /// The constant `value`, with zero derivatives.
+    fn from_f64(value: f64) -> Self;
+
+    /// Sine and cosine of the angle `self` (rad).
+    fn sin_cos(self) -> (Self, Self);
+}
+
+/// An ordered field with roots and inverse functions: what stars, closed solutions and propagation need.
+///
+/// Order and branches go by the real part; derivatives never choose a branch.
+pub trait Real: Scalar {
+    /// Whether numbers carry derivatives.
+    const HAS_DERIVATIVES: bool;
+
+    /// The real part, without derivatives.
+    fn re(self) -> f64;
+
+    /// Square root. The derivative at zero does not exist and comes out as NaN.
+    fn sqrt(self) -> Self;
+
+    /// Exponential.
+    fn exp(self) -> Self;
+
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+
+    /// Angle (rad) of the point with ordinate `self` and abscissa `x`, in (-pi, pi].
+    fn atan2(self, x: Self) -> Self;
+
+    /// Absolute value by the sign of the real part.
+    fn abs(self) -> Self {
+        if self.re() < 0.0 { -self } else { self }
+    }
+}
+
+impl<T> Scalar for T
+where
+    T: DualNum<Primitive = f64> + Copy,
+{
+    #[inline]
+    fn from_f64(value: f64) -> Self {
+        T::from(value)
+    }
+
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        DualNum::sin_cos(&self)
+    }
+}
+
+impl<T> Real for T
+where
+    T: DualNum<Primitive = f64> + Copy,
+{
+    const HAS_DERIVATIVES: bool = T::NDERIV > 0;
+
+    #[inline]
+    fn re(self) -> f64 {
+        num_dual::DualStruct::re(&self)
+    }
+
+    #[inline]
+    fn sqrt(self) -> Self {
+        DualNum::sqrt(&self)
+    }
+
+    #[inline]
+    fn exp(self) -> Self {
+        DualNum::exp(&self)
+    }
+
+    #[inline]
+    fn ln(self) -> Self {
+        DualNum::ln(&self)
+    }
+
+    #[inline]
+    fn atan2(self, x: Self) -> Self {
+        if T::NDERIV == 0 {
+            return DualNum::atan2(&self, x);
+        }
+        // num-dual 0.15 divides by `x`, which loses the higher derivatives where `x` is small. Turned by the angle itself
+        // the point lies on the abscissa, and the quotient is regular all round.
+        let angle = Real::re(self).atan2(Real::re(x));
+        let (sin, cos) = angle.sin_cos();
+        let across = self * cos - x * sin;
+        let along = x * cos + self * sin;
+        T::from(angle) + DualNum::atan(&(across / along))
+    }
+}
+
+/// A constant vector, with zero derivatives.
+pub fn constant_vector<S: Scalar>(v: &Vector3<f64>) -> Vector3<S> {
+    v.map(S::from_f64)
+}
+
+/// Euclidean length of `v`. The derivative at the zero vector does not exist and comes out as NaN.
+pub fn length<S: Real>(v: &Vector3<S>) -> S {
+    v.dot(v).sqrt()
+}
+
+/// Real parts of a vector.
+pub fn real_part<S: Real>(v: &Vector3<S>) -> Vector3<f64> {
+    v.map(S::re)
+}

@@ -1,0 +1,158 @@
+//! What a motion is computed from, brought to the units and the frame of its series.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::numerics::arithmetic::{OneMotion, Stored};
+use crate::numerics::rounding::two_sum;
+use crate::numerics::scalar::Real;
+use crate::propagation::input::{check_request, check_time};
+use crate::propagation::taylor::compensated::Compensated;
+use crate::propagation::taylor::frame::SeriesFrame;
+use crate::propagation::taylor::series::{AXIS, MOMENTUM, Vectors, change};
+use crate::propagation::taylor::step_size::{Scale, Work, order_for};
+use crate::propagation::taylor::stepper::Stepper;
+use crate::propagation::third_angle::{body_state, rate_about_axis};
+
+/// Body, tensor, start and span of a motion, with the order and the error allowed per unit of time.
+#[derive(Debug, Clone)]
+pub(super) struct ScaledProblem<S, const V: usize> {
+    pub(super) spheroid: RigidSpheroid<S>,
+    pub(super) violation: Matrix3<S>,
+    pub(super) span: (f64, f64),
+    pub(super) scale: Scale,
+    pub(super) order: usize,
+    budget: f64,
+    pub(super) frame: SeriesFrame<S>,
+    pub(super) given_start: [Vector3<S>; V],
+    /// In the frame of the series.
+    pub(super) start: Vectors<Stored<S>, V>,
+    /// Rate at which `e_x` turns about `n` against the vector carried along.
+    pub(super) rate_about_axis: S,
+}
+
+impl<S: Real, const V: usize> ScaledProblem<S, V> {
+    /// `principal_frame` says whether the series is computed in that of `s`.
+    pub(super) fn new(
+        (principal_frame, work): (bool, Work),
+        spheroid: &RigidSpheroid<S>,
+        s: &Matrix3<S>,
+        start: [Vector3<S>; V],
+        span: (f64, f64),
+        accuracy: f64,
+    ) -> Result<Self, Error> {
+        check_request(span, accuracy)?;
+        let duration = (span.1 - span.0).abs();
+        // An isotropic part of s^IJ exerts no torque; left in, its rounding would.
+        let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
+        let scale = Scale::of(spheroid, &anisotropic, &start[MOMENTUM]);
+        Error::ensure(
+            scale.turning_rate.is_finite(),
+            "rate at which the body turns",
+            scale.turning_rate,
+            "within the range of doubles with the squares of L and s^IJ: choose other units",
+        )?;
+        // An error made at one time turns into a phase error that grows with the rotation: the budget per unit of time is
+        // what is left of the accuracy after that growth over half of the span on average.
+        let growth = 1.0 + scale.turning_rate * duration / 2.0;
+        let budget = if duration > 0.0 { (accuracy / (duration * growth)).min(f64::MAX) } else { accuracy };
+        let order = order_for(budget / scale.turning_rate.max(f64::MIN_POSITIVE), work);
+        let frame = SeriesFrame::of(&anisotropic, principal_frame)?;
+        let rate_about_axis = rate_about_axis(spheroid, &start[AXIS], &start[MOMENTUM]);
+        let given_start = start;
+        let start = start.map(|v| Stored::from(frame.series_from_given(&v)));
+        let (spheroid, violation) = (*spheroid, *s);
+        Ok(Self { spheroid, violation, span, scale, order, budget, frame, given_start, start, rate_about_axis })
+    }
+
+    /// `1` forwards in time, `-1` backwards.
+    pub(super) fn direction(&self) -> f64 {
+        if self.span.1 >= self.span.0 { 1.0 } else { -1.0 }
+    }
+
+    /// Error of the vectors for what rounding makes of the time `t` since the start.
+    pub(super) fn error_of_time(&self, t: f64) -> f64 {
+        two_sum(t, -self.span.0).1.abs() * self.scale.turning_rate
+    }
+
+    /// Length of the span.
+    pub(super) fn duration(&self) -> f64 {
+        (self.span.1 - self.span.0).abs()
+    }
+
+    /// Time since the start, at a time `t` of the span.
+    pub(super) fn elapsed(&self, t: f64) -> Result<f64, Error> {
+        check_time(self.span, t)?;
+        Ok((t - self.span.0).abs())
+    }
+
+    /// The steps of the motion, and its start.
+    #[inline(always)]
+    pub(super) fn drive(&self) -> Stepper<'_, S, V> {
+        Stepper {
+            spheroid: &self.spheroid,
+            violation: &self.frame.violation,
+            start: &self.start,
+            scale: &self.scale,
+            order: self.order,
+            duration: self.duration(),
+            direction: self.direction(),
+            budget: self.budget,
+        }
+    }
+
+    /// Time in units of the series from the start of a step, which is at the time `high + low` after that of the motion, to
+    /// the time `t`.
+    #[inline(always)]
+    pub(super) fn series_time(&self, start: &Compensated, t: S) -> S {
+        let direction = self.direction();
+        let offset = t - S::from_f64(self.span.0) - S::from_f64(start.high * direction);
+        (offset - S::from_f64(start.low * direction)) * (1.0 / self.scale.time)
+    }
+
+    /// The vectors, in the given frame, at the time `t` by the series of a step.
+    #[inline(always)]
+    pub(super) fn sum<A: OneMotion<Scalar = S>>(
+        &self,
+        a: A,
+        coefficient: impl Fn(usize) -> Vectors<A::Vector, V>,
+        start: &Compensated,
+        t: S,
+    ) -> [Stored<S>; V] {
+        let first = coefficient(0);
+        let change = change(a, self.order, coefficient, a.splat(self.series_time(start, t)));
+        let mut vectors = [Stored::zero(); V];
+        for i in 0..V {
+            let v = a.add(first[i], change[i]);
+            vectors[i] = a.store(self.frame.turned_to_given(a, v));
+        }
+        vectors
+    }
+}
+
+impl<S: Real> ScaledProblem<S, 3> {
+    /// The state of the body from the vectors of the series at time `t`.
+    pub(super) fn body_state(&self, vectors: [Vector3<S>; 3], t: S) -> BodyState<S> {
+        body_state(vectors, self.rate_about_axis * (t - S::from_f64(self.span.0)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `3 - (1 + u)` is exact, `3 + (1 + u)` loses the unit `u` in the last place of one.
+    #[test]
+    fn what_rounding_takes_from_the_time_since_the_start_is_an_error_at_the_turning_rate() {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+        let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 2.9)];
+        let (one, lost) = (1.0 + f64::EPSILON, f64::EPSILON);
+        for (span, t, lost) in [((one, 5.0), 3.0, 0.0), ((-one, 5.0), 3.0, lost), ((one, -5.0), -3.0, lost)] {
+            let setup = ScaledProblem::new((true, Work::Latent), &spheroid, &violation, vectors, span, 1e-9).unwrap();
+            assert!(setup.scale.turning_rate > 2.0);
+            assert_eq!(setup.error_of_time(t), lost * setup.scale.turning_rate);
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! How far an averaged motion may be from the motion.
+//!
+//! With `x = |C| (s_max - s_min) I^xx / G^2` and the angle turned `theta = G t / I^xx`, order `p` leaves out
+//!
+//! ```text
+//! periodic parts, in the transformation both ways     of x^2
+//! of the rates, and of the torque on l                of x^(p + 1) G / I^xx
+//! of the tensor that moves l, relative                of x^p
+//! ```
+//!
+//! What it makes of `l` after a time is the smaller of two: neighbours part at most at the rate `kappa = (k_1 - k_3) / 2` (half the largest
+//! `l.(d x k d)`, for unit `d`), or, as they stay near their own closed curves, by the difference of their periods. The latter is taken from two
+//! tops beside it, towards either axis, and holds only where they are on the same side of the separatrix.
+
+use nalgebra::Vector3;
+
+use super::hamiltonian::AveragingOrder;
+use super::motion::AveragedSolution;
+use super::top::Top;
+use crate::numerics::scalar::{Real, real_part};
+
+/// Coefficients of what is left out, from random motions over the whole domain: see the accuracy of the averaged motion in `docs/`.
+const PERIODIC: f64 = 4.0;
+const SECULAR: f64 = 4.0;
+const TENSOR: f64 = 1.0;
+
+/// What is wrong with a motion, whose consequence is asked.
+struct Fault {
+    /// At any time.
+    constant: f64,
+    /// Growth of the angle of the body about `L`, per unit of time.
+    rate: f64,
+    /// Change of the tensor and of the start that moves neighbours apart.
+    neighbour: f64,
+}
+
+impl<S: Real> AveragedSolution<S> {
+    /// Estimated largest error of `n`, `e_x` and `L / G` at the time `t`: [`truncation`](Self::truncation) and
+    /// [`rounding`](Self::rounding). It grows from the initial state on, also after [`near`](Self::near).
+    pub fn error_estimate(&self, t: f64) -> f64 {
+        // Directions are at most two apart, and G is off by less than the strength.
+        let most = 2.0 * (1.0 + self.relative_strength().re());
+        (self.truncation(t) + self.rounding(t)).min(most)
+    }
+
+    /// What the order leaves out, at the time `t`.
+    pub fn truncation(&self, t: f64) -> f64 {
+        let x = self.relative_strength().re();
+        // The terms of higher order as a geometric series.
+        let x = x / (1.0 - x);
+        let power = match self.order() {
+            AveragingOrder::First => x,
+            AveragingOrder::Second => x * x,
+        };
+        let fault = Fault {
+            constant: PERIODIC * x * x,
+            rate: SECULAR * power * x * self.turning_rate(),
+            neighbour: TENSOR * power,
+        };
+        self.consequence(&fault, self.elapsed(t))
+    }
+
+    /// Rounding of the initial state and of what Lorentz violation adds to the phases, at the time `t`. The free rotation itself is known to 32
+    /// digits, but for the length of `n`, which an axis given in doubles has only to rounding: the rate about `n` changes by as much.
+    pub fn rounding(&self, t: f64) -> f64 {
+        // What is added to the phases, of which the slow rate is a part; at c^2 = 1/3 a small one.
+        let added = self.tensor().map(S::re).amax() + self.relative_strength().re() * self.turning_rate();
+        // Theta functions lose half the digits of k'.
+        let lost = self.top().complement().sqrt().max(1e-8);
+        let fault = Fault {
+            constant: 16.0 * f64::EPSILON / lost,
+            rate: 8.0 * f64::EPSILON * added,
+            neighbour: 8.0 * f64::EPSILON,
+        };
+        self.consequence(&fault, self.elapsed(t)) + self.rounding_of_rate_about_axis() * self.elapsed(t)
+    }
+
+    fn consequence(&self, fault: &Fault, elapsed: f64) -> f64 {
+        let k = self.tensor().map(S::re);
+        let l = real_part(&self.direction());
+        let kappa = (k.max() - k.min()) / 2.0;
+        // e^(kappa t) - 1 over kappa, also where nothing moves.
+        let grown = kappa * elapsed;
+        let integral = if grown > 0.0 { grown.exp_m1() / grown * elapsed } else { elapsed };
+        let by_growth = (fault.constant + fault.rate * integral) + fault.constant * (integral * kappa);
+        let [along, about] = neighbouring_rates(&k, &l, fault.neighbour);
+        let by_periods = fault.constant + (fault.rate + along) * elapsed;
+        let of_momentum = by_growth.min(by_periods);
+        let of_angle = fault.rate * elapsed + (about * elapsed).min(2.0 * grown * of_momentum);
+        of_momentum.min(2.0) * 2.0 + of_angle
+    }
+}
+
+/// By how much two neighbours on the sphere part, per unit of time: along their curves, and by the angle about `l`.
+fn neighbouring_rates(k: &Vector3<f64>, l: &Vector3<f64>, distance: f64) -> [f64; 2] {
+    let here = Top::new((*k).into(), l);
+    let speed = k.component_mul(l).cross(l).norm().max(here.largest_speed());
+    let mut most = [0.0_f64; 2];
+    for axis in [k.imin(), k.imax()] {
+        let mut beside = *l;
+        beside[axis] += distance.copysign(l[axis]);
+        let beside = Top::new((*k).into(), &beside.normalize());
+        if !beside.is_beside(&here) {
+            return [f64::INFINITY, f64::INFINITY];
+        }
+        let (there, here) = (beside.rates(), here.rates());
+        let slow = here.slow.abs().max(f64::MIN_POSITIVE);
+        most[0] = most[0].max((there.slow - here.slow).abs() / slow * speed);
+        most[1] = most[1].max((there.about - here.about).abs());
+    }
+    most
+}

@@ -1,0 +1,146 @@
+//! Phases that grow over many turns, and are known to a fixed part of one.
+//!
+//! A double has 16 digits: after 1e12 turns the phase of a pulsar has four left. The rates of the fast rotation about `L` and of the
+//! third angle are therefore sums of two doubles, and so is the time; what Lorentz violation adds to them, and the slow rate, are so
+//! much smaller that a double serves them.
+
+use core::f64::consts::TAU;
+
+use nalgebra::Vector3;
+
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::scalar::{Real, real_part};
+
+/// A phase in turns: `whole + fraction`, the fraction between -1/2 and 1/2.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turns {
+    /// Whole turns; right below 9e18.
+    pub whole: i64,
+    /// The rest.
+    pub fraction: f64,
+}
+
+impl Turns {
+    /// The rest as an angle (rad).
+    pub fn angle(&self) -> f64 {
+        self.fraction * TAU
+    }
+
+    /// At the `time`, from the turns at the time zero (less than one) and a rate in turns.
+    #[inline]
+    pub(super) fn at(start: f64, rate: DoubleDouble, time: DoubleDouble) -> Self {
+        let DoubleDouble { high, low } = rate * time;
+        let (whole, whole_low) = (nearest(high), nearest(low));
+        // The difference is exact; what is added is below two.
+        let rest = (high - whole) + (low - whole_low) + start;
+        let more = nearest(rest);
+        let whole = (whole as i64).saturating_add((whole_low + more) as i64);
+        Self { whole, fraction: rest - more }
+    }
+}
+
+/// The nearest whole number. Adding and taking away `1.5 2^52` rounds to it, without a call where the processor has no such instruction.
+#[inline]
+fn nearest(x: f64) -> f64 {
+    const SHIFT: f64 = 6_755_399_441_055_744.0;
+    if x.abs() < 1e15 { (x + SHIFT) - SHIFT } else { x.round() }
+}
+
+/// The phases of a motion in turns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AveragedTurns {
+    /// Of the slow precession of `L`; on a separatrix, where it has no period, `u / (2 pi)`.
+    pub slow: Turns,
+    /// Of the frame about `L`, but for its periodic part.
+    pub about_momentum: Turns,
+    /// Of the body about its symmetry axis against the frame.
+    pub about_axis: Turns,
+}
+
+/// Mean rates of a motion (rad per unit of time).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AveragedRates<S> {
+    /// Of the phase of the slow precession, which grows by a turn when `L` goes once round its axis, in either sense; `lambda` on a
+    /// separatrix.
+    pub slow: S,
+    /// Of the frame about `L`, but for its periodic part.
+    pub about_momentum: S,
+    /// Of the body about its symmetry axis against the frame.
+    pub about_axis: S,
+}
+
+/// Phases of a motion at a time (rad), each modulo a turn if that suits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AveragedPhases<S> {
+    /// As [`AveragedRates::slow`], with its start.
+    pub slow: S,
+    /// As [`AveragedRates::about_momentum`].
+    pub about_momentum: S,
+    /// As [`AveragedRates::about_axis`].
+    pub about_axis: S,
+}
+
+impl<S: Real> AveragedPhases<S> {
+    /// After some more time.
+    pub(crate) fn later(&self, rates: &AveragedRates<S>, time: S) -> Self {
+        Self {
+            slow: self.slow + rates.slow * time,
+            about_momentum: self.about_momentum + rates.about_momentum * time,
+            about_axis: self.about_axis + rates.about_axis * time,
+        }
+    }
+}
+
+/// What Lorentz violation adds to the rates of free rotation, and the slow rate.
+pub(super) struct Added<S> {
+    pub(super) slow: S,
+    pub(super) about_momentum: S,
+    pub(super) about_axis: S,
+}
+
+/// Rates in turns: `|L| / I^xx` and `-epsilon Omega^z` to 32 digits, and what is added to them.
+pub(super) fn turning<S: Real>(
+    spheroid: &RigidSpheroid<S>,
+    initial: &BodyState<S>,
+    added: &Added<S>,
+) -> [DoubleDouble; 3] {
+    let [inertia_xx, inertia_zz] = [spheroid.inertia_xx, spheroid.inertia_zz].map(S::re);
+    let [n, momentum] = [&initial.axis, &initial.momentum].map(|v| real_part(v).into());
+    let about_momentum = DoubleDouble::dot(&momentum, &momentum).sqrt().over(inertia_xx.into());
+    let difference = DoubleDouble::sum(inertia_xx, -inertia_zz);
+    let about_axis =
+        (difference * DoubleDouble::dot(&momentum, &n)).over(DoubleDouble::product(inertia_xx, inertia_zz));
+    let with = |free: DoubleDouble, added: S| (free + added.re().into()).over(DoubleDouble::TAU);
+    [
+        with(DoubleDouble::default(), added.slow),
+        with(about_momentum, added.about_momentum),
+        with(about_axis, added.about_axis),
+    ]
+}
+
+/// What rounding has made of the length of `n`: `n.n - 1`, to its own digits.
+pub(super) fn excess_of_length<S: Real>(axis: &Vector3<S>) -> f64 {
+    let n = real_part(axis).into();
+    (DoubleDouble::dot(&n, &n) + (-1.0).into()).high
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn phases_grow_with_their_rates() {
+        let rates = AveragedRates { slow: 0.5, about_momentum: 3.0, about_axis: -0.25 };
+        let start = AveragedPhases { slow: 1.0, about_momentum: -2.0, about_axis: 0.125 };
+        let expected = AveragedPhases { slow: 3.0, about_momentum: 10.0, about_axis: -0.875 };
+        assert_eq!(start.later(&rates, 4.0), expected);
+    }
+
+    #[test]
+    fn the_nearest_whole_number_is_that_of_any_size() {
+        for x in [0.4, -0.4, 1.6, -7.7, 1e14 + 0.4, 1e15 + 0.375, -1e15 - 0.625, 4e15, 1e300] {
+            assert_eq!(nearest(x), f64::round(x), "{x}");
+        }
+    }
+}
