@@ -9,10 +9,11 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
             "propagation::states_at",
             "propagation::axis_states_at",
             "propagation::axis_states_of_many",
+            "propagation::states_of_many",
+            "dynamics::Problem",
             "propagation::TaylorMotion",
             "propagation::splitting",
             "propagation::ContinuousAngles",
-            "propagation::SeriesProjection",
         ],
         "numerical motion: its error grows with time and is that of a method, not of a formula; against 34 digits in `propagation-*`, `splitting-*` \
          and in the tables of long times",
@@ -112,7 +113,7 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
     (
         &[
             "dynamics::potential::anisotropic_potential",
-            "propagation::AxisState",
+            "dynamics::AxisState",
             "scalar::length",
             "solutions::averaged::Top::complement",
             "solutions::averaged::Top::squares",
