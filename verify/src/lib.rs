@@ -3,6 +3,7 @@
 pub mod check;
 pub mod checks;
 pub mod claims;
+pub mod coverage;
 pub mod derivation;
 pub mod double_double;
 pub mod dual;
@@ -25,5 +26,6 @@ pub mod random;
 pub mod reference;
 pub mod report;
 pub mod second_integrator;
+pub mod simulation;
 pub mod stability;
 pub mod symbolic;

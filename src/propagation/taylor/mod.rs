@@ -250,6 +250,7 @@ impl<S: Real, const V: usize> KeptSeries<S, V> {
     }
 
     /// The vectors of the series at time `t`, in the given frame.
+    #[inline(always)]
     fn at(&self, t: S) -> Result<[Vector3<S>; V], Error> {
         let (index, _) = self.step_at(t.re())?;
         if let (Some(fused), Some(motion)) = (self.fused, (self as &dyn Any).downcast_ref::<KeptSeries<f64, V>>()) {

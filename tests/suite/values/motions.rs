@@ -6,14 +6,15 @@ use twofold::Real;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::plan::{Method, Output, Parameter, Plan, Request, Start, StateFunction, gradient_in_parts};
+use twofold::parameters::{Parameter, Parameters};
+use twofold::plan::{Method, Output, Plan, Request, StateFunction, gradient_in_parts};
 use twofold::propagation::splitting::{
     SCHEMES, propagate_by_best_splitting, propagate_by_splitting, propagate_orientation_by_best_splitting,
     propagate_orientation_by_splitting, splitting_forecast,
 };
 use twofold::propagation::{
-    AveragedMotion, AxisMotion, AxisScene, AxisState, ContinuousAngles, ErrorEstimates, Motion, SymmetricMotion,
-    UniformMotion, axis_states_at, axis_states_of_many, propagate, propagate_axis, states_at, taylor_forecast,
+    AveragedMotion, AxisScene, AxisState, ContinuousAngles, ErrorEstimates, Motion, SymmetricMotion, UniformMotion,
+    axis_states_at, axis_states_of_many, propagate, propagate_axis, states_at, taylor_forecast,
 };
 use twofold::solutions::averaged::AveragingOrder;
 use twofold::solutions::free::{free_precession_rates, free_rotation};
@@ -27,7 +28,7 @@ const SPAN: (f64, f64) = (2.0, 31.0);
 const BACK: (f64, f64) = (2.0, -17.0);
 
 /// States and error estimates of a motion; times in two parts are the same as their sum.
-fn look<M: Motion<f64>>(table: &mut Table, name: &str, motion: &M) {
+fn look<M: Motion<f64, State = BodyState<f64>>>(table: &mut Table, name: &str, motion: &M) {
     let (from, to) = motion.span();
     for share in [0.31, 1.0] {
         let t = from + share * (to - from);
@@ -342,7 +343,7 @@ fn splitting() {
             }
         }
     }
-    let see = |table: &mut Table, name: &str, motion: &dyn AxisMotion<f64>, t: f64| {
+    let see = |table: &mut Table, name: &str, motion: &dyn Motion<f64, State = AxisState<f64>>, t: f64| {
         let (state, error) = (motion.axis_state(t).expect("a state"), motion.error_estimate(t));
         table.row(&format!("{name}, t {t:.2}"), &[("", &state), ("error", &error)]);
     };
@@ -383,14 +384,14 @@ impl StateFunction for Whole {
 #[test]
 fn gradients() {
     let mut table = Table::default();
-    let of = |violation| Start { violation, ..start() };
+    let of = |violation| Parameters { violation, ..start() };
     let scenes = [
         ("general", start(), vec![None, Some(Method::Taylor), Some(Method::Averaged), Some(Method::Splitting)]),
         ("weak", of(general() * 1e-3), vec![Some(Method::Averaged)]),
         ("none", of(Matrix3::zeros()), vec![Some(Method::Free)]),
         ("symmetric", of(tensor([0.02, 0.02, -0.03])), vec![Some(Method::Symmetric)]),
     ];
-    let all = Parameter::ALL.to_vec();
+    let all = Parameter::OF_MOTION.to_vec();
     let without_tensor: Vec<_> = all.iter().copied().filter(|by| !matches!(by, Parameter::S(..))).collect();
     for (name, start, methods) in scenes {
         for method in methods {
@@ -398,13 +399,13 @@ fn gradients() {
                 for derivatives in [all.clone(), without_tensor.clone(), Vec::new()] {
                     let name = format!("{name}, {}, {method:?}, {}", output.name(), derivatives.len());
                     let request = Request { method, derivatives, ..Request::new(&[output], SPAN, 3, 1e-10) };
-                    let plan = Plan::new(&start.spheroid, &start.violation, &start.state(), &request);
+                    let plan = Plan::from_parts(&start.spheroid, &start.violation, &start.state(), &request);
                     let times = [[2.0, 0.0], [20.0, 0.5]];
                     let found = plan.and_then(|plan| gradient_in_parts(&plan, &start, &Whole, &times));
                     table.found(&name, found, |table, found| {
                         let value = found.values.row(1).norm();
                         let sizes: Vec<f64> = found.jacobians[1].column_iter().map(|column| column.norm()).collect();
-                        let names = request.derivatives.iter().map(|by| by.name());
+                        let names = request.derivatives.iter().map(|by| by.symbol());
                         let mut cells: Vec<(&str, &dyn super::table::Written)> = vec![("value", &value)];
                         cells.extend(names.zip(&sizes).map(|(name, size)| (name, size as _)));
                         table.row(&name, &cells);

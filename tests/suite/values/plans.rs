@@ -5,10 +5,11 @@ use std::collections::BTreeSet;
 use nalgebra::Matrix3;
 use twofold::dynamics::BodyState;
 use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::parameters::Parameter;
 use twofold::plan::{
-    Cost, Counted, Method, Output, Parameter, Plan, PlannedAxisMotion, PlannedMotion, Request, Samples, State, Work,
+    Cost, Counted, Method, Output, Plan, PlannedAxisMotion, PlannedMotion, Request, Samples, State, Work,
 };
-use twofold::propagation::{AxisMotion, Motion, largest_torque, propagate};
+use twofold::propagation::{Motion, largest_torque, propagate};
 
 use crate::values::scene::{STAR, general, state, tensor};
 use crate::values::table::{Table, Written};
@@ -179,7 +180,7 @@ fn costs_and_counts() {
             table.row(&name, &[("", &motion.work()), ("at 8", &state), ("error", &error)]);
         });
         let name = format!("axis by {}", method.name());
-        let motion = PlannedAxisMotion::by(method, &STAR, &s, &initial, (0.0, 9.0), 1e-9);
+        let motion = PlannedAxisMotion::axis_by(method, &STAR, &s, &initial, (0.0, 9.0), 1e-9);
         table.found(&name, motion, |table, motion| {
             table.row(&name, &[("", &motion.work()), ("at 8", &motion.axis_state(8.0).expect("a state"))]);
         });
@@ -197,7 +198,7 @@ fn costs_and_counts() {
         Plan::from_parts(&STAR, &general(), &state(), &request).expect("a plan")
     };
     let (axis, none) = (plan(Output::SymmetryAxis), plan(Output::PerturbationAngles));
-    table.refusal("orientation of a plan for the axis", axis.motion(&STAR, &general(), &state()));
+    table.refusal("orientation of a plan for the axis", axis.motion_from_parts(&STAR, &general(), &state()));
     table.refusal("axis of a plan for the axis", axis.axis_motion(&STAR, &general(), &state()));
     table.refusal("motion of a plan for none", none.axis_motion(&STAR, &general(), &state()));
     table.check("costs_and_counts");
