@@ -91,7 +91,8 @@ fn a_tensor_in_a_rotated_frame_gives_the_rotated_motion() {
         }
     }
     let n = a.axis;
-    let energy_of_axis = n.dot(&(turned.problem.coefficients() * n)) - b.axis.dot(&(principal.problem.coefficients() * b.axis));
+    let energy_of_axis =
+        n.dot(&(turned.problem.coefficients() * n)) - b.axis.dot(&(principal.problem.coefficients() * b.axis));
     assert!(energy_of_axis.abs() < 1e-16, "{energy_of_axis:e}");
 }
 

@@ -8,7 +8,8 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::numerics::scalar::Real;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, pulse_train};
-use twofold::plan::{Output, Parameter, Request, Start, StateFunction, gradient};
+use twofold::parameters::{Parameter, Parameters};
+use twofold::plan::{Output, Request, StateFunction, gradient};
 use twofold::propagation::{ErrorEstimates, Motion};
 
 use super::Effort;
@@ -165,7 +166,7 @@ fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
     let request = Request { derivatives: PARAMETERS.to_vec(), ..Request::new(&[output], (0.0, DURATION), 1, ACCURACY) };
     let plan = scene.problem.plan(&request)?;
     let (angles, rates) = (initial.angles()?, initial.rates(spheroid)?);
-    let start = Start { spheroid: *spheroid, violation: *scene.problem.coefficients(), angles, rates };
+    let start = Parameters::new(*spheroid, *scene.problem.coefficients(), angles, rates);
     Ok(gradient(&plan, &start, &Components(carries), &[DURATION]).map(|found| drop(black_box(found)))?)
 }
 
