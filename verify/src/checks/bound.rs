@@ -13,13 +13,19 @@ use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::derivation::Differentiable;
 use crate::golden::pulsar_bounds::{PrintedBounds, columns};
-use crate::identity::{self, Identity};
+use crate::identity::identities;
 use crate::random::{Point, Random};
 use twofold_scene::pulsar_table::{Pulsar, ROUND_INERTIA_OVER_C};
 
+identities! {
+    /// cos rho = cos chi cos zeta + sin chi sin zeta cos(W/2) stays constant along Delta zeta, and along Eq. (42) as printed with lambda = pi -
+    /// zeta
+    pulse_width_change: Autodiff "pulse-width-change" [42];
+}
+
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    identity::checks::<WidthAndInclination>()
+    identities()
         .into_iter()
         .chain([
             Check {
@@ -78,34 +84,24 @@ pub fn checks() -> Vec<Check> {
         .collect()
 }
 
-struct WidthAndInclination;
+fn pulse_width_change<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (angle, chi, width) = (p.angles.beta, p.frame.beta, p.angles.alpha);
+    let moved = |[change, width_change]: [F; 2]| (F::first(angle, change), F::first(width, width_change));
+    let fixed_chi = F::fixed(chi);
 
-impl Identity for WidthAndInclination {
-    const ID: &'static str = "pulse-width-change";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "pulse-width-change-autodiff");
-    const EQUATIONS: &'static [u8] = &[42];
-    const STATEMENT: &'static str = "cos rho = cos chi cos zeta + sin chi sin zeta cos(W/2) stays constant along Delta zeta, and along Eq. (42) as printed \
-         with lambda = pi - zeta";
+    let (zeta, moved_width) = moved(zeta_change_terms(angle, chi, width));
+    let opening = cos_opening_angle(zeta, fixed_chi, moved_width);
 
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (angle, chi, width) = (p.angles.beta, p.frame.beta, p.angles.alpha);
-        let moved = |[change, width_change]: [F; 2]| (F::first(angle, change), F::first(width, width_change));
-        let fixed_chi = F::fixed(chi);
+    let [numerator, denominator] = lambda_change_terms(angle, chi, width);
+    let (lambda, moved_width) = moved([numerator, denominator]);
+    // cos(pi - lambda) = -cos lambda: the first term has the other sign.
+    let with_reversed_cosine =
+        cos_opening_angle(lambda, fixed_chi, moved_width) - lambda.sin_cos().1 * fixed_chi.sin_cos().1 * 2.0;
 
-        let (zeta, moved_width) = moved(zeta_change_terms(angle, chi, width));
-        let opening = cos_opening_angle(zeta, fixed_chi, moved_width);
-
-        let [numerator, denominator] = lambda_change_terms(angle, chi, width);
-        let (lambda, moved_width) = moved([numerator, denominator]);
-        // cos(pi - lambda) = -cos lambda: the first term has the other sign.
-        let with_reversed_cosine =
-            cos_opening_angle(lambda, fixed_chi, moved_width) - lambda.sin_cos().1 * fixed_chi.sin_cos().1 * 2.0;
-
-        let ((sl, cl), (sc, cc)) = (angle.sin_cos(), chi.sin_cos());
-        let (sin_half, cos_half) = (width / 2.0).sin_cos();
-        let printed = sin_half / 2.0 / (cl / sl * cos_half + cc / sc);
-        vec![F::derivative(opening), F::derivative(with_reversed_cosine), numerator - printed * denominator]
-    }
+    let ((sl, cl), (sc, cc)) = (angle.sin_cos(), chi.sin_cos());
+    let (sin_half, cos_half) = (width / 2.0).sin_cos();
+    let printed = sin_half / 2.0 / (cl / sl * cos_half + cc / sc);
+    vec![F::derivative(opening), F::derivative(with_reversed_cosine), numerator - printed * denominator]
 }
 
 fn estimate_of_known_change() -> Result<Measured, String> {

@@ -19,7 +19,7 @@ use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::derivation::Differentiable;
 use crate::eta::{PAPER_ASYMMETRY, eta_curve, numerical_axis_rate, seen_rate, twelve_turns};
-use crate::identity::{self, Identity};
+use crate::identity::identities;
 use crate::measured_order::measured_order;
 use crate::paper_examples::{COEFFICIENTS, SPIN};
 use crate::random::{Point, Random};
@@ -27,9 +27,17 @@ use crate::random::{Point, Random};
 /// Shapes of the tensor: symmetric about Z, the paper's, the most asymmetric one.
 const SHAPES: [f64; 3] = [0.0, PAPER_ASYMMETRY, -1.0 / 3.0];
 
+identities! {
+    /// the secular rate of the spin axis is torque over angular momentum, is a^(1) about Z for s^XX = s^YY, and has the square of Eq. (41) with eta
+    /// = 1 / speed
+    torque_over_momentum: Property "secular-axis-rate" [31, 32, 41];
+    /// angles at the start by the asymmetry ratio alone are those of Eq. (34), lower signs, with A = 0
+    start_by_asymmetry_ratio: Property "single-precession-start" [34];
+}
+
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    let mut checks = [identity::checks::<SecularRate>(), identity::checks::<SinglePrecessionStart>()].concat();
+    let mut checks = identities();
     checks.extend([
         Check {
             id: "eta-azimuth-mean",
@@ -191,64 +199,38 @@ pub fn checks() -> Vec<Check> {
     checks
 }
 
-struct SecularRate;
+fn torque_over_momentum<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let spin = p.rates.gamma;
+    let axis = symmetry_axis(p.angles.alpha, p.angles.beta);
+    let inertia_over_c = p.spheroid.inertia_zz / p.spheroid.constant_c;
+    let rate = secular_axis_rate(inertia_over_c, spin, &p.s.tensor(), &axis);
+    let momentum = p.spheroid.inertia_zz * spin;
+    let (_, torque) = reduced_rates(&p.spheroid, &p.s.tensor(), &axis, &(axis * momentum));
+    let from_torque = rate - torque / momentum;
 
-impl Identity for SecularRate {
-    const ID: &'static str = "secular-axis-rate";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "secular-axis-rate-rounding");
-    const EQUATIONS: &'static [u8] = &[31, 32, 41];
-    const STATEMENT: &'static str = "the secular rate of the spin axis is torque over angular momentum, is a^(1) about Z for s^XX = s^YY, and has the square \
-         of Eq. (41) with eta = 1 / speed";
+    let symmetric = PrincipalCoefficients { yy: p.s.xx, ..p.s };
+    let constants =
+        Constants { alpha_0: p.angles.alpha, beta_0: p.angles.beta, amplitude: F::zero(), phase: F::zero() };
+    let forced =
+        Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &symmetric, spin, &constants);
+    let about_z = Vector3::new(F::zero(), F::zero(), forced.forced_rate).cross(&axis);
+    let from_forced = secular_axis_rate(inertia_over_c, spin, &symmetric.tensor(), &axis) - about_z;
 
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let spin = p.rates.gamma;
-        let axis = symmetry_axis(p.angles.alpha, p.angles.beta);
-        let inertia_over_c = p.spheroid.inertia_zz / p.spheroid.constant_c;
-        let rate = secular_axis_rate(inertia_over_c, spin, &p.s.tensor(), &axis);
-        let momentum = p.spheroid.inertia_zz * spin;
-        let (_, torque) = reduced_rates(&p.spheroid, &p.s.tensor(), &axis, &(axis * momentum));
-        let from_torque = rate - torque / momentum;
-
-        let symmetric = PrincipalCoefficients { yy: p.s.xx, ..p.s };
-        let constants =
-            Constants { alpha_0: p.angles.alpha, beta_0: p.angles.beta, amplitude: F::zero(), phase: F::zero() };
-        let forced =
-            Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &symmetric, spin, &constants);
-        let about_z = Vector3::new(F::zero(), F::zero(), forced.forced_rate).cross(&axis);
-        let from_forced = secular_axis_rate(inertia_over_c, spin, &symmetric.tensor(), &axis) - about_z;
-
-        let unit = p.s.combination() / (inertia_over_c * spin);
-        let ratio = p.s.asymmetry() / p.s.combination();
-        let square = rate.dot(&rate) - squared_speed(ratio, p.angles.alpha, p.angles.beta) * unit * unit;
-        from_torque.iter().chain(from_forced.iter()).copied().chain([square]).collect()
-    }
+    let unit = p.s.combination() / (inertia_over_c * spin);
+    let ratio = p.s.asymmetry() / p.s.combination();
+    let square = rate.dot(&rate) - squared_speed(ratio, p.angles.alpha, p.angles.beta) * unit * unit;
+    from_torque.iter().chain(from_forced.iter()).copied().chain([square]).collect()
 }
 
-struct SinglePrecessionStart;
-
-impl Identity for SinglePrecessionStart {
-    const ID: &'static str = "single-precession-start";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "single-precession-start-rounding");
-    const EQUATIONS: &'static [u8] = &[34];
-    const STATEMENT: &'static str =
-        "angles at the start by the asymmetry ratio alone are those of Eq. (34), lower signs, with A = 0";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (alpha_0, beta_0) = (p.angles.alpha, p.angles.beta);
-        let ratio = p.s.asymmetry() / p.s.combination();
-        let (alpha, beta) = single_precession_start(ratio, alpha_0, beta_0);
-        let constants = Constants { alpha_0, beta_0, amplitude: F::zero(), phase: F::one() };
-        let start = Perturbation::new_unchecked(
-            Form::Printed,
-            Precession::Single,
-            &p.spheroid,
-            &p.s,
-            p.rates.gamma,
-            &constants,
-        )
-        .at(F::zero());
-        vec![alpha - start.alpha, beta - start.beta]
-    }
+fn start_by_asymmetry_ratio<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (alpha_0, beta_0) = (p.angles.alpha, p.angles.beta);
+    let ratio = p.s.asymmetry() / p.s.combination();
+    let (alpha, beta) = single_precession_start(ratio, alpha_0, beta_0);
+    let constants = Constants { alpha_0, beta_0, amplitude: F::zero(), phase: F::one() };
+    let start =
+        Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &p.s, p.rates.gamma, &constants)
+            .at(F::zero());
+    vec![alpha - start.alpha, beta - start.beta]
 }
 
 fn azimuth_mean() -> Result<Measured, String> {

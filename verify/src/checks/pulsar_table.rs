@@ -13,7 +13,7 @@ use twofold::units::{DEGREE, si};
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::derivation::Differentiable;
 use crate::eta::seen_rate;
-use crate::identity::{self, Identity};
+use crate::identity::identities;
 use crate::random::{Point, Random};
 use twofold_scene::pulsar_table::published::{GLOBAL_2014, SOLITARY_ALPHA_2};
 use twofold_scene::pulsar_table::{self, CONFIDENCE, CONSERVATIVE_ETA, Figure, Pulsar, Quantity, Spread, recommended};
@@ -22,9 +22,14 @@ use twofold_scene::pulsar_table::{self, CONFIDENCE, CONSERVATIVE_ETA, Figure, Pu
 /// Kramer, Wex, Champion and Jessner, Class. Quantum Grav. 30, 165019 (2013) are remembered to give them: second-hand.
 const SLOPES: [f64; 3] = [-3.2, 3.5, 1.3];
 
+identities! {
+    /// with I^zz/C = 4/Omega^2 and s = -alpha_2 w w the spin axis turns about w with Nordtvedt's rate (alpha_2/2) |w| Omega (w.l)
+    nordtvedt_precession: Property "nordtvedt-precession" [5, 41];
+}
+
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    let mut checks = identity::checks::<NordtvedtPrecession>().to_vec();
+    let mut checks = identities();
     checks.extend([
         Check {
             id: "fluid-inertia-over-c",
@@ -125,23 +130,14 @@ pub fn checks() -> Vec<Check> {
     checks
 }
 
-struct NordtvedtPrecession;
-
-impl Identity for NordtvedtPrecession {
-    const ID: &'static str = "nordtvedt-precession";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "nordtvedt-precession-rounding");
-    const EQUATIONS: &'static [u8] = &[5, 41];
-    const STATEMENT: &'static str = "with I^zz/C = 4/Omega^2 and s = -alpha_2 w w the spin axis turns about w with Nordtvedt's rate (alpha_2/2) |w| Omega (w.l)";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let [x, y, z, alpha_2] = p.numbers;
-        let (w, spin) = (Vector3::new(x, y, z), p.rates.gamma);
-        let axis = p.gradient;
-        let s = coefficients_from_preferred_frame(alpha_2, &w);
-        let rate = secular_axis_rate(fluid_inertia_over_c(spin), spin, &s, &axis);
-        let nordtvedt = w.cross(&axis) * (-(alpha_2 * spin * w.dot(&axis)) / 2.0);
-        (rate - nordtvedt).iter().copied().collect()
-    }
+fn nordtvedt_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let [x, y, z, alpha_2] = p.numbers;
+    let (w, spin) = (Vector3::new(x, y, z), p.rates.gamma);
+    let axis = p.gradient;
+    let s = coefficients_from_preferred_frame(alpha_2, &w);
+    let rate = secular_axis_rate(fluid_inertia_over_c(spin), spin, &s, &axis);
+    let nordtvedt = w.cross(&axis) * (-(alpha_2 * spin * w.dot(&axis)) / 2.0);
+    (rate - nordtvedt).iter().copied().collect()
 }
 
 fn fluid_inertia() -> Result<Measured, String> {
