@@ -167,6 +167,21 @@ impl Worst {
     }
 }
 
+/// The largest figure over some cases, and in which it was seen.
+///
+/// # Errors
+/// The first case without a figure; no cases.
+pub fn worst_of<C: std::fmt::Debug>(
+    cases: impl IntoIterator<Item = C>,
+    mut figure: impl FnMut(&C) -> Result<f64, String>,
+) -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for case in cases {
+        worst.see(figure(&case)?, || format!("{case:?}"));
+    }
+    worst.finish()
+}
+
 /// The largest of some figures, none of them negative; NaN if one is NaN, which `f64::max` would drop.
 pub fn largest(figures: impl IntoIterator<Item = f64>) -> f64 {
     figures.into_iter().fold(0.0, |most: f64, x| if x.is_nan() || most.is_nan() { f64::NAN } else { most.max(x) })

@@ -30,7 +30,7 @@ pub fn examples() -> Result<[Subject; 4], String> {
 }
 
 fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
-    let (spheroid, first, state) = (spheroid(), example.initial_values()?, example.initial_state()?);
+    let (spheroid, first, state) = (spheroid(), example.initial_values()?, *example.problem()?.initial());
     let angles = EulerAngles { alpha: first.alpha, beta: first.beta, gamma: 0.0 };
     let start = Start { spheroid, violation: COEFFICIENTS.tensor(), state, angles };
     let printed = Perturbation::new(Form::Printed, example.kind, &spheroid, &COEFFICIENTS, SPIN, &example.constants)?;
