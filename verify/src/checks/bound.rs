@@ -14,7 +14,7 @@ use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::derivation::Differentiable;
 use crate::golden::pulsar_bounds::{PrintedBounds, columns};
 use crate::identity::identities;
-use crate::random::{Point, Random};
+use crate::random::{Point, worst_of_draws};
 use twofold_scene::pulsar_table::{Pulsar, ROUND_INERTIA_OVER_C};
 
 identities! {
@@ -105,51 +105,43 @@ fn pulse_width_change<F: Differentiable>(p: &Point<F>) -> Vec<F> {
 }
 
 fn estimate_of_known_change() -> Result<Measured, String> {
-    let mut random = Random::with_seed(40);
-    let mut worst = Worst::default();
-    let mut index = 0;
-    while index < 200 {
-        let p = Point::<f64>::draw(&mut random);
-        let s = PrincipalCoefficients { yy: p.s.xx, ..p.s };
-        let (spin, interval, theta, phi) = (p.rates.gamma, p.numbers[2], p.frame.beta, p.frame.alpha);
-        let constants = Constants { alpha_0: p.angles.alpha, beta_0: p.angles.beta, amplitude: 0.0, phase: 0.0 };
-        let (sin_b, cos_b) = constants.beta_0.sin_cos();
-        let factor = theta.sin() * sin_b * (constants.alpha_0 - phi).cos();
-        if factor.abs() < 0.1 || cos_b.abs() < 0.1 {
-            continue;
+    worst_of_draws(40, 200, |random| {
+        loop {
+            let p = Point::<f64>::draw(random);
+            let s = PrincipalCoefficients { yy: p.s.xx, ..p.s };
+            let (spin, interval, theta, phi) = (p.rates.gamma, p.numbers[2], p.frame.beta, p.frame.alpha);
+            let constants = Constants { alpha_0: p.angles.alpha, beta_0: p.angles.beta, amplitude: 0.0, phase: 0.0 };
+            let (sin_b, cos_b) = constants.beta_0.sin_cos();
+            let factor = theta.sin() * sin_b * (constants.alpha_0 - phi).cos();
+            if factor.abs() < 0.1 || cos_b.abs() < 0.1 {
+                continue;
+            }
+            let RigidSpheroid { inertia_zz, constant_c, .. } = p.spheroid;
+            let solution =
+                Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &s, spin, &constants);
+            let changes = changes_from_start(&solution, interval);
+            let drift = SpinAxisDrift {
+                polar_inertia_over_c: inertia_zz / constant_c,
+                spin,
+                interval,
+                cos_lambda_change: cos_lambda_change(theta, phi, (constants.alpha_0, constants.beta_0), changes),
+            };
+            let estimate = drift.combination_bound_at(constants.beta_0)?;
+            return Ok((estimate / (s.combination() * factor).abs() - 1.0).abs() / f64::EPSILON);
         }
-        index += 1;
-        let RigidSpheroid { inertia_zz, constant_c, .. } = p.spheroid;
-        let solution =
-            Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &s, spin, &constants);
-        let changes = changes_from_start(&solution, interval);
-        let drift = SpinAxisDrift {
-            polar_inertia_over_c: inertia_zz / constant_c,
-            spin,
-            interval,
-            cos_lambda_change: cos_lambda_change(theta, phi, (constants.alpha_0, constants.beta_0), changes),
-        };
-        let estimate = drift.combination_bound_at(constants.beta_0)?;
-        let expected = (s.combination() * factor).abs();
-        worst.see((estimate / expected - 1.0).abs() / f64::EPSILON, || format!("point {index} of seed 40"));
-    }
-    worst.finish()
+    })
 }
 
 fn bound_of_known_tensor() -> Result<Measured, String> {
-    let mut random = Random::with_seed(41);
-    let mut worst = Worst::default();
-    for index in 0..200 {
+    worst_of_draws(41, 200, |random| {
         let alpha_2 = random.within(-1e-3, 1e-3);
         let w = Vector3::from_fn(|_, _| random.within(-1e-3, 1e-3));
-        let frame = principal_frame(&coefficients_from_preferred_frame(alpha_2, &w))?;
+        let s = principal_frame(&coefficients_from_preferred_frame(alpha_2, &w))?.coefficients;
         // The odd eigenvalue is the first or the last; the axis of that one is Z.
-        let s = frame.coefficients;
         let about_w = if alpha_2 < 0.0 { s.permuted() } else { s };
         let bound = preferred_frame_bound(about_w.combination(), &w)?;
-        worst.see((bound / alpha_2.abs() - 1.0).abs() / f64::EPSILON, || format!("case {index} of seed 41"));
-    }
-    worst.finish()
+        Ok((bound / alpha_2.abs() - 1.0).abs() / f64::EPSILON)
+    })
 }
 
 fn printed_changes() -> Result<Measured, String> {

@@ -10,11 +10,11 @@ use twofold::star::deformation::centrifugal_oblateness;
 use twofold::star::estimates::inertia_over_c_estimate;
 use twofold::units::{DEGREE, si};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Bound, Check, Kind, Measured, Worst, worst_of};
 use crate::derivation::Differentiable;
 use crate::eta::seen_rate;
 use crate::identity::identities;
-use crate::random::{Point, Random};
+use crate::random::{Point, Random, worst_of_draws};
 use twofold_scene::pulsar_table::published::{GLOBAL_2014, SOLITARY_ALPHA_2};
 use twofold_scene::pulsar_table::{self, CONFIDENCE, CONSERVATIVE_ETA, Figure, Pulsar, Quantity, Spread, recommended};
 
@@ -141,17 +141,13 @@ fn nordtvedt_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {
 }
 
 fn fluid_inertia() -> Result<Measured, String> {
-    let mut random = Random::with_seed(20);
-    let mut worst = Worst::default();
-    for case in 0..200 {
+    worst_of_draws(20, 200, |random| {
         let (spin, radius, mass) = (random.within(0.1, 10.0), random.within(0.5, 2.0), random.within(0.5, 2.0));
         let density = 0.75 * mass / (PI * radius * radius * radius);
         let oblateness = 1.25 * centrifugal_oblateness(spin, radius, mass);
         let by_estimates = inertia_over_c_estimate(density, oblateness);
-        let figure = (fluid_inertia_over_c(spin) / by_estimates - 1.0).abs() / f64::EPSILON;
-        worst.see(figure, || format!("case {case} of seed 20: {by_estimates:e}"));
-    }
-    worst.finish()
+        Ok((fluid_inertia_over_c(spin) / by_estimates - 1.0).abs() / f64::EPSILON)
+    })
 }
 
 fn uncertainties() -> Result<Measured, String> {
@@ -271,14 +267,7 @@ fn alpha_2() -> Result<Measured, String> {
     let limit = pulsar.limit(&pulsar.figure("alpha_2_over_eta_own")?)?.all;
     // The bound that the paper prints, with eta = 10.
     let speed = 369e3 / si::SPEED_OF_LIGHT;
-    let printed = 1e-15 / (2.0 * speed * speed);
-    let mut worst = Worst::default();
-    for bound in [limit, printed] {
-        worst.see((bound / SOLITARY_ALPHA_2.limit).log10().abs(), || {
-            format!("{limit:.2e} from {}, by the printed bound {printed:.2e}", pulsar.name)
-        });
-    }
-    worst.finish()
+    worst_of([limit, 1e-15 / (2.0 * speed * speed)], |bound| Ok((bound / SOLITARY_ALPHA_2.limit).log10().abs()))
 }
 
 fn beyond_global() -> Result<Measured, String> {

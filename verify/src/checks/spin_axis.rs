@@ -2,15 +2,14 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nalgebra::Vector3;
 use twofold::dynamics::BodyState;
-use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
+use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
 use twofold::observables::spin_axis::{
     changes_from_start, cos_lambda, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
 };
-use twofold::propagation::{Motion, propagate};
+use twofold::propagation::Motion;
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
 use crate::check::{Bound, Check, Kind, Measured};
@@ -18,8 +17,8 @@ use crate::checks::observer::observer;
 use crate::checks::perturbation_equations::constants;
 use crate::derivation::{Differentiable, moving_angles};
 use crate::identity::identities;
-use crate::measured_order::measured_order;
-use crate::paper_examples::{COEFFICIENTS, SPIN, spheroid};
+use crate::measured_order::order_of_error;
+use crate::paper_examples::{COEFFICIENTS, SPIN, problem_from, spheroid};
 use crate::random::Point;
 
 identities! {
@@ -109,22 +108,17 @@ fn single_precession_changes<F: Differentiable>(p: &Point<F>) -> Vec<F> {
 
 /// Error of the change of `cos lambda` by Eqs. (38) and (39) over `interval`, for the motion with the initial values (34).
 fn error(s: &PrincipalCoefficients<f64>, amplitude: f64, interval: f64) -> Result<f64, String> {
-    let body = spheroid();
     // A general phase and, below, a direction that leaves neither term of Eq. (38) out.
     let constants = Constants { alpha_0: FRAC_PI_2, beta_0: 0.7, amplitude, phase: 0.4 };
-    let solution = Perturbation::new(Form::Printed, Precession::Single, &body, s, SPIN, &constants)?;
+    let solution = Perturbation::new(Form::Printed, Precession::Single, &spheroid(), s, SPIN, &constants)?;
     let start = solution.at(0.0);
-    let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
-    let gamma_rate = SPIN - start.alpha_rate * start.beta.cos();
-    let rates = EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma: gamma_rate };
-    let initial = BodyState::from_angles(&body, &angles, &rates);
-    let motion = propagate(&body, &s.tensor(), &initial, (0.0, interval), 1e-15)?;
-    let end = motion.state(interval)?;
+    let problem = problem_from(s, &start)?;
+    let end = problem.taylor((0.0, interval), 1e-15)?.state(interval)?;
     let (theta, phi) = (0.8, 0.5);
-    let direction = Observer::at(theta, phi).direction;
-    let moved: Vector3<f64> = end.axis - initial.axis;
+    let moved = end.axis - problem.initial().axis;
     let changes = changes_from_start(&solution, interval);
-    Ok((cos_lambda(&direction, &moved) - cos_lambda_change(theta, phi, (start.alpha, start.beta), changes)).abs())
+    let by_motion = cos_lambda(&Observer::at(theta, phi).direction, &moved);
+    Ok((by_motion - cos_lambda_change(theta, phi, (start.alpha, start.beta), changes)).abs())
 }
 
 fn order_in_time() -> Result<Measured, String> {
@@ -141,8 +135,3 @@ fn order_with_amplitude() -> Result<Measured, String> {
 
 /// The coefficients of the examples without their asymmetry about Z.
 const SYMMETRIC: PrincipalCoefficients<f64> = PrincipalCoefficients { xx: 0.015, yy: 0.015, zz: -0.04 };
-
-fn order_of_error(scales: &[f64], error: impl Fn(f64) -> Result<f64, String>) -> Result<Measured, String> {
-    let points = scales.iter().map(|&x| Ok((x, error(x)?))).collect::<Result<Vec<_>, String>>()?;
-    measured_order(&points, 0.0)
-}

@@ -5,22 +5,22 @@ use twofold::dynamics::equations_of_motion::{angular_velocity, torque_on_axis};
 use twofold::dynamics::wave_source::{
     free_inertia_acceleration, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
 };
-use twofold::dynamics::{BodyState, PrincipalInertia, RigidSpheroid};
+use twofold::dynamics::{BodyState, PrincipalInertia, Problem, RigidSpheroid, RotationState};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial, body_rates};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{
     Polarizations, metric_perturbation, polarization_tensors, polarizations, strain_unit,
 };
-use twofold::propagation::{AxisState, Motion, TaylorMotion, propagate, propagate_axis};
+use twofold::propagation::{AxisState, Motion};
 use twofold::units::geometrised::HERTZ;
 use twofold::units::si::KILOPARSEC;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, worst_of};
 use crate::checks::observer::observer;
 use crate::derivation::Differentiable;
 use crate::identity::identities;
 use crate::random::Point;
-use crate::reference::{ReferenceMotion, reference_motion, reference_motions};
+use crate::reference::{reference_motion, reference_motions};
 
 identities! {
     /// e_+ and e_x are symmetric, trace-free, transverse to n-hat, normal to each other and of square 2
@@ -208,21 +208,18 @@ fn wave_of_free_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     ]
 }
 
-fn motion_of(scene: &ReferenceMotion, end: f64) -> Result<TaylorMotion<f64>, String> {
-    propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, end), 1e-15).map_err(String::from)
-}
-
 /// The wave by the body-frame tensor `A^ij` with the torque, from the rotation matrix: no part of the short form.
-fn wave_by_general_form(
-    observer: &Observer<f64>,
-    scene: &ReferenceMotion,
-    state: &BodyState<f64>,
-) -> Polarizations<f64> {
-    let (body, rotation) = (&scene.spheroid, state.body_from_inertial());
+fn wave_by_general_form(observer: &Observer<f64>, scene: &Problem<f64>, state: &BodyState<f64>) -> Polarizations<f64> {
+    let (body, rotation) = (scene.spheroid(), state.body_from_inertial());
     let omega = rotation * angular_velocity(body, &state.axis, &state.momentum);
-    let torque = rotation * torque_on_axis(body.constant_c, &scene.violation(), &state.axis);
+    let torque = rotation * torque_on_axis(body.constant_c, scene.coefficients(), &state.axis);
     let source = tensor_in_inertial_frame(&rotation, &wave_tensor(&body.inertia(), &omega, &torque));
     polarizations(observer, &metric_perturbation(1.0, &source))
+}
+
+/// The wave of a state by the short form.
+fn wave(observer: &Observer<f64>, scene: &Problem<f64>, state: &AxisState<f64>) -> Polarizations<f64> {
+    wave_of_state(observer, scene.spheroid(), scene.coefficients(), state)
 }
 
 fn difference(a: &Polarizations<f64>, b: &Polarizations<f64>) -> f64 {
@@ -230,36 +227,32 @@ fn difference(a: &Polarizations<f64>, b: &Polarizations<f64>) -> f64 {
 }
 
 fn two_forms_along_motion() -> Result<Measured, String> {
-    let mut worst = Worst::default();
+    let (mut worst, observer) = (Worst::default(), Observer::at(0.8, 0.3));
     for name in ["tp-1", "tp-2"] {
-        let scene = reference_motion(name);
-        let motion = motion_of(&scene, 200.0)?;
-        let observer = Observer::at(0.8, 0.3);
+        let scene = reference_motion(name).problem();
+        let motion = scene.taylor((0.0, 200.0), 1e-15)?;
         for i in 0..=2000 {
             let t = 0.1 * f64::from(i);
             let state = motion.state(t.min(200.0))?;
-            let short = wave_of_state(&observer, &scene.spheroid, &scene.violation(), &AxisState::from(&state));
-            worst.see(difference(&short, &wave_by_general_form(&observer, &scene, &state)), || {
-                format!("{name}, t = {t}")
-            });
+            let short = wave(&observer, &scene, &state.axis_state());
+            let general = wave_by_general_form(&observer, &scene, &state);
+            worst.see(difference(&short, &general), || format!("{name}, t = {t}"));
         }
     }
     worst.finish()
 }
 
 fn against_reference() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    let observer = Observer::at(0.8, 0.3);
-    for scene in reference_motions() {
-        let end = scene.states.last().ok_or("a scene without states")?.0;
-        let (s, start) = (scene.violation(), AxisState::from(&scene.initial()));
-        let motion = motion_of(&scene, end)?;
-        let alone = propagate_axis(&scene.spheroid, &s, &start, (0.0, end), 1e-15)?;
-        for (t, reference) in &scene.states {
-            let theirs = wave_by_general_form(&observer, &scene, reference);
-            for state in [motion.axis_state(*t), alone.axis_state(*t)] {
-                let ours = wave_of_state(&observer, &scene.spheroid, &s, &state?);
-                worst.see(difference(&ours, &theirs), || format!("{}, t = {t}", scene.name));
+    let (mut worst, observer) = (Worst::default(), Observer::at(0.8, 0.3));
+    for reference in reference_motions() {
+        let scene = reference.problem();
+        let end = reference.states.last().ok_or("a scene without states")?.0;
+        let (motion, alone) = (scene.taylor((0.0, end), 1e-15)?, scene.reduced().taylor((0.0, end), 1e-15)?);
+        for (t, state) in &reference.states {
+            let theirs = wave_by_general_form(&observer, &scene, state);
+            for state in [motion.axis_state(*t)?, alone.state(*t)?] {
+                let ours = wave(&observer, &scene, &state);
+                worst.see(difference(&ours, &theirs), || format!("{}, t = {t}", reference.name));
             }
         }
     }
@@ -276,16 +269,12 @@ const PUBLISHED: [[f64; 3]; 5] = [
 ];
 
 fn against_published_data() -> Result<Measured, String> {
-    let scene = reference_motion("tp-1");
-    let motion = motion_of(&scene, 1.0)?;
-    let observer = Observer::at(0.8, 0.0);
-    let mut worst = Worst::default();
-    for [t, plus, cross] in PUBLISHED {
-        let state = motion.state(t)?;
-        let ours = wave_of_state(&observer, &scene.spheroid, &scene.violation(), &AxisState::from(&state));
-        worst.see(difference(&ours, &Polarizations { plus, cross }), || format!("t = {t}: {ours:?}"));
-    }
-    worst.finish()
+    let scene = reference_motion("tp-1").problem();
+    let motion = scene.taylor((0.0, 1.0), 1e-15)?;
+    worst_of(PUBLISHED, |&[t, plus, cross]| {
+        let ours = wave(&Observer::at(0.8, 0.0), &scene, &motion.axis_state(t)?);
+        Ok(difference(&ours, &Polarizations { plus, cross }))
+    })
 }
 
 fn textbook_strain() -> Result<Measured, String> {
