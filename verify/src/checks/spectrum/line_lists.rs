@@ -7,7 +7,6 @@ use twofold::observables::spectrum::{LineList, Series, SpectralLine, spectral_li
 use super::signals::{beam, examples, line_of_sight, motion_of};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::random::Random;
-use crate::reference::reference_motion;
 
 pub(super) fn checks() -> Vec<Check> {
     vec![
@@ -135,10 +134,8 @@ fn close_lines() -> Result<Measured, String> {
 fn incomplete_lists() -> Result<Measured, String> {
     let (example, mut worst) = (&examples()?[1], Worst::default());
     for span in [3000.0, 4000.0, 6000.0, 8000.0] {
-        let motion = motion_of(&reference_motion("tp-2"), span)?;
-        let (beam, observer) = (beam(), line_of_sight());
-        let series = Series::of_motion(&motion, (span * 4.0) as usize, |state| beam.direction(state).dot(&observer));
-        let series = series?;
+        let (motion, beam, observer) = (motion_of("tp-2", span)?, beam(), line_of_sight());
+        let series = Series::of_motion(&motion, (span * 4.0) as usize, |state| beam.direction(state).dot(&observer))?;
         for most in [10, 25, 50] {
             let list = spectral_lines(&series, 1e-6, most)?;
             for line in list.lines.iter().take(10) {
