@@ -10,7 +10,7 @@ use twofold::star::deformation::centrifugal_oblateness;
 use twofold::star::estimates::inertia_over_c_estimate;
 use twofold::units::{DEGREE, si};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, worst_of};
+use crate::check::{Bound, Check, Kind, Measured, Worst, smallest, worst_of};
 use crate::derivation::Differentiable;
 use crate::eta::seen_rate;
 use crate::identity::identities;
@@ -224,18 +224,18 @@ fn coverage() -> Result<Measured, String> {
             _ => limits[limits.len() - 1] * place / f64::from(STEPS.0),
         }
     };
-    let (mut smallest, mut at) = (f64::INFINITY, 0.0);
+    let (mut least, mut at) = (f64::INFINITY, 0.0);
     for truth in [0.3, 3.0, 30.0, 60.0, 100.0, 200.0, 1e3, 1e4] {
         let covered = |_: &u32| {
             let error = Quantity { value: 0.0, uncertainty: 1.0, spread: Spread::Given }.draw(&mut random);
             limit(truth * seen_rate(&mut random, &s, lambda) + error) >= truth
         };
         let share = (0..DRAWS).filter(covered).count() as f64 / f64::from(DRAWS);
-        if share < smallest {
-            (smallest, at) = (share, truth);
+        if share < least {
+            (least, at) = (share, truth);
         }
     }
-    Ok(Measured::new(smallest, format!("for a truth of {at} errors; coverage is 1 for small ones")))
+    Ok(Measured::new(least, format!("for a truth of {at} errors; coverage is 1 for small ones")))
 }
 
 fn changes_are_slopes() -> Result<Measured, String> {
@@ -290,7 +290,7 @@ fn beyond_global_stated_star() -> Result<Measured, String> {
 
 /// The least of some orders of magnitude; infinite if one is five or above.
 fn least_below_five(orders: &[f64]) -> Result<Measured, String> {
-    let least = orders.iter().copied().reduce(f64::min).ok_or("no pulsar")?;
+    let least = smallest(orders.iter().copied());
     let figure = if orders.iter().all(|order| *order < 5.0) { least } else { f64::INFINITY };
     Ok(Measured::new(figure, format!("orders: {orders:.2?}")))
 }

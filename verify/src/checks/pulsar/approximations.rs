@@ -11,7 +11,7 @@ use twofold::propagation::Motion;
 use twofold::solutions::perturbation::{ShiftedRates, shifted_rates};
 
 use super::cases::{Case, mean_rates, paper_signal};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, smallest};
 use crate::paper_examples::{COEFFICIENTS, SPIN, spheroid};
 use crate::pulse_series::{PaperCurves, PulseSeries, Viewing, pulse_series};
 
@@ -169,11 +169,6 @@ fn tilted_momentum_in(azimuth: f64) -> Result<(f64, String), twofold::Error> {
         largest(periods)
     );
     Ok((if missed.is_empty() { f64::NAN } else { smallest(missed) }, detail))
-}
-
-/// The smallest of some figures; NaN if one is NaN.
-fn smallest(figures: impl IntoIterator<Item = f64>) -> f64 {
-    1.0 / largest(figures.into_iter().map(|x| 1.0 / x))
 }
 
 /// Deviations of the series of an example from the formulas.
