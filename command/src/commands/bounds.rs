@@ -12,7 +12,7 @@ use twofold_scene::pulsar_table::{
     COMBINATION, CONFIDENCE, CONSERVATIVE_ETA, Figure, Limit, Pulsar, ROUND_INERTIA_OVER_C, pulsars_in_file,
     recommended,
 };
-use twofold_verify::golden::pulsar_bounds::{PrintedBounds, columns};
+use twofold_verify::printed::{PrintedBounds, columns};
 
 /// What the recommended limit includes, and what it leaves out.
 const INCLUDES: [&str; 5] = [

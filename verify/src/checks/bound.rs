@@ -12,8 +12,8 @@ use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, smallest};
 use crate::derivation::Differentiable;
-use crate::golden::pulsar_bounds::{PrintedBounds, columns};
 use crate::identity::identities;
+use crate::printed::{PrintedBounds, columns};
 use crate::random::{Point, worst_of_draws};
 use twofold_scene::pulsar_table::{Pulsar, ROUND_INERTIA_OVER_C};
 
