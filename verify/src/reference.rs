@@ -154,15 +154,13 @@ pub fn reference_gradients() -> Vec<ReferenceGradient> {
     rows.chunk_by(|(first, _), (second, _)| first == second).map(of_scene).collect()
 }
 
-fn rows(text: &str) -> Vec<(String, Vec<f64>)> {
-    csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes())
-        .records()
-        .map(|record| {
-            let record = record.expect("reference data are well-formed CSV");
-            let numbers = record.iter().skip(1).map(|cell| cell.parse().expect("a number")).collect();
-            (record[0].to_string(), numbers)
-        })
-        .collect()
+fn rows(text: &'static str) -> Vec<(String, Vec<f64>)> {
+    let numbers = |record: &csv::StringRecord| record.iter().skip(1).map(|x| x.parse().expect("a number")).collect();
+    records(text).map(|record| (record[0].to_string(), numbers(&record))).collect()
+}
+
+/// The rows of a table that is compiled into the program.
+pub(crate) fn records(text: &'static str) -> impl Iterator<Item = csv::StringRecord> {
+    let reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+    reader.into_records().map(|record| record.expect("a table compiled into the program is well-formed CSV"))
 }
