@@ -25,7 +25,7 @@ pub(super) fn checks() -> Vec<Check> {
             id: "pulsar-clock-numbers",
             kind: Kind::Oracle,
             equations: &[44],
-            statement: "numbers and midpoints of single pulses, asked in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose \
+            statement: "numbers and midpoints of single pulses, looked up in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose \
                  turns are followed from one half radian to the next: chi less or more than the wobble and its supplement, spins of both signs, \
                  L that goes round the line of sight or not",
             figure: "largest error of a midpoint [t_c]; infinite if a number is wrong, 40 random pulsars of 10 pulses or more",

@@ -22,7 +22,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "h of tp-I has a third harmonic at exactly three times its fundamental, alpha'",
             figure: "|3 w_1 - w_3| of the highest lines about 1.5 and 4.5, h_+ and h_x [1/t_c]",
             bound: Bound::AtMost(1e-9),
-            reason: "two frequencies of line lists, each right to 1e-10 or so, once and three times",
+            reason: "the documented error of a frequency of a line list",
             measure: || third_harmonic(0),
         },
         Check {
@@ -72,7 +72,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "the highest lines about the fundamental are at the mean rates of alpha, not at the 1.438 / t_c of free precession that the figures mark",
             figure: "largest distance of the highest line between 1 and 2 from the mean rate of alpha, m.n, h_+ and h_x of tp-I and tp-II [1/t_c]",
             bound: Bound::AtMost(1e-9),
-            reason: "what is documented of line lists; 1.438 is 0.04 and 0.07 away",
+            reason: "the documented error of a frequency of a line list; 1.438 is 0.04 and 0.07 away",
             measure: peaks,
         },
         Check {

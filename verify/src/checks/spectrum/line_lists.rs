@@ -18,7 +18,7 @@ pub(super) fn checks() -> Vec<Check> {
                  frequencies, amplitudes and phases found",
             figure: "largest error of a frequency [1/t_c], 8 sums of 24 lines over 4,000 t_c",
             bound: Bound::AtMost(1e-9),
-            reason: "the accuracy asked of line lists",
+            reason: "the documented error of a frequency of a line list",
             measure: synthetic_sums,
         },
         Check {
@@ -28,7 +28,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "two lines 10/T to 40/T apart, amplitude ratios 1 to 1e-3, and one line 10/T to 40/T from zero are found as such, and no error of a frequency exceeds three times its estimate",
             figure: "largest error of a frequency in units of 2/T, T = 4,000 t_c",
             bound: Bound::AtMost(1e-6),
-            reason: "1e-9 / t_c at T = 2,000 t_c in that unit: the accuracy asked of line lists, at the least distance documented",
+            reason: "1e-9 / t_c at T = 2,000 t_c in that unit: the documented error of a frequency, at the least distance documented",
             measure: close_lines,
         },
         Check {

@@ -32,7 +32,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "the frequencies of these lines, found in the series alone, are those combinations of the mean rates",
             figure: "largest difference, m.n above 1e-4, h above 1e-5 [1/t_c]",
             bound: Bound::AtMost(1e-9),
-            reason: "the accuracy asked of line lists",
+            reason: "the documented error of a frequency of a line list",
             measure: lines_against_rates,
         },
         Check {
@@ -52,7 +52,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "m.n of tp-II has a line between 0.03 and 0.04 / t_c, and it is the mean rate of the azimuth of L about Z",
             figure: "|frequency of the strongest line there - |mean rate|| [1/t_c]; infinite if it is below a tenth of the highest line",
             bound: Bound::AtMost(1e-9),
-            reason: "the accuracy asked of line lists",
+            reason: "the documented error of a frequency of a line list",
             measure: slow_line_of_tp_2,
         },
         Check {
@@ -112,8 +112,8 @@ fn all_identified() -> Result<Measured, String> {
     }
     for example in examples()? {
         for (signal, list) in example.signals() {
-            let asked = if signal == "m.n" { 1e-4 } else { 1e-6 };
-            if list.remainder > asked {
+            let least = if signal == "m.n" { 1e-4 } else { 1e-6 };
+            if list.remainder > least {
                 return Err(format!("{} {signal}: lines up to {:.1e} are left", example.name, list.remainder));
             }
         }
@@ -186,7 +186,7 @@ fn slow_line_of_waves() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for example in examples()? {
         for (signal, list) in example.waves() {
-            // A list without a line there has none above the amplitude asked for.
+            // A list without a line there has none above its least amplitude.
             let line = strongest(list, SLOW).ok();
             let amplitude = line.map_or(1e-6, |line| line.amplitude);
             let ratio = amplitude / list.lines[0].amplitude;
