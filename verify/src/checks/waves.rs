@@ -122,7 +122,7 @@ fn polarizations_transverse_traceless<F: Differentiable>(p: &Point<F>) -> Vec<F>
 }
 
 /// The wave of a spheroid in any state, by the short form.
-fn wave_of_state<F: Differentiable>(
+pub(super) fn wave_of_state<F: Differentiable>(
     observer: &Observer<F>,
     spheroid: &RigidSpheroid<F>,
     s: &Matrix3<F>,

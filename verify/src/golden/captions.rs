@@ -22,13 +22,13 @@ pub(super) fn initial_values() -> Result<GoldenTable, Error> {
 pub(super) fn constants() -> Result<GoldenTable, Error> {
     let mut lines = Vec::new();
     let free = free_precession_rates(&spheroid(), SPIN, 0.7)?;
-    lines.push(GoldenLine::new("free precession, alpha rate [1/t_c], Eq. (48)", Printed::Decimal("1.438"), free.alpha));
-    lines.push(GoldenLine::new("twice that, the second wave line", Printed::Decimal("2.876"), 2.0 * free.alpha));
-    lines.push(GoldenLine::new(
-        "free precession, |gamma rate| [1/t_c], Eq. (48)",
-        Printed::Decimal("0.1"),
-        free.gamma.abs(),
-    ));
+    for (label, printed, ours) in [
+        ("free precession, alpha rate [1/t_c], Eq. (48)", "1.438", free.alpha),
+        ("twice that, the second wave line", "2.876", 2.0 * free.alpha),
+        ("free precession, |gamma rate| [1/t_c], Eq. (48)", "0.1", free.gamma.abs()),
+    ] {
+        lines.push(GoldenLine::new(label, Printed::Decimal(printed), ours));
+    }
     // tp-I and tp-II share all of these: they differ in A alone.
     for (name, example) in ["twofold", "", "sp-I", "sp-II"].into_iter().zip(paper_examples()) {
         if name.is_empty() {

@@ -75,24 +75,24 @@ fn any_direction(random: &mut Random) -> Vector3<f64> {
     Vector3::new(across * azimuth.cos(), across * azimuth.sin(), z)
 }
 
-/// A random pulsar in units of `t_c`.
-fn any_pulsar(random: &mut Random) -> Result<(Problem<f64>, Beam<f64>, Observer<f64>), String> {
+/// A random star in units of `t_c`.
+fn any_star(random: &mut Random) -> Result<Problem<f64>, String> {
     let axis = any_direction(random);
     let size = random.within(1.5, 3.0);
     let momentum = any_direction(random) * size;
     let equatorial_axis = axis.cross(&any_direction(random)).normalize();
     let s = PrincipalCoefficients::new([0; 3].map(|_| random.within(-0.03, 0.03))).tensor();
     let spheroid = RigidSpheroid::in_units_of_tc(random.within(0.6, 1.6));
-    let problem = Problem::new(spheroid, s, BodyState { axis, momentum, equatorial_axis })?;
-    let beam = Beam::new(random.within(0.05, PI - 0.05), random.within(-PI, PI), random.within(0.1, 0.9));
-    Ok((problem, beam, Observer::at(random.within(0.05, PI - 0.05), random.within(-PI, PI))))
+    Ok(Problem::new(spheroid, s, BodyState { axis, momentum, equatorial_axis })?)
 }
 
 fn numbers() -> Result<Measured, String> {
     let (mut random, mut worst, mut stars, mut tried) = (Random::with_seed(91), Worst::default(), 0, 0);
     while stars < 40 {
         tried += 1;
-        let (problem, beam, observer) = any_pulsar(&mut random)?;
+        let problem = any_star(&mut random)?;
+        let beam = Beam::new(random.within(0.05, PI - 0.05), random.within(-PI, PI), random.within(0.1, 0.9));
+        let observer = Observer::at(random.within(0.05, PI - 0.05), random.within(-PI, PI));
         let Ok(motion) = AveragedMotion::new(&problem, (0.0, 2000.0), AveragingOrder::Second) else { continue };
         let n = &observer.direction;
         let train = pulse_train(&motion, &beam, n, motion.span())?;

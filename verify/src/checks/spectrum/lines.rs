@@ -126,9 +126,7 @@ fn lines_against_rates() -> Result<Measured, String> {
     for (example, signal, line) in each_line(1e-5)? {
         let what = example.basis.identify(line.frequency, line.uncertainty);
         let misfit = what.combination().map_or(f64::INFINITY, |combination| combination.misfit.abs());
-        worst.see(misfit, || {
-            format!("{} {signal} {:.11}, {:.1e}: {what}", example.name, line.frequency, line.amplitude)
-        });
+        worst.see(misfit, || format!("{} {signal} {line:?}: {what}", example.name));
     }
     worst.finish()
 }

@@ -4,15 +4,15 @@ use std::sync::OnceLock;
 
 use nalgebra::Vector3;
 use twofold::Error;
-use twofold::dynamics::BodyState;
-use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
+use twofold::dynamics::{BodyState, RotationState};
 use twofold::observables::Observer;
 use twofold::observables::fundamental_frequencies::{FundamentalFrequencies, fundamental_frequencies};
-use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
+use twofold::observables::gravitational_wave::Polarizations;
 use twofold::observables::pulsar::Beam;
 use twofold::observables::spectrum::{FrequencyBasis, LineList, Series, SpectralLine, spectral_lines};
 use twofold::propagation::{Motion, TaylorMotion};
 
+use crate::checks::waves::wave_of_state;
 use crate::reference::reference_motion;
 
 /// Angles of the paper's figures: observer, magnetic axis, half opening of the beam (rad).
@@ -104,8 +104,8 @@ pub(super) fn line_of_sight() -> Vector3<f64> {
 
 /// The wave of a state of a motion for the paper's observer.
 pub(super) fn wave_of(motion: &TaylorMotion<f64>, state: &BodyState<f64>) -> Polarizations<f64> {
-    let source = spheroid_inertia_acceleration(motion.spheroid(), motion.coefficients(), &state.axis, &state.momentum);
-    polarizations(&Observer::at(THETA_O, 0.0), &metric_perturbation(1.0, &source))
+    let observer = Observer::at(THETA_O, 0.0);
+    wave_of_state(&observer, motion.spheroid(), motion.coefficients(), &state.axis_state())
 }
 
 /// The strongest line with a frequency in a range.
