@@ -21,6 +21,7 @@ mod operators;
 pub mod paper_examples;
 pub mod physical_domain;
 pub mod prime_field;
+pub mod printed;
 pub mod pulse_series;
 pub mod random;
 pub mod reference;

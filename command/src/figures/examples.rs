@@ -2,7 +2,6 @@
 
 use std::sync::OnceLock;
 
-use twofold::dynamics::Problem;
 use twofold::euler_angles::EulerAngles;
 use twofold::solutions::perturbation::{Form, Perturbation};
 
@@ -30,9 +29,8 @@ pub fn examples() -> Result<[Subject; 4], String> {
 }
 
 fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
-    let (spheroid, first, state) = (spheroid(), example.initial_values()?, example.initial_state()?);
+    let (spheroid, first, problem) = (spheroid(), example.initial_values()?, example.problem()?);
     let initial_angles = EulerAngles { alpha: first.alpha, beta: first.beta, gamma: 0.0 };
-    let problem = Problem::new(spheroid, COEFFICIENTS.tensor(), state)?;
     let printed = Perturbation::new(Form::Printed, example.kind, &spheroid, &COEFFICIENTS, SPIN, &example.constants)?;
     // Single precession goes round once in 90 to 250 t_c, twofold precession in 4.
     let angles = match example.name {

@@ -1,6 +1,6 @@
 //! The paper's numbers beside ours, one table per figure, table or passage of the paper.
 
-pub(crate) mod captions;
+mod captions;
 mod certified;
 mod eta;
 mod line;

@@ -11,7 +11,6 @@ pub(super) fn table() -> Result<GoldenTable, String> {
         let own = pulsar.figure("bound_over_eta_own")?;
         let limit = pulsar.limit(&own)?;
         let by_change = limit.over_eta_by_change.ok_or("the paper's table has errors of the changes")?;
-        let by_change = GoldenLine { digits: 4, ..GoldenLine::new("", Printed::No, by_change * 1e16) };
         let stated = pulsar.figure("bound_over_eta_stated")?.value * 1e16;
         let round = pulsar.bound_over_eta(ROUND_INERTIA_OVER_C)? * 1e16;
         let own = own.value * 1e16;
@@ -31,7 +30,7 @@ pub(super) fn table() -> Result<GoldenTable, String> {
                 "(b) bound (1e-16), I^zz/C = 4/Omega^2, eta = 10",
                 GoldenLine::new("", Printed::No, own * CONSERVATIVE_ETA),
             ),
-            ("(c) as (b), with the error of Delta W, limit / eta (1e-16), 95 %", by_change),
+            ("(c) as (b), with the error of Delta W, limit / eta (1e-16), 95 %", short(by_change * 1e16)),
             ("eta, 95 %, at the known angle lambda", short(limit.eta)),
             ("limit (1e-16), 95 %, all together", short(limit.all * 1e16)),
         ] {
