@@ -4,14 +4,13 @@
 //! here only lends it the traits of the model.
 
 use core::fmt;
-use core::ops::{Add, Div, Mul, Neg, Sub};
 use core::str::FromStr;
 
 use num_traits::Zero;
 use twofold::numerics::scalar::{Real, Scalar};
 use xprec::Df64;
 
-use crate::operators::complete_operators;
+use crate::field_operators::field_operators;
 
 /// An unevaluated sum of two doubles, the second below half an ulp of the first.
 #[derive(Clone, Copy, PartialEq)]
@@ -45,52 +44,13 @@ impl fmt::Debug for DoubleDouble {
     }
 }
 
-impl Add for DoubleDouble {
-    type Output = Self;
-
-    #[inline]
-    fn add(self, rhs: Self) -> Self {
-        Self(self.0 + rhs.0)
-    }
+field_operators! {
+    DoubleDouble;
+    a + b = Self(a.0 + b.0);
+    -a = Self(-a.0);
+    a * b = Self(a.0 * b.0);
+    a / b = Self(a.0 / b.0);
 }
-
-impl Sub for DoubleDouble {
-    type Output = Self;
-
-    #[inline]
-    fn sub(self, rhs: Self) -> Self {
-        Self(self.0 - rhs.0)
-    }
-}
-
-impl Mul for DoubleDouble {
-    type Output = Self;
-
-    #[inline]
-    fn mul(self, rhs: Self) -> Self {
-        Self(self.0 * rhs.0)
-    }
-}
-
-impl Div for DoubleDouble {
-    type Output = Self;
-
-    #[inline]
-    fn div(self, rhs: Self) -> Self {
-        Self(self.0 / rhs.0)
-    }
-}
-
-impl Neg for DoubleDouble {
-    type Output = Self;
-
-    #[inline]
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
-}
-
-complete_operators!(DoubleDouble);
 
 impl Scalar for DoubleDouble {
     #[inline]

@@ -4,7 +4,7 @@
 //! 3,000 rad unless said. Scenes whose estimate is below the error are listed.
 
 use twofold::solutions::averaged::AveragingOrder;
-use twofold_verify::mean_scenes::MeanScene;
+use twofold_verify::averaged_scenes::AveragedScene;
 
 fn main() {
     let arguments: Vec<u64> = std::env::args().skip(1).filter_map(|text| text.parse().ok()).collect();
@@ -14,7 +14,7 @@ fn main() {
     for order in [AveragingOrder::First, AveragingOrder::Second] {
         let mut ratios = Vec::new();
         for number in 0..scenes {
-            match MeanScene::draw(seed, number, turned as f64).estimate_seen(order, number) {
+            match AveragedScene::draw(seed, number, turned as f64).estimate_seen(order, number) {
                 Ok(seen) => {
                     if seen.worst > 1.0 {
                         println!(

@@ -7,8 +7,8 @@ use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame_along, p
 use twofold::propagation::{AveragedMotion, Motion};
 use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
 
+use crate::averaged_scenes::AveragedScene;
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
-use crate::mean_scenes::MeanScene;
 use crate::random::Random;
 
 /// Checks of this subject.
@@ -30,7 +30,7 @@ type Frame<S> = fn(&Matrix3<S>) -> Result<(PrincipalCoefficients<S>, Matrix3<S>)
 
 /// A scene as a function of one number.
 struct Family {
-    scene: MeanScene,
+    scene: AveragedScene,
     frame: Matrix3<f64>,
     kind: usize,
     equal: bool,
@@ -41,7 +41,7 @@ impl Family {
     /// Two equal values that part along their axes are also tried without a frame.
     fn at<S: twofold::Real>(&self, x: S, t: S, frame_of: Frame<S>) -> Result<BodyState<S>, twofold::Error> {
         let lift = |v: &Vector3<f64>| v.map(S::from_f64);
-        let MeanScene { spheroid, s, initial, end } = &self.scene;
+        let AveragedScene { spheroid, s, initial, end } = &self.scene;
         let mut body = RigidSpheroid {
             inertia_xx: S::from_f64(spheroid.inertia_xx),
             inertia_zz: S::from_f64(spheroid.inertia_zz),
@@ -98,7 +98,7 @@ fn derivatives() -> Result<Measured, String> {
     let mut random = Random::with_seed(61);
     for number in 0..60_u64 {
         // Half of them with two equal principal values, none where L is on an axis or within 1e-4 of the separatrix.
-        let mut scene = MeanScene::draw(17, 6 * number + [0, 1, 3, 4, 5][(number % 5) as usize], 300.0);
+        let mut scene = AveragedScene::draw(17, 6 * number + [0, 1, 3, 4, 5][(number % 5) as usize], 300.0);
         let l = Vector3::new(0.5 + random.within(0.0, 0.3), 0.3 + random.within(0.0, 0.2), 0.6);
         scene.initial.momentum = l.normalize() * scene.initial.momentum.norm();
         let frame =

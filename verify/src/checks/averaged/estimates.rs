@@ -8,9 +8,9 @@ use twofold::dynamics::BodyState;
 use twofold::solutions::averaged::{AveragedPhases, AveragingOrder};
 
 use super::scenes::difference;
+use crate::averaged_scenes::{AveragedScene, EstimateSeen};
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::double_double::DoubleDouble;
-use crate::mean_scenes::{EstimateSeen, MeanScene};
 use crate::random::Random;
 
 /// Checks of this subject.
@@ -76,7 +76,7 @@ fn seen(order: AveragingOrder) -> &'static AllSeen {
 fn measured(order: AveragingOrder) -> AllSeen {
     (0..SCENES)
         .map(|number| {
-            let scene = MeanScene::draw(11, number, 1500.0);
+            let scene = AveragedScene::draw(11, number, 1500.0);
             scene.estimate_seen(order, number).map(|seen| (number, seen)).map_err(String::from)
         })
         .collect()
@@ -98,7 +98,7 @@ fn not_below() -> Result<Measured, String> {
 fn beside_separatrix() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for number in 0..300 {
-        let scene = MeanScene::beside_separatrix(13, number);
+        let scene = AveragedScene::beside_separatrix(13, number);
         for order in [AveragingOrder::First, AveragingOrder::Second] {
             let seen = scene.estimate_seen(order, number)?;
             let [error, estimate, t] = seen.at;
@@ -114,7 +114,7 @@ fn rounding() -> Result<Measured, String> {
     let mut random = Random::with_seed(64);
     let mut worst = Worst::default();
     for number in 0..60 {
-        let scene = MeanScene::draw(19, number, 10.0);
+        let scene = AveragedScene::draw(19, number, 10.0);
         let mean = scene.motion::<f64>(AveragingOrder::Second)?;
         let exact = scene.motion::<DoubleDouble>(AveragingOrder::Second)?;
         let t = 10f64.powf(random.within(0.0, 12.0));

@@ -14,7 +14,7 @@ use crate::random::Random;
 
 /// A scene in the principal frame, and how long it is followed.
 #[derive(Debug, Clone)]
-pub struct MeanScene {
+pub struct AveragedScene {
     /// The body.
     pub spheroid: RigidSpheroid<f64>,
     /// Principal values of `s`, traceless.
@@ -45,7 +45,7 @@ fn direction(random: &mut Random) -> Vector3<f64> {
     Vector3::new(rho * cos, rho * sin, z)
 }
 
-impl MeanScene {
+impl AveragedScene {
     /// The scene of a number: strengths from 1e-6 to 0.19, both signs of `C`, two equal or nearly equal principal values, `L` anywhere, near an
     /// axis, and near the separatrix up to 1e-12, `n` on `L` or near it, normal to it, at `c^2 = 1/3` or anywhere, followed for 3 to `turned` rad.
     pub fn draw(seed: u64, number: u64, turned: f64) -> Self {
