@@ -4,7 +4,7 @@ use twofold::plan::{Method, Output, Parameter, Plan, Promise, Request, Start, gr
 use twofold::propagation::Motion;
 
 use super::plans::Components;
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::error_scenes::ErrorScene;
 
 /// Checks of this subject.
@@ -74,7 +74,7 @@ fn plan(scene: &ErrorScene, method: Method, derivatives: &[Parameter]) -> Result
         derivatives: derivatives.to_vec(),
         ..Request::new(&[Output::EquatorialAxis], scene.span, 3, scene.accuracy)
     };
-    Plan::from_parts(&scene.spheroid, &scene.violation, &scene.initial, &request)
+    scene.problem.plan(&request)
 }
 
 /// Error foreseen, true error, and what the plan promises; none of a scene that the method refuses.
@@ -86,16 +86,14 @@ fn foreseen_and_true(
     let Ok(plan) = plan(scene, method, derivatives) else { return Ok(None) };
     let prediction = plan.prediction.ok_or("a plan without a prediction")?;
     let state = if derivatives.is_empty() {
-        let motion = plan.motion_from_parts(&scene.spheroid, &scene.violation, &scene.initial)?;
-        motion.state(scene.time)?
+        plan.motion(&scene.problem)?.state(scene.time)?
     } else {
-        let (Ok(angles), Ok(rates)) = (scene.initial.angles(), scene.initial.rates(&scene.spheroid)) else {
-            return Ok(None);
-        };
-        let start = Start { spheroid: scene.spheroid, violation: scene.violation, angles, rates };
+        let (spheroid, initial) = (*scene.problem.spheroid(), scene.problem.initial());
+        let (Ok(angles), Ok(rates)) = (initial.angles(), initial.rates(&spheroid)) else { return Ok(None) };
+        let start = Start { spheroid, violation: *scene.problem.coefficients(), angles, rates };
         Components::state(&gradient(&plan, &start, &Components, &[scene.time])?.values)
     };
-    let error = largest(scene.true_errors(&state));
+    let error = scene.true_error(&state);
     Ok(Some((prediction.truncation + prediction.rounding, error, prediction.promise)))
 }
 
@@ -170,7 +168,7 @@ fn rounding() -> Result<Measured, String> {
             let fault = |error: twofold::Error| format!("{}, scene {number} of seed {SEED}: {error}", method.name());
             let plan = plan(&scene, method, &[]).map_err(fault)?;
             let prediction = plan.prediction.ok_or("a plan without a prediction")?;
-            let motion = plan.motion_from_parts(&scene.spheroid, &scene.violation, &scene.initial).map_err(fault)?;
+            let motion = plan.motion(&scene.problem).map_err(fault)?;
             let ratio = motion.error_estimate(scene.time) / prediction.rounding;
             let off = ratio.max(1.0 / ratio);
             all += 1;
