@@ -9,9 +9,10 @@
 
 use std::hint::black_box;
 
+use twofold::dynamics::Problem;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, pulse_train};
-use twofold::propagation::{Motion, TaylorMotion, propagate, propagate_axis};
+use twofold::propagation::{Motion, TaylorMotion};
 use twofold_command::bench::method::{MANY_SCENES, METHODS};
 use twofold_command::bench::scene::BenchScene;
 
@@ -24,9 +25,7 @@ type Kernel = fn(&BenchScene, &TaylorMotion<f64>, usize);
 /// Names, and what is done once per repeat.
 const KERNELS: [(&str, Kernel); 6] = [
     ("taylor-axis", |scene, _, _| {
-        let start = scene.initial_axis();
-        let motion = propagate_axis(&scene.spheroid, &scene.violation, &start, (0.0, DURATION), ACCURACY);
-        drop(black_box(motion));
+        drop(black_box(problem(scene).reduced().taylor((0.0, DURATION), ACCURACY)));
     }),
     ("taylor-orientation", |scene, _, _| drop(black_box(motion(scene)))),
     ("sample-axis", |_, motion, i| {
@@ -42,9 +41,12 @@ const KERNELS: [(&str, Kernel); 6] = [
     ("eight-scenes", |scene, _, _| drop(black_box((MANY_SCENES[0].0.run)(scene, DURATION, ACCURACY)))),
 ];
 
+fn problem(scene: &BenchScene) -> Problem<f64> {
+    Problem::new(scene.spheroid, scene.violation, scene.initial).expect("a problem within the limits")
+}
+
 fn motion(scene: &BenchScene) -> TaylorMotion<f64> {
-    let motion = propagate(&scene.spheroid, &scene.violation, &scene.initial, (0.0, DURATION), ACCURACY);
-    motion.expect("a motion within the limits")
+    problem(scene).taylor((0.0, DURATION), ACCURACY).expect("a motion within the limits")
 }
 
 fn main() {
