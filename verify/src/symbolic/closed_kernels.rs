@@ -2,13 +2,12 @@
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::Error;
-use twofold::dynamics::BodyState;
+use twofold::dynamics::{AxisState, BodyState};
 use twofold::euler_angles::body_from_inertial;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
 use twofold::observables::bound::{SpinAxisDrift, fluid_inertia_over_c};
 use twofold::observables::wave_harmonics::WaveHarmonics;
-use twofold::propagation::AxisState;
 use twofold::solutions::averaged::{
     AveragingOrder, generator, generator_slopes, mean_angular_velocity, mean_potential, middle_axis_growth,
 };
