@@ -14,10 +14,10 @@ pub fn checks() -> Vec<Check> {
             id: "plan-error-bounds",
             kind: Kind::Oracle,
             equations: &[25],
-            statement: "what a plan foresees as a bound or an estimate is not below the true error, with its rounding: free, steady, symmetric, mean, 100 random scenes each up to 60 rad",
+            statement: "a bound or an estimate that a plan foresees, with its rounding, is not below the true error: free, steady, symmetric and averaged motion, 100 random scenes each up to 60 rad",
             figure: "largest true error / (foreseen of the method + of rounding)",
             bound: Bound::AtMost(1.0),
-            reason: "what a bound is, and what an estimate that was never exceeded is to be",
+            reason: "a bound or an estimate below the true error is wrong",
             measure: bounds,
         },
         Check {
@@ -47,7 +47,7 @@ pub fn checks() -> Vec<Check> {
             statement: "the rounding that a plan foresees for a numerical motion is what the motion's error estimate counts: accuracy 1e-16, off the middle axis, 200 random scenes by Taylor series and by splitting, from 5 rad to 2000 t_c",
             figure: "share of estimates more than ten times above or below what was foreseen",
             bound: Bound::AtMost(0.05),
-            reason: "steps are taken to be alike, the torque as large as it can be, constants rounded by half a unit in the last place; the estimate of splitting over a radian or less is far above what is foreseen and above the true error",
+            reason: "the forecast takes equal steps, the largest torque and constants rounded by half a unit in the last place; over a radian or less the estimate of splitting is far above the forecast and above the true error",
             measure: rounding,
         },
     ]

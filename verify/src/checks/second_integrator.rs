@@ -26,7 +26,7 @@ pub fn checks() -> Vec<Check> {
             statement: "away from the poles the motion by Eq. (25) in Euler angles, turns counted, is that of the regular equations",
             figure: "largest difference of alpha, beta, gamma after 20 t_c, random scenes whose axis stays 0.1 rad off the poles",
             bound: Bound::AtMost(1e-10),
-            reason: "as above, divided by the least sin(beta) of 0.1",
+            reason: "1e-11 of the regular equations, divided by the least sin(beta) of 0.1",
             measure: forms_agree,
         },
     ]

@@ -30,7 +30,7 @@ pub(super) fn checks() -> Vec<Check> {
             id: "averaged-motion-second-order",
             kind: Kind::Regime,
             equations: &[25, 57],
-            statement: "to second order the error is at least 20 times smaller than to first at k = 0.1",
+            statement: "at k = 0.1 the error of the averaged motion of second order is at least 20 times smaller than that of first order",
             figure: "error of second order / error of first, n, L and e_x, k = 0.1",
             bound: Bound::AtMost(0.05),
             reason: "one power of C |s| I^xx / G^2 more, 0.003",
@@ -73,7 +73,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "the second-order averaged motion holds for random geometries, single precession with n on L, c^2 = 1/3 and tensors with two equal values among them",
             figure: "largest error of n, L / G or e_x over x^2 (1 + x G t / I^xx), x = C (s_max - s_min) I^xx / G^2, away from the separatrix",
             bound: Bound::AtMost(6.0),
-            reason: "the periodic part of second order and rates of third, with coefficients of order one; 3.3 was seen",
+            reason: "the periodic part of second order and rates of third, with coefficients of order one",
             measure: random_geometries,
         },
     ]

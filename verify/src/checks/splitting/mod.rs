@@ -106,7 +106,7 @@ pub fn checks() -> Vec<Check> {
             statement: "90 random motions side by side are those of the Taylor motion to the accuracies asked, from 1e-3 to 1e-14",
             figure: "largest difference / (accuracy + error estimate of the Taylor motion)",
             bound: Bound::AtMost(1.0),
-            reason: "the accuracy asked; below rounding, the rounding that the Taylor motion states, which is alike",
+            reason: "the error may reach the accuracy; where rounding is larger, it is as large as that of the Taylor motion, which its estimate counts",
             measure: many::accuracy,
         },
     ]
