@@ -1,7 +1,7 @@
 //! The estimated error of a numerical motion is not below its true error, in 64 random scenes of `physical_domain::scenes`.
 
-use nalgebra::Matrix3;
 use proptest::prelude::*;
+use twofold::plan::Method;
 use twofold_verify::error_scenes::ErrorScene;
 use twofold_verify::physical_domain::scenes;
 
@@ -15,18 +15,16 @@ proptest! {
         end in -30.0..30.0f64,
         share in 0.0..1.0f64,
     ) {
-        let violation: Matrix3<f64> = scene.coefficients().tensor();
+        let problem = scene.problem();
         let scene = ErrorScene {
-            spheroid: scene.spheroid(),
-            violation,
-            initial: scene.state(),
+            problem,
             span: (0.0, end),
             time: end * share,
             accuracy: 10f64.powf(log_accuracy),
-            strength: violation.amax(),
+            strength: problem.coefficients().amax(),
             near_middle_axis: false,
         };
-        let (estimate, error) = scene.estimated_and_true().map_err(TestCaseError::fail)?;
+        let (estimate, error) = scene.estimated_and_true(Method::Taylor).map_err(TestCaseError::fail)?;
         prop_assert!(estimate >= error, "estimated {estimate:e}, true {error:e}");
     }
 }

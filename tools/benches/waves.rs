@@ -11,11 +11,12 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use nalgebra::Matrix3;
+use twofold::dynamics::AxisState;
 use twofold::dynamics::RigidSpheroid;
 use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
-use twofold::propagation::{AxisState, Motion, propagate, propagate_axis};
+use twofold::propagation::Motion;
 use twofold_verify::check::largest;
 use twofold_verify::reference::{ReferenceMotion, reference_motion};
 use twofold_verify::second_integrator::axis_states;
@@ -35,21 +36,21 @@ fn main() -> Result<(), String> {
     // Under `cargo test` a look that it runs is enough.
     let repeats = if std::env::args().any(|arg| arg == "--bench") { 200 } else { 3 };
     let scene = reference_motion("tp-1");
-    let (spheroid, s, start) = (scene.spheroid, scene.violation(), scene.initial());
-    let axis_start = AxisState::from(&start);
+    let (problem, s) = (scene.problem(), scene.violation());
+    let reduced = problem.reduced();
     let observer = Observer::at(0.8, 0.0);
-    let wave = |state: &AxisState<f64>| wave(&observer, &spheroid, &s, state);
+    let wave = |state: &AxisState<f64>| wave(&observer, &scene.spheroid, &s, state);
 
     let by_axis = |times: &[f64]| {
-        let motion = propagate_axis(&spheroid, &s, &axis_start, (0.0, END), ACCURACY).map_err(text)?;
+        let motion = reduced.taylor((0.0, END), ACCURACY).map_err(text)?;
         times.iter().map(|t| motion.axis_state(*t).map(|state| wave(&state)).map_err(text)).collect()
     };
     let by_whole_motion = |times: &[f64]| {
-        let motion = propagate(&spheroid, &s, &start, (0.0, END), ACCURACY).map_err(text)?;
+        let motion = problem.taylor((0.0, END), ACCURACY).map_err(text)?;
         times.iter().map(|t| motion.state(*t).map(|state| wave(&(&state).into())).map_err(text)).collect()
     };
     let by_baseline = |times: &[f64]| {
-        let states = axis_states(&spheroid, &s, &axis_start, times, BASELINE_TOLERANCE)?;
+        let states = axis_states(&reduced, times, BASELINE_TOLERANCE)?;
         Ok(states.iter().map(wave).collect())
     };
     let methods: [(&str, Method); 3] = [

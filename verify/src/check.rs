@@ -1,5 +1,7 @@
 //! A check: written once as data, run singly by `cargo test` and listed by the command `twofold verify`.
 
+use twofold::dynamics::RotationState;
+
 /// What a check compares with what; the kinds of evidence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
@@ -182,6 +184,18 @@ pub fn worst_of<C: std::fmt::Debug>(
     worst.finish()
 }
 
+/// The smallest figure over some cases, and in which it was seen.
+///
+/// # Errors
+/// As for [`worst_of`].
+pub fn least_of<C: std::fmt::Debug>(
+    cases: impl IntoIterator<Item = C>,
+    mut figure: impl FnMut(&C) -> Result<f64, String>,
+) -> Result<Measured, String> {
+    let Measured { figure, detail } = worst_of(cases, |case| figure(case).map(|figure| -figure))?;
+    Ok(Measured::new(-figure, detail))
+}
+
 /// The largest of some figures, none of them negative; NaN if one is NaN, which `f64::max` would drop.
 pub fn largest(figures: impl IntoIterator<Item = f64>) -> f64 {
     figures.into_iter().fold(0.0, |most: f64, x| if x.is_nan() || most.is_nan() { f64::NAN } else { most.max(x) })
@@ -196,6 +210,12 @@ pub fn smallest(figures: impl IntoIterator<Item = f64>) -> f64 {
 /// The largest magnitude in a vector; NaN if one component is NaN.
 pub fn largest_component(v: &nalgebra::Vector3<f64>) -> f64 {
     largest(v.iter().map(|x| x.abs()))
+}
+
+/// The largest difference of a component of two states, of those of `L` in units of `unit`.
+pub fn largest_difference<X: RotationState<f64>>(a: &X, b: &X, unit: f64) -> f64 {
+    let ([n, l, e], [n_b, l_b, e_b]) = (a.vectors(), b.vectors());
+    largest([n - n_b, (l - l_b) / unit, e - e_b].iter().map(largest_component))
 }
 
 #[cfg(test)]

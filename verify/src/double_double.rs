@@ -4,14 +4,13 @@
 //! here only lends it the traits of the model.
 
 use core::fmt;
-use core::ops::{Add, Div, Mul, Neg, Sub};
 use core::str::FromStr;
 
 use num_traits::Zero;
 use twofold::numerics::scalar::{Real, Scalar};
 use xprec::Df64;
 
-use crate::operators::complete_operators;
+use crate::field_operators::field_operators;
 
 /// An unevaluated sum of two doubles, the second below half an ulp of the first.
 #[derive(Clone, Copy, PartialEq)]
@@ -45,52 +44,13 @@ impl fmt::Debug for DoubleDouble {
     }
 }
 
-impl Add for DoubleDouble {
-    type Output = Self;
-
-    #[inline]
-    fn add(self, rhs: Self) -> Self {
-        Self(self.0 + rhs.0)
-    }
+field_operators! {
+    DoubleDouble;
+    a + b = Self(a.0 + b.0);
+    -a = Self(-a.0);
+    a * b = Self(a.0 * b.0);
+    a / b = Self(a.0 / b.0);
 }
-
-impl Sub for DoubleDouble {
-    type Output = Self;
-
-    #[inline]
-    fn sub(self, rhs: Self) -> Self {
-        Self(self.0 - rhs.0)
-    }
-}
-
-impl Mul for DoubleDouble {
-    type Output = Self;
-
-    #[inline]
-    fn mul(self, rhs: Self) -> Self {
-        Self(self.0 * rhs.0)
-    }
-}
-
-impl Div for DoubleDouble {
-    type Output = Self;
-
-    #[inline]
-    fn div(self, rhs: Self) -> Self {
-        Self(self.0 / rhs.0)
-    }
-}
-
-impl Neg for DoubleDouble {
-    type Output = Self;
-
-    #[inline]
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
-}
-
-complete_operators!(DoubleDouble);
 
 impl Scalar for DoubleDouble {
     #[inline]
@@ -176,11 +136,12 @@ impl FromStr for DoubleDouble {
 #[cfg(test)]
 mod tests {
     use num_traits::One;
-    use twofold::propagation::{Motion, propagate};
+    use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
+    use twofold::lorentz_violation::PrincipalCoefficients;
+    use twofold::propagation::Motion;
 
     use super::*;
     use crate::check::largest;
-    use crate::reference::reference_motion;
 
     /// Unit of the last place, 2^-105.
     const EPSILON: f64 = 2.5e-32;
@@ -226,28 +187,17 @@ mod tests {
 
     #[test]
     fn a_motion_agrees_with_the_reference_beyond_double_precision() {
-        let scene = reference_motion("tp-2");
-        let lift = DoubleDouble::from_f64;
-        let spheroid = scene.spheroid;
-        let spheroid = twofold::dynamics::RigidSpheroid {
-            inertia_xx: lift(spheroid.inertia_xx),
-            inertia_zz: number("1.1"),
-            constant_c: lift(spheroid.constant_c),
-        };
-        let s = twofold::lorentz_violation::PrincipalCoefficients::new(["0.02", "0.01", "-0.04"].map(number)).tensor();
+        let spheroid = RigidSpheroid::in_units_of_tc(number("1.1"));
+        let s = PrincipalCoefficients::new(["0.02", "0.01", "-0.04"].map(number)).tensor();
         let rows = include_str!("../data/reference_states.csv").lines().filter_map(|line| line.strip_prefix("tp-2,"));
         let states: Vec<Vec<DoubleDouble>> = rows.map(|row| row.split(',').map(number).collect()).collect();
-        let vector = |row: &[DoubleDouble], i: usize| nalgebra::Vector3::new(row[i], row[i + 1], row[i + 2]);
-        let initial = twofold::dynamics::BodyState {
-            axis: vector(&states[0], 1),
-            momentum: vector(&states[0], 4),
-            equatorial_axis: vector(&states[0], 7),
-        };
+        let vector = |i: usize| nalgebra::Vector3::from_column_slice(&states[0][i..i + 3]);
+        let problem = Problem::new(spheroid, s, BodyState::from_vectors([1, 4, 7].map(vector))).expect("a problem");
         let last = states.last().expect("states")[0].high();
-        let motion = propagate(&spheroid, &s, &initial, (0.0, last), 1e-16).expect("a motion");
+        let motion = problem.taylor((0.0, last), 1e-16).expect("a motion");
         for row in &states[1..] {
             let state = motion.state(row[0]).expect("a time of the span");
-            let found = [state.axis, state.momentum, state.equatorial_axis];
+            let found = state.vectors();
             let error =
                 largest(found.iter().flatten().zip(&row[1..]).map(|(ours, theirs)| (*ours - *theirs).high().abs()));
             // The initial values are rounded to 22 digits and a phase of 600 rad makes more of that.

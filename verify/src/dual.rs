@@ -3,11 +3,9 @@
 //! The dual numbers of `num_dual` are built on floating-point primitives. These carry a prime field, and, nested,
 //! derivatives of any order.
 
-use core::ops::{Add, Div, Mul, Neg, Sub};
-
 use twofold::{Real, Scalar};
 
-use crate::operators::complete_operators;
+use crate::field_operators::field_operators;
 
 /// `re + eps epsilon` with `epsilon^2 = 0`: a value and its derivative. Equality is that of both parts.
 ///
@@ -27,49 +25,17 @@ impl<F: Scalar> Dual<F> {
     }
 }
 
-impl<F: Scalar> Add for Dual<F> {
-    type Output = Self;
-
-    fn add(self, rhs: Self) -> Self {
-        Self::new(self.re + rhs.re, self.eps + rhs.eps)
-    }
-}
-
-impl<F: Scalar> Sub for Dual<F> {
-    type Output = Self;
-
-    fn sub(self, rhs: Self) -> Self {
-        Self::new(self.re - rhs.re, self.eps - rhs.eps)
-    }
-}
-
-impl<F: Scalar> Neg for Dual<F> {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self::new(-self.re, -self.eps)
-    }
-}
-
-impl<F: Scalar> Mul for Dual<F> {
-    type Output = Self;
-
-    fn mul(self, rhs: Self) -> Self {
-        Self::new(self.re * rhs.re, self.re * rhs.eps + self.eps * rhs.re)
-    }
-}
-
-impl<F: Scalar> Div for Dual<F> {
-    type Output = Self;
-
-    fn div(self, rhs: Self) -> Self {
-        let over = F::one() / rhs.re;
+field_operators! {
+    Dual<F>, F;
+    a + b = Self::new(a.re + b.re, a.eps + b.eps);
+    -a = Self::new(-a.re, -a.eps);
+    a * b = Self::new(a.re * b.re, a.re * b.eps + a.eps * b.re);
+    a / b = {
+        let over = F::one() / b.re;
         // Without the square of `over`, which overflows where the quotient does not.
-        Self::new(self.re / rhs.re, (self.eps - self.re * over * rhs.eps) * over)
-    }
+        Self::new(a.re / b.re, (a.eps - a.re * over * b.eps) * over)
+    };
 }
-
-complete_operators!(Dual<F>, F);
 
 impl<F: Scalar> Scalar for Dual<F> {
     fn from_f64(value: f64) -> Self {

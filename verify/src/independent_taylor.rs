@@ -1,6 +1,6 @@
 //! A Taylor integrator of its own for true errors: no code of the model, any number type, no dense output.
 
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem};
 use twofold::numerics::scalar::Real;
 
 type Vector<S> = [S; 3];
@@ -10,13 +10,8 @@ type Vector<S> = [S; 3];
 ///
 /// The recurrences are those of the quadratic equations of motion,
 /// `dn/dt = L x n / I^xx`, `dL/dt = 2 C (s n) x n`, `d e_x/dt = Omega x e_x`, written down again here.
-pub fn state_after<S: Real>(
-    spheroid: &RigidSpheroid<f64>,
-    s: &nalgebra::Matrix3<f64>,
-    initial: &BodyState<f64>,
-    duration: S,
-    tolerance: f64,
-) -> BodyState<S> {
+pub fn state_after<S: Real>(problem: &Problem<f64>, duration: S, tolerance: f64) -> BodyState<S> {
+    let (spheroid, s, initial) = (problem.spheroid(), problem.coefficients(), problem.initial());
     let exact = |v: &nalgebra::Vector3<f64>| -> Vector<S> { [v.x, v.y, v.z].map(S::from_f64) };
     let s: [Vector<S>; 3] = [0, 1, 2].map(|i| exact(&s.row(i).transpose()));
     let [xx, zz, c] = [spheroid.inertia_xx, spheroid.inertia_zz, spheroid.constant_c].map(S::from_f64);

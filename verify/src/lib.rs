@@ -1,5 +1,6 @@
 //! Verification of the model `twofold`: checks, derivations, references and golden numbers.
 
+pub mod averaged_scenes;
 pub mod check;
 pub mod checks;
 pub mod claims;
@@ -10,14 +11,13 @@ pub mod dual;
 pub mod equation_table;
 pub mod error_scenes;
 pub mod eta;
+mod field_operators;
 pub mod given_states;
 pub mod golden;
 pub mod identity;
 pub mod independent_taylor;
 pub mod magnitudes;
-pub mod mean_scenes;
 pub mod measured_order;
-mod operators;
 pub mod paper_examples;
 pub mod physical_domain;
 pub mod prime_field;

@@ -1,10 +1,8 @@
 //! Numbers that carry the sum of the magnitudes of the terms they were computed from.
 
-use core::ops::{Add, Div, Mul, Neg, Sub};
-
 use twofold::Scalar;
 
-use crate::operators::complete_operators;
+use crate::field_operators::field_operators;
 
 /// A number with the sum of the magnitudes of all terms in it, cancelled ones included.
 ///
@@ -25,49 +23,14 @@ impl Conditioned {
     }
 }
 
-impl Add for Conditioned {
-    type Output = Self;
-
-    fn add(self, rhs: Self) -> Self {
-        Self { value: self.value + rhs.value, magnitude: self.magnitude + rhs.magnitude }
-    }
+field_operators! {
+    Conditioned;
+    a + b = Self { value: a.value + b.value, magnitude: a.magnitude + b.magnitude };
+    -a = Self { value: -a.value, magnitude: a.magnitude };
+    a * b = Self { value: a.value * b.value, magnitude: a.magnitude * b.magnitude };
+    // d(a/b) = da/b - a db/b^2, with |b| at most its magnitude.
+    a / b = Self { value: a.value / b.value, magnitude: a.magnitude * b.magnitude / (b.value * b.value) };
 }
-
-impl Sub for Conditioned {
-    type Output = Self;
-
-    fn sub(self, rhs: Self) -> Self {
-        self + -rhs
-    }
-}
-
-impl Neg for Conditioned {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self { value: -self.value, magnitude: self.magnitude }
-    }
-}
-
-impl Mul for Conditioned {
-    type Output = Self;
-
-    fn mul(self, rhs: Self) -> Self {
-        Self { value: self.value * rhs.value, magnitude: self.magnitude * rhs.magnitude }
-    }
-}
-
-impl Div for Conditioned {
-    type Output = Self;
-
-    fn div(self, rhs: Self) -> Self {
-        // d(a/b) = da/b - a db/b^2, with |b| at most its magnitude.
-        let magnitude = self.magnitude * rhs.magnitude / (rhs.value * rhs.value);
-        Self { value: self.value / rhs.value, magnitude }
-    }
-}
-
-complete_operators!(Conditioned);
 
 impl Scalar for Conditioned {
     fn from_f64(value: f64) -> Self {

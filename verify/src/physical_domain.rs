@@ -83,6 +83,16 @@ pub fn scenes() -> impl Strategy<Value = RandomScene> {
         })
 }
 
+/// Some values of `strategy`, drawn with the given seed.
+///
+/// # Errors
+/// If the strategy refuses too many.
+pub fn drawn<T: Strategy>(seed: u8, cases: usize, strategy: &T) -> Result<Vec<T::Value>, String> {
+    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
+    let mut runner = TestRunner::new_with_rng(Config::default(), rng);
+    (0..cases).map(|_| Ok(strategy.new_tree(&mut runner).map_err(|reason| reason.to_string())?.current())).collect()
+}
+
 /// The largest figure of `measure` over `cases` values of `strategy`, drawn with the given seed.
 pub fn worst_over<T: Strategy>(
     seed: u8,
@@ -90,12 +100,9 @@ pub fn worst_over<T: Strategy>(
     strategy: &T,
     mut measure: impl FnMut(&T::Value) -> Result<f64, String>,
 ) -> Result<Measured, String> {
-    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
-    let mut runner = TestRunner::new_with_rng(Config::default(), rng);
     let mut worst = Worst::default();
-    for case in 0..cases {
-        let value = strategy.new_tree(&mut runner).map_err(|reason| reason.to_string())?.current();
-        let figure = measure(&value).map_err(|e| format!("case {case} of seed {seed}, {value:?}: {e}"))?;
+    for (case, value) in drawn(seed, cases, strategy)?.iter().enumerate() {
+        let figure = measure(value).map_err(|e| format!("case {case} of seed {seed}, {value:?}: {e}"))?;
         worst.see(figure, || format!("case {case} of seed {seed}, {value:?}"));
     }
     worst.finish()

@@ -4,12 +4,11 @@
 //! probability of about its degree over the field's size. There is no rounding, and so no tolerance.
 
 use core::fmt;
-use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_traits::{One, Zero};
 use twofold::Scalar;
 
-use crate::operators::complete_operators;
+use crate::field_operators::field_operators;
 
 /// The prime `2^61 - 1`. It is 3 modulo 4, so -1 is not a square.
 pub const PRIME: u64 = (1 << 61) - 1;
@@ -62,50 +61,17 @@ impl fmt::Debug for Fp {
     }
 }
 
-impl Add for Fp {
-    type Output = Self;
-
-    fn add(self, rhs: Self) -> Self {
-        Self::new(self.0 + rhs.0)
-    }
-}
-
-impl Sub for Fp {
-    type Output = Self;
-
-    fn sub(self, rhs: Self) -> Self {
-        self + -rhs
-    }
-}
-
-impl Neg for Fp {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self::new(PRIME - self.0)
-    }
-}
-
-impl Mul for Fp {
-    type Output = Self;
-
-    fn mul(self, rhs: Self) -> Self {
-        let product = u128::from(self.0) * u128::from(rhs.0);
+field_operators! {
+    Fp;
+    a + b = Self::new(a.0 + b.0);
+    -a = Self::new(PRIME - a.0);
+    a * b = {
+        let product = u128::from(a.0) * u128::from(b.0);
         // 2^61 = 1: the high part is added to the low one.
         Self::new((product & u128::from(PRIME)) as u64 + (product >> 61) as u64)
-    }
+    };
+    a / b = a * b.inverse();
 }
-
-impl Div for Fp {
-    type Output = Self;
-
-    #[allow(clippy::suspicious_arithmetic_impl, reason = "a quotient is the product with the inverse")]
-    fn div(self, rhs: Self) -> Self {
-        self * rhs.inverse()
-    }
-}
-
-complete_operators!(Fp);
 
 impl Scalar for Fp {
     /// # Panics

@@ -76,11 +76,11 @@ fn map(geometry: Geometry) -> Result<Map, String> {
     columns.extend(["second", "first"].map(|order| format!("mean {order}: error of n; L/G or e_x [1]")));
     let mut table = Table::new(name(geometry), columns);
     for (strength, errors) in &rows {
-        for Errors { time, printed, corrected, mean, mean_state } in errors {
-            let mut row = vec![*strength, *time, mean[1], mean[0]];
+        for Errors { time, printed, corrected, averaged, averaged_state } in errors {
+            let mut row = vec![*strength, *time, averaged[1], averaged[0]];
             row.extend(*corrected);
             row.extend(*printed);
-            row.extend([mean_state[1], mean_state[0]]);
+            row.extend([averaged_state[1], averaged_state[0]]);
             table.push(row);
         }
     }

@@ -1,22 +1,15 @@
 //! What arrival times over decades cost: `cargo run --release -p twofold-tools --bin clock_cost`. The least of 20 rounds for 10,000 epochs of 15 years.
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use twofold_scene::pulsar_timing::PulsarScene;
 use twofold_scene::scene_file::{PULSARS, Scene};
+use twofold_tools::least_time;
 
 const EPOCHS: u32 = 10_000;
-const ROUNDS: usize = 20;
-
-fn least(mut work: impl FnMut()) -> f64 {
-    let mut best = f64::INFINITY;
-    for _ in 0..ROUNDS {
-        let start = Instant::now();
-        work();
-        best = best.min(start.elapsed().as_secs_f64());
-    }
-    best * 1e3
+/// Least time of 20 rounds (ms).
+fn least(work: impl FnMut()) -> f64 {
+    least_time(20, work) * 1e3
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -4,25 +4,24 @@
 //! said. Scenes below one, above 100,000 and the lowest are listed with their numbers; `1 SEED NUMBER` runs one again.
 
 use rayon::prelude::*;
+use twofold::plan::Method;
+use twofold_tools::{Ratios, argument, estimate_over_error};
 use twofold_verify::error_scenes::ErrorScene;
 
+/// Number of a scene, the scene, the ratio and the true error.
+type Row = (u64, ErrorScene, f64, f64);
+
 fn main() {
-    let arguments: Vec<u64> = std::env::args().skip(1).filter_map(|text| text.parse().ok()).collect();
-    let argument = |index: usize, otherwise| arguments.get(index).copied().unwrap_or(otherwise);
-    let (scenes, seed, first) = (argument(0, 10_000), argument(1, 1), argument(2, 0));
+    let (scenes, seed, first): (u64, u64, u64) = (argument(0, 10_000), argument(1, 1), argument(2, 0));
     let draw = |number| {
         let scene = ErrorScene::draw(seed, number);
-        (number, scene, scene.estimated_and_true())
+        (number, scene, scene.estimated_and_true(Method::Taylor))
     };
     let rows: Vec<_> = (first..first + scenes).into_par_iter().map(draw).collect();
-    let mut found = Vec::new();
+    let mut found: Vec<Row> = Vec::new();
     for (number, scene, result) in rows {
         match result {
-            Ok((estimate, error)) => {
-                // What is not a number counts as below.
-                let ratio = if error > 0.0 || error.is_nan() { estimate / error } else { f64::INFINITY };
-                found.push((number, scene, if ratio.is_nan() { 0.0 } else { ratio }, error));
-            }
+            Ok((estimate, error)) => found.push((number, scene, estimate_over_error(estimate, error), error)),
             Err(why) => println!("scene {number}: {why}"),
         }
     }
@@ -39,7 +38,7 @@ fn main() {
         row(&format!("accuracy {low:e} to {high:e}"), &found, |scene| within(scene.accuracy, low, high));
     }
     row("L near the middle axis", &found, |scene| scene.near_middle_axis);
-    row("L = 0", &found, |scene| scene.initial.momentum.norm() == 0.0);
+    row("L = 0", &found, |scene| scene.problem.initial().momentum.norm() == 0.0);
     for (low, high) in [(0.0, 3.0), (3.0, 30.0), (30.0, 300.0), (300.0, 1e6)] {
         row(&format!("turned by {low} to {high} rad"), &found, |scene| within(scene.turned(), low, high));
     }
@@ -57,18 +56,14 @@ fn main() {
     }
 }
 
-fn row(name: &str, found: &[(u64, ErrorScene, f64, f64)], belongs: impl Fn(&ErrorScene) -> bool) {
-    let mut ratios: Vec<f64> = found.iter().filter(|row| belongs(&row.1)).map(|row| row.2).collect();
-    ratios.sort_by(f64::total_cmp);
-    let count = ratios.len();
-    if count == 0 {
+fn row(name: &str, found: &[Row], belongs: impl Fn(&ErrorScene) -> bool) {
+    let ratios: Ratios = found.iter().filter(|row| belongs(&row.1)).map(|row| row.2).collect();
+    if ratios.count() == 0 {
         return;
     }
-    let quantile = |q: f64| ratios[((count - 1) as f64 * q) as usize];
-    let below = ratios.iter().filter(|ratio| **ratio < 1.0).count();
-    let above = ratios.iter().filter(|ratio| **ratio > 100.0).count();
-    let quantiles = [0.0, 0.01, 0.5, 0.95, 0.99, 1.0].map(|q| format!("{:>9}", Short(quantile(q))));
-    println!("{name:26} {count:>6} {} {below:>6} {:>6.2} %", quantiles.join(" "), 100.0 * above as f64 / count as f64);
+    let quantiles = [0.0, 0.01, 0.5, 0.95, 0.99, 1.0].map(|q| format!("{:>9}", Short(ratios.quantile(q))));
+    let above = 100.0 * ratios.above(100.0) as f64 / ratios.count() as f64;
+    println!("{name:26} {:>6} {} {:>6} {above:>6.2} %", ratios.count(), quantiles.join(" "), ratios.below(1.0));
 }
 
 struct Short(f64);

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use rayon::prelude::*;
 use twofold::plan::Method;
+use twofold_tools::{Ratios, argument, estimate_over_error};
 use twofold_verify::error_scenes::ErrorScene;
 
 /// Ratio of the estimate to the true error, or why there is none.
@@ -17,10 +18,8 @@ enum Seen {
 }
 
 fn main() -> ExitCode {
-    let mut arguments = std::env::args().skip(1);
-    let scenes: u64 = arguments.next().map_or(10_000, |text| text.parse().expect("a number of scenes"));
-    let seed: u64 = arguments.next().map_or(1, |text| text.parse().expect("a seed"));
-    let named: Vec<Method> = arguments.map(|name| Method::named(&name).expect("a method")).collect();
+    let (scenes, seed): (u64, u64) = (argument(0, 10_000), argument(1, 1));
+    let named: Vec<Method> = std::env::args().skip(3).map(|name| Method::named(&name).expect("a method")).collect();
     println!("{scenes} scenes of seed {seed}; estimate / true error");
     println!(
         "{:<10} {:>7} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}",
@@ -49,21 +48,19 @@ fn judge(method: Method, scenes: u64, seed: u64) -> bool {
             Seen::NoSuchScene => none += 1,
         }
     }
-    ratios.sort_by(f64::total_cmp);
-    let below = ratios.iter().filter(|ratio| **ratio < 1.0).count();
-    let at =
-        |part: f64| ratios.get((ratios.len().saturating_sub(1) as f64 * part) as usize).copied().unwrap_or(f64::NAN);
+    let ratios: Ratios = ratios.into_iter().collect();
+    let below = ratios.below(1.0);
     println!(
         "{:<10} {:>7} {:>8} {:>8} {:>8} {:>9.2} {:>9.2} {:>9.1} {:>9.1e}",
         method.name(),
-        ratios.len(),
+        ratios.count(),
         refusals.len(),
         none,
         below,
-        at(0.0),
-        at(0.01),
-        at(0.5),
-        at(0.99)
+        ratios.quantile(0.0),
+        ratios.quantile(0.01),
+        ratios.quantile(0.5),
+        ratios.quantile(0.99)
     );
     if let Some((number, why)) = refusals.first() {
         println!("           refused first in scene {number}: {why}");
@@ -75,10 +72,8 @@ fn look(method: Method, seed: u64, number: u64) -> Seen {
     let Some(scene) = ErrorScene::draw(seed, number).for_method(method, seed ^ number.wrapping_mul(0x9e37_79b9)) else {
         return Seen::NoSuchScene;
     };
-    match scene.estimated_and_true_by(method) {
-        // What is not a number counts as below, and an exact state as above.
-        Ok((estimate, error)) if estimate.is_nan() || error.is_nan() => Seen::Ratio(0.0),
-        Ok((estimate, error)) => Seen::Ratio(if error == 0.0 { f64::INFINITY } else { estimate / error }),
+    match scene.estimated_and_true(method) {
+        Ok((estimate, error)) => Seen::Ratio(estimate_over_error(estimate, error)),
         Err(why) => Seen::Refused(why),
     }
 }

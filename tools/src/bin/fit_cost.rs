@@ -8,35 +8,44 @@
 //! that of an evaluation over the same orders, by least squares of relative errors.
 
 use std::hint::black_box;
-use std::time::Instant;
 
-use nalgebra::{DMatrix, DVector, Matrix3};
+use nalgebra::{DMatrix, DVector};
 use twofold::Error;
-use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::plan::{Cost, Method, PlannedAxisMotion, PlannedMotion, State};
+use twofold::dynamics::{BodyState, Problem, RotationState};
+use twofold::plan::{Cost, Method, PlannedMotion, State};
 use twofold::propagation::Motion;
+use twofold_tools::least_time;
 use twofold_verify::reference::reference_motion;
 
 /// The least time of many runs, in ns.
 fn time<T>(mut run: impl FnMut() -> T) -> f64 {
-    let mut best = f64::INFINITY;
-    let mut runs = 1;
-    for _ in 0..60 {
-        let start = Instant::now();
-        for _ in 0..runs {
-            black_box(run());
-        }
-        let each = start.elapsed().as_secs_f64() * 1e9 / f64::from(runs);
-        best = best.min(each);
-        runs = ((1e6 / each) as u32).clamp(1, 100_000);
-    }
-    best
+    let once = 1e9 * least_time(3, &mut run);
+    let runs = ((1e6 / once) as u32).clamp(1, 100_000);
+    1e9 / f64::from(runs) * least_time(60, || (0..runs).for_each(|_| drop(black_box(run()))))
 }
 
-struct Case {
-    spheroid: RigidSpheroid<f64>,
-    s: Matrix3<f64>,
-    initial: BodyState<f64>,
+const SPAN: (f64, f64) = (0.0, 200.0);
+
+/// The time of a state of a motion, in ns, by its axis.
+fn time_of_state(axis_at: impl Fn(f64) -> Result<f64, Error>) -> f64 {
+    time(|| (0..1000).map(|i| axis_at(0.2 * f64::from(i)).unwrap_or(0.0)).sum::<f64>()) / 1e3
+}
+
+/// A motion, the time of making it and that of a state of it, in ns.
+fn measured<X: RotationState<f64>>(
+    problem: &Problem<f64, X>,
+    method: Method,
+    accuracy: f64,
+) -> Result<(PlannedMotion<X>, f64, f64), Error> {
+    let make = || problem.motion_by(method, SPAN, accuracy);
+    let motion = make()?;
+    let each = time_of_state(|t| Ok(motion.state(t)?.axis_state().axis.x));
+    Ok((motion, time(make), each))
+}
+
+/// What a problem's motions follow.
+fn state_of<X: RotationState<f64>>() -> State {
+    if X::VECTORS == 3 { State::Orientation } else { State::AxisAndMomentum }
 }
 
 /// The least-squares solution that makes relative errors small.
@@ -49,27 +58,14 @@ fn fit(rows: &[(Vec<f64>, f64)]) -> Vec<f64> {
     solution.iter().copied().collect()
 }
 
-fn taylor(case: &Case, state: State) -> Result<(), Error> {
-    let Case { spheroid, s, initial } = case;
-    let span = (0.0, 200.0);
+fn taylor<X: RotationState<f64>>(problem: &Problem<f64, X>) -> Result<(), Error> {
+    let state = state_of::<X>();
     let (mut steps, mut evaluations) = (Vec::new(), Vec::new());
     for exponent in [-2, -4, -6, -8, -10, -12, -14, -16] {
         let accuracy = 10f64.powi(exponent);
-        let times: Vec<f64> = (0..1000).map(|i| 0.2 * f64::from(i)).collect();
-        let (order, count, total, each) = if state == State::Orientation {
-            let make = || PlannedMotion::by(Method::Taylor, spheroid, s, initial, span, accuracy);
-            let motion = make()?;
-            let PlannedMotion::Taylor(series) = &motion else { unreachable!("asked for") };
-            let each = time(|| times.iter().map(|&t| motion.state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
-            (series.order(), series.step_count(), time(make), each)
-        } else {
-            let make = || PlannedAxisMotion::axis_by(Method::Taylor, spheroid, s, initial, span, accuracy);
-            let motion = make()?;
-            let PlannedAxisMotion::Taylor(series) = &motion else { unreachable!("asked for") };
-            let each =
-                time(|| times.iter().map(|&t| motion.axis_state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
-            (series.order(), series.step_count(), time(make), each)
-        };
+        let (motion, total, each) = measured(problem, Method::Taylor, accuracy)?;
+        let PlannedMotion::Taylor(series) = &motion else { unreachable!("asked for") };
+        let (order, count) = (series.order(), series.step_count());
         let p = order as f64;
         steps.push((vec![1.0, p, p * p], total / count as f64));
         evaluations.push((vec![1.0, p], each));
@@ -100,24 +96,12 @@ fn taylor(case: &Case, state: State) -> Result<(), Error> {
     Ok(())
 }
 
-fn splitting(case: &Case, state: State) -> Result<(), Error> {
-    let Case { spheroid, s, initial } = case;
-    let span = (0.0, 200.0);
+fn splitting<X: RotationState<f64>>(problem: &Problem<f64, X>) -> Result<(), Error> {
+    let state = state_of::<X>();
     for exponent in [-2, -4, -6, -8, -10, -12] {
         let accuracy = 10f64.powi(exponent);
-        let times: Vec<f64> = (0..1000).map(|i| 0.2 * f64::from(i)).collect();
-        let (work, total, each) = if state == State::Orientation {
-            let make = || PlannedMotion::by(Method::Splitting, spheroid, s, initial, span, accuracy);
-            let motion = make()?;
-            let each = time(|| times.iter().map(|&t| motion.state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
-            (motion.work(), time(make), each)
-        } else {
-            let make = || PlannedAxisMotion::axis_by(Method::Splitting, spheroid, s, initial, span, accuracy);
-            let motion = make()?;
-            let each =
-                time(|| times.iter().map(|&t| motion.axis_state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
-            (motion.work(), time(make), each)
-        };
+        let (motion, total, each) = measured(problem, Method::Splitting, accuracy)?;
+        let work = motion.work();
         let flows = work.right_hand_sides / work.steps;
         let model = Cost::of(Method::Splitting, state);
         println!(
@@ -132,32 +116,26 @@ fn splitting(case: &Case, state: State) -> Result<(), Error> {
     Ok(())
 }
 
-fn closed(case: &Case, method: Method) -> Result<(), Error> {
-    let Case { spheroid, s, initial } = case;
-    let make = || PlannedMotion::by(method, spheroid, s, initial, (0.0, 200.0), 1e-12);
-    let motion = make()?;
-    let times: Vec<f64> = (0..1000).map(|i| 0.2 * f64::from(i)).collect();
-    let axis = time(|| times.iter().map(|&t| motion.axis_state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
-    let full = time(|| times.iter().map(|&t| motion.state(t).map_or(0.0, |x| x.axis.x)).sum::<f64>()) / 1e3;
+fn closed(problem: &Problem<f64>, method: Method) -> Result<(), Error> {
+    let (motion, total, full) = measured(problem, method, 1e-12)?;
+    let axis = time_of_state(|t| Ok(motion.axis_state(t)?.axis.x));
     println!(
         "{}: setup {:.0}, evaluation {axis:.1} (n, L), {full:.1} (n, L, e_x); in the model {:?}",
         method.name(),
-        time(make),
+        total,
         Cost::of(method, State::Orientation)
     );
     Ok(())
 }
 
 fn main() -> Result<(), Error> {
-    let case = |name: &str| {
-        let scene = reference_motion(name);
-        Case { spheroid: scene.spheroid, s: scene.violation(), initial: scene.initial() }
-    };
-    closed(&case("free"), Method::Free)?;
-    closed(&case("free"), Method::Steady)?;
-    closed(&case("axisymmetric-violation"), Method::Symmetric)?;
-    splitting(&case("tp-2"), State::AxisAndMomentum)?;
-    splitting(&case("tp-2"), State::Orientation)?;
-    taylor(&case("tp-2"), State::AxisAndMomentum)?;
-    taylor(&case("tp-2"), State::Orientation)
+    let problem = |name: &str| -> Problem<f64, BodyState<f64>> { reference_motion(name).problem() };
+    closed(&problem("free"), Method::Free)?;
+    closed(&problem("free"), Method::Steady)?;
+    closed(&problem("axisymmetric-violation"), Method::Symmetric)?;
+    let tp_2 = problem("tp-2");
+    splitting(&tp_2.reduced())?;
+    splitting(&tp_2)?;
+    taylor(&tp_2.reduced())?;
+    taylor(&tp_2)
 }

@@ -24,8 +24,7 @@ type Kernel = fn(&BenchScene, &TaylorMotion<f64>, usize);
 /// Names, and what is done once per repeat.
 const KERNELS: [(&str, Kernel); 6] = [
     ("taylor-axis", |scene, _, _| {
-        let motion = scene.problem.reduced().taylor((0.0, DURATION), ACCURACY);
-        drop(black_box(motion));
+        drop(black_box(scene.problem.reduced().taylor((0.0, DURATION), ACCURACY)));
     }),
     ("taylor-orientation", |scene, _, _| drop(black_box(motion(scene)))),
     ("sample-axis", |_, motion, i| {
@@ -42,8 +41,7 @@ const KERNELS: [(&str, Kernel); 6] = [
 ];
 
 fn motion(scene: &BenchScene) -> TaylorMotion<f64> {
-    let motion = scene.problem.taylor((0.0, DURATION), ACCURACY);
-    motion.expect("a motion within the limits")
+    scene.problem.taylor((0.0, DURATION), ACCURACY).expect("a motion within the limits")
 }
 
 fn main() {

@@ -10,25 +10,15 @@
 
 use std::io::Write as _;
 
-use nalgebra::Matrix3;
-use twofold::dynamics::RigidSpheroid;
 use twofold::numerics::scalar::Scalar;
-use twofold::propagation::{AxisState, Motion, propagate_axis};
 use twofold_command::bench::scene::BenchScene;
+use twofold_tools::LongMotion;
 use twofold_verify::double_double::DoubleDouble;
-
-const STRETCH: f64 = 25_000.0;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = BenchScene::named("tp-II");
-    let lift = DoubleDouble::from_f64;
-    let spheroid = RigidSpheroid {
-        inertia_xx: lift(scene.spheroid.inertia_xx),
-        inertia_zz: lift(scene.spheroid.inertia_zz),
-        constant_c: lift(scene.spheroid.constant_c),
-    };
-    let s: Matrix3<DoubleDouble> = scene.violation.map(lift);
-    let mut state = AxisState { axis: scene.initial.axis.map(lift), momentum: scene.initial.momentum.map(lift) };
+    let problem = scene.problem.reduced();
+    let mut motion = LongMotion { problem: problem.map(DoubleDouble::from_f64), time: 0.0 };
     let mut out = std::io::stdout().lock();
     writeln!(
         out,
@@ -37,21 +27,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     writeln!(out, "# each component as the sum of two doubles; t in t_c. Truncation below 1e-11 at the end.")?;
     let names = ["n_x", "n_y", "n_z", "l_x", "l_y", "l_z"].map(|name| format!("{name},{name}_low"));
     writeln!(out, "scene,t,{}", names.join(","))?;
-    let mut time = 0.0;
     for decade in 2..=7 {
-        let end = 10f64.powi(decade);
-        while time < end {
-            let step = STRETCH.min(end - time);
-            // Also a part of a stretch is computed with the small truncation of a whole one.
-            state = propagate_axis(&spheroid, &s, &state, (0.0, STRETCH), 1e-16)?.axis_state(lift(step))?;
-            time += step;
-            if time % 1e6 == 0.0 {
-                eprintln!("{time:e}");
-            }
-        }
+        motion.advance_to(10f64.powi(decade))?;
+        let state = motion.problem.initial();
         let numbers = state.axis.iter().chain(&state.momentum);
         let cells: Vec<_> = numbers.map(|x| format!("{:?},{:?}", x.high(), x.low())).collect();
-        writeln!(out, "tp-II,{time},{}", cells.join(","))?;
+        writeln!(out, "tp-II,{},{}", motion.time, cells.join(","))?;
         out.flush()?;
     }
     Ok(())

@@ -6,7 +6,7 @@
 //! double-double numbers, along motions that they are made for.
 
 use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem};
 use twofold::numerics::scalar::{Real, Scalar};
 use twofold::propagation::{AveragedMotion, Motion, SymmetricMotion, UniformMotion};
 use twofold::solutions::averaged::AveragingOrder;
@@ -14,6 +14,7 @@ use twofold::straight_line::{Slope, order};
 use twofold_command::bench::growth::{self, references};
 use twofold_command::bench::scene::BenchScene;
 use twofold_command::bench::{Effort, growth::METHODS};
+use twofold_tools::argument;
 use twofold_verify::check::largest;
 use twofold_verify::double_double::DoubleDouble;
 
@@ -23,7 +24,7 @@ type Failure = Box<dyn std::error::Error>;
 type ErrorAt<'a> = Box<dyn Fn(f64) -> Result<f64, Failure> + 'a>;
 
 fn main() -> Result<(), Failure> {
-    let longest: f64 = std::env::args().nth(1).map_or(Ok(1e7), |text| text.parse())?;
+    let longest: f64 = argument(0, 1e7);
     let effort = Effort { longest, ..Effort::FULL };
     let rows = growth::measure(&effort, |part| eprint!("\r{:3.0} %", 100.0 * part))?;
     eprintln!();
@@ -47,36 +48,35 @@ fn main() -> Result<(), Failure> {
     }
 
     let scene = BenchScene::named("tp-II");
-    let span = (0.0, longest);
-    let mean = |order| -> Result<ErrorAt, Failure> {
-        let motion = AveragedMotion::from_parts(&scene.spheroid, &scene.violation, &scene.initial, span, order)?;
+    let problem = Problem::new(scene.spheroid, scene.violation, scene.initial)?;
+    let averaged = |order| -> Result<ErrorAt, Failure> {
+        let motion = AveragedMotion::new(&problem, (0.0, longest), order)?;
         Ok(Box::new(move |t| {
-            let axis = motion.state(t)?.axis.map(<DoubleDouble as Scalar>::from_f64);
+            let axis = motion.state(t)?.axis.map(DoubleDouble::from_f64);
             let reference = references().into_iter().find(|(time, _)| *time == t).ok_or("no reference at this time")?;
             Ok(largest((axis - reference.1).iter().map(|x: &DoubleDouble| x.high().abs())))
         }))
     };
+    // tp-II's body with another tensor, and at rest but for a spin along the third principal axis.
     let symmetric = Matrix3::from_diagonal(&Vector3::new(0.013, 0.013, -0.04));
+    let tilted = Problem::new(scene.spheroid, symmetric, scene.initial)?;
+    let free = Problem::new(scene.spheroid, Matrix3::zeros(), scene.initial)?;
+    let momentum = Vector3::z() * scene.initial.momentum.norm();
+    let upright = tilted.starting_from(BodyState { axis: Vector3::z(), momentum, equatorial_axis: Vector3::x() })?;
+    let span = (0.0, 1e7);
+    let lifted = |problem: &Problem<f64>| -> Problem<DoubleDouble> { problem.map(DoubleDouble::from_f64) };
     let methods: [(&str, ErrorAt); 5] = [
-        ("averaged motion, first order", mean(AveragingOrder::First)?),
-        ("averaged motion, second order", mean(AveragingOrder::Second)?),
+        ("averaged motion, first order", averaged(AveragingOrder::First)?),
+        ("averaged motion, second order", averaged(AveragingOrder::Second)?),
         (
             "symmetric solution",
-            against_itself(&scene, &symmetric, SymmetricMotion::from_parts, SymmetricMotion::from_parts)?,
+            difference(SymmetricMotion::new(&tilted, span)?, SymmetricMotion::new(&lifted(&tilted), span)?),
         ),
+        ("free rotation", difference(UniformMotion::free(&free, span), UniformMotion::free(&lifted(&free), span))),
         (
-            "free rotation",
-            against_itself(
-                &scene,
-                &Matrix3::zeros(),
-                |body, s, start, span| Ok(UniformMotion::free_from_parts(body, s, start, span)),
-                |body, s, start, span| Ok(UniformMotion::free_from_parts(body, s, start, span)),
-            )?,
+            "steady precession",
+            difference(UniformMotion::steady(&upright, span)?, UniformMotion::steady(&lifted(&upright), span)?),
         ),
-        ("steady precession", {
-            let upright = upright();
-            against_itself(&upright, &symmetric, UniformMotion::steady_from_parts, UniformMotion::steady_from_parts)?
-        }),
     ];
     let decades: Vec<f64> = (2..=7).map(|k| 10f64.powi(k)).filter(|t| *t <= longest).collect();
     let head: Vec<String> = decades.iter().map(|t| format!(" {t:.0e} ")).collect();
@@ -102,47 +102,16 @@ fn written(exponent: Option<Slope>) -> String {
     exponent.map_or("-".into(), |slope| format!("{:.2} +- {:.2}", slope.value, slope.error))
 }
 
-/// tp-II's body at rest but for a spin along the third principal axis.
-fn upright() -> BenchScene {
-    let mut scene = BenchScene::named("tp-II");
-    let momentum = scene.initial.momentum.norm();
-    scene.initial = BodyState { axis: Vector3::z(), momentum: Vector3::z() * momentum, equatorial_axis: Vector3::x() };
-    scene
-}
-
-type Make<S, M> = fn(&RigidSpheroid<S>, &Matrix3<S>, &BodyState<S>, (f64, f64)) -> Result<M, twofold::Error>;
-
-/// A closed form in doubles against itself in double-double numbers, from the same start.
-fn against_itself<
-    'a,
-    M: Motion<f64, State = BodyState<f64>> + 'a,
-    D: Motion<DoubleDouble, State = BodyState<DoubleDouble>> + 'a,
->(
-    scene: &BenchScene,
-    s: &Matrix3<f64>,
-    make: Make<f64, M>,
-    make_exact: Make<DoubleDouble, D>,
-) -> Result<ErrorAt<'a>, Failure> {
-    let lift = <DoubleDouble as Scalar>::from_f64;
-    let (body, start) = (&scene.spheroid, &scene.initial);
-    let exact_body = RigidSpheroid {
-        inertia_xx: lift(body.inertia_xx),
-        inertia_zz: lift(body.inertia_zz),
-        constant_c: lift(body.constant_c),
-    };
-    let exact_start = BodyState {
-        axis: start.axis.map(lift),
-        momentum: start.momentum.map(lift),
-        equatorial_axis: start.equatorial_axis.map(lift),
-    };
-    let span = (0.0, 1e7);
-    let motion = make(body, s, start, span)?;
-    let exact = make_exact(&exact_body, &s.map(lift), &exact_start, span)?;
-    Ok(Box::new(move |t| {
-        let (state, exact) = (motion.state(t)?, exact.state(lift(t))?);
-        let difference = |a: &Vector3<f64>, b: &Vector3<DoubleDouble>| {
-            largest(a.iter().zip(b).map(|(a, b)| (lift(*a) - *b).re().abs()))
+/// The error of n and e_x of a closed form in doubles, against itself in double-double numbers.
+fn difference<'a>(
+    motion: impl Motion<f64, State = BodyState<f64>> + 'a,
+    exact: impl Motion<DoubleDouble, State = BodyState<DoubleDouble>> + 'a,
+) -> ErrorAt<'a> {
+    Box::new(move |t| {
+        let (state, exact) = (motion.state(t)?, exact.state(DoubleDouble::from_f64(t))?);
+        let off = |a: &Vector3<f64>, b: &Vector3<DoubleDouble>| {
+            largest(a.iter().zip(b).map(|(a, b)| (DoubleDouble::from_f64(*a) - *b).re().abs()))
         };
-        Ok(largest([difference(&state.axis, &exact.axis), difference(&state.equatorial_axis, &exact.equatorial_axis)]))
-    }))
+        Ok(largest([off(&state.axis, &exact.axis), off(&state.equatorial_axis, &exact.equatorial_axis)]))
+    })
 }

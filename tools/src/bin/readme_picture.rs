@@ -41,7 +41,7 @@ fn inclination(area: &Area) -> Result<(), Box<dyn Error>> {
     let case = |form, frequency: f64| Case::paper(form, Precession::Twofold, 1e-40, 0.7, tilt * frequency);
     let printed = case(Form::Printed, 1.1);
     let corrected = case(Form::Corrected, 1.1 / 0.7f64.cos());
-    let (motion, _) = printed.motion(duration)?;
+    let motion = printed.motion(duration)?;
     let times: Vec<f64> = (0..=600).map(|i| duration * f64::from(i) / 600.0).collect();
     let numerical =
         times.iter().map(|&t| motion.state(t).map(|s| (t, s.axis.z.acos()))).collect::<Result<Vec<_>, _>>()?;

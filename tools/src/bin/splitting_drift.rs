@@ -2,23 +2,23 @@
 //!
 //!     cargo run --release -p twofold-tools --bin splitting_drift [STEPS, default 1e9]
 
-use twofold::propagation::AxisState;
+use twofold::dynamics::AxisState;
 use twofold::propagation::splitting::{GRADIENT_8_6_6, Splitting};
 use twofold::straight_line::slope;
+use twofold_tools::argument;
 use twofold_verify::random::Random;
 use twofold_verify::reference::reference_motion;
 
 fn main() {
-    let steps: f64 = std::env::args().nth(1).map_or(1e9, |text| text.parse().expect("a number of steps"));
-    let scene = reference_motion("tp-2");
-    let (s, start) = (scene.violation(), AxisState::from(&scene.initial()));
+    let steps: f64 = argument(0, 1e9);
+    let problem = reference_motion("tp-2").problem().reduced();
+    let (s, start) = (problem.coefficients(), problem.initial());
     let step = 0.6;
-    let mut motion =
-        Splitting::from_parts(&scene.spheroid, &s, &start, &GRADIENT_8_6_6, step).expect("tp-II is in the domain");
+    let mut motion = Splitting::new(&problem, &GRADIENT_8_6_6, step).expect("tp-II is in the domain");
     let energy = |state: &AxisState<f64>| {
-        state.momentum.norm_squared() / 2.0 + scene.spheroid.constant_c * state.axis.dot(&(s * state.axis))
+        state.momentum.norm_squared() / 2.0 + problem.spheroid().constant_c * state.axis.dot(&(s * state.axis))
     };
-    let (energy_0, spin_0) = (energy(&start), start.axis.dot(&start.momentum));
+    let (energy_0, spin_0) = (energy(start), start.axis.dot(&start.momentum));
     const ROWS: u32 = 1000;
     let (mut axis, mut spin, mut points) = (0.0_f64, 0.0_f64, Vec::new());
     let mut random = Random::with_seed(1);

@@ -4,57 +4,43 @@
 //!
 //! The end state is that of verify/oracles/mpmath/axis_end_state.py, 32 digits. Times are the least of 15 runs of everything in turn.
 
-use std::time::Instant;
-
 use nalgebra::Vector3;
-use twofold::propagation::splitting::{SCHEMES, propagate_by_best_splitting, propagate_by_splitting};
-use twofold::propagation::{AxisState, Motion, propagate_axis};
+use twofold::dynamics::{AxisState, Problem};
+use twofold::propagation::Motion;
+use twofold::propagation::splitting::SCHEMES;
+use twofold_tools::least_time;
 use twofold_verify::reference::reference_motion;
 
 const END: f64 = 1000.0;
 
 fn main() {
     let scene = reference_motion("tp-2");
-    let (body, s, start) = (scene.spheroid, scene.violation(), scene.states[0].1);
-    let start = AxisState::from(&start);
+    let problem = Problem::new(scene.spheroid, scene.violation(), AxisState::from(&scene.states[0].1)).expect("tp-II");
     let row = include_str!("../../../verify/data/axis_end_state.csv").lines().last().expect("a row of data");
     let numbers: Vec<f64> = row.split(',').skip(2).map(|cell| cell.parse().expect("a number")).collect();
     let axis = Vector3::new(numbers[0], numbers[1], numbers[2]);
 
     type Run<'a> = Box<dyn Fn() -> Box<dyn Motion<f64, State = AxisState<f64>>> + 'a>;
     let mut runs: Vec<(String, Run)> = Vec::new();
+    let (problem, span) = (&problem, (0.0, END));
     for scheme in SCHEMES {
         for k in 0..7 {
             let step = 0.4 * scheme.stages() as f64 / 1.5_f64.powi(k);
-            let (s, start) = (&s, &start);
-            runs.push((
-                format!("{} {step:.4}", scheme.name),
-                Box::new(move || {
-                    Box::new(propagate_by_splitting(&body, s, start, (0.0, END), scheme, step).expect("tp-II"))
-                }),
-            ));
+            let run = move || problem.splitting_by(scheme, span, step).expect("tp-II");
+            runs.push((format!("{} {step:.4}", scheme.name), Box::new(move || Box::new(run()))));
         }
     }
     for exponent in [4, 6, 8, 10, 12, 14] {
         let accuracy = 10f64.powi(-exponent);
-        let (s, start) = (&s, &start);
-        runs.push((
-            format!("chosen {accuracy:e}"),
-            Box::new(move || {
-                Box::new(propagate_by_best_splitting(&body, s, start, (0.0, END), accuracy).expect("tp-II"))
-            }),
-        ));
-        runs.push((
-            format!("taylor {accuracy:e}"),
-            Box::new(move || Box::new(propagate_axis(&body, s, start, (0.0, END), accuracy).expect("tp-II"))),
-        ));
+        let chosen = move || problem.splitting(span, accuracy).expect("tp-II");
+        runs.push((format!("chosen {accuracy:e}"), Box::new(move || Box::new(chosen()))));
+        let taylor = move || problem.taylor(span, accuracy).expect("tp-II");
+        runs.push((format!("taylor {accuracy:e}"), Box::new(move || Box::new(taylor()))));
     }
     let mut best = vec![f64::INFINITY; runs.len()];
     for _ in 0..15 {
         for (time, (_, run)) in best.iter_mut().zip(&runs) {
-            let clock = Instant::now();
-            std::hint::black_box(run());
-            *time = time.min(clock.elapsed().as_secs_f64());
+            *time = time.min(least_time(1, run));
         }
     }
     println!("method, step or accuracy asked; time [ms]; error of n; estimate");

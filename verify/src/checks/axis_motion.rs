@@ -1,15 +1,15 @@
-//! The motion of the symmetry axis and the angular momentum alone: what is asked of the whole motion, asked of it.
+//! The motion of the symmetry axis and the angular momentum alone, without the angle about the axis.
 
 use nalgebra::Vector3;
 use num_dual::Dual64;
-use twofold::dynamics::RigidSpheroid;
+use twofold::dynamics::AxisState;
 use twofold::dynamics::equations_of_motion::reduced_rates;
-use twofold::numerics::scalar::constant_vector;
-use twofold::propagation::{AxisState, Motion, propagate, propagate_axis};
+use twofold::propagation::Motion;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
+use super::propagation::{against_reference, estimate_against_reference};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component, largest_difference};
 use crate::physical_domain::{scenes, worst_over};
-use crate::reference::{ReferenceMotion, reference_motion, reference_motions};
+use crate::reference::reference_motion;
 use crate::second_integrator::axis_states;
 
 /// Checks of this subject.
@@ -23,17 +23,17 @@ pub fn checks() -> Vec<Check> {
             figure: "largest error of a component",
             bound: Bound::AtMost(1e-12),
             reason: "rounding of the initial values (1e-16) and of up to 1,200 steps, grown with a phase of 600 rad",
-            measure: against_reference,
+            measure: against_reference::<AxisState<f64>>,
         },
         Check {
             id: "axis-motion-error-estimate",
             kind: Kind::Oracle,
             equations: &[25],
-            statement: "its error estimate is not below its true error, from accuracy 1e-3 to 1e-14",
+            statement: "the error estimate of the motion of n and L alone is not below its true error, from accuracy 1e-3 to 1e-14",
             figure: "largest true error / estimate",
             bound: Bound::AtMost(1.0),
             reason: "an estimate below the true error is wrong",
-            measure: estimate_against_reference,
+            measure: estimate_against_reference::<AxisState<f64>>,
         },
         Check {
             id: "axis-motion-of-whole-motion",
@@ -59,7 +59,7 @@ pub fn checks() -> Vec<Check> {
             id: "axis-motion-dense-output",
             kind: Kind::Autodiff,
             equations: &[25],
-            statement: "its dense output, differentiated in time by duals, satisfies dn/dt = L x n / I^xx and dL/dt = -2 C n x (s n)",
+            statement: "the dense output of the motion of n and L, differentiated in time by duals, satisfies dn/dt = L x n / I^xx and dL/dt = -2 C n x (s n)",
             figure: "largest residual / (2.2e-16, size of the rates), 100 random motions",
             bound: Bound::AtMost(16.0),
             reason: "differentiating a series of order 22 multiplies its rounding by up to 22/3; the state and its rates add a few",
@@ -68,63 +68,20 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-/// Largest differences of a component of `n` and of `L`.
-fn differences(a: &AxisState<f64>, b: &AxisState<f64>) -> [f64; 2] {
-    [largest_component(&(a.axis - b.axis)), largest_component(&(a.momentum - b.momentum))]
-}
-
-/// The errors at the listed times of a reference motion, with the estimates there.
-fn errors(reference: &ReferenceMotion, accuracy: f64) -> Result<Vec<([f64; 2], f64, f64)>, String> {
-    let end = reference.states.last().map_or(0.0, |(t, _)| *t);
-    let start = AxisState::from(&reference.initial());
-    let motion = propagate_axis(&reference.spheroid, &reference.violation(), &start, (0.0, end), accuracy)?;
-    let at = |(t, state): &(f64, _)| {
-        let ours = motion.axis_state(*t)?;
-        Ok((differences(&ours, &AxisState::from(state)), *t, motion.error_estimate(*t)))
-    };
-    reference.states.iter().map(at).collect()
-}
-
-fn against_reference() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for reference in reference_motions() {
-        for (differences, t, _) in errors(&reference, 1e-14)? {
-            worst.see(largest(differences), || format!("{} at t = {t}", reference.name));
-        }
-    }
-    worst.finish()
-}
-
-fn estimate_against_reference() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for reference in reference_motions() {
-        let size = reference.initial().momentum.norm().max(1.0);
-        for exponent in 3..=14 {
-            for ([axis, momentum], t, estimate) in errors(&reference, 10f64.powi(-exponent))? {
-                worst.see(largest([axis, momentum / size]) / estimate, || {
-                    format!("{} at t = {t}, accuracy 1e-{exponent}", reference.name)
-                });
-            }
-        }
-    }
-    worst.finish()
-}
-
 fn against_whole_motion() -> Result<Measured, String> {
     worst_over(23, 200, &scenes(), |scene| {
-        let (spheroid, s, start) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
+        let problem = scene.problem();
+        let size = problem.initial().momentum.norm().max(1.0);
         let mut most = 0.0;
         for end in [30.0, -30.0] {
-            let whole = propagate(&spheroid, &s, &start, (0.0, end), 1e-13)?;
-            let alone = propagate_axis(&spheroid, &s, &(&start).into(), (0.0, end), 1e-13)?;
+            let whole = problem.taylor((0.0, end), 1e-13)?;
+            let alone = problem.reduced().taylor((0.0, end), 1e-13)?;
             for part in [0.37, 1.0] {
                 let t = part * end;
-                let ours = alone.axis_state(t)?;
+                let ours = alone.state(t)?;
                 let estimates = alone.error_estimate(t) + whole.error_estimate(t);
-                let size = start.momentum.norm().max(1.0);
                 for state in [whole.axis_state(t)?, AxisState::from(&whole.state(t)?)] {
-                    let [axis, momentum] = differences(&ours, &state);
-                    most = largest([most, largest([axis, momentum / size]) / estimates]);
+                    most = largest([most, largest_difference(&ours, &state, size) / estimates]);
                 }
             }
         }
@@ -136,12 +93,10 @@ fn against_second_integrator() -> Result<Measured, String> {
     let times: Vec<f64> = (0..=1000).map(|i| 0.1 * f64::from(i)).collect();
     let mut worst = Worst::default();
     for name in ["tp-1", "tp-2", "sp-1", "sp-2"] {
-        let scene = reference_motion(name);
-        let (s, start) = (scene.violation(), AxisState::from(&scene.initial()));
-        let motion = propagate_axis(&scene.spheroid, &s, &start, (0.0, 100.0), 1e-14)?;
-        for (t, theirs) in times.iter().zip(axis_states(&scene.spheroid, &s, &start, &times, 1e-14)?) {
-            let ours = motion.axis_state(*t)?;
-            worst.see(largest(differences(&ours, &theirs)), || format!("{name} at t = {t}"));
+        let problem = reference_motion(name).problem().reduced();
+        let motion = problem.taylor((0.0, 100.0), 1e-14)?;
+        for (t, theirs) in times.iter().zip(axis_states(&problem, &times, 1e-14)?) {
+            worst.see(largest_difference(&motion.state(*t)?, &theirs, 1.0), || format!("{name} at t = {t}"));
         }
     }
     worst.finish()
@@ -149,15 +104,14 @@ fn against_second_integrator() -> Result<Measured, String> {
 
 fn dense_output_solves_equations() -> Result<Measured, String> {
     worst_over(24, 100, &scenes(), |scene| {
-        let (spheroid, s, start) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
-        let lifted = RigidSpheroid::in_units_of_tc(Dual64::from_re(scene.inertia_ratio));
-        let start = AxisState { axis: constant_vector(&start.axis), momentum: constant_vector(&start.momentum) };
-        let motion = propagate_axis(&lifted, &s.map(Dual64::from_re), &start, (0.0, 10.0), 1e-16)?;
+        let problem = scene.problem().reduced();
+        let motion = problem.map(Dual64::from_re).taylor((0.0, 10.0), 1e-16)?;
         let mut most = 0.0;
         for i in 1..40 {
-            let state = motion.axis_state(Dual64::new(0.25 * f64::from(i), 1.0))?;
+            let state = motion.state(Dual64::new(0.25 * f64::from(i), 1.0))?;
             let real = |v: &Vector3<Dual64>| v.map(|x| x.re);
-            let (axis_rate, momentum_rate) = reduced_rates(&spheroid, &s, &real(&state.axis), &real(&state.momentum));
+            let (axis_rate, momentum_rate) =
+                reduced_rates(problem.spheroid(), problem.coefficients(), &real(&state.axis), &real(&state.momentum));
             let residuals = [state.axis.map(|x| x.eps) - axis_rate, state.momentum.map(|x| x.eps) - momentum_rate];
             let size = 1.0 + real(&state.momentum).norm().powi(2);
             most = largest([most, largest(residuals.iter().map(largest_component)) / (size * f64::EPSILON)]);

@@ -7,87 +7,66 @@ use twofold::dynamics::first_integrals::{
     clebsch_integral, energy, energy_in_angles, first_integrals, spin_in_angles, symmetric_adjugate,
 };
 
-use crate::check::{Check, Kind};
+use crate::check::Check;
 use crate::derivation::spheroid_motion::{accelerations, fixed_coefficients, fixed_spheroid};
 use crate::derivation::{Differentiable, moving_angles, moving_rates};
-use crate::identity::{self, Identity};
+use crate::identity::identities;
 use crate::random::Point;
+
+identities! {
+    /// E, Omega^z and K do not change along the field of Eq. (25)
+    integrals_in_angles: Autodiff "integrals-along-angles" [24, 25];
+    /// E, Omega^z and K do not change along the regular equations, for s^IJ in any inertial frame
+    integrals_of_state: Autodiff "integrals-along-state" [24];
+    /// n.n, L.n, e_x.e_x and e_x.n do not change along the regular equations
+    geometric_integrals: Autodiff "geometric-integrals" [24, 61];
+    /// energy and spin of the regular state are those in Euler angles
+    same_integrals: Property "energy-of-state" [24];
+    /// K = L.(s L) - L.L tr s - 2 C I n.(s s n) + 2 I tr s H - C I (tr^2 s - tr s^2), with H = E without the energy of the conserved spin
+    other_clebsch_form: Property "clebsch-forms" [24];
+    /// adj(s) s = det(s) 1, of the adjugate in the third integral
+    adjugate_times_s: Property "symmetric-adjugate" [24];
+}
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
+    identities()
+}
+
+fn integrals_in_angles<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (q, v) = (&p.angles, &p.rates);
+    let a = accelerations(&p.spheroid, &p.s, q, v);
+    let (angles, rates) = (moving_angles(q, v), moving_rates(v, &a));
+    let (spheroid, s) = (fixed_spheroid(&p.spheroid), fixed_coefficients(&p.s));
+    let state = BodyState::from_angles(&spheroid, &angles, &rates);
     [
-        identity::checks::<IntegralsInAngles>(),
-        identity::checks::<IntegralsOfState>(),
-        identity::checks::<GeometricIntegrals>(),
-        identity::checks::<SameIntegrals>(),
-        identity::checks::<OtherClebschForm>(),
-        identity::checks::<Adjugate>(),
+        energy_in_angles(&spheroid, &s, &angles, &rates),
+        spin_in_angles(&angles, &rates),
+        clebsch_integral(&spheroid, &s.tensor(), &state.axis, &state.momentum),
     ]
-    .concat()
+    .map(F::derivative)
+    .to_vec()
 }
 
-struct IntegralsInAngles;
-
-impl Identity for IntegralsInAngles {
-    const ID: &'static str = "integrals-along-angles";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "integrals-along-angles-autodiff");
-    const EQUATIONS: &'static [u8] = &[24, 25];
-    const STATEMENT: &'static str = "E, Omega^z and K do not change along the field of Eq. (25)";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (q, v) = (&p.angles, &p.rates);
-        let a = accelerations(&p.spheroid, &p.s, q, v);
-        let (angles, rates) = (moving_angles(q, v), moving_rates(v, &a));
-        let (spheroid, s) = (fixed_spheroid(&p.spheroid), fixed_coefficients(&p.s));
-        let state = BodyState::from_angles(&spheroid, &angles, &rates);
-        [
-            energy_in_angles(&spheroid, &s, &angles, &rates),
-            spin_in_angles(&angles, &rates),
-            clebsch_integral(&spheroid, &s.tensor(), &state.axis, &state.momentum),
-        ]
-        .map(F::derivative)
-        .to_vec()
-    }
+fn integrals_of_state<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let state = BodyState::from_angles(&p.spheroid, &p.angles, &p.rates);
+    let moving = moving_state(&state, &body_state_rates(&p.spheroid, &p.s_inertial, &state));
+    let integrals = first_integrals(&fixed_spheroid(&p.spheroid), &p.s_inertial.map(F::fixed), &moving);
+    [integrals.energy, integrals.spin, integrals.clebsch].map(F::derivative).to_vec()
 }
 
-struct IntegralsOfState;
-
-impl Identity for IntegralsOfState {
-    const ID: &'static str = "integrals-along-state";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "integrals-along-state-autodiff");
-    const EQUATIONS: &'static [u8] = &[24];
-    const STATEMENT: &'static str =
-        "E, Omega^z and K do not change along the regular equations, for s^IJ in any inertial frame";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let state = BodyState::from_angles(&p.spheroid, &p.angles, &p.rates);
-        let moving = moving_state(&state, &body_state_rates(&p.spheroid, &p.s_inertial, &state));
-        let integrals = first_integrals(&fixed_spheroid(&p.spheroid), &p.s_inertial.map(F::fixed), &moving);
-        [integrals.energy, integrals.spin, integrals.clebsch].map(F::derivative).to_vec()
-    }
-}
-
-struct GeometricIntegrals;
-
-impl Identity for GeometricIntegrals {
-    const ID: &'static str = "geometric-integrals";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "geometric-integrals-autodiff");
-    const EQUATIONS: &'static [u8] = &[24, 61];
-    const STATEMENT: &'static str = "n.n, L.n, e_x.e_x and e_x.n do not change along the regular equations";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let state = BodyState::from_angles(&p.spheroid, &p.angles, &p.rates);
-        let rates = body_state_rates(&p.spheroid, &p.s_inertial, &state);
-        let (n, l, e) = {
-            let moving = moving_state(&state, &rates);
-            (moving.axis, moving.momentum, moving.equatorial_axis)
-        };
-        let (axis_rate, momentum_rate) = reduced_rates(&p.spheroid, &p.s_inertial, &state.axis, &state.momentum);
-        let mut out = [n.dot(&n), l.dot(&n), e.dot(&e), e.dot(&n)].map(F::derivative).to_vec();
-        out.extend(&(axis_rate - rates.axis));
-        out.extend(&(momentum_rate - rates.momentum));
-        out
-    }
+fn geometric_integrals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let state = BodyState::from_angles(&p.spheroid, &p.angles, &p.rates);
+    let rates = body_state_rates(&p.spheroid, &p.s_inertial, &state);
+    let (n, l, e) = {
+        let moving = moving_state(&state, &rates);
+        (moving.axis, moving.momentum, moving.equatorial_axis)
+    };
+    let (axis_rate, momentum_rate) = reduced_rates(&p.spheroid, &p.s_inertial, &state.axis, &state.momentum);
+    let mut out = [n.dot(&n), l.dot(&n), e.dot(&e), e.dot(&n)].map(F::derivative).to_vec();
+    out.extend(&(axis_rate - rates.axis));
+    out.extend(&(momentum_rate - rates.momentum));
+    out
 }
 
 fn moving_state<F: Differentiable>(state: &BodyState<F>, rates: &BodyState<F>) -> BodyState<F::First> {
@@ -98,56 +77,28 @@ fn moving_state<F: Differentiable>(state: &BodyState<F>, rates: &BodyState<F>) -
     }
 }
 
-struct SameIntegrals;
-
-impl Identity for SameIntegrals {
-    const ID: &'static str = "energy-of-state";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "energy-of-state-rounding");
-    const EQUATIONS: &'static [u8] = &[24];
-    const STATEMENT: &'static str = "energy and spin of the regular state are those in Euler angles";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (q, v) = (&p.angles, &p.rates);
-        let integrals = first_integrals(&p.spheroid, &p.s.tensor(), &BodyState::from_angles(&p.spheroid, q, v));
-        vec![integrals.energy - energy_in_angles(&p.spheroid, &p.s, q, v), integrals.spin - spin_in_angles(q, v)]
-    }
+fn same_integrals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (q, v) = (&p.angles, &p.rates);
+    let integrals = first_integrals(&p.spheroid, &p.s.tensor(), &BodyState::from_angles(&p.spheroid, q, v));
+    vec![integrals.energy - energy_in_angles(&p.spheroid, &p.s, q, v), integrals.spin - spin_in_angles(q, v)]
 }
 
-struct OtherClebschForm;
-
-impl Identity for OtherClebschForm {
-    const ID: &'static str = "clebsch-forms";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "clebsch-forms-rounding");
-    const EQUATIONS: &'static [u8] = &[24];
-    const STATEMENT: &'static str = "K = L.(s L) - L.L tr s - 2 C I n.(s s n) + 2 I tr s H - C I (tr^2 s - tr s^2), with H = E without the energy of the \
-         conserved spin";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let state = BodyState::from_angles(&p.spheroid, &p.angles, &p.rates);
-        let (s, n, l) = (&p.s_inertial, &state.axis, &state.momentum);
-        let (moment, c) = (p.spheroid.inertia_xx, p.spheroid.constant_c);
-        let trace = s.trace();
-        let (s_n, along) = (s * n, l.dot(n));
-        let other = l.dot(&(s * l)) - l.dot(l) * trace - c * moment * s_n.dot(&s_n) * 2.0;
-        let spin_part = along * along / p.spheroid.inertia_zz - along * along / moment;
-        let h = energy(&p.spheroid, s, n, l) - spin_part / 2.0;
-        let constant = c * moment * (trace * trace - (s * s).trace());
-        vec![clebsch_integral(&p.spheroid, s, n, l) - (other + moment * trace * h * 2.0 - constant)]
-    }
+fn other_clebsch_form<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let state = BodyState::from_angles(&p.spheroid, &p.angles, &p.rates);
+    let (s, n, l) = (&p.s_inertial, &state.axis, &state.momentum);
+    let (moment, c) = (p.spheroid.inertia_xx, p.spheroid.constant_c);
+    let trace = s.trace();
+    let (s_n, along) = (s * n, l.dot(n));
+    let other = l.dot(&(s * l)) - l.dot(l) * trace - c * moment * s_n.dot(&s_n) * 2.0;
+    let spin_part = along * along / p.spheroid.inertia_zz - along * along / moment;
+    let h = energy(&p.spheroid, s, n, l) - spin_part / 2.0;
+    let constant = c * moment * (trace * trace - (s * s).trace());
+    vec![clebsch_integral(&p.spheroid, s, n, l) - (other + moment * trace * h * 2.0 - constant)]
 }
 
-struct Adjugate;
-
-impl Identity for Adjugate {
-    const ID: &'static str = "symmetric-adjugate";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "symmetric-adjugate-rounding");
-    const EQUATIONS: &'static [u8] = &[24];
-    const STATEMENT: &'static str = "adj(s) s = det(s) 1, of the adjugate in the third integral";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let s = &p.s_inertial;
-        let determinant = s.column(0).dot(&s.column(1).cross(&s.column(2)));
-        let product = symmetric_adjugate(s) * s;
-        (product - Matrix3::from_diagonal_element(determinant)).iter().copied().collect()
-    }
+fn adjugate_times_s<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let s = &p.s_inertial;
+    let determinant = s.column(0).dot(&s.column(1).cross(&s.column(2)));
+    let product = symmetric_adjugate(s) * s;
+    (product - Matrix3::from_diagonal_element(determinant)).iter().copied().collect()
 }

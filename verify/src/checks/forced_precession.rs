@@ -11,12 +11,18 @@ use crate::checks::perturbation_equations::{KINDS, constants, unperturbed_motion
 use crate::derivation::Differentiable;
 use crate::derivation::first_order::{first_order_equations, first_order_motion};
 use crate::derivation::spheroid_motion::fixed_spheroid;
-use crate::identity::{self, Identity};
+use crate::identity::identities;
 use crate::random::{Point, Random};
+
+identities! {
+    /// for s^XX = s^YY and A = 0 the printed rates are constant at constant inclination, and solve Eq. (25), so Eq. (26), to first order in s
+    steady_precession: Autodiff "steady-precession-first-order" [25, 26, 28, 30, 31, 32];
+}
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    identity::checks::<SteadyPrecession>().into_iter().chain([
+    let mut checks = identities();
+    checks.extend([
         Check {
             id: "forced-precession-limit",
             kind: Kind::Autodiff,
@@ -37,39 +43,24 @@ pub fn checks() -> Vec<Check> {
             reason: "three or four products and as many sums on each side, half an ulp each",
             measure: shifted_rates_of_spin,
         },
-    ]).collect()
+    ]);
+    checks
 }
 
-struct SteadyPrecession;
-
-impl Identity for SteadyPrecession {
-    const ID: &'static str = "steady-precession-first-order";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "steady-precession-first-order-autodiff");
-    const EQUATIONS: &'static [u8] = &[25, 26, 28, 30, 31, 32];
-    const STATEMENT: &'static str = "for s^XX = s^YY and A = 0 the printed rates are constant at constant inclination, and solve Eq. (25), so Eq. (26), to \
-         first order in s";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let symmetric = PrincipalCoefficients { yy: p.s.xx, ..p.s };
-        KINDS
-            .into_iter()
-            .flat_map(|kind| {
-                let constants = Constants { amplitude: F::zero(), ..constants(p) };
-                let printed = Perturbation::new_unchecked(
-                    Form::Printed,
-                    kind,
-                    &p.spheroid,
-                    &symmetric,
-                    p.rates.gamma,
-                    &constants,
-                );
-                let first = first_order_motion(&printed, printed.homogeneous_frequency);
-                let unperturbed = unperturbed_motion(kind, p);
-                let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &symmetric, &unperturbed, &first);
-                [of_alpha, of_beta, first.beta, first.beta_rate, first.alpha_acceleration, first.beta_acceleration]
-            })
-            .collect()
-    }
+fn steady_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let symmetric = PrincipalCoefficients { yy: p.s.xx, ..p.s };
+    KINDS
+        .into_iter()
+        .flat_map(|kind| {
+            let constants = Constants { amplitude: F::zero(), ..constants(p) };
+            let printed =
+                Perturbation::new_unchecked(Form::Printed, kind, &p.spheroid, &symmetric, p.rates.gamma, &constants);
+            let first = first_order_motion(&printed, printed.homogeneous_frequency);
+            let unperturbed = unperturbed_motion(kind, p);
+            let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &symmetric, &unperturbed, &first);
+            [of_alpha, of_beta, first.beta, first.beta_rate, first.alpha_acceleration, first.beta_acceleration]
+        })
+        .collect()
 }
 
 /// Bodies, coefficients symmetric about Z and spins large enough for both roots of Eq. (26) to be real:

@@ -1,5 +1,6 @@
 //! Every check of the project, by subject.
 
+mod averaged;
 mod axis_motion;
 mod bound;
 mod elliptic;
@@ -9,9 +10,8 @@ mod eta;
 mod first_integrals;
 mod fisher;
 mod forced_precession;
+mod frequencies;
 mod inference;
-mod mean;
-mod mean_frequencies;
 mod observer;
 mod orientation;
 mod perturbation_equations;
@@ -76,8 +76,8 @@ pub fn all() -> Vec<Check> {
         fisher::checks,
         inference::checks,
         waves::checks,
-        mean::checks,
-        mean_frequencies::checks,
+        averaged::checks,
+        frequencies::checks,
         spectrum::checks,
         stability::checks,
     ];

@@ -4,23 +4,30 @@ use twofold::Scalar;
 use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
-use crate::check::{Check, Kind};
+use crate::check::Check;
 use crate::derivation::Differentiable;
 use crate::derivation::first_order::{UnperturbedMotion, first_order_equations, first_order_motion};
 use crate::derivation::spheroid_motion::{fixed_coefficients, fixed_spheroid};
-use crate::identity::{self, Identity};
+use crate::identity::identities;
 use crate::random::Point;
+
+identities! {
+    /// the full first-order equations are the terms of first order of Eq. (25), about free precession and about a stationary spin
+    linearisation: Autodiff "full-first-order-equations" [25, 27, 28, 29];
+    /// Eq. (29) as printed lacks in the second equation, and there alone, a^2 sin^2(b0) beta1 for the upper signs and (C / I^xx) (2 s^ZZ - s^XX -
+    /// s^YY) sin^2(b0) beta1 for the lower ones
+    term_that_is_missing: Autodiff "missing-first-order-term" [25, 27, 28, 29];
+    /// the printed rates solve the printed Eq. (29), both signs, any A and phi
+    printed_solution: Autodiff "printed-perturbation-solution" [28, 29, 30, 31, 32];
+    /// the corrected solutions solve the full first-order equations, both kinds, any A and phi
+    corrected_solution: Autodiff "corrected-perturbation-solution" [25, 27, 28, 30, 31, 32, 33];
+    /// the rates are the time derivatives of the angles, both kinds, printed and corrected, any A and phi
+    rates_of_angles: Autodiff "perturbed-angles" [27, 30, 32, 33];
+}
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    [
-        identity::checks::<Linearisation>(),
-        identity::checks::<TermThatIsMissing>(),
-        identity::checks::<PrintedSolution>(),
-        identity::checks::<CorrectedSolution>(),
-        identity::checks::<TimeIntegral>(),
-    ]
-    .concat()
+    identities()
 }
 
 pub(super) const KINDS: [Precession; 2] = [Precession::Twofold, Precession::Single];
@@ -64,143 +71,92 @@ fn any_first_order<F: Scalar>(p: &Point<F>) -> FirstOrderMotion<F> {
     }
 }
 
-struct Linearisation;
-
-impl Identity for Linearisation {
-    const ID: &'static str = "full-first-order-equations";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "full-first-order-equations-autodiff");
-    const EQUATIONS: &'static [u8] = &[25, 27, 28, 29];
-    const STATEMENT: &'static str = "the full first-order equations are the terms of first order of Eq. (25), about free precession and about a stationary spin";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let first = any_first_order(p);
-        KINDS
-            .into_iter()
-            .flat_map(|kind| {
-                let [of_alpha, of_beta] =
-                    first_order_equations(&p.spheroid, &p.s, &unperturbed_motion(kind, p), &first);
-                let (full_alpha, full_beta) = full_residuals(&p.spheroid, &p.s, &zeroth_order(kind, p), &first);
-                [of_alpha - full_alpha, of_beta - full_beta]
-            })
-            .collect()
-    }
+fn linearisation<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let first = any_first_order(p);
+    KINDS
+        .into_iter()
+        .flat_map(|kind| {
+            let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &p.s, &unperturbed_motion(kind, p), &first);
+            let (full_alpha, full_beta) = full_residuals(&p.spheroid, &p.s, &zeroth_order(kind, p), &first);
+            [of_alpha - full_alpha, of_beta - full_beta]
+        })
+        .collect()
 }
 
-struct TermThatIsMissing;
-
-impl Identity for TermThatIsMissing {
-    const ID: &'static str = "missing-first-order-term";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "missing-first-order-term-autodiff");
-    const EQUATIONS: &'static [u8] = &[25, 27, 28, 29];
-    const STATEMENT: &'static str = "Eq. (29) as printed lacks in the second equation, and there alone, a^2 sin^2(b0) beta1 for the upper signs and \
-         (C / I^xx) (2 s^ZZ - s^XX - s^YY) sin^2(b0) beta1 for the lower ones";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let first = any_first_order(p);
-        let (sin_beta, _) = p.angles.beta.sin_cos();
-        KINDS
-            .into_iter()
-            .flat_map(|kind| {
-                let unperturbed = unperturbed_motion(kind, p);
-                let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &p.s, &unperturbed, &first);
-                let (printed_alpha, printed_beta) =
-                    printed_residuals(&p.spheroid, &p.s, &zeroth_order(kind, p), &first);
-                let stiffness = match kind {
-                    Precession::Twofold => unperturbed.rate * unperturbed.rate,
-                    Precession::Single => p.spheroid.constant_c * p.s.combination() / p.spheroid.inertia_xx,
-                };
-                let dropped = stiffness * sin_beta * sin_beta * first.beta;
-                [of_alpha - printed_alpha, of_beta - printed_beta - dropped]
-            })
-            .collect()
-    }
+fn term_that_is_missing<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let first = any_first_order(p);
+    let (sin_beta, _) = p.angles.beta.sin_cos();
+    KINDS
+        .into_iter()
+        .flat_map(|kind| {
+            let unperturbed = unperturbed_motion(kind, p);
+            let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &p.s, &unperturbed, &first);
+            let (printed_alpha, printed_beta) = printed_residuals(&p.spheroid, &p.s, &zeroth_order(kind, p), &first);
+            let stiffness = match kind {
+                Precession::Twofold => unperturbed.rate * unperturbed.rate,
+                Precession::Single => p.spheroid.constant_c * p.s.combination() / p.spheroid.inertia_xx,
+            };
+            let dropped = stiffness * sin_beta * sin_beta * first.beta;
+            [of_alpha - printed_alpha, of_beta - printed_beta - dropped]
+        })
+        .collect()
 }
 
-struct PrintedSolution;
-
-impl Identity for PrintedSolution {
-    const ID: &'static str = "printed-perturbation-solution";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "printed-perturbation-solution-autodiff");
-    const EQUATIONS: &'static [u8] = &[28, 29, 30, 31, 32];
-    const STATEMENT: &'static str = "the printed rates solve the printed Eq. (29), both signs, any A and phi";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        KINDS
-            .into_iter()
-            .flat_map(|kind| {
-                let spin = p.rates.gamma;
-                let printed = Perturbation::new_unchecked(Form::Printed, kind, &p.spheroid, &p.s, spin, &constants(p));
-                let first = first_order_motion(&printed, printed.homogeneous_frequency);
-                let (of_alpha, of_beta) = printed_residuals(&p.spheroid, &p.s, &zeroth_order(kind, p), &first);
-                // Eq. (28) at zeroth order; about a stationary spin Eq. (32).
-                let rate = match kind {
-                    Precession::Twofold => printed.zeroth_rate,
-                    Precession::Single => printed.rate,
-                };
-                [of_alpha, of_beta, rate - unperturbed_motion(kind, p).rate]
-            })
-            .collect()
-    }
+fn printed_solution<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    KINDS
+        .into_iter()
+        .flat_map(|kind| {
+            let spin = p.rates.gamma;
+            let printed = Perturbation::new_unchecked(Form::Printed, kind, &p.spheroid, &p.s, spin, &constants(p));
+            let first = first_order_motion(&printed, printed.homogeneous_frequency);
+            let (of_alpha, of_beta) = printed_residuals(&p.spheroid, &p.s, &zeroth_order(kind, p), &first);
+            // Eq. (28) at zeroth order; about a stationary spin Eq. (32).
+            let rate = match kind {
+                Precession::Twofold => printed.zeroth_rate,
+                Precession::Single => printed.rate,
+            };
+            [of_alpha, of_beta, rate - unperturbed_motion(kind, p).rate]
+        })
+        .collect()
 }
 
-struct CorrectedSolution;
-
-impl Identity for CorrectedSolution {
-    const ID: &'static str = "corrected-perturbation-solution";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "corrected-perturbation-solution-autodiff");
-    const EQUATIONS: &'static [u8] = &[25, 27, 28, 30, 31, 32, 33];
-    const STATEMENT: &'static str =
-        "the corrected solutions solve the full first-order equations, both kinds, any A and phi";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        KINDS
-            .into_iter()
-            .flat_map(|kind| {
-                let spin = p.rates.gamma;
-                let solution =
-                    Perturbation::new_unchecked(Form::Corrected, kind, &p.spheroid, &p.s, spin, &constants(p));
-                // To first order the homogeneous frequency of the twofold solution is the zeroth-order rate.
-                let nu = match kind {
-                    Precession::Twofold => solution.zeroth_rate,
-                    Precession::Single => solution.homogeneous_frequency,
-                };
-                let first = first_order_motion(&solution, nu);
-                first_order_equations(&p.spheroid, &p.s, &unperturbed_motion(kind, p), &first)
-            })
-            .collect()
-    }
+fn corrected_solution<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    KINDS
+        .into_iter()
+        .flat_map(|kind| {
+            let spin = p.rates.gamma;
+            let solution = Perturbation::new_unchecked(Form::Corrected, kind, &p.spheroid, &p.s, spin, &constants(p));
+            // To first order the homogeneous frequency of the twofold solution is the zeroth-order rate.
+            let nu = match kind {
+                Precession::Twofold => solution.zeroth_rate,
+                Precession::Single => solution.homogeneous_frequency,
+            };
+            let first = first_order_motion(&solution, nu);
+            first_order_equations(&p.spheroid, &p.s, &unperturbed_motion(kind, p), &first)
+        })
+        .collect()
 }
 
-struct TimeIntegral;
-
-impl Identity for TimeIntegral {
-    const ID: &'static str = "perturbed-angles";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "perturbed-angles-autodiff");
-    const EQUATIONS: &'static [u8] = &[27, 30, 32, 33];
-    const STATEMENT: &'static str =
-        "the rates are the time derivatives of the angles, both kinds, printed and corrected, any A and phi";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (spheroid, s, spin) = (fixed_spheroid(&p.spheroid), fixed_coefficients(&p.s), F::fixed(p.rates.gamma));
-        let at_rest = constants(p);
-        let constants = Constants {
-            alpha_0: F::fixed(at_rest.alpha_0),
-            beta_0: F::fixed(at_rest.beta_0),
-            amplitude: F::fixed(at_rest.amplitude),
-            phase: F::fixed(at_rest.phase),
-        };
-        FORMS
-            .into_iter()
-            .flat_map(|form| KINDS.map(|kind| (form, kind)))
-            .flat_map(|(form, kind)| {
-                let solution = Perturbation::new_unchecked(form, kind, &spheroid, &s, spin, &constants);
-                // Time as an infinitesimal about zero: phases, which are sums of angles, keep their real parts.
-                let moving = solution.at(F::first(F::zero(), F::one()));
-                [
-                    F::derivative(moving.alpha) - F::value(moving.alpha_rate),
-                    F::derivative(moving.beta) - F::value(moving.beta_rate),
-                ]
-            })
-            .collect()
-    }
+fn rates_of_angles<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (spheroid, s, spin) = (fixed_spheroid(&p.spheroid), fixed_coefficients(&p.s), F::fixed(p.rates.gamma));
+    let at_rest = constants(p);
+    let constants = Constants {
+        alpha_0: F::fixed(at_rest.alpha_0),
+        beta_0: F::fixed(at_rest.beta_0),
+        amplitude: F::fixed(at_rest.amplitude),
+        phase: F::fixed(at_rest.phase),
+    };
+    FORMS
+        .into_iter()
+        .flat_map(|form| KINDS.map(|kind| (form, kind)))
+        .flat_map(|(form, kind)| {
+            let solution = Perturbation::new_unchecked(form, kind, &spheroid, &s, spin, &constants);
+            // Time as an infinitesimal about zero: phases, which are sums of angles, keep their real parts.
+            let moving = solution.at(F::first(F::zero(), F::one()));
+            [
+                F::derivative(moving.alpha) - F::value(moving.alpha_rate),
+                F::derivative(moving.beta) - F::value(moving.beta_rate),
+            ]
+        })
+        .collect()
 }

@@ -5,7 +5,7 @@ use twofold::plan::{Method, Output, Plan, Promise, Request, gradient};
 use twofold::propagation::Motion;
 
 use super::plans::Components;
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::error_scenes::ErrorScene;
 
 /// Checks of this subject.
@@ -15,10 +15,10 @@ pub fn checks() -> Vec<Check> {
             id: "plan-error-bounds",
             kind: Kind::Oracle,
             equations: &[25],
-            statement: "what a plan foresees as a bound or an estimate is not below the true error, with its rounding: free, steady, symmetric, mean, 100 random scenes each up to 60 rad",
+            statement: "a bound or an estimate that a plan foresees, with its rounding, is not below the true error: free, steady, symmetric and averaged motion, 100 random scenes each up to 60 rad",
             figure: "largest true error / (foreseen of the method + of rounding)",
             bound: Bound::AtMost(1.0),
-            reason: "what a bound is, and what an estimate that was never exceeded is to be",
+            reason: "a bound or an estimate below the true error is wrong",
             measure: bounds,
         },
         Check {
@@ -48,7 +48,7 @@ pub fn checks() -> Vec<Check> {
             statement: "the rounding that a plan foresees for a numerical motion is what the motion's error estimate counts: accuracy 1e-16, off the middle axis, 200 random scenes by Taylor series and by splitting, from 5 rad to 2000 t_c",
             figure: "share of estimates more than ten times above or below what was foreseen",
             bound: Bound::AtMost(0.05),
-            reason: "steps are taken to be alike, the torque as large as it can be, constants rounded by half a unit in the last place; the estimate of splitting over a radian or less is far above what is foreseen and above the true error",
+            reason: "the forecast takes equal steps, the largest torque and constants rounded by half a unit in the last place; over a radian or less the estimate of splitting is far above the forecast and above the true error",
             measure: rounding,
         },
     ]
@@ -75,7 +75,7 @@ fn plan(scene: &ErrorScene, method: Method, derivatives: &[Parameter]) -> Result
         derivatives: derivatives.to_vec(),
         ..Request::new(&[Output::EquatorialAxis], scene.span, 3, scene.accuracy)
     };
-    Plan::from_parts(&scene.spheroid, &scene.violation, &scene.initial, &request)
+    scene.problem.plan(&request)
 }
 
 /// Error foreseen, true error, and what the plan promises; none of a scene that the method refuses.
@@ -87,16 +87,14 @@ fn foreseen_and_true(
     let Ok(plan) = plan(scene, method, derivatives) else { return Ok(None) };
     let prediction = plan.prediction.ok_or("a plan without a prediction")?;
     let state = if derivatives.is_empty() {
-        let motion = plan.motion_from_parts(&scene.spheroid, &scene.violation, &scene.initial)?;
-        motion.state(scene.time)?
+        plan.motion(&scene.problem)?.state(scene.time)?
     } else {
-        let (Ok(angles), Ok(rates)) = (scene.initial.angles(), scene.initial.rates(&scene.spheroid)) else {
-            return Ok(None);
-        };
-        let start = Parameters::new(scene.spheroid, scene.violation, angles, rates);
+        let (spheroid, initial) = (*scene.problem.spheroid(), scene.problem.initial());
+        let (Ok(angles), Ok(rates)) = (initial.angles(), initial.rates(&spheroid)) else { return Ok(None) };
+        let start = Parameters::new(spheroid, *scene.problem.coefficients(), angles, rates);
         Components::state(&gradient(&plan, &start, &Components, &[scene.time])?.values)
     };
-    let error = largest(scene.true_errors(&state));
+    let error = scene.true_error(&state);
     Ok(Some((prediction.truncation + prediction.rounding, error, prediction.promise)))
 }
 
@@ -171,7 +169,7 @@ fn rounding() -> Result<Measured, String> {
             let fault = |error: twofold::Error| format!("{}, scene {number} of seed {SEED}: {error}", method.name());
             let plan = plan(&scene, method, &[]).map_err(fault)?;
             let prediction = plan.prediction.ok_or("a plan without a prediction")?;
-            let motion = plan.motion_from_parts(&scene.spheroid, &scene.violation, &scene.initial).map_err(fault)?;
+            let motion = plan.motion(&scene.problem).map_err(fault)?;
             let ratio = motion.error_estimate(scene.time) / prediction.rounding;
             let off = ratio.max(1.0 / ratio);
             all += 1;

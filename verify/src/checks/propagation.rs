@@ -1,16 +1,16 @@
 //! The numerical motion: against the 34-digit reference motions, its invariants, its dense output and its derivatives.
 
-use nalgebra::{Matrix3, Vector3};
 use num_dual::{Dual2_64, Dual64};
 use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations};
 use twofold::dynamics::first_integrals::{first_integrals, symmetric_adjugate};
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
+use twofold::euler_angles::{body_from_inertial, permuted_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{Motion, propagate};
+use twofold::propagation::{Motion, TaylorMotion};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
-use crate::physical_domain::{RandomScene, scenes, worst_over};
-use crate::reference::{reference_motion, reference_motions};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component, largest_difference};
+use crate::physical_domain::{scenes, worst_over};
+use crate::reference::{ReferenceMotion, reference_motion, reference_motions};
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {
@@ -23,7 +23,7 @@ pub fn checks() -> Vec<Check> {
             figure: "largest error of a component",
             bound: Bound::AtMost(1e-12),
             reason: "rounding of the initial values (1e-16) and of up to 1,200 steps, grown with a phase of 600 rad",
-            measure: against_reference,
+            measure: against_reference::<BodyState<f64>>,
         },
         Check {
             id: "propagation-error-estimate",
@@ -33,7 +33,7 @@ pub fn checks() -> Vec<Check> {
             figure: "largest true error / estimate",
             bound: Bound::AtMost(1.0),
             reason: "an estimate below the true error is wrong",
-            measure: estimate_against_reference,
+            measure: estimate_against_reference::<BodyState<f64>>,
         },
         Check {
             id: "propagation-integrals",
@@ -108,41 +108,43 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-fn largest_difference(a: &BodyState<f64>, b: &BodyState<f64>) -> f64 {
-    largest([
-        largest_component(&(a.axis - b.axis)),
-        largest_component(&(a.momentum - b.momentum)) / b.momentum.norm().max(1.0),
-        largest_component(&(a.equatorial_axis - b.equatorial_axis)),
-    ])
+/// Largest difference of two states, of `L` in units of its size where that is above one.
+fn difference<X: RotationState<f64>>(a: &X, b: &X) -> f64 {
+    largest_difference(a, b, b.axis_state().momentum.norm().max(1.0))
 }
 
-fn against_reference() -> Result<Measured, String> {
+/// The numerical motion of `n`, `L` and, as the type of state says, `e_x` of a reference motion, up to its last listed time.
+fn motion_of<X: RotationState<f64>>(
+    reference: &ReferenceMotion,
+    accuracy: f64,
+) -> Result<TaylorMotion<f64, X>, twofold::Error> {
+    let problem = reference.problem();
+    let start = X::from_vectors(problem.initial().vectors());
+    let end = reference.states.last().map_or(0.0, |(t, _)| *t);
+    Problem::new(reference.spheroid, *problem.coefficients(), start)?.taylor((0.0, end), accuracy)
+}
+
+pub(super) fn against_reference<X: RotationState<f64>>() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for reference in reference_motions() {
-        let end = reference.states.last().map_or(0.0, |(t, _)| *t);
-        let motion = propagate(&reference.spheroid, &reference.violation(), &reference.initial(), (0.0, end), 1e-14)?;
+        let motion = motion_of::<X>(&reference, 1e-14)?;
         for (t, state) in &reference.states {
-            let ours = motion.state(*t)?;
-            let differences =
-                [ours.axis - state.axis, ours.momentum - state.momentum, ours.equatorial_axis - state.equatorial_axis];
-            worst.see(largest(differences.iter().map(largest_component)), || format!("{} at t = {t}", reference.name));
+            let off = largest_difference(&motion.state(*t)?, &X::from_vectors(state.vectors()), 1.0);
+            worst.see(off, || format!("{} at t = {t}", reference.name));
         }
     }
     worst.finish()
 }
 
-fn estimate_against_reference() -> Result<Measured, String> {
+pub(super) fn estimate_against_reference<X: RotationState<f64>>() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for reference in reference_motions() {
-        let end = reference.states.last().map_or(0.0, |(t, _)| *t);
         for exponent in 3..=14 {
-            let accuracy = 10f64.powi(-exponent);
-            let motion =
-                propagate(&reference.spheroid, &reference.violation(), &reference.initial(), (0.0, end), accuracy)?;
+            let motion = motion_of::<X>(&reference, 10f64.powi(-exponent))?;
             for (t, state) in &reference.states {
-                let error = largest_difference(&motion.state(*t)?, state);
+                let error = difference(&motion.state(*t)?, &X::from_vectors(state.vectors()));
                 worst.see(error / motion.error_estimate(*t), || {
-                    format!("{} at t = {t}, accuracy {accuracy:e}, error {error:e}", reference.name)
+                    format!("{} at t = {t}, accuracy 1e-{exponent}, error {error:e}", reference.name)
                 });
             }
         }
@@ -151,11 +153,8 @@ fn estimate_against_reference() -> Result<Measured, String> {
 }
 
 /// `[E, Omega^z, K]` and the sums of the magnitudes of their terms.
-fn integrals_and_scales(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    state: &BodyState<f64>,
-) -> ([f64; 3], [f64; 3]) {
+fn integrals_and_scales(problem: &Problem<f64>, state: &BodyState<f64>) -> ([f64; 3], [f64; 3]) {
+    let (spheroid, s) = (problem.spheroid(), problem.coefficients());
     let integrals = first_integrals(spheroid, s, state);
     let (n, l) = (state.axis.abs(), state.momentum.abs());
     let (s_size, adjugate_size) = (s.abs(), symmetric_adjugate(s).abs());
@@ -170,13 +169,12 @@ fn integrals_and_scales(
 fn integrals_of_examples() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for name in ["tp-1", "tp-2", "sp-1", "sp-2"] {
-        let scene = reference_motion(name);
-        let s = scene.violation();
-        let motion = propagate(&scene.spheroid, &s, &scene.initial(), (0.0, 400.0), 1e-14)?;
-        let (start, scale) = integrals_and_scales(&scene.spheroid, &s, &scene.initial());
+        let problem = reference_motion(name).problem();
+        let motion = problem.taylor((0.0, 400.0), 1e-14)?;
+        let (start, scale) = integrals_and_scales(&problem, problem.initial());
         for i in 0..=800 {
             let t = f64::from(i) / 2.0;
-            let (now, _) = integrals_and_scales(&scene.spheroid, &s, &motion.state(t)?);
+            let (now, _) = integrals_and_scales(&problem, &motion.state(t)?);
             for (k, label) in ["E", "Omega^z", "K"].iter().enumerate() {
                 worst.see((now[k] - start[k]).abs() / scale[k], || format!("{label} of {name} at t = {t}"));
             }
@@ -187,11 +185,11 @@ fn integrals_of_examples() -> Result<Measured, String> {
 
 fn integrals_of_random_motions() -> Result<Measured, String> {
     worst_over(1, 200, &scenes(), |scene| {
-        let (spheroid, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
-        let motion = propagate(&spheroid, &s, &initial, (0.0, 50.0), 1e-14)?;
+        let problem = scene.problem();
+        let motion = problem.taylor((0.0, 50.0), 1e-14)?;
         let end = motion.state(50.0)?;
         let ((before, scale), (after, _)) =
-            (integrals_and_scales(&spheroid, &s, &initial), integrals_and_scales(&spheroid, &s, &end));
+            (integrals_and_scales(&problem, problem.initial()), integrals_and_scales(&problem, &end));
         let drift = largest((0..3).map(|k| (after[k] - before[k]).abs() / scale[k]));
         let frame = [end.axis.norm() - 1.0, end.equatorial_axis.norm() - 1.0, end.axis.dot(&end.equatorial_axis)];
         Ok(largest([drift, largest(frame.map(f64::abs))]) / (f64::EPSILON * (motion.step_count() as f64 + 1.0).sqrt()))
@@ -200,18 +198,8 @@ fn integrals_of_random_motions() -> Result<Measured, String> {
 
 fn dense_output_solves_equations() -> Result<Measured, String> {
     worst_over(2, 100, &scenes(), |scene| {
-        let lift = |x: f64| Dual2_64::from_re(x);
-        let spheroid = RigidSpheroid::in_units_of_tc(lift(scene.inertia_ratio));
-        let s = PrincipalCoefficients::new(scene.s.map(lift)).tensor();
-        let initial = scene.state();
-        let lift_vector = |v: &Vector3<f64>| v.map(lift);
-        let initial = BodyState {
-            axis: lift_vector(&initial.axis),
-            momentum: lift_vector(&initial.momentum),
-            equatorial_axis: lift_vector(&initial.equatorial_axis),
-        };
         // The truncation must be far below rounding: two derivatives multiply it by (order / step)^2.
-        let motion = propagate(&spheroid, &s, &initial, (0.0, 10.0), 1e-16)?;
+        let motion = scene.problem().map(Dual2_64::from_re).taylor((0.0, 10.0), 1e-16)?;
         let mut most = 0.0_f64;
         for i in 1..20 {
             let state = motion.state(Dual2_64::new(0.5 * f64::from(i), 1.0, 0.0))?;
@@ -238,31 +226,20 @@ fn dense_output_solves_equations() -> Result<Measured, String> {
 
 fn derivatives_by_duals() -> Result<Measured, String> {
     let scene = reference_motion("tp-2");
-    let at = |s_yy: f64| -> Result<BodyState<f64>, String> {
+    let at = |s_yy: f64| -> Result<BodyState<f64>, twofold::Error> {
         let s = PrincipalCoefficients { yy: s_yy, ..scene.coefficients }.tensor();
-        propagate(&scene.spheroid, &s, &scene.initial(), (0.0, 50.0), 1e-15)
-            .and_then(|m| m.state(50.0))
-            .map_err(String::from)
+        Problem::new(scene.spheroid, s, scene.initial())?.taylor((0.0, 50.0), 1e-15)?.state(50.0)
     };
-    let lift = |x: f64| Dual64::from_re(x);
-    let mut s = scene.violation().map(lift);
+    let lifted: Problem<Dual64> = scene.problem().map(Dual64::from_re);
+    let mut s = *lifted.coefficients();
     s[(1, 1)].eps = 1.0;
-    let spheroid = RigidSpheroid::in_units_of_tc(lift(scene.spheroid.inertia_zz));
-    let initial = scene.initial();
-    let initial = BodyState {
-        axis: initial.axis.map(lift),
-        momentum: initial.momentum.map(lift),
-        equatorial_axis: initial.equatorial_axis.map(lift),
-    };
-    let dual = propagate(&spheroid, &s, &initial, (0.0, 50.0), 1e-15).and_then(|m| m.state(lift(50.0)))?;
+    let problem = Problem::new(*lifted.spheroid(), s, *lifted.initial())?;
+    let dual = problem.taylor((0.0, 50.0), 1e-15)?.state(Dual64::from_re(50.0))?;
     let step = 1e-5;
     let (above, below) = (at(scene.coefficients.yy + step)?, at(scene.coefficients.yy - step)?);
     let mut worst = Worst::default();
-    let pairs = [
-        (dual.axis, above.axis - below.axis),
-        (dual.momentum, above.momentum - below.momentum),
-        (dual.equatorial_axis, above.equatorial_axis - below.equatorial_axis),
-    ];
+    let differences = above.vectors().into_iter().zip(below.vectors()).map(|(above, below)| above - below);
+    let pairs: Vec<_> = dual.vectors().into_iter().zip(differences).collect();
     let size = largest(pairs.iter().map(|(d, _)| largest_component(&d.map(|x| x.eps))));
     for (index, (dual, difference)) in pairs.iter().enumerate() {
         let error = largest_component(&(dual.map(|x| x.eps) - difference / (2.0 * step)));
@@ -271,25 +248,22 @@ fn derivatives_by_duals() -> Result<Measured, String> {
     worst.finish()
 }
 
-fn end_of(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &BodyState<f64>,
-    span: (f64, f64),
-) -> Result<(BodyState<f64>, f64), String> {
-    let motion = propagate(spheroid, s, initial, span, 1e-13)?;
+/// The state at the end of a span, and its estimated error.
+fn end_of(problem: &Problem<f64>, span: (f64, f64)) -> Result<(BodyState<f64>, f64), twofold::Error> {
+    let motion = problem.taylor(span, 1e-13)?;
     Ok((motion.state(span.1)?, motion.error_estimate(span.1)))
 }
 
 fn time_reversal() -> Result<Measured, String> {
     worst_over(3, 200, &scenes(), |scene| {
-        let (spheroid, s, initial) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
-        let (end, there) = end_of(&spheroid, &s, &initial, (0.0, 30.0))?;
-        let (back, back_again) = end_of(&spheroid, &s, &end, (30.0, 0.0))?;
+        let problem = scene.problem();
+        let (end, there) = end_of(&problem, (0.0, 30.0))?;
+        let (back, back_again) = end_of(&problem.starting_from(end)?, (30.0, 0.0))?;
         // The way back turns e_x about n at the rate of its own start: by what rounding has made of L.n there.
+        let (spheroid, initial) = (problem.spheroid(), problem.initial());
         let spin = |state: &BodyState<f64>| state.momentum.dot(&state.axis) / spheroid.inertia_zz;
-        let turned = 30.0 * (spheroid.oblateness() * (spin(&end) - spin(&initial))).abs();
-        Ok(largest_difference(&back, &initial) / (there + back_again + turned))
+        let turned = 30.0 * (spheroid.oblateness() * (spin(&end) - spin(initial))).abs();
+        Ok(difference(&back, initial) / (there + back_again + turned))
     })
 }
 
@@ -297,26 +271,26 @@ fn scaling_in_time_unit() -> Result<Measured, String> {
     worst_over(4, 200, &scenes(), |scene| {
         let (inertia, c): (f64, f64) = (2.7e3, 0.019);
         let unit = (inertia / c).sqrt();
-        let plain = end_of(&scene.spheroid(), &scene.coefficients().tensor(), &scene.state(), (0.0, 20.0))?;
+        let problem = scene.problem();
+        let (plain, estimate) = end_of(&problem, (0.0, 20.0))?;
         let spheroid = RigidSpheroid { inertia_xx: inertia, inertia_zz: inertia * scene.inertia_ratio, constant_c: c };
-        let initial = BodyState { momentum: scene.state().momentum * (inertia / unit), ..scene.state() };
-        let (scaled, estimate) = end_of(&spheroid, &scene.coefficients().tensor(), &initial, (0.0, 20.0 * unit))?;
+        let initial = BodyState { momentum: problem.initial().momentum * (inertia / unit), ..*problem.initial() };
+        let scaled = Problem::new(spheroid, *problem.coefficients(), initial)?;
+        let (scaled, its_estimate) = end_of(&scaled, (0.0, 20.0 * unit))?;
         let scaled = BodyState { momentum: scaled.momentum / (inertia / unit), ..scaled };
-        Ok(largest_difference(&scaled, &plain.0) / (plain.1 + estimate))
+        Ok(difference(&scaled, &plain) / (estimate + its_estimate))
     })
 }
 
 fn frame_covariance() -> Result<Measured, String> {
-    let compare = |scene: &RandomScene, q: &Matrix3<f64>| -> Result<f64, String> {
-        let s = scene.coefficients().tensor();
-        let (plain, estimate) = end_of(&scene.spheroid(), &s, &scene.state(), (0.0, 20.0))?;
-        let rotated = end_of(&scene.spheroid(), &(q * s * q.transpose()), &scene.state().rotated(q), (0.0, 20.0))?;
-        Ok(largest_difference(&rotated.0, &plain.rotated(q)) / (estimate + rotated.1))
-    };
     worst_over(5, 200, &scenes(), |scene| {
-        let any = twofold::euler_angles::body_from_inertial(&scene.angles());
-        let permuted = twofold::euler_angles::permuted_from_inertial();
-        Ok(largest([compare(scene, &any)?, compare(scene, &permuted)?]))
+        let (plain, estimate) = end_of(&scene.problem(), (0.0, 20.0))?;
+        let mut most = 0.0;
+        for q in [body_from_inertial(&scene.angles()), permuted_from_inertial()] {
+            let (rotated, its_estimate) = end_of(&scene.problem().rotated(&q), (0.0, 20.0))?;
+            most = largest([most, difference(&rotated, &plain.rotated(&q)) / (estimate + its_estimate)]);
+        }
+        Ok(most)
     })
 }
 
@@ -331,7 +305,7 @@ mod tests {
     fn spin_of_angles_and_of_state_agree() {
         let scene = reference_motion("retrograde");
         let direct = spin_in_angles(&scene.angles, &scene.rates);
-        let (integrals, _) = integrals_and_scales(&scene.spheroid, &scene.violation(), &scene.initial());
+        let (integrals, _) = integrals_and_scales(&scene.problem(), &scene.initial());
         approx::assert_relative_eq!(direct, integrals[1], max_relative = 1e-15);
     }
 }

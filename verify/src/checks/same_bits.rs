@@ -1,7 +1,7 @@
 //! The same bits: backwards as forwards with the momentum reversed, and in every run, order and thread.
 
-use twofold::dynamics::BodyState;
-use twofold::plan::{Method, PlannedMotion};
+use twofold::dynamics::{BodyState, RotationState};
+use twofold::plan::Method;
 use twofold::propagation::Motion;
 
 use crate::check::{Bound, Check, Kind, Measured};
@@ -44,36 +44,32 @@ fn scene(method: Method, number: u64) -> Option<ErrorScene> {
 
 /// State and estimate, or what the method refuses.
 fn state_of(method: Method, scene: &ErrorScene) -> Result<(BodyState<f64>, f64), String> {
-    let motion =
-        PlannedMotion::by(method, &scene.spheroid, &scene.violation, &scene.initial, scene.span, scene.accuracy);
-    let motion = motion?;
+    let motion = scene.problem.motion_by(method, scene.span, scene.accuracy)?;
     Ok((motion.state(scene.time)?, motion.error_estimate(scene.time)))
 }
 
 fn reversal() -> Result<Measured, String> {
-    let (mut different, mut seen, mut first) = (0, 0, String::new());
+    let (mut different, mut seen) = (Vec::new(), 0);
     for method in [Method::Free, Method::Splitting, Method::Taylor] {
         for number in 0..SCENES {
             let Some(forwards) = scene(method, number) else { continue };
-            let mut backwards = forwards;
-            backwards.initial.momentum = -forwards.initial.momentum;
-            (backwards.span.1, backwards.time) = (-forwards.span.1, -forwards.time);
-            let (Ok((one, _)), Ok((other, _))) = (state_of(method, &forwards), state_of(method, &backwards)) else {
-                return Err(format!("{} refuses scene {number} of seed {SEED}", method.name()));
+            let reversed = |state: &BodyState<f64>| BodyState { momentum: -state.momentum, ..*state };
+            let backwards = ErrorScene {
+                problem: forwards.problem.starting_from(reversed(forwards.problem.initial()))?,
+                span: (0.0, -forwards.span.1),
+                time: -forwards.time,
+                ..forwards
             };
-            let reversed = BodyState { momentum: -other.momentum, ..other };
+            let refused = |why| format!("{} refuses scene {number} of seed {SEED}: {why}", method.name());
+            let (one, _) = state_of(method, &forwards).map_err(refused)?;
+            let (other, _) = state_of(method, &backwards).map_err(refused)?;
             seen += 1;
-            if one != reversed {
-                different += 1;
-                first = if first.is_empty() {
-                    format!("{} in scene {number} of seed {SEED}", method.name())
-                } else {
-                    first
-                };
+            if one != reversed(&other) {
+                different.push((method.name(), number));
             }
         }
     }
-    Ok(Measured::new(f64::from(different), format!("of {seen}; {first}")))
+    Ok(Measured::new(different.len() as f64, format!("of {seen} of seed {SEED}; first {:?}", different.first())))
 }
 
 fn threads() -> Result<Measured, String> {
@@ -81,8 +77,7 @@ fn threads() -> Result<Measured, String> {
         Method::ALL.iter().flat_map(|m| (0..SCENES).map(move |number| (*m, number))).collect();
     let bits = |(method, number): &(Method, u64)| -> Option<Vec<u64>> {
         let (state, estimate) = state_of(*method, &scene(*method, *number)?).ok()?;
-        let BodyState { axis, momentum, equatorial_axis } = state;
-        Some(axis.iter().chain(&momentum).chain(&equatorial_axis).chain([&estimate]).map(|x| x.to_bits()).collect())
+        Some(state.vectors().iter().flatten().chain([&estimate]).map(|x| x.to_bits()).collect())
     };
     let once: Vec<_> = all.iter().map(bits).collect();
     let (even, odd): (Vec<_>, Vec<_>) = all.iter().rev().partition(|(_, number)| number % 2 == 0);

@@ -2,20 +2,21 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
+use nalgebra::{Matrix3, Matrix4, Vector4};
 use num_dual::Dual64;
 use proptest::prelude::*;
 use twofold::dynamics::equations_of_motion::body_state_rates;
 use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_residuals};
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use twofold::euler_angles::EulerAngles;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::perturbation::{Constants, Form, Precession, constants_from_initial_values, initial_values};
 use twofold::solutions::steady::steady_precession_rate;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component, largest_difference, worst_of};
 use crate::checks::perturbation_equations::{FORMS, KINDS};
+use crate::paper_examples::{PaperExample, paper_examples};
 use crate::physical_domain::{scenes, worst_over};
 use crate::printed::{caption_values, rounds_to};
 use crate::reference::reference_motion;
@@ -122,15 +123,9 @@ pub fn checks() -> Vec<Check> {
 
 fn free_reference() -> Result<Measured, String> {
     let scene = reference_motion("free");
-    let mut worst = Worst::default();
-    for (t, state) in &scene.states {
-        let ours = free_rotation(&scene.spheroid, &scene.initial(), *t);
-        let error = largest(
-            [ours.axis - state.axis, ours.equatorial_axis - state.equatorial_axis].map(|v| largest_component(&v)),
-        );
-        worst.see(error, || format!("t = {t}"));
-    }
-    worst.finish()
+    worst_of(&scene.states, |(t, state)| {
+        Ok(largest_difference(&free_rotation(&scene.spheroid, &scene.initial(), *t), state, f64::INFINITY))
+    })
 }
 
 fn free_equations() -> Result<Measured, String> {
@@ -138,25 +133,15 @@ fn free_equations() -> Result<Measured, String> {
         // A third of the cases at t = 0, at rest, and below the switch to the series.
         let t = if *pick == 0 { 0.0 } else { *t };
         let slow = [1.0, 1e-9, 0.0][(*pick as usize).min(2)];
-        let lift = |x: f64| Dual64::from_re(x);
-        let spheroid = RigidSpheroid::in_units_of_tc(lift(scene.inertia_ratio));
-        let start = scene.state();
-        let initial = BodyState {
-            axis: start.axis.map(lift),
-            momentum: (start.momentum * slow).map(lift),
-            equatorial_axis: start.equatorial_axis.map(lift),
-        };
-        let state = free_rotation(&spheroid, &initial, Dual64::new(t, 1.0));
-        let rates = body_state_rates(&spheroid, &Matrix3::zeros(), &state);
-        let error = |moved: &Vector3<Dual64>, rate: &Vector3<Dual64>| {
-            largest_component(&(moved.map(|x| x.eps) - rate.map(|x| x.re)))
-        };
-        let size = start.momentum.norm() * slow;
-        let most = largest([
-            error(&state.axis, &rates.axis),
-            error(&state.equatorial_axis, &rates.equatorial_axis),
-            error(&state.momentum, &rates.momentum),
-        ]);
+        let mut problem: Problem<Dual64> = scene.problem().map(Dual64::from_re);
+        let momentum = problem.initial().momentum * Dual64::from_re(slow);
+        problem = problem.starting_from(BodyState { momentum, ..*problem.initial() })?;
+        let state = free_rotation(problem.spheroid(), problem.initial(), Dual64::new(t, 1.0));
+        let rates = body_state_rates(problem.spheroid(), &Matrix3::zeros(), &state);
+        let size = scene.state().momentum.norm() * slow;
+        let moved = state.vectors().map(|v| v.map(|x| x.eps));
+        let rates = rates.vectors().map(|v| v.map(|x| x.re));
+        let most = largest(moved.iter().zip(&rates).map(|(moved, rate)| largest_component(&(moved - rate))));
         let unit = f64::EPSILON * (size * (1.0 + size * t) * (1.0 + 1.0 / scene.inertia_ratio) + f64::MIN_POSITIVE);
         Ok(most / unit)
     })
@@ -223,9 +208,9 @@ const S: [f64; 3] = [0.02, 0.01, -0.04];
 
 fn inverse_round_trip() -> Result<Measured, String> {
     let (spheroid, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new(S));
-    let round_trip = |form: Form, kind: Precession, constants: &Constants<f64>, spin: f64| -> Result<f64, String> {
-        let initial = initial_values(form, kind, &spheroid, &s, spin, constants)?;
-        let found = constants_from_initial_values(form, kind, &spheroid, &s, spin, &initial)?;
+    let round_trip = |form: Form, kind: Precession, constants: &Constants<f64>| -> Result<f64, String> {
+        let initial = initial_values(form, kind, &spheroid, &s, 1.0, constants)?;
+        let found = constants_from_initial_values(form, kind, &spheroid, &s, 1.0, &initial)?;
         let vector = |c: &Constants<f64>| {
             let (sin, cos) = c.phase.sin_cos();
             Vector4::new(c.alpha_0, c.beta_0, c.amplitude * cos, c.amplitude * sin)
@@ -233,16 +218,9 @@ fn inverse_round_trip() -> Result<Measured, String> {
         Ok(largest((vector(&found) - vector(constants)).iter().map(|x| x.abs())))
     };
     let mut worst = Worst::default();
-    let examples = [
-        ("tp-I", Precession::Twofold, 0.7, 0.0),
-        ("tp-II", Precession::Twofold, 0.7, 0.4),
-        ("sp-I", Precession::Single, 0.7, 0.01),
-        ("sp-II", Precession::Single, 1.4, 0.01),
-    ];
-    for (name, kind, beta_0, amplitude) in examples {
-        let constants = Constants { alpha_0: FRAC_PI_2, beta_0, amplitude, phase: FRAC_PI_2 };
+    for PaperExample { name, kind, constants } in paper_examples() {
         for form in FORMS {
-            worst.see(round_trip(form, kind, &constants, 1.0)?, || format!("{name}, {form:?}"));
+            worst.see(round_trip(form, kind, &constants)?, || format!("{name}, {form:?}"));
         }
     }
     worst.finish()

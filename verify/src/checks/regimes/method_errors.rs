@@ -1,15 +1,15 @@
 //! Errors of the approximate motions against the numerical one, by strength of the torque and by time.
 
 use nalgebra::Vector3;
-use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{Motion, propagate};
-use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
-use twofold::solutions::perturbation::{Form, Perturbation, Precession};
+use twofold::propagation::Motion;
+use twofold::solutions::averaged::AveragingOrder;
+use twofold::solutions::perturbation::{Form, Precession};
 
-use super::perturbation_error::Case;
-use crate::check::{Bound, Check, Kind as Checked, Measured, Worst, largest};
+use super::perturbation_error::{Case, axis_at};
+use crate::averaged_scenes::averaged_solution;
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 
 /// Accuracy of the numerical motion.
 const ACCURACY: f64 = 1e-13;
@@ -26,25 +26,29 @@ const SAMPLES: u32 = 10;
 pub(super) fn checks() -> Vec<Check> {
     vec![Check {
         id: "averaged-motion-regimes",
-        kind: Checked::Regime,
+        kind: Kind::Regime,
         equations: &[25, 57],
         statement: "n, L and e_x of the averaged motion are off by less than 3 x^2 + 1.5 x^2 t to first order and 3 x^2 + 5 x^3 t to second, t in t_c: L near Z and tilted, single precession, near the separatrix",
         figure: "largest error over that, x from 1e-5 to 1e-2, t to 3,000 t_c",
         bound: Bound::AtMost(1.0),
         reason: "the periodic part of second order, and rates of the order after the last, with coefficients of order one",
-        measure: mean_motions,
+        measure: averaged_motions,
     }]
 }
 
-fn mean_motions() -> Result<Measured, String> {
+fn averaged_motions() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for geometry in Geometry::ALL {
         for x in [1e-5, 1e-4, 1e-3, 1e-2] {
-            for Errors { time, mean_state, .. } in errors(geometry, x, &[1.0, 10.0, 100.0, 1000.0, 3000.0])? {
+            for Errors { time, averaged_state, .. } in errors(geometry, x, &[1.0, 10.0, 100.0, 1000.0, 3000.0])? {
                 let allowed = [3.0 * x * x + 1.5 * x * x * time, 3.0 * x * x + 5.0 * x.powi(3) * time];
                 for order in 0..2 {
-                    worst.see(mean_state[order] / allowed[order], || {
-                        format!("{geometry:?}, order {}, x = {x:e}, t = {time}: {:.2e}", order + 1, mean_state[order])
+                    worst.see(averaged_state[order] / allowed[order], || {
+                        format!(
+                            "{geometry:?}, order {}, x = {x:e}, t = {time}: {:.2e}",
+                            order + 1,
+                            averaged_state[order]
+                        )
                     });
                 }
             }
@@ -93,17 +97,16 @@ pub struct Errors {
     /// As `printed`.
     pub corrected: Option<f64>,
     /// By the averaged motion of first and second order: of the axis.
-    pub mean: [f64; 2],
+    pub averaged: [f64; 2],
     /// And the largest distance of `n`, `L / |L|` or `e_x`.
-    pub mean_state: [f64; 2],
+    pub averaged_state: [f64; 2],
 }
 
 /// Errors up to given times, for the examples' `s` scaled so that the strength of the torque, `C (s_max - s_min) I^xx / L.L`, is the given one.
 pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Errors>, String> {
-    let body = RigidSpheroid::in_units_of_tc(1.1);
     let start = |k: f64| match geometry.cases(k) {
-        Some([printed, _]) => Ok(initial(&body, &printed.solution()?)),
-        None => Ok::<_, String>(by_separatrix()),
+        Some([printed, _]) => printed.problem().map(|problem| *problem.initial()),
+        None => Ok(by_separatrix()),
     };
     // The initial L depends on s a little.
     let mut k = strength;
@@ -111,62 +114,46 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
         k = strength * start(k)?.momentum.norm_squared() / SPREAD;
     }
     let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]).scaled(k);
-    let start = start(k)?;
-    let last = *times.last().ok_or("no times")?;
-    let exact = propagate(&body, &s.tensor(), &start, (0.0, last), ACCURACY)?;
-    let means = [AveragingOrder::First, AveragingOrder::Second]
-        .map(|order| AveragedSolution::new(&body, &s, &start, order).map_err(String::from));
-    let [first, second] = means;
-    let means = [first?, second?];
+    let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s.tensor(), start(k)?)?;
+    let span = (0.0, *times.last().ok_or("no times")?);
+    let exact = problem.taylor(span, ACCURACY)?;
+    let averaged = [AveragingOrder::First, AveragingOrder::Second].map(|order| averaged_solution(&problem, order));
+    let [first, second] = averaged;
+    let averaged = [first?, second?];
     // Each perturbation solution against the motion from its own initial values.
     let mut solutions = Vec::new();
-    for (i, case) in geometry.cases(k).into_iter().flatten().enumerate() {
-        let solution = case.solution()?;
-        let own = if i == 0 {
-            None
-        } else {
-            let start = initial(&body, &solution);
-            Some(propagate(&body, &s.tensor(), &start, (0.0, last), ACCURACY)?)
-        };
-        solutions.push((solution, own, 0.0));
+    for case in geometry.cases(k).into_iter().flatten() {
+        solutions.push((case.solution()?, case.problem()?.taylor(span, ACCURACY)?, 0.0));
     }
     let (mut rows, mut from) = (Vec::new(), 0.0);
-    let (mut mean, mut mean_state) = ([0.0; 2], [0.0; 2]);
+    let (mut axis_errors, mut state_errors) = ([0.0; 2], [0.0; 2]);
     for &time in times {
         for sample in 1..=SAMPLES {
-            let t = (from + (time - from) * f64::from(sample) / f64::from(SAMPLES)).min(last);
+            let t = (from + (time - from) * f64::from(sample) / f64::from(SAMPLES)).min(span.1);
             let state = exact.state(t)?;
-            for (i, motion) in means.iter().enumerate() {
-                let BodyState { axis, momentum, equatorial_axis } = motion.state(t);
+            for (i, solution) in averaged.iter().enumerate() {
+                let BodyState { axis, momentum, equatorial_axis } = solution.state(t);
                 let off = (axis - state.axis).norm();
                 let direction = (momentum - state.momentum).norm() / state.momentum.norm();
-                mean[i] = largest([mean[i], off]);
-                mean_state[i] =
-                    largest([mean_state[i], off, direction, (equatorial_axis - state.equatorial_axis).norm()]);
+                axis_errors[i] = largest([axis_errors[i], off]);
+                state_errors[i] =
+                    largest([state_errors[i], off, direction, (equatorial_axis - state.equatorial_axis).norm()]);
             }
             for (solution, own, error) in &mut solutions {
-                let axis = match own {
-                    Some(own) => own.state(t)?.axis,
-                    None => state.axis,
-                };
-                let at = solution.at(t);
-                *error = largest([*error, (axis - symmetry_axis(at.alpha, at.beta)).norm()]);
+                *error = largest([*error, (own.axis_state(t)?.axis - axis_at(solution, t)).norm()]);
             }
         }
         let of = |i: usize| solutions.get(i).map(|(.., error)| *error);
-        rows.push(Errors { time, printed: of(0), corrected: of(1), mean, mean_state });
+        rows.push(Errors {
+            time,
+            printed: of(0),
+            corrected: of(1),
+            averaged: axis_errors,
+            averaged_state: state_errors,
+        });
         from = time;
     }
     Ok(rows)
-}
-
-/// The state from which a perturbation solution starts.
-fn initial(body: &RigidSpheroid<f64>, solution: &Perturbation<f64>) -> BodyState<f64> {
-    let start = solution.at(0.0);
-    let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
-    let gamma = 1.0 - start.alpha_rate * start.beta.cos();
-    let rates = EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma };
-    BodyState::from_angles(body, &angles, &rates)
 }
 
 /// `L` near the middle axis, on the side of the third, and the axis at 0.7 rad from it.

@@ -1,9 +1,9 @@
 //! Precession about the middle principal axis of `s^IJ` is unstable.
 
 use nalgebra::Vector3;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{AxisState, Problem, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{Motion, propagate};
+use twofold::propagation::Motion;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use twofold::straight_line::slope;
@@ -57,12 +57,9 @@ fn tilts(axis: usize, s: &PrincipalCoefficients<f64>, duration: f64) -> Result<V
     l[(axis + 1) % 3] = START;
     l[(axis + 2) % 3] = START * 0.7;
     let l = l.normalize();
-    let mut side = Vector3::zeros();
-    side[(axis + 1) % 3] = 1.0;
-    let equatorial_axis = (side - l * l.dot(&side)).normalize();
-    let initial = BodyState { axis: l, momentum: l * MOMENTUM, equatorial_axis };
+    let initial = AxisState { axis: l, momentum: l * MOMENTUM };
     let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-    let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12)?;
+    let motion = Problem::new(spheroid, s.tensor(), initial)?.taylor((0.0, duration), 1e-12)?;
     let samples = 4000;
     (0..=samples)
         .map(|i| {

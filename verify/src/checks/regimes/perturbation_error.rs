@@ -2,10 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use nalgebra::Vector3;
+use twofold::dynamics::{Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{AveragedMotion, ContinuousAngles, Motion, TaylorMotion, propagate};
+use twofold::propagation::{AveragedMotion, ContinuousAngles, Motion, TaylorMotion};
 use twofold::solutions::averaged::AveragingOrder;
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
@@ -40,32 +41,27 @@ impl Case {
         Perturbation::new(self.form, self.kind, &spheroid, &self.s, spin, &constants).map_err(String::from)
     }
 
-    /// The state with the initial values of the solution, and its angles.
-    fn start(&self, spheroid: &RigidSpheroid<f64>) -> Result<(BodyState<f64>, EulerAngles<f64>), String> {
+    /// What moves from the initial values of the solution, with `gamma = 0`.
+    pub fn problem(&self) -> Result<Problem<f64>, String> {
+        let (angles, rates) = self.start()?;
+        Ok(Problem::from_angles(RigidSpheroid::in_units_of_tc(1.1), self.s.tensor(), &angles, &rates)?)
+    }
+
+    fn start(&self) -> Result<(EulerAngles<f64>, EulerRates<f64>), String> {
         let start = self.solution()?.at(0.0);
         let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
-        let rates = EulerRates {
-            alpha: start.alpha_rate,
-            beta: start.beta_rate,
-            gamma: 1.0 - start.alpha_rate * start.beta.cos(),
-        };
-        Ok((BodyState::from_angles(spheroid, &angles, &rates), angles))
+        let gamma = 1.0 - start.alpha_rate * start.beta.cos();
+        Ok((angles, EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma }))
     }
 
     /// The numerical motion with the initial values of the solution.
-    pub fn motion(&self, duration: f64) -> Result<(TaylorMotion<f64>, EulerAngles<f64>), String> {
-        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-        let (initial, angles) = self.start(&spheroid)?;
-        let motion = propagate(&spheroid, &self.s.tensor(), &initial, (0.0, duration), 1e-15)?;
-        Ok((motion, angles))
+    pub fn motion(&self, duration: f64) -> Result<TaylorMotion<f64>, String> {
+        Ok(self.problem()?.taylor((0.0, duration), 1e-15)?)
     }
 
     /// The averaged motion of second order with the same initial values, for small `s`.
     pub fn averaged_motion(&self, duration: f64) -> Result<AveragedMotion<f64>, String> {
-        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-        let (initial, _) = self.start(&spheroid)?;
-        AveragedMotion::from_parts(&spheroid, &self.s.tensor(), &initial, (0.0, duration), AveragingOrder::Second)
-            .map_err(String::from)
+        Ok(AveragedMotion::new(&self.problem()?, (0.0, duration), AveragingOrder::Second)?)
     }
 
     /// Largest distance of the heads of the axes over one forced period, against the averaged motion: for `s` so small that the
@@ -74,14 +70,11 @@ impl Case {
         let solution = self.solution()?;
         let period = TAU / solution.rate.abs();
         let motion = self.averaged_motion(period)?;
-        let mut distances = Vec::new();
-        for i in 0..=samples {
+        let distance = |i| {
             let t = (period * f64::from(i) / f64::from(samples)).min(period);
-            let approximate = solution.at(t);
-            let axis = motion.axis_state(t)?.axis;
-            distances.push((axis - symmetry_axis(approximate.alpha, approximate.beta)).norm());
-        }
-        Ok(largest(distances))
+            Ok((motion.axis_state(t)?.axis - axis_at(&solution, t)).norm())
+        };
+        Ok(largest((0..=samples).map(distance).collect::<Result<Vec<_>, String>>()?))
     }
 
     /// Largest errors over one forced period `2 pi / |a|`, of 1000 samples.
@@ -92,8 +85,8 @@ impl Case {
     /// Largest errors over `duration`.
     pub fn errors(&self, duration: f64, samples: u32) -> Result<Errors, String> {
         let solution = self.solution()?;
-        let (motion, start) = self.motion(duration)?;
-        let mut angles = ContinuousAngles::new(&motion, 0.0, &start)?;
+        let motion = self.motion(duration)?;
+        let mut angles = ContinuousAngles::new(&motion, 0.0, &self.start()?.0)?;
         let mut errors = Errors::default();
         for i in 0..=samples {
             let t = duration * f64::from(i) / f64::from(samples);
@@ -101,10 +94,16 @@ impl Case {
             let axis = motion.state(t)?.axis;
             errors.alpha = largest([errors.alpha, (exact.alpha - approximate.alpha).abs()]);
             errors.beta = largest([errors.beta, (exact.beta - approximate.beta).abs()]);
-            errors.axis = largest([errors.axis, (axis - symmetry_axis(approximate.alpha, approximate.beta)).norm()]);
+            errors.axis = largest([errors.axis, (axis - axis_at(&solution, t)).norm()]);
         }
         Ok(errors)
     }
+}
+
+/// The symmetry axis by a perturbation solution.
+pub fn axis_at(solution: &Perturbation<f64>, t: f64) -> Vector3<f64> {
+    let angles = solution.at(t);
+    symmetry_axis(angles.alpha, angles.beta)
 }
 
 /// Largest errors of a solution over a span (rad).

@@ -1,10 +1,10 @@
 //! Mean rates of the precession angle and of the angular momentum, with their signs, for both kinds of precession.
 
 use nalgebra::Vector3;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::fundamental_frequencies::{fundamental_frequencies, mean_rate};
-use twofold::propagation::{Motion, TaylorMotion, propagate};
+use twofold::observables::fundamental_frequencies::{MeanRate, fundamental_frequencies, mean_rate};
+use twofold::propagation::{Motion, TaylorMotion};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::reference::reference_motion;
@@ -44,13 +44,12 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-/// Mean rates of `alpha` and of the azimuth of `L` about Z.
-fn mean_rates(name: &str) -> Result<[f64; 2], String> {
-    let scene = reference_motion(name);
-    let motion = propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, 2000.0), 1e-13)?;
+/// Mean rates of `alpha`, of `gamma` and of the azimuth of `L` about Z.
+fn mean_rates(name: &str) -> Result<[f64; 3], String> {
+    let motion = reference_motion(name).problem().taylor((0.0, 2000.0), 1e-13)?;
     let found = fundamental_frequencies(&motion)?;
-    let rates = found.alpha.zip(found.momentum).ok_or_else(|| format!("{name} has no mean rates"))?;
-    Ok([rates.0.value, rates.1.value])
+    let value = |rate: Option<MeanRate>| rate.map(|rate| rate.value).ok_or_else(|| format!("{name} has no mean rates"));
+    Ok([value(found.alpha)?, value(found.gamma)?, value(found.momentum)?])
 }
 
 /// Mean rate of the azimuth of `L` about Z.
@@ -71,8 +70,8 @@ fn continued(last: Option<f64>, angle: f64) -> f64 {
 
 fn directions() -> Result<Measured, String> {
     let shift = mean_rates("tp-1")?[0] - 1.1 / 0.7f64.cos();
-    let twofold = mean_rates("tp-2")?[1];
-    let [alpha, single] = mean_rates("sp-1")?;
+    let [_, _, twofold] = mean_rates("tp-2")?;
+    let [alpha, _, single] = mean_rates("sp-1")?;
     let wrong = [shift < 0.02, twofold > -0.02, single > -0.02, alpha > -0.02];
     Ok(Measured::new(
         wrong.iter().filter(|w| **w).count() as f64,
@@ -81,15 +80,8 @@ fn directions() -> Result<Measured, String> {
 }
 
 fn ratios_of_rates() -> Result<Measured, String> {
-    let ratios = ["tp-1", "tp-2"].map(|name| {
-        let scene = reference_motion(name);
-        let motion = propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, 2000.0), 1e-13)?;
-        let found = fundamental_frequencies(&motion)?;
-        let (gamma, alpha) = found.gamma.zip(found.alpha).ok_or_else(|| format!("{name} has no mean rates"))?;
-        Ok::<_, String>(gamma.value.abs() / alpha.value)
-    });
-    let [first, second] = ratios;
-    let (first, second) = (first?, second?);
+    let ratio = |name| mean_rates(name).map(|[alpha, gamma, _]| gamma.abs() / alpha);
+    let (first, second) = (ratio("tp-1")?, ratio("tp-2")?);
     Ok(Measured::new((second / first - 1.0).abs(), format!("tp-I {first:.4}, tp-II {second:.4}")))
 }
 
@@ -106,7 +98,7 @@ fn momentum_rate_across_magic_angle() -> Result<Measured, String> {
         let axis = l * c + across * (1.0 - c2).sqrt();
         let initial = BodyState { axis, momentum: l * g, equatorial_axis: Vector3::y() };
         let duration = 4000.0;
-        let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12)?;
+        let motion = Problem::new(spheroid, s.tensor(), initial)?.taylor((0.0, duration), 1e-12)?;
         let rate = momentum_azimuth_rate(&motion, duration, 20_000)?;
         let size = 2.0 * (s.zz - s.xx) / g;
         let formula = size * (1.5 * c2 - 0.5) * l.z;

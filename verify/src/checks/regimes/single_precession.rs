@@ -1,13 +1,25 @@
 //! Single precession: where the perturbation solution mimics the motion, and what its small parameter is.
 
+use std::fmt::Debug;
+
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::{Form, Precession};
 
 use super::perturbation_error::Case;
-use crate::check::{Bound, Check, Kind, Measured, Worst};
-use crate::measured_order::measured_order;
+use crate::check::{Bound, Check, Kind, Measured, least_of, worst_of};
+use crate::measured_order::{errors_at, measured_order};
 
 pub(super) fn checks() -> Vec<Check> {
+    let corrected_order = Check {
+        id: "single-corrected-order",
+        kind: Kind::Regime,
+        equations: &[29, 30, 33],
+        statement: "the error of the corrected single-precession solution is of second order in (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)",
+        figure: "slope of log(distance of the axes over one forced period) against log of the ratio, 2.7e-3 to 2.7e-4, s scaled by 1e-8, the one farthest from the integer of beta_0 = 0.3, 0.7, 1.1",
+        bound: Bound::Within(1.95, 2.05),
+        reason: "the first omitted terms are squares of the ratio, above 1e-7; terms of the order s are below 1e-9; an integer order measured to 0.05",
+        measure: || order_in_asymmetry(Form::Corrected, 2.0),
+    };
     vec![
         Check {
             id: "single-mimics-small-inclination",
@@ -41,24 +53,13 @@ pub(super) fn checks() -> Vec<Check> {
         },
         Check {
             id: "single-printed-order",
-            kind: Kind::Regime,
-            equations: &[29, 30, 33],
             statement: "the error of the printed single-precession solution is of first order in (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY), as the solution itself is",
-            figure: "slope of log(distance of the axes over one forced period) against log of the ratio, 2.7e-3 to 2.7e-4, s scaled by 1e-8, the one farthest from 1 of beta_0 = 0.3, 0.7, 1.1",
             bound: Bound::Within(0.9, 1.2),
             reason: "a term of first order is missing from Eq. (29); at beta_0 = 0.3 its coefficient is some 0.01, and the second order adds a tenth to the slope",
             measure: || order_in_asymmetry(Form::Printed, 1.0),
+            ..corrected_order
         },
-        Check {
-            id: "single-corrected-order",
-            kind: Kind::Regime,
-            equations: &[29, 30, 33],
-            statement: "the error of the corrected single-precession solution is of second order in (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)",
-            figure: "slope of log(distance of the axes over one forced period) against log of the ratio, 2.7e-3 to 2.7e-4, s scaled by 1e-8, the one farthest from 2 of beta_0 = 0.3, 0.7, 1.1",
-            bound: Bound::Within(1.95, 2.05),
-            reason: "the first omitted terms are squares of the ratio, above 1e-7; terms of the order s are below 1e-9; an integer order measured to 0.05",
-            measure: || order_in_asymmetry(Form::Corrected, 2.0),
-        },
+        corrected_order,
         Check {
             id: "single-correction-at-full-s",
             kind: Kind::Regime,
@@ -78,69 +79,54 @@ fn paper(form: Form, k: f64, beta_0: f64, amplitude: f64) -> Case {
 }
 
 fn small_inclinations() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for beta_0 in [0.1, 0.3, 0.5, 0.7, 0.9, 1.0] {
-        for amplitude in [0.0, 0.01] {
-            let errors = paper(Form::Printed, 1.0, beta_0, amplitude).errors_over_forced_period()?;
-            worst.see(errors.axis, || format!("beta_0 = {beta_0}, A = {amplitude}: alpha off by {:.3}", errors.alpha));
-        }
-    }
-    worst.finish()
+    let cases = [0.1, 0.3, 0.5, 0.7, 0.9, 1.0].into_iter().flat_map(|beta_0| [0.0, 0.01].map(|a| (beta_0, a)));
+    worst_of(cases.map(|(beta_0, amplitude)| paper(Form::Printed, 1.0, beta_0, amplitude)), error)
 }
 
 fn failure_near_right_angle() -> Result<Measured, String> {
-    let mut least = Measured::new(f64::INFINITY, "");
-    for k in [1.0, 0.1, 0.01] {
-        for beta_0 in [1.4, 1.5] {
-            let errors = paper(Form::Printed, k, beta_0, 0.0).errors_over_forced_period()?;
-            if errors.axis < least.figure {
-                least =
-                    Measured::new(errors.axis, format!("beta_0 = {beta_0}, k = {k}: alpha off by {:.2}", errors.alpha));
-            }
-        }
-    }
-    Ok(least)
+    let cases = [1.0, 0.1, 0.01].into_iter().flat_map(|k| [1.4, 1.5].map(|beta_0| (k, beta_0)));
+    least_of(cases.map(|(k, beta_0)| paper(Form::Printed, k, beta_0, 0.0)), error)
+}
+
+/// Largest distance of the axes over one forced period.
+fn error(case: &Case) -> Result<f64, String> {
+    Ok(case.errors_over_forced_period()?.axis)
 }
 
 fn order_in_s() -> Result<Measured, String> {
-    let mut slopes = Vec::new();
-    for form in [Form::Printed, Form::Corrected] {
-        let points = [1e-2, 10f64.powf(-2.5), 1e-3]
-            .into_iter()
-            .map(|k| Ok((k, paper(form, k, 0.7, 0.0).errors_over_forced_period()?.axis)))
-            .collect::<Result<Vec<_>, String>>()?;
-        let slope = measured_order(&points, 0.0)?;
-        slopes.push(Measured::new(slope.figure, format!("{form:?}: {}", slope.detail)));
-    }
-    farthest(slopes, 0.0)
+    let errors = |form| errors_at([1e-2, 10f64.powf(-2.5), 1e-3], |k| error(&paper(form, k, 0.7, 0.0)));
+    farthest_order(0.0, [Form::Printed, Form::Corrected].map(|form| (form, errors(form))))
 }
 
 /// The order farthest from `expected`, of three inclinations.
 fn order_in_asymmetry(form: Form, expected: f64) -> Result<Measured, String> {
-    let mut slopes = Vec::new();
-    for beta_0 in [0.3, 0.7, 1.1] {
-        let points = [0.03, 0.01, 0.003_f64]
-            .into_iter()
-            .map(|part| {
-                let s = PrincipalCoefficients::new([0.015 + 0.005 * part, 0.015 - 0.005 * part, -0.04]).scaled(1e-8);
-                let case = Case { form, kind: Precession::Single, s, beta_0, amplitude: 0.0 };
-                Ok(((s.asymmetry() / s.combination()).abs(), case.axis_error_over_forced_period(1000)?))
-            })
-            .collect::<Result<Vec<_>, String>>()?;
-        let slope = measured_order(&points, 0.0)?;
-        slopes.push(Measured::new(slope.figure, format!("beta_0 = {beta_0}: {}", slope.detail)));
-    }
-    farthest(slopes, expected)
+    let errors = |beta_0| {
+        let points = [0.03, 0.01, 0.003].map(|part| {
+            let s = PrincipalCoefficients::new([0.015 + 0.005 * part, 0.015 - 0.005 * part, -0.04]).scaled(1e-8);
+            let case = Case { form, kind: Precession::Single, s, beta_0, amplitude: 0.0 };
+            Ok(((s.asymmetry() / s.combination()).abs(), case.axis_error_over_forced_period(1000)?))
+        });
+        points.into_iter().collect()
+    };
+    farthest_order(expected, [0.3, 0.7, 1.1].map(|beta_0| (beta_0, errors(beta_0))))
 }
 
-/// The figure farthest from `expected`, one that is NaN before all others.
-fn farthest(figures: Vec<Measured>, expected: f64) -> Result<Measured, String> {
+/// The measured order farthest from `expected`, one that is NaN before all others.
+fn farthest_order<N: Debug>(
+    expected: f64,
+    errors: impl IntoIterator<Item = (N, Result<Vec<(f64, f64)>, String>)>,
+) -> Result<Measured, String> {
+    let mut orders = Vec::new();
+    for (name, points) in errors {
+        let Measured { figure, detail } = measured_order(&points?, 0.0)?;
+        orders.push(Measured::new(figure, format!("{name:?}: {detail}")));
+    }
     let distance = |measured: &Measured| (measured.figure - expected).abs();
-    figures.into_iter().max_by(|a, b| distance(a).total_cmp(&distance(b))).ok_or_else(|| "no figure".into())
+    orders.into_iter().max_by(|a, b| distance(a).total_cmp(&distance(b))).ok_or_else(|| "no figure".into())
 }
 
 fn correction_at_full_s() -> Result<Measured, String> {
-    let error = |form, beta_0| Ok::<_, String>(paper(form, 1.0, beta_0, 0.01).errors_over_forced_period()?.axis);
+    let error = |form, beta_0| error(&paper(form, 1.0, beta_0, 0.01));
     let (first, second) = (error(Form::Printed, 0.7)?, error(Form::Printed, 1.4)?);
     let (corrected_first, corrected_second) = (error(Form::Corrected, 0.7)?, error(Form::Corrected, 1.4)?);
     let figure = if corrected_second >= 1.0 { (1.0 - corrected_first / first).abs() } else { f64::INFINITY };

@@ -6,9 +6,9 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::Motion;
 use twofold::solutions::perturbation::{Form, Precession};
 
-use super::perturbation_error::{Case, Errors};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
-use crate::measured_order::measured_order;
+use super::perturbation_error::Case;
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, least_of};
+use crate::measured_order::{errors_at, measured_order};
 
 /// A case of twofold precession with the paper's numbers.
 fn paper(form: Form, k: f64, beta_0: f64, amplitude: f64) -> Case {
@@ -98,35 +98,22 @@ fn scale(half_decades: i32) -> f64 {
 }
 
 fn order_in_s(form: Form, half_decades: std::ops::RangeInclusive<i32>) -> Result<Measured, String> {
-    let points = half_decades
-        .map(|j| Ok((scale(j), paper(form, scale(j), 0.7, 0.0).errors(10.0, 400)?.beta)))
-        .collect::<Result<Vec<_>, String>>()?;
-    measured_order(&points, ROUNDING)
+    let error = |k| Ok(paper(form, k, 0.7, 0.0).errors(10.0, 400)?.beta);
+    measured_order(&errors_at(half_decades.map(scale), error)?, ROUNDING)
 }
 
-/// Error over 10 t_c of the homogeneous solution alone. `s` is too small to matter; zero would leave `a^(1)` without a sign.
-fn tilt_error(form: Form, amplitude: f64) -> Result<Errors, String> {
-    paper(form, 1e-40, 0.7, amplitude).errors(10.0, 400)
+/// Error of beta over 10 t_c of the homogeneous solution alone. `s` is too small to matter; zero would leave `a^(1)` without a sign.
+fn tilt_error(form: Form, amplitude: f64) -> Result<f64, String> {
+    Ok(paper(form, 1e-40, 0.7, amplitude).errors(10.0, 400)?.beta)
 }
 
 fn printed_tilt() -> Result<Measured, String> {
-    let mut least = Measured::new(f64::INFINITY, "");
-    for amplitude in [1e-2, 1e-3, 1e-4, 1e-5] {
-        let error = tilt_error(Form::Printed, amplitude)?.beta;
-        let ratio = error * 1.1 / amplitude;
-        if ratio < least.figure {
-            least = Measured::new(ratio, format!("A = {amplitude:e}: error of beta {error:.3e}"));
-        }
-    }
-    Ok(least)
+    least_of([1e-2, 1e-3, 1e-4, 1e-5], |&amplitude| Ok(tilt_error(Form::Printed, amplitude)? * 1.1 / amplitude))
 }
 
 fn corrected_tilt_order() -> Result<Measured, String> {
-    let points = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5]
-        .into_iter()
-        .map(|amplitude| Ok((amplitude, tilt_error(Form::Corrected, amplitude)?.beta)))
-        .collect::<Result<Vec<_>, String>>()?;
-    measured_order(&points, ROUNDING)
+    let amplitudes = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
+    measured_order(&errors_at(amplitudes, |amplitude| tilt_error(Form::Corrected, amplitude))?, ROUNDING)
 }
 
 fn growth_with_time() -> Result<Measured, String> {
@@ -164,7 +151,7 @@ fn corrected_is_better() -> Result<Measured, String> {
 
 fn large_tilt() -> Result<Measured, String> {
     let case = paper(Form::Printed, 1.0, 0.7, 0.4);
-    let (motion, _) = case.motion(40.0)?;
+    let motion = case.motion(40.0)?;
     let inclination = |i: u32| Ok(motion.state(40.0 * f64::from(i) / 800.0)?.angles()?.beta);
     let betas = (0..=800).map(inclination).collect::<Result<Vec<_>, twofold::Error>>()?;
     let (most, least) = (largest(betas.iter().copied()), PI - largest(betas.iter().map(|beta| PI - beta)));

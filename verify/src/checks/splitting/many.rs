@@ -1,12 +1,10 @@
 //! Many motions side by side.
 
-use proptest::strategy::{Strategy, ValueTree};
-use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use twofold::propagation::{AxisScene, AxisState, ErrorEstimates, Samples, axis_states_at, axis_states_of_many};
+use twofold::dynamics::AxisState;
+use twofold::propagation::{ErrorEstimates, SampledProblem, Samples, states_of_many};
 
-use super::difference;
-use crate::check::{Measured, Worst, largest};
-use crate::physical_domain::{RandomScene, scenes};
+use crate::check::{Measured, Worst, largest, largest_difference};
+use crate::physical_domain::{RandomScene, drawn, scenes};
 
 const SEED: u8 = 31;
 const COUNT: usize = 90;
@@ -24,36 +22,20 @@ fn times(i: usize) -> Vec<f64> {
     times
 }
 
-fn random_scenes() -> Result<Vec<RandomScene>, String> {
-    let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[SEED; 32]);
-    let mut runner = TestRunner::new_with_rng(Config::default(), rng);
-    let scene = |_| Ok(scenes().new_tree(&mut runner).map_err(|reason| reason.to_string())?.current());
-    (0..COUNT).map(scene).collect()
-}
-
-/// Random motions at accuracies from 1e-3 to 1e-14, among them one with a bad axis, one without times and one at a bad accuracy.
-fn motions<'t>(scenes: &[RandomScene], times: &'t [Vec<f64>]) -> Vec<AxisScene<'t>> {
-    let motion = |(i, (scene, times)): (usize, (&RandomScene, &'t Vec<f64>))| {
-        let mut initial = AxisState::from(&scene.state());
-        if i == 17 {
-            initial.axis *= 2.0;
-        }
-        AxisScene {
-            spheroid: scene.spheroid(),
-            violation: scene.coefficients().tensor(),
-            initial,
-            start: 0.5,
-            times: if i == 29 { &[] } else { times },
-            accuracy: if i == 41 { 1.0 } else { 10f64.powi(-3 - (i % 12) as i32) },
-        }
+/// Random motions at accuracies from 1e-3 to 1e-14, among them one without times and one at a bad accuracy.
+fn motions<'t>(scenes: &[RandomScene], times: &'t [Vec<f64>]) -> Vec<SampledProblem<'t>> {
+    let motion = |(i, (scene, times)): (usize, (&RandomScene, &'t Vec<f64>))| SampledProblem {
+        problem: scene.problem().reduced(),
+        start: 0.5,
+        times: if i == 29 { &[] } else { times },
+        accuracy: if i == 41 { 1.0 } else { 10f64.powi(-3 - (i % 12) as i32) },
     };
     scenes.iter().zip(times).enumerate().map(motion).collect()
 }
 
-fn same(
-    a: &Result<Samples<AxisState<f64>>, twofold::Error>,
-    b: &Result<Samples<AxisState<f64>>, twofold::Error>,
-) -> bool {
+type Found = Result<Samples<AxisState<f64>>, twofold::Error>;
+
+fn same(a: &Found, b: &Found) -> bool {
     match (a, b) {
         (Ok(a), Ok(b)) => {
             let bits = |s: &AxisState<f64>| [s.axis, s.momentum].map(|v| [v.x, v.y, v.z].map(f64::to_bits));
@@ -66,9 +48,9 @@ fn same(
 
 /// Number of motions that are others alone, in reversed order, or among every third.
 pub(super) fn neighbours() -> Result<Measured, String> {
-    let (scenes, times) = (random_scenes()?, (0..COUNT).map(times).collect::<Vec<_>>());
+    let (scenes, times) = (drawn(SEED, COUNT, &scenes())?, (0..COUNT).map(times).collect::<Vec<_>>());
     let all = motions(&scenes, &times);
-    let whole = axis_states_of_many(&all);
+    let whole = states_of_many(&all);
     let everyone: Vec<usize> = (0..COUNT).collect();
     let mut parts: Vec<Vec<usize>> = everyone.iter().map(|&i| vec![i]).collect();
     parts.push(everyone.iter().rev().copied().collect());
@@ -76,7 +58,7 @@ pub(super) fn neighbours() -> Result<Measured, String> {
     let mut different = 0;
     for part in parts {
         let some: Vec<_> = part.iter().map(|&i| all[i]).collect();
-        let found = axis_states_of_many(&some);
+        let found = states_of_many(&some);
         different += part.iter().zip(&found).filter(|(i, found)| !same(&whole[**i], found)).count();
     }
     Ok(Measured::new(f64::from(different as u32), format!("{COUNT} motions of seed {SEED}")))
@@ -85,13 +67,13 @@ pub(super) fn neighbours() -> Result<Measured, String> {
 /// The largest difference from the Taylor motion over the accuracy asked and that motion's estimate. A motion that only one of both
 /// refuses fails.
 pub(super) fn accuracy() -> Result<Measured, String> {
-    let (scenes, times) = (random_scenes()?, (0..COUNT).map(times).collect::<Vec<_>>());
+    let (scenes, times) = (drawn(SEED, COUNT, &scenes())?, (0..COUNT).map(times).collect::<Vec<_>>());
     let all = motions(&scenes, &times);
     let mut worst = Worst::default();
-    for (i, (motion, found)) in all.iter().zip(axis_states_of_many(&all)).enumerate() {
-        let AxisScene { spheroid, violation, initial, start, times, accuracy } = motion;
+    for (i, (motion, found)) in all.iter().zip(states_of_many(&all)).enumerate() {
+        let SampledProblem { problem, start, times, accuracy } = motion;
         let finest = if *accuracy < 0.1 { 1e-15 } else { *accuracy };
-        let truth = axis_states_at(spheroid, violation, initial, *start, times, finest, ErrorEstimates::Wanted);
+        let truth = problem.taylor_states(*start, times, finest, ErrorEstimates::Wanted);
         let truth = match (&found, truth) {
             (Err(ours), Err(theirs)) if ours.to_string() == theirs.to_string() => continue,
             (_, truth) => truth?,
@@ -100,9 +82,9 @@ pub(super) fn accuracy() -> Result<Measured, String> {
         if found.states.len() != times.len() {
             return Err(format!("{} states of motion {i}", found.states.len()));
         }
-        let unit = initial.momentum.norm().max(1.0);
+        let unit = problem.initial().momentum.norm().max(1.0);
         let apart = found.states.iter().zip(&truth.states).zip(&truth.error_estimates);
-        let figure = largest(apart.map(|((a, b), estimate)| difference(a, b) / unit / (accuracy + estimate)));
+        let figure = largest(apart.map(|((a, b), estimate)| largest_difference(a, b, unit) / (accuracy + estimate)));
         worst.see(figure, || format!("motion {i} of seed {SEED}, {:?}", scenes[i]));
     }
     worst.finish()

@@ -4,13 +4,13 @@ use core::f64::consts::TAU;
 use std::sync::LazyLock;
 
 use twofold::Scalar;
-use twofold::dynamics::BodyState;
+use twofold::dynamics::{BodyState, RotationState};
 use twofold::solutions::averaged::{AveragedPhases, AveragingOrder};
 
 use super::scenes::difference;
+use crate::averaged_scenes::{AveragedScene, EstimateSeen};
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::double_double::DoubleDouble;
-use crate::mean_scenes::{EstimateSeen, MeanScene};
 use crate::random::Random;
 
 /// Checks of this subject.
@@ -23,24 +23,24 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "the error estimate of the averaged motion, of either order, is not below its error: any strength, symmetric tensors, near the separatrix, c = 1, c^2 = 1/3",
             figure: "largest true error / estimate, 400 random motions at 12 times, up to 1,500 rad",
             bound: Bound::AtMost(1.0),
-            reason: "what an estimate is for",
+            reason: "an estimate below the true error is wrong",
             measure: not_below,
         },
         Check {
             id: "mean-error-separatrix",
             kind: Kind::Property,
             equations: &[25],
-            statement: "nor is it below the error beside the separatrix, nearer to it than what the order leaves out of the tensor, while L goes round a few times",
+            statement: "the estimate is not below the error beside the separatrix, nearer to it than what the order leaves out of the tensor, while L goes round a few times",
             figure: "largest true error / estimate, 300 random motions at 12 times, both orders",
             bound: Bound::AtMost(1.0),
-            reason: "what an estimate is for",
+            reason: "an estimate below the true error is wrong",
             measure: beside_separatrix,
         },
         Check {
             id: "mean-error-rounding",
             kind: Kind::Property,
             equations: &[25],
-            statement: "what it takes for rounding is not below that of the same theory in double-double numbers, nor a million times above",
+            statement: "the part of the estimate for rounding is not below the difference from the same theory in double-double numbers, nor a million times above it",
             figure: "largest |log10| by which estimate / difference leaves [1, 1e6], 60 motions after up to 1e12 rad",
             bound: Bound::AtMost(0.0),
             reason: "a bound for each of some hundred roundings, and near the separatrix those of the start grow",
@@ -50,46 +50,35 @@ pub(super) fn checks() -> Vec<Check> {
             id: "mean-error-not-idle",
             kind: Kind::Property,
             equations: &[25],
-            statement: "nor is it much above it",
+            statement: "the error estimate of the averaged motion is not much above its error",
             figure: "median of estimate / largest true error, second order, of the same motions",
             bound: Bound::AtMost(50.0),
-            reason: "one and a half orders: coefficients are those of the worst geometry",
+            reason: "one and a half orders of magnitude: the coefficients of the estimate are those of the worst geometry",
             measure: not_idle,
         },
     ]
 }
 
-const SCENES: u64 = 400;
+const ORDERS: [AveragingOrder; 2] = [AveragingOrder::First, AveragingOrder::Second];
 
-type AllSeen = Result<Vec<(u64, EstimateSeen)>, String>;
+type AllSeen = Result<Vec<EstimateSeen>, String>;
 
 /// What two checks look at, for each order.
 fn seen(order: AveragingOrder) -> &'static AllSeen {
-    static SEEN: [LazyLock<AllSeen>; 2] =
-        [LazyLock::new(|| measured(AveragingOrder::First)), LazyLock::new(|| measured(AveragingOrder::Second))];
-    match order {
-        AveragingOrder::First => &SEEN[0],
-        AveragingOrder::Second => &SEEN[1],
-    }
-}
-
-fn measured(order: AveragingOrder) -> AllSeen {
-    (0..SCENES)
-        .map(|number| {
-            let scene = MeanScene::draw(11, number, 1500.0);
-            scene.estimate_seen(order, number).map(|seen| (number, seen)).map_err(String::from)
+    static SEEN: LazyLock<[AllSeen; 2]> = LazyLock::new(|| {
+        ORDERS.map(|order| {
+            let seen = |number| AveragedScene::draw(11, number, 1500.0).estimate_seen(order, number);
+            (0..400).map(|number| seen(number).map_err(String::from)).collect()
         })
-        .collect()
+    });
+    &SEEN[order as usize]
 }
 
 fn not_below() -> Result<Measured, String> {
     let mut worst = Worst::default();
-    for order in [AveragingOrder::First, AveragingOrder::Second] {
-        for (number, seen) in seen(order).as_ref().map_err(Clone::clone)? {
-            let [error, estimate, t] = seen.at;
-            worst.see(seen.worst, || {
-                format!("scene {number} of seed 11, {order:?}: {error:.2e} at t = {t}, estimated {estimate:.2e}")
-            });
+    for order in ORDERS {
+        for (number, seen) in seen(order).as_ref()?.iter().enumerate() {
+            worst.see(seen.worst, || format!("scene {number} of seed 11, {order:?}: error, estimate, t {:?}", seen.at));
         }
     }
     worst.finish()
@@ -98,13 +87,9 @@ fn not_below() -> Result<Measured, String> {
 fn beside_separatrix() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for number in 0..300 {
-        let scene = MeanScene::beside_separatrix(13, number);
-        for order in [AveragingOrder::First, AveragingOrder::Second] {
-            let seen = scene.estimate_seen(order, number)?;
-            let [error, estimate, t] = seen.at;
-            worst.see(seen.worst, || {
-                format!("scene {number} of seed 13, {order:?}: {error:.2e} at t = {t}, estimated {estimate:.2e}")
-            });
+        for order in ORDERS {
+            let seen = AveragedScene::beside_separatrix(13, number).estimate_seen(order, number)?;
+            worst.see(seen.worst, || format!("scene {number} of seed 13, {order:?}: error, estimate, t {:?}", seen.at));
         }
     }
     worst.finish()
@@ -114,30 +99,21 @@ fn rounding() -> Result<Measured, String> {
     let mut random = Random::with_seed(64);
     let mut worst = Worst::default();
     for number in 0..60 {
-        let scene = MeanScene::draw(19, number, 10.0);
-        let mean = scene.motion::<f64>(AveragingOrder::Second)?;
+        let scene = AveragedScene::draw(19, number, 10.0);
+        let averaged = scene.motion::<f64>(AveragingOrder::Second)?;
         let exact = scene.motion::<DoubleDouble>(AveragingOrder::Second)?;
         let t = 10f64.powf(random.within(0.0, 12.0));
         // Only the part that grows with the slow phase: in double-double numbers phases are not reduced, and the fast ones are the same theory.
         let rates = exact.rates();
         let phases = [rates.slow, rates.about_momentum, rates.about_axis].map(|rate| rate * DoubleDouble::from_f64(t));
         let tau = DoubleDouble::tau();
-        let reduced = phases.map(|phase| phase - tau * DoubleDouble::from_f64((phase.high() / TAU).round()));
+        let [slow, about_momentum, about_axis] =
+            phases.map(|phase| phase - tau * DoubleDouble::from_f64((phase.high() / TAU).round()));
         let start = exact.phases(DoubleDouble::from_f64(0.0));
-        let right = exact.state_at(&AveragedPhases {
-            slow: start.slow + reduced[0],
-            about_momentum: reduced[1],
-            about_axis: reduced[2],
-        });
-        let found = mean.state(t);
-        let high = |v: nalgebra::Vector3<DoubleDouble>| v.map(DoubleDouble::high);
-        let right = BodyState {
-            axis: high(right.axis),
-            momentum: high(right.momentum),
-            equatorial_axis: high(right.equatorial_axis),
-        };
-        let off = difference(&found, &right);
-        let estimate = mean.rounding(t);
+        let right = exact.state_at(&AveragedPhases { slow: start.slow + slow, about_momentum, about_axis });
+        let right = BodyState::from_vectors(right.vectors().map(|v| v.map(DoubleDouble::high)));
+        let off = difference(&averaged.state(t), &right);
+        let estimate = averaged.rounding(t);
         let ratio = (estimate / off.max(1e-16)).log10();
         let outside = if ratio.is_nan() { f64::INFINITY } else { (-ratio).max(ratio - 6.0).max(0.0) };
         worst.see(outside, || format!("scene {number} of seed 19 at t = {t:e}: {off:.1e}, estimated {estimate:.1e}"));
@@ -146,8 +122,8 @@ fn rounding() -> Result<Measured, String> {
 }
 
 fn not_idle() -> Result<Measured, String> {
-    let seen = seen(AveragingOrder::Second).as_ref().map_err(Clone::clone)?;
-    let mut ratios: Vec<f64> = seen.iter().map(|(_, seen)| 1.0 / seen.worst).collect();
+    let seen = seen(AveragingOrder::Second).as_ref()?;
+    let mut ratios: Vec<f64> = seen.iter().map(|seen| 1.0 / seen.worst).collect();
     ratios.sort_by(f64::total_cmp);
     Ok(Measured::new(ratios[ratios.len() / 2], format!("median of {} motions", ratios.len())))
 }

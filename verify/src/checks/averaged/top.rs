@@ -15,7 +15,7 @@ pub(super) fn checks() -> Vec<Check> {
         statement: "the direction, the frame that it carries along and the integrals of its squares, by theta functions, are those of an integration: any order of the principal values, equal ones, on and near every axis and on the separatrix",
         figure: "largest difference, of the integrals times the rate of the phase, 120 random tops over 10 units of time",
         bound: Bound::AtMost(2e-10),
-        reason: "steps of 0.004 of the classical Runge-Kutta method: 0.004^4 / 120 times 10 is 2e-11, the integrals by Simpson's rule alike",
+        reason: "steps of 0.004 of the classical Runge-Kutta method: 0.004^4 / 120 times 10 is 2e-11, and Simpson's rule for the integrals is of the same order",
         measure: tops,
     }]
 }

@@ -1,18 +1,18 @@
-//! Mean Hamiltonian and generator by duals.
+//! The averaged Hamiltonian and the generator of the averaging, by duals.
 
 use core::f64::consts::TAU;
 
 use nalgebra::{Rotation3, Unit, Vector3};
 use num_dual::Dual64;
-use twofold::dynamics::RigidSpheroid;
 use twofold::numerics::scalar::length;
 use twofold::solutions::averaged::{
     AveragingOrder, generator, generator_slopes, mean_angular_velocity, mean_potential,
 };
 
-use super::scenes::{State, random_state};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
-use crate::random::Random;
+use super::scenes::State;
+use crate::check::{Bound, Check, Kind, Measured, largest, largest_component};
+use crate::derivation::spheroid_motion::fixed_spheroid;
+use crate::random::worst_of_draws;
 
 /// Checks of this subject.
 pub(super) fn checks() -> Vec<Check> {
@@ -60,35 +60,31 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-type Function = fn(&State, &Vector3<Dual64>, &Vector3<Dual64>) -> Dual64;
+/// A function of `n` and `L`.
+trait Function: Fn(&State, &Vector3<Dual64>, &Vector3<Dual64>) -> Dual64 {}
 
-fn lifted(body: &RigidSpheroid<f64>) -> RigidSpheroid<Dual64> {
-    RigidSpheroid {
-        inertia_xx: Dual64::from_re(body.inertia_xx),
-        inertia_zz: Dual64::from_re(body.inertia_zz),
-        constant_c: Dual64::from_re(body.constant_c),
-    }
-}
-
-/// Slopes by `n` and `L`.
-fn slopes_of(f: Function, state: &State) -> [Vector3<f64>; 2] {
-    let at = |place: usize, i: usize| {
-        let mut vectors = [state.n, state.momentum].map(|v| v.map(Dual64::from_re));
-        vectors[place][i].eps = 1.0;
-        f(state, &vectors[0], &vectors[1]).eps
-    };
-    [0, 1].map(|place| Vector3::new(at(place, 0), at(place, 1), at(place, 2)))
-}
-
-/// `{f, g} = L.(f_L x g_L) + n.(f_L x g_n + f_n x g_L)`.
-fn bracket(f: Function, g: Function, state: &State) -> f64 {
-    let [f_n, f_l] = slopes_of(f, state);
-    let [g_n, g_l] = slopes_of(g, state);
-    state.momentum.dot(&f_l.cross(&g_l)) + state.n.dot(&(f_l.cross(&g_n) + f_n.cross(&g_l)))
-}
+impl<T: Fn(&State, &Vector3<Dual64>, &Vector3<Dual64>) -> Dual64> Function for T {}
 
 fn dual(v: &Vector3<f64>) -> Vector3<Dual64> {
     v.map(Dual64::from_re)
+}
+
+/// Slopes by `n` and `L`.
+fn slopes_of(f: impl Function, state: &State) -> [Vector3<f64>; 2] {
+    [0, 1].map(|place| {
+        Vector3::from_fn(|i, _| {
+            let mut vectors = [dual(&state.n), dual(&state.momentum)];
+            vectors[place][i].eps = 1.0;
+            f(state, &vectors[0], &vectors[1]).eps
+        })
+    })
+}
+
+/// `{f, g} = L.(f_L x g_L) + n.(f_L x g_n + f_n x g_L)`.
+fn bracket(f: impl Function, g: impl Function, state: &State) -> f64 {
+    let [f_n, f_l] = slopes_of(f, state);
+    let [g_n, g_l] = slopes_of(g, state);
+    state.momentum.dot(&f_l.cross(&g_l)) + state.n.dot(&(f_l.cross(&g_n) + f_n.cross(&g_l)))
 }
 
 fn kinetic(state: &State, _: &Vector3<Dual64>, momentum: &Vector3<Dual64>) -> Dual64 {
@@ -99,25 +95,21 @@ fn potential(state: &State, n: &Vector3<Dual64>, _: &Vector3<Dual64>) -> Dual64 
     n.dot(&dual(&state.s).component_mul(n)) * state.body.constant_c
 }
 
-fn mean_of_potential(state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual64>) -> Dual64 {
-    let size = length(momentum);
-    let l = momentum / size;
-    let c = n.dot(&l);
-    mean_potential(&lifted(&state.body), &dual(&state.s), size, c, &l, AveragingOrder::First)
+/// `<V>`, and its part of second order.
+fn averaged_potential(order: AveragingOrder) -> impl Function {
+    move |state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual64>| {
+        let size = length(momentum);
+        let l = momentum / size;
+        mean_potential(&fixed_spheroid(&state.body), &dual(&state.s), size, n.dot(&l), &l, order)
+    }
 }
 
 fn of_generator(state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual64>) -> Dual64 {
-    generator(&lifted(&state.body), &dual(&state.s), n, momentum)
+    generator(&fixed_spheroid(&state.body), &dual(&state.s), n, momentum)
 }
 
-fn at_random(measure: impl Fn(&State) -> f64) -> Result<Measured, String> {
-    let mut random = Random::with_seed(57);
-    let mut worst = Worst::default();
-    for case in 0..200 {
-        let state = random_state(&mut random);
-        worst.see(measure(&state), || format!("case {case} of seed 57"));
-    }
-    worst.finish()
+fn at_random(figure: impl Fn(&State) -> f64) -> Result<Measured, String> {
+    worst_of_draws(57, 200, |random| Ok(figure(&State::random(random))))
 }
 
 fn slopes_of_generator() -> Result<Measured, String> {
@@ -134,8 +126,9 @@ fn slopes_of_generator() -> Result<Measured, String> {
 
 fn bracket_of_generator() -> Result<Measured, String> {
     at_random(|state| {
-        let value = |f: Function| f(state, &dual(&state.n), &dual(&state.momentum)).re;
-        let periodic = value(potential) - value(mean_of_potential);
+        let (n, momentum) = (dual(&state.n), dual(&state.momentum));
+        let average = averaged_potential(AveragingOrder::First)(state, &n, &momentum);
+        let periodic = (potential(state, &n, &momentum) - average).re;
         (bracket(kinetic, of_generator, state) + periodic).abs() / (state.body.constant_c * state.s.norm())
     })
 }
@@ -148,8 +141,9 @@ fn second_order() -> Result<Measured, String> {
         let mut sum = 0.0;
         for k in 0..9 {
             let turn = Rotation3::from_axis_angle(&Unit::new_normalize(l), TAU * f64::from(k) / 9.0);
-            let turned = State { body: *body, s: *s, n: turn * n, momentum: *momentum };
-            sum += bracket(potential, of_generator, &turned) + bracket(mean_of_potential, of_generator, &turned);
+            let turned = State { n: turn * n, ..*state };
+            sum += bracket(potential, of_generator, &turned)
+                + bracket(averaged_potential(AveragingOrder::First), of_generator, &turned);
         }
         let c = n.dot(&l);
         let order = |order| mean_potential(body, s, size, c, &l, order);
@@ -158,30 +152,16 @@ fn second_order() -> Result<Measured, String> {
     })
 }
 
-fn to_second_order(state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual64>) -> Dual64 {
-    of_order(state, n, momentum, AveragingOrder::Second)
-}
-
-fn to_first_order(state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual64>) -> Dual64 {
-    of_order(state, n, momentum, AveragingOrder::First)
-}
-
-fn of_order(state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual64>, order: AveragingOrder) -> Dual64 {
-    let size = length(momentum);
-    let l = momentum / size;
-    let c = n.dot(&l);
-    kinetic(state, n, momentum) + mean_potential(&lifted(&state.body), &dual(&state.s), size, c, &l, order)
-}
-
 fn rates_of_frame() -> Result<Measured, String> {
     at_random(|state| {
         let State { body, s, n, momentum } = state;
         let size = momentum.norm();
         let l = momentum / size;
-        let orders: [(Function, AveragingOrder); 2] =
-            [(to_first_order, AveragingOrder::First), (to_second_order, AveragingOrder::Second)];
-        largest(orders.map(|(function, order)| {
-            let [by_axis, by_momentum] = slopes_of(function, state);
+        largest([AveragingOrder::First, AveragingOrder::Second].map(|order| {
+            let hamiltonian = |state: &State, n: &Vector3<Dual64>, momentum: &Vector3<Dual64>| {
+                kinetic(state, n, momentum) + averaged_potential(order)(state, n, momentum)
+            };
+            let [by_axis, by_momentum] = slopes_of(hamiltonian, state);
             let (about_momentum, tensor, about_axis) = mean_angular_velocity(body, s, size, n.dot(&l), &l, order);
             let pull = tensor.component_mul(&l);
             let w = l * about_momentum + pull + n * about_axis;

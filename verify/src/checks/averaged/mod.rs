@@ -1,4 +1,4 @@
-//! The averaged motion in closed form.
+//! The averaged motion in closed form: its derivation, its errors and its derivatives.
 
 mod averaging;
 mod decades;

@@ -1,0 +1,76 @@
+//! Phases of the averaged motion over decades.
+
+use core::f64::consts::TAU;
+
+use twofold::Scalar;
+use twofold::propagation::{AveragedMotion, Motion};
+use twofold::solutions::averaged::AveragingOrder;
+
+use super::scenes::{State, difference};
+use crate::averaged_scenes::averaged_solution;
+use crate::check::{Bound, Check, Kind, Measured, largest, worst_of};
+use crate::double_double::DoubleDouble;
+use crate::random::{Random, worst_of_draws};
+
+/// Checks of this subject.
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "mean-phase-decades",
+            kind: Kind::Oracle,
+            equations: &[25, 48],
+            statement: "the phases about L and about n after 4e11 turns (20 years at 642 Hz) are those of the same theory in double-double numbers, for s below 1e-6",
+            figure: "largest difference (turns), 40 random motions, both orders",
+            bound: Bound::AtMost(1e-9),
+            reason: "rounding of rates: what Lorentz violation adds, at most 1e-6 of 4e11 turns, is known to some 1e-16 of itself, 1e-10 turn; a bound of 1e-9 turn is 2 ps, far below 1 ns of timing",
+            measure: phases,
+        },
+        Check {
+            id: "mean-epochs",
+            kind: Kind::Property,
+            equations: &[25],
+            statement: "the motion near an epoch after up to 1e15 turns is that motion: the same state from the time zero, in two parts, and from the epoch",
+            figure: "largest difference of a component, 200 random motions, epochs from 1 to 1e15",
+            bound: Bound::AtMost(4e-14),
+            reason: "a phase rounded to 1e-16 turn at the epoch, and some hundred roundings of a state each",
+            measure: epochs,
+        },
+    ]
+}
+
+fn phases() -> Result<Measured, String> {
+    let mut random = Random::with_seed(62);
+    worst_of(0..40, |case| {
+        let state = State::random(&mut random);
+        let problem = state.problem(10f64.powf(random.within(-15.0, -6.0)))?;
+        let order = if case % 2 == 0 { AveragingOrder::First } else { AveragingOrder::Second };
+        let averaged = averaged_solution(&problem, order)?;
+        let rates = *averaged_solution(&problem.map(DoubleDouble::from_f64), order)?.rates();
+        let turns = 4e11;
+        let time = [turns / averaged.rates().about_momentum * TAU, 1e-9 * random.within(-1.0, 1.0)];
+        let found = averaged.turns(time);
+        let time = DoubleDouble::sum_of(time[0], time[1]);
+        let off = [(found.about_momentum, rates.about_momentum), (found.about_axis, rates.about_axis)].map(
+            |(turns, rate)| {
+                let right = rate * time / DoubleDouble::tau();
+                let off = right - DoubleDouble::from_f64(turns.whole as f64) - DoubleDouble::from_f64(turns.fraction);
+                (off.high() - off.high().round()).abs()
+            },
+        );
+        Ok(largest(off))
+    })
+}
+
+fn epochs() -> Result<Measured, String> {
+    worst_of_draws(63, 200, |random| {
+        let state = State::random(random);
+        let problem = state.problem(10f64.powf(random.within(-15.0, -3.0)))?;
+        let motion = AveragedMotion::new(&problem, (0.0, 1e17), AveragingOrder::Second)?;
+        let epoch = 10f64.powf(random.within(0.0, 15.0));
+        let epoch = [epoch, epoch * f64::EPSILON * random.within(-0.4, 0.4)];
+        let later = random.within(0.0, 1e-3) * epoch[0].min(100.0);
+        let near = motion.near(epoch)?.state(later)?;
+        let time = DoubleDouble::sum_of(epoch[0], epoch[1]) + DoubleDouble::from_f64(later);
+        Ok(difference(&near, &motion.state_in_parts([time.high(), time.low()])?))
+    })
+}

@@ -1,0 +1,111 @@
+//! Frequencies of the averaged motion against the exact ones.
+
+use twofold::solutions::averaged::AveragingOrder;
+
+use super::scenes::{Scene, TWOFOLD, sum, worst_off_separatrix};
+use crate::averaged_scenes::averaged_solution;
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::measured_order::{errors_at, largest_off_order};
+
+/// Checks of this subject.
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "mean-frequency-first",
+            kind: Kind::Regime,
+            equations: &[57],
+            statement: "the slow frequency of tp-II, 0.03546436867 / t_c, follows from the averaged motion of first order to 5 %",
+            figure: "relative error",
+            bound: Bound::AtMost(0.05),
+            reason: "of first order in the strength of the torque, 0.024, with a coefficient of order one",
+            measure: || slow_frequency(AveragingOrder::First, 1.0),
+        },
+        Check {
+            id: "mean-frequency-second",
+            kind: Kind::Regime,
+            equations: &[57],
+            statement: "the slow frequency of tp-II follows from the averaged motion of second order to 0.5 %",
+            figure: "relative error",
+            bound: Bound::AtMost(0.005),
+            reason: "of second order in the strength of the torque, 0.024^2, with coefficients of order one to ten",
+            measure: || slow_frequency(AveragingOrder::Second, 1.0),
+        },
+        Check {
+            id: "mean-frequency-slopes",
+            kind: Kind::Regime,
+            equations: &[57],
+            statement: "the relative errors of the slow frequency by the first and the second order fall with the first and the second power of s",
+            figure: "largest |measured slope - order|, tp-II with s scaled by 0.1 to 1e-3",
+            bound: Bound::AtMost(0.05),
+            reason: "corrections of relative order k",
+            measure: slopes,
+        },
+        Check {
+            id: "mean-frequency-random",
+            kind: Kind::Regime,
+            equations: &[57],
+            statement: "all three rates of second order are right to the third power of the strength of the torque, for random motions of both kinds, on both sides of the separatrix",
+            figure: "largest |mean - exact| / (x^3 G / I^xx), x = C (s_max - s_min) I^xx / G^2 from 0.001 to 0.02, 60 random motions with k'^2 above 0.05",
+            bound: Bound::AtMost(15.0),
+            reason: "coefficients of order one, over the distance from the separatrix",
+            measure: random_rates,
+        },
+        Check {
+            id: "mean-lines-of-examples",
+            kind: Kind::Regime,
+            equations: &[57],
+            statement: "the lines that the paper marks at the free values 1.438 and 0.1 are at alpha' and gamma' by sums of the averaged motion's rates to second order",
+            figure: "largest |formula - exact| / |free value - exact|, alpha' and gamma' of tp-I and tp-II",
+            bound: Bound::AtMost(0.01),
+            reason: "third order against first, at a strength of 0.03",
+            measure: lines,
+        },
+    ]
+}
+
+fn error_of_slow(order: AveragingOrder, k: f64) -> Result<(f64, f64, f64), String> {
+    let scene = Scene::example("tp-2", k);
+    let (exact, mean) = (scene.exact()?[0].abs(), scene.averaged(order)?[0]);
+    Ok(((mean / exact - 1.0).abs(), mean, exact))
+}
+
+fn slow_frequency(order: AveragingOrder, k: f64) -> Result<Measured, String> {
+    let (error, averaged, exact) = error_of_slow(order, k)?;
+    Ok(Measured::new(error, format!("averaged {averaged:.8}, exact {exact:.14}")))
+}
+
+fn slopes() -> Result<Measured, String> {
+    let errors = |order| errors_at([0.1, 0.03, 0.01, 3e-3, 1e-3], |k| error_of_slow(order, k).map(|(error, ..)| error));
+    largest_off_order([
+        ("first", 1.0, errors(AveragingOrder::First)?),
+        ("second", 2.0, errors(AveragingOrder::Second)?),
+    ])
+}
+
+fn random_rates() -> Result<Measured, String> {
+    worst_off_separatrix(73, [0.001, 0.007], |scene| {
+        let exact = scene.exact()?;
+        let averaged = scene.averaged(AveragingOrder::Second)?;
+        let x = averaged_solution(&scene.problem()?, AveragingOrder::Second)?.relative_strength();
+        let differences = [averaged[0] - exact[0].abs(), averaged[1] - exact[1], averaged[2] - exact[2]];
+        Ok(largest(differences.map(f64::abs)) / (x.powi(3) * scene.rotation()))
+    })
+}
+
+fn lines() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    let free = [1.1 / f64::cos(0.7), -0.1];
+    for name in ["tp-1", "tp-2"] {
+        let scene = Scene::example(name, 1.0);
+        let exact = scene.exact()?;
+        let mut mean = scene.averaged(AveragingOrder::Second)?;
+        mean[0] *= exact[0].signum();
+        for (what, multiples, free) in [("alpha'", TWOFOLD.alpha, free[0]), ("gamma'", TWOFOLD.gamma, free[1])] {
+            let (exact, mean) = (sum(exact, multiples), sum(mean, multiples));
+            worst.see((mean - exact).abs() / (free - exact).abs(), || {
+                format!("{what} of {name}: exact {exact:.9}, formula {mean:.9}, free {free:.4}")
+            });
+        }
+    }
+    worst.finish()
+}

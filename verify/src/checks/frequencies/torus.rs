@@ -1,0 +1,177 @@
+//! Exact frequencies from the periods of the torus, against known ones.
+
+use core::f64::consts::TAU;
+
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::observables::fundamental_frequencies::fundamental_frequencies;
+use twofold::propagation::Motion;
+use twofold::solutions::symmetric::SymmetricSolution;
+use twofold::solutions::torus::states_with_integrals;
+
+use super::scenes::{SINGLE, Scene, TWOFOLD, sum, worst_off_separatrix};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, worst_of};
+use crate::random::worst_of_draws;
+
+/// Checks of this subject.
+pub(super) fn checks() -> Vec<Check> {
+    vec![
+        Check {
+            id: "torus-states",
+            kind: Kind::Property,
+            equations: &[24],
+            statement: "states found from (E, Omega^z, K) of random motions, twofold and single, have these integrals, and one of them lies on the motion's own torus: it has the same frequencies",
+            figure: "largest of: difference of an integral / its size; difference of a frequency / rotation rate / 10; 60 random motions",
+            bound: Bound::AtMost(1e-13),
+            reason: "K is met to 1e-13 of its size by construction; the frequencies lose one digit more, as a period divides by the thickness of the torus",
+            measure: states,
+        },
+        Check {
+            id: "torus-frequencies-examples",
+            kind: Kind::Oracle,
+            equations: &[32, 57],
+            statement: "exact frequencies of the four examples are those of integration over 20,000 t_c with quadruple precision checks: the mean rates of alpha and gamma are sums of them",
+            figure: "largest difference beyond half a unit of the reference's last digit [1/t_c]",
+            bound: Bound::AtMost(1e-13),
+            reason: "rounding of a few periods; the references are given to 1e-11 and 1e-10",
+            measure: examples,
+        },
+        Check {
+            id: "torus-frequencies-symmetric",
+            kind: Kind::Oracle,
+            equations: &[25, 26],
+            statement: "with two equal eigenvalues the exact frequencies are those of the exact solution in elliptic functions: slow and about_axis are alpha' and gamma' but for whole turns of the nutation, which is about_momentum less the slow one",
+            figure: "largest difference / rotation rate, 12 random motions of both kinds",
+            bound: Bound::AtMost(1e-12),
+            reason: "1e-16 of rounding, of which both sides lose three to four digits where the torus is thin",
+            measure: symmetric,
+        },
+        Check {
+            id: "torus-frequencies-same-torus",
+            kind: Kind::Property,
+            equations: &[25],
+            statement: "from states later in the same motion the exact frequencies are the same: differences are within the sum of the estimated errors, and below 1e-12 of the rate",
+            figure: "largest of: difference / sum of the estimates; relative difference / 1e-12; tp-1, tp-2, sp-1, sp-2 and tp-2 with s scaled by 0.3, 0.1",
+            bound: Bound::AtMost(1.0),
+            reason: "the estimate is that of the rounding of a period over the thickness of the torus",
+            measure: same_torus,
+        },
+        Check {
+            id: "torus-frequencies-averages",
+            kind: Kind::Oracle,
+            equations: &[57],
+            statement: "the exact frequencies of tp-II are weighted averages over 4,800 and 9,600 t_c of numerical motion",
+            figure: "largest difference, relative, of the slow frequency",
+            bound: Bound::AtMost(1e-12),
+            reason: "windowed averages over some hundred slow turns leak less than 1e-12 of a line into its neighbours",
+            measure: averages,
+        },
+    ]
+}
+
+fn states() -> Result<Measured, String> {
+    worst_off_separatrix(71, [0.003, 0.03], |scene| {
+        let (integrals, axis, exact) = (scene.integrals(), scene.torus()?.axis, scene.exact()?);
+        let found = states_with_integrals(&scene.body, &scene.s, &integrals)?;
+        if found.round != Some(axis) {
+            return Err(format!("L goes round {:?}, not {axis}: {scene:?}", found.round));
+        }
+        let square = scene.start.momentum.norm_squared();
+        let spread = scene.s.xx.abs() + scene.s.yy.abs() + scene.s.zz.abs();
+        let (mut off, mut nearest) = (0.0, f64::INFINITY);
+        for start in &found.states {
+            let state = Scene { start: *start, ..*scene };
+            let again = state.integrals();
+            let differences = [
+                (again.energy - integrals.energy) / integrals.energy,
+                (again.spin - integrals.spin) / scene.rotation(),
+                (again.clebsch - integrals.clebsch) / (square * spread),
+            ];
+            off = largest([off, largest(differences.map(f64::abs))]);
+            let other = state.exact()?;
+            let rates = [other[0].abs() - exact[0].abs(), other[1] - exact[1], other[2] - exact[2]];
+            nearest = nearest.min(largest(rates.map(|rate| (rate / scene.rotation()).abs())));
+        }
+        Ok(largest([off, nearest / 10.0]))
+    })
+}
+
+fn examples() -> Result<Measured, String> {
+    let expected = [
+        ("tp-1", TWOFOLD, 1.51237304762, -0.15557827845, f64::NAN, 1e-11),
+        ("tp-2", TWOFOLD, 1.39467831103, -0.14421753117, -0.03546436867, 1e-11),
+        ("sp-1", SINGLE, -0.0720704306, 1.0549619690, -0.0720704306, 1e-10),
+        ("sp-2", SINGLE, -0.0257600721, 1.0086796666, -0.0257600721, 1e-10),
+    ];
+    let mut worst = Worst::default();
+    for (name, angles, alpha, gamma, slow, digit) in expected {
+        let rates = Scene::example(name, 1.0).exact()?;
+        let mut pairs = vec![("alpha", sum(rates, angles.alpha), alpha), ("gamma", sum(rates, angles.gamma), gamma)];
+        // The azimuth of L of tp-1 counts turns of alpha.
+        if !slow.is_nan() {
+            pairs.push(("L", rates[0], slow));
+        }
+        for (what, rate, expected) in pairs {
+            let beyond = (rate - expected).abs() - digit / 2.0;
+            worst.see(if beyond < 0.0 { 0.0 } else { beyond }, || format!("{what} of {name}: {rate:.14}; {rates:?}"));
+        }
+    }
+    worst.finish()
+}
+
+fn symmetric() -> Result<Measured, String> {
+    let mut twofold = false;
+    worst_of_draws(72, 12, |random| {
+        twofold = !twofold;
+        let body = RigidSpheroid::in_units_of_tc(random.within(0.8, 1.3));
+        let equatorial = random.within(-0.02, 0.02);
+        let s = PrincipalCoefficients::new([equatorial, equatorial, equatorial - random.within(0.01, 0.06)]);
+        let angles = EulerAngles { alpha: 0.3, beta: random.within(0.6, 0.9), gamma: -1.0 };
+        let (alpha, gamma) = if twofold { (1.5, -0.15) } else { (-0.07, 1.1) };
+        let rates = EulerRates { alpha, beta: random.within(0.05, 0.1), gamma };
+        let closed = SymmetricSolution::new(&body, &s, &angles, &rates)?;
+        let scene = Scene { body, s, start: BodyState::from_angles(&body, &angles, &rates) };
+        let exact = scene.exact()?;
+        let (mean, nutation) = (closed.mean_rates(), TAU / closed.period());
+        // The inclination repeats, so that angles differ by whole turns of the nutation.
+        let off = |value: f64, expected: f64| {
+            let turns = ((value - expected) / nutation).round();
+            (value - expected - turns * nutation).abs()
+        };
+        let side = scene.start.momentum.z.signum();
+        let differences =
+            [off(exact[0], mean.alpha), (exact[1] - side * exact[0] - nutation).abs(), off(exact[2], mean.gamma)];
+        Ok(largest(differences) / scene.rotation())
+    })
+}
+fn same_torus() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for (name, k) in [("tp-1", 1.0), ("tp-2", 1.0), ("sp-1", 1.0), ("sp-2", 1.0), ("tp-2", 0.3), ("tp-2", 0.1)] {
+        let scene = Scene::example(name, k);
+        let (first, known) = (scene.exact()?, scene.torus()?.uncertainty);
+        let motion = scene.problem()?.taylor((0.0, 300.0), 1e-15)?;
+        for t in [7.3, 41.0, 300.0] {
+            let later = Scene { start: motion.state(t)?, ..scene };
+            let (rates, errors) = (later.exact()?, later.torus()?.uncertainty);
+            for i in 0..3 {
+                let (a, b) = (first[i], rates[i]);
+                let (estimate, off) = (known[i] + errors[i], (a - b).abs());
+                worst.see(largest([off / estimate, off / a.abs() / 1e-12]), || {
+                    format!("rate {i} of {name}, k = {k}, t = {t}: {off:.1e} of {a}, estimate {estimate:.1e}")
+                });
+            }
+        }
+    }
+    worst.finish()
+}
+
+fn averages() -> Result<Measured, String> {
+    let scene = Scene::example("tp-2", 1.0);
+    let exact = scene.exact()?;
+    worst_of([4800.0, 9600.0], |&span| {
+        let motion = scene.problem()?.taylor((0.0, span), 1e-16)?;
+        let slow = fundamental_frequencies(&motion)?.slow.ok_or("no slow precession")?;
+        Ok((slow.value / exact[0] - 1.0).abs())
+    })
+}
