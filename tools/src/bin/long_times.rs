@@ -47,8 +47,8 @@ fn main() -> Result<(), Failure> {
         );
     }
 
-    let scene = BenchScene::named("tp-II");
-    let problem = Problem::new(scene.spheroid, scene.violation, scene.initial)?;
+    let problem = BenchScene::named("tp-II").problem;
+    let (spheroid, initial) = (*problem.spheroid(), *problem.initial());
     let averaged = |order| -> Result<ErrorAt, Failure> {
         let motion = AveragedMotion::new(&problem, (0.0, longest), order)?;
         Ok(Box::new(move |t| {
@@ -59,9 +59,9 @@ fn main() -> Result<(), Failure> {
     };
     // tp-II's body with another tensor, and at rest but for a spin along the third principal axis.
     let symmetric = Matrix3::from_diagonal(&Vector3::new(0.013, 0.013, -0.04));
-    let tilted = Problem::new(scene.spheroid, symmetric, scene.initial)?;
-    let free = Problem::new(scene.spheroid, Matrix3::zeros(), scene.initial)?;
-    let momentum = Vector3::z() * scene.initial.momentum.norm();
+    let tilted = Problem::new(spheroid, symmetric, initial)?;
+    let free = Problem::new(spheroid, Matrix3::zeros(), initial)?;
+    let momentum = Vector3::z() * initial.momentum.norm();
     let upright = tilted.starting_from(BodyState { axis: Vector3::z(), momentum, equatorial_axis: Vector3::x() })?;
     let span = (0.0, 1e7);
     let lifted = |problem: &Problem<f64>| -> Problem<DoubleDouble> { problem.map(DoubleDouble::from_f64) };
