@@ -10,7 +10,7 @@ use super::root::{Look, root};
 use super::{Beam, train::GRAZING};
 use crate::dynamics::BodyState;
 use crate::error::Error;
-use crate::propagation::{Motion, Projection, Turning};
+use crate::propagation::{Motion, SeriesProjection, Turning};
 
 /// Rotation (rad) in a piece to begin with, and in one so short that an extremum near the edge is worth finding exactly.
 const PIECE: f64 = 2.4;
@@ -43,14 +43,14 @@ pub(super) trait Margin {
 
 /// From the series of a motion, which are cheapest where they start.
 pub(super) struct BySeries<'a> {
-    projection: &'a dyn Projection,
+    projection: &'a SeriesProjection<'a>,
     /// `cos rho`.
     edge: f64,
 }
 
 impl<'a> BySeries<'a> {
     /// `projection` is that of the axis of the beam on the line of sight.
-    pub(super) fn new(projection: &'a dyn Projection, beam: &Beam<f64>) -> Self {
+    pub(super) fn new(projection: &'a SeriesProjection<'a>, beam: &Beam<f64>) -> Self {
         Self { projection, edge: beam.half_opening.cos() }
     }
 }

@@ -132,7 +132,7 @@ pub fn pulse_train<M: Motion<f64, State = BodyState<f64>>>(
     let turning = motion.turning();
     let bounds = RateBounds::of_motion(motion, &turning, from)?;
     match motion.projection(&beam.axis, line_of_sight) {
-        Some(projection) => EdgeSearch::new(BySeries::new(&*projection, beam), bounds).train(from, to),
+        Some(projection) => EdgeSearch::new(BySeries::new(&projection, beam), bounds).train(from, to),
         None => EdgeSearch::new(ByStates { motion, turning, beam, line_of_sight }, bounds).train(from, to),
     }
 }

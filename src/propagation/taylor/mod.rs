@@ -29,14 +29,14 @@ use crate::error::Error;
 use crate::numerics::arithmetic::{OneMotion, Plain, Stored};
 use crate::numerics::fused::{Fused, detect_fused, run_fused};
 use crate::numerics::scalar::Real;
-use crate::propagation::{Motion, Projection};
+use crate::propagation::Motion;
 use clock::StepLimit;
 use compensated::Compensated;
 use errors::{StepError, TaylorErrors};
 pub use forecast::{TaylorForecast, taylor_forecast};
 #[cfg(target_arch = "x86_64")]
 pub(super) use lanes::axis_states_in_lanes;
-use projection::SeriesProjection;
+pub use projection::SeriesProjection;
 #[cfg(target_arch = "x86_64")]
 pub(super) use samples::span_of;
 pub use samples::{ErrorEstimates, Samples, axis_states_at, states_at};
@@ -325,13 +325,6 @@ impl<S: Real, X: RotationState<S>> TaylorMotion<S, X> {
     pub fn order(&self) -> usize {
         of_either!(self, series => series.setup.order)
     }
-
-    /// For doubles, on a processor with vector instructions.
-    fn series_projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
-        let Kept::Body(series) = &self.kept else { return None };
-        let KeptSeries { setup, steps, fused, .. } = (series as &dyn Any).downcast_ref::<KeptSeries<f64, 3>>()?;
-        Some(SeriesProjection::new(setup, steps, (*fused)?, in_body, direction))
-    }
 }
 
 impl<S: Real, X: RotationState<S>> Motion<S> for TaylorMotion<S, X> {
@@ -379,8 +372,11 @@ impl<S: Real, X: RotationState<S>> Motion<S> for TaylorMotion<S, X> {
         of_either!(self, series => series.error_estimate(t))
     }
 
-    fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<Box<dyn Projection + '_>> {
-        Some(Box::new(self.series_projection(in_body, direction)?))
+    /// For doubles, on a processor with vector instructions.
+    fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
+        let Kept::Body(series) = &self.kept else { return None };
+        let KeptSeries { setup, steps, fused, .. } = (series as &dyn Any).downcast_ref::<KeptSeries<f64, 3>>()?;
+        Some(SeriesProjection::new(setup, steps, (*fused)?, in_body, direction))
     }
 }
 

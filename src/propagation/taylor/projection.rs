@@ -7,17 +7,17 @@ use nalgebra::Vector3;
 use crate::error::Error;
 use crate::numerics::arithmetic::{OneMotion, Stored};
 use crate::numerics::fused::{Fused, run_fused};
-use crate::propagation::Projection;
 use crate::propagation::taylor::Steps;
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::series::{AXIS, COMPANION, MOMENTUM, change};
 
-/// A projection of a motion that is kept as Taylor series in doubles.
+/// `m.o` of a vector `m` fixed in the body and a fixed direction `o`, with its time derivatives, at any time of a motion that is kept as
+/// Taylor series in doubles: [`Motion::projection`](crate::propagation::Motion::projection).
 ///
 /// The same numbers as those from the states, to rounding, for less work: `o` is turned into the frame of the series once, instead
 /// of every state out of it. The same time gives the same digits, whatever was asked for before.
 #[derive(Debug, Clone)]
-pub(crate) struct SeriesProjection<'a> {
+pub struct SeriesProjection<'a> {
     setup: &'a ScaledProblem<f64, 3>,
     steps: &'a Steps<f64, 3>,
     fused: Fused,
@@ -58,6 +58,29 @@ impl<'a> SeriesProjection<'a> {
             step: Cell::new(0),
             turned: Cell::new((0.0, [in_body.x, in_body.y])),
         }
+    }
+
+    /// `m.o` and its first three time derivatives at the time `t`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a time outside the span of the motion.
+    pub fn at(&self, t: f64) -> Result<[f64; 4], Error> {
+        let step = self.step_near(t)?;
+        self.step.set(step);
+        Ok(run_fused(
+            self.fused,
+            #[inline(always)]
+            || self.by_step(self.fused, step, t),
+        ))
+    }
+
+    /// The time in `(after, t]` at which it takes least work, the latest at which a series starts, if that is not `t`.
+    pub fn cheapest_time(&self, after: f64, t: f64) -> Option<f64> {
+        let step = self.step_near(t).ok()?;
+        let direction = self.setup.direction();
+        let start = self.steps.starts.get(if direction > 0.0 { step } else { step + 1 })?;
+        let time = self.setup.span.0 + start.high * direction;
+        (after < time && time <= t).then_some(time)
     }
 
     fn step_near(&self, t: f64) -> Result<usize, Error> {
@@ -167,34 +190,13 @@ fn dot<A: OneMotion<Scalar = f64>>(a: A, u: A::Vector, v: A::Vector) -> f64 {
     x + y + z
 }
 
-impl Projection for SeriesProjection<'_> {
-    fn at(&self, t: f64) -> Result<[f64; 4], Error> {
-        let step = self.step_near(t)?;
-        self.step.set(step);
-        Ok(run_fused(
-            self.fused,
-            #[inline(always)]
-            || self.by_step(self.fused, step, t),
-        ))
-    }
-
-    /// The latest time at which a series starts.
-    fn cheapest_time(&self, after: f64, t: f64) -> Option<f64> {
-        let step = self.step_near(t).ok()?;
-        let direction = self.setup.direction();
-        let start = self.steps.starts.get(if direction > 0.0 { step } else { step + 1 })?;
-        let time = self.setup.span.0 + start.high * direction;
-        (after < time && time <= t).then_some(time)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use nalgebra::Matrix3;
 
     use crate::dynamics::{BodyState, Problem, RigidSpheroid};
     use crate::observables::pulsar::Beam;
-    use crate::propagation::{Motion, Projection};
+    use crate::propagation::Motion;
     use nalgebra::Vector3;
 
     /// The derivatives of the series against those of the equations of motion, forwards and backwards, however the times are asked for.
@@ -208,7 +210,7 @@ mod tests {
         for span in [(2.0, 45.0), (2.0, -41.0)] {
             let motion = Problem::new(spheroid, violation, start).unwrap().taylor(span, 1e-15).unwrap();
             for beam in [Beam::new(0.7, 0.9, 0.2), Beam::new(2.9, -2.0, 0.4), Beam::new(0.0, 0.0, 0.4)] {
-                let Some(projection) = motion.series_projection(&beam.axis, &n) else { return };
+                let Some(projection) = motion.projection(&beam.axis, &n) else { return };
                 for (ahead, back) in [(0.0, 0.0), (0.37, 0.0), (1.1, -0.9), (13.3, -12.0)] {
                     let mut share: f64 = 0.0;
                     while share <= 43.0 {
@@ -262,7 +264,7 @@ mod tests {
         for angle in [0.49999, -0.49999, 0.31, 1.2, 0.8, -1.3, 2.49] {
             for (x, y) in [(1.0, 0.0), (0.0, 1.0)] {
                 let in_body = Vector3::new(x, y, 0.3);
-                let Some(projection) = motion.series_projection(&in_body, &Vector3::z()) else { return };
+                let Some(projection) = motion.projection(&in_body, &Vector3::z()) else { return };
                 let t = angle / projection.setup.rate_about_axis;
                 let (sin, cos) = (projection.setup.rate_about_axis * t).sin_cos();
                 let exact = [x * cos - y * sin, x * sin + y * cos];
@@ -280,7 +282,7 @@ mod tests {
         let motion = tumbling((0.0, 8.0));
         let beam = Beam::new(0.7, 0.9, 0.2);
         let n = Vector3::new(0.36, 0.48, 0.8);
-        let Some(projection) = motion.series_projection(&beam.axis, &n) else { return };
+        let Some(projection) = motion.projection(&beam.axis, &n) else { return };
         let start = projection.steps.starts[2].high;
         for h in [0.0, 3e-10, 8e-10, 1.2e-9, 3e-7, 8e-7] {
             let t = start + h * projection.setup.scale.time;
