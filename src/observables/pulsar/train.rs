@@ -27,16 +27,13 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::Beam;
+pub use super::edge_search::GRAZING;
 use super::edge_search::{BySeries, ByStates, EdgeSearch, Event, Margin};
-use super::hermite::Jet;
 use super::rate_bounds::{RateBounds, rate_bounds};
 use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
+use crate::numerics::hermite::Jet;
 use crate::propagation::{Motion, Samples, projected_by_segments};
-
-/// An extremum of `m.n` this near to `cos rho` is a grazing: whether the line of sight passes the edge there is beyond
-/// doubles, whose `m.n` along a numerical motion is in error by about as much.
-pub const GRAZING: f64 = 1e-13;
 
 /// A stretch of time with `m.n > cos rho`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -198,7 +195,7 @@ struct Unfinished {
 
 impl Unfinished {
     fn begin(&mut self, start: Jet) -> Jet {
-        self.open = start.is_inside().then_some((start.time, true));
+        self.open = start.is_positive().then_some((start.time, true));
         start
     }
 

@@ -27,11 +27,8 @@ mod flows;
 pub(super) mod lanes;
 mod motion;
 mod one_motion;
-pub(super) mod ring;
 mod scheme;
 mod schemes;
-#[cfg(target_arch = "x86_64")]
-mod side_by_side;
 mod stepper;
 mod stepping;
 #[cfg(target_arch = "x86_64")]

@@ -1,8 +1,8 @@
 //! Steps of one motion, with fused multiply-add where the processor has it.
 
 use crate::numerics::fused::{Fused, detect_fused, run_fused};
+use crate::numerics::ring::{Double, FusedDouble};
 use crate::propagation::splitting::flows::{Field, Moving};
-use crate::propagation::splitting::ring::{Double, FusedDouble};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::stepper::{Steps, angles};
 

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::numerics::arithmetic::Plain;
+use crate::numerics::arithmetic::plain;
 use crate::propagation::taylor::error_growth::{ErrorGrowth, READING};
 use crate::propagation::taylor::errors::ROUNDING;
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
@@ -65,7 +65,7 @@ fn forecast<const V: usize>(
     accuracy: f64,
 ) -> Result<TaylorForecast, Error> {
     let setup = ScaledProblem::new(work_of(fused_for::<f64>()), spheroid, s, start, (0.0, duration), accuracy)?;
-    let steps = (duration.abs() / setup.drive().first_step(Plain::new())).ceil().max(1.0);
+    let steps = (duration.abs() / setup.drive().first_step(plain())).ceil().max(1.0);
     let scale = &setup.scale;
     let pull = 2.0 * (spheroid.constant_c / spheroid.inertia_xx).abs() * setup.frame.violation.norm();
     let strength = if scale.turning_rate > 0.0 { pull / scale.turning_rate.powi(2) } else { 0.0 };

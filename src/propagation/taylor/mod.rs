@@ -1,7 +1,6 @@
 //! Numerical motion by Taylor series with adaptive steps and dense output.
 
 mod clock;
-mod compensated;
 mod error_growth;
 mod errors;
 mod forecast;
@@ -26,12 +25,12 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::numerics::arithmetic::{OneMotion, Plain, Stored};
+use crate::numerics::arithmetic::{LoadStore, Padded, plain};
+use crate::numerics::compensated::Compensated;
 use crate::numerics::fused::{Fused, detect_fused, run_fused};
 use crate::numerics::scalar::Real;
 use crate::propagation::Motion;
 use clock::StepLimit;
-use compensated::Compensated;
 use errors::{StepError, TaylorErrors};
 pub use forecast::{TaylorForecast, taylor_forecast};
 #[cfg(target_arch = "x86_64")]
@@ -99,14 +98,14 @@ struct Steps<S, const V: usize> {
     /// Start of each step: time since the start of the motion, positive in either direction.
     starts: Vec<Compensated>,
     /// Those of each step, and places for more.
-    coefficients: Vec<Vectors<Stored<S>, V>>,
+    coefficients: Vec<Vectors<Padded<S>, V>>,
     /// Coefficients of one step, `order + 1`.
     length: usize,
 }
 
 impl<S: Real, const V: usize> Steps<S, V> {
     #[inline(always)]
-    fn kept<A: OneMotion<Scalar = S>>(setup: &ScaledProblem<S, V>, a: A) -> Result<Self, Error> {
+    fn kept<A: LoadStore<Scalar = S>>(setup: &ScaledProblem<S, V>, a: A) -> Result<Self, Error> {
         let mut steps = Self { starts: Vec::new(), coefficients: Vec::new(), length: setup.order + 1 };
         setup.drive().run(a, LIMIT, |step, series| {
             if let [_] = steps.starts.as_slice() {
@@ -120,10 +119,10 @@ impl<S: Real, const V: usize> Steps<S, V> {
     }
 
     #[inline(always)]
-    fn keep<A: OneMotion<Scalar = S>>(&mut self, a: A, start: Compensated, series: &[Vectors<A::Vector, V>]) {
+    fn keep<A: LoadStore<Scalar = S>>(&mut self, a: A, start: Compensated, series: &[Vectors<A::Vector, V>]) {
         // Loops rather than `map`, which is not always inlined and then leaves the instructions of `a`.
         let stored = |vectors: &Vectors<A::Vector, V>| {
-            let mut stored = [Stored::zero(); V];
+            let mut stored = [Padded::zero(); V];
             for i in 0..V {
                 stored[i] = a.store(vectors[i]);
             }
@@ -144,7 +143,7 @@ impl<S: Real, const V: usize> Steps<S, V> {
     /// None, with places for `count`.
     fn with_places(count: usize, order: usize) -> Self {
         let length = order + 1;
-        Self { starts: Vec::with_capacity(count), coefficients: vec![[Stored::zero(); V]; count * length], length }
+        Self { starts: Vec::with_capacity(count), coefficients: vec![[Padded::zero(); V]; count * length], length }
     }
 
     /// Forgets the steps, and keeps the places.
@@ -157,7 +156,7 @@ impl<S: Real, const V: usize> Steps<S, V> {
     }
 
     /// The coefficients of one step.
-    fn series(&self, step: usize) -> &[Vectors<Stored<S>, V>] {
+    fn series(&self, step: usize) -> &[Vectors<Padded<S>, V>] {
         &self.coefficients[step * self.length..][..self.length]
     }
 
@@ -170,7 +169,7 @@ impl<S: Real, const V: usize> Steps<S, V> {
 
     /// The vectors at the time `t` by the series of one step, in the given frame.
     #[inline(always)]
-    fn sum<A: OneMotion<Scalar = S>>(&self, setup: &ScaledProblem<S, V>, a: A, step: usize, t: S) -> [Stored<S>; V] {
+    fn sum<A: LoadStore<Scalar = S>>(&self, setup: &ScaledProblem<S, V>, a: A, step: usize, t: S) -> [Padded<S>; V] {
         let series = self.series(step);
         setup.sum(a, |k| series[k].each_ref().map(|v| a.load(v)), &self.starts[step], t)
     }
@@ -239,7 +238,7 @@ impl<S: Real, const V: usize> KeptSeries<S, V> {
             return Ok(*motion.downcast().expect("the scalar is f64"));
         }
         let setup = ScaledProblem::new((false, Work::Quadratic), spheroid, s, start, span, accuracy)?;
-        let steps = Steps::kept(&setup, Plain::new())?;
+        let steps = Steps::kept(&setup, plain())?;
         Ok(Self { setup, fused: None, steps, errors: OnceLock::new() })
     }
 
@@ -261,7 +260,7 @@ impl<S: Real, const V: usize> KeptSeries<S, V> {
             );
             return Ok(vectors.map(|v| v.vector().map(S::from_f64)));
         }
-        Ok(self.steps.sum(&self.setup, Plain::new(), index, t).map(|v| v.vector()))
+        Ok(self.steps.sum(&self.setup, plain(), index, t).map(|v| v.vector()))
     }
 
     /// Length of one step, positive in either direction.

@@ -5,7 +5,7 @@ use core::cell::Cell;
 use nalgebra::Vector3;
 
 use crate::error::Error;
-use crate::numerics::arithmetic::{OneMotion, Stored};
+use crate::numerics::arithmetic::{LoadStore, Padded};
 use crate::numerics::fused::{Fused, run_fused};
 use crate::propagation::taylor::Steps;
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
@@ -22,13 +22,13 @@ pub struct SeriesProjection<'a> {
     steps: &'a Steps<f64, 3>,
     fused: Fused,
     /// `o` in the frame of the series.
-    direction: Stored<f64>,
+    direction: Padded<f64>,
     /// `m` in the body.
     in_body: Vector3<f64>,
     /// `1 / I^xx`.
     axis_rate: f64,
     /// `2 C (s^YY - s^ZZ, s^ZZ - s^XX, s^XX - s^YY) / I^xx` in the frame of the series, which is principal.
-    pull: Stored<f64>,
+    pull: Padded<f64>,
     /// The step that was asked for last: the next is often the same or one near by.
     step: Cell<usize>,
     /// Whole radians that the body has turned about `n` against the vector carried by the series, and the components of `m` along that
@@ -51,10 +51,10 @@ impl<'a> SeriesProjection<'a> {
             setup,
             steps,
             fused,
-            direction: Stored::from(setup.frame.series_from_given(direction)),
+            direction: Padded::from(setup.frame.series_from_given(direction)),
             in_body: *in_body,
             axis_rate,
-            pull: Stored::from(Vector3::from(rates.momentum_of_principal) * (axis_rate / unit)),
+            pull: Padded::from(Vector3::from(rates.momentum_of_principal) * (axis_rate / unit)),
             step: Cell::new(0),
             turned: Cell::new((0.0, [in_body.x, in_body.y])),
         }
@@ -123,7 +123,7 @@ impl<'a> SeriesProjection<'a> {
     ///
     /// They need not wait for `m`, as the derivatives of `m` would.
     #[inline(always)]
-    fn by_step<A: OneMotion<Scalar = f64>>(&self, a: A, step: usize, t: f64) -> [f64; 4] {
+    fn by_step<A: LoadStore<Scalar = f64>>(&self, a: A, step: usize, t: f64) -> [f64; 4] {
         let setup = self.setup;
         let [along_companion, across] = self.about_axis(t);
         let series = self.steps.series(step);
@@ -149,27 +149,27 @@ impl<'a> SeriesProjection<'a> {
         let cross = |u, v| cross(a, u, v);
         let (pull, about) = (a.load(&self.pull), a.splat(setup.rate_about_axis));
         // What turns n: L / I^xx, and its derivatives.
-        let n = a.turned(axis);
+        let n = a.permuted(axis);
         let w = a.mul(momentum, a.splat(self.axis_rate));
-        let wt = a.turned(w);
+        let wt = a.permuted(w);
         let axis_1 = cross(wt, n);
-        let n_1 = a.turned(axis_1);
+        let n_1 = a.permuted(axis_1);
         let w_1 = a.mul(pull, a.mul(a.yzx(n), a.zxy(n)));
-        let axis_2 = a.add(cross(a.turned(w_1), n), cross(wt, n_1));
+        let axis_2 = a.add(cross(a.permuted(w_1), n), cross(wt, n_1));
         let w_2 = a.mul(pull, a.mul_add(a.yzx(n_1), a.zxy(n), a.mul(a.yzx(n), a.zxy(n_1))));
-        let omega = a.turned(a.mul_add(about, axis, w));
-        let omega_1 = a.turned(a.mul_add(about, axis_1, w_1));
-        let omega_2 = a.turned(a.mul_add(about, axis_2, w_2));
+        let omega = a.permuted(a.mul_add(about, axis, w));
+        let omega_1 = a.permuted(a.mul_add(about, axis_1, w_1));
+        let omega_2 = a.permuted(a.mul_add(about, axis_2, w_2));
 
         let direction = a.load(&self.direction);
-        let o = a.turned(direction);
+        let o = a.permuted(direction);
         let o_1 = cross(o, omega_1);
         let a_1 = cross(o, omega);
-        let a_1t = a.turned(a_1);
+        let a_1t = a.permuted(a_1);
         let a_2 = a.add(o_1, cross(a_1t, omega));
-        let a_3 = a.add(cross(o, omega_2), a.add(cross(a.turned(a.add(o_1, a_2)), omega), cross(a_1t, omega_1)));
+        let a_3 = a.add(cross(o, omega_2), a.add(cross(a.permuted(a.add(o_1, a_2)), omega), cross(a_1t, omega_1)));
 
-        let third = cross(n, a.turned(companion));
+        let third = cross(n, a.permuted(companion));
         let m = a.mul_add(
             axis,
             a.splat(self.in_body.z),
@@ -180,13 +180,13 @@ impl<'a> SeriesProjection<'a> {
 }
 
 #[inline(always)]
-fn cross<A: OneMotion>(a: A, u: A::Turned, v: A::Turned) -> A::Vector {
+fn cross<A: LoadStore>(a: A, u: A::Permuted, v: A::Permuted) -> A::Vector {
     a.sub(a.mul(a.yzx(u), a.zxy(v)), a.mul(a.zxy(u), a.yzx(v)))
 }
 
 #[inline(always)]
-fn dot<A: OneMotion<Scalar = f64>>(a: A, u: A::Vector, v: A::Vector) -> f64 {
-    let Stored([x, y, z, _]) = a.store(a.mul(u, v));
+fn dot<A: LoadStore<Scalar = f64>>(a: A, u: A::Vector, v: A::Vector) -> f64 {
+    let Padded([x, y, z, _]) = a.store(a.mul(u, v));
     x + y + z
 }
 

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::numerics::arithmetic::{OneMotion, Plain};
+use crate::numerics::arithmetic::{LoadStore, plain};
 use crate::numerics::fused::run_fused;
 use crate::numerics::scalar::{Real, Scalar};
 use crate::propagation::taylor::clock::{Interval, StepLimit};
@@ -135,12 +135,12 @@ fn sampled<S: Real, T, const V: usize>(
         return Ok(Samples { states: states.into_iter().map(given).collect(), error_estimates, step_count, order });
     }
     let setup = ScaledProblem::new((false, Work::Quadratic), spheroid, s, vectors, span, accuracy)?;
-    visited(&setup, Plain::new(), times, estimates, state)
+    visited(&setup, plain(), times, estimates, state)
 }
 
 /// Evaluates each step at the times within it.
 #[inline(always)]
-fn visited<A: OneMotion, T, const V: usize>(
+fn visited<A: LoadStore, T, const V: usize>(
     setup: &ScaledProblem<A::Scalar, V>,
     a: A,
     times: &[f64],

@@ -4,11 +4,11 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
-use crate::numerics::arithmetic::{OneMotion, Stored};
+use crate::numerics::arithmetic::{LoadStore, Padded};
+use crate::numerics::compensated::Compensated;
 use crate::numerics::rounding::two_sum;
 use crate::numerics::scalar::Real;
 use crate::propagation::input::{check_request, check_time};
-use crate::propagation::taylor::compensated::Compensated;
 use crate::propagation::taylor::frame::SeriesFrame;
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Vectors, change};
 use crate::propagation::taylor::step_size::{Scale, Work, order_for};
@@ -27,7 +27,7 @@ pub(super) struct ScaledProblem<S, const V: usize> {
     pub(super) frame: SeriesFrame<S>,
     pub(super) given_start: [Vector3<S>; V],
     /// In the frame of the series.
-    pub(super) start: Vectors<Stored<S>, V>,
+    pub(super) start: Vectors<Padded<S>, V>,
     /// Rate at which `e_x` turns about `n` against the vector carried along.
     pub(super) rate_about_axis: S,
 }
@@ -61,7 +61,7 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
         let frame = SeriesFrame::of(&anisotropic, principal_frame)?;
         let rate_about_axis = rate_about_axis(spheroid, &start[AXIS], &start[MOMENTUM]);
         let given_start = start;
-        let start = start.map(|v| Stored::from(frame.series_from_given(&v)));
+        let start = start.map(|v| Padded::from(frame.series_from_given(&v)));
         let (spheroid, violation) = (*spheroid, *s);
         Ok(Self { spheroid, violation, span, scale, order, budget, frame, given_start, start, rate_about_axis })
     }
@@ -113,16 +113,16 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
 
     /// The vectors, in the given frame, at the time `t` by the series of a step.
     #[inline(always)]
-    pub(super) fn sum<A: OneMotion<Scalar = S>>(
+    pub(super) fn sum<A: LoadStore<Scalar = S>>(
         &self,
         a: A,
         coefficient: impl Fn(usize) -> Vectors<A::Vector, V>,
         start: &Compensated,
         t: S,
-    ) -> [Stored<S>; V] {
+    ) -> [Padded<S>; V] {
         let first = coefficient(0);
         let change = change(a, self.order, coefficient, a.splat(self.series_time(start, t)));
-        let mut vectors = [Stored::zero(); V];
+        let mut vectors = [Padded::zero(); V];
         for i in 0..V {
             let v = a.add(first[i], change[i]);
             vectors[i] = a.store(self.frame.turned_to_given(a, v));

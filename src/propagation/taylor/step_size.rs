@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
-use crate::numerics::arithmetic::OneMotion;
+use crate::numerics::arithmetic::LoadStore;
 use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::taylor::series::{MAX_ORDER, MOMENTUM, Vectors};
 
@@ -33,7 +33,7 @@ impl Scale {
 
     /// Largest component of a coefficient, `L` in units of the momentum; NaN if one is NaN.
     #[inline(always)]
-    pub(super) fn size<A: OneMotion, const V: usize>(&self, a: A, coefficient: &Vectors<A::Vector, V>) -> f64 {
+    pub(super) fn size<A: LoadStore, const V: usize>(&self, a: A, coefficient: &Vectors<A::Vector, V>) -> f64 {
         let mut sizes = [0.0; V];
         for i in 0..V {
             sizes[i] = a.largest(coefficient[i]);
