@@ -4,7 +4,7 @@ use super::{Cost, Method, Output, Parameter, Request, State, Work};
 use crate::dynamics::Problem;
 use crate::error::Error;
 use crate::lorentz_violation::{error_of_principal_frame_along, principal_frame};
-use crate::propagation::splitting::SplittingForecast;
+use crate::propagation::splitting::{Goal, SplittingForecast};
 use crate::propagation::{AveragedMotion, SymmetricMotion, TaylorForecast, UniformMotion, largest_torque};
 use crate::solutions::averaged::AveragingOrder;
 
@@ -118,7 +118,7 @@ impl Forecast {
     }
 }
 
-/// A closed form for a family of tensors has no derivatives out of it.
+/// Refuses derivatives by `s^IJ` for a closed form that holds for a family of tensors only: neighbouring tensors are not in it.
 fn refuse_derivatives(request: &Request, family: &'static str) -> Result<(), Error> {
     let by_tensor = request.derivatives.iter().filter(|parameter| matches!(parameter, Parameter::S(..))).count();
     Error::ensure(by_tensor == 0, "number of derivatives by components of s^IJ", by_tensor as f64, family)
@@ -175,12 +175,9 @@ fn mean(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Resul
 }
 
 fn splitting(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
-    let forecast = if request.derivatives.is_empty() {
-        problem.splitting_forecast(stretch, request.accuracy)
-    } else {
-        problem.splitting_forecast_with_derivatives(stretch, request.accuracy)
-    };
-    let SplittingForecast { scheme, steps, truncation, coverage, rounding, .. } = forecast?;
+    let goal = if request.derivatives.is_empty() { Goal::State } else { Goal::Derivatives };
+    let SplittingForecast { scheme, steps, truncation, coverage, rounding, .. } =
+        problem.splitting_forecast_for(goal, stretch, request.accuracy)?;
     // Rotations and kicks.
     let order = 2 * scheme.stages();
     Ok(Forecast { truncation, promise: Promise::Goal(coverage), rounding, order, steps })

@@ -7,7 +7,7 @@ use crate::numerics::side_by_side::SideBySide;
 use crate::propagation::input::check_request;
 use crate::propagation::splitting::choice::{SampledForecast, sampled_forecast};
 use crate::propagation::splitting::flows::{Angles, Field, Moved, Moving};
-use crate::propagation::splitting::motion::Scene;
+use crate::propagation::splitting::motion::PrincipalProblem;
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::stepper::{STEPS_BETWEEN_PROJECTIONS, Steps, angles};
 use crate::propagation::{SampledProblem, Samples};
@@ -18,7 +18,7 @@ type Outcome = Result<Samples<AxisState<f64>>, Error>;
 pub(in crate::propagation) struct Ready<'t> {
     /// Its place among the outcomes.
     index: usize,
-    scene: Scene,
+    scene: PrincipalProblem,
     start: f64,
     times: &'t [f64],
     scheme: &'static Scheme,
@@ -37,7 +37,7 @@ impl<'t> Ready<'t> {
         let SampledProblem { problem, start, times, accuracy } = motion;
         let span = (*start, times.last().copied().unwrap_or(*start));
         check_request(span, *accuracy)?;
-        let scene = Scene::of(problem)?;
+        let scene = PrincipalProblem::new(problem)?;
         let Some(SampledForecast { scheme, step, steps }) = sampled_forecast(&scene, *start, times, *accuracy) else {
             return Ok(None);
         };
@@ -209,7 +209,7 @@ mod tests {
     use super::*;
     use crate::dynamics::{Problem, RigidSpheroid};
     use crate::propagation::splitting::NEAR_INTEGRABLE_6_2;
-    use crate::propagation::splitting::one_motion::OneMotion;
+    use crate::propagation::splitting::double_steps::DoubleSteps;
     use crate::solutions::free::rotated_by;
 
     fn scene(s: [f64; 3], momentum: f64, start: f64, times: &[f64], accuracy: f64) -> SampledProblem<'_> {
@@ -264,7 +264,7 @@ mod tests {
         let angles = angles(scheme, step * of_body.largest_rate);
         let found = states(register, Ready { scheme, step, steps: 256, angles, ..ready });
 
-        let alone = OneMotion::new(scheme, &of_body.field, step, of_body.largest_rate);
+        let alone = DoubleSteps::new(scheme, &of_body.field, step, of_body.largest_rate);
         let mut state = of_body.start;
         alone.open(&mut state);
         alone.advance(&mut state, of_body.casimir, 256);

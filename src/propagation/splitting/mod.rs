@@ -21,12 +21,12 @@
 mod choice;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod derivatives;
+mod double_steps;
 mod error;
 mod flows;
 #[cfg(target_arch = "x86_64")]
 pub(super) mod lanes;
 mod motion;
-mod one_motion;
 mod scheme;
 mod schemes;
 mod stepper;
@@ -34,10 +34,10 @@ mod stepping;
 #[cfg(target_arch = "x86_64")]
 mod tangents;
 
+pub(crate) use choice::{Goal, TANGENTS_AT_ONCE, require_tangent_maps};
 pub use choice::{
     SplittingForecast, propagate_by_best_splitting, propagate_orientation_by_best_splitting, splitting_forecast,
 };
-pub(crate) use choice::{TANGENTS_AT_ONCE, require_tangent_maps};
 pub use motion::{SPLITTING_STEP_LIMIT, SplittingMotion, propagate_by_splitting, propagate_orientation_by_splitting};
 pub use scheme::{Ends, Scheme};
 pub use schemes::{

@@ -36,9 +36,8 @@ pub(in crate::propagation) fn axis_states_in_lanes<R: Register>(
     let mut outcomes = Vec::with_capacity(scenes.len());
     let mut ready = Vec::with_capacity(scenes.len());
     for (scene, SampledProblem { problem, start, times, accuracy }) in scenes.iter().enumerate() {
-        let (body, s, AxisState { axis, momentum }) = (problem.spheroid(), problem.coefficients(), *problem.initial());
         let setup = span_of(*start, times)
-            .and_then(|span| ScaledProblem::new((true, Work::Quadratic), body, s, [axis, momentum], span, *accuracy));
+            .and_then(|span| ScaledProblem::new((true, Work::Quadratic), problem, span, *accuracy));
         outcomes.push(setup.map(|setup| {
             let samples = Samples::with_room(times.len(), setup.order);
             ready.push(Ready { scene, times, setup });

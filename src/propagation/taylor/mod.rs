@@ -17,7 +17,7 @@ mod shared_rounding;
 mod step_size;
 mod stepper;
 
-use core::any::{Any, TypeId};
+use core::any::TypeId;
 use core::marker::PhantomData;
 use std::sync::OnceLock;
 
@@ -28,7 +28,7 @@ use crate::error::Error;
 use crate::numerics::arithmetic::{LoadStore, Padded, plain};
 use crate::numerics::compensated::Compensated;
 use crate::numerics::fused::{Fused, detect_fused, run_fused};
-use crate::numerics::scalar::Real;
+use crate::numerics::scalar::{Real, cast, cast_ref};
 use crate::propagation::Motion;
 use clock::StepLimit;
 use errors::{StepError, TaylorErrors};
@@ -214,30 +214,22 @@ fn fused_for<S: Real>() -> Option<Fused> {
 
 /// Whether the series is computed in the principal frame, and how its work grows, by those instructions or without.
 fn work_of(fused: Option<Fused>) -> (bool, Work) {
-    if fused.is_some() { (true, Work::Latent) } else { (false, Work::Quadratic) }
+    if fused.is_some() { (true, Work::Waiting) } else { (false, Work::Quadratic) }
 }
 
 impl<S: Real, const V: usize> KeptSeries<S, V> {
-    fn new(
-        spheroid: &RigidSpheroid<S>,
-        s: &Matrix3<S>,
-        start: [Vector3<S>; V],
-        span: (f64, f64),
-        accuracy: f64,
-    ) -> Result<Self, Error> {
+    fn new<X: RotationState<S>>(problem: &Problem<S, X>, span: (f64, f64), tolerance: f64) -> Result<Self, Error> {
         if let Some(fused) = fused_for::<S>() {
-            let (spheroid, s, start) = (spheroid.map(S::re), s.map(S::re), start.map(|v| v.map(S::re)));
-            let setup = ScaledProblem::new((true, Work::Latent), &spheroid, &s, start, span, accuracy)?;
+            let setup = ScaledProblem::<_, V>::new(work_of(Some(fused)), &problem.map(S::re), span, tolerance)?;
             let steps = run_fused(
                 fused,
                 #[inline(always)]
                 || Steps::kept(&setup, fused),
             )?;
-            let motion: Box<dyn Any> =
-                Box::new(KeptSeries { setup, fused: Some(fused), steps, errors: OnceLock::new() });
-            return Ok(*motion.downcast().expect("the scalar is f64"));
+            let motion = KeptSeries { setup, fused: Some(fused), steps, errors: OnceLock::new() };
+            return Ok(cast(motion).expect("the scalar is f64"));
         }
-        let setup = ScaledProblem::new((false, Work::Quadratic), spheroid, s, start, span, accuracy)?;
+        let setup = ScaledProblem::new(work_of(None), problem, span, tolerance)?;
         let steps = Steps::kept(&setup, plain())?;
         Ok(Self { setup, fused: None, steps, errors: OnceLock::new() })
     }
@@ -252,7 +244,7 @@ impl<S: Real, const V: usize> KeptSeries<S, V> {
     #[inline(always)]
     fn at(&self, t: S) -> Result<[Vector3<S>; V], Error> {
         let (index, _) = self.step_at(t.re())?;
-        if let (Some(fused), Some(motion)) = (self.fused, (self as &dyn Any).downcast_ref::<KeptSeries<f64, V>>()) {
+        if let (Some(fused), Some(motion)) = (self.fused, cast_ref::<_, KeptSeries<f64, V>>(self)) {
             let vectors = run_fused(
                 fused,
                 #[inline(always)]
@@ -304,11 +296,10 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
     /// # Errors
     /// [`Error::Domain`] for an accuracy out of range, a span that is not finite, and one that needs more than [`STEP_LIMIT`] steps.
     pub fn taylor(&self, span: (f64, f64), accuracy: f64) -> Result<TaylorMotion<S, X>, Error> {
-        let (body, s, [n, l, e_x]) = (self.spheroid(), self.coefficients(), self.initial().vectors());
         let kept = if X::VECTORS == 3 {
-            Kept::Body(KeptSeries::new(body, s, [n, l, e_x], span, accuracy)?)
+            Kept::Body(KeptSeries::new(self, span, accuracy)?)
         } else {
-            Kept::Axis(KeptSeries::new(body, s, [n, l], span, accuracy)?)
+            Kept::Axis(KeptSeries::new(self, span, accuracy)?)
         };
         Ok(TaylorMotion { kept, state: PhantomData })
     }
@@ -374,7 +365,7 @@ impl<S: Real, X: RotationState<S>> Motion<S> for TaylorMotion<S, X> {
     /// For doubles, on a processor with vector instructions.
     fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
         let Kept::Body(series) = &self.kept else { return None };
-        let KeptSeries { setup, steps, fused, .. } = (series as &dyn Any).downcast_ref::<KeptSeries<f64, 3>>()?;
+        let KeptSeries { setup, steps, fused, .. } = cast_ref::<_, KeptSeries<f64, 3>>(series)?;
         Some(SeriesProjection::new(setup, steps, (*fused)?, in_body, direction))
     }
 }
@@ -429,7 +420,7 @@ mod tests {
     fn without_vector_instructions_the_frame_is_the_given_one() {
         assert_eq!(work_of(None), (false, Work::Quadratic));
         if let Some(fused) = detect_fused() {
-            assert_eq!(work_of(Some(fused)), (true, Work::Latent));
+            assert_eq!(work_of(Some(fused)), (true, Work::Waiting));
         }
     }
 

@@ -2,14 +2,13 @@
 
 use nalgebra::Vector3;
 
-use crate::dynamics::{BodyState, Problem, RotationState};
+use crate::dynamics::{BodyState, Problem};
 use crate::error::Error;
 use crate::numerics::fused::run_fused;
 use crate::propagation::taylor::projection::SeriesProjection;
 use crate::propagation::taylor::samples::{LIMIT, Samples};
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
-use crate::propagation::taylor::step_size::Work;
-use crate::propagation::taylor::{Steps, fused_for};
+use crate::propagation::taylor::{Steps, fused_for, work_of};
 
 /// Steps of one stretch: few enough that their series stay in the fast memory in which they were made.
 const STEPS: usize = 32;
@@ -24,13 +23,12 @@ type Visit<'a> = dyn FnMut(&Steps<f64, 3>, f64) -> Result<(), Error> + 'a;
 pub(crate) fn projected_by_segments(
     problem: &Problem<f64>,
     span: (f64, f64),
-    accuracy: f64,
+    tolerance: f64,
     (in_body, direction): (&Vector3<f64>, &Vector3<f64>),
     mut visit: impl FnMut(&SeriesProjection<'_>, f64) -> Result<(), Error>,
 ) -> Result<Option<Samples<BodyState<f64>>>, Error> {
     let Some(fused) = fused_for::<f64>().filter(|_| span.0 <= span.1) else { return Ok(None) };
-    let (spheroid, s, start) = (problem.spheroid(), problem.coefficients(), problem.initial().vectors());
-    let setup = ScaledProblem::new((true, Work::Latent), spheroid, s, start, span, accuracy)?;
+    let setup = ScaledProblem::new(work_of(Some(fused)), problem, span, tolerance)?;
     let mut kept = Steps::with_places(STEPS, setup.order);
     let mut step_count = 0;
     // Not inlined: what is done with a stretch would take registers from the series.
