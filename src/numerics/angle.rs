@@ -1,4 +1,12 @@
 //! Angles up to whole turns.
+//!
+//! ```
+//! use core::f64::consts::TAU;
+//! use twofold::numerics::angle::{whole_turns, wrapped};
+//!
+//! assert_eq!(whole_turns(3.0 * TAU + 0.3), 3.0 * TAU);
+//! assert!((wrapped(3.0 * TAU + 0.3) - 0.3).abs() < 1e-14);
+//! ```
 
 use core::f64::consts::TAU;
 

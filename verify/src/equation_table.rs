@@ -614,7 +614,7 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
             "observables::spectrum::LineList",
             "observables::spectrum::SpectralLine",
             "observables::spectrum::Series",
-            "observables::spectrum::Window",
+            "numerics::window::Window",
             "observables::spectrum::FrequencyBasis",
             "observables::spectrum::Generator",
             "observables::spectrum::Combination",
@@ -627,10 +627,11 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
             "observables::fundamental_frequencies::fundamental_frequencies",
             "observables::fundamental_frequencies::FundamentalFrequencies",
             "observables::fundamental_frequencies::mean_rates_about",
-            "observables::fundamental_frequencies::mean_rate",
-            "observables::fundamental_frequencies::MeanRate",
+            "numerics::mean_rate::mean_rate",
+            "numerics::mean_rate::MeanRate",
         ],
     ),
+    ("angles up to whole turns", &["numerics::angle::whole_turns", "numerics::angle::wrapped"]),
     (
         "the averaged motion in closed form: mean Hamiltonian, generator, top, theta functions",
         &[

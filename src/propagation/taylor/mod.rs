@@ -103,6 +103,16 @@ struct Steps<S, const V: usize> {
     length: usize,
 }
 
+/// By a loop rather than `map`, which is not always inlined and then leaves the instructions of `a`.
+#[inline(always)]
+fn stored<A: LoadStore, const V: usize>(a: A, vectors: &Vectors<A::Vector, V>) -> Vectors<Padded<A::Scalar>, V> {
+    let mut stored = [Padded::zero(); V];
+    for i in 0..V {
+        stored[i] = a.store(vectors[i]);
+    }
+    stored
+}
+
 impl<S: Real, const V: usize> Steps<S, V> {
     #[inline(always)]
     fn kept<A: LoadStore<Scalar = S>>(setup: &ScaledProblem<S, V>, a: A) -> Result<Self, Error> {
@@ -120,23 +130,18 @@ impl<S: Real, const V: usize> Steps<S, V> {
 
     #[inline(always)]
     fn keep<A: LoadStore<Scalar = S>>(&mut self, a: A, start: Compensated, series: &[Vectors<A::Vector, V>]) {
-        // Loops rather than `map`, which is not always inlined and then leaves the instructions of `a`.
-        let stored = |vectors: &Vectors<A::Vector, V>| {
-            let mut stored = [Padded::zero(); V];
-            for i in 0..V {
-                stored[i] = a.store(vectors[i]);
-            }
-            stored
-        };
         let from = self.starts.len() * series.len();
         self.starts.push(start);
         match self.coefficients.get_mut(from..from + series.len()) {
             Some(place) => {
                 for (place, vectors) in place.iter_mut().zip(series) {
-                    *place = stored(vectors);
+                    *place = stored(a, vectors);
                 }
             }
-            None => self.coefficients.extend(series.iter().map(stored)),
+            None => self.coefficients.extend(series.iter().map(
+                #[inline(always)]
+                |vectors| stored(a, vectors),
+            )),
         }
     }
 

@@ -69,9 +69,10 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
         "least squares: the error is that of the data",
     ),
     (
-        &["observables::spectrum", "observables::fundamental_frequencies"],
+        &["observables::spectrum", "observables::fundamental_frequencies", "numerics::mean_rate", "numerics::window"],
         "estimates from samples, whose error is that of the window; against exact frequencies in `mean-frequency-*` and `line-*`",
     ),
+    (&["numerics::angle"], "one rounded quotient and one product: the error is that of whole turns as a double"),
     (
         &[
             "observables::eta_distribution::EtaDistribution::at_inclination",
