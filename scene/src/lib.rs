@@ -1,16 +1,18 @@
-//! Scene files of the model `twofold` and what is computed from them: tables, sweeps, timing files, fits.
+//! Scene files of the model `twofold` and what is computed from them: tables, sweeps, timing files, measured data.
 
 pub mod columns;
 pub mod estimated_error;
-pub mod fit;
-pub mod inference;
+pub mod measurements;
+pub mod plan;
 pub mod pulsar_table;
 pub mod pulsar_timing;
 pub mod random;
+pub mod samples;
 pub mod scene_file;
 pub mod significant;
 pub mod sweep;
 pub mod trajectory;
+pub mod wave;
 
 /// The compiler of this build.
 pub const COMPILER: &str = env!("TWOFOLD_RUSTC");

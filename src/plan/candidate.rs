@@ -1,6 +1,6 @@
 //! Each method before it is used: whether it holds for a scene, how large its error and its work will be.
 
-use super::{Cost, Method, Output, Parameter, Request, State, Work};
+use super::{Cost, Method, Output, Request, State, Work};
 use crate::dynamics::Problem;
 use crate::error::Error;
 use crate::lorentz_violation::{error_of_principal_frame_along, principal_frame};
@@ -118,9 +118,9 @@ impl Forecast {
     }
 }
 
-/// Refuses derivatives by `s^IJ` for a closed form that holds for a family of tensors only: neighbouring tensors are not in it.
+/// A closed form for a family of tensors has no derivatives by changes of the tensor that leave the family.
 fn refuse_derivatives(request: &Request, family: &'static str) -> Result<(), Error> {
-    let by_tensor = request.derivatives.iter().filter(|parameter| matches!(parameter, Parameter::S(..))).count();
+    let by_tensor = request.derivatives.iter().filter(|parameter| parameter.is_of_s()).count();
     Error::ensure(by_tensor == 0, "number of derivatives by components of s^IJ", by_tensor as f64, family)
 }
 
@@ -222,6 +222,7 @@ mod tests {
     use super::*;
     use crate::dynamics::RigidSpheroid;
     use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::parameters::Parameter;
 
     const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
 

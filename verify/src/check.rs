@@ -167,9 +167,30 @@ impl Worst {
     }
 }
 
+/// The largest figure over some cases, and in which it was seen.
+///
+/// # Errors
+/// The first case without a figure; no cases.
+pub fn worst_of<C: std::fmt::Debug>(
+    cases: impl IntoIterator<Item = C>,
+    mut figure: impl FnMut(&C) -> Result<f64, String>,
+) -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for case in cases {
+        worst.see(figure(&case)?, || format!("{case:?}"));
+    }
+    worst.finish()
+}
+
 /// The largest of some figures, none of them negative; NaN if one is NaN, which `f64::max` would drop.
 pub fn largest(figures: impl IntoIterator<Item = f64>) -> f64 {
     figures.into_iter().fold(0.0, |most: f64, x| if x.is_nan() || most.is_nan() { f64::NAN } else { most.max(x) })
+}
+
+/// The smallest of some figures; NaN if one is NaN, which `f64::min` would drop, and infinite without one.
+pub fn smallest(figures: impl IntoIterator<Item = f64>) -> f64 {
+    let less = |least: f64, x: f64| if x.is_nan() || least.is_nan() { f64::NAN } else { least.min(x) };
+    figures.into_iter().fold(f64::INFINITY, less)
 }
 
 /// The largest magnitude in a vector; NaN if one component is NaN.
@@ -186,6 +207,7 @@ mod tests {
         assert_eq!(largest([1.0, 3.0, 2.0]), 3.0);
         for figures in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
             assert!(largest(figures).is_nan() && !Bound::AtMost(9.0).holds(largest(figures)));
+            assert!(smallest(figures).is_nan() && !Bound::AtLeast(0.0).holds(smallest(figures)));
         }
         assert!(largest_component(&nalgebra::Vector3::new(1.0, f64::NAN, 2.0)).is_nan());
     }

@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::Error;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{AxisState, Problem, RigidSpheroid};
 use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::bound::eta_from_inclination;
 use twofold::observables::eta::secular_axis_rate;
 use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
-use twofold::propagation::{Motion, propagate};
+use twofold::propagation::Motion;
 
 use crate::random::Random;
 
@@ -88,7 +88,7 @@ pub fn eta_curve(asymmetry_ratio: f64, inclinations: &[f64]) -> Result<Vec<EtaPo
 /// The mean has a smooth weight that vanishes with all derivatives at both ends, so that the nutation leaves next to nothing.
 ///
 /// # Errors
-/// What [`propagate`] reports.
+/// As for [`Problem::taylor`].
 pub fn numerical_axis_rate(
     s: &PrincipalCoefficients<f64>,
     spin: f64,
@@ -98,9 +98,8 @@ pub fn numerical_axis_rate(
     const SAMPLES: usize = 400;
     let spheroid = RigidSpheroid::in_units_of_tc(1.1);
     let axis = symmetry_axis(alpha, beta);
-    let equatorial_axis = axis.cross(&Vector3::from_fn(|i, _| if i == axis.iamin() { 1.0 } else { 0.0 })).normalize();
-    let initial = BodyState { axis, momentum: axis * (spheroid.inertia_zz * spin), equatorial_axis };
-    let motion = propagate(&spheroid, &s.tensor(), &initial, (0.0, duration), 1e-12)?;
+    let initial = AxisState { axis, momentum: axis * (spheroid.inertia_zz * spin) };
+    let motion = Problem::new(spheroid, s.tensor(), initial)?.taylor((0.0, duration), 1e-12)?;
     let (mut rate, mut direction, mut total) = (Vector3::zeros(), Vector3::zeros(), 0.0);
     for i in 1..SAMPLES {
         let x = i as f64 / SAMPLES as f64;
@@ -117,7 +116,7 @@ pub fn numerical_axis_rate(
 /// `I^zz / C = Omega^z = 1`: one over `eta` for a tensor with `|2 s^ZZ - s^XX - s^YY| = 1`.
 pub fn seen_rate(random: &mut Random, s: &Matrix3<f64>, lambda: f64) -> f64 {
     let axis = symmetry_axis(random.within(0.0, TAU), random.within(-1.0, 1.0).acos());
-    let across = axis.cross(&Vector3::from_fn(|i, _| if i == axis.iamin() { 1.0 } else { 0.0 })).normalize();
+    let across = axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize();
     let (sine, cosine) = random.within(0.0, TAU).sin_cos();
     let observer = axis * lambda.cos() + (across * cosine + axis.cross(&across) * sine) * lambda.sin();
     observer.dot(&secular_axis_rate(1.0, 1.0, s, &axis))

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use twofold::dynamics::euler_angle_equations::AxisAngles;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::{Constants, Form, Precession, initial_values};
@@ -39,17 +39,24 @@ impl PaperExample {
         initial_values(Form::Printed, self.kind, &spheroid(), &COEFFICIENTS, SPIN, &self.constants)
     }
 
-    /// The initial state, with `gamma = 0`.
+    /// The problem, with `gamma = 0` at the start.
     ///
     /// # Errors
     /// None for the four examples.
-    pub fn initial_state(&self) -> Result<BodyState<f64>, twofold::Error> {
-        let start = self.initial_values()?;
-        let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
-        let gamma_rate = SPIN - start.alpha_rate * start.beta.cos();
-        let rates = EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma: gamma_rate };
-        Ok(BodyState::from_angles(&spheroid(), &angles, &rates))
+    pub fn problem(&self) -> Result<Problem<f64>, twofold::Error> {
+        problem_from(&COEFFICIENTS, &self.initial_values()?)
     }
+}
+
+/// The star of the examples with other coefficients, from given angles and rates, `gamma = 0` and the spin of the examples.
+///
+/// # Errors
+/// As for [`Problem::new`].
+pub fn problem_from(s: &PrincipalCoefficients<f64>, start: &AxisAngles<f64>) -> Result<Problem<f64>, twofold::Error> {
+    let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
+    let gamma_rate = SPIN - start.alpha_rate * start.beta.cos();
+    let rates = EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma: gamma_rate };
+    Problem::from_angles(spheroid(), s.tensor(), &angles, &rates)
 }
 
 /// The four examples in the paper's order.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 
@@ -47,6 +47,15 @@ impl RandomScene {
         EulerRates { alpha, beta, gamma }
     }
 
+    /// The problem that starts so.
+    ///
+    /// # Panics
+    /// None: the scenes are physical.
+    pub fn problem(&self) -> Problem<f64> {
+        let problem = Problem::new(self.spheroid(), self.coefficients().tensor(), self.state());
+        problem.expect("the scenes are physical")
+    }
+
     /// State at the start.
     pub fn state(&self) -> BodyState<f64> {
         BodyState::from_angles(&self.spheroid(), &self.angles(), &self.rates())
@@ -79,7 +88,7 @@ pub fn worst_over<T: Strategy>(
     seed: u8,
     cases: usize,
     strategy: &T,
-    measure: impl Fn(&T::Value) -> Result<f64, String>,
+    mut measure: impl FnMut(&T::Value) -> Result<f64, String>,
 ) -> Result<Measured, String> {
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
     let mut runner = TestRunner::new_with_rng(Config::default(), rng);

@@ -8,8 +8,25 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 
 pub use twofold_scene::random::Random;
 
-use crate::conditioned::Conditioned;
+use crate::check::{Measured, Worst};
+use crate::magnitudes::Conditioned;
 use crate::prime_field::Fp;
+
+/// The largest figure over `count` cases, each drawn from the random numbers of a seed.
+///
+/// # Errors
+/// The first case without a figure; no cases.
+pub fn worst_of_draws(
+    seed: u64,
+    count: usize,
+    mut figure: impl FnMut(&mut Random) -> Result<f64, String>,
+) -> Result<Measured, String> {
+    let (mut random, mut worst) = (Random::with_seed(seed), Worst::default());
+    for case in 0..count {
+        worst.see(figure(&mut random)?, || format!("case {case} of seed {seed}"));
+    }
+    worst.finish()
+}
 
 /// A number that can be drawn from a range; a field without order takes any element.
 pub trait Drawn: Scalar {

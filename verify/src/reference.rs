@@ -1,10 +1,10 @@
 //! The reference motions: initial values and 34-digit states of ten scenes, and the pulses of two, carried as test data.
 
 use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::plan::{Parameter, Start};
+use twofold::parameters::{Parameter, Parameters};
 
 /// One reference motion.
 #[derive(Debug, Clone)]
@@ -29,6 +29,15 @@ impl ReferenceMotion {
     /// `s^IJ` in the principal frame.
     pub fn violation(&self) -> Matrix3<f64> {
         self.coefficients.tensor()
+    }
+
+    /// The problem that starts with the Euler angles and rates at `t = 0`.
+    ///
+    /// # Panics
+    /// If the data compiled into the program are malformed.
+    pub fn problem(&self) -> Problem<f64> {
+        let problem = Problem::from_angles(self.spheroid, self.violation(), &self.angles, &self.rates);
+        problem.expect("the reference motions start from physical states")
     }
 
     /// State at `t = 0` from the Euler angles and rates.
@@ -109,8 +118,8 @@ pub struct ReferenceGradient {
     /// Name of the scene.
     pub name: String,
     /// The scene.
-    pub start: Start<f64>,
-    /// Times, and at each for every parameter in the order of [`Parameter::ALL`] the derivatives of the components of `n`, `L` and `e_x`.
+    pub start: Parameters<f64>,
+    /// Times, and at each for every parameter in the order of [`Parameter::OF_MOTION`] the derivatives of the components of `n`, `L` and `e_x`.
     pub derivatives: Vec<(f64, Vec<[f64; 9]>)>,
 }
 
@@ -119,43 +128,37 @@ pub struct ReferenceGradient {
 /// # Panics
 /// If the data compiled into the program are malformed.
 pub fn reference_gradients() -> Vec<ReferenceGradient> {
-    let mut scenes: Vec<ReferenceGradient> = Vec::new();
-    for (name, row) in rows(include_str!("../data/reference_gradients.csv")) {
-        if scenes.last().is_none_or(|scene| scene.name != name) {
-            let (angles, rates) =
-                (EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 }, EulerRates { alpha: 0.0, beta: 0.0, gamma: 0.0 });
-            let spheroid = RigidSpheroid { inertia_xx: 0.0, inertia_zz: 0.0, constant_c: 0.0 };
-            let start = Start { spheroid, violation: Matrix3::zeros(), angles, rates };
-            scenes.push(ReferenceGradient { name, start, derivatives: Vec::new() });
-        }
-        let scene = scenes.last_mut().expect("one was pushed");
-        let (index, value, t) = (row[0] as usize, row[1], row[2]);
-        let at = match scene.derivatives.iter().position(|(time, _)| *time == t) {
-            Some(at) => at,
-            None => {
-                scene.derivatives.push((t, Vec::new()));
-                scene.derivatives.len() - 1
+    let rows = rows(include_str!("../data/reference_gradients.csv"));
+    let of_scene = |scene: &[(String, Vec<f64>)]| {
+        let (angles, rates) =
+            (EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 }, EulerRates { alpha: 0.0, beta: 0.0, gamma: 0.0 });
+        let spheroid = RigidSpheroid { inertia_xx: 0.0, inertia_zz: 0.0, constant_c: 0.0 };
+        let mut start = Parameters::new(spheroid, Matrix3::zeros(), angles, rates);
+        let mut derivatives: Vec<(f64, Vec<[f64; 9]>)> = Vec::new();
+        for (_, row) in scene {
+            let (index, value, t) = (row[0] as usize, row[1], row[2]);
+            if !derivatives.iter().any(|(time, _)| *time == t) {
+                derivatives.push((t, Vec::new()));
             }
-        };
-        let derivatives = &mut scene.derivatives[at].1;
-        assert_eq!(derivatives.len(), index, "parameters in order");
-        derivatives.push(core::array::from_fn(|i| row[3 + i]));
-        if at == 0 {
-            Parameter::ALL[index].add(&mut scene.start, value);
+            let at = derivatives.iter().position(|(time, _)| *time == t).expect("one was pushed");
+            assert_eq!(derivatives[at].1.len(), index, "parameters in order");
+            derivatives[at].1.push(core::array::from_fn(|i| row[3 + i]));
+            if at == 0 {
+                Parameter::OF_MOTION[index].add(&mut start, value);
+            }
         }
-    }
-    scenes
+        ReferenceGradient { name: scene[0].0.clone(), start, derivatives }
+    };
+    rows.chunk_by(|(first, _), (second, _)| first == second).map(of_scene).collect()
 }
 
-fn rows(text: &str) -> Vec<(String, Vec<f64>)> {
-    csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes())
-        .records()
-        .map(|record| {
-            let record = record.expect("reference data are well-formed CSV");
-            let numbers = record.iter().skip(1).map(|cell| cell.parse().expect("a number")).collect();
-            (record[0].to_string(), numbers)
-        })
-        .collect()
+fn rows(text: &'static str) -> Vec<(String, Vec<f64>)> {
+    let numbers = |record: &csv::StringRecord| record.iter().skip(1).map(|x| x.parse().expect("a number")).collect();
+    records(text).map(|record| (record[0].to_string(), numbers(&record))).collect()
+}
+
+/// The rows of a table that is compiled into the program.
+pub(crate) fn records(text: &'static str) -> impl Iterator<Item = csv::StringRecord> {
+    let reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+    reader.into_records().map(|record| record.expect("a table compiled into the program is well-formed CSV"))
 }

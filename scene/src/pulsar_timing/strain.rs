@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
-use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::epoch::Epoch;
-use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
+use twofold::observables::gravitational_wave::Polarizations;
 use twofold::propagation::AxisState;
 
 use super::PulsarScene;
+use crate::wave::spheroid_wave;
 
 /// When a series begins, its steps and how many.
 #[derive(Debug, Clone, Copy)]
@@ -23,10 +23,13 @@ pub struct Series {
 impl PulsarScene {
     /// The wave at the observer, at the scene's distance, of a state.
     pub fn wave(&self, state: &AxisState<f64>) -> Option<Polarizations<f64>> {
-        let unit = self.strain_unit?;
-        let source = spheroid_inertia_acceleration(&self.spheroid, &self.violation, &state.axis, &state.momentum);
-        let wave = polarizations(&self.observer, &metric_perturbation(1.0, &source));
-        Some(Polarizations { plus: wave.plus * unit, cross: wave.cross * unit })
+        Some(spheroid_wave(
+            self.problem.spheroid(),
+            self.problem.coefficients(),
+            state,
+            &self.observer,
+            self.strain_unit?,
+        ))
     }
 }
 

@@ -6,8 +6,9 @@ use twofold::numerics::elliptic::carlson::{rc, rd, rf, rf_of_roots, rj, rj_of_ro
 use twofold::numerics::elliptic::jacobi::{JacobiFunctions, complete_integral, jacobi};
 use twofold::numerics::scalar::Real;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Bound, Check, Kind, Measured, largest, worst_of};
 use crate::physical_domain::worst_over;
+use crate::reference::records;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {
@@ -85,6 +86,7 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
+#[derive(Debug)]
 struct CarlsonRow {
     function: String,
     variable: String,
@@ -93,24 +95,24 @@ struct CarlsonRow {
     expected: Vec<f64>,
 }
 
-fn carlson_table() -> Vec<CarlsonRow> {
-    csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .from_reader(include_str!("../../data/carlson.csv").as_bytes())
-        .records()
-        .map(|record| {
-            let record = record.expect("well-formed CSV");
-            let numbers = |from: usize, to: usize| {
-                (from..to).filter(|&i| !record[i].is_empty()).map(|i| record[i].parse().expect("a number")).collect()
-            };
-            CarlsonRow {
-                function: record[0].to_string(),
-                variable: record[1].to_string(),
-                arguments: numbers(2, 6),
-                expected: numbers(6, 10),
-            }
-        })
-        .collect()
+/// A relative error in units of 2.2e-16.
+fn relative(value: f64, expected: f64) -> f64 {
+    (value / expected - 1.0).abs() / f64::EPSILON
+}
+
+fn carlson_table() -> impl Iterator<Item = CarlsonRow> {
+    records(include_str!("../../data/carlson.csv")).map(|record| {
+        let numbers = |columns: std::ops::Range<usize>| {
+            let cells = columns.map(|i| &record[i]).filter(|cell| !cell.is_empty());
+            cells.map(|cell| cell.parse().expect("a number")).collect()
+        };
+        CarlsonRow {
+            function: record[0].to_string(),
+            variable: record[1].to_string(),
+            arguments: numbers(2..6),
+            expected: numbers(6..10),
+        }
+    })
 }
 
 /// The function of a row; a conjugate pair enters by its real and imaginary parts.
@@ -142,33 +144,24 @@ fn roots_of_pair<S: Real>(re: S, im: S) -> (S, S) {
 }
 
 fn carlson_values() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for row in carlson_table() {
-        let error = carlson(&row.function, &row.arguments) / row.expected[0] - 1.0;
-        worst.see(error.abs() / f64::EPSILON, || format!("{} {:?}", row.function, row.arguments));
-    }
-    worst.finish()
+    worst_of(carlson_table(), |row| Ok(relative(carlson(&row.function, &row.arguments), row.expected[0])))
 }
 
 fn carlson_derivatives() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for row in carlson_table().into_iter().filter(|row| !row.variable.is_empty()) {
+    worst_of(carlson_table().filter(|row| !row.variable.is_empty()), |row| {
         let index = match row.variable.as_str() {
             "x" => 0,
             "y" | "re" => 1,
-            "z" => 2,
-            "im" => 2,
+            "z" | "im" => 2,
             "p" => 3,
             other => return Err(format!("no variable {other}")),
         };
-        let (_, first, second, third) = third_derivative(
-            |v: Dual3_64| {
-                let mut arguments: Vec<Dual3_64> = row.arguments.iter().map(|&x| Dual3_64::from_re(x)).collect();
-                arguments[index] = v;
-                carlson(&row.function, &arguments)
-            },
-            row.arguments[index],
-        );
+        let along = |v: Dual3_64| {
+            let mut arguments: Vec<Dual3_64> = row.arguments.iter().map(|&x| Dual3_64::from_re(x)).collect();
+            arguments[index] = v;
+            carlson(&row.function, &arguments)
+        };
+        let (_, first, second, third) = third_derivative(along, row.arguments[index]);
         // Derivatives along the real or imaginary part have the scale of the modulus.
         let size = if row.function.ends_with("pair") && (index == 1 || index == 2) {
             row.arguments[1].hypot(row.arguments[2])
@@ -176,15 +169,13 @@ fn carlson_derivatives() -> Result<Measured, String> {
             row.arguments[index].abs()
         };
         let mut scale = row.expected[0].abs();
-        for (order, derivative) in [first, second, third].into_iter().enumerate() {
-            scale *= (order + 1) as f64 / size;
-            let error = (derivative - row.expected[order + 1]).abs() / (scale * f64::EPSILON);
-            let place =
-                || format!("order {} of {} by {} at {:?}", order + 1, row.function, row.variable, row.arguments);
-            worst.see(error, place);
-        }
-    }
-    worst.finish()
+        Ok(largest([first, second, third].into_iter().zip(&row.expected[1..]).zip([1.0, 2.0, 3.0]).map(
+            |((derivative, expected), order)| {
+                scale *= order / size;
+                (derivative - expected).abs() / (scale * f64::EPSILON)
+            },
+        )))
+    })
 }
 
 fn carlson_against_ellip() -> Result<Measured, String> {
@@ -197,22 +188,21 @@ fn carlson_against_ellip() -> Result<Measured, String> {
             (rd(x, y, z), ellip::elliprd(x, y, z).map_err(fault)?),
             (rj(x, y, z, p), ellip::elliprj(x, y, z, p).map_err(fault)?),
         ];
-        Ok(largest(pairs.iter().map(|(ours, theirs)| (ours / theirs - 1.0).abs() / f64::EPSILON)))
+        Ok(largest(pairs.map(|(ours, theirs)| relative(ours, theirs))))
     })
 }
 
 /// Rows of `u, m1, K` and of `f, df/dm1, d2f/dm1^2` for sn, cn, dn.
-fn jacobi_table() -> Vec<([f64; 3], [[f64; 3]; 3])> {
-    csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .from_reader(include_str!("../../data/jacobi.csv").as_bytes())
-        .records()
-        .map(|record| {
-            let record = record.expect("well-formed CSV");
-            let triple = |from: usize| [0, 1, 2].map(|i| record[from + i].parse::<f64>().expect("a number"));
-            (triple(0), [triple(3), triple(6), triple(9)])
-        })
-        .collect()
+fn jacobi_table() -> impl Iterator<Item = ([f64; 3], [[f64; 3]; 3])> {
+    records(include_str!("../../data/jacobi.csv")).map(|record| {
+        let triple = |from: usize| [0, 1, 2].map(|i| record[from + i].parse::<f64>().expect("a number"));
+        (triple(0), [triple(3), triple(6), triple(9)])
+    })
+}
+
+/// Values and three derivatives of sn, cn, dn along a change of their argument or parameter.
+fn derivatives(functions: impl Fn(Dual3_64) -> JacobiFunctions<Dual3_64>, at: f64) -> [(f64, f64, f64, f64); 3] {
+    [0, 1, 2].map(|i| third_derivative(|x| values(functions(x))[i], at))
 }
 
 fn values<S>(f: JacobiFunctions<S>) -> [S; 3] {
@@ -225,42 +215,31 @@ fn slopes([sn, cn, dn]: [f64; 3], m1: f64) -> [f64; 3] {
 }
 
 fn jacobi_values() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for ([u, m1, quarter], expected) in jacobi_table() {
-        worst.see((complete_integral(m1) / quarter - 1.0).abs() / f64::EPSILON, || format!("K, m1 = {m1:e}"));
+    worst_of(jacobi_table(), |&([u, m1, quarter], expected)| {
         let expected = expected.map(|f| f[0]);
-        let slopes = slopes(expected, m1);
-        for (i, ours) in values(jacobi(u, m1)).into_iter().enumerate() {
+        let (ours, slopes) = (values(jacobi(u, m1)), slopes(expected, m1));
+        let error = |i: usize| {
             let scale = expected[i].abs() + (u * slopes[i]).abs();
-            worst.see((ours - expected[i]).abs() / (scale * f64::EPSILON), || {
-                format!("{} at u = {u}, m1 = {m1:e}", ["sn", "cn", "dn"][i])
-            });
-        }
-    }
-    worst.finish()
+            (ours[i] - expected[i]).abs() / (scale * f64::EPSILON)
+        };
+        Ok(largest([relative(complete_integral(m1), quarter), error(0), error(1), error(2)]))
+    })
 }
 
 fn jacobi_parameter_derivatives() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for ([u, m1, _], expected) in jacobi_table() {
-        let by = |pick: fn(JacobiFunctions<Dual3_64>) -> Dual3_64| {
-            third_derivative(|m1: Dual3_64| pick(jacobi(Dual3_64::from_re(u), m1)), m1)
-        };
+    worst_of(jacobi_table(), |&([u, m1, _], expected)| {
         let slopes = slopes(expected.map(|f| f[0]), m1);
-        for (i, (_, first, second, _)) in [by(|f| f.sn), by(|f| f.cn), by(|f| f.dn)].into_iter().enumerate() {
-            for (order, derivative) in [(1_usize, first), (2, second)] {
-                let scale = order as f64 * (expected[i][0].abs() + (u * slopes[i]).abs()) / m1.powi(order as i32);
-                worst.see((derivative - expected[i][order]).abs() / (scale * f64::EPSILON), || {
-                    format!(
-                        "order {order} of {} at u = {u}, m1 = {m1:e}: {derivative:e} {:e}",
-                        ["sn", "cn", "dn"][i],
-                        expected[i][order]
-                    )
-                });
-            }
-        }
-    }
-    worst.finish()
+        let ours = derivatives(|m1| jacobi(Dual3_64::from_re(u), m1), m1);
+        Ok(largest([0, 1, 2].into_iter().flat_map(|i| {
+            let (_, first, second, _) = ours[i];
+            let size = expected[i][0].abs() + (u * slopes[i]).abs();
+            let error = |derivative: f64, order: usize| {
+                let scale = order as f64 * size / m1.powi(order as i32);
+                (derivative - expected[i][order]).abs() / (scale * f64::EPSILON)
+            };
+            [error(first, 1), error(second, 2)]
+        })))
+    })
 }
 
 fn jacobi_points() -> impl Strategy<Value = (f64, f64)> {
@@ -272,12 +251,7 @@ fn jacobi_points() -> impl Strategy<Value = (f64, f64)> {
 fn jacobi_argument_derivatives() -> Result<Measured, String> {
     worst_over(21, 500, &jacobi_points(), |&(u, m1)| {
         let m = 1.0 - m1;
-        let by = |pick: fn(JacobiFunctions<Dual3_64>) -> Dual3_64| {
-            third_derivative(|u: Dual3_64| pick(jacobi(u, Dual3_64::from_re(m1))), u)
-        };
-        let (sn, sn1, sn2, sn3) = by(|f| f.sn);
-        let (cn, cn1, ..) = by(|f| f.cn);
-        let (dn, dn1, ..) = by(|f| f.dn);
+        let [(sn, sn1, sn2, sn3), (cn, cn1, ..), (dn, dn1, ..)] = derivatives(|u| jacobi(u, Dual3_64::from_re(m1)), u);
         let [s, c, d] = slopes([sn, cn, dn], m1);
         // The size of each term, as it is without the cancellation at a zero.
         let size = 1.0 + m.abs();

@@ -16,20 +16,34 @@ use twofold::observables::eta::{
 use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, worst_of};
 use crate::derivation::Differentiable;
 use crate::eta::{PAPER_ASYMMETRY, eta_curve, numerical_axis_rate, seen_rate, twelve_turns};
-use crate::identity::{self, Identity};
-use crate::measured_order::measured_order;
+use crate::identity::identities;
+use crate::measured_order::order_of_error;
 use crate::paper_examples::{COEFFICIENTS, SPIN};
-use crate::random::{Point, Random};
+use crate::random::{Point, Random, worst_of_draws};
+
+/// Samples of a distribution.
+const SAMPLES: usize = 20_000;
+
+/// Where `P(eta > x)` is compared with its integral.
+const MULTIPLES: [f64; 7] = [2.1, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 
 /// Shapes of the tensor: symmetric about Z, the paper's, the most asymmetric one.
 const SHAPES: [f64; 3] = [0.0, PAPER_ASYMMETRY, -1.0 / 3.0];
 
+identities! {
+    /// the secular rate of the spin axis is torque over angular momentum, is a^(1) about Z for s^XX = s^YY, and has the square of Eq. (41) with eta
+    /// = 1 / speed
+    torque_over_momentum: Property "secular-axis-rate" [31, 32, 41];
+    /// angles at the start by the asymmetry ratio alone are those of Eq. (34), lower signs, with A = 0
+    start_by_asymmetry_ratio: Property "single-precession-start" [34];
+}
+
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    let mut checks = [identity::checks::<SecularRate>(), identity::checks::<SinglePrecessionStart>()].concat();
+    let mut checks = identities();
     checks.extend([
         Check {
             id: "eta-azimuth-mean",
@@ -191,78 +205,51 @@ pub fn checks() -> Vec<Check> {
     checks
 }
 
-struct SecularRate;
+fn torque_over_momentum<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let spin = p.rates.gamma;
+    let axis = symmetry_axis(p.angles.alpha, p.angles.beta);
+    let inertia_over_c = p.spheroid.inertia_zz / p.spheroid.constant_c;
+    let rate = secular_axis_rate(inertia_over_c, spin, &p.s.tensor(), &axis);
+    let momentum = p.spheroid.inertia_zz * spin;
+    let (_, torque) = reduced_rates(&p.spheroid, &p.s.tensor(), &axis, &(axis * momentum));
+    let from_torque = rate - torque / momentum;
 
-impl Identity for SecularRate {
-    const ID: &'static str = "secular-axis-rate";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "secular-axis-rate-rounding");
-    const EQUATIONS: &'static [u8] = &[31, 32, 41];
-    const STATEMENT: &'static str = "the secular rate of the spin axis is torque over angular momentum, is a^(1) about Z for s^XX = s^YY, and has the square \
-         of Eq. (41) with eta = 1 / speed";
+    let symmetric = PrincipalCoefficients { yy: p.s.xx, ..p.s };
+    let constants =
+        Constants { alpha_0: p.angles.alpha, beta_0: p.angles.beta, amplitude: F::zero(), phase: F::zero() };
+    let forced =
+        Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &symmetric, spin, &constants);
+    let about_z = Vector3::new(F::zero(), F::zero(), forced.forced_rate).cross(&axis);
+    let from_forced = secular_axis_rate(inertia_over_c, spin, &symmetric.tensor(), &axis) - about_z;
 
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let spin = p.rates.gamma;
-        let axis = symmetry_axis(p.angles.alpha, p.angles.beta);
-        let inertia_over_c = p.spheroid.inertia_zz / p.spheroid.constant_c;
-        let rate = secular_axis_rate(inertia_over_c, spin, &p.s.tensor(), &axis);
-        let momentum = p.spheroid.inertia_zz * spin;
-        let (_, torque) = reduced_rates(&p.spheroid, &p.s.tensor(), &axis, &(axis * momentum));
-        let from_torque = rate - torque / momentum;
-
-        let symmetric = PrincipalCoefficients { yy: p.s.xx, ..p.s };
-        let constants =
-            Constants { alpha_0: p.angles.alpha, beta_0: p.angles.beta, amplitude: F::zero(), phase: F::zero() };
-        let forced =
-            Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &symmetric, spin, &constants);
-        let about_z = Vector3::new(F::zero(), F::zero(), forced.forced_rate).cross(&axis);
-        let from_forced = secular_axis_rate(inertia_over_c, spin, &symmetric.tensor(), &axis) - about_z;
-
-        let unit = p.s.combination() / (inertia_over_c * spin);
-        let ratio = p.s.asymmetry() / p.s.combination();
-        let square = rate.dot(&rate) - squared_speed(ratio, p.angles.alpha, p.angles.beta) * unit * unit;
-        from_torque.iter().chain(from_forced.iter()).copied().chain([square]).collect()
-    }
+    let unit = p.s.combination() / (inertia_over_c * spin);
+    let ratio = p.s.asymmetry() / p.s.combination();
+    let square = rate.dot(&rate) - squared_speed(ratio, p.angles.alpha, p.angles.beta) * unit * unit;
+    from_torque.iter().chain(from_forced.iter()).copied().chain([square]).collect()
 }
 
-struct SinglePrecessionStart;
-
-impl Identity for SinglePrecessionStart {
-    const ID: &'static str = "single-precession-start";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "single-precession-start-rounding");
-    const EQUATIONS: &'static [u8] = &[34];
-    const STATEMENT: &'static str =
-        "angles at the start by the asymmetry ratio alone are those of Eq. (34), lower signs, with A = 0";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (alpha_0, beta_0) = (p.angles.alpha, p.angles.beta);
-        let ratio = p.s.asymmetry() / p.s.combination();
-        let (alpha, beta) = single_precession_start(ratio, alpha_0, beta_0);
-        let constants = Constants { alpha_0, beta_0, amplitude: F::zero(), phase: F::one() };
-        let start = Perturbation::new_unchecked(
-            Form::Printed,
-            Precession::Single,
-            &p.spheroid,
-            &p.s,
-            p.rates.gamma,
-            &constants,
-        )
-        .at(F::zero());
-        vec![alpha - start.alpha, beta - start.beta]
-    }
+fn start_by_asymmetry_ratio<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (alpha_0, beta_0) = (p.angles.alpha, p.angles.beta);
+    let ratio = p.s.asymmetry() / p.s.combination();
+    let (alpha, beta) = single_precession_start(ratio, alpha_0, beta_0);
+    let constants = Constants { alpha_0, beta_0, amplitude: F::zero(), phase: F::one() };
+    let start =
+        Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &p.s, p.rates.gamma, &constants)
+            .at(F::zero());
+    vec![alpha - start.alpha, beta - start.beta]
 }
 
 fn azimuth_mean() -> Result<Measured, String> {
-    let mut random = Random::with_seed(31);
-    let mut worst = Worst::default();
-    for case in 0..300 {
+    worst_of_draws(31, 300, |random| {
         let (ratio, beta, alpha) = (random.within(-1.0, 1.0), random.within(0.0, PI), random.within(0.0, TAU));
         let mean = (0..8).map(|k| squared_speed(ratio, alpha + f64::from(k) * FRAC_PI_4, beta)).sum::<f64>() / 8.0;
-        let closed = mean_squared_speed(ratio, beta);
-        worst.see((closed / mean - 1.0).abs() / f64::EPSILON, || {
-            format!("case {case} of seed 31: r = {ratio}, beta = {beta}")
-        });
-    }
-    worst.finish()
+        Ok((mean_squared_speed(ratio, beta) / mean - 1.0).abs() / f64::EPSILON)
+    })
+}
+
+/// Eigenvalues of a tensor with the asymmetry ratio `r`, no trace and `2 s^ZZ - s^XX - s^YY = 1`.
+fn of_shape(ratio: f64) -> [f64; 3] {
+    [ratio / 2.0 - 1.0 / 6.0, -ratio / 2.0 - 1.0 / 6.0, 1.0 / 3.0]
 }
 
 /// Mean of `|dl/dt|^2` over the time `period` by Runge-Kutta, and how far the end is from the start.
@@ -291,54 +278,41 @@ fn secular_period(mut s: [f64; 3], h: f64) -> f64 {
 }
 
 fn along_motion() -> Result<Measured, String> {
-    let mut random = Random::with_seed(33);
-    let mut worst = Worst::default();
-    for case in 0..60 {
+    worst_of_draws(33, 60, |random| {
         let (ratio, alpha, beta) = (random.within(-1.0, 1.0), random.within(0.0, TAU), random.within(0.1, PI - 0.1));
-        let s = [ratio / 2.0 - 1.0 / 6.0, -ratio / 2.0 - 1.0 / 6.0, 1.0 / 3.0];
+        let s = of_shape(ratio);
         let (tensor, axis) = (PrincipalCoefficients::new(s).tensor(), symmetry_axis(alpha, beta));
         let period = secular_period(s, axis.dot(&(tensor * axis)));
         let (integrated, off) = integrated_mean(&tensor, axis, period);
         let closed = squared_speed_along_motion(ratio, alpha, beta);
-        worst.see(largest([(closed / integrated - 1.0).abs(), off]), || {
-            format!("case {case} of seed 33: r = {ratio}, alpha = {alpha}, beta = {beta}: {closed:e}, {integrated:e}")
-        });
-    }
-    worst.finish()
+        Ok(largest([(closed / integrated - 1.0).abs(), off]))
+    })
 }
 
 fn distribution() -> Result<Measured, String> {
-    let count = 20_000;
     let mut random = Random::with_seed(41);
-    let mut worst = Worst::default();
-    for beta in [0.3, 1.0, 1.4, 1.55] {
-        let expected = EtaDistribution::at_inclination(PAPER_ASYMMETRY, beta)?;
-        let samples = (0..count)
-            .map(|_| {
-                let axis = symmetry_axis(random.within(0.0, TAU), beta);
-                let direction = symmetry_axis(random.within(0.0, TAU), random.within(-1.0, 1.0).acos());
-                let rate = secular_axis_rate(1.0, 1.0, &COEFFICIENTS.tensor(), &axis);
-                (COEFFICIENTS.combination() / direction.dot(&rate)).abs()
-            })
-            .collect();
-        worst.see(kolmogorov_smirnov(samples, &expected, 1), || format!("beta_0 = {beta}"));
-    }
-    worst.finish()
+    worst_of([0.3, 1.0, 1.4, 1.55], |&beta| {
+        let eta = |_| {
+            let axis = symmetry_axis(random.within(0.0, TAU), beta);
+            let direction = symmetry_axis(random.within(0.0, TAU), random.within(-1.0, 1.0).acos());
+            let rate = secular_axis_rate(1.0, 1.0, &COEFFICIENTS.tensor(), &axis);
+            (COEFFICIENTS.combination() / direction.dot(&rate)).abs()
+        };
+        let samples = (0..SAMPLES).map(eta).collect();
+        Ok(kolmogorov_smirnov(samples, &EtaDistribution::at_inclination(PAPER_ASYMMETRY, beta)?, 1))
+    })
 }
 
 fn known_angle() -> Result<Measured, String> {
-    let count = 20_000;
-    let mut random = Random::with_seed(42);
-    let mut worst = Worst::default();
+    let (mut random, mut worst) = (Random::with_seed(42), Worst::default());
     for ratio in SHAPES {
-        let s = PrincipalCoefficients::new([ratio / 2.0 - 1.0 / 6.0, -ratio / 2.0 - 1.0 / 6.0, 1.0 / 3.0]).tensor();
+        let s = PrincipalCoefficients::new(of_shape(ratio)).tensor();
         let unknown = EtaDistribution::of_unknown_axis(ratio)?;
         for degrees in [30.0_f64, 95.0, 100.0] {
             let lambda = degrees.to_radians();
-            let expected = unknown.clone().seen_at(lambda)?;
-            let samples = (0..count).map(|_| 1.0 / seen_rate(&mut random, &s, lambda).abs()).collect();
-            worst
-                .see(kolmogorov_smirnov(samples, &expected, 200), || format!("r = {ratio:.3}, lambda = {degrees} deg"));
+            let samples = (0..SAMPLES).map(|_| 1.0 / seen_rate(&mut random, &s, lambda).abs()).collect();
+            let figure = kolmogorov_smirnov(samples, &unknown.clone().seen_at(lambda)?, 200);
+            worst.see(figure, || format!("r = {ratio:.3}, lambda = {degrees} deg"));
         }
     }
     worst.finish()
@@ -347,10 +321,8 @@ fn known_angle() -> Result<Measured, String> {
 fn known_angle_integral() -> Result<Measured, String> {
     let rule = GaussLegendre::new(NonZeroUsize::new(80).ok_or("no nodes")?);
     let lambda = 1.745_f64;
-    let unknown = EtaDistribution::of_unknown_axis(0.0)?;
-    let distribution = unknown.seen_at(lambda)?;
-    let mut worst = Worst::default();
-    for scaled in [2.1_f64, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0] {
+    let distribution = EtaDistribution::of_unknown_axis(0.0)?.seen_at(lambda)?;
+    worst_of(MULTIPLES, |&scaled| {
         // n.dl/dt = sin(lambda) (Z.l)(Z.b) with b at right angles to l: half of (1 - mu^2) sin(2 phi) about the third axis, so that
         // P = int_0^1 (2/pi) asin min(1, 2 / (x (1 - mu^2))) d mu. The integrand is one from the kink on, a root before it.
         let kink = (1.0 - 2.0 / scaled).sqrt();
@@ -359,39 +331,28 @@ fn known_angle_integral() -> Result<Measured, String> {
             2.0 * kink * t * FRAC_2_PI * (2.0 / (scaled * (1.0 - mu * mu))).min(1.0).asin()
         };
         let integral = 1.0 - kink + rule.integrate(0.0, 1.0, root);
-        let found = distribution.probability_above(scaled / lambda.sin());
-        worst.see((found / integral - 1.0).abs(), || format!("x sin(lambda) = {scaled}: {integral:.6}"));
-    }
-    worst.finish()
+        Ok((distribution.probability_above(scaled / lambda.sin()) / integral - 1.0).abs())
+    })
 }
 
 fn symmetric_is_largest() -> Result<Measured, String> {
     let of_shape = |ratio: f64| EtaDistribution::of_unknown_axis(ratio)?.seen_at(FRAC_PI_2)?.quantile(0.95);
     let symmetric = of_shape(0.0)?;
-    let mut worst = Worst::default();
-    for ratio in [0.01, 0.03, 1.0 / 11.0, 0.2, 1.0 / 3.0, 1.0, 3.0] {
-        let eta = of_shape(-ratio)?;
-        worst.see(eta / symmetric, || format!("|r| = {ratio:.3}: {eta:.2}, r = 0: {symmetric:.2}"));
-    }
-    worst.finish()
+    worst_of([0.01, 0.03, 1.0 / 11.0, 0.2, 1.0 / 3.0, 1.0, 3.0], |&ratio: &f64| Ok(of_shape(-ratio)? / symmetric))
 }
 
 fn ten_exceeded() -> Result<Measured, String> {
     let (mut smallest, mut at) = (f64::INFINITY, 0.0);
     for i in 0..=152 {
         let beta = 0.05 + 0.01 * f64::from(i);
-        let eta = EtaDistribution::at_inclination(PAPER_ASYMMETRY, beta).and_then(|eta| eta.quantile(0.95));
-        let eta = eta?;
+        let eta = EtaDistribution::at_inclination(PAPER_ASYMMETRY, beta)?.quantile(0.95)?;
         if eta < smallest {
             (smallest, at) = (eta, beta);
         }
     }
-    let unknown = EtaDistribution::of_unknown_axis(PAPER_ASYMMETRY)?;
-    let share = unknown.probability_above(10.0);
-    Ok(Measured::new(
-        smallest,
-        format!("at beta_0 = {at:.2}; above 10 with probability {share:.2} if nothing is known of the axis"),
-    ))
+    let share = EtaDistribution::of_unknown_axis(PAPER_ASYMMETRY)?.probability_above(10.0);
+    let detail = format!("at beta_0 = {at:.2}; above 10 with probability {share:.2} if nothing is known of the axis");
+    Ok(Measured::new(smallest, detail))
 }
 
 /// Largest distance between the shares of samples and a distribution, at one sample of `every`, times the root of their number.
@@ -407,29 +368,23 @@ fn kolmogorov_smirnov(mut samples: Vec<f64>, expected: &EtaDistribution, every: 
 
 fn unknown_axis() -> Result<Measured, String> {
     let distribution = EtaDistribution::of_unknown_axis(0.0)?;
-    let mut worst = Worst::default();
-    for x in [2.1_f64, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0] {
+    worst_of(MULTIPLES, |&x| {
         // P = int_0^1 min(1, 1 / (x mu sqrt(1 - mu^2))) d mu; the integrand leaves 1 where mu^2 (1 - mu^2) = 1 / x^2.
         let root = (1.0 - 4.0 / (x * x)).sqrt();
         let (low, high) = ((2.0 / (x * x) / (1.0 + root)).sqrt(), ((1.0 + root) / 2.0).sqrt());
         let antiderivative = |mu: f64| -((1.0 + (1.0 - mu * mu).sqrt()) / mu).ln();
         let closed = low + (1.0 - high) + (antiderivative(high) - antiderivative(low)) / x;
-        worst.see((distribution.probability_above(x) / closed - 1.0).abs(), || format!("x = {x}: {closed:.6}"));
-    }
-    worst.finish()
+        Ok((distribution.probability_above(x) / closed - 1.0).abs())
+    })
 }
 
 fn secular_rate() -> Result<Measured, String> {
-    let points = [3e-2, 1e-2, 3e-3, 1e-3]
-        .into_iter()
-        .map(|k| {
-            let s = COEFFICIENTS.scaled(k);
-            let (rate, axis) = numerical_axis_rate(&s, SPIN, (0.4, 0.9), twelve_turns(SPIN))?;
-            let secular = secular_axis_rate(1.1, SPIN, &s.tensor(), &axis);
-            Ok((k, (rate - secular).norm() / secular.norm()))
-        })
-        .collect::<Result<Vec<_>, String>>()?;
-    measured_order(&points, 0.0)
+    order_of_error(&[3e-2, 1e-2, 3e-3, 1e-3], |k| {
+        let s = COEFFICIENTS.scaled(k);
+        let (rate, axis) = numerical_axis_rate(&s, SPIN, (0.4, 0.9), twelve_turns(SPIN))?;
+        let secular = secular_axis_rate(1.1, SPIN, &s.tensor(), &axis);
+        Ok((rate - secular).norm() / secular.norm())
+    })
 }
 
 fn by_numerical_motion() -> Result<Measured, String> {
@@ -444,11 +399,9 @@ fn by_numerical_motion() -> Result<Measured, String> {
             numerical.push((rate.norm() / unit, 1.0));
             secular.push((squared_speed(PAPER_ASYMMETRY, alpha, beta).sqrt(), 1.0));
         }
-        let [numerical, secular] = [numerical, secular].map(EtaDistribution::from_speeds);
-        let (numerical, secular) = (numerical?, secular?);
+        let (numerical, secular) = (EtaDistribution::from_speeds(numerical)?, EtaDistribution::from_speeds(secular)?);
         for probability in [0.5, 0.84, 0.975] {
-            let quantile = |d: &EtaDistribution| d.quantile(probability).map_err(String::from);
-            let (numerical, secular) = (quantile(&numerical)?, quantile(&secular)?);
+            let (numerical, secular) = (numerical.quantile(probability)?, secular.quantile(probability)?);
             worst.see((numerical / secular - 1.0).abs(), || {
                 format!("beta_0 = {beta}, probability {probability}: {numerical:.4}, {secular:.4}")
             });
@@ -475,22 +428,14 @@ fn estimate_order() -> Result<Measured, String> {
 }
 
 fn small_inclinations() -> Result<Measured, String> {
-    let points: Vec<_> =
-        [1e-3, 1e-2, 1e-1].map(|beta| (beta, root_mean_square_along_motion(PAPER_ASYMMETRY, beta))).to_vec();
-    measured_order(&points, 0.0)
+    order_of_error(&[1e-3, 1e-2, 1e-1], |beta| Ok(root_mean_square_along_motion(PAPER_ASYMMETRY, beta)))
 }
 
 fn near_right_angle() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for i in 0..=47 {
-        let beta = FRAC_PI_2 - 0.01 * f64::from(i);
-        worst.see(root_mean_square_along_motion(PAPER_ASYMMETRY, beta), || format!("beta_0 = {beta:.3}"));
-    }
-    worst.finish()
+    let inclinations = (0..=47).map(|i| FRAC_PI_2 - 0.01 * f64::from(i));
+    worst_of(inclinations, |&beta| Ok(root_mean_square_along_motion(PAPER_ASYMMETRY, beta)))
 }
 
 fn symmetric_limit() -> Result<Measured, String> {
-    let points: Vec<_> =
-        [1e-2, 1e-3, 1e-4].map(|ratio| (ratio, root_mean_square_along_motion(-ratio, FRAC_PI_2))).to_vec();
-    measured_order(&points, 0.0)
+    order_of_error(&[1e-2, 1e-3, 1e-4], |ratio| Ok(root_mean_square_along_motion(-ratio, FRAC_PI_2)))
 }

@@ -3,14 +3,20 @@
 use nalgebra::Vector3;
 use twofold::observables::Observer;
 
-use crate::check::{Check, Kind};
+use crate::check::Check;
 use crate::derivation::Differentiable;
-use crate::identity::{self, Identity};
+use crate::identity::identities;
 use crate::random::Point;
+
+identities! {
+    /// n-hat has its colatitude from Z and its azimuth from X; theta-hat and sin(theta) phi-hat are its derivatives by them; the three are a
+    /// right-handed orthonormal basis
+    observer_basis: Autodiff "observer-basis" [46, 70];
+}
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    identity::checks::<ObserverBasis>().to_vec()
+    identities()
 }
 
 /// The observer of a random point.
@@ -18,36 +24,26 @@ pub(super) fn observer<F: Differentiable>(p: &Point<F>) -> Observer<F> {
     Observer::at(p.frame.beta, p.frame.alpha)
 }
 
-struct ObserverBasis;
-
-impl Identity for ObserverBasis {
-    const ID: &'static str = "observer-basis";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "observer-basis-autodiff");
-    const EQUATIONS: &'static [u8] = &[46, 70];
-    const STATEMENT: &'static str = "n-hat has its colatitude from Z and its azimuth from X; theta-hat and sin(theta) phi-hat are its derivatives by them; \
-         the three are a right-handed orthonormal basis";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (theta, phi) = (p.frame.beta, p.frame.alpha);
-        let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());
-        let Observer { direction, theta_hat, phi_hat } = observer(p);
-        let along = |theta, phi| Observer::<F::First>::at(theta, phi).direction.map(F::derivative);
-        let by_theta = along(F::first(theta, F::one()), F::fixed(phi));
-        let by_phi = along(F::fixed(theta), F::first(phi, F::one()));
-        let horizontal = Vector3::new(direction.x, direction.y, F::zero());
-        let mut out = vec![
-            direction.z - cos_theta,
-            // The azimuth: the horizontal part lies along (cos phi, sin phi), and its length is sin theta.
-            direction.x * sin_phi - direction.y * cos_phi,
-            direction.x * cos_phi + direction.y * sin_phi - sin_theta,
-            horizontal.dot(&horizontal) - sin_theta * sin_theta,
-            theta_hat.dot(&theta_hat) - F::one(),
-            phi_hat.dot(&phi_hat) - F::one(),
-            theta_hat.dot(&phi_hat),
-        ];
-        out.extend(&(theta_hat - by_theta));
-        out.extend(&(phi_hat * sin_theta - by_phi));
-        out.extend(&(theta_hat.cross(&phi_hat) - direction));
-        out
-    }
+fn observer_basis<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (theta, phi) = (p.frame.beta, p.frame.alpha);
+    let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());
+    let Observer { direction, theta_hat, phi_hat } = observer(p);
+    let along = |theta, phi| Observer::<F::First>::at(theta, phi).direction.map(F::derivative);
+    let by_theta = along(F::first(theta, F::one()), F::fixed(phi));
+    let by_phi = along(F::fixed(theta), F::first(phi, F::one()));
+    let horizontal = Vector3::new(direction.x, direction.y, F::zero());
+    let mut out = vec![
+        direction.z - cos_theta,
+        // The azimuth: the horizontal part lies along (cos phi, sin phi), and its length is sin theta.
+        direction.x * sin_phi - direction.y * cos_phi,
+        direction.x * cos_phi + direction.y * sin_phi - sin_theta,
+        horizontal.dot(&horizontal) - sin_theta * sin_theta,
+        theta_hat.dot(&theta_hat) - F::one(),
+        phi_hat.dot(&phi_hat) - F::one(),
+        theta_hat.dot(&phi_hat),
+    ];
+    out.extend(&(theta_hat - by_theta));
+    out.extend(&(phi_hat * sin_theta - by_phi));
+    out.extend(&(theta_hat.cross(&phi_hat) - direction));
+    out
 }

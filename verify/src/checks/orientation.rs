@@ -7,116 +7,74 @@ use twofold::euler_angles::{
     body_from_inertial, body_rates, permuted_from_inertial, symmetry_axis, tensor_in_body_frame,
 };
 
-use crate::check::{Check, Kind};
+use crate::check::Check;
 use crate::derivation::Differentiable;
 use crate::derivation::body_motion::{composed_rotation, cross_matrix, rotation_derivative};
-use crate::identity::{self, Identity};
+use crate::identity::identities;
 use crate::random::Point;
+
+identities! {
+    /// R is R_z(gamma) R_x(beta) R_z(alpha), orthogonal, of determinant one, and its last row is the symmetry axis
+    rotation_matrix: Property "rotation-matrix" [8, 9];
+    /// s^ij = R^iI R^jJ s^IJ is e_i . (s e_j), component by component
+    tensor_components: Property "tensor-components" [7];
+    /// (dR/dt) R^T is minus the matrix of Omega x with the body rates, all nine components
+    angular_velocity: Autodiff "angular-velocity" [9, 22];
+    /// the rate of R along the Euler rates is epsilon^IJK Omega^J R^iK
+    rate_along_euler_rates: Autodiff "rotation-rate" [61, 62];
+    /// the potential in the angles of the frame Y-Z-X with permuted coefficients is the potential of the same axis; three permutations are none
+    axis_permutation: Property "axis-permutation" [21, 36];
+}
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    [
-        identity::checks::<RotationMatrix>(),
-        identity::checks::<TensorComponents>(),
-        identity::checks::<AngularVelocity>(),
-        identity::checks::<RotationRate>(),
-        identity::checks::<AxisPermutation>(),
-    ]
-    .concat()
+    identities()
 }
 
-struct RotationMatrix;
-
-impl Identity for RotationMatrix {
-    const ID: &'static str = "rotation-matrix";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "rotation-matrix-rounding");
-    const EQUATIONS: &'static [u8] = &[8, 9];
-    const STATEMENT: &'static str =
-        "R is R_z(gamma) R_x(beta) R_z(alpha), orthogonal, of determinant one, and its last row is the symmetry axis";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let r = body_from_inertial(&p.angles);
-        let (x, y, z) = (r.row(0).transpose(), r.row(1).transpose(), r.row(2).transpose());
-        let mut out = vec![x.cross(&y).dot(&z) - F::one()];
-        out.extend(&(r - composed_rotation(&p.angles)));
-        out.extend(&(r * r.transpose() - Matrix3::identity()));
-        out.extend(&(z - symmetry_axis(p.angles.alpha, p.angles.beta)));
-        out
-    }
+fn rotation_matrix<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let r = body_from_inertial(&p.angles);
+    let (x, y, z) = (r.row(0).transpose(), r.row(1).transpose(), r.row(2).transpose());
+    let mut out = vec![x.cross(&y).dot(&z) - F::one()];
+    out.extend(&(r - composed_rotation(&p.angles)));
+    out.extend(&(r * r.transpose() - Matrix3::identity()));
+    out.extend(&(z - symmetry_axis(p.angles.alpha, p.angles.beta)));
+    out
 }
 
-struct TensorComponents;
-
-impl Identity for TensorComponents {
-    const ID: &'static str = "tensor-components";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "tensor-components-rounding");
-    const EQUATIONS: &'static [u8] = &[7];
-    const STATEMENT: &'static str = "s^ij = R^iI R^jJ s^IJ is e_i . (s e_j), component by component";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let r = body_from_inertial(&p.angles);
-        let body = tensor_in_body_frame(&r, &p.s_inertial);
-        let axis = |i: usize| r.row(i).transpose();
-        (0..9).map(|k| (k / 3, k % 3)).map(|(i, j)| body[(i, j)] - axis(i).dot(&(p.s_inertial * axis(j)))).collect()
-    }
+fn tensor_components<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let r = body_from_inertial(&p.angles);
+    let body = tensor_in_body_frame(&r, &p.s_inertial);
+    let axis = |i: usize| r.row(i).transpose();
+    (0..9).map(|k| (k / 3, k % 3)).map(|(i, j)| body[(i, j)] - axis(i).dot(&(p.s_inertial * axis(j)))).collect()
 }
 
-struct AngularVelocity;
-
-impl Identity for AngularVelocity {
-    const ID: &'static str = "angular-velocity";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "angular-velocity-autodiff");
-    const EQUATIONS: &'static [u8] = &[9, 22];
-    const STATEMENT: &'static str =
-        "(dR/dt) R^T is minus the matrix of Omega x with the body rates, all nine components";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let turning = rotation_derivative(&p.angles, &p.rates) * body_from_inertial(&p.angles).transpose();
-        let omega_cross = cross_matrix(&body_rates(&p.angles, &p.rates));
-        (turning + omega_cross).iter().copied().collect()
-    }
+fn angular_velocity<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let turning = rotation_derivative(&p.angles, &p.rates) * body_from_inertial(&p.angles).transpose();
+    let omega_cross = cross_matrix(&body_rates(&p.angles, &p.rates));
+    (turning + omega_cross).iter().copied().collect()
 }
 
-struct RotationRate;
-
-impl Identity for RotationRate {
-    const ID: &'static str = "rotation-rate";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "rotation-rate-autodiff");
-    const EQUATIONS: &'static [u8] = &[61, 62];
-    const STATEMENT: &'static str = "the rate of R along the Euler rates is epsilon^IJK Omega^J R^iK";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let r = body_from_inertial(&p.angles);
-        let omega = r.transpose() * body_rates(&p.angles, &p.rates);
-        (rotation_derivative(&p.angles, &p.rates) - rotation_rate(&r, &omega)).iter().copied().collect()
-    }
+fn rate_along_euler_rates<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let r = body_from_inertial(&p.angles);
+    let omega = r.transpose() * body_rates(&p.angles, &p.rates);
+    (rotation_derivative(&p.angles, &p.rates) - rotation_rate(&r, &omega)).iter().copied().collect()
 }
 
-struct AxisPermutation;
-
-impl Identity for AxisPermutation {
-    const ID: &'static str = "axis-permutation";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "axis-permutation-rounding");
-    const EQUATIONS: &'static [u8] = &[21, 36];
-    const STATEMENT: &'static str = "the potential in the angles of the frame Y-Z-X with permuted coefficients is the potential of the same axis; three \
-         permutations are none";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let permuted = permuted_from_inertial::<F>();
-        let c = p.spheroid.constant_c;
-        let axis = permuted.transpose() * symmetry_axis(p.angles.alpha, p.angles.beta);
-        let thrice = p.s.permuted().permuted().permuted();
-        let mut out = vec![
-            anisotropic_potential_in_angles(c, &p.s.permuted(), p.angles.alpha, p.angles.beta)
-                - anisotropic_potential_of_axis(c, &p.s.tensor(), &axis),
-            thrice.xx - p.s.xx,
-            thrice.yy - p.s.yy,
-            thrice.zz - p.s.zz,
-        ];
-        out.extend(&(permuted * p.s.tensor() * permuted.transpose() - p.s.permuted().tensor()));
-        // A vector along X is along the third axis of the permuted frame, and the frame stays right-handed.
-        out.extend(&(permuted * Vector3::x() - Vector3::z()));
-        out.extend(&(permuted * permuted * permuted - Matrix3::identity()));
-        out
-    }
+fn axis_permutation<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let permuted = permuted_from_inertial::<F>();
+    let c = p.spheroid.constant_c;
+    let axis = permuted.transpose() * symmetry_axis(p.angles.alpha, p.angles.beta);
+    let thrice = p.s.permuted().permuted().permuted();
+    let mut out = vec![
+        anisotropic_potential_in_angles(c, &p.s.permuted(), p.angles.alpha, p.angles.beta)
+            - anisotropic_potential_of_axis(c, &p.s.tensor(), &axis),
+        thrice.xx - p.s.xx,
+        thrice.yy - p.s.yy,
+        thrice.zz - p.s.zz,
+    ];
+    out.extend(&(permuted * p.s.tensor() * permuted.transpose() - p.s.permuted().tensor()));
+    // A vector along X is along the third axis of the permuted frame, and the frame stays right-handed.
+    out.extend(&(permuted * Vector3::x() - Vector3::z()));
+    out.extend(&(permuted * permuted * permuted - Matrix3::identity()));
+    out
 }

@@ -8,111 +8,88 @@ use twofold::dynamics::potential::anisotropic_potential_of_body;
 use twofold::euler_angles::body_from_inertial;
 use twofold::lorentz_violation::coefficients_from_preferred_frame;
 
-use crate::check::{Check, Kind};
+use crate::check::Check;
 use crate::derivation::Differentiable;
-use crate::identity::{self, Identity};
+use crate::identity::identities;
 use crate::random::Point;
+
+identities! {
+    /// with s^ij = -alpha_2 w^i w^j the potential of two masses is that of the PPN formalism; over three directions at right angles it sums to
+    /// tr(s) / 2 of Newton's
+    potential_of_masses: Property "potential-of-masses" [2, 4, 5];
+    /// the potentials of the pairs of three masses sum to -(1/2) s^ij U^ij with U^ij = (1/2) sum_A sum_B m_A m_B r^i r^j / r^3
+    self_energy_of_pairs: Property "self-energy-of-pairs" [2, 6, 17];
+    /// k R of the action is s^{ab} R_{ab} for a curvature of Ricci tensor R_{ab} without trace and without Weyl part, for any k with the symmetries
+    /// of the Riemann tensor; s is symmetric and has no trace
+    coupling_to_curvature: Property "coupling-to-curvature" [1, 3];
+}
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    [
-        identity::checks::<PotentialOfMasses>(),
-        identity::checks::<SelfEnergyOfPairs>(),
-        identity::checks::<CouplingToCurvature>(),
-    ]
-    .concat()
+    identities()
 }
 
-struct PotentialOfMasses;
-
-impl Identity for PotentialOfMasses {
-    const ID: &'static str = "potential-of-masses";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "potential-of-masses-rounding");
-    const EQUATIONS: &'static [u8] = &[2, 4, 5];
-    const STATEMENT: &'static str = "with s^ij = -alpha_2 w^i w^j the potential of two masses is that of the PPN formalism; over three directions at right angles \
-         it sums to tr(s) / 2 of Newton's";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (masses, distance) = ([p.inertia.xx, p.inertia.yy], p.inertia.zz);
-        let directions = body_from_inertial(&p.angles).transpose();
-        let (alpha_2, w) = (p.numbers[0], &p.gradient);
-        let direction = directions.column(2).into_owned();
-        let s = coefficients_from_preferred_frame(alpha_2, w);
-        let of = |i: usize| {
-            let direction = directions.column(i).into_owned();
-            anisotropic_potential_of_masses(&p.s_inertial, masses, distance, &direction)
-        };
-        let newton = -(masses[0] * masses[1] / distance);
-        vec![
-            anisotropic_potential_of_masses(&s, masses, distance, &direction)
-                - preferred_frame_potential_of_masses(alpha_2, w, masses, distance, &direction),
-            of(0) + of(1) + of(2) - newton * p.s_inertial.trace() / 2.0,
-        ]
-    }
+fn potential_of_masses<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (masses, distance) = ([p.inertia.xx, p.inertia.yy], p.inertia.zz);
+    let directions = body_from_inertial(&p.angles).transpose();
+    let (alpha_2, w) = (p.numbers[0], &p.gradient);
+    let direction = directions.column(2).into_owned();
+    let s = coefficients_from_preferred_frame(alpha_2, w);
+    let of = |i: usize| {
+        let direction = directions.column(i).into_owned();
+        anisotropic_potential_of_masses(&p.s_inertial, masses, distance, &direction)
+    };
+    let newton = -(masses[0] * masses[1] / distance);
+    vec![
+        anisotropic_potential_of_masses(&s, masses, distance, &direction)
+            - preferred_frame_potential_of_masses(alpha_2, w, masses, distance, &direction),
+        of(0) + of(1) + of(2) - newton * p.s_inertial.trace() / 2.0,
+    ]
 }
 
 /// A body of three masses: its self-energy is that of its pairs. The identity holds pair by pair, so that the three separations need not close.
-struct SelfEnergyOfPairs;
-
-impl Identity for SelfEnergyOfPairs {
-    const ID: &'static str = "self-energy-of-pairs";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "self-energy-of-pairs-rounding");
-    const EQUATIONS: &'static [u8] = &[2, 6, 17];
-    const STATEMENT: &'static str = "the potentials of the pairs of three masses sum to -(1/2) s^ij U^ij with U^ij = (1/2) sum_A sum_B m_A m_B r^i r^j / r^3";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let m = [p.spheroid.inertia_xx, p.spheroid.inertia_zz, p.spheroid.constant_c];
-        let [first, second] = [&p.angles, &p.frame].map(|angles| body_from_inertial(angles).row(2).transpose());
-        let third: Vector3<F> = body_from_inertial(&p.angles).row(0).transpose();
-        let pairs = [
-            ([m[0], m[1]], p.inertia.xx, first),
-            ([m[1], m[2]], p.inertia.yy, second),
-            ([m[2], m[0]], p.inertia.zz, third),
-        ];
-        let mut of_pairs = F::zero();
-        let mut tensor = Matrix3::zeros();
-        for (masses, distance, direction) in &pairs {
-            of_pairs += anisotropic_potential_of_masses(&p.s_inertial, *masses, *distance, direction);
-            // Both orders of the double sum, and the factor 1/2.
-            let separation = direction * *distance;
-            let weight = masses[0] * masses[1] / (*distance * *distance * *distance);
-            tensor += separation * separation.transpose() * weight;
-        }
-        vec![of_pairs - anisotropic_potential_of_body(&p.s_inertial, &tensor)]
+fn self_energy_of_pairs<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let m = [p.spheroid.inertia_xx, p.spheroid.inertia_zz, p.spheroid.constant_c];
+    let [first, second] = [&p.angles, &p.frame].map(|angles| body_from_inertial(angles).row(2).transpose());
+    let third: Vector3<F> = body_from_inertial(&p.angles).row(0).transpose();
+    let pairs = [
+        ([m[0], m[1]], p.inertia.xx, first),
+        ([m[1], m[2]], p.inertia.yy, second),
+        ([m[2], m[0]], p.inertia.zz, third),
+    ];
+    let mut of_pairs = F::zero();
+    let mut tensor = Matrix3::zeros();
+    for (masses, distance, direction) in &pairs {
+        of_pairs += anisotropic_potential_of_masses(&p.s_inertial, *masses, *distance, direction);
+        // Both orders of the double sum, and the factor 1/2.
+        let separation = direction * *distance;
+        let weight = masses[0] * masses[1] / (*distance * *distance * *distance);
+        tensor += separation * separation.transpose() * weight;
     }
+    vec![of_pairs - anisotropic_potential_of_body(&p.s_inertial, &tensor)]
 }
 
 /// Of the term `k^{abcd} R_{abcd}` of the action, the part with the Ricci tensor without its trace is `s^{ab} R_{ab}`.
-struct CouplingToCurvature;
-
-impl Identity for CouplingToCurvature {
-    const ID: &'static str = "coupling-to-curvature";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "coupling-to-curvature-rounding");
-    const EQUATIONS: &'static [u8] = &[1, 3];
-    const STATEMENT: &'static str = "k R of the action is s^{ab} R_{ab} for a curvature of Ricci tensor R_{ab} without trace and without Weyl part, for any k with the \
-         symmetries of the Riemann tensor; s is symmetric and has no trace";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let metric = Matrix4::from_diagonal(&nalgebra::Vector4::new(-F::one(), F::one(), F::one(), F::one()));
-        let first = symmetric(&p.s_inertial, &p.gradient, p.numbers[0]);
-        let rates = Vector3::new(p.rates.alpha, p.rates.beta, p.rates.gamma);
-        let second = symmetric(&p.potential_energy_tensor, &rates, p.numbers[1]);
-        // With all parts: Weyl, Ricci and scalar.
-        let k = sum(&product(&first, &second), &product(&first, &first));
-        let accelerations = Vector3::new(p.accelerations.alpha, p.accelerations.beta, p.accelerations.gamma);
-        let ricci = symmetric(&p.s.tensor(), &accelerations, p.numbers[2]);
-        let trace = metric.component_mul(&ricci).sum();
-        let ricci = ricci - metric * (trace / 4.0);
-        let curvature = product(&ricci, &metric);
-        let mut coupling = F::zero();
-        for (a, b, c, d) in indices() {
-            coupling += k[a][b][c][d] * curvature[a][b][c][d] / 2.0;
-        }
-        let s = coefficients_from_vacuum_value(&k);
-        let mut residuals = vec![coupling - s.component_mul(&ricci).sum(), s.component_mul(&metric).sum()];
-        residuals.extend((s - s.transpose()).iter());
-        residuals
+fn coupling_to_curvature<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let metric = Matrix4::from_diagonal(&nalgebra::Vector4::new(-F::one(), F::one(), F::one(), F::one()));
+    let first = symmetric(&p.s_inertial, &p.gradient, p.numbers[0]);
+    let rates = Vector3::new(p.rates.alpha, p.rates.beta, p.rates.gamma);
+    let second = symmetric(&p.potential_energy_tensor, &rates, p.numbers[1]);
+    // With all parts: Weyl, Ricci and scalar.
+    let k = sum(&product(&first, &second), &product(&first, &first));
+    let accelerations = Vector3::new(p.accelerations.alpha, p.accelerations.beta, p.accelerations.gamma);
+    let ricci = symmetric(&p.s.tensor(), &accelerations, p.numbers[2]);
+    let trace = metric.component_mul(&ricci).sum();
+    let ricci = ricci - metric * (trace / 4.0);
+    let curvature = product(&ricci, &metric);
+    let mut coupling = F::zero();
+    for (a, b, c, d) in indices() {
+        coupling += k[a][b][c][d] * curvature[a][b][c][d] / 2.0;
     }
+    let s = coefficients_from_vacuum_value(&k);
+    let mut residuals = vec![coupling - s.component_mul(&ricci).sum(), s.component_mul(&metric).sum()];
+    residuals.extend((s - s.transpose()).iter());
+    residuals
 }
 
 /// A symmetric matrix of its spatial part, its column of time and their common component.

@@ -10,11 +10,11 @@ use twofold::star::deformation::centrifugal_oblateness;
 use twofold::star::estimates::inertia_over_c_estimate;
 use twofold::units::{DEGREE, si};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Bound, Check, Kind, Measured, Worst, smallest, worst_of};
 use crate::derivation::Differentiable;
 use crate::eta::seen_rate;
-use crate::identity::{self, Identity};
-use crate::random::{Point, Random};
+use crate::identity::identities;
+use crate::random::{Point, Random, worst_of_draws};
 use twofold_scene::pulsar_table::published::{GLOBAL_2014, SOLITARY_ALPHA_2};
 use twofold_scene::pulsar_table::{self, CONFIDENCE, CONSERVATIVE_ETA, Figure, Pulsar, Quantity, Spread, recommended};
 
@@ -22,9 +22,14 @@ use twofold_scene::pulsar_table::{self, CONFIDENCE, CONSERVATIVE_ETA, Figure, Pu
 /// Kramer, Wex, Champion and Jessner, Class. Quantum Grav. 30, 165019 (2013) are remembered to give them: second-hand.
 const SLOPES: [f64; 3] = [-3.2, 3.5, 1.3];
 
+identities! {
+    /// with I^zz/C = 4/Omega^2 and s = -alpha_2 w w the spin axis turns about w with Nordtvedt's rate (alpha_2/2) |w| Omega (w.l)
+    nordtvedt_precession: Property "nordtvedt-precession" [5, 41];
+}
+
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    let mut checks = identity::checks::<NordtvedtPrecession>().to_vec();
+    let mut checks = identities();
     checks.extend([
         Check {
             id: "fluid-inertia-over-c",
@@ -125,37 +130,24 @@ pub fn checks() -> Vec<Check> {
     checks
 }
 
-struct NordtvedtPrecession;
-
-impl Identity for NordtvedtPrecession {
-    const ID: &'static str = "nordtvedt-precession";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "nordtvedt-precession-rounding");
-    const EQUATIONS: &'static [u8] = &[5, 41];
-    const STATEMENT: &'static str = "with I^zz/C = 4/Omega^2 and s = -alpha_2 w w the spin axis turns about w with Nordtvedt's rate (alpha_2/2) |w| Omega (w.l)";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let [x, y, z, alpha_2] = p.numbers;
-        let (w, spin) = (Vector3::new(x, y, z), p.rates.gamma);
-        let axis = p.gradient;
-        let s = coefficients_from_preferred_frame(alpha_2, &w);
-        let rate = secular_axis_rate(fluid_inertia_over_c(spin), spin, &s, &axis);
-        let nordtvedt = w.cross(&axis) * (-(alpha_2 * spin * w.dot(&axis)) / 2.0);
-        (rate - nordtvedt).iter().copied().collect()
-    }
+fn nordtvedt_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let [x, y, z, alpha_2] = p.numbers;
+    let (w, spin) = (Vector3::new(x, y, z), p.rates.gamma);
+    let axis = p.gradient;
+    let s = coefficients_from_preferred_frame(alpha_2, &w);
+    let rate = secular_axis_rate(fluid_inertia_over_c(spin), spin, &s, &axis);
+    let nordtvedt = w.cross(&axis) * (-(alpha_2 * spin * w.dot(&axis)) / 2.0);
+    (rate - nordtvedt).iter().copied().collect()
 }
 
 fn fluid_inertia() -> Result<Measured, String> {
-    let mut random = Random::with_seed(20);
-    let mut worst = Worst::default();
-    for case in 0..200 {
+    worst_of_draws(20, 200, |random| {
         let (spin, radius, mass) = (random.within(0.1, 10.0), random.within(0.5, 2.0), random.within(0.5, 2.0));
         let density = 0.75 * mass / (PI * radius * radius * radius);
         let oblateness = 1.25 * centrifugal_oblateness(spin, radius, mass);
         let by_estimates = inertia_over_c_estimate(density, oblateness);
-        let figure = (fluid_inertia_over_c(spin) / by_estimates - 1.0).abs() / f64::EPSILON;
-        worst.see(figure, || format!("case {case} of seed 20: {by_estimates:e}"));
-    }
-    worst.finish()
+        Ok((fluid_inertia_over_c(spin) / by_estimates - 1.0).abs() / f64::EPSILON)
+    })
 }
 
 fn uncertainties() -> Result<Measured, String> {
@@ -232,18 +224,18 @@ fn coverage() -> Result<Measured, String> {
             _ => limits[limits.len() - 1] * place / f64::from(STEPS.0),
         }
     };
-    let (mut smallest, mut at) = (f64::INFINITY, 0.0);
+    let (mut least, mut at) = (f64::INFINITY, 0.0);
     for truth in [0.3, 3.0, 30.0, 60.0, 100.0, 200.0, 1e3, 1e4] {
         let covered = |_: &u32| {
             let error = Quantity { value: 0.0, uncertainty: 1.0, spread: Spread::Given }.draw(&mut random);
             limit(truth * seen_rate(&mut random, &s, lambda) + error) >= truth
         };
         let share = (0..DRAWS).filter(covered).count() as f64 / f64::from(DRAWS);
-        if share < smallest {
-            (smallest, at) = (share, truth);
+        if share < least {
+            (least, at) = (share, truth);
         }
     }
-    Ok(Measured::new(smallest, format!("for a truth of {at} errors; coverage is 1 for small ones")))
+    Ok(Measured::new(least, format!("for a truth of {at} errors; coverage is 1 for small ones")))
 }
 
 fn changes_are_slopes() -> Result<Measured, String> {
@@ -275,14 +267,7 @@ fn alpha_2() -> Result<Measured, String> {
     let limit = pulsar.limit(&pulsar.figure("alpha_2_over_eta_own")?)?.all;
     // The bound that the paper prints, with eta = 10.
     let speed = 369e3 / si::SPEED_OF_LIGHT;
-    let printed = 1e-15 / (2.0 * speed * speed);
-    let mut worst = Worst::default();
-    for bound in [limit, printed] {
-        worst.see((bound / SOLITARY_ALPHA_2.limit).log10().abs(), || {
-            format!("{limit:.2e} from {}, by the printed bound {printed:.2e}", pulsar.name)
-        });
-    }
-    worst.finish()
+    worst_of([limit, 1e-15 / (2.0 * speed * speed)], |bound| Ok((bound / SOLITARY_ALPHA_2.limit).log10().abs()))
 }
 
 fn beyond_global() -> Result<Measured, String> {
@@ -305,7 +290,7 @@ fn beyond_global_stated_star() -> Result<Measured, String> {
 
 /// The least of some orders of magnitude; infinite if one is five or above.
 fn least_below_five(orders: &[f64]) -> Result<Measured, String> {
-    let least = orders.iter().copied().reduce(f64::min).ok_or("no pulsar")?;
+    let least = smallest(orders.iter().copied());
     let figure = if orders.iter().all(|order| *order < 5.0) { least } else { f64::INFINITY };
     Ok(Measured::new(figure, format!("orders: {orders:.2?}")))
 }

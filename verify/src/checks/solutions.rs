@@ -16,8 +16,8 @@ use twofold::solutions::steady::steady_precession_rate;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
 use crate::checks::perturbation_equations::{FORMS, KINDS};
-use crate::golden::captions;
 use crate::physical_domain::{scenes, worst_over};
+use crate::printed::{caption_values, rounds_to};
 use crate::reference::reference_motion;
 
 /// Checks of this subject.
@@ -42,10 +42,9 @@ pub fn checks() -> Vec<Check> {
             bound: Bound::AtMost(0.0),
             reason: "rounding of the printed digits",
             measure: || {
-                let table = captions::initial_values()?;
-                let differing: Vec<_> = table.lines.iter().filter(|line| line.verdict() != "confirmed").collect();
-                let labels: Vec<_> = differing.iter().map(|line| line.label.as_str()).collect();
-                Ok(Measured::new(differing.len() as f64, labels.join(", ")))
+                let differs = |(_, printed, ours): &(_, &str, f64)| !rounds_to(*ours, printed);
+                let differing: Vec<_> = caption_values()?.into_iter().filter(differs).map(|(what, ..)| what).collect();
+                Ok(Measured::new(differing.len() as f64, differing.join(", ")))
             },
         },
         Check {

@@ -2,35 +2,39 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nalgebra::Vector3;
 use twofold::dynamics::BodyState;
-use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
+use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
 use twofold::observables::spin_axis::{
     changes_from_start, cos_lambda, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
 };
-use twofold::propagation::{Motion, propagate};
+use twofold::propagation::Motion;
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
 use crate::check::{Bound, Check, Kind, Measured};
 use crate::checks::observer::observer;
 use crate::checks::perturbation_equations::constants;
 use crate::derivation::{Differentiable, moving_angles};
-use crate::identity::{self, Identity};
-use crate::measured_order::measured_order;
-use crate::paper_examples::{COEFFICIENTS, SPIN, spheroid};
+use crate::identity::identities;
+use crate::measured_order::order_of_error;
+use crate::paper_examples::{COEFFICIENTS, SPIN, problem_from, spheroid};
 use crate::random::Point;
+
+identities! {
+    /// Eq. (37) is e_z . n-hat, and changes sign with the direction
+    spin_axis_angle: Property "spin-axis-angle" [37, 46];
+    /// Eq. (38) is the derivative of Eq. (37) along any change of alpha and beta
+    spin_axis_change: Autodiff "spin-axis-change" [37, 38];
+    /// the rate of cos lambda from n and L is Eq. (38) with the Euler rates
+    spin_axis_rate: Property "spin-axis-rate" [22, 37, 38];
+    /// the rates of the single solution at t = 0 times Delta t are Eq. (39) as printed
+    single_precession_changes: Property "single-precession-changes" [30, 31, 39];
+}
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    let mut checks = [
-        identity::checks::<SpinAxisAngle>(),
-        identity::checks::<SpinAxisChange>(),
-        identity::checks::<SpinAxisRate>(),
-        identity::checks::<ChangesFromStart>(),
-    ]
-    .concat();
+    let mut checks = identities();
     checks.extend([
         Check {
             id: "spin-axis-changes-order-in-time",
@@ -66,96 +70,55 @@ pub fn checks() -> Vec<Check> {
     checks
 }
 
-struct SpinAxisAngle;
-
-impl Identity for SpinAxisAngle {
-    const ID: &'static str = "spin-axis-angle";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "spin-axis-angle-rounding");
-    const EQUATIONS: &'static [u8] = &[37, 46];
-    const STATEMENT: &'static str = "Eq. (37) is e_z . n-hat, and changes sign with the direction";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let in_angles = cos_lambda_in_angles(p.frame.beta, p.frame.alpha, p.angles.alpha, p.angles.beta);
-        let (direction, axis) = (observer(p).direction, symmetry_axis(p.angles.alpha, p.angles.beta));
-        vec![in_angles - cos_lambda(&direction, &axis), in_angles + cos_lambda(&-direction, &axis)]
-    }
+fn spin_axis_angle<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let in_angles = cos_lambda_in_angles(p.frame.beta, p.frame.alpha, p.angles.alpha, p.angles.beta);
+    let (direction, axis) = (observer(p).direction, symmetry_axis(p.angles.alpha, p.angles.beta));
+    vec![in_angles - cos_lambda(&direction, &axis), in_angles + cos_lambda(&-direction, &axis)]
 }
 
-struct SpinAxisChange;
-
-impl Identity for SpinAxisChange {
-    const ID: &'static str = "spin-axis-change";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "spin-axis-change-autodiff");
-    const EQUATIONS: &'static [u8] = &[37, 38];
-    const STATEMENT: &'static str = "Eq. (38) is the derivative of Eq. (37) along any change of alpha and beta";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (theta, phi) = (p.frame.beta, p.frame.alpha);
-        let moving = moving_angles(&p.angles, &p.rates);
-        let exact = cos_lambda_in_angles(F::fixed(theta), F::fixed(phi), moving.alpha, moving.beta);
-        let change = (p.rates.alpha, p.rates.beta);
-        vec![cos_lambda_change(theta, phi, (p.angles.alpha, p.angles.beta), change) - F::derivative(exact)]
-    }
+fn spin_axis_change<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (theta, phi) = (p.frame.beta, p.frame.alpha);
+    let moving = moving_angles(&p.angles, &p.rates);
+    let exact = cos_lambda_in_angles(F::fixed(theta), F::fixed(phi), moving.alpha, moving.beta);
+    let change = (p.rates.alpha, p.rates.beta);
+    vec![cos_lambda_change(theta, phi, (p.angles.alpha, p.angles.beta), change) - F::derivative(exact)]
 }
 
-struct SpinAxisRate;
-
-impl Identity for SpinAxisRate {
-    const ID: &'static str = "spin-axis-rate";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "spin-axis-rate-rounding");
-    const EQUATIONS: &'static [u8] = &[22, 37, 38];
-    const STATEMENT: &'static str = "the rate of cos lambda from n and L is Eq. (38) with the Euler rates";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (q, v) = (&p.angles, &p.rates);
-        let state = BodyState::from_angles(&p.spheroid, q, v);
-        let rate = cos_lambda_rate(&p.spheroid, &observer(p).direction, &state.axis, &state.momentum);
-        vec![rate - cos_lambda_change(p.frame.beta, p.frame.alpha, (q.alpha, q.beta), (v.alpha, v.beta))]
-    }
+fn spin_axis_rate<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (q, v) = (&p.angles, &p.rates);
+    let state = BodyState::from_angles(&p.spheroid, q, v);
+    let rate = cos_lambda_rate(&p.spheroid, &observer(p).direction, &state.axis, &state.momentum);
+    vec![rate - cos_lambda_change(p.frame.beta, p.frame.alpha, (q.alpha, q.beta), (v.alpha, v.beta))]
 }
 
-struct ChangesFromStart;
-
-impl Identity for ChangesFromStart {
-    const ID: &'static str = "single-precession-changes";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "single-precession-changes-rounding");
-    const EQUATIONS: &'static [u8] = &[30, 31, 39];
-    const STATEMENT: &'static str = "the rates of the single solution at t = 0 times Delta t are Eq. (39) as printed";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (spin, interval) = (p.rates.gamma, p.numbers[2]);
-        let c = constants(p);
-        let solution = Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &p.s, spin, &c);
-        let (alpha, beta) = changes_from_start(&solution, interval);
-        let ((sin_b, cos_b), (sin_phi, cos_phi)) = (c.beta_0.sin_cos(), c.phase.sin_cos());
-        let (sin_a, cos_a) = c.alpha_0.sin_cos();
-        let (sin_2a, cos_2a) = (sin_a * cos_a * 2.0, cos_a * cos_a - sin_a * sin_a);
-        let (a1, c_tilde) = (solution.forced_rate, solution.c_tilde);
-        let printed_alpha =
-            (F::one() + c.amplitude / (a1 * sin_b) * sin_phi + cos_b * c_tilde / a1 * cos_2a) * a1 * interval;
-        let printed_beta = (c.amplitude / a1 * cos_phi + sin_b * c_tilde / a1 * sin_2a) * a1 * interval;
-        vec![alpha - printed_alpha, beta - printed_beta]
-    }
+fn single_precession_changes<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (spin, interval) = (p.rates.gamma, p.numbers[2]);
+    let c = constants(p);
+    let solution = Perturbation::new_unchecked(Form::Printed, Precession::Single, &p.spheroid, &p.s, spin, &c);
+    let (alpha, beta) = changes_from_start(&solution, interval);
+    let ((sin_b, cos_b), (sin_phi, cos_phi)) = (c.beta_0.sin_cos(), c.phase.sin_cos());
+    let (sin_a, cos_a) = c.alpha_0.sin_cos();
+    let (sin_2a, cos_2a) = (sin_a * cos_a * 2.0, cos_a * cos_a - sin_a * sin_a);
+    let (a1, c_tilde) = (solution.forced_rate, solution.c_tilde);
+    let printed_alpha =
+        (F::one() + c.amplitude / (a1 * sin_b) * sin_phi + cos_b * c_tilde / a1 * cos_2a) * a1 * interval;
+    let printed_beta = (c.amplitude / a1 * cos_phi + sin_b * c_tilde / a1 * sin_2a) * a1 * interval;
+    vec![alpha - printed_alpha, beta - printed_beta]
 }
 
 /// Error of the change of `cos lambda` by Eqs. (38) and (39) over `interval`, for the motion with the initial values (34).
 fn error(s: &PrincipalCoefficients<f64>, amplitude: f64, interval: f64) -> Result<f64, String> {
-    let body = spheroid();
     // A general phase and, below, a direction that leaves neither term of Eq. (38) out.
     let constants = Constants { alpha_0: FRAC_PI_2, beta_0: 0.7, amplitude, phase: 0.4 };
-    let solution = Perturbation::new(Form::Printed, Precession::Single, &body, s, SPIN, &constants)?;
+    let solution = Perturbation::new(Form::Printed, Precession::Single, &spheroid(), s, SPIN, &constants)?;
     let start = solution.at(0.0);
-    let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
-    let gamma_rate = SPIN - start.alpha_rate * start.beta.cos();
-    let rates = EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma: gamma_rate };
-    let initial = BodyState::from_angles(&body, &angles, &rates);
-    let motion = propagate(&body, &s.tensor(), &initial, (0.0, interval), 1e-15)?;
-    let end = motion.state(interval)?;
+    let problem = problem_from(s, &start)?;
+    let end = problem.taylor((0.0, interval), 1e-15)?.state(interval)?;
     let (theta, phi) = (0.8, 0.5);
-    let direction = Observer::at(theta, phi).direction;
-    let moved: Vector3<f64> = end.axis - initial.axis;
+    let moved = end.axis - problem.initial().axis;
     let changes = changes_from_start(&solution, interval);
-    Ok((cos_lambda(&direction, &moved) - cos_lambda_change(theta, phi, (start.alpha, start.beta), changes)).abs())
+    let by_motion = cos_lambda(&Observer::at(theta, phi).direction, &moved);
+    Ok((by_motion - cos_lambda_change(theta, phi, (start.alpha, start.beta), changes)).abs())
 }
 
 fn order_in_time() -> Result<Measured, String> {
@@ -172,8 +135,3 @@ fn order_with_amplitude() -> Result<Measured, String> {
 
 /// The coefficients of the examples without their asymmetry about Z.
 const SYMMETRIC: PrincipalCoefficients<f64> = PrincipalCoefficients { xx: 0.015, yy: 0.015, zz: -0.04 };
-
-fn order_of_error(scales: &[f64], error: impl Fn(f64) -> Result<f64, String>) -> Result<Measured, String> {
-    let points = scales.iter().map(|&x| Ok((x, error(x)?))).collect::<Result<Vec<_>, String>>()?;
-    measured_order(&points, 0.0)
-}

@@ -6,80 +6,56 @@ use twofold::dynamics::potential::potential_gradient_in_angles;
 use twofold::dynamics::torque::{torque_from_gradient_off_pole, torque_on_body};
 use twofold::euler_angles::{body_from_inertial, body_rates, tensor_in_body_frame};
 
-use crate::check::{Check, Kind};
+use crate::check::Check;
 use crate::derivation::Differentiable;
 use crate::derivation::virtual_rotation::{gradient_in_angles, torque_by_virtual_rotation, unit_rates};
-use crate::identity::{self, Identity};
+use crate::identity::identities;
 use crate::random::Point;
+
+identities! {
+    /// the torque does the work -dU under a change of each Euler angle alone, for any potential (U_gamma not zero)
+    torque_from_gradient: Property "torque-from-gradient" [22, 66];
+    /// Eq. (66) of the potential in angles, torque_on_body with the tensor U^ij of a spheroid and -2 C n x (s n) agree
+    torque_on_spheroid: Property "torque-on-spheroid" [21, 66];
+    /// torque_on_body is minus the derivative of -(1/2) s^ij U^ij under a rotation about each body axis, and Eq. (66) of its angle derivatives;
+    /// U^ij with six components
+    torque_under_rotations: Autodiff "torque-on-body" [6, 17, 66];
+}
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    [
-        identity::checks::<GeneralisedForces>(),
-        identity::checks::<TorqueOnSpheroid>(),
-        identity::checks::<TorqueOnBody>(),
-    ]
-    .concat()
+    identities()
 }
 
-struct GeneralisedForces;
-
-impl Identity for GeneralisedForces {
-    const ID: &'static str = "torque-from-gradient";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "torque-from-gradient-rounding");
-    const EQUATIONS: &'static [u8] = &[22, 66];
-    const STATEMENT: &'static str =
-        "the torque does the work -dU under a change of each Euler angle alone, for any potential (U_gamma not zero)";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let torque = torque_from_gradient_off_pole(&p.angles, &p.gradient);
-        (0..3).map(|i| torque.dot(&body_rates(&p.angles, &unit_rates(i))) + p.gradient[i]).collect()
-    }
+fn torque_from_gradient<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let torque = torque_from_gradient_off_pole(&p.angles, &p.gradient);
+    (0..3).map(|i| torque.dot(&body_rates(&p.angles, &unit_rates(i))) + p.gradient[i]).collect()
 }
 
-struct TorqueOnSpheroid;
-
-impl Identity for TorqueOnSpheroid {
-    const ID: &'static str = "torque-on-spheroid";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "torque-on-spheroid-rounding");
-    const EQUATIONS: &'static [u8] = &[21, 66];
-    const STATEMENT: &'static str = "Eq. (66) of the potential in angles, torque_on_body with the tensor U^ij of a spheroid and -2 C n x (s n) agree";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (xx, zz) = (p.numbers[0], p.numbers[1]);
-        let (q, c) = (&p.angles, (xx - zz) / 2.0);
-        let (by_alpha, by_beta) = potential_gradient_in_angles(c, &p.s, q.alpha, q.beta);
-        let from_gradient = torque_from_gradient_off_pole(q, &Vector3::new(by_alpha, by_beta, F::zero()));
-        let rotation = body_from_inertial(q);
-        let s_body = tensor_in_body_frame(&rotation, &p.s.tensor());
-        let on_body = torque_on_body(&s_body, &Matrix3::from_diagonal(&Vector3::new(xx, xx, zz)));
-        let on_axis = rotation * torque_on_axis(c, &p.s.tensor(), &rotation.row(2).transpose());
-        let mut out = Vec::new();
-        out.extend(&(from_gradient - on_body));
-        out.extend(&(from_gradient - on_axis));
-        out
-    }
+fn torque_on_spheroid<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (xx, zz) = (p.numbers[0], p.numbers[1]);
+    let (q, c) = (&p.angles, (xx - zz) / 2.0);
+    let (by_alpha, by_beta) = potential_gradient_in_angles(c, &p.s, q.alpha, q.beta);
+    let from_gradient = torque_from_gradient_off_pole(q, &Vector3::new(by_alpha, by_beta, F::zero()));
+    let rotation = body_from_inertial(q);
+    let s_body = tensor_in_body_frame(&rotation, &p.s.tensor());
+    let on_body = torque_on_body(&s_body, &Matrix3::from_diagonal(&Vector3::new(xx, xx, zz)));
+    let on_axis = rotation * torque_on_axis(c, &p.s.tensor(), &rotation.row(2).transpose());
+    let mut out = Vec::new();
+    out.extend(&(from_gradient - on_body));
+    out.extend(&(from_gradient - on_axis));
+    out
 }
 
-struct TorqueOnBody;
-
-impl Identity for TorqueOnBody {
-    const ID: &'static str = "torque-on-body";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "torque-on-body-autodiff");
-    const EQUATIONS: &'static [u8] = &[6, 17, 66];
-    const STATEMENT: &'static str = "torque_on_body is minus the derivative of -(1/2) s^ij U^ij under a rotation about each body axis, and Eq. (66) of its \
-         angle derivatives; U^ij with six components";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (q, u) = (&p.angles, &p.potential_energy_tensor);
-        let rotation = body_from_inertial(q);
-        let on_body = torque_on_body(&tensor_in_body_frame(&rotation, &p.s_inertial), u);
-        let inertial = torque_on_body(&p.s_inertial, &(rotation.transpose() * u * rotation));
-        let gradient = gradient_in_angles(q, &p.s_inertial, u);
-        let mut out = Vec::new();
-        out.extend(&(on_body - torque_by_virtual_rotation(&rotation, &p.s_inertial, u)));
-        out.extend(&(on_body - torque_from_gradient_off_pole(q, &gradient)));
-        out.extend(&(on_body - rotation * inertial));
-        out
-    }
+fn torque_under_rotations<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (q, u) = (&p.angles, &p.potential_energy_tensor);
+    let rotation = body_from_inertial(q);
+    let on_body = torque_on_body(&tensor_in_body_frame(&rotation, &p.s_inertial), u);
+    let inertial = torque_on_body(&p.s_inertial, &(rotation.transpose() * u * rotation));
+    let gradient = gradient_in_angles(q, &p.s_inertial, u);
+    let mut out = Vec::new();
+    out.extend(&(on_body - torque_by_virtual_rotation(&rotation, &p.s_inertial, u)));
+    out.extend(&(on_body - torque_from_gradient_off_pole(q, &gradient)));
+    out.extend(&(on_body - rotation * inertial));
+    out
 }

@@ -10,82 +10,60 @@ use twofold::dynamics::{BodyState, PrincipalInertia};
 use twofold::euler_angles::{EulerRates, body_from_inertial, body_rates};
 use twofold::observables::gravitational_wave::metric_perturbation;
 
-use crate::check::{Check, Kind};
+use crate::check::Check;
 use crate::derivation::{Differentiable, accelerated_angles, body_motion};
-use crate::identity::{self, Identity};
+use crate::identity::identities;
 use crate::random::Point;
+
+identities! {
+    /// with the torque d(R^T I Omega)/dt of any motion, the angular acceleration is the rate of the body rates
+    eulers_equations: Autodiff "angular-acceleration" [22, 63, 67];
+    /// R^T A R is the second time derivative of I^IJ along any motion with its torque, three moments of inertia; the trace vanishes
+    wave_tensor_of_motion: Autodiff "wave-tensor" [60, 62, 63, 64, 65, 67];
+    /// without torque, A^ij is the published free result, and the double commutator of the angular velocity with I^ij
+    free_wave_tensor: Property "free-wave-tensor" [65, 67];
+    /// the second derivative of I^IJ of a spheroid from n and L alone is R^T A R with the spheroid's torque
+    spheroid_wave_source: Property "spheroid-wave-source" [64, 65, 66];
+    /// Eq. (68) is R^T A R without torque, the short form with s = 0 and two time derivatives, at constant beta and a' = omega / cos b
+    free_wave_source: Property "free-wave-source" [28, 65, 68];
+    /// the strain from the moment of inertia is (2/r) times the second derivative of the mass quadrupole of turning masses
+    quadrupole_formula: Autodiff "quadrupole-formula" [59, 60];
+}
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {
-    [
-        identity::checks::<EulersEquations>(),
-        identity::checks::<WaveTensor>(),
-        identity::checks::<FreeWaveTensor>(),
-        identity::checks::<SpheroidSource>(),
-        identity::checks::<FreePrecessionSource>(),
-        identity::checks::<QuadrupoleFormula>(),
-    ]
-    .concat()
+    identities()
 }
 
-struct EulersEquations;
-
-impl Identity for EulersEquations {
-    const ID: &'static str = "angular-acceleration";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "angular-acceleration-autodiff");
-    const EQUATIONS: &'static [u8] = &[22, 63, 67];
-    const STATEMENT: &'static str =
-        "with the torque d(R^T I Omega)/dt of any motion, the angular acceleration is the rate of the body rates";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (q, v, a) = (&p.angles, &p.rates, &p.accelerations);
-        let torque = body_motion::torque_of_motion(&p.inertia, q, v, a);
-        (angular_acceleration(&p.inertia, &body_rates(q, v), &torque) - body_motion::angular_acceleration(q, v, a))
-            .iter()
-            .copied()
-            .collect()
-    }
+fn eulers_equations<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (q, v, a) = (&p.angles, &p.rates, &p.accelerations);
+    let torque = body_motion::torque_of_motion(&p.inertia, q, v, a);
+    (angular_acceleration(&p.inertia, &body_rates(q, v), &torque) - body_motion::angular_acceleration(q, v, a))
+        .iter()
+        .copied()
+        .collect()
 }
 
-struct WaveTensor;
-
-impl Identity for WaveTensor {
-    const ID: &'static str = "wave-tensor";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "wave-tensor-autodiff");
-    const EQUATIONS: &'static [u8] = &[60, 62, 63, 64, 65, 67];
-    const STATEMENT: &'static str = "R^T A R is the second time derivative of I^IJ along any motion with its torque, three moments of inertia; the trace \
-         vanishes";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (q, v, a) = (&p.angles, &p.rates, &p.accelerations);
-        let torque = body_motion::torque_of_motion(&p.inertia, q, v, a);
-        let tensor = wave_tensor(&p.inertia, &body_rates(q, v), &torque);
-        let by_time = body_motion::inertia_tensor_acceleration(&p.inertia, q, v, a);
-        let rotation = body_from_inertial(q);
-        let mut out = vec![tensor.trace()];
-        out.extend(&(tensor_in_inertial_frame(&rotation, &tensor) - by_time));
-        // The same in the body frame: each component of Eq. (65) by itself.
-        out.extend(&(tensor - rotation * by_time * rotation.transpose()));
-        out
-    }
+fn wave_tensor_of_motion<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (q, v, a) = (&p.angles, &p.rates, &p.accelerations);
+    let torque = body_motion::torque_of_motion(&p.inertia, q, v, a);
+    let tensor = wave_tensor(&p.inertia, &body_rates(q, v), &torque);
+    let by_time = body_motion::inertia_tensor_acceleration(&p.inertia, q, v, a);
+    let rotation = body_from_inertial(q);
+    let mut out = vec![tensor.trace()];
+    out.extend(&(tensor_in_inertial_frame(&rotation, &tensor) - by_time));
+    // The same in the body frame: each component of Eq. (65) by itself.
+    out.extend(&(tensor - rotation * by_time * rotation.transpose()));
+    out
 }
 
-struct FreeWaveTensor;
-
-impl Identity for FreeWaveTensor {
-    const ID: &'static str = "free-wave-tensor";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "free-wave-tensor-rounding");
-    const EQUATIONS: &'static [u8] = &[65, 67];
-    const STATEMENT: &'static str = "without torque, A^ij is the published free result, and the double commutator of the angular velocity with I^ij";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let omega = body_rates(&p.angles, &p.rates);
-        let tensor = wave_tensor(&p.inertia, &omega, &Vector3::zeros());
-        let mut out = Vec::new();
-        out.extend(&(tensor - free_wave_tensor_of_zimmermann(&p.inertia, &omega)));
-        out.extend(&(tensor - free_wave_tensor_by_commutators(&p.inertia, &omega)));
-        out
-    }
+fn free_wave_tensor<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let omega = body_rates(&p.angles, &p.rates);
+    let tensor = wave_tensor(&p.inertia, &omega, &Vector3::zeros());
+    let mut out = Vec::new();
+    out.extend(&(tensor - free_wave_tensor_of_zimmermann(&p.inertia, &omega)));
+    out.extend(&(tensor - free_wave_tensor_by_commutators(&p.inertia, &omega)));
+    out
 }
 
 /// The free result of M. Zimmermann, Phys. Rev. D 21, 891 (1980), with indices 1, 2, 3 for the body axes:
@@ -117,75 +95,46 @@ fn free_wave_tensor_by_commutators<F: Differentiable>(inertia: &PrincipalInertia
     commutator(&w_rate, &body) + commutator(&w, &commutator(&w, &body))
 }
 
-struct SpheroidSource;
-
-impl Identity for SpheroidSource {
-    const ID: &'static str = "spheroid-wave-source";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "spheroid-wave-source-rounding");
-    const EQUATIONS: &'static [u8] = &[64, 65, 66];
-    const STATEMENT: &'static str =
-        "the second derivative of I^IJ of a spheroid from n and L alone is R^T A R with the spheroid's torque";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (q, s) = (&p.angles, &p.s_inertial);
-        let state = BodyState::from_angles(&p.spheroid, q, &p.rates);
-        let rotation = body_from_inertial(q);
-        let torque = rotation * torque_on_axis(p.spheroid.constant_c, s, &state.axis);
-        let tensor = wave_tensor(&p.spheroid.inertia(), &body_rates(q, &p.rates), &torque);
-        let short = spheroid_inertia_acceleration(&p.spheroid, s, &state.axis, &state.momentum);
-        (tensor_in_inertial_frame(&rotation, &tensor) - short).iter().copied().collect()
-    }
+fn spheroid_wave_source<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (q, s) = (&p.angles, &p.s_inertial);
+    let state = BodyState::from_angles(&p.spheroid, q, &p.rates);
+    let rotation = body_from_inertial(q);
+    let torque = rotation * torque_on_axis(p.spheroid.constant_c, s, &state.axis);
+    let tensor = wave_tensor(&p.spheroid.inertia(), &body_rates(q, &p.rates), &torque);
+    let short = spheroid_inertia_acceleration(&p.spheroid, s, &state.axis, &state.momentum);
+    (tensor_in_inertial_frame(&rotation, &tensor) - short).iter().copied().collect()
 }
 
-struct FreePrecessionSource;
-
-impl Identity for FreePrecessionSource {
-    const ID: &'static str = "free-wave-source";
-    const ROUNDED: (Kind, &'static str) = (Kind::Property, "free-wave-source-rounding");
-    const EQUATIONS: &'static [u8] = &[28, 65, 68];
-    const STATEMENT: &'static str = "Eq. (68) is R^T A R without torque, the short form with s = 0 and two time derivatives, at constant beta and \
-         a' = omega / cos b";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (q, spheroid) = (&p.angles, &p.spheroid);
-        let (_, cos_beta) = q.beta.sin_cos();
-        let spin = p.rates.gamma;
-        let alpha_rate = spheroid.free_precession_constant(spin) / cos_beta;
-        let rates = EulerRates { alpha: alpha_rate, beta: F::zero(), gamma: spin - alpha_rate * cos_beta };
-        let none = EulerRates { alpha: F::zero(), beta: F::zero(), gamma: F::zero() };
-        let free = free_inertia_acceleration(spheroid, q.alpha, q.beta, alpha_rate);
-        let tensor = wave_tensor(&spheroid.inertia(), &body_rates(q, &rates), &Vector3::zeros());
-        let state = BodyState::from_angles(spheroid, q, &rates);
-        let short = spheroid_inertia_acceleration(spheroid, &Matrix3::zeros(), &state.axis, &state.momentum);
-        let by_time = body_motion::inertia_tensor_acceleration(&spheroid.inertia(), q, &rates, &none);
-        let mut out = Vec::new();
-        out.extend(&(free - tensor_in_inertial_frame(&body_from_inertial(q), &tensor)));
-        out.extend(&(free - short));
-        out.extend(&(free - by_time));
-        out
-    }
+fn free_wave_source<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (q, spheroid) = (&p.angles, &p.spheroid);
+    let (_, cos_beta) = q.beta.sin_cos();
+    let spin = p.rates.gamma;
+    let alpha_rate = spheroid.free_precession_constant(spin) / cos_beta;
+    let rates = EulerRates { alpha: alpha_rate, beta: F::zero(), gamma: spin - alpha_rate * cos_beta };
+    let none = EulerRates { alpha: F::zero(), beta: F::zero(), gamma: F::zero() };
+    let free = free_inertia_acceleration(spheroid, q.alpha, q.beta, alpha_rate);
+    let tensor = wave_tensor(&spheroid.inertia(), &body_rates(q, &rates), &Vector3::zeros());
+    let state = BodyState::from_angles(spheroid, q, &rates);
+    let short = spheroid_inertia_acceleration(spheroid, &Matrix3::zeros(), &state.axis, &state.momentum);
+    let by_time = body_motion::inertia_tensor_acceleration(&spheroid.inertia(), q, &rates, &none);
+    let mut out = Vec::new();
+    out.extend(&(free - tensor_in_inertial_frame(&body_from_inertial(q), &tensor)));
+    out.extend(&(free - short));
+    out.extend(&(free - by_time));
+    out
 }
 
-struct QuadrupoleFormula;
-
-impl Identity for QuadrupoleFormula {
-    const ID: &'static str = "quadrupole-formula";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "quadrupole-formula-autodiff");
-    const EQUATIONS: &'static [u8] = &[59, 60];
-    const STATEMENT: &'static str = "the strain from the moment of inertia is (2/r) times the second derivative of the mass quadrupole of turning masses";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        // Two masses at points of the body with no symmetry at all.
-        let masses = [(p.inertia.xx, p.gradient), (p.inertia.yy, Vector3::from_fn(|i, _| p.numbers[i]))];
-        let rotation = body_from_inertial(&accelerated_angles(&p.angles, &p.rates, &p.accelerations)).transpose();
-        let turning = masses.map(|(mass, x)| (F::constant(mass), rotation * x.map(F::constant)));
-        let zero = Matrix3::zeros();
-        let quadrupole = turning.iter().fold(zero, |sum, (mass, x)| sum + x * x.transpose() * *mass);
-        let inertia = turning
-            .iter()
-            .fold(zero, |sum, (mass, x)| sum + (Matrix3::from_diagonal_element(x.dot(x)) - x * x.transpose()) * *mass);
-        let distance = p.spheroid.constant_c;
-        let strain = metric_perturbation(distance, &inertia.map(F::derivative_12));
-        (strain * distance - quadrupole.map(F::derivative_12) * F::from_f64(2.0)).iter().copied().collect()
-    }
+fn quadrupole_formula<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    // Two masses at points of the body with no symmetry at all.
+    let masses = [(p.inertia.xx, p.gradient), (p.inertia.yy, Vector3::from_fn(|i, _| p.numbers[i]))];
+    let rotation = body_from_inertial(&accelerated_angles(&p.angles, &p.rates, &p.accelerations)).transpose();
+    let turning = masses.map(|(mass, x)| (F::constant(mass), rotation * x.map(F::constant)));
+    let zero = Matrix3::zeros();
+    let quadrupole = turning.iter().fold(zero, |sum, (mass, x)| sum + x * x.transpose() * *mass);
+    let inertia = turning
+        .iter()
+        .fold(zero, |sum, (mass, x)| sum + (Matrix3::from_diagonal_element(x.dot(x)) - x * x.transpose()) * *mass);
+    let distance = p.spheroid.constant_c;
+    let strain = metric_perturbation(distance, &inertia.map(F::derivative_12));
+    (strain * distance - quadrupole.map(F::derivative_12) * F::from_f64(2.0)).iter().copied().collect()
 }

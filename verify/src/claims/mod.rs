@@ -1,9 +1,11 @@
-//! The paper's statements that can be true or false, each with a verdict and the checks behind it. `docs/claims.md` is this
-//! list with the figures measured; a test keeps it so.
+//! The paper's statements that can be true or false, each with a verdict and the checks behind it: `verify/data/claims.toml`. `docs/claims.md` is
+//! that list with the figures measured; a test keeps it so.
 
-mod observables;
 mod page;
-mod rotation;
+
+use std::sync::LazyLock;
+
+use toml::de::{DeTable, DeValue};
 
 pub use page::{Evidence, evidence, markdown};
 
@@ -55,6 +57,39 @@ pub struct Claim {
 }
 
 /// All statements, in the order of the paper.
+///
+/// # Panics
+/// If the list compiled into the program is malformed.
 pub fn claims() -> impl Iterator<Item = &'static Claim> {
-    rotation::CLAIMS.iter().chain(observables::CLAIMS)
+    static CLAIMS: LazyLock<Vec<Claim>> = LazyLock::new(|| {
+        let list = DeTable::parse(include_str!("../../data/claims.toml")).expect("the list of claims is TOML");
+        let claims = list.get_ref().get("claim").and_then(|claims| claims.get_ref().as_array());
+        claims.expect("a list of claims").iter().map(|claim| Claim::read(claim.get_ref())).collect()
+    });
+    CLAIMS.iter()
+}
+
+impl Claim {
+    fn read(entry: &DeValue<'_>) -> Self {
+        let text = |value: &DeValue<'_>| -> &'static str { value.as_str().expect("a text").to_owned().leak() };
+        let field = |key| entry.get(key).map(|value| text(value.get_ref())).unwrap_or_default();
+        let names = |key| -> &'static [&'static str] {
+            let names = entry.get(key).and_then(|names| names.get_ref().as_array()).into_iter().flatten();
+            names.map(|name| text(name.get_ref())).collect::<Vec<_>>().leak()
+        };
+        let known = entry.as_table().expect("a table").keys().all(|key| {
+            ["id", "place", "statement", "verdict", "finding", "checks", "golden"].contains(&key.get_ref().as_ref())
+        });
+        assert!(known, "{}: a key that no claim has", field("id"));
+        let verdict = Verdict::ALL.into_iter().find(|verdict| verdict.name() == field("verdict"));
+        Self {
+            id: field("id"),
+            place: field("place"),
+            statement: field("statement"),
+            verdict: verdict.expect("a verdict"),
+            finding: field("finding"),
+            checks: names("checks"),
+            golden: names("golden"),
+        }
+    }
 }

@@ -7,7 +7,7 @@ use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_a
 use twofold::units::DEGREE;
 
 use super::{GoldenLine, GoldenTable, Printed};
-use crate::eta::{PAPER_ASYMMETRY, eta_curve};
+use crate::eta::{EtaStatistics, PAPER_ASYMMETRY, eta_curve};
 
 /// What it is for three shapes of the tensor, with its quantiles for the paper's.
 pub(super) fn table() -> Result<GoldenTable, Error> {
@@ -21,11 +21,12 @@ pub(super) fn table() -> Result<GoldenTable, Error> {
         let at = format!("r = -1/11, beta_0 = {}", point.beta_0);
         line(format!("{at}: 1/cos beta_0"), Printed::No, point.printed);
         line(format!("{at}: eta"), Printed::No, point.along_motion);
-        let statistics = &point.at_inclination;
-        line(format!("{at}: at this inclination"), Printed::No, statistics.root_mean_square);
-        line(format!("{at}: at this inclination, median"), Printed::No, statistics.median);
-        line(format!("{at}: at this inclination, 84 %"), Printed::No, statistics.quantile_84);
-        line(format!("{at}: at this inclination, 97.5 %"), Printed::No, statistics.quantile_975);
+        let EtaStatistics { root_mean_square, median, quantile_84, quantile_975 } = point.at_inclination;
+        for (part, value) in
+            [("", root_mean_square), (", median", median), (", 84 %", quantile_84), (", 97.5 %", quantile_975)]
+        {
+            line(format!("{at}: at this inclination{part}"), Printed::No, value);
+        }
         if let Some(statistics) = point.at_constant {
             line(format!("{at} of Eq. (34)"), Printed::No, statistics.root_mean_square);
             line(format!("{at} of Eq. (34), median"), Printed::No, statistics.median);

@@ -1,10 +1,10 @@
 //! The paper's numbers beside ours, one table per figure, table or passage of the paper.
 
-pub(crate) mod captions;
+mod captions;
 mod certified;
 mod eta;
 mod line;
-pub mod pulsar_bounds;
+mod pulsar_bounds;
 mod regimes;
 mod spectral_lines;
 mod star;

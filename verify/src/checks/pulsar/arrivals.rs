@@ -2,17 +2,16 @@
 
 use std::f64::consts::{PI, TAU};
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use nalgebra::Matrix3;
+use twofold::dynamics::{Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::observables::Observer;
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
-use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod, arrivals, pulse_train};
-use twofold::propagation::{Motion, TaylorMotion, propagate};
+use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod};
 
-use super::cases::for_random_cases;
+use super::cases::{Case, upright_star, worst_over_random_cases};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
-use crate::random::Random;
+use crate::random::{Random, worst_of_draws};
 
 pub(super) fn checks() -> Vec<Check> {
     vec![
@@ -61,11 +60,10 @@ pub(super) fn checks() -> Vec<Check> {
 }
 
 fn highest_in_pulse() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for_random_cases(81, 300, (20.0, 1e-14), |case| {
+    worst_over_random_cases(81, 300, (20.0, 1e-14), |case, worst| {
         let train = case.train()?;
         let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
-        let found = arrivals(&case.motion, &case.beam, &case.observer, &train)?;
+        let found = case.arrivals()?;
         if found.len() != whole.len() {
             worst.see(f64::INFINITY, || format!("{} arrivals of {} pulses, {}", found.len(), whole.len(), case.name));
         }
@@ -79,18 +77,27 @@ fn highest_in_pulse() -> Result<Measured, String> {
             worst.see(figure, || format!("{pulse:?} of {}", case.name));
         }
         Ok(())
-    })?;
-    worst.finish()
+    })
 }
 
-/// Arrivals of a motion for a beam and an observer in its frame.
-pub(super) fn arrivals_of(
-    motion: &TaylorMotion<f64>,
-    beam: &Beam<f64>,
-    n: &Vector3<f64>,
+/// The two times of an arrival.
+const TIMES: [fn(&Arrival) -> f64; 2] = [|arrival| arrival.midpoint, |arrival| arrival.closest_approach];
+
+fn numbered(found: &[Arrival], time: fn(&Arrival) -> f64) -> Vec<(i64, f64)> {
+    found.iter().map(|arrival| (arrival.number, time(arrival))).collect()
+}
+
+/// Arrivals up to the time `end` of a star and an observer that are turned together.
+fn arrivals_in_any_frame(
+    random: &mut Random,
+    problem: &Problem<f64>,
+    end: f64,
+    [chi, rho, theta_o]: [f64; 3],
 ) -> Result<Vec<Arrival>, String> {
-    let train = pulse_train(motion, beam, n, motion.span())?;
-    arrivals(motion, beam, n, &train).map_err(String::from)
+    let frame = any_frame(random);
+    let motion = problem.rotated(&frame).taylor((0.0, end), 1e-15)?;
+    let observer = Observer::at(theta_o, random.within(-PI, PI)).rotated(&frame).direction;
+    Case { name: String::new(), motion, beam: Beam::new(chi, random.within(-PI, PI), rho), observer }.arrivals()
 }
 
 /// A random rotation.
@@ -106,25 +113,16 @@ fn steady_rotation() -> Result<Measured, String> {
         let (rho, spin) = (random.within(0.1, 2.0), random.within(0.4, 2.0));
         let PulseWidth::Pulsed(width) = pulse_width(rho, chi, theta_o) else { continue };
         stars += 1;
-        let spheroid = RigidSpheroid::in_units_of_tc(random.within(0.5, 1.8));
-        let upright = EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 };
         let spin = if stars % 2 == 0 { spin } else { -spin };
-        let start = BodyState::from_angles(&spheroid, &upright, &EulerRates { alpha: 0.0, beta: 0.0, gamma: spin });
-        let frame = any_frame(&mut random);
-        let motion = propagate(&spheroid, &Matrix3::zeros(), &start.rotated(&frame), (0.0, 100.0), 1e-15)?;
-        let observer = Observer::at(theta_o, random.within(-PI, PI)).rotated(&frame);
-        let found = arrivals_of(&motion, &Beam::new(chi, random.within(-PI, PI), rho), &observer.direction)?;
+        let star = upright_star(random.within(0.5, 1.8), spin)?;
+        let found = arrivals_in_any_frame(&mut random, &star, 100.0, [chi, rho, theta_o])?;
         // m.n changes by this much per radian at an edge, and its rate by this much at the maximum.
         let across = chi.sin() * theta_o.sin();
         let rounding = |t: f64, slope: f64| f64::EPSILON * (8.0 + spin.abs() * t) * (1.0 + 1.0 / slope) / spin.abs();
         let numbers_in_order = found.iter().enumerate().all(|(i, arrival)| arrival.number == i as i64);
         let mut figure: f64 = if numbers_in_order && found.len() > 4 { 0.0 } else { f64::INFINITY };
-        for (slope, time) in [
-            (across * (width / 2.0).sin(), (|a: &Arrival| a.midpoint) as fn(&Arrival) -> f64),
-            (across, |a| a.closest_approach),
-        ] {
-            let points: Vec<_> = found.iter().map(|a| (a.number, time(a))).collect();
-            let fit = ConstantPeriod::fit(&points)?;
+        for (slope, time) in [across * (width / 2.0).sin(), across].into_iter().zip(TIMES) {
+            let fit = ConstantPeriod::fit(&numbered(&found, time))?;
             let scale = rounding(100.0, slope);
             let period = (fit.period - TAU / spin.abs()).abs() * found.len() as f64;
             figure = largest([figure, period / scale, largest(fit.residuals.iter().map(|r| r.abs() / scale))]);
@@ -141,22 +139,19 @@ fn free_precession() -> Result<Measured, String> {
     let beta = ((1.0 + oblateness) / (oblateness * f64::from(ratio))).acos();
     let spheroid = RigidSpheroid::in_units_of_tc(1.0 + oblateness);
     let angles = EulerAngles { alpha: 0.0, beta, gamma: 0.0 };
+    let rates = EulerRates { alpha: (1.0 + oblateness) / beta.cos(), beta: 0.0, gamma: -oblateness };
+    let star = Problem::from_angles(spheroid, Matrix3::zeros(), &angles, &rates)?;
     let repetition = TAU / oblateness;
     for (chi, turns) in [(0.4, ratio), (0.5, ratio), (0.7, ratio - 1), (1.2, ratio - 1)] {
         for theta_o in [0.4, 0.7, 1.0] {
-            let rates = EulerRates { alpha: (1.0 + oblateness) / beta.cos(), beta: 0.0, gamma: -oblateness };
-            let frame = any_frame(&mut random);
-            let start = BodyState::from_angles(&spheroid, &angles, &rates).rotated(&frame);
-            let motion = propagate(&spheroid, &Matrix3::zeros(), &start, (0.0, 4.2 * repetition), 1e-15)?;
-            let observer = Observer::at(theta_o, random.within(-PI, PI)).rotated(&frame);
-            let found = arrivals_of(&motion, &Beam::new(chi, random.within(-PI, PI), 0.5), &observer.direction)?;
+            let found = arrivals_in_any_frame(&mut random, &star, 4.2 * repetition, [chi, 0.5, theta_o])?;
             let mut figure = 0.0;
-            for time in [(|a: &Arrival| a.midpoint) as fn(&Arrival) -> f64, |a| a.closest_approach] {
+            for time in TIMES {
                 let later = |a: &Arrival| found.iter().find(|b| b.number == a.number + i64::from(turns)).map(time);
                 let errors = found.iter().filter_map(|a| later(a).map(|t| (t - time(a) - repetition).abs()));
                 let errors: Vec<f64> = errors.collect();
-                let points: Vec<_> = found.iter().map(|a| (a.number, time(a))).collect();
-                let modulation = largest(ConstantPeriod::fit(&points)?.residuals.iter().map(|r| r.abs()));
+                let fit = ConstantPeriod::fit(&numbered(&found, time))?;
+                let modulation = largest(fit.residuals.iter().map(|r| r.abs()));
                 // Three of four periods have a later one; in the least favourable case they hold four pulses each.
                 let enough = errors.len() >= 12 && modulation > 1e-3;
                 figure = largest([figure, if enough { largest(errors) } else { f64::INFINITY }]);
@@ -168,8 +163,7 @@ fn free_precession() -> Result<Measured, String> {
 }
 
 fn least_squares() -> Result<Measured, String> {
-    let (mut random, mut worst) = (Random::with_seed(85), Worst::default());
-    for case in 0..200 {
+    worst_of_draws(85, 200, |random| {
         let (first, period) = (random.within(-1e6, 1e6).round() as i64, random.within(0.1, 10.0));
         let mut number = first;
         let points: Vec<(i64, f64)> = (0..50)
@@ -200,8 +194,6 @@ fn least_squares() -> Result<Measured, String> {
             && ConstantPeriod::fit_weighted(&points, &weights[1..]).is_err()
             && ConstantPeriod::fit_weighted(&points, &vec![0.0; 50]).is_err()
             && ConstantPeriod::fit(&[(0, 1.0), (1, f64::NAN)]).is_err();
-        let figure = if same && refused { largest([figure, normal]) } else { f64::INFINITY };
-        worst.see(figure, || format!("case {case} of seed 85"));
-    }
-    worst.finish()
+        Ok(if same && refused { largest([figure, normal]) } else { f64::INFINITY })
+    })
 }

@@ -1,18 +1,21 @@
-//! Random pulsars for the checks of the pulse train, and those of the paper.
+//! Pulsars for the checks of the pulse train: random ones, the paper's, and such as spin about Z.
 
 use std::f64::consts::PI;
 
-use nalgebra::Vector3;
-use twofold::Error;
-use twofold::dynamics::BodyState;
-use twofold::observables::pulsar::{Beam, PulseTrain, pulse_train};
-use twofold::propagation::{Motion, TaylorMotion, propagate};
+use nalgebra::{Matrix3, Vector3};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::observables::Observer;
+use twofold::observables::pulsar::{Arrival, Beam, PulseTrain, arrivals, pulse_train};
+use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion};
+use twofold::solutions::perturbation::ShiftedRates;
 
-use crate::physical_domain::scenes;
+use crate::check::{Measured, Worst, largest};
+use crate::physical_domain::{scenes, worst_over};
 use crate::random::Random;
-use crate::reference::{ReferenceMotion, reference_motion};
+use crate::reference::reference_motion;
 
-/// A random motion with a beam and an observer.
+/// A motion with a beam and an observer.
 pub(super) struct Case {
     pub(super) name: String,
     pub(super) motion: TaylorMotion<f64>,
@@ -28,8 +31,24 @@ impl Case {
     }
 
     pub(super) fn train(&self) -> Result<PulseTrain, String> {
-        pulse_train(&self.motion, &self.beam, &self.observer, self.motion.span())
-            .map_err(|e| format!("{}: {e}", self.name))
+        Ok(pulse_train(&self.motion, &self.beam, &self.observer, self.motion.span())?)
+    }
+
+    pub(super) fn arrivals(&self) -> Result<Vec<Arrival>, String> {
+        Ok(arrivals(&self.motion, &self.beam, &self.observer, &self.train()?)?)
+    }
+
+    /// Largest difference of two lists of edges, each over the uncertainty of an edge, that of `m.n` over its slope; infinite if one is longer.
+    pub(super) fn difference_of_edges(&self, first: &[f64], second: &[f64]) -> f64 {
+        if first.len() != second.len() {
+            return f64::INFINITY;
+        }
+        largest(first.iter().zip(second).map(|(a, b)| (a - b).abs() * self.margin(*a)[1].abs().min(1.0)))
+    }
+
+    /// A bound on the rate at which the body turns.
+    pub(super) fn turning(&self, state: &BodyState<f64>) -> f64 {
+        state.momentum.norm() / self.motion.spheroid().inertia_zz.min(1.0)
     }
 }
 
@@ -38,57 +57,65 @@ pub(super) fn for_random_cases(
     seed: u8,
     count: usize,
     (end, accuracy): (f64, f64),
-    mut see: impl FnMut(&Case) -> Result<(), String>,
-) -> Result<(), String> {
-    let mut random = Random::with_seed(u64::from(seed));
-    let mut index = 0;
-    let cell = std::cell::RefCell::new((&mut random, &mut index, &mut see));
-    crate::physical_domain::worst_over(seed, count, &scenes(), |scene| {
-        let (random, index, see) = &mut *cell.borrow_mut();
-        let motion =
-            propagate(&scene.spheroid(), &scene.coefficients().tensor(), &scene.state(), (0.0, end), accuracy)?;
+    mut see: impl FnMut(&Case, &mut Worst) -> Result<(), String>,
+) -> Result<Worst, String> {
+    let (mut random, mut worst, mut index) = (Random::with_seed(u64::from(seed)), Worst::default(), 0);
+    worst_over(seed, count, &scenes(), |scene| {
+        let motion = scene.problem().taylor((0.0, end), accuracy)?;
         let (chi, delta) = (random.within(0.0, PI), random.within(-PI, PI));
         let (theta, phi) = (random.within(0.0, PI), random.within(-PI, PI));
-        let observer = Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos());
+        let observer = Observer::at(theta, phi).direction;
         let beam = Beam::new(chi, delta, random.within(0.05, 2.0));
         let name = format!("scene {index} of seed {seed}, beam {beam:?}, observer {observer:?}");
         let mut case = Case { name, motion, beam, observer };
-        see(&case)?;
+        see(&case, &mut worst)?;
         case.beam = beam.opposite();
-        see(&case)?;
-        **index += 1;
+        see(&case, &mut worst)?;
+        index += 1;
         Ok(0.0)
-    })
-    .map(|_| ())
+    })?;
+    Ok(worst)
 }
 
+/// The largest figure that `see` shows of such scenes.
+pub(super) fn worst_over_random_cases(
+    seed: u8,
+    count: usize,
+    end_and_accuracy: (f64, f64),
+    see: impl FnMut(&Case, &mut Worst) -> Result<(), String>,
+) -> Result<Measured, String> {
+    for_random_cases(seed, count, end_and_accuracy, see)?.finish()
+}
+
+/// The edges of the pulses, but for those at which the train is cut.
 pub(super) fn edges(train: &PulseTrain) -> Vec<f64> {
     let pulses = train.pulses.iter();
     pulses.flat_map(|p| [(!p.cut_at_start).then_some(p.start), (!p.cut_at_end).then_some(p.end)]).flatten().collect()
 }
 
-/// The motion, beam and observer of the paper's pulsar signals.
-pub(super) struct Signal {
-    pub(super) motion: TaylorMotion<f64>,
-    pub(super) beam: Beam<f64>,
-    pub(super) observer: Vector3<f64>,
+/// The paper's pulsar signal of an example up to the time `end`.
+pub(super) fn paper_signal(name: &str, end: f64) -> Result<Case, String> {
+    signal_of(name, &reference_motion(name).problem(), end)
 }
 
-/// The signal of an example, over 400 t_c.
-pub(super) fn paper_signal(name: &str) -> Result<Signal, Error> {
-    paper_signal_until(name, 400.0)
+/// The signal of another motion for the beam and the observer of the paper.
+pub(super) fn signal_of(name: &str, problem: &Problem<f64>, end: f64) -> Result<Case, String> {
+    let motion = problem.taylor((0.0, end), 1e-14)?;
+    let observer = Observer::at(0.8, 0.0).direction;
+    Ok(Case { name: name.to_owned(), motion, beam: Beam::new(0.5, 0.0, 0.6), observer })
 }
 
-/// The signal of an example up to the time `end`.
-pub(super) fn paper_signal_until(name: &str, end: f64) -> Result<Signal, Error> {
-    let reference = reference_motion(name);
-    signal_from(&reference, &reference.initial(), end)
+/// Mean rates of `alpha` and `gamma` over the span of a motion, which begins at the time zero.
+pub(super) fn mean_rates(motion: &TaylorMotion<f64>) -> Result<ShiftedRates<f64>, twofold::Error> {
+    let (_, end) = motion.span();
+    let start = motion.state(0.0)?.angles()?;
+    let last = ContinuousAngles::new(motion, 0.0, &start)?.at(end)?;
+    Ok(ShiftedRates { alpha: (last.alpha - start.alpha) / end, gamma: (last.gamma - start.gamma) / end })
 }
 
-/// The signal of an example from another start.
-pub(super) fn signal_from(reference: &ReferenceMotion, start: &BodyState<f64>, end: f64) -> Result<Signal, Error> {
-    let motion = propagate(&reference.spheroid, &reference.violation(), start, (0.0, end), 1e-14)?;
-    let theta_o: f64 = 0.8;
-    let observer = Vector3::new(theta_o.sin(), 0.0, theta_o.cos());
-    Ok(Signal { motion, beam: Beam::new(0.5, 0.0, 0.6), observer })
+/// A star that spins about Z, which is its axis.
+pub(super) fn upright_star(inertia_ratio: f64, spin: f64) -> Result<Problem<f64>, String> {
+    let angles = EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 };
+    let rates = EulerRates { alpha: 0.0, beta: 0.0, gamma: spin };
+    Ok(Problem::from_angles(RigidSpheroid::in_units_of_tc(inertia_ratio), Matrix3::zeros(), &angles, &rates)?)
 }

@@ -4,17 +4,17 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 use num_traits::Zero;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame};
 use twofold::numerics::scalar::Scalar;
 use twofold::observables::Observer;
-use twofold::observables::pulsar::{Arrival, Beam, PulsarClock, arrivals, pulse_train};
+use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod, PulsarClock, arrivals, pulse_train};
 use twofold::propagation::{AveragedMotion, Motion};
 use twofold::solutions::averaged::{AveragedPhases, AveragedRates, AveragedSolution, AveragingOrder};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::double_double::DoubleDouble;
-use crate::measured_order::measured_order;
+use crate::measured_order::order_of_error;
 use crate::random::Random;
 use twofold_scene::pulsar_timing::PulsarScene;
 use twofold_scene::scene_file::{PULSARS, Scene};
@@ -25,7 +25,7 @@ pub(super) fn checks() -> Vec<Check> {
             id: "pulsar-clock-numbers",
             kind: Kind::Oracle,
             equations: &[44],
-            statement: "numbers and midpoints of single pulses, asked in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose \
+            statement: "numbers and midpoints of single pulses, looked up in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose \
                  turns are followed from one half radian to the next: chi less or more than the wobble and its supplement, spins of both signs, \
                  L that goes round the line of sight or not",
             figure: "largest error of a midpoint [t_c]; infinite if a number is wrong, 40 random pulsars of 10 pulses or more",
@@ -69,50 +69,34 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-/// A random pulsar in units of `t_c`.
-struct Star {
-    spheroid: RigidSpheroid<f64>,
-    s: PrincipalCoefficients<f64>,
-    initial: BodyState<f64>,
-    beam: Beam<f64>,
-    observer: Observer<f64>,
-}
-
 fn any_direction(random: &mut Random) -> Vector3<f64> {
     let (z, azimuth) = (random.within(-0.98, 0.98), random.within(-PI, PI));
     let across = f64::sqrt(1.0 - z * z);
     Vector3::new(across * azimuth.cos(), across * azimuth.sin(), z)
 }
 
-impl Star {
-    fn any(random: &mut Random) -> Self {
-        let axis = any_direction(random);
-        let size = random.within(1.5, 3.0);
-        let momentum = any_direction(random) * size;
-        let equatorial_axis = axis.cross(&any_direction(random)).normalize();
-        let s = [0; 3].map(|_| random.within(-0.03, 0.03));
-        Self {
-            spheroid: RigidSpheroid::in_units_of_tc(random.within(0.6, 1.6)),
-            s: PrincipalCoefficients::new(s),
-            initial: BodyState { axis, momentum, equatorial_axis },
-            beam: Beam::new(random.within(0.05, PI - 0.05), random.within(-PI, PI), random.within(0.1, 0.9)),
-            observer: Observer::at(random.within(0.05, PI - 0.05), random.within(-PI, PI)),
-        }
-    }
+/// A random star in units of `t_c`.
+fn any_star(random: &mut Random) -> Result<Problem<f64>, String> {
+    let axis = any_direction(random);
+    let size = random.within(1.5, 3.0);
+    let momentum = any_direction(random) * size;
+    let equatorial_axis = axis.cross(&any_direction(random)).normalize();
+    let s = PrincipalCoefficients::new([0; 3].map(|_| random.within(-0.03, 0.03))).tensor();
+    let spheroid = RigidSpheroid::in_units_of_tc(random.within(0.6, 1.6));
+    Ok(Problem::new(spheroid, s, BodyState { axis, momentum, equatorial_axis })?)
 }
 
 fn numbers() -> Result<Measured, String> {
     let (mut random, mut worst, mut stars, mut tried) = (Random::with_seed(91), Worst::default(), 0, 0);
     while stars < 40 {
         tried += 1;
-        let star = Star::any(&mut random);
-        let (spheroid, s, start) = (&star.spheroid, star.s.tensor(), &star.initial);
-        let Ok(motion) = AveragedMotion::from_parts(spheroid, &s, start, (0.0, 2000.0), AveragingOrder::Second) else {
-            continue;
-        };
-        let n = &star.observer.direction;
-        let train = pulse_train(&motion, &star.beam, n, motion.span())?;
-        let Ok(found) = arrivals(&motion, &star.beam, n, &train) else { continue };
+        let problem = any_star(&mut random)?;
+        let beam = Beam::new(random.within(0.05, PI - 0.05), random.within(-PI, PI), random.within(0.1, 0.9));
+        let observer = Observer::at(random.within(0.05, PI - 0.05), random.within(-PI, PI));
+        let Ok(motion) = AveragedMotion::new(&problem, (0.0, 2000.0), AveragingOrder::Second) else { continue };
+        let n = &observer.direction;
+        let train = pulse_train(&motion, &beam, n, motion.span())?;
+        let Ok(found) = arrivals(&motion, &beam, n, &train) else { continue };
         let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
         // Pulses that share their turn with none, and are shorter than half of it.
         let alone = |i: usize| {
@@ -126,7 +110,8 @@ fn numbers() -> Result<Measured, String> {
             continue;
         }
         stars += 1;
-        let mut clock = PulsarClock::new(spheroid, &s, start, &star.beam, &star.observer, AveragingOrder::Second)?;
+        let (spheroid, s, start) = (problem.spheroid(), problem.coefficients(), problem.initial());
+        let mut clock = PulsarClock::new(spheroid, s, start, &beam, &observer, AveragingOrder::Second)?;
         let mut offset = None;
         for _ in 0..30.min(single.len()) {
             let i = single.swap_remove((random.word() % single.len() as u64) as usize);
@@ -139,17 +124,11 @@ fn numbers() -> Result<Measured, String> {
             };
             let expected = *offset.get_or_insert(pulse.number - found[i].number) + found[i].number;
             let error = (pulse.midpoint[0] - found[i].midpoint) + pulse.midpoint[1];
-            let right = pulse.number == expected;
-            worst.see(if right { error.abs() } else { f64::INFINITY }, || {
-                format!("{}: {error:e}, number {} for {expected}", place(), pulse.number)
-            });
+            let figure = if pulse.number == expected { error.abs() } else { f64::INFINITY };
+            worst.see(figure, || format!("{}: {error:e}, number {} for {expected}", place(), pulse.number));
         }
     }
     worst.finish()
-}
-
-fn lift(v: &Vector3<f64>) -> Vector3<DoubleDouble> {
-    v.map(DoubleDouble::from_f64)
 }
 
 /// The same averaged motion with every operation in 31 digits.
@@ -165,28 +144,20 @@ struct Exact {
 impl Exact {
     fn of(pulsar: &PulsarScene, beam: &Beam<f64>) -> Result<Self, String> {
         let number = DoubleDouble::from_f64;
-        let frame = principal_frame(&pulsar.violation)?;
-        let turned = pulsar.initial.rotated(&frame.principal_from_given);
-        let lifted = |state: &BodyState<f64>| BodyState {
-            axis: lift(&state.axis),
-            momentum: lift(&state.momentum),
-            equatorial_axis: lift(&state.equatorial_axis),
-        };
-        let spheroid = RigidSpheroid {
-            inertia_xx: number(pulsar.spheroid.inertia_xx),
-            inertia_zz: number(pulsar.spheroid.inertia_zz),
-            constant_c: number(pulsar.spheroid.constant_c),
-        };
+        let given = &pulsar.problem;
+        let frame = principal_frame(given.coefficients())?;
+        let turned = given.rotated(&frame.principal_from_given).map(number);
         let c = frame.coefficients;
         let s = PrincipalCoefficients::new([c.xx, c.yy, c.zz].map(number));
-        let (given, turned) = (lifted(&pulsar.initial), lifted(&turned));
-        let mean = AveragedSolution::with_free_rotation_of(&given, &spheroid, &s, &turned, AveragingOrder::Second)?;
+        let (start, spheroid) = (*given.map(number).initial(), turned.spheroid());
+        let order = AveragingOrder::Second;
+        let mean = AveragedSolution::with_free_rotation_of(&start, spheroid, &s, turned.initial(), order)?;
         Ok(Self {
             rates: *mean.rates(),
             start: mean.phases_at([0.0; 2]),
             mean,
-            beam: Beam { axis: lift(&beam.axis), half_opening: number(beam.half_opening) },
-            line_of_sight: lift(&pulsar.observer.rotated(&frame.principal_from_given).direction),
+            beam: Beam { axis: beam.axis.map(number), half_opening: number(beam.half_opening) },
+            line_of_sight: pulsar.observer.rotated(&frame.principal_from_given).direction.map(number),
             turn: DoubleDouble::tau(),
         })
     }
@@ -263,9 +234,7 @@ fn free_precession() -> Result<Measured, String> {
 }
 
 fn free_precession_order() -> Result<Measured, String> {
-    let point = |epsilon: f64| left_of_formula(Some(epsilon)).map(|[left, _]| (epsilon, left));
-    let points = [1e-6, 1e-5, 1e-4, 1e-3].map(point).into_iter().collect::<Result<Vec<_>, _>>()?;
-    measured_order(&points, 0.0)
+    order_of_error(&[1e-6, 1e-5, 1e-4, 1e-3], |epsilon| left_of_formula(Some(epsilon)).map(|[left, _]| left))
 }
 
 /// B1828-11 without Lorentz violation, with its own or another `epsilon` at the same rotation about `L`, which is along Z.
@@ -274,7 +243,7 @@ fn free_b1828(epsilon: Option<f64>) -> Result<Scene, String> {
         pulsars("0.0")?.into_iter().find(|(name, _)| name.starts_with("b1828-11")).ok_or("no such scene")?;
     let Some(epsilon) = epsilon else { return Ok(scene) };
     // alpha' cos(beta) = (1 + epsilon) Omega^z.
-    let rate = scene.initial.momentum.norm() / scene.spheroid.inertia_xx / scene.units.time;
+    let rate = scene.problem.initial().momentum.norm() / scene.problem.spheroid().inertia_xx / scene.units.time;
     let along = rate * scene.initial_angles.beta.cos();
     let spin = along / (1.0 + epsilon) / (2.0 * PI);
     let toml = PULSARS.iter().find(|scene| name.starts_with(scene.name)).ok_or("no such scene")?.toml;
@@ -309,13 +278,9 @@ fn left_of_formula(epsilon: Option<f64>) -> Result<[f64; 2], String> {
         period * (behind - (behind / (2.0 * PI)).round() * 2.0 * PI) / (2.0 * PI)
     };
     // What is left of the difference without its mean and its slope.
-    let points: Vec<_> = timing
-        .pulses
-        .iter()
-        .zip(&timing.fit.residuals)
-        .map(|(timed, residual)| (timed.pulse.number, residual - late(&timed.pulse.state)))
-        .collect();
-    let fit = twofold::observables::pulsar::ConstantPeriod::fit(&points)?;
+    let left = timing.pulses.iter().zip(&timing.fit.residuals);
+    let left = left.map(|(timed, residual)| (timed.pulse.number, residual - late(&timed.pulse.state)));
+    let fit = ConstantPeriod::fit(&left.collect::<Vec<_>>())?;
     let size = largest(timing.fit.residuals.iter().map(|r| r.abs()));
     Ok([largest(fit.residuals.iter().map(|r| r.abs())), size])
 }

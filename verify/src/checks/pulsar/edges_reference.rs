@@ -2,10 +2,10 @@
 
 use twofold::observables::Observer;
 use twofold::observables::pulsar::beam::axis_along_line_of_sight;
-use twofold::observables::pulsar::{Arrival, Beam, Pulse, arrivals, pulse_train};
-use twofold::propagation::{Motion, propagate};
+use twofold::observables::pulsar::{Arrival, Beam, Pulse};
+use twofold::propagation::Motion;
 
-use super::cases::{Signal, paper_signal_until};
+use super::cases::paper_signal;
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::reference::{ReferencePulse, reference_motions, reference_pulses};
 
@@ -28,8 +28,12 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "the edges of the first 160 whole pulses of tp-I and of tp-II each are the roots along a 34-digit motion, no pulse more or less",
             figure: "largest error of an edge [t_c]; infinite for another number of pulses",
             bound: Bound::AtMost(1e-12),
-            reason: "what is asked of the search: the motion's rounding after 1,500 rad, some 1e-14, over the rate of m.n, 0.04 to 0.5 per t_c",
-            measure: edges_against_reference,
+            reason: "the motion's rounding after 1,500 rad, some 1e-14, over the rate of m.n, 0.04 to 0.5 per t_c",
+            measure: || {
+                worst_pulse(|pulse, _, expected| {
+                    largest([(pulse.start - expected.start).abs(), (pulse.end - expected.end).abs()])
+                })
+            },
         },
         Check {
             id: "closest-approach-reference",
@@ -39,7 +43,9 @@ pub(super) fn checks() -> Vec<Check> {
             figure: "largest error of a time [t_c]",
             bound: Bound::AtMost(1e-12),
             reason: "the rate of m.n, as exact as the motion, over a second derivative of 0.19 or more",
-            measure: approaches_against_reference,
+            measure: || {
+                worst_pulse(|_, arrival, expected| (arrival.closest_approach - expected.closest_approach).abs())
+            },
         },
     ]
 }
@@ -48,24 +54,19 @@ fn signal_of_reference_motion() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for scene in reference_motions() {
         let end = scene.states.last().map_or(0.0, |(t, _)| *t);
-        let motion = propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, end), 1e-14)?;
+        let motion = scene.problem().taylor((0.0, end), 1e-14)?;
         for (t, reference) in &scene.states {
             let state = motion.state(*t)?;
             for (chi, delta) in [(0.5, 0.0), (1.3, 0.7), (2.8, -2.0)] {
                 for (theta_o, phi_o) in [(0.8, 0.0), (1.5, 2.2), (2.9, -1.1)] {
                     let (beam, observer) = (Beam::new(chi, delta, 0.6), Observer::at(theta_o, phi_o));
                     let theirs = beam.direction(reference).dot(&observer.direction);
-                    let mut errors = vec![beam.direction(&state).dot(&observer.direction) - theirs];
                     // On a pole the motion has no angles.
-                    errors.extend(
-                        state
-                            .angles()
-                            .ok()
-                            .map(|angles| axis_along_line_of_sight(&angles, chi, delta, theta_o, phi_o) - theirs),
-                    );
-                    worst.see(largest(errors.iter().map(|e| e.abs())), || {
-                        format!("{} at t = {t}, chi = {chi}, theta_o = {theta_o}", scene.name)
-                    });
+                    let angles = state.angles().ok();
+                    let in_angles = angles.map(|q| axis_along_line_of_sight(&q, chi, delta, theta_o, phi_o));
+                    let ours = [beam.direction(&state).dot(&observer.direction)].into_iter().chain(in_angles);
+                    let error = largest(ours.map(|ours| (ours - theirs).abs()));
+                    worst.see(error, || format!("{} at t = {t}, chi = {chi}, theta_o = {theta_o}", scene.name));
                 }
             }
         }
@@ -79,9 +80,8 @@ fn worst_pulse(error: fn(&Pulse, &Arrival, &ReferencePulse) -> f64) -> Result<Me
     for name in ["tp-1", "tp-2"] {
         let expected = reference_pulses(name);
         let end = expected.last().map_or(f64::NAN, |pulse| pulse.end + 0.1);
-        let Signal { motion, beam, observer } = paper_signal_until(name, end)?;
-        let train = pulse_train(&motion, &beam, &observer, (0.0, end))?;
-        let found = arrivals(&motion, &beam, &observer, &train)?;
+        let signal = paper_signal(name, end)?;
+        let (train, found) = (signal.train()?, signal.arrivals()?);
         let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
         if whole.len() != expected.len() || expected.len() < 150 {
             return Ok(Measured::new(f64::INFINITY, format!("{name}: {} pulses of {}", whole.len(), expected.len())));
@@ -91,12 +91,4 @@ fn worst_pulse(error: fn(&Pulse, &Arrival, &ReferencePulse) -> f64) -> Result<Me
         }
     }
     worst.finish()
-}
-
-fn edges_against_reference() -> Result<Measured, String> {
-    worst_pulse(|pulse, _, expected| largest([(pulse.start - expected.start).abs(), (pulse.end - expected.end).abs()]))
-}
-
-fn approaches_against_reference() -> Result<Measured, String> {
-    worst_pulse(|_, arrival, expected| (arrival.closest_approach - expected.closest_approach).abs())
 }

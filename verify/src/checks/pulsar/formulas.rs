@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use twofold::euler_angles::EulerAngles;
+use twofold::euler_angles::{EulerAngles, body_from_inertial};
 use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::direction::{
     axis_along_line_of_sight_in_azimuth, cosine_of_colatitude, magnetic_axis_direction,
@@ -10,8 +10,9 @@ use twofold::observables::pulsar::direction::{
 use twofold::observables::pulsar::period::{approximate_period, instantaneous_period};
 use twofold::observables::pulsar::width::{PulseWidth, cosine_of_half_width, edge_azimuths, pulse_width};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
-use crate::random::Random;
+use super::identities::spherical;
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
+use crate::random::worst_of_draws;
 
 pub(super) fn checks() -> Vec<Check> {
     vec![
@@ -60,46 +61,38 @@ pub(super) fn checks() -> Vec<Check> {
 }
 
 fn angles_of_axis() -> Result<Measured, String> {
-    let (mut random, mut worst) = (Random::with_seed(49), Worst::default());
-    for case in 0..2000 {
+    worst_of_draws(49, 2000, |random| {
         let q =
             EulerAngles { alpha: random.within(-PI, PI), beta: random.within(0.0, PI), gamma: random.within(-PI, PI) };
         let (chi, delta) = (random.within(0.0, PI), random.within(-PI, PI));
         let (theta, phi) = magnetic_axis_direction(&q, chi, delta)?;
-        let rotation = twofold::euler_angles::body_from_inertial(&q);
-        let m = rotation.transpose() * Beam::new(chi, delta, 1.0).axis;
-        let by_angles = [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
-        let error = largest((0..3).map(|i| (by_angles[i] - m[i]).abs()));
+        let m = body_from_inertial(&q).transpose() * Beam::new(chi, delta, 1.0).axis;
+        let error = largest_component(&(spherical(theta, phi) - m));
         let cosine = (cosine_of_colatitude(q.beta, q.gamma, chi, delta) - theta.cos()).abs();
-        worst.see(largest([error, cosine]) / f64::EPSILON, || format!("case {case} of seed 49: {q:?}, {chi}, {delta}"));
-    }
-    worst.finish()
+        Ok(largest([error, cosine]) / f64::EPSILON)
+    })
 }
 
 fn second_order_of_period() -> Result<Measured, String> {
-    let (mut random, mut worst) = (Random::with_seed(51), Worst::default());
-    for case in 0..2000 {
+    worst_of_draws(51, 2000, |random| {
         let alpha: f64 = random.within(0.5, 2.0);
         let offset = alpha * random.within(-0.5, 0.5);
         let exact = instantaneous_period(alpha + offset);
         let expected = exact * (1.0 - (offset / alpha).powi(2));
         let error = (approximate_period(alpha, offset) / expected - 1.0).abs();
-        let second_name = (exact * (alpha + offset) / TAU - 1.0).abs();
-        worst
-            .see(largest([error, second_name]) / f64::EPSILON, || format!("case {case} of seed 51: {alpha}, {offset}"));
-    }
-    worst.finish()
+        let one_turn = (exact * (alpha + offset) / TAU - 1.0).abs();
+        Ok(largest([error, one_turn]) / f64::EPSILON)
+    })
 }
 
 fn edges_of_width() -> Result<Measured, String> {
-    let (mut random, mut worst) = (Random::with_seed(56), Worst::default());
     let mut kinds = [0; 3];
-    for case in 0..20_000 {
+    let measured = worst_of_draws(56, 20_000, |random| {
         let [rho, theta, theta_o] = [0; 3].map(|_| random.within(0.0, PI));
         let phi_o = random.within(-PI, PI);
         let product = |phi: f64| axis_along_line_of_sight_in_azimuth(theta, phi, theta_o, phi_o);
         let (nearest, farthest) = (product(phi_o) - rho.cos(), product(phi_o + PI) - rho.cos());
-        let figure = match pulse_width(rho, theta, theta_o) {
+        Ok(match pulse_width(rho, theta, theta_o) {
             PulseWidth::Pulsed(width) => {
                 kinds[0] += 1;
                 let (first, second) = edge_azimuths(phi_o, width);
@@ -119,13 +112,12 @@ fn edges_of_width() -> Result<Measured, String> {
                 kinds[2] += 1;
                 if nearest < 1e-15 { 0.0 } else { f64::INFINITY }
             }
-        };
-        worst.see(figure, || format!("case {case} of seed 56: {rho}, {theta}, {theta_o}, {phi_o}"));
-    }
+        })
+    })?;
     if kinds.contains(&0) {
         return Err(format!("a kind was never met: {kinds:?}"));
     }
-    worst.finish()
+    Ok(measured)
 }
 
 fn narrow_widths() -> Result<Measured, String> {

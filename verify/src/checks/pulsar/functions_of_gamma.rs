@@ -2,9 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 use twofold::observables::pulsar::Stamped;
-use twofold::propagation::{ContinuousAngles, Motion};
 
-use super::cases::{Signal, paper_signal};
+use super::cases::{Case, mean_rates, paper_signal};
 use crate::check::{Bound, Check, Kind, Measured};
 use crate::pulse_series::pulse_series;
 
@@ -26,8 +25,8 @@ pub(super) fn checks() -> Vec<Check> {
 }
 
 fn functions_of_gamma() -> Result<Measured, String> {
-    let left = |example: &str| left_by_functions_of_gamma(example).map_err(|e| format!("{example}: {e}"));
-    let ([period_1, width_1], [period_2, width_2]) = (left("tp-1")?, left("tp-2")?);
+    let [[period_1, width_1], [period_2, width_2]] =
+        [left_by_functions_of_gamma("tp-1")?, left_by_functions_of_gamma("tp-2")?];
     let detail = format!(
         "left of the widths of tp-I {width_1:.3}, of tp-II {width_2:.3}; of the periods {period_1:.3} and {period_2:.3}"
     );
@@ -37,11 +36,9 @@ fn functions_of_gamma() -> Result<Measured, String> {
 /// What the best sum of harmonics of the mean phase of gamma up to the sixth leaves of the period and the width series, root mean
 /// square in units of that of the series from its mean.
 fn left_by_functions_of_gamma(example: &str) -> Result<[f64; 2], String> {
-    let Signal { motion, beam, observer } = paper_signal(example)?;
+    let Case { motion, beam, observer, .. } = paper_signal(example, SPAN)?;
     let series = pulse_series(&motion, &beam, &observer, (0.0, SPAN))?;
-    let start = motion.state(0.0).and_then(|state| state.angles())?;
-    let last = ContinuousAngles::new(&motion, 0.0, &start).and_then(|mut angles| angles.at(SPAN))?;
-    let rate = (last.gamma - start.gamma) / SPAN;
+    let rate = mean_rates(&motion)?.gamma;
     let left = |series: &[Stamped]| -> Result<f64, String> {
         let functions = DMatrix::from_fn(series.len(), 13, |row, k| {
             let (sin, cos) = (k.div_ceil(2) as f64 * rate * series[row].time).sin_cos();

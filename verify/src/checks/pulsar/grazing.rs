@@ -2,8 +2,8 @@
 
 use twofold::observables::pulsar::{Beam, pulse_train};
 
-use super::cases::{edges, for_random_cases};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use super::cases::{edges, worst_over_random_cases};
+use crate::check::{Bound, Check, Kind, Measured, largest};
 
 pub(super) fn checks() -> Vec<Check> {
     vec![Check {
@@ -22,8 +22,7 @@ pub(super) fn checks() -> Vec<Check> {
 const END: f64 = 20.0;
 
 fn grazing_by_construction() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for_random_cases(46, 60, (END, 1e-14), |case| {
+    worst_over_random_cases(46, 60, (END, 1e-14), |case, worst| {
         for index in 0..100 {
             // An extremum by bisection of the rate.
             let (mut low, mut high) = (0.2 * f64::from(index), 0.2 * f64::from(index + 1));
@@ -44,7 +43,7 @@ fn grazing_by_construction() -> Result<Measured, String> {
             let with_offset = |offset: f64| {
                 let beam = Beam { half_opening: (product + offset).acos(), ..case.beam };
                 let span = ((low - 0.05).max(0.0), (low + 0.05).min(END));
-                pulse_train(&case.motion, &beam, &case.observer, span).map_err(String::from)
+                Ok::<_, String>(pulse_train(&case.motion, &beam, &case.observer, span)?)
             };
             let touching = with_offset(0.0)?;
             let mut figure = if touching.grazings.iter().any(|t| (t - low).abs() < 1e-5) { 0.0 } else { f64::INFINITY };
@@ -67,6 +66,5 @@ fn grazing_by_construction() -> Result<Measured, String> {
             worst.see(figure, || format!("extremum {margin} at {low}, {}", case.name));
         }
         Ok(())
-    })?;
-    worst.finish()
+    })
 }

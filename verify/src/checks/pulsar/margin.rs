@@ -1,12 +1,13 @@
 //! Time derivatives of `m.n` along motions, and their bounds. Eq. (44).
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use num_dual::Dual3_64;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, RotationState};
 use twofold::numerics::scalar::constant_vector;
+use twofold::observables::Observer;
 use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::rate_bounds::rate_bounds;
-use twofold::propagation::{Motion, propagate};
+use twofold::propagation::Motion;
 
 use crate::check::{Bound, Check, Kind, Measured, largest};
 use crate::physical_domain::{RandomScene, scenes, worst_over};
@@ -20,8 +21,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "the first three time derivatives of m.n are those of the dense output, differentiated by duals",
             figure: "largest error / (2.2e-16, bound on that derivative), 40 random motions, the third divided by 22/3",
             bound: Bound::AtMost(64.0),
-            reason: "differentiating a series of order 22 k times multiplies its rounding by up to (22/3)^k, 54 for the second; the state \
-                     adds a few",
+            reason: "differentiating a series of order 22 k times multiplies its rounding by up to (22/3)^k, 54 for the second; the state adds a few",
             measure: rates_by_duals,
         },
         Check {
@@ -31,7 +31,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "the first three time derivatives of m.n stay below the bounds from energy and spin at the start",
             figure: "largest derivative / its bound, 40 random motions",
             bound: Bound::AtMost(1.0),
-            reason: "a bound is a bound",
+            reason: "the meaning of a bound",
             measure: rates_within_bounds,
         },
         Check {
@@ -41,7 +41,7 @@ pub(super) fn checks() -> Vec<Check> {
             statement: "so do the fourth and the sixth, by their mean values: the first and third divided differences of the third derivative",
             figure: "largest mean value / its bound, 40 random motions, steps of 0.04 t_c",
             bound: Bound::AtMost(1.0),
-            reason: "a bound is a bound of every mean value; rounding of a third difference is 1e-11",
+            reason: "a bound of a derivative bounds its mean values; rounding of a third difference is 1e-11",
             measure: high_rates_within_bounds,
         },
     ]
@@ -61,15 +61,13 @@ fn rates_within_bounds() -> Result<Measured, String> {
 fn high_rates_within_bounds() -> Result<Measured, String> {
     const STEP: f64 = 0.04;
     worst_over(45, 40, &scenes(), |scene| {
-        let (spheroid, s, start) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
-        let bounds = rate_bounds(&spheroid, &s, &start);
-        let motion = propagate(&spheroid, &s, &start, (0.0, 20.0), 1e-15)?;
-        let [chi, theta, azimuth] = scene.angles;
-        let beam = Beam::new(chi, azimuth, 0.7);
-        let observer = Vector3::new(theta.sin() * chi.cos(), theta.sin() * chi.sin(), theta.cos());
+        let problem = scene.problem();
+        let bounds = rate_bounds(problem.spheroid(), problem.coefficients(), problem.initial());
+        let motion = problem.taylor((0.0, 20.0), 1e-15)?;
+        let (beam, observer) = beam_and_observer(scene);
         let third = |i: u32| {
             let state = motion.state(STEP * f64::from(i))?;
-            Ok::<_, String>(beam.margin_rates(&spheroid, &s, &state, &observer)[3])
+            Ok::<_, String>(beam.margin_rates(problem.spheroid(), problem.coefficients(), &state, &observer)[3])
         };
         let thirds = (0..500).map(third).collect::<Result<Vec<_>, _>>()?;
         let fourth = largest(thirds.windows(2).map(|f| (f[1] - f[0]).abs())) / STEP;
@@ -78,38 +76,30 @@ fn high_rates_within_bounds() -> Result<Measured, String> {
     })
 }
 
+/// A beam and a line of sight from the numbers of a scene.
+fn beam_and_observer(scene: &RandomScene) -> (Beam<f64>, Vector3<f64>) {
+    let [chi, theta, azimuth] = scene.angles;
+    (Beam::new(chi, azimuth, 0.7), Observer::at(theta, chi).direction)
+}
+
 /// The largest figure of the three bounds at the start, the margin and its rates by the kernel, and its first derivatives by
 /// duals, at 25 times of 40 random motions over 20 t_c.
 fn along_motions(figure: fn([f64; 3], [f64; 4], [f64; 4]) -> f64) -> Result<Measured, String> {
-    worst_over(44, 40, &scenes(), |scene| of_motion(scene, figure).map_err(String::from))
+    worst_over(44, 40, &scenes(), |scene| Ok(of_motion(scene, figure)?))
 }
 
 fn of_motion(scene: &RandomScene, figure: fn([f64; 3], [f64; 4], [f64; 4]) -> f64) -> Result<f64, twofold::Error> {
-    let (spheroid, s, start) = (scene.spheroid(), scene.coefficients().tensor(), scene.state());
-    let bounds = rate_bounds(&spheroid, &s, &start);
-    let lifted = RigidSpheroid::in_units_of_tc(Dual3_64::from(scene.inertia_ratio));
-    let initial = BodyState {
-        axis: constant_vector(&start.axis),
-        momentum: constant_vector(&start.momentum),
-        equatorial_axis: constant_vector(&start.equatorial_axis),
-    };
-    let s_lifted: Matrix3<Dual3_64> = s.map(Dual3_64::from);
-    let motion = propagate(&lifted, &s_lifted, &initial, (0.0, 20.0), 1e-16)?;
-    // The direction of the beam and of the observer are taken from the scene's numbers.
-    let [chi, theta, azimuth] = scene.angles;
-    let beam = Beam::new(chi, azimuth, 0.7);
-    let observer = Vector3::new(theta.sin() * chi.cos(), theta.sin() * chi.sin(), theta.cos());
+    let problem = scene.problem();
+    let bounds = rate_bounds(problem.spheroid(), problem.coefficients(), problem.initial());
+    let motion = problem.map(Dual3_64::from).taylor((0.0, 20.0), 1e-16)?;
+    let (beam, observer) = beam_and_observer(scene);
     let beam_lifted = Beam { axis: constant_vector(&beam.axis), half_opening: Dual3_64::from(0.7) };
     Ok(largest((0..25).map(|i| {
         let t = 0.3 + 0.8 * f64::from(i);
         let Ok(state) = motion.state(Dual3_64::new(t, 1.0, 0.0, 0.0)) else { return f64::NAN };
         let by_duals = beam_lifted.margin(&state, &constant_vector(&observer));
-        let real = BodyState {
-            axis: state.axis.map(|x| x.re),
-            momentum: state.momentum.map(|x| x.re),
-            equatorial_axis: state.equatorial_axis.map(|x| x.re),
-        };
-        let kernel = beam.margin_rates(&spheroid, &s, &real, &observer);
+        let real = BodyState::from_vectors(state.vectors().map(|vector| vector.map(|x| x.re)));
+        let kernel = beam.margin_rates(problem.spheroid(), problem.coefficients(), &real, &observer);
         figure(
             [bounds.first, bounds.second, bounds.third],
             kernel,

@@ -1,10 +1,9 @@
 //! The authors' published series of tp-I. Eqs. (44), (47).
 
-use twofold::dynamics::BodyState;
+use twofold::dynamics::Problem;
 use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::observables::pulsar::pulse_train;
 
-use super::cases::{Signal, signal_from};
+use super::cases::signal_of;
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::reference::reference_motion;
 
@@ -13,8 +12,8 @@ pub(super) fn checks() -> Vec<Check> {
         id: "pulse-train-authors",
         kind: Kind::Oracle,
         equations: &[44, 47],
-        statement: "m.n at t = 0, and widths and periods of tp-I from the initial values rounded as in the caption, are the authors' \
-                 published data for tp-I: chi = 0.5, delta = 0, theta_o = 0.8, phi_o = 0, rho = 0.6",
+        statement: "m.n at t = 0, and widths and periods of tp-I from the initial values rounded as in the caption, are the authors' published data for \
+                 tp-I: chi = 0.5, delta = 0, theta_o = 0.8, phi_o = 0, rho = 0.6",
         figure: "largest difference of a time stamp, width or period [t_c]",
         bound: Bound::AtMost(1e-5),
         reason: "their solver ran at its default tolerance: m.n is off by up to 2.7e-6, at a slope of about 0.3 per t_c",
@@ -40,14 +39,10 @@ fn against_authors() -> Result<Measured, String> {
     let reference = reference_motion("tp-1");
     let angles = EulerAngles { beta: 0.701, ..reference.angles };
     let rates = EulerRates { alpha: 1.509, beta: 0.0, gamma: reference.spin - 1.509 * angles.beta.cos() };
-    let rounded = BodyState::from_angles(&reference.spheroid, &angles, &rates);
-    let train = |start: &BodyState<f64>| {
-        let Signal { motion, beam, observer } = signal_from(&reference, start, 400.0)?;
-        let at_start = beam.direction(start).dot(&observer);
-        pulse_train(&motion, &beam, &observer, (0.0, 400.0)).map(|train| (train, at_start)).map_err(String::from)
-    };
-    let (exact, at_start) = train(&reference.initial())?;
-    let (rounded, _) = train(&rounded)?;
+    let rounded = Problem::from_angles(reference.spheroid, reference.violation(), &angles, &rates)?;
+    let signal = signal_of("tp-1", &reference.problem(), 400.0)?;
+    let at_start = signal.beam.direction(reference.problem().initial()).dot(&signal.observer);
+    let (exact, rounded) = (signal.train()?, signal_of("tp-1, rounded", &rounded, 400.0)?.train()?);
     let (durations, found): (Vec<_>, Vec<_>) = (rounded.durations().collect(), rounded.periods().collect());
     // They list 96 widths and 95 periods up to 400 t_c.
     if (durations.len(), found.len(), rounded.grazings.len()) != (96, 95, 0) {

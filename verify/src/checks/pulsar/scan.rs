@@ -23,7 +23,7 @@ pub(super) fn checks() -> Vec<Check> {
 fn against_scan() -> Result<Measured, String> {
     let (mut wrong, mut total, mut trains, mut looks, mut first) = (0, 0, 0, 0, String::new());
     // Search and scan look at one and the same numerical motion, whatever its error.
-    for_random_cases(44, 10_000, (END, 1e-10), |case| {
+    for_random_cases(44, 10_000, (END, 1e-10), |case, _| {
         let train = case.train()?;
         let mut scan = Scan::of(case);
         scan.search(0, POINTS);

@@ -2,15 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::Error;
-use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::observables::Observer;
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{Beam, pulse_train};
-use twofold::propagation::{Motion, propagate};
+use twofold::propagation::Motion;
 
-use super::cases::{edges, for_random_cases};
+use super::cases::{edges, upright_star, worst_over_random_cases};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::random::Random;
 
@@ -53,17 +50,13 @@ pub(super) fn checks() -> Vec<Check> {
 const SPAN: (f64, f64) = (0.0, 20.0);
 
 fn margin_at_edges() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for_random_cases(45, 300, (SPAN.1, 1e-14), |case| {
+    worst_over_random_cases(45, 300, (SPAN.1, 1e-14), |case, worst| {
         for t in edges(&case.train()?) {
-            let state = case.motion.state(t).map_err(|e| e.to_string())?;
-            let turning = state.momentum.norm() / case.motion.spheroid().inertia_zz.min(1.0);
-            let scale = f64::EPSILON * (4.0 + t * turning);
+            let scale = f64::EPSILON * (4.0 + t * case.turning(&case.motion.state(t)?));
             worst.see(case.margin(t)[0].abs() / scale, || format!("t = {t}, {}", case.name));
         }
         Ok(())
-    })?;
-    worst.finish()
+    })
 }
 
 fn against_closed_form() -> Result<Measured, String> {
@@ -72,13 +65,9 @@ fn against_closed_form() -> Result<Measured, String> {
         let [chi, theta_o] = [0; 2].map(|_| random.within(0.01, PI - 0.01));
         let (phi_o, delta, rho) = (random.within(-PI, PI), random.within(-PI, PI), random.within(0.05, 2.5));
         let spin = random.within(0.3, 2.0);
-        let spheroid = RigidSpheroid::in_units_of_tc(random.within(0.5, 1.8));
-        let upright = EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 };
-        let start = BodyState::from_angles(&spheroid, &upright, &EulerRates { alpha: 0.0, beta: 0.0, gamma: spin });
-        let motion = propagate(&spheroid, &Matrix3::zeros(), &start, SPAN, 1e-15).map_err(|e| e.to_string())?;
-        let observer = Vector3::new(theta_o.sin() * phi_o.cos(), theta_o.sin() * phi_o.sin(), theta_o.cos());
-        let beam = Beam::new(chi, delta, rho);
-        let train = pulse_train(&motion, &beam, &observer, SPAN).map_err(|e| e.to_string())?;
+        let motion = upright_star(random.within(0.5, 1.8), spin)?.taylor(SPAN, 1e-15)?;
+        let observer = Observer::at(theta_o, phi_o);
+        let train = pulse_train(&motion, &Beam::new(chi, delta, rho), &observer.direction, SPAN)?;
         let figure = match pulse_width(rho, chi, theta_o) {
             PulseWidth::Pulsed(width) => {
                 kinds[0] += 1;
@@ -116,26 +105,18 @@ fn against_closed_form() -> Result<Measured, String> {
 }
 
 fn symmetries() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for_random_cases(47, 100, (SPAN.1, 1e-14), |case| {
-        let whole = case.train()?;
+    worst_over_random_cases(47, 100, (SPAN.1, 1e-14), |case, worst| {
+        let whole = edges(&case.train()?);
         let supplement = Beam { half_opening: PI - case.beam.half_opening, ..case.beam.opposite() };
-        let message = |e: Error| format!("{}: {e}", case.name);
-        let between = pulse_train(&case.motion, &supplement, &case.observer, SPAN).map_err(message)?;
-        let part_span = (13.7, 4.3);
-        let part = pulse_train(&case.motion, &case.beam, &case.observer, part_span).map_err(message)?;
-        let within: Vec<f64> = edges(&whole).into_iter().filter(|t| (4.3..=13.7).contains(t)).collect();
-        let compare = |a: &[f64], b: &[f64]| {
-            if a.len() != b.len() {
-                return f64::INFINITY;
-            }
-            // An edge is as uncertain as m.n is over its slope.
-            largest(a.iter().zip(b).map(|(x, y)| (x - y).abs() * case.margin(*x)[1].abs().min(1.0)))
-        };
-        let figure = largest([compare(&edges(&whole), &edges(&between)), compare(&within, &edges(&part))]);
+        let between = pulse_train(&case.motion, &supplement, &case.observer, SPAN)?;
+        let part = pulse_train(&case.motion, &case.beam, &case.observer, (13.7, 4.3))?;
+        let within: Vec<f64> = whole.iter().copied().filter(|t| (4.3..=13.7).contains(t)).collect();
+        let figure = largest([
+            case.difference_of_edges(&whole, &edges(&between)),
+            case.difference_of_edges(&within, &edges(&part)),
+        ]);
         let cut = part.pulses.iter().all(|p| p.cut_at_start == (p.start == 4.3) && p.cut_at_end == (p.end == 13.7));
         worst.see(if cut { figure } else { f64::INFINITY }, || case.name.clone());
         Ok(())
-    })?;
-    worst.finish()
+    })
 }

@@ -1,12 +1,11 @@
 //! The same pulse train by every way of looking at the magnetic axis. Eq. (44).
 
-use nalgebra::Vector3;
-use twofold::Error;
-use twofold::observables::pulsar::{PulseTrain, propagated_pulse_train, pulse_train};
+use twofold::dynamics::Problem;
+use twofold::observables::pulsar::{PulseTrain, pulse_train};
 use twofold::propagation::Motion;
 
-use super::cases::{Case, edges, for_random_cases};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use super::cases::{Case, edges, for_random_cases, worst_over_random_cases};
+use crate::check::{Bound, Check, Kind, Measured, largest};
 use crate::given_states::GivenStates;
 
 pub(super) fn checks() -> Vec<Check> {
@@ -15,8 +14,7 @@ pub(super) fn checks() -> Vec<Check> {
             id: "pulse-train-ways",
             kind: Kind::Property,
             equations: &[44],
-            statement: "the pulses of 600 random trains are the same from the series of the motion, from its states, and from series that \
-                        are not kept",
+            statement: "the pulses of 600 random trains are the same from the series of the motion, from its states, and from series that are not kept",
             figure: "largest difference of an edge times the slope of m.n; infinite for a wrong number",
             bound: Bound::AtMost(1e-13),
             reason: "the same roots from other brackets: rounding of t up to 20 t_c, 4e-15, and of m.n over its slope",
@@ -40,42 +38,32 @@ const END: f64 = 20.0;
 
 fn ways_agree() -> Result<Measured, String> {
     const ACCURACY: f64 = 1e-14;
-    let mut worst = Worst::default();
-    for_random_cases(48, 300, (END, ACCURACY), |case| {
+    worst_over_random_cases(48, 300, (END, ACCURACY), |case, worst| {
         let Case { motion, beam, observer, .. } = case;
-        let message = |e: Error| format!("{}: {e}", case.name);
-        let (spheroid, s, start) = (motion.spheroid(), motion.coefficients(), motion.state(0.0).map_err(message)?);
         let by_series = case.train()?;
-        let alone = GivenStates::like(motion, |t| motion.state(t));
-        let by_states = pulse_train(&alone, beam, observer, (0.0, END)).map_err(message)?;
-        let (not_kept, end) =
-            propagated_pulse_train(spheroid, s, &start, (0.0, END), ACCURACY, beam, observer).map_err(message)?;
-        let compare = |other: &PulseTrain| {
-            let (ours, theirs) = (edges(&by_series), edges(other));
-            let cut =
-                |train: &PulseTrain| train.pulses.iter().map(|p| (p.cut_at_start, p.cut_at_end)).collect::<Vec<_>>();
-            if ours.len() != theirs.len() || cut(&by_series) != cut(other) {
-                return f64::INFINITY;
-            }
-            largest(ours.iter().zip(&theirs).map(|(a, b)| (a - b).abs() * case.margin(*a)[1].abs().min(1.0)))
+        let by_states = pulse_train(&GivenStates::like(motion, |t| motion.state(t)), beam, observer, (0.0, END))?;
+        let problem = Problem::new(*motion.spheroid(), *motion.coefficients(), motion.state(0.0)?)?;
+        let (not_kept, end) = problem.taylor_pulse_train((0.0, END), ACCURACY, beam, observer)?;
+        let cut = |train: &PulseTrain| train.pulses.iter().map(|p| (p.cut_at_start, p.cut_at_end)).collect::<Vec<_>>();
+        let compare = |other: &PulseTrain| match cut(&by_series) == cut(other) {
+            true => case.difference_of_edges(&edges(&by_series), &edges(other)),
+            false => f64::INFINITY,
         };
-        let last: Vector3<f64> = end.states[0].equatorial_axis - motion.state(END).map_err(message)?.equatorial_axis;
+        let last = end.states[0].equatorial_axis - motion.state(END)?.equatorial_axis;
         worst.see(largest([compare(&by_states), compare(&not_kept), last.amax()]), || case.name.clone());
         Ok(())
-    })?;
-    worst.finish()
+    })
 }
 
 fn projection_against_states() -> Result<Measured, String> {
-    let (mut worst, mut looked) = (Worst::default(), 0);
-    for_random_cases(49, 300, (END, 1e-15), |case| {
+    let mut looked = 0;
+    let worst = for_random_cases(49, 300, (END, 1e-15), |case, worst| {
         // A processor without vector instructions has none: nothing to compare.
         let Some(projection) = case.motion.projection(&case.beam.axis, &case.observer) else { return Ok(()) };
         let edge = case.beam.half_opening.cos();
         // Not in order, so that steps behind are looked for as well; again in order, with the same digits.
         let times = (0..25_u32).map(|i| 0.3 + 0.8 * f64::from((7 * i) % 25));
-        let looks = times.map(|t| projection.at(t).map(|look| (t, look))).collect::<Result<Vec<_>, _>>();
-        let looks = looks.map_err(|e| format!("{}: {e}", case.name))?;
+        let looks = times.map(|t| projection.at(t).map(|look| (t, look))).collect::<Result<Vec<_>, _>>()?;
         let mut in_order = looks.clone();
         in_order.sort_by(|a, b| a.0.total_cmp(&b.0));
         if in_order.iter().any(|(t, look)| projection.at(*t).ok() != Some(*look)) {
@@ -84,8 +72,7 @@ fn projection_against_states() -> Result<Measured, String> {
         for (t, mut by_series) in looks {
             let by_states = case.margin(t);
             by_series[0] -= edge;
-            let state = case.motion.state(t).map_err(|e| format!("{}: {e}", case.name))?;
-            let turning = state.momentum.norm() / case.motion.spheroid().inertia_zz.min(1.0);
+            let turning = case.turning(&case.motion.state(t)?);
             let scale = |k: i32| f64::EPSILON * (4.0 + t * turning) * (1.0 + turning).powi(k);
             let figure = largest((0..4).map(|k| (by_series[k] - by_states[k]).abs() / scale(k as i32)));
             worst.see(figure, || format!("t = {t}, {}", case.name));

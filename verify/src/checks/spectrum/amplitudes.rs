@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use twofold::observables::spectrum::{Series, Window, amplitude_spectrum};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, worst_of};
 use crate::random::Random;
 
 const WINDOWS: [Window; 4] =
@@ -47,18 +47,13 @@ pub(super) fn checks() -> Vec<Check> {
 }
 
 fn amplitudes() -> Result<Measured, String> {
-    let mut worst = Worst::default();
+    let (mut worst, step) = (Worst::default(), 0.37);
     for count in [256, 257] {
         for window in [Window::Uniform, Window::Hann, Window::Kaiser { shape: 20.0 }] {
             for (bin, amplitude, phase) in [(24, 0.7, 0.3), (60, 2.0, -1.2), (100, 1e-3, 3.0)] {
-                let step = 0.37;
                 let wave = |j: usize| amplitude * ((TAU * (bin * j) as f64 / count as f64) + phase).cos();
-                let series = |constant: f64| Series {
-                    start: -5.0,
-                    step,
-                    values: (0..count).map(|j| constant + wave(j)).collect(),
-                };
-                let spectrum = amplitude_spectrum(&series(amplitude), window)?;
+                let values = (0..count).map(|j| amplitude + wave(j)).collect();
+                let spectrum = amplitude_spectrum(&Series { start: -5.0, step, values }, window)?;
                 let frequency = TAU * bin as f64 / (count as f64 * step);
                 let errors = [
                     spectrum.amplitudes[bin] / amplitude - 1.0,
@@ -90,10 +85,9 @@ fn parseval() -> Result<Measured, String> {
 }
 
 fn windows() -> Result<Measured, String> {
-    let mut worst = Worst::default();
     // The documentation's table: sidelobe, half width times T.
     let documented = [(0.217, TAU), (0.0267, 2.0 * TAU), (2.0e-4, 21.0), (1.79e-8, 40.5)];
-    for (window, (sidelobe, width)) in WINDOWS.into_iter().zip(documented) {
+    worst_of(WINDOWS.into_iter().zip(documented), |&(window, (sidelobe, width))| {
         let weights = window.weights(128)?;
         let transform = |f: f64| {
             let cosines = weights.iter().enumerate().map(|(j, w)| w * (f * ((j as f64 + 0.5) / 128.0 - 0.5)).cos());
@@ -103,10 +97,6 @@ fn windows() -> Result<Measured, String> {
         let zero = scan.iter().position(|&x| x <= 0.0).ok_or("no zero")?;
         let found = largest(scan[zero..].iter().map(|x| x.abs()));
         let first = 0.02 * PI * zero as f64;
-        let deviations = [found / sidelobe - 1.0, first / width - 1.0, window.half_width(1.0) / width - 1.0];
-        worst.see(largest(deviations.map(f64::abs)), || {
-            format!("{window:?}: sidelobe {found:.3e}, first zero {first:.2} / T")
-        });
-    }
-    worst.finish()
+        Ok(largest([found / sidelobe, first / width, window.half_width(1.0) / width].map(|ratio| (ratio - 1.0).abs())))
+    })
 }

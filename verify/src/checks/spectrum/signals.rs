@@ -4,16 +4,16 @@ use std::sync::OnceLock;
 
 use nalgebra::Vector3;
 use twofold::Error;
-use twofold::dynamics::BodyState;
-use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
+use twofold::dynamics::{BodyState, RotationState};
 use twofold::observables::Observer;
 use twofold::observables::fundamental_frequencies::{FundamentalFrequencies, fundamental_frequencies};
-use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
+use twofold::observables::gravitational_wave::Polarizations;
 use twofold::observables::pulsar::Beam;
 use twofold::observables::spectrum::{FrequencyBasis, LineList, Series, SpectralLine, spectral_lines};
-use twofold::propagation::{TaylorMotion, propagate};
+use twofold::propagation::{Motion, TaylorMotion};
 
-use crate::reference::{ReferenceMotion, reference_motion};
+use crate::checks::waves::wave_of_state;
+use crate::reference::reference_motion;
 
 /// Angles of the paper's figures: observer, magnetic axis, half opening of the beam (rad).
 const THETA_O: f64 = 0.8;
@@ -69,15 +69,14 @@ pub(crate) fn examples() -> Result<&'static [Example; 2], String> {
 }
 
 fn example(name: &'static str, scene: &str, (span, count): (f64, usize)) -> Result<Example, Error> {
-    let scene = reference_motion(scene);
-    let frequencies = fundamental_frequencies(&motion_of(&scene, AVERAGING)?)?;
-    let motion = motion_of(&scene, SIGNAL.0)?;
+    let frequencies = fundamental_frequencies(&motion_of(scene, AVERAGING)?)?;
+    let motion = motion_of(scene, SIGNAL.0)?;
     let wave = |part: fn(Polarizations<f64>) -> f64| {
-        let series = Series::of_motion(&motion, SIGNAL.1, |state| part(wave_of(&scene, state)))?;
+        let series = Series::of_motion(&motion, SIGNAL.1, |state| part(wave_of(&motion, state)))?;
         spectral_lines(&series, 1e-6, 200)
     };
     let (beam, observer) = (beam(), line_of_sight());
-    let long = motion_of(&scene, span)?;
+    let long = motion_of(scene, span)?;
     let pulsar = Series::of_motion(&long, count, |state| beam.direction(state).dot(&observer))?;
     Ok(Example {
         name,
@@ -90,8 +89,9 @@ fn example(name: &'static str, scene: &str, (span, count): (f64, usize)) -> Resu
     })
 }
 
-pub(super) fn motion_of(scene: &ReferenceMotion, span: f64) -> Result<TaylorMotion<f64>, Error> {
-    propagate(&scene.spheroid, &scene.violation(), &scene.initial(), (0.0, span), 1e-13)
+/// A reference motion over a span.
+pub(super) fn motion_of(name: &str, span: f64) -> Result<TaylorMotion<f64>, Error> {
+    reference_motion(name).problem().taylor((0.0, span), 1e-13)
 }
 
 pub(super) fn beam() -> Beam<f64> {
@@ -102,9 +102,10 @@ pub(super) fn line_of_sight() -> Vector3<f64> {
     Observer::at(THETA_O, 0.0).direction
 }
 
-pub(super) fn wave_of(scene: &ReferenceMotion, state: &BodyState<f64>) -> Polarizations<f64> {
-    let source = spheroid_inertia_acceleration(&scene.spheroid, &scene.violation(), &state.axis, &state.momentum);
-    polarizations(&Observer::at(THETA_O, 0.0), &metric_perturbation(1.0, &source))
+/// The wave of a state of a motion for the paper's observer.
+pub(super) fn wave_of(motion: &TaylorMotion<f64>, state: &BodyState<f64>) -> Polarizations<f64> {
+    let observer = Observer::at(THETA_O, 0.0);
+    wave_of_state(&observer, motion.spheroid(), motion.coefficients(), &state.axis_state())
 }
 
 /// The strongest line with a frequency in a range.

@@ -6,12 +6,12 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 use twofold::dynamics::point_masses::anisotropic_potential_of_masses;
 use twofold::dynamics::potential::anisotropic_potential_of_body;
-use twofold::star::axisymmetric::{AxisymmetricBody, axisymmetric_integrals};
+use twofold::star::axisymmetric::{AxisymmetricBody, AxisymmetricIntegrals, axisymmetric_integrals};
 use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::{relative, unit_spheroid};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Bound, Check, Kind, Measured, Worst, largest, smallest, worst_of};
 use crate::random::Random;
 
 pub(super) fn checks() -> Vec<Check> {
@@ -84,41 +84,33 @@ pub(super) fn checks() -> Vec<Check> {
 }
 
 fn c_by_multipoles() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for q in [0.4, 0.6, 0.8, 0.95, 0.999, 1.001, 1.3, 2.0] {
+    worst_of([0.4, 0.6, 0.8, 0.95, 0.999, 1.001, 1.3, 2.0], |&q| {
         let star = unit_spheroid(q)?;
-        let (by_quadrature, exact) = (axisymmetric_integrals(&star, 32)?, star.potential_energy_tensor());
-        let u = by_quadrature.potential_energy_tensor;
-        // U^xx - U^zz is 2 C, so their errors are within twice that of C.
-        let errors = [by_quadrature.c - star.c(), (u.xx - exact.xx) / 2.0, (u.zz - exact.zz) / 2.0];
-        for (error, name) in errors.into_iter().zip(["C", "U^xx", "U^zz"]) {
-            worst.see(error.abs() / by_quadrature.c_error, || {
-                format!("{name} at a3/a1 = {q}: estimate {:e} C", by_quadrature.c_error / star.c().abs())
-            });
-        }
-    }
-    worst.finish()
+        Ok(over_estimate(&axisymmetric_integrals(&star, 32)?, &star, 1.0))
+    })
+}
+
+/// Largest error of `C`, `U^xx / 2` and `U^zz / 2` over the estimated error of `C`, for integrals that are those of a star times a factor.
+fn over_estimate(found: &AxisymmetricIntegrals<f64>, star: &UniformSpheroid<f64>, factor: f64) -> f64 {
+    let (u, exact) = (found.potential_energy_tensor, star.potential_energy_tensor());
+    // U^xx - U^zz is 2 C, so their errors are within twice that of C.
+    let errors = [found.c - factor * star.c(), (u.xx - factor * exact.xx) / 2.0, (u.zz - factor * exact.zz) / 2.0];
+    largest(errors.map(|error| error.abs() / found.c_error))
 }
 
 fn multipole_order() -> Result<Measured, String> {
-    let mut figures = Vec::new();
-    for q in [0.6, 0.8, 0.95, 1.3, 2.0] {
+    let order = |q: f64| {
         let star = unit_spheroid(q)?;
-        let error = |degree| {
-            let integrals = axisymmetric_integrals(&star, degree)?;
-            Ok::<f64, String>(relative(integrals.c, star.c()))
-        };
+        let error = |degree| Ok::<_, String>(relative(axisymmetric_integrals(&star, degree)?.c, star.c()));
         let (coarse, fine) = (error(16)?, error(32)?);
-        figures.push((coarse / fine).log2() - if fine <= 1e-5 { 0.0 } else { 1.0 });
-    }
-    let lowest = figures.iter().copied().min_by(|a, b| a.total_cmp(b)).unwrap_or(f64::NAN);
-    let lowest = if figures.iter().any(|x| x.is_nan()) { f64::NAN } else { lowest };
-    Ok(Measured::new(lowest, format!("orders {figures:.3?}")))
+        Ok((coarse / fine).log2() - if fine <= 1e-5 { 0.0 } else { 1.0 })
+    };
+    let orders = [0.6, 0.8, 0.95, 1.3, 2.0].into_iter().map(order).collect::<Result<Vec<f64>, String>>()?;
+    Ok(Measured::new(smallest(orders.iter().copied()), format!("orders {orders:.3?}")))
 }
 
 fn multipole_moments() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for q in [0.6, 0.95, 1.0, 1.3] {
+    worst_of([0.6, 0.95, 1.0, 1.3], |&q| {
         let star = unit_spheroid(q)?;
         let (found, i) = (axisymmetric_integrals(&star, 16)?, star.moment_of_inertia());
         let mut errors = vec![
@@ -130,39 +122,25 @@ fn multipole_moments() -> Result<Measured, String> {
             let u = star.potential_energy_tensor().xx;
             errors.extend([found.c.abs() / u, relative(found.potential_energy_tensor.xx, u)]);
         }
-        worst.see(largest(errors.iter().copied()) / f64::EPSILON, || format!("a3/a1 = {q}: {errors:?}"));
-    }
-    worst.finish()
+        Ok(largest(errors) / f64::EPSILON)
+    })
 }
 
 fn stratified_density() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for q in [0.6, 0.8, 0.95, 1.3] {
+    worst_of([0.6, 0.8, 0.95, 1.3], |&q| {
         let star = unit_spheroid(q)?;
         let density = |r: f64, mu: f64| 1.0 - r * r * (1.0 - mu * mu * (1.0 - 1.0 / (q * q)));
         let surface = |mu: f64| AxisymmetricBody::surface(&star, mu);
-        let found = axisymmetric_integrals(&(density, surface), 16)?;
-        let (u, exact) = (found.potential_energy_tensor, star.potential_energy_tensor());
-        let factor = 4.0 / 21.0;
-        let errors = [found.c - factor * star.c(), (u.xx - factor * exact.xx) / 2.0, (u.zz - factor * exact.zz) / 2.0];
-        for (error, name) in errors.into_iter().zip(["C", "U^xx", "U^zz"]) {
-            worst.see(error.abs() / found.c_error, || {
-                format!("{name} at a3/a1 = {q}: estimate {:e} C", found.c_error / found.c.abs())
-            });
-        }
-    }
-    worst.finish()
+        Ok(over_estimate(&axisymmetric_integrals(&(density, surface), 16)?, &star, 4.0 / 21.0))
+    })
 }
 
 fn multipole_derivative() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for e2 in [-0.7, -0.1, 0.1, 0.5] {
+    worst_of([-0.7, -0.1, 0.1, 0.5], |&e2| {
         let shape = SpheroidShape::from_eccentricity_squared(Dual64::new(e2, 1.0))?;
         let star = UniformSpheroid::new(Dual64::from(1.0), Dual64::from(1.0), shape)?;
-        let (found, exact) = (axisymmetric_integrals(&star, 16)?.c.eps, star.c().eps);
-        worst.see(relative(found, exact), || format!("e^2 = {e2}: {found} for {exact}"));
-    }
-    worst.finish()
+        Ok(relative(axisymmetric_integrals(&star, 16)?.c.eps, star.c().eps))
+    })
 }
 
 const LATTICES: usize = 16;

@@ -13,7 +13,7 @@ use twofold::units::geometrised::{GRAM_PER_CUBIC_CENTIMETRE, HERTZ, KILOMETRE, S
 use twofold::units::{TimeUnit, cgs, geometrised, si};
 
 use super::relative;
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Bound, Check, Kind, Measured, worst_of};
 use crate::physical_domain::worst_over;
 
 pub(super) fn checks() -> Vec<Check> {
@@ -94,11 +94,7 @@ pub(super) fn checks() -> Vec<Check> {
 
 /// The largest deviation in units of half a last digit: `(value, stated, last digit)`.
 fn against_digits(numbers: &[(f64, f64, f64)]) -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for &(value, stated, last_digit) in numbers {
-        worst.see((value - stated).abs() / (0.5 * last_digit), || format!("{value:e} where {stated:e} is stated"));
-    }
-    worst.finish()
+    worst_of(numbers, |(value, stated, last_digit)| Ok((value - stated).abs() / (0.5 * last_digit)))
 }
 
 fn centrifugal_numbers() -> Result<Measured, String> {
@@ -130,11 +126,8 @@ fn estimate_numbers() -> Result<Measured, String> {
 }
 
 fn estimate_magnitudes() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (ours, printed) in estimates()?.into_iter().zip([1e-5, 1.0, 1e-3]) {
-        worst.see((ours / printed).log10().abs(), || format!("{ours:e} where {printed:e} is printed"));
-    }
-    worst.finish()
+    let pairs = estimates()?.into_iter().zip([1e-5, 1.0, 1e-3]);
+    worst_of(pairs, |(ours, printed)| Ok((ours / printed).log10().abs()))
 }
 
 fn spheroid(oblateness: f64) -> Result<UniformSpheroid<f64>, String> {

@@ -6,7 +6,8 @@ use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 use twofold::{Error, Real};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Bound, Check, Kind, Measured, largest, worst_of};
+use crate::reference::records;
 
 pub(super) fn checks() -> Vec<Check> {
     vec![
@@ -45,6 +46,7 @@ pub(super) fn checks() -> Vec<Check> {
 }
 
 /// A row of the table: the shape's parameter, and value and two derivatives in `e^2` of A_0, A_1, A_3, C as decimals.
+#[derive(Debug)]
 struct Row {
     prolate: bool,
     parameter: f64,
@@ -52,10 +54,6 @@ struct Row {
 }
 
 impl Row {
-    fn name(&self) -> String {
-        format!("{} = {}", if self.prolate { "a3/a1" } else { "e" }, self.parameter)
-    }
-
     fn eccentricity_squared(&self) -> f64 {
         let p = self.parameter;
         if self.prolate { (1.0 - p) * (1.0 + p) } else { p * p }
@@ -73,21 +71,12 @@ impl Row {
     }
 }
 
-fn table() -> Vec<Row> {
-    let text = include_str!("../../../data/spheroid.csv");
-    csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes())
-        .records()
-        .map(|record| {
-            let record = record.expect("a row of the table");
-            Row {
-                prolate: &record[0] == "prolate",
-                parameter: record[1].parse().expect("a parameter"),
-                entries: [0, 1, 2, 3].map(|f| [0, 1, 2].map(|order| record[2 + 3 * f + order].to_owned())),
-            }
-        })
-        .collect()
+fn table() -> impl Iterator<Item = Row> {
+    records(include_str!("../../../data/spheroid.csv")).map(|record| Row {
+        prolate: &record[0] == "prolate",
+        parameter: record[1].parse().expect("a parameter"),
+        entries: [0, 1, 2, 3].map(|f| [0, 1, 2].map(|order| record[2 + 3 * f + order].to_owned())),
+    })
 }
 
 /// `value - decimal` to 33 digits of either, in ulp of the decimal's nearest double.
@@ -114,23 +103,19 @@ fn digits(decimal: &str) -> (i128, i32) {
 }
 
 fn coefficients_against_table() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for row in table() {
-        let a = potential_coefficients(&row.shape()?);
-        for (i, value) in [a.a0, a.a1, a.a3].into_iter().enumerate() {
-            worst.see(error_in_ulp(value, &row.entries[i][0]), || format!("A_{} at {}", [0, 1, 3][i], row.name()));
-        }
-    }
-    worst.finish()
+    against_table(&[0, 1, 2])
 }
 
 fn c_against_table() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for row in table() {
-        let spheroid = UniformSpheroid::new(1.0, 1.0, row.shape()?)?;
-        worst.see(error_in_ulp(spheroid.c(), &row.entries[3][0]), || format!("C at {}", row.name()));
-    }
-    worst.finish()
+    against_table(&[3])
+}
+
+/// The largest error of some of the four functions.
+fn against_table(functions: &[usize]) -> Result<Measured, String> {
+    worst_of(table(), |row| {
+        let values = four(row.shape()?)?;
+        Ok(largest(functions.iter().map(|&i| error_in_ulp(values[i], &row.entries[i][0]))))
+    })
 }
 
 fn four<S: Real>(shape: SpheroidShape<S>) -> Result<[S; 4], Error> {
@@ -139,29 +124,25 @@ fn four<S: Real>(shape: SpheroidShape<S>) -> Result<[S; 4], Error> {
 }
 
 fn derivatives_against_table() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for row in table() {
+    worst_of(table(), |row| {
         let e2 = row.eccentricity_squared();
-        let by_e2 = four(SpheroidShape::from_eccentricity_squared(Dual2_64::new(e2, 1.0, 0.0))?);
-        for (i, f) in by_e2?.into_iter().enumerate() {
+        let by_e2 = four(SpheroidShape::from_eccentricity_squared(Dual2_64::new(e2, 1.0, 0.0))?)?;
+        let unit = f64::EPSILON / (1.0 - e2).min(1.0);
+        let mut figures = Vec::new();
+        for (i, f) in by_e2.into_iter().enumerate() {
             let size = row.number(i, 0).abs() + row.number(i, 1).abs();
-            let unit = f64::EPSILON / (1.0 - e2).min(1.0);
-            let first = (f.v1 - row.number(i, 1)).abs() / (unit * size);
-            let second = (f.v2 - row.number(i, 2)).abs() / (unit * (size + row.number(i, 2).abs()));
-            worst.see(first, || format!("d/d(e^2) of function {i} at {}", row.name()));
-            worst.see(second, || format!("d2/d(e^2)2 of function {i} at {}", row.name()));
+            figures.push((f.v1 - row.number(i, 1)).abs() / (unit * size));
+            figures.push((f.v2 - row.number(i, 2)).abs() / (unit * (size + row.number(i, 2).abs())));
         }
         if !row.prolate {
             let e = row.parameter;
-            let by_e = four(SpheroidShape::from_eccentricity(Dual64::new(e, 1.0))?)?;
-            for (i, f) in by_e.into_iter().enumerate() {
+            for (i, f) in four(SpheroidShape::from_eccentricity(Dual64::new(e, 1.0))?)?.into_iter().enumerate() {
                 let exact = 2.0 * e * row.number(i, 1);
                 let size = row.number(i, 0).abs() * e + exact.abs();
                 let error = (f.eps - exact).abs();
-                let figure = if error == 0.0 { 0.0 } else { error * (1.0 - e2) / (f64::EPSILON * size) };
-                worst.see(figure, || format!("d/de of function {i} at {}", row.name()));
+                figures.push(if error == 0.0 { 0.0 } else { error * (1.0 - e2) / (f64::EPSILON * size) });
             }
         }
-    }
-    worst.finish()
+        Ok(largest(figures))
+    })
 }

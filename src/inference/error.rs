@@ -1,0 +1,106 @@
+//! Why data and a model do not go together.
+
+use std::fmt;
+
+use super::{Direction, Observable};
+use crate::error::Error;
+
+/// Why nothing can be inferred.
+#[derive(Debug, Clone, PartialEq)]
+pub enum InferenceError {
+    /// The data do not determine the unknowns: each direction along which they do not change.
+    Degenerate(Vec<Direction>),
+    /// Fewer data than unknowns.
+    TooFew {
+        /// Data.
+        data: usize,
+        /// Unknowns.
+        unknowns: usize,
+    },
+    /// A datum of a turn in which the model has no pulse, or two.
+    NoPulse {
+        /// The turn.
+        turn: i64,
+        /// Time of the datum.
+        near: f64,
+    },
+    /// The least-squares fit did not end at a minimum.
+    NotConverged {
+        /// Why the fit ended.
+        why: &'static str,
+        /// Largest cosine of the angle between the residuals and the derivative by an unknown: zero at a minimum.
+        cosine: f64,
+    },
+    /// The residuals are rounding, and the errors stated too small for a fit of it.
+    Rounding {
+        /// The data whose errors are the smallest against it.
+        observable: Observable,
+        /// What rounding makes of these, in `t_c` or as strain.
+        rounding: f64,
+    },
+    /// The fit ended on a limit of an unknown, where its error bars say nothing.
+    OnLimit {
+        /// The unknown.
+        unknown: &'static str,
+        /// Its limit.
+        value: f64,
+    },
+    /// A forecast of periods: an epoch of a forecast has one pulse, and a period takes two.
+    PeriodsForecast,
+    /// The motion cannot be computed.
+    Model(Error),
+}
+
+impl From<Error> for InferenceError {
+    fn from(error: Error) -> Self {
+        Self::Model(error)
+    }
+}
+
+impl From<InferenceError> for String {
+    fn from(error: InferenceError) -> Self {
+        error.to_string()
+    }
+}
+
+impl fmt::Display for InferenceError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Degenerate(directions) => {
+                write!(f, "the data do not determine all unknowns; they do not change along")?;
+                directions.iter().try_for_each(|direction| write!(f, "\n  {direction}"))?;
+                write!(f, "\nleave out one of each, or add data of another kind")
+            }
+            Self::TooFew { data, unknowns } => {
+                write!(f, "{data} data: allowed are more than the {unknowns} unknowns")
+            }
+            Self::NoPulse { turn, near } => write!(
+                f,
+                "datum of turn {turn} near t = {near:?} t_c: the model has no whole pulse there that is the only one of its turn; \
+                 allowed are data of pulses that the model has at the start of the fit"
+            ),
+            Self::NotConverged { why, cosine } => write!(
+                f,
+                "the fit ended off a minimum ({why}; the residuals have a cosine of {cosine:.1e} with a derivative): a start \
+                 nearer to the data may help"
+            ),
+            Self::Rounding { observable, rounding } => write!(
+                f,
+                "the residuals are rounding: the scene agrees with the data as far as doubles tell, {} to {rounding:.1e}{}, and a fit is to a \
+                 hundredth of an error; allowed in --observe are larger standard deviations, {:.1e}{1} for certain",
+                observable.key(),
+                if observable.is_of_pulses() { " t_c" } else { "" },
+                100.0 * rounding
+            ),
+            Self::OnLimit { unknown, value } => {
+                write!(f, "the fit ended at {unknown} = {value:?}, a limit of what it can be: no error bar holds there")
+            }
+            Self::PeriodsForecast => f.write_str(
+                "periods: allowed for a forecast is what one pulse alone gives, such as arrivals and widths",
+            ),
+            Self::Model(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for InferenceError {}

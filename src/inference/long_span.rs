@@ -1,0 +1,94 @@
+//! Spans of more turns than can be followed one by one: pulses near given epochs, by the averaged motion.
+
+use super::Event;
+use super::signal::turning_rate;
+use crate::error::Error;
+use crate::observables::pulsar::{ClockPulse, PulsarClock};
+use crate::parameters::Parameters;
+use crate::propagation::AveragedMotion;
+use crate::solutions::averaged::AveragingOrder;
+
+/// Rotation (rad) up to which every turn is followed.
+const LARGEST_FOLLOWED: f64 = 1e5;
+
+/// Most that the averaged motion may leave out of directions (rad): derivatives are then right to about as much.
+const MOST_LEFT_OUT: f64 = 1e-3;
+
+/// Most corrections of the time at which a turn with a number is looked for.
+const MOST_CORRECTIONS: usize = 8;
+
+/// Whether a span from the start to `end` is too long to be followed turn by turn.
+pub(super) fn is_long(parameters: &Parameters<f64>, end: f64) -> bool {
+    end * turning_rate(parameters) > LARGEST_FOLLOWED
+}
+
+/// Refuses a span to `end` that can neither be followed turn by turn nor by the averaged motion.
+///
+/// # Errors
+/// [`Error::Domain`] as for [`AveragedMotion::new`], and for what it leaves out.
+pub fn check_span(parameters: &Parameters<f64>, end: f64) -> Result<(), Error> {
+    if !is_long(parameters, end) {
+        return Ok(());
+    }
+    let motion = AveragedMotion::new(&parameters.problem()?, (0.0, end), AveragingOrder::Second)?;
+    let left_out = motion.truncation(end);
+    Error::ensure(
+        left_out <= MOST_LEFT_OUT,
+        "what the averaged motion leaves out (rad) over a span of more than 1e5 rad of rotation",
+        left_out,
+        "at most 1e-3: a weaker violation or a shorter span",
+    )
+}
+
+fn clock(parameters: &Parameters<f64>) -> Result<PulsarClock, Error> {
+    let Parameters { spheroid, violation, .. } = parameters;
+    let (beam, observer) = (parameters.beam(), parameters.observer());
+    PulsarClock::new(spheroid, violation, &parameters.state(), &beam, &observer, AveragingOrder::Second)
+}
+
+/// A pulse with its times counted from the double nearest to its midpoint. The closest approach is not looked for.
+fn event(pulse: &ClockPulse) -> Event {
+    let ([epoch, rest], half) = (pulse.midpoint, pulse.duration / 2.0);
+    Event { turn: pulse.number, epoch, start: rest - half, end: rest + half, closest: f64::NAN }
+}
+
+/// The pulse of the turn nearest to each of some times, in their order; turns without a pulse have none, a turn is taken once, and no pulse before
+/// the start.
+///
+/// # Errors
+/// As for [`PulsarClock`].
+pub(super) fn pulses_near(parameters: &Parameters<f64>, times: &[f64]) -> Result<Vec<Event>, Error> {
+    let mut clock = clock(parameters)?;
+    let mut found: Vec<Event> = Vec::with_capacity(times.len());
+    for &time in times {
+        if let Some(pulse) = clock.pulse_near([time, 0.0])?
+            && found.last().is_none_or(|last| last.turn < pulse.number)
+            && pulse.midpoint[0] - pulse.duration / 2.0 > 0.0
+        {
+            found.push(event(&pulse));
+        }
+    }
+    Ok(found)
+}
+
+/// The pulses of turns with given numbers, each looked for from a time near it in some other model; turns without a pulse are left out.
+///
+/// # Errors
+/// As for [`PulsarClock`].
+pub(super) fn pulses_numbered(parameters: &Parameters<f64>, turns: &[(i64, f64)]) -> Result<Vec<Event>, Error> {
+    let mut clock = clock(parameters)?;
+    let period = clock.period();
+    let mut found = Vec::with_capacity(turns.len());
+    for &(number, near) in turns {
+        let mut time = [near, 0.0];
+        for _ in 0..MOST_CORRECTIONS {
+            let Some(pulse) = clock.pulse_near(time)? else { break };
+            if pulse.number == number {
+                found.push(event(&pulse));
+                break;
+            }
+            time = [pulse.midpoint[0] + (number - pulse.number) as f64 * period, 0.0];
+        }
+    }
+    Ok(found)
+}

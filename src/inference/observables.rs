@@ -1,0 +1,111 @@
+//! What is measured: kinds of data, and single ones.
+
+use super::{Event, Signal};
+use crate::error::Error;
+
+/// A kind of data, each with errors that are independent of one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Observable {
+    /// Times of the midpoints of whole pulses.
+    Arrivals,
+    /// Times at which the magnetic axis is nearest to the line of sight.
+    ClosestApproaches,
+    /// Lengths of whole pulses in time.
+    Widths,
+    /// Times between the midpoints of pulses of consecutive turns, as measured alone: not differences of arrivals measured, whose
+    /// errors are correlated and which say less than these arrivals do.
+    Periods,
+    /// `h_+` at samples.
+    StrainPlus,
+    /// `h_x` at samples.
+    StrainCross,
+}
+
+impl Observable {
+    /// Every kind.
+    pub const ALL: [Self; 6] =
+        [Self::Arrivals, Self::ClosestApproaches, Self::Widths, Self::Periods, Self::StrainPlus, Self::StrainCross];
+
+    /// Name for commands.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Arrivals => "arrivals",
+            Self::ClosestApproaches => "closest_approaches",
+            Self::Widths => "widths",
+            Self::Periods => "periods",
+            Self::StrainPlus => "h_plus",
+            Self::StrainCross => "h_cross",
+        }
+    }
+
+    /// Whether it is one of the pulses of a beam, and a time.
+    pub fn is_of_pulses(self) -> bool {
+        !matches!(self, Self::StrainPlus | Self::StrainCross)
+    }
+}
+
+/// A kind of data with the standard deviation of each: of times in `t_c`, of strains in the unit of the model.
+pub type Noise = (Observable, f64);
+
+/// Where in a signal a datum is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Place {
+    /// The pulse of a turn, counted from any one, that was seen near a time.
+    Turn {
+        /// Number of the turn.
+        number: i64,
+        /// About when, to the tenth of a turn.
+        near: f64,
+    },
+    /// A time.
+    Time(f64),
+}
+
+/// One measured number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Datum {
+    /// Of which kind.
+    pub observable: Observable,
+    /// Where.
+    pub place: Place,
+    /// Time from which an arrival or a closest approach is counted: see [`Event::epoch`].
+    pub epoch: f64,
+    /// What.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+}
+
+/// The data without errors that `noise` asks for: of the pulses `events`, and of the strain at `samples`.
+///
+/// # Errors
+/// A motion that cannot be evaluated at a sample; closest approaches and periods of a [long](Signal::is_long) span.
+pub fn data_of(signal: &Signal, events: &[Event], samples: &[f64], noise: &[Noise]) -> Result<Vec<Datum>, Error> {
+    let mut data = Vec::new();
+    let of_every_turn = [Observable::ClosestApproaches, Observable::Periods];
+    Error::ensure(
+        !(signal.is_long() && noise.iter().any(|(kind, _)| of_every_turn.contains(kind))),
+        "span for closest approaches and periods",
+        signal.end,
+        "one of at most 1e5 rad of rotation; arrivals and widths may have any",
+    )?;
+    for &(observable, sigma) in noise {
+        if observable.is_of_pulses() {
+            for (i, event) in events.iter().enumerate() {
+                let before = i.checked_sub(1).map(|before| events[before]);
+                if let Some(value) = event.value(before.as_ref(), observable) {
+                    let place = Place::Turn { number: event.turn, near: event.epoch + event.midpoint() };
+                    let is_time = matches!(observable, Observable::Arrivals | Observable::ClosestApproaches);
+                    let epoch = if is_time { event.epoch } else { 0.0 };
+                    data.push(Datum { observable, place, epoch, value, sigma });
+                }
+            }
+        } else {
+            for &time in samples {
+                let value = signal.strain(observable, time)?;
+                data.push(Datum { observable, place: Place::Time(time), epoch: 0.0, value, sigma });
+            }
+        }
+    }
+    Ok(data)
+}

@@ -1,0 +1,49 @@
+//! Straight lines by least squares: powers by which one quantity goes with another.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::straight_line::{order, slope};
+//!
+//! assert_eq!(slope(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)])?.value, 2.0);
+//! // An error of second order; the last point is rounding.
+//! let second = order(&[(0.1, 1e-2), (0.01, 1e-4), (0.001, 1e-6), (0.0001, 1e-7)], 5e-7)?;
+//! assert!((second.value - 2.0).abs() < 1e-12 && second.error < 1e-12);
+//! # Ok::<(), twofold::Error>(())
+//! ```
+
+use crate::error::Error;
+
+/// Slope of a least-squares line with its standard error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slope {
+    /// The slope.
+    pub value: f64,
+    /// Its standard error from the scatter about the line.
+    pub error: f64,
+}
+
+/// Least-squares slope of `y` against `x`.
+///
+/// # Errors
+/// With fewer than three points there is no scatter to judge the fit by.
+pub fn slope(points: &[(f64, f64)]) -> Result<Slope, Error> {
+    let n = points.len() as f64;
+    Error::ensure(n >= 3.0, "number of points of a slope", n, "three or more")?;
+    let mean_x = points.iter().map(|p| p.0).sum::<f64>() / n;
+    let mean_y = points.iter().map(|p| p.1).sum::<f64>() / n;
+    let sxx: f64 = points.iter().map(|p| (p.0 - mean_x).powi(2)).sum();
+    let sxy: f64 = points.iter().map(|p| (p.0 - mean_x) * (p.1 - mean_y)).sum();
+    let value = sxy / sxx;
+    let scatter: f64 = points.iter().map(|p| (p.1 - mean_y - value * (p.0 - mean_x)).powi(2)).sum();
+    Ok(Slope { value, error: (scatter / (n - 2.0) / sxx).sqrt() })
+}
+
+/// Slope of `log10 y` against `log10 x`, points with `y` below `floor` (rounding) left out.
+///
+/// # Errors
+/// As for [`slope`].
+pub fn order(points: &[(f64, f64)], floor: f64) -> Result<Slope, Error> {
+    let kept: Vec<_> = points.iter().filter(|p| p.1 > floor).map(|p| (p.0.log10(), p.1.log10())).collect();
+    slope(&kept)
+}

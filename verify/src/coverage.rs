@@ -1,0 +1,112 @@
+//! Whether error bars hold: fits of many simulated measurements against what was put in.
+
+use nalgebra::DVector;
+use rayon::prelude::*;
+
+use twofold::inference::InferenceError;
+
+use crate::simulation::Simulation;
+
+/// One fit against the truth.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Number of the simulation.
+    pub seed: u64,
+    /// Scenes drawn before it and not taken.
+    pub refused: usize,
+    /// Fitted less true, in standard deviations, for each unknown.
+    pub pulls: Vec<f64>,
+    /// `d^T C^-1 d` of the differences `d` with the covariance `C`: chi^2 of as many degrees as there are unknowns.
+    pub distance: f64,
+    /// `chi^2` of the residuals.
+    pub chi_squared: f64,
+    /// Its degrees of freedom.
+    pub degrees: usize,
+    /// Steps of the fit.
+    pub iterations: usize,
+}
+
+/// The fits of simulations.
+#[derive(Debug, Clone, Default)]
+pub struct Coverage {
+    /// Those that ended at a minimum.
+    pub cases: Vec<Case>,
+    /// Those that did not.
+    pub failed: Vec<(u64, InferenceError)>,
+}
+
+impl Case {
+    fn of(seed: u64) -> Result<Self, InferenceError> {
+        let simulation = Simulation::new(seed)?;
+        let found = simulation.fit()?;
+        let truth = simulation.truth.values(&simulation.unknowns);
+        let (values, sigmas) = (found.fisher.values(), found.fisher.sigmas());
+        let pulls: Vec<f64> = (0..truth.len()).map(|k| (values[k] - truth[k]) / sigmas[k]).collect();
+        // In units of the standard deviations, where the matrix is best conditioned.
+        let vector = DVector::from_column_slice(&pulls);
+        let solved = found.fisher.correlations().cholesky().map(|factors| factors.solve(&vector));
+        Ok(Self {
+            seed,
+            refused: simulation.refused,
+            distance: solved.map_or(f64::NAN, |solved| solved.dot(&vector)),
+            pulls,
+            chi_squared: found.chi_squared,
+            degrees: found.degrees,
+            iterations: found.iterations,
+        })
+    }
+}
+
+/// A number that should be standard normal, and what it is of.
+#[derive(Debug, Clone)]
+pub struct Score {
+    /// What was counted or summed.
+    pub what: &'static str,
+    /// Found.
+    pub found: f64,
+    /// Expected.
+    pub expected: f64,
+    /// The difference in standard deviations.
+    pub score: f64,
+}
+
+impl Coverage {
+    /// The simulations with some numbers, on all threads.
+    pub fn of(seeds: std::ops::Range<u64>) -> Self {
+        let mut coverage = Self::default();
+        let cases: Vec<_> = seeds.into_par_iter().map(|seed| (seed, Case::of(seed))).collect();
+        for (seed, case) in cases {
+            match case {
+                Ok(case) => coverage.cases.push(case),
+                Err(error) => coverage.failed.push((seed, error)),
+            }
+        }
+        coverage
+    }
+
+    /// What should be standard normal if every error bar holds: sums over cases, which are independent of each other. The pulls of
+    /// one case are not, so that counts take one unknown of each case, a different one from case to case.
+    pub fn scores(&self) -> Vec<Score> {
+        let count = self.cases.len() as f64;
+        let one_each = || self.cases.iter().map(|case| case.pulls[(case.seed as usize / 3) % case.pulls.len()]);
+        let within = |what, limit: f64, part: f64| {
+            let found = one_each().filter(|pull| pull.abs() <= limit).count() as f64;
+            let deviation = (count * part * (1.0 - part)).sqrt();
+            Score { what, found: found / count, expected: part, score: (found - count * part) / deviation }
+        };
+        let sum = |what, value: fn(&Case) -> f64, degrees: fn(&Case) -> usize| {
+            let found: f64 = self.cases.iter().map(value).sum();
+            let expected = self.cases.iter().map(degrees).sum::<usize>() as f64;
+            Score { what, found: found / expected, expected: 1.0, score: (found - expected) / (2.0 * expected).sqrt() }
+        };
+        let mean = one_each().sum::<f64>() / count;
+        vec![
+            within("within one standard deviation", 1.0, 0.682_689_492),
+            within("within two", 2.0, 0.954_499_736),
+            within("within three", 3.0, 0.997_300_204),
+            Score { what: "mean pull", found: mean, expected: 0.0, score: mean * count.sqrt() },
+            sum("chi^2 of the unknowns / degrees", |case| case.distance, |case| case.pulls.len()),
+            sum("chi^2 of the residuals / degrees", |case| case.chi_squared, |case| case.degrees),
+        ]
+    }
+}

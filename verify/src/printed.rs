@@ -1,0 +1,50 @@
+//! Initial values that the paper prints in captions, beside what its formulas give.
+
+use twofold::Error;
+
+use crate::paper_examples::paper_examples;
+
+/// Whether `value`, rounded to the digits of `text`, is `text`. Powers of ten (`2.1e-3`) count digits of the mantissa.
+pub fn rounds_to(value: f64, text: &str) -> bool {
+    let printed: f64 = text.parse().expect("printed numbers are numbers");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
+    let decimals = mantissa.split_once('.').map_or(0, |(_, digits)| digits.len() as i32);
+    let exponent: i32 = exponent.parse().expect("an exponent");
+    let half_unit = 0.5 * 10f64.powi(exponent - decimals);
+    (value - printed).abs() <= half_unit * (1.0 + 1e-9)
+}
+
+/// Initial values of the four examples: what each is, as printed (pi/2 as 1.5707963), and by Eq. (34).
+///
+/// # Errors
+/// None for the four examples.
+pub fn caption_values() -> Result<Vec<(String, &'static str, f64)>, Error> {
+    let captions = [
+        ["1.5707963", "0.701", "1.509", "0"],
+        ["1.5707963", "1.065", "0.889", "0"],
+        ["1.5707963", "0.671", "-0.068", "0"],
+        ["1.5707963", "1.146", "-0.008", "0"],
+    ];
+    let names = ["alpha [rad]", "beta [rad]", "alpha rate [1/t_c]", "beta rate [1/t_c]"];
+    let mut values = Vec::new();
+    for (example, caption) in paper_examples().iter().zip(captions) {
+        let q = example.initial_values()?;
+        for ((name, printed), ours) in names.iter().zip(caption).zip([q.alpha, q.beta, q.alpha_rate, q.beta_rate]) {
+            values.push((format!("{} {name} at t = 0", example.name), printed, ours));
+        }
+    }
+    Ok(values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounds_to;
+
+    #[test]
+    fn a_printed_number_is_met_by_what_rounds_to_it() {
+        for (ours, printed) in [(0.70099, "0.701"), (-0.0084, "-0.008"), (2.07e-3, "2.1e-3")] {
+            assert!(rounds_to(ours, printed), "{ours} for {printed}");
+        }
+        assert!(!rounds_to(0.70151, "0.701") && !rounds_to(2.16e-3, "2.1e-3"));
+    }
+}
