@@ -8,8 +8,8 @@
 //! use twofold::euler_angles::EulerAngles;
 //! use twofold::solutions::free::{free_precession_rates, free_rotation, rotated_by};
 //!
-//! let star = RigidSpheroid::in_units_of_tc(1.1);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
 //! // L along Z: alpha and gamma advance steadily.
 //! let rates = free_precession_rates(&star, 1.0, angles.beta)?;
 //! let start = BodyState::from_angles(&star, &angles, &rates);

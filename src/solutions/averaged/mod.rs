@@ -13,9 +13,9 @@
 //!     period_near_separatrix,
 //! };
 //!
-//! let star = RigidSpheroid::in_units_of_tc(1.1);
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
 //! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
 //! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! let state = BodyState::from_angles(&star, &angles, &rates);
 //! let weak = s.scaled(1e-3);

@@ -20,7 +20,7 @@
 //!     Constants, Form, Precession, Perturbation, constants_from_initial_values, initial_values, shifted_rates,
 //! };
 //!
-//! let star = RigidSpheroid::in_units_of_tc(1.1);
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
 //! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
 //! // tp-I: constants to initial values and back.
 //! let constants = Constants { alpha_0: 0.3, beta_0: 0.7, amplitude: 0.01, phase: 0.5 };

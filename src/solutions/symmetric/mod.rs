@@ -20,8 +20,8 @@
 //! use twofold::lorentz_violation::PrincipalCoefficients;
 //! use twofold::solutions::symmetric::SymmetricSolution;
 //!
-//! let star = RigidSpheroid::in_units_of_tc(1.1);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
 //! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! let symmetric = PrincipalCoefficients::new([0.01, 0.01, -0.02]);
 //! let solution = SymmetricSolution::new(&star, &symmetric, &angles, &rates)?;
