@@ -46,6 +46,12 @@ impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
         &self.initial
     }
 
+    /// The first `V` vectors of the initial state: `n`, `L` and, with `V = 3`, `e_x`.
+    pub(crate) fn start<const V: usize>(&self) -> [Vector3<S>; V] {
+        let vectors = self.initial.vectors();
+        core::array::from_fn(|i| vectors[i])
+    }
+
     /// Without the angle about the symmetry axis, which neither follows nor influences `n` and `L` here.
     pub fn reduced(&self) -> Problem<S, AxisState<S>> {
         self.carrying()

@@ -1,16 +1,16 @@
-//! What the recurrences of a Taylor series need of three-component vectors, so that one code serves every scalar and every
-//! set of vector instructions.
+//! Arithmetic of three-component vectors, so that one code serves every scalar and every set of vector instructions.
 
 use nalgebra::Vector3;
 
+use crate::numerics::ring::Ring;
 use crate::numerics::scalar::{Real, Scalar};
 
 /// A vector as it is kept: three components and padding to 32 bytes for doubles, which is one register.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
-pub(crate) struct Stored<S>(pub(crate) [S; 4]);
+pub(crate) struct Padded<S>(pub(crate) [S; 4]);
 
-impl<S: Scalar> Stored<S> {
+impl<S: Scalar> Padded<S> {
     pub(crate) fn zero() -> Self {
         Self([S::zero(); 4])
     }
@@ -20,7 +20,7 @@ impl<S: Scalar> Stored<S> {
     }
 }
 
-impl<S: Scalar> From<Vector3<S>> for Stored<S> {
+impl<S: Scalar> From<Vector3<S>> for Padded<S> {
     fn from(v: Vector3<S>) -> Self {
         Self([v.x, v.y, v.z, S::zero()])
     }
@@ -31,12 +31,12 @@ impl<S: Scalar> From<Vector3<S>> for Stored<S> {
 pub(crate) trait Arithmetic: Copy {
     /// Three components.
     type Vector: Copy;
-    /// A vector from which either permutation is at hand.
-    type Turned: Copy;
+    /// A vector with both cyclic permutations at hand.
+    type Permuted: Copy;
     /// Whether the recurrences may take the tensor `s^IJ` to be diagonal. Turning to its principal axes is exact to
     /// rounding for real numbers; a dual number may have derivatives by the other components.
     const PRINCIPAL_FRAME: bool;
-    /// Whether the vectors are those of many motions, and so fill the registers by themselves.
+    /// Whether there are many vectors side by side, which fill the registers by themselves.
     const MANY: bool = false;
 
     fn zero(self) -> Self::Vector;
@@ -50,103 +50,105 @@ pub(crate) trait Arithmetic: Copy {
     /// The sum of the three columns multiplied by the components of `v`.
     fn combine(self, columns: &[Self::Vector; 3], v: Self::Vector) -> Self::Vector;
 
-    fn turned(self, v: Self::Vector) -> Self::Turned;
+    fn permuted(self, v: Self::Vector) -> Self::Permuted;
     /// The components in the order y, z, x.
-    fn yzx(self, v: Self::Turned) -> Self::Vector;
+    fn yzx(self, v: Self::Permuted) -> Self::Vector;
     /// The components in the order z, x, y.
-    fn zxy(self, v: Self::Turned) -> Self::Vector;
+    fn zxy(self, v: Self::Permuted) -> Self::Vector;
 }
 
-/// Vectors of one motion.
-pub(crate) trait OneMotion: Arithmetic {
+/// Vectors of single numbers, which memory holds with padding.
+pub(crate) trait LoadStore: Arithmetic {
     /// A component.
     type Scalar: Real;
 
-    fn load(self, stored: &Stored<Self::Scalar>) -> Self::Vector;
-    fn store(self, v: Self::Vector) -> Stored<Self::Scalar>;
+    fn load(self, kept: &Padded<Self::Scalar>) -> Self::Vector;
+    fn store(self, v: Self::Vector) -> Padded<Self::Scalar>;
     /// All components alike.
     fn splat(self, value: Self::Scalar) -> Self::Vector;
     /// Largest component in size, by real parts; NaN if one is NaN.
     fn largest(self, v: Self::Vector) -> f64;
 }
 
-/// Any scalar, without instructions of its own.
+/// Vectors whose components are numbers of their own, made like the one given: any scalar without special instructions, or one number
+/// for each of several vectors.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Plain<S>(core::marker::PhantomData<S>);
+pub(crate) struct Componentwise<T>(pub(crate) T);
 
-impl<S> Plain<S> {
-    pub(crate) fn new() -> Self {
-        Self(core::marker::PhantomData)
-    }
+/// Vectors of any scalar.
+pub(crate) fn plain<S: Real>() -> Componentwise<S> {
+    Componentwise(S::zero())
 }
 
-impl<S: Real> Arithmetic for Plain<S> {
-    type Vector = [S; 3];
-    type Turned = [S; 3];
-    const PRINCIPAL_FRAME: bool = false;
+impl<T: Ring> Arithmetic for Componentwise<T> {
+    type Vector = [T; 3];
+    type Permuted = [T; 3];
+    const PRINCIPAL_FRAME: bool = T::MANY;
+    const MANY: bool = T::MANY;
 
     #[inline(always)]
-    fn zero(self) -> [S; 3] {
-        [S::zero(); 3]
+    fn zero(self) -> [T; 3] {
+        [self.0.like(0.0); 3]
     }
 
     #[inline(always)]
-    fn add(self, a: [S; 3], b: [S; 3]) -> [S; 3] {
+    fn add(self, a: [T; 3], b: [T; 3]) -> [T; 3] {
         [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
     }
 
     #[inline(always)]
-    fn sub(self, a: [S; 3], b: [S; 3]) -> [S; 3] {
+    fn sub(self, a: [T; 3], b: [T; 3]) -> [T; 3] {
         [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
     }
 
     #[inline(always)]
-    fn mul(self, a: [S; 3], b: [S; 3]) -> [S; 3] {
+    fn mul(self, a: [T; 3], b: [T; 3]) -> [T; 3] {
         [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
     }
 
     #[inline(always)]
-    fn mul_add(self, a: [S; 3], b: [S; 3], c: [S; 3]) -> [S; 3] {
-        [a[0] * b[0] + c[0], a[1] * b[1] + c[1], a[2] * b[2] + c[2]]
+    fn mul_add(self, a: [T; 3], b: [T; 3], c: [T; 3]) -> [T; 3] {
+        [a[0].mul_add(b[0], c[0]), a[1].mul_add(b[1], c[1]), a[2].mul_add(b[2], c[2])]
     }
 
     #[inline(always)]
-    fn divide(self, a: [S; 3], divisor: f64) -> [S; 3] {
-        a.map(|component| component / S::from_f64(divisor))
+    fn divide(self, a: [T; 3], divisor: f64) -> [T; 3] {
+        let divisor = self.0.like(divisor);
+        [a[0].over(divisor), a[1].over(divisor), a[2].over(divisor)]
     }
 
     #[inline(always)]
-    fn combine(self, [a, b, c]: &[[S; 3]; 3], v: [S; 3]) -> [S; 3] {
-        [0, 1, 2].map(|i| a[i] * v[0] + b[i] * v[1] + c[i] * v[2])
+    fn combine(self, [a, b, c]: &[[T; 3]; 3], v: [T; 3]) -> [T; 3] {
+        self.mul_add(*c, [v[2]; 3], self.mul_add(*b, [v[1]; 3], self.mul(*a, [v[0]; 3])))
     }
 
     #[inline(always)]
-    fn turned(self, v: [S; 3]) -> [S; 3] {
+    fn permuted(self, v: [T; 3]) -> [T; 3] {
         v
     }
 
     #[inline(always)]
-    fn yzx(self, [x, y, z]: [S; 3]) -> [S; 3] {
+    fn yzx(self, [x, y, z]: [T; 3]) -> [T; 3] {
         [y, z, x]
     }
 
     #[inline(always)]
-    fn zxy(self, [x, y, z]: [S; 3]) -> [S; 3] {
+    fn zxy(self, [x, y, z]: [T; 3]) -> [T; 3] {
         [z, x, y]
     }
 }
 
-impl<S: Real> OneMotion for Plain<S> {
+impl<S: Real> LoadStore for Componentwise<S> {
     type Scalar = S;
 
     #[inline(always)]
-    fn load(self, stored: &Stored<S>) -> [S; 3] {
-        [stored.0[0], stored.0[1], stored.0[2]]
+    fn load(self, kept: &Padded<S>) -> [S; 3] {
+        [kept.0[0], kept.0[1], kept.0[2]]
     }
 
     #[inline(always)]
-    fn store(self, [x, y, z]: [S; 3]) -> Stored<S> {
-        Stored([x, y, z, S::zero()])
+    fn store(self, [x, y, z]: [S; 3]) -> Padded<S> {
+        Padded([x, y, z, S::zero()])
     }
 
     #[inline(always)]
@@ -174,6 +176,6 @@ mod tests {
 
     #[test]
     fn products_of_vectors_are_by_components() {
-        assert_eq!(Plain::new().mul([2.0, 3.0, 5.0], [7.0, 11.0, 13.0]), [14.0, 33.0, 65.0]);
+        assert_eq!(plain().mul([2.0, 3.0, 5.0], [7.0, 11.0, 13.0]), [14.0, 33.0, 65.0]);
     }
 }

@@ -3,7 +3,7 @@
 use pulp::f64x4;
 use pulp::x86::V3;
 
-use crate::numerics::arithmetic::{Arithmetic, OneMotion, Stored, largest};
+use crate::numerics::arithmetic::{Arithmetic, LoadStore, Padded, largest};
 
 /// Proof that the processor has the instructions, found at run time.
 #[derive(Debug, Clone, Copy)]
@@ -22,7 +22,7 @@ pub(crate) fn run_fused<R>(fused: Fused, work: impl FnOnce() -> R) -> R {
 
 impl Arithmetic for Fused {
     type Vector = f64x4;
-    type Turned = [f64x4; 2];
+    type Permuted = [f64x4; 2];
     const PRINCIPAL_FRAME: bool = true;
 
     #[inline(always)]
@@ -63,7 +63,7 @@ impl Arithmetic for Fused {
 
     /// Both permutations are made once: each takes part in many products.
     #[inline(always)]
-    fn turned(self, v: f64x4) -> [f64x4; 2] {
+    fn permuted(self, v: f64x4) -> [f64x4; 2] {
         let v = pulp::cast(v);
         let yzx = self.0.avx2._mm256_permute4x64_pd::<0b11_00_10_01>(v);
         let zxy = self.0.avx2._mm256_permute4x64_pd::<0b11_01_00_10>(v);
@@ -81,17 +81,17 @@ impl Arithmetic for Fused {
     }
 }
 
-impl OneMotion for Fused {
+impl LoadStore for Fused {
     type Scalar = f64;
 
     #[inline(always)]
-    fn load(self, &Stored([x, y, z, rest]): &Stored<f64>) -> f64x4 {
+    fn load(self, &Padded([x, y, z, rest]): &Padded<f64>) -> f64x4 {
         f64x4(x, y, z, rest)
     }
 
     #[inline(always)]
-    fn store(self, v: f64x4) -> Stored<f64> {
-        Stored([v.0, v.1, v.2, v.3])
+    fn store(self, v: f64x4) -> Padded<f64> {
+        Padded([v.0, v.1, v.2, v.3])
     }
 
     #[inline(always)]

@@ -1,11 +1,20 @@
-//! Numerics without physics: scalars, double-double arithmetic, rounding, elliptic functions, vector instructions.
+//! Numerics without physics: scalars, sums and averages, roots, elliptic functions, vector instructions.
 
+pub mod angle;
 pub(crate) mod arithmetic;
+pub(crate) mod compensated;
 pub(crate) mod double_double;
 pub mod elliptic;
 #[cfg_attr(not(target_arch = "x86_64"), path = "unfused.rs")]
 pub(crate) mod fused;
+pub(crate) mod hermite;
+pub mod mean_rate;
+pub(crate) mod polynomial;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod registers;
+pub(crate) mod ring;
 pub(crate) mod rounding;
 pub mod scalar;
+#[cfg(target_arch = "x86_64")]
+pub(crate) mod side_by_side;
+pub mod window;

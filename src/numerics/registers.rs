@@ -1,9 +1,7 @@
-//! Vectors of several motions at once: each component is a register with one motion in each of its lanes.
+//! Registers of doubles.
 
 use pulp::x86::{V3, V4};
 use pulp::{f64x4, f64x8};
-
-use crate::numerics::arithmetic::Arithmetic;
 
 /// A register of doubles and what is done with it lane by lane.
 pub(crate) trait Register: Copy {
@@ -16,7 +14,6 @@ pub(crate) trait Register: Copy {
     fn add(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
     fn sub(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
     fn mul(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
-    fn div(self, a: Self::Lanes, b: Self::Lanes) -> Self::Lanes;
     fn mul_add(self, a: Self::Lanes, b: Self::Lanes, c: Self::Lanes) -> Self::Lanes;
     /// `a * b - c`, rounded once.
     fn mul_sub(self, a: Self::Lanes, b: Self::Lanes, c: Self::Lanes) -> Self::Lanes;
@@ -56,11 +53,6 @@ macro_rules! register {
             #[inline(always)]
             fn mul(self, a: $lanes, b: $lanes) -> $lanes {
                 self.$mul(a, b)
-            }
-
-            #[inline(always)]
-            fn div(self, a: $lanes, b: $lanes) -> $lanes {
-                self.$div(a, b)
             }
 
             #[inline(always)]
@@ -138,96 +130,11 @@ register!(
     abs_f64x8
 );
 
-/// Vectors of as many motions as a register has lanes, each in the principal frame of its own tensor `s^IJ`.
-#[derive(Clone, Copy)]
-pub(crate) struct Lanes<R>(pub(crate) R);
-
-impl<R: Register> Lanes<R> {
-    /// Puts the vector of one motion into its lane.
-    #[inline(always)]
-    pub(crate) fn put(self, v: &mut [R::Lanes; 3], lane: usize, components: [f64; 3]) {
-        for (v, component) in v.iter_mut().zip(components) {
-            self.0.set(v, lane, component);
-        }
-    }
-
-    /// The vector of one motion.
-    #[inline(always)]
-    pub(crate) fn take(self, v: &[R::Lanes; 3], lane: usize) -> [f64; 3] {
-        [self.0.get(&v[0], lane), self.0.get(&v[1], lane), self.0.get(&v[2], lane)]
-    }
-
-    /// Largest component in size, in each lane; NaN where one is NaN.
-    #[inline(always)]
-    pub(crate) fn largest(self, [x, y, z]: [R::Lanes; 3]) -> R::Lanes {
-        self.0.larger(self.0.larger(x, y), z)
-    }
-}
-
-impl<R: Register> Arithmetic for Lanes<R> {
-    type Vector = [R::Lanes; 3];
-    type Turned = [R::Lanes; 3];
-    const PRINCIPAL_FRAME: bool = true;
-    const MANY: bool = true;
-
-    #[inline(always)]
-    fn zero(self) -> Self::Vector {
-        [self.0.splat(0.0); 3]
-    }
-
-    #[inline(always)]
-    fn add(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
-        [self.0.add(a[0], b[0]), self.0.add(a[1], b[1]), self.0.add(a[2], b[2])]
-    }
-
-    #[inline(always)]
-    fn sub(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
-        [self.0.sub(a[0], b[0]), self.0.sub(a[1], b[1]), self.0.sub(a[2], b[2])]
-    }
-
-    #[inline(always)]
-    fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
-        [self.0.mul(a[0], b[0]), self.0.mul(a[1], b[1]), self.0.mul(a[2], b[2])]
-    }
-
-    #[inline(always)]
-    fn mul_add(self, a: Self::Vector, b: Self::Vector, c: Self::Vector) -> Self::Vector {
-        [self.0.mul_add(a[0], b[0], c[0]), self.0.mul_add(a[1], b[1], c[1]), self.0.mul_add(a[2], b[2], c[2])]
-    }
-
-    #[inline(always)]
-    fn divide(self, a: Self::Vector, divisor: f64) -> Self::Vector {
-        let divisor = self.0.splat(divisor);
-        [self.0.div(a[0], divisor), self.0.div(a[1], divisor), self.0.div(a[2], divisor)]
-    }
-
-    #[inline(always)]
-    fn combine(self, columns: &[Self::Vector; 3], v: Self::Vector) -> Self::Vector {
-        let [a, b, c] = *columns;
-        self.mul_add(a, [v[0]; 3], self.mul_add(b, [v[1]; 3], self.mul(c, [v[2]; 3])))
-    }
-
-    #[inline(always)]
-    fn turned(self, v: Self::Vector) -> Self::Turned {
-        v
-    }
-
-    #[inline(always)]
-    fn yzx(self, [x, y, z]: Self::Turned) -> Self::Vector {
-        [y, z, x]
-    }
-
-    #[inline(always)]
-    fn zxy(self, [x, y, z]: Self::Turned) -> Self::Vector {
-        [z, x, y]
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn quotients_and_columns<R: Register>(register: R) {
+    fn quotients<R: Register>(register: R) {
         let of = |values: &dyn Fn(usize) -> f64| {
             let mut lanes = register.splat(0.0);
             for lane in 0..R::COUNT {
@@ -241,23 +148,15 @@ mod tests {
             let expected = if b(lane) == 0.0 { 0.0 } else { a(lane) / b(lane) };
             assert_eq!(register.get(&quotient, lane), expected);
         }
-
-        let entry = |i: usize, j: usize, lane: usize| ((3 * i + j) * 8 + lane) as f64;
-        let column = |j: usize| [0, 1, 2].map(|i| of(&|lane| entry(i, j, lane)));
-        let combined = Lanes(register).combine(&[0, 1, 2].map(column), [2.0, 30.0, 500.0].map(|x| register.splat(x)));
-        for lane in 0..R::COUNT {
-            let expected = |i| 2.0 * entry(i, 0, lane) + 30.0 * entry(i, 1, lane) + 500.0 * entry(i, 2, lane);
-            assert_eq!(Lanes(register).take(&combined, lane), [0, 1, 2].map(expected));
-        }
     }
 
     #[test]
-    fn quotients_by_zero_are_zero_and_columns_are_added_by_their_weights() {
+    fn quotients_by_zero_are_zero() {
         if let Some(register) = V3::try_new() {
-            quotients_and_columns(register);
+            quotients(register);
         }
         if let Some(register) = V4::try_new() {
-            quotients_and_columns(register);
+            quotients(register);
         }
     }
 }

@@ -37,6 +37,7 @@
 //! assert_eq!(real_part(&v), Vector3::new(3.0, 4.0, 0.0));
 //! ```
 
+use core::any::Any;
 use core::ops::{Div, Mul, Neg};
 
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Vector3};
@@ -149,6 +150,18 @@ where
         let along = x * cos + self * sin;
         T::from(angle) + DualNum::atan(&(across / along))
     }
+}
+
+/// A value whose type is known to be another one only where its scalar is, as `f64` is; `None` elsewhere.
+pub(crate) fn cast<T: 'static, U: 'static>(value: T) -> Option<U> {
+    let mut value = Some(value);
+    (&mut value as &mut dyn Any).downcast_mut::<Option<U>>()?.take()
+}
+
+/// The same of a reference.
+#[inline(always)]
+pub(crate) fn cast_ref<T: 'static, U: 'static>(value: &T) -> Option<&U> {
+    (value as &dyn Any).downcast_ref()
 }
 
 /// A constant vector, with zero derivatives.

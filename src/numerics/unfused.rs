@@ -1,9 +1,9 @@
 //! Processors for which the vectors of doubles have no instructions of their own.
 
-use crate::numerics::arithmetic::Plain;
+use crate::numerics::arithmetic::Componentwise;
 
-/// Plain arithmetic.
-pub(crate) type Fused = Plain<f64>;
+/// Arithmetic by components.
+pub(crate) type Fused = Componentwise<f64>;
 
 /// There are none.
 pub(crate) fn detect_fused() -> Option<Fused> {

@@ -4,7 +4,7 @@ use super::{Cost, Method, Output, Request, State, Work};
 use crate::dynamics::Problem;
 use crate::error::Error;
 use crate::lorentz_violation::{error_of_principal_frame_along, principal_frame};
-use crate::propagation::splitting::SplittingForecast;
+use crate::propagation::splitting::{Goal, SplittingForecast};
 use crate::propagation::{AveragedMotion, SymmetricMotion, TaylorForecast, UniformMotion, largest_torque};
 use crate::solutions::averaged::AveragingOrder;
 
@@ -175,12 +175,9 @@ fn mean(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Resul
 }
 
 fn splitting(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
-    let forecast = if request.derivatives.is_empty() {
-        problem.splitting_forecast(stretch, request.accuracy)
-    } else {
-        problem.splitting_forecast_with_derivatives(stretch, request.accuracy)
-    };
-    let SplittingForecast { scheme, steps, truncation, coverage, rounding, .. } = forecast?;
+    let goal = if request.derivatives.is_empty() { Goal::State } else { Goal::Derivatives };
+    let SplittingForecast { scheme, steps, truncation, coverage, rounding, .. } =
+        problem.splitting_forecast_for(goal, stretch, request.accuracy)?;
     // Rotations and kicks.
     let order = 2 * scheme.stages();
     Ok(Forecast { truncation, promise: Promise::Goal(coverage), rounding, order, steps })

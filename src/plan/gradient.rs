@@ -184,7 +184,6 @@ fn seeded_motion(plan: &Plan, problem: &Problem<Dual64>) -> Result<StateAt, Erro
     let span = plan.stretch;
     Ok(match plan.method {
         Some(Method::Free) => states(UniformMotion::free(problem, span)),
-        Some(Method::Steady) => states(UniformMotion::steady(problem, span)?),
         Some(Method::Symmetric) => states(SymmetricMotion::new(problem, span)?),
         Some(Method::Averaged) => {
             let frame = principal_frame_along(problem.coefficients())?;

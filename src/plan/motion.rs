@@ -6,7 +6,7 @@ use super::{Method, Output, Plan, Request, Work};
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::propagation::splitting::SplittingMotion;
-use crate::propagation::{AveragedMotion, Motion, Projection, SymmetricMotion, TaylorMotion, UniformMotion};
+use crate::propagation::{AveragedMotion, Motion, SeriesProjection, SymmetricMotion, TaylorMotion, UniformMotion};
 use crate::solutions::averaged::AveragingOrder;
 
 /// A motion by any method, with the states of its problem.
@@ -138,7 +138,7 @@ impl<X: RotationState<f64>> Motion<f64> for PlannedMotion<X> {
         by_any!(self, motion => motion.error_estimate(t))
     }
 
-    fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<Box<dyn Projection + '_>> {
+    fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
         by_any!(self, motion => motion.projection(in_body, direction))
     }
 }

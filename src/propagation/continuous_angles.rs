@@ -1,13 +1,12 @@
 //! Euler angles of a motion without jumps of a whole turn.
 
-use core::f64::consts::TAU;
-
 use nalgebra::Vector3;
 
 use crate::dynamics::equations_of_motion::{angular_velocity, reduced_rates};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::euler_angles::EulerAngles;
+use crate::numerics::angle::whole_turns;
 use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::Motion;
 
@@ -90,9 +89,9 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
         }
         let angles = self.motion.state(t)?.angles()?;
         Ok(EulerAngles {
-            alpha: angles.alpha + S::from_f64(turns(self.last.alpha - angles.alpha.re())),
+            alpha: angles.alpha + S::from_f64(whole_turns(self.last.alpha - angles.alpha.re())),
             beta: angles.beta,
-            gamma: angles.gamma + S::from_f64(turns(self.last.gamma - angles.gamma.re())),
+            gamma: angles.gamma + S::from_f64(whole_turns(self.last.gamma - angles.gamma.re())),
         })
     }
 
@@ -157,9 +156,9 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
         self.time = time;
         let Ok(angles) = state.angles() else { return };
         self.last = EulerAngles {
-            alpha: angles.alpha + turns(self.last.alpha - angles.alpha),
+            alpha: angles.alpha + whole_turns(self.last.alpha - angles.alpha),
             beta: angles.beta,
-            gamma: angles.gamma + turns(self.last.gamma - angles.gamma),
+            gamma: angles.gamma + whole_turns(self.last.gamma - angles.gamma),
         };
     }
 }
@@ -171,11 +170,6 @@ fn finite(state: &BodyState<f64>) -> bool {
 /// Distance of `n` from the nearer end of the Z axis, across it: `sin(beta)`.
 fn off_pole(state: &BodyState<f64>) -> f64 {
     state.axis.x.hypot(state.axis.y)
-}
-
-/// The whole turns (rad) nearest to an angle.
-fn turns(angle: f64) -> f64 {
-    (angle / TAU).round() * TAU
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::dynamics::{AxisState, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::numerics::scalar::Scalar;
-use crate::propagation::Turning;
+use crate::propagation::{SeriesProjection, Turning};
 
 /// The motion of one spheroid over a span of time. Observables take a motion and never know the method behind it; those that need the
 /// orientation ask for `Motion<f64, State = BodyState<f64>>`.
@@ -64,19 +64,7 @@ pub trait Motion<S: Scalar> {
 
     /// What gives the component along a fixed `direction` of a vector fixed in the body (its components there) for less than a
     /// state, if the motion has it.
-    fn projection(&self, _in_body: &Vector3<f64>, _direction: &Vector3<f64>) -> Option<Box<dyn Projection + '_>> {
+    fn projection(&self, _in_body: &Vector3<f64>, _direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
         None
     }
-}
-
-/// `m.o` of a vector `m` fixed in the body and a fixed direction `o`, with its time derivatives, at any time of a motion.
-pub trait Projection {
-    /// `m.o` and its first three time derivatives at the time `t`.
-    ///
-    /// # Errors
-    /// [`Error::Domain`] for a time outside the span of the motion.
-    fn at(&self, t: f64) -> Result<[f64; 4], Error>;
-
-    /// The time in `(after, t]` at which it takes least work, if that is not `t`.
-    fn cheapest_time(&self, after: f64, t: f64) -> Option<f64>;
 }

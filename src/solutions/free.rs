@@ -3,16 +3,13 @@
 //! # Example
 //!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! use nalgebra::Vector3;
+//! use twofold::dynamics::{BodyState, RigidSpheroid};
+//! use twofold::euler_angles::EulerAngles;
 //! use twofold::solutions::free::{free_precession_rates, free_rotation, rotated_by};
 //!
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
 //! // L along Z: alpha and gamma advance steadily.
 //! let rates = free_precession_rates(&star, 1.0, angles.beta)?;
 //! let start = BodyState::from_angles(&star, &angles, &rates);

@@ -3,17 +3,12 @@
 //! # Example
 //!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! use twofold::dynamics::RigidSpheroid;
+//! use twofold::lorentz_violation::PrincipalCoefficients;
 //! use twofold::solutions::perturbation::Precession;
 //! use twofold::solutions::steady::steady_precession_rate;
 //!
+//! let star = RigidSpheroid::in_units_of_tc(1.1);
 //! // Without Lorentz violation the two roots are free precession and rest.
 //! let none = PrincipalCoefficients::new([0.0; 3]);
 //! let rate = |kind| steady_precession_rate(kind, &star, &none, 1.0, 0.7_f64);

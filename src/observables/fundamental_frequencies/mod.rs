@@ -34,12 +34,11 @@
 
 mod angles;
 mod frame;
-mod mean_rate;
 mod rotated;
 mod samples;
 mod turns;
 
-pub use mean_rate::{MeanRate, mean_rate};
+pub use crate::numerics::mean_rate::{MeanRate, mean_rate};
 
 use core::f64::consts::TAU;
 

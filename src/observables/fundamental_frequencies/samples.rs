@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 
 use crate::dynamics::BodyState;
 use crate::error::Error;
+use crate::numerics::angle::whole_turns;
 use crate::observables::spectrum::Window;
 use crate::propagation::Motion;
 
@@ -103,7 +104,7 @@ pub(super) fn continuous(angles: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut last = None;
     angles
         .map(|angle| {
-            let continued = last.map_or(angle, |last: f64| angle + ((last - angle) / TAU).round() * TAU);
+            let continued = last.map_or(angle, |last: f64| angle + whole_turns(last - angle));
             *last.insert(continued)
         })
         .collect()

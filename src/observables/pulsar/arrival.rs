@@ -59,7 +59,7 @@ pub fn arrivals<M: Motion<f64, State = BodyState<f64>>>(
     let mut turns = Turns::new(motion, beam, line_of_sight, bounds.first, first.start)?;
     let mut turn_at = |t| turns.at(t).map(|phase| (phase / TAU).round() as i64);
     match motion.projection(&beam.axis, line_of_sight) {
-        Some(projection) => EdgeSearch::new(BySeries::new(&*projection, beam), bounds).arrivals(train, &mut turn_at),
+        Some(projection) => EdgeSearch::new(BySeries::new(&projection, beam), bounds).arrivals(train, &mut turn_at),
         None => {
             EdgeSearch::new(ByStates { motion, turning, beam, line_of_sight }, bounds).arrivals(train, &mut turn_at)
         }

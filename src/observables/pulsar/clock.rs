@@ -36,6 +36,7 @@ use crate::dynamics::equations_of_motion::angular_velocity;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
+use crate::numerics::angle::wrapped;
 use crate::numerics::double_double::DoubleDouble;
 use crate::observables::Observer;
 use crate::propagation::{Motion, Turning};
@@ -248,14 +249,13 @@ impl PulsarClock {
         let angle = |m: &Vector3<f64>| position_angle(m, &self.observer).unwrap_or(f64::NAN);
         let middle = angle(&m);
         let from = |t: f64| angle(&self.beam.direction(&near.mean.state(t)));
-        let turned = |angle: f64| angle - (angle / core::f64::consts::TAU).round() * core::f64::consts::TAU;
         Ok(ClockPulse {
             number,
             midpoint: (DoubleDouble::from(t) + pulse.midpoint().into()).into(),
             duration: pulse.duration(),
             position_angle: middle,
             position_angle_rate: position_angle_rate(&m, &omega, &self.observer).unwrap_or(f64::NAN),
-            swing: turned(from(pulse.end) - middle) + turned(middle - from(pulse.start)),
+            swing: wrapped(from(pulse.end) - middle) + wrapped(middle - from(pulse.start)),
             state: state.rotated(&self.given_from_principal),
         })
     }
@@ -265,7 +265,7 @@ impl PulsarClock {
 /// the turn need not be looked at.
 fn around<P: Margin>(search: &EdgeSearch<P>, time: f64, period: f64) -> Result<Option<Pulse>, Error> {
     let middle = search.jet(time)?;
-    let [margin, _, curvature, _] = middle.margin;
+    let [margin, _, curvature, _] = middle.values;
     if margin <= 0.0 || curvature >= 0.0 {
         return Ok(None);
     }

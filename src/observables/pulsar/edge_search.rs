@@ -4,13 +4,17 @@ use core::cell::Cell;
 
 use nalgebra::Vector3;
 
-use super::hermite::{Jet, Quintic};
+use super::Beam;
 use super::rate_bounds::RateBounds;
 use super::root::{Look, root};
-use super::{Beam, train::GRAZING};
 use crate::dynamics::BodyState;
 use crate::error::Error;
-use crate::propagation::{Motion, Projection, Turning};
+use crate::numerics::hermite::{Jet, Quintic};
+use crate::propagation::{Motion, SeriesProjection, Turning};
+
+/// An extremum of `m.n` this near to `cos rho` is a grazing: whether the line of sight passes the edge there is beyond
+/// doubles, whose `m.n` along a numerical motion is in error by about as much.
+pub const GRAZING: f64 = 1e-13;
 
 /// Rotation (rad) in a piece to begin with, and in one so short that an extremum near the edge is worth finding exactly.
 const PIECE: f64 = 2.4;
@@ -43,14 +47,14 @@ pub(super) trait Margin {
 
 /// From the series of a motion, which are cheapest where they start.
 pub(super) struct BySeries<'a> {
-    projection: &'a dyn Projection,
+    projection: &'a SeriesProjection<'a>,
     /// `cos rho`.
     edge: f64,
 }
 
 impl<'a> BySeries<'a> {
     /// `projection` is that of the axis of the beam on the line of sight.
-    pub(super) fn new(projection: &'a dyn Projection, beam: &Beam<f64>) -> Self {
+    pub(super) fn new(projection: &'a SeriesProjection<'a>, beam: &Beam<f64>) -> Self {
         Self { projection, edge: beam.half_opening.cos() }
     }
 }
@@ -137,7 +141,7 @@ impl<P: Margin> EdgeSearch<P> {
     /// one of its derivatives as much again where they turn as fast. 0.3 lets pass what is off by a few thousandths.
     fn check_stated_law(&self, from: &Jet, to: &Jet) -> Result<(), Error> {
         let h = to.time - from.time;
-        let ([f, df, ddf, dddf], [g, dg, ddg, _]) = (from.margin, to.margin);
+        let ([f, df, ddf, dddf], [g, dg, ddg, _]) = (from.values, to.values);
         let of_polynomial = 60.0 * (g - f) - h * (36.0 * df + 24.0 * dg) + h * h * (3.0 * ddg - 9.0 * ddf);
         let mismatch = (h * h * h * dddf - of_polynomial).abs();
         let allowed = self.bounds.sixth * h.powi(6) / 120.0 + 0.3;
@@ -160,7 +164,7 @@ impl<P: Margin> EdgeSearch<P> {
     }
 
     pub(super) fn jet(&self, time: f64) -> Result<Jet, Error> {
-        Ok(Jet { time, margin: self.at(time)? })
+        Ok(Jet { time, values: self.at(time)? })
     }
 
     /// Reports every event between a time that has been looked at and a later one, whose margin it gives.
@@ -177,30 +181,34 @@ impl<P: Margin> EdgeSearch<P> {
         Ok(from)
     }
 
+    fn quintic(&self, from: &Jet, to: &Jet) -> Quintic {
+        Quintic::between(from, to, [self.bounds.first, self.bounds.second, self.bounds.sixth])
+    }
+
     /// Divides a piece until the polynomial through its ends and the bounds of what that leaves out prove that the margin
     /// has no root there, or one.
     fn search(&self, from: &Jet, to: &Jet, report: &mut impl FnMut(Event)) -> Result<(), Error> {
-        let polynomial = Quintic::between(from, to, &self.bounds);
-        if polynomial.is_clear() {
+        let polynomial = self.quintic(from, to);
+        if polynomial.is_clear(2.0 * GRAZING) {
             return Ok(());
         }
         let length = to.time - from.time;
-        let is_across = from.is_inside() != to.is_inside();
+        let is_across = from.is_positive() != to.is_positive();
         if polynomial.is_monotonic() || self.is_steep(from, to) {
             return if is_across { self.crossing(from, to, &polynomial, report) } else { Ok(()) };
         }
         let mut middle = from.time + length / 2.0;
         if let Some(convex) = polynomial.convexity().or_else(|| self.is_curved(from, to)) {
             // An extremum this near to the edge is to be reported, on whatever side of it the ends are.
-            let off_the_edge = from.margin[0].abs().min(to.margin[0].abs()) > 2.0 * GRAZING;
+            let off_the_edge = from.values[0].abs().min(to.values[0].abs()) > 2.0 * GRAZING;
             if is_across && (off_the_edge || from.is_rising() == to.is_rising()) {
                 return self.crossing(from, to, &polynomial, report);
             }
-            let opens_away = from.is_inside() != convex;
+            let opens_away = from.is_positive() != convex;
             if !is_across && (from.is_rising() == to.is_rising() || opens_away && off_the_edge) {
                 return Ok(());
             }
-            let guess = from.time + length * from.margin[1] / (from.margin[1] - to.margin[1]);
+            let guess = from.time + length * from.values[1] / (from.values[1] - to.values[1]);
             if length * self.bounds.first < SHORT {
                 return self.around_extremum(from, to, guess, report);
             }
@@ -208,7 +216,7 @@ impl<P: Margin> EdgeSearch<P> {
         }
         let RateBounds { third, .. } = self.bounds;
         let size = |jet: &Jet| {
-            let [value, rate, second, _] = jet.margin.map(f64::abs);
+            let [value, rate, second, _] = jet.values.map(f64::abs);
             value + length * (rate + length * (second / 2.0 + length * third / 6.0))
         };
         let reach = size(from).max(size(to));
@@ -233,14 +241,14 @@ impl<P: Margin> EdgeSearch<P> {
     /// Whether the rate keeps its sign between two times because it cannot change so fast.
     fn is_steep(&self, from: &Jet, to: &Jet) -> bool {
         let RateBounds { first, second, .. } = self.bounds;
-        let (a, b) = (from.margin[1], to.margin[1]);
+        let (a, b) = (from.values[1], to.values[1]);
         a * b > 0.0 && (a + b).abs() > second * (to.time - from.time) + 16.0 * f64::EPSILON * first
     }
 
     /// The sign of the second derivative, if it keeps it because it cannot change so fast; whether it is positive.
     fn is_curved(&self, from: &Jet, to: &Jet) -> Option<bool> {
         let RateBounds { second, third, .. } = self.bounds;
-        let (a, b) = (from.margin[2], to.margin[2]);
+        let (a, b) = (from.values[2], to.values[2]);
         let is_certain = a * b > 0.0 && (a + b).abs() > third * (to.time - from.time) + 16.0 * f64::EPSILON * second;
         is_certain.then_some(a > 0.0)
     }
@@ -253,7 +261,7 @@ impl<P: Margin> EdgeSearch<P> {
         polynomial: &Quintic,
         report: &mut impl FnMut(Event),
     ) -> Result<(), Error> {
-        let entering = to.is_inside();
+        let entering = to.is_positive();
         let length = to.time - from.time;
         let guess = from.time + polynomial.root() * length;
         let time = root((from.time, to.time), guess, entering, |t| Ok(self.look_for_edge(t, length, &self.at(t)?)))?;
@@ -287,17 +295,17 @@ impl<P: Margin> EdgeSearch<P> {
         let time = root((from.time, to.time), guess, to.is_rising(), |t| self.look_for_extremum(t))?;
         let extremum = self.jet(time)?;
         self.monotonic_side(from, &extremum, report)?;
-        if extremum.margin[0].abs() <= GRAZING {
+        if extremum.values[0].abs() <= GRAZING {
             report(Event::Grazing { time });
         }
         self.monotonic_side(&extremum, to, report)
     }
 
     fn monotonic_side(&self, from: &Jet, to: &Jet, report: &mut impl FnMut(Event)) -> Result<(), Error> {
-        if from.is_inside() == to.is_inside() {
+        if from.is_positive() == to.is_positive() {
             return Ok(());
         }
-        self.crossing(from, to, &Quintic::between(from, to, &self.bounds), report)
+        self.crossing(from, to, &self.quintic(from, to), report)
     }
 }
 
@@ -350,8 +358,8 @@ mod tests {
         (crossings, grazings)
     }
 
-    fn jet(time: f64, margin: [f64; 4]) -> Jet {
-        Jet { time, margin }
+    fn jet(time: f64, values: [f64; 4]) -> Jet {
+        Jet { time, values }
     }
 
     #[test]
@@ -504,7 +512,7 @@ mod tests {
     #[test]
     fn a_piece_may_end_at_an_extremum() {
         let search = search_of(vec![[1.0, 1.0, 0.0]], 1.0 + 1e-10);
-        assert_eq!(search.jet(0.0).unwrap().margin[1], 0.0);
+        assert_eq!(search.jet(0.0).unwrap().values[1], 0.0);
         assert_eq!(found(&search, -1.0, 0.0), (vec![], vec![]));
     }
 }

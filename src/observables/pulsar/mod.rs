@@ -6,7 +6,6 @@ pub mod clock;
 pub mod direction;
 mod edge_search;
 pub mod event_time;
-mod hermite;
 pub mod period;
 pub mod position_angle;
 pub mod rate_bounds;

@@ -27,16 +27,13 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::Beam;
+pub use super::edge_search::GRAZING;
 use super::edge_search::{BySeries, ByStates, EdgeSearch, Event, Margin};
-use super::hermite::Jet;
 use super::rate_bounds::{RateBounds, rate_bounds};
 use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
+use crate::numerics::hermite::Jet;
 use crate::propagation::{Motion, Samples, projected_by_segments};
-
-/// An extremum of `m.n` this near to `cos rho` is a grazing: whether the line of sight passes the edge there is beyond
-/// doubles, whose `m.n` along a numerical motion is in error by about as much.
-pub const GRAZING: f64 = 1e-13;
 
 /// A stretch of time with `m.n > cos rho`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,7 +129,7 @@ pub fn pulse_train<M: Motion<f64, State = BodyState<f64>>>(
     let turning = motion.turning();
     let bounds = RateBounds::of_motion(motion, &turning, from)?;
     match motion.projection(&beam.axis, line_of_sight) {
-        Some(projection) => EdgeSearch::new(BySeries::new(&*projection, beam), bounds).train(from, to),
+        Some(projection) => EdgeSearch::new(BySeries::new(&projection, beam), bounds).train(from, to),
         None => EdgeSearch::new(ByStates { motion, turning, beam, line_of_sight }, bounds).train(from, to),
     }
 }
@@ -198,7 +195,7 @@ struct Unfinished {
 
 impl Unfinished {
     fn begin(&mut self, start: Jet) -> Jet {
-        self.open = start.is_inside().then_some((start.time, true));
+        self.open = start.is_positive().then_some((start.time, true));
         start
     }
 

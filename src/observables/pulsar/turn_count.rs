@@ -20,6 +20,7 @@ use super::Beam;
 use super::turns::phase;
 use crate::dynamics::BodyState;
 use crate::error::Error;
+use crate::numerics::angle::wrapped;
 use crate::solutions::averaged::{AveragedSolution, AveragedTurns};
 
 /// Slow precession (rad) between two looks.
@@ -59,10 +60,6 @@ struct Parts {
     /// Whole turns of the fast phases, and the rest (rad).
     whole: i64,
     fast: f64,
-}
-
-fn wrapped(angle: f64) -> f64 {
-    angle - (angle / TAU).round() * TAU
 }
 
 impl TurnCount {

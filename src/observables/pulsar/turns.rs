@@ -1,12 +1,13 @@
 //! Turns of the magnetic axis about the angular momentum, counted along a motion.
 
-use core::f64::consts::{FRAC_PI_2, TAU};
+use core::f64::consts::FRAC_PI_2;
 
 use nalgebra::Vector3;
 
 use super::Beam;
 use crate::dynamics::BodyState;
 use crate::error::Error;
+use crate::numerics::angle::wrapped;
 use crate::propagation::Motion;
 
 /// Rotation (rad) between two looks at the phase.
@@ -51,7 +52,7 @@ impl<'a, M: Motion<f64, State = BodyState<f64>>> Turns<'a, M> {
             loop {
                 let phase = self.phase_at(to)?;
                 let swept = phase - self.phase;
-                let swept = swept - (swept / TAU).round() * TAU;
+                let swept = wrapped(swept);
                 let middle = self.time + (to - self.time) / 2.0;
                 if swept.abs() < FRAC_PI_2 || middle <= self.time || middle >= to {
                     (self.time, self.phase) = (to, self.phase + swept);
@@ -111,7 +112,7 @@ mod tests {
                 let mut last = exact(5.0);
                 let follow = |j: i32| {
                     let next = exact(5.0 + 1e-4 * f64::from(j));
-                    last += (next - last) - ((next - last) / TAU).round() * TAU;
+                    last += wrapped(next - last);
                     last
                 };
                 (0..=500_000).map(follow).collect()
@@ -166,7 +167,7 @@ mod tests {
                 let mut last = exact(pass - before);
                 for k in 1..=2000 {
                     let next = exact(pass - before + (before + after) * f64::from(k) / 2000.0);
-                    last += (next - last) - ((next - last) / TAU).round() * TAU;
+                    last += wrapped(next - last);
                 }
                 assert!((turns.at(pass + after).unwrap() - last).abs() < 1e-9, "{chi} {before} {after}");
             }

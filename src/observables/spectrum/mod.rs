@@ -28,10 +28,9 @@ mod joint_fit;
 mod lines;
 mod residual_spectrum;
 mod series;
-mod window;
 
+pub use crate::numerics::window::Window;
 pub use amplitude::{AmplitudeSpectrum, amplitude_spectrum};
 pub use identification::{Combination, FrequencyBasis, Generator, Identification};
 pub use lines::{LineList, SpectralLine, spectral_lines};
 pub use series::{LEAST_LENGTH, Series};
-pub use window::Window;

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::numerics::fused::detect_fused;
 use crate::propagation::input::check_request;
 use crate::propagation::splitting::error::expected_rounding;
-use crate::propagation::splitting::motion::{SPLITTING_STEP_LIMIT, Scene, SplittingMotion};
+use crate::propagation::splitting::motion::{PrincipalProblem, SPLITTING_STEP_LIMIT, SplittingMotion};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::schemes::{
     GRADIENT_8_6_4, GRADIENT_8_6_6, GRADIENT_8_8_6, KAHAN_LI_8, NEAR_INTEGRABLE_6_2, NEAR_INTEGRABLE_10_4, SRKN_6B,
@@ -96,7 +96,7 @@ impl Model {
 
 /// What steps are chosen for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Goal {
+pub(crate) enum Goal {
     /// The state.
     State,
     /// The state with its derivatives by parameters. They cost several times what the motion does, so that the steps are for the error of the
@@ -154,20 +154,26 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     /// # Errors
     /// As for [`splitting`](Self::splitting).
     pub fn splitting_forecast(&self, span: (f64, f64), accuracy: f64) -> Result<SplittingForecast, Error> {
-        checked_forecast(self, span, accuracy, Goal::State)
+        self.splitting_forecast_for(Goal::State, span, accuracy)
     }
 
-    /// The same for [`gradient`](crate::plan::gradient).
+    /// The same for a goal.
     ///
     /// # Errors
-    /// As for [`splitting_forecast`](Self::splitting_forecast), and on a processor without the instructions for tangent maps.
-    pub(crate) fn splitting_forecast_with_derivatives(
+    /// As for [`splitting_forecast`](Self::splitting_forecast), and for derivatives on a processor without the instructions for tangent maps.
+    pub(crate) fn splitting_forecast_for(
         &self,
+        goal: Goal,
         span: (f64, f64),
-        accuracy: f64,
+        tolerance: f64,
     ) -> Result<SplittingForecast, Error> {
-        require_tangent_maps()?;
-        checked_forecast(self, span, accuracy, Goal::Derivatives)
+        if goal == Goal::Derivatives {
+            require_tangent_maps()?;
+        }
+        check_request(span, tolerance)?;
+        let forecast = cheapest(&PrincipalProblem::<2>::new(self)?, span, tolerance, goal);
+        Error::ensure(forecast.steps <= SPLITTING_STEP_LIMIT, "number of steps", forecast.steps, "at most 1e10")?;
+        Ok(forecast)
     }
 }
 
@@ -195,21 +201,9 @@ pub(crate) fn require_tangent_maps() -> Result<(), Error> {
     Error::ensure(doubles == 4.0, "doubles in a register", doubles, "four (AVX2, FMA), for derivatives by splitting")
 }
 
-fn checked_forecast<X: RotationState<f64>>(
-    problem: &Problem<f64, X>,
-    span: (f64, f64),
-    accuracy: f64,
-    goal: Goal,
-) -> Result<SplittingForecast, Error> {
-    check_request(span, accuracy)?;
-    let forecast = cheapest(&Scene::of(problem)?, span, accuracy, goal);
-    Error::ensure(forecast.steps <= SPLITTING_STEP_LIMIT, "number of steps", forecast.steps, "at most 1e10")?;
-    Ok(forecast)
-}
-
 /// The scheme that costs least with its largest step for the goal.
 pub(super) fn cheapest<const V: usize>(
-    scene: &Scene<V>,
+    scene: &PrincipalProblem<V>,
     span: (f64, f64),
     accuracy: f64,
     goal: Goal,
@@ -256,16 +250,6 @@ pub fn propagate_orientation_by_best_splitting(
     Problem::new(*spheroid, *s, *initial)?.splitting(span, accuracy)
 }
 
-/// Scheme and largest step for a motion with its derivatives.
-#[cfg(target_arch = "x86_64")]
-pub(super) fn derivatives_forecast<const V: usize>(
-    scene: &Scene<V>,
-    span: (f64, f64),
-    accuracy: f64,
-) -> SplittingForecast {
-    cheapest(scene, span, accuracy, Goal::Derivatives)
-}
-
 /// How splitting would reach the samples of a motion.
 #[cfg(target_arch = "x86_64")]
 pub(super) struct SampledForecast {
@@ -287,7 +271,7 @@ const MOST_STAGES_PER_ANGLE: f64 = 150.0;
 /// The cheapest scheme and step for samples at `times`, none where a Taylor series is better.
 #[cfg(target_arch = "x86_64")]
 pub(super) fn sampled_forecast<const V: usize>(
-    scene: &Scene<V>,
+    scene: &PrincipalProblem<V>,
     start: f64,
     times: &[f64],
     accuracy: f64,
@@ -364,11 +348,12 @@ mod tests {
     const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
 
     /// A body that turns at most at `rate`, the torque making up the part `epsilon` of its square.
-    fn scene(rate: f64, epsilon: f64) -> Scene<2> {
+    fn scene(rate: f64, epsilon: f64) -> PrincipalProblem<2> {
         let difference = epsilon * rate * rate * 1.3 / (2.0 * 0.7);
         let s = Matrix3::from_diagonal(&(Vector3::new(0.5, 0.1, -0.5) * difference));
         let momentum = Vector3::y() * (1.3 * rate * (1.0 - epsilon).sqrt());
-        Scene::new(&STAR, &s, &[Vector3::new(0.6, 0.0, 0.8), momentum]).unwrap()
+        let start = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum };
+        PrincipalProblem::new(&Problem::new(STAR, s, start).unwrap()).unwrap()
     }
 
     #[test]
@@ -426,8 +411,9 @@ mod tests {
         };
         assert_eq!((steps(299), steps(301)), (Some(299), None));
         // Nothing moves, or hardly.
-        let steps =
-            |scene: Scene<2>, times: &[f64]| sampled_forecast(&scene, 3.0, times, 1e-2).map(|found| found.steps);
+        let steps = |scene: PrincipalProblem<2>, times: &[f64]| {
+            sampled_forecast(&scene, 3.0, times, 1e-2).map(|found| found.steps)
+        };
         assert_eq!(steps(scene(4.0, 1e-9), &[3.0, 3.0]), None);
         assert_eq!(steps(scene(0.0, 0.0), &[5.0]), None);
         assert_eq!(steps(scene(4.0, 1e-9), &[3.02]), Some(1));

@@ -3,26 +3,19 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 
-use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
+use crate::dynamics::{BodyState, Problem, RotationState};
 use crate::error::Error;
 use crate::numerics::registers::Register;
+use crate::numerics::ring::FusedDouble;
+use crate::numerics::side_by_side::SideBySide;
 use crate::propagation::input::check_request;
-use crate::propagation::splitting::choice::{SplittingForecast, TANGENTS_AT_ONCE, derivatives_forecast};
+use crate::propagation::splitting::choice::{Goal, SplittingForecast, TANGENTS_AT_ONCE, cheapest};
 use crate::propagation::splitting::flows::{AXIS, COMPANION, Moving, RATE};
-use crate::propagation::splitting::motion::{SPLITTING_STEP_LIMIT, Scene};
-use crate::propagation::splitting::ring::FusedDouble;
+use crate::propagation::splitting::motion::{PrincipalProblem, SPLITTING_STEP_LIMIT};
 use crate::propagation::splitting::scheme::Scheme;
-use crate::propagation::splitting::side_by_side::SideBySide;
 use crate::propagation::splitting::stepper::{Steps, angles};
 use crate::propagation::splitting::tangents::{Tangents, WithTangents};
 use crate::propagation::third_angle::{body_state, rate_about_axis};
-
-/// A problem as a function of one parameter, with the vectors that a motion carries.
-struct Seeded<const V: usize> {
-    spheroid: RigidSpheroid<Dual64>,
-    violation: Matrix3<Dual64>,
-    initial: [Vector3<Dual64>; V],
-}
 
 /// What the flows need of the derivatives of a problem, in the principal frame.
 struct Seed<const V: usize> {
@@ -49,36 +42,24 @@ pub(crate) fn states_with_derivatives<X: RotationState<Dual64>>(
     accuracy: f64,
 ) -> Result<Option<Vec<Vec<BodyState<Dual64>>>>, Error> {
     if X::VECTORS == 3 {
-        states_of(seeded, |[n, l, e_x]| [n, l, e_x], start, times, accuracy)
+        states_of::<X, 3>(seeded, start, times, accuracy)
     } else {
-        states_of(seeded, |[n, l, _]| [n, l], start, times, accuracy)
+        states_of::<X, 2>(seeded, start, times, accuracy)
     }
 }
 
-/// `carried` are those of the vectors of a state that the motion carries.
 fn states_of<X: RotationState<Dual64>, const V: usize>(
-    problems: &[Problem<Dual64, X>],
-    carried: impl Fn([Vector3<Dual64>; 3]) -> [Vector3<Dual64>; V],
+    seeded: &[Problem<Dual64, X>],
     start: f64,
     times: &[f64],
-    accuracy: f64,
+    tolerance: f64,
 ) -> Result<Option<Vec<Vec<BodyState<Dual64>>>>, Error> {
-    let (Some(register), Some(first), Some(last)) = (pulp::x86::V3::try_new(), problems.first(), times.last()) else {
+    let (Some(register), Some(first), Some(last)) = (pulp::x86::V3::try_new(), seeded.first(), times.last()) else {
         return Ok(None);
     };
-    check_request((start, *last), accuracy)?;
-    let seeded: Vec<Seeded<V>> = problems
-        .iter()
-        .map(|problem| Seeded {
-            spheroid: *problem.spheroid(),
-            violation: *problem.coefficients(),
-            initial: carried(problem.initial().vectors()),
-        })
-        .collect();
-    let first = first.map(|value| value.re);
-    let initial = seeded[0].initial.map(|v| v.map(|value| value.re));
-    let scene = Scene::new(first.spheroid(), first.coefficients(), &initial)?;
-    let SplittingForecast { scheme, step, steps, .. } = derivatives_forecast(&scene, (start, *last), accuracy);
+    check_request((start, *last), tolerance)?;
+    let scene = PrincipalProblem::<V>::new(&first.map(|value| value.re))?;
+    let SplittingForecast { scheme, step, steps, .. } = cheapest(&scene, (start, *last), tolerance, Goal::Derivatives);
     // Each of the times may cut a step in two.
     let count = steps + times.len() as f64;
     Error::ensure(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
@@ -99,17 +80,17 @@ fn states_of<X: RotationState<Dual64>, const V: usize>(
 }
 
 /// A motion to be followed with its derivatives.
-struct Derivatives<'a, const V: usize> {
-    scene: &'a Scene<V>,
+struct Derivatives<'a, X, const V: usize> {
+    scene: &'a PrincipalProblem<V>,
     scheme: &'static Scheme,
     /// Longest step.
     step: f64,
     start: f64,
     times: &'a [f64],
-    seeded: &'a [Seeded<V>],
+    seeded: &'a [Problem<Dual64, X>],
 }
 
-impl<const V: usize> Derivatives<'_, V> {
+impl<X: RotationState<Dual64>, const V: usize> Derivatives<'_, X, V> {
     #[inline(always)]
     fn follow<R: Register, const N: usize>(&self, register: R, found: &mut [Vec<BodyState<Dual64>>]) {
         let scene = self.scene;
@@ -157,22 +138,21 @@ impl<const V: usize> Derivatives<'_, V> {
         }
     }
 
-    fn seed(&self, seeded: &Seeded<V>) -> Seed<V> {
-        let turn = self.scene.principal_from_given;
-        let Seeded { spheroid, violation, initial } = seeded;
-        let sigma = violation * (spheroid.constant_c * 2.0 / spheroid.inertia_xx);
-        let mut vectors = *initial;
-        vectors[RATE] = initial[RATE] / spheroid.inertia_xx;
+    fn seed(&self, seeded: &Problem<Dual64, X>) -> Seed<V> {
+        let (turn, spheroid) = (self.scene.principal_from_given, seeded.spheroid());
+        let sigma = seeded.coefficients() * (spheroid.constant_c * 2.0 / spheroid.inertia_xx);
+        let mut vectors = seeded.start::<V>();
+        vectors[RATE] /= spheroid.inertia_xx;
         Seed {
             vectors: vectors.map(|v| turn * v.map(|value| value.eps)),
             tensor: turn * sigma.map(|value| value.eps) * turn.transpose(),
         }
     }
 
-    /// The state of the body, as a function of the parameter of a seeded scene.
+    /// The state of the body, as a function of the parameter of a seeded problem.
     fn body_state(
         &self,
-        seeded: &Seeded<V>,
+        seeded: &Problem<Dual64, X>,
         state: &Moving<f64, V>,
         derivatives: [[f64; 3]; V],
         elapsed: f64,
@@ -182,11 +162,12 @@ impl<const V: usize> Derivatives<'_, V> {
             let (value, derivative) = (back * Vector3::from(state.vectors[v]), back * Vector3::from(derivatives[v]));
             value.zip_map(&derivative, Dual64::new)
         };
-        let (axis, momentum) = (vector(AXIS), vector(RATE) * seeded.spheroid.inertia_xx);
+        let (axis, momentum) = (vector(AXIS), vector(RATE) * seeded.spheroid().inertia_xx);
         if V <= COMPANION {
             return BodyState { axis, momentum, equatorial_axis: Vector3::zeros() };
         }
-        let rate = rate_about_axis(&seeded.spheroid, &seeded.initial[AXIS], &seeded.initial[RATE]);
+        let start = seeded.initial().axis_state();
+        let rate = rate_about_axis(seeded.spheroid(), &start.axis, &start.momentum);
         body_state([axis, momentum, vector(COMPANION)], rate * elapsed)
     }
 }
@@ -196,6 +177,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+    use crate::dynamics::RigidSpheroid;
     use crate::solutions::free::rotated_by;
 
     /// A scene with derivatives of all its numbers, others for each `direction`.
@@ -250,9 +232,9 @@ mod tests {
     #[test]
     fn the_steps_that_are_refused_are_those_of_the_motion_and_of_its_samples() {
         let seeded = seeded(0, 1.0, 1.0);
-        let scene = Scene::of(&seeded.map(|x| x.re)).unwrap();
+        let scene = PrincipalProblem::<2>::new(&seeded.map(|x| x.re)).unwrap();
         for end in [2e12, -2e12] {
-            let step = derivatives_forecast(&scene, (0.0, end), 1e-5).step;
+            let step = cheapest(&scene, (0.0, end), 1e-5, Goal::Derivatives).step;
             match states_with_derivatives(&[seeded], 0.0, &[0.5 * end, 0.7 * end, end], 1e-5) {
                 Err(Error::Domain { value, .. }) => assert!((value - (2e12 / step).ceil() - 3.0).abs() < 0.5),
                 Ok(found) => assert!(found.is_none(), "no registers"),

@@ -1,9 +1,9 @@
 //! The error of a motion by splitting, from the same motion by a better scheme.
 
 use crate::propagation::splitting::GRADIENT_8_8_6;
+use crate::propagation::splitting::double_steps::DoubleSteps;
 use crate::propagation::splitting::flows::{Field, Moving, RATE};
 use crate::propagation::splitting::motion::KeptStates;
-use crate::propagation::splitting::one_motion::OneMotion;
 
 /// Most times at which the two motions are compared.
 const COMPARISONS: u64 = 256;
@@ -60,10 +60,10 @@ impl ErrorEstimate {
             return Self { interval, largest: vec![f64::INFINITY], shared_rounding };
         }
         let per_two = by_stages.max(by_angle as u64);
-        let other = |step| OneMotion::new(&GRADIENT_8_8_6, &scene.field, step, scene.largest_rate);
+        let other = |step| DoubleSteps::new(&GRADIENT_8_8_6, &scene.field, step, scene.largest_rate);
         let finer = other(2.0 * motion.step / per_two as f64);
         let half_back = other(-0.5 * motion.step);
-        let half_forth = OneMotion::new(motion.scheme, &scene.field, 0.5 * motion.step, scene.largest_rate);
+        let half_forth = DoubleSteps::new(motion.scheme, &scene.field, 0.5 * motion.step, scene.largest_rate);
         // From a start that is off by a rounding: so the difference knows what an instability makes of those that both motions share.
         let mut state = off(&scene.start, OFF, scene.largest_rate);
         let largest_eigenvalue = scene.eigenvalues.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
@@ -71,7 +71,7 @@ impl ErrorEstimate {
         finer.open(&mut state);
         let rounded = |k: usize| scene.eigenvalues[k] + EIGENVALUES_OFF[k] * f64::EPSILON * largest_eigenvalue;
         let field = Field::new(scene.field.strength, [0, 1, 2].map(rounded));
-        let along = OneMotion::new(motion.scheme, &field, motion.step, scene.largest_rate);
+        let along = DoubleSteps::new(motion.scheme, &field, motion.step, scene.largest_rate);
         along.open(&mut beside);
         let (mut largest, mut most, mut done) = (Vec::new(), 0.0_f64, 0);
         while done < twos {
@@ -211,7 +211,7 @@ mod tests {
         let [x, y, z] = eigenvalues;
         let rounded = [x + 3.7 * rounding, y - 5.3 * rounding, z + 4.1 * rounding];
         let field = Field::new(scene.field.strength, rounded);
-        let along = OneMotion::new(&GRADIENT_8_8_6, &field, motion.step(), scene.largest_rate);
+        let along = DoubleSteps::new(&GRADIENT_8_8_6, &field, motion.step(), scene.largest_rate);
         let mut beside = scene.start;
         for (place, unit) in [(AXIS, 1.0), (RATE, scene.largest_rate)] {
             for (x, part) in beside.vectors[place].iter_mut().zip([9.4, 8.9, -3.1]) {

@@ -22,8 +22,8 @@
 //!
 //! which costs eight operations more than the plain one.
 
+use crate::numerics::ring::{Double, Ring};
 use crate::numerics::rounding::quick_two_sum;
-use crate::propagation::splitting::ring::{Double, Ring};
 
 /// Place of `n` among the vectors of a state.
 pub(super) const AXIS: usize = 0;

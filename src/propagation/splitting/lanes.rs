@@ -3,12 +3,12 @@
 use crate::dynamics::AxisState;
 use crate::error::Error;
 use crate::numerics::registers::Register;
+use crate::numerics::side_by_side::SideBySide;
 use crate::propagation::input::check_request;
 use crate::propagation::splitting::choice::{SampledForecast, sampled_forecast};
 use crate::propagation::splitting::flows::{Angles, Field, Moved, Moving};
-use crate::propagation::splitting::motion::Scene;
+use crate::propagation::splitting::motion::PrincipalProblem;
 use crate::propagation::splitting::scheme::Scheme;
-use crate::propagation::splitting::side_by_side::SideBySide;
 use crate::propagation::splitting::stepper::{STEPS_BETWEEN_PROJECTIONS, Steps, angles};
 use crate::propagation::{SampledProblem, Samples};
 
@@ -18,7 +18,7 @@ type Outcome = Result<Samples<AxisState<f64>>, Error>;
 pub(in crate::propagation) struct Ready<'t> {
     /// Its place among the outcomes.
     index: usize,
-    scene: Scene,
+    scene: PrincipalProblem,
     start: f64,
     times: &'t [f64],
     scheme: &'static Scheme,
@@ -37,7 +37,7 @@ impl<'t> Ready<'t> {
         let SampledProblem { problem, start, times, accuracy } = motion;
         let span = (*start, times.last().copied().unwrap_or(*start));
         check_request(span, *accuracy)?;
-        let scene = Scene::of(problem)?;
+        let scene = PrincipalProblem::new(problem)?;
         let Some(SampledForecast { scheme, step, steps }) = sampled_forecast(&scene, *start, times, *accuracy) else {
             return Ok(None);
         };
@@ -162,6 +162,45 @@ fn propagate_side_by_side<R: Register, const N: usize>(
     }
 }
 
+impl<R: Register, const N: usize, const V: usize> Moving<SideBySide<R, N>, V> {
+    /// The states of motions, by their places.
+    #[inline(always)]
+    pub(crate) fn gather<'m>(register: R, state: impl Fn(usize) -> &'m Moving<f64, V>) -> Self {
+        let vector = |v: usize| SideBySide::gather_vector(register, |place| state(place).vectors[v]);
+        Moving::new(core::array::from_fn(vector))
+    }
+
+    /// The state of one motion.
+    #[inline(always)]
+    pub(crate) fn take(&self, place: usize) -> Moving<f64, V> {
+        let of = |v: &[SideBySide<R, N>; 3]| v.each_ref().map(|component| component.get(place));
+        Moving { vectors: self.vectors.each_ref().map(of), low: self.low.each_ref().map(of) }
+    }
+
+    /// Replaces the state of one motion.
+    #[inline(always)]
+    pub(crate) fn put(&mut self, place: usize, state: &Moving<f64, V>) {
+        for v in 0..V {
+            for i in 0..3 {
+                self.vectors[v][i].set(place, state.vectors[v][i]);
+                self.low[v][i].set(place, state.low[v][i]);
+            }
+        }
+    }
+}
+
+impl<R: Register, const N: usize> Field<SideBySide<R, N>> {
+    /// The fields of motions, by their places.
+    #[inline(always)]
+    pub(crate) fn gather<'f>(register: R, field: impl Fn(usize) -> &'f Field<f64>) -> Self {
+        Field {
+            strength: SideBySide::gather(register, |place| field(place).strength),
+            tensor: SideBySide::gather_vector(register, |place| field(place).tensor),
+            torque: SideBySide::gather_vector(register, |place| field(place).torque),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use nalgebra::{Matrix3, Vector3};
@@ -170,7 +209,7 @@ mod tests {
     use super::*;
     use crate::dynamics::{Problem, RigidSpheroid};
     use crate::propagation::splitting::NEAR_INTEGRABLE_6_2;
-    use crate::propagation::splitting::one_motion::OneMotion;
+    use crate::propagation::splitting::double_steps::DoubleSteps;
     use crate::solutions::free::rotated_by;
 
     fn scene(s: [f64; 3], momentum: f64, start: f64, times: &[f64], accuracy: f64) -> SampledProblem<'_> {
@@ -225,11 +264,29 @@ mod tests {
         let angles = angles(scheme, step * of_body.largest_rate);
         let found = states(register, Ready { scheme, step, steps: 256, angles, ..ready });
 
-        let alone = OneMotion::new(scheme, &of_body.field, step, of_body.largest_rate);
+        let alone = DoubleSteps::new(scheme, &of_body.field, step, of_body.largest_rate);
         let mut state = of_body.start;
         alone.open(&mut state);
         alone.advance(&mut state, of_body.casimir, 256);
         alone.close(&mut state);
         assert_eq!(found, [of_body.state(&state)]);
+    }
+
+    #[test]
+    fn the_state_put_in_a_place_is_taken_from_it_again() {
+        let Some(register) = V3::try_new() else { return };
+        let state = |first: f64| Moving::<f64, 3> {
+            vectors: [0.0, 3.0, 6.0].map(|x| [first + x, first + x + 1.0, first + x + 2.0]),
+            low: [0.25, 3.25, 6.25].map(|x| [first + x, first + x + 1.0, first + x + 2.0]),
+        };
+        let other = Moving { low: [[0.0; 3]; 3], ..state(100.0) };
+        let mut states = Moving::<SideBySide<V3, 2>, 3>::gather(register, |_| &other);
+        for place in [2, 7] {
+            states.put(place, &state(10.0 * place as f64));
+        }
+        for place in 0..SideBySide::<V3, 2>::COUNT {
+            let expected = if place == 2 || place == 7 { state(10.0 * place as f64) } else { other };
+            assert_eq!(states.take(place), expected);
+        }
     }
 }

@@ -21,26 +21,23 @@
 mod choice;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod derivatives;
+mod double_steps;
 mod error;
 mod flows;
 #[cfg(target_arch = "x86_64")]
 pub(super) mod lanes;
 mod motion;
-mod one_motion;
-pub(super) mod ring;
 mod scheme;
 mod schemes;
-#[cfg(target_arch = "x86_64")]
-mod side_by_side;
 mod stepper;
 mod stepping;
 #[cfg(target_arch = "x86_64")]
 mod tangents;
 
+pub(crate) use choice::{Goal, TANGENTS_AT_ONCE, require_tangent_maps};
 pub use choice::{
     SplittingForecast, propagate_by_best_splitting, propagate_orientation_by_best_splitting, splitting_forecast,
 };
-pub(crate) use choice::{TANGENTS_AT_ONCE, require_tangent_maps};
 pub use motion::{SPLITTING_STEP_LIMIT, SplittingMotion, propagate_by_splitting, propagate_orientation_by_splitting};
 pub use scheme::{Ends, Scheme};
 pub use schemes::{

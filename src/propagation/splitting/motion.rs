@@ -11,9 +11,9 @@ use crate::lorentz_violation::principal_frame;
 use crate::numerics::rounding::two_product;
 use crate::propagation::input::{check_request, check_time};
 use crate::propagation::splitting::choice::{Goal, SplittingForecast, cheapest};
+use crate::propagation::splitting::double_steps::DoubleSteps;
 use crate::propagation::splitting::error::ErrorEstimate;
 use crate::propagation::splitting::flows::{AXIS, Field, Moving, RATE, dot};
-use crate::propagation::splitting::one_motion::OneMotion;
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::third_angle::{body_state, rate_about_axis};
 use crate::propagation::{ACCURACY_RANGE, Motion};
@@ -24,9 +24,9 @@ pub const SPLITTING_STEP_LIMIT: f64 = 1e10;
 /// Most states that one motion keeps: 100 bytes each.
 const MOST_STATES: u64 = 100_000;
 
-/// The body and its surroundings in the principal frame of `s^IJ`.
+/// A problem in the principal frame of `s^IJ`, with the `V` vectors that the flows move.
 #[derive(Debug, Clone)]
-pub(super) struct Scene<const V: usize = 2> {
+pub(super) struct PrincipalProblem<const V: usize = 2> {
     pub(super) field: Field<f64>,
     /// Of `s^IJ`, in descending order.
     pub(super) eigenvalues: [f64; 3],
@@ -43,22 +43,10 @@ pub(super) struct Scene<const V: usize = 2> {
     pub(super) largest_rate: f64,
 }
 
-impl Scene {
-    /// Of `n` and `L`.
-    pub(super) fn of<X: RotationState<f64>>(problem: &Problem<f64, X>) -> Result<Self, Error> {
-        let [n, l, _] = problem.initial().vectors();
-        Self::new(problem.spheroid(), problem.coefficients(), &[n, l])
-    }
-}
-
-impl<const V: usize> Scene<V> {
-    /// `initial` has `n`, `L` and, with `V = 3`, `e_x`.
-    pub(super) fn new(
-        spheroid: &RigidSpheroid<f64>,
-        s: &Matrix3<f64>,
-        initial: &[Vector3<f64>; V],
-    ) -> Result<Self, Error> {
-        let frame = principal_frame(s)?;
+impl<const V: usize> PrincipalProblem<V> {
+    pub(super) fn new<X: RotationState<f64>>(problem: &Problem<f64, X>) -> Result<Self, Error> {
+        let (spheroid, initial) = (problem.spheroid(), problem.start::<V>());
+        let frame = principal_frame(problem.coefficients())?;
         let turn = frame.principal_from_given;
         let eigenvalues = [frame.coefficients.xx, frame.coefficients.yy, frame.coefficients.zz];
         let inertia = spheroid.inertia_xx;
@@ -103,7 +91,7 @@ impl<const V: usize> Scene<V> {
     }
 }
 
-impl Scene<3> {
+impl PrincipalProblem<3> {
     /// The state of the body at a time since the start.
     pub(super) fn body_state(&self, moving: &Moving<f64, 3>, elapsed: f64) -> BodyState<f64> {
         body_state(self.given(moving), self.rate_about_axis * elapsed)
@@ -144,12 +132,12 @@ pub(super) struct KeptStates<const V: usize> {
     violation: Matrix3<f64>,
     span: (f64, f64),
     pub(super) scheme: &'static Scheme,
-    pub(super) scene: Scene<V>,
+    pub(super) scene: PrincipalProblem<V>,
     pub(super) step: f64,
     pub(super) step_count: u64,
     /// Whole steps between two kept states.
     stride: u64,
-    steps: OneMotion,
+    steps: DoubleSteps,
     /// Open states, every `stride` steps from the start.
     states: Vec<Moving<f64, V>>,
     /// Found when it is first asked for.
@@ -199,25 +187,18 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     }
 
     fn split(&self, span: (f64, f64), steps: Steps) -> Result<SplittingMotion<X>, Error> {
-        let (body, s, [n, l, e_x]) = (self.spheroid(), self.coefficients(), self.initial().vectors());
         let kept = if X::VECTORS == 3 {
-            Kept::Body(KeptStates::new(body, s, &[n, l, e_x], span, steps)?)
+            Kept::Body(KeptStates::new(self, span, steps)?)
         } else {
-            Kept::Axis(KeptStates::new(body, s, &[n, l], span, steps)?)
+            Kept::Axis(KeptStates::new(self, span, steps)?)
         };
         Ok(SplittingMotion { kept, state: PhantomData })
     }
 }
 
 impl<const V: usize> KeptStates<V> {
-    fn new(
-        spheroid: &RigidSpheroid<f64>,
-        s: &Matrix3<f64>,
-        initial: &[Vector3<f64>; V],
-        span: (f64, f64),
-        steps: Steps,
-    ) -> Result<Self, Error> {
-        let scene = Scene::new(spheroid, s, initial)?;
+    fn new<X: RotationState<f64>>(problem: &Problem<f64, X>, span: (f64, f64), steps: Steps) -> Result<Self, Error> {
+        let scene = PrincipalProblem::new(problem)?;
         let (scheme, step) = match steps {
             Steps::Of(scheme, step) => (scheme, step),
             Steps::For { accuracy } => {
@@ -231,7 +212,7 @@ impl<const V: usize> KeptStates<V> {
         Error::ensure(count <= SPLITTING_STEP_LIMIT, "number of steps", count, "at most 1e10")?;
         let (step_count, whole) = (count as u64, duration / count);
         let stride = step_count.div_ceil(MOST_STATES);
-        let steps = OneMotion::new(scheme, &scene.field, whole, scene.largest_rate);
+        let steps = DoubleSteps::new(scheme, &scene.field, whole, scene.largest_rate);
         let mut states = Vec::with_capacity((step_count / stride + 1) as usize);
         let mut state = scene.start;
         steps.open(&mut state);
@@ -239,7 +220,7 @@ impl<const V: usize> KeptStates<V> {
         steps.keep(&mut state, scene.casimir, (stride, step_count / stride), &mut states);
         let end = states.last().map_or(0.0, |state| state.vectors.iter().flatten().sum());
         Error::ensure(end.is_finite(), "step", step, "shorter: with this one the motion leaves the range of numbers")?;
-        let (spheroid, violation, estimate) = (*spheroid, *s, OnceLock::new());
+        let (spheroid, violation, estimate) = (*problem.spheroid(), *problem.coefficients(), OnceLock::new());
         Ok(Self { spheroid, violation, span, scheme, scene, step: whole, step_count, stride, steps, states, estimate })
     }
 
@@ -262,7 +243,7 @@ impl<const V: usize> KeptStates<V> {
         let (time, lost) = two_product(whole as f64, self.step);
         let offset = (elapsed - time) - lost;
         if offset != 0.0 {
-            let partial = OneMotion::new(self.scheme, &self.scene.field, offset, self.scene.largest_rate);
+            let partial = DoubleSteps::new(self.scheme, &self.scene.field, offset, self.scene.largest_rate);
             partial.single(&mut state, self.scene.casimir);
         }
         Ok(state)
@@ -424,7 +405,7 @@ mod tests {
         for (time, whole, rest) in [(0.7, 0, 0.7), (1.0, 0, 1.0), (4.5, 2, 0.5), (7.0, 3, 1.0)] {
             let kept = motion.axis_states();
             let mut state = kept.after(whole);
-            let partial = OneMotion::new(&STRANG, &kept.scene.field, rest, kept.scene.largest_rate);
+            let partial = DoubleSteps::new(&STRANG, &kept.scene.field, rest, kept.scene.largest_rate);
             partial.single(&mut state, kept.scene.casimir);
             let (found, expected) = (motion.axis_state(time).unwrap(), kept.scene.state(&state));
             assert!((found.axis - expected.axis).amax() < 1e-15 && (found.momentum - expected.momentum).amax() < 1e-15);
@@ -441,7 +422,7 @@ mod tests {
         for whole in late {
             let kept = motion.axis_states();
             let mut state = kept.after(whole);
-            let rest = OneMotion::new(&STRANG, &kept.scene.field, lost(whole), kept.scene.largest_rate);
+            let rest = DoubleSteps::new(&STRANG, &kept.scene.field, lost(whole), kept.scene.largest_rate);
             rest.single(&mut state, kept.scene.casimir);
             let found = motion.axis_state(whole as f64 * motion.step()).unwrap();
             assert!((found.axis - kept.scene.state(&state).axis).amax() < 1e-15, "{whole}");

@@ -1,7 +1,7 @@
 //! Steps of a splitting scheme, without allocation.
 
+use crate::numerics::ring::Ring;
 use crate::propagation::splitting::flows::{Angles, Field, Kick, Moved};
-use crate::propagation::splitting::ring::Ring;
 use crate::propagation::splitting::scheme::{Ends, Scheme};
 
 /// Most rotations of a scheme, its ends taken together.

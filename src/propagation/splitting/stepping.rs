@@ -6,9 +6,9 @@ use crate::dynamics::{AxisState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::propagation::ACCURACY_RANGE;
 use crate::propagation::input::check_request;
+use crate::propagation::splitting::double_steps::DoubleSteps;
 use crate::propagation::splitting::flows::Moving;
-use crate::propagation::splitting::motion::Scene;
-use crate::propagation::splitting::one_motion::OneMotion;
+use crate::propagation::splitting::motion::PrincipalProblem;
 use crate::propagation::splitting::scheme::Scheme;
 
 /// A motion of `n` and `L` that keeps its present state only: equal steps of one scheme, without allocation.
@@ -27,8 +27,8 @@ use crate::propagation::splitting::scheme::Scheme;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Splitting {
-    scene: Scene,
-    steps: OneMotion,
+    scene: PrincipalProblem,
+    steps: DoubleSteps,
     /// Open.
     state: Moving<f64>,
 }
@@ -41,8 +41,8 @@ impl Splitting {
     pub fn new<X: RotationState<f64>>(problem: &Problem<f64, X>, scheme: &Scheme, step: f64) -> Result<Self, Error> {
         check_request((0.0, step), ACCURACY_RANGE.0)?;
         Error::ensure(step != 0.0, "step", step, "not zero")?;
-        let scene = Scene::of(problem)?;
-        let steps = OneMotion::new(scheme, &scene.field, step, scene.largest_rate);
+        let scene = PrincipalProblem::new(problem)?;
+        let steps = DoubleSteps::new(scheme, &scene.field, step, scene.largest_rate);
         let mut state = scene.start;
         steps.open(&mut state);
         Ok(Self { scene, steps, state })

@@ -11,8 +11,8 @@
 //! and with `sigma = 2 C s / I^xx` a kick `w -> w + P x n`, `P = A sigma n + B (2 (n.sigma n) sigma n - sigma^2 n)`, moves `dw` by
 //! `dP x n + P x dn`. Body and surroundings enter the motion of `n` and `w` by `sigma` alone.
 
+use crate::numerics::ring::{FusedDouble, Ring};
 use crate::propagation::splitting::flows::{AXIS, Angles, Kick, Moved, Moving, RATE, SINE, Turn, VERSINE};
-use crate::propagation::splitting::ring::{FusedDouble, Ring};
 
 /// Derivatives in several directions, one in each place of `T`.
 #[derive(Clone, Copy)]

@@ -1,7 +1,7 @@
 //! Where a motion is: time and number of steps.
 
 use crate::error::Error;
-use crate::propagation::taylor::compensated::Compensated;
+use crate::numerics::compensated::Compensated;
 
 /// Time since the start of a motion, positive in either direction, and what has been done to get there.
 pub(super) struct Clock {

@@ -199,6 +199,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+    use crate::dynamics::{AxisState, Problem};
     use crate::propagation::taylor::step_size::Work;
 
     /// Half a unit in the last place of the largest change of a direction and of that of the momentum, six times their root of squares, by
@@ -206,11 +207,11 @@ mod tests {
     #[test]
     fn a_step_rounds_its_changes_of_directions_and_of_the_momentum() {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
-        let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        let violation = Matrix3::from_diagonal(&Vector3::new(0.02_f64, 0.01, -0.03));
         let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 2.9)];
-        let setup =
-            ScaledProblem::<f64, 2>::new((true, Work::Latent), &spheroid, &violation, vectors, (0.0, -1.0), 1e-10)
-                .unwrap();
+        let [axis, momentum] = vectors;
+        let problem = Problem::new(spheroid, violation, AxisState { axis, momentum }).unwrap();
+        let setup = ScaledProblem::<_, 2>::new((true, Work::Waiting), &problem, (0.0, -1.0), 1e-10).unwrap();
         let mut errors = TaylorErrors::of(&setup);
         let unit = errors.unit / 1.3;
         let strength = (2.0_f64 * 1.3).sqrt() * (0.8 * violation.norm()).sqrt();

@@ -1,10 +1,10 @@
 //! What a numerical motion will take, from its first step.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::numerics::arithmetic::Plain;
+use crate::numerics::arithmetic::plain;
 use crate::propagation::taylor::error_growth::{ErrorGrowth, READING};
 use crate::propagation::taylor::errors::ROUNDING;
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
@@ -30,11 +30,10 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     /// # Errors
     /// As for [`taylor`](Self::taylor), but for the number of steps.
     pub fn taylor_forecast(&self, duration: f64, accuracy: f64) -> Result<TaylorForecast, Error> {
-        let (body, s, [n, l, e_x]) = (self.spheroid(), self.coefficients(), self.initial().vectors());
         if X::VECTORS == 3 {
-            forecast(body, s, [n, l, e_x], duration, accuracy)
+            forecast::<X, 3>(self, duration, accuracy)
         } else {
-            forecast(body, s, [n, l], duration, accuracy)
+            forecast::<X, 2>(self, duration, accuracy)
         }
     }
 }
@@ -57,15 +56,14 @@ pub fn taylor_forecast(
     }
 }
 
-fn forecast<const V: usize>(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    start: [Vector3<f64>; V],
+fn forecast<X: RotationState<f64>, const V: usize>(
+    problem: &Problem<f64, X>,
     duration: f64,
-    accuracy: f64,
+    tolerance: f64,
 ) -> Result<TaylorForecast, Error> {
-    let setup = ScaledProblem::new(work_of(fused_for::<f64>()), spheroid, s, start, (0.0, duration), accuracy)?;
-    let steps = (duration.abs() / setup.drive().first_step(Plain::new())).ceil().max(1.0);
+    let setup = ScaledProblem::<_, V>::new(work_of(fused_for::<f64>()), problem, (0.0, duration), tolerance)?;
+    let spheroid = problem.spheroid();
+    let steps = (duration.abs() / setup.drive().first_step(plain())).ceil().max(1.0);
     let scale = &setup.scale;
     let pull = 2.0 * (spheroid.constant_c / spheroid.inertia_xx).abs() * setup.frame.violation.norm();
     let strength = if scale.turning_rate > 0.0 { pull / scale.turning_rate.powi(2) } else { 0.0 };
@@ -93,6 +91,8 @@ fn expected_rounding(turn: f64, steps: f64, strength: f64, vectors: usize) -> f6
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
 
     #[test]

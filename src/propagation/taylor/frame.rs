@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
-use crate::numerics::arithmetic::{OneMotion, Stored};
+use crate::numerics::arithmetic::{LoadStore, Padded};
 use crate::numerics::scalar::Real;
 
 /// The tensor `s^IJ` without its isotropic part, in the frame of a series, and the way back.
@@ -52,13 +52,13 @@ impl<S: Real> SeriesFrame<S> {
 
     /// The same, by the instructions of the series.
     #[inline(always)]
-    pub(super) fn turned_to_given<A: OneMotion<Scalar = S>>(&self, a: A, v: A::Vector) -> A::Vector {
+    pub(super) fn turned_to_given<A: LoadStore<Scalar = S>>(&self, a: A, v: A::Vector) -> A::Vector {
         match &self.given_from_series {
             None => v,
             Some(back) => {
                 let column = |i: usize| {
                     let [x, y, z] = [0, 1, 2].map(|row| S::from_f64(back[(row, i)]));
-                    a.load(&Stored([x, y, z, S::zero()]))
+                    a.load(&Padded([x, y, z, S::zero()]))
                 };
                 a.combine(&[column(0), column(1), column(2)], v)
             }

@@ -4,15 +4,20 @@ use nalgebra::Vector3;
 
 use crate::dynamics::AxisState;
 use crate::error::Error;
-use crate::numerics::arithmetic::Arithmetic;
-use crate::numerics::registers::{Lanes, Register};
+use crate::numerics::arithmetic::{Arithmetic, Componentwise};
+use crate::numerics::compensated::CompensatedVectors;
+use crate::numerics::registers::Register;
+use crate::numerics::ring::Ring;
+use crate::numerics::side_by_side::SideBySide;
 use crate::propagation::SampledProblem;
 use crate::propagation::taylor::clock::Clock;
-use crate::propagation::taylor::compensated::CompensatedState;
 use crate::propagation::taylor::samples::{LIMIT, Samples, span_of};
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Recurrence, change};
 use crate::propagation::taylor::step_size::{Work, step_size};
+
+/// A number for each motion in the lanes of one register.
+type Lanes<R> = SideBySide<R, 1>;
 
 type Outcome = Result<Samples<AxisState<f64>>, Error>;
 
@@ -31,9 +36,8 @@ pub(in crate::propagation) fn axis_states_in_lanes<R: Register>(
     let mut outcomes = Vec::with_capacity(scenes.len());
     let mut ready = Vec::with_capacity(scenes.len());
     for (scene, SampledProblem { problem, start, times, accuracy }) in scenes.iter().enumerate() {
-        let (body, s, AxisState { axis, momentum }) = (problem.spheroid(), problem.coefficients(), *problem.initial());
         let setup = span_of(*start, times)
-            .and_then(|span| ScaledProblem::new((true, Work::Quadratic), body, s, [axis, momentum], span, *accuracy));
+            .and_then(|span| ScaledProblem::new((true, Work::Quadratic), problem, span, *accuracy));
         outcomes.push(setup.map(|setup| {
             let samples = Samples::with_room(times.len(), setup.order);
             ready.push(Ready { scene, times, setup });
@@ -45,7 +49,7 @@ pub(in crate::propagation) fn axis_states_in_lanes<R: Register>(
     for alike in ready.chunk_by(|a, b| a.setup.order == b.setup.order) {
         register.run(
             #[inline(always)]
-            || propagate_alike(Lanes(register), alike, &mut outcomes),
+            || propagate_alike(Componentwise(Lanes::splat(register, 0.0)), alike, &mut outcomes),
         );
     }
     outcomes
@@ -59,13 +63,13 @@ struct Lane<'r> {
 
 /// Carries motions of one order through the lanes; a lane whose motion has ended takes the next one.
 #[inline(always)]
-fn propagate_alike<R: Register>(a: Lanes<R>, motions: &[Ready<'_>], outcomes: &mut [Outcome]) {
+fn propagate_alike<R: Register>(a: Componentwise<Lanes<R>>, motions: &[Ready<'_>], outcomes: &mut [Outcome]) {
     let order = motions[0].setup.order;
     let zero = a.zero();
     let (mut axis_rate, mut momentum_rate) = (zero, zero);
-    let mut state = CompensatedState::new(a, [zero; 2]);
+    let mut state = CompensatedVectors::new(a, [zero; 2]);
     let mut series = vec![[zero; 2]; order + 1];
-    let mut recurrence = Recurrence::<Lanes<R>, 2>::new(a, order, zero, zero, [zero; 3]);
+    let mut recurrence = Recurrence::<Componentwise<Lanes<R>>, 2>::new(a, order, zero, zero, [zero; 3]);
     let mut waiting = motions.iter();
     let mut lanes: Vec<Option<Lane>> = (0..R::COUNT).map(|_| None).collect();
     loop {
@@ -74,11 +78,11 @@ fn propagate_alike<R: Register>(a: Lanes<R>, motions: &[Ready<'_>], outcomes: &m
             let Some(ready) = waiting.next() else { break };
             let drive = ready.setup.drive();
             let rates = drive.rates();
-            a.put(&mut axis_rate, place, [rates.axis; 3]);
-            a.put(&mut momentum_rate, place, rates.momentum_of_principal);
+            Lanes::put(&mut axis_rate, place, [rates.axis; 3]);
+            Lanes::put(&mut momentum_rate, place, rates.momentum_of_principal);
             for i in [AXIS, MOMENTUM] {
-                a.put(&mut state.high[i], place, drive.start[i].vector().into());
-                a.put(&mut state.low[i], place, [0.0; 3]);
+                Lanes::put(&mut state.high[i], place, drive.start[i].vector().into());
+                Lanes::put(&mut state.low[i], place, [0.0; 3]);
             }
             *lane = Some(Lane { ready, clock: Clock::new() });
             changed = true;
@@ -90,14 +94,13 @@ fn propagate_alike<R: Register>(a: Lanes<R>, motions: &[Ready<'_>], outcomes: &m
             recurrence.set_rates(axis_rate, momentum_rate);
         }
         recurrence.expand(&state.high, &mut series);
-        let largest = |k: usize| [a.largest(series[k][AXIS]), a.largest(series[k][MOMENTUM])];
+        let largest = |k: usize| series[k].map(|[x, y, z]| x.larger(y).larger(z));
         let sizes = [largest(order), largest(order - 1)];
         let mut h = zero;
         for (place, lane) in lanes.iter_mut().enumerate() {
             let Some(Lane { ready, clock }) = lane else { continue };
             let (setup, drive) = (&ready.setup, ready.setup.drive());
-            let sizes = sizes
-                .map(|[axis, momentum]| setup.scale.size_of_both(a.0.get(&axis, place), a.0.get(&momentum, place)));
+            let sizes = sizes.map(|[axis, momentum]| setup.scale.size_of_both(axis.get(place), momentum.get(place)));
             let wanted = step_size(sizes, order, &setup.scale, drive.budget);
             let step = match clock.advance(wanted, drive.duration, LIMIT) {
                 Ok(step) => step,
@@ -111,9 +114,9 @@ fn propagate_alike<R: Register>(a: Lanes<R>, motions: &[Ready<'_>], outcomes: &m
                 samples.step_count = clock.steps;
                 samples.take(setup, ready.times, &step, |t| {
                     let h = setup.series_time(&step.start, t);
-                    let change = change(a, order, |k| series[k], [a.0.splat(h); 3]);
+                    let change = change(a, order, |k| series[k], [a.0.like(h); 3]);
                     let [axis, momentum] = [AXIS, MOMENTUM].map(|i| {
-                        setup.frame.turned_back(&Vector3::from(a.take(&a.add(series[0][i], change[i]), place)))
+                        setup.frame.turned_back(&Vector3::from(Lanes::take(&a.add(series[0][i], change[i]), place)))
                     });
                     AxisState { axis, momentum }
                 });
@@ -121,7 +124,7 @@ fn propagate_alike<R: Register>(a: Lanes<R>, motions: &[Ready<'_>], outcomes: &m
             if step.is_last() {
                 *lane = None;
             } else {
-                a.put(&mut h, place, [step.length * drive.direction / setup.scale.time; 3]);
+                Lanes::put(&mut h, place, [step.length * drive.direction / setup.scale.time; 3]);
             }
         }
         state.add(a, &change(a, order, |k| series[k], h));

@@ -147,6 +147,7 @@ mod tests {
     use num_dual::Dual64;
 
     use super::*;
+    use crate::dynamics::{AxisState, Problem};
     use crate::propagation::taylor::scaled_problem::ScaledProblem;
     use crate::propagation::taylor::step_size::Work;
 
@@ -154,9 +155,9 @@ mod tests {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
         let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
         let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 1.0)];
-        let setup =
-            ScaledProblem::<f64, 2>::new((true, Work::Quadratic), &spheroid, &violation, vectors, (0.0, 1.0), 1e-10)
-                .unwrap();
+        let [axis, momentum] = vectors;
+        let problem = Problem::unchecked(spheroid, violation, AxisState { axis, momentum });
+        let setup = ScaledProblem::<f64, 2>::new((true, Work::Quadratic), &problem, (0.0, 1.0), 1e-10).unwrap();
         LinearisedFlow::new(&spheroid, &violation, 1.0, SharedRounding::of(&setup).0)
     }
 

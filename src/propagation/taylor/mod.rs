@@ -1,7 +1,6 @@
 //! Numerical motion by Taylor series with adaptive steps and dense output.
 
 mod clock;
-mod compensated;
 mod error_growth;
 mod errors;
 mod forecast;
@@ -18,7 +17,7 @@ mod shared_rounding;
 mod step_size;
 mod stepper;
 
-use core::any::{Any, TypeId};
+use core::any::TypeId;
 use core::marker::PhantomData;
 use std::sync::OnceLock;
 
@@ -26,17 +25,17 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::numerics::arithmetic::{OneMotion, Plain, Stored};
+use crate::numerics::arithmetic::{LoadStore, Padded, plain};
+use crate::numerics::compensated::Compensated;
 use crate::numerics::fused::{Fused, detect_fused, run_fused};
-use crate::numerics::scalar::Real;
-use crate::propagation::{Motion, Projection};
+use crate::numerics::scalar::{Real, cast, cast_ref};
+use crate::propagation::Motion;
 use clock::StepLimit;
-use compensated::Compensated;
 use errors::{StepError, TaylorErrors};
 pub use forecast::{TaylorForecast, taylor_forecast};
 #[cfg(target_arch = "x86_64")]
 pub(super) use lanes::axis_states_in_lanes;
-use projection::SeriesProjection;
+pub use projection::SeriesProjection;
 #[cfg(target_arch = "x86_64")]
 pub(super) use samples::span_of;
 pub use samples::{ErrorEstimates, Samples, axis_states_at, states_at};
@@ -99,14 +98,24 @@ struct Steps<S, const V: usize> {
     /// Start of each step: time since the start of the motion, positive in either direction.
     starts: Vec<Compensated>,
     /// Those of each step, and places for more.
-    coefficients: Vec<Vectors<Stored<S>, V>>,
+    coefficients: Vec<Vectors<Padded<S>, V>>,
     /// Coefficients of one step, `order + 1`.
     length: usize,
 }
 
+/// By a loop rather than `map`, which is not always inlined and then leaves the instructions of `a`.
+#[inline(always)]
+fn stored<A: LoadStore, const V: usize>(a: A, vectors: &Vectors<A::Vector, V>) -> Vectors<Padded<A::Scalar>, V> {
+    let mut stored = [Padded::zero(); V];
+    for i in 0..V {
+        stored[i] = a.store(vectors[i]);
+    }
+    stored
+}
+
 impl<S: Real, const V: usize> Steps<S, V> {
     #[inline(always)]
-    fn kept<A: OneMotion<Scalar = S>>(setup: &ScaledProblem<S, V>, a: A) -> Result<Self, Error> {
+    fn kept<A: LoadStore<Scalar = S>>(setup: &ScaledProblem<S, V>, a: A) -> Result<Self, Error> {
         let mut steps = Self { starts: Vec::new(), coefficients: Vec::new(), length: setup.order + 1 };
         setup.drive().run(a, LIMIT, |step, series| {
             if let [_] = steps.starts.as_slice() {
@@ -120,31 +129,26 @@ impl<S: Real, const V: usize> Steps<S, V> {
     }
 
     #[inline(always)]
-    fn keep<A: OneMotion<Scalar = S>>(&mut self, a: A, start: Compensated, series: &[Vectors<A::Vector, V>]) {
-        // Loops rather than `map`, which is not always inlined and then leaves the instructions of `a`.
-        let stored = |vectors: &Vectors<A::Vector, V>| {
-            let mut stored = [Stored::zero(); V];
-            for i in 0..V {
-                stored[i] = a.store(vectors[i]);
-            }
-            stored
-        };
+    fn keep<A: LoadStore<Scalar = S>>(&mut self, a: A, start: Compensated, series: &[Vectors<A::Vector, V>]) {
         let from = self.starts.len() * series.len();
         self.starts.push(start);
         match self.coefficients.get_mut(from..from + series.len()) {
             Some(place) => {
                 for (place, vectors) in place.iter_mut().zip(series) {
-                    *place = stored(vectors);
+                    *place = stored(a, vectors);
                 }
             }
-            None => self.coefficients.extend(series.iter().map(stored)),
+            None => self.coefficients.extend(series.iter().map(
+                #[inline(always)]
+                |vectors| stored(a, vectors),
+            )),
         }
     }
 
     /// None, with places for `count`.
     fn with_places(count: usize, order: usize) -> Self {
         let length = order + 1;
-        Self { starts: Vec::with_capacity(count), coefficients: vec![[Stored::zero(); V]; count * length], length }
+        Self { starts: Vec::with_capacity(count), coefficients: vec![[Padded::zero(); V]; count * length], length }
     }
 
     /// Forgets the steps, and keeps the places.
@@ -157,7 +161,7 @@ impl<S: Real, const V: usize> Steps<S, V> {
     }
 
     /// The coefficients of one step.
-    fn series(&self, step: usize) -> &[Vectors<Stored<S>, V>] {
+    fn series(&self, step: usize) -> &[Vectors<Padded<S>, V>] {
         &self.coefficients[step * self.length..][..self.length]
     }
 
@@ -170,7 +174,7 @@ impl<S: Real, const V: usize> Steps<S, V> {
 
     /// The vectors at the time `t` by the series of one step, in the given frame.
     #[inline(always)]
-    fn sum<A: OneMotion<Scalar = S>>(&self, setup: &ScaledProblem<S, V>, a: A, step: usize, t: S) -> [Stored<S>; V] {
+    fn sum<A: LoadStore<Scalar = S>>(&self, setup: &ScaledProblem<S, V>, a: A, step: usize, t: S) -> [Padded<S>; V] {
         let series = self.series(step);
         setup.sum(a, |k| series[k].each_ref().map(|v| a.load(v)), &self.starts[step], t)
     }
@@ -215,31 +219,23 @@ fn fused_for<S: Real>() -> Option<Fused> {
 
 /// Whether the series is computed in the principal frame, and how its work grows, by those instructions or without.
 fn work_of(fused: Option<Fused>) -> (bool, Work) {
-    if fused.is_some() { (true, Work::Latent) } else { (false, Work::Quadratic) }
+    if fused.is_some() { (true, Work::Waiting) } else { (false, Work::Quadratic) }
 }
 
 impl<S: Real, const V: usize> KeptSeries<S, V> {
-    fn new(
-        spheroid: &RigidSpheroid<S>,
-        s: &Matrix3<S>,
-        start: [Vector3<S>; V],
-        span: (f64, f64),
-        accuracy: f64,
-    ) -> Result<Self, Error> {
+    fn new<X: RotationState<S>>(problem: &Problem<S, X>, span: (f64, f64), tolerance: f64) -> Result<Self, Error> {
         if let Some(fused) = fused_for::<S>() {
-            let (spheroid, s, start) = (spheroid.map(S::re), s.map(S::re), start.map(|v| v.map(S::re)));
-            let setup = ScaledProblem::new((true, Work::Latent), &spheroid, &s, start, span, accuracy)?;
+            let setup = ScaledProblem::<_, V>::new(work_of(Some(fused)), &problem.map(S::re), span, tolerance)?;
             let steps = run_fused(
                 fused,
                 #[inline(always)]
                 || Steps::kept(&setup, fused),
             )?;
-            let motion: Box<dyn Any> =
-                Box::new(KeptSeries { setup, fused: Some(fused), steps, errors: OnceLock::new() });
-            return Ok(*motion.downcast().expect("the scalar is f64"));
+            let motion = KeptSeries { setup, fused: Some(fused), steps, errors: OnceLock::new() };
+            return Ok(cast(motion).expect("the scalar is f64"));
         }
-        let setup = ScaledProblem::new((false, Work::Quadratic), spheroid, s, start, span, accuracy)?;
-        let steps = Steps::kept(&setup, Plain::new())?;
+        let setup = ScaledProblem::new(work_of(None), problem, span, tolerance)?;
+        let steps = Steps::kept(&setup, plain())?;
         Ok(Self { setup, fused: None, steps, errors: OnceLock::new() })
     }
 
@@ -253,7 +249,7 @@ impl<S: Real, const V: usize> KeptSeries<S, V> {
     #[inline(always)]
     fn at(&self, t: S) -> Result<[Vector3<S>; V], Error> {
         let (index, _) = self.step_at(t.re())?;
-        if let (Some(fused), Some(motion)) = (self.fused, (self as &dyn Any).downcast_ref::<KeptSeries<f64, V>>()) {
+        if let (Some(fused), Some(motion)) = (self.fused, cast_ref::<_, KeptSeries<f64, V>>(self)) {
             let vectors = run_fused(
                 fused,
                 #[inline(always)]
@@ -261,7 +257,7 @@ impl<S: Real, const V: usize> KeptSeries<S, V> {
             );
             return Ok(vectors.map(|v| v.vector().map(S::from_f64)));
         }
-        Ok(self.steps.sum(&self.setup, Plain::new(), index, t).map(|v| v.vector()))
+        Ok(self.steps.sum(&self.setup, plain(), index, t).map(|v| v.vector()))
     }
 
     /// Length of one step, positive in either direction.
@@ -305,11 +301,10 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
     /// # Errors
     /// [`Error::Domain`] for an accuracy out of range, a span that is not finite, and one that needs more than [`STEP_LIMIT`] steps.
     pub fn taylor(&self, span: (f64, f64), accuracy: f64) -> Result<TaylorMotion<S, X>, Error> {
-        let (body, s, [n, l, e_x]) = (self.spheroid(), self.coefficients(), self.initial().vectors());
         let kept = if X::VECTORS == 3 {
-            Kept::Body(KeptSeries::new(body, s, [n, l, e_x], span, accuracy)?)
+            Kept::Body(KeptSeries::new(self, span, accuracy)?)
         } else {
-            Kept::Axis(KeptSeries::new(body, s, [n, l], span, accuracy)?)
+            Kept::Axis(KeptSeries::new(self, span, accuracy)?)
         };
         Ok(TaylorMotion { kept, state: PhantomData })
     }
@@ -324,13 +319,6 @@ impl<S: Real, X: RotationState<S>> TaylorMotion<S, X> {
     /// Order of the series.
     pub fn order(&self) -> usize {
         of_either!(self, series => series.setup.order)
-    }
-
-    /// For doubles, on a processor with vector instructions.
-    fn series_projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
-        let Kept::Body(series) = &self.kept else { return None };
-        let KeptSeries { setup, steps, fused, .. } = (series as &dyn Any).downcast_ref::<KeptSeries<f64, 3>>()?;
-        Some(SeriesProjection::new(setup, steps, (*fused)?, in_body, direction))
     }
 }
 
@@ -379,8 +367,11 @@ impl<S: Real, X: RotationState<S>> Motion<S> for TaylorMotion<S, X> {
         of_either!(self, series => series.error_estimate(t))
     }
 
-    fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<Box<dyn Projection + '_>> {
-        Some(Box::new(self.series_projection(in_body, direction)?))
+    /// For doubles, on a processor with vector instructions.
+    fn projection(&self, in_body: &Vector3<f64>, direction: &Vector3<f64>) -> Option<SeriesProjection<'_>> {
+        let Kept::Body(series) = &self.kept else { return None };
+        let KeptSeries { setup, steps, fused, .. } = cast_ref::<_, KeptSeries<f64, 3>>(series)?;
+        Some(SeriesProjection::new(setup, steps, (*fused)?, in_body, direction))
     }
 }
 
@@ -434,7 +425,7 @@ mod tests {
     fn without_vector_instructions_the_frame_is_the_given_one() {
         assert_eq!(work_of(None), (false, Work::Quadratic));
         if let Some(fused) = detect_fused() {
-            assert_eq!(work_of(Some(fused)), (true, Work::Latent));
+            assert_eq!(work_of(Some(fused)), (true, Work::Waiting));
         }
     }
 

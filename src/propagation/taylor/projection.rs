@@ -5,30 +5,30 @@ use core::cell::Cell;
 use nalgebra::Vector3;
 
 use crate::error::Error;
-use crate::numerics::arithmetic::{OneMotion, Stored};
+use crate::numerics::arithmetic::{LoadStore, Padded};
 use crate::numerics::fused::{Fused, run_fused};
-use crate::propagation::Projection;
 use crate::propagation::taylor::Steps;
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
 use crate::propagation::taylor::series::{AXIS, COMPANION, MOMENTUM, change};
 
-/// A projection of a motion that is kept as Taylor series in doubles.
+/// `m.o` of a vector `m` fixed in the body and a fixed direction `o`, with its time derivatives, at any time of a motion that is kept as
+/// Taylor series in doubles: [`Motion::projection`](crate::propagation::Motion::projection).
 ///
 /// The same numbers as those from the states, to rounding, for less work: `o` is turned into the frame of the series once, instead
 /// of every state out of it. The same time gives the same digits, whatever was asked for before.
 #[derive(Debug, Clone)]
-pub(crate) struct SeriesProjection<'a> {
+pub struct SeriesProjection<'a> {
     setup: &'a ScaledProblem<f64, 3>,
     steps: &'a Steps<f64, 3>,
     fused: Fused,
     /// `o` in the frame of the series.
-    direction: Stored<f64>,
+    direction: Padded<f64>,
     /// `m` in the body.
     in_body: Vector3<f64>,
     /// `1 / I^xx`.
     axis_rate: f64,
     /// `2 C (s^YY - s^ZZ, s^ZZ - s^XX, s^XX - s^YY) / I^xx` in the frame of the series, which is principal.
-    pull: Stored<f64>,
+    pull: Padded<f64>,
     /// The step that was asked for last: the next is often the same or one near by.
     step: Cell<usize>,
     /// Whole radians that the body has turned about `n` against the vector carried by the series, and the components of `m` along that
@@ -51,13 +51,36 @@ impl<'a> SeriesProjection<'a> {
             setup,
             steps,
             fused,
-            direction: Stored::from(setup.frame.series_from_given(direction)),
+            direction: Padded::from(setup.frame.series_from_given(direction)),
             in_body: *in_body,
             axis_rate,
-            pull: Stored::from(Vector3::from(rates.momentum_of_principal) * (axis_rate / unit)),
+            pull: Padded::from(Vector3::from(rates.momentum_of_principal) * (axis_rate / unit)),
             step: Cell::new(0),
             turned: Cell::new((0.0, [in_body.x, in_body.y])),
         }
+    }
+
+    /// `m.o` and its first three time derivatives at the time `t`.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a time outside the span of the motion.
+    pub fn at(&self, t: f64) -> Result<[f64; 4], Error> {
+        let step = self.step_near(t)?;
+        self.step.set(step);
+        Ok(run_fused(
+            self.fused,
+            #[inline(always)]
+            || self.by_step(self.fused, step, t),
+        ))
+    }
+
+    /// The time in `(after, t]` at which it takes least work, the latest at which a series starts, if that is not `t`.
+    pub fn cheapest_time(&self, after: f64, t: f64) -> Option<f64> {
+        let step = self.step_near(t).ok()?;
+        let direction = self.setup.direction();
+        let start = self.steps.starts.get(if direction > 0.0 { step } else { step + 1 })?;
+        let time = self.setup.span.0 + start.high * direction;
+        (after < time && time <= t).then_some(time)
     }
 
     fn step_near(&self, t: f64) -> Result<usize, Error> {
@@ -100,7 +123,7 @@ impl<'a> SeriesProjection<'a> {
     ///
     /// They need not wait for `m`, as the derivatives of `m` would.
     #[inline(always)]
-    fn by_step<A: OneMotion<Scalar = f64>>(&self, a: A, step: usize, t: f64) -> [f64; 4] {
+    fn by_step<A: LoadStore<Scalar = f64>>(&self, a: A, step: usize, t: f64) -> [f64; 4] {
         let setup = self.setup;
         let [along_companion, across] = self.about_axis(t);
         let series = self.steps.series(step);
@@ -126,27 +149,27 @@ impl<'a> SeriesProjection<'a> {
         let cross = |u, v| cross(a, u, v);
         let (pull, about) = (a.load(&self.pull), a.splat(setup.rate_about_axis));
         // What turns n: L / I^xx, and its derivatives.
-        let n = a.turned(axis);
+        let n = a.permuted(axis);
         let w = a.mul(momentum, a.splat(self.axis_rate));
-        let wt = a.turned(w);
+        let wt = a.permuted(w);
         let axis_1 = cross(wt, n);
-        let n_1 = a.turned(axis_1);
+        let n_1 = a.permuted(axis_1);
         let w_1 = a.mul(pull, a.mul(a.yzx(n), a.zxy(n)));
-        let axis_2 = a.add(cross(a.turned(w_1), n), cross(wt, n_1));
+        let axis_2 = a.add(cross(a.permuted(w_1), n), cross(wt, n_1));
         let w_2 = a.mul(pull, a.mul_add(a.yzx(n_1), a.zxy(n), a.mul(a.yzx(n), a.zxy(n_1))));
-        let omega = a.turned(a.mul_add(about, axis, w));
-        let omega_1 = a.turned(a.mul_add(about, axis_1, w_1));
-        let omega_2 = a.turned(a.mul_add(about, axis_2, w_2));
+        let omega = a.permuted(a.mul_add(about, axis, w));
+        let omega_1 = a.permuted(a.mul_add(about, axis_1, w_1));
+        let omega_2 = a.permuted(a.mul_add(about, axis_2, w_2));
 
         let direction = a.load(&self.direction);
-        let o = a.turned(direction);
+        let o = a.permuted(direction);
         let o_1 = cross(o, omega_1);
         let a_1 = cross(o, omega);
-        let a_1t = a.turned(a_1);
+        let a_1t = a.permuted(a_1);
         let a_2 = a.add(o_1, cross(a_1t, omega));
-        let a_3 = a.add(cross(o, omega_2), a.add(cross(a.turned(a.add(o_1, a_2)), omega), cross(a_1t, omega_1)));
+        let a_3 = a.add(cross(o, omega_2), a.add(cross(a.permuted(a.add(o_1, a_2)), omega), cross(a_1t, omega_1)));
 
-        let third = cross(n, a.turned(companion));
+        let third = cross(n, a.permuted(companion));
         let m = a.mul_add(
             axis,
             a.splat(self.in_body.z),
@@ -157,35 +180,14 @@ impl<'a> SeriesProjection<'a> {
 }
 
 #[inline(always)]
-fn cross<A: OneMotion>(a: A, u: A::Turned, v: A::Turned) -> A::Vector {
+fn cross<A: LoadStore>(a: A, u: A::Permuted, v: A::Permuted) -> A::Vector {
     a.sub(a.mul(a.yzx(u), a.zxy(v)), a.mul(a.zxy(u), a.yzx(v)))
 }
 
 #[inline(always)]
-fn dot<A: OneMotion<Scalar = f64>>(a: A, u: A::Vector, v: A::Vector) -> f64 {
-    let Stored([x, y, z, _]) = a.store(a.mul(u, v));
+fn dot<A: LoadStore<Scalar = f64>>(a: A, u: A::Vector, v: A::Vector) -> f64 {
+    let Padded([x, y, z, _]) = a.store(a.mul(u, v));
     x + y + z
-}
-
-impl Projection for SeriesProjection<'_> {
-    fn at(&self, t: f64) -> Result<[f64; 4], Error> {
-        let step = self.step_near(t)?;
-        self.step.set(step);
-        Ok(run_fused(
-            self.fused,
-            #[inline(always)]
-            || self.by_step(self.fused, step, t),
-        ))
-    }
-
-    /// The latest time at which a series starts.
-    fn cheapest_time(&self, after: f64, t: f64) -> Option<f64> {
-        let step = self.step_near(t).ok()?;
-        let direction = self.setup.direction();
-        let start = self.steps.starts.get(if direction > 0.0 { step } else { step + 1 })?;
-        let time = self.setup.span.0 + start.high * direction;
-        (after < time && time <= t).then_some(time)
-    }
 }
 
 #[cfg(test)]
@@ -194,7 +196,7 @@ mod tests {
 
     use crate::dynamics::{BodyState, Problem, RigidSpheroid};
     use crate::observables::pulsar::Beam;
-    use crate::propagation::{Motion, Projection};
+    use crate::propagation::Motion;
     use nalgebra::Vector3;
 
     /// The derivatives of the series against those of the equations of motion, forwards and backwards, however the times are asked for.
@@ -208,7 +210,7 @@ mod tests {
         for span in [(2.0, 45.0), (2.0, -41.0)] {
             let motion = Problem::new(spheroid, violation, start).unwrap().taylor(span, 1e-15).unwrap();
             for beam in [Beam::new(0.7, 0.9, 0.2), Beam::new(2.9, -2.0, 0.4), Beam::new(0.0, 0.0, 0.4)] {
-                let Some(projection) = motion.series_projection(&beam.axis, &n) else { return };
+                let Some(projection) = motion.projection(&beam.axis, &n) else { return };
                 for (ahead, back) in [(0.0, 0.0), (0.37, 0.0), (1.1, -0.9), (13.3, -12.0)] {
                     let mut share: f64 = 0.0;
                     while share <= 43.0 {
@@ -262,7 +264,7 @@ mod tests {
         for angle in [0.49999, -0.49999, 0.31, 1.2, 0.8, -1.3, 2.49] {
             for (x, y) in [(1.0, 0.0), (0.0, 1.0)] {
                 let in_body = Vector3::new(x, y, 0.3);
-                let Some(projection) = motion.series_projection(&in_body, &Vector3::z()) else { return };
+                let Some(projection) = motion.projection(&in_body, &Vector3::z()) else { return };
                 let t = angle / projection.setup.rate_about_axis;
                 let (sin, cos) = (projection.setup.rate_about_axis * t).sin_cos();
                 let exact = [x * cos - y * sin, x * sin + y * cos];
@@ -280,7 +282,7 @@ mod tests {
         let motion = tumbling((0.0, 8.0));
         let beam = Beam::new(0.7, 0.9, 0.2);
         let n = Vector3::new(0.36, 0.48, 0.8);
-        let Some(projection) = motion.series_projection(&beam.axis, &n) else { return };
+        let Some(projection) = motion.projection(&beam.axis, &n) else { return };
         let start = projection.steps.starts[2].high;
         for h in [0.0, 3e-10, 8e-10, 1.2e-9, 3e-7, 8e-7] {
             let t = start + h * projection.setup.scale.time;

@@ -4,14 +4,13 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::numerics::arithmetic::{OneMotion, Plain};
+use crate::numerics::arithmetic::{LoadStore, plain};
 use crate::numerics::fused::run_fused;
 use crate::numerics::scalar::{Real, Scalar};
 use crate::propagation::taylor::clock::{Interval, StepLimit};
 use crate::propagation::taylor::errors::{StepError, TaylorErrors};
-use crate::propagation::taylor::fused_for;
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
-use crate::propagation::taylor::step_size::Work;
+use crate::propagation::taylor::{fused_for, work_of};
 use crate::propagation::third_angle::{body_state, rate_about_axis};
 
 /// An hour or so.
@@ -56,15 +55,14 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
         accuracy: f64,
         estimates: ErrorEstimates,
     ) -> Result<Samples<X>, Error> {
-        let (body, s, [n, l, e_x]) = (self.spheroid(), self.coefficients(), self.initial().vectors());
-        let asked = (accuracy, estimates);
         if X::VECTORS == 3 {
-            let rate = rate_about_axis(body, &n, &l);
+            let AxisState { axis, momentum } = self.initial().axis_state();
+            let rate = rate_about_axis(self.spheroid(), &axis, &momentum);
             let state = |vectors, t| X::from_vectors(body_state(vectors, rate * (t - S::from_f64(start))).vectors());
-            sampled(body, s, [n, l, e_x], start, times, asked, state)
+            sampled(self, start, times, (accuracy, estimates), state)
         } else {
             let state = |[n, l]: [Vector3<S>; 2], _| X::from_vectors([n, l, Vector3::zeros()]);
-            sampled(body, s, [n, l], start, times, asked, state)
+            sampled(self, start, times, (accuracy, estimates), state)
         }
     }
 }
@@ -111,20 +109,16 @@ pub(in crate::propagation) fn span_of(start: f64, times: &[f64]) -> Result<(f64,
     Ok((start, last))
 }
 
-fn sampled<S: Real, T, const V: usize>(
-    spheroid: &RigidSpheroid<S>,
-    s: &Matrix3<S>,
-    vectors: [Vector3<S>; V],
+fn sampled<S: Real, X: RotationState<S>, T, const V: usize>(
+    problem: &Problem<S, X>,
     start: f64,
     times: &[f64],
-    (accuracy, estimates): (f64, ErrorEstimates),
+    (tolerance, estimates): (f64, ErrorEstimates),
     state: impl Fn([Vector3<S>; V], S) -> T,
 ) -> Result<Samples<T>, Error> {
     let span = span_of(start, times)?;
     if let Some(fused) = fused_for::<S>() {
-        let (spheroid, s) = (spheroid.map(S::re), s.map(S::re));
-        let real =
-            ScaledProblem::new((true, Work::Latent), &spheroid, &s, vectors.map(|v| v.map(S::re)), span, accuracy)?;
+        let real = ScaledProblem::<_, V>::new(work_of(Some(fused)), &problem.map(S::re), span, tolerance)?;
         let samples = run_fused(
             fused,
             #[inline(always)]
@@ -134,13 +128,13 @@ fn sampled<S: Real, T, const V: usize>(
         let given = |(vectors, t): ([Vector3<f64>; V], f64)| state(vectors.map(|v| v.map(S::from_f64)), S::from_f64(t));
         return Ok(Samples { states: states.into_iter().map(given).collect(), error_estimates, step_count, order });
     }
-    let setup = ScaledProblem::new((false, Work::Quadratic), spheroid, s, vectors, span, accuracy)?;
-    visited(&setup, Plain::new(), times, estimates, state)
+    let setup = ScaledProblem::new(work_of(None), problem, span, tolerance)?;
+    visited(&setup, plain(), times, estimates, state)
 }
 
 /// Evaluates each step at the times within it.
 #[inline(always)]
-fn visited<A: OneMotion, T, const V: usize>(
+fn visited<A: LoadStore, T, const V: usize>(
     setup: &ScaledProblem<A::Scalar, V>,
     a: A,
     times: &[f64],

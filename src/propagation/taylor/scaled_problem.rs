@@ -2,13 +2,13 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
-use crate::numerics::arithmetic::{OneMotion, Stored};
+use crate::numerics::arithmetic::{LoadStore, Padded};
+use crate::numerics::compensated::Compensated;
 use crate::numerics::rounding::two_sum;
 use crate::numerics::scalar::Real;
 use crate::propagation::input::{check_request, check_time};
-use crate::propagation::taylor::compensated::Compensated;
 use crate::propagation::taylor::frame::SeriesFrame;
 use crate::propagation::taylor::series::{AXIS, MOMENTUM, Vectors, change};
 use crate::propagation::taylor::step_size::{Scale, Work, order_for};
@@ -27,22 +27,21 @@ pub(super) struct ScaledProblem<S, const V: usize> {
     pub(super) frame: SeriesFrame<S>,
     pub(super) given_start: [Vector3<S>; V],
     /// In the frame of the series.
-    pub(super) start: Vectors<Stored<S>, V>,
+    pub(super) start: Vectors<Padded<S>, V>,
     /// Rate at which `e_x` turns about `n` against the vector carried along.
     pub(super) rate_about_axis: S,
 }
 
 impl<S: Real, const V: usize> ScaledProblem<S, V> {
     /// `principal_frame` says whether the series is computed in that of `s`.
-    pub(super) fn new(
+    pub(super) fn new<X: RotationState<S>>(
         (principal_frame, work): (bool, Work),
-        spheroid: &RigidSpheroid<S>,
-        s: &Matrix3<S>,
-        start: [Vector3<S>; V],
+        problem: &Problem<S, X>,
         span: (f64, f64),
-        accuracy: f64,
+        tolerance: f64,
     ) -> Result<Self, Error> {
-        check_request(span, accuracy)?;
+        check_request(span, tolerance)?;
+        let (spheroid, s, start) = (problem.spheroid(), problem.coefficients(), problem.start::<V>());
         let duration = (span.1 - span.0).abs();
         // An isotropic part of s^IJ exerts no torque; left in, its rounding would.
         let anisotropic = s - Matrix3::from_diagonal_element(s.trace() / 3.0);
@@ -54,14 +53,14 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
             "within the range of doubles with the squares of L and s^IJ: choose other units",
         )?;
         // An error made at one time turns into a phase error that grows with the rotation: the budget per unit of time is
-        // what is left of the accuracy after that growth over half of the span on average.
+        // what is left of the tolerance after that growth over half of the span on average.
         let growth = 1.0 + scale.turning_rate * duration / 2.0;
-        let budget = if duration > 0.0 { (accuracy / (duration * growth)).min(f64::MAX) } else { accuracy };
+        let budget = if duration > 0.0 { (tolerance / (duration * growth)).min(f64::MAX) } else { tolerance };
         let order = order_for(budget / scale.turning_rate.max(f64::MIN_POSITIVE), work);
         let frame = SeriesFrame::of(&anisotropic, principal_frame)?;
         let rate_about_axis = rate_about_axis(spheroid, &start[AXIS], &start[MOMENTUM]);
         let given_start = start;
-        let start = start.map(|v| Stored::from(frame.series_from_given(&v)));
+        let start = start.map(|v| Padded::from(frame.series_from_given(&v)));
         let (spheroid, violation) = (*spheroid, *s);
         Ok(Self { spheroid, violation, span, scale, order, budget, frame, given_start, start, rate_about_axis })
     }
@@ -113,16 +112,16 @@ impl<S: Real, const V: usize> ScaledProblem<S, V> {
 
     /// The vectors, in the given frame, at the time `t` by the series of a step.
     #[inline(always)]
-    pub(super) fn sum<A: OneMotion<Scalar = S>>(
+    pub(super) fn sum<A: LoadStore<Scalar = S>>(
         &self,
         a: A,
         coefficient: impl Fn(usize) -> Vectors<A::Vector, V>,
         start: &Compensated,
         t: S,
-    ) -> [Stored<S>; V] {
+    ) -> [Padded<S>; V] {
         let first = coefficient(0);
         let change = change(a, self.order, coefficient, a.splat(self.series_time(start, t)));
-        let mut vectors = [Stored::zero(); V];
+        let mut vectors = [Padded::zero(); V];
         for i in 0..V {
             let v = a.add(first[i], change[i]);
             vectors[i] = a.store(self.frame.turned_to_given(a, v));
@@ -141,16 +140,18 @@ impl<S: Real> ScaledProblem<S, 3> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::AxisState;
 
     /// `3 - (1 + u)` is exact, `3 + (1 + u)` loses the unit `u` in the last place of one.
     #[test]
     fn what_rounding_takes_from_the_time_since_the_start_is_an_error_at_the_turning_rate() {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
         let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
-        let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 2.9)];
+        let state = AxisState { axis: Vector3::z(), momentum: Vector3::new(0.1, 0.2, 2.9) };
+        let problem = Problem::new(spheroid, violation, state).unwrap();
         let (one, lost) = (1.0 + f64::EPSILON, f64::EPSILON);
         for (span, t, lost) in [((one, 5.0), 3.0, 0.0), ((-one, 5.0), 3.0, lost), ((one, -5.0), -3.0, lost)] {
-            let setup = ScaledProblem::new((true, Work::Latent), &spheroid, &violation, vectors, span, 1e-9).unwrap();
+            let setup = ScaledProblem::<_, 2>::new((true, Work::Waiting), &problem, span, 1e-9).unwrap();
             assert!(setup.scale.turning_rate > 2.0);
             assert_eq!(setup.error_of_time(t), lost * setup.scale.turning_rate);
         }

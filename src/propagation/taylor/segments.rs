@@ -2,15 +2,13 @@
 
 use nalgebra::Vector3;
 
-use crate::dynamics::{BodyState, Problem, RotationState};
+use crate::dynamics::{BodyState, Problem};
 use crate::error::Error;
 use crate::numerics::fused::run_fused;
-use crate::propagation::Projection;
 use crate::propagation::taylor::projection::SeriesProjection;
 use crate::propagation::taylor::samples::{LIMIT, Samples};
 use crate::propagation::taylor::scaled_problem::ScaledProblem;
-use crate::propagation::taylor::step_size::Work;
-use crate::propagation::taylor::{Steps, fused_for};
+use crate::propagation::taylor::{Steps, fused_for, work_of};
 
 /// Steps of one stretch: few enough that their series stay in the fast memory in which they were made.
 const STEPS: usize = 32;
@@ -25,13 +23,12 @@ type Visit<'a> = dyn FnMut(&Steps<f64, 3>, f64) -> Result<(), Error> + 'a;
 pub(crate) fn projected_by_segments(
     problem: &Problem<f64>,
     span: (f64, f64),
-    accuracy: f64,
+    tolerance: f64,
     (in_body, direction): (&Vector3<f64>, &Vector3<f64>),
-    mut visit: impl FnMut(&dyn Projection, f64) -> Result<(), Error>,
+    mut visit: impl FnMut(&SeriesProjection<'_>, f64) -> Result<(), Error>,
 ) -> Result<Option<Samples<BodyState<f64>>>, Error> {
     let Some(fused) = fused_for::<f64>().filter(|_| span.0 <= span.1) else { return Ok(None) };
-    let (spheroid, s, start) = (problem.spheroid(), problem.coefficients(), problem.initial().vectors());
-    let setup = ScaledProblem::new((true, Work::Latent), spheroid, s, start, span, accuracy)?;
+    let setup = ScaledProblem::new(work_of(Some(fused)), problem, span, tolerance)?;
     let mut kept = Steps::with_places(STEPS, setup.order);
     let mut step_count = 0;
     // Not inlined: what is done with a stretch would take registers from the series.
@@ -80,7 +77,7 @@ mod tests {
         let start = BodyState { axis, momentum: Vector3::new(0.5, -0.9, 1.7), equatorial_axis: Vector3::y() };
         let problem = Problem::new(spheroid, violation, start).unwrap();
         let (beam, n) = (Beam::new(0.7, 0.9, 0.2), Vector3::new(0.36, 0.48, 0.8));
-        let follow = |span: (f64, f64), visit: &mut dyn FnMut(&dyn Projection, f64)| {
+        let follow = |span: (f64, f64), visit: &mut dyn FnMut(&SeriesProjection<'_>, f64)| {
             projected_by_segments(&problem, span, 1e-5, (&beam.axis, &n), |projection, end| {
                 visit(projection, end);
                 Ok(())

@@ -64,11 +64,11 @@ pub(super) struct Recurrence<A: Arithmetic, const V: usize> {
     share_of_momentum: Box<Row<A::Vector>>,
     /// Columns of `s`.
     violation: [A::Vector; 3],
-    axis: Box<Row<A::Turned>>,
-    momentum: Box<Row<A::Turned>>,
+    axis: Box<Row<A::Permuted>>,
+    momentum: Box<Row<A::Permuted>>,
     /// `s n`; unused in the principal frame.
-    pulled: Box<Row<A::Turned>>,
-    companion: Box<Row<A::Turned>>,
+    pulled: Box<Row<A::Permuted>>,
+    companion: Box<Row<A::Permuted>>,
 }
 
 /// Sums of one order: the terms of the cross products with either sign.
@@ -92,7 +92,7 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
     ) -> Self {
         let a = arithmetic;
         let zero = a.zero();
-        let turned = || Row::filled(a.turned(zero));
+        let turned = || Row::filled(a.permuted(zero));
         let mut recurrence = Self {
             arithmetic,
             order,
@@ -204,10 +204,10 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
     fn add_products(
         &self,
         sums: &mut Sums<A::Vector>,
-        momentum: A::Turned,
-        pulled: A::Turned,
-        axis: A::Turned,
-        companion: A::Turned,
+        momentum: A::Permuted,
+        pulled: A::Permuted,
+        axis: A::Permuted,
+        companion: A::Permuted,
     ) {
         let a = self.arithmetic;
         let add = |[ahead, behind]: [A::Vector; 2], turning, turned| {
@@ -243,13 +243,13 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
     fn put(&mut self, k: usize, coefficient: &Vectors<A::Vector, V>, series: &mut [Vectors<A::Vector, V>]) {
         let a = self.arithmetic;
         series[k] = *coefficient;
-        self.axis.put(k, a.turned(coefficient[AXIS]));
-        self.momentum.put(k, a.turned(coefficient[MOMENTUM]));
+        self.axis.put(k, a.permuted(coefficient[AXIS]));
+        self.momentum.put(k, a.permuted(coefficient[MOMENTUM]));
         if !A::PRINCIPAL_FRAME {
-            self.pulled.put(k, a.turned(a.combine(&self.violation, coefficient[AXIS])));
+            self.pulled.put(k, a.permuted(a.combine(&self.violation, coefficient[AXIS])));
         }
         if V > COMPANION {
-            self.companion.put(k, a.turned(coefficient[COMPANION]));
+            self.companion.put(k, a.permuted(coefficient[COMPANION]));
         }
     }
 }

@@ -149,6 +149,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+    use crate::dynamics::{BodyState, Problem, RotationState};
     use crate::numerics::double_double::DoubleDouble;
     use crate::propagation::taylor::step_size::Work;
     use crate::propagation::third_angle::rate_about_axis;
@@ -156,7 +157,17 @@ mod tests {
     const SPHEROID: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.1, constant_c: 0.8 };
 
     fn setup<const V: usize>(violation: &Matrix3<f64>, vectors: [Vector3<f64>; V]) -> ScaledProblem<f64, V> {
-        ScaledProblem::new((true, Work::Latent), &SPHEROID, violation, vectors, (0.0, 1.0), 1e-10).unwrap()
+        setup_of(SPHEROID, violation, vectors)
+    }
+
+    fn setup_of<const V: usize>(
+        spheroid: RigidSpheroid<f64>,
+        violation: &Matrix3<f64>,
+        vectors: [Vector3<f64>; V],
+    ) -> ScaledProblem<f64, V> {
+        let vectors = core::array::from_fn(|i| vectors.get(i).copied().unwrap_or_default());
+        let problem = Problem::unchecked(spheroid, *violation, BodyState::from_vectors(vectors));
+        ScaledProblem::new((true, Work::Waiting), &problem, (0.0, 1.0), 1e-10).unwrap()
     }
 
     /// `U - (B^T T B - U) + (S U + U S)` with `S = (B^T B - 1) / 2`, in 32 digits.
@@ -214,8 +225,7 @@ mod tests {
         let violation = Matrix3::from_diagonal(&Vector3::new(0.021, 0.021, -0.042));
         let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.0, constant_c: 0.8 };
         let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 1.1)];
-        let setup =
-            ScaledProblem::new((true, Work::Latent), &spheroid, &violation, vectors, (0.0, 1.0), 1e-10).unwrap();
+        let setup = setup_of(spheroid, &violation, vectors);
         let rates = setup.drive().rates();
         assert_eq!((rates.axis, rates.momentum_of_principal[2]), (1.0, 0.0));
         let found = excess_of_shares(&setup);

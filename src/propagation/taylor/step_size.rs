@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
-use crate::numerics::arithmetic::OneMotion;
+use crate::numerics::arithmetic::LoadStore;
 use crate::numerics::scalar::{Real, real_part};
 use crate::propagation::taylor::series::{MAX_ORDER, MOMENTUM, Vectors};
 
@@ -33,7 +33,7 @@ impl Scale {
 
     /// Largest component of a coefficient, `L` in units of the momentum; NaN if one is NaN.
     #[inline(always)]
-    pub(super) fn size<A: OneMotion, const V: usize>(&self, a: A, coefficient: &Vectors<A::Vector, V>) -> f64 {
+    pub(super) fn size<A: LoadStore, const V: usize>(&self, a: A, coefficient: &Vectors<A::Vector, V>) -> f64 {
         let mut sizes = [0.0; V];
         for i in 0..V {
             sizes[i] = a.largest(coefficient[i]);
@@ -54,14 +54,13 @@ impl Scale {
     }
 }
 
-/// How the series is computed, as far as its order depends on it.
+/// How the time of a series grows with its order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Work {
-    /// The work grows as the square of the order.
+    /// As the square of the order.
     Quadratic,
-    /// By instructions that multiply whole vectors: much of the work is waiting for the order before, so that it grows more
-    /// slowly.
-    Latent,
+    /// More slowly: with instructions for whole vectors much of the time is waiting for the order before.
+    Waiting,
 }
 
 /// Order of the series for a relative truncation `budget` per radian. If the work grows as the square of the order it is least
@@ -69,7 +68,7 @@ pub(super) enum Work {
 pub(super) fn order_for(budget: f64, work: Work) -> usize {
     let share = match work {
         Work::Quadratic => 0.5,
-        Work::Latent => 0.75,
+        Work::Waiting => 0.75,
     };
     // One more than a multiple of three, the number of orders that are worked on at once.
     let triples = ((-budget.ln() * share - 1.0) / 3.0).round().clamp(2.0, (MAX_ORDER / 3 - 1) as f64);

@@ -4,10 +4,10 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::RigidSpheroid;
 use crate::error::Error;
-use crate::numerics::arithmetic::{OneMotion, Stored};
+use crate::numerics::arithmetic::{LoadStore, Padded};
+use crate::numerics::compensated::CompensatedVectors;
 use crate::numerics::scalar::Real;
 use crate::propagation::taylor::clock::{Clock, Interval, StepLimit};
-use crate::propagation::taylor::compensated::CompensatedState;
 use crate::propagation::taylor::series::{Recurrence, Vectors, change};
 use crate::propagation::taylor::step_size::{Scale, step_size};
 
@@ -17,7 +17,7 @@ pub(super) struct Stepper<'a, S, const V: usize> {
     /// Traceless, in the frame of the series.
     pub(super) violation: &'a Matrix3<S>,
     /// In the frame of the series.
-    pub(super) start: &'a Vectors<Stored<S>, V>,
+    pub(super) start: &'a Vectors<Padded<S>, V>,
     pub(super) scale: &'a Scale,
     pub(super) order: usize,
     pub(super) duration: f64,
@@ -48,19 +48,19 @@ impl<S: Real, const V: usize> Stepper<'_, S, V> {
         Rates { axis: S::from_f64(unit) / inertia_xx, momentum, momentum_of_principal }
     }
 
-    fn recurrence<A: OneMotion<Scalar = S>>(&self, a: A) -> Recurrence<A, V> {
+    fn recurrence<A: LoadStore<Scalar = S>>(&self, a: A) -> Recurrence<A, V> {
         let rates = self.rates();
         let momentum_rate = if A::PRINCIPAL_FRAME {
-            a.load(&Stored::from(Vector3::from(rates.momentum_of_principal)))
+            a.load(&Padded::from(Vector3::from(rates.momentum_of_principal)))
         } else {
             a.splat(rates.momentum)
         };
-        let columns = [0, 1, 2].map(|i| a.load(&Stored::from(self.violation.column(i).into_owned())));
+        let columns = [0, 1, 2].map(|i| a.load(&Padded::from(self.violation.column(i).into_owned())));
         Recurrence::new(a, self.order, a.splat(rates.axis), momentum_rate, columns)
     }
 
     /// Length of the first step, were the span long enough.
-    pub(super) fn first_step<A: OneMotion<Scalar = S>>(&self, a: A) -> f64 {
+    pub(super) fn first_step<A: LoadStore<Scalar = S>>(&self, a: A) -> f64 {
         let mut series = vec![[a.zero(); V]; self.order + 1];
         self.recurrence(a).expand(&self.start.map(|v| a.load(&v)), &mut series);
         let sizes = [self.order, self.order - 1].map(|k| self.scale.size(a, &series[k]));
@@ -69,7 +69,7 @@ impl<S: Real, const V: usize> Stepper<'_, S, V> {
 
     /// Steps from the start to the end of the span, at most `limit`; `visit` is given each with its series.
     #[inline(always)]
-    pub(super) fn run<A: OneMotion<Scalar = S>>(
+    pub(super) fn run<A: LoadStore<Scalar = S>>(
         &self,
         a: A,
         limit: StepLimit,
@@ -78,7 +78,7 @@ impl<S: Real, const V: usize> Stepper<'_, S, V> {
         let Stepper { scale, order, duration, direction, budget, .. } = *self;
         let mut recurrence = self.recurrence(a);
         let mut series = vec![[a.zero(); V]; order + 1];
-        let mut state = CompensatedState::new(a, self.start.map(|v| a.load(&v)));
+        let mut state = CompensatedVectors::new(a, self.start.map(|v| a.load(&v)));
         let mut clock = Clock::new();
         // Where real parts alone choose the steps, derivatives have more and faster terms than they show: near free rotation
         // those of the derivative by `s` turn twice as fast.

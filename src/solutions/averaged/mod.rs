@@ -3,21 +3,21 @@
 //! # Example
 //!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use nalgebra::Vector3;
+//! use twofold::dynamics::{BodyState, RigidSpheroid};
+//! use twofold::euler_angles::{EulerAngles, EulerRates};
+//! use twofold::lorentz_violation::PrincipalCoefficients;
 //! use twofold::solutions::averaged::slow_precession::slow_precession;
 //! use twofold::solutions::averaged::{
 //!     AveragedSolution, AveragingOrder, Top, generator, generator_slopes, mean_angular_velocity, mean_potential, middle_axis_growth,
 //!     period_near_separatrix,
 //! };
 //!
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! let state = BodyState::from_angles(&star, &angles, &rates);
 //! let weak = s.scaled(1e-3);
 //! let values = Vector3::new(weak.xx, weak.yy, weak.zz);
 //! let motion = AveragedSolution::new(&star, &weak, &state, AveragingOrder::Second)?;

@@ -1,6 +1,6 @@
 //! Initial values from the constants of integration, Eq. (34), and the constants from initial values.
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::PI;
 
 use nalgebra::{Matrix2, Vector2};
 use num_dual::Dual64;
@@ -9,6 +9,7 @@ use crate::dynamics::RigidSpheroid;
 use crate::dynamics::euler_angle_equations::AxisAngles;
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
+use crate::numerics::angle::whole_turns;
 use crate::numerics::scalar::{Real, Scalar};
 use crate::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
@@ -49,8 +50,8 @@ pub fn constants_from_initial_values<S: Real>(
 ) -> Result<Constants<S>, Error> {
     Error::ensure(spin.re() != 0.0, "spin Omega^z", spin.re(), "nonzero: Eq. (34) divides by it")?;
     // Eq. (34) repeats itself after a turn of alpha: near zero Newton's method loses no digits to it.
-    let whole_turns = (initial.alpha.re() / TAU).round() * TAU;
-    let initial = &AxisAngles { alpha: initial.alpha - S::from_f64(whole_turns), ..*initial };
+    let turns = whole_turns(initial.alpha.re());
+    let initial = &AxisAngles { alpha: initial.alpha - S::from_f64(turns), ..*initial };
     let real = Inversion {
         form,
         kind,
@@ -74,7 +75,7 @@ pub fn constants_from_initial_values<S: Real>(
     let (p, q) = generic.homogeneous(&found);
     let (amplitude, phase) =
         if p.re() == 0.0 && q.re() == 0.0 { (S::zero(), S::zero()) } else { ((p * p + q * q).sqrt(), q.atan2(p)) };
-    Ok(Constants { alpha_0: found.x + S::from_f64(whole_turns), beta_0: found.y, amplitude, phase })
+    Ok(Constants { alpha_0: found.x + S::from_f64(turns), beta_0: found.y, amplitude, phase })
 }
 
 /// Eq. (34) as two equations for `(alpha_0, beta_0)`.

@@ -15,16 +15,14 @@
 //! # Example
 //!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! use twofold::dynamics::RigidSpheroid;
+//! use twofold::euler_angles::{EulerAngles, EulerRates};
+//! use twofold::lorentz_violation::PrincipalCoefficients;
 //! use twofold::solutions::symmetric::SymmetricSolution;
 //!
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! let symmetric = PrincipalCoefficients::new([0.01, 0.01, -0.02]);
 //! let solution = SymmetricSolution::new(&star, &symmetric, &angles, &rates)?;
 //! let (least, largest) = solution.inclinations();

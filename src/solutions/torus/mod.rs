@@ -6,18 +6,17 @@
 //! # Example
 //!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use twofold::dynamics::{BodyState, RigidSpheroid};
+//! use twofold::euler_angles::{EulerAngles, EulerRates};
+//! use twofold::lorentz_violation::PrincipalCoefficients;
 //! use twofold::dynamics::first_integrals::first_integrals;
 //! use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};
 //!
+//! let star = RigidSpheroid::in_units_of_tc(1.1);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+//! let state = BodyState::from_angles(&star, &angles, &rates);
 //! let frequencies = torus_frequencies(&star, &s, &state)?;
 //! assert!(frequencies.slow != 0.0);
 //! // A state with the same integrals lies on the same torus.

@@ -2,40 +2,39 @@
 
 use crate::numerics::arithmetic::Arithmetic;
 use crate::numerics::rounding::two_sum;
-use crate::propagation::taylor::series::Vectors;
 
 /// A time as an unevaluated sum, so that many small steps do not add up their rounding.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Compensated {
-    pub(super) high: f64,
-    pub(super) low: f64,
+pub(crate) struct Compensated {
+    pub(crate) high: f64,
+    pub(crate) low: f64,
 }
 
 impl Compensated {
-    pub(super) fn new(high: f64) -> Self {
+    pub(crate) fn new(high: f64) -> Self {
         Self { high, low: 0.0 }
     }
 
-    pub(super) fn add(&mut self, step: f64) {
+    pub(crate) fn add(&mut self, step: f64) {
         let (high, low) = two_sum(self.high, step + self.low);
         (self.high, self.low) = (high, low);
     }
 }
 
-/// A state whose additions are compensated: `high` is the state, `low` what its last addition lost.
-pub(super) struct CompensatedState<A: Arithmetic, const V: usize> {
-    pub(super) high: Vectors<A::Vector, V>,
-    pub(super) low: Vectors<A::Vector, V>,
+/// Vectors whose additions are compensated: `high` are the vectors, `low` what their last addition lost.
+pub(crate) struct CompensatedVectors<A: Arithmetic, const V: usize> {
+    pub(crate) high: [A::Vector; V],
+    pub(crate) low: [A::Vector; V],
 }
 
-impl<A: Arithmetic, const V: usize> CompensatedState<A, V> {
-    pub(super) fn new(a: A, state: Vectors<A::Vector, V>) -> Self {
+impl<A: Arithmetic, const V: usize> CompensatedVectors<A, V> {
+    pub(crate) fn new(a: A, state: [A::Vector; V]) -> Self {
         Self { high: state, low: [a.zero(); V] }
     }
 
     /// Adds by Knuth's exact sum.
     #[inline(always)]
-    pub(super) fn add(&mut self, a: A, change: &Vectors<A::Vector, V>) {
+    pub(crate) fn add(&mut self, a: A, change: &[A::Vector; V]) {
         for i in 0..V {
             let (old, change) = (self.high[i], a.add(change[i], self.low[i]));
             let sum = a.add(old, change);

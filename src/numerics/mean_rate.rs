@@ -1,10 +1,10 @@
 //! Mean rate of an angle of quasi-periodic motion by a weighted average over time.
 
 use crate::error::Error;
-use crate::observables::spectrum::Window;
+use crate::numerics::window::Window;
 
 /// Weight of the averages: what leaks from an oscillation is below 1.2e-12 of its size.
-pub(super) const WEIGHT: Window = Window::Kaiser { shape: 30.0 };
+pub(crate) const WEIGHT: Window = Window::Kaiser { shape: 30.0 };
 
 /// Share of the series in each of the two parts whose averages are compared with that of the whole.
 const PART: f64 = 0.75;

@@ -1,15 +1,15 @@
 //! Steps of one motion, with fused multiply-add where the processor has it.
 
 use crate::numerics::fused::{Fused, detect_fused, run_fused};
+use crate::numerics::ring::{Double, FusedDouble};
 use crate::propagation::splitting::flows::{Field, Moving};
-use crate::propagation::splitting::ring::{Double, FusedDouble};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::stepper::{Steps, angles};
 
 /// Steps of one scheme and one length, by the instructions there are. States are opened, advanced and closed as by [`Steps`].
 #[derive(Debug, Clone)]
 #[allow(clippy::large_enum_variant, reason = "both are of one size but for the proof of the instructions")]
-pub(super) enum OneMotion {
+pub(super) enum DoubleSteps {
     Plain(Steps<f64>),
     Fused(Fused, Steps<FusedDouble>),
 }
@@ -18,8 +18,8 @@ pub(super) enum OneMotion {
 macro_rules! by {
     ($one:expr, $steps:ident => $work:expr) => {
         match $one {
-            OneMotion::Plain($steps) => $work,
-            OneMotion::Fused(fused, $steps) => run_fused(
+            DoubleSteps::Plain($steps) => $work,
+            DoubleSteps::Fused(fused, $steps) => run_fused(
                 *fused,
                 #[inline(always)]
                 || $work,
@@ -28,7 +28,7 @@ macro_rules! by {
     };
 }
 
-impl OneMotion {
+impl DoubleSteps {
     /// `largest_rate` bounds `|w|` along the motion.
     pub(super) fn new(scheme: &Scheme, field: &Field<f64>, step: f64, largest_rate: f64) -> Self {
         let angles = angles(scheme, step.abs() * largest_rate);

@@ -1,11 +1,14 @@
-//! The operations of the flows: for one motion, with or without fused multiply-add, or for one in each lane of the vector registers.
+//! Ring operations, for one number, with or without fused multiply-add, or for one in each lane of the vector registers.
 
 use core::ops::{Add, Mul, Sub};
 
+use crate::numerics::scalar::Real;
+
 /// A number, or one number for each of several motions, of which none knows of the others.
-pub(in crate::propagation) trait Ring:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
-{
+pub(crate) trait Ring: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// Whether it is many numbers.
+    const MANY: bool = false;
+
     /// The constant `value`, of the kind of `self`.
     fn like(self, value: f64) -> Self;
     /// `self a + b`, rounded once or twice.
@@ -16,30 +19,30 @@ pub(in crate::propagation) trait Ring:
     fn over(self, divisor: Self) -> Self;
 }
 
-impl Ring for f64 {
+impl<S: Real> Ring for S {
     #[inline(always)]
-    fn like(self, value: f64) -> f64 {
-        value
+    fn like(self, value: f64) -> S {
+        S::from_f64(value)
     }
 
     #[inline(always)]
-    fn mul_add(self, a: f64, b: f64) -> f64 {
+    fn mul_add(self, a: S, b: S) -> S {
         self * a + b
     }
 
     #[inline(always)]
-    fn mul_sub(self, a: f64, b: f64) -> f64 {
+    fn mul_sub(self, a: S, b: S) -> S {
         self * a - b
     }
 
     #[inline(always)]
-    fn over(self, divisor: f64) -> f64 {
-        if divisor == 0.0 { 0.0 } else { self / divisor }
+    fn over(self, divisor: S) -> S {
+        if divisor.re() == 0.0 { S::zero() } else { self / divisor }
     }
 }
 
 /// A double, one way or the other.
-pub(super) trait Double: Ring {
+pub(crate) trait Double: Ring {
     fn of(value: f64) -> Self;
     fn value(self) -> f64;
 }
@@ -71,7 +74,7 @@ impl Double for FusedDouble {
 /// A double whose products and sums are fused: fast only where the code is compiled for processors that have the instruction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(transparent)]
-pub(super) struct FusedDouble(pub(super) f64);
+pub(crate) struct FusedDouble(pub(crate) f64);
 
 macro_rules! operator {
     ($operator:ident, $method:ident) => {

@@ -1,26 +1,23 @@
 //! The polynomial of fifth degree between two times at which a function and its derivatives are known, and what it proves.
 
-use super::rate_bounds::RateBounds;
-use super::train::GRAZING;
-
-/// A time with the margin `m.n - cos rho` and its first three time derivatives.
+/// A time with a function of it and its first three derivatives.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Jet {
-    pub(super) time: f64,
-    pub(super) margin: [f64; 4],
+pub(crate) struct Jet {
+    pub(crate) time: f64,
+    pub(crate) values: [f64; 4],
 }
 
 impl Jet {
-    pub(super) fn is_inside(&self) -> bool {
-        self.margin[0] > 0.0
+    pub(crate) fn is_positive(&self) -> bool {
+        self.values[0] > 0.0
     }
 
-    pub(super) fn is_rising(&self) -> bool {
-        self.margin[1] > 0.0
+    pub(crate) fn is_rising(&self) -> bool {
+        self.values[1] > 0.0
     }
 }
 
-/// Hermite's polynomial `H` that has value and first two derivatives of the margin `f` at both ends of a piece of length `h`.
+/// Hermite's polynomial `H` that has value and first two derivatives of `f` at both ends of a piece of length `h`.
 ///
 /// With a bound `M` on the sixth derivative, everywhere in the piece (G. Birkhoff and A. Priver, J. Math. Phys. 46, 440 (1967))
 ///
@@ -29,7 +26,7 @@ impl Jet {
 /// ```
 ///
 /// A polynomial lies between the least and the largest of its Bernstein coefficients: those of `H`, `h H'` and `h^2 H''`.
-pub(super) struct Quintic {
+pub(crate) struct Quintic {
     value: [f64; 6],
     /// `h f'` and `h^2 f''` at both ends.
     rates: [f64; 2],
@@ -40,11 +37,12 @@ pub(super) struct Quintic {
 }
 
 impl Quintic {
+    /// With bounds on the first, second and sixth derivative.
     #[inline]
-    pub(super) fn between(a: &Jet, b: &Jet, bounds: &RateBounds) -> Self {
+    pub(crate) fn between(a: &Jet, b: &Jet, [first, second, sixth]: [f64; 3]) -> Self {
         let h = b.time - a.time;
         let square = h * h;
-        let ([f, df, ddf, _], [g, dg, ddg, _]) = (a.margin, b.margin);
+        let ([f, df, ddf, _], [g, dg, ddg, _]) = (a.values, b.values);
         let (df, dg, ddf, ddg) = (df * h, dg * h, ddf * square, ddg * square);
         let (c1, c2) = (f + df / 5.0, f + df * 0.4 + ddf / 20.0);
         let (c4, c3) = (g - dg / 5.0, g - dg * 0.4 + ddg / 20.0);
@@ -52,8 +50,8 @@ impl Quintic {
             value: [f, c1, c2, c3, c4, g],
             rates: [df, dg],
             seconds: [ddf, ddg],
-            remainder: bounds.sixth * square * square * square,
-            rounding: 8.0 * f64::EPSILON * (1.0 + h * bounds.first + square * bounds.second),
+            remainder: sixth * square * square * square,
+            rounding: 8.0 * f64::EPSILON * (1.0 + h * first + square * second),
         }
     }
 
@@ -63,29 +61,29 @@ impl Quintic {
         [df, df + ddf / 4.0, 5.0 * (self.value[3] - self.value[2]), dg - ddg / 4.0, dg]
     }
 
-    /// Whether the margin has one sign, and no extremum within [`GRAZING`] of zero.
+    /// Whether the function has one sign, further from zero than `distance`.
     #[inline]
-    pub(super) fn is_clear(&self) -> bool {
-        one_sign(&self.value, self.remainder / 46080.0 + self.rounding + 2.0 * GRAZING).is_some()
+    pub(crate) fn is_clear(&self, distance: f64) -> bool {
+        one_sign(&self.value, self.remainder / 46080.0 + self.rounding + distance).is_some()
     }
 
-    /// Whether the margin rises or falls all the way.
+    /// Whether the function rises or falls all the way.
     #[inline]
-    pub(super) fn is_monotonic(&self) -> bool {
+    pub(crate) fn is_monotonic(&self) -> bool {
         // Each coefficient is a difference of two values, five times.
         one_sign(&self.rate(), self.remainder * 7.46e-5 + 10.0 * self.rounding).is_some()
     }
 
     /// Whether its graph is convex (`Some(true)`) or concave all the way.
     #[inline]
-    pub(super) fn convexity(&self) -> Option<bool> {
+    pub(crate) fn convexity(&self) -> Option<bool> {
         let ([ddf, ddg], [_, r1, r2, r3, _]) = (self.seconds, self.rate());
         one_sign(&[ddf, 4.0 * (r2 - r1), 4.0 * (r3 - r2), ddg], self.remainder / 1920.0 + 80.0 * self.rounding)
     }
 
     /// Where the polynomial crosses zero, as a share of the piece; the signs at its ends differ. Close, not exact.
     #[inline]
-    pub(super) fn root(&self) -> f64 {
+    pub(crate) fn root(&self) -> f64 {
         let [c0, c1, c2, c3, c4, c5] = self.value;
         // Powers of the share.
         let [p1, p2] = [5.0 * (c1 - c0), 10.0 * (c0 - 2.0 * c1 + c2)];
@@ -139,12 +137,13 @@ fn one_sign(values: &[f64], error: f64) -> Option<bool> {
 mod tests {
     use super::*;
 
-    const BOUNDS: RateBounds = RateBounds { first: 1.0, second: 1.0, third: 1.0, fourth: 1.0, sixth: 1.0 };
+    const BOUNDS: [f64; 3] = [1.0; 3];
+    const DISTANCE: f64 = 2e-13;
 
     /// `sin t + offset`, whose derivatives are bounded by one.
     fn sine(time: f64, offset: f64) -> Jet {
         let (sin, cos) = time.sin_cos();
-        Jet { time, margin: [sin + offset, cos, -sin, -cos] }
+        Jet { time, values: [sin + offset, cos, -sin, -cos] }
     }
 
     #[test]
@@ -153,13 +152,14 @@ mod tests {
         for i in 0..400 {
             for offset in [-0.999, -0.7, -0.3, 0.0, 0.2, 0.95, 1.02] {
                 let (from, length) = (0.031 * f64::from(i), 0.2 + 1.7 * f64::from(i % 17) / 17.0);
-                let polynomial = Quintic::between(&sine(from, offset), &sine(from + length, offset), &BOUNDS);
+                let polynomial = Quintic::between(&sine(from, offset), &sine(from + length, offset), BOUNDS);
                 let points: Vec<_> = (0..=200).map(|k| sine(from + length * f64::from(k) / 200.0, offset)).collect();
                 let one_sign = |k: usize| {
-                    let positive = points.iter().filter(|jet| jet.margin[k] > 0.0).count();
+                    let positive = points.iter().filter(|jet| jet.values[k] > 0.0).count();
                     positive == 0 || positive == points.len()
                 };
-                let claims = [polynomial.is_clear(), polynomial.is_monotonic(), polynomial.convexity().is_some()];
+                let claims =
+                    [polynomial.is_clear(DISTANCE), polynomial.is_monotonic(), polynomial.convexity().is_some()];
                 for (k, claim) in claims.into_iter().enumerate() {
                     assert!(!claim || one_sign(k), "derivative {k} from {from} over {length}, offset {offset}");
                     pieces += usize::from(one_sign(k));
@@ -175,16 +175,17 @@ mod tests {
     #[test]
     fn remainder_is_neither_less_nor_much_more_than_it_can_be() {
         let h: f64 = 1.5;
-        let bounds = RateBounds { sixth: 1.0, ..BOUNDS };
         let between = |[value, rate, second]: [f64; 3]| {
             let jet = |time: f64| {
-                let margin = [value + time * (rate + time * second / 2.0), rate + time * second, second, 0.0];
-                Jet { time, margin }
+                let values = [value + time * (rate + time * second / 2.0), rate + time * second, second, 0.0];
+                Jet { time, values }
             };
-            Quintic::between(&jet(0.0), &jet(h), &bounds)
+            Quintic::between(&jet(0.0), &jet(h), BOUNDS)
         };
         let (dip, slope, bend) = (h.powi(6) / 46080.0, h.powi(5) * 5_f64.sqrt() / 30000.0, h.powi(4) / 1920.0);
-        assert!(!between([0.99 * dip, 0.0, 0.0]).is_clear() && between([1.01 * dip, 0.0, 0.0]).is_clear());
+        assert!(
+            !between([0.99 * dip, 0.0, 0.0]).is_clear(DISTANCE) && between([1.01 * dip, 0.0, 0.0]).is_clear(DISTANCE)
+        );
         assert!(!between([0.0, 0.99 * slope, 0.0]).is_monotonic() && between([0.0, 1.01 * slope, 0.0]).is_monotonic());
         assert!(between([0.0, 0.0, 0.99 * bend]).convexity().is_none());
         assert_eq!(between([0.0, 0.0, 1.01 * bend]).convexity(), Some(true));
@@ -194,7 +195,7 @@ mod tests {
     fn root_of_the_polynomial_is_close() {
         for i in 1..40 {
             let (from, length) = (-0.03 * f64::from(i), 1.5);
-            let polynomial = Quintic::between(&sine(from, 0.0), &sine(from + length, 0.0), &BOUNDS);
+            let polynomial = Quintic::between(&sine(from, 0.0), &sine(from + length, 0.0), BOUNDS);
             let root = from + polynomial.root() * length;
             assert!(root.abs() < 1e-3, "{root} from {from}");
         }
