@@ -136,12 +136,12 @@ pub const EQUATIONS: &[Equation] = &[
         ],
         &[],
     ),
-    row(18, "", "K^zz = 0, T_rot = (K^xx + K^yy)/2", &["star::maclaurin::MaclaurinSpheroid::kinetic_tensor"], &[]),
+    row(18, "", "K^zz = 0, T_rot = (K^xx + K^yy)/2", &["star::maclaurin::MaclaurinSpheroid"], &[]),
     row(
         19,
         "obl",
         "oblateness",
-        &["dynamics::RigidSpheroid::oblateness", "star::uniform_spheroid::UniformSpheroid::oblateness"],
+        &["dynamics::RigidSpheroid::oblateness", "star::spheroid_shape::SpheroidShape::oblateness"],
         &[],
     ),
     row(
@@ -287,7 +287,7 @@ pub const EQUATIONS: &[Equation] = &[
         35,
         "unitt",
         "unit of time t_c",
-        &["dynamics::RigidSpheroid::time_unit", "dynamics::RigidSpheroid::in_units_of_tc", "units::TimeUnit"],
+        &["dynamics::RigidSpheroid::time_unit", "dynamics::RigidSpheroid::in_units_of_tc", "units::time_unit"],
         &[],
     ),
     row(
@@ -536,14 +536,8 @@ pub const EQUATIONS: &[Equation] = &[
         &["appendix_expansions"],
     ),
     row(76, "", "hydrostatic equilibrium", &["star::maclaurin::MaclaurinSpheroid::pressure"], &[]),
-    row(
-        77,
-        "",
-        "rotation of a Maclaurin spheroid",
-        &["star::maclaurin::MaclaurinSpheroid::rotation_rate_squared"],
-        &[],
-    ),
-    row(78, "estc", "T_rot = 2 C", &["star::maclaurin::MaclaurinSpheroid::rotational_energy"], &[]),
+    row(77, "", "rotation of a Maclaurin spheroid", &["star::maclaurin::MaclaurinSpheroid::new"], &[]),
+    row(78, "estc", "T_rot = 2 C", &["star::maclaurin::MaclaurinSpheroid::new"], &[]),
     row(79, "", "oblateness from the eccentricity", &["star::spheroid_shape::SpheroidShape::oblateness"], &[]),
 ];
 

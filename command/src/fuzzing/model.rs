@@ -39,7 +39,7 @@ use twofold::star::maclaurin::MaclaurinSpheroid;
 use twofold::star::potential_coefficients::potential_coefficients;
 use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
-use twofold::units::TimeUnit;
+use twofold::units::time_unit;
 
 use super::bytes::Bytes;
 
@@ -288,7 +288,7 @@ fn stars(bytes: &mut Bytes<'_>) {
             let _ = black_box(MaclaurinSpheroid::new(star).map(|star| star.pressure(1.0, 1.0)));
         }
     }
-    let _ = black_box(TimeUnit::new(next()));
+    let _ = black_box(time_unit(next()));
     let day = next();
     if let Ok(epoch) = Epoch::new(day as i64, next()) {
         let _ = black_box(epoch.after([next(), next()]).map(|after| after.to_string().parse::<Epoch>()));

@@ -69,13 +69,13 @@ impl<S, D: Fn(S, S) -> S, B: Fn(S) -> (S, S)> AxisymmetricBody<S> for (D, B) {
 
 impl<S: Real> AxisymmetricBody<S> for UniformSpheroid<S> {
     fn density(&self, _r: S, _mu: S) -> S {
-        UniformSpheroid::density(self)
+        self.density
     }
 
     /// `r_s = a3 / sqrt(1 - e^2 (1 - mu^2))`.
     fn surface(&self, mu: S) -> (S, S) {
-        let e2 = self.shape().eccentricity_squared();
-        let inside = self.shape().axis_ratio_squared() + e2 * mu * mu;
+        let e2 = self.shape.eccentricity_squared();
+        let inside = self.shape.axis_ratio_squared() + e2 * mu * mu;
         let radius = self.polar_radius() / inside.sqrt();
         (radius, -(radius * e2 * mu / inside))
     }

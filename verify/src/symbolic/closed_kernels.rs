@@ -64,10 +64,10 @@ fn spheroid(p: &Point) -> Components {
         energies.xx,
         energies.zz,
         star.c(),
-        star.oblateness(),
+        star.shape.oblateness(),
         star.polar_inertia_over_c()?,
-        rotating.rotation_rate_squared(),
-        rotating.rotational_energy(),
+        rotating.rotation_rate_squared,
+        rotating.rotational_energy,
     ])
 }
 
