@@ -250,7 +250,7 @@ impl SymmetryOfTensor {
     }
 
     /// Whether what is not symmetric is below eight roundings of the tensor, to which its entries are known.
-    pub fn is_symmetric_within_rounding(&self) -> bool {
+    pub(crate) fn is_symmetric_within_rounding(&self) -> bool {
         self.asymmetry.norm() <= 8.0 * f64::EPSILON * self.size
     }
 
@@ -258,7 +258,7 @@ impl SymmetryOfTensor {
     ///
     /// # Errors
     /// [`Error::Domain`] with the part that is not symmetric.
-    pub fn refuse_asymmetry(&self) -> Result<(), Error> {
+    pub(crate) fn refuse_asymmetry(&self) -> Result<(), Error> {
         Error::ensure(
             self.is_symmetric_within_rounding(),
             "part of s^IJ without symmetry about an axis, relative",

@@ -187,9 +187,6 @@ pub const EQUATIONS: &[Equation] = &[
         &[
             "dynamics::first_integrals::energy_in_angles",
             "dynamics::first_integrals::spin_in_angles",
-            "dynamics::first_integrals::energy",
-            "dynamics::first_integrals::spin",
-            "dynamics::first_integrals::clebsch_integral",
             "dynamics::first_integrals::symmetric_adjugate",
             "dynamics::first_integrals::first_integrals",
         ],
@@ -301,11 +298,7 @@ pub const EQUATIONS: &[Equation] = &[
         37,
         "",
         "angle between the spin axis and a direction",
-        &[
-            "observables::spin_axis::cos_lambda_in_angles",
-            "observables::spin_axis::cos_lambda",
-            "observables::spin_axis::cos_lambda_rate",
-        ],
+        &["observables::spin_axis::cos_lambda_in_angles", "observables::spin_axis::cos_lambda_rate"],
         &[],
     ),
     row(38, "", "its change", &["observables::spin_axis::cos_lambda_change"], &[]),
@@ -342,7 +335,6 @@ pub const EQUATIONS: &[Equation] = &[
         &[
             "observables::bound::lambda_change",
             "observables::bound::lambda_change_terms",
-            "observables::bound::zeta_change",
             "observables::bound::zeta_change_terms",
             "observables::bound::cos_opening_angle",
         ],
@@ -371,8 +363,6 @@ pub const EQUATIONS: &[Equation] = &[
             "observables::pulsar::rate_bounds::RateBounds",
             "observables::pulsar::rate_bounds::rate_bounds",
             "observables::pulsar::event_time::event_time",
-            "observables::pulsar::event_time::edge_time",
-            "observables::pulsar::event_time::closest_approach_time",
         ],
         &["figure_pulse_series"],
     ),
@@ -428,7 +418,6 @@ pub const EQUATIONS: &[Equation] = &[
         "pulsar period",
         &[
             "observables::pulsar::period::azimuth_rate",
-            "observables::pulsar::period::azimuth_rate_off_pole",
             "observables::pulsar::period::instantaneous_period",
             "observables::pulsar::period::approximate_period",
             "observables::pulsar::PulseTrain::periods",
@@ -439,10 +428,7 @@ pub const EQUATIONS: &[Equation] = &[
         52,
         "",
         "rate of the azimuth relative to the line of nodes",
-        &[
-            "observables::pulsar::period::azimuth_offset_rate",
-            "observables::pulsar::period::azimuth_offset_rate_off_pole",
-        ],
+        &["observables::pulsar::period::azimuth_offset_rate"],
         &[],
     ),
     row(
@@ -492,7 +478,6 @@ pub const EQUATIONS: &[Equation] = &[
         "torque",
         &[
             "dynamics::torque::torque_from_gradient",
-            "dynamics::torque::torque_from_gradient_off_pole",
             "dynamics::torque::torque_on_body",
             "dynamics::equations_of_motion::torque_on_axis",
         ],
@@ -691,13 +676,12 @@ pub const AUXILIARY: &[(&str, &[&str])] = &[
             "observables::pulsar::position_angle::sky_from_inertial",
             "observables::pulsar::position_angle::position_angle",
             "observables::pulsar::position_angle::position_angle_rate",
-            "observables::pulsar::position_angle::position_angle_rate_off_line_of_sight",
             "observables::pulsar::position_angle::rotating_vector_point",
             "observables::pulsar::position_angle::rotating_vector_position_angle",
             "observables::pulsar::position_angle::rotating_vector_gradient",
         ],
     ),
-    ("errors at public boundaries", &["Error"]),
+    ("errors at public boundaries", &["error::Error"]),
     ("densities for the quadrature", &["star::axisymmetric::AxisymmetricBody"]),
 ];
 

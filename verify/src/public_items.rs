@@ -65,8 +65,9 @@ fn collect(folder: &Path, file: &Path, path: &[String], items: &mut BTreeSet<Str
             }
         }
     }
-    // A public module whose types the parent re-exports: both paths are right, the shorter one is listed.
-    for line in text.lines().filter(|line| line.starts_with("pub use ")) {
+    // A public module whose types the parent re-exports: both paths are right, the shorter one is listed. The front page of the crate lists
+    // nothing anew.
+    for line in text.lines().filter(|line| !path.is_empty() && line.starts_with("pub use ")) {
         reexport(line, path, items);
     }
 }

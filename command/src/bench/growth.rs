@@ -1,7 +1,7 @@
 //! Growth of errors over long motions: energy, K and phase.
 
 use nalgebra::Vector3;
-use twofold::dynamics::first_integrals::{clebsch_integral, energy};
+use twofold::dynamics::first_integrals::first_integrals;
 use twofold::propagation::splitting::propagate_by_best_splitting;
 use twofold::propagation::{AxisState, Motion, propagate_axis};
 
@@ -101,8 +101,9 @@ fn integrals(scene: &BenchScene, state: &AxisState<f64>) -> [DoubleDouble; 2] {
         inertia_zz: lift(scene.spheroid.inertia_zz),
         constant_c: lift(scene.spheroid.constant_c),
     };
-    let (s, n, l) = (scene.violation.map(lift), state.axis.map(lift), state.momentum.map(lift));
-    [energy(&spheroid, &s, &n, &l), clebsch_integral(&spheroid, &s, &n, &l)]
+    let state = AxisState { axis: state.axis.map(lift), momentum: state.momentum.map(lift) };
+    let found = first_integrals(&spheroid, &scene.violation.map(lift), &state);
+    [found.energy, found.clebsch]
 }
 
 /// Sums of the magnitudes of the terms of energy and K.

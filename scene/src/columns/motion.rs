@@ -1,7 +1,7 @@
 //! Columns of the motion itself and of its perturbation solutions.
 
 use twofold::dynamics::equations_of_motion::euler_rates_of_axis;
-use twofold::dynamics::first_integrals::{clebsch_integral, energy, spin};
+use twofold::dynamics::first_integrals::first_integrals;
 use twofold::plan::Output;
 use twofold::propagation::AxisState;
 
@@ -63,12 +63,11 @@ pub(super) const INTEGRALS: ColumnGroup = ColumnGroup {
         ]
     },
     values: |scene, moment| {
-        let AxisState { axis, momentum } = moment.axis();
-        let (body, s, units) = (&scene.spheroid, &scene.violation, &scene.units);
+        let (found, units) = (first_integrals(&scene.spheroid, &scene.violation, &moment.axis()), &scene.units);
         Some(vec![
-            energy(body, s, &axis, &momentum) * units.energy,
-            spin(body, &axis, &momentum) / units.time,
-            clebsch_integral(body, s, &axis, &momentum) * units.momentum * units.momentum,
+            found.energy * units.energy,
+            found.spin / units.time,
+            found.clebsch * units.momentum * units.momentum,
         ])
     },
 };

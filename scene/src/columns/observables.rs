@@ -4,7 +4,7 @@ use twofold::dynamics::equations_of_motion::angular_velocity;
 use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations, strain_unit};
 use twofold::observables::pulsar::position_angle::{position_angle, position_angle_rate};
-use twofold::observables::spin_axis::{cos_lambda, cos_lambda_rate};
+use twofold::observables::spin_axis::cos_lambda_rate;
 use twofold::plan::Output;
 use twofold::propagation::AxisState;
 
@@ -21,7 +21,7 @@ pub(super) const LAMBDA: ColumnGroup = ColumnGroup {
         let direction = scene.observer?.basis().direction;
         let AxisState { axis, momentum } = moment.axis();
         let rate = cos_lambda_rate(&scene.spheroid, &direction, &axis, &momentum);
-        Some(vec![cos_lambda(&direction, &axis), rate / scene.units.time])
+        Some(vec![direction.dot(&axis), rate / scene.units.time])
     },
 };
 
@@ -61,7 +61,7 @@ pub(super) const POSITION_ANGLE: ColumnGroup = ColumnGroup {
         let state = moment.orientation();
         let (observer, m) = (scene.observer?.basis(), scene.pulsar?.beam().direction(moment.orientation()));
         let omega = angular_velocity(&scene.spheroid, &state.axis, &state.momentum);
-        let rate = position_angle_rate(&m, &omega, &observer).ok()?;
+        let rate = position_angle_rate(&m, &omega, &observer);
         Some(vec![position_angle(&m, &observer).ok()?, rate / scene.units.time])
     },
 };

@@ -13,7 +13,7 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
 use twofold::observables::pulsar::Beam;
-use twofold::observables::pulsar::event_time::{closest_approach_time, edge_time};
+use twofold::observables::pulsar::event_time::event_time;
 use twofold::plan::{Gradient, Method, Output, Parameter, Plan, Request, Start, StateFunction, gradient_in_parts};
 use twofold::{Error, Real};
 
@@ -248,12 +248,17 @@ impl Term {
         let observer: Observer<Dual64> = model.observer();
         let beam: Beam<Dual64> = model.beam();
         let n = &observer.direction;
-        let edge = |event: &Event, t: f64| edge_time(t, &beam, n, (spheroid, s), &state([event.epoch, t]));
+        let margin = |event: &Event, t: f64| beam.margin_rates(spheroid, s, &state([event.epoch, t]), n);
+        let edge = |event: &Event, t: f64| {
+            let [value, rate, ..] = margin(event, t);
+            event_time(t, value, rate.re)
+        };
         let midpoint = |event: &Event| Ok((edge(event, event.start)? + edge(event, event.end)?) / 2.0);
         match (self, observable) {
             (Self::Pulse(event), Observable::Widths) => Ok(edge(event, event.end)? - edge(event, event.start)?),
             (Self::Pulse(event), Observable::ClosestApproaches) => {
-                closest_approach_time(event.closest, &beam, n, (spheroid, s), &state([event.epoch, event.closest]))
+                let [_, rate, second, _] = margin(event, event.closest);
+                event_time(event.closest, rate, second.re)
             }
             (Self::Pulse(event), _) => midpoint(event),
             (Self::Pulses(before, event), _) => Ok(midpoint(event)? - midpoint(before)?),

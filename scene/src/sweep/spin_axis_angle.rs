@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use gauss_quad::GaussLegendre;
 use nalgebra::Vector3;
 use twofold::Error;
-use twofold::observables::spin_axis::{cos_lambda, cos_lambda_rate};
+use twofold::observables::spin_axis::cos_lambda_rate;
 use twofold::propagation::Motion;
 
 /// Panels of the quadrature per turn at the upper estimate of the turning rate.
@@ -91,7 +91,7 @@ impl SpinAxisAngle {
     fn take<M: Motion<f64>>(&mut self, motion: &M, time: f64) -> Result<Place, Error> {
         let state = motion.axis_state(time)?;
         let across = self.direction.cross(&state.axis).norm();
-        let angle = across.atan2(cos_lambda(&self.direction, &state.axis));
+        let angle = across.atan2(self.direction.dot(&state.axis));
         self.least = self.least.min(angle);
         self.largest = self.largest.max(angle);
         let rate = cos_lambda_rate(motion.spheroid(), &self.direction, &state.axis, &state.momentum);

@@ -1,6 +1,6 @@
 //! Fundamental frequencies of a motion: the mean rates of its angles.
 //!
-//! Every motion is quasi-periodic (it has the third integral of [`clebsch_integral`](crate::dynamics::first_integrals)), with
+//! Every motion is quasi-periodic (it has the third integral of [`clebsch`](crate::dynamics::first_integrals::FirstIntegrals::clebsch)), with
 //! at most three independent frequencies. Which angles show them depends on the motion:
 //!
 //! * Where the symmetry axis `n` swings round `L` farther than `L` is from the axis that it precesses about (twofold

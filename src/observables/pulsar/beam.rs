@@ -26,11 +26,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::sin_cos_of_sum;
 use crate::dynamics::equations_of_motion::{angular_velocity, reduced_rates};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::euler_angles::EulerAngles;
 use crate::numerics::scalar::Scalar;
+use crate::observables::sin_cos_of_sum;
 
 /// A cone of radiation fixed in the body.
 #[derive(Debug, Clone, Copy, PartialEq)]

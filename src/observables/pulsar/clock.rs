@@ -254,7 +254,7 @@ impl PulsarClock {
             midpoint: (DoubleDouble::from(t) + pulse.midpoint().into()).into(),
             duration: pulse.duration(),
             position_angle: middle,
-            position_angle_rate: position_angle_rate(&m, &omega, &self.observer).unwrap_or(f64::NAN),
+            position_angle_rate: if middle.is_nan() { middle } else { position_angle_rate(&m, &omega, &self.observer) },
             swing: turned(from(pulse.end) - middle) + turned(middle - from(pulse.start)),
             state: state.rotated(&self.given_from_principal),
         })

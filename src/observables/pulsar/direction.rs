@@ -29,10 +29,10 @@
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
-use super::sin_cos_of_sum;
 use crate::error::Error;
 use crate::euler_angles::EulerAngles;
 use crate::numerics::scalar::{Real, Scalar};
+use crate::observables::sin_cos_of_sum;
 
 /// `cos Theta = cos b cos chi + sin b sin chi sin(g + delta)` of the magnetic axis, Eq. (49) `[tranang]`.
 pub fn cosine_of_colatitude<S: Scalar>(beta: S, gamma: S, chi: S, delta: S) -> S {
@@ -78,7 +78,7 @@ pub fn axis_along_line_of_sight_in_azimuth<S: Scalar>(theta: S, phi: S, theta_o:
 }
 
 /// Refuses a magnetic axis on the Z axis, given `sin^2 Theta`.
-pub(super) fn refuse_pole(sin_squared: f64) -> Result<(), Error> {
+fn refuse_pole(sin_squared: f64) -> Result<(), Error> {
     let sin = sin_squared.sqrt();
     Error::ensure(sin > f64::EPSILON, "sin Theta of the magnetic axis", sin, "above 2.2e-16: on Z it has no azimuth")
 }

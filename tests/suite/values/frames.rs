@@ -66,14 +66,9 @@ fn principal_frames() {
             Ok(found) => {
                 table.parts(&format!("{name}: difference"), [found.difference]);
                 table.text(
-                    &format!("{name}: symmetric within rounding"),
-                    &found.is_symmetric_within_rounding().to_string(),
-                );
-                table.text(
                     &format!("{name}: asymmetry"),
                     &format!("{:.3e}", if found.asymmetry.norm() < 1e-15 { 0.0 } else { found.asymmetry.norm() }),
                 );
-                table.text(&format!("{name}: refused"), &found.refuse_asymmetry().is_err().to_string());
             }
             Err(error) => table.error(name, &error),
         }

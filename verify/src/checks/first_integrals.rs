@@ -3,9 +3,7 @@
 use nalgebra::Matrix3;
 use twofold::dynamics::BodyState;
 use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates};
-use twofold::dynamics::first_integrals::{
-    clebsch_integral, energy, energy_in_angles, first_integrals, spin_in_angles, symmetric_adjugate,
-};
+use twofold::dynamics::first_integrals::{energy_in_angles, first_integrals, spin_in_angles, symmetric_adjugate};
 
 use crate::check::{Check, Kind};
 use crate::derivation::spheroid_motion::{accelerations, fixed_coefficients, fixed_spheroid};
@@ -43,7 +41,7 @@ impl Identity for IntegralsInAngles {
         [
             energy_in_angles(&spheroid, &s, &angles, &rates),
             spin_in_angles(&angles, &rates),
-            clebsch_integral(&spheroid, &s.tensor(), &state.axis, &state.momentum),
+            first_integrals(&spheroid, &s.tensor(), &state).clebsch,
         ]
         .map(F::derivative)
         .to_vec()
@@ -130,9 +128,10 @@ impl Identity for OtherClebschForm {
         let (s_n, along) = (s * n, l.dot(n));
         let other = l.dot(&(s * l)) - l.dot(l) * trace - c * moment * s_n.dot(&s_n) * 2.0;
         let spin_part = along * along / p.spheroid.inertia_zz - along * along / moment;
-        let h = energy(&p.spheroid, s, n, l) - spin_part / 2.0;
+        let found = first_integrals(&p.spheroid, s, &state);
+        let h = found.energy - spin_part / 2.0;
         let constant = c * moment * (trace * trace - (s * s).trace());
-        vec![clebsch_integral(&p.spheroid, s, n, l) - (other + moment * trace * h * 2.0 - constant)]
+        vec![found.clebsch - (other + moment * trace * h * 2.0 - constant)]
     }
 }
 

@@ -7,9 +7,7 @@ use twofold::dynamics::BodyState;
 use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
-use twofold::observables::spin_axis::{
-    changes_from_start, cos_lambda, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
-};
+use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate};
 use twofold::propagation::{Motion, propagate};
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
@@ -77,7 +75,7 @@ impl Identity for SpinAxisAngle {
     fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         let in_angles = cos_lambda_in_angles(p.frame.beta, p.frame.alpha, p.angles.alpha, p.angles.beta);
         let (direction, axis) = (observer(p).direction, symmetry_axis(p.angles.alpha, p.angles.beta));
-        vec![in_angles - cos_lambda(&direction, &axis), in_angles + cos_lambda(&-direction, &axis)]
+        vec![in_angles - direction.dot(&axis), in_angles + (-direction).dot(&axis)]
     }
 }
 
@@ -155,7 +153,7 @@ fn error(s: &PrincipalCoefficients<f64>, amplitude: f64, interval: f64) -> Resul
     let direction = Observer::at(theta, phi).direction;
     let moved: Vector3<f64> = end.axis - initial.axis;
     let changes = changes_from_start(&solution, interval);
-    Ok((cos_lambda(&direction, &moved) - cos_lambda_change(theta, phi, (start.alpha, start.beta), changes)).abs())
+    Ok((direction.dot(&moved) - cos_lambda_change(theta, phi, (start.alpha, start.beta), changes)).abs())
 }
 
 fn order_in_time() -> Result<Measured, String> {

@@ -82,11 +82,8 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
         "averages over 256 nodes of kernels here: the error is that of the rule, see `eta-*`",
     ),
     (
-        &[
-            "observables::eta_distribution::EtaDistribution::seen_at",
-            "observables::eta_distribution::EtaDistribution::times",
-        ],
-        "one sine, or one product for each speed; quantiles are bisected to the last digit, against closed forms in the tests of the module",
+        &["observables::eta_distribution::EtaDistribution::seen_at"],
+        "one sine; quantiles are bisected to the last digit, against closed forms in the tests of the module",
     ),
     (
         &[
@@ -98,9 +95,7 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
             "solutions::averaged::Top::goes_round",
             "solutions::averaged::Top::is_periodic",
             "solutions::perturbation::Precession::sign",
-            "lorentz_violation::SymmetryOfTensor::is_symmetric_within_rounding",
-            "lorentz_violation::SymmetryOfTensor::refuse_asymmetry",
-            "Error",
+            "error::Error",
         ],
         "no arithmetic: what was given, signs, yes or no",
     ),

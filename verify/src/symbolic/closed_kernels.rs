@@ -6,7 +6,7 @@ use twofold::dynamics::BodyState;
 use twofold::euler_angles::body_from_inertial;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
-use twofold::observables::bound::{SpinAxisDrift, fluid_inertia_over_c};
+use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination, fluid_inertia_over_c};
 use twofold::observables::wave_harmonics::WaveHarmonics;
 use twofold::propagation::AxisState;
 use twofold::solutions::averaged::{
@@ -152,5 +152,5 @@ fn bound(p: &Point) -> Components {
     let polar_inertia_over_c = p.at("i_zz") / p.at("c");
     let (spin, interval, cos_lambda_change) = (p.at("spin"), p.at("x_1"), p.at("x_2"));
     let drift = SpinAxisDrift { polar_inertia_over_c, spin, interval, cos_lambda_change };
-    Ok(vec![drift.combination_bound_at(p.at("beta"))?])
+    Ok(vec![drift.combination_bound(eta_from_inclination(p.at("beta"))?)?])
 }

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::bound::SpinAxisDrift;
+use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination};
 use twofold::propagation::{AveragedMotion, Motion};
 use twofold::solutions::averaged::AveragingOrder;
 use twofold::solutions::perturbation::{Form, Precession};
@@ -128,7 +128,7 @@ fn drift() -> Result<Measured, String> {
         // Over all directions o of observers the mean square of o.d is |d|^2 / 3.
         let cos_lambda_change = (end - axis).norm() / 3.0_f64.sqrt();
         let drift = SpinAxisDrift { polar_inertia_over_c: spheroid.inertia_zz, spin, interval, cos_lambda_change };
-        let estimate = drift.combination_bound_at(beta_0)?;
+        let estimate = drift.combination_bound(eta_from_inclination(beta_0)?)?;
         let expected = s.combination().abs() * beta_0.sin() / 3.0_f64.sqrt();
         worst.see((estimate / expected - 1.0).abs(), || {
             format!("star {case} of seed 71: s of {size:.1e}, {gone:.1e} rad gone")
