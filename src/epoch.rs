@@ -14,8 +14,6 @@
 //! # Ok::<(), twofold::Error>(())
 //! ```
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::epoch::Epoch;
 //!

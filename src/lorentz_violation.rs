@@ -1,7 +1,5 @@
 //! Coefficients for Lorentz violation `s^IJ`: principal values, principal frame, PPN replacement. Eqs. (5), (36).
 //!
-//! # Example
-//!
 //! ```
 //! use nalgebra::Vector3;
 //! use num_dual::Dual64;

@@ -1,7 +1,5 @@
 //! How `eta` of Eq. (41) `[est1]` is distributed over observers and over what is not known of the spin axis.
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
 //!

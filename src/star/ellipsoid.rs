@@ -3,8 +3,6 @@
 //! The paper treats spheroids. The anisotropic energy `-(1/2) s^ij U^ij` holds for any body; this is the simplest one
 //! without a symmetry axis. Reference: Chandrasekhar, *Ellipsoidal Figures of Equilibrium*, chapter 3.
 //!
-//! # Example
-//!
 //! ```
 //! use nalgebra::Vector3;
 //! use twofold::star::ellipsoid::UniformEllipsoid;

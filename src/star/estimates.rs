@@ -4,8 +4,6 @@
 //! [`UniformSpheroid::polar_inertia_over_c`](crate::star::uniform_spheroid::UniformSpheroid::polar_inertia_over_c) and
 //! [`UniformSpheroid::time_unit`](crate::star::uniform_spheroid::UniformSpheroid::time_unit).
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::star::estimates::{inertia_over_c_estimate, time_unit_estimate};
 //! use twofold::units::geometrised::GRAM_PER_CUBIC_CENTIMETRE;

@@ -1,7 +1,5 @@
 //! Maclaurin spheroid: a uniform fluid in equilibrium, rotating about its axis. Eqs. (14)-(18), (76)-(78).
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::star::maclaurin::MaclaurinSpheroid;
 //! use twofold::star::uniform_spheroid::UniformSpheroid;

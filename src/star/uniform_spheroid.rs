@@ -1,7 +1,5 @@
 //! Uniform spheroid: mass, inertia, tensor of the gravitational energy and the constant C. Eqs. (10), (12), (17), (19), (75).
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::star::spheroid_shape::SpheroidShape;
 //! use twofold::star::uniform_spheroid::UniformSpheroid;

@@ -11,8 +11,6 @@
 //!   `alpha`: its mean rate is that of `alpha`, as the paper says. The slow frequency is there all the same; it is that of `L` averaged
 //!   over the fast rotation.
 //!
-//! # Example
-//!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
 //! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};

@@ -1,7 +1,5 @@
 //! The pulse train of a motion: every stretch of time with the line of sight inside the beam. Eq. (44).
 //!
-//! # Example
-//!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
 //! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};

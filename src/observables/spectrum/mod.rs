@@ -1,8 +1,6 @@
 //! Spectra of what is observed of a motion: amplitudes by the fast Fourier transform, lists of lines, and which combination of
 //! the motion's fundamental frequencies each line is.
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::observables::spectrum::{
 //!     FrequencyBasis, Generator, Series, Window, amplitude_spectrum, spectral_lines,

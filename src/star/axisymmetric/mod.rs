@@ -24,8 +24,6 @@
 //! degree; what is left decreases as `degree^-5`. For a uniform spheroid of axis ratio 0.95, 0.6, 2 the relative error of C
 //! at degree 16 is 4e-6, 6e-5, 2e-4, at degree 32 it is 2e-7, 2e-6, 5e-6. For the sphere degree 2 is exact.
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::star::axisymmetric::axisymmetric_integrals;
 //! use twofold::star::uniform_spheroid::UniformSpheroid;
