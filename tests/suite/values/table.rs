@@ -68,6 +68,7 @@ impl Table {
     pub fn error(&mut self, name: &str, error: &Error) {
         match error {
             Error::Domain { quantity, allowed, .. } => self.text(name, &format!("{quantity}: {allowed}")),
+            Error::Unsupported { what, why } => self.text(name, &format!("{what}: {why}")),
             Error::NotConverged { what, .. } => self.text(name, &format!("{what}: no convergence")),
         }
     }
