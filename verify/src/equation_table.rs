@@ -493,6 +493,7 @@ pub const EQUATIONS: &[Equation] = &[
         "h_+ and h_x",
         &[
             "observables::gravitational_wave::polarizations",
+            "observables::gravitational_wave::wave_of_state",
             "observables::gravitational_wave::Polarizations",
             "observables::gravitational_wave::strain_unit",
         ],

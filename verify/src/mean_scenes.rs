@@ -127,11 +127,7 @@ impl MeanScene {
     /// A motion that is refused.
     pub fn motion<S: Real>(&self, order: AveragingOrder) -> Result<AveragedSolution<S>, Error> {
         let lift = |v: &Vector3<f64>| v.map(S::from_f64);
-        let spheroid = RigidSpheroid {
-            inertia_xx: S::from_f64(self.spheroid.inertia_xx),
-            inertia_zz: S::from_f64(self.spheroid.inertia_zz),
-            constant_c: S::from_f64(self.spheroid.constant_c),
-        };
+        let spheroid = self.spheroid.map(S::from_f64);
         let initial = BodyState {
             axis: lift(&self.initial.axis),
             momentum: lift(&self.initial.momentum),

@@ -96,11 +96,7 @@ pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, S
 /// Energy and K in double-double numbers: doubles would add their own rounding.
 fn integrals(scene: &BenchScene, state: &AxisState<f64>) -> [DoubleDouble; 2] {
     let lift = <DoubleDouble as twofold::Scalar>::from_f64;
-    let spheroid = twofold::dynamics::RigidSpheroid {
-        inertia_xx: lift(scene.spheroid.inertia_xx),
-        inertia_zz: lift(scene.spheroid.inertia_zz),
-        constant_c: lift(scene.spheroid.constant_c),
-    };
+    let spheroid = scene.spheroid.map(lift);
     let state = AxisState { axis: state.axis.map(lift), momentum: state.momentum.map(lift) };
     let found = first_integrals(&spheroid, &scene.violation.map(lift), &state);
     [found.energy, found.clebsch]

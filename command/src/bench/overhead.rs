@@ -178,11 +178,7 @@ fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
 
 /// The motion over another scalar.
 fn over<S: Real>(scene: &BenchScene, lift: impl Fn(f64) -> S, carries: Carries) -> Result<(), String> {
-    let spheroid = RigidSpheroid {
-        inertia_xx: lift(scene.spheroid.inertia_xx),
-        inertia_zz: lift(scene.spheroid.inertia_zz),
-        constant_c: lift(scene.spheroid.constant_c),
-    };
+    let spheroid = scene.spheroid.map(&lift);
     let s = scene.violation.map(&lift);
     let BodyState { axis, momentum, equatorial_axis } = scene.initial;
     let (axis, momentum, span) = (axis.map(&lift), momentum.map(&lift), (0.0, DURATION));

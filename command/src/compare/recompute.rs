@@ -2,10 +2,9 @@
 
 use twofold::Error;
 use twofold::dynamics::BodyState;
-use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::observables::Observer;
-use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
+use twofold::observables::gravitational_wave::wave_of_state;
 use twofold::observables::pulsar::direction::magnetic_axis_direction;
 use twofold::observables::pulsar::period::{azimuth_offset_rate, instantaneous_period};
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
@@ -155,8 +154,7 @@ pub(super) fn waves(example: &PaperExample, table: &Table) -> Result<Vec<Vec<f64
     let (observer, body, s) = (observer(), spheroid(), COEFFICIENTS.tensor());
     let row = |t: f64| {
         let state = motion.state(t)?;
-        let acceleration = spheroid_inertia_acceleration(&body, &s, &state.axis, &state.momentum);
-        let h = polarizations(&observer, &metric_perturbation(1.0, &acceleration));
+        let h = wave_of_state(&body, &s, &(&state).into(), &observer);
         Ok(vec![h.plus, h.cross])
     };
     table.times().map(row).collect()

@@ -1,8 +1,7 @@
 //! `h_+` and `h_x` at the observer in time.
 
 use twofold::dynamics::BodyState;
-use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
-use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
+use twofold::observables::gravitational_wave::{Polarizations, wave_of_state};
 use twofold::units::si::KILOPARSEC;
 
 use super::axes::{Axis, BELOW, LEFT, Panel};
@@ -22,8 +21,7 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
 /// The two polarizations in a state, as they are drawn.
 pub(super) fn wave(subject: &Subject, state: &BodyState<f64>) -> Result<Polarizations<f64>, String> {
     let start = &subject.start;
-    let source = spheroid_inertia_acceleration(&start.spheroid, &start.violation, &state.axis, &state.momentum);
-    let h = polarizations(&subject.viewer()?.basis(), &metric_perturbation(1.0, &source));
+    let h = wave_of_state(&start.spheroid, &start.violation, &state.into(), &subject.viewer()?.basis());
     Ok(Polarizations { plus: subject.scale.wave(h.plus), cross: subject.scale.wave(h.cross) })
 }
 

@@ -1,8 +1,7 @@
 //! Columns of what an observer measures.
 
 use twofold::dynamics::equations_of_motion::angular_velocity;
-use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
-use twofold::observables::gravitational_wave::{metric_perturbation, polarizations, strain_unit};
+use twofold::observables::gravitational_wave::{strain_unit, wave_of_state};
 use twofold::observables::pulsar::position_angle::{position_angle, position_angle_rate};
 use twofold::observables::spin_axis::cos_lambda_rate;
 use twofold::plan::Output;
@@ -74,9 +73,7 @@ pub(super) const STRAIN: ColumnGroup = ColumnGroup {
     header: |_| with_unit(&["h_plus", "h_cross"], "1"),
     values: |scene, moment| {
         let observer = scene.observer?;
-        let AxisState { axis, momentum } = moment.axis();
-        let acceleration = spheroid_inertia_acceleration(&scene.spheroid, &scene.violation, &axis, &momentum);
-        let h = polarizations(&observer.basis(), &metric_perturbation(1.0, &acceleration));
+        let h = wave_of_state(&scene.spheroid, &scene.violation, &moment.axis(), &observer.basis());
         let unit = observer.distance.map_or(1.0, |distance| strain_of_scene(scene, distance));
         Some(vec![h.plus * unit, h.cross * unit])
     },

@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
-use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::epoch::Epoch;
-use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations};
+use twofold::observables::gravitational_wave::{Polarizations, wave_of_state};
 use twofold::propagation::AxisState;
 
 use super::PulsarScene;
@@ -24,8 +23,7 @@ impl PulsarScene {
     /// The wave at the observer, at the scene's distance, of a state.
     pub fn wave(&self, state: &AxisState<f64>) -> Option<Polarizations<f64>> {
         let unit = self.strain_unit?;
-        let source = spheroid_inertia_acceleration(&self.spheroid, &self.violation, &state.axis, &state.momentum);
-        let wave = polarizations(&self.observer, &metric_perturbation(1.0, &source));
+        let wave = wave_of_state(&self.spheroid, &self.violation, state, &self.observer);
         Some(Polarizations { plus: wave.plus * unit, cross: wave.cross * unit })
     }
 }

@@ -22,11 +22,7 @@ const STRETCH: f64 = 25_000.0;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = BenchScene::named("tp-II");
     let lift = DoubleDouble::from_f64;
-    let spheroid = RigidSpheroid {
-        inertia_xx: lift(scene.spheroid.inertia_xx),
-        inertia_zz: lift(scene.spheroid.inertia_zz),
-        constant_c: lift(scene.spheroid.constant_c),
-    };
+    let spheroid = scene.spheroid.map(lift);
     let s: Matrix3<DoubleDouble> = scene.violation.map(lift);
     let mut state = AxisState { axis: scene.initial.axis.map(lift), momentum: scene.initial.momentum.map(lift) };
     let mut out = std::io::stdout().lock();

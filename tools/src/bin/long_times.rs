@@ -125,11 +125,7 @@ fn against_itself<
 ) -> Result<ErrorAt<'a>, Failure> {
     let lift = <DoubleDouble as Scalar>::from_f64;
     let (body, start) = (&scene.spheroid, &scene.initial);
-    let exact_body = RigidSpheroid {
-        inertia_xx: lift(body.inertia_xx),
-        inertia_zz: lift(body.inertia_zz),
-        constant_c: lift(body.constant_c),
-    };
+    let exact_body = body.map(lift);
     let exact_start = BodyState {
         axis: start.axis.map(lift),
         momentum: start.momentum.map(lift),

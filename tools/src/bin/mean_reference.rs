@@ -21,11 +21,7 @@ const STRETCH: f64 = 25_000.0;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = reference_motion("tp-2");
     let lift = DoubleDouble::from_f64;
-    let spheroid = RigidSpheroid {
-        inertia_xx: lift(scene.spheroid.inertia_xx),
-        inertia_zz: lift(scene.spheroid.inertia_zz),
-        constant_c: lift(scene.spheroid.constant_c),
-    };
+    let spheroid = scene.spheroid.map(lift);
     let initial = scene.initial();
     let mut out = std::io::stdout().lock();
     writeln!(

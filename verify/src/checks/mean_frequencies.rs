@@ -477,11 +477,7 @@ fn unstable(k: f64, nutation: f64) -> Result<(Scene, f64), String> {
         return Err(format!("the motion about the middle axis is not periodic: {off:e}"));
     }
     // Trace of the monodromy matrix of (n, L): four of its eigenvalues are one, two exp(+-mu T).
-    let lifted = RigidSpheroid {
-        inertia_xx: Dual64::from_re(body.inertia_xx),
-        inertia_zz: Dual64::from_re(body.inertia_zz),
-        constant_c: Dual64::from_re(body.constant_c),
-    };
+    let lifted = body.map(Dual64::from_re);
     let mut excess = -6.0;
     for place in 0..6 {
         let mut vectors = [start.axis, start.momentum].map(|v| v.map(Dual64::from_re));

@@ -89,6 +89,7 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
         &[
             "dynamics::RigidSpheroid::in_units_of_tc",
             "dynamics::RigidSpheroid::inertia",
+            "dynamics::RigidSpheroid::map",
             "euler_angles::permuted_from_inertial",
             "scalar::constant_vector",
             "scalar::real_part",
@@ -110,5 +111,6 @@ pub const ELSEWHERE: &[(&[&str], &str)] = &[
         ],
         "one product, one root, or a product with a matrix as in `BodyState::rotated`",
     ),
+    (&["observables::gravitational_wave::wave_of_state"], "three kernels here, one after the other"),
     (&["star::maclaurin::MaclaurinSpheroid::virial_residual"], "zero but for rounding, see `star-tensor-virial`"),
 ];

@@ -63,11 +63,7 @@ pub(super) fn checks() -> Vec<Check> {
 type Function = fn(&State, &Vector3<Dual64>, &Vector3<Dual64>) -> Dual64;
 
 fn lifted(body: &RigidSpheroid<f64>) -> RigidSpheroid<Dual64> {
-    RigidSpheroid {
-        inertia_xx: Dual64::from_re(body.inertia_xx),
-        inertia_zz: Dual64::from_re(body.inertia_zz),
-        constant_c: Dual64::from_re(body.constant_c),
-    }
+    body.map(Dual64::from_re)
 }
 
 /// Slopes by `n` and `L`.

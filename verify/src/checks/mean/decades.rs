@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use twofold::Scalar;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::BodyState;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{AveragedMotion, Motion};
 use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
@@ -51,11 +51,7 @@ fn phases() -> Result<Measured, String> {
         let initial = BodyState { axis: state.n, momentum: state.momentum, equatorial_axis: across };
         let mean = AveragedSolution::new(&state.body, &PrincipalCoefficients::new(s.into()), &initial, order)?;
         let exact = AveragedSolution::new(
-            &RigidSpheroid {
-                inertia_xx: DoubleDouble::from_f64(state.body.inertia_xx),
-                inertia_zz: DoubleDouble::from_f64(state.body.inertia_zz),
-                constant_c: DoubleDouble::from_f64(state.body.constant_c),
-            },
+            &state.body.map(DoubleDouble::from_f64),
             &PrincipalCoefficients::new(lift(&s).into()),
             &BodyState { axis: lift(&state.n), momentum: lift(&state.momentum), equatorial_axis: lift(&across) },
             order,

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use num_dual::Dual64;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::BodyState;
 use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame_along, principal_frame_with_derivatives};
 use twofold::propagation::{AveragedMotion, Motion};
 use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
@@ -42,11 +42,7 @@ impl Family {
     fn at<S: twofold::Real>(&self, x: S, t: S, frame_of: Frame<S>) -> Result<BodyState<S>, twofold::Error> {
         let lift = |v: &Vector3<f64>| v.map(S::from_f64);
         let MeanScene { spheroid, s, initial, end } = &self.scene;
-        let mut body = RigidSpheroid {
-            inertia_xx: S::from_f64(spheroid.inertia_xx),
-            inertia_zz: S::from_f64(spheroid.inertia_zz),
-            constant_c: S::from_f64(spheroid.constant_c),
-        };
+        let mut body = spheroid.map(S::from_f64);
         let frame = self.frame.map(S::from_f64);
         let mut tensor = frame * Matrix3::from_diagonal(&lift(s)) * frame.transpose();
         let mut state = BodyState {

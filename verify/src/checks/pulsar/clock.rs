@@ -172,11 +172,7 @@ impl Exact {
             momentum: lift(&state.momentum),
             equatorial_axis: lift(&state.equatorial_axis),
         };
-        let spheroid = RigidSpheroid {
-            inertia_xx: number(pulsar.spheroid.inertia_xx),
-            inertia_zz: number(pulsar.spheroid.inertia_zz),
-            constant_c: number(pulsar.spheroid.constant_c),
-        };
+        let spheroid = pulsar.spheroid.map(number);
         let c = frame.coefficients;
         let s = PrincipalCoefficients::new([c.xx, c.yy, c.zz].map(number));
         let (given, turned) = (lifted(&pulsar.initial), lifted(&turned));
