@@ -11,7 +11,6 @@
 use std::io::Write as _;
 
 use nalgebra::Matrix3;
-use twofold::dynamics::RigidSpheroid;
 use twofold::numerics::scalar::Scalar;
 use twofold::propagation::{AxisState, Motion, propagate_axis};
 use twofold_command::bench::scene::BenchScene;
