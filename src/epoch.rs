@@ -1,4 +1,4 @@
-//! Epochs as modified Julian dates of two parts: a whole day and a fraction, so that a date of today keeps 1e-16 day (10 ps).
+//! Epochs as modified Julian dates in two parts, a whole day and a fraction, so that a present date keeps 1e-16 day (10 ps).
 //!
 //! A single double holds MJD 55000 to 7e-12 day, 0.6 microseconds. The time scale is whatever the dates are in; for arrival times at
 //! the barycentre of the solar system it is TDB.

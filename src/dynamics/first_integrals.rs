@@ -1,4 +1,4 @@
-//! The first integrals of a motion: the energy, the spin component and a third, quadratic one. Eq. (24) and beyond.
+//! First integrals of a motion: energy, spin component and a third, quadratic one. Eq. (24) and beyond.
 //!
 //! ```
 //! use twofold::dynamics::first_integrals::{energy_in_angles, first_integrals, spin_in_angles};

@@ -1,4 +1,4 @@
-//! The rigid bodies whose rotation is studied: moments of inertia and the constant of the anisotropic self-energy.
+//! Rigid bodies: moments of inertia and the constant of the anisotropic self-energy.
 
 use crate::error::Error;
 use crate::numerics::scalar::{Real, Scalar};

@@ -1,4 +1,4 @@
-//! Bounds on Lorentz violation from a spin axis that does not move. Eqs. (40)-(42).
+//! Bounds on Lorentz violation from a limit on the drift of the spin axis. Eqs. (40)-(42).
 //!
 //! ```
 //! use nalgebra::Vector3;

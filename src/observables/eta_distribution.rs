@@ -1,4 +1,4 @@
-//! How `eta` of Eq. (41) `[est1]` is distributed over observers and over what is not known of the spin axis.
+//! Distribution of `eta` of Eq. (41) `[est1]` over directions to the observer and over unknown orientations of the spin axis.
 //!
 //! ```
 //! use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};

@@ -1,8 +1,9 @@
-//! A pulsar as a clock: its pulses near any time, numbered without a break over decades. Eqs. (44), (47).
+//! A pulsar as a clock: its pulse near any time, with turns counted without a break over decades. Eqs. (44), (47).
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::edge_search::{ByStates, EdgeSearch, Event, Margin};
+use super::edge_search::{EdgeSearch, Event};
+use super::margin::{ByStates, Margin};
 use super::position_angle::{position_angle, position_angle_rate};
 use super::rate_bounds::{RateBounds, rate_bounds};
 use super::train::{PulseTrain, check_beam};

@@ -1,4 +1,4 @@
-//! Times of a pulse as functions of what they depend on: the implicit function theorem. Eq. (44).
+//! Times of a pulse with their derivatives by parameters, from the implicit function theorem. Eq. (44).
 //!
 //! ```
 //! use num_dual::Dual64;

@@ -7,6 +7,7 @@ pub mod direction;
 mod edge_search;
 pub mod event_time;
 mod hermite;
+mod margin;
 pub mod period;
 pub mod position_angle;
 pub mod rate_bounds;

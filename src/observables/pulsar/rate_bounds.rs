@@ -1,4 +1,4 @@
-//! How fast a direction fixed in the body can turn, at any time of a motion.
+//! Bounds on the rates of directions fixed in the body that hold at all times of a motion.
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};

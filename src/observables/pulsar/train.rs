@@ -25,8 +25,9 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::Beam;
-use super::edge_search::{BySeries, ByStates, EdgeSearch, Event, Margin};
+use super::edge_search::{EdgeSearch, Event};
 use super::hermite::Jet;
+use super::margin::{BySeries, ByStates, Margin};
 use super::rate_bounds::{RateBounds, rate_bounds};
 use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;

@@ -10,7 +10,7 @@
 use std::io::Write as _;
 
 use nalgebra::Matrix3;
-use twofold::dynamics::{BodyState};
+use twofold::dynamics::BodyState;
 use twofold::numerics::scalar::Scalar;
 use twofold::propagation::{Motion, propagate};
 use twofold_verify::double_double::DoubleDouble;
