@@ -41,13 +41,16 @@ pub mod dynamics;
 pub mod epoch;
 pub mod error;
 pub mod euler_angles;
+pub mod inference;
 pub mod lorentz_violation;
 pub mod numerics;
 pub mod observables;
+pub mod parameters;
 pub mod plan;
 pub mod propagation;
 pub mod solutions;
 pub mod star;
+pub mod straight_line;
 pub mod units;
 
 pub use dynamics::{AxisState, BodyState, Problem, RigidSpheroid};

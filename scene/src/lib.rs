@@ -1,9 +1,8 @@
-//! Scene files of the model `twofold` and what is computed from them: tables, sweeps, timing files, fits.
+//! Scene files of the model `twofold` and what is computed from them: tables, sweeps, timing files, measured data.
 
 pub mod columns;
 pub mod estimated_error;
-pub mod fit;
-pub mod inference;
+pub mod measurements;
 pub mod pulsar_table;
 pub mod pulsar_timing;
 pub mod random;

@@ -1,6 +1,6 @@
 //! Each method before it is used: whether it holds for a scene, how large its error and its work will be.
 
-use super::{Cost, Method, Output, Parameter, Request, State, Work};
+use super::{Cost, Method, Output, Request, State, Work};
 use crate::dynamics::Problem;
 use crate::error::Error;
 use crate::lorentz_violation::{error_of_principal_frame_along, principal_frame};
@@ -118,9 +118,9 @@ impl Forecast {
     }
 }
 
-/// A closed form that holds for some tensors only has no derivatives by those that lead to others.
+/// A closed form for a family of tensors has no derivatives by changes of the tensor that leave the family.
 fn refuse_derivatives(request: &Request, why: &'static str) -> Result<(), Error> {
-    let by_tensor = request.derivatives.iter().any(|parameter| matches!(parameter, Parameter::S(..)));
+    let by_tensor = request.derivatives.iter().any(|parameter| parameter.is_of_s());
     if by_tensor { Err(Error::Unsupported { what: "derivatives by components of s^IJ", why }) } else { Ok(()) }
 }
 
@@ -226,6 +226,7 @@ mod tests {
     use super::*;
     use crate::dynamics::RigidSpheroid;
     use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::parameters::Parameter;
 
     const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
 

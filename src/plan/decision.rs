@@ -3,11 +3,12 @@
 use nalgebra::Matrix3;
 
 use super::candidate::evaluations;
-use super::{Candidate, Evaluations, Method, Output, Parameter, PlannedAxisMotion, PlannedMotion, Prediction};
+use super::{Candidate, Evaluations, Method, Output, PlannedAxisMotion, PlannedMotion, Prediction};
 use super::{Request, State};
 use crate::dynamics::equations_of_motion::angular_velocity;
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
+use crate::parameters::Parameter;
 use crate::propagation::largest_torque;
 
 /// Something that a plan does not do.
@@ -140,7 +141,7 @@ impl Plan {
         }
         if self.derivatives.is_empty() {
             skip("derivatives", "none is asked");
-        } else if self.derivatives.len() < Parameter::COUNT {
+        } else if self.derivatives.len() < Parameter::OF_MOTION.len() {
             skip("derivatives by the other parameters", "only those named are computed");
         }
         skipped

@@ -3,11 +3,12 @@
 use nalgebra::{DMatrix, Matrix3};
 use num_dual::Dual64;
 
-use super::{Method, Parameter, Plan, Start, State};
+use super::{Method, Plan, State};
 use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame_along;
 use crate::numerics::scalar::Real;
+use crate::parameters::Parameters;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::check_time;
 #[cfg(target_arch = "x86_64")]
@@ -51,7 +52,7 @@ pub struct Gradient {
 /// doubles, for which no plan chooses it.
 pub fn gradient(
     plan: &Plan,
-    start: &Start<f64>,
+    start: &Parameters<f64>,
     outputs: &impl StateFunction,
     times: &[f64],
 ) -> Result<Gradient, Error> {
@@ -66,7 +67,7 @@ pub fn gradient(
 /// As for [`gradient`].
 pub fn gradient_in_parts(
     plan: &Plan,
-    start: &Start<f64>,
+    start: &Parameters<f64>,
     outputs: &impl StateFunction,
     times: &[[f64; 2]],
 ) -> Result<Gradient, Error> {
@@ -117,7 +118,7 @@ pub fn gradient_in_parts(
 
 fn values(
     plan: &Plan,
-    start: &Start<f64>,
+    start: &Parameters<f64>,
     outputs: &impl StateFunction,
     times: &[[f64; 2]],
 ) -> Result<DMatrix<f64>, Error> {
@@ -139,15 +140,6 @@ fn values(
 /// The states of a motion; `e_x` is zero where it is not carried.
 fn states<M: Motion<f64>>(motion: &M, times: &[[f64; 2]]) -> Result<Vec<BodyState<f64>>, Error> {
     times.iter().map(|&t| Ok(BodyState::from_vectors(motion.state_in_parts(t)?.vectors()))).collect()
-}
-
-impl Start<f64> {
-    /// The scene as a function of one parameter, at the value it has.
-    fn seeded(&self, parameter: Parameter) -> Start<Dual64> {
-        let mut seeded = self.lifted();
-        parameter.add(&mut seeded, Dual64::new(0.0, 1.0));
-        seeded
-    }
 }
 
 /// The state at each time as a function of each parameter, by splitting.
@@ -210,6 +202,7 @@ mod tests {
     use super::*;
     use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::lorentz_violation::PrincipalCoefficients;
+    use crate::parameters::Parameter;
     use crate::plan::{Output, Request};
     use crate::solutions::perturbation::Precession;
     use crate::solutions::steady::steady_precession_rate;
@@ -227,16 +220,14 @@ mod tests {
         }
     }
 
-    fn start(s: [f64; 3]) -> Start<f64> {
-        Start {
-            spheroid: RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 },
-            violation: Matrix3::from_diagonal(&Vector3::from(s)),
-            angles: EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 },
-            rates: EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 },
-        }
+    fn start(s: [f64; 3]) -> Parameters<f64> {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
+        Parameters::new(spheroid, Matrix3::from_diagonal(&Vector3::from(s)), angles, rates)
     }
 
-    fn plan(start: &Start<f64>, method: Method, span: (f64, f64), accuracy: f64) -> Plan {
+    fn plan(start: &Parameters<f64>, method: Method, span: (f64, f64), accuracy: f64) -> Plan {
         let derivatives = vec![Parameter::Beta, Parameter::ConstantC];
         let request = Request::new(&[Output::SymmetryAxis], span, 3, accuracy);
         let request = Request { method: Some(method), derivatives, ..request };
@@ -289,7 +280,7 @@ mod tests {
         assert_eq!(method(&[]), Some(Method::Taylor));
         let with_maps = if require_tangent_maps().is_ok() { Method::Splitting } else { Method::Taylor };
         for count in [1, 3, 15] {
-            assert_eq!(method(&Parameter::ALL[..count]), Some(with_maps), "{count}");
+            assert_eq!(method(&Parameter::OF_MOTION[..count]), Some(with_maps), "{count}");
         }
     }
 
@@ -300,7 +291,8 @@ mod tests {
         let coefficients = PrincipalCoefficients::new([0.2, 0.2, -0.4]);
         let (spin, beta) = (1.5, start.angles.beta);
         let rate = steady_precession_rate(Precession::Twofold, &start.spheroid, &coefficients, spin, beta).unwrap();
-        start.rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
+        let rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
+        start = Parameters::new(start.spheroid, start.violation, start.angles, rates);
         let request =
             Request { method: Some(Method::Steady), ..Request::new(&[Output::SymmetryAxis], (0.0, 20.0), 3, 1e-9) };
         let plan = start.problem().unwrap().plan(&request).unwrap();

@@ -15,7 +15,8 @@
 //! use nalgebra::Matrix3;
 //! use twofold::dynamics::{BodyState, RigidSpheroid};
 //! use twofold::euler_angles::{EulerAngles, EulerRates};
-//! use twofold::plan::{Output, Parameter, Request, Start, StateFunction, gradient, gradient_in_parts};
+//! use twofold::parameters::{Parameter, Parameters};
+//! use twofold::plan::{Output, Request, StateFunction, gradient, gradient_in_parts};
 //! use twofold::numerics::scalar::Real;
 //!
 //! struct Height;
@@ -30,7 +31,7 @@
 //!
 //! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
 //! let (spheroid, violation) = (RigidSpheroid::in_units_of_tc(1.1), Matrix3::new(0.02, 0., 0., 0., 0.01, 0., 0., 0., -0.03));
-//! let start = Start { spheroid, violation, angles, rates };
+//! let start = Parameters::new(spheroid, violation, angles, rates);
 //! // n at a thousand times, with derivatives by two of the parameters: the plan says by which method, and what it costs.
 //! let request = Request::new(&[Output::SymmetryAxis], (0.0, 100.0), 1000, 1e-12);
 //! let plan = start.problem()?.plan(&Request { derivatives: vec![Parameter::S(2, 2), Parameter::Beta], ..request })?;
@@ -48,7 +49,6 @@ mod gradient;
 mod method;
 mod motion;
 mod output;
-mod parameter;
 mod request;
 mod work;
 
@@ -59,6 +59,5 @@ pub use gradient::{Gradient, StateFunction, gradient, gradient_in_parts};
 pub use method::Method;
 pub use motion::{PlannedAxisMotion, PlannedMotion};
 pub use output::{Evaluations, Need, Output, State};
-pub use parameter::{Parameter, Start};
 pub use request::{Request, Samples};
 pub use work::{Counted, Work};

@@ -1,6 +1,7 @@
 //! What is asked of a scene.
 
-use super::{Method, Output, Parameter};
+use super::{Method, Output};
+use crate::parameters::Parameter;
 
 /// Times at which outputs are wanted, leading away from the start of the span.
 #[derive(Debug, Clone, Copy, PartialEq)]

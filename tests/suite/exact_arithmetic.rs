@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 use num_traits::{One, Zero};
 use quickcheck::{Gen, QuickCheck, Testable};
 use twofold::Scalar;
-use twofold_verify::conditioned::Conditioned;
 use twofold_verify::dual::Dual;
+use twofold_verify::magnitudes::Conditioned;
 use twofold_verify::prime_field::{Fp, PRIME};
 
 /// The same thousand cases on every run.

@@ -3,8 +3,8 @@
 use num_traits::Zero;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst};
-use crate::conditioned::Conditioned;
 use crate::derivation::Differentiable;
+use crate::magnitudes::Conditioned;
 use crate::prime_field::Fp;
 use crate::random::{Drawn, Point, Random};
 

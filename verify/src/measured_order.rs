@@ -1,6 +1,6 @@
 //! The order of an error, as the figure of a check.
 
-use twofold_scene::fit::order;
+use twofold::straight_line::order;
 
 use crate::check::Measured;
 

@@ -8,7 +8,7 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 
 pub use twofold_scene::random::Random;
 
-use crate::conditioned::Conditioned;
+use crate::magnitudes::Conditioned;
 use crate::prime_field::Fp;
 
 /// A number that can be drawn from a range; a field without order takes any element.

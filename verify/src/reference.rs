@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::plan::{Parameter, Start};
+use twofold::parameters::{Parameter, Parameters};
 
 /// One reference motion.
 #[derive(Debug, Clone)]
@@ -109,8 +109,8 @@ pub struct ReferenceGradient {
     /// Name of the scene.
     pub name: String,
     /// The scene.
-    pub start: Start<f64>,
-    /// Times, and at each for every parameter in the order of [`Parameter::ALL`] the derivatives of the components of `n`, `L` and `e_x`.
+    pub start: Parameters<f64>,
+    /// Times, and at each for every parameter in the order of [`Parameter::OF_MOTION`] the derivatives of the components of `n`, `L` and `e_x`.
     pub derivatives: Vec<(f64, Vec<[f64; 9]>)>,
 }
 
@@ -125,7 +125,7 @@ pub fn reference_gradients() -> Vec<ReferenceGradient> {
             let (angles, rates) =
                 (EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 }, EulerRates { alpha: 0.0, beta: 0.0, gamma: 0.0 });
             let spheroid = RigidSpheroid { inertia_xx: 0.0, inertia_zz: 0.0, constant_c: 0.0 };
-            let start = Start { spheroid, violation: Matrix3::zeros(), angles, rates };
+            let start = Parameters::new(spheroid, Matrix3::zeros(), angles, rates);
             scenes.push(ReferenceGradient { name, start, derivatives: Vec::new() });
         }
         let scene = scenes.last_mut().expect("one was pushed");
@@ -141,7 +141,7 @@ pub fn reference_gradients() -> Vec<ReferenceGradient> {
         assert_eq!(derivatives.len(), index, "parameters in order");
         derivatives.push(core::array::from_fn(|i| row[3 + i]));
         if at == 0 {
-            Parameter::ALL[index].add(&mut scene.start, value);
+            Parameter::OF_MOTION[index].add(&mut scene.start, value);
         }
     }
     scenes

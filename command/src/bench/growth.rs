@@ -8,7 +8,7 @@ use twofold::propagation::{AxisState, Motion, propagate_axis};
 use super::Effort;
 use super::method::text;
 use super::scene::{BenchScene, rows};
-use twofold_scene::fit::{Slope, order};
+use twofold::straight_line::{Slope, order};
 use twofold_verify::check::largest;
 use twofold_verify::double_double::DoubleDouble;
 

@@ -8,7 +8,8 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::numerics::scalar::Real;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, propagated_pulse_train, pulse_train};
-use twofold::plan::{Output, Parameter, Plan, Request, Start, StateFunction, gradient};
+use twofold::parameters::{Parameter, Parameters};
+use twofold::plan::{Output, Plan, Request, StateFunction, gradient};
 use twofold::propagation::{AxisState, ErrorEstimates, Motion, axis_states_at, propagate, propagate_axis, states_at};
 
 use super::Effort;
@@ -172,7 +173,7 @@ fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
     let request = Request { derivatives: PARAMETERS.to_vec(), ..Request::new(&[output], (0.0, DURATION), 1, ACCURACY) };
     let plan = Plan::from_parts(spheroid, violation, initial, &request).map_err(text)?;
     let (angles, rates) = (initial.angles().map_err(text)?, initial.rates(spheroid).map_err(text)?);
-    let start = Start { spheroid: *spheroid, violation: *violation, angles, rates };
+    let start = Parameters::new(*spheroid, *violation, angles, rates);
     gradient(&plan, &start, &Components(carries), &[DURATION]).map(|found| drop(black_box(found))).map_err(text)
 }
 

@@ -48,7 +48,7 @@ pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
         "derivatives",
         match plan.derivatives.as_slice() {
             [] => "none".to_owned(),
-            names => names.iter().map(|parameter| parameter.name()).collect::<Vec<_>>().join(", "),
+            names => names.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", "),
         },
     );
     if let Some(prediction) = &plan.prediction {

@@ -2,17 +2,17 @@
 
 use super::measurement::{Measurement, readable, uncertainties, write_csv};
 use super::{Failure, FisherArgs, note, print};
-use twofold_scene::inference::{Direction, Fisher, InferenceError, Observable, Signal, data_of};
+use twofold::inference::{Direction, Fisher, InferenceError, Observable, Signal, data_of};
 
 pub(super) fn fisher(args: &FisherArgs) -> Result<(), Failure> {
     let measurement = Measurement::read(&args.measurement)?;
     let refused = |error: InferenceError| measurement.refused(error);
-    let signal = Signal::new(&measurement.model, measurement.end).map_err(|error| refused(error.into()))?;
+    let signal = Signal::new(&measurement.parameters, measurement.end).map_err(|error| refused(error.into()))?;
     let events = measurement.events(&signal)?;
     let data = data_of(&signal, &events, &measurement.samples()?, &measurement.noise)
         .map_err(|error| refused(error.into()))?;
-    let fisher = Fisher::of(&measurement.model, &events, &data, &measurement.unknowns).map_err(refused)?;
-    let [short, all] = uncertainties(&measurement, &fisher.values, &fisher.covariance);
+    let fisher = Fisher::of(&measurement.parameters, &events, &data, &measurement.unknowns).map_err(refused)?;
+    let [short, all] = uncertainties(&measurement, &fisher);
     write_csv(&args.output, &all)?;
     let counts: Vec<_> = Observable::ALL
         .iter()

@@ -5,15 +5,14 @@ use rand::rngs::ChaCha8Rng;
 
 use super::measurement::{Measurement, readable, uncertainties, write_csv};
 use super::{Failure, FitArgs, note, print};
-use twofold_scene::inference::{
-    DataFile, Datum, Fisher, InferenceError, Place, Residuals, Signal, beside, data_of, fit, with_noise,
-};
+use twofold::inference::{Datum, Fisher, InferenceError, Place, Residuals, Signal, data_of, fit, nonlinearity};
+use twofold_scene::measurements::{DataFile, beside, with_noise};
 use twofold_scene::significant::significant;
 
 pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
     let measurement = Measurement::read(&args.measurement)?;
     let refused = |error: InferenceError| measurement.refused(error);
-    let Measurement { model, unknowns, end, .. } = &measurement;
+    let Measurement { parameters, unknowns, end, .. } = &measurement;
     let mut data = if args.data.is_empty() {
         if args.simulate.is_none() {
             return Err(Failure::BadInput(format!(
@@ -25,23 +24,20 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
     } else {
         read(&measurement, &args.data)?
     };
-    let mut start = *model;
+    let mut start = *parameters;
     if let Some(seed) = args.simulate {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         data = with_noise(&data, &mut random);
         if args.data.is_empty() {
-            let signal = Signal::new(model, *end).map_err(|error| refused(error.into()))?;
+            let signal = Signal::new(parameters, *end).map_err(|error| refused(error.into()))?;
             let events = measurement.events(&signal)?;
-            let fisher = Fisher::of(model, &events, &data, unknowns).map_err(refused)?;
-            if !fisher.degenerate.is_empty() || !fisher.weak.is_empty() {
-                return Err(refused(InferenceError::Degenerate([fisher.degenerate, fisher.weak].concat())));
-            }
-            start = beside(model, unknowns, &fisher.covariance, 3.0, &mut random);
+            let fisher = Fisher::of(parameters, &events, &data, unknowns).and_then(Fisher::determined);
+            start = beside(&fisher.map_err(refused)?, 3.0, &mut random);
             note("simulated: the fit begins three standard deviations beside the scene");
         }
     }
     let found = fit(&start, &data, unknowns, *end).map_err(refused)?;
-    let [short, all] = uncertainties(&measurement, &found.values, &found.covariance);
+    let [short, all] = uncertainties(&measurement, &found.fisher);
     write_csv(&args.output, &all)?;
     note(&format!(
         "{} data, {} unknowns, {} steps; chi^2 = {} of {} degrees of freedom",
@@ -63,7 +59,7 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
              as it does data without errors; the error bars are for the errors stated"
         )),
     }
-    match found.nonlinearity(&data, *end) {
+    match nonlinearity(&found.fisher, &data, *end) {
         Ok(nonlinearity) if nonlinearity < 0.3 => {}
         Ok(nonlinearity) => note(&format!(
             "chi^2 is off its parabola by {nonlinearity:.1} at one standard deviation: the error bars are rough"
@@ -76,7 +72,7 @@ pub(super) fn run(args: &FitArgs) -> Result<(), Failure> {
 /// The data of the scene itself, without errors. A pulse in the first turn may be cut in a model beside the scene.
 fn simulated(measurement: &Measurement) -> Result<Vec<Datum>, Failure> {
     let refused = |error: twofold::Error| measurement.refused(error.into());
-    let signal = Signal::new(&measurement.model, measurement.end).map_err(refused)?;
+    let signal = Signal::new(&measurement.parameters, measurement.end).map_err(refused)?;
     let mut events = measurement.events(&signal)?;
     events.retain(|event| event.epoch + event.start > signal.turn());
     data_of(&signal, &events, &measurement.samples()?, &measurement.noise).map_err(refused)
@@ -90,7 +86,8 @@ fn same(a: &Datum, b: &Datum) -> bool {
 /// The data in files that lie within the span of the scene.
 fn read(measurement: &Measurement, files: &[String]) -> Result<Vec<Datum>, Failure> {
     let mut data = Vec::new();
-    let signal = Signal::new(&measurement.model, measurement.end).map_err(|error| measurement.refused(error.into()))?;
+    let signal =
+        Signal::new(&measurement.parameters, measurement.end).map_err(|error| measurement.refused(error.into()))?;
     let is_long = signal.is_long();
     for file in files {
         let table = DataFile::read(file).map_err(Failure::BadInput)?;
@@ -133,7 +130,8 @@ fn read(measurement: &Measurement, files: &[String]) -> Result<Vec<Datum>, Failu
         }
     }
     // A pulse in the first turn may be cut in a model beside that of the data.
-    let signal = Signal::new(&measurement.model, measurement.end).map_err(|error| measurement.refused(error.into()))?;
+    let signal =
+        Signal::new(&measurement.parameters, measurement.end).map_err(|error| measurement.refused(error.into()))?;
     let before = data.len();
     data.retain(|datum| !matches!(datum.place, Place::Turn { near, .. } if near < signal.turn()));
     if data.len() < before {

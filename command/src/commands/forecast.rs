@@ -2,17 +2,19 @@
 
 use super::measurement::{Measurement, readable, write_csv};
 use super::{Failure, FisherArgs, ForecastArgs, note, print};
+use twofold::inference::{Observable, check_span, forecast, scaling};
+use twofold::parameters::Parameter;
 use twofold_scene::estimated_error::as_printed;
-use twofold_scene::inference::{Observable, Unknown, check_span, forecast, scaling};
 
 pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     let FisherArgs { measurement, output } = &args.fisher;
     let measurement = Measurement::read(measurement)?;
     let refuse = |why: String| Failure::BadInput(format!("{}: {why}", measurement.name));
-    let target = Unknown::named(&args.of).filter(|target| measurement.unknowns.contains(target)).ok_or_else(|| {
-        let keys: Vec<_> = measurement.unknowns.iter().map(|unknown| unknown.key()).collect();
-        refuse(format!("--of {}: allowed is one of the parameters, {}", args.of, keys.join(", ")))
-    })?;
+    let target =
+        Parameter::named(&args.of).filter(|target| measurement.unknowns.contains(target)).ok_or_else(|| {
+            let keys: Vec<_> = measurement.unknowns.iter().map(|unknown| unknown.key()).collect();
+            refuse(format!("--of {}: allowed is one of the parameters, {}", args.of, keys.join(", ")))
+        })?;
     if measurement.noise.iter().any(|(observable, _)| *observable == Observable::Periods) {
         return Err(refuse("--observe periods: allowed for a forecast is what one pulse alone gives".into()));
     }
@@ -25,15 +27,15 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
         if !(span > 0.0 && span.is_finite()) {
             return Err(refuse(format!("--spans {span:?}: allowed are numbers above zero")));
         }
-        check_span(&measurement.model, span / unit).map_err(|why| refuse(format!("--spans {span:?}: {why}")))?;
+        check_span(&measurement.parameters, span / unit).map_err(|why| refuse(format!("--spans {span:?}: {why}")))?;
     }
     if let Some(count) = args.epochs.iter().find(|count| !(2..=100_000).contains(*count)) {
         return Err(refuse(format!("--epochs {count}: allowed is from 2 to 100000")));
     }
     let in_tc: Vec<f64> = spans.iter().map(|span| span / unit).collect();
-    let Measurement { model, noise, unknowns, .. } = &measurement;
-    let found =
-        forecast(model, noise, unknowns, target, &in_tc, &args.epochs).map_err(|error| measurement.refused(error))?;
+    let Measurement { parameters, noise, unknowns, .. } = &measurement;
+    let found = forecast(parameters, noise, unknowns, target, &in_tc, &args.epochs)
+        .map_err(|error| measurement.refused(error))?;
     let (factor, target_unit) = measurement.unit(target);
     let time = measurement.scene.units.time_name;
     let header = [

@@ -2,12 +2,13 @@
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, LineStyle, Table};
-use nalgebra::DMatrix;
 
 use super::output_file::OutputFile;
 use super::run::{failed, read_scene};
 use super::{Failure, MeasurementArgs, TableArgs, note};
-use twofold_scene::inference::{Event, InferenceError, Model, Noise, Signal, Unknown, check_span, parse_noise};
+use twofold::inference::{Event, Fisher, InferenceError, Noise, Signal, check_span};
+use twofold::parameters::{Parameter, Parameters};
+use twofold_scene::measurements::{missing_section, parameters_of, parse_noise};
 use twofold_scene::scene_file::{Scene, nearest};
 use twofold_scene::significant::significant;
 
@@ -15,9 +16,9 @@ use twofold_scene::significant::significant;
 pub(super) struct Measurement {
     pub(super) name: String,
     pub(super) scene: Scene,
-    pub(super) model: Model<f64>,
+    pub(super) parameters: Parameters<f64>,
     pub(super) noise: Vec<Noise>,
-    pub(super) unknowns: Vec<Unknown>,
+    pub(super) unknowns: Vec<Parameter>,
     /// End of the span in t_c since the start.
     pub(super) end: f64,
 }
@@ -28,7 +29,7 @@ impl Measurement {
         let refuse = |why: String| Failure::BadInput(format!("{why} ({})", args.scene));
         let noise = parse_noise(&args.observe, scene.units.time).map_err(|why| refuse(format!("--observe: {why}")))?;
         for (observable, _) in &noise {
-            if let Some(section) = observable.missing_section(&scene) {
+            if let Some(section) = missing_section(&scene, *observable) {
                 return Err(refuse(format!(
                     "--observe {}: the scene lacks the section [{section}] (docs/scenes.md describes it)",
                     observable.key()
@@ -37,18 +38,18 @@ impl Measurement {
         }
         let sees_pulses = noise.iter().any(|(observable, _)| observable.is_of_pulses());
         let unknowns = match args.parameters.as_deref() {
-            None if sees_pulses => Unknown::OF_PULSES.to_vec(),
-            None => Unknown::OF_STRAIN.to_vec(),
-            Some("all") => Unknown::ALL.to_vec(),
+            None if sees_pulses => Parameter::OF_PULSES.to_vec(),
+            None => Parameter::OF_STRAIN.to_vec(),
+            Some("all") => Parameter::FITTED.to_vec(),
             Some(list) => named(list).map_err(|why| refuse(format!("--parameters: {why}")))?,
         };
         let end = (scene.times.last() - scene.times.start()) / scene.units.time;
         if end <= 0.0 {
             return Err(refuse(format!("[time] has a span of {end:?} t_c: allowed here is one forwards, above zero")));
         }
-        let model = Model::of_scene(&scene).map_err(failed)?;
-        check_span(&model, end).map_err(|why| refuse(why.to_string()))?;
-        Ok(Self { name: args.scene.clone(), scene, model, noise, unknowns, end })
+        let parameters = parameters_of(&scene).map_err(failed)?;
+        check_span(&parameters, end).map_err(|why| refuse(why.to_string()))?;
+        Ok(Self { name: args.scene.clone(), scene, parameters, noise, unknowns, end })
     }
 
     /// The pulses of a signal that are data: all of them, or of a long span those near the samples of the scene.
@@ -89,20 +90,20 @@ impl Measurement {
     }
 
     /// What a number of an unknown is multiplied by for the output, and its unit there.
-    pub(super) fn unit(&self, unknown: Unknown) -> (f64, String) {
+    pub(super) fn unit(&self, unknown: Parameter) -> (f64, String) {
         let units = &self.scene.units;
         match unknown {
-            Unknown::Spin | Unknown::AlphaRate | Unknown::BetaRate => {
+            Parameter::Spin | Parameter::AlphaRate | Parameter::BetaRate => {
                 (1.0 / units.time, format!("rad/{}", units.time_name))
             }
-            Unknown::Alpha
-            | Unknown::Beta
-            | Unknown::Gamma
-            | Unknown::Chi
-            | Unknown::Delta
-            | Unknown::Rho
-            | Unknown::ThetaO
-            | Unknown::PhiO => (1.0, "rad".to_owned()),
+            Parameter::Alpha
+            | Parameter::Beta
+            | Parameter::Gamma
+            | Parameter::Chi
+            | Parameter::Delta
+            | Parameter::Rho
+            | Parameter::ThetaO
+            | Parameter::PhiO => (1.0, "rad".to_owned()),
             _ => (1.0, "1".to_owned()),
         }
     }
@@ -116,11 +117,11 @@ impl Measurement {
     }
 }
 
-fn named(list: &str) -> Result<Vec<Unknown>, String> {
+fn named(list: &str) -> Result<Vec<Parameter>, String> {
     let mut found = Vec::new();
     for name in list.split(',').map(str::trim) {
-        let unknown = Unknown::named(name).ok_or_else(|| {
-            let names: Vec<_> = Unknown::ALL.iter().map(|unknown| unknown.key()).collect();
+        let unknown = Parameter::named(name).ok_or_else(|| {
+            let names: Vec<_> = Parameter::FITTED.iter().map(|unknown| unknown.key()).collect();
             let hint = nearest(name, &names).map_or(String::new(), |near| format!(" (did you mean `{near}`?)"));
             format!("`{name}` is no parameter{hint}: allowed are {}, or all", names.join(", "))
         })?;
@@ -165,14 +166,10 @@ pub(super) fn readable(rows: &[Vec<String>]) -> String {
 }
 
 /// Unknowns with their values, standard deviations and correlations: a table for reading, and one with all numbers.
-pub(super) fn uncertainties(
-    measurement: &Measurement,
-    values: &[f64],
-    covariance: &DMatrix<f64>,
-) -> [Vec<Vec<String>>; 2] {
-    let unknowns = &measurement.unknowns;
-    let sigmas: Vec<f64> = covariance.diagonal().iter().map(|variance| variance.sqrt()).collect();
-    let correlation = |i: usize, j: usize| covariance[(i, j)] / (sigmas[i] * sigmas[j]);
+pub(super) fn uncertainties(measurement: &Measurement, fisher: &Fisher) -> [Vec<Vec<String>>; 2] {
+    let (unknowns, values, sigmas) = (&fisher.unknowns, fisher.values(), fisher.sigmas());
+    let correlations = fisher.correlations();
+    let correlation = |i: usize, j: usize| correlations[(i, j)];
     let mut short = vec![["", "value", "sigma", "sigma/|value|", "unit", "correlated most"].map(String::from).to_vec()];
     let mut all = vec![["parameter", "value", "sigma", "unit"].map(String::from).to_vec()];
     all[0].extend(unknowns.iter().map(|unknown| format!("correlation_{}", unknown.key())));

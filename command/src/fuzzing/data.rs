@@ -3,7 +3,9 @@
 use std::sync::OnceLock;
 
 use crate::compare::compare_text;
-use twofold_scene::inference::{DataFile, Model, Observable, Place, Unknown, fit};
+use twofold::inference::{Observable, Place, fit};
+use twofold::parameters::Parameter;
+use twofold_scene::measurements::{DataFile, parameters_of};
 use twofold_scene::pulsar_table::pulsars as read_pulsars;
 use twofold_scene::scene_file::{Scene, built_in};
 
@@ -41,13 +43,13 @@ pub fn data_file(bytes: &[u8]) {
         Ok(data) => data,
         Err(why) => return assert!(why.starts_with("data.csv"), "{why}"),
     };
-    let Ok(model) = Model::of_scene(scene()) else { return };
+    let Ok(parameters) = parameters_of(scene()) else { return };
     let within = |time: f64| (0.0..=30.0).contains(&time);
     let is_within = data.iter().all(|datum| match datum.place {
         Place::Time(time) | Place::Turn { near: time, .. } => within(time),
     });
     if is_within && data.len() <= MOST_FITTED && *kinds >= 192 {
-        let _ = fit(&model, &data, &[Unknown::Chi, Unknown::Rho], 30.0);
+        let _ = fit(&parameters, &data, &[Parameter::Chi, Parameter::Rho], 30.0);
     }
 }
 

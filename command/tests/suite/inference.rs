@@ -3,24 +3,25 @@
 use std::fs;
 
 use crate::common::{folder, stderr, stdout, twofold};
+use twofold::dynamics::RigidSpheroid;
 use twofold::euler_angles::EulerAngles;
-use twofold_scene::inference::{
-    Datum, Fisher, InferenceError, Model, Noise, Observable, Place, Signal, Simulation, Unknown, beside, data_of, fit,
-    with_noise,
-};
+use twofold::inference::{Datum, Fisher, InferenceError, Noise, Observable, Place, Signal, data_of, fit, nonlinearity};
+use twofold::parameters::{Parameter, Parameters};
+use twofold_scene::measurements::{beside, parameters_of, with_noise};
 use twofold_scene::scene_file::Scene;
+use twofold_verify::simulation::Simulation;
 
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
 const TIMES_AND_WIDTHS: [Noise; 2] = [(Observable::Arrivals, 1e-5), (Observable::Widths, 1e-5)];
 
-fn model(name: &str) -> Model<f64> {
-    Model::of_scene(&Scene::named(name).expect("scene")).expect("model")
+fn model(name: &str) -> Parameters<f64> {
+    parameters_of(&Scene::named(name).expect("scene")).expect("model")
 }
 
 /// Exact data of all pulses but those of the first turn.
-fn data(model: &Model<f64>, end: f64, noise: &[Noise]) -> Vec<Datum> {
+fn data(model: &Parameters<f64>, end: f64, noise: &[Noise]) -> Vec<Datum> {
     let signal = Signal::new(model, end).expect("signal");
     let mut events = signal.events().expect("pulses");
     events.retain(|event| event.start > signal.turn());
@@ -34,18 +35,20 @@ fn exact_data_give_the_truth() {
     let truth = model("tp-2");
     let strain = [(Observable::StrainPlus, 1e-6), (Observable::StrainCross, 1e-6)];
     for (unknowns, noise) in [
-        (&Unknown::OF_PULSES[..], &TIMES_AND_WIDTHS[..]),
+        (&Parameter::OF_PULSES[..], &TIMES_AND_WIDTHS[..]),
         (
-            &Unknown::OF_PULSES,
+            &Parameter::OF_PULSES,
             &[(Observable::ClosestApproaches, 1e-5), (Observable::Periods, 1e-5), (Observable::Widths, 1e-5)],
         ),
-        (&Unknown::OF_STRAIN, &strain),
+        (&Parameter::OF_STRAIN, &strain),
     ] {
         let data = data(&truth, 100.0, noise);
         let off: Vec<f64> = (0..unknowns.len()).map(|k| if k % 2 == 0 { 1e-4 } else { -1e-4 }).collect();
         let found = fit(&truth.moved(unknowns, &off), &data, unknowns, 100.0).expect("fit");
         assert!(found.chi_squared < 1e-6, "{noise:?}: chi^2 = {}", found.chi_squared);
-        for ((value, truth), sigma) in found.values.iter().zip(truth.values(unknowns)).zip(found.sigmas()) {
+        for ((value, truth), sigma) in
+            found.fisher.values().iter().zip(truth.values(unknowns)).zip(found.fisher.sigmas())
+        {
             assert!((value - truth).abs() < 1e-4 * sigma + 1e-12, "{value} for {truth} +- {sigma}");
         }
     }
@@ -55,18 +58,18 @@ fn exact_data_give_the_truth() {
 #[test]
 fn error_bars_are_in_proportion_to_the_errors() {
     let truth = model("tp-2");
-    let unknowns = &Unknown::OF_PULSES;
+    let unknowns = &Parameter::OF_PULSES;
     let exact = data(&truth, 100.0, &TIMES_AND_WIDTHS);
     let large: Vec<Datum> = exact.iter().map(|datum| Datum { sigma: 3.0 * datum.sigma, ..*datum }).collect();
-    let sigmas = |data: &[Datum]| fit(&truth, data, unknowns, 100.0).expect("fit").sigmas();
+    let sigmas = |data: &[Datum]| fit(&truth, data, unknowns, 100.0).expect("fit").fisher.sigmas();
     for (small, large) in sigmas(&exact).iter().zip(sigmas(&large)) {
         assert!((large / small / 3.0 - 1.0).abs() < 1e-6);
     }
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let measured = with_noise(&exact, &mut random);
     let noisy = fit(&truth, &measured, unknowns, 100.0).expect("fit");
-    assert!(noisy.nonlinearity(&measured, 100.0).expect("motions") < 0.1);
-    for (with, without) in noisy.sigmas().iter().zip(sigmas(&exact)) {
+    assert!(nonlinearity(&noisy.fisher, &measured, 100.0).expect("motions") < 0.1);
+    for (with, without) in noisy.fisher.sigmas().iter().zip(sigmas(&exact)) {
         assert!((with / without - 1.0).abs() < 0.05, "{with} {without}");
     }
 }
@@ -75,8 +78,8 @@ fn error_bars_are_in_proportion_to_the_errors() {
 #[test]
 fn decades_give_the_truth() {
     let near = model("tp-2");
-    let truth = Model { s: near.s * 1e-9, phi_o: 1.0, ..near };
-    use Unknown::{Chi, Gamma, PhiO, Rho, SAsymmetry, SAxial, Spin, ThetaO};
+    let truth = Parameters { violation: near.violation * 1e-9, phi_o: 1.0, ..near };
+    use Parameter::{Chi, Gamma, PhiO, Rho, SAsymmetry, SAxial, Spin, ThetaO};
     let (unknowns, end) = (&[SAxial, SAsymmetry, Spin, Gamma, Chi, Rho, ThetaO, PhiO], 6e9);
     let signal = Signal::new(&truth, end).expect("signal");
     assert!(signal.is_long() && signal.events().is_err());
@@ -87,11 +90,11 @@ fn decades_give_the_truth() {
     let mut random = ChaCha8Rng::seed_from_u64(3);
     let fisher = Fisher::of(&truth, &events, &data, unknowns).expect("Fisher matrix");
     assert!(fisher.degenerate.is_empty() && fisher.weak.is_empty(), "{:?} {:?}", fisher.degenerate, fisher.weak);
-    let start = beside(&truth, unknowns, &fisher.covariance, 0.3, &mut random);
+    let start = beside(&fisher, 0.3, &mut random);
     let found = fit(&start, &data, unknowns, end).expect("fit");
     // A last digit of L is 1e-6 rad, a thousandth of an error.
     assert!(found.chi_squared < 1e-3, "chi^2 = {}", found.chi_squared);
-    for ((value, truth), sigma) in found.values.iter().zip(truth.values(unknowns)).zip(found.sigmas()) {
+    for ((value, truth), sigma) in found.fisher.values().iter().zip(truth.values(unknowns)).zip(found.fisher.sigmas()) {
         assert!((value - truth).abs() < 0.05 * sigma, "{value} for {truth} +- {sigma}");
     }
 }
@@ -104,7 +107,7 @@ fn simulations_follow_from_their_number() {
     assert_ne!(a.truth, c.truth);
 }
 
-fn refused(unknowns: &[Unknown], noise: &[Noise]) -> String {
+fn refused(unknowns: &[Parameter], noise: &[Noise]) -> String {
     let truth = model("tp-2");
     match fit(&truth, &data(&truth, 100.0, noise), unknowns, 100.0) {
         Err(error @ InferenceError::Degenerate(_)) => error.to_string(),
@@ -114,17 +117,17 @@ fn refused(unknowns: &[Unknown], noise: &[Noise]) -> String {
 
 #[test]
 fn what_the_data_do_not_determine_is_refused_with_the_reason() {
-    use Unknown::*;
+    use Parameter::*;
     let strain = [(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 1e-3)];
     for (unknowns, noise, reasons) in [
         (&[Gamma, Delta, Spin][..], &TIMES_AND_WIDTHS[..], &["only gamma + delta", "d(gamma) : d(delta) = "][..]),
         (&[ConstantC, SScale], &TIMES_AND_WIDTHS, &["only C s^IJ / I^xx moves the star"]),
         (&[STrace, Spin], &TIMES_AND_WIDTHS, &["a multiple of the unit tensor turns nothing", "d(tr s) alone"]),
-        (&[Alpha, PhiO, SXy, Spin], &TIMES_AND_WIDTHS, &["rotation of all (star, s^IJ and observer) about Z"]),
-        (&[Oblateness, Spin, StrainScale], &strain, &["h is in proportion to eps"]),
+        (&[Alpha, PhiO, S(0, 1), Spin], &TIMES_AND_WIDTHS, &["rotation of all (star, s^IJ and observer) about Z"]),
+        (&[Oblateness, Spin, Strain], &strain, &["h is in proportion to eps"]),
         (&[Spin, Chi], &strain, &["no pulses are among the data"]),
         // Determined in principle, but not by data as bad as these.
-        (&Unknown::OF_PULSES, &[(Observable::Arrivals, 1e3), (Observable::Widths, 1e3)], &["d("]),
+        (&Parameter::OF_PULSES, &[(Observable::Arrivals, 1e3), (Observable::Widths, 1e3)], &["d("]),
     ] {
         let message = refused(unknowns, noise);
         for reason in reasons {
@@ -137,12 +140,12 @@ fn what_the_data_do_not_determine_is_refused_with_the_reason() {
 fn data_that_are_too_few_or_of_no_pulse_are_refused() {
     let truth = model("tp-2");
     let all = data(&truth, 100.0, &TIMES_AND_WIDTHS);
-    let too_few = fit(&truth, &all[..13], &Unknown::OF_PULSES, 100.0).expect_err("as many data as unknowns");
+    let too_few = fit(&truth, &all[..13], &Parameter::OF_PULSES, 100.0).expect_err("as many data as unknowns");
     assert_eq!(too_few, InferenceError::TooFew { data: 13, unknowns: 13 });
     let mut strange = all.clone();
     let place = Place::Turn { number: 4000, near: 50.0 };
     strange.push(Datum { observable: Observable::Arrivals, place, epoch: 0.0, value: 50.0, sigma: 1e-5 });
-    let error = fit(&truth, &strange, &Unknown::OF_PULSES, 100.0).expect_err("no such turn");
+    let error = fit(&truth, &strange, &Parameter::OF_PULSES, 100.0).expect_err("no such turn");
     assert!(matches!(error, InferenceError::NoPulse { turn: 4000, .. }), "{error}");
     assert!(error.to_string().contains("turn 4000"), "{error}");
 }
@@ -152,15 +155,16 @@ fn data_that_are_too_few_or_of_no_pulse_are_refused() {
 fn a_fit_that_ends_on_a_limit_is_refused() {
     let truth = model("tp-2");
     let noise = [(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 1e-3)];
-    let most = data(&Model { oblateness: 0.99, ..truth }, 0.2, &noise);
+    let oblate = |eps: f64| Parameters { spheroid: RigidSpheroid::in_units_of_tc(1.0 + eps), ..truth };
+    let most = data(&oblate(0.99), 0.2, &noise);
     let more: Vec<Datum> = most.iter().map(|datum| Datum { value: 2.0 * datum.value, ..*datum }).collect();
-    let error = fit(&Model { oblateness: 0.9, ..truth }, &more, &[Unknown::Oblateness], 0.2).expect_err("limit");
+    let error = fit(&oblate(0.9), &more, &[Parameter::Oblateness], 0.2).expect_err("limit");
     assert!(matches!(error, InferenceError::OnLimit { unknown: "eps", .. }), "{error}");
 }
 
 /// tp-2 with another span, as a file.
 fn scene_file(folder: &std::path::Path, name: &str, spin: &str) -> String {
-    let text = fs::read_to_string("scenes/tp-2.toml").expect("scene");
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../scene/scenes/tp-2.toml")).expect("scene");
     let text = text.replace("spin = 1.0", &format!("spin = {spin}")).replace("span = 400", "span = 100");
     let path = folder.join(name);
     fs::write(&path, text.replace("samples = 4001", "samples = 201")).expect("file");
@@ -358,7 +362,7 @@ fn tables_that_are_no_data_are_refused() {
 #[test]
 fn a_late_pulse_has_a_positive_residual() {
     let truth = model("tp-2");
-    let unknowns = &Unknown::OF_PULSES;
+    let unknowns = &Parameter::OF_PULSES;
     for late in [3.0, -2.0] {
         let mut data = data(&truth, 100.0, &TIMES_AND_WIDTHS);
         let place = data.iter().position(|datum| datum.observable == Observable::Arrivals).expect("arrivals") + 8;
@@ -383,7 +387,7 @@ fn angles_beyond_a_right_angle_are_fitted() {
     let truth = model("tp-2");
     let half_turn = std::f64::consts::PI;
     let of_truth = data(&truth, 100.0, &TIMES_AND_WIDTHS);
-    let opposite = Model {
+    let opposite = Parameters {
         chi: half_turn - truth.chi,
         delta: truth.delta + half_turn,
         theta_o: half_turn - truth.theta_o,
@@ -391,7 +395,7 @@ fn angles_beyond_a_right_angle_are_fitted() {
         ..truth
     };
     let EulerAngles { alpha, beta, gamma } = truth.angles;
-    let turned = Model {
+    let turned = Parameters {
         angles: EulerAngles { alpha: half_turn - alpha, beta: half_turn - beta, gamma: gamma + half_turn },
         alpha_rate: -truth.alpha_rate,
         beta_rate: -truth.beta_rate,
@@ -399,12 +403,16 @@ fn angles_beyond_a_right_angle_are_fitted() {
         phi_o: -truth.phi_o,
         ..truth
     };
-    for (star, unknown) in [(opposite, Unknown::Chi), (opposite, Unknown::ThetaO), (turned, Unknown::Beta)] {
-        let unknowns = [unknown, Unknown::Spin];
+    for (star, unknown) in [(opposite, Parameter::Chi), (opposite, Parameter::ThetaO), (turned, Parameter::Beta)] {
+        let unknowns = [unknown, Parameter::Spin];
         let found = fit(&star.moved(&unknowns, &[1e-4, -1e-4]), &of_truth, &unknowns, 100.0).expect("fit");
-        for (value, expected) in found.values.iter().zip(star.values(&unknowns)) {
+        for (value, expected) in found.fisher.values().iter().zip(star.values(&unknowns)) {
             assert!((value - expected).abs() < 1e-8, "{unknown:?}: {value} for {expected}");
         }
-        assert!(found.values[0] > half_turn / 2.0 && found.chi_squared < 1e-6, "{unknown:?}: {}", found.chi_squared);
+        assert!(
+            found.fisher.values()[0] > half_turn / 2.0 && found.chi_squared < 1e-6,
+            "{unknown:?}: {}",
+            found.chi_squared
+        );
     }
 }

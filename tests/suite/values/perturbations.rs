@@ -13,36 +13,30 @@ use crate::values::table::Table;
 #[test]
 fn constants_of_integration() {
     let mut table = Table::default();
-    for s in [[0.021, -0.004, 0.009], [0.3, -0.1, 0.2]].map(PrincipalCoefficients::new) {
+    for (strength, s) in [("weak", [0.021, -0.004, 0.009]), ("strong", [0.3, -0.1, 0.2])] {
+        let s = PrincipalCoefficients::new(s);
         for kind in [Precession::Twofold, Precession::Single] {
-            for constants in [
-                Constants { alpha_0: 0.4, beta_0: 0.9, amplitude: 0.1, phase: -1.1 },
-                Constants { alpha_0: 7.4, beta_0: 2.2, amplitude: 0.0, phase: 0.0 },
-                Constants { alpha_0: -1.0, beta_0: 0.3, amplitude: 0.05, phase: 2.0 },
-            ] {
-                let name =
-                    format!("{kind:?} {s:?} {constants:?}").chars().filter(|c| !c.is_whitespace()).collect::<String>();
-                let initial = match initial_values(Form::Printed, kind, &STAR, &s, 1.9, &constants) {
-                    Ok(initial) => initial,
-                    Err(error) => {
-                        table.error(&name, &error);
-                        continue;
-                    }
-                };
-                table.parts(
-                    &format!("{name}: initial"),
-                    [initial.alpha, initial.beta, initial.alpha_rate, initial.beta_rate],
+            for (alpha_0, beta_0, amplitude, phase) in
+                [(0.4, 0.9, 0.1, -1.1), (7.4, 2.2, 0.0, 0.0), (-1.0, 0.3, 0.05, 2.0)]
+            {
+                let constants = Constants { alpha_0, beta_0, amplitude, phase };
+                let name = format!("{strength}, {kind:?}, beta_0 {beta_0}");
+                table.found(
+                    &name,
+                    initial_values(Form::Printed, kind, &STAR, &s, 1.9, &constants),
+                    |table, initial| {
+                        let angles = [initial.alpha, initial.beta];
+                        table.row(&name, &[("angles", &angles), ("rates", &[initial.alpha_rate, initial.beta_rate])]);
+                        let back = constants_from_initial_values(Form::Printed, kind, &STAR, &s, 1.9, &initial);
+                        table.found(&name, back, |table, back| {
+                            let Constants { alpha_0, beta_0, amplitude, phase } = back;
+                            table.row("  back", &[("alpha_0, beta_0, A, phi", &[alpha_0, beta_0, amplitude, phase])]);
+                        });
+                    },
                 );
-                match constants_from_initial_values(Form::Printed, kind, &STAR, &s, 1.9, &initial) {
-                    Ok(back) => {
-                        table.parts(&format!("{name}: back"), [back.alpha_0, back.beta_0, back.amplitude, back.phase])
-                    }
-                    Err(error) => table.error(&name, &error),
-                }
-                match shifted_rates(&STAR, &s, 1.9, constants.beta_0) {
-                    Ok(found) => table.parts(&format!("{name}: shifted"), [found.alpha, found.gamma]),
-                    Err(error) => table.error(&name, &error),
-                }
+                table.found(&name, shifted_rates(&STAR, &s, 1.9, beta_0), |table, found| {
+                    table.row("  shifted", &[("alpha", &found.alpha), ("gamma", &found.gamma)]);
+                });
             }
         }
     }
@@ -52,44 +46,25 @@ fn constants_of_integration() {
 #[test]
 fn about_a_symmetry_axis() {
     let mut table = Table::default();
-    let angles = [
-        EulerAngles { alpha: 0.3, beta: 1.1, gamma: -0.5 },
-        EulerAngles { alpha: -2.0, beta: 0.01, gamma: 0.2 },
-        EulerAngles { alpha: 0.3, beta: 3.0, gamma: -0.5 },
-    ];
-    let rates = [
-        EulerRates { alpha: 0.9, beta: 0.2, gamma: 0.6 },
-        EulerRates { alpha: 0.9, beta: 0.0, gamma: 0.6 },
-        EulerRates { alpha: 0.0, beta: 0.0, gamma: 0.0 },
-        EulerRates { alpha: -0.1, beta: 0.0, gamma: 1.4 },
-        EulerRates { alpha: 0.0, beta: 0.3, gamma: 0.0 },
-    ];
-    for (star, strength) in [(STAR, 0.03), (STAR, -0.4), (PROLATE, 0.03), (STAR, 0.0)] {
+    let starts = [(0.3, 1.1, -0.5), (-2.0, 0.01, 0.2), (0.3, 3.0, -0.5)];
+    let rates = [(0.9, 0.2, 0.6), (0.9, 0.0, 0.6), (0.0, 0.0, 0.0), (-0.1, 0.0, 1.4), (0.0, 0.3, 0.0)];
+    for (of, star, strength) in
+        [("weak", STAR, 0.03), ("strong", STAR, -0.4), ("prolate", PROLATE, 0.03), ("none", STAR, 0.0)]
+    {
         let s = PrincipalCoefficients::new([strength, strength, -2.0 * strength]);
-        for angles in &angles {
-            for rates in &rates {
-                let name = format!(
-                    "{strength} {:.2} {:.1} {:.1} {:.1} {:.1}",
-                    angles.beta, rates.alpha, rates.beta, rates.gamma, star.inertia_xx
-                );
-                match SymmetricSolution::new(&star, &s, angles, rates) {
-                    Ok(found) => {
-                        table.parts(
-                            &format!("{name}: period, inclinations"),
-                            [found.period(), found.inclinations().0, found.inclinations().1],
-                        );
-                        let mean = found.mean_rates();
-                        table.parts(&format!("{name}: mean rates"), [mean.alpha, mean.beta, mean.gamma]);
-                        for t in [0.0, 3.0, -40.0] {
-                            let (angles, rates) = (found.angles(t), found.rates(t));
-                            table.parts(
-                                &format!("{name} at {t}"),
-                                [angles.alpha, angles.beta, angles.gamma, rates.alpha, rates.beta, rates.gamma],
-                            );
-                        }
-                    }
-                    Err(error) => table.error(&name, &error),
-                }
+        for (alpha, beta, gamma) in starts {
+            let angles = EulerAngles { alpha, beta, gamma };
+            for (alpha, beta, gamma) in rates {
+                let rates = EulerRates { alpha, beta, gamma };
+                let name = format!("{of}, beta {}, rates {alpha} {beta} {gamma}", angles.beta);
+                table.found(&name, SymmetricSolution::new(&star, &s, &angles, &rates), |table, found| {
+                    let (mean, (least, most)) = (found.mean_rates(), found.inclinations());
+                    let mean = [mean.alpha, mean.gamma];
+                    table.row(&name, &[("period", &found.period()), ("beta", &[least, most]), ("mean rates", &mean)]);
+                    let (at, rates) = (found.angles(-40.0), found.rates(-40.0));
+                    let (at, rates) = ([at.alpha, at.beta, at.gamma], [rates.alpha, rates.beta, rates.gamma]);
+                    table.row("  at -40", &[("angles", &at), ("rates", &rates)]);
+                });
             }
         }
     }

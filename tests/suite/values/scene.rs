@@ -6,7 +6,7 @@ use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::Beam;
-use twofold::plan::Start;
+use twofold::parameters::Parameters;
 
 pub const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.7, constant_c: 0.8 };
 /// Prolate, with a constant of the other sign.
@@ -29,8 +29,8 @@ pub fn state() -> BodyState<f64> {
     BodyState::from_angles(&STAR, &ANGLES, &RATES)
 }
 
-pub fn start() -> Start<f64> {
-    Start { spheroid: STAR, violation: general(), angles: ANGLES, rates: RATES }
+pub fn start() -> Parameters<f64> {
+    Parameters::new(STAR, general(), ANGLES, RATES)
 }
 
 pub fn beam() -> Beam<f64> {

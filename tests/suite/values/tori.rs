@@ -3,6 +3,7 @@
 use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::propagation::AxisState;
 use twofold::solutions::averaged::slow_precession::slow_precession;
 use twofold::solutions::averaged::{AveragedSolution, AveragingOrder, middle_axis_growth, period_near_separatrix};
 use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};
@@ -33,57 +34,59 @@ fn states_on_tori() {
     for (name, star, s, initial) in scenes() {
         let integrals = first_integrals(&star, &s.tensor(), &initial);
         let FirstIntegrals { energy, spin, clebsch } = integrals;
-        table.parts(&format!("{name}: integrals"), [energy, spin, clebsch]);
-        match states_with_integrals(&star, &s, &integrals) {
-            Ok(found) => {
-                table.text(&format!("{name}: round"), &format!("{:?}", found.round));
-                for state in &found.states {
-                    table.state(name, state);
-                }
-                if let Some([positive, negative]) = found.components() {
-                    table.state(&format!("{name}, positive"), &positive);
-                    table.state(&format!("{name}, negative"), &negative);
-                }
+        table.row(name, &[("E", &energy), ("Omega^z", &spin), ("K", &clebsch)]);
+        table.found("  states", states_with_integrals(&star, &s, &integrals), |table, found| {
+            table.row("  states", &[("round the axis", &found.round)]);
+            for state in &found.states {
+                table.row("  state", &[("", &AxisState::from(state))]);
             }
-            Err(error) => table.error(name, &error),
-        }
-        match separatrix_motion(&star, &s, energy, spin) {
-            Ok(state) => table.state(&format!("{name}, separatrix"), &state),
-            Err(error) => table.error(&format!("{name}, separatrix"), &error),
-        }
-        for wrong in [
-            FirstIntegrals { energy: -energy, ..integrals },
-            FirstIntegrals { clebsch: 2.0 * clebsch, ..integrals },
-            FirstIntegrals { spin: f64::NAN, ..integrals },
+            if let Some([positive, negative]) = found.components() {
+                table.row("  component", &[("positive", &AxisState::from(&positive))]);
+                table.row("  component", &[("negative", &AxisState::from(&negative))]);
+            }
+        });
+        table.found("  separatrix", separatrix_motion(&star, &s, energy, spin), |table, state| {
+            table.row("  separatrix", &[("", &AxisState::from(&state))]);
+        });
+        for (what, wrong) in [
+            ("-E", FirstIntegrals { energy: -energy, ..integrals }),
+            ("2 K", FirstIntegrals { clebsch: 2.0 * clebsch, ..integrals }),
+            ("no Omega^z", FirstIntegrals { spin: f64::NAN, ..integrals }),
         ] {
-            table.refusal(&format!("{name}, wrong"), &states_with_integrals(&star, &s, &wrong));
+            table.refusal(&format!("  {what}"), states_with_integrals(&star, &s, &wrong));
         }
-        match slow_precession(&star, &s, &initial.momentum, &initial.axis) {
-            Ok(found) => table.parts(&format!("{name}: slow precession"), [found.axis as f64, found.rate * 1e3]),
-            Err(error) => table.error(&format!("{name}: slow precession"), &error),
-        }
+        let slow = slow_precession(&star, &s, &initial.momentum, &initial.axis);
+        table.found("  slow precession", slow, |table, found| {
+            table.row("  slow precession", &[("axis", &found.axis), ("rate", &found.rate)]);
+        });
         for order in [AveragingOrder::First, AveragingOrder::Second] {
-            match middle_axis_growth(&star, &s, energy, spin, order) {
-                Ok(growth) => table.number(&format!("{name}: growth, {order:?}"), growth),
-                Err(error) => table.error(&format!("{name}: growth, {order:?}"), &error),
-            }
-            match AveragedSolution::new(&star, &s, &initial, order) {
-                Ok(mean) => {
-                    let rates = mean.rates();
-                    table.parts(&format!("{name}: mean rates"), [rates.slow, rates.about_momentum, rates.about_axis]);
-                    for t in [0.0, 13.0, -800.0] {
-                        table.state(&format!("{name}, {order:?} at {t}"), &mean.state(t));
-                        let phases = mean.phases(t);
-                        table
-                            .parts(&format!("{name}: phases"), [phases.slow, phases.about_momentum, phases.about_axis]);
-                        table.number(&format!("{name}: error estimate"), mean.error_estimate(t));
-                    }
-                }
-                Err(error) => table.error(&format!("{name}: averaged motion"), &error),
-            }
+            let label = format!("  {order:?}");
+            table.found(&label, middle_axis_growth(&star, &s, energy, spin, order), |table, growth| {
+                table.row(&label, &[("growth about the middle axis", &growth)]);
+            });
+            table.found(&label, AveragedSolution::new(&star, &s, &initial, order), |table, mean| {
+                let (rates, phases) = (mean.rates(), mean.phases(13.0));
+                table.row(
+                    &label,
+                    &[
+                        ("mean rates: slow", &rates.slow),
+                        ("about L", &rates.about_momentum),
+                        ("about n", &rates.about_axis),
+                    ],
+                );
+                table.row(
+                    &label,
+                    &[
+                        ("phases at 13", &[phases.slow, phases.about_momentum, phases.about_axis]),
+                        ("error", &mean.error_estimate(13.0)),
+                        ("", &mean.state(13.0)),
+                    ],
+                );
+            });
         }
     }
-    table.number("period near the separatrix", period_near_separatrix(0.03, 1e-5).expect("a period"));
+    let period = period_near_separatrix(0.03, 1e-5).expect("a period");
+    table.row("near the separatrix", &[("period", &period)]);
     table.check("states_on_tori");
 }
 
@@ -91,21 +94,18 @@ fn states_on_tori() {
 fn exact_frequencies() {
     let mut table = Table::default();
     for (name, star, s, initial) in scenes() {
-        match torus_frequencies(&star, &s, &initial) {
-            Ok(found) => {
-                table.text(&format!("{name}: axis"), &found.axis.to_string());
-                table.parts(&format!("{name}: slow"), [found.slow]);
-                table.parts(
-                    &format!("{name}: about L and n"),
-                    [found.about_momentum.unwrap_or(f64::NAN), found.about_axis.unwrap_or(f64::NAN)],
-                );
-                table.text(
-                    &format!("{name}: uncertainties below 1e-12"),
-                    &format!("{:?}", found.uncertainty.map(|error| error < 1e-12)),
-                );
-            }
-            Err(error) => table.error(name, &error),
-        }
+        table.found(name, torus_frequencies(&star, &s, &initial), |table, found| {
+            table.row(
+                name,
+                &[
+                    ("axis", &found.axis),
+                    ("slow", &found.slow),
+                    ("about L", &found.about_momentum),
+                    ("about n", &found.about_axis),
+                    ("uncertain", &!found.uncertainty.iter().all(|error| *error < 1e-12)),
+                ],
+            );
+        });
     }
     table.check("exact_frequencies");
 }

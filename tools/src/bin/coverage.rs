@@ -1,8 +1,8 @@
-//! The coverage campaign of docs/inference.md: `cargo run --release --example coverage -- [FIRST] [LAST]`.
+//! The coverage campaign of docs/inference.md: `cargo run --release -p twofold-tools --bin coverage -- [FIRST] [LAST]`.
 
 use std::time::Instant;
 
-use twofold_scene::inference::Coverage;
+use twofold_verify::coverage::Coverage;
 
 fn main() {
     let mut numbers = std::env::args().skip(1).map(|text| text.parse().expect("a whole number"));

@@ -10,10 +10,10 @@ use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::numerics::scalar::{Real, Scalar};
 use twofold::propagation::{AveragedMotion, Motion, SymmetricMotion, UniformMotion};
 use twofold::solutions::averaged::AveragingOrder;
+use twofold::straight_line::{Slope, order};
 use twofold_command::bench::growth::{self, references};
 use twofold_command::bench::scene::BenchScene;
 use twofold_command::bench::{Effort, growth::METHODS};
-use twofold_scene::fit::{Slope, order};
 use twofold_verify::check::largest;
 use twofold_verify::double_double::DoubleDouble;
 

@@ -4,7 +4,7 @@
 
 use twofold::propagation::AxisState;
 use twofold::propagation::splitting::{GRADIENT_8_6_6, Splitting};
-use twofold_scene::fit::slope;
+use twofold::straight_line::slope;
 use twofold_verify::random::Random;
 use twofold_verify::reference::reference_motion;
 

@@ -3,7 +3,6 @@
 use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
 use nalgebra::{DMatrix, DVector};
-use num_dual::Dual64;
 use twofold::Real;
 use twofold::dynamics::RigidSpheroid;
 use twofold::euler_angles::EulerAngles;
@@ -18,7 +17,9 @@ use crate::derivation::Differentiable;
 use crate::identity::{self, Identity};
 use crate::paper_examples::{COEFFICIENTS, SPIN};
 use crate::random::Point;
-use twofold_scene::inference::{Fisher, Jacobian, Model, Observable, Signal, Unknown, data_of};
+use twofold::inference::{Fisher, Jacobian, Observable, Signal, data_of};
+use twofold::parameters::{Parameter, Parameters};
+use twofold_scene::measurements::parameters_of;
 use twofold_scene::scene_file::Scene;
 
 /// The checks of this subject.
@@ -109,34 +110,34 @@ impl Identity for NullDirection {
 }
 
 /// `beta` stands for `beta_0`, `gamma` for its phase; `a^(1)` follows of `2 s^ZZ - s^XX - s^YY`.
-const UNKNOWNS: [Unknown; 8] = [
-    Unknown::Spin,
-    Unknown::Oblateness,
-    Unknown::SAxial,
-    Unknown::Beta,
-    Unknown::Chi,
-    Unknown::Rho,
-    Unknown::ThetaO,
-    Unknown::Gamma,
+const UNKNOWNS: [Parameter; 8] = [
+    Parameter::Spin,
+    Parameter::Oblateness,
+    Parameter::SAxial,
+    Parameter::Beta,
+    Parameter::Chi,
+    Parameter::Rho,
+    Parameter::ThetaO,
+    Parameter::Gamma,
 ];
 
-fn tp_1() -> Result<Model<f64>, String> {
+fn tp_1() -> Result<Parameters<f64>, String> {
     let scene = Scene::named("tp-1")?;
-    Model::of_scene(&scene).map_err(String::from)
+    parameters_of(&scene).map_err(String::from)
 }
 
 /// The constants of tp-I in place of its initial values.
-fn constants() -> Result<Model<f64>, String> {
+fn constants() -> Result<Parameters<f64>, String> {
     let model = tp_1()?;
-    Ok(Model { angles: EulerAngles { beta: 0.7, gamma: FRAC_PI_2, ..model.angles }, ..model })
+    Ok(Parameters { angles: EulerAngles { beta: 0.7, gamma: FRAC_PI_2, ..model.angles }, ..model })
 }
 
 /// Period by Eqs. (51), (52) and width by Eq. (56), with the rates (57), at 200 times over three turns of gamma.
-fn formulas<S: Real>(model: &Model<S>) -> Result<Vec<S>, twofold::Error> {
-    let (one, spheroid, s) = (S::one(), model.start().spheroid, model.violation());
+fn formulas<S: Real>(model: &Parameters<S>) -> Result<Vec<S>, twofold::Error> {
+    let (one, spheroid, s) = (S::one(), model.spheroid, model.violation);
     let s = PrincipalCoefficients { xx: s[(0, 0)], yy: s[(1, 1)], zz: s[(2, 2)] };
     let (beta_0, chi) = (model.angles.beta, model.chi);
-    let rates = shifted_rates(&spheroid, &s, model.spin, beta_0)?;
+    let rates = shifted_rates(&spheroid, &s, model.spin(), beta_0)?;
     let step = (TAU * 3.0 / 200.0 / rates.gamma.re()).abs();
     let mut signal = Vec::new();
     for k in 0..200 {
@@ -157,10 +158,8 @@ fn formulas<S: Real>(model: &Model<S>) -> Result<Vec<S>, twofold::Error> {
 /// What the formulas tell, by one dual number per unknown.
 fn fisher_of_formulas() -> Result<Fisher, String> {
     let model = constants()?;
-    let column = |unknown: &Unknown| {
-        let mut seeded = model.lifted::<Dual64>();
-        unknown.add(&mut seeded, Dual64::new(0.0, 1.0));
-        let derivatives: Vec<f64> = formulas(&seeded)?.iter().map(|value| value.eps).collect();
+    let column = |unknown: &Parameter| {
+        let derivatives: Vec<f64> = formulas(&model.seeded(*unknown))?.iter().map(|value| value.eps).collect();
         Ok(DVector::from_vec(derivatives))
     };
     let columns = UNKNOWNS.iter().map(column).collect::<Result<Vec<_>, String>>()?;
@@ -184,9 +183,9 @@ fn null_direction() -> Result<Measured, String> {
     let found = fisher_of_formulas()?.degenerate;
     let [direction] = &found[..] else { return Err(format!("{} directions", found.len())) };
     let change =
-        |wanted: Unknown| direction.change.iter().find(|(unknown, _)| *unknown == wanted).map(|(_, size)| *size);
+        |wanted: Parameter| direction.change.iter().find(|(unknown, _)| *unknown == wanted).map(|(_, size)| *size);
     let (Some(oblateness), Some(combination), 2) =
-        (change(Unknown::Oblateness), change(Unknown::SAxial), direction.change.len())
+        (change(Parameter::Oblateness), change(Parameter::SAxial), direction.change.len())
     else {
         return Err(direction.to_string());
     };
@@ -204,7 +203,7 @@ fn rank_of_signal() -> Result<Measured, String> {
     // Edges known to 1e-3 t_c, each by itself.
     let noise = [(Observable::Arrivals, 1e-3 / SQRT_2), (Observable::Widths, 1e-3 * SQRT_2)];
     let data = data_of(&signal, &events, &[], &noise)?;
-    let fisher = Fisher::of(&model, &events, &data, &Unknown::OF_PULSES)?;
+    let fisher = Fisher::of(&model, &events, &data, &Parameter::OF_PULSES)?;
     let smallest = fisher.singular_values.last().ok_or("no singular values")?;
     let percent = |unknown| fisher.sigma(unknown).unwrap_or(f64::NAN) / f64::abs(unknown.value(&model)) * 100.0;
     Ok(Measured::new(
@@ -213,8 +212,8 @@ fn rank_of_signal() -> Result<Measured, String> {
             "{} pulses; singular values {}; edges known to 1e-3 t_c give eps to {:.1} %, 2 s^ZZ - s^XX - s^YY to {:.1} %",
             events.len(),
             listed(&fisher.singular_values),
-            percent(Unknown::Oblateness),
-            percent(Unknown::SAxial)
+            percent(Parameter::Oblateness),
+            percent(Parameter::SAxial)
         ),
     ))
 }

@@ -3,10 +3,16 @@
 use std::collections::BTreeSet;
 
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
-use twofold_scene::inference::{
-    Coverage, Datum, Event, Fisher, InferenceError, Model, Noise, Observable, Signal, Simulation, Unknown, data_of,
-    forecast, jacobian, scaling,
+use crate::coverage::Coverage;
+use crate::simulation::Simulation;
+use twofold::dynamics::RigidSpheroid;
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::inference::{
+    Datum, Event, Fisher, Forecast, InferenceError, Noise, Observable, Place, Signal, data_of, forecast, jacobian,
+    scaling,
 };
+use twofold::parameters::{Parameter, Parameters, ThirdRate};
+use twofold_scene::measurements::parameters_of;
 use twofold_scene::scene_file::Scene;
 
 /// The checks of this subject.
@@ -105,13 +111,13 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-fn tp_1() -> Result<Model<f64>, String> {
-    Model::of_scene(&Scene::named("tp-1")?).map_err(String::from)
+fn tp_1() -> Result<Parameters<f64>, String> {
+    parameters_of(&Scene::named("tp-1")?).map_err(String::from)
 }
 
 /// Values of the data `wanted` of a model: of the same turns, counted from the pulse nearest to the first.
 fn values(
-    model: &Model<f64>,
+    model: &Parameters<f64>,
     end: f64,
     events: &[Event],
     wanted: &[Datum],
@@ -131,8 +137,8 @@ fn values(
         .iter()
         .filter(|datum| datum.observable == Observable::StrainPlus)
         .map(|datum| match datum.place {
-            twofold_scene::inference::Place::Time(t) => t,
-            twofold_scene::inference::Place::Turn { near, .. } => near,
+            Place::Time(t) => t,
+            Place::Turn { near, .. } => near,
         })
         .collect();
     let data = data_of(&signal, &moved, &samples, noise)?;
@@ -159,8 +165,8 @@ fn derivatives() -> Result<Measured, String> {
         events.retain(|event| event.start > turn && event.end < end - turn && event.end - event.start > 0.1 * turn);
         let samples = [0.0, 13.0, 39.0];
         let data = data_of(&signal, &events, &samples, &noise)?;
-        let exact = jacobian(model, &events, &data, &Unknown::ALL)?.matrix;
-        for (column, unknown) in Unknown::ALL.iter().enumerate() {
+        let exact = jacobian(model, &events, &data, &Parameter::FITTED)?.matrix;
+        for (column, unknown) in Parameter::FITTED.iter().enumerate() {
             let at = |steps: f64| values(&model.moved(&[*unknown], &[steps * STEP]), end, &events, &data, &noise);
             let [two, one, minus_one, minus_two] = [at(2.0)?, at(1.0)?, at(-1.0)?, at(-2.0)?];
             for observable in Observable::ALL {
@@ -178,36 +184,30 @@ fn derivatives() -> Result<Measured, String> {
 }
 
 /// A star whose `s^IJ` is of a given size, in any frame: of three eigenvalues, or of the form of alpha_2.
-fn slow_star(size: f64, of_alpha_2: bool) -> Model<f64> {
+fn slow_star(size: f64, of_alpha_2: bool) -> Parameters<f64> {
     let s = if of_alpha_2 {
         let w = nalgebra::Vector3::new(0.48, -0.6, 0.64);
         -w * w.transpose()
     } else {
         nalgebra::Matrix3::new(0.5, 0.3, -0.2, 0.3, -0.4, 0.35, -0.2, 0.35, 0.1)
     };
-    Model {
-        oblateness: 0.02,
-        constant_c: 1.0,
-        s: s * size,
-        s_scale: 1.0,
-        angles: twofold::euler_angles::EulerAngles { alpha: 0.7, beta: 0.9, gamma: 0.4 },
-        alpha_rate: 0.11,
-        beta_rate: -0.07,
-        spin: 1.3,
+    let angles = EulerAngles { alpha: 0.7, beta: 0.9, gamma: 0.4 };
+    let rates = EulerRates { alpha: 0.11, beta: -0.07, gamma: 0.0 };
+    Parameters {
+        third_rate: ThirdRate::Spin(1.3),
         chi: 0.8,
         delta: 0.3,
         rho: 0.6,
         theta_o: 1.1,
         phi_o: 0.2,
-        strain_scale: 1.0,
-        strain_unit: 1.0,
+        ..Parameters::new(RigidSpheroid::in_units_of_tc(1.02), s * size, angles, rates)
     }
 }
 
 const LONG_NOISE: [Noise; 2] = [(Observable::Arrivals, 1e-3), (Observable::Widths, 1e-3)];
 
 fn decades() -> Result<Measured, String> {
-    use Unknown::*;
+    use Parameter::*;
     const STEP: f64 = 1e-3;
     let mut worst = Worst::default();
     let strain = [LONG_NOISE[0], LONG_NOISE[1], (Observable::StrainPlus, 1.0), (Observable::StrainCross, 1.0)];
@@ -218,10 +218,10 @@ fn decades() -> Result<Measured, String> {
             let signal = Signal::new(&model, end)?;
             let events = signal.events_after(&times)?;
             let data = data_of(&signal, &events, &times, &strain)?;
-            let exact = jacobian(&model, &events, &data, &Unknown::ALL)?.matrix;
+            let exact = jacobian(&model, &events, &data, &Parameter::FITTED)?.matrix;
             let turns: Vec<(i64, f64)> =
                 events.iter().map(|event| (event.turn, event.epoch + event.midpoint())).collect();
-            for (column, unknown) in Unknown::ALL.iter().enumerate() {
+            for (column, unknown) in Parameter::FITTED.iter().enumerate() {
                 let changes_rates = [Oblateness, Spin, Beta, AlphaRate, BetaRate].contains(unknown);
                 if end > 1e9 && (changes_rates || [Alpha, Gamma].contains(unknown)) {
                     continue;
@@ -271,7 +271,7 @@ fn directions_of_decades() -> Result<Measured, String> {
         let times: Vec<f64> = (0..200).map(|k| end * f64::from(k) / 200.0).collect();
         let events = signal.events_after(&times)?;
         let data = data_of(&signal, &events, &[], &LONG_NOISE)?;
-        let found = Fisher::of(&model, &events, &data, &Unknown::ALL)?;
+        let found = Fisher::of(&model, &events, &data, &Parameter::FITTED)?;
         let named = found.degenerate.iter().filter(|direction| direction.words.is_some()).count();
         let amiss = 8_usize.abs_diff(named) + found.degenerate.len() - named;
         detail.push(format!("{named} named of {}, rounding {:.1e}", found.degenerate.len(), found.rounding));
@@ -285,9 +285,9 @@ fn directions_of_decades() -> Result<Measured, String> {
 }
 
 /// Data and the Fisher matrix of a built-in scene.
-fn fisher(scene: &str, noise: &[Noise], unknowns: &[Unknown]) -> Result<Fisher, String> {
+fn fisher(scene: &str, noise: &[Noise], unknowns: &[Parameter]) -> Result<Fisher, String> {
     let scene = Scene::named(scene)?;
-    let model = Model::of_scene(&scene)?;
+    let model = parameters_of(&scene)?;
     let end = 100.0;
     let signal = Signal::new(&model, end)?;
     let events = signal.events()?;
@@ -297,20 +297,20 @@ fn fisher(scene: &str, noise: &[Noise], unknowns: &[Unknown]) -> Result<Fisher, 
 }
 
 /// A built-in scene, what is measured of it, what is unknown, and pieces of the words of every degenerate direction.
-type Case<'a> = (&'a str, &'a [Noise], &'a [Unknown], &'a [&'a str]);
+type Case<'a> = (&'a str, &'a [Noise], &'a [Parameter], &'a [&'a str]);
 
 fn directions() -> Result<Measured, String> {
-    use Unknown::*;
+    use Parameter::*;
     let pulses = [(Observable::Arrivals, 1e-3), (Observable::Widths, 1e-3)];
     let strain = [(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 1e-3)];
     let both = [pulses, strain].concat();
-    let frame = [SAxial, SAsymmetry, SXy, SXz, SYz, Alpha, Beta, Gamma, AlphaRate, BetaRate, ThetaO, PhiO];
+    let frame = [SAxial, SAsymmetry, S(0, 1), S(0, 2), S(1, 2), Alpha, Beta, Gamma, AlphaRate, BetaRate, ThetaO, PhiO];
     let cases: [Case<'_>; 11] = [
-        ("tp-1", &pulses, &Unknown::OF_PULSES, &[]),
-        ("tp-2", &pulses, &Unknown::OF_PULSES, &[]),
-        ("sp-1", &pulses, &Unknown::OF_PULSES, &[]),
-        ("tp-1", &strain, &Unknown::OF_STRAIN, &[]),
-        ("tp-1", &both, &[Oblateness, Spin, SAxial, SAsymmetry, Alpha, Beta, AlphaRate, StrainScale], &[]),
+        ("tp-1", &pulses, &Parameter::OF_PULSES, &[]),
+        ("tp-2", &pulses, &Parameter::OF_PULSES, &[]),
+        ("sp-1", &pulses, &Parameter::OF_PULSES, &[]),
+        ("tp-1", &strain, &Parameter::OF_STRAIN, &[]),
+        ("tp-1", &both, &[Oblateness, Spin, SAxial, SAsymmetry, Alpha, Beta, AlphaRate, Strain], &[]),
         (
             "tp-1",
             &pulses,
@@ -320,16 +320,16 @@ fn directions() -> Result<Measured, String> {
         (
             "tp-2",
             &pulses,
-            &[ConstantC, SAxial, SAsymmetry, SXy, SXz, SYz, Gamma, Delta],
+            &[ConstantC, SAxial, SAsymmetry, S(0, 1), S(0, 2), S(1, 2), Gamma, Delta],
             &["C against s^IJ", "gamma against delta"],
         ),
         ("tp-2", &pulses, &frame, &["Z: no direction", "Y: no direction", "X: no direction"]),
         ("tp-2", &strain, &frame, &["gamma: a spheroid", "Z: no direction", "Y: no direction"]),
-        ("sp-1", &strain, &[Oblateness, Spin, StrainScale, SAxial], &["eps against Omega^z"]),
+        ("sp-1", &strain, &[Oblateness, Spin, Strain, SAxial], &["eps against Omega^z"]),
         (
             "tp-1",
             &pulses,
-            &Unknown::ALL,
+            &Parameter::FITTED,
             &[
                 "the trace of s^IJ",
                 "the strain scale",
@@ -372,19 +372,19 @@ fn coverage() -> Result<Measured, String> {
 const TIMES_AND_WIDTHS: [Noise; 2] = [(Observable::Arrivals, 1e-4), (Observable::Widths, 1e-4)];
 
 /// A built-in scene with s scaled, seen from an azimuth at which the first drift of the spin axis is seen.
-fn scaled(name: &str, scale: f64) -> Result<Model<f64>, String> {
-    let model = Model::of_scene(&Scene::named(name)?)?;
-    Ok(Model { s: model.s * scale, phi_o: 1.0, ..model })
+fn scaled(name: &str, scale: f64) -> Result<Parameters<f64>, String> {
+    let model = parameters_of(&Scene::named(name)?)?;
+    Ok(Parameters { violation: model.violation * scale, phi_o: 1.0, ..model })
 }
 
 fn number_scaling() -> Result<Measured, String> {
-    let unknowns = Unknown::OF_PULSES;
+    let unknowns = Parameter::OF_PULSES;
     let epochs = [200, 400, 800, 1600];
-    power(forecast(&scaled("tp-2", 1.0)?, &TIMES_AND_WIDTHS, &unknowns, Unknown::SAxial, &[12800.0], &epochs), 1)
+    power(forecast(&scaled("tp-2", 1.0)?, &TIMES_AND_WIDTHS, &unknowns, Parameter::SAxial, &[12800.0], &epochs), 1)
 }
 
 fn known_frame() -> Result<Measured, String> {
-    use Unknown::*;
+    use Parameter::*;
     let unknowns = [SScale, Oblateness, Spin, Gamma, AlphaRate, Chi, Rho];
     let (model, spans) = (scaled("tp-2", 1.0 / 4000.0)?, [500.0, 1000.0, 2000.0, 4000.0, 8000.0]);
     power(forecast(&model, &TIMES_AND_WIDTHS, &unknowns, SScale, &spans, &[100]), 0)
@@ -392,23 +392,20 @@ fn known_frame() -> Result<Measured, String> {
 
 fn unknown_frame() -> Result<Measured, String> {
     let (model, spans) = (scaled("sp-1", 1.0 / 4000.0)?, [1000.0, 2000.0, 4000.0, 8000.0, 16000.0]);
-    power(forecast(&model, &TIMES_AND_WIDTHS, &Unknown::OF_PULSES, Unknown::SAxial, &spans, &[100]), 0)
+    power(forecast(&model, &TIMES_AND_WIDTHS, &Parameter::OF_PULSES, Parameter::SAxial, &spans, &[100]), 0)
 }
 
 fn size_scaling() -> Result<Measured, String> {
     let sigma = |scale: f64| {
-        let unknowns = Unknown::OF_PULSES;
-        forecast(&scaled("sp-1", scale)?, &TIMES_AND_WIDTHS, &unknowns, Unknown::SAxial, &[8000.0], &[1000])
+        let unknowns = Parameter::OF_PULSES;
+        forecast(&scaled("sp-1", scale)?, &TIMES_AND_WIDTHS, &unknowns, Parameter::SAxial, &[8000.0], &[1000])
             .map_err(String::from)
     };
     let (small, large) = (sigma(1.0 / 8000.0)?[0].sigma, sigma(1.0 / 4000.0)?[0].sigma);
     Ok(Measured::new(small / large, format!("{small:.2e} over {large:.2e}")))
 }
 
-fn power(
-    found: Result<Vec<twofold_scene::inference::Forecast>, InferenceError>,
-    which: usize,
-) -> Result<Measured, String> {
+fn power(found: Result<Vec<Forecast>, InferenceError>, which: usize) -> Result<Measured, String> {
     let found = found?;
     let slope = scaling(&found)[which].ok_or("no slope")?;
     let listed: Vec<_> =

@@ -17,7 +17,7 @@ use twofold::solutions::torus::{TorusFrequencies, separatrix_motion, states_with
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::random::Random;
 use crate::reference::reference_motion;
-use twofold_scene::fit::slope;
+use twofold::straight_line::slope;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {

@@ -1,6 +1,7 @@
 //! The errors that plans foresee, of every method against true ones, in random scenes that it is made for.
 
-use twofold::plan::{Method, Output, Parameter, Plan, Promise, Request, Start, gradient};
+use twofold::parameters::{Parameter, Parameters};
+use twofold::plan::{Method, Output, Plan, Promise, Request, gradient};
 use twofold::propagation::Motion;
 
 use super::plans::Components;
@@ -92,7 +93,7 @@ fn foreseen_and_true(
         let (Ok(angles), Ok(rates)) = (scene.initial.angles(), scene.initial.rates(&scene.spheroid)) else {
             return Ok(None);
         };
-        let start = Start { spheroid: scene.spheroid, violation: scene.violation, angles, rates };
+        let start = Parameters::new(scene.spheroid, scene.violation, angles, rates);
         Components::state(&gradient(&plan, &start, &Components, &[scene.time])?.values)
     };
     let error = largest(scene.true_errors(&state));

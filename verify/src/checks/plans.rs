@@ -6,7 +6,8 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use proptest::prelude::*;
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::numerics::scalar::Real;
-use twofold::plan::{Candidate, Method, Output, Parameter, Plan, Request, Start, StateFunction, gradient};
+use twofold::parameters::{Parameter, Parameters};
+use twofold::plan::{Candidate, Method, Output, Plan, Request, StateFunction, gradient};
 use twofold::propagation::{Motion, SymmetricMotion, UniformMotion, propagate};
 use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
@@ -278,7 +279,7 @@ fn gradients() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for scene in reference_gradients() {
         let request = Request {
-            derivatives: Parameter::ALL.to_vec(),
+            derivatives: Parameter::OF_MOTION.to_vec(),
             ..Request::new(&[Output::EquatorialAxis], (0.0, 20.0), 2, 1e-15)
         };
         let start = &scene.start;
@@ -288,10 +289,10 @@ fn gradients() -> Result<Measured, String> {
             let plan = Plan::from_parts(&start.spheroid, &start.violation, &start.state(), &request)?;
             let found = gradient(&plan, start, &Components, &times)?;
             for ((t, expected), found) in scene.derivatives.iter().zip(&found.jacobians) {
-                for (i, parameter) in Parameter::ALL.iter().enumerate() {
+                for (i, parameter) in Parameter::OF_MOTION.iter().enumerate() {
                     let size = largest(expected[i].iter().map(|x| x.abs())).max(f64::MIN_POSITIVE);
                     let errors = expected[i].iter().enumerate().map(|(row, x)| (found[(row, i)] - x).abs());
-                    let name = parameter.name();
+                    let name = parameter.symbol();
                     worst.see(largest(errors) / size, || format!("{} by {name} at t = {t}, {method:?}", scene.name));
                 }
             }
@@ -312,11 +313,11 @@ fn gradients_both_ways() -> Result<Measured, String> {
     let strategy = (scenes(), prop::array::uniform3(-3.0..3.0f64), any::<bool>());
     worst_over(46, 60, &strategy, |(scene, frame, backwards)| {
         let (s, _) = turned(&scene.coefficients().tensor(), &scene.state(), *frame);
-        let start = Start { spheroid: scene.spheroid(), violation: s, angles: scene.angles(), rates: scene.rates() };
+        let start = Parameters::new(scene.spheroid(), s, scene.angles(), scene.rates());
         let end = if *backwards { -20.0 } else { 20.0 };
         let both = [None, Some(Method::Taylor)].map(|method| {
             let request = Request {
-                derivatives: Parameter::ALL.to_vec(),
+                derivatives: Parameter::OF_MOTION.to_vec(),
                 method,
                 ..Request::new(&[Output::EquatorialAxis], (0.0, end), 3, if method.is_some() { 1e-15 } else { 1e-11 })
             };

@@ -36,7 +36,7 @@ of_families! {
     6: "stability-mean",
     7: "stability-observables",
     8: "stability-tensor",
-    9: "stability-remaining"
+    9: "stability-torus"
 }
 
 fn measure(family: &Family) -> Result<Measured, String> {
@@ -48,8 +48,8 @@ fn measure(family: &Family) -> Result<Measured, String> {
             let Some(errors) = errors else { continue };
             worst.see(errors.ulp / class.bound(), || {
                 format!(
-                    "{what} {} of {:?}, {}: {:e} ulp at {:?}",
-                    errors.component, case.items, case.limit, errors.ulp, errors.place
+                    "{what} {} of {}, {}: {:e} ulp at {:?}",
+                    errors.component, case.name, case.limit, errors.ulp, errors.place
                 )
             });
         }

@@ -7,8 +7,8 @@ use num_dual::{Dual64, HyperDual64};
 use twofold::Scalar;
 use twofold::euler_angles::{EulerAngles, EulerRates};
 
-use crate::conditioned::Conditioned;
 use crate::dual::Dual;
+use crate::magnitudes::Conditioned;
 use crate::prime_field::Fp;
 
 pub mod body_motion;

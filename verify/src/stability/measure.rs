@@ -90,7 +90,7 @@ impl Case {
         let exact = (self.oracle)(&x.iter().map(|&x| Wide::from_f64(x)).collect::<Vec<_>>());
         let scales = self.scales(x, &exact);
         let compare = |errors: &mut Errors, values: Vec<f64>| {
-            assert_eq!(values.len(), exact.len(), "as many results as the oracle has: {:?}", self.items);
+            assert_eq!(values.len(), exact.len(), "as many results as the oracle has: {}", self.name);
             for (i, value) in values.into_iter().enumerate() {
                 errors.see(value, exact[i], scales[i], x, i);
             }

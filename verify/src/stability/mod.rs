@@ -1,7 +1,8 @@
-//! Digits lost by every public kernel and solver, against an oracle of 31 digits, on logarithmic sweeps into its limits.
+//! Digits lost by kernels and solvers, against an oracle of 31 digits, on logarithmic sweeps into their limits.
 //!
-//! A [`Case`] is data: what is measured, the inputs and the limit that the first of them is swept into, the kernel in doubles, an oracle
-//! in double-double arithmetic, the formula of the paper where that is another one. One [runner](measure) serves all.
+//! A [`Case`] is one sweep: a function generic over the scalar, where its inputs are drawn from and the limit that the first one goes to, and how
+//! much error is allowed. It is run on doubles, on duals, and as its own oracle on double-double numbers; where it has constants or
+//! thresholds for doubles, another formula is the oracle. [`measure`] does all of them.
 //!
 //! The error of a number `f(x)` is counted in ulp of its *conditioned scale*
 //!
@@ -15,7 +16,6 @@
 
 pub mod cases;
 pub mod denormal;
-mod elsewhere;
 mod input;
 pub mod measure;
 pub mod oracle;
@@ -24,7 +24,6 @@ pub mod table;
 use num_dual::Dual64;
 use twofold::Real;
 
-pub use elsewhere::ELSEWHERE;
 pub use input::Input;
 
 use crate::double_double::DoubleDouble;
@@ -83,8 +82,8 @@ type Evaluate<T> = fn(&[T]) -> Vec<T>;
 /// One sweep of one kernel.
 #[derive(Clone)]
 pub struct Case {
-    /// Paths in the crate `twofold` of what is measured, as in the table of equations.
-    pub items: &'static [&'static str],
+    /// Functions of the crate `twofold` that are measured.
+    pub name: &'static str,
     /// The limit of the sweep, in words.
     pub limit: &'static str,
     /// Where inputs are drawn from; the first is swept.
@@ -109,10 +108,10 @@ pub struct Case {
 }
 
 impl Case {
-    /// A scalar kernel that is its own oracle on double-double numbers: it has no constant, threshold or iteration meant for doubles.
-    pub fn new<K: Function>(items: &'static [&'static str], limit: &'static str, inputs: &[Input]) -> Self {
+    /// A function that is its own oracle on double-double numbers: it has no constant, threshold or iteration meant for doubles.
+    pub fn new<K: Function>(name: &'static str, limit: &'static str, inputs: &[Input]) -> Self {
         Self {
-            items,
+            name,
             limit,
             inputs: inputs.to_vec(),
             class: Class::Scalar,
@@ -129,17 +128,14 @@ impl Case {
         }
     }
 
-    /// A kernel in doubles alone, with its oracle.
+    /// A function in doubles alone, with its oracle.
     pub fn of_doubles<O: Function>(
-        items: &'static [&'static str],
+        name: &'static str,
         limit: &'static str,
         inputs: &[Input],
         kernel: fn(&[f64]) -> Vec<f64>,
     ) -> Self {
-        let mut case = Self::new::<O>(items, limit, inputs);
-        case.kernel = kernel;
-        case.derivative = None;
-        case
+        Self { kernel, derivative: None, ..Self::new::<O>(name, limit, inputs) }
     }
 
     /// With derivatives of a function that is not generic.
@@ -212,9 +208,13 @@ impl Case {
     }
 }
 
-/// Functions generic over the scalar, as types.
+/// Functions generic over the scalar, as types. One that is measured has a name and says how, as the methods of [`Case`] do:
+/// `Angle: "angle".against::<ExactAngle>().composite(), (x) { ... }` gives `Angle::case(limit, inputs)`.
 macro_rules! functions {
-    ($($(#[$doc:meta])* $name:ident($x:ident) $body:block)*) => {
+    ($(
+        $(#[$doc:meta])*
+        $name:ident $(: $label:literal $(.$how:ident $(::<$type:ty>)? ($($argument:expr),*))*,)? ($x:ident) $body:block
+    )*) => {
         $(
             $(#[$doc])*
             struct $name;
@@ -222,8 +222,23 @@ macro_rules! functions {
             impl $crate::stability::Function for $name {
                 fn of<S: twofold::Real>($x: &[S]) -> Vec<S> $body
             }
+
+            $(
+                impl $name {
+                    fn case(limit: &'static str, inputs: &[$crate::stability::Input]) -> $crate::stability::Case {
+                        $crate::stability::Case::new::<$name>($label, limit, inputs)$(.$how$(::<$type>)?($($argument),*))*
+                    }
+                }
+            )?
         )*
     };
 }
 
-pub(crate) use functions;
+/// Inputs, with how often each is there if more than once: `list![beta, component; 3]`.
+macro_rules! list {
+    ($($input:expr $(; $count:expr)?),* $(,)?) => {
+        [$(&[$input; 1 $(- 1 + $count)?][..]),*].concat()
+    };
+}
+
+pub(crate) use {functions, list};

@@ -15,7 +15,7 @@ pub use compare::{Comparison, compare_doubles, compare_field};
 pub use document::{Document, Layout};
 pub use point::{Coded, RationalPoint};
 
-use crate::conditioned::Conditioned;
+use crate::magnitudes::Conditioned;
 use crate::prime_field::Fp;
 
 /// The file that `verify/oracles/symbolic` writes.

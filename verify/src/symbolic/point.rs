@@ -8,7 +8,7 @@ use twofold::dynamics::{BodyState, PrincipalInertia, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 
-use crate::conditioned::Conditioned;
+use crate::magnitudes::Conditioned;
 use crate::prime_field::Fp;
 
 /// A type of numbers that rational numbers and rational points of the circle can be written in.

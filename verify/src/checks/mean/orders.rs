@@ -10,7 +10,7 @@ use super::scenes::{State, difference, random_state};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
 use crate::random::Random;
 use crate::reference::reference_motion;
-use twofold_scene::fit::slope;
+use twofold::straight_line::slope;
 
 /// Checks of this subject.
 pub(super) fn checks() -> Vec<Check> {

@@ -6,7 +6,7 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{Motion, propagate};
 
 use crate::check::{Bound, Check, Kind, Measured, Worst};
-use twofold_scene::fit::slope;
+use twofold::straight_line::slope;
 
 pub(super) fn checks() -> Vec<Check> {
     vec![

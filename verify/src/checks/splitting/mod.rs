@@ -15,7 +15,7 @@ use twofold::propagation::{AxisState, Motion, propagate, propagate_axis};
 use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
 use crate::physical_domain::{RandomScene, scenes, worst_over};
 use crate::reference::{reference_motion, reference_motions};
-use twofold_scene::fit::slope;
+use twofold::straight_line::slope;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {

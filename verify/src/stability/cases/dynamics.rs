@@ -24,7 +24,7 @@ use twofold::observables::gravitational_wave::{metric_perturbation, polarization
 
 use super::parts::{angles, body, entries, joined, none, principal, rates, symmetric, vector};
 use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
-use crate::stability::{Case, functions};
+use crate::stability::{Case, functions, list};
 
 fn inertia<S: Real>(x: &[S]) -> PrincipalInertia<S> {
     PrincipalInertia { xx: x[0], yy: x[1], zz: x[2] }
@@ -40,42 +40,54 @@ fn state<S: Real>(x: &[S]) -> BodyState<S> {
 
 functions! {
     // beta, alpha, C, s (3)
-    PotentialInAngles(x) { vec![anisotropic_potential_in_angles(x[2], &principal(&x[3..]), x[1], x[0])] }
-    Gradient(x) {
+    PotentialInAngles: "anisotropic_potential_in_angles", (x) {
+        vec![anisotropic_potential_in_angles(x[2], &principal(&x[3..]), x[1], x[0])]
+    }
+    Gradient: "potential_gradient_in_angles", (x) {
         let (by_alpha, by_beta) = potential_gradient_in_angles(x[2], &principal(&x[3..]), x[1], x[0]);
         vec![by_alpha, by_beta]
     }
     // s (6), n (3), C
-    PotentialOfAxis(x) { vec![anisotropic_potential_of_axis(x[9], &symmetric(x), &vector(&x[6..]))] }
-    TorqueOnAxis(x) { joined(&[torque_on_axis(x[9], &symmetric(x), &vector(&x[6..]))]) }
+    PotentialOfAxis: "anisotropic_potential_of_axis", (x) {
+        vec![anisotropic_potential_of_axis(x[9], &symmetric(x), &vector(&x[6..]))]
+    }
+    TorqueOnAxis: "torque_on_axis", (x) { joined(&[torque_on_axis(x[9], &symmetric(x), &vector(&x[6..]))]) }
     // As a product of the matrix with the axis normal to it.
-    PotentialOfBody(x) { vec![anisotropic_potential_of_body(&symmetric(x), &symmetric(&x[6..]))] }
-    TorqueOnBody(x) { joined(&[torque_on_body(&symmetric(x), &symmetric(&x[6..]))]) }
-    Nordtvedt(x) { vec![nordtvedt_potential(x[0], x[1], &vector(&x[2..]), &vector(&x[5..]))] }
+    PotentialOfBody: "anisotropic_potential_of_body", (x) {
+        vec![anisotropic_potential_of_body(&symmetric(x), &symmetric(&x[6..]))]
+    }
+    TorqueOnBody: "torque_on_body", (x) { joined(&[torque_on_body(&symmetric(x), &symmetric(&x[6..]))]) }
+    Nordtvedt: "nordtvedt_potential", (x) { vec![nordtvedt_potential(x[0], x[1], &vector(&x[2..]), &vector(&x[5..]))] }
     // s (6), masses (2), r, n (3)
-    PotentialOfMasses(x) { vec![anisotropic_potential_of_masses(&symmetric(x), [x[6], x[7]], x[8], &vector(&x[9..]))] }
+    PotentialOfMasses: "anisotropic_potential_of_masses", (x) {
+        vec![anisotropic_potential_of_masses(&symmetric(x), [x[6], x[7]], x[8], &vector(&x[9..]))]
+    }
     // alpha_2, w (3), masses (2), r, n (3)
-    PreferredFrameOfMasses(x) {
+    PreferredFrameOfMasses: "preferred_frame_potential_of_masses", (x) {
         vec![preferred_frame_potential_of_masses(x[0], &vector(&x[1..]), [x[4], x[5]], x[6], &vector(&x[7..]))]
     }
-    FromPreferredFrame(x) { entries(&coefficients_from_preferred_frame(x[0], &vector(&x[1..]))) }
-    PreferredFrameParameter(x) {
+    FromPreferredFrame: "coefficients_from_preferred_frame", (x) {
+        entries(&coefficients_from_preferred_frame(x[0], &vector(&x[1..])))
+    }
+    PreferredFrameParameter: "preferred_frame_parameter".against::<ThePreferredFrameParameter>().composite(), (x) {
         let w = vector(&x[1..]);
         preferred_frame_parameter(&coefficients_from_preferred_frame(x[0], &w), &w).map_or(none(1), |alpha| vec![alpha])
     }
     ThePreferredFrameParameter(x) { vec![x[0]] }
     // beta, gamma, gradient (3)
-    TorqueFromGradient(x) {
+    TorqueFromGradient: "torque_from_gradient", (x) {
         joined(&[torque_from_gradient(&angles(&[S::zero(), x[0], x[1]]), &vector(&x[2..]))])
     }
     // omega (3), torque (3), inertia (3)
-    Acceleration(x) { joined(&[angular_acceleration(&inertia(&x[6..]), &vector(x), &vector(&x[3..]))]) }
-    Differences(x) { inertia(x).differences().to_vec() }
-    EnergyOfBody(x) { vec![kinetic_energy_of_body(&inertia(&x[3..]), &vector(x))] }
-    WaveTensor(x) { entries(&wave_tensor(&inertia(&x[6..]), &vector(x), &vector(&x[3..]))) }
+    Acceleration: "angular_acceleration", (x) {
+        joined(&[angular_acceleration(&inertia(&x[6..]), &vector(x), &vector(&x[3..]))])
+    }
+    Differences: "PrincipalInertia::differences", (x) { inertia(x).differences().to_vec() }
+    EnergyOfBody: "kinetic_energy_of_body", (x) { vec![kinetic_energy_of_body(&inertia(&x[3..]), &vector(x))] }
+    WaveTensor: "wave_tensor", (x) { entries(&wave_tensor(&inertia(&x[6..]), &vector(x), &vector(&x[3..]))) }
     // beta, alpha, gamma, rates (3), body (3), s (3)
-    KineticEnergy(x) { vec![kinetic_energy(&body(&x[6..]), x[0], &rates(&x[3..]))] }
-    EnergyInAngles(x) {
+    KineticEnergy: "kinetic_energy", (x) { vec![kinetic_energy(&body(&x[6..]), x[0], &rates(&x[3..]))] }
+    EnergyInAngles: "energy_in_angles, lagrangian, spin_in_angles".composite(), (x) {
         let angles = angles(&[x[1], x[0], x[2]]);
         vec![
             energy_in_angles(&body(&x[6..]), &principal(&x[9..]), &angles, &rates(&x[3..])),
@@ -84,7 +96,7 @@ functions! {
         ]
     }
     // beta, alpha, rates (2), spin, body (3), s (3)
-    Accelerations(x) {
+    Accelerations: "euler_angle_accelerations".beside::<NaiveAccelerations>("Eq. (25) over sin^2 b"), (x) {
         let (alpha, beta) = euler_angle_accelerations(&body(&x[5..]), &principal(&x[8..]), x[4], &axis_angles(x));
         vec![alpha, beta]
     }
@@ -100,25 +112,25 @@ functions! {
             sb * cb * q.alpha_rate * q.alpha_rate - omega * sb * q.alpha_rate - by_beta / spheroid.inertia_xx,
         ]
     }
-    Residuals(x) {
+    Residuals: "euler_angle_residuals".composite(), (x) {
         let (alpha, beta) =
             euler_angle_residuals(&body(&x[5..]), &principal(&x[8..]), x[4], &axis_angles(x), (x[11], x[12]));
         vec![alpha, beta]
     }
     // s (6), n, L, e_x (9), body (3)
-    ReducedRates(x) {
+    ReducedRates: "reduced_rates".composite(), (x) {
         let (axis, momentum) = reduced_rates(&body(&x[15..]), &symmetric(x), &vector(&x[6..]), &vector(&x[9..]));
         joined(&[axis, momentum])
     }
-    StateRates(x) {
+    StateRates: "body_state_rates".composite(), (x) {
         let rates = body_state_rates(&body(&x[15..]), &symmetric(x), &state(&x[6..]));
         joined(&[rates.axis, rates.momentum, rates.equatorial_axis])
     }
-    Integrals(x) {
+    Integrals: "first_integrals".composite(), (x) {
         let all = first_integrals(&body(&x[15..]), &symmetric(x), &state(&x[6..]));
         vec![all.energy, all.spin, all.clebsch]
     }
-    Energy(x) {
+    Energy: "first_integrals".beside::<NaiveEnergy>("L.L / (2 I^xx) and the rest"), (x) {
         let spheroid = body(&x[3..]);
         vec![first_integrals(&spheroid, &symmetric(&x[6..]), &AxisState { axis: Vector3::z(), momentum: vector(x) }).energy]
     }
@@ -129,20 +141,22 @@ functions! {
         let spinning = (S::one() / inertia_zz - S::one() / inertia_xx) * along * along / 2.0;
         vec![momentum.dot(&momentum) / (inertia_xx * 2.0) + spinning + constant_c * x[8]]
     }
-    Spin(x) {
+    Spin: "first_integrals", (x) {
         let state = AxisState { axis: vector(x), momentum: vector(&x[3..]) };
         vec![first_integrals(&body(&x[6..]), &Matrix3::zeros(), &state).spin]
     }
-    Adjugate(x) { entries(&symmetric_adjugate(&symmetric(x))) }
-    Clebsch(x) {
+    Adjugate: "symmetric_adjugate", (x) { entries(&symmetric_adjugate(&symmetric(x))) }
+    Clebsch: "FirstIntegrals::clebsch", (x) {
         let state = AxisState { axis: vector(&x[6..]), momentum: vector(&x[9..]) };
         vec![first_integrals(&body(&x[15..]), &symmetric(x), &state).clebsch]
     }
-    InertiaAcceleration(x) {
+    InertiaAcceleration: "spheroid_inertia_acceleration".composite(), (x) {
         entries(&spheroid_inertia_acceleration(&body(&x[15..]), &symmetric(x), &vector(&x[6..]), &vector(&x[9..])))
     }
     // beta, alpha, rate, body (3)
-    FreeWave(x) { entries(&free_inertia_acceleration(&body(&x[3..]), x[1], x[0], x[2])) }
+    FreeWave: "free_inertia_acceleration".beside::<NaiveFreeWave>("sin 2b tan b"), (x) {
+        entries(&free_inertia_acceleration(&body(&x[3..]), x[1], x[0], x[2]))
+    }
     /// With `sin 2b tan b`, as Eq. (68) has it.
     NaiveFreeWave(x) {
         let spheroid = body(&x[3..]);
@@ -155,14 +169,14 @@ functions! {
         let (xz, yz) = (-(size * sa), size * ca);
         vec![wide * cos_2a, wide * sin_2a, xz, wide * sin_2a, -(wide * cos_2a), yz, xz, yz, S::zero()]
     }
-    Body(x) {
+    Body: "RigidSpheroid", (x) {
         let spheroid = body(x);
         vec![spheroid.oblateness(), spheroid.free_precession_constant(x[3]), spheroid.time_unit().unwrap_or(S::from_f64(f64::NAN))]
     }
     // I^xx, I^zz / I^xx, C, Omega^z
-    BodyInUnits(x) { Body::of(&[x[0], x[0] * x[1], x[2], x[3]]) }
+    BodyInUnits: "RigidSpheroid".natural_derivatives(), (x) { Body::of(&[x[0], x[0] * x[1], x[2], x[3]]) }
     // theta_o, phi_o, ddot I (6), distance
-    Strain(x) {
+    Strain: "metric_perturbation, polarizations, polarization_tensors".composite(), (x) {
         let h = polarizations(&Observer::at(x[0], x[1]), &metric_perturbation(x[8], &symmetric(&x[2..])));
         vec![h.plus, h.cross]
     }
@@ -188,25 +202,6 @@ const ISOTROPIC: [Input; 18] = {
     inputs[2] = Fixed(0.1);
     inputs
 };
-const POTENTIAL: &[&str] = &["dynamics::potential::anisotropic_potential_in_angles"];
-const GRADIENT: &[&str] = &["dynamics::potential::potential_gradient_in_angles"];
-const ACCELERATIONS: &[&str] = &["dynamics::euler_angle_equations::euler_angle_accelerations"];
-const ENERGIES: &[&str] = &[
-    "dynamics::first_integrals::energy_in_angles",
-    "dynamics::lagrangian::lagrangian",
-    "dynamics::first_integrals::spin_in_angles",
-];
-const FREE_WAVE: &[&str] = &["dynamics::wave_source::free_inertia_acceleration"];
-const STRAIN: &[&str] = &[
-    "observables::gravitational_wave::metric_perturbation",
-    "observables::gravitational_wave::polarizations",
-    "observables::gravitational_wave::polarization_tensors",
-];
-const BODY: &[&str] = &[
-    "dynamics::RigidSpheroid::oblateness",
-    "dynamics::RigidSpheroid::free_precession_constant",
-    "dynamics::RigidSpheroid::time_unit",
-];
 
 pub(super) fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
@@ -222,199 +217,74 @@ pub(super) fn cases() -> Vec<Case> {
         let moving = [TURN, TURN, RATE, RATE, RATE, INERTIA, INERTIA, INERTIA, SMALL, SMALL, SMALL];
         let axis = [TURN, RATE, RATE, RATE, INERTIA, INERTIA, INERTIA, SMALL, SMALL, SMALL];
         cases.extend([
-            Case::new::<PotentialInAngles>(POTENTIAL, limit, &in_angles),
-            Case::new::<Gradient>(GRADIENT, limit, &in_angles),
-            Case::new::<TorqueFromGradient>(
-                &["dynamics::torque::torque_from_gradient"],
-                limit,
-                &off_pole(&[TURN, COMPONENT, COMPONENT, COMPONENT]),
-            ),
-            Case::new::<KineticEnergy>(&["dynamics::kinetic_energy::kinetic_energy"], limit, &sweep(&moving)),
-            Case::new::<EnergyInAngles>(ENERGIES, limit, &sweep(&moving)).composite(),
-            Case::new::<Accelerations>(ACCELERATIONS, limit, &off_pole(&axis))
-                .beside::<NaiveAccelerations>("Eq. (25) over sin^2 b"),
-            Case::new::<Residuals>(
-                &["dynamics::euler_angle_equations::euler_angle_residuals"],
-                limit,
-                &sweep(&[&axis[..], &[RATE, RATE]].concat()),
-            )
-            .composite(),
-            Case::new::<FreeWave>(FREE_WAVE, limit, &sweep(&[TURN, RATE, INERTIA, INERTIA, Fixed(1.0)]))
-                .beside::<NaiveFreeWave>("sin 2b tan b"),
+            PotentialInAngles::case(limit, &in_angles),
+            Gradient::case(limit, &in_angles),
+            TorqueFromGradient::case(limit, &off_pole(&[TURN, COMPONENT, COMPONENT, COMPONENT])),
+            KineticEnergy::case(limit, &sweep(&moving)),
+            EnergyInAngles::case(limit, &sweep(&moving)),
+            Accelerations::case(limit, &off_pole(&axis)),
+            Residuals::case(limit, &sweep(&[&axis[..], &[RATE, RATE]].concat())),
+            FreeWave::case(limit, &sweep(&[TURN, RATE, INERTIA, INERTIA, Fixed(1.0)])),
         ]);
     }
-    for (limit, of_k, inputs) in [
-        ("s from 1e-300 to 1", "K, s from 1e-300 to 1", &TENSOR),
-        ("equal and nearly equal eigenvalues", "K, equal and nearly equal eigenvalues", &ISOTROPIC),
-    ] {
+    for (limit, inputs) in [("s from 1e-300 to 1", &TENSOR), ("equal and nearly equal eigenvalues", &ISOTROPIC)] {
         cases.extend([
-            Case::new::<PotentialOfAxis>(&["dynamics::potential::anisotropic_potential_of_axis"], limit, &inputs[..10]),
-            Case::new::<TorqueOnAxis>(&["dynamics::equations_of_motion::torque_on_axis"], limit, &inputs[..10]),
-            Case::new::<PotentialOfBody>(&["dynamics::potential::anisotropic_potential_of_body"], limit, &inputs[..12]),
-            Case::new::<TorqueOnBody>(&["dynamics::torque::torque_on_body"], limit, &inputs[..12]),
-            Case::new::<ReducedRates>(&["dynamics::equations_of_motion::reduced_rates"], limit, inputs).composite(),
-            Case::new::<StateRates>(&["dynamics::equations_of_motion::body_state_rates"], limit, inputs).composite(),
-            Case::new::<Integrals>(&["dynamics::first_integrals::first_integrals"], limit, inputs).composite(),
-            Case::new::<Clebsch>(&["dynamics::first_integrals::first_integrals"], of_k, inputs),
-            Case::new::<Adjugate>(&["dynamics::first_integrals::symmetric_adjugate"], limit, &inputs[..6]),
-            Case::new::<InertiaAcceleration>(&["dynamics::wave_source::spheroid_inertia_acceleration"], limit, inputs)
-                .composite(),
+            PotentialOfAxis::case(limit, &inputs[..10]),
+            TorqueOnAxis::case(limit, &inputs[..10]),
+            PotentialOfBody::case(limit, &inputs[..12]),
+            TorqueOnBody::case(limit, &inputs[..12]),
+            ReducedRates::case(limit, inputs),
+            StateRates::case(limit, inputs),
+            Integrals::case(limit, inputs),
+            Clebsch::case(limit, inputs),
+            Adjugate::case(limit, &inputs[..6]),
+            InertiaAcceleration::case(limit, inputs),
         ]);
     }
     cases.extend([
-        Case::new::<Energy>(
-            &["dynamics::first_integrals::first_integrals"],
+        Energy::case(
             "L along n, I^zz -> infinity",
-            &[
-                Signed(-12.0, 0.0),
-                Signed(-12.0, 0.0),
-                RATE,
-                INERTIA,
-                Log(0.0, 20.0),
-                INERTIA,
-                Fixed(0.0),
-                Fixed(0.0),
-                SMALL,
-                Fixed(0.0),
-                Fixed(0.0),
-                Fixed(0.0),
-            ],
-        )
-        .beside::<NaiveEnergy>("L.L / (2 I^xx) and the rest"),
-        Case::new::<Spin>(
-            &["dynamics::first_integrals::first_integrals"],
+            &list![Signed(-12.0, 0.0); 2, RATE, INERTIA, Log(0.0, 20.0), INERTIA, Fixed(0.0); 2, SMALL, Fixed(0.0); 3],
+        ),
+        Spin::case(
             "Omega^z -> 0, L normal to n",
-            &[
-                Signed(-300.0, 0.0),
-                COMPONENT,
-                Fixed(0.0),
-                COMPONENT,
-                Signed(-300.0, 0.0),
-                COMPONENT,
-                INERTIA,
-                INERTIA,
-                INERTIA,
-            ],
+            &list![Signed(-300.0, 0.0), COMPONENT, Fixed(0.0), COMPONENT, Signed(-300.0, 0.0), COMPONENT, INERTIA; 3],
         ),
-        Case::new::<Acceleration>(
-            &["dynamics::angular_acceleration::angular_acceleration"],
+        Acceleration::case(
             "rates from 1e-100 to 1e100",
-            &[Signed(-100.0, 100.0), RATE, RATE, COMPONENT, COMPONENT, COMPONENT, INERTIA, INERTIA, INERTIA],
+            &list![Signed(-100.0, 100.0), RATE; 2, COMPONENT; 3, INERTIA; 3],
         ),
-        Case::new::<WaveTensor>(
-            &["dynamics::wave_source::wave_tensor"],
+        WaveTensor::case(
             "rates from 1e-100 to 1e100",
-            &[Signed(-100.0, 100.0), RATE, RATE, COMPONENT, COMPONENT, COMPONENT, INERTIA, INERTIA, INERTIA],
+            &list![Signed(-100.0, 100.0), RATE; 2, COMPONENT; 3, INERTIA; 3],
         ),
-        Case::new::<WaveTensor>(
-            &["dynamics::wave_source::wave_tensor"],
-            "equal moments of inertia",
-            &[RATE, RATE, RATE, SMALL, SMALL, SMALL, Near(1.0, -15.5, -0.5), Near(1.0, -15.5, -0.5), Fixed(1.0)],
-        ),
-        Case::new::<Differences>(
-            &["dynamics::PrincipalInertia::differences"],
-            "equal moments of inertia",
-            &[Near(1.0, -15.5, -0.5), Near(1.0, -15.5, -0.5), Fixed(1.0)],
-        ),
-        Case::new::<EnergyOfBody>(
-            &["dynamics::kinetic_energy::kinetic_energy_of_body"],
-            "rates from 1e-100 to 1e100",
-            &[Signed(-100.0, 100.0), RATE, RATE, INERTIA, INERTIA, INERTIA],
-        ),
-        Case::new::<Body>(
-            BODY,
-            "I^zz -> I^xx",
-            &[Near(1.0, -15.5, -0.1), Fixed(1.0), Log(-20.0, 20.0), Signed(-300.0, 3.0)],
-        ),
-        Case::new::<BodyInUnits>(
-            BODY,
+        WaveTensor::case("equal moments of inertia", &list![RATE; 3, SMALL; 3, Near(1.0, -15.5, -0.5); 2, Fixed(1.0)]),
+        Differences::case("equal moments of inertia", &[Near(1.0, -15.5, -0.5), Near(1.0, -15.5, -0.5), Fixed(1.0)]),
+        EnergyOfBody::case("rates from 1e-100 to 1e100", &list![Signed(-100.0, 100.0), RATE; 2, INERTIA; 3]),
+        Body::case("I^zz -> I^xx", &[Near(1.0, -15.5, -0.1), Fixed(1.0), Log(-20.0, 20.0), Signed(-300.0, 3.0)]),
+        BodyInUnits::case(
             "units from 1e-100 to 1e100",
             &[Log(-100.0, 100.0), In(0.2, 2.0), Log(-100.0, 100.0), Signed(-50.0, 50.0)],
-        )
-        .natural_derivatives(),
-        Case::new::<Nordtvedt>(
-            &["dynamics::potential::nordtvedt_potential"],
-            "alpha_2 from 1e-200 to 1",
-            &[Signed(-200.0, 0.0), Log(-10.0, 10.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT],
         ),
-        Case::new::<PotentialOfMasses>(
-            &["dynamics::point_masses::anisotropic_potential_of_masses"],
+        Nordtvedt::case("alpha_2 from 1e-200 to 1", &list![Signed(-200.0, 0.0), Log(-10.0, 10.0), COMPONENT; 6]),
+        PotentialOfMasses::case(
             "distances from 1e-100 to 1e100",
-            &[
-                SMALL,
-                SMALL,
-                SMALL,
-                SMALL,
-                SMALL,
-                SMALL,
-                INERTIA,
-                INERTIA,
-                Log(-100.0, 100.0),
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-            ],
+            &list![SMALL; 6, INERTIA; 2, Log(-100.0, 100.0), COMPONENT; 3],
         ),
-        Case::new::<PreferredFrameOfMasses>(
-            &["dynamics::point_masses::preferred_frame_potential_of_masses"],
+        PreferredFrameOfMasses::case(
             "alpha_2 from 1e-200 to 1",
-            &[
-                Signed(-200.0, 0.0),
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                INERTIA,
-                INERTIA,
-                INERTIA,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-            ],
+            &list![Signed(-200.0, 0.0), COMPONENT; 3, INERTIA; 3, COMPONENT; 3],
         ),
-        Case::new::<FromPreferredFrame>(
-            &["lorentz_violation::coefficients_from_preferred_frame"],
+        FromPreferredFrame::case(
             "alpha_2 from 1e-200 to 1",
             &[Signed(-200.0, 0.0), Signed(-5.0, -2.0), Signed(-5.0, -2.0), Signed(-5.0, -2.0)],
         ),
-        Case::new::<PreferredFrameParameter>(
-            &["lorentz_violation::preferred_frame_parameter"],
+        PreferredFrameParameter::case(
             "alpha_2 from 1e-200 to 1",
             &[Signed(-200.0, 0.0), Signed(-5.0, -2.0), Signed(-5.0, -2.0), Signed(-5.0, -2.0)],
-        )
-        .against::<ThePreferredFrameParameter>()
-        .composite(),
-        Case::new::<Strain>(
-            STRAIN,
-            "theta_o -> 0",
-            &[
-                Log(-300.0, 0.4),
-                TURN,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                Log(-20.0, 20.0),
-            ],
-        )
-        .composite(),
-        Case::new::<Strain>(
-            STRAIN,
-            "theta_o -> pi",
-            &[
-                Near(PI, -15.0, -0.3),
-                TURN,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                Log(-20.0, 20.0),
-            ],
-        )
-        .composite(),
+        ),
+        Strain::case("theta_o -> 0", &list![Log(-300.0, 0.4), TURN, COMPONENT; 6, Log(-20.0, 20.0)]),
+        Strain::case("theta_o -> pi", &list![Near(PI, -15.0, -0.3), TURN, COMPONENT; 6, Log(-20.0, 20.0)]),
     ]);
     cases
 }

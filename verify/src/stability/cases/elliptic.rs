@@ -27,9 +27,9 @@ fn pair<S: Real>(re: S, im: S) -> (S, S) {
 }
 
 functions! {
-    Rf(x) { vec![rf(x[0], x[1], x[2])] }
+    Rf: "rf".against::<ExactRf>(), (x) { vec![rf(x[0], x[1], x[2])] }
     ExactRf(x) { vec![oracle::rf(x[0], x[1], x[2])] }
-    Rc(x) { vec![rc(x[0], x[1])] }
+    Rc: "rc".against::<ExactRc>(), (x) { vec![rc(x[0], x[1])] }
     ExactRc(x) { vec![oracle::rc(x[0], x[1])] }
     /// By logarithm and arc tangent.
     NaiveRc(x) {
@@ -41,20 +41,22 @@ functions! {
             ((x[0].sqrt() + root) / x[1].sqrt()).ln() / root
         }]
     }
-    Rd(x) { vec![rd(x[0], x[1], x[2])] }
+    Rd: "rd".against::<ExactRd>(), (x) { vec![rd(x[0], x[1], x[2])] }
     ExactRd(x) { vec![oracle::rd(x[0], x[1], x[2])] }
-    Rj(x) { vec![rj(x[0], x[1], x[2], x[3])] }
+    Rj: "rj".against::<ExactRj>(), (x) { vec![rj(x[0], x[1], x[2], x[3])] }
     ExactRj(x) { vec![oracle::rj(x[0], x[1], x[2], x[3])] }
-    RfOfPair(x) {
+    RfOfPair: "rf_of_roots".composite(), (x) {
         let (sum, product) = pair(x[1], x[0]);
         vec![rf_of_roots(x[2], sum, product)]
     }
-    RjOfPair(x) {
+    RjOfPair: "rj_of_roots".composite(), (x) {
         let (sum, product) = pair(x[1], x[0]);
         vec![rj_of_roots(x[2], sum, product, x[3])]
     }
     /// `u` in quarter periods times the complementary parameter.
-    Jacobi(x) { joined(jacobi(x[1], x[0])) }
+    Jacobi: "jacobi".against::<ExactJacobi>().composite().vector().natural_derivatives(), (x) {
+        joined(jacobi(x[1], x[0]))
+    }
     ExactJacobi(x) {
         let (m1, u) = (x[0], x[1]);
         let quarter = quarter_period(m1);
@@ -72,17 +74,17 @@ functions! {
         };
         vec![f.sn * sign, f.cn * sign, f.dn]
     }
-    JacobiOfLargeArgument(x) { joined(jacobi(x[0], x[1])) }
+    JacobiOfLargeArgument: "jacobi".against::<ExactJacobiOfLargeArgument>().vector(), (x) { joined(jacobi(x[0], x[1])) }
     ExactJacobiOfLargeArgument(x) { ExactJacobi::of(&[x[1], x[0]]) }
-    CompleteIntegral(x) { vec![complete_integral(x[0])] }
+    CompleteIntegral: "complete_integral".against::<ExactCompleteIntegral>(), (x) { vec![complete_integral(x[0])] }
     ExactCompleteIntegral(x) { vec![quarter_period(x[0])] }
-    Functions(x) {
+    Functions: "ArithmeticGeometricMean: new, limit, functions".vector(), (x) {
         let ladder = ArithmeticGeometricMean::new(x[0], x[1]);
         let quarter = S::from_f64(FRAC_PI_2) / ladder.limit();
         let at = ladder.functions(quarter * x[2]);
         vec![ladder.limit(), at.sn, at.cn, at.dn]
     }
-    OfNome(x) {
+    OfNome: "Nome::new".against::<ExactOfNome>(), (x) {
         let nome = Nome::new(x[0], S::one() - x[0]);
         vec![nome.q, nome.q_over_m]
     }
@@ -92,7 +94,7 @@ functions! {
         let q = (-(pi::<S>() * mean(complement) / mean(k))).exp();
         vec![q, q / x[0]]
     }
-    NomeNearOne(x) {
+    NomeNearOne: "Nome::new".against::<ExactNomeNearOne>(), (x) {
         let nome = Nome::new(S::one() - x[0], x[0]);
         vec![nome.q, nome.q_over_m]
     }
@@ -104,7 +106,8 @@ functions! {
     }
     /// `q`, `r / q` as a power of `q`, sine and cosine.
     /// Decay, share of the shift, sine of the argument.
-    ThetaOfDecay(x) {
+    ThetaOfDecay: "ThetaSeries: new, transformed, at"
+        .composite().against::<ExactThetaOfDecay>().natural_derivatives(), (x) {
         let series = ThetaSeries::transformed(x[0], x[1] * FRAC_PI_2);
         let at = series.at(x[2], (S::one() - x[2] * x[2]).sqrt());
         let [along, across] = at.shifted;
@@ -116,13 +119,13 @@ functions! {
         all.extend(ExactThetaShifted::of(&[(-x[0]).exp(), x[1], x[2]]));
         all
     }
-    Theta(x) {
+    Theta: "ThetaSeries: new, transformed, at".composite().vector(), (x) {
         let r = (x[0].ln() * x[1]).exp();
         let series = ThetaSeries::new(x[0], r, x[0] / r);
         let at = series.at(x[2], (S::one() - x[2] * x[2]).sqrt());
         vec![at.sn, at.cn, at.dn]
     }
-    ThetaShifted(x) {
+    ThetaShifted: "ThetaSeries: new, transformed, at".composite().natural_derivatives(), (x) {
         let r = (x[0].ln() * x[1]).exp();
         let series = ThetaSeries::new(x[0], r, x[0] / r);
         let at = series.at(x[2], (S::one() - x[2] * x[2]).sqrt());
@@ -185,115 +188,58 @@ fn shifted_sums<S: Real>(q: S, share: S, sin: S) -> [S; 2] {
     [along, across]
 }
 
-const RF: &[&str] = &["elliptic::carlson::rf"];
-const RC: &[&str] = &["elliptic::carlson::rc"];
-const RD: &[&str] = &["elliptic::carlson::rd"];
-const RJ: &[&str] = &["elliptic::carlson::rj"];
-const JACOBI: &[&str] = &["elliptic::jacobi::jacobi"];
-const LADDER: &[&str] = &[
-    "elliptic::jacobi::ArithmeticGeometricMean::new",
-    "elliptic::jacobi::ArithmeticGeometricMean::limit",
-    "elliptic::jacobi::ArithmeticGeometricMean::functions",
-];
-const COMPLETE: &[&str] =
-    &["elliptic::jacobi::complete_integral", "elliptic::jacobi::ArithmeticGeometricMean::quarter_period"];
-const NOME: &[&str] = &["elliptic::theta::Nome::new"];
-const THETA: &[&str] = &[
-    "elliptic::theta::ThetaSeries::new",
-    "elliptic::theta::ThetaSeries::transformed",
-    "elliptic::theta::ThetaSeries::at",
-];
-
 pub(super) fn cases() -> Vec<Case> {
     let some = In(0.5, 2.0);
     let separatrix = [Below(0.88, -2.0, -0.25), In(0.1, 0.9), In(-1.0, 1.0)];
     let by_decay = [In(0.12, 1.5), In(0.1, 0.9), In(-1.0, 1.0)];
     let change = [In(0.25, 0.35), In(0.1, 0.9), In(-1.0, 1.0)];
     vec![
-        Case::new::<Rf>(RF, "one argument -> 0", &[Log(-300.0, 0.0), some, some]).against::<ExactRf>(),
-        Case::new::<Rf>(RF, "one argument -> infinity", &[Log(0.0, 70.0), some, some]).against::<ExactRf>(),
-        Case::new::<Rf>(RF, "equal arguments", &[Near(1.0, -15.0, -0.1), Near(1.0, -15.0, -0.1), Fixed(1.0)])
-            .against::<ExactRf>(),
-        Case::new::<Rc>(RC, "x -> 0", &[Log(-300.0, 0.0), some]).against::<ExactRc>(),
-        Case::new::<Rc>(RC, "y -> 0", &[some, Log(-140.0, 0.0)]).against::<ExactRc>(),
-        Case::new::<Rc>(RC, "equal arguments", &[Near(1.0, -15.0, -0.1), Fixed(1.0)])
-            .against::<ExactRc>()
+        Rf::case("one argument -> 0", &[Log(-300.0, 0.0), some, some]),
+        Rf::case("one argument -> infinity", &[Log(0.0, 70.0), some, some]),
+        Rf::case("equal arguments", &[Near(1.0, -15.0, -0.1), Near(1.0, -15.0, -0.1), Fixed(1.0)]),
+        Rc::case("x -> 0", &[Log(-300.0, 0.0), some]),
+        Rc::case("y -> 0", &[some, Log(-140.0, 0.0)]),
+        Rc::case("equal arguments", &[Near(1.0, -15.0, -0.1), Fixed(1.0)])
             .beside::<NaiveRc>("arc tangent or logarithm"),
-        Case::new::<Rd>(RD, "x -> 0", &[Log(-300.0, 0.0), some, some]).against::<ExactRd>(),
-        Case::new::<Rd>(RD, "z -> 0", &[some, some, Log(-90.0, 0.0)]).against::<ExactRd>(),
-        Case::new::<Rd>(RD, "equal arguments", &[Near(1.0, -15.0, -0.1), Near(1.0, -15.0, -0.1), Fixed(1.0)])
-            .against::<ExactRd>(),
-        Case::new::<Rj>(RJ, "x -> 0", &[Log(-300.0, 0.0), some, some, some]).against::<ExactRj>(),
-        Case::new::<Rj>(RJ, "p -> 0", &[some, some, some, Log(-60.0, 0.0)]).against::<ExactRj>(),
-        Case::new::<Rj>(
-            RJ,
+        Rd::case("x -> 0", &[Log(-300.0, 0.0), some, some]),
+        Rd::case("z -> 0", &[some, some, Log(-90.0, 0.0)]),
+        Rd::case("equal arguments", &[Near(1.0, -15.0, -0.1), Near(1.0, -15.0, -0.1), Fixed(1.0)]),
+        Rj::case("x -> 0", &[Log(-300.0, 0.0), some, some, some]),
+        Rj::case("p -> 0", &[some, some, some, Log(-60.0, 0.0)]),
+        Rj::case(
             "equal arguments",
             &[Near(1.0, -15.0, -0.1), Near(1.0, -15.0, -0.1), Fixed(1.0), Near(1.0, -15.0, -0.1)],
-        )
-        .against::<ExactRj>(),
-        Case::new::<RfOfPair>(&["elliptic::carlson::rf_of_roots"], "conjugate pair that meets", &[Log(-15.0, 1.0), some, some])
-            .composite(),
-        Case::new::<RjOfPair>(
-            &["elliptic::carlson::rj_of_roots"],
-            "conjugate pair that meets",
-            &[Log(-15.0, 1.0), some, some, some],
-        )
-        .composite(),
-        Case::new::<Jacobi>(JACOBI, "m -> 1", &[Log(-300.0, 0.0), In(-2.0, 2.0)]).against::<ExactJacobi>().composite().vector().natural_derivatives(),
-        Case::new::<Jacobi>(JACOBI, "m -> 0, both signs", &[Near(1.0, -15.5, -0.1), In(-10.0, 10.0)])
-            .against::<ExactJacobi>()
-            .composite()
-            .vector()
-            .natural_derivatives(),
-        Case::new::<Jacobi>(JACOBI, "negative parameter to -1e10", &[Above(1.0, -3.0, 10.0), In(-1e-4, 1e-4)])
-            .against::<ExactJacobi>()
-            .composite()
-            .vector()
-            .natural_derivatives(),
-        Case::new::<JacobiOfLargeArgument>(JACOBI, "u to 1e15", &[Signed(-300.0, 15.0), In(0.05, 3.0)])
-            .against::<ExactJacobiOfLargeArgument>()
-            .vector(),
-        Case::new::<CompleteIntegral>(COMPLETE, "m -> 1", &[Log(-300.0, 0.0)]).against::<ExactCompleteIntegral>(),
-        Case::new::<CompleteIntegral>(COMPLETE, "m -> -infinity", &[Log(0.0, 300.0)]).against::<ExactCompleteIntegral>(),
-        Case::new::<Functions>(LADDER, "b / a -> 0", &[some, Log(-300.0, 0.0), In(-0.5, 0.5)]).vector(),
-        Case::new::<OfNome>(NOME, "m -> 0", &[Log(-11.0, -0.4)]).against::<ExactOfNome>(),
-        Case::new::<OfNome>(NOME, "m -> 0, values", &[Log(-300.0, -0.4)]).against::<ExactOfNome>().values_only(),
-        Case::new::<NomeNearOne>(NOME, "m -> 1", &[Log(-32.0, -0.4)]).against::<ExactNomeNearOne>(),
-        Case::new::<Theta>(THETA, "q -> 0", &[Log(-100.0, -1.0), In(0.1, 0.9), In(-1.0, 1.0)])
-            .composite()
-            .vector()
-            .derivatives_except(
-                1e3,
-                "They are 4 sin z cos z times cosine and sine of z, made of terms of the size 4: condition number 1 / sin z.",
-            ),
-        Case::new::<ThetaShifted>(THETA, "q -> 0, zeta and shifted", &[Log(-100.0, -1.0), In(0.1, 0.9), In(-1.0, 1.0)])
-            .composite()
-            .natural_derivatives(),
-        Case::new::<ThetaOfDecay>(THETA, "-ln q from 0.12 to 1.5", &by_decay)
-            .composite()
-            .against::<ExactThetaOfDecay>()
-            .natural_derivatives(),
-        Case::new::<Theta>(THETA, "q from 0.25 to 0.35, where the series change", &change)
-            .composite()
-            .vector()
+        ),
+        RfOfPair::case("conjugate pair that meets", &[Log(-15.0, 1.0), some, some]),
+        RjOfPair::case("conjugate pair that meets", &[Log(-15.0, 1.0), some, some, some]),
+        Jacobi::case("m -> 1", &[Log(-300.0, 0.0), In(-2.0, 2.0)]),
+        Jacobi::case("m -> 0, both signs", &[Near(1.0, -15.5, -0.1), In(-10.0, 10.0)]),
+        Jacobi::case("negative parameter to -1e10", &[Above(1.0, -3.0, 10.0), In(-1e-4, 1e-4)]),
+        JacobiOfLargeArgument::case("u to 1e15", &[Signed(-300.0, 15.0), In(0.05, 3.0)]),
+        CompleteIntegral::case("m -> 1", &[Log(-300.0, 0.0)]),
+        CompleteIntegral::case("m -> -infinity", &[Log(0.0, 300.0)]),
+        Functions::case("b / a -> 0", &[some, Log(-300.0, 0.0), In(-0.5, 0.5)]),
+        OfNome::case("m -> 0", &[Log(-11.0, -0.4)]),
+        OfNome::case("m -> 0, values", &[Log(-300.0, -0.4)]).values_only(),
+        NomeNearOne::case("m -> 1", &[Log(-32.0, -0.4)]),
+        Theta::case("q -> 0", &[Log(-100.0, -1.0), In(0.1, 0.9), In(-1.0, 1.0)]).derivatives_except(
+            1e3,
+            "They are 4 sin z cos z times cosine and sine of z, made of terms of the size 4: \
+condition number 1 / sin z.",
+        ),
+        ThetaShifted::case("q -> 0, zeta and shifted", &[Log(-100.0, -1.0), In(0.1, 0.9), In(-1.0, 1.0)]),
+        ThetaOfDecay::case("-ln q from 0.12 to 1.5", &by_decay),
+        Theta::case("q from 0.25 to 0.35, where the series change", &change)
             .against::<ExactTheta>()
             .natural_derivatives(),
-        Case::new::<ThetaShifted>(THETA, "q from 0.25 to 0.35, zeta and shifted", &change)
-            .composite()
+        ThetaShifted::case("q from 0.25 to 0.35, zeta and shifted", &change).against::<ExactThetaShifted>(),
+        Theta::case("q -> 0.87, the separatrix", &separatrix).against::<ExactTheta>().natural_derivatives(),
+        ThetaShifted::case("q -> 0.87, zeta and shifted", &separatrix)
             .against::<ExactThetaShifted>()
-            .natural_derivatives(),
-        Case::new::<Theta>(THETA, "q -> 0.87, the separatrix", &separatrix)
-            .composite()
-            .vector()
-            .against::<ExactTheta>()
-            .natural_derivatives(),
-        Case::new::<ThetaShifted>(THETA, "q -> 0.87, zeta and shifted", &separatrix)
-            .composite()
-            .against::<ExactThetaShifted>()
-            .natural_derivatives()
             .derivatives_except(
                 100.0,
-                "Here `r` is a power of `q`, and both carry their derivatives through `ln q`: condition number 1 / |ln q|. `transformed` does not.",
+                "Here `r` is a power of `q`, and both carry their derivatives through `ln q`: condition \
+number 1 / |ln q|. `transformed` does not.",
             ),
     ]
 }

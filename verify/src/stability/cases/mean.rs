@@ -13,7 +13,7 @@ use twofold::solutions::averaged::{
 use super::parts::{body, joined, none, vector};
 use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
 use crate::stability::oracle::pi;
-use crate::stability::{Case, functions};
+use crate::stability::{Case, functions, list};
 
 /// `c`, `s` (3), `G`, `l` (3), body.
 fn hamiltonian<S: Real>(x: &[S], order: AveragingOrder) -> Vec<S> {
@@ -36,39 +36,45 @@ fn unit<S: Real>(v: Vector3<S>) -> Vector3<S> {
 }
 
 functions! {
-    First(x) { hamiltonian(x, AveragingOrder::First) }
-    Second(x) { hamiltonian(x, AveragingOrder::Second) }
+    First: "mean_potential, mean_angular_velocity".composite(), (x) { hamiltonian(x, AveragingOrder::First) }
+    Second: "mean_potential, mean_angular_velocity".composite(), (x) { hamiltonian(x, AveragingOrder::Second) }
     // n (3), L (3), s (3), body
-    OfGenerator(x) {
+    OfGenerator: "generator, generator_slopes".composite(), (x) {
         let (spheroid, s, n, momentum) = (body(&x[9..]), vector(&x[6..]), vector(x), vector(&x[3..]));
         let mut all = vec![generator(&spheroid, &s, &n, &momentum)];
         all.extend(joined(&generator_slopes(&spheroid, &s, &n, &momentum)));
         all
     }
     // deviation of n from l, s, |L|, body
-    NearMomentum(x) {
+    NearMomentum: "generator".composite(), (x) {
         let n = Vector3::new(x[0], x[1], S::one());
         let momentum = Vector3::new(S::zero(), S::zero(), x[5]);
         let s = vector(&x[2..]);
         vec![generator(&body(&x[6..]), &s, &n, &momentum)]
     }
     // L (3), n (3), s (3), body
-    Slow(x) {
+    Slow: "slow_precession".composite(), (x) {
         let s = PrincipalCoefficients { xx: x[6], yy: x[7], zz: x[8] };
         slow_precession(&body(&x[9..]), &s, &vector(x), &vector(&x[3..])).map_or(none(1), |found| vec![found.rate])
     }
     // unit of L, L (3), n (3), s (3), body
-    SlowInUnits(x) { Slow::of(&[&[x[0] * x[1], x[0] * x[2], x[0] * x[3]], &x[4..]].concat()) }
+    SlowInUnits: "slow_precession".composite(), (x) {
+        Slow::of(&[&[x[0] * x[1], x[0] * x[2], x[0] * x[3]], &x[4..]].concat())
+    }
     // s^YY, s^XX, s^ZZ, L, n, body
-    SlowByMiddle(x) {
+    SlowByMiddle: "slow_precession".composite(), (x) {
         let s = PrincipalCoefficients { xx: x[1], yy: x[0], zz: x[2] };
         slow_precession(&body(&x[9..]), &s, &vector(&x[3..]), &vector(&x[6..])).map_or(none(1), |found| vec![found.rate])
     }
     /// `l` (3), `k` (3), phase.
-    TopByDirection(x) { top([x[3], x[4], x[5]], &unit(vector(x)), x[6]) }
-    TopByValues(x) { top([x[0], x[1], x[2]], &unit(vector(&x[3..])), x[6]) }
+    TopByDirection: "Top: new, rates, start, mean_squares, at".composite().natural_derivatives(), (x) {
+        top([x[3], x[4], x[5]], &unit(vector(x)), x[6])
+    }
+    TopByValues: "Top: new, rates, start, mean_squares, at".composite().natural_derivatives(), (x) {
+        top([x[0], x[1], x[2]], &unit(vector(&x[3..])), x[6])
+    }
     // s (3), n (3), L (3), e (3), body
-    Rates(x) {
+    Rates: "AveragedSolution: new, rates".composite(), (x) {
         let n = unit(vector(&x[3..]));
         let across = n.cross(&unit(vector(&x[9..])));
         let state = BodyState { axis: n, momentum: vector(&x[6..]), equatorial_axis: unit(across) };
@@ -164,17 +170,6 @@ fn period(x: &[f64]) -> Vec<f64> {
 const COMPONENT: Input = In(-1.0, 1.0);
 const SMALL: Input = Signed(-4.0, -1.0);
 const INERTIA: Input = In(0.5, 2.0);
-const HAMILTONIAN: &[&str] = &["solutions::averaged::mean_potential", "solutions::averaged::mean_angular_velocity"];
-const GENERATOR: &[&str] = &["solutions::averaged::generator", "solutions::averaged::generator_slopes"];
-const SLOW: &[&str] = &["solutions::averaged::slow_precession::slow_precession"];
-const TOP: &[&str] = &[
-    "solutions::averaged::Top::new",
-    "solutions::averaged::Top::rates",
-    "solutions::averaged::Top::start",
-    "solutions::averaged::Top::mean_squares",
-    "solutions::averaged::Top::at",
-];
-const MOTION: &[&str] = &["solutions::averaged::AveragedSolution::new", "solutions::averaged::AveragedSolution::rates"];
 
 pub(super) fn cases() -> Vec<Case> {
     let (c, i) = (COMPONENT, INERTIA);
@@ -185,86 +180,37 @@ pub(super) fn cases() -> Vec<Case> {
     let three = [In(0.01, 0.05), In(-0.01, 0.005), In(-0.05, -0.02)];
     let middle = Signed(-15.0, -0.5);
     vec![
-        Case::new::<First>(HAMILTONIAN, "c^2 -> 1/3, first order", &hamiltonian(third, SMALL)).composite(),
-        Case::new::<Second>(HAMILTONIAN, "c^2 -> 1/3, second order", &hamiltonian(third, SMALL)).composite(),
-        Case::new::<Second>(HAMILTONIAN, "c -> 0, L normal to n", &hamiltonian(Signed(-300.0, 0.0), SMALL)).composite(),
-        Case::new::<Second>(HAMILTONIAN, "s from 1e-140 to 1", &hamiltonian(c, Signed(-140.0, 0.0))).composite(),
-        Case::new::<OfGenerator>(
-            GENERATOR,
-            "s from 1e-140 to 1",
-            &[&state[..], &[Signed(-140.0, 0.0); 3], &[i, i, i]].concat(),
-        )
-        .composite(),
-        Case::new::<NearMomentum>(
-            &["solutions::averaged::generator"],
-            "n -> L",
-            &[Signed(-15.0, 0.0), Signed(-15.0, 0.0), SMALL, SMALL, SMALL, In(0.5, 2.0), i, i, i],
-        )
-        .composite(),
-        Case::new::<Slow>(
-            SLOW,
-            "separatrix: L -> the middle axis",
-            &slow([middle, In(0.5, 1.0), Signed(-15.0, -0.5)], three),
-        )
-        .composite(),
-        Case::new::<Slow>(SLOW, "L normal to the axis of s_1", &slow([middle, c, c], three)).composite(),
-        Case::new::<SlowByMiddle>(
-            SLOW,
+        First::case("c^2 -> 1/3, first order", &hamiltonian(third, SMALL)),
+        Second::case("c^2 -> 1/3, second order", &hamiltonian(third, SMALL)),
+        Second::case("c -> 0, L normal to n", &hamiltonian(Signed(-300.0, 0.0), SMALL)),
+        Second::case("s from 1e-140 to 1", &hamiltonian(c, Signed(-140.0, 0.0))),
+        OfGenerator::case("s from 1e-140 to 1", &[&state[..], &[Signed(-140.0, 0.0); 3], &[i, i, i]].concat()),
+        NearMomentum::case("n -> L", &list![Signed(-15.0, 0.0); 2, SMALL; 3, In(0.5, 2.0), i; 3]),
+        Slow::case("separatrix: L -> the middle axis", &slow([middle, In(0.5, 1.0), Signed(-15.0, -0.5)], three)),
+        Slow::case("L normal to the axis of s_1", &slow([middle, c, c], three)),
+        SlowByMiddle::case(
             "equal and nearly equal eigenvalues",
-            &[Near(0.03, -15.0, -2.0), Fixed(0.03), In(-0.05, 0.0), c, c, c, c, c, c, i, i, i],
-        )
-        .composite(),
-        Case::new::<SlowInUnits>(
-            SLOW,
-            "units: L from 1e-60 to 1e60",
-            &[&[Log(-60.0, 60.0)], &slow([c, c, c], three)[..]].concat(),
-        )
-        .composite(),
-        Case::new::<TopByDirection>(
-            TOP,
+            &list![Near(0.03, -15.0, -2.0), Fixed(0.03), In(-0.05, 0.0), c; 6, i; 3],
+        ),
+        SlowInUnits::case("units: L from 1e-60 to 1e60", &[&[Log(-60.0, 60.0)], &slow([c, c, c], three)[..]].concat()),
+        TopByDirection::case(
             "separatrix: l -> the middle axis",
             &[Signed(-7.0, -0.5), In(0.5, 1.0), Signed(-7.0, -0.5), three[0], three[1], three[2], In(-3.0, 3.0)],
-        )
-        .composite()
-        .natural_derivatives(),
-        Case::new::<TopByDirection>(
-            TOP,
+        ),
+        TopByDirection::case(
             "l -> a stable axis",
             &[Signed(-15.0, -1.0), Signed(-15.0, -1.0), In(0.5, 1.0), three[0], three[1], three[2], In(-3.0, 3.0)],
-        )
-        .composite()
-        .natural_derivatives(),
-        Case::new::<TopByValues>(
-            TOP,
+        ),
+        TopByValues::case(
             "equal and nearly equal eigenvalues",
-            &[Near(0.03, -15.0, -2.0), Fixed(0.03), In(-0.05, 0.0), c, c, c, In(-3.0, 3.0)],
-        )
-        .composite()
-        .natural_derivatives(),
-        Case::new::<Rates>(
-            MOTION,
+            &list![Near(0.03, -15.0, -2.0), Fixed(0.03), In(-0.05, 0.0), c; 3, In(-3.0, 3.0)],
+        ),
+        Rates::case(
             "s -> 0",
-            &[
-                Signed(-100.0, -2.5),
-                Signed(-3.5, -2.5),
-                Signed(-3.5, -2.5),
-                c,
-                c,
-                c,
-                In(0.5, 1.0),
-                In(0.5, 1.0),
-                In(0.5, 1.0),
-                c,
-                c,
-                c,
-                i,
-                i,
-                In(0.5, 1.0),
-            ],
-        )
-        .composite(),
+            &list![Signed(-100.0, -2.5), Signed(-3.5, -2.5); 2, c; 3, In(0.5, 1.0); 3, c; 3, i; 2, In(0.5, 1.0)],
+        ),
         Case::of_doubles::<ExactTurns>(
-            &["solutions::averaged::AveragedSolution::turns"],
+            "AveragedSolution::turns",
             "t to 1e15, in turns",
             &[Log(0.0, 15.0), Fixed(0.8), Fixed(0.6), In(0.5, 2.0), i, i],
             turns,
@@ -273,14 +219,14 @@ pub(super) fn cases() -> Vec<Case> {
         .composite()
         .unit(),
         Case::of_doubles::<ExactGrowth>(
-            &["solutions::averaged::middle_axis_growth"],
+            "middle_axis_growth",
             "c^2 -> 1/3",
             &[Near(0.577_350_269_189_625_7, -8.0, -1.0), In(1.0, 1.2), three[0], three[1], three[2], In(0.8, 1.5)],
             growth,
         )
         .composite(),
         Case::of_doubles::<ExactPeriodNearSeparatrix>(
-            &["solutions::averaged::period_near_separatrix"],
+            "period_near_separatrix",
             "k' -> 0",
             &[Log(-190.0, 0.0), Log(-10.0, 10.0)],
             period,

@@ -6,11 +6,11 @@ mod mean;
 mod observables;
 mod orientation;
 mod parts;
-mod remaining;
 mod solutions;
 mod star;
 mod symmetric;
 mod tensor;
+mod torus;
 
 use super::Case;
 
@@ -31,7 +31,7 @@ pub struct Family {
 pub const FAMILIES: &[Family] = &[
     Family {
         name: "star",
-        subject: "shape, potential coefficients, mass, energies and constant C of uniform bodies",
+        subject: "shape, potential coefficients, mass, energies and constant C of uniform bodies, multipoles of any star",
         equations: &[10, 12, 17, 19, 43, 72, 73, 74, 75, 76, 77, 78, 79],
         cases: star::cases,
     },
@@ -73,7 +73,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "observables",
-        subject: "spin axis, bounds, beam, pulses, position angle, harmonics, eta, units",
+        subject: "spin axis, bounds, beam, pulses, position angle, harmonics, eta, units, epochs",
         equations: &[35, 37, 38, 40, 41, 42, 44, 45, 47, 49, 50, 51, 52, 53, 54, 55, 56, 71],
         cases: observables::cases,
     },
@@ -84,9 +84,9 @@ pub const FAMILIES: &[Family] = &[
         cases: tensor::cases,
     },
     Family {
-        name: "remaining",
-        subject: "multipoles of any star, states on tori, exact frequencies, distribution of eta, epochs",
-        equations: &[12, 17, 24, 41],
-        cases: remaining::cases,
+        name: "torus",
+        subject: "states on tori and their exact frequencies",
+        equations: &[24],
+        cases: torus::cases,
     },
 ];

@@ -1,10 +1,11 @@
-//! What an observer sees: spin axis, bounds, beams, pulses, position angle, wave harmonics, eta.
+//! What an observer sees: spin axis, bounds, beams, pulses, position angle, wave harmonics, eta, epochs.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector3;
 use twofold::Real;
 use twofold::dynamics::BodyState;
+use twofold::epoch::{DAY, Epoch};
 use twofold::observables::Observer;
 use twofold::observables::bound::{
     SpinAxisDrift, cos_opening_angle, eta_from_inclination, fluid_inertia_over_c, lambda_change, preferred_frame_bound,
@@ -14,6 +15,7 @@ use twofold::observables::eta::{
     mean_squared_speed, root_mean_square_eta, secular_axis_rate, single_precession_start, squared_speed,
     squared_speed_along_motion,
 };
+use twofold::observables::eta_distribution::EtaDistribution;
 use twofold::observables::gravitational_wave::strain_unit;
 use twofold::observables::pulsar::beam::{Beam, axis_along_line_of_sight};
 use twofold::observables::pulsar::direction::{
@@ -37,7 +39,7 @@ use twofold::units::time_unit;
 use super::parts::{angles, body, joined, none, symmetric, vector};
 use crate::stability::Input::{self, Above, Fixed, In, Log, Near, Signed};
 use crate::stability::oracle::pi;
-use crate::stability::{Case, functions};
+use crate::stability::{Case, functions, list};
 
 fn width<S: Real>(width: PulseWidth<S>) -> Vec<S> {
     match width {
@@ -108,30 +110,36 @@ fn rd_at_zero<S: Real>(m1: S, _: S) -> S {
 
 functions! {
     // theta_o, phi_o, alpha, beta
-    Lambda(x) { vec![cos_lambda_in_angles(x[0], x[1], x[2], x[3])] }
-    LambdaChange(x) { vec![cos_lambda_change(x[0], x[1], (x[2], x[3]), (x[4], x[5]))] }
-    LambdaRate(x) { vec![cos_lambda_rate(&body(&x[9..]), &vector(x), &vector(&x[3..]), &vector(&x[6..]))] }
-    Drift(x) {
+    Lambda: "cos_lambda_in_angles", (x) { vec![cos_lambda_in_angles(x[0], x[1], x[2], x[3])] }
+    LambdaChange: "cos_lambda_change", (x) { vec![cos_lambda_change(x[0], x[1], (x[2], x[3]), (x[4], x[5]))] }
+    LambdaRate: "cos_lambda_rate", (x) {
+        vec![cos_lambda_rate(&body(&x[9..]), &vector(x), &vector(&x[3..]), &vector(&x[6..]))]
+    }
+    Drift: "SpinAxisDrift::combination_bound", (x) {
         let drift = SpinAxisDrift { cos_lambda_change: x[0], polar_inertia_over_c: x[1], spin: x[2], interval: x[3] };
         let by_inclination = eta_from_inclination(x[5]).and_then(|eta| drift.combination_bound(eta));
         [result(drift.combination_bound(x[4])), result(by_inclination)].concat()
     }
-    EtaFromInclination(x) { result(eta_from_inclination(x[0])) }
-    FluidAndPreferred(x) {
+    EtaFromInclination: "eta_from_inclination", (x) { result(eta_from_inclination(x[0])) }
+    FluidAndPreferred: "fluid_inertia_over_c, preferred_frame_bound", (x) {
         [vec![fluid_inertia_over_c(x[0])], result(preferred_frame_bound(x[0], &vector(&x[1..])))].concat()
     }
     // chi or zeta, the other, width, its change
-    Opening(x) { vec![cos_opening_angle(x[1], x[0], x[2])] }
-    ZetaChange(x) { let [sine, turning] = zeta_change_terms(x[1], x[0], x[2]);
-        vec![sine / turning * x[3]] }
-    LambdaFromWidth(x) { result(lambda_change(x[1], x[0], x[2], x[3])) }
+    Opening: "cos_opening_angle", (x) { vec![cos_opening_angle(x[1], x[0], x[2])] }
+    ZetaChange: "zeta_change_terms", (x) {
+        let [sine, turning] = zeta_change_terms(x[1], x[0], x[2]);
+        vec![sine / turning * x[3]]
+    }
+    LambdaFromWidth: "lambda_change".beside::<PrintedLambdaFromWidth>("Eq. (42) as printed"), (x) {
+        result(lambda_change(x[1], x[0], x[2], x[3]))
+    }
     /// With cotangents, Eq. (42) as printed.
     PrintedLambdaFromWidth(x) {
         let ((sl, cl), (sc, cc), (sw, cw)) = (x[1].sin_cos(), x[0].sin_cos(), (x[2] / 2.0).sin_cos());
         vec![sw / (cl / sl * cw + cc / sc) * x[3] / 2.0]
     }
     // chi, delta, rho, state (9), line of sight (3)
-    Margin(x) {
+    Margin: "Beam: new, opposite, direction, margin", (x) {
         let beam = Beam::new(x[0], x[1], x[2]);
         let state = state(&x[3..]);
         let mut all = joined(&[beam.direction(&state), beam.opposite().axis]);
@@ -139,18 +147,20 @@ functions! {
         all
     }
     // rho, chi, delta, s (6), state (9), line of sight (3), body (3)
-    MarginRates(x) {
+    MarginRates: "Beam::margin_rates".composite(), (x) {
         let beam = Beam::new(x[1], x[2], x[0]);
         beam.margin_rates(&body(&x[21..]), &symmetric(&x[3..]), &state(&x[9..]), &vector(&x[18..])).to_vec()
     }
     // beta, alpha, gamma, chi, delta, theta_o, phi_o
-    Along(x) { vec![axis_along_line_of_sight(&angles(&[x[1], x[0], x[2]]), x[3], x[4], x[5], x[6])] }
+    Along: "axis_along_line_of_sight", (x) {
+        vec![axis_along_line_of_sight(&angles(&[x[1], x[0], x[2]]), x[3], x[4], x[5], x[6])]
+    }
     // chi, beta, gamma, delta, alpha, rate of gamma
-    Direction(x) {
+    Direction: "cosine_of_colatitude, azimuth_offset_point", (x) {
         let (offset_x, offset_y) = azimuth_offset_point(x[1], x[2], x[0], x[3]);
         vec![cosine_of_colatitude(x[1], x[2], x[0], x[3]), offset_x, offset_y]
     }
-    DirectionAngles(x) {
+    DirectionAngles: "magnetic_axis_direction".composite().beside::<NaiveDirectionAngles>("arc cosine, cot chi"), (x) {
         magnetic_axis_direction(&angles(&[x[4], x[1], x[2]]), x[0], x[3]).map_or(none(2), |(theta, phi)| vec![theta, phi])
     }
     /// By the arc cosine, and the quotient of Eq. (50) with `cot chi`.
@@ -161,42 +171,52 @@ functions! {
         let theta = (S::one() - cosine * cosine).sqrt().atan2(cosine);
         vec![theta, x[4] + (cb * sg - cc / sc * sb).atan2(cg)]
     }
-    OffsetRate(x) { vec![azimuth_offset_rate(x[1], x[2], x[5], x[0], x[3])] }
-    InAzimuth(x) { vec![axis_along_line_of_sight_in_azimuth(x[1], x[2], x[0], x[3])] }
+    OffsetRate: "azimuth_offset_rate".composite(), (x) { vec![azimuth_offset_rate(x[1], x[2], x[5], x[0], x[3])] }
+    InAzimuth: "axis_along_line_of_sight_in_azimuth", (x) {
+        vec![axis_along_line_of_sight_in_azimuth(x[1], x[2], x[0], x[3])]
+    }
     // m_x, m_y, m_z, omega
-    AzimuthRate(x) { vec![azimuth_rate(&vector(x), &vector(&x[3..]))] }
+    AzimuthRate: "azimuth_rate".natural_derivatives(), (x) { vec![azimuth_rate(&vector(x), &vector(&x[3..]))] }
     // Theta, Phi, omega
-    AzimuthRateOnSphere(x) { vec![azimuth_rate(&on_sphere(x), &vector(&x[2..]))] }
+    AzimuthRateOnSphere: "azimuth_rate".composite().beside::<NaiveAzimuthRate>("over 1 - m_z^2"), (x) {
+        vec![azimuth_rate(&on_sphere(x), &vector(&x[2..]))]
+    }
     /// Over `1 - m_z^2`.
     NaiveAzimuthRate(x) {
         let (m, omega) = (on_sphere(x), vector(&x[2..]));
         vec![(omega.z - omega.dot(&m) * m.z) / (S::one() - m.z * m.z)]
     }
-    Periods(x) { vec![instantaneous_period(x[1]), approximate_period(x[1], x[0])] }
+    Periods: "instantaneous_period, approximate_period".against::<ExactPeriods>(), (x) {
+        vec![instantaneous_period(x[1]), approximate_period(x[1], x[0])]
+    }
     ExactPeriods(x) {
         let turn = pi::<S>() * 2.0;
         vec![turn / x[1], turn / x[1] * (S::one() - x[0] / x[1])]
     }
-    NearPole(x) { width(pulse_width(x[1], x[0], x[2])) }
+    NearPole: "pulse_width".composite().beside::<PrintedNearPole>("arc cosine of Eq. (56)"), (x) {
+        width(pulse_width(x[1], x[0], x[2]))
+    }
     PrintedNearPole(x) {
         let cosine = cosine_of_half_width(x[1], x[0], x[2]);
         vec![(S::one() - cosine * cosine).sqrt().atan2(cosine) * 2.0]
     }
     // half opening, colatitudes
-    Width(x) { width(pulse_width(x[0], x[1], x[2])) }
+    Width: "pulse_width".composite().beside::<PrintedWidth>("arc cosine of Eq. (56)"), (x) {
+        width(pulse_width(x[0], x[1], x[2]))
+    }
     PrintedWidth(x) {
         let cosine = cosine_of_half_width(x[0], x[1], x[2]);
         vec![(S::one() - cosine * cosine).sqrt().atan2(cosine) * 2.0]
     }
-    CosineOfHalfWidth(x) { vec![cosine_of_half_width(x[1], x[0], x[2])] }
-    Edges(x) { let (first, last) = edge_azimuths(x[0], x[1]); vec![first, last] }
+    CosineOfHalfWidth: "cosine_of_half_width", (x) { vec![cosine_of_half_width(x[1], x[0], x[2])] }
+    Edges: "edge_azimuths", (x) { let (first, last) = edge_azimuths(x[0], x[1]); vec![first, last] }
     // m (3), omega (3), theta_o, phi_o
-    PositionAngle(x) {
+    PositionAngle: "position_angle, position_angle_rate".natural_derivatives(), (x) {
         let observer = observer_along_z(x);
         [result(position_angle(&vector(x), &observer)), vec![position_angle_rate(&vector(x), &vector(&x[3..]), &observer)]].concat()
     }
     // distance of Theta from theta_o, theta_o, phi
-    RotatingVector(x) {
+    RotatingVector: "rotating_vector_point, _position_angle, _gradient".composite(), (x) {
         let (theta, phi) = (x[0], x[2]);
         let point = rotating_vector_point(theta, phi, x[1], S::zero());
         let gradient = rotating_vector_gradient(theta, phi, x[1], S::zero());
@@ -204,43 +224,64 @@ functions! {
         [vec![point.0, point.1], result(angle), vec![gradient.0, gradient.1]].concat()
     }
     // n (3), L (3), body, theta_o, phi_o
-    Harmonics(x) {
+    Harmonics: "WaveHarmonics::of".composite().natural_derivatives(), (x) {
         let state = AxisState { axis: vector(x), momentum: vector(&x[3..]) };
         WaveHarmonics::of(&body(&x[6..]), &state, &Observer::at(x[9], x[10])).map_or(none(6), |h| {
             vec![h.once, h.twice, h.phase, h.inclination, h.orientation, h.wobble]
         })
     }
-    HarmonicsAdded(x) {
+    HarmonicsAdded: "WaveHarmonics::polarizations", (x) {
         let wave = WaveHarmonics { once: x[1], twice: x[2], phase: x[3], inclination: x[0], orientation: x[4], wobble: x[5] };
         let h = wave.polarizations();
         vec![h.plus, h.cross]
     }
     // beta, r, alpha
-    Speeds(x) { vec![squared_speed(x[1], x[2], x[0]), mean_squared_speed(x[1], x[0])] }
-    RmsEta(x) { result(root_mean_square_eta(x[1], x[0])) }
-    AlongMotion(x) { vec![squared_speed_along_motion(x[1], x[2], x[0])] }
+    Speeds: "squared_speed, mean_squared_speed", (x) {
+        vec![squared_speed(x[1], x[2], x[0]), mean_squared_speed(x[1], x[0])]
+    }
+    RmsEta: "root_mean_square_eta", (x) { result(root_mean_square_eta(x[1], x[0])) }
+    AlongMotion: "squared_speed_along_motion".against::<ExactAlongMotion>().composite(), (x) {
+        vec![squared_speed_along_motion(x[1], x[2], x[0])]
+    }
     ExactAlongMotion(x) { vec![speed_along_motion(x[1], x[2], x[0])] }
     /// `r`, then `beta` and `alpha`.
-    AlongMotionByRatio(x) { vec![squared_speed_along_motion(x[0], x[2], x[1])] }
+    AlongMotionByRatio: "squared_speed_along_motion".against::<ExactAlongMotionByRatio>().composite(), (x) {
+        vec![squared_speed_along_motion(x[0], x[2], x[1])]
+    }
     ExactAlongMotionByRatio(x) { vec![speed_along_motion(x[0], x[2], x[1])] }
-    Start(x) { let (alpha, beta) = single_precession_start(x[1], x[2], x[0]); vec![alpha, beta] }
-    SecularRate(x) { joined(&[secular_axis_rate(x[6], x[7], &symmetric(x), &vector(&x[8..]))]) }
-    StrainUnit(x) { vec![strain_unit(x[0], x[1], x[2])] }
+    Start: "single_precession_start", (x) {
+        let (alpha, beta) = single_precession_start(x[1], x[2], x[0]); vec![alpha, beta]
+    }
+    SecularRate: "secular_axis_rate", (x) { joined(&[secular_axis_rate(x[6], x[7], &symmetric(x), &vector(&x[8..]))]) }
+    StrainUnit: "strain_unit".against::<ExactStrainUnit>(), (x) { vec![strain_unit(x[0], x[1], x[2])] }
     ExactStrainUnit(x) {
         vec![x[0] * S::from_f64(KILOGRAM) * S::from_f64(METRE) / (x[1] * x[1] * x[2])]
     }
-    Units(x) {
+    Units: "time_unit".against::<ExactUnits>(), (x) {
         result(time_unit(x[0]))
     }
     ExactUnits(x) {
         vec![x[0].sqrt()]
     }
     // value of f, its rate
-    EventTime(x) {
+    EventTime: "event_time".against::<ExactEventTime>(), (x) {
         let rate = x[1].re();
         result(event_time(0.0, x[0] * 1.0, rate))
     }
     ExactEventTime(x) { vec![-(x[0] / S::from_f64(x[1].re()))] }
+    EventTimes: "event_time".values_only(), (x) { times(x) }
+    // probability, speeds (2), weights (2)
+    Probability(x) { vec![S::one() - x[0]] }
+    RootMeanSquare(x) {
+        let (v, w) = ([x[1], x[2]], [x[3], x[4]]);
+        vec![(S::from_f64(3.0) * (w[0] + w[1]) / (w[0] * v[0] * v[0] + w[1] * v[1] * v[1])).sqrt()]
+    }
+    // seconds, fraction
+    Seconds(x) { vec![x[0]] }
+    Fraction(x) {
+        let days = x[1] + x[0] / DAY;
+        vec![days - S::from_f64(days.re().floor())]
+    }
 }
 
 /// The observer of a case of the position angle: its basis is that of the frame.
@@ -257,8 +298,33 @@ fn times<S: Real>(x: &[S]) -> Vec<S> {
     [result(event_time(0.0, margin, rate.re())), result(event_time(0.0, rate, second.re()))].concat()
 }
 
-functions! {
-    EventTimes(x) { times(x) }
+fn two_speeds(x: &[f64]) -> Option<EtaDistribution> {
+    EtaDistribution::from_speeds([(x[1], x[3]), (x[2], x[4])]).ok()
+}
+
+fn probability(x: &[f64]) -> Vec<f64> {
+    two_speeds(x).map_or(none(1), |of| of.quantile(x[0]).map_or(none(1), |eta| vec![of.probability_above(eta)]))
+}
+
+fn root_mean_square(x: &[f64]) -> Vec<f64> {
+    two_speeds(x).map_or(none(1), |of| vec![of.root_mean_square()])
+}
+
+fn epoch(x: &[f64]) -> Option<Epoch> {
+    Epoch::new(50_000, x[1]).ok()
+}
+
+fn seconds(x: &[f64]) -> Vec<f64> {
+    // From the start of the day, where the fraction is that of the seconds.
+    let (start, days) = (Epoch::new(50_000, 0.0).expect("a date"), x[0] / DAY);
+    let end = start.after([x[0], 0.0]).expect("a date");
+    let [high, low] = end.seconds_since(&start);
+    debug_assert!(days.is_finite());
+    vec![high + low]
+}
+
+fn fraction(x: &[f64]) -> Vec<f64> {
+    epoch(x).map_or(none(1), |start| start.after([x[0], 0.0]).map_or(none(1), |end| vec![end.fraction()]))
 }
 
 const TURN: Input = In(-3.1, 3.1);
@@ -267,212 +333,111 @@ const INERTIA: Input = In(0.5, 2.0);
 const POLAR: Input = In(0.3, 2.8);
 const TINY: Input = Signed(-15.0, -0.5);
 const SMALL: Input = Signed(-6.0, -1.0);
-const WIDTH: &[&str] = &["observables::pulsar::width::pulse_width"];
-const LAMBDA: &[&str] = &["observables::spin_axis::cos_lambda_in_angles"];
-const CHANGE: &[&str] = &["observables::spin_axis::cos_lambda_change"];
-const ROTATING: &[&str] = &[
-    "observables::pulsar::position_angle::rotating_vector_point",
-    "observables::pulsar::position_angle::rotating_vector_position_angle",
-    "observables::pulsar::position_angle::rotating_vector_gradient",
-];
-const DIRECTION: &[&str] =
-    &["observables::pulsar::direction::cosine_of_colatitude", "observables::pulsar::direction::azimuth_offset_point"];
-const ANGLES: &[&str] = &["observables::pulsar::direction::magnetic_axis_direction"];
-const OFFSET: &[&str] = &["observables::pulsar::period::azimuth_offset_rate"];
-const ALONG: &[&str] = &["observables::eta::squared_speed_along_motion"];
-const MARGIN: &[&str] = &[
-    "observables::pulsar::Beam::new",
-    "observables::pulsar::Beam::opposite",
-    "observables::pulsar::Beam::direction",
-    "observables::pulsar::Beam::margin",
-];
 
 pub(super) fn cases() -> Vec<Case> {
     let (c, i, t) = (COMPONENT, INERTIA, TURN);
     let moving = [SMALL, SMALL, SMALL, SMALL, SMALL, SMALL, c, c, c, c, c, c, c, c, c, c, c, c, i, i, i];
+    let two = [Log(-5.0, 0.0), Log(-5.0, 0.0), In(0.1, 1.0), In(0.1, 1.0)];
     let mut cases = Vec::new();
     for (limit, theta) in [("theta_o -> 0", Log(-300.0, 0.4)), ("theta_o -> pi", Near(PI, -15.0, -0.3))] {
         cases.extend([
-            Case::new::<Lambda>(LAMBDA, limit, &[theta, t, t, POLAR]),
-            Case::new::<LambdaChange>(CHANGE, limit, &[theta, t, t, POLAR, Signed(-12.0, -1.0), Signed(-12.0, -1.0)]),
-            Case::new::<InAzimuth>(
-                &["observables::pulsar::direction::axis_along_line_of_sight_in_azimuth"],
-                limit,
-                &[theta, POLAR, t, t],
-            ),
+            Lambda::case(limit, &[theta, t, t, POLAR]),
+            LambdaChange::case(limit, &[theta, t, t, POLAR, Signed(-12.0, -1.0), Signed(-12.0, -1.0)]),
+            InAzimuth::case(limit, &[theta, POLAR, t, t]),
         ]);
     }
     for (limit, chi) in [("chi -> 0", Log(-300.0, 0.0)), ("chi -> pi", Near(PI, -15.0, -0.3))] {
         cases.extend([
-            Case::new::<Margin>(MARGIN, limit, &[chi, t, In(0.1, 1.0), c, c, c, c, c, c, c, c, c, c, c, c]),
-            Case::new::<Direction>(DIRECTION, limit, &[chi, POLAR, t, t]),
-            Case::new::<DirectionAngles>(ANGLES, limit, &[chi, POLAR, t, t, t])
-                .beside::<NaiveDirectionAngles>("arc cosine, cot chi")
-                .composite(),
-            Case::new::<OffsetRate>(OFFSET, limit, &[chi, POLAR, t, t, t, Signed(-3.0, 1.0)]).composite(),
-            Case::new::<Opening>(&["observables::bound::cos_opening_angle"], limit, &[chi, POLAR, In(0.01, 6.0)]),
-            Case::new::<ZetaChange>(
-                &["observables::bound::zeta_change_terms"],
-                limit,
-                &[chi, POLAR, In(0.01, 6.0), Signed(-9.0, -2.0)],
-            ),
-            Case::new::<LambdaFromWidth>(
-                &["observables::bound::lambda_change", "observables::bound::lambda_change_terms"],
-                limit,
-                &[chi, POLAR, In(0.01, 6.0), Signed(-9.0, -2.0)],
-            )
-            .beside::<PrintedLambdaFromWidth>("Eq. (42) as printed"),
+            Margin::case(limit, &list![chi, t, In(0.1, 1.0), c; 12]),
+            Direction::case(limit, &[chi, POLAR, t, t]),
+            DirectionAngles::case(limit, &[chi, POLAR, t, t, t]),
+            OffsetRate::case(limit, &list![chi, POLAR, t; 3, Signed(-3.0, 1.0)]),
+            Opening::case(limit, &[chi, POLAR, In(0.01, 6.0)]),
+            ZetaChange::case(limit, &[chi, POLAR, In(0.01, 6.0), Signed(-9.0, -2.0)]),
+            LambdaFromWidth::case(limit, &[chi, POLAR, In(0.01, 6.0), Signed(-9.0, -2.0)]),
         ]);
     }
     cases.extend([
-        Case::new::<LambdaRate>(
-            &["observables::spin_axis::cos_lambda_rate"],
-            "a component -> 0",
-            &[Signed(-300.0, 0.0), c, c, c, c, c, c, c, c, i, i, i],
-        ),
-        Case::new::<Drift>(
-            &["observables::bound::SpinAxisDrift::combination_bound"],
+        LambdaRate::case("a component -> 0", &list![Signed(-300.0, 0.0), c; 8, i; 3]),
+        Drift::case(
             "change -> 0",
             &[Signed(-60.0, 0.0), Log(-10.0, 10.0), Log(-5.0, 5.0), Log(-5.0, 15.0), In(1.0, 10.0), In(0.0, 1.5)],
         ),
-        Case::new::<EtaFromInclination>(&["observables::bound::eta_from_inclination"], "cos b -> 0", &[Near(FRAC_PI_2, -15.0, -0.1)]),
-        Case::new::<FluidAndPreferred>(
-            &["observables::bound::fluid_inertia_over_c", "observables::bound::preferred_frame_bound"],
+        EtaFromInclination::case("cos b -> 0", &[Near(FRAC_PI_2, -15.0, -0.1)]),
+        FluidAndPreferred::case(
             "1e-100 to 1e100",
             &[Log(-100.0, 100.0), Signed(-5.0, 0.0), Signed(-5.0, 0.0), Signed(-5.0, 0.0)],
         ),
-        Case::new::<MarginRates>(
-            &["observables::pulsar::Beam::margin_rates"],
-            "rho -> 0",
-            &[&[Log(-12.0, 0.0), t, t], &moving[..]].concat(),
-        )
-        .composite(),
-        Case::new::<Along>(
-            &["observables::pulsar::beam::axis_along_line_of_sight"],
-            "sin b -> 0",
-            &[Log(-300.0, 0.4), t, t, In(0.1, 3.0), t, In(0.1, 3.0), t],
+        MarginRates::case("rho -> 0", &[&[Log(-12.0, 0.0), t, t], &moving[..]].concat()),
+        Along::case("sin b -> 0", &[Log(-300.0, 0.4), t, t, In(0.1, 3.0), t, In(0.1, 3.0), t]),
+        AzimuthRate::case("magnetic axis to Z", &list![TINY; 2, Signed(-0.3, 0.0), c; 3]),
+        AzimuthRateOnSphere::case("unit vector to Z", &[Log(-12.0, 0.0), t, c, c, c]),
+        Periods::case("rates from 1e-100 to 1e100", &[Signed(-100.0, 100.0), Signed(-50.0, 50.0)]),
+        Width::case("grazing: rho -> Theta - theta_o = 1/2", &[Above(0.5, -15.0, -1.0), Fixed(1.5), Fixed(1.0)]),
+        NearPole::case(
+            "magnetic axis nearly the cone's edge from Z",
+            &[Near(0.75, -15.0, -1.5), In(0.3, 0.5), Fixed(0.75)],
         ),
-        Case::new::<AzimuthRate>(
-            &["observables::pulsar::period::azimuth_rate"],
-            "magnetic axis to Z",
-            &[TINY, TINY, Signed(-0.3, 0.0), c, c, c],
-        )
-        .natural_derivatives(),
-        Case::new::<AzimuthRateOnSphere>(
-            &["observables::pulsar::period::azimuth_rate"],
-            "unit vector to Z",
-            &[Log(-12.0, 0.0), t, c, c, c],
-        )
-        .beside::<NaiveAzimuthRate>("over 1 - m_z^2")
-        .composite(),
-        Case::new::<Periods>(
-            &["observables::pulsar::period::instantaneous_period", "observables::pulsar::period::approximate_period"],
-            "rates from 1e-100 to 1e100",
-            &[Signed(-100.0, 100.0), Signed(-50.0, 50.0)],
-        )
-        .against::<ExactPeriods>(),
-        Case::new::<Width>(WIDTH, "grazing: rho -> Theta - theta_o = 1/2", &[Above(0.5, -15.0, -1.0), Fixed(1.5), Fixed(1.0)])
-            .beside::<PrintedWidth>("arc cosine of Eq. (56)")
-            .composite(),
-        Case::new::<NearPole>(WIDTH, "magnetic axis nearly the cone's edge from Z", &[Near(0.75, -15.0, -1.5), In(0.3, 0.5), Fixed(0.75)])
-            .beside::<PrintedNearPole>("arc cosine of Eq. (56)")
-            .composite(),
-        Case::new::<CosineOfHalfWidth>(
-            &["observables::pulsar::width::cosine_of_half_width"],
-            "sin Theta -> 0",
-            &[Log(-15.0, 0.0), In(0.1, 1.5), In(0.3, 2.8)],
-        )
-        .except(
-            100.0,
-            "Printed, and kept for comparison: a cosine of a small rho has the rounding of one, condition number 1 / rho^2. `pulse_width` is regular.",
-        )
-        .derivatives_except(100.0, "As for the value."),
-        Case::new::<Edges>(&["observables::pulsar::width::edge_azimuths"], "width -> 0", &[t, Log(-300.0, 0.7)]),
-        Case::new::<PositionAngle>(
-            &[
-                "observables::pulsar::position_angle::position_angle",
-                "observables::pulsar::position_angle::position_angle_rate",
-            ],
-            "magnetic axis to the line of sight",
-            &[TINY, TINY, Signed(-0.3, 0.0), c, c, c],
-        )
-        .natural_derivatives(),
-        Case::new::<RotatingVector>(ROTATING, "Theta -> 0", &[Log(-300.0, 0.4), POLAR, t]).composite().natural_derivatives(),
-        Case::new::<RotatingVector>(
-            ROTATING,
+        CosineOfHalfWidth::case("sin Theta -> 0", &[Log(-15.0, 0.0), In(0.1, 1.5), In(0.3, 2.8)])
+            .except(
+                100.0,
+                "Printed, and kept for comparison: a cosine of a small rho has the rounding of one, \
+condition number 1 / rho^2. `pulse_width` is regular.",
+            )
+            .derivatives_except(100.0, "As for the value."),
+        Edges::case("width -> 0", &[t, Log(-300.0, 0.7)]),
+        PositionAngle::case("magnetic axis to the line of sight", &list![TINY; 2, Signed(-0.3, 0.0), c; 3]),
+        RotatingVector::case("Theta -> 0", &[Log(-300.0, 0.4), POLAR, t]).natural_derivatives(),
+        RotatingVector::case(
             "magnetic axis to the line of sight",
             &[Near(1.1, -13.0, -0.5), Fixed(1.1), Signed(-13.0, -0.5)],
-        )
-        .composite(),
-        Case::new::<Harmonics>(
-            &["observables::wave_harmonics::WaveHarmonics::of"],
-            "wobble -> 0",
-            &[TINY, TINY, Fixed(1.0), Fixed(0.0), Fixed(0.0), In(0.5, 2.0), i, i, i, POLAR, t],
-        )
-        .composite()
-        .natural_derivatives(),
-        Case::new::<HarmonicsAdded>(
-            &["observables::wave_harmonics::WaveHarmonics::polarizations"],
-            "inclination -> 0",
-            &[Log(-300.0, 0.4), c, c, t, t, t],
         ),
-        Case::new::<Speeds>(
-            &["observables::eta::squared_speed", "observables::eta::mean_squared_speed"],
-            "sin b -> 0",
-            &[Log(-150.0, 0.0), In(-1.0, 1.0), t],
-        ),
-        Case::new::<Speeds>(
-            &["observables::eta::squared_speed", "observables::eta::mean_squared_speed"],
-            "cos b -> 0",
-            &[Near(FRAC_PI_2, -15.0, -0.3), Signed(-15.0, 0.0), t],
-        ),
-        Case::new::<RmsEta>(&["observables::eta::root_mean_square_eta"], "sin b -> 0", &[Log(-15.0, 0.0), In(-1.0, 1.0)]),
-        Case::new::<AlongMotion>(ALONG, "sin b -> 0", &[Log(-7.0, 0.0), In(-0.9, 0.9), t]).against::<ExactAlongMotion>().composite(),
-        Case::new::<AlongMotion>(ALONG, "cos b -> 0", &[Near(FRAC_PI_2, -12.0, -0.3), In(-0.9, 0.9), t])
-            .against::<ExactAlongMotion>()
-            .composite(),
-        Case::new::<AlongMotionByRatio>(ALONG, "r -> 0", &[Signed(-12.0, -0.1), In(0.3, 1.2), t])
-            .against::<ExactAlongMotionByRatio>()
-            .composite(),
-        Case::new::<Start>(
-            &["observables::eta::single_precession_start"],
-            "cos b -> 0",
-            &[Near(FRAC_PI_2, -12.0, -0.3), Signed(-12.0, 0.0), t],
-        ),
-        Case::new::<SecularRate>(
-            &["observables::eta::secular_axis_rate"],
+        Harmonics::case("wobble -> 0", &list![TINY; 2, Fixed(1.0), Fixed(0.0); 2, In(0.5, 2.0), i; 3, POLAR, t]),
+        HarmonicsAdded::case("inclination -> 0", &list![Log(-300.0, 0.4), c; 2, t; 3]),
+        Speeds::case("sin b -> 0", &[Log(-150.0, 0.0), In(-1.0, 1.0), t]),
+        Speeds::case("cos b -> 0", &[Near(FRAC_PI_2, -15.0, -0.3), Signed(-15.0, 0.0), t]),
+        RmsEta::case("sin b -> 0", &[Log(-15.0, 0.0), In(-1.0, 1.0)]),
+        AlongMotion::case("sin b -> 0", &[Log(-7.0, 0.0), In(-0.9, 0.9), t]),
+        AlongMotion::case("cos b -> 0", &[Near(FRAC_PI_2, -12.0, -0.3), In(-0.9, 0.9), t]),
+        AlongMotionByRatio::case("r -> 0", &[Signed(-12.0, -0.1), In(0.3, 1.2), t]),
+        Start::case("cos b -> 0", &[Near(FRAC_PI_2, -12.0, -0.3), Signed(-12.0, 0.0), t]),
+        SecularRate::case(
             "s from 1e-200 to 1",
-            &[Signed(-200.0, 0.0), SMALL, SMALL, SMALL, SMALL, SMALL, Log(-10.0, 10.0), Signed(-10.0, 10.0), c, c, c],
+            &list![Signed(-200.0, 0.0), SMALL; 5, Log(-10.0, 10.0), Signed(-10.0, 10.0), c; 3],
         ),
-        Case::new::<StrainUnit>(
-            &["observables::gravitational_wave::strain_unit"],
-            "SI units of stars",
-            &[Log(30.0, 45.0), Log(-6.0, 3.0), Log(10.0, 26.0)],
-        )
-        .against::<ExactStrainUnit>(),
-        Case::new::<Units>(
-            &["units::time_unit"],
-            "unit from 1e-100 to 1e100",
-            &[Log(-100.0, 100.0)],
-        )
-        .against::<ExactUnits>(),
-        Case::new::<EventTime>(
-            &["observables::pulsar::event_time::event_time"],
-            "f -> 0 at the root",
-            &[Signed(-200.0, -1.0), Signed(-50.0, 50.0)],
-        )
-        .against::<ExactEventTime>(),
-        Case::new::<EventTimes>(
-            &["observables::pulsar::event_time::event_time"],
-            "rho from 0.03 to 1, any state",
-            &[&[Log(-1.5, 0.0), t, t], &moving[..]].concat(),
-        )
-        .except(
+        StrainUnit::case("SI units of stars", &[Log(30.0, 45.0), Log(-6.0, 3.0), Log(10.0, 26.0)]),
+        Units::case("unit from 1e-100 to 1e100", &[Log(-100.0, 100.0)]),
+        EventTime::case("f -> 0 at the root", &[Signed(-200.0, -1.0), Signed(-50.0, 50.0)]),
+        EventTimes::case("rho from 0.03 to 1, any state", &[&[Log(-1.5, 0.0), t, t], &moving[..]].concat()).except(
             1e4,
-            "Of a cone of rho = 0.03 and less `m.n - cos rho` is rounded as one is: condition number 1 / rho^2 of the cosine, which the scale does not \
-             hold against the input.",
+            "Of a cone of rho = 0.03 and less `m.n - cos rho` is rounded as one is: condition number \
+1 / rho^2 of the cosine, which the scale does not hold against the input.",
+        ),
+        Case::of_doubles::<Probability>(
+            "EtaDistribution: from_speeds, quantile, probability_above",
+            "probability -> 0 and 1",
+            &[&[In(0.001, 0.999)], &two[..]].concat(),
+            probability,
+        ),
+        Case::of_doubles::<RootMeanSquare>(
+            "EtaDistribution::root_mean_square",
+            "speeds -> 0",
+            &[&[Fixed(0.5)], &two[..]].concat(),
+            root_mean_square,
+        ),
+        Case::of_doubles::<Seconds>(
+            "Epoch: after, seconds_since",
+            "from 1 day to 27,000 years and back",
+            &[Log(4.95, 11.5), Fixed(0.0)],
+            seconds,
+        ),
+        Case::of_doubles::<Fraction>(
+            "Epoch: new, after, day, fraction",
+            "a time from 1e-12 s to 1e11 s",
+            &[Signed(-12.0, 9.0), In(0.0, 0.999)],
+            fraction,
         )
-        .values_only(),
+        .unit(),
     ]);
     cases
 }

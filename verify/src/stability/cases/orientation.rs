@@ -14,17 +14,17 @@ use twofold::observables::pulsar::position_angle::sky_from_inertial;
 
 use super::parts::{angles, body, entries, joined, matrix, none, of_angles, of_rates, rates, symmetric, vector};
 use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
-use crate::stability::{Case, functions};
+use crate::stability::{Case, functions, list};
 
 functions! {
-    Rotation(x) { entries(&body_from_inertial(&angles(&[x[1], x[0], x[2]]))) }
-    Axis(x) { joined(&[symmetry_axis(x[1], x[0])]) }
-    BodyRates(x) { joined(&[body_rates(&angles(&[x[1], x[0], x[2]]), &rates(&x[3..]))]) }
-    EulerRates(x) {
+    Rotation: "body_from_inertial", (x) { entries(&body_from_inertial(&angles(&[x[1], x[0], x[2]]))) }
+    Axis: "symmetry_axis", (x) { joined(&[symmetry_axis(x[1], x[0])]) }
+    BodyRates: "body_rates", (x) { joined(&[body_rates(&angles(&[x[1], x[0], x[2]]), &rates(&x[3..]))]) }
+    EulerRates: "euler_rates", (x) {
         euler_rates(&angles(&[x[1], x[0], x[2]]), &vector(&x[3..])).map_or(none(3), |rates| of_rates(&rates))
     }
     /// With the third row and column of a rotation, as far as the angles ask for it.
-    Angles(x) {
+    Angles: "angles_from_rotation", (x) {
         let o = S::zero();
         let rotation = Matrix3::new(o, o, x[3], o, o, x[4], x[0], x[1], x[2]);
         angles_from_rotation(&rotation).map_or(none(3), |angles| of_angles(&angles))
@@ -34,7 +34,7 @@ functions! {
         let z = x[2];
         vec![x[0].atan2(-x[1]), ((S::one() - z * z).sqrt()).atan2(z), x[3].atan2(x[4])]
     }
-    AnglesOnSphere(x) {
+    AnglesOnSphere: "angles_from_rotation".composite().beside::<NaiveAnglesOnSphere>("arc cosine of n_z"), (x) {
         let (sin, cos) = x[0].sin_cos();
         let (sa, ca) = x[1].sin_cos();
         vec![Angles::of(&[sa * sin, -(ca * sin), cos, sin, sin])[1]]
@@ -44,44 +44,48 @@ functions! {
         let (sa, ca) = x[1].sin_cos();
         vec![NaiveAngles::of(&[sa * sin, -(ca * sin), cos, sin, sin])[1]]
     }
-    TensorInBody(x) { entries(&tensor_in_body_frame(&matrix(&x[6..]), &symmetric(x))) }
-    TensorInInertial(x) { entries(&tensor_in_inertial_frame(&matrix(&x[6..]), &symmetric(x))) }
-    RotationRate(x) { entries(&rotation_rate(&matrix(&x[3..]), &vector(x))) }
-    AngularVelocity(x) { joined(&[angular_velocity(&body(&x[0..]), &vector(&x[3..]), &vector(&x[6..]))]) }
+    TensorInBody: "tensor_in_body_frame", (x) { entries(&tensor_in_body_frame(&matrix(&x[6..]), &symmetric(x))) }
+    TensorInInertial: "tensor_in_inertial_frame", (x) {
+        entries(&tensor_in_inertial_frame(&matrix(&x[6..]), &symmetric(x)))
+    }
+    RotationRate: "rotation_rate", (x) { entries(&rotation_rate(&matrix(&x[3..]), &vector(x))) }
+    AngularVelocity: "angular_velocity", (x) {
+        joined(&[angular_velocity(&body(&x[0..]), &vector(&x[3..]), &vector(&x[6..]))])
+    }
     /// `I^xx` and `I^zz / I^xx` in units of any size.
-    AngularVelocityInUnits(x) {
+    AngularVelocityInUnits: "angular_velocity", (x) {
         let spheroid = body(&[x[0], x[0] * x[1], S::one()]);
         joined(&[angular_velocity(&spheroid, &vector(&x[2..]), &vector(&x[5..]))])
     }
-    RatesOfAxis(x) {
+    RatesOfAxis: "euler_rates_of_axis".natural_derivatives(), (x) {
         euler_rates_of_axis(&body(&x[6..]), &vector(x), &vector(&x[3..])).map_or(none(3), |rates| of_rates(&rates))
     }
-    StateFromAngles(x) {
+    StateFromAngles: "BodyState::from_angles".composite(), (x) {
         let state = BodyState::from_angles(&body(&x[6..]), &angles(&[x[1], x[0], x[2]]), &rates(&x[3..]));
         joined(&[state.axis, state.momentum, state.equatorial_axis])
     }
-    RotationOfState(x) {
+    RotationOfState: "BodyState::body_from_inertial", (x) {
         let state = BodyState { axis: vector(x), momentum: vector(x), equatorial_axis: vector(&x[3..]) };
         entries(&state.body_from_inertial())
     }
-    StateRotated(x) {
+    StateRotated: "BodyState::rotated", (x) {
         let state = BodyState { axis: vector(x), momentum: vector(&x[3..]), equatorial_axis: vector(&x[6..]) };
         let state = state.rotated(&matrix(&x[9..]));
         joined(&[state.axis, state.momentum, state.equatorial_axis])
     }
     /// Angles and rates of a state.
-    OfState(x) {
+    OfState: "BodyState: angles, rates".composite().natural_derivatives(), (x) {
         let state = BodyState { axis: vector(x), equatorial_axis: vector(&x[3..]), momentum: vector(&x[6..]) };
         match (state.angles(), state.rates(&body(&x[9..]))) {
             (Ok(angles), Ok(rates)) => [of_angles(&angles), of_rates(&rates)].concat(),
             _ => none(6),
         }
     }
-    ObserverBasis(x) {
+    ObserverBasis: "Observer::at", (x) {
         let observer = Observer::at(x[0], x[1]);
         joined(&[observer.direction, observer.theta_hat, observer.phi_hat])
     }
-    ObserverRotated(x) {
+    ObserverRotated: "Observer::rotated, sky_from_inertial", (x) {
         let observer = Observer { direction: vector(x), theta_hat: vector(&x[3..]), phi_hat: vector(&x[6..]) };
         let observer = observer.rotated(&matrix(&x[9..]));
         [joined(&[observer.direction, observer.theta_hat, observer.phi_hat]), entries(&sky_from_inertial(&observer))].concat()
@@ -92,16 +96,6 @@ const TURN: Input = In(-3.1, 3.1);
 const RATE: Input = Signed(-3.0, 1.0);
 const COMPONENT: Input = In(-1.0, 1.0);
 const INERTIA: Input = In(0.5, 2.0);
-const ROTATION: &[&str] = &["euler_angles::body_from_inertial"];
-const AXIS: &[&str] = &["euler_angles::symmetry_axis"];
-const BODY_RATES: &[&str] = &["euler_angles::body_rates"];
-const EULER_RATES: &[&str] = &["euler_angles::euler_rates"];
-const ANGLES: &[&str] = &["euler_angles::angles_from_rotation"];
-const OF_AXIS: &[&str] = &["dynamics::equations_of_motion::euler_rates_of_axis"];
-const VELOCITY: &[&str] = &["dynamics::equations_of_motion::angular_velocity"];
-const FROM_ANGLES: &[&str] = &["dynamics::BodyState::from_angles"];
-const BACK: &[&str] = &["dynamics::BodyState::angles", "dynamics::BodyState::rates"];
-const OBSERVER: &[&str] = &["observables::Observer::at"];
 
 pub(super) fn cases() -> Vec<Case> {
     let (north, south) = (Log(-300.0, 0.0), Near(PI, -15.0, -0.5));
@@ -115,193 +109,28 @@ pub(super) fn cases() -> Vec<Case> {
         let off_pole = if beta == north { Log(-15.0, 0.0) } else { beta };
         let off_pole = [off_pole, TURN, TURN, RATE, RATE, RATE];
         cases.extend([
-            Case::new::<Rotation>(ROTATION, limit, &sweep[..3]),
-            Case::new::<Axis>(AXIS, limit, &sweep[..2]),
-            Case::new::<BodyRates>(BODY_RATES, limit, &sweep[..6]),
-            Case::new::<EulerRates>(EULER_RATES, limit, &off_pole),
-            Case::new::<StateFromAngles>(FROM_ANGLES, limit, sweep).composite(),
+            Rotation::case(limit, &sweep[..3]),
+            Axis::case(limit, &sweep[..2]),
+            BodyRates::case(limit, &sweep[..6]),
+            EulerRates::case(limit, &off_pole),
+            StateFromAngles::case(limit, sweep),
         ]);
     }
     cases.extend([
-        Case::new::<OfState>(
-            BACK,
-            "axis to either pole",
-            &[
-                Signed(-15.0, -0.5),
-                Signed(-15.0, -0.5),
-                Signed(-0.3, 0.0),
-                COMPONENT,
-                COMPONENT,
-                Signed(-15.0, -0.5),
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                INERTIA,
-                INERTIA,
-                Fixed(1.0),
-            ],
-        )
-        .composite()
-        .natural_derivatives(),
-        Case::new::<Angles>(
-            ANGLES,
-            "axis to either pole",
-            &[Signed(-15.0, -0.5), Signed(-15.0, -0.5), Signed(-0.3, 0.0), Signed(-15.0, -0.5), Signed(-15.0, -0.5)],
-        ),
-        Case::new::<AnglesOnSphere>(ANGLES, "beta of a unit vector, sin b -> 0", &[Log(-15.0, 0.0), TURN])
-            .beside::<NaiveAnglesOnSphere>("arc cosine of n_z")
-            .composite(),
-        Case::new::<RatesOfAxis>(
-            OF_AXIS,
-            "axis to either pole",
-            &[
-                Signed(-15.0, -0.5),
-                Signed(-15.0, -0.5),
-                Signed(-0.3, 0.0),
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                INERTIA,
-                INERTIA,
-                Fixed(1.0),
-            ],
-        )
-        .natural_derivatives(),
-        Case::new::<TensorInBody>(
-            &["euler_angles::tensor_in_body_frame"],
-            "s -> 0 from 1e-300 to 1",
-            &[
-                Signed(-300.0, 0.0),
-                Signed(-300.0, 0.0),
-                Signed(-300.0, 0.0),
-                Signed(-300.0, 0.0),
-                Signed(-300.0, 0.0),
-                Signed(-300.0, 0.0),
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-            ],
-        ),
-        Case::new::<TensorInInertial>(
-            &["dynamics::wave_source::tensor_in_inertial_frame"],
-            "entries from 1e-300 to 1",
-            &[
-                Signed(-300.0, 0.0),
-                Signed(-300.0, 0.0),
-                Signed(-300.0, 0.0),
-                Signed(-300.0, 0.0),
-                Signed(-300.0, 0.0),
-                Signed(-300.0, 0.0),
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-            ],
-        ),
-        Case::new::<RotationRate>(
-            &["dynamics::wave_source::rotation_rate"],
-            "rates from 1e-300 to 1e300",
-            &[
-                Signed(-300.0, 299.0),
-                Signed(-3.0, 3.0),
-                Signed(-3.0, 3.0),
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-            ],
-        ),
-        Case::new::<AngularVelocityInUnits>(
-            VELOCITY,
-            "units: I^xx from 1e-100 to 1e100",
-            &[Log(-100.0, 100.0), In(0.2, 2.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT],
-        ),
-        Case::new::<AngularVelocity>(
-            VELOCITY,
-            "I^zz -> I^xx",
-            &[
-                Near(1.0, -15.5, -0.5),
-                Fixed(1.0),
-                Fixed(1.0),
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-            ],
-        ),
-        Case::new::<RotationOfState>(
-            &["dynamics::BodyState::body_from_inertial"],
-            "a component of n -> 0",
-            &[Signed(-300.0, 0.0), COMPONENT, COMPONENT, COMPONENT, COMPONENT, COMPONENT],
-        ),
-        Case::new::<StateRotated>(
-            &["dynamics::BodyState::rotated"],
-            "a component of n -> 0",
-            &[
-                Signed(-300.0, 0.0),
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-            ],
-        ),
-        Case::new::<ObserverBasis>(OBSERVER, "theta_o -> 0", &[Log(-300.0, 0.0), TURN]),
-        Case::new::<ObserverBasis>(OBSERVER, "theta_o -> pi", &[south, TURN]),
-        Case::new::<ObserverRotated>(
-            &["observables::Observer::rotated", "observables::pulsar::position_angle::sky_from_inertial"],
-            "a component -> 0",
-            &[
-                Signed(-300.0, 0.0),
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-                COMPONENT,
-            ],
-        ),
+        OfState::case("axis to either pole", &list![Signed(-15.0, -0.5); 2, Signed(-0.3, 0.0), COMPONENT; 2, Signed(-15.0, -0.5), COMPONENT; 3, INERTIA; 2, Fixed(1.0)]),
+        Angles::case("axis to either pole", &[Signed(-15.0, -0.5), Signed(-15.0, -0.5), Signed(-0.3, 0.0), Signed(-15.0, -0.5), Signed(-15.0, -0.5)]),
+        AnglesOnSphere::case("beta of a unit vector, sin b -> 0", &[Log(-15.0, 0.0), TURN]),
+        RatesOfAxis::case("axis to either pole", &list![Signed(-15.0, -0.5); 2, Signed(-0.3, 0.0), COMPONENT; 3, INERTIA; 2, Fixed(1.0)]),
+        TensorInBody::case("s -> 0 from 1e-300 to 1", &list![Signed(-300.0, 0.0); 6, COMPONENT; 9]),
+        TensorInInertial::case("entries from 1e-300 to 1", &list![Signed(-300.0, 0.0); 6, COMPONENT; 9]),
+        RotationRate::case("rates from 1e-300 to 1e300", &list![Signed(-300.0, 299.0), Signed(-3.0, 3.0); 2, COMPONENT; 9]),
+        AngularVelocityInUnits::case("units: I^xx from 1e-100 to 1e100", &list![Log(-100.0, 100.0), In(0.2, 2.0), COMPONENT; 6]),
+        AngularVelocity::case("I^zz -> I^xx", &list![Near(1.0, -15.5, -0.5), Fixed(1.0); 2, COMPONENT; 6]),
+        RotationOfState::case("a component of n -> 0", &list![Signed(-300.0, 0.0), COMPONENT; 5]),
+        StateRotated::case("a component of n -> 0", &list![Signed(-300.0, 0.0), COMPONENT; 17]),
+        ObserverBasis::case("theta_o -> 0", &[Log(-300.0, 0.0), TURN]),
+        ObserverBasis::case("theta_o -> pi", &[south, TURN]),
+        ObserverRotated::case("a component -> 0", &list![Signed(-300.0, 0.0), COMPONENT; 17]),
     ]);
     cases
 }

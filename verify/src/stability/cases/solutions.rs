@@ -17,7 +17,7 @@ use twofold::solutions::steady::steady_precession_rate;
 
 use super::parts::{body, joined, none, of_rates, principal, vector};
 use crate::stability::Input::{self, Below, Fixed, In, Log, Near, Signed};
-use crate::stability::{Case, functions};
+use crate::stability::{Case, functions, list};
 
 fn axis_angles<S: Real>(q: &AxisAngles<S>) -> Vec<S> {
     vec![q.alpha, q.beta, q.alpha_rate, q.beta_rate]
@@ -47,8 +47,8 @@ fn all_of<S: Real>(solution: Option<Perturbation<S>>, t: S) -> Vec<S> {
 }
 
 functions! {
-    SteadyTwofold(x) { steady(Precession::Twofold, x) }
-    SteadySingle(x) { steady(Precession::Single, x) }
+    SteadyTwofold: "steady_precession_rate", (x) { steady(Precession::Twofold, x) }
+    SteadySingle: "steady_precession_rate", (x) { steady(Precession::Single, x) }
     /// Eq. (26) as printed, lower sign.
     PrintedSingle(x) {
         let (_, cb) = x[3].sin_cos();
@@ -56,11 +56,11 @@ functions! {
         let root = (momentum * momentum - (x[0] - x[1]) * x[6] * inertia * cb * cb * 8.0).sqrt();
         vec![(if momentum.re() < 0.0 { momentum + root } else { momentum - root }) / (inertia * cb * 2.0)]
     }
-    FreeRates(x) {
+    FreeRates: "free_precession_rates", (x) {
         free_precession_rates(&body(&x[2..]), x[1], x[0]).map_or(none(3), |rates| of_rates(&rates))
     }
     // t, n, L, e_x, body
-    FreeRotation(x) {
+    FreeRotation: "free_rotation".against::<ExactFreeRotation>().composite().vector(), (x) {
         let state = BodyState { axis: vector(&x[1..]), momentum: vector(&x[4..]), equatorial_axis: vector(&x[7..]) };
         let after = free_rotation(&body(&x[10..]), &state, x[0]);
         joined(&[after.axis, after.momentum, after.equatorial_axis])
@@ -74,7 +74,9 @@ functions! {
         let turn = momentum * (t / spheroid.inertia_xx);
         joined(&[rotation(&turn, &n), momentum, rotation(&turn, &turned)])
     }
-    Rotated(x) { joined(&[rotated_by(&(vector(&x[1..]) * x[0]), &vector(&x[4..]))]) }
+    Rotated: "rotated_by".against::<ExactRotated>().vector(), (x) {
+        joined(&[rotated_by(&(vector(&x[1..]) * x[0]), &vector(&x[4..]))])
+    }
     ExactRotated(x) { joined(&[rotation(&(vector(&x[1..]) * x[0]), &vector(&x[4..]))]) }
     /// With `1 - cos`.
     NaiveRotated(x) {
@@ -86,39 +88,41 @@ functions! {
         joined(&[v + across * (sin / angle) + turn.cross(&across) * ((S::one() - cos) / (angle * angle))])
     }
     Twofold(x) { all_of(perturbation(Form::Printed, Precession::Twofold, x), x[8]) }
-    Single(x) { all_of(perturbation(Form::Printed, Precession::Single, x), x[8]) }
+    Single: "Perturbation: new, new_unchecked, at", (x) { all_of(perturbation(Form::Printed, Precession::Single, x), x[8]) }
     Corrected(x) { all_of(perturbation(Form::Corrected, Precession::Twofold, x), x[8]) }
     CorrectedSingle(x) { all_of(perturbation(Form::Corrected, Precession::Single, x), x[8]) }
     /// With `s^ZZ` first, then `s^XX`, `s^YY`, constants, spin, time, body.
-    SingleByZ(x) { Single::of(&by_z(x)) }
-    TwofoldByZ(x) { Twofold::of(&by_z(x)) }
-    CorrectedByZ(x) { Corrected::of(&by_z(x)) }
-    CorrectedSingleByZ(x) { CorrectedSingle::of(&by_z(x)) }
-    SingleByTime(x) { Single::of(&by_time(x)) }
-    CorrectedByTime(x) { Corrected::of(&by_time(x)) }
-    Parts(x) {
+    SingleByZ: "Perturbation: new, new_unchecked, at".composite(), (x) { Single::of(&by_z(x)) }
+    TwofoldByZ: "Perturbation: new, new_unchecked, at".composite(), (x) { Twofold::of(&by_z(x)) }
+    CorrectedByZ: "Perturbation: new, new_unchecked, at".composite(), (x) { Corrected::of(&by_z(x)) }
+    CorrectedSingleByZ: "Perturbation: new, new_unchecked, at".composite(), (x) { CorrectedSingle::of(&by_z(x)) }
+    SingleByTime: "Perturbation: new, new_unchecked, at", (x) { Single::of(&by_time(x)) }
+    CorrectedByTime: "Perturbation: new, new_unchecked, at", (x) { Corrected::of(&by_time(x)) }
+    Parts: "Perturbation::first_order, changes_from_start".composite(), (x) {
         perturbation(Form::Printed, Precession::Twofold, x).map_or(none(6), |p| {
             let (first, rates) = (p.first_order(x[8], x[0]), p.first_order_rates(x[8], x[0]));
             let change = changes_from_start(&p, x[8]);
             vec![first.0, first.1, rates.0, rates.1, change.0, change.1]
         })
     }
-    Shifted(x) {
+    Shifted: "shifted_rates", (x) {
         shifted_rates(&body(&x[5..]), &principal(&x[1..]), x[4], x[0]).map_or(none(2), |rates| vec![rates.alpha, rates.gamma])
     }
     // beta_0, s (3), spin, alpha_0, A, phi, body
-    InitialValues(x) {
+    InitialValues: "initial_values".composite(), (x) {
         let constants = Constants { alpha_0: x[5], beta_0: x[0], amplitude: x[6], phase: x[7] };
         initial_values(Form::Printed, Precession::Twofold, &body(&x[8..]), &principal(&x[1..]), x[4], &constants)
             .map_or(none(4), |initial| axis_angles(&initial))
     }
     // s^ZZ, s^XX, s^YY, spin, alpha, beta, their rates, body
-    ConstantsTwofold(x) { found_constants(Form::Printed, Precession::Twofold, x) }
-    ConstantsSingle(x) { found_constants(Form::Printed, Precession::Single, x) }
-    CorrectedConstantsTwofold(x) { found_constants(Form::Corrected, Precession::Twofold, x) }
-    CorrectedConstantsSingle(x) { found_constants(Form::Corrected, Precession::Single, x) }
+    ConstantsTwofold: "constants_from_initial_values", (x) { found_constants(Form::Printed, Precession::Twofold, x) }
+    ConstantsSingle: "constants_from_initial_values", (x) { found_constants(Form::Printed, Precession::Single, x) }
+    CorrectedConstantsTwofold: "constants_from_initial_values", (x) {
+        found_constants(Form::Corrected, Precession::Twofold, x)
+    }
+    CorrectedConstantsSingle: "constants_from_initial_values", (x) { found_constants(Form::Corrected, Precession::Single, x) }
     // beta, alpha, spin, first-order motion (5), s, body
-    Linearised(x) {
+    Linearised: "printed_residuals, full_residuals".composite(), (x) {
         let zeroth = |kind| ZerothOrder { kind, spin: x[2], alpha: x[1], beta: x[0] };
         let first = FirstOrderMotion {
             beta: x[3], alpha_rate: x[4], beta_rate: x[5], alpha_acceleration: x[6], beta_acceleration: x[7],
@@ -164,96 +168,36 @@ const COMPONENT: Input = In(-1.0, 1.0);
 const INERTIA: Input = In(0.5, 2.0);
 const SMALL: Input = Signed(-6.0, -1.0);
 const AMPLITUDE: Input = Signed(-9.0, -1.0);
-const STEADY: &[&str] = &["solutions::steady::steady_precession_rate"];
-const ROTATED: &[&str] = &["solutions::free::rotated_by"];
-const FREE: &[&str] = &["solutions::free::free_rotation"];
-const SOLUTION: &[&str] = &[
-    "solutions::perturbation::Perturbation::new",
-    "solutions::perturbation::Perturbation::new_unchecked",
-    "solutions::perturbation::Perturbation::at",
-];
-const CONSTANTS: &[&str] = &["solutions::perturbation::constants_from_initial_values"];
 
 pub(super) fn cases() -> Vec<Case> {
     let (i, c) = (INERTIA, COMPONENT);
     let mut cases = vec![
-        Case::new::<SteadyTwofold>(
-            STEADY,
+        SteadyTwofold::case(
             "s -> 0, twofold",
             &[Signed(-300.0, -2.5), Signed(-6.0, -2.5), SPIN, BETA, i, i, In(0.1, 0.5)],
         ),
-        Case::new::<SteadySingle>(
-            STEADY,
+        SteadySingle::case(
             "s -> 0, single",
             &[Signed(-300.0, -2.5), Signed(-6.0, -2.5), SPIN, BETA, i, i, In(0.1, 0.5)],
         )
         .beside::<PrintedSingle>("Eq. (26) as printed"),
-        Case::new::<SteadySingle>(
-            STEADY,
+        SteadySingle::case(
             "the two roots meet",
-            &[Below(0.125, -15.0, -3.0), Fixed(0.0), Fixed(1.0), Fixed(0.0), Fixed(1.0), Fixed(1.0), Fixed(1.0)],
+            &list![Below(0.125, -15.0, -3.0), Fixed(0.0), Fixed(1.0), Fixed(0.0), Fixed(1.0); 3],
         ),
-        Case::new::<FreeRates>(
-            &["solutions::free::free_precession_rates"],
+        FreeRates::case("cos b -> 0", &[Near(FRAC_PI_2, -15.0, -0.5), SPIN, i, i, Fixed(1.0)]),
+        Rotated::case("angle -> 0", &list![Log(-150.0, 0.0), c; 6]).beside::<NaiveRotated>("1 - cos"),
+        Rotated::case("angle to 1e15", &list![Log(0.0, 15.0), c; 6]),
+        FreeRotation::case("t from 1e-150 to 1e15", &list![Log(-150.0, 15.0), c; 9, i; 3]),
+        Parts::case("alpha_0 -> 0", &list![Signed(-300.0, 0.5), BETA, AMPLITUDE, TURN, SMALL; 3, SPIN, TURN, i; 3]),
+        Linearised::case("sin b -> 0", &list![Log(-15.0, 0.0), TURN, SPIN, c; 5, SMALL; 3, i; 3]),
+        InitialValues::case("sin b -> 0", &list![Log(-15.0, 0.0), SMALL; 3, SPIN, TURN, AMPLITUDE, TURN, i; 3]),
+        InitialValues::case(
             "cos b -> 0",
-            &[Near(FRAC_PI_2, -15.0, -0.5), SPIN, i, i, Fixed(1.0)],
+            &list![Near(FRAC_PI_2, -12.0, -0.5), SMALL; 3, SPIN, TURN, AMPLITUDE, TURN, i; 3],
         ),
-        Case::new::<Rotated>(ROTATED, "angle -> 0", &[Log(-150.0, 0.0), c, c, c, c, c, c])
-            .against::<ExactRotated>()
-            .beside::<NaiveRotated>("1 - cos")
-            .vector(),
-        Case::new::<Rotated>(ROTATED, "angle to 1e15", &[Log(0.0, 15.0), c, c, c, c, c, c])
-            .against::<ExactRotated>()
-            .vector(),
-        Case::new::<FreeRotation>(
-            FREE,
-            "t from 1e-150 to 1e15",
-            &[Log(-150.0, 15.0), c, c, c, c, c, c, c, c, c, i, i, i],
-        )
-        .against::<ExactFreeRotation>()
-        .composite()
-        .vector(),
-        Case::new::<Parts>(
-            &[
-                "solutions::perturbation::Perturbation::first_order",
-                "solutions::perturbation::Perturbation::first_order_rates",
-                "observables::spin_axis::changes_from_start",
-            ],
-            "alpha_0 -> 0",
-            &[Signed(-300.0, 0.5), BETA, AMPLITUDE, TURN, SMALL, SMALL, SMALL, SPIN, TURN, i, i, i],
-        )
-        .composite(),
-        Case::new::<Linearised>(
-            &[
-                "solutions::perturbation::linearised::printed_residuals",
-                "solutions::perturbation::linearised::full_residuals",
-            ],
-            "sin b -> 0",
-            &[Log(-15.0, 0.0), TURN, SPIN, c, c, c, c, c, SMALL, SMALL, SMALL, i, i, i],
-        )
-        .composite(),
-        Case::new::<InitialValues>(
-            &["solutions::perturbation::initial_values"],
-            "sin b -> 0",
-            &[Log(-15.0, 0.0), SMALL, SMALL, SMALL, SPIN, TURN, AMPLITUDE, TURN, i, i, i],
-        )
-        .composite(),
-        Case::new::<InitialValues>(
-            &["solutions::perturbation::initial_values"],
-            "cos b -> 0",
-            &[Near(FRAC_PI_2, -12.0, -0.5), SMALL, SMALL, SMALL, SPIN, TURN, AMPLITUDE, TURN, i, i, i],
-        )
-        .composite(),
-        Case::new::<Shifted>(
-            &["solutions::perturbation::shifted_rates"],
-            "cos b -> 0",
-            &[Near(FRAC_PI_2, -15.0, -0.5), SMALL, SMALL, SMALL, SPIN, i, i, i],
-        ),
-        Case::new::<Shifted>(
-            &["solutions::perturbation::shifted_rates"],
-            "sin b -> 0",
-            &[Near(PI, -15.0, -0.5), SMALL, SMALL, SMALL, SPIN, i, i, i],
-        ),
+        Shifted::case("cos b -> 0", &list![Near(FRAC_PI_2, -15.0, -0.5), SMALL; 3, SPIN, i; 3]),
+        Shifted::case("sin b -> 0", &list![Near(PI, -15.0, -0.5), SMALL; 3, SPIN, i; 3]),
     ];
     let constants_twofold = [
         Signed(-300.0, -3.0),
@@ -283,10 +227,10 @@ pub(super) fn cases() -> Vec<Case> {
     ];
     cases.extend(
         [
-            Case::new::<ConstantsTwofold>(CONSTANTS, "s -> 0, twofold", &constants_twofold),
-            Case::new::<ConstantsSingle>(CONSTANTS, "asymmetry -> 0, single", &constants_single),
-            Case::new::<CorrectedConstantsTwofold>(CONSTANTS, "s -> 0, corrected twofold", &constants_twofold),
-            Case::new::<CorrectedConstantsSingle>(CONSTANTS, "asymmetry -> 0, corrected single", &constants_single),
+            ConstantsTwofold::case("s -> 0, twofold", &constants_twofold),
+            ConstantsSingle::case("asymmetry -> 0, single", &constants_single),
+            CorrectedConstantsTwofold::case("s -> 0, corrected twofold", &constants_twofold),
+            CorrectedConstantsSingle::case("asymmetry -> 0, corrected single", &constants_single),
         ]
         .map(|case| case.composite().with_points(10)),
     );
@@ -317,31 +261,29 @@ pub(super) fn cases() -> Vec<Case> {
         ),
     ] {
         cases.extend([
-            Case::new::<TwofoldByZ>(SOLUTION, twofold, inputs).composite(),
-            Case::new::<SingleByZ>(SOLUTION, single, inputs).composite(),
-            Case::new::<CorrectedByZ>(SOLUTION, corrected_twofold, inputs).composite(),
-            Case::new::<CorrectedSingleByZ>(SOLUTION, corrected_single, inputs).composite(),
+            TwofoldByZ::case(twofold, inputs),
+            SingleByZ::case(single, inputs),
+            CorrectedByZ::case(corrected_twofold, inputs),
+            CorrectedSingleByZ::case(corrected_single, inputs),
         ]);
     }
     cases.push(
-        Case::new::<Single>(
-            SOLUTION,
+        Single::case(
             "alpha_0 -> 0 with s^XX alone",
-            &[Log(-6.0, -1.0), BETA, Fixed(0.0), Fixed(0.0), In(0.01, 0.1), Fixed(0.0), Fixed(0.0), SPIN, Fixed(0.0), i, i, i],
+            &list![Log(-6.0, -1.0), BETA, Fixed(0.0); 2, In(0.01, 0.1), Fixed(0.0); 2, SPIN, Fixed(0.0), i; 3],
         )
         .except(
             1e14,
-            "`alpha = alpha_0 - (1/2) sin 2 alpha_0` for an asymmetry as large as the combination: a condition number of alpha_0^-2 of the sum \
-             of the mean angle and the first-order one, where that is no small part.",
+            "`alpha = alpha_0 - (1/2) sin 2 alpha_0` for an asymmetry as large as the combination: a \
+condition number of alpha_0^-2 of the sum of the mean angle and the first-order one, \
+where that is no small part.",
         )
         .derivatives_except(1e14, "As for the value."),
     );
     let over_time = [Log(-3.0, 15.0), TURN, BETA, AMPLITUDE, TURN, SMALL, SMALL, SMALL, SPIN, i, i, i];
     cases.extend([
-        Case::new::<SingleByTime>(SOLUTION, "t to 1e15, single", &over_time)
-            .except(1e3, PHASES)
-            .derivatives_except(1e3, PHASES),
-        Case::new::<CorrectedByTime>(SOLUTION, "t to 1e15, corrected twofold", &over_time)
+        SingleByTime::case("t to 1e15, single", &over_time).except(1e3, PHASES).derivatives_except(1e3, PHASES),
+        CorrectedByTime::case("t to 1e15, corrected twofold", &over_time)
             .except(1e3, PHASES)
             .derivatives_except(1e3, PHASES),
     ]);

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 use twofold::Real;
+use twofold::star::axisymmetric::axisymmetric_integrals;
 use twofold::star::deformation::{centrifugal_oblateness, centrifugal_oblateness_scaled};
 use twofold::star::ellipsoid::UniformEllipsoid;
 use twofold::star::estimates::{inertia_over_c_estimate, time_unit_estimate};
@@ -11,6 +12,7 @@ use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 use twofold::units::si;
 
+use super::parts::none;
 use crate::stability::Input::{Above, Below, Fixed, In, Log, Near, Signed};
 use crate::stability::oracle::{self, pi, ratio};
 use crate::stability::{Case, functions};
@@ -117,25 +119,33 @@ fn cube_root<S: Real>(x: S) -> S {
 }
 
 functions! {
-    ShapeByE(x) { SpheroidShape::from_eccentricity(x[0]).map_or(vec![S::from_f64(f64::NAN); 4], |s| shape(&s)) }
+    ShapeByE: "SpheroidShape::from_eccentricity".against::<ExactShapeByE>(), (x) {
+        SpheroidShape::from_eccentricity(x[0]).map_or(none(4), |s| shape(&s))
+    }
     ExactShapeByE(x) { exact_shape(by_e(x[0])) }
     NaiveShapeByE(x) {
         let q = (S::one() - x[0] * x[0]).sqrt();
         let e2 = S::one() - q * q;
         vec![q, q * q, e2, e2 / (S::one() + S::one() - e2)]
     }
-    ShapeByE2(x) { shape(&SpheroidShape::from_eccentricity_squared(x[0]).expect("a shape")) }
+    ShapeByE2: "SpheroidShape::from_eccentricity_squared".against::<ExactShapeByE2>(), (x) {
+        shape(&SpheroidShape::from_eccentricity_squared(x[0]).expect("a shape"))
+    }
     ExactShapeByE2(x) { exact_shape(by_e2(x[0])) }
-    ShapeByQ(x) { shape(&SpheroidShape::from_axis_ratio(x[0]).expect("a shape")) }
+    ShapeByQ: "SpheroidShape::from_axis_ratio".against::<ExactShapeByQ>(), (x) {
+        shape(&SpheroidShape::from_axis_ratio(x[0]).expect("a shape"))
+    }
     ExactShapeByQ(x) { exact_shape(by_q(x[0])) }
     NaiveShapeByQ(x) {
         let e2 = S::one() - x[0] * x[0];
         vec![x[0], x[0] * x[0], e2, e2 / (S::one() + S::one() - e2)]
     }
-    ShapeByEpsilon(x) { shape(&SpheroidShape::from_oblateness(x[0]).expect("a shape")) }
+    ShapeByEpsilon: "SpheroidShape::from_oblateness".against::<ExactShapeByEpsilon>(), (x) {
+        shape(&SpheroidShape::from_oblateness(x[0]).expect("a shape"))
+    }
     ExactShapeByEpsilon(x) { exact_shape(by_epsilon(x[0])) }
     // a3, a1
-    ShapeByAxes(x) {
+    ShapeByAxes: "UniformSpheroid::from_semi_axes".against::<ExactShapeByAxes>().composite(), (x) {
         let body = UniformSpheroid::from_semi_axes(x[1], x[0], S::one()).expect("a spheroid");
         shape(&body.shape)
     }
@@ -144,24 +154,31 @@ functions! {
         let e2 = (x[1] - x[0]) * (x[1] + x[0]) / (x[1] * x[1]);
         exact_shape([q, q * q, e2])
     }
-    CoefficientsByE(x) { coefficients(&SpheroidShape::from_eccentricity(x[0]).expect("a shape")) }
+    CoefficientsByE: "potential_coefficients, reduced_difference"
+        .against::<ExactCoefficientsByE>().beside::<PrintedCoefficientsByE>("Eq. (74) as printed"), (x) {
+        coefficients(&SpheroidShape::from_eccentricity(x[0]).expect("a shape"))
+    }
     ExactCoefficientsByE(x) { exact_coefficients(by_e(x[0])) }
     PrintedCoefficientsByE(x) { printed_coefficients(x[0]) }
-    CoefficientsByE2(x) { coefficients(&SpheroidShape::from_eccentricity_squared(x[0]).expect("a shape")) }
+    CoefficientsByE2: "potential_coefficients, reduced_difference".against::<ExactCoefficientsByE2>(), (x) {
+        coefficients(&SpheroidShape::from_eccentricity_squared(x[0]).expect("a shape"))
+    }
     ExactCoefficientsByE2(x) { exact_coefficients(by_e2(x[0])) }
-    CoefficientsByQ(x) { coefficients(&SpheroidShape::from_axis_ratio(x[0]).expect("a shape")) }
+    CoefficientsByQ: "potential_coefficients, reduced_difference".against::<ExactCoefficientsByQ>(), (x) {
+        coefficients(&SpheroidShape::from_axis_ratio(x[0]).expect("a shape"))
+    }
     ExactCoefficientsByQ(x) { exact_coefficients(by_q(x[0])) }
-    SpheroidByE(x) {
+    SpheroidByE: "UniformSpheroid::new".against::<ExactSpheroidByE>().composite(), (x) {
         let shape = SpheroidShape::from_eccentricity(x[0]).expect("a shape");
         spheroid(&UniformSpheroid::new(x[1], x[2], shape).expect("a spheroid"))
     }
     ExactSpheroidByE(x) { exact_spheroid(by_e(x[0]), x[1], x[2]) }
-    SpheroidByQ(x) {
+    SpheroidByQ: "UniformSpheroid::new".against::<ExactSpheroidByQ>().composite(), (x) {
         let shape = SpheroidShape::from_axis_ratio(x[0]).expect("a shape");
         spheroid(&UniformSpheroid::new(x[1], x[2], shape).expect("a spheroid"))
     }
     ExactSpheroidByQ(x) { exact_spheroid(by_q(x[0]), x[1], x[2]) }
-    Periods(x) {
+    Periods: "UniformSpheroid: polar_inertia_over_c, time_unit".against::<ExactPeriods>().composite(), (x) {
         let shape = SpheroidShape::from_eccentricity(x[0]).expect("a shape");
         let body = UniformSpheroid::new(S::one(), x[1], shape).expect("a spheroid");
         vec![body.polar_inertia_over_c().expect("oblate"), body.time_unit().expect("oblate")]
@@ -172,7 +189,7 @@ functions! {
         let ratio = S::from_f64(2.0) / (x[1] * pi::<S>() * difference);
         vec![ratio, (ratio * (S::one() + q2) / 2.0).sqrt()]
     }
-    FromMass(x) {
+    FromMass: "UniformSpheroid::from_mass".against::<ExactFromMass>().composite(), (x) {
         let shape = SpheroidShape::from_axis_ratio(x[0]).expect("a shape");
         let body = UniformSpheroid::from_mass(x[1], x[2], shape).expect("a spheroid");
         vec![body.equatorial_radius, body.polar_radius()]
@@ -182,7 +199,7 @@ functions! {
         vec![radius / cube_root(x[0]), radius / cube_root(x[0]) * x[0]]
     }
     /// The mass and the mean radius that were given, and the density.
-    MassOf(x) {
+    MassOf: "UniformSpheroid: from_mass, mean_radius".against::<ExactMassOf>().composite().values_only(), (x) {
         let shape = SpheroidShape::from_axis_ratio(x[0]).expect("a shape");
         let body = UniformSpheroid::from_mass(x[1], x[2], shape).expect("a spheroid");
         vec![body.mass(), body.mean_radius(), body.density]
@@ -190,7 +207,7 @@ functions! {
     ExactMassOf(x) {
         vec![x[1], x[2], x[1] * ratio::<S>(3.0, 4.0) / (pi::<S>() * x[2] * x[2] * x[2])]
     }
-    Maclaurin(x) {
+    Maclaurin: "MaclaurinSpheroid".against::<ExactMaclaurin>().composite(), (x) {
         let shape = SpheroidShape::from_eccentricity(x[0]).expect("a shape");
         let body = MaclaurinSpheroid::new(UniformSpheroid::new(x[1], x[2], shape).expect("a spheroid")).expect("oblate");
         vec![
@@ -219,7 +236,7 @@ functions! {
             pressure * (S::one() - x[3]) * (S::one() + x[3]),
         ]
     }
-    Ellipsoid(x) {
+    Ellipsoid: "UniformEllipsoid".against::<ExactEllipsoid>().composite(), (x) {
         let body = UniformEllipsoid::new(Vector3::new(x[1], x[2], x[0]), x[3]).expect("an ellipsoid");
         let (a, u, i) = (body.coefficients(), body.potential_energy_tensor(), body.moments_of_inertia());
         vec![body.mass(), body.central_coefficient(), a.x, a.y, a.z, u.x, u.y, u.z, i.x, i.y, i.z]
@@ -238,188 +255,79 @@ functions! {
             my + mz, mz + mx, mx + my,
         ]
     }
-    Estimates(x) { vec![inertia_over_c_estimate(x[1], x[0]), time_unit_estimate(x[1], x[0]).expect("oblate")] }
+    Multipoles: "axisymmetric_integrals", (x) {
+        let shape = SpheroidShape::from_eccentricity(x[0]).expect("a shape");
+        let star = UniformSpheroid::new(S::one(), S::one(), shape).expect("a star");
+        axisymmetric_integrals(&star, 4).map_or(none(6), |all| {
+            let (i, u) = (all.moment_of_inertia, all.potential_energy_tensor);
+            vec![all.mass, i.xx, i.zz, u.xx, u.zz, all.c]
+        })
+    }
+    Estimates: "inertia_over_c_estimate, time_unit_estimate".against::<ExactEstimates>(), (x) {
+        vec![inertia_over_c_estimate(x[1], x[0]), time_unit_estimate(x[1], x[0]).expect("oblate")]
+    }
     ExactEstimates(x) {
         let estimate = S::from_f64(15.0) / (pi::<S>() * x[1] * x[0] * 4.0);
         vec![estimate, estimate.sqrt()]
     }
-    Deformation(x) { vec![centrifugal_oblateness(x[0], x[1], x[2])] }
-    DeformationScaled(x) { vec![centrifugal_oblateness_scaled(x[0], x[1], x[2])] }
+    Deformation: "centrifugal_oblateness", (x) { vec![centrifugal_oblateness(x[0], x[1], x[2])] }
+    DeformationScaled: "centrifugal_oblateness_scaled, centrifugal_coefficient"
+        .against::<ExactDeformationScaled>(), (x) {
+        vec![centrifugal_oblateness_scaled(x[0], x[1], x[2])]
+    }
     ExactDeformationScaled(x) {
         let (omega, radius) = (pi::<S>() * x[0] * 2.0, x[1] * 1000.0);
         vec![omega * omega * radius * radius * radius / (x[2] * si::SOLAR_MASS_PARAMETER)]
     }
 }
 
-const SHAPE: &[&str] = &[
-    "star::spheroid_shape::SpheroidShape::from_eccentricity",
-    "star::spheroid_shape::SpheroidShape::axis_ratio",
-    "star::spheroid_shape::SpheroidShape::axis_ratio_squared",
-    "star::spheroid_shape::SpheroidShape::eccentricity_squared",
-    "star::spheroid_shape::SpheroidShape::oblateness",
-];
-const BY_E2: &[&str] = &["star::spheroid_shape::SpheroidShape::from_eccentricity_squared"];
-const BY_Q: &[&str] = &["star::spheroid_shape::SpheroidShape::from_axis_ratio"];
-const COEFFICIENTS: &[&str] =
-    &["star::potential_coefficients::potential_coefficients", "star::potential_coefficients::reduced_difference"];
-const SPHEROID: &[&str] = &[
-    "star::uniform_spheroid::UniformSpheroid::new",
-    "star::uniform_spheroid::UniformSpheroid::polar_radius",
-    "star::uniform_spheroid::UniformSpheroid::mass",
-    "star::uniform_spheroid::UniformSpheroid::moment_of_inertia",
-    "star::uniform_spheroid::UniformSpheroid::potential_energy_tensor",
-    "star::uniform_spheroid::UniformSpheroid::c",
-    "star::uniform_spheroid::UniformSpheroid::mean_radius",
-];
-const MACLAURIN: &[&str] = &["star::maclaurin::MaclaurinSpheroid::new", "star::maclaurin::MaclaurinSpheroid::pressure"];
-const ELLIPSOID: &[&str] = &[
-    "star::ellipsoid::UniformEllipsoid::new",
-    "star::ellipsoid::UniformEllipsoid::mass",
-    "star::ellipsoid::UniformEllipsoid::central_coefficient",
-    "star::ellipsoid::UniformEllipsoid::coefficients",
-    "star::ellipsoid::UniformEllipsoid::moments_of_inertia",
-    "star::ellipsoid::UniformEllipsoid::potential_energy_tensor",
-];
-
 pub(super) fn cases() -> Vec<Case> {
-    let printed = "Eq. (74) as printed";
     vec![
-        Case::new::<ShapeByE>(SHAPE, "e -> 0", &[Log(-12.0, -0.01)])
-            .against::<ExactShapeByE>()
-            .beside::<NaiveShapeByE>("e^2 from q"),
-        Case::new::<ShapeByE>(SHAPE, "e -> 1", &[Below(1.0, -15.5, -0.3)])
-            .against::<ExactShapeByE>()
-            .beside::<NaiveShapeByE>("q^2 = 1 - e e"),
-        Case::new::<ShapeByE2>(BY_E2, "e^2 -> 0, both signs", &[Signed(-300.0, -0.1)]).against::<ExactShapeByE2>(),
-        Case::new::<ShapeByE2>(BY_E2, "e^2 -> 1", &[Below(1.0, -15.5, -0.3)]).against::<ExactShapeByE2>(),
-        Case::new::<ShapeByQ>(BY_Q, "sphere, q -> 1, both sides", &[Near(1.0, -15.5, -0.3)])
-            .against::<ExactShapeByQ>()
-            .beside::<NaiveShapeByQ>("1 - q q"),
-        Case::new::<ShapeByQ>(BY_Q, "disc to needle, q from 1e-100 to 1e100", &[Log(-99.9, 99.9)])
-            .against::<ExactShapeByQ>(),
-        Case::new::<ShapeByEpsilon>(
-            &["star::spheroid_shape::SpheroidShape::from_oblateness"],
-            "oblateness -> 0, both signs",
-            &[Signed(-300.0, -0.01)],
-        )
-        .against::<ExactShapeByEpsilon>(),
-        Case::new::<ShapeByEpsilon>(
-            &["star::spheroid_shape::SpheroidShape::from_oblateness"],
-            "oblateness -> 1",
-            &[Below(1.0, -15.5, -0.3)],
-        )
-        .against::<ExactShapeByEpsilon>(),
-        Case::new::<ShapeByAxes>(
-            &[
-                "star::spheroid_shape::SpheroidShape::from_semi_axes",
-                "star::uniform_spheroid::UniformSpheroid::from_semi_axes",
-            ],
-            "a3 -> a1",
-            &[Near(1.0, -15.5, -0.3), In(0.9, 1.1)],
-        )
-        .against::<ExactShapeByAxes>()
-        .composite(),
-        Case::new::<CoefficientsByE>(COEFFICIENTS, "e -> 0", &[Log(-12.0, -0.01)])
-            .against::<ExactCoefficientsByE>()
-            .beside::<PrintedCoefficientsByE>(printed),
-        Case::new::<CoefficientsByE>(COEFFICIENTS, "e -> 1", &[Below(1.0, -15.5, -0.3)])
-            .against::<ExactCoefficientsByE>()
-            .beside::<PrintedCoefficientsByE>(printed),
-        Case::new::<CoefficientsByE2>(COEFFICIENTS, "e^2 -> 0, both signs", &[Signed(-300.0, -0.1)])
-            .against::<ExactCoefficientsByE2>(),
-        Case::new::<CoefficientsByQ>(COEFFICIENTS, "sphere, q -> 1, both sides", &[Near(1.0, -15.5, -0.3)])
-            .against::<ExactCoefficientsByQ>(),
-        Case::new::<CoefficientsByQ>(COEFFICIENTS, "disc to needle, q from 1e-50 to 1e50", &[Log(-49.9, 49.9)])
-            .against::<ExactCoefficientsByQ>(),
-        Case::new::<SpheroidByE>(SPHEROID, "e -> 0", &[Log(-12.0, -0.01), In(0.5, 2.0), In(0.5, 2.0)])
-            .against::<ExactSpheroidByE>()
-            .composite(),
-        Case::new::<SpheroidByE>(SPHEROID, "e -> 1", &[Below(1.0, -15.5, -0.3), In(0.5, 2.0), In(0.5, 2.0)])
-            .against::<ExactSpheroidByE>()
-            .composite(),
-        Case::new::<SpheroidByQ>(
-            SPHEROID,
-            "prolate, q -> 1 and beyond",
-            &[Above(1.0, -15.5, 3.0), In(0.5, 2.0), In(0.5, 2.0)],
-        )
-        .against::<ExactSpheroidByQ>()
-        .composite(),
-        Case::new::<SpheroidByE>(
-            SPHEROID,
+        ShapeByE::case("e -> 0", &[Log(-12.0, -0.01)]).beside::<NaiveShapeByE>("e^2 from q"),
+        ShapeByE::case("e -> 1", &[Below(1.0, -15.5, -0.3)]).beside::<NaiveShapeByE>("q^2 = 1 - e e"),
+        ShapeByE2::case("e^2 -> 0, both signs", &[Signed(-300.0, -0.1)]),
+        ShapeByE2::case("e^2 -> 1", &[Below(1.0, -15.5, -0.3)]),
+        ShapeByQ::case("sphere, q -> 1, both sides", &[Near(1.0, -15.5, -0.3)]).beside::<NaiveShapeByQ>("1 - q q"),
+        ShapeByQ::case("disc to needle, q from 1e-100 to 1e100", &[Log(-99.9, 99.9)]),
+        ShapeByEpsilon::case("oblateness -> 0, both signs", &[Signed(-300.0, -0.01)]),
+        ShapeByEpsilon::case("oblateness -> 1", &[Below(1.0, -15.5, -0.3)]),
+        ShapeByAxes::case("a3 -> a1", &[Near(1.0, -15.5, -0.3), In(0.9, 1.1)]),
+        CoefficientsByE::case("e -> 0", &[Log(-12.0, -0.01)]),
+        CoefficientsByE::case("e -> 1", &[Below(1.0, -15.5, -0.3)]),
+        CoefficientsByE2::case("e^2 -> 0, both signs", &[Signed(-300.0, -0.1)]),
+        CoefficientsByQ::case("sphere, q -> 1, both sides", &[Near(1.0, -15.5, -0.3)]),
+        CoefficientsByQ::case("disc to needle, q from 1e-50 to 1e50", &[Log(-49.9, 49.9)]),
+        SpheroidByE::case("e -> 0", &[Log(-12.0, -0.01), In(0.5, 2.0), In(0.5, 2.0)]),
+        SpheroidByE::case("e -> 1", &[Below(1.0, -15.5, -0.3), In(0.5, 2.0), In(0.5, 2.0)]),
+        SpheroidByQ::case("prolate, q -> 1 and beyond", &[Above(1.0, -15.5, 3.0), In(0.5, 2.0), In(0.5, 2.0)]),
+        SpheroidByE::case(
             "units: a1 from 1e-30 to 1e30, rho from 1e-40 to 1e40",
             &[In(0.1, 0.9), Log(-30.0, 30.0), Log(-40.0, 40.0)],
-        )
-        .against::<ExactSpheroidByE>()
-        .composite(),
-        Case::new::<Periods>(
-            &[
-                "star::uniform_spheroid::UniformSpheroid::polar_inertia_over_c",
-                "star::uniform_spheroid::UniformSpheroid::time_unit",
-            ],
-            "e -> 0",
-            &[Log(-12.0, -0.01), Log(-10.0, 10.0)],
-        )
-        .against::<ExactPeriods>()
-        .composite(),
-        Case::new::<FromMass>(
-            &["star::uniform_spheroid::UniformSpheroid::from_mass"],
-            "disc to needle, q from 1e-90 to 1e90",
-            &[Log(-90.0, 90.0), In(0.5, 2.0), In(0.5, 2.0)],
-        )
-        .against::<ExactFromMass>()
-        .composite(),
-        Case::new::<MassOf>(
-            &[
-                "star::uniform_spheroid::UniformSpheroid::from_mass",
-                "star::uniform_spheroid::UniformSpheroid::mean_radius",
-            ],
+        ),
+        Periods::case("e -> 0", &[Log(-12.0, -0.01), Log(-10.0, 10.0)]),
+        FromMass::case("disc to needle, q from 1e-90 to 1e90", &[Log(-90.0, 90.0), In(0.5, 2.0), In(0.5, 2.0)]),
+        MassOf::case(
             "mass and mean radius there and back, q from 1e-90 to 1e90",
             &[Log(-90.0, 90.0), In(0.5, 2.0), In(0.5, 2.0)],
-        )
-        .against::<ExactMassOf>()
-        .composite()
-        .values_only(),
-        Case::new::<Maclaurin>(MACLAURIN, "e -> 0", &[Log(-12.0, -0.01), In(0.5, 2.0), In(0.5, 2.0), In(0.0, 0.9)])
-            .against::<ExactMaclaurin>()
-            .composite(),
-        Case::new::<Maclaurin>(
-            MACLAURIN,
-            "e -> 1",
-            &[Below(1.0, -15.5, -0.3), In(0.5, 2.0), In(0.5, 2.0), In(0.0, 0.9)],
-        )
-        .against::<ExactMaclaurin>()
-        .composite(),
-        Case::new::<Ellipsoid>(
-            ELLIPSOID,
-            "one axis -> 0 and to infinity",
-            &[Log(-12.0, 12.0), In(0.5, 2.0), In(0.5, 2.0), In(0.5, 2.0)],
-        )
-        .against::<ExactEllipsoid>()
-        .composite()
-        .natural_derivatives(),
-        Case::new::<Ellipsoid>(
-            ELLIPSOID,
+        ),
+        Maclaurin::case("e -> 0", &[Log(-12.0, -0.01), In(0.5, 2.0), In(0.5, 2.0), In(0.0, 0.9)]),
+        Maclaurin::case("e -> 1", &[Below(1.0, -15.5, -0.3), In(0.5, 2.0), In(0.5, 2.0), In(0.0, 0.9)]),
+        Ellipsoid::case("one axis -> 0 and to infinity", &[Log(-12.0, 12.0), In(0.5, 2.0), In(0.5, 2.0), In(0.5, 2.0)])
+            .natural_derivatives(),
+        Ellipsoid::case(
             "sphere: all axes -> 1",
             &[Near(1.0, -15.5, -1.0), Near(1.0, -15.5, -1.0), Fixed(1.0), In(0.5, 2.0)],
-        )
-        .against::<ExactEllipsoid>()
-        .composite(),
-        Case::new::<Estimates>(
-            &["star::estimates::inertia_over_c_estimate", "star::estimates::time_unit_estimate"],
-            "oblateness -> 0",
-            &[Log(-60.0, 0.0), Log(-60.0, 60.0)],
-        )
-        .against::<ExactEstimates>(),
-        Case::new::<Deformation>(
-            &["star::deformation::centrifugal_oblateness"],
-            "rate -> 0 and large, any units",
-            &[Log(-60.0, 60.0), Log(-40.0, 40.0), Log(-40.0, 40.0)],
         ),
-        Case::new::<DeformationScaled>(
-            &["star::deformation::centrifugal_oblateness_scaled", "star::deformation::centrifugal_coefficient"],
-            "frequency from 1e-5 to 1e5 Hz",
-            &[Log(-5.0, 5.0), In(5.0, 20.0), In(0.5, 3.0)],
-        )
-        .against::<ExactDeformationScaled>(),
+        Estimates::case("oblateness -> 0", &[Log(-60.0, 0.0), Log(-60.0, 60.0)]),
+        Deformation::case("rate -> 0 and large, any units", &[Log(-60.0, 60.0), Log(-40.0, 40.0), Log(-40.0, 40.0)]),
+        DeformationScaled::case("frequency from 1e-5 to 1e5 Hz", &[Log(-5.0, 5.0), In(5.0, 20.0), In(0.5, 3.0)]),
+        Multipoles::case("sphere, e -> 0: rounding of the quadrature of degree 4", &[Log(-8.0, -0.1)])
+            .except(
+                1e15,
+                "C of nearly a sphere is what is left of integrals over the whole star: condition number \
+e^-2. `UniformSpheroid::c` is regular.",
+            )
+            .derivatives_except(1e15, "As for the value.")
+            .with_points(2),
     ]
 }

@@ -29,11 +29,15 @@ fn whole<S: Real>(x: &[S]) -> Vec<S> {
 }
 
 functions! {
-    AtByS(x) { at(x, S::one()) }
-    WholeByS(x) { whole(x) }
-    AtByBeta(x) { at(&[&x[1..2], &x[..1], &x[2..]].concat(), S::one()) }
-    AtByTime(x) { at(&x[1..], x[0]) }
-    AtBySpin(x) { at(&[&x[1..6], &x[..1], &x[6..]].concat(), S::one()) }
+    AtByS: "SymmetricSolution: new, angles, rates".composite(), (x) { at(x, S::one()) }
+    WholeByS: "SymmetricSolution: period, mean_rates, inclinations".composite().vector(), (x) { whole(x) }
+    AtByBeta: "SymmetricSolution: new, angles, rates".composite(), (x) {
+        at(&[&x[1..2], &x[..1], &x[2..]].concat(), S::one())
+    }
+    AtByTime: "SymmetricSolution: new, angles, rates", (x) { at(&x[1..], x[0]) }
+    AtBySpin: "SymmetricSolution: new, angles, rates".composite(), (x) {
+        at(&[&x[1..6], &x[..1], &x[6..]].concat(), S::one())
+    }
 }
 
 const POLE: &str =
@@ -41,29 +45,16 @@ const POLE: &str =
 const TURN: Input = In(-3.1, 3.1);
 const BETA: Input = In(0.3, 1.2);
 const RATE: Input = In(0.5, 1.5);
-const AT: &[&str] = &[
-    "solutions::symmetric::SymmetricSolution::new",
-    "solutions::symmetric::SymmetricSolution::angles",
-    "solutions::symmetric::SymmetricSolution::rates",
-];
-const WHOLE: &[&str] = &[
-    "solutions::symmetric::SymmetricSolution::period",
-    "solutions::symmetric::SymmetricSolution::mean_rates",
-    "solutions::symmetric::SymmetricSolution::inclinations",
-];
 
 pub(super) fn cases() -> Vec<Case> {
     let (i, one) = (In(0.5, 2.0), Fixed(1.0));
     let scene = |s: Input| [s, BETA, TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one];
     vec![
-        Case::new::<AtByS>(AT, "s -> 0", &scene(Signed(-300.0, -1.0))).composite(),
-        Case::new::<WholeByS>(WHOLE, "s -> 0, relative to the rotation", &scene(Signed(-300.0, -1.0)))
-            .composite()
-            .vector(),
-        Case::new::<AtByS>(AT, "s to 1", &scene(In(0.1, 1.0))).composite(),
-        Case::new::<WholeByS>(WHOLE, "s to 1, relative to the rotation", &scene(In(0.1, 1.0))).composite().vector(),
-        Case::new::<AtByBeta>(
-            AT,
+        AtByS::case("s -> 0", &scene(Signed(-300.0, -1.0))),
+        WholeByS::case("s -> 0, relative to the rotation", &scene(Signed(-300.0, -1.0))),
+        AtByS::case("s to 1", &scene(In(0.1, 1.0))),
+        WholeByS::case("s to 1, relative to the rotation", &scene(In(0.1, 1.0))),
+        AtByBeta::case(
             "cos b -> 0",
             &[
                 Near(FRAC_PI_2, -15.0, -0.5),
@@ -77,35 +68,28 @@ pub(super) fn cases() -> Vec<Case> {
                 i,
                 one,
             ],
-        )
-        .composite(),
-        Case::new::<AtByBeta>(
-            AT,
+        ),
+        AtByBeta::case(
             "sin b -> 0",
             &[Log(-6.0, -0.5), Signed(-6.0, -1.0), TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one],
-        )
-        .composite(),
-        Case::new::<AtByBeta>(
-            AT,
+        ),
+        AtByBeta::case(
             "sin b -> 0 at beta = pi",
             &[Below(PI, -6.0, -0.5), Signed(-6.0, -1.0), TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one],
-        )
-        .composite(),
-        Case::new::<AtByTime>(
-            AT,
+        ),
+        AtByTime::case(
             "t to 1e15",
             &[Log(-10.0, 15.0), Signed(-6.0, -1.0), BETA, TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one],
         )
         .except(
             64.0,
-            "`alpha` and `gamma` are sums and differences of the turns about both poles, each a number of periods times a composite.",
+            "`alpha` and `gamma` are sums and differences of the turns about both poles, each a \
+number of periods times a composite.",
         ),
-        Case::new::<AtBySpin>(
-            AT,
+        AtBySpin::case(
             "rate of beta -> 0, nearly steady",
             &[Signed(-12.0, 0.0), Signed(-6.0, -1.0), BETA, TURN, TURN, RATE, RATE, one, i, one],
-        )
-        .composite(),
+        ),
     ]
     .into_iter()
     .map(|case| {

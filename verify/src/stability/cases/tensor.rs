@@ -9,7 +9,7 @@ use twofold::lorentz_violation::{
 
 use super::parts::{none, symmetric};
 use crate::stability::Input::{self, Fixed, In, Near, Signed};
-use crate::stability::{Case, Wide, functions};
+use crate::stability::{Case, Wide, functions, list};
 
 /// Eigenvalues in descending order by Jacobi's rotations.
 fn eigenvalues<S: Real>(tensor: &Matrix3<S>) -> [S; 3] {
@@ -47,7 +47,9 @@ functions! {
         all.extend([S::zero(); 3]);
         all
     }
-    WithDerivatives(x) { principal_frame_with_derivatives(&symmetric(x)).map_or(none(3), |(s, _)| values(&s)) }
+    WithDerivatives: "principal_frame_with_derivatives".against::<ExactValues>().composite().vector(), (x) {
+        principal_frame_with_derivatives(&symmetric(x)).map_or(none(3), |(s, _)| values(&s))
+    }
     ExactSymmetry(x) {
         let [first, second, third] = eigenvalues(&symmetric(x));
         let half = S::from_f64(2.0);
@@ -57,7 +59,7 @@ functions! {
             first - (second + third) / half
         }]
     }
-    OfCoefficients(x) {
+    OfCoefficients: "PrincipalCoefficients", (x) {
         let s = PrincipalCoefficients::new([x[0], x[1], x[2]]);
         vec![s.combination(), s.asymmetry(), s.scaled(x[3]).xx, s.permuted().zz, s.tensor()[(1, 1)]]
     }
@@ -91,10 +93,6 @@ fn along_with_derivatives(x: &[Dual64]) -> Vec<Dual64> {
 }
 
 const ANY: &str = "entries from 1e-290 to 1";
-const SYMMETRY: &[&str] = &["lorentz_violation::SymmetryOfTensor::of"];
-const FRAME: &[&str] = &["lorentz_violation::principal_frame"];
-const DERIVATIVES: &[&str] = &["lorentz_violation::principal_frame_with_derivatives"];
-const ALONG: &[&str] = &["lorentz_violation::principal_frame_along"];
 
 pub(super) fn cases() -> Vec<Case> {
     let (c, tiny) = (In(-1.0, 1.0), Signed(-15.0, -2.0));
@@ -116,36 +114,24 @@ pub(super) fn cases() -> Vec<Case> {
         ("two eigenvalues nearly equal", pair),
         ("any tensor", general),
     ] {
-        cases.push(Case::of_doubles::<ExactFrame>(FRAME, limit, &inputs, frame).composite().vector());
+        cases.push(Case::of_doubles::<ExactFrame>("principal_frame", limit, &inputs, frame).composite().vector());
         // Of entries of any sizes two gaps are equal within rounding, and which pair is nearest is open.
         if limit != ANY {
-            cases.push(
-                Case::of_doubles::<ExactSymmetry>(SYMMETRY, limit, &inputs, symmetry).except(
-                    64.0,
-                    "A difference of eigenvalues, each found by iteration to a few ulp of the largest one: condition number s / difference.",
-                ),
-            );
+            cases.push(Case::of_doubles::<ExactSymmetry>("SymmetryOfTensor::of", limit, &inputs, symmetry).except(
+                64.0,
+                "A difference of eigenvalues, each found by iteration to a few ulp of the largest one: \
+condition number s / difference.",
+            ));
         }
     }
     cases.extend([
-        Case::new::<WithDerivatives>(DERIVATIVES, "any tensor", &general).against::<ExactValues>().composite().vector(),
-        Case::new::<WithDerivatives>(DERIVATIVES, "nearly diagonal", &[c, c, c, tiny, tiny, tiny])
-            .against::<ExactValues>()
-            .composite()
-            .vector(),
-        Case::of_doubles::<ExactValues>(ALONG, "any tensor", &general, along)
+        WithDerivatives::case("any tensor", &general),
+        WithDerivatives::case("nearly diagonal", &list![c; 3, tiny; 3]),
+        Case::of_doubles::<ExactValues>("principal_frame_along", "any tensor", &general, along)
             .with_derivatives(along_with_derivatives)
             .composite()
             .vector(),
-        Case::new::<OfCoefficients>(
-            &[
-                "lorentz_violation::PrincipalCoefficients::new",
-                "lorentz_violation::PrincipalCoefficients::combination",
-                "lorentz_violation::PrincipalCoefficients::asymmetry",
-                "lorentz_violation::PrincipalCoefficients::scaled",
-                "lorentz_violation::PrincipalCoefficients::permuted",
-                "lorentz_violation::PrincipalCoefficients::tensor",
-            ],
+        OfCoefficients::case(
             "equal and nearly equal eigenvalues",
             &[Near(0.1, -15.0, -2.0), Fixed(0.1), Near(0.1, -15.0, -2.0), Signed(-100.0, 100.0)],
         ),

@@ -1,9 +1,7 @@
 //! What is measured: kinds of data, and single ones.
 
-use twofold::Error;
-
 use super::{Event, Signal};
-use crate::scene_file::Scene;
+use crate::error::Error;
 
 /// A kind of data, each with errors that are independent of one another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -44,58 +42,10 @@ impl Observable {
     pub fn is_of_pulses(self) -> bool {
         !matches!(self, Self::StrainPlus | Self::StrainCross)
     }
-
-    /// The section that a scene lacks for this to be observed.
-    pub fn missing_section(self, scene: &Scene) -> Option<&'static str> {
-        if scene.observer.is_none() {
-            return Some("observer");
-        }
-        (self.is_of_pulses() && scene.pulsar.is_none()).then_some("pulsar")
-    }
 }
 
 /// A kind of data with the standard deviation of each: of times in `t_c`, of strains in the unit of the model.
 pub type Noise = (Observable, f64);
-
-/// Standard deviations that are taken: the sums of squares of data in units of these neither overflow nor vanish.
-const SIGMAS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
-
-/// What `name:sigma,name:sigma` says, in units of the scene's output; `strain` is both polarizations.
-///
-/// # Errors
-/// A name that is none, twice the same, and a standard deviation that is not from 1e-100 to 1e100; the value and what is allowed are named.
-pub fn parse_noise(text: &str, time_unit: f64) -> Result<Vec<Noise>, String> {
-    let mut found: Vec<Noise> = Vec::new();
-    for part in text.split(',') {
-        let (name, sigma) = part.trim().split_once(':').ok_or_else(|| {
-            format!("`{part}` is no NAME:SIGMA: allowed is a name, a colon and a standard deviation, as arrivals:1e-6")
-        })?;
-        let kinds: Vec<Observable> = match name {
-            "strain" => vec![Observable::StrainPlus, Observable::StrainCross],
-            name => Observable::ALL.into_iter().filter(|kind| kind.key() == name).collect(),
-        };
-        if kinds.is_empty() {
-            let names: Vec<_> = Observable::ALL.iter().map(|kind| kind.key()).collect();
-            return Err(format!("`{name}` is no observable: allowed are {}, strain", names.join(", ")));
-        }
-        let sigma: f64 = match sigma.parse() {
-            Ok(sigma) if SIGMAS.contains(&sigma) => sigma,
-            _ => {
-                let (least, most) = (SIGMAS.start(), SIGMAS.end());
-                return Err(format!(
-                    "`{part}` has the standard deviation {sigma}: allowed is a number above zero, from {least:e} to {most:e}"
-                ));
-            }
-        };
-        for kind in kinds {
-            if found.iter().any(|(other, _)| *other == kind) {
-                return Err(format!("`{}` is named twice: allowed is once", kind.key()));
-            }
-            found.push((kind, if kind.is_of_pulses() { sigma / time_unit } else { sigma }));
-        }
-    }
-    Ok(found)
-}
 
 /// Where in a signal a datum is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,9 +82,9 @@ pub struct Datum {
 /// A motion that cannot be evaluated at a sample; closest approaches and periods of a [long](Signal::is_long) span.
 pub fn data_of(signal: &Signal, events: &[Event], samples: &[f64], noise: &[Noise]) -> Result<Vec<Datum>, Error> {
     let mut data = Vec::new();
-    let whole_turns = [Observable::ClosestApproaches, Observable::Periods];
+    let of_every_turn = [Observable::ClosestApproaches, Observable::Periods];
     Error::ensure(
-        !(signal.is_long() && noise.iter().any(|(kind, _)| whole_turns.contains(kind))),
+        !(signal.is_long() && noise.iter().any(|(kind, _)| of_every_turn.contains(kind))),
         "span for closest approaches and periods",
         signal.end,
         "one of at most 1e5 rad of rotation; arrivals and widths may have any",

@@ -3,7 +3,9 @@
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::{InferenceError, Simulation};
+use twofold::inference::InferenceError;
+
+use crate::simulation::Simulation;
 
 /// One fit against the truth.
 #[derive(Debug, Clone)]
@@ -38,20 +40,11 @@ impl Case {
         let simulation = Simulation::new(seed)?;
         let found = simulation.fit()?;
         let truth = simulation.truth.values(&simulation.unknowns);
-        let sigmas = DVector::from_vec(found.sigmas());
-        let pulls: Vec<f64> = found
-            .values
-            .iter()
-            .zip(&truth)
-            .zip(&sigmas)
-            .map(|((value, truth), sigma)| (value - truth) / sigma)
-            .collect();
+        let (values, sigmas) = (found.fisher.values(), found.fisher.sigmas());
+        let pulls: Vec<f64> = (0..truth.len()).map(|k| (values[k] - truth[k]) / sigmas[k]).collect();
         // In units of the standard deviations, where the matrix is best conditioned.
-        let correlation = nalgebra::DMatrix::from_fn(pulls.len(), pulls.len(), |i, j| {
-            found.covariance[(i, j)] / (sigmas[i] * sigmas[j])
-        });
         let vector = DVector::from_column_slice(&pulls);
-        let solved = correlation.cholesky().map(|factors| factors.solve(&vector));
+        let solved = found.fisher.correlations().cholesky().map(|factors| factors.solve(&vector));
         Ok(Self {
             seed,
             refused: simulation.refused,

@@ -1,14 +1,16 @@
-//! What a model gives: its motion, pulses and strain.
+//! What is seen of a star: its motion, pulses and strain.
 
 use nalgebra::Vector3;
-use twofold::Error;
-use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
-use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
-use twofold::observables::pulsar::{Beam, Pulse, arrivals, pulse_train};
-use twofold::plan::{Method, Output, Plan, PlannedMotion, Request};
-use twofold::propagation::Motion;
 
-use super::{Model, Observable, long_span};
+use super::{Observable, long_span};
+use crate::dynamics::AxisState;
+use crate::error::Error;
+use crate::numerics::scalar::Scalar;
+use crate::observables::gravitational_wave::wave_of_state;
+use crate::observables::pulsar::{Beam, arrivals, pulse_train};
+use crate::parameters::Parameters;
+use crate::plan::{Method, Output, PlannedMotion, Request};
+use crate::propagation::Motion;
 
 /// A whole pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,10 +48,10 @@ impl Event {
     }
 }
 
-/// The motion of a model over a span that begins at its start.
+/// The motion of a star over a span that begins at its start, and what is seen of it.
 pub struct Signal {
-    /// The model.
-    pub model: Model<f64>,
+    /// The star, its beam and its observer.
+    pub parameters: Parameters<f64>,
     /// Last time.
     pub end: f64,
     motion: PlannedMotion,
@@ -61,30 +63,45 @@ pub struct Signal {
 /// Truncation error of motions and of their derivatives. Enough for times to 1e-12 of a turn.
 pub(super) const ACCURACY: f64 = 1e-13;
 
+/// Rate of a rotation with all of the angular momentum across the symmetry axis, `|L| / I^xx`.
+pub(super) fn turning_rate(parameters: &Parameters<f64>) -> f64 {
+    parameters.state().momentum.norm() / parameters.spheroid.inertia_xx
+}
+
+/// A polarization of a star in a state with these vectors.
+pub(super) fn strain<S: Scalar>(
+    parameters: &Parameters<S>,
+    [axis, momentum]: [&Vector3<S>; 2],
+    observable: Observable,
+) -> S {
+    let state = AxisState { axis: *axis, momentum: *momentum };
+    let h = wave_of_state(&parameters.spheroid, &parameters.violation, &state, &parameters.observer());
+    let h = if observable == Observable::StrainPlus { h.plus } else { h.cross };
+    h * parameters.strain_scale * parameters.strain_unit
+}
+
 impl Signal {
     /// The signal from time zero to `end`.
     ///
     /// # Errors
     /// A motion that cannot be computed.
-    pub fn new(model: &Model<f64>, end: f64) -> Result<Self, Error> {
-        let start = model.start();
-        let is_long = long_span::is_long(model, end);
+    pub fn new(parameters: &Parameters<f64>, end: f64) -> Result<Self, Error> {
+        let is_long = long_span::is_long(parameters, end);
         let request = if is_long {
-            long_span::check_span(model, end)?;
+            long_span::check_span(parameters, end)?;
             let request = Request::new(&[Output::PulseProfile], (0.0, end), 2, ACCURACY);
             Request { method: Some(Method::Averaged), ..request }
         } else {
             Request::new(&[Output::Pulses], (0.0, end), 2, ACCURACY)
         };
-        let state = start.state();
-        let plan = Plan::from_parts(&start.spheroid, &start.violation, &state, &request)?;
+        let problem = parameters.problem()?;
         Ok(Self {
-            model: *model,
+            parameters: *parameters,
             end,
-            motion: plan.motion_from_parts(&start.spheroid, &start.violation, &state)?,
+            motion: problem.plan(&request)?.motion(&problem)?,
             is_long,
-            beam: model.beam(),
-            line_of_sight: model.observer().direction,
+            beam: parameters.beam(),
+            line_of_sight: parameters.observer().direction,
         })
     }
 
@@ -115,40 +132,37 @@ impl Signal {
     /// As for [`events`](Self::events).
     pub fn events_after(&self, times: &[f64]) -> Result<Vec<Event>, Error> {
         if self.is_long {
-            return long_span::pulses_near(&self.model, times);
+            return long_span::pulses_near(&self.parameters, times);
         }
         let mut found: Vec<Event> = Vec::new();
         let window = 2.2 * self.turn();
         for (place, &time) in times.iter().enumerate() {
-            let events = self.events_in((time, (time + window).min(self.end)))?;
+            let Some(&event) = self.events_in((time, (time + window).min(self.end)))?.first() else { continue };
             // One pulse is one datum, however many epochs it is the next of.
-            let again = |event: &Event| {
-                found.last().is_some_and(|last| (event.closest - last.closest).abs() < 0.25 * self.turn())
-            };
-            if events.first().is_some_and(again) {
-                continue;
+            let again = |last: &Event| (event.closest - last.closest).abs() < 0.25 * self.turn();
+            if !found.last().is_some_and(again) {
+                found.push(Event { turn: place as i64, ..event });
             }
-            found.extend(events.first().map(|event| Event { turn: place as i64, ..*event }));
         }
         Ok(found)
     }
 
-    /// The pulses of turns with given numbers in a [long](Self::is_long) span, each looked for from a time near it; dark ones are left out.
+    /// The pulses of turns with given numbers in a [long](Self::is_long) span, each looked for from a time near it; turns without a pulse are
+    /// left out.
     ///
     /// # Errors
     /// A beam or line of sight that has no pulses to be counted.
     pub fn events_of_turns(&self, turns: &[(i64, f64)]) -> Result<Vec<Event>, Error> {
-        long_span::pulses_numbered(&self.model, turns)
+        long_span::pulses_numbered(&self.parameters, turns)
     }
 
     /// About the time of a turn: that of a rotation at the rate `|L| / I^xx`.
     pub fn turn(&self) -> f64 {
-        let start = self.model.start();
-        std::f64::consts::TAU / (start.state().momentum.norm() / start.spheroid.inertia_xx)
+        std::f64::consts::TAU / turning_rate(&self.parameters)
     }
 
-    /// What rounding and the truncation of the motion leave of a datum, at most: ten times the estimated error of directions at the end, as a part
-    /// of a radian of rotation or of the strain.
+    /// The most that rounding and the truncation of the motion make of a datum: ten times the estimated error of directions at the end, as
+    /// a part of a radian of rotation or of the strain.
     pub(super) fn rounding(&self, observable: Observable) -> f64 {
         let directions = 10.0 * self.motion.error_estimate(self.end);
         if observable.is_of_pulses() {
@@ -161,15 +175,16 @@ impl Signal {
     fn events_in(&self, span: (f64, f64)) -> Result<Vec<Event>, Error> {
         let train = pulse_train(&self.motion, &self.beam, &self.line_of_sight, span)?;
         let numbered = arrivals(&self.motion, &self.beam, &self.line_of_sight, &train)?;
-        let whole = train.pulses.iter().filter(|pulse| pulse.is_whole());
-        let event = |(&Pulse { start, end, .. }, arrival): (&Pulse, &twofold::observables::pulsar::Arrival)| Event {
-            turn: arrival.number,
-            epoch: 0.0,
-            start,
-            end,
-            closest: arrival.closest_approach,
-        };
-        Ok(whole.zip(&numbered).map(event).collect())
+        let whole = train.pulses.iter().filter(|pulse| pulse.is_whole()).zip(&numbered);
+        Ok(whole
+            .map(|(pulse, arrival)| Event {
+                turn: arrival.number,
+                epoch: 0.0,
+                start: pulse.start,
+                end: pulse.end,
+                closest: arrival.closest_approach,
+            })
+            .collect())
     }
 
     /// A polarization at a time.
@@ -178,10 +193,6 @@ impl Signal {
     /// A time outside the span.
     pub fn strain(&self, observable: Observable, t: f64) -> Result<f64, Error> {
         let state = self.motion.axis_state(t)?;
-        let (spheroid, s) = (self.motion.spheroid(), self.motion.coefficients());
-        let acceleration = spheroid_inertia_acceleration(spheroid, s, &state.axis, &state.momentum);
-        let h = polarizations(&self.model.observer(), &metric_perturbation(1.0, &acceleration));
-        let h = if observable == Observable::StrainPlus { h.plus } else { h.cross };
-        Ok(h * self.model.strain_scale * self.model.strain_unit)
+        Ok(strain(&self.parameters, [&state.axis, &state.momentum], observable))
     }
 }

@@ -1,4 +1,18 @@
-//! Straight-line fits, for measured orders.
+//! Straight lines by least squares: powers by which one quantity goes with another.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::straight_line::{order, slope};
+//!
+//! assert_eq!(slope(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)])?.value, 2.0);
+//! // An error of second order; the last point is rounding.
+//! let second = order(&[(0.1, 1e-2), (0.01, 1e-4), (0.001, 1e-6), (0.0001, 1e-7)], 5e-7)?;
+//! assert!((second.value - 2.0).abs() < 1e-12 && second.error < 1e-12);
+//! # Ok::<(), twofold::Error>(())
+//! ```
+
+use crate::error::Error;
 
 /// Slope of a least-squares line with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,11 +27,9 @@ pub struct Slope {
 ///
 /// # Errors
 /// With fewer than three points there is no scatter to judge the fit by.
-pub fn slope(points: &[(f64, f64)]) -> Result<Slope, String> {
-    if points.len() < 3 {
-        return Err(format!("a slope needs three points, there are {}", points.len()));
-    }
+pub fn slope(points: &[(f64, f64)]) -> Result<Slope, Error> {
     let n = points.len() as f64;
+    Error::ensure(n >= 3.0, "number of points of a slope", n, "three or more")?;
     let mean_x = points.iter().map(|p| p.0).sum::<f64>() / n;
     let mean_y = points.iter().map(|p| p.1).sum::<f64>() / n;
     let sxx: f64 = points.iter().map(|p| (p.0 - mean_x).powi(2)).sum();
@@ -31,7 +43,7 @@ pub fn slope(points: &[(f64, f64)]) -> Result<Slope, String> {
 ///
 /// # Errors
 /// As for [`slope`].
-pub fn order(points: &[(f64, f64)], floor: f64) -> Result<Slope, String> {
+pub fn order(points: &[(f64, f64)], floor: f64) -> Result<Slope, Error> {
     let kept: Vec<_> = points.iter().filter(|p| p.1 > floor).map(|p| (p.0.log10(), p.1.log10())).collect();
     slope(&kept)
 }

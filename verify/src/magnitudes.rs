@@ -1,4 +1,4 @@
-//! Conditioning: the sum of the magnitudes of the terms that a number was computed from.
+//! Numbers that carry the sum of the magnitudes of the terms they were computed from.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 

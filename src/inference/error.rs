@@ -2,9 +2,8 @@
 
 use std::fmt;
 
-use twofold::Error;
-
 use super::{Direction, Observable};
+use crate::error::Error;
 
 /// Why nothing can be inferred.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,7 +45,9 @@ pub enum InferenceError {
         /// Its limit.
         value: f64,
     },
-    /// The model cannot be computed.
+    /// A forecast of periods: an epoch of a forecast has one pulse, and a period takes two.
+    PeriodsForecast,
+    /// The motion cannot be computed.
     Model(Error),
 }
 
@@ -94,6 +95,9 @@ impl fmt::Display for InferenceError {
             Self::OnLimit { unknown, value } => {
                 write!(f, "the fit ended at {unknown} = {value:?}, a limit of what it can be: no error bar holds there")
             }
+            Self::PeriodsForecast => f.write_str(
+                "periods: allowed for a forecast is what one pulse alone gives, such as arrivals and widths",
+            ),
             Self::Model(error) => error.fmt(f),
         }
     }

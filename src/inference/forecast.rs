@@ -1,7 +1,28 @@
 //! How well an unknown will be known: its standard deviation against span, number of data and their errors.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::dynamics::RigidSpheroid;
+//! use twofold::euler_angles::{EulerAngles, EulerRates};
+//! use twofold::inference::{Observable, check_span, forecast, scaling};
+//! use twofold::lorentz_violation::PrincipalCoefficients;
+//! use twofold::parameters::{Parameter, Parameters};
+//!
+//! let (star, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new([0.02, 0.01, -0.04]).tensor());
+//! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.0, beta: 0.1, gamma: 0.2 });
+//! let parameters = Parameters { chi: 0.8, theta_o: 1.0, ..Parameters::new(star, s, angles, rates).holding_spin() };
+//! let (noise, spans) = ([(Observable::Arrivals, 1e-4)], [100.0, 200.0, 400.0]);
+//! check_span(&parameters, spans[2])?;
+//! let found = forecast(&parameters, &noise, &[Parameter::Spin, Parameter::SAxial], Parameter::Spin, &spans, &[20])?;
+//! let [by_span, _] = scaling(&found);
+//! assert!(by_span.is_some_and(|slope| slope.value < -0.8));
+//! # Ok::<(), twofold::inference::InferenceError>(())
+//! ```
 
-use super::{Datum, Fisher, InferenceError, Model, Noise, Observable, Signal, Unknown, data_of};
-use crate::fit::{Slope, slope};
+use super::{Datum, Fisher, InferenceError, Noise, Observable, Signal, data_of};
+use crate::parameters::{Parameter, Parameters};
+use crate::straight_line::{Slope, slope};
 
 /// What a campaign of measurements will tell.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,22 +42,21 @@ pub struct Forecast {
 /// The standard deviation of `target` for every pair of a span and a number of epochs.
 ///
 /// # Errors
-/// A motion that cannot be computed, and periods, for which an epoch has one pulse too few.
+/// A motion that cannot be computed; [`InferenceError::PeriodsForecast`].
 pub fn forecast(
-    model: &Model<f64>,
+    parameters: &Parameters<f64>,
     noise: &[Noise],
-    unknowns: &[Unknown],
-    target: Unknown,
+    unknowns: &[Parameter],
+    target: Parameter,
     spans: &[f64],
     epochs: &[usize],
 ) -> Result<Vec<Forecast>, InferenceError> {
     if noise.iter().any(|(observable, _)| *observable == Observable::Periods) {
-        let (quantity, allowed) = ("pulses at an epoch", "two for a period: arrivals or widths are forecast");
-        return Err(twofold::Error::Domain { quantity, value: 1.0, allowed }.into());
+        return Err(InferenceError::PeriodsForecast);
     }
     let mut found = Vec::new();
     for &span in spans {
-        let signal = Signal::new(model, span)?;
+        let signal = Signal::new(parameters, span)?;
         for &count in epochs {
             // So that the last pulse ends within the span.
             let last = (span - 2.2 * signal.turn()).max(0.0);
@@ -44,7 +64,7 @@ pub fn forecast(
             let has_pulses = noise.iter().any(|(observable, _)| observable.is_of_pulses());
             let events = if has_pulses { signal.events_after(&times)? } else { Vec::new() };
             let data: Vec<Datum> = data_of(&signal, &events, &times, noise)?;
-            let sigma = match Fisher::of(model, &events, &data, unknowns) {
+            let sigma = match Fisher::of(parameters, &events, &data, unknowns) {
                 Ok(fisher) => fisher.sigma(target).unwrap_or(f64::NAN),
                 Err(InferenceError::TooFew { .. }) => f64::NAN,
                 Err(error) => return Err(error),

@@ -1,38 +1,14 @@
-//! Simulated measurements: data with errors, random scenes, starts beside the truth.
+//! Simulated measurements of random stars, for the coverage of error bars.
 
+use nalgebra::Matrix3;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_distr::{Distribution, StandardNormal};
-
-use nalgebra::{DMatrix, DVector, Matrix3};
 use twofold::Error;
-use twofold::euler_angles::EulerAngles;
-
-use super::{Datum, Fisher, Fit, InferenceError, Model, Observable, Signal, Unknown, data_of, fit, nonlinearity};
-
-/// The same data with an error each, normal with its standard deviation.
-pub fn with_noise(data: &[Datum], random: &mut ChaCha8Rng) -> Vec<Datum> {
-    let mut normal = || -> f64 { StandardNormal.sample(random) };
-    data.iter().map(|datum| Datum { value: datum.value + datum.sigma * normal(), ..*datum }).collect()
-}
-
-/// A start for a fit: `model` with its unknowns moved by a draw of the normal distribution of `covariance`, `factor` times as wide.
-pub fn beside(
-    model: &Model<f64>,
-    unknowns: &[Unknown],
-    covariance: &DMatrix<f64>,
-    factor: f64,
-    random: &mut ChaCha8Rng,
-) -> Model<f64> {
-    let scale = covariance.diagonal().map(f64::sqrt);
-    let correlation = DMatrix::from_fn(scale.len(), scale.len(), |i, j| covariance[(i, j)] / (scale[i] * scale[j]));
-    let axes = correlation.symmetric_eigen();
-    let drawn = DVector::from_fn(scale.len(), |k, _| {
-        let normal: f64 = StandardNormal.sample(random);
-        normal * axes.eigenvalues[k].max(0.0).sqrt()
-    });
-    model.moved(unknowns, ((axes.eigenvectors * drawn).component_mul(&scale) * factor).as_slice())
-}
+use twofold::dynamics::RigidSpheroid;
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::inference::{Datum, Fisher, Fit, InferenceError, Observable, Signal, data_of, fit, nonlinearity};
+use twofold::parameters::{Parameter, Parameters, ThirdRate};
+use twofold_scene::measurements::{beside, with_noise};
 
 /// Kinds of simulated measurements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,13 +29,13 @@ pub struct Simulation {
     /// Kind.
     pub campaign: Campaign,
     /// The truth.
-    pub truth: Model<f64>,
+    pub truth: Parameters<f64>,
     /// What is fitted.
-    pub unknowns: Vec<Unknown>,
+    pub unknowns: Vec<Parameter>,
     /// Data with errors.
     pub data: Vec<Datum>,
     /// Where the fit begins: beside the truth by a draw of three times the standard deviations.
-    pub start: Model<f64>,
+    pub start: Parameters<f64>,
     /// End of the span.
     pub end: f64,
     /// Scenes that were drawn before this one and not taken.
@@ -88,10 +64,10 @@ impl Simulation {
             let truth = random_model(&mut random);
             let end = random.random_range(60.0..120.0);
             let sigma = 10.0_f64.powf(random.random_range(-5.5..-4.5));
-            let Some((unknowns, exact, covariance)) = determined(&truth, campaign, end, sigma)? else { continue };
+            let Some((exact, fisher)) = determined(&truth, campaign, end, sigma)? else { continue };
             let data = with_noise(&exact, &mut random);
-            let start = beside(&truth, &unknowns, &covariance, 3.0, &mut random);
-            return Ok(Self { seed, campaign, truth, unknowns, data, start, end, refused });
+            let start = beside(&fisher, 3.0, &mut random);
+            return Ok(Self { seed, campaign, truth, unknowns: fisher.unknowns, data, start, end, refused });
         }
         Err(Error::NotConverged {
             what: "draw of a scene that its data determine",
@@ -110,16 +86,14 @@ impl Simulation {
     }
 }
 
-type Determined = (Vec<Unknown>, Vec<Datum>, DMatrix<f64>);
-
-/// Unknowns, exact data and covariance, if the scene has enough pulses, none of them short, and the data
+/// Exact data and their Fisher matrix, if the scene has enough pulses, none of them short, and the data
 /// determine it so well that `chi^2` is a parabola over the error bars.
 fn determined(
-    truth: &Model<f64>,
+    truth: &Parameters<f64>,
     campaign: Campaign,
     end: f64,
     sigma: f64,
-) -> Result<Option<Determined>, InferenceError> {
+) -> Result<Option<(Vec<Datum>, Fisher)>, InferenceError> {
     let signal = Signal::new(truth, end)?;
     let turn = signal.turn();
     // The first turn is left out: a start beside the truth may have its pulse cut. Short pulses may go under.
@@ -138,50 +112,43 @@ fn determined(
         found
     };
     // Strains of these stars are of the order of eps.
-    let strain = [Observable::StrainPlus, Observable::StrainCross].map(|kind| (kind, sigma * truth.oblateness));
+    let strain =
+        [Observable::StrainPlus, Observable::StrainCross].map(|kind| (kind, sigma * truth.spheroid.oblateness()));
     let (unknowns, noise) = match campaign {
         Campaign::Pulses => {
-            (Unknown::OF_PULSES.to_vec(), vec![(Observable::Arrivals, sigma), (Observable::Widths, sigma)])
+            (Parameter::OF_PULSES.to_vec(), vec![(Observable::Arrivals, sigma), (Observable::Widths, sigma)])
         }
-        Campaign::Strain => (Unknown::OF_STRAIN.to_vec(), strain.to_vec()),
-        Campaign::Both => (Unknown::OF_PULSES.to_vec(), [&[(Observable::Arrivals, sigma)][..], &strain].concat()),
+        Campaign::Strain => (Parameter::OF_STRAIN.to_vec(), strain.to_vec()),
+        Campaign::Both => (Parameter::OF_PULSES.to_vec(), [&[(Observable::Arrivals, sigma)][..], &strain].concat()),
     };
     let samples: Vec<f64> = (0..40).map(|k| end * (f64::from(k) / 39.0)).collect();
     let data = data_of(&signal, &events, &samples, &noise)?;
     if data.len() < 2 * unknowns.len() {
         return Ok(None);
     }
-    let fisher = Fisher::of(truth, &events, &data, &unknowns)?;
-    if !fisher.degenerate.is_empty() || !fisher.weak.is_empty() {
-        return Ok(None);
-    }
+    let Ok(fisher) = Fisher::of(truth, &events, &data, &unknowns)?.determined() else { return Ok(None) };
     // A model beside the truth without the pulses of the data is far from linear too.
-    let linear = nonlinearity(truth, &unknowns, &fisher.covariance, &data, end).is_ok_and(|found| found < LINEAR);
-    Ok(linear.then_some((unknowns, data, fisher.covariance)))
+    let linear = nonlinearity(&fisher, &data, end).is_ok_and(|found| found < LINEAR);
+    Ok(linear.then_some((data, fisher)))
 }
 
 /// A star in any motion between both kinds of precession, seen from anywhere but the poles.
-fn random_model(random: &mut ChaCha8Rng) -> Model<f64> {
+fn random_model(random: &mut ChaCha8Rng) -> Parameters<f64> {
     let mut within = |low: f64, high: f64| random.random_range(low..high);
     let mut sign = |size: f64| size * if within(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 };
     let (axial, asymmetry) = (sign(0.1), sign(0.04));
     let (axial, asymmetry) = (axial * within(0.3, 1.0), asymmetry * within(0.3, 1.0));
     let zz = axial / 3.0;
-    Model {
-        oblateness: within(0.05, 0.3),
-        constant_c: 1.0,
-        s: Matrix3::from_diagonal(&[(asymmetry - zz) / 2.0, (-asymmetry - zz) / 2.0, zz].into()),
-        s_scale: 1.0,
-        angles: EulerAngles { alpha: within(-3.0, 3.0), beta: within(0.4, 1.3), gamma: within(-3.0, 3.0) },
-        alpha_rate: within(0.0, 1.6),
-        beta_rate: within(-0.3, 0.3),
-        spin: within(0.7, 1.3),
+    let spheroid = RigidSpheroid::in_units_of_tc(1.0 + within(0.05, 0.3));
+    let s = Matrix3::from_diagonal(&[(asymmetry - zz) / 2.0, (-asymmetry - zz) / 2.0, zz].into());
+    let angles = EulerAngles { alpha: within(-3.0, 3.0), beta: within(0.4, 1.3), gamma: within(-3.0, 3.0) };
+    let rates = EulerRates { alpha: within(0.0, 1.6), beta: within(-0.3, 0.3), gamma: 0.0 };
+    Parameters {
+        third_rate: ThirdRate::Spin(within(0.7, 1.3)),
         chi: within(0.3, 1.2),
-        delta: 0.0,
         rho: within(0.4, 0.9),
         theta_o: within(0.4, 2.7),
         phi_o: within(-3.0, 3.0),
-        strain_scale: 1.0,
-        strain_unit: 1.0,
+        ..Parameters::new(spheroid, s, angles, rates)
     }
 }

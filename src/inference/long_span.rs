@@ -1,11 +1,12 @@
 //! Spans of more turns than can be followed one by one: pulses near given epochs, by the averaged motion.
 
-use twofold::Error;
-use twofold::observables::pulsar::{ClockPulse, PulsarClock};
-use twofold::propagation::AveragedMotion;
-use twofold::solutions::averaged::AveragingOrder;
-
-use super::{Event, Model};
+use super::Event;
+use super::signal::turning_rate;
+use crate::error::Error;
+use crate::observables::pulsar::{ClockPulse, PulsarClock};
+use crate::parameters::Parameters;
+use crate::propagation::AveragedMotion;
+use crate::solutions::averaged::AveragingOrder;
 
 /// Rotation (rad) up to which every turn is followed.
 const LARGEST_FOLLOWED: f64 = 1e5;
@@ -17,22 +18,19 @@ const MOST_LEFT_OUT: f64 = 1e-3;
 const MOST_CORRECTIONS: usize = 8;
 
 /// Whether a span from the start to `end` is too long to be followed turn by turn.
-pub(super) fn is_long(model: &Model<f64>, end: f64) -> bool {
-    let start = model.start();
-    end * start.state().momentum.norm() / start.spheroid.inertia_xx > LARGEST_FOLLOWED
+pub(super) fn is_long(parameters: &Parameters<f64>, end: f64) -> bool {
+    end * turning_rate(parameters) > LARGEST_FOLLOWED
 }
 
 /// Refuses a span to `end` that can neither be followed turn by turn nor by the averaged motion.
 ///
 /// # Errors
 /// [`Error::Domain`] as for [`AveragedMotion::new`], and for what it leaves out.
-pub fn check_span(model: &Model<f64>, end: f64) -> Result<(), Error> {
-    if !is_long(model, end) {
+pub fn check_span(parameters: &Parameters<f64>, end: f64) -> Result<(), Error> {
+    if !is_long(parameters, end) {
         return Ok(());
     }
-    let start = model.start();
-    let (spheroid, s) = (&start.spheroid, &start.violation);
-    let motion = AveragedMotion::from_parts(spheroid, s, &start.state(), (0.0, end), AveragingOrder::Second)?;
+    let motion = AveragedMotion::new(&parameters.problem()?, (0.0, end), AveragingOrder::Second)?;
     let left_out = motion.truncation(end);
     Error::ensure(
         left_out <= MOST_LEFT_OUT,
@@ -42,10 +40,10 @@ pub fn check_span(model: &Model<f64>, end: f64) -> Result<(), Error> {
     )
 }
 
-fn clock(model: &Model<f64>) -> Result<PulsarClock, Error> {
-    let start = model.start();
-    let (beam, observer) = (model.beam(), model.observer());
-    PulsarClock::new(&start.spheroid, &start.violation, &start.state(), &beam, &observer, AveragingOrder::Second)
+fn clock(parameters: &Parameters<f64>) -> Result<PulsarClock, Error> {
+    let Parameters { spheroid, violation, .. } = parameters;
+    let (beam, observer) = (parameters.beam(), parameters.observer());
+    PulsarClock::new(spheroid, violation, &parameters.state(), &beam, &observer, AveragingOrder::Second)
 }
 
 /// A pulse with its times counted from the double nearest to its midpoint. The closest approach is not looked for.
@@ -54,13 +52,13 @@ fn event(pulse: &ClockPulse) -> Event {
     Event { turn: pulse.number, epoch, start: rest - half, end: rest + half, closest: f64::NAN }
 }
 
-/// The pulse of the turn nearest to each of some times, in their order; dark turns have none, a turn is taken once, and no pulse before
+/// The pulse of the turn nearest to each of some times, in their order; turns without a pulse have none, a turn is taken once, and no pulse before
 /// the start.
 ///
 /// # Errors
 /// As for [`PulsarClock`].
-pub(super) fn pulses_near(model: &Model<f64>, times: &[f64]) -> Result<Vec<Event>, Error> {
-    let mut clock = clock(model)?;
+pub(super) fn pulses_near(parameters: &Parameters<f64>, times: &[f64]) -> Result<Vec<Event>, Error> {
+    let mut clock = clock(parameters)?;
     let mut found: Vec<Event> = Vec::with_capacity(times.len());
     for &time in times {
         if let Some(pulse) = clock.pulse_near([time, 0.0])?
@@ -73,12 +71,12 @@ pub(super) fn pulses_near(model: &Model<f64>, times: &[f64]) -> Result<Vec<Event
     Ok(found)
 }
 
-/// The pulses of turns with given numbers, each looked for from a time near it in some other model; dark ones are left out.
+/// The pulses of turns with given numbers, each looked for from a time near it in some other model; turns without a pulse are left out.
 ///
 /// # Errors
 /// As for [`PulsarClock`].
-pub(super) fn pulses_numbered(model: &Model<f64>, turns: &[(i64, f64)]) -> Result<Vec<Event>, Error> {
-    let mut clock = clock(model)?;
+pub(super) fn pulses_numbered(parameters: &Parameters<f64>, turns: &[(i64, f64)]) -> Result<Vec<Event>, Error> {
+    let mut clock = clock(parameters)?;
     let period = clock.period();
     let mut found = Vec::with_capacity(turns.len());
     for &(number, near) in turns {

@@ -4,7 +4,8 @@ use std::collections::HashMap;
 use std::fs::File;
 use std::io::Read;
 
-use super::{Datum, Noise, Observable, Place};
+use twofold::inference::{Datum, Noise, Observable, Place};
+
 use crate::scene_file::{LARGEST_FILE, Scene, shortened};
 
 /// Most rows of a file: a fit keeps a derivative of each datum by each unknown, and as many samples are allowed of a scene.

@@ -1,0 +1,83 @@
+//! What is measured of a scene: arguments, tables of data, simulated errors.
+
+mod data_file;
+mod errors;
+
+pub use data_file::DataFile;
+pub use errors::{beside, with_noise};
+
+use twofold::Error;
+use twofold::inference::{Noise, Observable};
+use twofold::parameters::Parameters;
+
+use crate::columns::strain_of_scene;
+use crate::scene_file::Scene;
+
+/// The parameters of a scene in units `I^xx = C = 1`, time in `t_c`; `Omega^z` is held when others change. A beam or an observer that the scene
+/// lacks are taken as any: nothing that needs them can be observed (see [`missing_section`]).
+///
+/// # Errors
+/// A scene that starts on a pole or within 1e-6 rad of it, where its angles are no parameters.
+pub fn parameters_of(scene: &Scene) -> Result<Parameters<f64>, Error> {
+    let angles = scene.initial_angles;
+    let sine = angles.beta.sin();
+    Error::ensure(sine > 1e-6, "sin(beta) at the start", sine, "above 1e-6: on a pole angles are no parameters")?;
+    let rates = scene.initial.rates(&scene.spheroid)?;
+    let mut parameters = Parameters::new(scene.spheroid, scene.violation, angles, rates).holding_spin();
+    if let Some(pulsar) = scene.pulsar {
+        (parameters.chi, parameters.delta, parameters.rho) = (pulsar.chi, pulsar.delta, pulsar.rho);
+    }
+    if let Some(observer) = scene.observer {
+        (parameters.theta_o, parameters.phi_o) = (observer.theta_o, observer.phi_o);
+        parameters.strain_unit = observer.distance.map_or(1.0, |distance| strain_of_scene(scene, distance));
+    }
+    Ok(parameters)
+}
+
+/// The section that a scene lacks for something to be observed.
+pub fn missing_section(scene: &Scene, observable: Observable) -> Option<&'static str> {
+    if scene.observer.is_none() {
+        return Some("observer");
+    }
+    (observable.is_of_pulses() && scene.pulsar.is_none()).then_some("pulsar")
+}
+
+/// Standard deviations that are taken: the sums of squares of data in units of these neither overflow nor vanish.
+const SIGMAS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
+
+/// What `name:sigma,name:sigma` says, in units of the scene's output; `strain` is both polarizations.
+///
+/// # Errors
+/// A name that is none, twice the same, and a standard deviation that is not from 1e-100 to 1e100; the value and what is allowed are named.
+pub fn parse_noise(text: &str, time_unit: f64) -> Result<Vec<Noise>, String> {
+    let mut found: Vec<Noise> = Vec::new();
+    for part in text.split(',') {
+        let (name, sigma) = part.trim().split_once(':').ok_or_else(|| {
+            format!("`{part}` is no NAME:SIGMA: allowed is a name, a colon and a standard deviation, as arrivals:1e-6")
+        })?;
+        let kinds: Vec<Observable> = match name {
+            "strain" => vec![Observable::StrainPlus, Observable::StrainCross],
+            name => Observable::ALL.into_iter().filter(|kind| kind.key() == name).collect(),
+        };
+        if kinds.is_empty() {
+            let names: Vec<_> = Observable::ALL.iter().map(|kind| kind.key()).collect();
+            return Err(format!("`{name}` is no observable: allowed are {}, strain", names.join(", ")));
+        }
+        let sigma: f64 = match sigma.parse() {
+            Ok(sigma) if SIGMAS.contains(&sigma) => sigma,
+            _ => {
+                let (least, most) = (SIGMAS.start(), SIGMAS.end());
+                return Err(format!(
+                    "`{part}` has the standard deviation {sigma}: allowed is a number above zero, from {least:e} to {most:e}"
+                ));
+            }
+        };
+        for kind in kinds {
+            if found.iter().any(|(other, _)| *other == kind) {
+                return Err(format!("`{}` is named twice: allowed is once", kind.key()));
+            }
+            found.push((kind, if kind.is_of_pulses() { sigma / time_unit } else { sigma }));
+        }
+    }
+    Ok(found)
+}

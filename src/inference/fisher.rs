@@ -1,0 +1,128 @@
+//! The Fisher matrix of data with independent errors: uncertainties, correlations, and what is not determined.
+//!
+//! The Fisher matrix is `F = J^T J` with the Jacobian `J` of the data, each in units of its standard deviation. It is never formed:
+//! squaring would halve the digits. Everything is taken of the singular values of `J` with columns of unit length, which is within
+//! the square root of the number of unknowns of the best scaling that there is (van der Sluis 1969).
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::dynamics::RigidSpheroid;
+//! use twofold::euler_angles::{EulerAngles, EulerRates};
+//! use twofold::inference::{Fisher, Observable, Signal, data_of, jacobian};
+//! use twofold::lorentz_violation::PrincipalCoefficients;
+//! use twofold::parameters::{Parameter, Parameters};
+//!
+//! let (star, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new([0.02, 0.01, -0.04]).tensor());
+//! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.0, beta: 0.1, gamma: 0.2 });
+//! let parameters = Parameters { chi: 0.8, theta_o: 1.0, ..Parameters::new(star, s, angles, rates) };
+//! let signal = Signal::new(&parameters, 60.0)?;
+//! let (events, unknowns) = (signal.events()?, [Parameter::Gamma, Parameter::Delta]);
+//! let data = data_of(&signal, &events, &[], &[(Observable::Arrivals, 1e-6)])?;
+//! let derivatives = jacobian(&parameters, &events, &data, &unknowns)?.matrix;
+//! assert!((derivatives.column(0) - derivatives.column(1)).amax() < 1e-9);
+//! let fisher = Fisher::of(&parameters, &events, &data, &unknowns)?;
+//! assert!(fisher.degenerate[0].to_string().starts_with("gamma against delta: only gamma + delta"));
+//! # Ok::<(), twofold::inference::InferenceError>(())
+//! ```
+
+use nalgebra::{DMatrix, DVector};
+
+use super::degenerate::Directions;
+use super::scaled_jacobian::ScaledJacobian;
+use super::{Datum, Direction, Event, InferenceError, Jacobian, jacobian};
+use crate::parameters::{Parameter, Parameters};
+
+/// What data of given errors tell of unknowns.
+#[derive(Debug, Clone)]
+pub struct Fisher {
+    /// The parameters at which it is taken.
+    pub parameters: Parameters<f64>,
+    /// Those of them that are not known.
+    pub unknowns: Vec<Parameter>,
+    /// Singular values of the Jacobian with columns of unit length, largest first.
+    pub singular_values: Vec<f64>,
+    /// What rounding can make of a singular value that is zero.
+    pub rounding: f64,
+    /// Directions that the data do not determine at all: singular values below [`rounding`](Self::rounding).
+    pub degenerate: Vec<Direction>,
+    /// Directions along which the whole [`range`](Parameter::range) of the unknowns is less than one standard deviation of the data.
+    pub weak: Vec<Direction>,
+    /// Covariance of the unknowns. NaN in the rows and columns of those that a degenerate direction moves.
+    pub covariance: DMatrix<f64>,
+}
+
+impl Fisher {
+    /// For data of a star with its pulses.
+    ///
+    /// # Errors
+    /// Those of [`jacobian`], and fewer data than unknowns.
+    pub fn of(
+        parameters: &Parameters<f64>,
+        events: &[Event],
+        data: &[Datum],
+        unknowns: &[Parameter],
+    ) -> Result<Self, InferenceError> {
+        if data.len() < unknowns.len() {
+            return Err(InferenceError::TooFew { data: data.len(), unknowns: unknowns.len() });
+        }
+        Ok(Self::of_jacobian(&jacobian(parameters, events, data, unknowns)?.weighted(data), unknowns, parameters))
+    }
+
+    /// From a Jacobian in units of the standard deviations.
+    pub fn of_jacobian(jacobian: &Jacobian, unknowns: &[Parameter], parameters: &Parameters<f64>) -> Self {
+        let scaled = ScaledJacobian::new(jacobian);
+        let directions = Directions::new(&scaled, unknowns, parameters);
+        Self {
+            parameters: *parameters,
+            unknowns: unknowns.to_vec(),
+            degenerate: directions.degenerate(parameters),
+            weak: directions.weak(),
+            covariance: scaled.covariance(),
+            singular_values: scaled.values.iter().copied().collect(),
+            rounding: scaled.rounding,
+        }
+    }
+
+    /// The same if the data determine all unknowns.
+    ///
+    /// # Errors
+    /// [`InferenceError::Degenerate`] with the directions that they do not determine.
+    pub fn determined(self) -> Result<Self, InferenceError> {
+        if self.degenerate.is_empty() && self.weak.is_empty() {
+            Ok(self)
+        } else {
+            Err(InferenceError::Degenerate([self.degenerate, self.weak].concat()))
+        }
+    }
+
+    /// Values of the unknowns.
+    pub fn values(&self) -> Vec<f64> {
+        self.parameters.values(&self.unknowns)
+    }
+
+    /// Standard deviation of an unknown with all others unknown; NaN where it is not determined, none if it is none of the unknowns.
+    pub fn sigma(&self, unknown: Parameter) -> Option<f64> {
+        let place = self.unknowns.iter().position(|other| *other == unknown)?;
+        Some(self.covariance[(place, place)].sqrt())
+    }
+
+    /// Standard deviations of all unknowns.
+    pub fn sigmas(&self) -> Vec<f64> {
+        self.covariance.diagonal().iter().map(|variance| variance.sqrt()).collect()
+    }
+
+    /// Correlation coefficients.
+    pub fn correlations(&self) -> DMatrix<f64> {
+        let sigmas = self.sigmas();
+        DMatrix::from_fn(sigmas.len(), sigmas.len(), |i, j| self.covariance[(i, j)] / (sigmas[i] * sigmas[j]))
+    }
+
+    /// The parameters with the unknowns moved along the principal axes of their correlations, by so many standard deviations each, all times `factor`.
+    pub fn beside(&self, deviations: &DVector<f64>, factor: f64) -> Parameters<f64> {
+        let axes = self.correlations().symmetric_eigen();
+        let along = deviations.zip_map(&axes.eigenvalues, |deviation, value| deviation * value.max(0.0).sqrt());
+        let change = (axes.eigenvectors * along).component_mul(&DVector::from_vec(self.sigmas())) * factor;
+        self.parameters.moved(&self.unknowns, change.as_slice())
+    }
+}

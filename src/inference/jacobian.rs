@@ -1,0 +1,226 @@
+//! The Jacobian of data by unknowns, by exact derivatives.
+//!
+//! The states and their derivatives come of one motion ([`plan::gradient`](crate::plan::gradient)). A column by an unknown is a sum of columns by
+//! the numbers of [`Parameters`] that it changes.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use num_dual::Dual64;
+
+use super::signal::{ACCURACY, strain, turning_rate};
+use super::{Datum, Event, InferenceError, Observable, Place, long_span};
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
+use crate::numerics::scalar::Real;
+use crate::observables::pulsar::event_time::event_time;
+use crate::parameters::{Parameter, Parameters};
+use crate::plan::{Gradient, Method, Output, Request, StateFunction, gradient_in_parts};
+
+/// Derivatives of data by unknowns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Jacobian {
+    /// A row for each datum, a column for each unknown.
+    pub matrix: DMatrix<f64>,
+    /// The same with the magnitudes of the terms of each sum: rounding is relative to these.
+    pub magnitudes: DMatrix<f64>,
+    /// Relative error of the terms.
+    pub relative_error: f64,
+}
+
+/// The factor between the accuracy asked of derivatives and their error, at most: `gradient-both-ways` finds 8 in 3,000 motions.
+const SAFETY: f64 = 20.0;
+
+/// The Jacobian of `data` by `unknowns`, at the pulses `events` of a star with these parameters.
+///
+/// # Errors
+/// [`InferenceError::NoPulse`] for a datum of a turn in which `events` has none; [`InferenceError::Model`] for a motion that cannot
+/// be computed, and for a pulse of which the line of sight only touches the edge.
+pub fn jacobian(
+    parameters: &Parameters<f64>,
+    events: &[Event],
+    data: &[Datum],
+    unknowns: &[Parameter],
+) -> Result<Jacobian, InferenceError> {
+    let by_turn: BTreeMap<i64, &Event> = events.iter().map(|event| (event.turn, event)).collect();
+    let terms = data.iter().map(|datum| Term::of(datum, &by_turn)).collect::<Result<Vec<_>, _>>()?;
+    let (numbers, weights) = weights(parameters, unknowns);
+    let base = parameters.holding_gamma_rate();
+    let states = States::new(&base, &terms, &numbers)?;
+    let mut by_numbers = DMatrix::zeros(data.len(), numbers.len());
+    for (column, number) in numbers.iter().enumerate() {
+        let seeded = base.seeded(*number);
+        for (row, (datum, term)) in data.iter().zip(&terms).enumerate() {
+            by_numbers[(row, column)] = term.value(&seeded, datum.observable, &|t| states.at(t, column))?.eps;
+        }
+    }
+    // The averaged motion keeps its phases in 32 digits.
+    let rotation = if states.is_long { 0.0 } else { states.end() * turning_rate(parameters) };
+    let found = Jacobian {
+        matrix: &by_numbers * &weights,
+        magnitudes: by_numbers.abs() * weights.abs(),
+        relative_error: SAFETY * (ACCURACY + f64::EPSILON * rotation),
+    };
+    match found.matrix.iter().find(|value| !value.is_finite()) {
+        Some(&value) => {
+            let (quantity, allowed) = ("derivative of a datum", "a finite number: no touch of the edge of the beam");
+            Err(Error::Domain { quantity, value, allowed }.into())
+        }
+        None => Ok(found),
+    }
+}
+
+/// The numbers that unknowns change, those of the motion first, and for each of these (a row) by how much with each unknown (a column).
+fn weights(parameters: &Parameters<f64>, unknowns: &[Parameter]) -> (Vec<Parameter>, DMatrix<f64>) {
+    let numbers: Vec<Parameter> = Parameter::OF_MOTION.into_iter().chain(Parameter::OF_SIGHT).collect();
+    let seeded: Vec<_> = unknowns.iter().map(|unknown| parameters.seeded(*unknown)).collect();
+    let all = DMatrix::from_fn(numbers.len(), unknowns.len(), |row, column| numbers[row].value(&seeded[column]).eps);
+    let used: Vec<usize> = (0..numbers.len()).filter(|row| all.row(*row).amax() > 0.0).collect();
+    (used.iter().map(|row| numbers[*row]).collect(), all.select_rows(&used))
+}
+
+/// `n`, `L` and `e_x`.
+struct Vectors;
+
+impl StateFunction for Vectors {
+    fn len(&self) -> usize {
+        9
+    }
+
+    fn values<S: Real>(&self, _: &RigidSpheroid<S>, _: &Matrix3<S>, state: &BodyState<S>, values: &mut [S]) {
+        let all = state.axis.iter().chain(&state.momentum).chain(&state.equatorial_axis);
+        values.iter_mut().zip(all).for_each(|(value, component)| *value = *component);
+    }
+}
+
+/// Times in two parts, in some order.
+fn order(a: &[f64; 2], b: &[f64; 2]) -> Ordering {
+    a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
+}
+
+/// States with derivatives at the times of the data.
+struct States {
+    times: Vec<[f64; 2]>,
+    found: Gradient,
+    is_long: bool,
+}
+
+impl States {
+    fn new(parameters: &Parameters<f64>, terms: &[Term], numbers: &[Parameter]) -> Result<Self, Error> {
+        let mut times: Vec<[f64; 2]> = terms.iter().flat_map(Term::times).collect();
+        times.sort_by(order);
+        times.dedup();
+        let end = last(&times);
+        let is_long = long_span::is_long(parameters, end);
+        let needs_beam = terms.iter().any(|term| !matches!(term, Term::Sample(_)));
+        let output = if needs_beam { Output::PulseProfile } else { Output::GravitationalWave };
+        let of_motion = numbers.iter().copied().filter(|number| Parameter::OF_MOTION.contains(number));
+        let request = Request {
+            derivatives: of_motion.collect(),
+            method: is_long.then_some(Method::Averaged),
+            ..Request::new(&[output], (0.0, end), times.len(), ACCURACY)
+        };
+        let plan = parameters.problem()?.plan(&request)?;
+        let found = gradient_in_parts(&plan, parameters, &Vectors, &times)?;
+        Ok(Self { times, found, is_long })
+    }
+
+    fn end(&self) -> f64 {
+        last(&self.times)
+    }
+
+    /// The state at a time with its derivative by the number of a column: zero for one that the motion does not depend on.
+    fn at(&self, t: [f64; 2], column: usize) -> BodyState<Dual64> {
+        let row = self.times.partition_point(|time| order(time, &t).is_lt());
+        let (values, jacobian) = (&self.found.values, &self.found.jacobians[row]);
+        let derivative = |place: usize| jacobian.get((place, column)).copied().unwrap_or(0.0);
+        let vector =
+            |first: usize| Vector3::from_fn(|i, _| Dual64::new(values[(row, first + i)], derivative(first + i)));
+        BodyState { axis: vector(0), momentum: vector(3), equatorial_axis: vector(6) }
+    }
+}
+
+/// The last of some times.
+fn last(times: &[[f64; 2]]) -> f64 {
+    times.iter().fold(0.0, |last, [epoch, t]| last.max(epoch + t))
+}
+
+/// What a datum is a function of.
+enum Term {
+    /// One pulse.
+    Pulse(Event),
+    /// Two pulses of consecutive turns.
+    Pulses(Event, Event),
+    /// The state at a time.
+    Sample(f64),
+}
+
+impl Term {
+    fn of(datum: &Datum, events: &BTreeMap<i64, &Event>) -> Result<Self, InferenceError> {
+        let (number, near) = match datum.place {
+            Place::Time(t) => return Ok(Self::Sample(t)),
+            Place::Turn { number, near } => (number, near),
+        };
+        let event =
+            |turn: i64| events.get(&turn).map(|event| **event).ok_or(InferenceError::NoPulse { turn: number, near });
+        Ok(match datum.observable {
+            Observable::Periods => Self::Pulses(event(number - 1)?, event(number)?),
+            _ => Self::Pulse(event(number)?),
+        })
+    }
+
+    fn times(&self) -> Vec<[f64; 2]> {
+        let of = |event: &Event, times: &[f64]| -> Vec<[f64; 2]> {
+            times.iter().filter(|t| t.is_finite()).map(|t| [event.epoch, *t]).collect()
+        };
+        match self {
+            Self::Pulse(event) => of(event, &[event.start, event.end, event.closest]),
+            Self::Pulses(before, event) => {
+                [of(before, &[before.start, before.end]), of(event, &[event.start, event.end])].concat()
+            }
+            Self::Sample(t) => vec![[*t, 0.0]],
+        }
+    }
+
+    /// The datum as a function of one number.
+    fn value(
+        &self,
+        parameters: &Parameters<Dual64>,
+        observable: Observable,
+        state: &impl Fn([f64; 2]) -> BodyState<Dual64>,
+    ) -> Result<Dual64, Error> {
+        let (beam, n) = (parameters.beam(), parameters.observer().direction);
+        let star = (&parameters.spheroid, &parameters.violation);
+        let margin = |event: &Event, t: f64| beam.margin_rates(star.0, star.1, &state([event.epoch, t]), &n);
+        let edge = |event: &Event, t: f64| {
+            let [value, rate, ..] = margin(event, t);
+            event_time(t, value, rate.re)
+        };
+        let midpoint = |event: &Event| Ok((edge(event, event.start)? + edge(event, event.end)?) / 2.0);
+        match (self, observable) {
+            (Self::Pulse(event), Observable::Widths) => Ok(edge(event, event.end)? - edge(event, event.start)?),
+            (Self::Pulse(event), Observable::ClosestApproaches) => {
+                let [_, rate, second, _] = margin(event, event.closest);
+                event_time(event.closest, rate, second.re)
+            }
+            (Self::Pulse(event), _) => midpoint(event),
+            (Self::Pulses(before, event), _) => Ok(midpoint(event)? - midpoint(before)?),
+            (Self::Sample(t), _) => {
+                let BodyState { axis, momentum, .. } = state([*t, 0.0]);
+                Ok(strain(parameters, [&axis, &momentum], observable))
+            }
+        }
+    }
+}
+
+impl Jacobian {
+    /// With each row divided by the standard deviation of its datum.
+    pub fn weighted(mut self, data: &[Datum]) -> Self {
+        let weights = DVector::from_iterator(data.len(), data.iter().map(|datum| 1.0 / datum.sigma));
+        for matrix in [&mut self.matrix, &mut self.magnitudes] {
+            matrix.row_iter_mut().zip(&weights).for_each(|(mut row, weight)| row *= *weight);
+        }
+        self
+    }
+}

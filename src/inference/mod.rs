@@ -1,0 +1,53 @@
+//! From data back to the star and to s: what pulse times, widths and strains tell of [`Parameters`](crate::parameters::Parameters).
+//!
+//! ```text
+//! Parameters -> Signal (one motion) -> values of Data, and their Jacobian by exact derivatives
+//!            -> Fisher: uncertainties, degenerate Directions, named        -> forecasts
+//!            -> fit: least squares from a start, covariance by the Jacobian at the minimum
+//! ```
+//!
+//! The formulas, what is promised and the coverage of the error bars are in `docs/inference.md`.
+//!
+//! # Example
+//!
+//! ```
+//! use twofold::dynamics::RigidSpheroid;
+//! use twofold::euler_angles::{EulerAngles, EulerRates};
+//! use twofold::inference::{Observable, Signal, data_of, fit, nonlinearity};
+//! use twofold::lorentz_violation::PrincipalCoefficients;
+//! use twofold::parameters::{Parameter, Parameters};
+//!
+//! let (star, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new([0.02, 0.01, -0.04]).tensor());
+//! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.0, beta: 0.1, gamma: 0.2 });
+//! let truth = Parameters { chi: 0.8, theta_o: 1.0, ..Parameters::new(star, s, angles, rates).holding_spin() };
+//! let signal = Signal::new(&truth, 60.0)?;
+//! let data = data_of(&signal, &signal.events()?[1..], &[], &[(Observable::Arrivals, 1e-6)])?;
+//! let unknowns = [Parameter::Spin, Parameter::SAxial];
+//! let found = fit(&truth.moved(&unknowns, &[1e-4, -1e-4]), &data, &unknowns, 60.0)?;
+//! assert!((found.fisher.values()[1] + 0.11).abs() < 0.01 * found.fisher.sigmas()[1]);
+//! // Error bars hold where chi^2 is a parabola over them.
+//! assert!(nonlinearity(&found.fisher, &data, 60.0)? < 0.1);
+//! # Ok::<(), twofold::inference::InferenceError>(())
+//! ```
+
+mod degenerate;
+mod error;
+mod fisher;
+mod fit;
+mod forecast;
+mod jacobian;
+mod long_span;
+mod observables;
+mod scaled_jacobian;
+mod signal;
+mod symmetry;
+
+pub use degenerate::Direction;
+pub use error::InferenceError;
+pub use fisher::Fisher;
+pub use fit::{Fit, Residuals, fit, nonlinearity};
+pub use forecast::{Forecast, forecast, scaling};
+pub use jacobian::{Jacobian, jacobian};
+pub use long_span::check_span;
+pub use observables::{Datum, Noise, Observable, Place, data_of};
+pub use signal::{Event, Signal};

@@ -1,0 +1,72 @@
+//! A Jacobian by its singular values.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::Jacobian;
+
+/// A Jacobian with columns of unit length, decomposed.
+pub(super) struct ScaledJacobian {
+    /// Lengths of the columns.
+    pub(super) lengths: DVector<f64>,
+    /// Columns of which rounding is all: data do not depend on these unknowns.
+    pub(super) idle: Vec<usize>,
+    /// Singular values, largest first, idle columns left out.
+    pub(super) values: DVector<f64>,
+    /// Right singular vectors as columns, in the order of the values; idle components are zero.
+    pub(super) vectors: DMatrix<f64>,
+    /// What rounding can make of a singular value that is zero.
+    pub(super) rounding: f64,
+}
+
+impl ScaledJacobian {
+    pub(super) fn new(jacobian: &Jacobian) -> Self {
+        let Jacobian { matrix, magnitudes, relative_error } = jacobian;
+        let columns = matrix.ncols();
+        let lengths = DVector::from_fn(columns, |j, _| matrix.column(j).norm());
+        let errors: Vec<f64> = (0..columns).map(|j| relative_error * magnitudes.column(j).norm()).collect();
+        let (idle, used): (Vec<usize>, Vec<usize>) = (0..columns).partition(|&j| lengths[j] <= errors[j]);
+        if used.is_empty() {
+            let (values, vectors) = (DVector::zeros(0), DMatrix::zeros(columns, 0));
+            return Self { lengths, idle, values, vectors, rounding: 0.0 };
+        }
+        let mut scaled = matrix.select_columns(&used);
+        for (mut column, &j) in scaled.column_iter_mut().zip(&used) {
+            column /= lengths[j];
+        }
+        let svd = scaled.svd(false, true);
+        // Thin: as many vectors as columns, since there are at least as many rows.
+        let rows = svd.v_t.expect("asked for");
+        let mut vectors = DMatrix::zeros(columns, rows.nrows());
+        for (place, &j) in used.iter().enumerate() {
+            vectors.row_mut(j).copy_from(&rows.column(place).transpose());
+        }
+        // Weyl: no singular value moves by more than the norm of what is added to the matrix.
+        let rounding = used.iter().map(|&j| (errors[j] / lengths[j]).powi(2)).sum::<f64>().sqrt();
+        Self { lengths, idle, values: svd.singular_values, vectors, rounding }
+    }
+
+    /// How many directions are not determined, idle columns left out: the last ones.
+    pub(super) fn nullity(&self) -> usize {
+        self.values.iter().filter(|value| **value <= self.rounding).count()
+    }
+
+    /// `(J^T J)^-1`, of the unknowns that no degenerate direction moves.
+    pub(super) fn covariance(&self) -> DMatrix<f64> {
+        /// A unit vector with a component below this does not move the unknown: an error bar that it leaves is right to as many digits.
+        const MOVED: f64 = 1e-4;
+        let rank = self.values.len() - self.nullity();
+        let size = self.lengths.len();
+        let mut covariance = DMatrix::zeros(size, size);
+        for k in 0..rank {
+            let unit = self.vectors.column(k).component_div(&self.lengths) / self.values[k];
+            covariance += &unit * unit.transpose();
+        }
+        let null = self.vectors.columns(rank, self.values.len() - rank);
+        let moved = (0..size).filter(|j| self.idle.contains(j) || null.row(*j).norm() > MOVED);
+        for j in moved {
+            covariance.row_mut(j).fill(f64::NAN);
+            covariance.column_mut(j).fill(f64::NAN);
+        }
+        covariance
+    }
+}

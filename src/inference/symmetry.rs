@@ -1,0 +1,82 @@
+//! Changes of a star, its beam and its observer that nobody can see, or that two unknowns share: names for degenerate directions.
+
+use nalgebra::{Matrix3, Vector3};
+use num_dual::Dual64;
+
+use crate::numerics::scalar::Real;
+use crate::parameters::{Parameter, Parameters};
+
+/// A change of the unknowns, the same for all data of some kind, in words.
+pub(super) struct Symmetry {
+    /// What cannot be told.
+    pub(super) words: &'static str,
+    /// The change of each unknown, in its unit; those that are not named do not change.
+    pub(super) change: Vec<(Parameter, f64)>,
+}
+
+/// The symmetries of a star with these parameters, the simplest first.
+pub(super) fn symmetries(parameters: &Parameters<f64>) -> Vec<Symmetry> {
+    use Parameter::*;
+    let with_s = |other: (Parameter, f64)| {
+        let components = [SAxial, SAsymmetry, S(0, 1), S(0, 2), S(1, 2)];
+        components.into_iter().map(|part| (part, part.value(parameters))).chain([other]).collect::<Vec<_>>()
+    };
+    let Parameters { s_scale, strain_scale, .. } = *parameters;
+    let (constant_c, oblateness) = (parameters.spheroid.constant_c, parameters.spheroid.oblateness());
+    let named = [
+        ("the trace of s^IJ: a multiple of the unit tensor turns nothing", vec![(STrace, 1.0)]),
+        (
+            "C against the size of s^IJ: only C s^IJ / I^xx moves the star",
+            vec![(ConstantC, constant_c), (SScale, -s_scale)],
+        ),
+        ("C against s^IJ: only C s^IJ / I^xx moves the star", with_s((ConstantC, -constant_c))),
+        ("the size of s^IJ against its components, which say the same", with_s((SScale, -s_scale))),
+        ("gamma against delta: only gamma + delta, the place of the beam, is seen", vec![(Gamma, 1.0), (Delta, -1.0)]),
+        ("gamma: a spheroid looks alike from all sides, and no beam is seen", vec![(Gamma, 1.0)]),
+        ("chi: no pulses are among the data", vec![(Chi, 1.0)]),
+        ("delta: no pulses are among the data", vec![(Delta, 1.0)]),
+        ("rho: no pulses are among the data", vec![(Rho, 1.0)]),
+        (
+            "eps against Omega^z and the strain scale: the axis moves by I^zz Omega^z, and h is in proportion to eps I^xx / r",
+            vec![
+                (Oblateness, -oblateness),
+                (Spin, parameters.spin() * oblateness / (1.0 + oblateness)),
+                (Strain, strain_scale),
+            ],
+        ),
+        ("the strain scale: there is no strain among the data", vec![(Strain, 1.0)]),
+    ];
+    let turns = [
+        (Vector3::z(), "a rotation of all (star, s^IJ and observer) about Z: no direction in space is marked"),
+        (Vector3::y(), "a rotation of all (star, s^IJ and observer) about Y: no direction in space is marked"),
+        (Vector3::x(), "a rotation of all (star, s^IJ and observer) about X: no direction in space is marked"),
+    ];
+    let rotations = turns.into_iter().filter_map(|(axis, words)| Some((words, rotation(parameters, axis)?)));
+    named.into_iter().chain(rotations).map(|(words, change)| Symmetry { words, change }).collect()
+}
+
+/// The change of all unknowns with a rotation of the inertial frame, where no pole is met.
+fn rotation(parameters: &Parameters<f64>, axis: Vector3<f64>) -> Option<Vec<(Parameter, f64)>> {
+    let small = Dual64::new(0.0, 1.0);
+    let turn = Matrix3::identity() + axis.cross_matrix().map(|value| small * value);
+    // Omega^z does not change.
+    let lifted = parameters.holding_spin().lifted::<Dual64>();
+    let state = lifted.state().rotated(&turn);
+    let rates = state.rates(&lifted.spheroid).ok()?;
+    let n = turn * lifted.observer().direction;
+    let across = (n.x * n.x + n.y * n.y).sqrt();
+    if across.re < 1e-6 {
+        return None;
+    }
+    let turned = Parameters {
+        violation: turn * lifted.violation * turn.transpose(),
+        angles: state.angles().ok()?,
+        alpha_rate: rates.alpha,
+        beta_rate: rates.beta,
+        theta_o: Real::atan2(across, n.z),
+        phi_o: Real::atan2(n.y, n.x),
+        ..lifted
+    };
+    let changed = Parameter::FITTED.into_iter().map(|parameter| (parameter, parameter.value(&turned).eps));
+    Some(changed.filter(|(_, change)| *change != 0.0).collect())
+}

@@ -1,0 +1,204 @@
+//! A star, its beam and its observer as named numbers, by which derivatives are taken and which are fitted.
+//!
+//! A change of one [`Parameter`] holds all other numbers of [`Parameters`] fixed. Of the rate of `gamma` and `Omega^z = gamma' + alpha' cos(beta)`
+//! the struct has one, its [`ThirdRate`]: that one is held when `beta` or `alpha'` change.
+//!
+//! # Example
+//!
+//! ```
+//! use nalgebra::Matrix3;
+//! use twofold::dynamics::RigidSpheroid;
+//! use twofold::euler_angles::{EulerAngles, EulerRates};
+//! use twofold::parameters::{Parameter, Parameters};
+//!
+//! let star = RigidSpheroid::in_units_of_tc(1.1);
+//! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
+//! let parameters = Parameters::new(star, Matrix3::zeros(), angles, rates);
+//! // The spin with beta a little larger: with gamma' held, and with Omega^z held.
+//! let spin = |parameters: Parameters<f64>| parameters.moved(&[Parameter::Beta], &[0.01]).spin() - parameters.spin();
+//! assert!((spin(parameters) - 1.4 * (0.71_f64.cos() - 0.7_f64.cos())).abs() < 1e-15);
+//! assert_eq!(spin(parameters.holding_spin()), 0.0);
+//! ```
+
+mod parameter;
+
+pub use parameter::Parameter;
+
+use nalgebra::Matrix3;
+use num_dual::Dual64;
+
+use crate::dynamics::{BodyState, Problem, RigidSpheroid};
+use crate::error::Error;
+use crate::euler_angles::{EulerAngles, EulerRates};
+use crate::numerics::scalar::{Real, Scalar};
+use crate::observables::Observer;
+use crate::observables::pulsar::Beam;
+
+/// The rate that stays when `beta` or the rate of `alpha` change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ThirdRate<S> {
+    /// Rate of `gamma`.
+    Gamma(S),
+    /// `Omega^z`.
+    Spin(S),
+}
+
+/// Everything that motions and data depend on. Time and length are in any units; those of fits have `I^xx = 1`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameters<S> {
+    /// The body.
+    pub spheroid: RigidSpheroid<S>,
+    /// `s^IJ`.
+    pub violation: Matrix3<S>,
+    /// By how much `s^IJ` has been multiplied, one at first.
+    pub s_scale: S,
+    /// Euler angles at the start.
+    pub angles: EulerAngles<S>,
+    /// Rate of `alpha` there.
+    pub alpha_rate: S,
+    /// Rate of `beta` there.
+    pub beta_rate: S,
+    /// Rate of `gamma` or `Omega^z` there.
+    pub third_rate: ThirdRate<S>,
+    /// Angle of the magnetic axis to the symmetry axis, Eq. (45).
+    pub chi: S,
+    /// Its azimuth.
+    pub delta: S,
+    /// Semi-open angle of the beam.
+    pub rho: S,
+    /// Colatitude of the observer, Eq. (46).
+    pub theta_o: S,
+    /// Azimuth of the observer.
+    pub phi_o: S,
+    /// By how much the strain has been multiplied, one at first.
+    pub strain_scale: S,
+    /// Strain of `h = 1` at `r = 1`, not a parameter.
+    pub strain_unit: f64,
+}
+
+impl<S: Scalar> Parameters<S> {
+    /// A body with its initial values, the rate of `gamma` held. Beam and observer are some until their fields are set: a motion does not depend
+    /// on them.
+    pub fn new(
+        spheroid: RigidSpheroid<S>,
+        violation: Matrix3<S>,
+        angles: EulerAngles<S>,
+        rates: EulerRates<S>,
+    ) -> Self {
+        let [zero, half, one] = [0.0, 0.5, 1.0].map(S::from_f64);
+        Self {
+            spheroid,
+            violation,
+            s_scale: one,
+            angles,
+            alpha_rate: rates.alpha,
+            beta_rate: rates.beta,
+            third_rate: ThirdRate::Gamma(rates.gamma),
+            chi: half,
+            delta: zero,
+            rho: half,
+            theta_o: half,
+            phi_o: zero,
+            strain_scale: one,
+            strain_unit: 1.0,
+        }
+    }
+
+    /// The same with `Omega^z` held in place of the rate of `gamma`.
+    pub fn holding_spin(self) -> Self {
+        Self { third_rate: ThirdRate::Spin(self.spin()), ..self }
+    }
+
+    /// The same with the rate of `gamma` held.
+    pub fn holding_gamma_rate(self) -> Self {
+        Self { third_rate: ThirdRate::Gamma(self.rates().gamma), ..self }
+    }
+
+    /// `Omega^z`.
+    pub fn spin(&self) -> S {
+        match self.third_rate {
+            ThirdRate::Gamma(rate) => rate + self.alpha_rate * self.angles.beta.sin_cos().1,
+            ThirdRate::Spin(spin) => spin,
+        }
+    }
+
+    /// Euler rates at the start.
+    pub fn rates(&self) -> EulerRates<S> {
+        let gamma = match self.third_rate {
+            ThirdRate::Gamma(rate) => rate,
+            ThirdRate::Spin(spin) => spin - self.alpha_rate * self.angles.beta.sin_cos().1,
+        };
+        EulerRates { alpha: self.alpha_rate, beta: self.beta_rate, gamma }
+    }
+
+    /// The initial state.
+    pub fn state(&self) -> BodyState<S> {
+        BodyState::from_angles(&self.spheroid, &self.angles, &self.rates())
+    }
+
+    /// The beam.
+    pub fn beam(&self) -> Beam<S> {
+        Beam::new(self.chi, self.delta, self.rho)
+    }
+
+    /// The observer.
+    pub fn observer(&self) -> Observer<S> {
+        Observer::at(self.theta_o, self.phi_o)
+    }
+}
+
+impl<S: Real> Parameters<S> {
+    /// What moves.
+    ///
+    /// # Errors
+    /// As for [`Problem::new`].
+    pub fn problem(&self) -> Result<Problem<S>, Error> {
+        Problem::new(self.spheroid, self.violation, self.state())
+    }
+}
+
+impl Parameters<f64> {
+    /// The same numbers with zero derivatives.
+    pub fn lifted<S: Scalar>(&self) -> Parameters<S> {
+        let of = S::from_f64;
+        let Self { spheroid, angles, .. } = self;
+        Parameters {
+            spheroid: spheroid.map(of),
+            violation: self.violation.map(of),
+            s_scale: of(self.s_scale),
+            angles: EulerAngles { alpha: of(angles.alpha), beta: of(angles.beta), gamma: of(angles.gamma) },
+            alpha_rate: of(self.alpha_rate),
+            beta_rate: of(self.beta_rate),
+            third_rate: match self.third_rate {
+                ThirdRate::Gamma(rate) => ThirdRate::Gamma(of(rate)),
+                ThirdRate::Spin(spin) => ThirdRate::Spin(of(spin)),
+            },
+            chi: of(self.chi),
+            delta: of(self.delta),
+            rho: of(self.rho),
+            theta_o: of(self.theta_o),
+            phi_o: of(self.phi_o),
+            strain_scale: of(self.strain_scale),
+            strain_unit: self.strain_unit,
+        }
+    }
+
+    /// The same numbers as functions of one parameter, at the value it has.
+    pub fn seeded(&self, parameter: Parameter) -> Parameters<Dual64> {
+        let mut seeded = self.lifted();
+        parameter.add(&mut seeded, Dual64::new(0.0, 1.0));
+        seeded
+    }
+
+    /// With some parameters changed.
+    pub fn moved(&self, parameters: &[Parameter], changes: &[f64]) -> Self {
+        let mut moved = *self;
+        parameters.iter().zip(changes).for_each(|(parameter, change)| parameter.add(&mut moved, *change));
+        moved
+    }
+
+    /// The values of some parameters.
+    pub fn values(&self, parameters: &[Parameter]) -> Vec<f64> {
+        parameters.iter().map(|parameter| parameter.value(self)).collect()
+    }
+}
