@@ -3,13 +3,16 @@
 pub mod columns;
 pub mod estimated_error;
 pub mod measurements;
+pub mod plan;
 pub mod pulsar_table;
 pub mod pulsar_timing;
 pub mod random;
+pub mod samples;
 pub mod scene_file;
 pub mod significant;
 pub mod sweep;
 pub mod trajectory;
+pub mod wave;
 
 /// The compiler of this build.
 pub const COMPILER: &str = env!("TWOFOLD_RUSTC");

@@ -1,18 +1,30 @@
 //! Numbers for reading, with so many significant digits.
 
-/// `x` with `digits` significant digits, as a decimal from 1e-4 to below 1e6 in size and else with an exponent. Zero has no sign.
-pub fn significant(x: f64, digits: usize) -> String {
+use std::ops::RangeInclusive;
+
+/// `x` with `digits` significant digits: a decimal where the power of ten of its first digit is one of `decimals`, else the mantissa and that
+/// power. Zero has no sign.
+pub fn rounded(x: f64, digits: usize, decimals: RangeInclusive<i32>) -> (String, Option<i32>) {
     if x == 0.0 {
-        return "0".to_owned();
+        return ("0".to_owned(), None);
     }
     let text = format!("{x:.*e}", digits.max(1) - 1);
     // Of the rounded number: 9.99 with one digit is 10.
-    match text.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()) {
-        Some(exponent @ -4..=5) => {
-            let decimals = (digits as i32 - 1 - exponent).max(0);
-            format!("{:.*}", decimals as usize, text.parse::<f64>().unwrap_or(x))
+    let Some((mantissa, power)) = text.split_once('e') else { return (text, None) };
+    match power.parse() {
+        Ok(power) if decimals.contains(&power) => {
+            let places = (digits as i32 - 1 - power).max(0);
+            (format!("{:.*}", places as usize, text.parse::<f64>().unwrap_or(x)), None)
         }
-        _ => text,
+        power => (mantissa.to_owned(), power.ok()),
+    }
+}
+
+/// `x` with `digits` significant digits, as a decimal from 1e-4 to below 1e6 in size and else with an exponent.
+pub fn significant(x: f64, digits: usize) -> String {
+    match rounded(x, digits, -4..=5) {
+        (text, None) => text,
+        (mantissa, Some(power)) => format!("{mantissa}e{power}"),
     }
 }
 

@@ -2,17 +2,16 @@
 
 use nalgebra::Vector3;
 use twofold::dynamics::first_integrals::first_integrals;
-use twofold::propagation::splitting::propagate_by_best_splitting;
-use twofold::propagation::{AxisState, Motion, propagate_axis};
+use twofold::dynamics::{AxisState, RotationState};
+use twofold::propagation::Motion;
 
 use super::Effort;
-use super::method::text;
 use super::scene::{BenchScene, rows};
 use twofold::straight_line::{Slope, order};
 use twofold_verify::check::largest;
 use twofold_verify::double_double::DoubleDouble;
 
-/// A method over long spans, as it goes on from one stretch to the next.
+/// A method over long spans, as it goes on from one segment to the next.
 #[derive(Clone, Copy)]
 pub struct LongMethod {
     /// Name.
@@ -29,17 +28,17 @@ pub const METHODS: &[LongMethod] =
     &[LongMethod { name: "Taylor", advance: taylor }, LongMethod { name: "splitting", advance: splitting }];
 
 fn splitting(scene: &BenchScene, state: &AxisState<f64>, duration: f64) -> Result<AxisState<f64>, String> {
-    let motion = propagate_by_best_splitting(&scene.spheroid, &scene.violation, state, (0.0, duration), 1e-14);
-    motion.and_then(|motion| motion.axis_state(duration)).map_err(text)
+    let problem = scene.problem.reduced().starting_from(*state)?;
+    Ok(problem.splitting((0.0, duration), 1e-14)?.state(duration)?)
 }
 
 fn taylor(scene: &BenchScene, state: &AxisState<f64>, duration: f64) -> Result<AxisState<f64>, String> {
-    let motion = propagate_axis(&scene.spheroid, &scene.violation, state, (0.0, duration), 1e-16).map_err(text)?;
-    motion.axis_state(duration).map_err(text)
+    let problem = scene.problem.reduced().starting_from(*state)?;
+    Ok(problem.taylor((0.0, duration), 1e-16)?.state(duration)?)
 }
 
-/// Length of a stretch (t_c).
-const STRETCH: f64 = 1000.0;
+/// Length of a segment (t_c).
+const SEGMENT: f64 = 1000.0;
 
 /// Errors after a time.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +47,7 @@ pub struct Row {
     pub method: &'static str,
     /// Time (t_c).
     pub time: f64,
-    /// Largest change of the energy at the end of a stretch so far, over the sum of the magnitudes of its terms.
+    /// Largest change of the energy at the end of a segment so far, over the sum of the magnitudes of its terms.
     pub energy: f64,
     /// The same of the third integral K.
     pub clebsch: f64,
@@ -71,14 +70,14 @@ pub fn references() -> Vec<(f64, Vector3<DoubleDouble>)> {
 /// What a method reports.
 pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
     let scene = BenchScene::named("tp-II");
-    let start = integrals(&scene, &scene.initial_axis());
+    let start = integrals(&scene, &scene.problem.initial().axis_state());
     let scale = scales(&scene);
     let mut measured = Vec::new();
     for (i, method) in METHODS.iter().enumerate() {
-        let (mut state, mut time, mut drift) = (scene.initial_axis(), 0.0, [0.0; 2]);
+        let (mut state, mut time, mut drift) = (scene.problem.initial().axis_state(), 0.0, [0.0; 2]);
         for (end, axis) in references().into_iter().filter(|(end, _)| *end <= effort.longest) {
             while time < end {
-                let step = STRETCH.min(end - time);
+                let step = SEGMENT.min(end - time);
                 state = (method.advance)(&scene, &state, step)?;
                 time += step;
                 let now = integrals(&scene, &state);
@@ -96,16 +95,17 @@ pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, S
 /// Energy and K in double-double numbers: doubles would add their own rounding.
 fn integrals(scene: &BenchScene, state: &AxisState<f64>) -> [DoubleDouble; 2] {
     let lift = <DoubleDouble as twofold::Scalar>::from_f64;
-    let spheroid = scene.spheroid.map(lift);
+    let lifted = scene.problem.map(lift);
     let state = AxisState { axis: state.axis.map(lift), momentum: state.momentum.map(lift) };
-    let found = first_integrals(&spheroid, &scene.violation.map(lift), &state);
+    let found = first_integrals(lifted.spheroid(), lifted.coefficients(), &state);
     [found.energy, found.clebsch]
 }
 
 /// Sums of the magnitudes of the terms of energy and K.
 fn scales(scene: &BenchScene) -> [f64; 2] {
-    let (n, l, s) = (scene.initial.axis.abs(), scene.initial.momentum.abs(), scene.violation.abs());
-    let adjugate = twofold::dynamics::first_integrals::symmetric_adjugate(&scene.violation).abs();
+    let (initial, s) = (scene.problem.initial(), scene.problem.coefficients());
+    let adjugate = twofold::dynamics::first_integrals::symmetric_adjugate(s).abs();
+    let (n, l, s) = (initial.axis.abs(), initial.momentum.abs(), s.abs());
     [l.dot(&l) / 2.0 + n.dot(&(s * n)), l.dot(&(s * l)) + 2.0 * n.dot(&(adjugate * n))]
 }
 

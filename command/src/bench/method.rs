@@ -3,13 +3,10 @@
 use std::fmt;
 
 use nalgebra::Vector3;
-use twofold::dynamics::BodyState;
+use twofold::dynamics::{Problem, RotationState};
 use twofold::observables::Observer;
-use twofold::observables::pulsar::{Beam, propagated_pulse_train};
-use twofold::propagation::splitting::{propagate_by_best_splitting, propagate_orientation_by_best_splitting};
-use twofold::propagation::{
-    AxisScene, AxisState, ErrorEstimates, Motion, Samples, axis_states_at, axis_states_of_many, states_at,
-};
+use twofold::observables::pulsar::Beam;
+use twofold::propagation::{ErrorEstimates, Motion, SampledProblem, Samples, states_of_many};
 
 use super::runge_kutta;
 use super::scene::BenchScene;
@@ -80,13 +77,8 @@ const TOLERANCES: &[f64] = &[1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1
 pub const METHODS: &[Method] = &[
     Method { name: "Taylor", carries: Carries::Axis, settings: ACCURACIES, run: taylor_axis },
     Method { name: "Taylor", carries: Carries::Orientation, settings: ACCURACIES, run: taylor },
-    Method { name: "splitting", carries: Carries::Axis, settings: SPLITTING_ACCURACIES, run: splitting },
-    Method {
-        name: "splitting",
-        carries: Carries::Orientation,
-        settings: SPLITTING_ACCURACIES,
-        run: splitting_orientation,
-    },
+    Method { name: "splitting", carries: Carries::Axis, settings: SPLITTING_ACCURACIES, run: splitting_axis },
+    Method { name: "splitting", carries: Carries::Orientation, settings: SPLITTING_ACCURACIES, run: splitting },
     Method { name: BASELINE, carries: Carries::Axis, settings: TOLERANCES, run: runge_kutta::axis },
     Method { name: BASELINE, carries: Carries::Orientation, settings: TOLERANCES, run: runge_kutta::orientation },
 ];
@@ -103,73 +95,57 @@ pub const MANY_SCENES: &[(Method, usize)] = &[
 ];
 
 fn taylor_with_pulses(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
-    let BenchScene { spheroid, violation, initial, .. } = scene;
     let (beam, observer) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0));
-    let span = (0.0, duration);
-    let found = propagated_pulse_train(spheroid, violation, initial, span, accuracy, &beam, &observer.direction);
-    let (train, end) = found.map_err(text)?;
+    let (train, end) = scene.problem.taylor_pulse_train((0.0, duration), accuracy, &beam, &observer.direction)?;
     std::hint::black_box(train);
-    let state = end.states[0];
-    let equatorial_axis = Some(state.equatorial_axis);
-    let (steps, evaluations) = (end.step_count, end.step_count * end.order);
-    Ok(End { axis: state.axis, momentum: state.momentum, equatorial_axis, steps, evaluations })
+    Ok(end_of(&end))
 }
 
 fn in_lanes<const COUNT: usize>(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
     let times = [duration];
-    let near = |i: usize| AxisScene {
-        spheroid: scene.spheroid,
-        violation: scene.violation * (1.0 + 1e-4 * i as f64),
-        initial: scene.initial_axis(),
-        start: 0.0,
-        times: &times,
-        accuracy,
-    };
-    let mut found = axis_states_of_many(&core::array::from_fn::<_, COUNT, _>(near));
-    end_of_axis(found.swap_remove(0).map_err(text)?)
+    let near = |i: usize| SampledProblem { problem: scene.beside(i, 1e-4), start: 0.0, times: &times, accuracy };
+    let mut found = states_of_many(&core::array::from_fn::<_, COUNT, _>(near));
+    Ok(end_of(&found.swap_remove(0)?))
 }
 
 fn taylor_axis(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
-    let (start, estimates) = (scene.initial_axis(), ErrorEstimates::NotWanted);
-    let found = axis_states_at(&scene.spheroid, &scene.violation, &start, 0.0, &[duration], accuracy, estimates);
-    end_of_axis(found.map_err(text)?)
-}
-
-fn splitting(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
-    let (spheroid, s, start) = (&scene.spheroid, &scene.violation, scene.initial_axis());
-    let motion = propagate_by_best_splitting(spheroid, s, &start, (0.0, duration), accuracy).map_err(text)?;
-    let AxisState { axis, momentum } = motion.axis_state(duration).map_err(text)?;
-    let steps = motion.step_count() as usize;
-    let evaluations = 2 * steps * motion.scheme().stages();
-    Ok(End { axis, momentum, equatorial_axis: None, steps, evaluations })
-}
-
-fn splitting_orientation(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
-    let (spheroid, s, start) = (&scene.spheroid, &scene.violation, &scene.initial);
-    let motion = propagate_orientation_by_best_splitting(spheroid, s, start, (0.0, duration), accuracy);
-    let motion = motion.map_err(text)?;
-    let BodyState { axis, momentum, equatorial_axis } = motion.state(duration).map_err(text)?;
-    let steps = motion.step_count() as usize;
-    let evaluations = 2 * steps * motion.scheme().stages();
-    Ok(End { axis, momentum, equatorial_axis: Some(equatorial_axis), steps, evaluations })
-}
-
-fn end_of_axis(Samples { states, step_count, order, .. }: Samples<AxisState<f64>>) -> Result<End, String> {
-    let AxisState { axis, momentum } = states[0];
-    Ok(End { axis, momentum, equatorial_axis: None, steps: step_count, evaluations: step_count * order })
+    let found = scene.problem.reduced().taylor_states(0.0, &[duration], accuracy, ErrorEstimates::NotWanted);
+    Ok(end_of(&found?))
 }
 
 fn taylor(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
-    let (start, estimates) = (&scene.initial, ErrorEstimates::NotWanted);
-    let found = states_at(&scene.spheroid, &scene.violation, start, 0.0, &[duration], accuracy, estimates);
-    let Samples { states, step_count, order, .. } = found.map_err(text)?;
-    let BodyState { axis, momentum, equatorial_axis } = states[0];
-    let evaluations = step_count * order;
-    Ok(End { axis, momentum, equatorial_axis: Some(equatorial_axis), steps: step_count, evaluations })
+    Ok(end_of(&scene.problem.taylor_states(0.0, &[duration], accuracy, ErrorEstimates::NotWanted)?))
 }
 
-pub(super) fn text(error: twofold::Error) -> String {
-    error.to_string()
+fn splitting_axis(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
+    end_of_splitting(&scene.problem.reduced(), duration, accuracy)
+}
+
+fn splitting(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
+    end_of_splitting(&scene.problem, duration, accuracy)
+}
+
+fn end_of_splitting<X: RotationState<f64>>(
+    problem: &Problem<f64, X>,
+    duration: f64,
+    accuracy: f64,
+) -> Result<End, String> {
+    let motion = problem.splitting((0.0, duration), accuracy)?;
+    let steps = motion.step_count() as usize;
+    Ok(End::new(&motion.state(duration)?, steps, 2 * steps * motion.scheme().stages()))
+}
+
+/// The first of the states of a series.
+fn end_of<X: RotationState<f64>>(Samples { states, step_count, order, .. }: &Samples<X>) -> End {
+    End::new(&states[0], *step_count, step_count * order)
+}
+
+impl End {
+    fn new<X: RotationState<f64>>(state: &X, steps: usize, evaluations: usize) -> Self {
+        let [axis, momentum, equatorial_axis] = state.vectors();
+        let equatorial_axis = (X::VECTORS == 3).then_some(equatorial_axis);
+        Self { axis, momentum, equatorial_axis, steps, evaluations }
+    }
 }
 
 #[cfg(test)]

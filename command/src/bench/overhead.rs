@@ -7,13 +7,13 @@ use num_dual::{Derivative, Dual, Dual2_64, Dual64, DualSVec64, HyperDual64};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::numerics::scalar::Real;
 use twofold::observables::Observer;
-use twofold::observables::pulsar::{Beam, propagated_pulse_train, pulse_train};
+use twofold::observables::pulsar::{Beam, pulse_train};
 use twofold::parameters::{Parameter, Parameters};
-use twofold::plan::{Output, Plan, Request, StateFunction, gradient};
-use twofold::propagation::{AxisState, ErrorEstimates, Motion, axis_states_at, propagate, propagate_axis, states_at};
+use twofold::plan::{Output, Request, StateFunction, gradient};
+use twofold::propagation::{ErrorEstimates, Motion};
 
 use super::Effort;
-use super::method::{Carries, text};
+use super::method::Carries;
 use super::scene::{BenchScene, DURATION};
 use super::timing::{Times, in_turn};
 use twofold_verify::double_double::DoubleDouble;
@@ -58,14 +58,14 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
     let scene = &BenchScene::named("tp-II");
     let span = (0.0, DURATION);
     let (beam, observer) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0));
-    let whole = || propagate(&scene.spheroid, &scene.violation, &scene.initial, span, ACCURACY).map_err(text);
-    let axis =
-        || propagate_axis(&scene.spheroid, &scene.violation, &scene.initial_axis(), span, ACCURACY).map_err(text);
+    let whole = || Ok::<_, String>(scene.problem.taylor(span, ACCURACY)?);
+    let reduced = scene.problem.reduced();
+    let axis = || Ok::<_, String>(reduced.taylor(span, ACCURACY)?);
     let sampled = |count: usize| {
         move || {
             let motion = axis()?;
             for i in 0..count {
-                black_box(motion.axis_state(DURATION * i as f64 / count as f64).map_err(text)?);
+                black_box(motion.state(DURATION * i as f64 / count as f64)?);
             }
             Ok(())
         }
@@ -77,16 +77,12 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
         (
             "162 pulses, both edges of each",
             full,
-            Box::new(|| pulse_train(&whole()?, &beam, &observer.direction, span).map(drop).map_err(text)),
+            Box::new(|| Ok(pulse_train(&whole()?, &beam, &observer.direction, span).map(drop)?)),
         ),
         (
             "162 pulses, the motion not kept",
             full,
-            Box::new(|| {
-                let BenchScene { spheroid, violation, initial, .. } = scene;
-                let n = &observer.direction;
-                propagated_pulse_train(spheroid, violation, initial, span, ACCURACY, &beam, n).map(drop).map_err(text)
-            }),
+            Box::new(|| Ok(scene.problem.taylor_pulse_train(span, ACCURACY, &beam, &observer.direction).map(drop)?)),
         ),
         ("1,000 samples", n, Box::new(sampled(1000))),
         ("10,000 samples", n, Box::new(sampled(10_000))),
@@ -96,7 +92,7 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
             Box::new(|| {
                 let motion = whole()?;
                 for i in 0..1000 {
-                    black_box(motion.state(f64::from(i)).map_err(text)?);
+                    black_box(motion.state(f64::from(i))?);
                 }
                 Ok(())
             }),
@@ -141,15 +137,12 @@ fn seeded() -> impl Fn(f64) -> DualSVec64<{ PARAMETERS.len() }> {
 
 /// The state after the motion, of which nothing else is kept.
 fn at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
-    let (spheroid, s, none) = (&scene.spheroid, &scene.violation, ErrorEstimates::NotWanted);
+    let none = ErrorEstimates::NotWanted;
     match carries {
-        Carries::Axis => axis_states_at(spheroid, s, &scene.initial_axis(), 0.0, &[DURATION], ACCURACY, none)
-            .map(|x| drop(black_box(x))),
-        Carries::Orientation => {
-            states_at(spheroid, s, &scene.initial, 0.0, &[DURATION], ACCURACY, none).map(|x| drop(black_box(x)))
-        }
+        Carries::Axis => drop(black_box(scene.problem.reduced().taylor_states(0.0, &[DURATION], ACCURACY, none)?)),
+        Carries::Orientation => drop(black_box(scene.problem.taylor_states(0.0, &[DURATION], ACCURACY, none)?)),
     }
-    .map_err(text)
+    Ok(())
 }
 
 /// The components of a state.
@@ -168,27 +161,20 @@ impl StateFunction for Components {
 
 /// That state with its derivatives.
 fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
-    let BenchScene { spheroid, violation, initial, .. } = scene;
+    let (spheroid, initial) = (scene.problem.spheroid(), scene.problem.initial());
     let output = if carries == Carries::Axis { Output::AngularMomentum } else { Output::EquatorialAxis };
     let request = Request { derivatives: PARAMETERS.to_vec(), ..Request::new(&[output], (0.0, DURATION), 1, ACCURACY) };
-    let plan = Plan::from_parts(spheroid, violation, initial, &request).map_err(text)?;
-    let (angles, rates) = (initial.angles().map_err(text)?, initial.rates(spheroid).map_err(text)?);
-    let start = Parameters::new(*spheroid, *violation, angles, rates);
-    gradient(&plan, &start, &Components(carries), &[DURATION]).map(|found| drop(black_box(found))).map_err(text)
+    let plan = scene.problem.plan(&request)?;
+    let (angles, rates) = (initial.angles()?, initial.rates(spheroid)?);
+    let start = Parameters::new(*spheroid, *scene.problem.coefficients(), angles, rates);
+    Ok(gradient(&plan, &start, &Components(carries), &[DURATION]).map(|found| drop(black_box(found)))?)
 }
 
 /// The motion over another scalar.
 fn over<S: Real>(scene: &BenchScene, lift: impl Fn(f64) -> S, carries: Carries) -> Result<(), String> {
-    let spheroid = scene.spheroid.map(&lift);
-    let s = scene.violation.map(&lift);
-    let BodyState { axis, momentum, equatorial_axis } = scene.initial;
-    let (axis, momentum, span) = (axis.map(&lift), momentum.map(&lift), (0.0, DURATION));
-    match carries {
-        Carries::Axis => propagate_axis(&spheroid, &s, &AxisState { axis, momentum }, span, ACCURACY).map(drop),
-        Carries::Orientation => {
-            let state = BodyState { axis, momentum, equatorial_axis: equatorial_axis.map(&lift) };
-            propagate(&spheroid, &s, &state, span, ACCURACY).map(drop)
-        }
-    }
-    .map_err(text)
+    let (problem, span) = (scene.problem.map(lift), (0.0, DURATION));
+    Ok(match carries {
+        Carries::Axis => problem.reduced().taylor(span, ACCURACY).map(drop)?,
+        Carries::Orientation => problem.taylor(span, ACCURACY).map(drop)?,
+    })
 }

@@ -18,12 +18,13 @@ fn vector<const N: usize>(y: &Vector<f64, N>, k: usize) -> Vector3<f64> {
 }
 
 pub(super) fn axis(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
+    let (problem, initial) = (&scene.problem, scene.problem.initial());
     let pack = |n: &Vector3<f64>, l: &Vector3<f64>| Vector::from_array([n.x, n.y, n.z, l.x, l.y, l.z]);
     let rates = |_: f64, y: &Vector<f64, 6>| {
-        let (n, l) = reduced_rates(&scene.spheroid, &scene.violation, &vector(y, 0), &vector(y, 1));
+        let (n, l) = reduced_rates(problem.spheroid(), problem.coefficients(), &vector(y, 0), &vector(y, 1));
         pack(&n, &l)
     };
-    let start = pack(&scene.initial.axis, &scene.initial.momentum);
+    let start = pack(&initial.axis, &initial.momentum);
     let end =
         RKV98NoInterp::integrate(0.0, duration, &start, rates, &settings(tolerance)).map_err(|e| e.to_string())?;
     let (axis, momentum) = (vector(&end.y, 0), vector(&end.y, 1));
@@ -31,6 +32,7 @@ pub(super) fn axis(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<
 }
 
 pub(super) fn orientation(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
+    let problem = &scene.problem;
     let pack = |state: &BodyState<f64>| {
         let mut packed = [0.0; 9];
         for (k, v) in [&state.axis, &state.momentum, &state.equatorial_axis].into_iter().enumerate() {
@@ -40,8 +42,9 @@ pub(super) fn orientation(scene: &BenchScene, duration: f64, tolerance: f64) -> 
     };
     let unpack =
         |y: &Vector<f64, 9>| BodyState { axis: vector(y, 0), momentum: vector(y, 1), equatorial_axis: vector(y, 2) };
-    let rates = |_: f64, y: &Vector<f64, 9>| pack(&body_state_rates(&scene.spheroid, &scene.violation, &unpack(y)));
-    let start = pack(&scene.initial);
+    let rates =
+        |_: f64, y: &Vector<f64, 9>| pack(&body_state_rates(problem.spheroid(), problem.coefficients(), &unpack(y)));
+    let start = pack(problem.initial());
     let end =
         RKV98NoInterp::integrate(0.0, duration, &start, rates, &settings(tolerance)).map_err(|e| e.to_string())?;
     let BodyState { axis, momentum, equatorial_axis } = unpack(&end.y);

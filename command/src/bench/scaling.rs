@@ -4,10 +4,9 @@ use std::num::NonZero;
 use std::thread;
 use std::time::Instant;
 
-use twofold::propagation::{AxisScene, Motion, axis_states_of_many, propagate_axis};
+use twofold::propagation::{Motion, SampledProblem, states_of_many};
 
 use super::Effort;
-use super::method::text;
 use super::overhead::ACCURACY;
 use super::scene::{BenchScene, DURATION};
 use super::timing::in_turn;
@@ -86,28 +85,25 @@ pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, S
 
 fn sampled(scene: &BenchScene, count: usize) -> Result<f64, String> {
     let span = (0.0, DURATION);
-    let motion =
-        propagate_axis(&scene.spheroid, &scene.violation, &scene.initial_axis(), span, ACCURACY).map_err(text)?;
+    let motion = scene.problem.reduced().taylor(span, ACCURACY)?;
     (1..=count).try_fold(0.0, |sum, i| {
-        let state = motion.axis_state(DURATION * i as f64 / count as f64).map_err(text)?;
+        let state = motion.state(DURATION * i as f64 / count as f64)?;
         Ok(sum + state.axis.z)
     })
 }
 
 /// The end states of `count` scenes, whose `s` differ a little, on a number of threads.
 fn spread(scene: &BenchScene, count: usize, cores: usize) -> Result<f64, String> {
-    let one = |i: usize| AxisScene {
-        spheroid: scene.spheroid,
-        violation: scene.violation * (1.0 + 1e-5 * i as f64),
-        initial: scene.initial_axis(),
+    let one = |i: usize| SampledProblem {
+        problem: scene.beside(i, 1e-5),
         start: 0.0,
         times: &[DURATION],
         accuracy: ACCURACY,
     };
     let some = |first: usize| {
         let scenes: Vec<_> = (first..count.min(first + TOGETHER)).map(one).collect();
-        let ends = axis_states_of_many(&scenes).into_iter();
-        ends.map(|found| found.map(|found| found.states[0].axis.z).map_err(text)).sum::<Result<f64, String>>()
+        let ends = states_of_many(&scenes).into_iter();
+        Ok(ends.map(|found| found.map(|found| found.states[0].axis.z)).sum::<Result<f64, twofold::Error>>()?)
     };
     let part = |core: usize| (core * TOGETHER..count).step_by(cores * TOGETHER).map(some).sum::<Result<f64, String>>();
     thread::scope(|scope| {
@@ -128,8 +124,7 @@ pub fn set_up(effort: &Effort) -> Result<f64, String> {
     for _ in 0..100 * effort.rounds {
         // The clock of the thread's work is too coarse for a microsecond.
         let clock = Instant::now();
-        let start = scene.initial_axis();
-        let motion = propagate_axis(&scene.spheroid, &scene.violation, &start, (0.0, 1e-3), ACCURACY).map_err(text)?;
+        let motion = scene.problem.reduced().taylor((0.0, 1e-3), ACCURACY)?;
         std::hint::black_box(motion);
         least = least.min(clock.elapsed().as_secs_f64());
     }

@@ -1,9 +1,8 @@
 //! The scenes that are timed, with their reference states.
 
 use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use twofold::numerics::scalar::Scalar;
-use twofold::propagation::AxisState;
 
 use super::method::End;
 use twofold_verify::check::largest;
@@ -17,12 +16,8 @@ pub const DURATION: f64 = 1000.0;
 pub struct BenchScene {
     /// Name: the paper's four examples, `nearly-free`, `nearly-separatrix`, `strongly-violated`.
     pub name: String,
-    /// The body, in units `I^xx = C = 1`.
-    pub spheroid: RigidSpheroid<f64>,
-    /// `s^IJ` in the frame of the states, where it is diagonal.
-    pub violation: Matrix3<f64>,
-    /// State at `t = 0`.
-    pub initial: BodyState<f64>,
+    /// The body, in units `I^xx = C = 1`, `s^IJ`, which is diagonal, and the state at `t = 0`.
+    pub problem: Problem<f64>,
     /// Times (t_c) and states.
     pub references: Vec<(f64, BodyState<DoubleDouble>)>,
 }
@@ -39,9 +34,12 @@ impl BenchScene {
             let vector = |i: usize| Vector3::new(exact[i], exact[i + 1], exact[i + 2]);
             let of_this = states.iter().filter(|(scene, _)| *scene == name);
             Self {
-                spheroid: RigidSpheroid::in_units_of_tc(exact[0]),
-                violation: Matrix3::from_diagonal(&vector(1)),
-                initial: BodyState { axis: vector(4), momentum: vector(7), equatorial_axis: vector(10) },
+                problem: Problem::new(
+                    RigidSpheroid::in_units_of_tc(exact[0]),
+                    Matrix3::from_diagonal(&vector(1)),
+                    BodyState { axis: vector(4), momentum: vector(7), equatorial_axis: vector(10) },
+                )
+                .expect("scenes of the benchmark are in range"),
                 references: of_this.map(|(_, v)| (v[0].high(), body_state(&v[1..]))).collect(),
                 name,
             }
@@ -58,9 +56,14 @@ impl BenchScene {
         found.unwrap_or_else(|| panic!("no scene is called {name}"))
     }
 
-    /// Axis and momentum at `t = 0`.
-    pub fn initial_axis(&self) -> AxisState<f64> {
-        AxisState::from(&self.initial)
+    /// The problem `i` of many beside this one: their `s` differ by parts of `step`.
+    ///
+    /// # Panics
+    /// For parts that are not finite.
+    pub fn beside(&self, i: usize, step: f64) -> Problem<f64, AxisState<f64>> {
+        let problem = &self.problem;
+        let s = problem.coefficients() * (1.0 + step * i as f64);
+        Problem::new(*problem.spheroid(), s, problem.initial().axis_state()).expect("a tensor in range")
     }
 
     /// Largest error of a component of `n`, `L / |L|` and, where it is carried, `e_x` at the time `t` of a reference.
@@ -113,15 +116,15 @@ mod tests {
         assert_eq!(names, expected);
         for scene in &scenes {
             assert_eq!(scene.references.last().map(|(t, _)| *t), Some(DURATION), "{}", scene.name);
-            let (n, e) = (scene.initial.axis, scene.initial.equatorial_axis);
+            let (n, e) = (scene.problem.initial().axis, scene.problem.initial().equatorial_axis);
             assert!(largest([n.norm() - 1.0, e.norm() - 1.0, n.dot(&e)].map(f64::abs)) < 4e-16, "{}", scene.name);
         }
         let of = |name: &str| BenchScene::named(name);
-        assert!((1e-7..1e-5).contains(&of("nearly-free").violation.norm()));
-        assert!(of("strongly-violated").violation.norm() > 0.3);
-        let direction = of("nearly-separatrix").initial.momentum.normalize();
+        assert!((1e-7..1e-5).contains(&of("nearly-free").problem.coefficients().norm()));
+        assert!(of("strongly-violated").problem.coefficients().norm() > 0.3);
+        let direction = of("nearly-separatrix").problem.initial().momentum.normalize();
         assert!((direction.x.hypot(direction.z) - 1e-4).abs() < 1e-10);
-        assert_eq!(of("nearly-separatrix").violation.m22, 0.01);
+        assert_eq!(of("nearly-separatrix").problem.coefficients().m22, 0.01);
     }
 
     #[test]

@@ -2,10 +2,25 @@
 
 use super::output_folder::OutputFolder;
 use super::progress::Progress;
-use super::{BenchArgs, Failure, note, print, tell};
+use super::{Failure, note, print, tell};
 use crate::bench::table::{self, Results};
 use crate::bench::{Effort, growth, overhead, scaling, work_precision};
 use crate::figures;
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct BenchArgs {
+    /// Some ten seconds instead of minutes: fewer repeats, and long motions to 1e4 t_c only
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Write the tables, every run as CSV and the work-precision plot into this folder
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace files that exist
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+}
 
 /// Parts of the time that the sections take, roughly.
 const SHARES: [f64; 4] = [0.55, 0.25, 0.1, 0.1];

@@ -1,18 +1,27 @@
 //! `twofold bounds`.
 
+use clap::Args;
 use std::fmt::Write as _;
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, LineStyle, Table};
 use serde_json::{Value, json};
 
-use super::{BoundsArgs, Failure, print};
-use twofold_scene::pulsar_table::published::PUBLISHED;
+use super::{Failure, print};
+use twofold_scene::pulsar_table::published::{PUBLISHED, PrintedBounds, printed_bounds};
 use twofold_scene::pulsar_table::{
     COMBINATION, CONFIDENCE, CONSERVATIVE_ETA, Figure, Limit, Pulsar, ROUND_INERTIA_OVER_C, pulsars_in_file,
     recommended,
 };
-use twofold_verify::golden::pulsar_bounds::{PrintedBounds, columns};
+
+#[derive(Args)]
+pub(crate) struct BoundsArgs {
+    /// A table of pulsars (TOML)
+    pub(crate) file: Option<String>,
+    /// Print the same as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 /// What the recommended limit includes, and what it leaves out.
 const INCLUDES: [&str; 5] = [
@@ -29,9 +38,9 @@ const LEAVES_OUT: [&str; 2] = [
 
 pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
     let pulsars: Vec<(Pulsar, Option<PrintedBounds>)> = match &args.file {
-        None => columns().into_iter().map(|(pulsar, printed)| (pulsar, Some(printed))).collect(),
+        None => printed_bounds().into_iter().map(|(pulsar, printed)| (pulsar, Some(printed))).collect(),
         Some(path) => {
-            let pulsars = pulsars_in_file(path).map_err(|error| Failure::BadInput(error.to_string()))?;
+            let pulsars = pulsars_in_file(path)?;
             pulsars.into_iter().map(|pulsar| (pulsar, None)).collect()
         }
     };
@@ -89,10 +98,6 @@ struct Row {
 }
 
 impl Row {
-    fn limit(key: &'static str, label: String, value: f64) -> Self {
-        Self { key, label, value, from_change: None, from_inputs: None, printed: None }
-    }
-
     fn over_printed(&self) -> Option<f64> {
         let printed: f64 = self.printed.as_ref()?.trim_start_matches('~').parse().ok()?;
         Some(self.value / printed)
@@ -107,68 +112,61 @@ impl From<Figure> for Row {
 }
 
 fn rows(pulsar: &Pulsar, printed: Option<PrintedBounds>) -> Result<Vec<Row>, String> {
-    let text = |error: twofold::Error| error.to_string();
+    // The paper prints orders of magnitude in 1e-16, with eta left out and with eta = 10.
+    let order = |text: &str| text.parse().map_or(text.to_owned(), |x: f64| format!("~{:.0e}", x * 1e-16));
+    let over_eta = || printed.map(|printed| order(printed.bound));
+    let with_ten = || printed.map(|printed| order(printed.conservative));
     let mut rows = Vec::new();
-    for figure in pulsar.figures().map_err(text)? {
-        let (key, label, value) = (figure.key, figure.label.clone(), figure.value);
-        let scaled = |key, label, factor: f64| {
-            let from_change = figure.from_change.map(|x| x * factor);
-            Figure { key, label, value: value * factor, from_change, from_inputs: figure.from_inputs * factor }.into()
+    for figure in pulsar.figures()? {
+        let beside = match figure.key {
+            "lambda_change" => printed.map(|printed| printed.lambda_change.to_owned()),
+            "bound_over_eta_stated" | "bound_over_eta_own" => over_eta(),
+            _ => None,
         };
-        rows.push(Row::from(figure.clone()));
+        rows.push(Row { printed: beside, ..Row::from(figure.clone()) });
         // Beside the paper's bounds stand those for its eta and its round I^zz/C.
         if printed.is_none() {
             continue;
         }
+        let (label, value) = (&figure.label, figure.value);
+        let scaled = |key, label, factor: f64, printed| {
+            let from_change = figure.from_change.map(|x| x * factor);
+            let from_inputs = Some(figure.from_inputs * factor);
+            Row { key, label, value: value * factor, from_change, from_inputs, printed }
+        };
         let ten = format!("{}, eta = {CONSERVATIVE_ETA}", label.trim_end_matches(" / eta"));
-        match key {
+        match figure.key {
             "bound_over_eta_stated" => {
-                rows.push(scaled("bound_eta_ten_stated", ten, CONSERVATIVE_ETA));
-                let round = pulsar.bound_over_eta(ROUND_INERTIA_OVER_C).map_err(text)? / value;
-                rows.push(scaled("bound_over_eta_round", format!("{label}, I^zz/C = 1e-5 s^2"), round));
+                rows.push(scaled("bound_eta_ten_stated", ten, CONSERVATIVE_ETA, with_ten()));
+                let round = pulsar.bound_over_eta(ROUND_INERTIA_OVER_C)? / value;
+                rows.push(scaled("bound_over_eta_round", format!("{label}, I^zz/C = 1e-5 s^2"), round, over_eta()));
             }
-            "bound_over_eta_own" => rows.push(scaled("bound_eta_ten_own", ten, CONSERVATIVE_ETA)),
+            "bound_over_eta_own" => rows.push(scaled("bound_eta_ten_own", ten, CONSERVATIVE_ETA, with_ten())),
             _ => {}
         }
     }
     let own = pulsar.figure("bound_over_eta_own")?;
-    let limit = pulsar.limit(&own).map_err(text)?;
-    let mut push = |key, label: &str, value| rows.push(Row::limit(key, label.to_owned(), value));
+    let limit = pulsar.limit(&own)?;
+    let mut push = |key, label: &str, value, printed| {
+        rows.push(Row { key, label: label.to_owned(), value, from_change: None, from_inputs: None, printed });
+    };
     if let Some(by_change) = limit.over_eta_by_change {
-        push("limit_over_eta_by_change", "(c) as (b), by the error of Delta W: limit / eta", by_change);
+        push("limit_over_eta_by_change", "(c) as (b), by the error of Delta W: limit / eta", by_change, over_eta());
         if printed.is_some() {
             let ten = format!("(c) as (b), by the error of Delta W: limit, eta = {CONSERVATIVE_ETA}");
-            push("limit_eta_ten_by_change", &ten, by_change * CONSERVATIVE_ETA);
+            push("limit_eta_ten_by_change", &ten, by_change * CONSERVATIVE_ETA, with_ten());
         }
     }
-    push("limit_over_eta_by_inputs", "the other numbers alone: limit / eta", limit.over_eta_by_inputs);
-    let unknown = pulsar.directions().map_err(text)?.is_some();
-    push("eta", if unknown { "directions alone, lambda known: limit of eta" } else { "eta as given" }, limit.eta);
+    push("limit_over_eta_by_inputs", "the other numbers alone: limit / eta", limit.over_eta_by_inputs, None);
+    let unknown = pulsar.directions()?.is_some();
+    push("eta", if unknown { "directions alone, lambda known: limit of eta" } else { "eta as given" }, limit.eta, None);
     if limit.over_eta_by_change.is_some() {
-        let without = pulsar.limit(&Figure { from_change: None, ..own }).map_err(text)?.all;
-        push("limit_without_error", "both, Delta W as it stands: limit", without);
+        let without = pulsar.limit(&Figure { from_change: None, ..own })?.all;
+        push("limit_without_error", "both, Delta W as it stands: limit", without, with_ten());
     }
-    push("limit", "all together: limit", limit.all);
+    push("limit", "all together: limit", limit.all, with_ten());
     if let Ok(alpha_2) = pulsar.figure("alpha_2_over_eta_own") {
-        push("alpha_2_limit", "all together: limit on |alpha_2|", pulsar.limit(&alpha_2).map_err(text)?.all);
-    }
-    if let Some(printed) = printed {
-        let order = |text: &str| text.parse().map_or(text.to_owned(), |x: f64| format!("~{:.0e}", x * 1e-16));
-        for row in &mut rows {
-            row.printed = match row.key {
-                "lambda_change" => Some(printed.lambda_change.to_owned()),
-                "bound_over_eta_stated"
-                | "bound_over_eta_round"
-                | "bound_over_eta_own"
-                | "limit_over_eta_by_change" => Some(order(printed.bound)),
-                "bound_eta_ten_stated"
-                | "bound_eta_ten_own"
-                | "limit_eta_ten_by_change"
-                | "limit_without_error"
-                | "limit" => Some(order(printed.conservative)),
-                _ => None,
-            };
-        }
+        push("alpha_2_limit", "all together: limit on |alpha_2|", pulsar.limit(&alpha_2)?.all, None);
     }
     Ok(rows)
 }

@@ -1,7 +1,19 @@
 //! `twofold compare`.
 
-use super::{CompareArgs, Failure, print};
+use super::{Failure, print};
 use crate::compare::{self, CompareError};
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(crate) struct CompareArgs {
+    /// Folder with the authors' files: tp1.dat, mntp1.dat, ...
+    #[arg(long, value_name = "DIR")]
+    pub(crate) authors_data: PathBuf,
+    /// Print the comparison as JSON instead of a table
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 pub(super) fn compare(args: &CompareArgs) -> Result<(), Failure> {
     let comparison = compare::compare(&args.authors_data).map_err(|error| match error {

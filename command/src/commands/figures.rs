@@ -1,16 +1,33 @@
 //! `twofold figures`.
 
-use std::path::Path;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
-
-use indicatif::{ProgressBar, ProgressStyle};
+use clap::Args;
+use std::path::{Path, PathBuf};
 
 use super::output_folder::OutputFolder;
+use super::progress::on_all_processors;
 use super::run::read_scene;
-use super::{Failure, FiguresArgs, note, print, tell};
+use super::{Failure, note, print, tell};
 use crate::figures::{self, Figure, OF_A_SCENE, RECIPES, Recipe, Subject};
+use twofold_scene::scene_file::did_you_mean;
+
+#[derive(Args)]
+pub(crate) struct FiguresArgs {
+    /// Figures to draw, by name or by number of the paper's figure; all if none is named
+    #[arg(value_name = "NAME")]
+    pub(crate) names: Vec<String>,
+    /// Folder for the files, made if it is not there
+    #[arg(long, value_name = "DIR", default_value = "figures")]
+    pub(crate) out: PathBuf,
+    /// Draw the figures of a motion for this built-in scene or scene file (TOML)
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: Option<String>,
+    /// Replace files that exist
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// List the figures instead of drawing them
+    #[arg(long)]
+    pub(crate) list: bool,
+}
 
 pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
     let known = if args.scene.is_some() { OF_A_SCENE } else { RECIPES };
@@ -27,7 +44,15 @@ pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
     }
     let would_write = |file: &str| chosen.iter().any(|recipe| is_file_of(file, recipe.name));
     let folder = OutputFolder::at(&args.out, args.force, would_write)?;
-    draw_all(&chosen, &motions, &folder)?;
+    on_all_processors(
+        &chosen,
+        "figures",
+        |recipe| recipe.name,
+        |recipe| {
+            let figure = recipe.draw(&motions).map_err(Failure::Failed)?;
+            write(&figure, &folder)
+        },
+    )?;
     let files = folder.complete()?;
     let s = if chosen.len() == 1 { "" } else { "s" };
     tell(&format!("{}: {} figure{s}, {files} files\n", args.out.display(), chosen.len()))
@@ -69,10 +94,9 @@ fn chosen(known: &[Recipe], names: &[String]) -> Result<Vec<Recipe>, Failure> {
     };
     if let Some(unknown) = names.iter().find(|name| !known.iter().any(|recipe| meant(recipe, name))) {
         let all = known.iter().map(|recipe| recipe.name).collect::<Vec<_>>();
-        let guess = twofold_scene::scene_file::nearest(unknown, &all).map(|name| format!(" Did you mean `{name}`?"));
         return Err(Failure::BadInput(format!(
             "no figure is called `{unknown}`.{} There are {}{}.",
-            guess.unwrap_or_default(),
+            did_you_mean(unknown, &all),
             all.join(", "),
             if known.iter().any(|recipe| recipe.paper_figure.is_some()) {
                 ", or the number of a figure of the paper"
@@ -99,40 +123,6 @@ fn list(recipes: &[Recipe]) -> String {
 fn is_file_of(file: &str, name: &str) -> bool {
     let ending = file.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'));
     ending.is_some_and(|ending| matches!(ending, "svg" | "png" | "md") || ending.ends_with("csv"))
-}
-
-/// Draws and writes the figures on all processors, with a bar on a terminal.
-fn draw_all(recipes: &[Recipe], motions: &[Subject], folder: &OutputFolder) -> Result<(), Failure> {
-    let bar = ProgressBar::new(recipes.len() as u64);
-    if let Ok(style) = ProgressStyle::with_template("{pos}/{len} figures [{bar:40}] {elapsed} {msg}") {
-        bar.set_style(style);
-    }
-    let next = AtomicUsize::new(0);
-    let failure = Mutex::new(None);
-    let work = || {
-        while let Some(recipe) = recipes.get(next.fetch_add(1, Ordering::Relaxed)) {
-            bar.set_message(recipe.name);
-            let done = recipe.draw(motions).map_err(Failure::Failed).and_then(|figure| write(&figure, folder));
-            if let Err(error) = done {
-                if let Ok(mut failure) = failure.lock() {
-                    failure.get_or_insert(error);
-                }
-                next.store(recipes.len(), Ordering::Relaxed);
-            }
-            bar.inc(1);
-        }
-    };
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from).min(recipes.len()) {
-            scope.spawn(work);
-        }
-    });
-    bar.finish_and_clear();
-    match failure.into_inner() {
-        Ok(None) => Ok(()),
-        Ok(Some(error)) => Err(error),
-        Err(_) => Err(Failure::Failed("a figure could not be drawn".into())),
-    }
 }
 
 fn write(figure: &Figure, folder: &OutputFolder) -> Result<(), Failure> {

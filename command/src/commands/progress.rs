@@ -1,6 +1,9 @@
-//! How far a long computation is.
+//! How far a long computation is, and work on all processors with a bar.
 
 use std::io::{self, IsTerminal};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
@@ -127,6 +130,42 @@ fn line((first, step, steps): (u64, u64, u64), unit: Option<&str>, elapsed: Dura
     };
     let after = format!("{done} after {}", HumanDuration(elapsed));
     if rate > 0.0 { format!("{after}, about {} left", left((steps - step) as f64 / rate)) } else { after }
+}
+
+/// Works on all items on all processors, with a bar on a terminal; the results are in the order of the items. After a failure no item is
+/// begun, and the first failure is returned.
+pub(super) fn on_all_processors<T: Sync, R: Send + Sync, E: Send + Sync>(
+    items: &[T],
+    what: &str,
+    name: impl Fn(&T) -> &'static str + Sync,
+    work: impl Fn(&T) -> Result<R, E> + Sync,
+) -> Result<Vec<R>, E> {
+    let bar = ProgressBar::new(items.len() as u64);
+    if let Ok(style) = ProgressStyle::with_template(&format!("{{pos}}/{{len}} {what} [{{bar:40}}] {{elapsed}} {{msg}}"))
+    {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    let next = AtomicUsize::new(0);
+    let results: Vec<OnceLock<Result<R, E>>> = items.iter().map(|_| OnceLock::new()).collect();
+    let take_items = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let (Some(item), Some(result)) = (items.get(index), results.get(index)) else { return };
+            bar.set_message(name(item));
+            if result.get_or_init(|| work(item)).is_err() {
+                next.store(items.len(), Ordering::Relaxed);
+            }
+            bar.inc(1);
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from).min(items.len()) {
+            scope.spawn(take_items);
+        }
+    });
+    bar.finish_and_clear();
+    results.into_iter().filter_map(OnceLock::into_inner).collect()
 }
 
 #[cfg(test)]

@@ -1,25 +1,37 @@
 //! `twofold pulses`.
 
+use clap::Args;
 use twofold::plan::Output;
 
 use super::explain::explained;
-use super::run::{failed, force_method, read_scene, write};
-use super::{Failure, PulsesArgs, note, print};
-use twofold_scene::scene_file::LARGEST_ROTATION;
+use super::run::{OutputArgs, PlanArgs, force_method, read_scene, write};
+use super::{Failure, note, print};
+use twofold_scene::plan::LARGEST_ROTATION;
 use twofold_scene::trajectory::write_pulses;
+
+#[derive(Args)]
+pub(crate) struct PulsesArgs {
+    /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
+    pub(crate) scene: String,
+    /// The opposite beam too, whatever the scene says
+    #[arg(long)]
+    pub(crate) second_beam: bool,
+    #[command(flatten)]
+    pub(crate) plan: PlanArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
 
 pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
     let mut scene = read_scene(&args.scene)?;
     force_method(&mut scene, &args.plan, &args.scene)?;
-    let lacking = |section: &str| {
-        Failure::BadInput(format!(
-            "{}: the scene lacks the section [{section}], without which it has no pulses (docs/scenes.md describes it)",
-            args.scene
-        ))
-    };
-    let viewer = scene.observer.ok_or_else(|| lacking("observer"))?;
-    let mut pulsar = scene.pulsar.ok_or_else(|| lacking("pulsar"))?;
-    pulsar.second_beam |= args.second_beam;
+    scene.has_what_is_needed_for(Output::Pulses).map_err(|lacks| {
+        let why = "without which it has no pulses (docs/scenes.md describes it)";
+        Failure::BadInput(format!("{}: {lacks}, {why}", args.scene))
+    })?;
+    if let Some(pulsar) = &mut scene.pulsar {
+        pulsar.second_beam |= args.second_beam;
+    }
     let rotation = scene.rotation();
     if rotation > LARGEST_ROTATION {
         return Err(Failure::BadInput(format!(
@@ -29,10 +41,9 @@ pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
         )));
     }
     if args.plan.explain {
-        return print(&explained(&scene, &scene.plan(&[Output::Pulses]).map_err(failed)?));
+        return print(&explained(&scene, &scene.plan(&[Output::Pulses])?));
     }
-    let summary =
-        write(&args.output, &scene, |writer, progress| write_pulses(&scene, (&viewer, &pulsar), writer, progress))?;
+    let summary = write(&args.output, &scene, |writer, progress| write_pulses(&scene, writer, progress))?;
     let Some(summary) = summary else { return Ok(()) };
     for (beam, _) in summary.pulses.iter().enumerate().filter(|(_, pulses)| **pulses == 0) {
         note(&format!("no pulse of beam {}: the line of sight stays outside it", beam + 1));

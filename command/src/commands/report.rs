@@ -1,13 +1,25 @@
 //! `twofold report`.
 
+use clap::Args;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use super::output_folder::OutputFolder;
 use super::verify::{conclude, run_all};
-use super::{Failure, ReportArgs, tell};
+use super::{Failure, tell};
 use crate::figures;
 use crate::html_report::{Content, Environment, page};
 use twofold_verify::{checks, report};
+
+#[derive(Args)]
+pub(crate) struct ReportArgs {
+    /// Write the page into this folder, which is made if need be
+    #[arg(long, value_name = "DIR", default_value = "report")]
+    pub(crate) out: PathBuf,
+    /// Replace the page if it exists
+    #[arg(long)]
+    pub(crate) force: bool,
+}
 
 const PAGE: &str = "index.html";
 

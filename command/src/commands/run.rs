@@ -1,14 +1,50 @@
 //! `twofold run`.
 
+use clap::Args;
 use std::io::{self, BufWriter, IsTerminal, Write};
+use std::path::PathBuf;
 
 use super::explain::{bytes, explained};
 use super::output_file::OutputFile;
 use super::progress::Progress;
 use super::standard_output::standard_output;
-use super::{Failure, OutputArgs, PlanArgs, RunArgs, note, print};
+use super::{Failure, note, print};
 use twofold_scene::scene_file::{Scene, SceneError};
 use twofold_scene::trajectory::{self, ErrorAtEnd, Summary, TrajectoryError};
+
+#[derive(Args)]
+pub(crate) struct RunArgs {
+    /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
+    pub(crate) scene: String,
+    /// Only these groups of columns, whatever the scene says: angles, rates, e_x, e_z, L, integrals, perturbation, lambda,
+    /// m.n, magnetic_axis, position_angle, h
+    #[arg(long, value_name = "GROUP,GROUP", value_delimiter = ',')]
+    pub(crate) columns: Option<Vec<String>>,
+    #[command(flatten)]
+    pub(crate) plan: PlanArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Args)]
+pub(crate) struct PlanArgs {
+    /// Compute nothing: print the plan, what it skips and why, and what it is expected to cost
+    #[arg(long)]
+    pub(crate) explain: bool,
+    /// The method, instead of the cheapest that meets the accuracy: free, steady, symmetric, mean, splitting, taylor
+    #[arg(long, value_name = "NAME")]
+    pub(crate) method: Option<String>,
+}
+
+#[derive(Args)]
+pub(crate) struct OutputArgs {
+    /// Write the table to this file instead of standard output; appears only when it is complete
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace the file if it exists
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+}
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let mut scene = match &args.columns {
@@ -20,7 +56,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     };
     force_method(&mut scene, &args.plan, &args.scene)?;
     if args.plan.explain {
-        return print(&explained(&scene, &scene.plan_of_columns().map_err(failed)?));
+        return print(&explained(&scene, &scene.plan(&scene.columns)?));
     }
     note_size(scene.times.count() as f64, trajectory::header(&scene).len());
     let Some(summary) =
@@ -45,7 +81,7 @@ pub(super) fn force_method(scene: &mut Scene, args: &PlanArgs, name: &str) -> Re
 }
 
 pub(super) fn failed(error: twofold::Error) -> Failure {
-    Failure::Failed(error.to_string())
+    error.into()
 }
 
 /// A scene of which the columns that it names are not used.
@@ -55,7 +91,7 @@ pub(super) fn read_scene(name: &str) -> Result<Scene, Failure> {
 
 /// The scene that was read, with notes of what in it looks like a mistake.
 fn accepted(name: &str, read: Result<Scene, SceneError>) -> Result<Scene, Failure> {
-    let scene = read.map_err(|error| Failure::BadInput(error.to_string()))?;
+    let scene = read?;
     scene.cautions.iter().for_each(|caution| note(&format!("{name}: {caution}")));
     Ok(scene)
 }
@@ -101,7 +137,7 @@ pub(super) fn write<T>(
 
 fn note_units(scene: &Scene) {
     if scene.units.are_physical() {
-        let ratio = scene.spheroid.inertia_zz / scene.spheroid.inertia_xx;
+        let ratio = scene.problem.spheroid().inertia_zz / scene.problem.spheroid().inertia_xx;
         note(&format!("t_c = {:.6e} s, I^zz/I^xx = {ratio:.9}; times are in s", scene.units.time));
     }
 }

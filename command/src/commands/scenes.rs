@@ -1,8 +1,16 @@
 //! `twofold scenes`.
 
-use super::{Failure, ScenesArgs, print};
-use twofold_scene::scene_file::{BUILT_IN, BuiltIn, PULSARS, Scene, SceneError, listed, nearest};
+use super::{Failure, print};
+use clap::Args;
+use twofold_scene::scene_file::{BUILT_IN, BuiltIn, PULSARS, Scene, SceneError, did_you_mean, listed};
 use twofold_scene::sweep::{SWEEPS, Sweep, SweepText};
+
+#[derive(Args)]
+pub(crate) struct ScenesArgs {
+    /// Print the file of this built-in scene or sweep, as a template: `twofold scenes --print tp-2 > my-star.toml`
+    #[arg(long, value_name = "NAME")]
+    pub(crate) print: Option<String>,
+}
 
 pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
     if let Some(name) = &args.print {
@@ -31,8 +39,7 @@ fn all() -> impl Iterator<Item = &'static BuiltIn> {
 fn file_called(name: &str) -> Result<&'static BuiltIn, Failure> {
     all().find(|file| file.name == name).ok_or_else(|| {
         let names: Vec<_> = all().map(|file| file.name).collect();
-        let guess = nearest(name, &names).map(|near| format!(" Did you mean `{near}`?")).unwrap_or_default();
-        Failure::BadInput(format!("--print {name}: allowed are {}.{guess}", listed(&names)))
+        Failure::BadInput(format!("--print {name}: allowed are {}.{}", listed(&names), did_you_mean(name, &names)))
     })
 }
 

@@ -1,14 +1,50 @@
 //! `twofold spectrum`.
 
+use clap::Args;
 use twofold::Error;
 
 use super::explain::explained;
-use super::run::{failed, force_method, read_scene, write};
-use super::{Failure, SpectrumArgs, SpectrumTable, note, print};
+use super::run::{OutputArgs, PlanArgs, force_method, read_scene, write};
+use super::{Failure, note, print};
 use twofold_scene::columns::Column;
 use twofold_scene::estimated_error::as_printed;
 use twofold_scene::scene_file::{Scene, Times};
 use twofold_scene::trajectory::{Floor, LinesSummary, LinesWanted, Sampling, TrajectoryError};
+
+#[derive(Args)]
+pub(crate) struct SpectrumArgs {
+    /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML)
+    pub(crate) scene: String,
+    /// The column, by its name in the header of `twofold run`, without the unit: m.n, h_plus, cos_lambda, beta, ...
+    #[arg(long, value_name = "COLUMN")]
+    pub(crate) of: String,
+    /// The lines, or the amplitudes at equally spaced frequencies by a Fourier transform
+    #[arg(long, value_enum, default_value = "lines")]
+    pub(crate) table: SpectrumTable,
+    /// Length of the series in the scene's unit of time, instead of the scene's span
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub(crate) span: Option<f64>,
+    /// Least amplitude of a line, as a part of the largest one
+    #[arg(long, value_name = "RATIO", default_value = "1e-6")]
+    pub(crate) least: f64,
+    /// Most lines that are written, the strongest first
+    #[arg(long, value_name = "NUMBER", default_value = "50", value_parser = clap::value_parser!(u8).range(1..=200))]
+    pub(crate) most: u8,
+    /// Do not name the lines, which asks for a longer span than to find them
+    #[arg(long)]
+    pub(crate) unidentified: bool,
+    #[command(flatten)]
+    pub(crate) plan: PlanArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+/// Which table of a spectrum.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub(crate) enum SpectrumTable {
+    Lines,
+    Spectrum,
+}
 
 pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
     let mut scene = read_scene(&args.scene)?;
@@ -30,7 +66,7 @@ pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
     Sampling::check(&scene).map_err(|why| Failure::BadInput(format!("{}: {why}", args.scene)))?;
     let wanted = LinesWanted { least: args.least, most: usize::from(args.most), identified: !args.unidentified };
     let identified = wanted.identified && matches!(args.table, SpectrumTable::Lines);
-    let plan = Sampling::plan(&scene, &column, identified).map_err(failed)?;
+    let plan = Sampling::plan(&scene, &column, identified)?;
     if args.plan.explain {
         return print(&explained(&scene, &plan));
     }

@@ -1,5 +1,6 @@
 //! `twofold sweep`.
 
+use clap::Args;
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -9,14 +10,38 @@ use super::interrupt::stop_on_request;
 use super::output_file::{OutputFile, free_name};
 use super::progress::Progress;
 use super::run::note_size;
-use super::{Failure, SweepArgs, note};
+use super::{Failure, note};
 use twofold_scene::sweep::{
     Done, Identity, MergeError, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, merge,
 };
 
+#[derive(Args)]
+pub(crate) struct SweepArgs {
+    /// The sweep (TOML)
+    pub(crate) file: String,
+    /// The table: CSV, or Parquet if the name ends in .parquet
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+    /// Replace the table if it exists
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Begin anew, whatever part of the table is there
+    #[arg(long)]
+    pub(crate) restart: bool,
+    /// Compute only part i of n: consecutive scenes, so that the parts' tables one after the other are the whole
+    #[arg(long, value_name = "I/N", conflicts_with = "merge")]
+    pub(crate) shard: Option<Shard>,
+    /// Number of threads; all cores if not given
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pub(crate) threads: Option<u16>,
+    /// Compute nothing: write the CSV tables of all shards, in their order, as one table
+    #[arg(long, value_name = "PART", num_args = 1..)]
+    pub(crate) merge: Vec<PathBuf>,
+}
+
 pub(super) fn sweep(args: &SweepArgs) -> Result<(), Failure> {
-    let text = SweepText::read(&args.file).map_err(|error| Failure::BadInput(error.to_string()))?;
-    let sweep = Sweep::new(&text).map_err(|error| Failure::BadInput(error.to_string()))?;
+    let text = SweepText::read(&args.file)?;
+    let sweep = Sweep::new(&text)?;
     sweep.cautions.iter().for_each(|caution| note(&format!("{}: {caution}", args.file)));
     let format = Format::of(&args.out)?;
     if !args.merge.is_empty() {

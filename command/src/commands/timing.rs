@@ -1,14 +1,51 @@
 //! `twofold timing`.
 
-use std::path::Path;
+use clap::Args;
+use std::path::{Path, PathBuf};
 
 use twofold::epoch::{DAY, Epoch};
 
 use super::output_folder::OutputFolder;
-use super::run::{failed, read_scene};
-use super::{Failure, TimingArgs, note, tell};
+use super::run::read_scene;
+use super::{Failure, note, tell};
 use twofold_scene::pulsar_timing::{PulsarScene, Series, Timing, TimingError, csv, decimal, par, strain_series, tim};
 use twofold_scene::scene_file::{Scene, like_julian_date};
+
+#[derive(Args)]
+pub(crate) struct TimingArgs {
+    /// A built-in scene (see `twofold scenes`) or the path of a scene file (TOML), with `time.epoch`, [observer] and [pulsar]
+    pub(crate) scene: String,
+    /// First epoch (MJD, TDB); if not given, that of the scene
+    #[arg(long, value_name = "MJD", value_parser = date)]
+    pub(crate) from: Option<Epoch>,
+    /// Last epoch; if not given, the end of the scene's span
+    #[arg(long, value_name = "MJD", value_parser = date)]
+    pub(crate) to: Option<Epoch>,
+    /// Days between epochs
+    #[arg(long, value_name = "DAYS", conflicts_with = "epochs", allow_hyphen_values = true)]
+    pub(crate) every: Option<f64>,
+    /// Number of epochs, both ends included
+    #[arg(long, value_name = "NUMBER")]
+    pub(crate) epochs: Option<usize>,
+    /// Fit F1 beside F0: what a spin-down absorbs is no signature
+    #[arg(long)]
+    pub(crate) f1: bool,
+    /// Uncertainty of the arrival times that the .tim states, in microseconds
+    #[arg(long, value_name = "US", default_value = "1", allow_hyphen_values = true)]
+    pub(crate) uncertainty: f64,
+    /// Length of the strain series in seconds, from the first epoch on; 64 turns if not given
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    pub(crate) strain_span: Option<f64>,
+    /// Samples of strain in a second; a power of two if not given
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true)]
+    pub(crate) strain_rate: Option<f64>,
+    /// Folder for the files, made if it is not there
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Replace files that exist
+    #[arg(long)]
+    pub(crate) force: bool,
+}
 
 /// Most arrival times, and most samples of strain.
 const MOST: usize = 10_000_000;
@@ -32,10 +69,10 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let folder = OutputFolder::at(&args.out, args.force, |found| endings.iter().any(|ending| found == file(ending)))?;
     let timing = pulsar.timed(&epochs, args.f1).map_err(|error| match error {
         TimingError::NoPulse(_) => refused(error.to_string()),
-        TimingError::Motion(error) => failed(error),
+        TimingError::Motion(error) => error.into(),
     })?;
     folder.write(&file("csv"), csv(&pulsar, &timing).as_bytes())?;
-    folder.write(&file("par"), par(&scene, &timing).map_err(failed)?.as_bytes())?;
+    folder.write(&file("par"), par(&scene, &timing)?.as_bytes())?;
     folder.write(&file("tim"), tim(&timing, args.uncertainty * 1e-6).as_bytes())?;
     match strain_series(&pulsar, &series) {
         Some([plus, cross]) => {
@@ -97,10 +134,10 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
     let start = scene.times.start();
     let of_time = |t: f64| epoch.after([t - start, 0.0]);
     if args.from.is_none() && args.to.is_none() && args.every.is_none() && args.epochs.is_none() {
-        return scene.times.iter().map(of_time).collect::<Result<_, _>>().map_err(failed);
+        return Ok(scene.times.iter().map(of_time).collect::<Result<_, _>>()?);
     }
-    let from = args.from.map_or_else(|| of_time(start), Ok).map_err(failed)?;
-    let to = args.to.map_or_else(|| of_time(scene.times.last()), Ok).map_err(failed)?;
+    let from = args.from.map_or_else(|| of_time(start), Ok)?;
+    let to = args.to.map_or_else(|| of_time(scene.times.last()), Ok)?;
     let [seconds, _] = to.seconds_since(&from);
     if seconds <= 0.0 {
         return Err(Failure::BadInput(format!(
@@ -122,7 +159,7 @@ fn epochs(args: &TimingArgs, scene: &Scene, epoch: &Epoch) -> Result<Vec<Epoch>,
         return Err(Failure::BadInput(format!("{count} epochs are asked for: allowed are from 2 to {MOST}")));
     }
     let epochs = (0..count as usize).map(|k| from.after([k as f64 * step * DAY, 0.0]));
-    epochs.collect::<Result<_, _>>().map_err(failed)
+    Ok(epochs.collect::<Result<_, _>>()?)
 }
 
 fn series(args: &TimingArgs, epochs: &[Epoch], period: f64) -> Result<Series, Failure> {

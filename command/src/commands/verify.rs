@@ -1,16 +1,25 @@
 //! `twofold verify`.
 
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
-use std::time::{Duration, Instant};
+use clap::Args;
+use std::convert::Infallible;
+use std::time::Instant;
 
 use console::Term;
-use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Failure, VerifyArgs, print, tell};
-use twofold_verify::check::{Check, Outcome};
+use super::progress::on_all_processors;
+use super::{Failure, print, tell};
+use twofold_verify::check::Check;
 use twofold_verify::{checks, report};
+
+#[derive(Args, Default)]
+pub(crate) struct VerifyArgs {
+    /// Only checks whose id contains this text, and what each of their figures is
+    #[arg(long, value_name = "ID")]
+    pub(crate) filter: Option<String>,
+    /// Print the results as a JSON array instead of tables
+    #[arg(long)]
+    pub(crate) json: bool,
+}
 
 /// Width of the tables where the output is not a terminal.
 const WIDTH: u16 = 130;
@@ -42,31 +51,11 @@ pub(super) fn conclude(results: &[report::Result]) -> Result<(), Failure> {
     if failed.is_empty() { Ok(()) } else { Err(Failure::Failed(format!("failing checks: {}", failed.join(", ")))) }
 }
 
-/// Runs the checks on all processors, with a bar on a terminal; the results are in the order of the list.
+/// Runs the checks on all processors; the results are in the order of the list.
 pub(super) fn run_all(checks: Vec<Check>) -> Vec<report::Result> {
-    let bar = ProgressBar::new(checks.len() as u64);
-    if let Ok(style) = ProgressStyle::with_template("{pos}/{len} checks [{bar:40}] {elapsed} {msg}") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(200));
-    let next = AtomicUsize::new(0);
-    let outcomes: Vec<OnceLock<Outcome>> = checks.iter().map(|_| OnceLock::new()).collect();
-    let work = || {
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let (Some(check), Some(outcome)) = (checks.get(index), outcomes.get(index)) else { return };
-            bar.set_message(check.id);
-            outcome.get_or_init(|| check.run());
-            bar.inc(1);
-        }
-    };
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from).min(checks.len()) {
-            scope.spawn(work);
-        }
-    });
-    bar.finish_and_clear();
-    checks.into_iter().zip(outcomes.into_iter().filter_map(OnceLock::into_inner)).collect()
+    let run = |check: &Check| Ok::<_, Infallible>(check.run());
+    let Ok(outcomes) = on_all_processors(&checks, "checks", |check| check.id, run);
+    checks.into_iter().zip(outcomes).collect()
 }
 
 #[cfg(test)]

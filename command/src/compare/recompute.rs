@@ -1,18 +1,18 @@
 //! The numbers of a file, computed anew at its times.
 
 use twofold::Error;
-use twofold::dynamics::BodyState;
+use twofold::dynamics::{AxisState, Problem};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::observables::Observer;
-use twofold::observables::gravitational_wave::wave_of_state;
 use twofold::observables::pulsar::direction::magnetic_axis_direction;
 use twofold::observables::pulsar::period::{azimuth_offset_rate, instantaneous_period};
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{Beam, PulseTrain, pulse_train};
-use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
+use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion};
 use twofold::solutions::perturbation::{Form, Perturbation};
 
 use super::table::Table;
+use twofold_scene::wave::spheroid_wave;
 use twofold_verify::check::largest;
 use twofold_verify::paper_examples::{COEFFICIENTS, PaperExample, SPIN, spheroid};
 
@@ -60,9 +60,8 @@ impl Start {
     }
 
     fn motion(&self, until: f64) -> Result<TaylorMotion<f64>, Error> {
-        let body = spheroid();
-        let state = BodyState::from_angles(&body, &self.angles, &self.rates);
-        propagate(&body, &COEFFICIENTS.tensor(), &state, (0.0, until), ACCURACY)
+        let problem = Problem::from_angles(spheroid(), COEFFICIENTS.tensor(), &self.angles, &self.rates)?;
+        problem.taylor((0.0, until), ACCURACY)
     }
 }
 
@@ -154,7 +153,7 @@ pub(super) fn waves(example: &PaperExample, table: &Table) -> Result<Vec<Vec<f64
     let (observer, body, s) = (observer(), spheroid(), COEFFICIENTS.tensor());
     let row = |t: f64| {
         let state = motion.state(t)?;
-        let h = wave_of_state(&body, &s, &(&state).into(), &observer);
+        let h = spheroid_wave(&body, &s, &AxisState::from(&state), &observer, 1.0);
         Ok(vec![h.plus, h.cross])
     };
     table.times().map(row).collect()
@@ -178,6 +177,8 @@ pub(super) fn train(start: &Start, table: &Table) -> Result<(PulseTrain, f64), E
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
+
+    use twofold::dynamics::BodyState;
 
     use super::*;
     use twofold_verify::paper_examples::paper_examples;

@@ -1,6 +1,6 @@
 //! A panel: a frame with axes, and curves and marks inside it.
 
-use super::style::{BLACK, GREY, LABEL, Line, SMALL, solid};
+use super::style::{BLACK, GREY, LABEL, Line, PAGE, SMALL, solid};
 use super::svg::{Anchor, At, Page, Rectangle};
 
 /// An axis of a panel.
@@ -150,6 +150,38 @@ pub(super) struct Panel {
 /// Room that a panel needs around its frame for numbers and labels.
 pub(super) const LEFT: f64 = 42.0;
 pub(super) const BELOW: f64 = 29.0;
+
+/// Two panels over one another for each of some subjects, side by side.
+pub(super) struct TwoRows {
+    /// Number of subjects.
+    pub(super) columns: usize,
+    /// Height of a panel.
+    pub(super) height: f64,
+    /// Distance between two subjects.
+    pub(super) between: f64,
+}
+
+impl TwoRows {
+    const TOP: f64 = 18.0;
+    const GAP: f64 = 8.0;
+
+    /// The panel of a subject in a row.
+    pub(super) fn frame(&self, column: usize, row: usize) -> Rectangle {
+        let count = self.columns as f64;
+        let width = (PAGE - LEFT - 8.0 - (count - 1.0) * self.between) / count;
+        Rectangle {
+            left: LEFT + (width + self.between) * column as f64,
+            top: Self::TOP + (self.height + Self::GAP) * row as f64,
+            width,
+            height: self.height,
+        }
+    }
+
+    /// The lower end of the panels.
+    pub(super) fn bottom(&self) -> f64 {
+        Self::TOP + 2.0 * self.height + Self::GAP
+    }
+}
 
 impl Panel {
     pub(super) fn new(frame: Rectangle, x: Axis, y: Axis) -> Self {

@@ -6,7 +6,6 @@ use super::drawn::{elements, frames};
 use super::layout_tests::{FIGURES, made_up_runs, scenes};
 use super::{Figure, OF_A_SCENE, RECIPES, Table};
 use crate::bench::work_precision::Row;
-use twofold_scene::columns::{in_order, named};
 use twofold_scene::scene_file::{Scene, Times};
 use twofold_scene::trajectory::{write_csv, write_pulses};
 
@@ -50,7 +49,7 @@ impl Columns {
 fn run(scene: &Scene, group: &str, since_start: &[f64]) -> Columns {
     let mut scene = scene.clone();
     let start = scene.times.start();
-    scene.columns = in_order(&[named(group).unwrap()]);
+    scene.choose_columns(&[group]).unwrap();
     scene.times = Times::Listed { start, times: since_start.iter().map(|t| start + t).collect() };
     let mut csv = Vec::new();
     write_csv(&scene, &mut csv, |_| ()).unwrap();
@@ -164,9 +163,8 @@ fn periods_and_lengths_are_those_of_the_pulses() {
         }
         scene.times = Times::Even { start, end: start + last[0] + last[1], samples: 2 };
         let mut csv = Vec::new();
-        let (viewer, mut pulsar) = (scene.observer.unwrap(), scene.pulsar.unwrap());
-        pulsar.second_beam = false;
-        write_pulses(&scene, (&viewer, &pulsar), &mut csv, |_| ()).unwrap();
+        scene.pulsar.as_mut().unwrap().second_beam = false;
+        write_pulses(&scene, &mut csv, |_| ()).unwrap();
         let pulses = Columns::of(csv);
         let whole: Vec<_> = pulses.column("cut").iter().map(|cut| cut.is_nan()).collect();
         let of = |head: &str| {

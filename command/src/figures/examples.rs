@@ -2,12 +2,12 @@
 
 use std::sync::OnceLock;
 
+use twofold::dynamics::Problem;
 use twofold::euler_angles::EulerAngles;
-use twofold::propagation::propagate;
 use twofold::solutions::perturbation::{Form, Perturbation};
 
 use super::scale::Scale;
-use super::subject::{ACCURACY, Shown, Start, Subject, corrected_solution};
+use super::subject::{ACCURACY, Shown, Subject, corrected_solution};
 use twofold_scene::scene_file::{Pulsar, Viewer};
 use twofold_verify::paper_examples::{COEFFICIENTS, PaperExample, SPIN, paper_examples, spheroid};
 
@@ -25,14 +25,14 @@ const SPECTRUM_DURATION: f64 = 17_150.0;
 /// # Errors
 /// None for the four examples.
 pub fn examples() -> Result<[Subject; 4], String> {
-    let [a, b, c, d] = paper_examples().map(|example| subject(&example).map_err(|error| error.to_string()));
+    let [a, b, c, d] = paper_examples().map(|example| subject(&example));
     Ok([a?, b?, c?, d?])
 }
 
 fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
     let (spheroid, first, state) = (spheroid(), example.initial_values()?, example.initial_state()?);
-    let angles = EulerAngles { alpha: first.alpha, beta: first.beta, gamma: 0.0 };
-    let start = Start { spheroid, violation: COEFFICIENTS.tensor(), state, angles };
+    let initial_angles = EulerAngles { alpha: first.alpha, beta: first.beta, gamma: 0.0 };
+    let problem = Problem::new(spheroid, COEFFICIENTS.tensor(), state)?;
     let printed = Perturbation::new(Form::Printed, example.kind, &spheroid, &COEFFICIENTS, SPIN, &example.constants)?;
     // Single precession goes round once in 90 to 250 t_c, twofold precession in 4.
     let angles = match example.name {
@@ -41,17 +41,17 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
         _ => 30.0,
     };
     let shown = Shown { angles, equatorial_axis: angles.min(40.0), beam: 200.0, waves: 100.0, pulses: 400.0 };
-    let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, 500.0), ACCURACY)?;
     Ok(Subject {
         name: example.name.to_owned(),
-        start,
+        motion: problem.taylor((0.0, 500.0), ACCURACY)?,
+        problem,
+        initial_angles,
         scale: Scale::PAPER,
         corrected: corrected_solution(&printed, &spheroid, &COEFFICIENTS, SPIN),
         printed: Ok(printed),
         observer: Some(OBSERVER),
         pulsar: Some(PULSAR),
         shown,
-        motion,
         spectrum_duration: SPECTRUM_DURATION,
         long: OnceLock::new(),
     })

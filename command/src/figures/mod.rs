@@ -10,17 +10,19 @@ mod beam_cone;
 mod bound_factor;
 mod contour;
 #[cfg(test)]
+mod curve_tests;
+#[cfg(test)]
 mod data_tests;
 #[cfg(test)]
 mod drawn;
-#[cfg(test)]
-mod drawn_tests;
 mod euler_angles;
 mod examples;
 mod golden;
 #[cfg(test)]
 mod layout_tests;
 mod legend;
+#[cfg(test)]
+mod map_tests;
 mod markup;
 mod method_map;
 mod momentum_sphere;
@@ -34,6 +36,8 @@ mod regime_map;
 mod scale;
 mod spectrum;
 mod sphere;
+#[cfg(test)]
+mod sphere_tests;
 mod style;
 mod subject;
 mod svg;
@@ -49,7 +53,7 @@ pub use png::png;
 use rayon::prelude::*;
 use recipe::Sheet;
 pub use recipe::{OF_A_SCENE, RECIPES, Recipe};
-pub use subject::{Shown, Start, Subject};
+pub use subject::{Shown, Subject};
 pub use table::Table;
 pub use work_precision::work_precision;
 

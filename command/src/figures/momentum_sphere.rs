@@ -1,14 +1,14 @@
 //! The sphere of directions of the angular momentum: contours of `l.(s l)`, the separatrix and the paths of motions.
 
 use nalgebra::Vector3;
-use twofold::dynamics::BodyState;
+use twofold::dynamics::{BodyState, Problem};
 use twofold::euler_angles::EulerAngles;
 
 use super::sphere::{View, arc};
 use super::style::{
     BLACK, BLUE, COLUMN, GREEN, GREY, LIGHT, Line, ORANGE, PURPLE, VERMILION, dash_dotted, dashed, solid,
 };
-use super::subject::{Start, Subject, times};
+use super::subject::{Subject, times};
 use super::svg::Page;
 use super::table::Table;
 use super::{Caption, Sheet};
@@ -50,8 +50,7 @@ fn near_separatrix() -> Result<Subject, String> {
     let axis = Vector3::new(0.0, TILT.cos(), TILT.sin());
     let state = BodyState { axis, momentum: axis * (spheroid.inertia_zz * SPIN), equatorial_axis: Vector3::x() };
     let angles = state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: 0.0, gamma: 0.0 });
-    let start = Start { spheroid, violation: COEFFICIENTS.tensor(), state, angles };
-    Subject::new("near Y", start, SPAN)
+    Subject::new("near Y", Problem::new(spheroid, COEFFICIENTS.tensor(), state)?, angles, SPAN)
 }
 
 /// The two closed lines with `l.(s l) = h`: about the axis of the smallest eigenvalue below the middle one, about that of

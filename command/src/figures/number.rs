@@ -1,6 +1,7 @@
 //! Numbers in captions, with markup.
 
 use super::axes::signed;
+use twofold_scene::significant::rounded;
 
 /// Six significant digits without trailing zeros.
 pub(super) fn number(x: f64) -> String {
@@ -14,21 +15,11 @@ pub(super) fn beside(x: f64, scale: f64) -> String {
 
 /// Some significant digits without trailing zeros; very large and small numbers with a power of ten, `2.5 × 10^{−3}`.
 pub(super) fn significant(x: f64, digits: usize) -> String {
-    if x == 0.0 {
-        return "0".into();
-    }
-    // Rounding may carry to the next power.
-    let scientific = format!("{x:.*e}", digits.max(1) - 1);
-    let (mantissa, power) = scientific.split_once('e').expect("an exponent");
-    let power: i32 = power.parse().expect("a whole number");
-    let trimmed = |text: &str| {
-        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text };
-        signed(text)
-    };
-    if (-3..6).contains(&power) {
-        trimmed(&format!("{x:.*}", (digits as i32 - 1 - power).max(0) as usize))
-    } else {
-        format!("{} × 10^{{{}}}", trimmed(mantissa), signed(&power.to_string()))
+    let (text, power) = rounded(x, digits, -3..=5);
+    let trimmed = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    match power {
+        None => signed(trimmed),
+        Some(power) => format!("{} × 10^{{{}}}", signed(trimmed), signed(&power.to_string())),
     }
 }
 

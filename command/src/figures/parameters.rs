@@ -1,12 +1,11 @@
 //! The parameters of a figure in words.
 
 use super::number::{beside, number};
-use super::scale::Scale;
-use super::subject::{Start, Subject};
+use super::subject::Subject;
 
 /// Star, violation and initial values of motions, after what is given first.
 pub(super) fn parameters(first: &str, subjects: &[&Subject]) -> String {
-    let stars: Vec<_> = subjects.iter().map(|subject| star(&subject.start, &subject.scale)).collect();
+    let stars: Vec<_> = subjects.iter().map(|subject| star(subject)).collect();
     let mut text = first.to_owned();
     let one_star = stars.iter().all(|star| *star == stars[0]);
     if one_star {
@@ -15,7 +14,7 @@ pub(super) fn parameters(first: &str, subjects: &[&Subject]) -> String {
     for (subject, star) in subjects.iter().zip(&stars) {
         let name = if subjects.len() > 1 { format!(" {}:", subject.name) } else { String::new() };
         let star = if one_star { "" } else { star };
-        text += &format!("{name}{star} {}", initial_values(&subject.start, &subject.scale));
+        text += &format!("{name}{star} {}", initial_values(subject));
     }
     format!("{} Angles in rad, time in {}.", text.trim_start(), subjects[0].scale.time_unit())
 }
@@ -33,8 +32,9 @@ pub(super) fn line_of_sight(subjects: &[&Subject], with_beam: bool) -> String {
     text + ". "
 }
 
-fn star(start: &Start, scale: &Scale) -> String {
-    let (spheroid, s, units) = (&start.spheroid, &start.violation, &scale.units);
+fn star(subject: &Subject) -> String {
+    let Subject { problem, scale, .. } = subject;
+    let (spheroid, s, units) = (problem.spheroid(), problem.coefficients(), &scale.units);
     let size = s.norm();
     let off_diagonal = [(0, 1), (0, 2), (1, 2)].map(|place| beside(s[place], size));
     let others = match off_diagonal.iter().any(|component| component != "0") {
@@ -51,20 +51,21 @@ fn star(start: &Start, scale: &Scale) -> String {
             "*ε* = {oblateness}, *I*^{{*xx*}} = {} g cm^{{2}}, *t*_{{c}} = {} s, *Ω*^{{*z*}}/(2π) = {} Hz",
             number(units.momentum * units.time),
             number(units.time),
-            number(scale.frequency(start.spin()))
+            number(scale.frequency(subject.spin()))
         )
     } else {
-        format!("*ε* = {oblateness}, *Ω*^{{*z*}} = {}", number(start.spin()))
+        format!("*ε* = {oblateness}, *Ω*^{{*z*}} = {}", number(subject.spin()))
     };
     format!("{body}; *s*^{{*XX*}}, *s*^{{*YY*}}, *s*^{{*ZZ*}} = {xx}, {yy}, {zz}{others}.")
 }
 
-fn initial_values(start: &Start, scale: &Scale) -> String {
-    let angles = start.angles;
+fn initial_values(subject: &Subject) -> String {
+    let Subject { problem, initial_angles: angles, scale, .. } = subject;
+    let (spheroid, state) = (problem.spheroid(), problem.initial());
     let [alpha, beta, gamma] = [angles.alpha, angles.beta, angles.gamma].map(|angle| beside(angle, 1.0));
-    let fastest = start.state.momentum.norm() / start.spheroid.inertia_xx;
+    let fastest = state.momentum.norm() / spheroid.inertia_xx;
     let rate = |rate: f64| beside(rate / scale.units.time, fastest / scale.units.time);
-    let rates = start.state.rates(&start.spheroid).ok().map_or(String::new(), |rates| {
+    let rates = state.rates(spheroid).ok().map_or(String::new(), |rates| {
         format!(", d*α*/d*t* = {}, d*β*/d*t* = {}", rate(rates.alpha), rate(rates.beta))
     });
     format!("At *t* = 0: *α* = {alpha}, *β* = {beta}, *γ* = {gamma}{rates}.")

@@ -4,13 +4,13 @@ use twofold::observables::pulsar::Stamped;
 use twofold::observables::pulsar::period::approximate_period;
 use twofold::solutions::perturbation::{Perturbation, ShiftedRates};
 
-use super::axes::{Axis, BELOW, LEFT, Mark, Panel};
+use super::axes::{Axis, BELOW, LEFT, Mark, Panel, TwoRows};
 use super::legend::{Sample, legend};
 use super::number::{Spread, significant};
 use super::parameters::{line_of_sight, parameters};
 use super::style::{BLACK, BLUE, GREEN, GREY, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
 use super::subject::times;
-use super::svg::{Anchor, Page, Rectangle};
+use super::svg::{Anchor, Page};
 use super::table::Table;
 use super::{Caption, Sheet, Subject};
 use twofold_verify::pulse_series::{PaperCurves, PulseSeries, Viewing, pulse_series};
@@ -44,8 +44,8 @@ impl Series {
         points.iter().map(|point| point.value).chain(on_curves).collect()
     }
 
-    /// The stretches of a series between gaps.
-    fn stretches<'a>(&'a self, points: &'a [Stamped]) -> impl Iterator<Item = &'a [Stamped]> {
+    /// The pieces of a series between gaps.
+    fn pieces<'a>(&'a self, points: &'a [Stamped]) -> impl Iterator<Item = &'a [Stamped]> {
         let gap_between = |a: f64, b: f64| self.pulses.gaps.iter().any(|gap| a < gap.time && gap.time < b);
         points.chunk_by(move |a, b| !gap_between(a.time, b.time))
     }
@@ -96,7 +96,7 @@ fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, Stri
     let angles = subject.angles(&[0.0, end])?;
     let [(_, first), (_, last)] = angles[..] else { return Err("the axis is on a pole".into()) };
     let mean = ShiftedRates { alpha: (last.alpha - first.alpha) / end, gamma: (last.gamma - first.gamma) / end };
-    let shifted = ShiftedRates { alpha: solution.rate, gamma: subject.start.spin() - solution.rate * beta_0.cos() };
+    let shifted = ShiftedRates { alpha: solution.rate, gamma: subject.spin() - solution.rate * beta_0.cos() };
     let columns =
         CURVES.iter().flat_map(|(_, of)| ["period", "length"].map(|q| subject.scale.time_column(&format!("{q} {of}"))));
     let columns = std::iter::once(subject.scale.time_column("t")).chain(columns);
@@ -115,12 +115,10 @@ fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, Stri
 }
 
 fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
-    let (left, top, panel_height, gap, between) = (LEFT, 18.0, 92.0, 8.0, 46.0);
-    let count = subjects.len() as f64;
-    let width = (PAGE - left - 8.0 - (count - 1.0) * between) / count;
+    let grid = TwoRows { columns: subjects.len(), height: 92.0, between: 46.0 };
     let with_legend = series.iter().any(|series| series.curves.is_some());
     let legend_height = if with_legend { 14.0 } else { 0.0 };
-    let mut page = Page::new(name, PAGE, top + 2.0 * panel_height + gap + BELOW + legend_height);
+    let mut page = Page::new(name, PAGE, grid.bottom() + BELOW + legend_height);
     for (i, (subject, series)) in subjects.iter().zip(series).enumerate() {
         let x = subject.scale.time_axis(subject.shown.pulses);
         for (row, (points, label, taken_off)) in
@@ -128,12 +126,7 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
                 .into_iter()
                 .enumerate()
         {
-            let frame = Rectangle {
-                left: left + (width + between) * i as f64,
-                top: top + (panel_height + gap) * row as f64,
-                width,
-                height: panel_height,
-            };
+            let frame = grid.frame(i, row);
             let curve = |i: usize| series.curve(row, i);
             let values = series.values(row);
             // Differences that would be lost on an axis are drawn as such.
@@ -155,8 +148,8 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
             }
             let pairs = |points: &[Stamped]| shifted(points.iter().map(|point| (point.time, point.value)), shift);
             if series.curves.is_none() {
-                for stretch in series.stretches(points) {
-                    panel.curve(&mut page, &pairs(stretch), solid(GREY, 0.5));
+                for piece in series.pieces(points) {
+                    panel.curve(&mut page, &pairs(piece), solid(GREY, 0.5));
                 }
             }
             let points = pairs(points);
@@ -175,11 +168,11 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
         }
     }
     if with_legend {
-        let y = top + 2.0 * panel_height + gap + BELOW + 8.0;
-        legend(&mut page, [left, y], &[(Sample::Mark(Mark::Disc, BLACK), "pulses")]);
+        let y = grid.bottom() + BELOW + 8.0;
+        legend(&mut page, [LEFT, y], &[(Sample::Mark(Mark::Disc, BLACK), "pulses")]);
         for ((line, of), x) in CURVES.iter().zip([66.0, 210.0, 316.0]) {
             let name = if x < 70.0 { format!("Eqs. (51), (56) {of}") } else { (*of).to_owned() };
-            legend(&mut page, [left + x, y], &[(Sample::Line(*line), &name)]);
+            legend(&mut page, [LEFT + x, y], &[(Sample::Line(*line), &name)]);
         }
     }
     page.finish("Pulse periods and lengths in time")

@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use super::axes::Axis;
-use twofold_scene::columns::strain_of_scene;
 use twofold_scene::scene_file::{Scene, Units};
 
 /// What is drawn for one `t_c` and for `h = 1`.
@@ -21,8 +20,7 @@ impl Scale {
 
     /// That of a scene.
     pub(super) fn of_scene(scene: &Scene) -> Self {
-        let distance = scene.observer.and_then(|observer| observer.distance);
-        Self { units: scene.units, strain: distance.map_or(1.0, |distance| strain_of_scene(scene, distance)) }
+        Self { units: scene.units, strain: scene.strain_unit() }
     }
 
     /// A time (t_c) in the unit drawn.

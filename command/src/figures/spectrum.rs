@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use twofold::dynamics::BodyState;
 use twofold::observables::fundamental_frequencies::{FundamentalFrequencies, fundamental_frequencies};
 use twofold::observables::spectrum::{Combination, Series, Window, amplitude_spectrum, spectral_lines};
-use twofold::propagation::{TaylorMotion, propagate};
+use twofold::propagation::TaylorMotion;
 
 use super::number::{number, significant};
 use super::subject::{ACCURACY, Subject};
@@ -37,9 +37,8 @@ pub(super) struct LongMotion {
 impl LongMotion {
     /// The motion of `duration` (t_c) from the start of a subject.
     pub(super) fn of(subject: &Subject, duration: f64) -> Result<Self, String> {
-        let start = &subject.start;
-        let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, duration), ACCURACY)
-            .map_err(|error| format!("{}: {error}", subject.name))?;
+        let motion = subject.problem.taylor((0.0, duration), ACCURACY);
+        let motion = motion.map_err(|error| format!("{}: {error}", subject.name))?;
         let frequencies = fundamental_frequencies(&motion).ok();
         Ok(Self { motion, frequencies })
     }

@@ -2,11 +2,10 @@
 
 use std::sync::OnceLock;
 
-use nalgebra::Matrix3;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::euler_angles::EulerAngles;
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, propagate};
+use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion};
 use twofold::solutions::perturbation::{Form, Perturbation, constants_from_initial_values};
 
 use super::scale::Scale;
@@ -15,26 +14,6 @@ use twofold_scene::scene_file::{Pulsar, Scene, Viewer};
 
 /// Truncation error of the motions, far below what a picture shows; the data of the figures have all their digits.
 pub(super) const ACCURACY: f64 = 1e-14;
-
-/// What a motion starts from. Units of the paper, `I^xx = C = 1`, time in `t_c` since the start.
-#[derive(Debug, Clone)]
-pub struct Start {
-    /// The star.
-    pub spheroid: RigidSpheroid<f64>,
-    /// `s^IJ` in the inertial frame of the state.
-    pub violation: Matrix3<f64>,
-    /// State at the start.
-    pub state: BodyState<f64>,
-    /// Euler angles of that state.
-    pub angles: EulerAngles<f64>,
-}
-
-impl Start {
-    /// `Omega^z`.
-    pub(super) fn spin(&self) -> f64 {
-        self.state.momentum.dot(&self.state.axis) / self.spheroid.inertia_zz
-    }
-}
 
 /// How much of a motion the figures show, in `t_c` from the start; none above the span of the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,17 +35,19 @@ pub struct Shown {
 pub struct Subject {
     /// Name in headings, `tp-I`.
     pub name: String,
-    /// The star and its first state.
-    pub start: Start,
+    /// The star, `s^IJ` and the state at the start, in the paper's units: `I^xx = C = 1`, time in `t_c`.
+    pub problem: Problem<f64>,
+    /// Euler angles of that state.
+    pub initial_angles: EulerAngles<f64>,
     /// In which units it is drawn.
     pub scale: Scale,
     /// The perturbation solution whose constants give the motion, as printed, or why there is none.
     pub printed: Result<Perturbation<f64>, &'static str>,
     /// The corrected solution with the same initial values.
     pub corrected: Option<Perturbation<f64>>,
-    /// Who looks on.
+    /// The observer.
     pub observer: Option<Viewer>,
-    /// What shines.
+    /// The beam.
     pub pulsar: Option<Pulsar>,
     /// How much is shown.
     pub shown: Shown,
@@ -81,17 +62,23 @@ pub struct Subject {
 const MOST_ROTATION: f64 = 600.0;
 
 impl Subject {
-    /// The motion of `duration` (t_c, forwards or backwards) from a start, without observer and beam.
+    /// The motion of `duration` (t_c, forwards or backwards) without observer and beam.
     ///
     /// Long motions are shown from the start for as long as curves can be told apart.
     ///
     /// # Errors
     /// A motion that cannot be computed.
-    pub fn new(name: &str, start: Start, duration: f64) -> Result<Self, String> {
-        let (spheroid, torque) = (&start.spheroid, start.spheroid.constant_c.abs() * start.violation.norm());
+    pub fn new(
+        name: &str,
+        problem: Problem<f64>,
+        initial_angles: EulerAngles<f64>,
+        duration: f64,
+    ) -> Result<Self, String> {
+        let spheroid = problem.spheroid();
+        let torque = spheroid.constant_c.abs() * problem.coefficients().norm();
         // A star at rest turns at the rate of its swing, one without a torque not at all.
         let swing = (2.0 * torque / spheroid.inertia_xx).sqrt();
-        let rate = (start.state.momentum.norm() / spheroid.inertia_xx).max(swing);
+        let rate = (problem.initial().momentum.norm() / spheroid.inertia_xx).max(swing);
         let rate = if rate > 0.0 { rate } else { 1.0 / duration.abs() };
         let at_most = |rotation: f64| duration.abs().min(rotation / rate).copysign(duration);
         let all = at_most(MOST_ROTATION);
@@ -102,11 +89,11 @@ impl Subject {
             waves: at_most(0.25 * MOST_ROTATION),
             pulses: all,
         };
-        let motion = propagate(&start.spheroid, &start.violation, &start.state, (0.0, all), ACCURACY)
-            .map_err(|error| format!("{name}: {error}"))?;
+        let motion = problem.taylor((0.0, all), ACCURACY).map_err(|error| format!("{name}: {error}"))?;
         Ok(Self {
             name: name.to_owned(),
-            start,
+            problem,
+            initial_angles,
             scale: Scale::PAPER,
             printed: Err("no constants are given"),
             corrected: None,
@@ -124,23 +111,22 @@ impl Subject {
     /// # Errors
     /// A motion that cannot be computed.
     pub fn of_scene(name: &str, scene: &Scene) -> Result<Self, String> {
-        let start = Start {
-            spheroid: scene.spheroid,
-            violation: scene.violation,
-            state: scene.initial,
-            angles: scene.initial_angles,
-        };
-        let duration = (scene.times.last() - scene.times.start()) / scene.units.time;
-        let motion = Self::new(name, start, duration)?;
+        let motion = Self::new(name, scene.problem, scene.initial_angles, scene.duration())?;
         let (scale, printed) = (Scale::of_scene(scene), scene.perturbation);
         // A scene has a perturbation solution where its tensor is diagonal.
-        let s = scene.violation.diagonal();
+        let s = scene.problem.coefficients().diagonal();
         let s = PrincipalCoefficients::new([s.x, s.y, s.z]);
         let corrected = printed
             .as_ref()
             .ok()
-            .and_then(|printed| corrected_solution(printed, &scene.spheroid, &s, motion.start.spin()));
+            .and_then(|printed| corrected_solution(printed, scene.problem.spheroid(), &s, motion.spin()));
         Ok(Self { scale, printed, corrected, observer: scene.observer, pulsar: scene.pulsar, ..motion })
+    }
+
+    /// `Omega^z`.
+    pub(super) fn spin(&self) -> f64 {
+        let BodyState { axis, momentum, .. } = self.problem.initial();
+        momentum.dot(axis) / self.problem.spheroid().inertia_zz
     }
 
     /// The motion over the length of the spectra, computed once.
@@ -174,7 +160,7 @@ impl Subject {
     /// by its constants.
     pub(super) fn free_rates(&self) -> Vec<f64> {
         let twofold = self.printed.ok().filter(|solution| solution.zeroth_rate != 0.0);
-        let gamma = self.start.spheroid.oblateness() * self.start.spin();
+        let gamma = self.problem.spheroid().oblateness() * self.spin();
         let drawn = |omega: f64| self.scale.frequency(omega.abs());
         twofold.map_or(Vec::new(), |solution| vec![drawn(solution.zeroth_rate), drawn(gamma)])
     }
@@ -186,7 +172,7 @@ impl Subject {
 
     /// Continuous Euler angles at times in order; those on a pole, where there are none, are left out.
     pub(super) fn angles(&self, times: &[f64]) -> Result<Vec<(f64, EulerAngles<f64>)>, String> {
-        let mut angles = ContinuousAngles::new(&self.motion, 0.0, &self.start.angles)
+        let mut angles = ContinuousAngles::new(&self.motion, 0.0, &self.initial_angles)
             .map_err(|error| format!("{}: {error}", self.name))?;
         Ok(times.iter().filter_map(|&t| Some((t, angles.at(t).ok()?))).collect())
     }

@@ -3,7 +3,7 @@
 use twofold::dynamics::BodyState;
 use twofold::observables::gravitational_wave::Polarizations;
 
-use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::axes::{Axis, BELOW, Panel, TwoRows};
 use super::number::{number, significant};
 use super::parameters::{line_of_sight, parameters};
 use super::spectrum::{self, NamedLine, Spectrum};
@@ -79,22 +79,15 @@ fn part(spectrum: &Spectrum, rate: f64) -> impl Iterator<Item = (f64, f64)> {
 }
 
 fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f64) -> Result<String, String> {
-    let (top, height, gap, between) = (18.0, 98.0, 8.0, 44.0);
-    let count = subjects.len() as f64;
-    let width = (PAGE - LEFT - 8.0 - (count - 1.0) * between) / count;
-    let mut page = Page::new(name, PAGE, top + 2.0 * height + gap + BELOW);
+    let grid = TwoRows { columns: subjects.len(), height: 98.0, between: 44.0 };
+    let mut page = Page::new(name, PAGE, grid.bottom() + BELOW);
     // One scale for both stars and polarizations, so that sizes can be compared.
     let most = subjects.iter().zip(spectra).map(|(s, both)| largest(both).max(waves::error(s))).fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };
     for (i, (subject, both)) in subjects.iter().zip(spectra).enumerate() {
         let rate = fundamental(subject, both, highest)?;
         for (polarization, (spectrum, symbol)) in both.iter().zip(["*h*_{+}", "*h*_{×}"]).enumerate() {
-            let frame = Rectangle {
-                left: LEFT + (width + between) * i as f64,
-                top: top + (height + gap) * polarization as f64,
-                width,
-                height,
-            };
+            let frame = grid.frame(i, polarization);
             let x = Axis::linear(subject.scale.frequency_label(), 0.0, highest);
             let y = Axis::linear(&format!("amplitude of {symbol}"), 0.0, 1.05 * most);
             let panel = Panel::new(frame, if polarization == 0 { x.bare() } else { x }, y);

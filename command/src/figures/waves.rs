@@ -1,17 +1,18 @@
 //! `h_+` and `h_x` at the observer in time.
 
-use twofold::dynamics::BodyState;
-use twofold::observables::gravitational_wave::{Polarizations, wave_of_state};
+use twofold::dynamics::{AxisState, BodyState};
+use twofold::observables::gravitational_wave::Polarizations;
 use twofold::units::si::KILOPARSEC;
 
-use super::axes::{Axis, BELOW, LEFT, Panel};
+use super::axes::{Axis, BELOW, Panel, TwoRows};
 use super::number::{ALIKE, Spread, significant};
 use super::parameters::{line_of_sight, parameters};
 use super::style::{BLUE, PAGE, VERMILION, solid};
-use super::subject::{Start, times};
-use super::svg::{Page, Rectangle};
+use super::subject::times;
+use super::svg::Page;
 use super::table::Table;
 use super::{Caption, Sheet, Subject};
+use twofold_scene::wave::spheroid_wave;
 
 pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
     let tables = subjects.iter().map(|subject| waves(subject)).collect::<Result<Vec<_>, _>>()?;
@@ -20,17 +21,22 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
 
 /// The two polarizations in a state, as they are drawn.
 pub(super) fn wave(subject: &Subject, state: &BodyState<f64>) -> Result<Polarizations<f64>, String> {
-    let start = &subject.start;
-    let h = wave_of_state(&start.spheroid, &start.violation, &state.into(), &subject.viewer()?.basis());
-    Ok(Polarizations { plus: subject.scale.wave(h.plus), cross: subject.scale.wave(h.cross) })
+    let (problem, observer) = (&subject.problem, subject.viewer()?.basis());
+    Ok(spheroid_wave(
+        problem.spheroid(),
+        problem.coefficients(),
+        &AxisState::from(state),
+        &observer,
+        subject.scale.wave(1.0),
+    ))
 }
 
 /// What an error of the numerical motion makes of a wave, as it is drawn: the acceleration is that of a product of `n` and `L`, of the size
 /// `epsilon Omega^2`, and the torque. A wave below that is not known.
 pub(super) fn error(subject: &Subject) -> f64 {
-    let Start { spheroid, violation, state, .. } = &subject.start;
-    let rate = state.momentum.norm() / spheroid.inertia_xx;
-    subject.scale.wave(ALIKE * (spheroid.oblateness().abs() * rate * rate + violation.norm()))
+    let (problem, spheroid) = (&subject.problem, subject.problem.spheroid());
+    let rate = problem.initial().momentum.norm() / spheroid.inertia_xx;
+    subject.scale.wave(ALIKE * (spheroid.oblateness().abs() * rate * rate + problem.coefficients().norm()))
 }
 
 fn waves(subject: &Subject) -> Result<Table, String> {
@@ -45,10 +51,8 @@ fn waves(subject: &Subject) -> Result<Table, String> {
 }
 
 fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
-    let (top, panel_height, gap, between) = (18.0, 74.0, 8.0, 44.0);
-    let count = subjects.len() as f64;
-    let width = (PAGE - LEFT - 8.0 - (count - 1.0) * between) / count;
-    let mut page = Page::new(name, PAGE, top + 2.0 * panel_height + gap + BELOW);
+    let grid = TwoRows { columns: subjects.len(), height: 74.0, between: 44.0 };
+    let mut page = Page::new(name, PAGE, grid.bottom() + BELOW);
     // One scale for both stars and polarizations, so that sizes can be compared.
     let values = || tables.iter().flat_map(|table| table.rows.iter().flat_map(|row| [row[1], row[2]]));
     // What the motion does not know is not spread over the frame.
@@ -57,12 +61,7 @@ fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
     for (i, (subject, table)) in subjects.iter().zip(tables).enumerate() {
         let x = subject.scale.time_axis(subject.shown.waves);
         for (polarization, (label, colour)) in [("*h*_{+}", BLUE), ("*h*_{×}", VERMILION)].into_iter().enumerate() {
-            let frame = Rectangle {
-                left: LEFT + (width + between) * i as f64,
-                top: top + (panel_height + gap) * polarization as f64,
-                width,
-                height: panel_height,
-            };
+            let frame = grid.frame(i, polarization);
             let x = if polarization == 0 { x.bare() } else { x.clone() };
             let panel =
                 Panel::new(frame, x, Axis::around(&subject.scale.wave_label(label), values().chain(least.clone())));

@@ -6,17 +6,17 @@
 //! `docs/reliability/fuzzing.md` tells how much was searched.
 
 mod bytes;
+mod command_line;
 mod data;
 mod model;
 mod resume;
 mod scene;
 mod sweep;
 
-pub use crate::commands::fuzzed_arguments as command_line;
+pub use command_line::command_line;
 pub use data::{authors_data, data_file, pulsars};
 pub use model::model;
 pub use resume::resume;
-pub(crate) use scene::is_small;
 pub use scene::scene;
 pub use sweep::sweep;
 

@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::first_integrals::first_integrals;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::epoch::Epoch;
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame};
@@ -16,15 +16,13 @@ use twofold::observables::eta_distribution::EtaDistribution;
 use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::pulsar::timing::ConstantPeriod;
 use twofold::observables::pulsar::width::pulse_width;
-use twofold::observables::pulsar::{Beam, PulsarClock, SpinFit, arrivals, propagated_pulse_train, pulse_train};
+use twofold::observables::pulsar::{Beam, PulsarClock, SpinFit, arrivals, pulse_train};
 use twofold::observables::spectrum::{FrequencyBasis, Generator, Series, Window, amplitude_spectrum, spectral_lines};
-use twofold::plan::{Method, Output, Plan, Request};
-use twofold::propagation::splitting::{
-    SCHEMES, propagate_by_best_splitting, propagate_orientation_by_splitting, splitting_forecast,
-};
+use twofold::plan::{Method, Output, Request};
+use twofold::propagation::splitting::SCHEMES;
 use twofold::propagation::{
-    AveragedMotion, AxisScene, AxisState, ContinuousAngles, ErrorEstimates, Motion, SymmetricMotion, UniformMotion,
-    axis_states_of_many, propagate, states_at, taylor_forecast,
+    AveragedMotion, ContinuousAngles, ErrorEstimates, Motion, SampledProblem, SymmetricMotion, UniformMotion,
+    states_of_many,
 };
 use twofold::solutions::averaged::slow_precession::slow_precession;
 use twofold::solutions::averaged::{AveragingOrder, middle_axis_growth};
@@ -50,8 +48,8 @@ const REFUSED: f64 = 1e13;
 /// Steps that take some milliseconds.
 const MANY: f64 = 1e4;
 
-/// A scene as bytes give it, and what is asked of it.
-struct Asked {
+/// A scene as bytes give it, with a span, an accuracy, a beam and an observer.
+struct Case {
     body: RigidSpheroid<f64>,
     s: PrincipalCoefficients<f64>,
     tensor: Matrix3<f64>,
@@ -64,7 +62,7 @@ struct Asked {
     observer: Observer<f64>,
 }
 
-impl Asked {
+impl Case {
     fn new(bytes: &mut Bytes<'_>) -> Self {
         let mut next = || bytes.usual();
         let body = RigidSpheroid {
@@ -82,6 +80,11 @@ impl Asked {
         let (beam, observer) = (Beam::new(next(), next(), next()), Observer::at(next(), next()));
         let exponent = f64::from(bytes.byte() % 20);
         Self { body, s, tensor, angles, rates, state, span, accuracy: 10f64.powf(-exponent), beam, observer }
+    }
+
+    /// The problem, if its numbers are in range.
+    fn problem(&self) -> Option<Problem<f64>> {
+        Problem::new(self.body, self.tensor, self.state).ok()
     }
 
     /// Whether a motion is little work, or so much that it must be refused: by the rotation of the symmetry axis, of which steps are made.
@@ -114,123 +117,123 @@ fn is_little_or_refused(rotation: f64) -> bool {
 pub fn model(bytes: &[u8]) {
     let mut bytes = Bytes::new(bytes);
     match bytes.byte() % 16 {
-        0 => numerical(&Asked::new(&mut bytes)),
-        1 => by_splitting(&Asked::new(&mut bytes), bytes.byte()),
-        2 => closed(&Asked::new(&mut bytes)),
-        3 => planned(&Asked::new(&mut bytes), &mut bytes),
-        4 => pulses(&Asked::new(&mut bytes)),
-        5 => clock(&Asked::new(&mut bytes), bytes.number()),
-        6 => solutions(&Asked::new(&mut bytes), bytes.number()),
-        7 => torus(&Asked::new(&mut bytes), &mut bytes),
+        0 => numerical(&Case::new(&mut bytes)),
+        1 => by_splitting(&Case::new(&mut bytes), bytes.byte()),
+        2 => closed(&Case::new(&mut bytes)),
+        3 => planned(&Case::new(&mut bytes), &mut bytes),
+        4 => pulses(&Case::new(&mut bytes)),
+        5 => clock(&Case::new(&mut bytes), bytes.number()),
+        6 => solutions(&Case::new(&mut bytes), bytes.number()),
+        7 => torus(&Case::new(&mut bytes), &mut bytes),
         8 => stars(&mut bytes),
         9 => elliptic(&mut bytes),
         10 => bounds(&mut bytes),
         11 => spectra(&mut bytes),
         12 => timing(&mut bytes),
         13 => many(&mut bytes),
-        14 => frequencies(&Asked::new(&mut bytes)),
+        14 => frequencies(&Case::new(&mut bytes)),
         _ => tensors(&mut bytes),
     }
 }
 
-fn numerical(asked: &Asked) {
-    let Asked { body, tensor, state, span, accuracy, .. } = asked;
-    let _ = black_box(taylor_forecast(body, tensor, state, true, span.1 - span.0, *accuracy));
-    if !asked.is_moderate() {
+fn numerical(case: &Case) {
+    let (Some(problem), Case { span, accuracy, .. }) = (case.problem(), case) else { return };
+    let _ = black_box(problem.taylor_forecast(span.1 - span.0, *accuracy));
+    if !case.is_moderate() {
         return;
     }
-    if let Ok(motion) = propagate(body, tensor, state, *span, *accuracy) {
-        look_within(&motion, asked);
+    if let Ok(motion) = problem.taylor(*span, *accuracy) {
+        look_within(&motion, case);
     }
-    let _ = black_box(states_at(body, tensor, state, span.0, &asked.times(), *accuracy, ErrorEstimates::Wanted));
+    let _ = black_box(problem.taylor_states(span.0, &case.times(), *accuracy, ErrorEstimates::Wanted));
 }
 
-/// A motion is asked within its span only.
-fn look_within<M: Motion<f64, State = BodyState<f64>>>(motion: &M, asked: &Asked) {
-    for time in asked.times() {
+/// Evaluates a motion within its span.
+fn look_within<M: Motion<f64, State = BodyState<f64>>>(motion: &M, case: &Case) {
+    for time in case.times() {
         let _ = black_box((motion.state(time), motion.error_estimate(time)));
     }
     let _ = black_box(motion.state(f64::NAN));
-    if !asked.is_moderate() {
+    if !case.is_moderate() {
         return;
     }
-    if let Ok(mut angles) = ContinuousAngles::new(motion, asked.span.0, &asked.angles) {
-        let _ = black_box(angles.at(asked.span.1));
+    if let Ok(mut angles) = ContinuousAngles::new(motion, case.span.0, &case.angles) {
+        let _ = black_box(angles.at(case.span.1));
     }
 }
 
-fn by_splitting(asked: &Asked, scheme: u8) {
-    let Asked { body, tensor, state, span, accuracy, .. } = asked;
-    let axis = AxisState::from(state);
-    let forecast = splitting_forecast(body, tensor, &axis, *span, *accuracy);
-    if !asked.is_moderate() {
+fn by_splitting(case: &Case, scheme: u8) {
+    let (Some(problem), Case { span, accuracy, .. }) = (case.problem(), case) else { return };
+    let reduced = problem.reduced();
+    let forecast = reduced.splitting_forecast(*span, *accuracy);
+    if !case.is_moderate() {
         return;
     }
     // Without a torque steps may be long, and a great rotation is made of as many as are allowed: minutes, as forecast.
     if forecast.map_or(true, |forecast| forecast.steps < MANY)
-        && let Ok(motion) = propagate_by_best_splitting(body, tensor, &axis, *span, *accuracy)
+        && let Ok(motion) = reduced.splitting(*span, *accuracy)
     {
-        let _ = black_box((motion.axis_state(span.1), motion.error_estimate(span.1)));
+        let _ = black_box((motion.state(span.1), motion.error_estimate(span.1)));
     }
     let scheme = SCHEMES[usize::from(scheme) % SCHEMES.len()];
     let step = (span.1 - span.0).abs() / 50.0;
-    if let Ok(motion) = propagate_orientation_by_splitting(body, tensor, state, *span, scheme, step) {
-        look_within(&motion, asked);
+    if let Ok(motion) = problem.splitting_by(scheme, *span, step) {
+        look_within(&motion, case);
     }
 }
 
-fn closed(asked: &Asked) {
-    let Asked { body, tensor, state, span, .. } = asked;
-    if let Ok(motion) = UniformMotion::steady_from_parts(body, tensor, state, *span) {
-        look_within(&motion, asked);
+fn closed(case: &Case) {
+    let (Some(problem), span) = (case.problem(), case.span) else { return };
+    if let Ok(motion) = UniformMotion::steady(&problem, span) {
+        look_within(&motion, case);
     }
-    if let Ok(motion) = SymmetricMotion::from_parts(body, tensor, state, *span) {
-        look_within(&motion, asked);
+    if let Ok(motion) = SymmetricMotion::new(&problem, span) {
+        look_within(&motion, case);
     }
     for order in [AveragingOrder::First, AveragingOrder::Second] {
-        if let Ok(motion) = AveragedMotion::from_parts(body, tensor, state, *span, order) {
-            look_within(&motion, asked);
+        if let Ok(motion) = AveragedMotion::new(&problem, span, order) {
+            look_within(&motion, case);
         }
     }
 }
 
-fn planned(asked: &Asked, bytes: &mut Bytes<'_>) {
-    let Asked { body, tensor, state, span, accuracy, .. } = asked;
+fn planned(case: &Case, bytes: &mut Bytes<'_>) {
+    let (Some(problem), Case { span, accuracy, .. }) = (case.problem(), case) else { return };
     let wanted = bytes.below(1 << 14);
     let outputs: Vec<_> =
         Output::ALL.into_iter().enumerate().filter(|(i, _)| wanted >> i & 1 == 1).map(|(_, o)| o).collect();
     let method = Method::ALL.get(bytes.below(12)).copied();
     let request = Request { method, ..Request::new(&outputs, *span, bytes.below(1000), *accuracy) };
-    let Ok(plan) = Plan::from_parts(body, tensor, state, &request) else { return };
+    let Ok(plan) = problem.plan(&request) else { return };
     let _ = black_box(format!("{plan:?}"));
     let is_closed = plan.method.is_some_and(Method::is_closed_form);
-    if !is_closed && !asked.is_moderate() {
+    if !is_closed && !case.is_moderate() {
         return;
     }
-    if let Ok(motion) = plan.axis_motion(body, tensor, state) {
-        let _ = black_box((motion.axis_state(span.1), motion.error_estimate(span.1)));
+    if let Ok(motion) = plan.motion(&problem.reduced()) {
+        let _ = black_box((motion.state(span.1), motion.error_estimate(span.1)));
     }
-    if let Ok(motion) = plan.motion_from_parts(body, tensor, state) {
+    if let Ok(motion) = plan.motion(&problem) {
         let _ = black_box((motion.state(span.1), motion.error_estimate(span.1)));
     }
 }
 
-fn pulses(asked: &Asked) {
-    let Asked { body, tensor, state, span, accuracy, beam, observer, .. } = asked;
-    if !asked.is_moderate() {
+fn pulses(case: &Case) {
+    let (Some(problem), Case { span, accuracy, beam, observer, .. }) = (case.problem(), case) else { return };
+    if !case.is_moderate() {
         return;
     }
     let sight = observer.direction;
-    let _ = black_box(propagated_pulse_train(body, tensor, state, *span, *accuracy, beam, &sight));
-    let Ok(motion) = propagate(body, tensor, state, *span, *accuracy) else { return };
+    let _ = black_box(problem.taylor_pulse_train(*span, *accuracy, beam, &sight));
+    let Ok(motion) = problem.taylor(*span, *accuracy) else { return };
     if let Ok(train) = pulse_train(&motion, beam, &sight, *span) {
         let _ =
             black_box((train.periods().count(), train.durations().count(), arrivals(&motion, beam, &sight, &train)));
     }
 }
 
-fn clock(asked: &Asked, time: f64) {
-    let Asked { body, tensor, state, beam, observer, .. } = asked;
+fn clock(case: &Case, time: f64) {
+    let Case { body, tensor, state, beam, observer, .. } = case;
     if let Ok(mut clock) = PulsarClock::new(body, tensor, state, beam, observer, AveragingOrder::Second) {
         let _ = black_box((clock.period(), clock.truncation(time)));
         for time in [[0.0, 0.0], [time, 0.0], [time, time * 1e-17]] {
@@ -239,8 +242,8 @@ fn clock(asked: &Asked, time: f64) {
     }
 }
 
-fn solutions(asked: &Asked, time: f64) {
-    let Asked { body, s, angles, rates, state, .. } = asked;
+fn solutions(case: &Case, time: f64) {
+    let Case { body, s, angles, rates, state, .. } = case;
     let spin = rates.gamma;
     let _ = black_box((free_precession_rates(body, spin, angles.beta), shifted_rates(body, s, spin, angles.beta)));
     let constants = Constants { alpha_0: angles.alpha, beta_0: angles.beta, amplitude: rates.alpha, phase: rates.beta };
@@ -261,8 +264,8 @@ fn solutions(asked: &Asked, time: f64) {
     let _ = black_box(middle_axis_growth(body, s, spin, angles.alpha, AveragingOrder::Second));
 }
 
-fn torus(asked: &Asked, bytes: &mut Bytes<'_>) {
-    let Asked { body, s, state, .. } = asked;
+fn torus(case: &Case, bytes: &mut Bytes<'_>) {
+    let Case { body, s, state, .. } = case;
     let _ = black_box(torus_frequencies(body, s, state));
     let mut integrals = first_integrals(body, &s.tensor(), state);
     let _ = black_box(states_with_integrals(body, s, &integrals));
@@ -349,26 +352,19 @@ fn timing(bytes: &mut Bytes<'_>) {
 }
 
 fn many(bytes: &mut Bytes<'_>) {
-    let asked: Vec<_> = (0..3).map(|_| Asked::new(bytes)).filter(Asked::is_moderate_motion).collect();
-    let times: Vec<_> = asked.iter().map(|asked| asked.times()).collect();
-    let scene = |(asked, times): (&Asked, _)| AxisScene {
-        spheroid: asked.body,
-        violation: asked.tensor,
-        initial: AxisState::from(&asked.state),
-        start: asked.span.0,
-        times,
-        accuracy: asked.accuracy,
+    let cases: Vec<_> = (0..3).map(|_| Case::new(bytes)).filter(Case::is_moderate_motion).collect();
+    let times: Vec<_> = cases.iter().map(|case| case.times()).collect();
+    let sampled = |(case, times): (&Case, _)| {
+        let problem = case.problem()?.reduced();
+        Some(SampledProblem { problem, start: case.span.0, times, accuracy: case.accuracy })
     };
-    let scenes: Vec<_> = asked.iter().zip(times.iter().map(|times| &times[..])).map(scene).collect();
-    assert_eq!(axis_states_of_many(&scenes).len(), scenes.len());
+    let sampled: Vec<_> = cases.iter().zip(times.iter().map(|times| &times[..])).filter_map(sampled).collect();
+    assert_eq!(states_of_many(&sampled).len(), sampled.len());
 }
 
-fn frequencies(asked: &Asked) {
-    let Asked { body, tensor, state, span, .. } = asked;
-    if !asked.is_moderate() {
-        return;
-    }
-    if let Ok(motion) = propagate(body, tensor, state, *span, 1e-10) {
+fn frequencies(case: &Case) {
+    let Some(problem) = case.problem().filter(|_| case.is_moderate()) else { return };
+    if let Ok(motion) = problem.taylor(case.span, 1e-10) {
         let _ = black_box(fundamental_frequencies(&motion).and_then(|found| found.basis()));
     }
 }

@@ -1,6 +1,6 @@
 //! Sweep files.
 
-use super::is_small;
+use super::scene::is_small;
 use twofold_scene::scene_file::{SceneError, built_in};
 use twofold_scene::sweep::{Sweep, SweepText};
 

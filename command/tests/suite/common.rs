@@ -14,6 +14,30 @@ pub fn twofold(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_twofold")).args(args).output().expect("the command starts")
 }
 
+/// Runs the command, which succeeds.
+pub fn succeeds(args: &[&str]) -> Output {
+    let output = twofold(args);
+    assert_eq!(output.status.code(), Some(0), "{args:?}: {}", stderr(&output));
+    output
+}
+
+/// Runs the command, which refuses its input: status 2 and nothing on standard output.
+pub fn refuses(args: &[&str]) -> Output {
+    let output = twofold(args);
+    assert_eq!(output.status.code(), Some(2), "{args:?}: {}", stderr(&output));
+    assert!(output.stdout.is_empty(), "{args:?}: something on standard output");
+    output
+}
+
+/// A file with a text in a folder that is removed at the end, and its path.
+pub fn file(name: &str, text: impl AsRef<[u8]>) -> (TempDir, String) {
+    let folder = folder();
+    let path = folder.path().join(name);
+    fs::write(&path, text).expect("a file");
+    let path = path.to_str().expect("a path in UTF-8").to_owned();
+    (folder, path)
+}
+
 /// Standard output as text.
 pub fn stdout(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()

@@ -60,8 +60,7 @@ fn files() -> &'static [(&'static str, String)] {
         let (_, after) = rest.split_once("[observer]").expect("observer");
         let scene = Scene::from_toml("caption", &format!("{before}{caption}{after}")).expect("scene");
         let mut table = Vec::new();
-        let (viewer, pulsar) = (scene.observer.expect("observer"), scene.pulsar.expect("pulsar"));
-        trajectory::write_pulses(&scene, (&viewer, &pulsar), &mut table, |_| {}).expect("pulses");
+        trajectory::write_pulses(&scene, &mut table, |_| {}).expect("pulses");
         let widths: Vec<_> =
             rows(&table, &[4, 5, 6]).lines().filter_map(|row| row.strip_suffix('\t').map(String::from)).collect();
         let stamps: Vec<f64> =

@@ -10,7 +10,9 @@ mod figures;
 mod fuzz_corpus;
 mod golden;
 mod inference;
+mod notes;
 mod plans;
+mod pulses;
 mod second_program;
 #[cfg(target_os = "linux")]
 mod signals;

@@ -1,15 +1,14 @@
 //! What commands compute, counted: for every group of columns alone and for all together no more than the plan lists.
 
 use twofold::plan::{Evaluations, Method, Output, State, Work};
-use twofold_scene::columns::{self, ColumnGroup};
-use twofold_scene::scene_file::{BUILT_IN, Scene, Times};
+use twofold_scene::scene_file::{BUILT_IN, COLUMN_GROUPS, Scene, Times, column_group};
 use twofold_scene::trajectory::{Summary, write_csv, write_pulses};
 
 fn scene(name: &str) -> Scene {
     Scene::named(name).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn with_columns(name: &str, columns: &[&'static ColumnGroup]) -> Scene {
+fn with_columns(name: &str, columns: &[Output]) -> Scene {
     let mut scene = scene(name);
     scene.columns = columns.to_vec();
     scene
@@ -21,7 +20,7 @@ fn written(scene: &Scene) -> Summary {
 
 /// What `work` may be at most, by the plan of the scene's columns.
 fn assert_no_more_than_listed(scene: &Scene, work: &Work, place: &str) {
-    let plan = scene.plan_of_columns().unwrap_or_else(|error| panic!("{error}"));
+    let plan = scene.plan(&scene.columns).unwrap_or_else(|error| panic!("{error}"));
     let Some(prediction) = plan.prediction else {
         assert_eq!(*work, Work::default(), "{place}: no motion, no work");
         return;
@@ -43,16 +42,16 @@ fn assert_no_more_than_listed(scene: &Scene, work: &Work, place: &str) {
 fn columns_are_computed_from_no_more_than_the_plan_lists() {
     let mut methods = std::collections::BTreeSet::new();
     for built_in in BUILT_IN {
-        let available: Vec<_> =
-            columns::ALL.into_iter().filter(|group| group.available_in(&scene(built_in.name)).is_ok()).collect();
+        let has_what_it_needs = |output: &Output| scene(built_in.name).has_what_is_needed_for(*output).is_ok();
+        let available: Vec<_> = COLUMN_GROUPS.map(|(_, output)| output).into_iter().filter(has_what_it_needs).collect();
         let alone = available.iter().map(|group| vec![*group]);
         for groups in alone.chain([available.clone()]) {
             let scene = with_columns(built_in.name, &groups);
-            let names: Vec<_> = groups.iter().map(|group| group.name).collect();
+            let names: Vec<_> = groups.iter().map(|group| group.name()).collect();
             let summary = written(&scene);
             assert_eq!(summary.rows, scene.times.count());
             assert_no_more_than_listed(&scene, &summary.work, &format!("{} {names:?}", built_in.name));
-            methods.extend(scene.plan_of_columns().expect("plan").method);
+            methods.extend(scene.plan(&scene.columns).expect("plan").method);
         }
     }
     assert!(methods.contains(&Method::Free) && methods.contains(&Method::Taylor), "{methods:?}");
@@ -61,7 +60,7 @@ fn columns_are_computed_from_no_more_than_the_plan_lists() {
 /// The state that each output alone carries, as docs/plans.md has it.
 #[test]
 fn outputs_carry_what_they_need() {
-    let state = |group: &'static ColumnGroup| with_columns("tp-1", &[group]).plan_of_columns().expect("plan").state;
+    let state = |group: Output| scene("tp-1").plan(&[group]).expect("plan").state;
     for (names, expected) in [
         (&["perturbation"][..], State::Nothing),
         (&["e_z"], State::Axis),
@@ -69,7 +68,7 @@ fn outputs_carry_what_they_need() {
         (&["angles", "e_x", "m.n", "magnetic_axis", "position_angle"], State::Orientation),
     ] {
         for name in names {
-            assert_eq!(state(columns::named(name).expect("group")), expected, "{name}");
+            assert_eq!(state(column_group(name).expect("group")), expected, "{name}");
         }
     }
     let page = std::fs::read_to_string("../docs/plans.md").expect("docs/plans.md is there");
@@ -86,11 +85,11 @@ fn one_far_time_does_not_pay_for_those_before() {
         [("free", Method::Free), ("axisymmetric-violation", Method::Symmetric), ("tp-2", Method::Taylor)]
     {
         for column in ["h", "m.n"] {
-            let mut scene = with_columns(name, &[columns::named(column).expect("group")]);
+            let mut scene = with_columns(name, &[column_group(column).expect("group")]);
             scene.times = Times::Listed { start: 0.0, times: vec![1000.0] };
             // Above the rounding after 200 turns, for which a closed form with phases in 32 digits is taken.
             scene.accuracy = 1e-10;
-            let plan = scene.plan_of_columns().expect("plan");
+            let plan = scene.plan(&scene.columns).expect("plan");
             let work = written(&scene).work;
             assert_eq!((plan.method, work.evaluations()), (Some(method), 1.0), "{name}: {column}");
             assert_eq!(method == Method::Taylor, work.right_hand_sides > 0.0);
@@ -103,8 +102,7 @@ fn one_far_time_does_not_pay_for_those_before() {
 fn pulses_evaluate_as_listed() {
     for name in ["free", "tp-1", "tp-2"] {
         let scene = scene(name);
-        let (viewer, pulsar) = (scene.observer.expect("observer"), scene.pulsar.expect("pulsar"));
-        let summary = write_pulses(&scene, (&viewer, &pulsar), std::io::sink(), |_| {}).expect("pulses");
+        let summary = write_pulses(&scene, std::io::sink(), |_| {}).expect("pulses");
         let plan = scene.plan(&[Output::Pulses]).expect("plan");
         let listed = plan.prediction.expect("prediction").work;
         assert_eq!(plan.samples, 0);
@@ -124,7 +122,7 @@ fn pulses_evaluate_as_listed() {
 fn a_method_is_forced_or_refused() {
     let mut tp2 = scene("tp-2");
     tp2.choose_method("free").expect("any scene may be taken as free");
-    assert_eq!(tp2.plan_of_columns().expect("plan").method, Some(Method::Free));
+    assert_eq!(tp2.plan(&tp2.columns).expect("plan").method, Some(Method::Free));
     let refused = scene("tp-2").choose_method("steady").expect_err("tp-2 is not steady");
     assert!(refused.contains("two equal eigenvalues"), "{refused}");
     let unknown = scene("tp-2").choose_method("tailor").expect_err("no such method");
@@ -134,7 +132,7 @@ fn a_method_is_forced_or_refused() {
     assert_eq!(file("taylor").expect("scene").method, Some(Method::Taylor));
     for (method, reason) in [
         ("steady", "does not allow"),
-        ("tailor", "one of \"free\", \"steady\", \"symmetric\", \"mean\", \"splitting\", \"taylor\""),
+        ("tailor", "one of \"free\", \"steady\", \"symmetric\", \"averaged\", \"splitting\", \"taylor\""),
     ] {
         let error = file(method).expect_err("refused").to_string();
         assert!(error.contains("`output.method`") && error.contains(reason), "{error}");

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{folder, names_in, stderr, stdout, twofold};
+use crate::common::{folder, names_in, refuses, stderr, stdout, succeeds, twofold};
 use twofold::epoch::Epoch;
 use twofold::observables::pulsar::SpinFit;
 use twofold_scene::pulsar_timing::PulsarScene;
@@ -12,8 +12,7 @@ use twofold_scene::trajectory;
 use twofold_verify::double_double::DoubleDouble;
 
 fn written(args: &[&str], out: &Path) -> String {
-    let output = twofold(&[&["timing"], args, &["--out", out.to_str().expect("path in UTF-8")]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let output = succeeds(&[&["timing"], args, &["--out", out.to_str().expect("path in UTF-8")]].concat());
     stdout(&output)
 }
 
@@ -160,8 +159,7 @@ fn dark_epochs_are_left_out_with_a_note() {
     let results = out.path().join("results");
     let args =
         ["timing", path.to_str().expect("path"), "--from", "50000", "--to", "60000.5", "--epochs", "300", "--out"];
-    let output = twofold(&[&args[..], &[results.to_str().expect("path")]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let output = succeeds(&[&args[..], &[results.to_str().expect("path")]].concat());
     assert!(stderr(&output).contains("of 300 epochs have no pulse"), "{}", stderr(&output));
     let count = rows(&read(&results, "strong.csv")).len();
     assert!((3..300).contains(&count), "{count}");
@@ -350,8 +348,7 @@ fn files_are_not_replaced_without_leave() {
     let out = folder();
     written(&["b1642-03", "--epochs", "5"], out.path());
     let before = read(out.path(), "b1642-03.csv");
-    let again = twofold(&["timing", "b1642-03", "--epochs", "6", "--out", out.path().to_str().expect("path")]);
-    assert_eq!(again.status.code(), Some(2));
+    let again = refuses(&["timing", "b1642-03", "--epochs", "6", "--out", out.path().to_str().expect("path")]);
     assert!(
         stderr(&again).contains("b1642-03.csv and 4 more exist there; --force replaces them"),
         "{}",
@@ -364,8 +361,7 @@ fn files_are_not_replaced_without_leave() {
 
 #[test]
 fn other_commands_take_a_pulsar_or_say_why_not() {
-    let spectrum = twofold(&["spectrum", "b1828-11", "--of", "h_plus", "--span", "200", "--unidentified"]);
-    assert_eq!(spectrum.status.code(), Some(0), "{}", stderr(&spectrum));
+    let spectrum = succeeds(&["spectrum", "b1828-11", "--of", "h_plus", "--span", "200", "--unidentified"]);
     // Twice the rate of the symmetry axis about L, then that rate: 2 pi F0 and the wobble's share.
     let frequency =
         |line: usize| stdout(&spectrum).lines().nth(line).and_then(|line| line.split(',').next()?.parse::<f64>().ok());
@@ -376,8 +372,7 @@ fn other_commands_take_a_pulsar_or_say_why_not() {
     );
     let explained = twofold(&["run", "b1937+21", "--explain"]);
     assert!(stdout(&explained).contains("averaged motion to second order"), "{}", stdout(&explained));
-    let pulses = twofold(&["pulses", "b1937+21"]);
-    assert_eq!(pulses.status.code(), Some(2));
+    let pulses = refuses(&["pulses", "b1937+21"]);
     assert!(stderr(&pulses).contains("`twofold timing` computes the pulses near given epochs"), "{}", stderr(&pulses));
 }
 

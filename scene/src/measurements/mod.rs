@@ -10,7 +10,6 @@ use twofold::Error;
 use twofold::inference::{Noise, Observable};
 use twofold::parameters::Parameters;
 
-use crate::columns::strain_of_scene;
 use crate::scene_file::Scene;
 
 /// The parameters of a scene in units `I^xx = C = 1`, time in `t_c`; `Omega^z` is held when others change. A beam or an observer that the scene
@@ -22,14 +21,15 @@ pub fn parameters_of(scene: &Scene) -> Result<Parameters<f64>, Error> {
     let angles = scene.initial_angles;
     let sine = angles.beta.sin();
     Error::ensure(sine > 1e-6, "sin(beta) at the start", sine, "above 1e-6: on a pole angles are no parameters")?;
-    let rates = scene.initial.rates(&scene.spheroid)?;
-    let mut parameters = Parameters::new(scene.spheroid, scene.violation, angles, rates).holding_spin();
+    let rates = scene.problem.initial().rates(scene.problem.spheroid())?;
+    let mut parameters =
+        Parameters::new(*scene.problem.spheroid(), *scene.problem.coefficients(), angles, rates).holding_spin();
     if let Some(pulsar) = scene.pulsar {
         (parameters.chi, parameters.delta, parameters.rho) = (pulsar.chi, pulsar.delta, pulsar.rho);
     }
     if let Some(observer) = scene.observer {
         (parameters.theta_o, parameters.phi_o) = (observer.theta_o, observer.phi_o);
-        parameters.strain_unit = observer.distance.map_or(1.0, |distance| strain_of_scene(scene, distance));
+        parameters.strain_unit = scene.strain_unit();
     }
     Ok(parameters)
 }

@@ -74,7 +74,7 @@ impl Pulsar {
     /// # Errors
     /// As for [`figures`](Self::figures), and for a key that the pulse has not.
     pub fn figure(&self, key: &str) -> Result<Figure, String> {
-        let figures = self.figures().map_err(|error| error.to_string())?;
+        let figures = self.figures()?;
         figures.into_iter().find(|figure| figure.key == key).ok_or_else(|| format!("{}: no figure {key}", self.name))
     }
 

@@ -107,9 +107,8 @@ pub fn recommended(pulsars: &[Pulsar]) -> Result<(&Pulsar, Limit), String> {
     let mut best: Option<(f64, &Pulsar, Limit)> = None;
     for pulsar in pulsars {
         let figure = pulsar.figure("bound_over_eta_own")?;
-        let text = |error: Error| error.to_string();
-        let limit = pulsar.limit(&figure).map_err(text)?;
-        let strength = pulsar.sensitivity(&figure).map_err(text)?.unwrap_or(limit.all);
+        let limit = pulsar.limit(&figure)?;
+        let strength = pulsar.sensitivity(&figure)?.unwrap_or(limit.all);
         if best.is_none_or(|(strongest, ..)| strength < strongest) {
             best = Some((strength, pulsar, limit));
         }

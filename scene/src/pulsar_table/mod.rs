@@ -8,7 +8,7 @@ pub mod published;
 mod pulsar_file;
 
 use crate::random::Random;
-use crate::scene_file::{FileKind, SceneError};
+use crate::scene_file::{FileFormat, SceneError};
 
 pub use figures::{COMBINATION, CONSERVATIVE_ETA, Figure, ROUND_INERTIA_OVER_C};
 pub use limit::{CONFIDENCE, Directions, Limit, recommended};
@@ -16,8 +16,8 @@ pub use limit::{CONFIDENCE, Directions, Limit, recommended};
 /// The table that comes with the command: the two pulsars of the paper.
 pub const PAPER: &str = include_str!("../../pulsars/paper.toml");
 
-/// A table of pulsars, in the words of the messages.
-const TABLE: FileKind = FileKind { name: "a table of pulsars", built_in: None };
+/// Files with a table of pulsars.
+const TABLE: FileFormat = FileFormat { name: "a table of pulsars", built_in: None };
 
 /// How an uncertainty is distributed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

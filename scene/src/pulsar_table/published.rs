@@ -1,4 +1,36 @@
-//! Limits that others have published, to stand beside ours.
+//! What is printed of our pulsars in the paper, and limits that others have published, to stand beside ours.
+
+use super::{Pulsar, paper};
+
+/// What the paper prints of one pulse beside what was observed of it.
+#[derive(Debug, Clone, Copy)]
+pub struct PrintedBounds {
+    /// Change of `lambda` (1e-3 deg).
+    pub lambda_change: &'static str,
+    /// Bound in 1e-16 with the factor eta left out.
+    pub bound: &'static str,
+    /// Bound in 1e-16 with eta = 10.
+    pub conservative: &'static str,
+}
+
+/// The last rows of the paper's table, a column per pulse.
+const PRINTED: [(&str, PrintedBounds); 3] = [
+    ("PSR B1937+21, main pulse", PrintedBounds { lambda_change: "-19", bound: "100", conservative: "1000" }),
+    ("PSR B1937+21, interpulse", PrintedBounds { lambda_change: "-5.2", bound: "10", conservative: "100" }),
+    ("PSR J1744-1134", PrintedBounds { lambda_change: "1.6", bound: "1", conservative: "10" }),
+];
+
+/// The pulses of the paper's table with what is printed of them.
+///
+/// # Panics
+/// If the table compiled into the program has another pulse.
+pub fn printed_bounds() -> Vec<(Pulsar, PrintedBounds)> {
+    let printed = |pulsar: Pulsar| {
+        let (_, printed) = PRINTED.iter().find(|(name, _)| *name == pulsar.name).expect("a column for each pulse");
+        (pulsar, *printed)
+    };
+    paper().into_iter().map(printed).collect()
+}
 
 /// What of a publication was seen here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use crate::scene_file::{Entry, Fault, Section};
 
 pub(super) fn read(document: &Section<'_>) -> Result<Vec<Pulsar>, Fault> {
     document.only(&["about", "pulsar"])?;
-    document.optional("about").map(|entry| entry.string()).transpose()?;
+    document.optional_string("about")?;
     document.repeated_section("pulsar", "a pulse of a pulsar")?.iter().map(pulsar).collect()
 }
 
@@ -28,15 +28,13 @@ fn pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
         "eta",
         "w",
     ])?;
-    for (first, second) in [
+    section.not_both(&[
         ("spin_period", "spin_frequency"),
         ("lambda", "zeta"),
         ("inertia_over_c", "density"),
         ("inertia_over_c", "oblateness"),
         ("beta_0", "eta"),
-    ] {
-        section.not_both(first, second)?;
-    }
+    ])?;
     let name = section.required("name", "what to call it")?;
     if name.string()?.trim().is_empty() {
         return Err(name.refuse("a string that is not empty"));
@@ -50,7 +48,7 @@ fn pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
     };
     let pulsar = Pulsar {
         name: name.string()?.to_owned(),
-        source: section.optional("source").map(|source| source.string().map(str::to_owned)).transpose()?,
+        source: section.optional_string("source")?.map(str::to_owned),
         spin_form,
         spin,
         width: quantity(&section.required("width", "W [deg]")?, "above 0 and below 360 [deg]", |w| {

@@ -10,8 +10,8 @@ mod table;
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use nalgebra::Vector3;
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::epoch::{DAY, Epoch};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::strain_unit;
@@ -32,15 +32,11 @@ const ARRIVAL_ROUNDING: f64 = 1e-16 * DAY;
 /// A scene with all that its pulses need, in seconds.
 #[derive(Debug, Clone)]
 pub struct PulsarScene {
-    /// `I^xx = 1`, `C` in 1/s^2.
-    pub spheroid: RigidSpheroid<f64>,
-    /// `s^IJ` in the frame of the scene.
-    pub violation: Matrix3<f64>,
-    /// State at the epoch, `L` in 1/s.
-    pub initial: BodyState<f64>,
-    /// Who looks on.
+    /// The scene's problem with `I^xx = 1`, `C` in 1/s^2 and `L` in 1/s; the state is that at the epoch.
+    pub problem: Problem<f64>,
+    /// Direction to the observer.
     pub observer: Observer<f64>,
-    /// What is seen.
+    /// The beam.
     pub beam: Beam<f64>,
     /// The pulses.
     pub clock: PulsarClock,
@@ -65,20 +61,21 @@ impl PulsarScene {
         let viewer = scene.observer.ok_or_else(|| lacks("the section [observer]"))?;
         let beam = scene.pulsar.ok_or_else(|| lacks("the section [pulsar]"))?.beam();
         let t_c = scene.units.time;
-        let spheroid = RigidSpheroid { constant_c: scene.spheroid.constant_c / (t_c * t_c), ..scene.spheroid };
-        let initial = BodyState { momentum: scene.initial.momentum / t_c, ..scene.initial };
+        let (spheroid, initial) = (scene.problem.spheroid(), scene.problem.initial());
+        let spheroid = RigidSpheroid { constant_c: spheroid.constant_c / (t_c * t_c), ..*spheroid };
+        let initial = BodyState { momentum: initial.momentum / t_c, ..*initial };
         if initial.momentum == Vector3::zeros() {
             return Err("the star does not rotate (its angular momentum is zero) and sends no pulses: allowed is a `star.spin_frequency` \
                         other than zero, or an [initial] with rates"
                 .into());
         }
         let observer = viewer.basis();
-        let clock = PulsarClock::new(&spheroid, &scene.violation, &initial, &beam, &observer, AveragingOrder::Second)
-            .map_err(|why| format!("the scene has no averaged motion: {why}"))?;
+        let problem = Problem::new(spheroid, *scene.problem.coefficients(), initial)?;
+        let clock =
+            PulsarClock::new(&spheroid, problem.coefficients(), &initial, &beam, &observer, AveragingOrder::Second)
+                .map_err(|why| format!("the scene has no averaged motion: {why}"))?;
         Ok(Self {
-            spheroid,
-            violation: scene.violation,
-            initial,
+            problem,
             observer,
             beam,
             clock,

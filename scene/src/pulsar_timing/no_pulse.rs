@@ -39,12 +39,12 @@ impl NoPulse {
     pub(super) fn at(pulsar: &PulsarScene, beam: &Beam<f64>, epochs: &[Epoch]) -> Self {
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         let period = pulsar.clock.period();
-        let edge = beam.half_opening.cos();
+        let (edge, problem) = (beam.half_opening.cos(), &pulsar.problem);
         for epoch in epochs.iter().step_by(epochs.len().div_ceil(MOST)) {
             let near = pulsar.clock.near(epoch.seconds_since(&pulsar.epoch));
             let at = |t: f64| {
                 let state = near.state(t);
-                beam.margin_rates(&pulsar.spheroid, &pulsar.violation, &state, &pulsar.observer.direction)
+                beam.margin_rates(problem.spheroid(), problem.coefficients(), &state, &pulsar.observer.direction)
             };
             let step = period / LOOKS as f64;
             for k in 0..LOOKS {

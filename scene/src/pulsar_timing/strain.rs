@@ -3,10 +3,11 @@
 use std::fmt::Write;
 
 use twofold::epoch::Epoch;
-use twofold::observables::gravitational_wave::{Polarizations, wave_of_state};
+use twofold::observables::gravitational_wave::Polarizations;
 use twofold::propagation::AxisState;
 
 use super::PulsarScene;
+use crate::wave::spheroid_wave;
 
 /// When a series begins, its steps and how many.
 #[derive(Debug, Clone, Copy)]
@@ -22,9 +23,13 @@ pub struct Series {
 impl PulsarScene {
     /// The wave at the observer, at the scene's distance, of a state.
     pub fn wave(&self, state: &AxisState<f64>) -> Option<Polarizations<f64>> {
-        let unit = self.strain_unit?;
-        let wave = wave_of_state(&self.spheroid, &self.violation, state, &self.observer);
-        Some(Polarizations { plus: wave.plus * unit, cross: wave.cross * unit })
+        Some(spheroid_wave(
+            self.problem.spheroid(),
+            self.problem.coefficients(),
+            state,
+            &self.observer,
+            self.strain_unit?,
+        ))
     }
 }
 

@@ -44,7 +44,7 @@ pub fn csv(pulsar: &PulsarScene, timing: &Timing) -> String {
     for (timed, residual) in timing.pulses.iter().zip(&timing.fit.residuals) {
         let pulse = &timed.pulse;
         let state = AxisState::from(&pulse.state);
-        let harmonics = WaveHarmonics::of(&pulsar.spheroid, &state, &pulsar.observer).ok();
+        let harmonics = WaveHarmonics::of(pulsar.problem.spheroid(), &state, &pulsar.observer).ok();
         let of = |value: fn(&WaveHarmonics<f64>) -> f64| harmonics.as_ref().map_or(f64::NAN, value);
         let unit = pulsar.strain_unit.unwrap_or(f64::NAN);
         let wave = pulsar.wave(&state);

@@ -1,61 +1,36 @@
-//! Scene files: a star, its initial motion, the violation and the times asked for, read from TOML and checked.
+//! Scene files: a star, its initial motion, the coefficients for Lorentz violation and the times of the output, read from TOML and checked.
 //!
 //! The format is described in `docs/scenes.md`. Everything is checked before anything is computed; a refusal names the
 //! file, line, column and key, the value as written and what is allowed.
 
 mod built_in;
 mod document;
-mod error;
-mod initial;
-mod observer;
-mod output;
-mod section;
-mod star;
-mod time;
-mod violation;
+mod motion;
+mod observation;
 
-use nalgebra::Matrix3;
-use twofold::Error;
-use twofold::dynamics::equations_of_motion::angular_velocity;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::Problem;
 use twofold::epoch::Epoch;
 use twofold::euler_angles::EulerAngles;
-use twofold::plan::{Method, Output, Plan, Request};
+use twofold::plan::{Method, Output};
 use twofold::solutions::perturbation::Perturbation;
 
-use crate::columns::{self, ColumnGroup};
-
 pub use built_in::{BUILT_IN, BuiltIn, PULSARS, built_in};
-use document::BuiltInNames;
-pub(crate) use document::FileKind;
-pub(crate) use error::Fault;
-pub use error::SceneError;
-pub use observer::{Catalogued, Pulsar, Viewer};
-pub(crate) use output::read_accuracy_and_method;
-pub(crate) use section::{Entry, Replaced, Section};
-pub use section::{listed, nearest, shortened};
-pub use star::Units;
-pub use time::Times;
-pub use time::like_julian_date;
-pub(crate) use time::read as read_times;
+pub(crate) use document::{Entry, Fault, FileFormat, Replaced, Section};
+pub use document::{SceneError, did_you_mean, listed, nearest, shortened};
+pub use motion::Units;
+pub use observation::{COLUMN_GROUPS, Catalogued, Pulsar, Times, Viewer, column_group, like_julian_date};
+pub(crate) use observation::{columns_in, read_accuracy_and_method, read_end, read_times};
 
 /// Largest scene file that is read, in bytes.
 pub const LARGEST_FILE: u64 = 64 << 20;
-
-/// Largest rotation over the whole span that is computed, in rad; it takes some minutes.
-pub const LARGEST_ROTATION: f64 = 1e8;
 
 /// A checked scene. Inside it everything is in the paper's units, `I^xx = C = 1`, with time in `t_c`.
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// What the scene is, one line; may be empty.
     pub about: String,
-    /// The star.
-    pub spheroid: RigidSpheroid<f64>,
-    /// `s^IJ` in the inertial frame of the output.
-    pub violation: Matrix3<f64>,
-    /// State at the time `times.start()`, in the inertial frame of the output.
-    pub initial: BodyState<f64>,
+    /// The star, `s^IJ` and the state at the time `times.start()`, in the inertial frame of the output.
+    pub problem: Problem<f64>,
     /// Euler angles of that state, with their turns, and on a pole as given.
     pub initial_angles: EulerAngles<f64>,
     /// Times of the output, in units of the output.
@@ -64,23 +39,23 @@ pub struct Scene {
     pub epoch: Option<Epoch>,
     /// Where the numbers of the file come from.
     pub sources: Vec<String>,
-    /// Who looks on, where the file says so.
+    /// The observer, where the file has one.
     pub observer: Option<Viewer>,
-    /// What shines, where the file says so.
+    /// The beam of the pulsar, where the file has one.
     pub pulsar: Option<Pulsar>,
-    /// What the pulsar is called and where it is, where the file says so.
+    /// Name and position of the pulsar, where the file has them.
     pub catalogued: Option<Catalogued>,
     /// The perturbation solution of the scene's constants as printed, with time from the start in t_c, or why there is none.
     pub perturbation: Result<Perturbation<f64>, &'static str>,
-    /// Columns of the output, in its order.
-    pub columns: Vec<&'static ColumnGroup>,
-    /// Truncation error wanted at the end of the span.
+    /// Groups of columns of the table, in its order.
+    pub columns: Vec<Output>,
+    /// Largest truncation error at the end of the span.
     pub accuracy: f64,
     /// The method of the motion, where one is named.
     pub method: Option<Method>,
     /// Units of the file and of the output.
     pub units: Units,
-    /// What in the file is allowed and looks like a mistake, a sentence each.
+    /// Sentences about what in the file is allowed but looks like a mistake.
     pub cautions: Vec<String>,
 }
 
@@ -157,33 +132,34 @@ impl Scene {
             "time",
             "output",
         ])?;
-        let about = document.optional("about").map(|entry| entry.string()).transpose()?.unwrap_or("").to_owned();
+        let about = document.optional_string("about")?.unwrap_or("").to_owned();
         let sources = document.optional("sources").map(|entry| sources(&entry)).transpose()?.unwrap_or_default();
         let star_section = document.required_section("star", "the spheroid and its spin")?;
-        let (star, spin_caution) = star::read(&star_section)?;
-        let violation = violation::read(&document.required_section("lorentz_violation", "the coefficients s^IJ")?)?;
+        let (star, spin_caution) = motion::read_star(&star_section)?;
+        let violation =
+            motion::read_violation(&document.required_section("lorentz_violation", "the coefficients s^IJ")?)?;
         let initial_section = document.required_section("initial", "the initial orientation and motion")?;
-        let initial = initial::read(&initial_section, &star, &violation)?;
+        let initial = motion::read_initial(&initial_section, &star, &violation)?;
+        let problem = Problem::new(star.spheroid, violation.tensor, initial.state);
+        let problem = problem.map_err(|error| initial_section.fault(format!("no motion starts so: {error}")))?;
         let observer = document.section("observer")?;
-        let observer = observer.map(|section| observer::read_observer(&section, &star.units)).transpose()?;
+        let observer = observer.map(|section| observation::read_observer(&section, &star.units)).transpose()?;
         let pulsar_section = document.section("pulsar")?;
-        let pulsar = pulsar_section.as_ref().map(observer::read_pulsar).transpose()?;
-        let catalogued = pulsar_section.as_ref().map(observer::read_catalogued).transpose()?.flatten();
+        let pulsar = pulsar_section.as_ref().map(observation::read_pulsar).transpose()?;
+        let catalogued = pulsar_section.as_ref().map(observation::read_catalogued).transpose()?.flatten();
         let (time_section, times, epoch, epoch_caution) = match times {
             Some(times) => (None, times.clone(), None, None),
             None => {
                 let section = document.required_section("time", "the times of the output")?;
-                let times = time::read_with_years(&section, &star.units)?;
-                let (epoch, caution) = time::read_epoch(&section, &star.units, &times)?.unzip();
+                let times = observation::read_time(&section, &star.units)?;
+                let (epoch, caution) = observation::read_epoch(&section, &star.units, &times)?.unzip();
                 (Some(section), times, epoch, caution.flatten())
             }
         };
         let output = document.section("output")?;
         let mut scene = Scene {
             about,
-            spheroid: star.spheroid,
-            violation: violation.tensor,
-            initial: initial.state,
+            problem,
             initial_angles: initial.angles,
             times,
             epoch,
@@ -192,78 +168,24 @@ impl Scene {
             pulsar,
             catalogued,
             perturbation: initial.perturbation,
-            columns: columns::of_the_motion(),
-            accuracy: output::DEFAULT_ACCURACY,
+            columns: observation::columns_of_the_motion(),
+            accuracy: observation::DEFAULT_ACCURACY,
             method: None,
             units: star.units,
             cautions: [spin_caution, epoch_caution].into_iter().flatten().collect(),
         };
         if let Some(output) = &output {
-            output::read(output, &mut scene, matches!(columns, Columns::OfTheFile))?;
+            observation::read_output(output, &mut scene, matches!(columns, Columns::OfTheFile))?;
         }
         if let Columns::Named(names) = columns {
             let refused = |why| Fault { span: None, message: format!("--columns: {why}") };
             scene.choose_columns(names).map_err(refused)?;
         }
         if !matches!(columns, Columns::Unused) {
-            let outputs: Vec<_> = scene.columns.iter().map(|group| group.output).collect();
             let section = time_section.as_ref().unwrap_or(document);
-            scene.check_rotation(&outputs).map_err(|why| section.fault(why))?;
+            scene.check_rotation(&scene.columns).map_err(|why| section.fault(why))?;
         }
         Ok(scene)
-    }
-
-    /// Refuses a span of too many turns for what goes through all of them.
-    pub(crate) fn check_rotation(&self, outputs: &[Output]) -> Result<(), String> {
-        let rotation = self.rotation();
-        if rotation <= LARGEST_ROTATION || self.plan(outputs).is_ok() {
-            return Ok(());
-        }
-        Err(format!(
-            "[time] asks for a rotation by {rotation:.1e} rad: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \
-             minutes, for pulses, angles that count their turns and motions without a closed form; shorten the span, lower the rates \
-             or choose other columns"
-        ))
-    }
-
-    /// The plan for some outputs over the span and at the samples of the scene. Times are those since the start, in t_c.
-    ///
-    /// # Errors
-    /// A method that the scene does not allow, and a span too long for what goes through every turn.
-    pub fn plan(&self, outputs: &[Output]) -> Result<Plan, Error> {
-        let span = (0.0, (self.times.last() - self.times.start()) / self.units.time);
-        let request = Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.accuracy) };
-        let plan = Plan::from_parts(&self.spheroid, &self.violation, &self.initial, &request)?;
-        let rotation = self.rotation();
-        Error::ensure(
-            rotation <= LARGEST_ROTATION || plan.costs_the_same_at_any_time(),
-            "rotation over the span (rad)",
-            rotation,
-            "at most 1e8 for pulses, angles that count their turns and motions without a closed form",
-        )?;
-        Ok(plan)
-    }
-
-    /// The plan for the columns of the scene.
-    ///
-    /// # Errors
-    /// As for [`Scene::plan`].
-    pub fn plan_of_columns(&self) -> Result<Plan, Error> {
-        let outputs: Vec<_> = self.columns.iter().map(|group| group.output).collect();
-        self.plan(&outputs)
-    }
-
-    /// Upper estimate of the angle through which the body turns over the span, in rad.
-    pub fn rotation(&self) -> f64 {
-        let duration = (self.times.last() - self.times.start()).abs() / self.units.time;
-        duration * self.turning_rate()
-    }
-
-    /// Upper estimate of the rate at which directions turn, per `t_c`.
-    pub(crate) fn turning_rate(&self) -> f64 {
-        let BodyState { axis, momentum, .. } = &self.initial;
-        let omega = angular_velocity(&self.spheroid, axis, momentum).norm();
-        omega.max(momentum.norm()) + (2.0 * self.violation.norm()).sqrt()
     }
 }
 
@@ -272,6 +194,6 @@ fn sources(entry: &Entry<'_>) -> Result<Vec<String>, Fault> {
     list.iter().map(|source| source.string().map(str::to_owned)).collect()
 }
 
-/// A scene, in the words of the messages.
-pub(crate) const SCENE: FileKind =
-    FileKind { name: "a scene", built_in: Some(BuiltInNames { names: built_in::names, listed_by: "twofold scenes" }) };
+/// Files with a scene.
+pub(crate) const SCENE: FileFormat =
+    FileFormat { name: "a scene", built_in: Some((built_in::names, "twofold scenes")) };

@@ -9,14 +9,13 @@ use twofold::plan::Output;
 use super::outputs::{ERRORS, Outputs, Summary};
 use super::parameters::{Law, Parameters, Source};
 use super::{MOST_COLUMNS, MOST_SCENES, Sweep};
-use crate::columns;
 use crate::scene_file::{
-    BUILT_IN, Columns, Entry, Fault, FileKind, Replaced, SCENE, Scene, SceneError, Section, Times, listed, nearest,
-    read_accuracy_and_method, read_times,
+    BUILT_IN, COLUMN_GROUPS, Columns, Entry, Fault, FileFormat, Replaced, SCENE, Scene, SceneError, Section, Times,
+    columns_in, did_you_mean, listed, read_accuracy_and_method, read_end, read_times,
 };
 
-/// A sweep, in the words of the messages.
-const SWEEP: FileKind = FileKind { name: "a sweep", built_in: None };
+/// Files with a sweep.
+const SWEEP: FileFormat = FileFormat { name: "a sweep", built_in: None };
 
 /// Sections of a scene that can be varied.
 const VARIED_SECTIONS: [&str; 5] = ["star", "lorentz_violation", "initial", "observer", "pulsar"];
@@ -129,7 +128,7 @@ impl<'t> Sweep<'t> {
         let parameters = parameters(&section, &known).map_err(in_sweep)?;
         let outputs = outputs(&section, &mut scene, times).map_err(in_sweep)?;
         // Means over the span and pulses go through every turn.
-        let mut needed = outputs.asked().outputs;
+        let mut needed = outputs.outputs();
         if outputs.summaries.iter().any(|summary| matches!(summary, Summary::Lambda | Summary::Pulses)) {
             needed.push(Output::Pulses);
         }
@@ -153,7 +152,7 @@ impl<'t> Sweep<'t> {
 /// Checks the keys of the document; says what the sweep is about.
 fn check_keys(document: &Section<'_>) -> Result<String, Fault> {
     document.only(&["about", "scene", "seed", "draws", "vary", "time", "output"])?;
-    let about = document.optional("about").map(|entry| entry.string()).transpose()?.unwrap_or("");
+    let about = document.optional_string("about")?.unwrap_or("");
     let scene = document.required("scene", "a built-in scene, the path of a scene file, or a section [scene]")?;
     if !scene.is_string() {
         document.table("scene", "the name of a scene, or a section [scene]")?;
@@ -164,17 +163,13 @@ fn check_keys(document: &Section<'_>) -> Result<String, Fault> {
 /// The times of the columns: those of a scene's section, or the end of the span alone.
 fn times(document: &Section<'_>) -> Result<Times, Fault> {
     let section = document.required_section("time", "the times of the columns")?;
+    section.only(&["start", "span", "end", "samples", "times"])?;
     if section.has("times") || section.has("samples") {
         return read_times(&section);
     }
-    section.only(&["start", "span", "end", "samples", "times"])?;
-    section.not_both("span", "end")?;
-    let start = section.optional("start").map_or(Ok(0.0), |entry| entry.number())?;
-    let end = match (section.optional("span"), section.optional("end")) {
-        (Some(span), _) => start + span.number_where("any number except zero", |x| x != 0.0)?,
-        (None, Some(end)) => end.number_where("any number except `time.start`", |x| x != start)?,
-        (None, None) => return Err(section.missing("one of `time.span`, `time.end` and `time.times`")),
-    };
+    section.not_both(&[("span", "end")])?;
+    let start = section.number_or("start", 0.0)?;
+    let (end, _) = read_end(&section, start)?;
     if end == start || !end.is_finite() {
         return Err(section.fault("[time] has a span that is lost in the rounding of its ends"));
     }
@@ -187,9 +182,7 @@ fn parameters(document: &Section<'_>, known: &[String]) -> Result<Parameters, Fa
     let mut streams = 0;
     for section in document.repeated_section("vary", "a parameter of the scene and its numbers")? {
         section.only(&["parameter", "values", "grid", "random", "together"])?;
-        for (first, second) in [("values", "grid"), ("values", "random"), ("grid", "random"), ("together", "random")] {
-            section.not_both(first, second)?;
-        }
+        section.not_both(&[("values", "grid"), ("values", "random"), ("grid", "random"), ("together", "random")])?;
         let parameter = section.required("parameter", "dotted key of a number of the scene")?;
         found.keys.push(parameter_key(&parameter, known, &found.keys)?);
         let (length, source) = match source(&section, streams)? {
@@ -247,7 +240,7 @@ fn parameter_key(entry: &Entry<'_>, known: &[String], taken: &[String]) -> Resul
         return Ok(key.to_owned());
     }
     let known: Vec<_> = known.iter().map(String::as_str).collect();
-    let guess = nearest(key, &known).map(|near| format!(" Did you mean `{near}`?")).unwrap_or_default();
+    let guess = did_you_mean(key, &known);
     Err(entry.refuse_because(&format!("allowed is a number that stands in the scene: {}.{guess}", listed(&known))))
 }
 
@@ -317,30 +310,21 @@ fn ends(section: &Section<'_>, by_ratios: bool) -> Result<(f64, f64), Fault> {
 /// Reads the section `[output]`, its accuracy and method into the scene.
 fn outputs(document: &Section<'_>, scene: &mut Scene, times: Times) -> Result<Outputs, Fault> {
     let mut outputs = Outputs { times, groups: Vec::new(), errors: true, summaries: Vec::new() };
-    outputs.groups = ["e_z", "L"].into_iter().filter_map(columns::named).collect();
+    outputs.groups = vec![Output::SymmetryAxis, Output::AngularMomentum];
     let Some(section) = document.section("output")? else { return Ok(outputs) };
     section.only(&["columns", "summaries", "accuracy", "method"])?;
     read_accuracy_and_method(&section, scene)?;
     if let Some(list) = section.optional("columns") {
-        let names: Vec<_> = columns::ALL.iter().map(|group| group.name).chain([ERRORS]).collect();
-        outputs.errors = false;
-        outputs.groups.clear();
-        let mut wanted = Vec::new();
-        for (entry, name) in words(&list, &names)? {
-            match columns::named(name) {
-                Some(group) => {
-                    group.available_in(scene).map_err(|why| entry.refuse_because(&why))?;
-                    wanted.push(group);
-                }
-                None => outputs.errors = true,
-            }
-        }
-        outputs.groups = columns::in_order(&wanted);
+        let names: Vec<_> = COLUMN_GROUPS.iter().map(|(name, _)| *name).chain([ERRORS]).collect();
+        let words = list.words(&names)?;
+        outputs.errors = words.iter().any(|(_, name)| *name == ERRORS);
+        outputs.groups = columns_in(&words, scene)?;
     }
     if let Some(list) = section.optional("summaries") {
-        for (entry, name) in words(&list, &Summary::ALL.map(|(name, _)| name))? {
+        for (entry, name) in list.words(&Summary::ALL.map(|(name, _)| name))? {
             for (_, summary) in Summary::ALL.iter().filter(|(known, _)| *known == name) {
-                summary.available_in(scene).map_err(|why| entry.refuse_because(&why))?;
+                let needed = summary.output().map_or(Ok(()), |output| scene.has_what_is_needed_for(output));
+                needed.map_err(|why| entry.refuse_because(&why))?;
                 outputs.summaries.push(*summary);
             }
         }
@@ -349,18 +333,4 @@ fn outputs(document: &Section<'_>, scene: &mut Scene, times: Times) -> Result<Ou
         return Err(section.fault("[output] asks for nothing: allowed are columns, summaries or both"));
     }
     Ok(outputs)
-}
-
-/// Different words out of `names`, each with its entry; none is allowed.
-fn words<'a>(list: &Entry<'a>, names: &[&str]) -> Result<Vec<(Entry<'a>, &'a str)>, Fault> {
-    let allowed = format!("a list of different names out of \"{}\"", names.join("\", \""));
-    let mut found: Vec<(Entry<'a>, &str)> = Vec::new();
-    for entry in list.list(&allowed)? {
-        let word = entry.word(names)?;
-        if found.iter().any(|(_, other)| *other == word) {
-            return Err(entry.refuse(&allowed));
-        }
-        found.push((entry, word));
-    }
-    Ok(found)
 }

@@ -14,14 +14,14 @@ pub(super) struct Mark {
     /// Rows that say that their scene failed.
     pub(super) failed: u64,
     /// Length of the table.
-    pub(super) rows: Stretch,
+    pub(super) rows: Prefix,
     /// Length of the table of errors.
-    pub(super) errors: Stretch,
+    pub(super) errors: Prefix,
 }
 
 /// A file up to some byte.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Stretch {
+pub(super) struct Prefix {
     /// Length in bytes.
     pub(super) length: u64,
     /// CRC-32 of the bytes since the mark before.
@@ -73,15 +73,15 @@ impl Mark {
     }
 
     fn from_value(value: &Value) -> Option<Self> {
-        let stretch = |value: &Value| {
+        let prefix = |value: &Value| {
             let checksum = u32::try_from(value[1].as_u64()?).ok()?;
-            Some(Stretch { length: value[0].as_u64()?, checksum })
+            Some(Prefix { length: value[0].as_u64()?, checksum })
         };
         Some(Self {
             next: value["next"].as_u64()?,
             failed: value["failed"].as_u64()?,
-            rows: stretch(&value["rows"])?,
-            errors: stretch(&value["errors"])?,
+            rows: prefix(&value["rows"])?,
+            errors: prefix(&value["errors"])?,
         })
     }
 }

@@ -10,7 +10,6 @@ mod file;
 mod identity;
 mod journal;
 mod merge;
-mod motion;
 mod outputs;
 mod parameters;
 #[cfg(feature = "parquet")]

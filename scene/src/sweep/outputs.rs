@@ -4,16 +4,16 @@ use twofold::Error;
 use twofold::dynamics::BodyState;
 use twofold::dynamics::first_integrals::first_integrals;
 use twofold::lorentz_violation::principal_frame;
-use twofold::plan::Output;
-use twofold::propagation::AxisState;
+use twofold::plan::{Method, Output, Plan, State};
+use twofold::propagation::{AxisState, SampledProblem, states_of_many};
 use twofold::solutions::averaged::slow_precession::slow_precession;
 
 use super::chunk::guarded;
-use super::motion::{Asked, Instant, instants, instants_of_many};
 use super::spin_axis_angle::SpinAxisAngle;
-use crate::columns::{Carried, ColumnGroup, Moment};
+use crate::columns;
 use crate::estimated_error::{ROUNDING_OF_COMPONENT, as_printed};
-use crate::scene_file::{Scene, Times, Units};
+use crate::samples::{ErrorEstimates, Sample, SampledState, for_each_sample};
+use crate::scene_file::{COLUMN_GROUPS, Scene, Times, Units};
 use crate::trajectory::write_pulses;
 
 /// Name of the group of errors.
@@ -25,7 +25,7 @@ pub(super) struct Outputs {
     /// Times, in the units of the scene.
     pub(super) times: Times,
     /// Groups of columns at each of the times.
-    pub(super) groups: Vec<&'static ColumnGroup>,
+    pub(super) groups: Vec<Output>,
     /// Whether the errors of the motion at each of the times are.
     pub(super) errors: bool,
     /// Numbers for the whole span.
@@ -48,16 +48,12 @@ impl Summary {
     pub(super) const ALL: [(&'static str, Self); 3] =
         [("lambda", Self::Lambda), ("pulses", Self::Pulses), ("slow_precession", Self::SlowPrecession)];
 
-    /// Whether the scene has what the summary is computed from.
-    ///
-    /// # Errors
-    /// A sentence that says what the scene lacks.
-    pub(super) fn available_in(self, scene: &Scene) -> Result<(), String> {
-        let lacks = |section: &str| Err(format!("the scene lacks the section [{section}]"));
+    /// What it is computed from beside the initial values.
+    pub(super) fn output(self) -> Option<Output> {
         match self {
-            Self::Lambda | Self::Pulses if scene.observer.is_none() => lacks("observer"),
-            Self::Pulses if scene.pulsar.is_none() => lacks("pulsar"),
-            _ => Ok(()),
+            Self::Lambda => Some(Output::SpinAxisAngle),
+            Self::Pulses => Some(Output::Pulses),
+            Self::SlowPrecession => None,
         }
     }
 
@@ -79,7 +75,7 @@ impl Outputs {
     pub(super) fn header(&self, units: &Units) -> Vec<String> {
         let mut names = Vec::new();
         for time in self.times.iter() {
-            let groups = self.groups.iter().flat_map(|group| (group.header)(units));
+            let groups = self.groups.iter().flat_map(|group| columns::header(*group, units));
             let errors = if self.errors { errors_header(units) } else { Vec::new() };
             names.extend(groups.chain(errors).map(|title| match title.split_once(' ') {
                 Some((name, unit)) => format!("{name}@{time:?} {unit}"),
@@ -95,28 +91,64 @@ impl Outputs {
     /// # Errors
     /// For each scene a sentence that says what could not be computed.
     pub(super) fn values(&self, scenes: &[&Scene]) -> Vec<Result<Vec<f64>, String>> {
-        let together = if self.summaries.contains(&Summary::Lambda) {
-            scenes.iter().map(|_| None).collect()
-        } else {
-            instants_of_many(scenes, &self.asked())
-        };
-        scenes.iter().zip(together).map(|(scene, instants)| guarded(|| self.values_of(scene, instants))).collect()
+        let together = self.samples_of_many(scenes);
+        scenes.iter().zip(together).map(|(scene, samples)| guarded(|| self.values_of(scene, samples))).collect()
     }
 
-    /// The numbers of one scene, from its states if they are known.
-    fn values_of(&self, scene: &Scene, known: Option<Result<Vec<Instant>, Error>>) -> Result<Vec<f64>, String> {
-        let rate = scene.turning_rate();
+    /// The samples of those of the `scenes` that need `n` and `L` by numerical motion and nothing else, and name no method: many at
+    /// once, each by splitting or by the series as suits its times. None for the others.
+    fn samples_of_many(&self, scenes: &[&Scene]) -> Vec<Option<Result<Vec<Sample>, Error>>> {
+        let mut found: Vec<_> = scenes.iter().map(|_| None).collect();
+        if self.errors || self.summaries.contains(&Summary::Lambda) {
+            return found;
+        }
+        let is_plain = |plan: Plan| {
+            !plan.forced
+                && matches!(plan.state, State::Axis | State::AxisAndMomentum)
+                && matches!(plan.method, Some(Method::Taylor | Method::Splitting))
+        };
+        let outputs = self.outputs();
+        let plain: Vec<_> = (0..scenes.len()).filter(|&i| scenes[i].plan(&outputs).is_ok_and(is_plain)).collect();
+        let times = |&i: &usize| scenes[i].times.iter().map(|time| scenes[i].since_start(time)).collect::<Vec<_>>();
+        let times: Vec<_> = plain.iter().map(times).collect();
+        let motion = |(&i, times): (&usize, _)| {
+            let Scene { problem, accuracy, .. } = scenes[i];
+            SampledProblem { problem: problem.reduced(), start: 0.0, times, accuracy: *accuracy }
+        };
+        let motions: Vec<_> = plain.iter().zip(times.iter().map(Vec::as_slice)).map(motion).collect();
+        for ((i, times), states) in plain.into_iter().zip(&times).zip(states_of_many(&motions)) {
+            let sample = |(&since_start, state)| Sample::new(since_start, SampledState::Axis(state));
+            found[i] = Some(states.map(|states| times.iter().zip(states.states).map(sample).collect()));
+        }
+        found
+    }
+
+    /// The samples of one scene, by the method of its plan. `angle` is given the whole motion.
+    fn samples_of(&self, scene: &Scene, mut angle: Option<&mut SpinAxisAngle>) -> Result<Vec<Sample>, Error> {
+        let mut samples = Vec::new();
+        let estimates = if self.errors { ErrorEstimates::OfEachSample } else { ErrorEstimates::None };
+        let take = |_, sample: &Sample| {
+            samples.push(*sample);
+            Ok(())
+        };
+        for_each_sample(scene, &scene.plan(&self.outputs())?, estimates, take, |motion, from, to| {
+            angle.as_mut().map_or(Ok(()), |angle| angle.add(motion, from, to))
+        })?;
+        Ok(samples)
+    }
+
+    /// The numbers of one scene, from its samples if they are known.
+    fn values_of(&self, scene: &Scene, known: Option<Result<Vec<Sample>, Error>>) -> Result<Vec<f64>, String> {
         let mut angle = match scene.observer {
             Some(observer) if self.summaries.contains(&Summary::Lambda) => {
-                Some(SpinAxisAngle::new(observer.basis().direction, rate))
+                Some(SpinAxisAngle::new(*scene.problem.spheroid(), observer.basis().direction, scene.turning_rate()))
             }
             _ => None,
         };
-        let instants = known.unwrap_or_else(|| instants(scene, &self.asked(), angle.as_mut()));
-        let instants = instants.map_err(|error| error.to_string())?;
+        let samples = known.unwrap_or_else(|| self.samples_of(scene, angle.as_mut()));
         let mut values = Vec::new();
-        for instant in &instants {
-            self.append_columns(scene, instant, &mut values)?;
+        for sample in &samples? {
+            self.append_columns(scene, sample, &mut values)?;
         }
         for summary in &self.summaries {
             match summary {
@@ -128,32 +160,32 @@ impl Outputs {
         Ok(values)
     }
 
-    /// What the columns need of the motion.
-    pub(super) fn asked(&self) -> Asked {
-        let of_groups = self.groups.iter().map(|group| group.output);
+    /// The outputs of a plan that the columns at the samples and the summary of `lambda` are computed from.
+    pub(super) fn outputs(&self) -> Vec<Output> {
         let of_errors = self.errors.then_some(Output::FirstIntegrals);
         let of_summary = self.summaries.contains(&Summary::Lambda).then_some(Output::SpinAxisAngle);
         let mut outputs = Vec::new();
-        for output in of_groups.chain(of_errors).chain(of_summary) {
+        for output in self.groups.iter().copied().chain(of_errors).chain(of_summary) {
             if !outputs.contains(&output) {
                 outputs.push(output);
             }
         }
-        Asked { outputs, errors: self.errors }
+        outputs
     }
 
-    fn append_columns(&self, scene: &Scene, instant: &Instant, values: &mut Vec<f64>) -> Result<(), String> {
-        let mut angles = || instant.angles;
-        let mut moment = Moment { since_start: instant.since_start, state: instant.state, angles: &mut angles };
-        for group in &self.groups {
-            match (group.values)(scene, &mut moment) {
+    fn append_columns(&self, scene: &Scene, sample: &Sample, values: &mut Vec<f64>) -> Result<(), String> {
+        for &group in &self.groups {
+            match columns::values(group, scene, sample) {
                 Some(found) if found.iter().all(|x| x.is_finite()) => values.extend(found),
-                Some(_) => return Err(format!("a number of the group `{}` is not finite", group.name)),
-                None => values.extend((group.header)(&scene.units).iter().map(|_| f64::NAN)),
+                Some(_) => {
+                    let name = COLUMN_GROUPS.iter().find(|(_, known)| *known == group).map_or("", |(name, _)| name);
+                    return Err(format!("a number of the group `{name}` is not finite"));
+                }
+                None => values.extend(columns::header(group, &scene.units).iter().map(|_| f64::NAN)),
             }
         }
         if self.errors {
-            values.extend(errors(scene, instant));
+            values.extend(errors(scene, sample));
         }
         Ok(())
     }
@@ -170,18 +202,19 @@ fn errors_header(units: &Units) -> Vec<String> {
 }
 
 /// The estimated error of the state, and by how much what is constant has changed since the start.
-fn errors(scene: &Scene, instant: &Instant) -> [f64; 5] {
-    let state = match instant.state {
-        Carried::Axis(AxisState { axis, momentum }) => BodyState { axis, momentum, ..scene.initial },
-        Carried::Orientation(state) => state,
-        Carried::Nothing => scene.initial,
+fn errors(scene: &Scene, sample: &Sample) -> [f64; 5] {
+    let initial = scene.problem.initial();
+    let state = match sample.state {
+        SampledState::Axis(AxisState { axis, momentum }) => BodyState { axis, momentum, ..*initial },
+        SampledState::Orientation(state) => state,
+        SampledState::Nothing => *initial,
     };
-    // The integrals are those of n and L; e_x is not looked at.
-    let integrals = |state| first_integrals(&scene.spheroid, &scene.violation, state);
-    let (now, start) = (integrals(&state), integrals(&scene.initial));
+    // The integrals are functions of n and L alone.
+    let integrals = |state| first_integrals(scene.problem.spheroid(), scene.problem.coefficients(), state);
+    let (now, start) = (integrals(&state), integrals(initial));
     let units = &scene.units;
     [
-        as_printed(instant.error_estimate.unwrap_or(f64::NAN), ROUNDING_OF_COMPONENT),
+        as_printed(sample.error_estimate.unwrap_or(f64::NAN), ROUNDING_OF_COMPONENT),
         state.axis.norm() - 1.0,
         (now.energy - start.energy) * units.energy,
         (now.spin - start.spin) / units.time,
@@ -190,19 +223,17 @@ fn errors(scene: &Scene, instant: &Instant) -> [f64; 5] {
 }
 
 fn count_pulses(scene: &Scene) -> Result<f64, String> {
-    let (Some(viewer), Some(pulsar)) = (scene.observer, scene.pulsar) else {
-        return Err("the scene lacks the section [observer] or [pulsar]".to_owned());
-    };
-    let found = write_pulses(scene, (&viewer, &pulsar), std::io::sink(), |_| {}).map_err(|error| error.to_string())?;
+    let found = write_pulses(scene, std::io::sink(), |_| {}).map_err(|error| error.to_string())?;
     Ok(found.pulses.iter().sum::<usize>() as f64)
 }
 
 /// Number of the principal axis that L goes round, one for that of the largest eigenvalue and three for that of the smallest, and
 /// the rate about the end at which L is; none on a separatrix.
 fn slow_precession_of(scene: &Scene) -> [f64; 2] {
-    let found = principal_frame(&scene.violation).and_then(|frame| {
-        let state = scene.initial.rotated(&frame.principal_from_given);
-        let found = slow_precession(&scene.spheroid, &frame.coefficients, &state.momentum, &state.axis)?;
+    let problem = &scene.problem;
+    let found = principal_frame(problem.coefficients()).and_then(|frame| {
+        let state = problem.initial().rotated(&frame.principal_from_given);
+        let found = slow_precession(problem.spheroid(), &frame.coefficients, &state.momentum, &state.axis)?;
         Ok((found, state.momentum[found.axis]))
     });
     found.map_or([f64::NAN; 2], |(found, along)| {

@@ -6,8 +6,10 @@ use std::num::NonZeroUsize;
 use gauss_quad::GaussLegendre;
 use nalgebra::Vector3;
 use twofold::Error;
+use twofold::dynamics::RigidSpheroid;
 use twofold::observables::spin_axis::cos_lambda_rate;
-use twofold::propagation::Motion;
+
+use crate::samples::AxisStateAt;
 
 /// Panels of the quadrature per turn at the upper estimate of the turning rate.
 const PANELS_PER_TURN: f64 = 16.0;
@@ -18,8 +20,9 @@ const NODES: NonZeroUsize = NonZeroUsize::new(4).unwrap();
 /// Most halvings of a panel next to the line of sight, where the angle bends sharply.
 const MOST_HALVINGS: u32 = 10;
 
-/// Follows the angle `lambda` of Eq. (37) along a motion, stretch by stretch.
+/// Follows the angle `lambda` of Eq. (37) along a motion, segment by segment.
 pub(super) struct SpinAxisAngle {
+    spheroid: RigidSpheroid<f64>,
     direction: Vector3<f64>,
     turning_rate: f64,
     /// Nodes on [-1, 1] in order, with their weights.
@@ -32,10 +35,11 @@ pub(super) struct SpinAxisAngle {
 
 impl SpinAxisAngle {
     /// For the unit vector `direction` and a motion that turns at most at `turning_rate`.
-    pub(super) fn new(direction: Vector3<f64>, turning_rate: f64) -> Self {
+    pub(super) fn new(spheroid: RigidSpheroid<f64>, direction: Vector3<f64>, turning_rate: f64) -> Self {
         let mut nodes: Vec<_> = GaussLegendre::new(NODES).iter().copied().collect();
         nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Self { direction, turning_rate, nodes, least: f64::INFINITY, largest: 0.0, integral: 0.0, length: 0.0 }
+        let least = f64::INFINITY;
+        Self { spheroid, direction, turning_rate, nodes, least, largest: 0.0, integral: 0.0, length: 0.0 }
     }
 
     /// Least, largest and mean angle (rad) so far. Extrema are found by the sign of the rate at 64 times a turn and then to
@@ -48,7 +52,7 @@ impl SpinAxisAngle {
     ///
     /// # Errors
     /// A time that the motion does not hold.
-    pub(super) fn add<M: Motion<f64>>(&mut self, motion: &M, from: f64, to: f64) -> Result<(), Error> {
+    pub(super) fn add(&mut self, motion: &AxisStateAt<'_>, from: f64, to: f64) -> Result<(), Error> {
         let panels = ((to - from).abs() * self.turning_rate / TAU * PANELS_PER_TURN).ceil().max(1.0);
         let half = (to - from) / panels / 2.0;
         let mut last = self.take(motion, from)?;
@@ -63,9 +67,9 @@ impl SpinAxisAngle {
 
     /// Takes the panel `middle` +- `half` into account after the place `last`, in halves where the axis comes nearer to the line of sight, or to
     /// its opposite, than it turns within the panel. The last place taken.
-    fn add_panel<M: Motion<f64>>(
+    fn add_panel(
         &mut self,
-        motion: &M,
+        motion: &AxisStateAt<'_>,
         mut last: Place,
         middle: f64,
         half: f64,
@@ -88,19 +92,19 @@ impl SpinAxisAngle {
         Ok(last)
     }
 
-    fn take<M: Motion<f64>>(&mut self, motion: &M, time: f64) -> Result<Place, Error> {
-        let state = motion.axis_state(time)?;
+    fn take(&mut self, motion: &AxisStateAt<'_>, time: f64) -> Result<Place, Error> {
+        let state = motion(time)?;
         let across = self.direction.cross(&state.axis).norm();
         let angle = across.atan2(self.direction.dot(&state.axis));
         self.least = self.least.min(angle);
         self.largest = self.largest.max(angle);
-        let rate = cos_lambda_rate(motion.spheroid(), &self.direction, &state.axis, &state.momentum);
+        let rate = cos_lambda_rate(&self.spheroid, &self.direction, &state.axis, &state.momentum);
         Ok(Place { time, angle, rate })
     }
 
     /// Takes the extremum between two times at which the rate has different signs, by the rule of false position and halving in
     /// turn. The angle is flat there: a rate of 1e-8 of those around it is as good as none.
-    fn take_extremum<M: Motion<f64>>(&mut self, motion: &M, a: &Place, b: &Place) -> Result<(), Error> {
+    fn take_extremum(&mut self, motion: &AxisStateAt<'_>, a: &Place, b: &Place) -> Result<(), Error> {
         let (mut a, mut b) = (*a, *b);
         let enough = 1e-8 * (a.rate.abs() + b.rate.abs());
         let mut halve = false;

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use crc32fast::Hasher;
 
 use super::identity::Identity;
-use super::journal::{self, Journal, Mark, Stretch};
+use super::journal::{self, Journal, Mark, Prefix};
 
 /// Names of the files of a table that is not complete.
 #[derive(Debug, Clone)]
@@ -128,10 +128,10 @@ impl Spool {
         let (rows, errors) = (open(&files.rows)?, open(&files.errors)?);
         let intact = [(&rows, &files.rows), (&errors, &files.errors)].map(|(file, path)| (file, refused(path)));
         let [(rows_file, rows_refused), (errors_file, errors_refused)] = intact;
-        let lengths = |of: fn(&Mark) -> Stretch| journal.marks.iter().map(|(mark, _)| of(mark)).collect::<Vec<_>>();
-        let good = intact_stretches(rows_file, &lengths(|mark| mark.rows))
+        let lengths = |of: fn(&Mark) -> Prefix| journal.marks.iter().map(|(mark, _)| of(mark)).collect::<Vec<_>>();
+        let good = intact_prefixes(rows_file, &lengths(|mark| mark.rows))
             .map_err(rows_refused)?
-            .min(intact_stretches(errors_file, &lengths(|mark| mark.errors)).map_err(errors_refused)?);
+            .min(intact_prefixes(errors_file, &lengths(|mark| mark.errors)).map_err(errors_refused)?);
         let complete = journal.complete && good == journal.marks.len();
         let last = good.checked_sub(1).map(|last| journal.marks[last]);
         let (mark, journal_length) = last.unwrap_or((Mark { next: scenes.start, ..Mark::default() }, 0));
@@ -215,10 +215,10 @@ impl Growing {
         Ok(())
     }
 
-    fn mark(&mut self) -> io::Result<Stretch> {
+    fn mark(&mut self) -> io::Result<Prefix> {
         self.file.sync_data()?;
         let checksum = std::mem::take(&mut self.checksum).finalize();
-        Ok(Stretch { length: self.length, checksum })
+        Ok(Prefix { length: self.length, checksum })
     }
 }
 
@@ -231,14 +231,14 @@ fn truncate(file: &mut File, length: u64) -> io::Result<()> {
     file.seek(SeekFrom::Start(length)).map(|_| ())
 }
 
-/// How many of the stretches, from the first on, the file holds unchanged.
-fn intact_stretches(mut file: &File, stretches: &[Stretch]) -> io::Result<usize> {
+/// How many of the prefixes, from the first on, the file holds unchanged.
+fn intact_prefixes(mut file: &File, prefixes: &[Prefix]) -> io::Result<usize> {
     const PIECE: usize = 1 << 16;
     let mut piece = vec![0; PIECE];
     let mut position = 0;
-    for (i, stretch) in stretches.iter().enumerate() {
+    for (i, prefix) in prefixes.iter().enumerate() {
         let mut checksum = Hasher::new();
-        let Some(mut missing) = stretch.length.checked_sub(position) else { return Ok(i) };
+        let Some(mut missing) = prefix.length.checked_sub(position) else { return Ok(i) };
         while missing > 0 {
             let wanted = missing.min(PIECE as u64) as usize;
             let read = file.read(&mut piece[..wanted])?;
@@ -248,12 +248,12 @@ fn intact_stretches(mut file: &File, stretches: &[Stretch]) -> io::Result<usize>
             checksum.update(&piece[..read]);
             missing -= read as u64;
         }
-        if checksum.finalize() != stretch.checksum {
+        if checksum.finalize() != prefix.checksum {
             return Ok(i);
         }
-        position = stretch.length;
+        position = prefix.length;
     }
-    Ok(stretches.len())
+    Ok(prefixes.len())
 }
 
 fn refused(path: &Path) -> impl FnOnce(io::Error) -> SpoolError + use<> {

@@ -7,7 +7,9 @@ use twofold::Error;
 /// Why a table could not be finished.
 #[derive(Debug)]
 pub enum TrajectoryError {
-    /// The motion, or what is asked of it, could not be computed.
+    /// The scene lacks what the table needs; a sentence.
+    Incomplete(String),
+    /// The motion, or what follows from it, could not be computed.
     Motion(Error),
     /// A column does not exist at a time, written with its unit.
     Undefined {
@@ -38,6 +40,7 @@ impl TrajectoryError {
 impl fmt::Display for TrajectoryError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            TrajectoryError::Incomplete(lacks) => f.write_str(lacks),
             TrajectoryError::Motion(error) => write!(f, "the motion could not be computed: {error}"),
             TrajectoryError::Undefined { column, time } => {
                 write!(f, "`{column}` does not exist at t = {time}, where an axis is on a pole, and so has no spectrum")

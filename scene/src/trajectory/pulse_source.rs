@@ -1,12 +1,12 @@
-//! The pulses of one beam, put together from those of the stretches of a motion, with the turns that they belong to.
+//! The pulses of one beam, put together from those of the segments of a motion, with the turns that they belong to.
 
 use nalgebra::Vector3;
 use twofold::Error;
+use twofold::dynamics::BodyState;
 use twofold::observables::pulsar::{Arrival, Beam, Pulse, PulseTrain, arrivals, pulse_train};
-use twofold::plan::PlannedMotion;
 use twofold::propagation::Motion;
 
-use super::stretches::Stretch;
+use crate::samples::Segment;
 
 /// One beam with its line of sight, and the pulse that is not over yet.
 pub(super) struct Source {
@@ -17,7 +17,7 @@ pub(super) struct Source {
     pub(super) seen: usize,
     open: Option<Unfinished>,
     last_midpoint: Option<f64>,
-    /// Turns counted up to the end of the last stretch.
+    /// Turns counted up to the end of the last segment.
     turns: i64,
     first_turn: Option<i64>,
     /// Why turns are not counted any more, once they are not.
@@ -67,11 +67,11 @@ impl Source {
         }
     }
 
-    /// Whether it is beyond doubt at a time of the stretch if the beam is seen, and which turn it is: the magnetic axis neither
+    /// Whether it is beyond doubt at a time of the segment if the beam is seen, and which turn it is: the magnetic axis neither
     /// on the edge nor opposite to the line of sight.
-    pub(super) fn is_clear_at(&self, stretch: &Stretch<PlannedMotion>, time: f64) -> Result<(bool, bool), Error> {
+    pub(super) fn is_clear_at(&self, segment: &Segment<BodyState<f64>>, time: f64) -> Result<(bool, bool), Error> {
         const CLEAR: f64 = 1e-6;
-        let state = stretch.motion.state(time)?;
+        let state = segment.motion.state(time)?;
         let (l, n, m) = (state.momentum.normalize(), &self.line_of_sight, self.beam.direction(&state));
         let (x, y) = (n.dot(&m) - l.dot(n) * l.dot(&m), l.dot(&n.cross(&m)));
         Ok((self.beam.margin(&state, n).abs() > CLEAR, x > CLEAR || y.abs() > CLEAR))
@@ -80,11 +80,11 @@ impl Source {
     /// The pulses that are over at the time `to` of a stretch, in the order of the motion, and the times of grazing.
     pub(super) fn take(
         &mut self,
-        stretch: &Stretch<PlannedMotion>,
+        segment: &Segment<BodyState<f64>>,
         to: f64,
     ) -> Result<(Vec<Numbered>, Vec<f64>), Error> {
-        let backwards = to < stretch.from;
-        let mut train = pulse_train(&stretch.motion, &self.beam, &self.line_of_sight, (stretch.from, to))?;
+        let backwards = to < segment.from;
+        let mut train = pulse_train(&segment.motion, &self.beam, &self.line_of_sight, (segment.from, to))?;
         if backwards {
             train.pulses.reverse();
         }
@@ -94,10 +94,10 @@ impl Source {
         // Only what may become a whole pulse has a closest approach.
         let goes_on = open.as_ref().is_some_and(|open| !begins_cut(&open.pulse));
         let wanted = |(i, pulse): (usize, &Pulse)| {
-            (!begins_cut(pulse) || i == 0 && goes_on) && !(stretch.is_last && lasts(pulse))
+            (!begins_cut(pulse) || i == 0 && goes_on) && !(segment.is_last && lasts(pulse))
         };
         let wanted: Vec<bool> = train.pulses.iter().enumerate().map(wanted).collect();
-        let approaches = self.approaches(stretch, to, &train.pulses, &wanted)?;
+        let approaches = self.approaches(segment, to, &train.pulses, &wanted)?;
         let pairs = train.pulses.into_iter().zip(approaches);
         let mut found: Vec<_> = pairs.map(|(pulse, approach)| Unfinished { pulse, approach }).collect();
         if let Some(open) = open {
@@ -106,16 +106,16 @@ impl Source {
                 None => found.insert(0, open),
             }
         }
-        if !stretch.is_last {
+        if !segment.is_last {
             self.open = found.pop_if(|last| lasts(&last.pulse));
         }
         Ok((found.into_iter().map(|pulse| self.numbered(&pulse)).collect(), train.grazings))
     }
 
-    /// The closest approach in each of the pulses that are wanted, their turns counted on from the stretch before.
+    /// The closest approach in each of the pulses that are wanted, their turns counted on from the segment before.
     fn approaches(
         &mut self,
-        stretch: &Stretch<PlannedMotion>,
+        segment: &Segment<BodyState<f64>>,
         to: f64,
         pulses: &[Pulse],
         wanted: &[bool],
@@ -124,16 +124,16 @@ impl Source {
             return Ok(vec![None; pulses.len()]);
         }
         let whole = |start, end| Pulse { start, end, cut_at_start: false, cut_at_end: false };
-        // Pulses without length at both ends tie the count to those of the neighbouring stretches.
-        let mut parts = vec![whole(stretch.from, stretch.from)];
+        // Pulses without length at both ends tie the count to those of the neighbouring segments.
+        let mut parts = vec![whole(segment.from, segment.from)];
         parts.extend(pulses.iter().zip(wanted).filter(|(_, wanted)| **wanted).map(|(p, _)| whole(p.start, p.end)));
         parts.push(whole(to, to));
-        let backwards = to < stretch.from;
+        let backwards = to < segment.from;
         if backwards {
             parts.reverse();
         }
         let train = PulseTrain { pulses: parts, grazings: Vec::new() };
-        let mut found = match arrivals(&stretch.motion, &self.beam, &self.line_of_sight, &train) {
+        let mut found = match arrivals(&segment.motion, &self.beam, &self.line_of_sight, &train) {
             Ok(found) => found,
             Err(why) => {
                 self.uncounted = Some(why);
@@ -147,7 +147,7 @@ impl Source {
         self.turns = before + found[found.len() - 1].number;
         let mut found = found.into_iter().skip(1);
         let approach = |Arrival { number, closest_approach: time, .. }| {
-            let margin = self.beam.margin(&stretch.motion.state(time)?, &self.line_of_sight);
+            let margin = self.beam.margin(&segment.motion.state(time)?, &self.line_of_sight);
             Ok(Approach { turn: before + number, time, margin })
         };
         let mut next = |wanted: &bool| wanted.then(|| found.next()).flatten().map(approach).transpose();
@@ -168,7 +168,7 @@ impl Source {
 }
 
 impl Unfinished {
-    /// Joins the part of the pulse in the stretches before. Flags are those of the outer ends.
+    /// Joins the part of the pulse in the segments before. Flags are those of the outer ends.
     fn continue_from(&mut self, open: Unfinished, backwards: bool) {
         if backwards {
             (self.pulse.end, self.pulse.cut_at_end) = (open.pulse.end, open.pulse.cut_at_end);

@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use twofold::Error;
+use twofold::dynamics::BodyState;
 use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::plan::{Counted, Output, PlannedMotion, Work};
@@ -10,10 +11,10 @@ use twofold::propagation::Motion;
 
 use super::TrajectoryError;
 use super::pulse_source::{Numbered, Source};
-use super::stretches::{Stretch, Stretches};
-use crate::scene_file::{Pulsar, Scene, Viewer};
+use crate::samples::{Segment, Segments};
+use crate::scene_file::Scene;
 
-/// What there is to say about a table of pulses.
+/// Counts of a table of pulses.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PulseSummary {
     /// Pulses written, of each beam.
@@ -39,27 +40,30 @@ fn header(scene: &Scene) -> Vec<String> {
 }
 
 /// Writes every pulse of the span of `scene` as CSV, in order of the time at which it is over. Memory is bounded whatever the
-/// span; a pulse that lasts from one stretch of the motion to the next is one pulse.
+/// span; a pulse that lasts from one segment of the motion to the next is one pulse.
 ///
 /// # Errors
-/// A motion or pulse train that cannot be computed, or `writer` failing.
+/// A scene without observer or pulsar, a motion or pulse train that cannot be computed, or `writer` failing.
 pub fn write_pulses(
     scene: &Scene,
-    (viewer, pulsar): (&Viewer, &Pulsar),
     writer: impl Write,
     progress: impl FnMut(f64),
 ) -> Result<PulseSummary, TrajectoryError> {
     let plan = scene.plan(&[Output::Pulses])?;
-    write_by_stretches(scene, (viewer, pulsar), Stretches::new(scene, &plan)?, writer, progress)
+    write_by_segments(scene, Segments::new(scene, &plan)?, writer, progress)
 }
 
-pub(super) fn write_by_stretches(
+pub(super) fn write_by_segments(
     scene: &Scene,
-    (viewer, pulsar): (&Viewer, &Pulsar),
-    mut stretches: Stretches<'_, PlannedMotion>,
+    mut segments: Segments<'_, BodyState<f64>>,
     writer: impl Write,
     mut progress: impl FnMut(f64),
 ) -> Result<PulseSummary, TrajectoryError> {
+    let (Some(viewer), Some(pulsar)) = (scene.observer, scene.pulsar) else {
+        return Err(TrajectoryError::Incomplete(
+            scene.has_what_is_needed_for(Output::Pulses).err().unwrap_or_default(),
+        ));
+    };
     let mut table = csv::Writer::from_writer(writer);
     table.write_record(header(scene))?;
     let line_of_sight = viewer.basis().direction;
@@ -69,18 +73,18 @@ pub(super) fn write_by_stretches(
     }
     let mut summary = PulseSummary::default();
     let mut last_motion: Option<Counted<PlannedMotion>> = None;
-    while let Some(stretch) = stretches.next()? {
-        let to = if stretch.is_last { stretch.to } else { cut(scene, &stretch, &sources)? };
+    while let Some(segment) = segments.next()? {
+        let to = if segment.is_last { segment.to } else { cut(scene, &segment, &sources)? };
         let mut complete = Vec::new();
         for source in &mut sources {
-            let (pulses, grazings) = source.take(&stretch, to)?;
+            let (pulses, grazings) = source.take(&segment, to)?;
             complete.extend(pulses);
             for time in grazings {
                 summary.grazings += 1;
-                summary.first_grazing.get_or_insert(in_output(scene, time));
+                summary.first_grazing.get_or_insert(scene.output_time(time));
             }
         }
-        let backwards = to < stretch.from;
+        let backwards = to < segment.from;
         complete.sort_by(|a, b| {
             let over = |numbered: &Numbered| if backwards { -numbered.pulse.start } else { numbered.pulse.end };
             over(a).total_cmp(&over(b)).then(a.beam.cmp(&b.beam))
@@ -88,19 +92,19 @@ pub(super) fn write_by_stretches(
         for numbered in &complete {
             let beam = &sources[numbered.beam - 1].beam;
             let width = numbered.pulse.is_whole().then(|| {
-                let motions = [Some(&stretch.motion), last_motion.as_ref()];
+                let motions = [Some(&segment.motion), last_motion.as_ref()];
                 width_at(numbered.pulse.midpoint(), motions, beam, viewer.theta_o)
             });
             numbered.write(scene, width.flatten(), &mut table)?;
         }
-        stretches.resume_at(&stretch, to)?;
-        progress(stretches.part_done(to));
-        if let Some(last) = last_motion.replace(stretch.motion) {
+        segments.resume_at(&segment, to)?;
+        progress(scene.part_done(to));
+        if let Some(last) = last_motion.replace(segment.motion) {
             summary.work += last.evaluations();
         }
     }
     table.flush()?;
-    summary.work += stretches.work;
+    summary.work += segments.work;
     summary.work += last_motion.map(|last| last.evaluations()).unwrap_or_default();
     summary.pulses = sources.iter().map(|source| source.seen).collect();
     summary.without_turn = sources
@@ -111,18 +115,18 @@ pub(super) fn write_by_stretches(
     Ok(summary)
 }
 
-/// A time near the end of the stretch at which every source is clear: cut there, no pulse is torn or counted twice by
+/// A time near the end of the segment at which every source is clear: cut there, no pulse is torn or counted twice by
 /// rounding, and no turn. If turns are nowhere clear, as of a beam along the axis of rotation, that much is left to rounding.
-fn cut(scene: &Scene, stretch: &Stretch<PlannedMotion>, sources: &[Source]) -> Result<f64, Error> {
+fn cut(scene: &Scene, segment: &Segment<BodyState<f64>>, sources: &[Source]) -> Result<f64, Error> {
     const TRIES: usize = 1000;
     const ROTATION_PER_TRY: f64 = 0.35;
-    let half = (stretch.from - stretch.to) / 2.0;
+    let half = (segment.from - segment.to) / 2.0;
     let step = (ROTATION_PER_TRY / scene.turning_rate()).copysign(half);
     let mut off_edges = None;
     for k in 0..TRIES {
         let back = step * k as f64;
-        let time = stretch.to + if back.abs() < half.abs() { back } else { half };
-        let clear = sources.iter().map(|source| source.is_clear_at(stretch, time)).collect::<Result<Vec<_>, _>>()?;
+        let time = segment.to + if back.abs() < half.abs() { back } else { half };
+        let clear = sources.iter().map(|source| source.is_clear_at(segment, time)).collect::<Result<Vec<_>, _>>()?;
         if clear.iter().all(|(off_edge, _)| *off_edge) {
             off_edges.get_or_insert(time);
             if clear.iter().all(|(_, off_half_turn)| *off_half_turn) {
@@ -130,7 +134,7 @@ fn cut(scene: &Scene, stretch: &Stretch<PlannedMotion>, sources: &[Source]) -> R
             }
         }
     }
-    Ok(off_edges.unwrap_or(stretch.to))
+    Ok(off_edges.unwrap_or(segment.to))
 }
 
 impl Numbered {
@@ -147,22 +151,17 @@ impl Numbered {
         table.write_record([
             self.beam.to_string(),
             self.number.to_string(),
-            number(in_output(scene, pulse.start)),
-            number(in_output(scene, pulse.end)),
-            number(in_output(scene, pulse.midpoint())),
+            number(scene.output_time(pulse.start)),
+            number(scene.output_time(pulse.end)),
+            number(scene.output_time(pulse.midpoint())),
             number(pulse.duration() * unit),
             cut.to_owned(),
             optional(self.period.map(|period| period * unit)),
             self.arrival.map_or(String::new(), |(turn, _)| turn.to_string()),
-            optional(self.arrival.map(|(_, time)| in_output(scene, time))),
+            optional(self.arrival.map(|(_, time)| scene.output_time(time))),
             optional(width),
         ])
     }
-}
-
-/// A time since the start, in t_c, as the output has it.
-fn in_output(scene: &Scene, time: f64) -> f64 {
-    scene.times.start() + time * scene.units.time
 }
 
 /// The width of Eq. (56) with the colatitude of the beam at a time that one of the motions holds; none where the formula has

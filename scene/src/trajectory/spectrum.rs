@@ -7,11 +7,11 @@ use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::spectrum::{
     FrequencyBasis, Generator, LineList, Series, SpectralLine, Window, amplitude_spectrum, spectral_lines,
 };
-use twofold::plan::{Counted, Output, Plan, PlannedAxisMotion, PlannedMotion, Request, Samples, State, Work};
+use twofold::plan::{Counted, Output, Plan, PlannedMotion, Request, Samples, State, Work};
 
 use super::TrajectoryError;
-use super::stretches::{PlannedState, since_start};
-use crate::columns::{Carried, Column, Moment};
+use crate::columns::Column;
+use crate::samples::{Sample, SampledState, SegmentState};
 use crate::scene_file::Scene;
 
 /// Highest frequency of a series over the upper estimate of the rotation rate: what is observed has harmonics.
@@ -37,7 +37,7 @@ pub struct Sampling {
 /// Most lines that are fitted, however few are written: the error of each counts the strongest one that is left out.
 const MOST_FITTED: usize = 200;
 
-/// What is asked of a list of lines.
+/// Which lines are written.
 #[derive(Debug, Clone, Copy)]
 pub struct LinesWanted {
     /// Least amplitude as a part of the largest one.
@@ -59,7 +59,7 @@ pub enum Floor {
     Noise,
 }
 
-/// What there is to say about a list of lines.
+/// Constant term, counts and limits of a list of lines.
 #[derive(Debug, Clone)]
 pub struct LinesSummary {
     /// Constant term, in the unit of the column.
@@ -92,7 +92,7 @@ impl Sampling {
     /// # Errors
     /// A sentence about the span.
     pub fn check(scene: &Scene) -> Result<(), String> {
-        let rotation = duration(scene).abs() * scene.turning_rate();
+        let rotation = scene.rotation();
         if rotation == 0.0 {
             return Err("[time] has no length, so nothing has a spectrum".into());
         }
@@ -112,11 +112,11 @@ impl Sampling {
     /// A method that the scene does not allow.
     pub fn plan(scene: &Scene, column: &Column, identified: bool) -> Result<Plan, Error> {
         let frequencies = identified.then_some(Output::FundamentalFrequencies);
-        let outputs: Vec<_> = [column.output()].into_iter().chain(frequencies).collect();
-        let (intervals, span) = (intervals(scene), (0.0, duration(scene)));
+        let outputs: Vec<_> = [column.group].into_iter().chain(frequencies).collect();
+        let (intervals, span) = (intervals(scene), (0.0, scene.duration()));
         let samples = Samples { count: intervals as usize + 1, last: span.1 };
         let request = Request { method: scene.method, samples, ..Request::new(&outputs, span, 0, scene.accuracy) };
-        Plan::from_parts(&scene.spheroid, &scene.violation, &scene.initial, &request)
+        scene.problem.plan(&request)
     }
 
     /// Computes the motion by a [`plan`](Sampling::plan) and samples a column. The step follows from the rotation rate alone, not
@@ -125,27 +125,31 @@ impl Sampling {
     /// # Errors
     /// A motion that cannot be computed, and a time at which the column does not exist.
     pub fn of(scene: &Scene, column: &Column, plan: &Plan) -> Result<Self, TrajectoryError> {
-        let (body, s, initial) = (&scene.spheroid, &scene.violation, &scene.initial);
         match plan.state {
             State::Nothing => {
-                let (series, size) = series(scene, column, |_| Ok(Carried::Nothing))?;
+                let (series, size) = series(scene, column, |_| Ok(SampledState::Nothing))?;
                 Ok(Self { motion: None, series, size, work: Work::default() })
             }
             State::Axis | State::AxisAndMomentum => {
-                let motion = Counted::new(plan.axis_motion(body, s, initial)?);
-                let (series, size) = series(scene, column, |t| PlannedAxisMotion::carried(&motion, [t, 0.0]))?;
-                let mut work = motion.inner().work();
-                work += motion.evaluations();
-                Ok(Self { motion: None, series, size, work })
+                Self::of_motion(scene, column, plan.motion(&scene.problem.reduced())?).map(|(sampling, _)| sampling)
             }
             State::Orientation => {
-                let motion = Counted::new(plan.motion_from_parts(body, s, initial)?);
-                let (series, size) = series(scene, column, |t| PlannedMotion::carried(&motion, [t, 0.0]))?;
-                let mut work = motion.inner().work();
-                work += motion.evaluations();
-                Ok(Self { motion: Some(motion), series, size, work })
+                let (sampling, motion) = Self::of_motion(scene, column, plan.motion(&scene.problem)?)?;
+                Ok(Self { motion: Some(motion), ..sampling })
             }
         }
+    }
+
+    fn of_motion<X: SegmentState>(
+        scene: &Scene,
+        column: &Column,
+        motion: PlannedMotion<X>,
+    ) -> Result<(Self, Counted<PlannedMotion<X>>), TrajectoryError> {
+        let motion = Counted::new(motion);
+        let (series, size) = series(scene, column, |t| X::sampled(&motion, [t, 0.0]))?;
+        let mut work = motion.inner().work();
+        work += motion.evaluations();
+        Ok((Self { motion: None, series, size, work }, motion))
     }
 
     /// Number of values, time between two in the unit of the output, and Nyquist's frequency in rad per unit of time.
@@ -256,29 +260,27 @@ const SHORT_SPAN: &str = "span in turns of n about L";
 
 /// Steps of the series.
 fn intervals(scene: &Scene) -> f64 {
-    (duration(scene).abs() * scene.turning_rate() * HARMONICS / std::f64::consts::PI).ceil().max(15.0)
+    (scene.rotation() * HARMONICS / std::f64::consts::PI).ceil().max(15.0)
 }
 
 /// A column in equal steps over the span, and the largest size of what it is a part of.
 fn series(
     scene: &Scene,
     column: &Column,
-    carried: impl Fn(f64) -> Result<Carried, Error>,
+    state_at: impl Fn(f64) -> Result<SampledState, Error>,
 ) -> Result<(Series, f64), TrajectoryError> {
-    let (intervals, span) = (intervals(scene), duration(scene));
+    let (intervals, span) = (intervals(scene), scene.duration());
     let start = span.min(0.0);
     let step = span.abs() / intervals;
     let value = |index: usize| {
         let since_start = (start + step * index as f64).min(start + span.abs());
-        let state = carried(since_start)?;
-        let mut angles = || match &state {
-            Carried::Orientation(state) => state.angles().ok(),
-            Carried::Nothing | Carried::Axis(_) => None,
-        };
-        let mut moment = Moment { since_start, state, angles: &mut angles };
-        column.value_and_size(scene, &mut moment).ok_or_else(|| TrajectoryError::Undefined {
+        let mut sample = Sample::new(since_start, state_at(since_start)?);
+        if column.group == Output::EulerAngles {
+            sample.angles = sample.orientation().angles().ok();
+        }
+        column.value_and_size(scene, &sample).ok_or_else(|| TrajectoryError::Undefined {
             column: column.name.clone(),
-            time: format!("{:?} {}", since_start * scene.units.time + scene.times.start(), scene.units.time_name),
+            time: format!("{:?} {}", scene.output_time(since_start), scene.units.time_name),
         })
     };
     let (mut values, mut largest) = (Vec::new(), 0.0_f64);
@@ -288,11 +290,6 @@ fn series(
         largest = largest.max(size);
     }
     Ok((Series { start, step, values }, largest))
-}
-
-/// Length of the span in t_c, negative backwards.
-fn duration(scene: &Scene) -> f64 {
-    since_start(scene, scene.times.last())
 }
 
 fn frequency_title(scene: &Scene, name: &str) -> String {

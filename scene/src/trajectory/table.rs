@@ -1,16 +1,16 @@
 //! Rows of a table: the values of every group of columns at each time.
 
+use std::cell::RefCell;
 use std::io::Write;
 
-use twofold::euler_angles::EulerAngles;
-use twofold::plan::{Output, Plan, PlannedAxisMotion, PlannedMotion, State, Work};
+use twofold::plan::Work;
 
 use super::TrajectoryError;
-use super::stretches::{Angles, ErrorAtEnd, PlannedState, Stretches, since_start, since_start_within};
-use crate::columns::{Carried, Moment};
+use crate::columns;
+use crate::samples::{AxisStateAt, ErrorAtEnd, ErrorEstimates, Sample, for_each_sample};
 use crate::scene_file::Scene;
 
-/// What there is to say about a table that was written.
+/// Counts of a table that was written.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Summary {
     /// Rows written.
@@ -28,115 +28,52 @@ pub struct Summary {
 /// Names of the columns with their units, `t [t_c]` first.
 pub fn header(scene: &Scene) -> Vec<String> {
     let mut names = vec![format!("t [{}]", scene.units.time_name)];
-    names.extend(scene.columns.iter().flat_map(|group| (group.header)(&scene.units)));
+    names.extend(scene.columns.iter().flat_map(|group| columns::header(*group, &scene.units)));
     names
 }
 
-/// Computes the motion of `scene` by the [plan](Scene::plan_of_columns) for its columns and writes it as CSV: the [`header`],
+/// Computes the motion of `scene` by the [plan](Scene::plan) for its columns and writes it as CSV: the [`header`],
 /// then a row per time. Numbers are written with as few digits as identify the double. Memory is bounded whatever the span.
-/// `progress` is told again and again which part of the span is done, from 0 to 1.
+/// `progress` is given the part of the span that is done, from 0 to 1.
 ///
 /// # Errors
 /// A motion that cannot be computed, or `writer` failing.
 pub fn write_csv(scene: &Scene, writer: impl Write, progress: impl FnMut(f64)) -> Result<Summary, TrajectoryError> {
-    let plan = scene.plan_of_columns()?;
-    let mut table = Table::new(scene, writer, progress)?;
-    match plan.state {
-        State::Nothing => {
-            for time in scene.times.iter() {
-                table.row(time, since_start(scene, time), Carried::Nothing, &mut |_| None)?;
-            }
-        }
-        State::Axis | State::AxisAndMomentum => table.rows::<PlannedAxisMotion>(&plan)?,
-        State::Orientation => table.rows::<PlannedMotion>(&plan)?,
-    }
-    table.writer.flush()?;
-    Ok(table.summary)
-}
-
-struct Table<'s, W: Write, P> {
-    scene: &'s Scene,
-    writer: csv::Writer<W>,
-    widths: Vec<usize>,
-    summary: Summary,
-    progress: P,
-}
-
-impl<'s, W: Write, P: FnMut(f64)> Table<'s, W, P> {
-    fn new(scene: &'s Scene, writer: W, progress: P) -> Result<Self, TrajectoryError> {
-        let mut writer = csv::Writer::from_writer(writer);
-        writer.write_record(header(scene))?;
-        let widths = scene.columns.iter().map(|group| (group.header)(&scene.units).len()).collect();
-        Ok(Self { scene, writer, widths, summary: Summary::default(), progress })
-    }
-
-    /// Every row, from the stretches of a plan.
-    fn rows<M: PlannedState>(&mut self, plan: &Plan) -> Result<(), TrajectoryError> {
-        let scene = self.scene;
-        let counts_turns = plan.outputs.contains(&Output::EulerAngles);
-        let mut rows = scene.times.iter().peekable();
-        let mut stretches = Stretches::<M>::new(scene, plan)?;
-        let mut start_angles = scene.initial_angles;
-        while let Some(stretch) = stretches.next()? {
-            let (from, to) = (stretch.from, stretch.to);
-            let mut angles: Angles<'_> =
-                if counts_turns { M::angles(&stretch.motion, from, &start_angles)? } else { Box::new(|_| None) };
-            let within = |time: &f64| stretch.is_last || since_start(scene, *time).abs() <= to.abs();
-            while let Some(time) = rows.next_if(within) {
-                let parts = since_start_within(scene, time, from, to);
-                let t = parts[0];
-                self.row(time, t, M::carried(&stretch.motion, parts)?, &mut angles)?;
-                (self.progress)(stretches.part_done(t));
-            }
-            if counts_turns && !stretch.is_last {
-                start_angles = angles(to).unwrap_or(start_angles);
-            }
-            drop(angles);
-            self.summary.work += stretch.motion.evaluations();
-            (self.progress)(stretches.part_done(to));
-            if stretch.is_last {
-                self.summary.error = Some(stretches.error_at_end(&stretch, plan));
-            }
-        }
-        self.summary.work += stretches.work;
-        Ok(())
-    }
-
-    /// One row.
-    fn row(
-        &mut self,
-        time: f64,
-        since_start: f64,
-        state: Carried,
-        angles: &mut dyn FnMut(f64) -> Option<EulerAngles<f64>>,
-    ) -> Result<(), TrajectoryError> {
-        let mut angles = || angles(since_start);
-        let mut moment = Moment { since_start, state, angles: &mut angles };
+    let plan = scene.plan(&scene.columns)?;
+    let progress = RefCell::new(progress);
+    let show = |t: f64| (progress.borrow_mut())(scene.part_done(t));
+    let mut table = csv::Writer::from_writer(writer);
+    table.write_record(header(scene))?;
+    let widths: Vec<_> = scene.columns.iter().map(|group| columns::header(*group, &scene.units).len()).collect();
+    let mut summary = Summary::default();
+    let row = |time: f64, sample: &Sample| {
         let mut on_pole = false;
-        self.writer.write_field(format!("{time:?}"))?;
-        for (group, &width) in self.scene.columns.iter().zip(&self.widths) {
-            match (group.values)(self.scene, &mut moment) {
-                Some(values) => {
-                    for value in values {
-                        self.writer.write_field(format!("{value:?}"))?;
-                    }
-                }
-                None => {
-                    on_pole = true;
-                    for _ in 0..width {
-                        self.writer.write_field("")?;
-                    }
-                }
-            }
+        table.write_field(format!("{time:?}"))?;
+        for (group, &width) in scene.columns.iter().zip(&widths) {
+            let values = columns::values(*group, scene, sample);
+            on_pole |= values.is_none();
+            let fields = values.map(|values| values.iter().map(|value| format!("{value:?}")).collect());
+            fields
+                .unwrap_or_else(|| vec![String::new(); width])
+                .iter()
+                .try_for_each(|field| table.write_field(field))?;
         }
-        self.writer.write_record(None::<&[u8]>)?;
-        self.summary.rows += 1;
+        table.write_record(None::<&[u8]>)?;
+        summary.rows += 1;
         if on_pole {
-            self.summary.rows_on_pole += 1;
-            self.summary.first_on_pole.get_or_insert(time);
+            summary.rows_on_pole += 1;
+            summary.first_on_pole.get_or_insert(time);
         }
+        show(sample.since_start);
+        Ok::<(), TrajectoryError>(())
+    };
+    let after_segment = |_: &AxisStateAt<'_>, _, to| {
+        show(to);
         Ok(())
-    }
+    };
+    let sampled = for_each_sample(scene, &plan, ErrorEstimates::AtEnd, row, after_segment)?;
+    table.flush()?;
+    Ok(Summary { error: sampled.error, work: sampled.work, ..summary })
 }
 
 #[cfg(test)]
@@ -154,9 +91,9 @@ mod tests {
         text.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect()
     }
 
-    /// In free precession about Z the rate of `alpha` is `(1 + eps) Omega^z / cos beta`. 1.3e5 rad are three stretches.
+    /// In free precession about Z the rate of `alpha` is `(1 + eps) Omega^z / cos beta`. 1.3e5 rad are three segments.
     #[test]
-    fn angles_keep_their_turns_over_several_stretches() {
+    fn angles_keep_their_turns_over_several_segments() {
         let (beta, spin) = (0.7_f64, 1.0);
         let rate = 1.1 * spin / beta.cos();
         let times = [0.2e5, 0.5e5, 0.9e5].map(|rotation| rotation / rate * 1.4);

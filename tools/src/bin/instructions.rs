@@ -11,7 +11,7 @@ use std::hint::black_box;
 
 use twofold::observables::Observer;
 use twofold::observables::pulsar::{Beam, pulse_train};
-use twofold::propagation::{Motion, TaylorMotion, propagate, propagate_axis};
+use twofold::propagation::{Motion, TaylorMotion};
 use twofold_command::bench::method::{MANY_SCENES, METHODS};
 use twofold_command::bench::scene::BenchScene;
 
@@ -24,8 +24,7 @@ type Kernel = fn(&BenchScene, &TaylorMotion<f64>, usize);
 /// Names, and what is done once per repeat.
 const KERNELS: [(&str, Kernel); 6] = [
     ("taylor-axis", |scene, _, _| {
-        let start = scene.initial_axis();
-        let motion = propagate_axis(&scene.spheroid, &scene.violation, &start, (0.0, DURATION), ACCURACY);
+        let motion = scene.problem.reduced().taylor((0.0, DURATION), ACCURACY);
         drop(black_box(motion));
     }),
     ("taylor-orientation", |scene, _, _| drop(black_box(motion(scene)))),
@@ -43,7 +42,7 @@ const KERNELS: [(&str, Kernel); 6] = [
 ];
 
 fn motion(scene: &BenchScene) -> TaylorMotion<f64> {
-    let motion = propagate(&scene.spheroid, &scene.violation, &scene.initial, (0.0, DURATION), ACCURACY);
+    let motion = scene.problem.taylor((0.0, DURATION), ACCURACY);
     motion.expect("a motion within the limits")
 }
 

@@ -13,9 +13,9 @@ use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession
 
 use crate::check::{Bound, Check, Kind, Measured, Worst};
 use crate::derivation::Differentiable;
-use crate::golden::pulsar_bounds::{PrintedBounds, columns};
 use crate::identity::{self, Identity};
 use crate::random::{Point, Random};
+use twofold_scene::pulsar_table::published::{PrintedBounds, printed_bounds};
 use twofold_scene::pulsar_table::{Pulsar, ROUND_INERTIA_OVER_C};
 
 /// The checks of this subject.
@@ -159,7 +159,7 @@ fn bound_of_known_tensor() -> Result<Measured, String> {
 
 fn printed_changes() -> Result<Measured, String> {
     let mut worst = Worst::default();
-    for (pulsar, printed) in columns() {
+    for (pulsar, printed) in printed_bounds() {
         let ours = pulsar.lambda_change()? * 1e3;
         let printed = printed.lambda_change;
         let unit = if printed.contains('.') { 0.1 } else { 1.0 };
@@ -175,7 +175,7 @@ fn over_printed(bound_over_eta: impl Fn(&Pulsar) -> Result<f64, String>) -> Resu
         let value: f64 = printed.bound.parse().map_err(|_| format!("{} is not a number", printed.bound))?;
         Ok(bound_over_eta(&pulsar)? * 1e16 / value)
     };
-    let ratios = columns().into_iter().map(ratio).collect::<Result<Vec<f64>, String>>()?;
+    let ratios = printed_bounds().into_iter().map(ratio).collect::<Result<Vec<f64>, String>>()?;
     if ratios.iter().any(|ratio| ratio.is_nan()) {
         return Err(format!("ratios {ratios:?}"));
     }

@@ -4,7 +4,7 @@ pub(crate) mod captions;
 mod certified;
 mod eta;
 mod line;
-pub mod pulsar_bounds;
+mod pulsar_bounds;
 mod regimes;
 mod spectral_lines;
 mod star;

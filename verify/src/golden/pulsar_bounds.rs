@@ -1,40 +1,13 @@
 //! The table of the two solitary pulsars: change of `lambda` and the bounds from it.
 
 use super::{GoldenLine, GoldenTable, Printed};
-use twofold_scene::pulsar_table::{self, CONSERVATIVE_ETA, Pulsar, ROUND_INERTIA_OVER_C};
-
-/// What the paper prints of one pulse beside what was observed of it.
-#[derive(Debug, Clone, Copy)]
-pub struct PrintedBounds {
-    /// Change of `lambda` (1e-3 deg).
-    pub lambda_change: &'static str,
-    /// Bound in 1e-16 with the factor eta left out.
-    pub bound: &'static str,
-    /// Bound in 1e-16 with eta = 10.
-    pub conservative: &'static str,
-}
-
-/// The last rows of the table, a column per pulse.
-const PRINTED: [(&str, PrintedBounds); 3] = [
-    ("PSR B1937+21, main pulse", PrintedBounds { lambda_change: "-19", bound: "100", conservative: "1000" }),
-    ("PSR B1937+21, interpulse", PrintedBounds { lambda_change: "-5.2", bound: "10", conservative: "100" }),
-    ("PSR J1744-1134", PrintedBounds { lambda_change: "1.6", bound: "1", conservative: "10" }),
-];
-
-/// The pulses of the paper with what is printed of them.
-pub fn columns() -> Vec<(Pulsar, PrintedBounds)> {
-    let pulsars = pulsar_table::paper();
-    let printed = |pulsar: &Pulsar| {
-        let (_, printed) = PRINTED.iter().find(|(name, _)| *name == pulsar.name)?;
-        Some((pulsar.clone(), *printed))
-    };
-    pulsars.iter().map(|pulsar| printed(pulsar).expect("the paper prints a column for each")).collect()
-}
+use twofold_scene::pulsar_table::published::printed_bounds;
+use twofold_scene::pulsar_table::{CONSERVATIVE_ETA, ROUND_INERTIA_OVER_C};
 
 /// The rows of the table that follow from its others, by each of the three readings.
 pub(super) fn table() -> Result<GoldenTable, String> {
     let mut lines = Vec::new();
-    for (pulsar, printed) in columns() {
+    for (pulsar, printed) in printed_bounds() {
         let own = pulsar.figure("bound_over_eta_own")?;
         let limit = pulsar.limit(&own)?;
         let by_change = limit.over_eta_by_change.ok_or("the paper's table has errors of the changes")?;

@@ -165,17 +165,18 @@ struct Exact {
 impl Exact {
     fn of(pulsar: &PulsarScene, beam: &Beam<f64>) -> Result<Self, String> {
         let number = DoubleDouble::from_f64;
-        let frame = principal_frame(&pulsar.violation)?;
-        let turned = pulsar.initial.rotated(&frame.principal_from_given);
+        let problem = &pulsar.problem;
+        let frame = principal_frame(problem.coefficients())?;
+        let turned = problem.initial().rotated(&frame.principal_from_given);
         let lifted = |state: &BodyState<f64>| BodyState {
             axis: lift(&state.axis),
             momentum: lift(&state.momentum),
             equatorial_axis: lift(&state.equatorial_axis),
         };
-        let spheroid = pulsar.spheroid.map(number);
+        let spheroid = *problem.map(number).spheroid();
         let c = frame.coefficients;
         let s = PrincipalCoefficients::new([c.xx, c.yy, c.zz].map(number));
-        let (given, turned) = (lifted(&pulsar.initial), lifted(&turned));
+        let (given, turned) = (lifted(problem.initial()), lifted(&turned));
         let mean = AveragedSolution::with_free_rotation_of(&given, &spheroid, &s, &turned, AveragingOrder::Second)?;
         Ok(Self {
             rates: *mean.rates(),
@@ -270,7 +271,7 @@ fn free_b1828(epsilon: Option<f64>) -> Result<Scene, String> {
         pulsars("0.0")?.into_iter().find(|(name, _)| name.starts_with("b1828-11")).ok_or("no such scene")?;
     let Some(epsilon) = epsilon else { return Ok(scene) };
     // alpha' cos(beta) = (1 + epsilon) Omega^z.
-    let rate = scene.initial.momentum.norm() / scene.spheroid.inertia_xx / scene.units.time;
+    let rate = scene.problem.initial().momentum.norm() / scene.problem.spheroid().inertia_xx / scene.units.time;
     let along = rate * scene.initial_angles.beta.cos();
     let spin = along / (1.0 + epsilon) / (2.0 * PI);
     let toml = PULSARS.iter().find(|scene| name.starts_with(scene.name)).ok_or("no such scene")?.toml;

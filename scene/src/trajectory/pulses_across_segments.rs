@@ -1,10 +1,10 @@
-//! A long train, written stretch by stretch, is that of one motion over the whole span.
+//! A long train, written segment by segment, is that of one motion over the whole span.
 
 use twofold::observables::pulsar::{arrivals, pulse_train};
 use twofold::plan::Output;
-use twofold::propagation::propagate;
 
-use super::{PulseSummary, pulses::write_by_stretches, stretches::Stretches};
+use super::{PulseSummary, pulses::write_by_segments};
+use crate::samples::Segments;
 use crate::scene_file::{BUILT_IN, Scene};
 
 /// tp-2 with both beams.
@@ -16,32 +16,31 @@ fn scene(span: f64, rho: f64) -> Scene {
     Scene::from_toml("long", &toml).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn rows_of(scene: &Scene, rotation_per_stretch: f64) -> (Vec<Vec<String>>, PulseSummary) {
-    let seen = (&scene.observer.expect("observer"), &scene.pulsar.expect("pulsar"));
+fn rows_of(scene: &Scene, rotation_per_segment: f64) -> (Vec<Vec<String>>, PulseSummary) {
     let plan = scene.plan(&[Output::Pulses]).expect("plan");
-    let stretches = Stretches::of_rotation(scene, &plan, rotation_per_stretch).expect("a motion");
+    let segments = Segments::with_rotation(scene, &plan, rotation_per_segment).expect("a motion");
     let mut table = Vec::new();
-    let summary = write_by_stretches(scene, seen, stretches, &mut table, |_| {}).expect("pulses");
+    let summary = write_by_segments(scene, segments, &mut table, |_| {}).expect("pulses");
     let text = String::from_utf8(table).expect("text");
     (text.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect(), summary)
 }
 
-/// Pulses that last across the boundary of two stretches are neither torn nor counted twice, and turns are counted on:
-/// forwards and backwards, with a beam so wide that the line of sight stays inside over several stretches.
+/// Pulses that last across the boundary of two segments are neither torn nor counted twice, and turns are counted on:
+/// forwards and backwards, with a beam so wide that the line of sight stays inside over several segments.
 #[test]
-fn pulses_across_stretches_are_whole() {
-    for (span, rho, per_stretch) in
+fn pulses_across_segments_are_whole() {
+    for (span, rho, per_segment) in
         [(1_000.0, 1.5, 130.0), (-1_000.0, 2.6, 130.0), (600.0, 2.0, 2.0), (-600.0, 2.0, 2.0)]
     {
         let scene = scene(span, rho);
         let (viewer, pulsar) = (scene.observer.expect("observer"), scene.pulsar.expect("pulsar"));
         let n = viewer.basis().direction;
-        let (rows, summary) = rows_of(&scene, per_stretch);
+        let (rows, summary) = rows_of(&scene, per_segment);
         assert_eq!(rows.len(), summary.pulses.iter().sum::<usize>());
         assert!(summary.without_turn.is_empty());
 
         let mut longest = 0.0_f64;
-        let motion = propagate(&scene.spheroid, &scene.violation, &scene.initial, (0.0, span), 1e-13).expect("motion");
+        let motion = scene.problem.taylor((0.0, span), 1e-13).expect("motion");
         for (beam, number) in [(pulsar.beam(), "1"), (pulsar.beam().opposite(), "2")] {
             let train = pulse_train(&motion, &beam, &n, (0.0, span)).expect("train");
             let (mut pulses, mut expected) =
@@ -83,8 +82,8 @@ fn pulses_across_stretches_are_whole() {
                 last = midpoint;
             }
         }
-        let over_several = longest * scene.turning_rate() > 3.0 * per_stretch;
-        assert!(per_stretch > 2.0 || over_several, "no pulse is longer than three stretches: {longest}");
+        let over_several = longest * scene.turning_rate() > 3.0 * per_segment;
+        assert!(per_segment > 2.0 || over_several, "no pulse is longer than three segments: {longest}");
         let over: Vec<f64> =
             rows.iter().map(|row| row[if span < 0.0 { 2 } else { 3 }].parse().expect("number")).collect();
         assert!(over.windows(2).all(|pair| if span < 0.0 { pair[0] >= pair[1] } else { pair[0] <= pair[1] }));

@@ -8,8 +8,8 @@ use std::{env, fs};
 use clap::Parser;
 use tempfile::TempDir;
 
-use super::{Cli, Command, FisherArgs, ForecastArgs, MeasurementArgs, run_command};
-use crate::fuzzing::is_small;
+use super::scene::is_small;
+use crate::commands::{Cli, Command, FisherArgs, ForecastArgs, MeasurementArgs, run_command};
 use twofold_scene::scene_file::Scene;
 use twofold_scene::sweep::{Sweep, SweepText};
 
@@ -29,7 +29,7 @@ const FILES: [(&str, &str); 5] = [
 ];
 
 /// Arguments, one on a line: parsed, and carried out in a folder of their own where that is little work and no path leads out of it.
-pub fn fuzzed_arguments(bytes: &[u8]) {
+pub fn command_line(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let Ok(cli) = Cli::try_parse_from(["twofold"].into_iter().chain(text.lines())) else { return };
     let Some(command) = cli.command else { return };

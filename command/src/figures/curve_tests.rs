@@ -1,0 +1,237 @@
+//! Every curve and mark of every figure, read off the picture by its axes, is the column that labels and legend say.
+
+use std::collections::BTreeSet;
+
+use super::drawn::{Frame, Point, elements, frames, legend, number};
+use super::layout_tests::FIGURES;
+use super::{Figure, Table};
+
+/// Half a pixel of the PNG, in points. The picture is rounded to 0.01, and lines are simplified by 0.02.
+pub(super) const HALF_A_PIXEL: f64 = 0.12;
+
+/// What labels say and the heads of columns with the same quantity in the same unit.
+pub(super) const LABELS: &[(&str, &str)] = &[
+    ("t / t_c", "t [t_c]"),
+    ("t [s]", "t [s]"),
+    ("α [rad]", "alpha{} [rad]"),
+    ("β [rad]", "beta{} [rad]"),
+    ("m · n", "m.n [1]"),
+    ("amplitude of m · n", "amplitude [1]"),
+    ("angular frequency × t_c", "frequency [rad/t_c]"),
+    ("frequency [Hz]", "frequency [Hz]"),
+    ("period / t_c", "period{} [t_c]"),
+    ("period [s]", "period{} [s]"),
+    ("length / t_c", "length{} [t_c]"),
+    ("length [s]", "length{} [s]"),
+    ("h_+ r / I^xx", "h_+ [G I^xx / (c^4 t_c^2 r)]"),
+    ("h_× r / I^xx", "h_x [G I^xx / (c^4 t_c^2 r)]"),
+    ("h_+", "h_+ [1]"),
+    ("h_×", "h_x [1]"),
+    // The caption has the unit of these amplitudes.
+    ("amplitude of h_+", "h_+ [1]"),
+    ("amplitude of h_×", "h_x [1]"),
+    ("β_0 [rad]", "beta_0 [rad]"),
+    ("η", "{}"),
+    ("largest error of a component", "error [1]"),
+    ("time [ms]", "time [ms]"),
+];
+
+/// What legends say and what the heads of columns have in its place.
+const NAMES: &[(&str, &str)] = &[
+    ("numerical", ""),
+    ("perturbation, printed", " by perturbation printed"),
+    ("perturbation, corrected", " by perturbation corrected"),
+    ("pulses", ""),
+    ("Eqs. (51), (56) at the instant", " at the instant"),
+    ("with mean rates", " with mean rates"),
+    ("with rates (57)", " with rates (57)"),
+    ("root mean square", "eta [1]"),
+    ("median", "eta at this inclination: median [1]"),
+    ("97.5 %", "eta at this inclination: 97.5 % [1]"),
+    ("1/cos β_0", "1/cos beta_0 [1]"),
+    ("s^XX = s^YY", "eta for s^XX = s^YY [1]"),
+];
+
+pub(super) fn entry<'a>(list: &[(&str, &'a str)], words: &str) -> &'a str {
+    list.iter().find(|(known, _)| *known == words).unwrap_or_else(|| panic!("what is `{words}`?")).1
+}
+
+fn distance([px, py]: Point, [ax, ay]: Point, [bx, by]: Point) -> f64 {
+    let (dx, dy) = (bx - ax, by - ay);
+    let squared = dx * dx + dy * dy;
+    let part = if squared > 0.0 { (((px - ax) * dx + (py - ay) * dy) / squared).clamp(0.0, 1.0) } else { 0.0 };
+    (px - ax - part * dx).hypot(py - ay - part * dy)
+}
+
+/// How far points are from the nearest part of some lines, at most; no farther than asked is looked.
+pub(super) fn farthest(points: &[Point], lines: &[Vec<Point>]) -> f64 {
+    let mut segments: Vec<_> = lines.iter().flat_map(|line| line.windows(2).map(|ends| [ends[0], ends[1]])).collect();
+    segments.sort_by(|a, b| a[0][0].min(a[1][0]).total_cmp(&b[0][0].min(b[1][0])));
+    let left: Vec<_> = segments.iter().map(|[a, b]| a[0].min(b[0])).collect();
+    let widest = segments.iter().map(|[a, b]| (a[0] - b[0]).abs()).fold(0.0, f64::max);
+    let of = |p: &Point| {
+        let from = left.partition_point(|x| *x < p[0] - widest - 1.0);
+        let to = left.partition_point(|x| *x <= p[0] + 1.0);
+        segments[from..to].iter().map(|[a, b]| distance(*p, *a, *b)).fold(f64::INFINITY, f64::min)
+    };
+    points.iter().map(of).fold(0.0, f64::max)
+}
+
+/// Both ways: no row is away from the line, and no corner of the line away from a row.
+pub(super) fn assert_same(what: &str, rows: &[Point], line: &[Vec<Point>], corners: &[f64; 4]) {
+    let [left, top, right, bottom] = *corners;
+    let is_inside = |p: &&Point| p[0] > left - 0.01 && p[0] < right + 0.01 && p[1] > top && p[1] < bottom;
+    let seen: Vec<_> = rows.iter().filter(is_inside).copied().collect();
+    let off = farthest(&seen, line);
+    assert!(off < HALF_A_PIXEL, "{what}: a row is {off} pt off the curve");
+    let corners: Vec<_> = line.iter().flatten().filter(is_inside).copied().collect();
+    let alone: Vec<_> = rows.iter().map(|p| vec![*p, *p]).collect();
+    let off = farthest(&corners, &alone);
+    assert!(off < HALF_A_PIXEL, "{what}: a corner of the curve is {off} pt off the rows");
+}
+
+/// Table and columns of a curve of a frame by what the picture says about it.
+fn columns<'f>(figure: &'f Figure, frame: &Frame, name: &str) -> (&'f Table, usize, usize) {
+    let bare = |label: &str| label.replace(" − P", "").replace(" − W", "");
+    // The methods of one figure are tables, not columns.
+    let of_method = frame.y.label == "time [ms]";
+    let [x, y] = [&frame.x, &frame.y].map(|scale| {
+        let head = entry(LABELS, &bare(&scale.label)).replace("{}", if of_method { "" } else { entry(NAMES, name) });
+        let in_paper_units = frame.x.label.contains("t_c") && scale.label.starts_with("amplitude of h");
+        if in_paper_units { head.replace("[1]", "[G I^xx / (c^4 t_c^2 r)]") } else { head }
+    });
+    // Curves have no other abscissa of that name.
+    let x = if x.contains("{}") { x.replace("{}", "") } else { x };
+    let place = |table: &Table, head: &str| table.columns.iter().position(|column| column == head);
+    let scene = frame.heading.split(':').next().unwrap_or_default();
+    let found: Vec<_> = figure
+        .tables
+        .iter()
+        .filter(|table| !of_method || frame.heading == format!("{scene}: {}", carried(&table.name)))
+        .filter(|table| !of_method || table.name.ends_with(name))
+        .filter(|table| {
+            table.name == scene
+                || scene.is_empty()
+                || table.name.starts_with(&format!("{scene}-"))
+                || of_method && table.name.starts_with(scene)
+        })
+        .filter(|table| !table.name.ends_with("lines"))
+        .filter_map(|table| Some((table, place(table, &x)?, place(table, &y)?)))
+        .collect();
+    assert_eq!(found.len(), 1, "{}: {x} and {y} of `{name}` under `{}`", figure.name, frame.heading);
+    found[0]
+}
+
+fn carried(table: &str) -> &'static str {
+    if table.contains("e_x") || table.contains("ex") { "n, L, e_x" } else { "n, L" }
+}
+
+/// Columns that no curve shows: lists of lines and gaps, the paths on spheres, what maps are made of.
+fn is_not_a_curve(figure: &str, table: &str, column: &str) -> bool {
+    match figure {
+        "perturbation-regimes"
+        | "method-regimes"
+        | "momentum-sphere"
+        | "beam-cone"
+        | "euler-angles"
+        | "euler-angles-yzx" => true,
+        _ => {
+            table.ends_with("lines") || table.ends_with("-gaps") || table == "paths" || column.starts_with("frequency")
+        }
+    }
+}
+
+#[test]
+fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
+    let mut count = 0;
+    for figure in FIGURES.iter().filter(|figure| !figure.name.ends_with("-regimes")) {
+        let elements = elements(&figure.svg);
+        let (lines, marks) = legend(&elements);
+        let mut drawn = BTreeSet::new();
+        for frame in frames(&elements) {
+            // What is taken off is told in the panel.
+            let taken_off = frame.y.label.contains(" − ").then(|| {
+                let told = frame.remarks.iter().find_map(|words| words.strip_prefix(['P', 'W'])?.strip_prefix(" = "));
+                number(told.expect("a remark").trim_end_matches(" s").trim_end_matches(" t_c")).expect("a number")
+            });
+            let place = |row: &[f64], x: usize, y: usize| {
+                [
+                    frame.x.place(row[x]),
+                    frame.y.place((row[y] - taken_off.unwrap_or(0.0)).max(if frame.y.label.starts_with("amp") {
+                        1e-300
+                    } else {
+                        f64::NEG_INFINITY
+                    })),
+                ]
+            };
+            for (style, pieces) in &frame.curves {
+                let named: Vec<_> =
+                    lines.iter().filter(|(line, _)| line == style).map(|(_, name)| name.as_str()).collect();
+                // A style that serves twice serves its methods in order.
+                let of: Vec<(&str, &[Vec<Point>])> = match named[..] {
+                    [] => vec![("numerical", &pieces[..])],
+                    _ if pieces.len() > 1 && named.len() > 1 => named.into_iter().zip(pieces.chunks(1)).collect(),
+                    _ => vec![(named[0], &pieces[..])],
+                };
+                for (name, pieces) in of {
+                    let (table, x, y) = columns(figure, &frame, name);
+                    let rows: Vec<_> = table.rows.iter().map(|row| place(row, x, y)).collect();
+                    let what = format!("{} {}: {}", figure.name, table.name, table.columns[y]);
+                    let is_part = match (figure.name.as_str(), style.1.as_str()) {
+                        // Pulses are drawn thick where m.n is above the level; grey lines join what has no gap between.
+                        ("beam-alignment", "1.7") | ("pulse-series", "0.5") => true,
+                        _ => false,
+                    };
+                    if is_part && figure.name == "beam-alignment" {
+                        let edge = frame.levels[0];
+                        // A pulse of one row is no line.
+                        let is_inside = |pair: &&[Vec<f64>]| pair.iter().all(|row| row[y] > edge + 1e-3);
+                        let pulses = table.rows.windows(2).filter(is_inside).flatten();
+                        let off = farthest(&pulses.map(|row| place(row, x, y)).collect::<Vec<_>>(), pieces);
+                        assert!(off < HALF_A_PIXEL, "{what}: a pulse is not thick, {off} pt");
+                        let thick: Vec<_> = pieces.iter().flatten().copied().collect();
+                        assert!(
+                            thick.iter().all(|p| frame.y.value(p[1]) > edge - 1e-2),
+                            "{what}: thick below the level"
+                        );
+                        let rows: Vec<_> = rows.iter().map(|p| vec![*p, *p]).collect();
+                        assert!(farthest(&thick, &rows) < HALF_A_PIXEL, "{what}: thick elsewhere");
+                    } else if is_part {
+                        let alone: Vec<_> = rows.iter().map(|p| vec![*p, *p]).collect();
+                        let corners: Vec<_> = pieces.iter().flatten().copied().collect();
+                        assert!(farthest(&corners, &alone) < HALF_A_PIXEL, "{what}: a grey line goes elsewhere");
+                    } else {
+                        assert_same(&what, &rows, pieces, &frame.corners);
+                        drawn.insert((table.name.clone(), table.columns[x].clone()));
+                        drawn.insert((table.name.clone(), table.columns[y].clone()));
+                    }
+                    count += 1;
+                }
+            }
+            for (colour, places) in &frame.marks {
+                let name = marks.iter().find(|(known, _)| known == colour).map(|(_, name)| name.as_str());
+                let of_line = lines.iter().find(|(line, _)| line.0 == *colour).map(|(_, name)| name.as_str());
+                if figure.name == "work-precision" {
+                    continue;
+                }
+                let (table, x, y) = columns(figure, &frame, name.or(of_line).unwrap_or("numerical"));
+                let rows: Vec<_> = table.rows.iter().map(|row| place(row, x, y)).collect();
+                assert_eq!(rows.len(), places.len(), "{} {}", figure.name, table.name);
+                for (row, place) in rows.iter().zip(places) {
+                    let off = (row[0] - place[0]).hypot(row[1] - place[1]);
+                    assert!(off < HALF_A_PIXEL, "{} {}: a mark is {off} pt off its row", figure.name, table.name);
+                }
+                drawn.insert((table.name.clone(), table.columns[x].clone()));
+                drawn.insert((table.name.clone(), table.columns[y].clone()));
+                count += 1;
+            }
+        }
+        for table in &figure.tables {
+            for column in table.columns.iter().filter(|column| !is_not_a_curve(&figure.name, &table.name, column)) {
+                let is_drawn = drawn.contains(&(table.name.clone(), column.clone()));
+                assert!(is_drawn || table.rows.is_empty(), "{} {}: no curve is `{column}`", figure.name, table.name);
+            }
+        }
+    }
+    assert!(count > 120, "{count} curves");
+}

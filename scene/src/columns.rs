@@ -1,0 +1,174 @@
+//! The columns of a table: the header of each group and its values at a sample of the motion.
+
+use twofold::dynamics::equations_of_motion::{angular_velocity, euler_rates_of_axis};
+use twofold::dynamics::first_integrals::first_integrals;
+use twofold::observables::pulsar::position_angle::{position_angle, position_angle_rate};
+use twofold::observables::spin_axis::cos_lambda_rate;
+use twofold::plan::Output;
+use twofold::propagation::AxisState;
+
+use crate::samples::Sample;
+use crate::scene_file::{COLUMN_GROUPS, Scene, Units, did_you_mean, listed};
+use crate::wave::spheroid_wave;
+
+/// Names of the columns of a group with their units. What is no group of columns has none.
+pub fn header(group: Output, units: &Units) -> Vec<String> {
+    let time = units.time_name;
+    let with_unit = |names: &[&str], unit: &str| names.iter().map(|name| format!("{name} [{unit}]")).collect();
+    let components = |name: &str, unit: &str| ["X", "Y", "Z"].map(|axis| format!("{name}_{axis} [{unit}]")).to_vec();
+    let value_and_rate =
+        |name: &str, unit: &str| vec![format!("{name} [{unit}]"), format!("{name}_rate [{unit}/{time}]")];
+    match group {
+        Output::EulerAngles => with_unit(&["alpha", "beta", "gamma"], "rad"),
+        Output::EulerRates => with_unit(&["alpha_rate", "beta_rate", "gamma_rate"], &format!("rad/{time}")),
+        Output::EquatorialAxis => components("e_x", "1"),
+        Output::SymmetryAxis => components("e_z", "1"),
+        Output::AngularMomentum => components("L", units.momentum_name),
+        Output::FirstIntegrals => vec![
+            format!("E [{}]", units.energy_name),
+            format!("Omega_z [rad/{time}]"),
+            format!("K [({})^2]", units.momentum_name),
+        ],
+        Output::PerturbationAngles => with_unit(&["alpha_printed", "beta_printed"], "rad"),
+        Output::SpinAxisAngle => value_and_rate("cos_lambda", "1"),
+        Output::PulseProfile => value_and_rate("m.n", "1"),
+        Output::MagneticAxis => with_unit(&["Theta", "Phi"], "rad"),
+        Output::PositionAngle => value_and_rate("psi", "rad"),
+        Output::GravitationalWave => with_unit(&["h_plus", "h_cross"], "1"),
+        Output::Pulses | Output::FundamentalFrequencies => Vec::new(),
+    }
+}
+
+/// As many values as the [`header`] has names, in the units of the output; none where they do not exist.
+///
+/// # Panics
+/// If the sample has less of the state than the group needs.
+pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>> {
+    let (body, s, units) = (scene.problem.spheroid(), scene.problem.coefficients(), &scene.units);
+    Some(match group {
+        Output::EulerAngles => sample.angles.map(|a| vec![a.alpha, a.beta, a.gamma])?,
+        Output::EulerRates => {
+            let AxisState { axis, momentum } = sample.axis();
+            let rates = euler_rates_of_axis(body, &axis, &momentum).ok()?;
+            [rates.alpha, rates.beta, rates.gamma].map(|rate| rate / units.time).to_vec()
+        }
+        Output::EquatorialAxis => sample.orientation().equatorial_axis.as_slice().to_vec(),
+        Output::SymmetryAxis => sample.axis().axis.as_slice().to_vec(),
+        Output::AngularMomentum => (sample.axis().momentum * units.momentum).as_slice().to_vec(),
+        Output::FirstIntegrals => {
+            let found = first_integrals(body, s, &sample.axis());
+            vec![found.energy * units.energy, found.spin / units.time, found.clebsch * units.momentum * units.momentum]
+        }
+        // Eq. (33) as printed: it starts with the motion, which the corrected solution of the same constants does not.
+        Output::PerturbationAngles => {
+            let angles = scene.perturbation.as_ref().ok()?.at(sample.since_start);
+            vec![angles.alpha, angles.beta]
+        }
+        // Eq. (37): the angle between the symmetry axis and the direction to the observer.
+        Output::SpinAxisAngle => {
+            let direction = scene.observer?.basis().direction;
+            let AxisState { axis, momentum } = sample.axis();
+            let rate = cos_lambda_rate(body, &direction, &axis, &momentum);
+            vec![direction.dot(&axis), rate / units.time]
+        }
+        // Eq. (47).
+        Output::PulseProfile => {
+            let (beam, direction) = (scene.pulsar?.beam(), scene.observer?.basis().direction);
+            let [_, rate, ..] = beam.margin_rates(body, s, sample.orientation(), &direction);
+            vec![beam.direction(sample.orientation()).dot(&direction), rate / units.time]
+        }
+        // Eq. (49), by the components of `m`, which are regular where the Euler angles are not.
+        Output::MagneticAxis => {
+            let m = scene.pulsar?.beam().direction(sample.orientation());
+            let across = m.x.hypot(m.y);
+            (across > f64::EPSILON).then(|| vec![across.atan2(m.z), m.y.atan2(m.x)])?
+        }
+        // The rotating-vector model for the precessing star.
+        Output::PositionAngle => {
+            let state = sample.orientation();
+            let (observer, m) = (scene.observer?.basis(), scene.pulsar?.beam().direction(state));
+            let omega = angular_velocity(body, &state.axis, &state.momentum);
+            let rate = position_angle_rate(&m, &omega, &observer);
+            vec![position_angle(&m, &observer).ok()?, rate / units.time]
+        }
+        // Eq. (71): in the paper's units at r = 1, for a physical star the strain at its distance.
+        Output::GravitationalWave => {
+            let wave = spheroid_wave(body, s, &sample.axis(), &scene.observer?.basis(), scene.strain_unit());
+            vec![wave.plus, wave.cross]
+        }
+        Output::Pulses | Output::FundamentalFrequencies => Vec::new(),
+    })
+}
+
+/// Angles that grow without end or jump by a turn: a spectrum would be that of the growth or of the jumps.
+const TURNING: [&str; 5] = ["alpha", "gamma", "alpha_printed", "Phi", "psi"];
+
+/// One column of a table.
+#[derive(Debug)]
+pub struct Column {
+    /// The group that it belongs to, as an output of a plan; its angles need not count turns.
+    pub group: Output,
+    index: usize,
+    /// The columns of its group with the same unit, itself among them: they are parts of one quantity, as the components of a vector, and
+    /// have one rounding.
+    parts: Vec<usize>,
+    /// Name as in the header of the table, without the unit.
+    pub name: String,
+    /// Unit.
+    pub unit: String,
+}
+
+impl Column {
+    /// The column called `name`, if it oscillates and the scene has what it needs.
+    ///
+    /// # Errors
+    /// A sentence that says which columns there are, or why this one cannot be taken.
+    pub fn oscillating(name: &str, scene: &Scene) -> Result<Self, String> {
+        if TURNING.contains(&name) {
+            return Err(format!(
+                "`{name}` turns without end and has no spectrum; take its rate, a component of an axis or m.n"
+            ));
+        }
+        let columns = COLUMN_GROUPS.iter().flat_map(|(_, group)| Self::of_group(*group, scene));
+        let (mut found, mut possible) = (None, Vec::new());
+        for column in columns {
+            let available = scene.has_what_is_needed_for(column.group);
+            if column.name == name {
+                found = Some(available.map(|()| column));
+            } else if available.is_ok() && !TURNING.contains(&column.name.as_str()) {
+                possible.push(column.name);
+            }
+        }
+        found.unwrap_or_else(|| {
+            let possible: Vec<_> = possible.iter().map(String::as_str).collect();
+            let guess = did_you_mean(name, &possible);
+            Err(format!("`{name}` is no column; this scene has {}.{guess}", listed(&possible)))
+        })
+    }
+
+    fn of_group(group: Output, scene: &Scene) -> Vec<Self> {
+        let titles = header(group, &scene.units);
+        let of = |title: &str| {
+            let (name, unit) = title.split_once(" [").unwrap_or((title, ""));
+            (name.to_owned(), unit.trim_end_matches(']').to_owned())
+        };
+        let columns: Vec<_> = titles.iter().map(|title| of(title)).collect();
+        let column = |(index, (name, unit)): (usize, &(String, String))| {
+            let is_part = |&other: &usize| {
+                let (name, its_unit) = &columns[other];
+                other == index || its_unit == unit && !TURNING.contains(&name.as_str())
+            };
+            let parts = (0..columns.len()).filter(is_part).collect();
+            Self { group, index, parts, name: name.clone(), unit: unit.clone() }
+        };
+        columns.iter().enumerate().map(column).collect()
+    }
+
+    /// The value at a sample and the size of what it is a part of, as `|L|` for a component of `L`, in the unit of the output;
+    /// none where they do not exist.
+    pub fn value_and_size(&self, scene: &Scene, sample: &Sample) -> Option<(f64, f64)> {
+        let values = values(self.group, scene, sample)?;
+        let size = self.parts.iter().fold(0.0_f64, |size, &part| size.hypot(values[part]));
+        Some((values[self.index], size))
+    }
+}

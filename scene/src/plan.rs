@@ -1,0 +1,88 @@
+//! Times of a scene in `t_c`, its rotation, and the plan by which its motion is computed.
+
+use twofold::Error;
+use twofold::dynamics::equations_of_motion::angular_velocity;
+use twofold::plan::{Output, Plan, Request};
+
+use crate::scene_file::Scene;
+
+/// Largest rotation over the whole span that is computed, in rad; it takes some minutes.
+pub const LARGEST_ROTATION: f64 = 1e8;
+
+impl Scene {
+    /// A time of the output as time since the start, in t_c.
+    pub fn since_start(&self, time: f64) -> f64 {
+        (time - self.times.start()) / self.units.time
+    }
+
+    /// The same as a sum of two doubles: after 1e10 turns the rounding of one is part of a turn.
+    pub(crate) fn since_start_in_parts(&self, time: f64) -> [f64; 2] {
+        let (start, unit) = (self.times.start(), self.units.time);
+        // Knuth's exact difference, then what is left of the quotient.
+        let difference = time - start;
+        let part = difference - time;
+        let lost = (time - (difference - part)) - (start + part);
+        let quotient = difference / unit;
+        let rest = ((-quotient).mul_add(unit, difference) + lost) / unit;
+        [quotient, if rest.is_finite() { rest } else { 0.0 }]
+    }
+
+    /// A time since the start, in t_c, as a time of the output.
+    pub fn output_time(&self, since_start: f64) -> f64 {
+        self.times.start() + since_start * self.units.time
+    }
+
+    /// Length of the span in t_c, negative backwards.
+    pub fn duration(&self) -> f64 {
+        self.since_start(self.times.last())
+    }
+
+    /// The part of the span, from 0 to 1, that lies before a time since the start, in t_c.
+    pub(crate) fn part_done(&self, since_start: f64) -> f64 {
+        let duration = self.duration();
+        if duration == 0.0 { 1.0 } else { since_start / duration }
+    }
+
+    /// Upper estimate of the angle through which the body turns over the span, in rad.
+    pub fn rotation(&self) -> f64 {
+        self.duration().abs() * self.turning_rate()
+    }
+
+    /// Upper estimate of the rate at which directions turn, per `t_c`.
+    pub(crate) fn turning_rate(&self) -> f64 {
+        let (problem, initial) = (&self.problem, self.problem.initial());
+        let omega = angular_velocity(problem.spheroid(), &initial.axis, &initial.momentum).norm();
+        omega.max(initial.momentum.norm()) + (2.0 * problem.coefficients().norm()).sqrt()
+    }
+
+    /// The plan for some outputs over the span and at the samples of the scene. Times are those since the start, in t_c.
+    ///
+    /// # Errors
+    /// A method that the scene does not allow, and a span too long for what goes through every turn.
+    pub fn plan(&self, outputs: &[Output]) -> Result<Plan, Error> {
+        let span = (0.0, self.duration());
+        let request = Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.accuracy) };
+        let plan = self.problem.plan(&request)?;
+        let rotation = self.rotation();
+        Error::ensure(
+            rotation <= LARGEST_ROTATION || plan.costs_the_same_at_any_time(),
+            "rotation over the span (rad)",
+            rotation,
+            "at most 1e8 for pulses, angles that count their turns and motions without a closed form",
+        )?;
+        Ok(plan)
+    }
+
+    /// Refuses a span of too many turns for what goes through all of them.
+    pub(crate) fn check_rotation(&self, outputs: &[Output]) -> Result<(), String> {
+        let rotation = self.rotation();
+        if rotation <= LARGEST_ROTATION || self.plan(outputs).is_ok() {
+            return Ok(());
+        }
+        Err(format!(
+            "[time] asks for a rotation by {rotation:.1e} rad: allowed is at most {LARGEST_ROTATION:.0e} rad, which takes \
+             minutes, for pulses, angles that count their turns and motions without a closed form; shorten the span, lower the rates \
+             or choose other columns"
+        ))
+    }
+}

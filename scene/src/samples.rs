@@ -1,0 +1,372 @@
+//! The motion of a scene at the times of its output. A long motion is computed segment by segment, so that memory does not grow with its span.
+
+use twofold::Error;
+use twofold::dynamics::{AxisState, BodyState, Problem, RotationState};
+use twofold::euler_angles::EulerAngles;
+use twofold::plan::{Counted, Method, Output, Plan, PlannedMotion, State, Work};
+use twofold::propagation::{ACCURACY_RANGE, ContinuousAngles, Motion};
+
+use crate::scene_file::Scene;
+
+/// Rotation per segment of motion that is kept in memory at a time, in rad.
+pub(crate) const ROTATION_PER_SEGMENT: f64 = 5e4;
+
+/// The motion at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Time since the start, in t_c.
+    pub since_start: f64,
+    /// State at that time, as far as the plan computes it.
+    pub state: SampledState,
+    /// The Euler angles with their turns, where the plan counts turns; none where the symmetry axis is on a pole.
+    pub angles: Option<EulerAngles<f64>>,
+    /// Estimated error, see [`Motion::error_estimate`], where it is wanted.
+    pub error_estimate: Option<f64>,
+}
+
+/// As much of a state as a plan computes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SampledState {
+    /// No motion.
+    Nothing,
+    /// Symmetry axis and angular momentum.
+    Axis(AxisState<f64>),
+    /// The whole orientation.
+    Orientation(BodyState<f64>),
+}
+
+impl Sample {
+    /// A state without angles and error estimate.
+    pub fn new(since_start: f64, state: SampledState) -> Self {
+        Self { since_start, state, angles: None, error_estimate: None }
+    }
+
+    /// Symmetry axis and angular momentum.
+    ///
+    /// # Panics
+    /// For an output that does not need them.
+    pub fn axis(&self) -> AxisState<f64> {
+        match &self.state {
+            SampledState::Axis(state) => *state,
+            SampledState::Orientation(state) => AxisState::from(state),
+            SampledState::Nothing => panic!("the output needs no state"),
+        }
+    }
+
+    /// The whole orientation.
+    ///
+    /// # Panics
+    /// For an output that does not need it.
+    pub fn orientation(&self) -> &BodyState<f64> {
+        match &self.state {
+            SampledState::Orientation(state) => state,
+            SampledState::Nothing | SampledState::Axis(_) => panic!("the output needs no orientation"),
+        }
+    }
+}
+
+/// Which errors of a motion are estimated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ErrorEstimates {
+    /// None.
+    None,
+    /// That at the end of the span.
+    AtEnd,
+    /// That of each sample.
+    OfEachSample,
+}
+
+/// The error of a motion at the end of its span, and what the motion took.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Sampled {
+    pub(crate) error: Option<ErrorAtEnd>,
+    pub(crate) work: Work,
+}
+
+/// `n` and `L` of a motion at a time.
+pub(crate) type AxisStateAt<'m> = dyn Fn(f64) -> Result<AxisState<f64>, Error> + 'm;
+
+/// Computes the motion of `scene` by `plan`. `take` is given each time of the output with the sample there, `after_segment` the motion of
+/// each segment with its first and last time, after the samples in it.
+///
+/// # Errors
+/// A motion that cannot be computed, and what `take` and `after_segment` return.
+pub(crate) fn for_each_sample<E: From<Error>>(
+    scene: &Scene,
+    plan: &Plan,
+    estimates: ErrorEstimates,
+    mut take: impl FnMut(f64, &Sample) -> Result<(), E>,
+    after_segment: impl FnMut(&AxisStateAt<'_>, f64, f64) -> Result<(), E>,
+) -> Result<Sampled, E> {
+    match plan.state {
+        State::Nothing => {
+            for time in scene.times.iter() {
+                take(time, &Sample::new(scene.since_start(time), SampledState::Nothing))?;
+            }
+            Ok(Sampled::default())
+        }
+        State::Axis | State::AxisAndMomentum => {
+            sample_segments::<AxisState<f64>, E>(scene, plan, estimates, take, after_segment)
+        }
+        State::Orientation => sample_segments::<BodyState<f64>, E>(scene, plan, estimates, take, after_segment),
+    }
+}
+
+fn sample_segments<X: SegmentState, E: From<Error>>(
+    scene: &Scene,
+    plan: &Plan,
+    estimates: ErrorEstimates,
+    mut take: impl FnMut(f64, &Sample) -> Result<(), E>,
+    mut after_segment: impl FnMut(&AxisStateAt<'_>, f64, f64) -> Result<(), E>,
+) -> Result<Sampled, E> {
+    let counts_turns = plan.outputs.contains(&Output::EulerAngles);
+    let mut times = scene.times.iter().peekable();
+    let mut segments = Segments::<X>::new(scene, plan)?;
+    let mut start_angles = scene.initial_angles;
+    let mut earlier = EarlierErrors::default();
+    let mut sampled = Sampled::default();
+    while let Some(Segment { motion, from, to, is_last }) = segments.next()? {
+        let mut angles: Angles<'_> =
+            if counts_turns { X::angles(&motion, from, &start_angles)? } else { Box::new(|_| None) };
+        while let Some(time) = times.next_if(|time| is_last || scene.since_start(*time).abs() <= to.abs()) {
+            let parts = since_start_within(scene, time, from, to);
+            let t = parts[0];
+            let error = || earlier.at(t, scene.turning_rate()) + motion.error_estimate(t);
+            let error_estimate = (estimates == ErrorEstimates::OfEachSample).then(error);
+            let (state, angles) = (X::sampled(&motion, parts)?, angles(t));
+            take(time, &Sample { since_start: t, state, angles, error_estimate })?;
+        }
+        if counts_turns && !is_last {
+            start_angles = angles(to).unwrap_or(start_angles);
+        }
+        drop(angles);
+        after_segment(&|t| motion.axis_state(t), from, to)?;
+        if estimates == ErrorEstimates::OfEachSample && !is_last && !segments.method.is_closed_form() {
+            earlier.add(to, motion.error_estimate(to));
+        }
+        if estimates == ErrorEstimates::AtEnd && is_last {
+            sampled.error = Some(segments.error_at_end(&motion, to, plan));
+        }
+        sampled.work += motion.evaluations();
+    }
+    sampled.work += segments.work;
+    Ok(sampled)
+}
+
+/// Errors at the ends of the segments before: each grows linearly with the phase that it shifts.
+#[derive(Default)]
+struct EarlierErrors {
+    sum: f64,
+    times: f64,
+}
+
+impl EarlierErrors {
+    fn add(&mut self, time: f64, error: f64) {
+        self.sum += error;
+        self.times += error * time.abs();
+    }
+
+    fn at(&self, time: f64, rate: f64) -> f64 {
+        self.sum + rate * (self.sum * time.abs() - self.times)
+    }
+}
+
+/// The Euler angles at a time, where they exist.
+type Angles<'m> = Box<dyn FnMut(f64) -> Option<EulerAngles<f64>> + 'm>;
+
+/// A state of the segments of a motion: `n` and `L`, or the whole orientation.
+pub(crate) trait SegmentState: RotationState<f64> {
+    /// The state of a motion at the time `t[0] + t[1]`.
+    fn sampled(motion: &Counted<PlannedMotion<Self>>, t: [f64; 2]) -> Result<SampledState, Error>;
+
+    /// The Euler angles with their turns from the time `from`, where they are `start`; none where they do not exist.
+    ///
+    /// # Errors
+    /// A time outside the motion.
+    fn angles<'m>(
+        motion: &'m Counted<PlannedMotion<Self>>,
+        from: f64,
+        start: &EulerAngles<f64>,
+    ) -> Result<Angles<'m>, Error>;
+}
+
+impl SegmentState for AxisState<f64> {
+    fn sampled(motion: &Counted<PlannedMotion<Self>>, t: [f64; 2]) -> Result<SampledState, Error> {
+        motion.axis_state_in_parts(t).map(SampledState::Axis)
+    }
+
+    fn angles<'m>(_: &'m Counted<PlannedMotion<Self>>, _: f64, _: &EulerAngles<f64>) -> Result<Angles<'m>, Error> {
+        Ok(Box::new(|_| None))
+    }
+}
+
+impl SegmentState for BodyState<f64> {
+    fn sampled(motion: &Counted<PlannedMotion<Self>>, t: [f64; 2]) -> Result<SampledState, Error> {
+        motion.state_in_parts(t).map(SampledState::Orientation)
+    }
+
+    fn angles<'m>(
+        motion: &'m Counted<PlannedMotion<Self>>,
+        from: f64,
+        start: &EulerAngles<f64>,
+    ) -> Result<Angles<'m>, Error> {
+        let mut angles = ContinuousAngles::new(motion, from, start)?;
+        Ok(Box::new(move |t| angles.at(t).ok()))
+    }
+}
+
+/// The motion of a scene over the span of a plan, segment by segment.
+pub(crate) struct Segments<'s, X> {
+    scene: &'s Scene,
+    method: Method,
+    /// Length of the span in t_c, negative backwards.
+    total: f64,
+    count: usize,
+    next: usize,
+    from: f64,
+    /// The problem from the start of the scene.
+    problem: Problem<f64, X>,
+    /// State at the start of the next segment.
+    state: X,
+    /// Steps and right-hand sides so far.
+    pub(crate) work: Work,
+}
+
+/// Error of the components of `n`, `e_x` and of `L` in units of its size at the end of a span.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ErrorAtEnd {
+    /// Estimated from the motion, where it is one from the start.
+    Estimated(f64),
+    /// What the plan foresaw, where the motion is in segments that are not kept.
+    Foreseen(f64),
+}
+
+/// One segment; times since the start, in t_c.
+pub(crate) struct Segment<X> {
+    /// The motion from `from` to `to`.
+    pub motion: Counted<PlannedMotion<X>>,
+    /// First time; later than `to` where the span leads backwards.
+    pub from: f64,
+    /// Last time.
+    pub to: f64,
+    /// Whether the span ends here.
+    pub is_last: bool,
+}
+
+impl<'s, X: SegmentState> Segments<'s, X> {
+    /// The segments of a plan for `scene`, one at least.
+    ///
+    /// # Errors
+    /// A plan without a motion.
+    pub fn new(scene: &'s Scene, plan: &Plan) -> Result<Self, Error> {
+        Self::with_rotation(scene, plan, ROTATION_PER_SEGMENT)
+    }
+
+    /// The segments of a plan for `scene` with a rotation of at most `most` rad each.
+    pub(crate) fn with_rotation(scene: &'s Scene, plan: &Plan, most: f64) -> Result<Self, Error> {
+        let (what, why) = ("motion of the plan", "none of its outputs needs one");
+        let method = plan.method.ok_or(Error::Unsupported { what, why })?;
+        let total = plan.stretch.1;
+        let whole = plan.costs_the_same_at_any_time();
+        let count = if whole { 1 } else { (total.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize };
+        let initial = X::from_vectors(scene.problem.initial().vectors());
+        let problem = Problem::new(*scene.problem.spheroid(), *scene.problem.coefficients(), initial)?;
+        Ok(Self { scene, method, total, count, next: 0, from: 0.0, problem, state: initial, work: Work::default() })
+    }
+
+    /// Computes the next segment, if there is one.
+    ///
+    /// # Errors
+    /// A motion that cannot be computed.
+    pub fn next(&mut self) -> Result<Option<Segment<X>>, Error> {
+        if self.next == self.count {
+            return Ok(None);
+        }
+        self.next += 1;
+        let (from, to) = (self.from, self.total * (self.next as f64 / self.count as f64));
+        let motion = if self.method.is_closed_form() {
+            // From the start of the scene: nothing adds up from segment to segment.
+            self.problem.motion_by(self.method, (0.0, self.total), self.scene.accuracy)?
+        } else {
+            let problem = self.problem.starting_from(self.state)?;
+            let motion = problem.motion_by(self.method, (from, to), self.share_of_accuracy(to - from))?;
+            self.state = motion.state(to)?;
+            motion
+        };
+        self.work += motion.work();
+        self.from = to;
+        Ok(Some(Segment { motion: Counted::new(motion), from, to, is_last: self.next == self.count }))
+    }
+
+    /// Lets the next segment begin earlier, at a time of this one.
+    ///
+    /// # Errors
+    /// A time outside the segment.
+    pub fn resume_at(&mut self, segment: &Segment<X>, time: f64) -> Result<(), Error> {
+        self.state = segment.motion.inner().state(time)?;
+        self.from = time;
+        Ok(())
+    }
+
+    /// Error at the end.
+    fn error_at_end(&self, last: &Counted<PlannedMotion<X>>, to: f64, plan: &Plan) -> ErrorAtEnd {
+        if self.count == 1 || self.method.is_closed_form() {
+            return ErrorAtEnd::Estimated(last.error_estimate(to));
+        }
+        ErrorAtEnd::Foreseen(plan.prediction.map_or(f64::NAN, |prediction| prediction.truncation + prediction.rounding))
+    }
+
+    /// The part of the scene's accuracy that a segment may use up, so that the truncation per unit of time is that of one
+    /// motion over the whole span: an error of time `t` grows with the rotation from `t` on.
+    fn share_of_accuracy(&self, length: f64) -> f64 {
+        let growth = |duration: f64| duration.abs() * (1.0 + self.scene.turning_rate() * duration.abs() / 2.0);
+        if self.total == 0.0 {
+            return self.scene.accuracy;
+        }
+        // Rounding may pass by both ends of what a motion takes.
+        (self.scene.accuracy * growth(length) / growth(self.total)).clamp(ACCURACY_RANGE.0, ACCURACY_RANGE.1)
+    }
+}
+
+/// A time of the output as time since the start, in t_c, in two doubles; kept within a segment, whose ends rounding may pass by.
+fn since_start_within(scene: &Scene, time: f64, from: f64, to: f64) -> [f64; 2] {
+    let parts = scene.since_start_in_parts(time);
+    let t = parts[0].clamp(from.min(to), from.max(to));
+    if t == parts[0] { parts } else { [t, 0.0] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An error of the time `t` grows to `1 + rate (end - t)` times itself by the end. All of the segments together are to stay below the accuracy.
+    #[test]
+    fn the_errors_of_all_segments_are_within_the_accuracy() {
+        let mut scene = Scene::named("tp-2").unwrap();
+        scene.accuracy = 1e-8;
+        scene.choose_method("taylor").unwrap();
+        scene.choose_columns(&["e_z"]).unwrap();
+        let plan = scene.plan(&scene.columns).unwrap();
+        let rate = scene.turning_rate();
+        let end = plan.stretch.1;
+        let mut segments = Segments::<AxisState<f64>>::with_rotation(&scene, &plan, rate * end / 20.5).unwrap();
+        let (mut sum, mut count) = (0.0, 0);
+        while let Some(segment) = segments.next().unwrap() {
+            sum += segment.motion.error_estimate(segment.to) * (1.0 + rate * (end - segment.to));
+            count += 1;
+        }
+        assert_eq!(count, 21);
+        assert!(sum < scene.accuracy, "{sum:e}");
+    }
+
+    #[test]
+    fn each_earlier_error_grows_with_the_rotation_since() {
+        for sense in [1.0, -1.0] {
+            let mut earlier = EarlierErrors::default();
+            let errors = [(2.0, 1e-9), (5.0, 3e-9)];
+            errors.iter().for_each(|(time, error)| earlier.add(sense * time, *error));
+            let expected: f64 = errors.map(|(time, error)| error * (1.0 + 1.5 * (8.0 - time))).iter().sum();
+            assert!((earlier.at(sense * 8.0, 1.5) / expected - 1.0).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,349 @@
+//! The sections that set the motion and the units of the file: `[star]`, `[lorentz_violation]` and `[initial]`.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::Matrix3;
+use twofold::Error;
+use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::euler_angles::{EulerAngles, EulerRates};
+use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_preferred_frame, principal_frame};
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
+use twofold::star::potential_coefficients::potential_coefficients;
+use twofold::star::spheroid_shape::SpheroidShape;
+use twofold::star::uniform_spheroid::UniformSpheroid;
+use twofold::units::geometrised::{CENTIMETRE, ERG, GRAM, GRAM_PER_CUBIC_CENTIMETRE, KILOMETRE, SOLAR_MASS};
+use twofold::units::si::GRAM_SQUARE_CENTIMETRE;
+
+use super::document::{Entry, Fault, Section};
+
+/// Units of a scene file and of its output: those of the paper, or seconds and cgs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Units {
+    /// `t_c` in the unit of time.
+    pub time: f64,
+    /// `I^xx / t_c` in the unit of angular momentum.
+    pub momentum: f64,
+    /// `C` in the unit of energy.
+    pub energy: f64,
+    /// Name of the unit of time.
+    pub time_name: &'static str,
+    /// Name of the unit of angular momentum.
+    pub momentum_name: &'static str,
+    /// Name of the unit of energy.
+    pub energy_name: &'static str,
+}
+
+impl Units {
+    /// `I^xx = C = 1`.
+    pub const PAPER: Self =
+        Self { time: 1.0, momentum: 1.0, energy: 1.0, time_name: "t_c", momentum_name: "I_xx/t_c", energy_name: "C" };
+
+    /// `I^xx` of a physical star in kg m^2.
+    pub fn inertia_in_si(&self) -> f64 {
+        self.momentum * self.time * GRAM_SQUARE_CENTIMETRE
+    }
+
+    /// Whether these are seconds and cgs.
+    pub fn are_physical(&self) -> bool {
+        self.time_name == "s"
+    }
+}
+
+pub(super) struct Star {
+    /// In units of `I^xx` and `C`.
+    pub(super) spheroid: RigidSpheroid<f64>,
+    /// `Omega^z` in 1/t_c.
+    pub(super) spin: f64,
+    pub(super) units: Units,
+}
+
+/// The star, and a sentence if it spins faster than gravity can hold it.
+pub(super) fn read_star(section: &Section<'_>) -> Result<(Star, Option<String>), Fault> {
+    section.only(&["inertia_ratio", "spin", "mass", "radius", "density", "oblateness", "spin_frequency"])?;
+    for physical in ["mass", "radius", "density", "oblateness", "spin_frequency"] {
+        section.not_both(&[("inertia_ratio", physical), ("spin", physical)])?;
+    }
+    section.not_both(&[("radius", "density")])?;
+    if section.has("inertia_ratio") || section.has("spin") {
+        Ok((in_units_of_tc(section)?, None))
+    } else {
+        physical(section)
+    }
+}
+
+fn in_units_of_tc(section: &Section<'_>) -> Result<Star, Fault> {
+    let ratio = section
+        .required("inertia_ratio", "I^zz / I^xx")?
+        .number_in("from 1e-3 to 2: I^zz <= I^xx + I^yy for any distribution of mass", 1e-3..=2.0)?;
+    let spin = section.required("spin", "Omega^z in 1/t_c")?.number()?;
+    Ok(Star { spheroid: RigidSpheroid::in_units_of_tc(ratio), spin, units: Units::PAPER })
+}
+
+fn physical(section: &Section<'_>) -> Result<(Star, Option<String>), Fault> {
+    let mass = section
+        .required("mass", "in solar masses; or `star.inertia_ratio` and `star.spin` for the paper's units")?
+        .number_in("a mass from 1e-3 to 1e3 [solar masses]", 1e-3..=1e3)?;
+    let oblateness = section
+        .required("oblateness", "(I^zz - I^xx) / I^xx")?
+        .number_in("from 1e-15 to 0.99: an oblate star, for which C is above zero", 1e-15..=0.99)?;
+    let spin_entry = section.required("spin_frequency", "Omega^z / (2 pi) [Hz]")?;
+    let frequency = spin_entry.number_in("from -1e5 to 1e5 [Hz]", -1e5..=1e5)?;
+    // Geometrised units (G = c = 1, base second) inside, cgs outside.
+    let mean_radius = match (section.optional("radius"), section.optional("density")) {
+        (Some(radius), _) => radius.number_in("a radius from 1 to 1e7 [km]", 1.0..=1e7)? * KILOMETRE,
+        (None, Some(density)) => {
+            let density = density.number_in("a density from 1e-6 to 1e17 [g/cm^3]", 1e-6..=1e17)?;
+            (mass * SOLAR_MASS * 0.75 / (PI * density * GRAM_PER_CUBIC_CENTIMETRE)).cbrt()
+        }
+        (None, None) => return Err(section.missing("`star.radius` [km] or `star.density` [g/cm^3]")),
+    };
+    if mean_radius <= 2.0 * mass * SOLAR_MASS {
+        let horizon = 2.0 * mass * SOLAR_MASS / KILOMETRE;
+        return Err(section.fault(format!(
+            "[star] has a mean radius of {:.3} km: allowed is above 2 G M / c^2 = {horizon:.3} km",
+            mean_radius / KILOMETRE
+        )));
+    }
+    let refused = |error: Error| section.fault(format!("[star] is not a uniform oblate spheroid: {error}"));
+    let shape = SpheroidShape::from_oblateness(oblateness).map_err(refused)?;
+    let body = UniformSpheroid::from_mass(mass * SOLAR_MASS, mean_radius, shape).map_err(refused)?;
+    let time = body.time_unit().map_err(refused)?;
+    let inertia = body.moment_of_inertia();
+    let break_up = break_up_frequency(&body);
+    let caution = (frequency.abs() > break_up).then(|| {
+        let why = format!(
+            "above {break_up:.4} Hz gravity does not hold the matter at the equator of this star (break-up); the model, a rigid body, \
+             takes any spin"
+        );
+        spin_entry.refuse_because(&why).message
+    });
+    let star = Star {
+        spheroid: RigidSpheroid::in_units_of_tc(1.0 + oblateness),
+        spin: TAU * frequency * time,
+        units: Units {
+            time,
+            momentum: inertia.xx / (GRAM * CENTIMETRE * CENTIMETRE) / time,
+            energy: body.c() / ERG,
+            time_name: "s",
+            momentum_name: "g cm^2/s",
+            energy_name: "erg",
+        },
+    };
+    Ok((star, caution))
+}
+
+/// Rotation frequency (Hz) at which the centrifugal acceleration at the equator of a uniform spheroid, `Omega^2 a1`, is that of
+/// gravity, by Eq. (73) `2 pi rho A_1 a1`: `Omega^2 = 2 pi rho A_1`, for a sphere `M / R^3`. Newtonian.
+fn break_up_frequency(body: &UniformSpheroid<f64>) -> f64 {
+    (TAU * body.density * potential_coefficients(&body.shape).a1).sqrt() / TAU
+}
+
+/// `s^IJ` in the inertial frame of the file, and its principal frame.
+pub(super) struct Violation {
+    pub(super) tensor: Matrix3<f64>,
+    pub(super) coefficients: PrincipalCoefficients<f64>,
+    /// Rows: principal axes X, Y, Z in the frame of the file.
+    pub(super) principal_from_given: Matrix3<f64>,
+}
+
+const COEFFICIENT: &str = "a number from -1 to 1: the violation is small";
+
+pub(super) fn read_violation(section: &Section<'_>) -> Result<Violation, Fault> {
+    section.only(&["eigenvalues", "tensor", "alpha_2", "w"])?;
+    section.not_both(&[
+        ("eigenvalues", "tensor"),
+        ("eigenvalues", "alpha_2"),
+        ("eigenvalues", "w"),
+        ("tensor", "alpha_2"),
+        ("tensor", "w"),
+    ])?;
+    if let Some(entry) = section.optional("eigenvalues") {
+        eigenvalues(&entry)
+    } else if let Some(entry) = section.optional("tensor") {
+        tensor(&entry)
+    } else if section.has("alpha_2") || section.has("w") {
+        preferred_frame(section)
+    } else {
+        Err(section.missing(
+            "`lorentz_violation.eigenvalues`, `lorentz_violation.tensor`, or `lorentz_violation.alpha_2` with \
+             `lorentz_violation.w`",
+        ))
+    }
+}
+
+fn eigenvalues(entry: &Entry<'_>) -> Result<Violation, Fault> {
+    let values = coefficients(entry, "a list of three numbers, [s^XX, s^YY, s^ZZ]")?;
+    let coefficients = PrincipalCoefficients::new(values);
+    Ok(Violation { tensor: coefficients.tensor(), coefficients, principal_from_given: Matrix3::identity() })
+}
+
+fn tensor(entry: &Entry<'_>) -> Result<Violation, Fault> {
+    let allowed = "three rows of three numbers, symmetric";
+    let rows = entry.list(allowed)?;
+    if rows.len() != 3 {
+        return Err(entry.refuse(allowed));
+    }
+    let mut tensor = Matrix3::zeros();
+    for (i, row) in rows.iter().enumerate() {
+        for (j, value) in coefficients(row, "a row of three numbers")?.into_iter().enumerate() {
+            tensor[(i, j)] = value;
+        }
+    }
+    let frame = principal_frame(&tensor).map_err(|error| entry.refuse(&format!("{allowed} ({error})")))?;
+    Ok(Violation { tensor, coefficients: frame.coefficients, principal_from_given: frame.principal_from_given })
+}
+
+/// Eq. (5) `[replace]`. The principal axis Z is along `w`; X and Y are any two normal to it.
+fn preferred_frame(section: &Section<'_>) -> Result<Violation, Fault> {
+    let alpha_2_entry = section.required("alpha_2", "the PPN parameter")?;
+    let alpha_2 = alpha_2_entry.number()?;
+    let w_entry = section.required("w", "velocity relative to the preferred frame, three numbers in units of c")?;
+    let allowed = "three numbers, in units of c, with 0 < |w| < 1";
+    let w = w_entry.vector(allowed)?;
+    let speed = w.norm();
+    if !(speed > 0.0 && speed < 1.0) {
+        return Err(w_entry.refuse(allowed));
+    }
+    let largest = alpha_2 * speed * speed;
+    if largest.is_nan() || largest.abs() > 1.0 {
+        return Err(alpha_2_entry.refuse("a number with |alpha_2| |w|^2 <= 1: the violation is small"));
+    }
+    let z = w / speed;
+    let x = z.cross(&Matrix3::identity().column(z.iamin())).normalize();
+    let y = z.cross(&x);
+    Ok(Violation {
+        tensor: coefficients_from_preferred_frame(alpha_2, &w),
+        coefficients: PrincipalCoefficients::new([0.0, 0.0, -largest]),
+        principal_from_given: Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]),
+    })
+}
+
+fn coefficients(entry: &Entry<'_>, allowed: &str) -> Result<[f64; 3], Fault> {
+    let entries = entry.list(allowed)?;
+    let [x, y, z] = entries.as_slice() else { return Err(entry.refuse(allowed)) };
+    let read = |entry: &Entry<'_>| entry.number_in(COEFFICIENT, -1.0..=1.0);
+    Ok([read(x)?, read(y)?, read(z)?])
+}
+
+const ANGLES: [&str; 4] = ["alpha", "beta", "alpha_rate", "beta_rate"];
+const CONSTANTS: [&str; 5] = ["kind", "alpha_0", "beta_0", "amplitude", "phase"];
+
+/// The start of a motion in the paper's units.
+pub(super) struct Initial {
+    /// State in the frame of the file.
+    pub(super) state: BodyState<f64>,
+    /// Its Euler angles.
+    pub(super) angles: EulerAngles<f64>,
+    /// The printed perturbation solution in the same frame, time from the start, or why there is none.
+    pub(super) perturbation: Result<Perturbation<f64>, &'static str>,
+}
+
+pub(super) fn read_initial(section: &Section<'_>, star: &Star, violation: &Violation) -> Result<Initial, Fault> {
+    section.only(&[&ANGLES[..2], &["gamma"], &ANGLES[2..], &CONSTANTS].concat())?;
+    let Some(constant) = CONSTANTS.iter().find(|key| section.has(key)) else { return from_angles(section, star) };
+    section.not_both(&ANGLES.map(|angle| (*constant, angle)))?;
+    from_constants(section, star, violation)
+}
+
+fn from_angles(section: &Section<'_>, star: &Star) -> Result<Initial, Fault> {
+    let angles = EulerAngles {
+        alpha: section
+            .required("alpha", "precession angle [rad], or `initial.kind` for the paper's constants")?
+            .angle()?,
+        beta: section
+            .required("beta", "inclination of the symmetry axis to Z [rad]")?
+            .number_in("an angle from 0 to pi [rad]", 0.0..=PI)?,
+        gamma: gamma(section)?,
+    };
+    let per_tc = star.units.time;
+    let alpha_rate = section.required("alpha_rate", "rate of alpha")?.number()? * per_tc;
+    let beta_rate = section.required("beta_rate", "rate of beta")?.number()? * per_tc;
+    let rates = rates(star, &angles, alpha_rate, beta_rate);
+    let state = BodyState::from_angles(&star.spheroid, &angles, &rates);
+    refuse_overflow(section, &state)?;
+    Ok(Initial { state, angles, perturbation: Err("[initial] gives angles and no constants (`initial.kind`)") })
+}
+
+fn from_constants(section: &Section<'_>, star: &Star, violation: &Violation) -> Result<Initial, Fault> {
+    let kind_entry = section.required("kind", "\"twofold\" or \"single\"")?;
+    let kind = match kind_entry.word(&["twofold", "single"])? {
+        "twofold" => Precession::Twofold,
+        _ => Precession::Single,
+    };
+    if star.spin == 0.0 {
+        return Err(
+            kind_entry.refuse("the paper's constants only with a spin that is not zero: Eq. (34) divides by it")
+        );
+    }
+    let beta_entry = section.required("beta_0", "mean inclination [rad]")?;
+    let beta_0 = beta_entry
+        .number_where("an angle above 0 and below pi [rad]: Eq. (34) divides by sin(beta_0)", |x| {
+            x > 0.0 && x < PI && x.sin() > f64::EPSILON
+        })?;
+    if kind == Precession::Twofold && beta_0.cos().abs() < 1e-12 {
+        return Err(beta_entry.refuse("not pi/2 for kind \"twofold\": its rate is omega / cos(beta_0)"));
+    }
+    let constants = Constants {
+        alpha_0: section.required("alpha_0", "mean precession angle at the start [rad]")?.angle()?,
+        beta_0,
+        amplitude: section.required("amplitude", "A, a rate")?.number()? * star.units.time,
+        phase: section.required("phase", "phi [rad]")?.angle()?,
+    };
+    let printed =
+        Perturbation::new(Form::Printed, kind, &star.spheroid, &violation.coefficients, star.spin, &constants)
+            .map_err(|error| section.fault(format!("[initial] has no solution: {error}")))?;
+    let start = printed.at(0.0);
+    if !(0.0..=PI).contains(&start.beta) {
+        return Err(section.fault(format!(
+            "[initial] gives an inclination beta = {} rad by Eq. (34): allowed is from 0 to pi; the perturbation solution \
+             does not describe such a motion",
+            start.beta
+        )));
+    }
+    let principal = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: gamma(section)? };
+    let rates = rates(star, &principal, start.alpha_rate, start.beta_rate);
+    let state = BodyState::from_angles(&star.spheroid, &principal, &rates);
+    refuse_overflow(section, &state)?;
+    if violation.principal_from_given.is_identity(0.0) {
+        return Ok(Initial { state, angles: principal, perturbation: Ok(printed) });
+    }
+    let state = state.rotated(&violation.principal_from_given.transpose());
+    let angles = state.angles().unwrap_or(EulerAngles { alpha: 0.0, beta: state.axis.z.acos(), gamma: 0.0 });
+    let perturbation = Err("its angles are those of the principal frame, which is not the frame of this file");
+    Ok(Initial { state, angles, perturbation })
+}
+
+/// Rates with `gamma' = Omega^z - alpha' cos(beta)`, Eq. (24) `[firstint]`.
+fn rates(star: &Star, angles: &EulerAngles<f64>, alpha: f64, beta: f64) -> EulerRates<f64> {
+    EulerRates { alpha, beta, gamma: star.spin - alpha * angles.beta.cos() }
+}
+
+fn gamma(section: &Section<'_>) -> Result<f64, Fault> {
+    section.optional("gamma").map_or(Ok(0.0), |entry| entry.angle())
+}
+
+fn refuse_overflow(section: &Section<'_>, state: &BodyState<f64>) -> Result<(), Fault> {
+    if state.momentum.norm_squared().is_finite() {
+        return Ok(());
+    }
+    Err(section.fault("[initial] gives an angular momentum beyond double precision: allowed are smaller rates"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// For a sphere of 1.4 solar masses and 12 km, sqrt(G M / R^3) / (2 pi) with SI values; a flatter star of the same mean radius has
+    /// its equator farther out, and is held less.
+    #[test]
+    fn the_break_up_frequency_is_that_of_an_orbit_at_the_equator() {
+        let of = |oblateness: f64| {
+            let shape = SpheroidShape::from_oblateness(oblateness).expect("a shape");
+            break_up_frequency(&UniformSpheroid::from_mass(1.4 * SOLAR_MASS, 12.0 * KILOMETRE, shape).expect("a star"))
+        };
+        let expected = (6.674_3e-11 * 1.4 * 1.988_41e30 / 1.2e4_f64.powi(3)).sqrt() / TAU;
+        assert!((of(1e-12) / expected - 1.0).abs() < 1e-4, "{} {expected}", of(1e-12));
+        // To first order A_1 = 2/3 - 2 e^2 / 15 and e^2 = 2 eps: f = f_0 (1 - eps / 5), at fixed mass and mean radius.
+        assert!(((1.0 - of(1e-4) / of(1e-12)) / 1e-4 - 0.2).abs() < 1e-3, "{}", (1.0 - of(1e-4) / of(1e-12)) / 1e-4);
+    }
+}

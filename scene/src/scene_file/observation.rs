@@ -1,0 +1,437 @@
+//! The sections that say what is observed: `[observer]`, `[pulsar]`, `[time]` and `[output]`.
+
+use std::f64::consts::PI;
+
+use twofold::epoch::{DAY, Epoch};
+use twofold::observables::Observer;
+use twofold::observables::pulsar::Beam;
+use twofold::plan::{Method, Output};
+use twofold::units::JULIAN_YEAR;
+use twofold::units::si::KILOPARSEC;
+
+use super::Scene;
+use super::document::{Entry, Fault, Section, did_you_mean, listed};
+use super::motion::Units;
+
+/// Direction and distance of the observer, in the inertial frame of the scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Viewer {
+    /// Colatitude `theta_o` (rad).
+    pub theta_o: f64,
+    /// Azimuth `phi_o` (rad).
+    pub phi_o: f64,
+    /// Distance of a physical star in m, where given.
+    pub distance: Option<f64>,
+}
+
+impl Viewer {
+    /// The direction to the observer and the basis normal to it, Eqs. (46), (70).
+    pub fn basis(&self) -> Observer<f64> {
+        Observer::at(self.theta_o, self.phi_o)
+    }
+}
+
+/// The radiation of a scene's star.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pulsar {
+    /// Angle `chi` of the magnetic axis to the symmetry axis (rad).
+    pub chi: f64,
+    /// Azimuth `delta` of the magnetic axis in the body (rad).
+    pub delta: f64,
+    /// Semi-open angle `rho` of the beam (rad).
+    pub rho: f64,
+    /// Whether the pulses of the opposite beam are wanted too.
+    pub second_beam: bool,
+}
+
+impl Pulsar {
+    /// The beam about the magnetic axis, Eq. (45).
+    pub fn beam(&self) -> Beam<f64> {
+        Beam::new(self.chi, self.delta, self.rho)
+    }
+}
+
+/// A pulsar in the catalogues.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Catalogued {
+    /// Name.
+    pub name: String,
+    /// Right ascension (J2000), as `19:39:38.56`, and declination, as `+21:34:59.1`.
+    pub position: Option<(String, String)>,
+}
+
+pub(super) fn read_observer(section: &Section<'_>, units: &Units) -> Result<Viewer, Fault> {
+    section.only(&["theta_o", "phi_o", "distance"])?;
+    let theta_o = section
+        .required("theta_o", "colatitude of the observer [rad]")?
+        .number_in("an angle from 0 to pi [rad]", 0.0..=PI)?;
+    let phi_o = section.required("phi_o", "azimuth of the observer [rad]")?.angle()?;
+    let distance = match section.optional("distance") {
+        Some(entry) if !units.are_physical() => {
+            return Err(entry.refuse("a distance only for a physical star: in the paper's units h is that at r = 1"));
+        }
+        Some(entry) => Some(entry.number_in("a distance from 1e-6 to 1e8 [kpc]", 1e-6..=1e8)? * KILOPARSEC),
+        None => None,
+    };
+    Ok(Viewer { theta_o, phi_o, distance })
+}
+
+pub(super) fn read_pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
+    section.only(&["chi", "delta", "rho", "second_beam", "name", "right_ascension", "declination"])?;
+    Ok(Pulsar {
+        chi: section
+            .required("chi", "angle of the magnetic axis to the symmetry axis [rad]")?
+            .number_in("an angle from 0 to pi [rad]", 0.0..=PI)?,
+        delta: section.optional("delta").map_or(Ok(0.0), |entry| entry.angle())?,
+        rho: section
+            .required("rho", "semi-open angle of the beam [rad]")?
+            .number_where("an angle above 0 and below pi [rad]", |x| x > 0.0 && x < PI)?,
+        second_beam: section.optional("second_beam").map_or(Ok(false), |entry| entry.boolean())?,
+    })
+}
+
+pub(super) fn read_catalogued(section: &Section<'_>) -> Result<Option<Catalogued>, Fault> {
+    let Some(name) = section.optional("name") else { return Ok(None) };
+    let is_name = |name: &str| !name.is_empty() && name.chars().all(|c| c.is_ascii_graphic());
+    if !is_name(name.string()?) {
+        return Err(name.refuse("a name without spaces"));
+    }
+    let position = match (section.optional("right_ascension"), section.optional("declination")) {
+        (None, None) => None,
+        (Some(_), None) => return Err(section.missing("`pulsar.declination` beside `pulsar.right_ascension`")),
+        (None, Some(_)) => return Err(section.missing("`pulsar.right_ascension` beside `pulsar.declination`")),
+        (Some(ascension), Some(declination)) => {
+            if !is_sexagesimal(ascension.string()?, 24) {
+                return Err(ascension.refuse("hours, minutes and seconds as \"19:39:38.56\""));
+            }
+            let angle = declination.string()?;
+            if !is_sexagesimal(angle.strip_prefix(['+', '-']).unwrap_or(angle), 90) {
+                return Err(declination.refuse("degrees, minutes and seconds as \"+21:34:59.1\""));
+            }
+            Some((ascension.string()?.to_owned(), angle.to_owned()))
+        }
+    };
+    Ok(Some(Catalogued { name: name.string()?.to_owned(), position }))
+}
+
+/// Whether a text is a whole number up to `most`, minutes and decimal seconds.
+fn is_sexagesimal(text: &str, most: u8) -> bool {
+    let parts: Vec<_> = text.split(':').collect();
+    let [whole, minutes, seconds] = parts[..] else { return false };
+    let plain = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+    let below = |part: &str| plain(part) && part.parse::<f64>().is_ok_and(|x| x < 60.0);
+    whole.parse::<u8>().is_ok_and(|x| x <= most) && minutes.len() == 2 && below(minutes) && below(seconds)
+}
+
+/// Most rows of output.
+pub(crate) const MOST_SAMPLES: usize = 10_000_000;
+
+/// Times of the output, strictly increasing or strictly decreasing, in units of the output.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Times {
+    /// Equally spaced, both ends included.
+    Even {
+        /// First time; the initial values hold there.
+        start: f64,
+        /// Last time.
+        end: f64,
+        /// Number of times, at least two.
+        samples: usize,
+    },
+    /// As listed.
+    Listed {
+        /// Time at which the initial values hold.
+        start: f64,
+        /// Times, leading away from `start`.
+        times: Vec<f64>,
+    },
+}
+
+impl Times {
+    /// Time at which the initial values hold.
+    pub fn start(&self) -> f64 {
+        match self {
+            Times::Even { start, .. } | Times::Listed { start, .. } => *start,
+        }
+    }
+
+    /// Last time.
+    pub fn last(&self) -> f64 {
+        match self {
+            Times::Even { end, .. } => *end,
+            Times::Listed { times, .. } => times[times.len() - 1],
+        }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        match self {
+            Times::Even { samples, .. } => *samples,
+            Times::Listed { times, .. } => times.len(),
+        }
+    }
+
+    /// All times in order.
+    pub fn iter(&self) -> Box<dyn Iterator<Item = f64> + '_> {
+        match self {
+            Times::Even { start, end, samples } => {
+                let (start, end, last) = (*start, *end, *samples - 1);
+                Box::new((0..=last).map(move |i| {
+                    let part = i as f64 / last as f64;
+                    if i == last { end } else { start + (end - start) * part }
+                }))
+            }
+            Times::Listed { times, .. } => Box::new(times.iter().copied()),
+        }
+    }
+}
+
+/// Reads the section `[time]` of a scene: it may have an epoch and, for a physical star, a span in years.
+pub(super) fn read_time(section: &Section<'_>, units: &Units) -> Result<Times, Fault> {
+    section.only(&["epoch", "start", "years", "span", "end", "samples", "times"])?;
+    let Some(years) = section.optional("years") else { return read_times(section) };
+    section.not_both(&[("span", "years"), ("end", "years"), ("times", "years")])?;
+    if !units.are_physical() {
+        return Err(years.refuse("a span in years only for a physical star; `time.span` is in t_c"));
+    }
+    let start = section.number_or("start", 0.0)?;
+    let span =
+        years.number_where("a number of Julian years from -1e6 to 1e6, not zero", |x| x != 0.0 && x.abs() <= 1e6)?;
+    Ok(Times::Even { start, end: start + span * JULIAN_YEAR, samples: samples(section)? })
+}
+
+/// The epoch of the start, a modified Julian date, a number or a string with all its digits; and a sentence if it looks like another
+/// kind of date.
+pub(super) fn read_epoch(
+    section: &Section<'_>,
+    units: &Units,
+    times: &Times,
+) -> Result<Option<(Epoch, Option<String>)>, Fault> {
+    let Some(entry) = section.optional("epoch") else { return Ok(None) };
+    if !units.are_physical() {
+        return Err(entry.refuse("an epoch only for a physical star, whose times are in seconds"));
+    }
+    let allowed = "a modified Julian date from 0 to 1e7, as 55321.25 or in quotes with more digits";
+    let text = if entry.is_string() { entry.string()?.to_owned() } else { entry.number()?.to_string() };
+    let epoch: Epoch = text.parse().map_err(|_| entry.refuse(allowed))?;
+    let span = times.last() - times.start();
+    if epoch.after([span, 0.0]).is_err() {
+        let days = span / DAY;
+        return Err(section.fault(format!(
+            "[time] ends {days:.3e} days from its epoch: allowed beside `time.epoch` are at most 1e9 days, either way"
+        )));
+    }
+    let caution = like_julian_date(&epoch).map(|why| entry.refuse_because(&why).message);
+    Ok(Some((epoch, caution)))
+}
+
+/// A sentence about an epoch that is a date of our time if it is meant as a Julian date.
+pub fn like_julian_date(epoch: &Epoch) -> Option<String> {
+    // The years 1858 to 2132.
+    if !(2_400_000..2_500_000).contains(&epoch.day()) {
+        return None;
+    }
+    // MJD = JD - 2400000.5.
+    let meant = Epoch::new(epoch.day() - 2_400_001, epoch.fraction() + 0.5).ok()?;
+    let year = 1858.9 + epoch.day() as f64 / 365.2425;
+    Some(format!(
+        "looks like a Julian date; a modified Julian date is asked for, and this one is in the year {year:.0}. If {meant} is meant, \
+         write that"
+    ))
+}
+
+/// Times in equal steps, or as listed.
+pub(crate) fn read_times(section: &Section<'_>) -> Result<Times, Fault> {
+    section.not_both(&[("span", "end"), ("times", "span"), ("times", "end"), ("times", "samples")])?;
+    let start = section.number_or("start", 0.0)?;
+    if section.has("times") { listed_times(section, start) } else { even_times(section, start) }
+}
+
+/// The end of the span, with the entry that gives it.
+pub(crate) fn read_end<'a>(section: &Section<'a>, start: f64) -> Result<(f64, Entry<'a>), Fault> {
+    match (section.optional("span"), section.optional("end")) {
+        (Some(span), _) => Ok((start + span.number_where("any number except zero", |x| x != 0.0)?, span)),
+        (None, Some(end)) => Ok((end.number_where("any number except `time.start`", |x| x != start)?, end)),
+        (None, None) => Err(section.missing("one of `time.span`, `time.end` and `time.times`")),
+    }
+}
+
+fn samples(section: &Section<'_>) -> Result<usize, Fault> {
+    section.required("samples", "number of rows, both ends included")?.whole_number(2, MOST_SAMPLES)
+}
+
+fn even_times(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
+    let (end, entry) = read_end(section, start)?;
+    let samples = samples(section)?;
+    // Rows must differ in time: a span that is lost in the rounding of its ends has no even spacing.
+    let spacing = (end - start).abs() / (samples - 1) as f64;
+    if !(spacing.is_finite() && spacing > 4.0 * f64::EPSILON * start.abs().max(end.abs())) {
+        return Err(entry.refuse("a span whose samples differ from one another in double precision"));
+    }
+    Ok(Times::Even { start, end, samples })
+}
+
+fn listed_times(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
+    let allowed = "a list of 1 to 10000000 numbers, strictly increasing or strictly decreasing away from `time.start`";
+    let list = section.required("times", "times of the rows")?;
+    let entries = list.list(allowed)?;
+    if entries.is_empty() || entries.len() > MOST_SAMPLES {
+        return Err(list.refuse(allowed));
+    }
+    let times = entries.iter().map(|entry| entry.number()).collect::<Result<Vec<_>, _>>()?;
+    let backwards = times[times.len() - 1] < start;
+    let mut previous = start;
+    for (i, (&time, entry)) in times.iter().zip(&entries).enumerate() {
+        let onward = if backwards { time < previous } else { time > previous };
+        if !(onward || (i == 0 && time == start)) {
+            return Err(entry.refuse("times strictly increasing or strictly decreasing away from `time.start`"));
+        }
+        previous = time;
+    }
+    Ok(Times::Listed { start, times })
+}
+
+pub(super) const DEFAULT_ACCURACY: f64 = 1e-13;
+
+/// The groups of columns that a table can have, in its order, by their names in a scene file. The first six are those of the motion itself,
+/// which every scene has.
+pub const COLUMN_GROUPS: [(&str, Output); 12] = [
+    ("angles", Output::EulerAngles),
+    ("rates", Output::EulerRates),
+    ("e_x", Output::EquatorialAxis),
+    ("e_z", Output::SymmetryAxis),
+    ("L", Output::AngularMomentum),
+    ("integrals", Output::FirstIntegrals),
+    ("perturbation", Output::PerturbationAngles),
+    ("lambda", Output::SpinAxisAngle),
+    ("m.n", Output::PulseProfile),
+    ("magnetic_axis", Output::MagneticAxis),
+    ("position_angle", Output::PositionAngle),
+    ("h", Output::GravitationalWave),
+];
+
+/// The columns of a scene that does not name any.
+pub(super) fn columns_of_the_motion() -> Vec<Output> {
+    COLUMN_GROUPS[..6].iter().map(|(_, output)| *output).collect()
+}
+
+/// The group of columns called `name`.
+pub fn column_group(name: &str) -> Option<Output> {
+    COLUMN_GROUPS.iter().find(|(known, _)| *known == name).map(|(_, output)| *output)
+}
+
+/// The groups `wanted` in the order of the table.
+pub(crate) fn in_table_order(wanted: &[Output]) -> Vec<Output> {
+    COLUMN_GROUPS.iter().map(|(_, output)| *output).filter(|output| wanted.contains(output)).collect()
+}
+
+/// Reads columns and accuracy into a scene that is complete otherwise. Columns that are not `used` need nothing of the
+/// scene, which keeps those it has.
+pub(super) fn read_output(section: &Section<'_>, scene: &mut Scene, used: bool) -> Result<(), Fault> {
+    section.only(&["columns", "accuracy", "method"])?;
+    read_accuracy_and_method(section, scene)?;
+    let Some(list) = section.optional("columns") else { return Ok(()) };
+    let names = COLUMN_GROUPS.map(|(name, _)| name);
+    let words = list.words(&names)?;
+    if words.is_empty() {
+        return Err(list.refuse(&format!("a list of different names out of \"{}\"", names.join("\", \""))));
+    }
+    if used {
+        scene.columns = columns_in(&words, scene)?;
+    }
+    Ok(())
+}
+
+/// The groups of columns among the words of a list, if the scene has what they are computed from.
+pub(crate) fn columns_in(words: &[(Entry<'_>, &str)], scene: &Scene) -> Result<Vec<Output>, Fault> {
+    let mut wanted = Vec::new();
+    for (entry, name) in words {
+        if let Some(output) = column_group(name) {
+            scene.has_what_is_needed_for(output).map_err(|why| entry.refuse_because(&why))?;
+            wanted.push(output);
+        }
+    }
+    Ok(in_table_order(&wanted))
+}
+
+/// Reads the keys `accuracy` and `method` into a scene, which keeps what it has where they are not given.
+pub(crate) fn read_accuracy_and_method(section: &Section<'_>, scene: &mut Scene) -> Result<(), Fault> {
+    if let Some(entry) = section.optional("accuracy") {
+        scene.accuracy = entry.number_in("a number from 1e-14 to 1e-2", 1e-14..=1e-2)?;
+    }
+    if let Some(entry) = section.optional("method") {
+        let name = entry.word(&Method::ALL.map(Method::name))?;
+        scene.choose_method(name).map_err(|why| entry.refuse_because(&why))?;
+    }
+    Ok(())
+}
+
+impl Scene {
+    /// Forces the method called `name`, in place of the cheapest one.
+    ///
+    /// # Errors
+    /// A sentence about a name that is unknown, or about why the scene does not allow the method.
+    pub fn choose_method(&mut self, name: &str) -> Result<(), String> {
+        self.method = Some(Method::named(name).ok_or_else(|| unknown(name, "method", &Method::ALL.map(Method::name)))?);
+        self.plan(&[Output::EquatorialAxis])
+            .map(|_| ())
+            .map_err(|why| format!("the scene does not allow this method: {why}"))
+    }
+
+    /// Replaces the columns by the groups called `names`.
+    ///
+    /// # Errors
+    /// A sentence about a name that is unknown or comes twice, or about a group that needs what the scene lacks.
+    pub fn choose_columns(&mut self, names: &[&str]) -> Result<(), String> {
+        let mut wanted = Vec::new();
+        for &name in names {
+            let known = COLUMN_GROUPS.map(|(name, _)| name);
+            let output = column_group(name).ok_or_else(|| unknown(name, "group of columns", &known))?;
+            if wanted.contains(&output) {
+                return Err(format!("`{name}` comes twice"));
+            }
+            self.has_what_is_needed_for(output).map_err(|why| format!("`{name}`: {why}"))?;
+            wanted.push(output);
+        }
+        if wanted.is_empty() {
+            return Err("no group of columns is named".into());
+        }
+        self.columns = in_table_order(&wanted);
+        Ok(())
+    }
+
+    /// Whether the scene has the sections that an output is computed from.
+    ///
+    /// # Errors
+    /// A sentence that says what the scene lacks.
+    pub fn has_what_is_needed_for(&self, output: Output) -> Result<(), String> {
+        let no_observer = self.observer.is_none().then(|| "the section [observer]".to_owned());
+        let no_pulsar = self.pulsar.is_none().then(|| "the section [pulsar]".to_owned());
+        let lacking = match output {
+            Output::PerturbationAngles => {
+                [self.perturbation.as_ref().err().map(|why| format!("a perturbation solution: {why}")), None]
+            }
+            Output::SpinAxisAngle => [no_observer, None],
+            Output::PulseProfile | Output::PositionAngle | Output::Pulses => [no_observer, no_pulsar],
+            Output::MagneticAxis => [no_pulsar, None],
+            Output::GravitationalWave => [
+                no_observer,
+                self.lacks_distance()
+                    .then(|| "`observer.distance` [kpc], without which a physical star has no strain".to_owned()),
+            ],
+            _ => [None, None],
+        };
+        let lacking: Vec<_> = lacking.into_iter().flatten().collect();
+        if lacking.is_empty() { Ok(()) } else { Err(format!("the scene lacks {}", lacking.join(" and "))) }
+    }
+
+    /// Whether the strain at the observer is not known.
+    fn lacks_distance(&self) -> bool {
+        self.units.are_physical() && self.observer.is_some_and(|observer| observer.distance.is_none())
+    }
+}
+
+/// `name` is none of the names known.
+fn unknown(name: &str, what: &str, known: &[&str]) -> String {
+    format!("`{name}` is no {what}; allowed are {}.{}", listed(known), did_you_mean(name, known))
+}
