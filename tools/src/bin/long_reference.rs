@@ -21,9 +21,10 @@ const STRETCH: f64 = 25_000.0;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = BenchScene::named("tp-II");
     let lift = DoubleDouble::from_f64;
-    let spheroid = scene.spheroid.map(lift);
-    let s: Matrix3<DoubleDouble> = scene.violation.map(lift);
-    let mut state = AxisState { axis: scene.initial.axis.map(lift), momentum: scene.initial.momentum.map(lift) };
+    let spheroid = scene.problem.spheroid().map(lift);
+    let s: Matrix3<DoubleDouble> = scene.problem.coefficients().map(lift);
+    let start = scene.problem.initial();
+    let mut state = AxisState { axis: start.axis.map(lift), momentum: start.momentum.map(lift) };
     let mut out = std::io::stdout().lock();
     writeln!(
         out,

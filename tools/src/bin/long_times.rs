@@ -6,7 +6,7 @@
 //! double-double numbers, along motions that they are made for.
 
 use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::numerics::scalar::{Real, Scalar};
 use twofold::propagation::{AveragedMotion, Motion, SymmetricMotion, UniformMotion};
 use twofold::solutions::averaged::AveragingOrder;
@@ -49,7 +49,7 @@ fn main() -> Result<(), Failure> {
     let scene = BenchScene::named("tp-II");
     let span = (0.0, longest);
     let mean = |order| -> Result<ErrorAt, Failure> {
-        let motion = AveragedMotion::from_parts(&scene.spheroid, &scene.violation, &scene.initial, span, order)?;
+        let motion = AveragedMotion::new(&scene.problem, span, order)?;
         Ok(Box::new(move |t| {
             let axis = motion.state(t)?.axis.map(<DoubleDouble as Scalar>::from_f64);
             let reference = references().into_iter().find(|(time, _)| *time == t).ok_or("no reference at this time")?;
@@ -105,8 +105,10 @@ fn written(exponent: Option<Slope>) -> String {
 /// tp-II's body at rest but for a spin along the third principal axis.
 fn upright() -> BenchScene {
     let mut scene = BenchScene::named("tp-II");
-    let momentum = scene.initial.momentum.norm();
-    scene.initial = BodyState { axis: Vector3::z(), momentum: Vector3::z() * momentum, equatorial_axis: Vector3::x() };
+    let (body, s, momentum) =
+        (*scene.problem.spheroid(), *scene.problem.coefficients(), scene.problem.initial().momentum.norm());
+    let start = BodyState { axis: Vector3::z(), momentum: Vector3::z() * momentum, equatorial_axis: Vector3::x() };
+    scene.problem = Problem::new(body, s, start).expect("a state");
     scene
 }
 
@@ -124,7 +126,7 @@ fn against_itself<
     make_exact: Make<DoubleDouble, D>,
 ) -> Result<ErrorAt<'a>, Failure> {
     let lift = <DoubleDouble as Scalar>::from_f64;
-    let (body, start) = (&scene.spheroid, &scene.initial);
+    let (body, start) = (scene.problem.spheroid(), scene.problem.initial());
     let exact_body = body.map(lift);
     let exact_start = BodyState {
         axis: start.axis.map(lift),
