@@ -12,7 +12,7 @@
 //! let w = Vector3::new(0.0, 0.0, 1.2e-3);
 //! let s = coefficients_from_preferred_frame(0.1_f64, &w);
 //! assert!((preferred_frame_parameter(&s, &w)? - 0.1).abs() < 1e-12);
-//! assert!(SymmetryOfTensor::of(&s)?.is_symmetric_within_rounding());
+//! assert!(SymmetryOfTensor::of(&s)?.asymmetry.norm() < 1e-20);
 //! // Descending values, and the axes they belong to.
 //! let given = PrincipalCoefficients::new([-0.04, 0.02, 0.01]).tensor();
 //! let frame = principal_frame(&given)?;

@@ -6,7 +6,7 @@
 //! use twofold::observables::wave_harmonics::WaveHarmonics;
 //! use twofold::{AxisState, Observer, RigidSpheroid};
 //!
-//! let state = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(-0.7, 0.1, 1.5) };
+//! let state = AxisState { axis: Vector3::new(0.6, 0.0, 0.8_f64), momentum: Vector3::new(-0.7, 0.1, 1.5) };
 //! let found = WaveHarmonics::of(&RigidSpheroid::in_units_of_tc(1.1), &state, &Observer::at(0.8, 0.4))?;
 //! assert!(found.wobble > 0.9 && found.twice > found.once && found.polarizations().plus.abs() < found.once + found.twice);
 //! # Ok::<(), twofold::Error>(())
