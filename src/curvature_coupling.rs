@@ -1,7 +1,5 @@
 //! The coefficients for Lorentz violation from the field that couples to the Riemann tensor in the action. Eqs. (1), (3).
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::curvature_coupling::{CurvatureTensor, coefficients_from_vacuum_value};
 //!

@@ -1,4 +1,4 @@
-//! What can go wrong at a public boundary: the quantity, its value and what is allowed.
+//! Errors: a value out of its domain, something that is not supported, or an iteration that did not converge.
 
 use core::fmt;
 
@@ -13,6 +13,13 @@ pub enum Error {
         value: f64,
         /// What is allowed, in words.
         allowed: &'static str,
+    },
+    /// Something that cannot be had where it is asked for, whatever the numbers are.
+    Unsupported {
+        /// What was asked for.
+        what: &'static str,
+        /// Why it is not there.
+        why: &'static str,
     },
     /// An iteration that did not reach its goal.
     NotConverged {
@@ -50,6 +57,7 @@ impl fmt::Display for Error {
                     write!(f, "{quantity} = {value:e}: allowed is {allowed}")
                 }
             }
+            Error::Unsupported { what, why } => write!(f, "{what}: {why}"),
             Error::NotConverged { what, iterations, residual } => {
                 write!(f, "{what}: no convergence in {iterations} iterations, residual {residual:e}")
             }

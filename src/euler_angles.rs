@@ -3,8 +3,6 @@
 //! `alpha` is the precession angle (from X to the line of nodes), `beta` the inclination of the symmetry axis to Z,
 //! `gamma` the rotation about the symmetry axis (Landau & Lifshitz, Mechanics, section 35). All in rad.
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::euler_angles::{
 //!     EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, body_rates, euler_rates, permuted_from_inertial,

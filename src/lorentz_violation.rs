@@ -1,7 +1,5 @@
 //! Coefficients for Lorentz violation `s^IJ`: principal values, principal frame, PPN replacement. Eqs. (5), (36).
 //!
-//! # Example
-//!
 //! ```
 //! use nalgebra::Vector3;
 //! use num_dual::Dual64;
@@ -14,7 +12,7 @@
 //! let w = Vector3::new(0.0, 0.0, 1.2e-3);
 //! let s = coefficients_from_preferred_frame(0.1_f64, &w);
 //! assert!((preferred_frame_parameter(&s, &w)? - 0.1).abs() < 1e-12);
-//! assert!(SymmetryOfTensor::of(&s)?.is_symmetric_within_rounding());
+//! assert!(SymmetryOfTensor::of(&s)?.asymmetry.norm() < 1e-20);
 //! // Descending values, and the axes they belong to.
 //! let given = PrincipalCoefficients::new([-0.04, 0.02, 0.01]).tensor();
 //! let frame = principal_frame(&given)?;
@@ -250,7 +248,7 @@ impl SymmetryOfTensor {
     }
 
     /// Whether what is not symmetric is below eight roundings of the tensor, to which its entries are known.
-    pub fn is_symmetric_within_rounding(&self) -> bool {
+    pub(crate) fn is_symmetric_within_rounding(&self) -> bool {
         self.asymmetry.norm() <= 8.0 * f64::EPSILON * self.size
     }
 
@@ -258,7 +256,7 @@ impl SymmetryOfTensor {
     ///
     /// # Errors
     /// [`Error::Domain`] with the part that is not symmetric.
-    pub fn refuse_asymmetry(&self) -> Result<(), Error> {
+    pub(crate) fn refuse_asymmetry(&self) -> Result<(), Error> {
         Error::ensure(
             self.is_symmetric_within_rounding(),
             "part of s^IJ without symmetry about an axis, relative",

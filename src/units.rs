@@ -9,15 +9,7 @@
 //! assert!((density / 6.6743e7 - 1.0).abs() < 1e-12);
 //! let compactness = (1.4 * SOLAR_MASS) / (10.0 * KILOMETRE); // dimensionless
 //! assert!((compactness - 0.2067).abs() < 1e-4);
-//! ```
-//!
-//! # Example
-//!
-//! ```
-//! use twofold::units::TimeUnit;
-//!
-//! let unit = TimeUnit::new(4.0_f64)?;
-//! assert_eq!((unit.seconds(), unit.in_seconds(3.0), unit.in_t_c(6.0)), (2.0, 6.0, 3.0));
+//! assert_eq!(twofold::units::time_unit(4.0)?, 2.0);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
@@ -95,50 +87,17 @@ pub mod geometrised {
     pub const HERTZ: f64 = 2.0 * core::f64::consts::PI;
 }
 
-/// The unit of time `t_c = sqrt(I^xx / C)` of the paper's solutions, Eq. (35) `[unitt]`.
+/// The unit of time `t_c = sqrt(I^xx / C)` of the paper's solutions, Eq. (35) `[unitt]`, from `I^xx / C` (a time squared).
 ///
 /// In it `C = I^xx = 1`: angular frequencies are in `1 / t_c`, energies in `C`, angular momenta in `I^xx / t_c`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TimeUnit<S> {
-    seconds: S,
-}
-
-impl<S: Real> TimeUnit<S> {
-    /// From `I^xx / C` [s^2].
-    ///
-    /// # Errors
-    /// [`Error::Domain`] unless `I^xx / C` is positive and finite: a sphere (`C = 0`) has no such unit, a prolate star
-    /// (`C < 0`) would need the opposite sign in Eq. (35).
-    pub fn new(inertia_over_c: S) -> Result<Self, Error> {
-        let value = inertia_over_c.re();
-        Error::ensure(value > 0.0 && value.is_finite(), "I^xx / C", value, "positive and finite: an oblate star")?;
-        Ok(Self { seconds: inertia_over_c.sqrt() })
-    }
-
-    /// `t_c`, in the unit of time that `I^xx / C` was given in, seconds as a rule.
-    pub fn seconds(&self) -> S {
-        self.seconds
-    }
-
-    /// A time in units of `t_c`, in seconds.
-    pub fn in_seconds(&self, time: S) -> S {
-        time * self.seconds
-    }
-
-    /// A time in seconds, in units of `t_c`.
-    pub fn in_t_c(&self, seconds: S) -> S {
-        seconds / self.seconds
-    }
-
-    /// An angular frequency in rad per `t_c`, in rad/s.
-    pub fn in_radians_per_second(&self, omega: S) -> S {
-        omega / self.seconds
-    }
-
-    /// An angular frequency in rad per `t_c`, in cycles per second.
-    pub fn in_hertz(&self, omega: S) -> S {
-        self.in_radians_per_second(omega) / geometrised::HERTZ
-    }
+///
+/// # Errors
+/// [`Error::Domain`] unless `I^xx / C` is positive and finite: a sphere (`C = 0`) has no such unit, a prolate star
+/// (`C < 0`) would need the opposite sign in Eq. (35).
+pub fn time_unit<S: Real>(inertia_over_c: S) -> Result<S, Error> {
+    let value = inertia_over_c.re();
+    Error::ensure(value > 0.0 && value.is_finite(), "I^xx / C", value, "positive and finite: an oblate star")?;
+    Ok(inertia_over_c.sqrt())
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! The columns of a table: the header of each group and its values at a sample of the motion.
 
 use twofold::dynamics::equations_of_motion::{angular_velocity, euler_rates_of_axis};
-use twofold::dynamics::first_integrals::{clebsch_integral, energy, spin};
+use twofold::dynamics::first_integrals::first_integrals;
 use twofold::observables::pulsar::position_angle::{position_angle, position_angle_rate};
-use twofold::observables::spin_axis::{cos_lambda, cos_lambda_rate};
+use twofold::observables::spin_axis::cos_lambda_rate;
 use twofold::plan::Output;
 use twofold::propagation::AxisState;
 
@@ -56,12 +56,8 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
         Output::SymmetryAxis => sample.axis().axis.as_slice().to_vec(),
         Output::AngularMomentum => (sample.axis().momentum * units.momentum).as_slice().to_vec(),
         Output::FirstIntegrals => {
-            let AxisState { axis, momentum } = sample.axis();
-            vec![
-                energy(body, s, &axis, &momentum) * units.energy,
-                spin(body, &axis, &momentum) / units.time,
-                clebsch_integral(body, s, &axis, &momentum) * units.momentum * units.momentum,
-            ]
+            let found = first_integrals(body, s, &sample.axis());
+            vec![found.energy * units.energy, found.spin / units.time, found.clebsch * units.momentum * units.momentum]
         }
         // Eq. (33) as printed: it starts with the motion, which the corrected solution of the same constants does not.
         Output::PerturbationAngles => {
@@ -73,7 +69,7 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
             let direction = scene.observer?.basis().direction;
             let AxisState { axis, momentum } = sample.axis();
             let rate = cos_lambda_rate(body, &direction, &axis, &momentum);
-            vec![cos_lambda(&direction, &axis), rate / units.time]
+            vec![direction.dot(&axis), rate / units.time]
         }
         // Eq. (47).
         Output::PulseProfile => {
@@ -92,7 +88,7 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
             let state = sample.orientation();
             let (observer, m) = (scene.observer?.basis(), scene.pulsar?.beam().direction(state));
             let omega = angular_velocity(body, &state.axis, &state.momentum);
-            let rate = position_angle_rate(&m, &omega, &observer).ok()?;
+            let rate = position_angle_rate(&m, &omega, &observer);
             vec![position_angle(&m, &observer).ok()?, rate / units.time]
         }
         // Eq. (71): in the paper's units at r = 1, for a physical star the strain at its distance.

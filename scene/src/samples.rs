@@ -264,9 +264,8 @@ impl<'s, X: SegmentState> Segments<'s, X> {
 
     /// The segments of a plan for `scene` with a rotation of at most `most` rad each.
     pub(crate) fn with_rotation(scene: &'s Scene, plan: &Plan, most: f64) -> Result<Self, Error> {
-        let allowed = "at least one";
-        let quantity = "number of outputs that need a motion";
-        let method = plan.method.ok_or(Error::Domain { quantity, value: 0.0, allowed })?;
+        let (what, why) = ("motion of the plan", "none of its outputs needs one");
+        let method = plan.method.ok_or(Error::Unsupported { what, why })?;
         let total = plan.stretch.1;
         let whole = plan.costs_the_same_at_any_time();
         let count = if whole { 1 } else { (total.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize };

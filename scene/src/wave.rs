@@ -2,9 +2,8 @@
 
 use nalgebra::Matrix3;
 use twofold::dynamics::RigidSpheroid;
-use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::observables::Observer;
-use twofold::observables::gravitational_wave::{Polarizations, metric_perturbation, polarizations, strain_unit};
+use twofold::observables::gravitational_wave::{Polarizations, strain_unit, wave_of_state};
 use twofold::propagation::AxisState;
 
 use crate::scene_file::Scene;
@@ -17,8 +16,7 @@ pub fn spheroid_wave(
     observer: &Observer<f64>,
     unit: f64,
 ) -> Polarizations<f64> {
-    let source = spheroid_inertia_acceleration(spheroid, violation, &state.axis, &state.momentum);
-    let wave = polarizations(observer, &metric_perturbation(1.0, &source));
+    let wave = wave_of_state(spheroid, violation, state, observer);
     Polarizations { plus: wave.plus * unit, cross: wave.cross * unit }
 }
 

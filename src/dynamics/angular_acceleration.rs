@@ -1,7 +1,5 @@
 //! Euler's equations of a rigid body with any torque. Eq. (63).
 //!
-//! # Example
-//!
 //! ```
 //! use nalgebra::Vector3;
 //! use twofold::dynamics::RigidSpheroid;

@@ -1,20 +1,11 @@
 //! Equations of motion in Euler angles. Eq. (25).
 //!
-//! # Example
-//!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations, euler_angle_residuals};
+//! use twofold::{PrincipalCoefficients, RigidSpheroid};
 //!
-//! let spin = rates.gamma + rates.alpha * angles.beta.cos();
-//! let q = AxisAngles { alpha: angles.alpha, beta: angles.beta, alpha_rate: rates.alpha, beta_rate: rates.beta };
+//! let (star, s) = (RigidSpheroid::in_units_of_tc(1.1_f64), PrincipalCoefficients::new([0.02, 0.01, -0.04]));
+//! let (spin, q) = (1.3, AxisAngles { alpha: 0.3, beta: 0.7, alpha_rate: 1.4, beta_rate: 0.1 });
 //! let accelerations = euler_angle_accelerations(&star, &s, spin, &q);
 //! let (a, b) = euler_angle_residuals(&star, &s, spin, &q, accelerations);
 //! assert!(a.abs() < 1e-14 && b.abs() < 1e-14);

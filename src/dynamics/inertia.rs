@@ -1,4 +1,4 @@
-//! The rigid bodies whose rotation is studied: moments of inertia and the constant of the anisotropic self-energy.
+//! Rigid bodies: moments of inertia and the constant of the anisotropic self-energy.
 
 use crate::error::Error;
 use crate::numerics::scalar::{Real, Scalar};
@@ -41,7 +41,7 @@ impl<S: Scalar> RigidSpheroid<S> {
     }
 
     /// The same spheroid in another type of numbers.
-    pub(crate) fn map<T>(&self, convert: impl Fn(S) -> T) -> RigidSpheroid<T> {
+    pub fn map<T>(&self, convert: impl Fn(S) -> T) -> RigidSpheroid<T> {
         RigidSpheroid {
             inertia_xx: convert(self.inertia_xx),
             inertia_zz: convert(self.inertia_zz),

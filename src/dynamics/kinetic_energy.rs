@@ -1,22 +1,14 @@
 //! Rotational kinetic energy. Eq. (23).
 //!
-//! # Example
-//!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
-//! use twofold::euler_angles::body_rates;
+//! use twofold::{EulerAngles, EulerRates, RigidSpheroid, euler_angles::body_rates};
 //!
-//! let of_angles = kinetic_energy(&star, angles.beta, &rates);
+//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
+//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! let of_body = kinetic_energy_of_body(&star.inertia(), &body_rates(&angles, &rates));
-//! assert!((of_angles - of_body).abs() < 1e-15);
+//! assert!((kinetic_energy(&star, angles.beta, &rates) - of_body).abs() < 1e-15);
 //! ```
 
 use nalgebra::Vector3;

@@ -3,8 +3,6 @@
 //! Geometrised units, `G = c = 1`. A body is made of pairs: half the double sum of Eq. (2) over its mass is the self-energy
 //! [`anisotropic_potential_of_body`](crate::dynamics::potential::anisotropic_potential_of_body), Eq. (6).
 //!
-//! # Example
-//!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
 //! use twofold::dynamics::point_masses::{anisotropic_potential_of_masses, preferred_frame_potential_of_masses};

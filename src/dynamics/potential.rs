@@ -1,35 +1,22 @@
 //! Anisotropic gravitational self-energy as a function of the orientation. Eqs. (6), (11), (17), (21).
 //!
-//! # Example
-//!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use nalgebra::{Matrix3, Vector3};
 //! use twofold::dynamics::potential::{
 //!     anisotropic_potential, anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body,
 //!     nordtvedt_potential, potential_gradient_in_angles,
 //! };
-//! use twofold::euler_angles::tensor_in_body_frame;
+//! use twofold::{PrincipalCoefficients, euler_angles::symmetry_axis};
 //!
-//! let of_axis = anisotropic_potential_of_axis(star.constant_c, &s.tensor(), &state.axis);
-//! let of_angles = anisotropic_potential_in_angles(star.constant_c, &s, angles.alpha, angles.beta);
-//! let in_body = tensor_in_body_frame(&state.body_from_inertial(), &s.tensor());
-//! assert!((of_axis - of_angles).abs() < 1e-16);
-//! assert!((of_axis - anisotropic_potential(star.constant_c, in_body.m33)).abs() < 1e-16);
-//! // Of any rigid body: -(1/2) s^ij U^ij.
-//! assert!((anisotropic_potential_of_body(&in_body, &Matrix3::identity()) + s.tensor().trace() / 2.0).abs() < 1e-16);
-//! let (by_alpha, _) = potential_gradient_in_angles(star.constant_c, &s, angles.alpha, angles.beta);
-//! let later = anisotropic_potential_in_angles(star.constant_c, &s, angles.alpha + 1e-6, angles.beta);
-//! assert!(((later - of_angles) / 1e-6 - by_alpha).abs() < 1e-6);
-//! // Nothing in the preferred frame itself.
-//! assert_eq!(nordtvedt_potential(1e-9, 1.0, &Vector3::zeros(), &Vector3::z()), 0.0);
+//! let (c, s, alpha, beta) = (1.0, PrincipalCoefficients::new([0.02, 0.01, -0.04]), 0.3, 0.7_f64);
+//! let energy = anisotropic_potential_in_angles(c, &s, alpha, beta);
+//! assert!((anisotropic_potential_of_axis(c, &s.tensor(), &symmetry_axis(alpha, beta)) - energy).abs() < 1e-16);
+//! let later = anisotropic_potential_in_angles(c, &s, alpha + 1e-6, beta);
+//! assert!(((later - energy) / 1e-6 - potential_gradient_in_angles(c, &s, alpha, beta).0).abs() < 1e-6);
+//! // With the symmetry axis along Z, where U^ij = diag(0, 0, -2 C) gives the same.
+//! let tensor = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, -2.0 * c));
+//! assert_eq!(anisotropic_potential_of_body(&s.tensor(), &tensor), anisotropic_potential(c, s.zz));
+//! assert_eq!(nordtvedt_potential(1e-9, 2.0 * c, &Vector3::zeros(), &Vector3::z()), 0.0); // at rest in the preferred frame
 //! ```
 
 use nalgebra::{Matrix3, Vector3};

@@ -1,4 +1,4 @@
-//! What moves: a body, the tensor `s^IJ` around it and its state at the start, from which every motion is made.
+//! The problem that every motion solves: a spheroid, the tensor `s^IJ` and the initial state.
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -1,4 +1,4 @@
-//! The two states of rotation that motions carry: with and without the angle about the symmetry axis.
+//! States of rotation, with and without the angle about the symmetry axis.
 
 use core::fmt::Debug;
 

@@ -1,38 +1,25 @@
 //! Torque of the anisotropic self-energy. Eq. (66).
 //!
-//! # Example
-//!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use nalgebra::{Matrix3, Vector3};
 //! use twofold::dynamics::potential::potential_gradient_in_angles;
-//! use twofold::dynamics::torque::{torque_from_gradient, torque_from_gradient_off_pole, torque_on_body};
-//! use twofold::euler_angles::tensor_in_body_frame;
+//! use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
+//! use twofold::euler_angles::{EulerAngles, body_from_inertial, tensor_in_body_frame};
 //!
-//! let (by_alpha, by_beta) = potential_gradient_in_angles(star.constant_c, &s, angles.alpha, angles.beta);
-//! let gradient = Vector3::new(by_alpha, by_beta, 0.0);
-//! let torque = torque_from_gradient(&angles, &gradient)?;
-//! assert_eq!(torque, torque_from_gradient_off_pole(&angles, &gradient));
-//! assert!(torque_from_gradient(&EulerAngles { beta: 0.0, ..angles }, &gradient).is_err());
-//! // From the tensor U^ij in the body, whose difference U^zz - U^xx is -2 C.
-//! let in_body = tensor_in_body_frame(&state.body_from_inertial(), &s.tensor());
-//! let energies = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, -2.0 * star.constant_c));
+//! let (c, s) = (1.0, twofold::PrincipalCoefficients::new([0.02, 0.01, -0.04]));
+//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
+//! let (by_alpha, by_beta) = potential_gradient_in_angles(c, &s, angles.alpha, angles.beta);
+//! let torque = torque_from_gradient(&angles, &Vector3::new(by_alpha, by_beta, 0.0));
+//! // From the tensor U^ij in the body, with U^zz - U^xx = -2 C.
+//! let energies = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, -2.0 * c));
+//! let in_body = tensor_in_body_frame(&body_from_inertial(&angles), &s.tensor());
 //! assert!((torque_on_body(&in_body, &energies) - torque).amax() < 1e-15);
-//! # Ok::<(), twofold::Error>(())
 //! ```
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::error::Error;
-use crate::euler_angles::{EulerAngles, refuse_pole};
-use crate::numerics::scalar::{Real, Scalar};
+use crate::euler_angles::EulerAngles;
+use crate::numerics::scalar::Scalar;
 
 /// Body-frame torque from the derivatives of any potential by the Euler angles, Eq. (66):
 ///
@@ -42,24 +29,13 @@ use crate::numerics::scalar::{Real, Scalar};
 /// Gamma^z = -U_g
 /// ```
 ///
-/// `gradient` is `(U_a, U_b, U_g)`, the derivatives by `alpha`, `beta`, `gamma`. Divides by `sin b`; the guarded form is
-/// [`torque_from_gradient`].
-pub fn torque_from_gradient_off_pole<S: Scalar>(angles: &EulerAngles<S>, gradient: &Vector3<S>) -> Vector3<S> {
+/// `gradient` is `(U_a, U_b, U_g)`, the derivatives by `alpha`, `beta`, `gamma`. Divides by `sin b`: not finite on the
+/// poles, and near them the relative error grows as `1 / |sin b|`; [`torque_on_body`] is regular.
+pub fn torque_from_gradient<S: Scalar>(angles: &EulerAngles<S>, gradient: &Vector3<S>) -> Vector3<S> {
     let (sb, cb) = angles.beta.sin_cos();
     let (sg, cg) = angles.gamma.sin_cos();
     let across = (gradient.z * cb - gradient.x) / sb;
     Vector3::new(across * sg - gradient.y * cg, across * cg + gradient.y * sg, -gradient.z)
-}
-
-/// Body-frame torque from the derivatives of any potential by the Euler angles, Eq. (66).
-///
-/// # Errors
-/// [`Error::Domain`] where `|sin beta|` is not above 2.2e-16. Near the pole the relative error grows as `1 / |sin beta|`;
-/// [`torque_on_body`] is regular.
-pub fn torque_from_gradient<S: Real>(angles: &EulerAngles<S>, gradient: &Vector3<S>) -> Result<Vector3<S>, Error> {
-    let (sb, _) = angles.beta.sin_cos();
-    refuse_pole(sb.re())?;
-    Ok(torque_from_gradient_off_pole(angles, gradient))
 }
 
 /// Torque on any body by its anisotropic self-energy `-(1/2) s^ij U^ij`, without coordinates:

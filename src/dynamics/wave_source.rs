@@ -3,37 +3,24 @@
 //!
 //! `I^ij` is the moment of inertia, not the mass quadrupole: hence the minus sign of Eq. (59).
 //!
-//! # Example
-//!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
+//! use nalgebra::{Matrix3, Vector3};
 //! use twofold::dynamics::wave_source::{
 //!     free_inertia_acceleration, rotation_rate, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
 //! };
-//! use twofold::dynamics::equations_of_motion::angular_velocity;
+//! use twofold::{BodyState, EulerAngles, EulerRates, RigidSpheroid, euler_angles::body_rates};
 //!
-//! // Without Lorentz violation: from the state, by A^ij, and in closed form where beta is constant.
-//! let spin = 1.0;
-//! let alpha_rate = 1.1 * spin / angles.beta.cos();
-//! let rates = EulerRates { alpha: alpha_rate, beta: 0.0, gamma: spin - alpha_rate * angles.beta.cos() };
+//! // Free precession at constant inclination: from the state, from A^ij in the body, and by Eq. (68).
+//! let (star, angles) = (RigidSpheroid::in_units_of_tc(1.1), EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 });
+//! let rates = EulerRates { alpha: 1.1 / angles.beta.cos(), beta: 0.0, gamma: -0.1 };
 //! let state = BodyState::from_angles(&star, &angles, &rates);
-//! let of_state = spheroid_inertia_acceleration(&star, &Matrix3::zeros(), &state.axis, &state.momentum);
-//! let free = free_inertia_acceleration(&star, angles.alpha, angles.beta, alpha_rate);
-//! assert!((of_state - free).amax() < 1e-13);
-//! let rotation = state.body_from_inertial();
-//! let omega = angular_velocity(&star, &state.axis, &state.momentum);
-//! let by_a = wave_tensor(&star.inertia(), &(rotation * omega), &Vector3::zeros());
-//! assert!((tensor_in_inertial_frame(&rotation, &by_a) - of_state).amax() < 1e-13);
-//! // Rows of R are the body axes: d e_z/dt = Omega x e_z.
-//! assert!((rotation_rate(&rotation, &omega).row(2).transpose() - omega.cross(&state.axis)).amax() < 1e-14);
+//! let (rotation, omega) = (state.body_from_inertial(), body_rates(&angles, &rates));
+//! let found = spheroid_inertia_acceleration(&star, &Matrix3::zeros(), &state.axis, &state.momentum);
+//! let in_body = wave_tensor(&star.inertia(), &omega, &Vector3::zeros());
+//! assert!((tensor_in_inertial_frame(&rotation, &in_body) - found).amax() < 1e-13);
+//! assert!((free_inertia_acceleration(&star, angles.alpha, angles.beta, rates.alpha) - found).amax() < 1e-13);
+//! // Rows of R are the body axes, and d e_z/dt has no component along e_z.
+//! assert!(rotation_rate(&rotation, &rotation.tr_mul(&omega)).row(2).transpose().dot(&state.axis).abs() < 1e-15);
 //! ```
 
 use nalgebra::{Matrix3, Vector3};

@@ -14,7 +14,7 @@ use super::{Datum, Event, InferenceError, Observable, Place, long_span};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::numerics::scalar::Real;
-use crate::observables::pulsar::event_time::{closest_approach_time, edge_time};
+use crate::observables::pulsar::event_time::event_time;
 use crate::parameters::{Parameter, Parameters};
 use crate::plan::{Gradient, Method, Output, Request, StateFunction, gradient_in_parts};
 
@@ -192,12 +192,17 @@ impl Term {
     ) -> Result<Dual64, Error> {
         let (beam, n) = (parameters.beam(), parameters.observer().direction);
         let star = (&parameters.spheroid, &parameters.violation);
-        let edge = |event: &Event, t: f64| edge_time(t, &beam, &n, star, &state([event.epoch, t]));
+        let margin = |event: &Event, t: f64| beam.margin_rates(star.0, star.1, &state([event.epoch, t]), &n);
+        let edge = |event: &Event, t: f64| {
+            let [value, rate, ..] = margin(event, t);
+            event_time(t, value, rate.re)
+        };
         let midpoint = |event: &Event| Ok((edge(event, event.start)? + edge(event, event.end)?) / 2.0);
         match (self, observable) {
             (Self::Pulse(event), Observable::Widths) => Ok(edge(event, event.end)? - edge(event, event.start)?),
             (Self::Pulse(event), Observable::ClosestApproaches) => {
-                closest_approach_time(event.closest, &beam, &n, star, &state([event.epoch, event.closest]))
+                let [_, rate, second, _] = margin(event, event.closest);
+                event_time(event.closest, rate, second.re)
             }
             (Self::Pulse(event), _) => midpoint(event),
             (Self::Pulses(before, event), _) => Ok(midpoint(event)? - midpoint(before)?),

@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 
 use super::{Observable, long_span};
-use crate::dynamics::wave_source::spheroid_inertia_acceleration;
+use crate::dynamics::AxisState;
 use crate::error::Error;
 use crate::numerics::scalar::Scalar;
-use crate::observables::gravitational_wave::{metric_perturbation, polarizations};
+use crate::observables::gravitational_wave::wave_of_state;
 use crate::observables::pulsar::{Beam, arrivals, pulse_train};
 use crate::parameters::Parameters;
 use crate::plan::{Method, Output, PlannedMotion, Request};
@@ -74,8 +74,8 @@ pub(super) fn strain<S: Scalar>(
     [axis, momentum]: [&Vector3<S>; 2],
     observable: Observable,
 ) -> S {
-    let acceleration = spheroid_inertia_acceleration(&parameters.spheroid, &parameters.violation, axis, momentum);
-    let h = polarizations(&parameters.observer(), &metric_perturbation(S::one(), &acceleration));
+    let state = AxisState { axis: *axis, momentum: *momentum };
+    let h = wave_of_state(&parameters.spheroid, &parameters.violation, &state, &parameters.observer());
     let h = if observable == Observable::StrainPlus { h.plus } else { h.cross };
     h * parameters.strain_scale * parameters.strain_unit
 }

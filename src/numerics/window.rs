@@ -1,4 +1,4 @@
-//! Weights that taper a series towards its ends.
+//! Windows that taper a series towards its ends.
 
 use core::f64::consts::PI;
 

@@ -1,27 +1,15 @@
-//! Bounds on Lorentz violation from a spin axis that does not move. Eqs. (40)-(42).
-//!
-//! # Example
+//! Bounds on Lorentz violation from a limit on the drift of the spin axis. Eqs. (40)-(42).
 //!
 //! ```
 //! use nalgebra::Vector3;
-//! use twofold::observables::bound::{
-//!     SpinAxisDrift, cos_opening_angle, eta_from_inclination, fluid_inertia_over_c, lambda_change, lambda_change_terms,
-//!     preferred_frame_bound, zeta_change, zeta_change_terms,
-//! };
+//! use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination, fluid_inertia_over_c, lambda_change, preferred_frame_bound};
 //!
-//! // A spin axis that has moved by less than 1e-4 in cos(lambda) over 15 years.
-//! let spin = 4e3_f64;
-//! let drift = SpinAxisDrift { polar_inertia_over_c: fluid_inertia_over_c(spin), spin, interval: 4.7e8, cos_lambda_change: 1e-4 };
-//! let bound = drift.combination_bound(eta_from_inclination(2.5)?)?;
-//! assert!((bound / drift.combination_bound_at(2.5)? - 1.0).abs() < 1e-14);
-//! assert!(preferred_frame_bound(bound, &Vector3::new(0.0, 0.0, 1.2e-3))? > bound);
-//! // What a change of the pulse width says of the line of sight.
-//! let (zeta, chi, width, change) = (1.0_f64, 0.8, 0.3, 1e-4);
-//! let moved = zeta_change(zeta, chi, width, change)?;
-//! assert!((cos_opening_angle(zeta + moved, chi, width + change) - cos_opening_angle(zeta, chi, width)).abs() < 1e-8);
-//! assert!((lambda_change(core::f64::consts::PI - zeta, chi, width, change)? + moved).abs() < 1e-15);
-//! let ([a, b], [c, d]) = (zeta_change_terms(zeta, chi, width), lambda_change_terms(core::f64::consts::PI - zeta, chi, width));
-//! assert!([a, b, c, d].iter().all(|term| term.is_finite()));
+//! // The pulse width (rad) has changed by 1e-4 in 15 years: by Eq. (42), how far did the spin axis move?
+//! let (lambda, chi, width, spin) = (2.0_f64, 0.8, 0.3, 4e3);
+//! let cos_lambda_change = lambda.sin() * lambda_change(lambda, chi, width, 1e-4)?;
+//! let drift = SpinAxisDrift { polar_inertia_over_c: fluid_inertia_over_c(spin), spin, interval: 4.7e8, cos_lambda_change };
+//! let bound = drift.combination_bound(eta_from_inclination(2.5)?)?; // of |2 s^ZZ - s^XX - s^YY|
+//! assert!(bound < 1e-14 && preferred_frame_bound(bound, &Vector3::new(0.0, 0.0, 1.2e-3))? > bound);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
@@ -58,18 +46,9 @@ impl<S: Real> SpinAxisDrift<S> {
         Error::ensure(interval.abs() > 0.0, "interval Delta t", interval, "not zero")?;
         Ok((eta * self.polar_inertia_over_c * self.spin * self.cos_lambda_change / self.interval).abs())
     }
-
-    /// Bound `|2 s^ZZ - s^XX - s^YY| <~ |I^zz Omega^z Delta cos lambda / (C Delta t cos b0)|`, Eq. (40) `[est]`: Eq. (41)
-    /// `[est1]` with [`eta_from_inclination`].
-    ///
-    /// # Errors
-    /// As for [`combination_bound`](Self::combination_bound) and [`eta_from_inclination`].
-    pub fn combination_bound_at(&self, beta_0: S) -> Result<S, Error> {
-        self.combination_bound(eta_from_inclination(beta_0)?)
-    }
 }
 
-/// `eta = 1 / |cos b0|`, from Eqs. (40) `[est]` and (41) `[est1]`, with `beta_0` the angle (rad) between the symmetry axis
+/// `eta = 1 / |cos b0|`, with which Eq. (41) `[est1]` is the estimate (40) `[est]`, with `beta_0` the angle (rad) between the symmetry axis
 /// and the principal axis of `s^IJ` about which it precesses.
 ///
 /// # Errors
@@ -117,23 +96,6 @@ pub fn cos_opening_angle<S: Scalar>(zeta: S, chi: S, width: S) -> S {
     cc * cz + sc * sz * cos_half
 }
 
-/// Change of `zeta`, the angle between the spin axis and the direction from the star **to** the observer, for a small change
-/// of the pulse width `W` at constant `rho` and `chi` (all rad):
-///
-/// ```text
-/// Delta zeta = (1/2) sin(W/2) / (cot zeta cos(W/2) - cot chi) Delta W
-/// ```
-///
-/// the derivative of [`cos_opening_angle`] set to zero, written without cotangents.
-///
-/// # Errors
-/// [`Error::Domain`] where the denominator vanishes to rounding: there the width is stationary and says nothing of `zeta`.
-pub fn zeta_change<S: Real>(zeta: S, chi: S, width: S, width_change: S) -> Result<S, Error> {
-    let [sine, turning] = zeta_change_terms(zeta, chi, width);
-    refuse_stationary_width(turning)?;
-    Ok(sine / turning * width_change)
-}
-
 /// Change of the paper's `lambda`, the angle between the spin axis and the direction **from** the observer to the star,
 /// `lambda = pi - zeta`, for a small change of the pulse width `W`, Eq. (42) `[dela]` (all rad):
 ///
@@ -141,17 +103,23 @@ pub fn zeta_change<S: Real>(zeta: S, chi: S, width: S, width_change: S) -> Resul
 /// Delta lambda = (1/2) sin(W/2) / (cot lambda cos(W/2) + cot chi) Delta W
 /// ```
 ///
-/// If `lambda` of Eq. (37) is taken with `n-hat` of Eq. (46), it is [`zeta_change`] that holds.
+/// If `lambda` of Eq. (37) is taken with `n-hat` of Eq. (46), it is `zeta`, with [`zeta_change_terms`].
 ///
 /// # Errors
-/// As for [`zeta_change`].
+/// [`Error::Domain`] where the denominator vanishes to rounding: there the width is stationary and says nothing of `lambda`.
 pub fn lambda_change<S: Real>(lambda: S, chi: S, width: S, width_change: S) -> Result<S, Error> {
     let [sine, turning] = lambda_change_terms(lambda, chi, width);
-    refuse_stationary_width(turning)?;
+    Error::ensure(
+        turning.re().abs() > f64::EPSILON,
+        "derivative of cos rho by the angle to the line of sight",
+        turning.re(),
+        "above 2.2e-16 in size: the width is stationary there and Eq. (42) divides by it",
+    )?;
     Ok(sine / turning * width_change)
 }
 
-/// Numerator and denominator of `d zeta / d W` in [`zeta_change`], multiplied by `sin chi sin zeta`, for exact fields:
+/// Numerator and denominator of `d zeta / d W` for the angle `zeta` between the spin axis and the direction from the star **to** the observer,
+/// the derivative of [`cos_opening_angle`] set to zero, multiplied by `sin chi sin zeta`, for exact fields:
 /// `(1/2) sin chi sin zeta sin(W/2)` and `sin chi cos zeta cos(W/2) - cos chi sin zeta`.
 pub fn zeta_change_terms<S: Scalar>(zeta: S, chi: S, width: S) -> [S; 2] {
     let ((sz, cz), (sc, cc)) = (zeta.sin_cos(), chi.sin_cos());
@@ -165,13 +133,4 @@ pub fn lambda_change_terms<S: Scalar>(lambda: S, chi: S, width: S) -> [S; 2] {
     let ((sl, cl), (sc, cc)) = (lambda.sin_cos(), chi.sin_cos());
     let (sin_half, cos_half) = (width / 2.0).sin_cos();
     [sc * sl * sin_half / 2.0, sc * cl * cos_half + cc * sl]
-}
-
-fn refuse_stationary_width<S: Real>(turning: S) -> Result<(), Error> {
-    Error::ensure(
-        turning.re().abs() > f64::EPSILON,
-        "derivative of cos rho by the angle to the line of sight",
-        turning.re(),
-        "above 2.2e-16 in size: the width is stationary there and Eq. (42) divides by it",
-    )
 }

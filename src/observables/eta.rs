@@ -12,8 +12,6 @@
 //! most asymmetric one (`s^YY` midway between the others), 1 for one symmetric about X or Y. It does not depend on the size
 //! of `s`. Speeds here are in units of `C |2 s^ZZ - s^XX - s^YY| / (I^zz Omega^z)`.
 //!
-//! # Example
-//!
 //! ```
 //! use nalgebra::Vector3;
 //! use twofold::lorentz_violation::PrincipalCoefficients;

@@ -1,6 +1,4 @@
-//! How `eta` of Eq. (41) `[est1]` is distributed over observers and over what is not known of the spin axis.
-//!
-//! # Example
+//! Distribution of `eta` of Eq. (41) `[est1]` over directions to the observer and over unknown orientations of the spin axis.
 //!
 //! ```
 //! use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
@@ -12,7 +10,6 @@
 //! // Seen at a right angle to the spin axis: one azimuth in two is within 45 degrees of the motion.
 //! let seen = one.clone().seen_at(core::f64::consts::FRAC_PI_2)?;
 //! assert!((seen.quantile(0.5)? - 2.0 * 2.0_f64.sqrt()).abs() < 1e-12);
-//! assert!((one.times([(3.0, 1.0)])?.quantile(0.5)? - 12.0).abs() < 1e-12);
 //! let beta = 0.7_f64;
 //! assert!((root_mean_square_along_motion(0.0, beta) - 3.0_f64.sqrt() / (beta.sin() * beta.cos())).abs() < 1e-9);
 //! # Ok::<(), twofold::Error>(())
@@ -59,14 +56,8 @@ impl EtaDistribution {
         for (speed, weight) in speeds {
             let allowed = "finite and not negative";
             Error::ensure((0.0..f64::INFINITY).contains(&speed), "speed of the spin axis", speed, allowed)?;
+            Error::ensure((0.0..f64::INFINITY).contains(&weight), "weight", weight, allowed)?;
             inverse_speeds.push((1.0 / speed, weight));
-        }
-        Self::from_inverse_speeds(inverse_speeds)
-    }
-
-    fn from_inverse_speeds(mut inverse_speeds: Vec<(f64, f64)>) -> Result<Self, Error> {
-        for &(_, weight) in &inverse_speeds {
-            Error::ensure((0.0..f64::INFINITY).contains(&weight), "weight", weight, "finite and not negative")?;
         }
         let total: f64 = inverse_speeds.iter().map(|(_, weight)| weight).sum();
         Error::ensure(total > 0.0 && total.is_finite(), "sum of the weights", total, "above zero")?;
@@ -91,23 +82,6 @@ impl EtaDistribution {
         let allowed = "above 2.2e-16 in size: a motion across the line of sight is not seen";
         Error::ensure(sine.abs() > f64::EPSILON, "sine of the angle to the line of sight", sine, allowed)?;
         Ok(Self { directions: Directions::OnCone { sine: sine.abs() }, ..self })
-    }
-
-    /// The distribution of `eta` times an independent random number of which values and weights are given, such as a measured
-    /// bound over `eta` with its error. The weights need not add up to one.
-    ///
-    /// # Errors
-    /// [`Error::Domain`] for a value or weight that is negative or not finite, and for weights that add up to zero.
-    pub fn times(&self, factors: impl IntoIterator<Item = (f64, f64)>) -> Result<Self, Error> {
-        let mut speeds = Vec::new();
-        for (factor, weight) in factors {
-            Error::ensure((0.0..f64::INFINITY).contains(&factor), "factor of eta", factor, "finite and not negative")?;
-            speeds.extend(self.inverse_speeds.iter().map(|&(inverse, w)| {
-                // An axis at rest bounds nothing, whatever was measured.
-                (if inverse.is_infinite() { inverse } else { inverse * factor }, w * weight)
-            }));
-        }
-        Ok(Self { directions: self.directions, ..Self::from_inverse_speeds(speeds)? })
     }
 
     /// For a spin axis at the inclination `beta` (rad) to Z and a random azimuth, asymmetry ratio `r`.
@@ -287,21 +261,6 @@ mod tests {
         assert!((found / 88.635_652_034_956_56 - 1.0).abs() < 4e-6, "{found}");
     }
 
-    /// Twice as large an eta is half as large a speed, on the cone too.
-    #[test]
-    fn a_factor_divides_the_speeds() {
-        let cone = |speeds: [(f64, f64); 4]| EtaDistribution::from_speeds(speeds).unwrap().seen_at(1.2).unwrap();
-        let two = EtaDistribution::from_speeds([(0.5, 1.0), (2.0, 3.0)]).unwrap().seen_at(1.2).unwrap();
-        let found = two.times([(2.0, 1.0), (8.0, 1.0)]).unwrap();
-        let expected = cone([(0.25, 1.0), (1.0, 3.0), (0.0625, 1.0), (0.25, 3.0)]);
-        for probability in [0.1, 0.6, 0.95] {
-            let [found, expected] = [&found, &expected].map(|d| d.quantile(probability).unwrap());
-            assert!((found / expected - 1.0).abs() < 1e-14);
-        }
-        let half = EtaDistribution::from_speeds([(0.0, 1.0), (1.0, 1.0)]).unwrap().seen_at(1.2).unwrap();
-        assert_eq!(half.times([(0.0, 1.0)]).unwrap().quantile(0.6).unwrap(), f64::INFINITY);
-    }
-
     #[test]
     fn what_is_out_of_domain_is_refused() {
         assert!(EtaDistribution::from_speeds([]).is_err());
@@ -311,8 +270,6 @@ mod tests {
         assert!(EtaDistribution::at_constant(-1.0 / 11.0, 1.56).is_err());
         let some = EtaDistribution::of_unknown_axis(0.0).unwrap();
         assert!(some.clone().seen_at(0.0).is_err() && some.clone().seen_at(f64::NAN).is_err());
-        assert!(some.times([(-1.0, 1.0)]).is_err() && some.times([(f64::INFINITY, 1.0)]).is_err());
-        assert!(some.times([(1.0, -1.0)]).is_err() && some.times([]).is_err());
         for probability in [0.0, 1.0, f64::NAN] {
             assert!(some.quantile(probability).is_err());
         }

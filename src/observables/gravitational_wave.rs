@@ -8,34 +8,25 @@
 //! Everything is in geometrised units, or in those of the paper with `I^xx = t_c = r = 1`, where `h` counts multiples of
 //! [`strain_unit`].
 //!
-//! # Example
-//!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
-//! use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
-//! use twofold::observables::Observer;
-//! use twofold::observables::gravitational_wave::{metric_perturbation, polarization_tensors, polarizations, strain_unit};
+//! use nalgebra::{Matrix3, Vector3};
+//! use twofold::observables::gravitational_wave::{metric_perturbation, polarization_tensors, polarizations, wave_of_state};
+//! use twofold::{AxisState, Observer, RigidSpheroid, dynamics::wave_source::spheroid_inertia_acceleration};
 //!
-//! let source = spheroid_inertia_acceleration(&star, &s.tensor(), &state.axis, &state.momentum);
-//! let observer = Observer::at(0.8, 0.0);
-//! let h = metric_perturbation(1.0, &source);
-//! let wave = polarizations(&observer, &h);
+//! let (star, s, observer) = (RigidSpheroid::in_units_of_tc(1.1_f64), Matrix3::zeros(), Observer::at(0.8, 0.0));
+//! let state = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(-0.7, 0.1, 1.5) };
+//! let wave = wave_of_state(&star, &s, &state, &observer);
+//! // Step by step, Eqs. (59), (69) and (71).
+//! let h = metric_perturbation(1.0, &spheroid_inertia_acceleration(&star, &s, &state.axis, &state.momentum));
+//! assert_eq!(wave, polarizations(&observer, &h));
 //! let [plus, cross] = polarization_tensors(&observer);
 //! assert!((wave.plus - h.dot(&plus) / 2.0).abs() < 1e-14 && (wave.cross - h.dot(&cross) / 2.0).abs() < 1e-14);
-//! // h = 1 for I^xx = 1e38 kg m^2, t_c = 1 s at 1 kpc.
-//! assert!(strain_unit(1e38_f64, 1.0, 3.1e19) < 1e-24);
 //! ```
 
 use nalgebra::Matrix3;
 
+use crate::dynamics::wave_source::spheroid_inertia_acceleration;
+use crate::dynamics::{AxisState, RigidSpheroid};
 use crate::numerics::scalar::{Real, Scalar};
 use crate::observables::Observer;
 use crate::units::geometrised::{KILOGRAM, METRE};
@@ -72,6 +63,18 @@ pub fn polarizations<S: Scalar>(observer: &Observer<S>, metric_perturbation: &Ma
     let [plus, cross] =
         polarization_tensors(observer).map(|tensor| tensor.component_mul(metric_perturbation).sum() / 2.0);
     Polarizations { plus, cross }
+}
+
+/// `h_+` and `h_x` of a spheroid under the tensor `s^IJ` in a state of rotation, at an observer at the distance one: Eqs. (59), (69)-(71) with
+/// [`spheroid_inertia_acceleration`].
+pub fn wave_of_state<S: Scalar>(
+    spheroid: &RigidSpheroid<S>,
+    s: &Matrix3<S>,
+    state: &AxisState<S>,
+    observer: &Observer<S>,
+) -> Polarizations<S> {
+    let source = spheroid_inertia_acceleration(spheroid, s, &state.axis, &state.momentum);
+    polarizations(observer, &metric_perturbation(S::one(), &source))
 }
 
 /// The strain that one unit of `h` stands for, `G I^xx / (c^4 t_c^2 r)`, from `I^xx` (kg m^2), `t_c` (s) and the distance

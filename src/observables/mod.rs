@@ -1,4 +1,4 @@
-//! What a distant observer measures of a motion. Eqs. (37)-(42), (44)-(56), (59), (69)-(71).
+//! What a distant observer measures. Eqs. (37)-(42), (44)-(56), (59), (69)-(71).
 
 pub mod bound;
 pub mod eta;
@@ -12,6 +12,14 @@ pub mod spin_axis;
 pub mod wave_harmonics;
 
 pub use observer::Observer;
+
+use crate::numerics::scalar::Scalar;
+
+/// Sine and cosine of `a + b` from those of each, as they are known in an exact field.
+fn sin_cos_of_sum<S: Scalar>(a: S, b: S) -> (S, S) {
+    let ((sa, ca), (sb, cb)) = (a.sin_cos(), b.sin_cos());
+    (sa * cb + ca * sb, ca * cb - sa * sb)
+}
 
 #[cfg(test)]
 mod tests {

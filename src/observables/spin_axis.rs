@@ -3,33 +3,19 @@
 //! The fixed direction is any: from the star to the observer, as `n-hat` in Eq. (46), or the opposite one, from which the
 //! paper counts `lambda` in Eq. (42) `[dela]`. Reversed, `cos lambda` and all its changes reverse their sign.
 //!
-//! # Example
-//!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
-//! use twofold::observables::Observer;
-//! use twofold::observables::spin_axis::{
-//!     changes_from_start, cos_lambda, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
-//! };
-//! use twofold::solutions::perturbation::{Constants, Form, Precession, Perturbation};
+//! use nalgebra::Vector3;
+//! use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate};
+//! use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
+//! use twofold::{Observer, PrincipalCoefficients, RigidSpheroid};
 //!
-//! let direction = Observer::at(0.8, 0.4).direction;
-//! let found = cos_lambda(&direction, &state.axis);
-//! assert!((found - cos_lambda_in_angles(0.8, 0.4, angles.alpha, angles.beta)).abs() < 1e-15);
-//! // Eq. (38), to first order in the changes, and per unit of time.
-//! let change = cos_lambda_change(0.8, 0.4, (angles.alpha, angles.beta), (rates.alpha, rates.beta));
-//! assert!((change - cos_lambda_rate(&star, &direction, &state.axis, &state.momentum)).abs() < 1e-14);
-//! let constants = Constants { alpha_0: 0.3, beta_0: 0.7, amplitude: 0.01, phase: 0.0 };
+//! let (star, direction) = (RigidSpheroid::in_units_of_tc(1.1_f64), Observer::at(0.8, 0.4).direction);
+//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
+//! let constants = Constants { alpha_0: 0.3, beta_0: 0.7, amplitude: 0.0, phase: 0.0 };
 //! let solution = Perturbation::new(Form::Printed, Precession::Single, &star, &s, 1.0, &constants)?;
-//! assert_eq!(changes_from_start(&solution, 0.0), (0.0, 0.0));
+//! let change = cos_lambda_change(0.8, 0.4, (0.3, 0.7), changes_from_start(&solution, 1.0));
+//! assert!(change.abs() < 0.1 && cos_lambda_in_angles(0.8, 0.4, 0.3, 0.7) < 1.0);
+//! assert_eq!(cos_lambda_rate(&star, &direction, &Vector3::z(), &Vector3::z()), 0.0); // spins about its axis
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
@@ -37,20 +23,16 @@ use nalgebra::Vector3;
 
 use crate::dynamics::RigidSpheroid;
 use crate::numerics::scalar::Scalar;
+use crate::observables::sin_cos_of_sum;
 use crate::solutions::perturbation::Perturbation;
 
 /// `cos lambda = sin t sin b sin(a - p) + cos t cos b` for the direction of colatitude `t = theta_o` and azimuth `p = phi_o`
-/// (rad), Eq. (37).
+/// (rad), Eq. (37); without coordinates it is the product `e_z . direction`.
 pub fn cos_lambda_in_angles<S: Scalar>(theta_o: S, phi_o: S, alpha: S, beta: S) -> S {
     let (st, ct) = theta_o.sin_cos();
     let (sb, cb) = beta.sin_cos();
-    let (sin, _) = sin_cos_of_difference(alpha, phi_o);
+    let (sin, _) = sin_cos_of_sum(alpha, -phi_o);
     st * sb * sin + ct * cb
-}
-
-/// `cos lambda = e_z . direction` for unit vectors in the same frame: Eq. (37) without coordinates.
-pub fn cos_lambda<S: Scalar>(direction: &Vector3<S>, axis: &Vector3<S>) -> S {
-    direction.dot(axis)
 }
 
 /// Change of `cos lambda` to first order in small changes of `alpha` and `beta` (rad), Eq. (38):
@@ -68,7 +50,7 @@ pub fn cos_lambda_change<S: Scalar>(
 ) -> S {
     let (st, ct) = theta_o.sin_cos();
     let (sb, cb) = beta.sin_cos();
-    let (sin, cos) = sin_cos_of_difference(alpha, phi_o);
+    let (sin, cos) = sin_cos_of_sum(alpha, -phi_o);
     (st * cb * sin - ct * sb) * beta_change + st * sb * cos * alpha_change
 }
 
@@ -97,10 +79,4 @@ pub fn cos_lambda_rate<S: Scalar>(
     momentum: &Vector3<S>,
 ) -> S {
     direction.dot(&momentum.cross(axis)) / spheroid.inertia_xx
-}
-
-/// `(sin, cos)` of `a - b` without subtracting angles, so that it holds in an exact field.
-fn sin_cos_of_difference<S: Scalar>(a: S, b: S) -> (S, S) {
-    let ((sa, ca), (sb, cb)) = (a.sin_cos(), b.sin_cos());
-    (sa * cb - ca * sb, ca * cb + sa * sb)
 }

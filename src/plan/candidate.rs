@@ -119,13 +119,13 @@ impl Forecast {
 }
 
 /// A closed form for a family of tensors has no derivatives by changes of the tensor that leave the family.
-fn refuse_derivatives(request: &Request, family: &'static str) -> Result<(), Error> {
-    let by_tensor = request.derivatives.iter().filter(|parameter| parameter.is_of_s()).count();
-    Error::ensure(by_tensor == 0, "number of derivatives by components of s^IJ", by_tensor as f64, family)
+fn refuse_derivatives(request: &Request, why: &'static str) -> Result<(), Error> {
+    let by_tensor = request.derivatives.iter().any(|parameter| parameter.is_of_s());
+    if by_tensor { Err(Error::Unsupported { what: "derivatives by components of s^IJ", why }) } else { Ok(()) }
 }
 
 fn free(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
-    refuse_derivatives(request, "none: free rotation knows no tensor")?;
+    refuse_derivatives(request, "free rotation does not depend on s^IJ")?;
     let torque = largest_torque(problem.spheroid(), problem.coefficients());
     Error::ensure(
         request.derivatives.is_empty() || torque == 0.0,
@@ -139,14 +139,15 @@ fn free(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Resul
 }
 
 fn steady(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
-    let wanted = request.derivatives.len();
-    Error::ensure(wanted == 0, "number of derivatives", wanted as f64, "none: a steady precession has no neighbours")?;
+    if !request.derivatives.is_empty() {
+        return Err(Error::Unsupported { what: "derivatives", why: "a steady precession is a single state" });
+    }
     let motion = UniformMotion::steady(problem, stretch)?;
     Ok(Forecast::closed(Promise::Bound, 0.0, motion.rounding(stretch.1 - stretch.0)))
 }
 
 fn symmetric(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
-    refuse_derivatives(request, "none: elliptic functions have those within equal eigenvalues only")?;
+    refuse_derivatives(request, "the elliptic solution needs two equal eigenvalues")?;
     let motion = SymmetricMotion::new(problem, stretch)?;
     let elapsed = stretch.1 - stretch.0;
     let truncation = motion.truncation(elapsed);

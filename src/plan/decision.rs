@@ -150,11 +150,11 @@ impl Plan {
     /// The motion of the plan's problem or, stretch by stretch, from a later state of it; with or without `e_x`, as the problem has it.
     ///
     /// # Errors
-    /// As for [`Problem::taylor`], or for the closed form chosen; [`Error::Domain`] for a problem with `e_x` if the plan carries less.
+    /// As for [`Problem::taylor`], or for the closed form chosen; [`Error::Unsupported`] for a problem with `e_x` if the plan carries less.
     pub fn motion<X: RotationState<f64>>(&self, problem: &Problem<f64, X>) -> Result<PlannedMotion<X>, Error> {
-        let vectors = if self.state == State::Orientation { 3 } else { 2 };
-        let allowed = "three: no output of the plan needs e_x";
-        Error::ensure(vectors >= X::VECTORS, "number of vectors carried", vectors as f64, allowed)?;
+        if X::VECTORS == 3 && self.state != State::Orientation {
+            return Err(Error::Unsupported { what: "motion with e_x", why: "no output of the plan needs it" });
+        }
         problem.motion_by(self.needed_method()?, self.stretch, self.accuracy)
     }
 
@@ -200,11 +200,7 @@ impl Plan {
     }
 
     fn needed_method(&self) -> Result<Method, Error> {
-        self.method.ok_or(Error::Domain {
-            quantity: "number of outputs that need a motion",
-            value: 0.0,
-            allowed: "at least one",
-        })
+        self.method.ok_or(Error::Unsupported { what: "motion of the plan", why: "none of its outputs needs one" })
     }
 }
 
@@ -275,7 +271,7 @@ mod tests {
     #[test]
     fn a_plan_without_a_motion_tells_that_no_output_needs_one() {
         let motion = plan(Output::PerturbationAngles, None, (0.0, 50.0)).motion(&problem().reduced());
-        let Err(Error::Domain { quantity, value, .. }) = motion else { panic!("{motion:?}") };
-        assert_eq!((quantity, value), ("number of outputs that need a motion", 0.0));
+        let Err(Error::Unsupported { why, .. }) = motion else { panic!("{motion:?}") };
+        assert_eq!(why, "none of its outputs needs one");
     }
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
+use crate::dynamics::BodyState;
 use crate::dynamics::equations_of_motion::{angular_velocity, reduced_rates};
-use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::euler_angles::EulerAngles;
 use crate::numerics::angle::whole_turns;
@@ -131,11 +131,7 @@ impl<'m, S: Real, M: Motion<S, State = BodyState<S>>> ContinuousAngles<'m, S, M>
     /// `p <= (v t + g t^2 / 2) exp((w + sqrt(k)) t)`. The rate of Z in the body, `|Omega x Z|`, changes by
     /// `g t + k int p dt + |I^zz - I^xx| |Omega^z| p / I^xx` at most.
     fn stays_aside(&self, state: &BodyState<f64>, duration: f64) -> bool {
-        let spheroid = RigidSpheroid {
-            inertia_xx: self.motion.spheroid().inertia_xx.re(),
-            inertia_zz: self.motion.spheroid().inertia_zz.re(),
-            constant_c: self.motion.spheroid().constant_c.re(),
-        };
+        let spheroid = self.motion.spheroid().map(|x| x.re());
         let s = self.motion.coefficients().map(S::re);
         let (xx, t) = (spheroid.inertia_xx, duration.abs());
         let (axis_rate, torque) = reduced_rates(&spheroid, &s, &state.axis, &state.momentum);
@@ -179,6 +175,7 @@ mod tests {
 
     use super::*;
     use crate::dynamics::Problem;
+    use crate::dynamics::RigidSpheroid;
     use crate::euler_angles::EulerRates;
     use crate::plan::Counted;
     use crate::propagation::UniformMotion;

@@ -1,7 +1,5 @@
 //! Centrifugal deformation of a rotating star. Eq. (20).
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::star::deformation::{centrifugal_coefficient, centrifugal_oblateness, centrifugal_oblateness_scaled};
 //! use twofold::units::geometrised::{HERTZ, KILOMETRE, SOLAR_MASS};

@@ -3,8 +3,6 @@
 //! The paper treats spheroids. The anisotropic energy `-(1/2) s^ij U^ij` holds for any body; this is the simplest one
 //! without a symmetry axis. Reference: Chandrasekhar, *Ellipsoidal Figures of Equilibrium*, chapter 3.
 //!
-//! # Example
-//!
 //! ```
 //! use nalgebra::Vector3;
 //! use twofold::star::ellipsoid::UniformEllipsoid;
@@ -27,8 +25,10 @@ use crate::numerics::scalar::Real;
 /// Ellipsoid `x^2 / a1^2 + y^2 / a2^2 + z^2 / a3^2 = 1` of uniform density. Units with G = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UniformEllipsoid<S: Real> {
-    semi_axes: Vector3<S>,
-    density: S,
+    /// Semi-axes `(a1, a2, a3)`.
+    pub semi_axes: Vector3<S>,
+    /// Density `rho`.
+    pub density: S,
 }
 
 impl<S: Real> UniformEllipsoid<S> {
@@ -42,16 +42,6 @@ impl<S: Real> UniformEllipsoid<S> {
             Error::ensure(value > 0.0 && value.is_finite(), quantity, value, "positive and finite")?;
         }
         Ok(Self { semi_axes, density })
-    }
-
-    /// Semi-axes `(a1, a2, a3)`.
-    pub fn semi_axes(&self) -> &Vector3<S> {
-        &self.semi_axes
-    }
-
-    /// Density.
-    pub fn density(&self) -> S {
-        self.density
     }
 
     /// Mass `(4 pi / 3) rho a1 a2 a3`.
@@ -77,7 +67,7 @@ impl<S: Real> UniformEllipsoid<S> {
     }
 
     /// Second moments of the mass `int rho x_i^2 d^3x = M a_i^2 / 5`.
-    pub fn second_moments(&self) -> Vector3<S> {
+    fn second_moments(&self) -> Vector3<S> {
         self.semi_axes.component_mul(&self.semi_axes) * (self.mass() / 5.0)
     }
 

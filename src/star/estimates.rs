@@ -4,15 +4,13 @@
 //! [`UniformSpheroid::polar_inertia_over_c`](crate::star::uniform_spheroid::UniformSpheroid::polar_inertia_over_c) and
 //! [`UniformSpheroid::time_unit`](crate::star::uniform_spheroid::UniformSpheroid::time_unit).
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::star::estimates::{inertia_over_c_estimate, time_unit_estimate};
 //! use twofold::units::geometrised::GRAM_PER_CUBIC_CENTIMETRE;
 //!
 //! let (density, oblateness) = (3e14 * GRAM_PER_CUBIC_CENTIMETRE, 1e-6_f64);
 //! let unit = time_unit_estimate(density, oblateness)?;
-//! assert!((unit.seconds().powi(2) / inertia_over_c_estimate(density, oblateness) - 1.0).abs() < 1e-12);
+//! assert!((unit.powi(2) / inertia_over_c_estimate(density, oblateness) - 1.0).abs() < 1e-12);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
@@ -20,7 +18,7 @@ use core::f64::consts::PI;
 
 use crate::error::Error;
 use crate::numerics::scalar::Real;
-use crate::units::TimeUnit;
+use crate::units::time_unit;
 
 /// Estimate `I^zz / C ~ 15 / (4 pi rho eps)`, Eq. (43) [time^2].
 ///
@@ -35,6 +33,6 @@ pub fn inertia_over_c_estimate<S: Real>(density: S, oblateness: S) -> S {
 ///
 /// # Errors
 /// [`Error::Domain`] unless density times oblateness is positive.
-pub fn time_unit_estimate<S: Real>(density: S, oblateness: S) -> Result<TimeUnit<S>, Error> {
-    TimeUnit::new(inertia_over_c_estimate(density, oblateness))
+pub fn time_unit_estimate<S: Real>(density: S, oblateness: S) -> Result<S, Error> {
+    time_unit(inertia_over_c_estimate(density, oblateness))
 }

@@ -1,14 +1,12 @@
 //! Maclaurin spheroid: a uniform fluid in equilibrium, rotating about its axis. Eqs. (14)-(18), (76)-(78).
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::star::maclaurin::MaclaurinSpheroid;
 //! use twofold::star::uniform_spheroid::UniformSpheroid;
 //!
 //! let star = MaclaurinSpheroid::new(UniformSpheroid::from_semi_axes(1.0_f64, 0.9, 1.0)?)?;
-//! assert!(star.rotation_rate() > 0.0 && star.virial_residual().xx.abs() < 1e-13);
-//! assert!(star.pressure(1.0, 0.0).abs() < 1e-15 && star.pressure(0.0, 0.0) == star.central_pressure());
+//! assert!(star.rotation_rate_squared > 0.0 && star.virial_residual().xx.abs() < 1e-13);
+//! assert!(star.pressure(1.0, 0.0).abs() < 1e-15 && star.pressure(0.0, 0.0) == star.central_pressure);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
@@ -23,67 +21,56 @@ use crate::star::uniform_spheroid::UniformSpheroid;
 /// A uniform oblate spheroid that turns at the rate which keeps it in hydrostatic equilibrium. Units with G = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MaclaurinSpheroid<S> {
-    spheroid: UniformSpheroid<S>,
+    /// The body.
+    pub spheroid: UniformSpheroid<S>,
+    /// Squared rotation rate `|Omega|^2 = 2 pi rho (A_1 - (a3^2 / a1^2) A_3)`, Eq. (77); `(8 pi / 15) rho e^2` near the sphere, with regular
+    /// derivatives there, which the rate itself, proportional to `e`, does not have.
+    pub rotation_rate_squared: S,
+    /// Kinetic energy `T_rot = I^zz |Omega|^2 / 2`, which is `2 C`, Eq. (78) `[estc]`.
+    pub rotational_energy: S,
+    /// Tensor `K^ij = int rho v^i v^j d^3x`, Eq. (15): `K^xx = |Omega|^2 M a1^2 / 5`, `K^zz = 0`, Eq. (18).
+    pub kinetic_tensor: AxisymmetricTensor<S>,
+    /// Pressure at the centre, `p_c = pi rho^2 A_3 a3^2`.
+    pub central_pressure: S,
+    /// Integral `P = int p d^3x = (2/5) p_c V`, Eq. (15), equal to `U^zz` by Eq. (14) with `K^zz = 0`.
+    pub pressure_integral: S,
 }
 
 impl<S: Real> MaclaurinSpheroid<S> {
     /// From an oblate or spherical spheroid.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a prolate spheroid: Eq. (77) would ask for `|Omega|^2 < 0`.
+    /// [`Error::Domain`] for a prolate spheroid: by Eq. (77) it would have `|Omega|^2 < 0`.
     pub fn new(spheroid: UniformSpheroid<S>) -> Result<Self, Error> {
-        let e2 = spheroid.shape().eccentricity_squared().re();
+        let e2 = spheroid.shape.eccentricity_squared().re();
         Error::ensure(e2 >= 0.0, "squared eccentricity e^2", e2, "not negative: no equilibrium is prolate")?;
-        Ok(Self { spheroid })
-    }
-
-    /// The body.
-    pub fn spheroid(&self) -> &UniformSpheroid<S> {
-        &self.spheroid
-    }
-
-    /// Squared rotation rate `|Omega|^2 = 2 pi rho (A_1 - (a3^2 / a1^2) A_3)`, Eq. (77); `(8 pi / 15) rho e^2` near the
-    /// sphere, with regular derivatives there.
-    pub fn rotation_rate_squared(&self) -> S {
-        self.spheroid.density() * potential_coefficients(self.spheroid.shape()).difference * (2.0 * PI)
-    }
-
-    /// Rotation rate `|Omega|`. Proportional to `e`: not differentiable in `e^2` at the sphere.
-    pub fn rotation_rate(&self) -> S {
-        self.rotation_rate_squared().sqrt()
-    }
-
-    /// Kinetic energy `T_rot = I^zz |Omega|^2 / 2`, which is `2 C`, Eq. (78) `[estc]`.
-    pub fn rotational_energy(&self) -> S {
-        self.spheroid.moment_of_inertia().zz * self.rotation_rate_squared() * 0.5
-    }
-
-    /// Tensor `K^ij = int rho v^i v^j d^3x`, Eq. (15): `K^xx = |Omega|^2 M a1^2 / 5`, `K^zz = 0`, Eq. (18).
-    pub fn kinetic_tensor(&self) -> AxisymmetricTensor<S> {
-        AxisymmetricTensor { xx: self.rotation_rate_squared() * self.spheroid.second_moments().xx, zz: S::zero() }
-    }
-
-    /// Pressure at the centre, `pi rho^2 A_3 a3^2`.
-    pub fn central_pressure(&self) -> S {
-        let (rho, a3) = (self.spheroid.density(), self.spheroid.polar_radius());
-        rho * rho * potential_coefficients(self.spheroid.shape()).a3 * a3 * a3 * PI
+        let (coefficients, rho, a3) =
+            (potential_coefficients(&spheroid.shape), spheroid.density, spheroid.polar_radius());
+        let rotation_rate_squared = rho * coefficients.difference * (2.0 * PI);
+        let central_pressure = rho * rho * coefficients.a3 * a3 * a3 * PI;
+        Ok(Self {
+            spheroid,
+            rotation_rate_squared,
+            rotational_energy: spheroid.moment_of_inertia().zz * rotation_rate_squared * 0.5,
+            kinetic_tensor: AxisymmetricTensor {
+                xx: rotation_rate_squared * spheroid.second_moments().xx,
+                zz: S::zero(),
+            },
+            central_pressure,
+            pressure_integral: central_pressure * spheroid.volume() * 0.4,
+        })
     }
 
     /// Pressure at cylindrical radius `varpi` and height `z`, Eq. (76): `p_c (1 - varpi^2 / a1^2 - z^2 / a3^2)`; negative
     /// values mean a point outside.
     pub fn pressure(&self, varpi: S, z: S) -> S {
-        let (u, w) = (varpi / self.spheroid.equatorial_radius(), z / self.spheroid.polar_radius());
-        self.central_pressure() * (S::one() - u * u - w * w)
-    }
-
-    /// Integral `P = int p d^3x = (2/5) p_c V`, Eq. (15), equal to `U^zz` by Eq. (14) with `K^zz = 0`.
-    pub fn pressure_integral(&self) -> S {
-        self.central_pressure() * self.spheroid.volume() * 0.4
+        let (u, w) = (varpi / self.spheroid.equatorial_radius, z / self.spheroid.polar_radius());
+        self.central_pressure * (S::one() - u * u - w * w)
     }
 
     /// Left side of the tensor virial relation `K^ij + delta^ij P - U^ij = 0`, Eq. (14).
     pub fn virial_residual(&self) -> AxisymmetricTensor<S> {
-        let (k, u, p) = (self.kinetic_tensor(), self.spheroid.potential_energy_tensor(), self.pressure_integral());
+        let (k, u, p) = (self.kinetic_tensor, self.spheroid.potential_energy_tensor(), self.pressure_integral);
         AxisymmetricTensor { xx: k.xx + p - u.xx, zz: k.zz + p - u.zz }
     }
 }
@@ -98,7 +85,7 @@ mod tests {
         for thickness in [0.7, 1e-3, 3e-7, 1e-9, 7e-10, 3e-11] {
             let star =
                 MaclaurinSpheroid::new(UniformSpheroid::from_semi_axes(1.3, 1.3 * thickness, 0.7).unwrap()).unwrap();
-            let (left, size) = (star.virial_residual(), star.spheroid().potential_energy_tensor());
+            let (left, size) = (star.virial_residual(), star.spheroid.potential_energy_tensor());
             assert!(left.xx.abs() < 1e-14 * size.xx, "{thickness}: {left:?} of {size:?}");
             assert!(left.zz.abs() < 1e-14 * size.zz, "{thickness}: {left:?} of {size:?}");
         }

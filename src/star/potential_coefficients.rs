@@ -23,8 +23,6 @@
 //! A_1 - q^2 A_3 = 3 (1 + u) - (2 + 3 u) p,   A_0 = 2 p,   p = sqrt(1 + u) ln(q + sqrt(q^2 - 1)),   u = 1 / (q^2 - 1)
 //! ```
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::star::potential_coefficients::{potential_coefficients, reduced_difference};
 //! use twofold::star::spheroid_shape::SpheroidShape;

@@ -1,7 +1,5 @@
 //! Shape of a spheroid: axis ratio, eccentricity, oblateness. Eqs. (10), (72), (79).
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::star::spheroid_shape::SpheroidShape;
 //!

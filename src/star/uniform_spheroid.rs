@@ -1,7 +1,5 @@
 //! Uniform spheroid: mass, inertia, tensor of the gravitational energy and the constant C. Eqs. (10), (12), (17), (19), (75).
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::star::spheroid_shape::SpheroidShape;
 //! use twofold::star::uniform_spheroid::UniformSpheroid;
@@ -9,11 +7,9 @@
 //!
 //! let shape = SpheroidShape::from_oblateness(1e-3_f64)?;
 //! let star = UniformSpheroid::from_mass(1.4 * SOLAR_MASS, 12.0 * KILOMETRE, shape)?;
-//! assert!((star.mass() / (1.4 * SOLAR_MASS) - 1.0).abs() < 1e-14 && star.c() > 0.0);
-//! assert!(star.time_unit()?.seconds() > 1e-3);
-//! let same = UniformSpheroid::new(star.equatorial_radius(), star.density(), shape)?;
-//! let again = UniformSpheroid::from_semi_axes(star.equatorial_radius(), star.polar_radius(), star.density())?;
-//! assert!((same.c() / star.c() - 1.0).abs() < 1e-12 && (again.c() / star.c() - 1.0).abs() < 1e-11);
+//! assert!((star.mass() / (1.4 * SOLAR_MASS) - 1.0).abs() < 1e-14 && star.time_unit()? > 1e-3);
+//! let same = UniformSpheroid::new(star.equatorial_radius, star.density, shape)?;
+//! assert_eq!(same.c(), star.c());
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
@@ -25,7 +21,7 @@ use crate::numerics::scalar::Real;
 use crate::star::AxisymmetricTensor;
 use crate::star::potential_coefficients::{potential_coefficients, reduced_difference};
 use crate::star::spheroid_shape::SpheroidShape;
-use crate::units::TimeUnit;
+use crate::units::time_unit;
 
 /// `4 pi^2 / 15` to 32 digits, as an unevaluated sum.
 const FOUR_PI_SQUARED_OVER_15: (f64, f64) = (2.6318945069571624, -1.2898492633364943e-16);
@@ -33,9 +29,12 @@ const FOUR_PI_SQUARED_OVER_15: (f64, f64) = (2.6318945069571624, -1.289849263336
 /// Spheroid of uniform density, oblate, spherical or prolate. Units with G = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UniformSpheroid<S> {
-    equatorial_radius: S,
-    density: S,
-    shape: SpheroidShape<S>,
+    /// Equatorial semi-axis `a1`.
+    pub equatorial_radius: S,
+    /// Density `rho`.
+    pub density: S,
+    /// Shape.
+    pub shape: SpheroidShape<S>,
 }
 
 impl<S: Real> UniformSpheroid<S> {
@@ -68,11 +67,6 @@ impl<S: Real> UniformSpheroid<S> {
         Self::new(mean_radius / cube_root(shape.axis_ratio()), density, shape)
     }
 
-    /// Equatorial semi-axis `a1`.
-    pub fn equatorial_radius(&self) -> S {
-        self.equatorial_radius
-    }
-
     /// Polar semi-axis `a3`.
     pub fn polar_radius(&self) -> S {
         self.equatorial_radius * self.shape.axis_ratio()
@@ -83,18 +77,8 @@ impl<S: Real> UniformSpheroid<S> {
         self.equatorial_radius * cube_root(self.shape.axis_ratio())
     }
 
-    /// Density.
-    pub fn density(&self) -> S {
-        self.density
-    }
-
-    /// Shape.
-    pub fn shape(&self) -> &SpheroidShape<S> {
-        &self.shape
-    }
-
     /// Volume `(4 pi / 3) a1^2 a3`.
-    pub fn volume(&self) -> S {
+    pub(crate) fn volume(&self) -> S {
         self.equatorial_radius * self.equatorial_radius * self.polar_radius() * (4.0 * PI / 3.0)
     }
 
@@ -104,7 +88,7 @@ impl<S: Real> UniformSpheroid<S> {
     }
 
     /// Second moments of the mass, `int rho x^2 d^3x = M a1^2 / 5` and `int rho z^2 d^3x = M a3^2 / 5`.
-    pub fn second_moments(&self) -> AxisymmetricTensor<S> {
+    pub(crate) fn second_moments(&self) -> AxisymmetricTensor<S> {
         let xx = self.mass() * self.equatorial_radius * self.equatorial_radius / 5.0;
         AxisymmetricTensor { xx, zz: xx * self.shape.axis_ratio_squared() }
     }
@@ -113,11 +97,6 @@ impl<S: Real> UniformSpheroid<S> {
     pub fn moment_of_inertia(&self) -> AxisymmetricTensor<S> {
         let moments = self.second_moments();
         AxisymmetricTensor { xx: moments.xx + moments.zz, zz: moments.xx * 2.0 }
-    }
-
-    /// Oblateness `(I^zz - I^xx) / I^xx = e^2 / (2 - e^2)`, Eqs. (19) `[obl]` and (79).
-    pub fn oblateness(&self) -> S {
-        self.shape.oblateness()
     }
 
     /// Tensor `U^ij = int rho x^i d_j Phi d^3x`, Eqs. (15) and (17): `U^xx = 2 pi rho A_1 M a1^2 / 5`,
@@ -148,7 +127,7 @@ impl<S: Real> UniformSpheroid<S> {
     }
 
     /// Ratio `C / I^zz = (pi rho / 2) (A_1 - q^2 A_3)` [1 / time^2]; regular at the sphere, where it is zero.
-    pub fn c_over_polar_inertia(&self) -> S {
+    pub(crate) fn c_over_polar_inertia(&self) -> S {
         self.density * potential_coefficients(&self.shape).difference * (0.5 * PI)
     }
 
@@ -166,8 +145,8 @@ impl<S: Real> UniformSpheroid<S> {
     ///
     /// # Errors
     /// [`Error::Domain`] unless the spheroid is oblate.
-    pub fn time_unit(&self) -> Result<TimeUnit<S>, Error> {
-        TimeUnit::new(self.polar_inertia_over_c()? / (self.oblateness() + S::one()))
+    pub fn time_unit(&self) -> Result<S, Error> {
+        time_unit(self.polar_inertia_over_c()? / (self.shape.oblateness() + S::one()))
     }
 }
 

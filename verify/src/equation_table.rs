@@ -66,9 +66,9 @@ equations! {
         ["star::uniform_spheroid::UniformSpheroid::potential_energy_tensor"
          "star::ellipsoid::UniformEllipsoid::potential_energy_tensor"
          "star::axisymmetric::axisymmetric_integrals"] []
-    18 "" "K^zz = 0, T_rot = (K^xx + K^yy)/2" ["star::maclaurin::MaclaurinSpheroid::kinetic_tensor"] []
+    18 "" "K^zz = 0, T_rot = (K^xx + K^yy)/2" ["star::maclaurin::MaclaurinSpheroid"] []
     19 "obl" "oblateness"
-        ["dynamics::RigidSpheroid::oblateness" "star::uniform_spheroid::UniformSpheroid::oblateness"] []
+        ["dynamics::RigidSpheroid::oblateness" "star::spheroid_shape::SpheroidShape::oblateness"] []
     20 "epf" "centrifugal deformation"
         ["star::deformation::centrifugal_oblateness" "star::deformation::centrifugal_oblateness_scaled"
          "star::deformation::centrifugal_coefficient"] ["star_estimates"]
@@ -82,9 +82,7 @@ equations! {
         ["dynamics::kinetic_energy::kinetic_energy" "dynamics::kinetic_energy::kinetic_energy_of_body"
          "dynamics::lagrangian::lagrangian"] []
     24 "firstint" "first integrals E and Omega^z; beyond the paper, K"
-        ["dynamics::first_integrals::energy_in_angles" "dynamics::first_integrals::spin_in_angles"
-         "dynamics::first_integrals::energy" "dynamics::first_integrals::spin"
-         "dynamics::first_integrals::clebsch_integral" "dynamics::first_integrals::symmetric_adjugate"
+        ["dynamics::first_integrals::energy_in_angles" "dynamics::first_integrals::spin_in_angles" "dynamics::first_integrals::symmetric_adjugate"
          "dynamics::first_integrals::first_integrals"] []
     25 "eleq" "equations of motion"
         ["dynamics::euler_angle_equations::euler_angle_residuals"
@@ -121,12 +119,12 @@ equations! {
         ["solutions::perturbation::initial_values" "solutions::perturbation::constants_from_initial_values"]
          ["caption_initial_values"]
     35 "unitt" "unit of time t_c"
-        ["dynamics::RigidSpheroid::time_unit" "dynamics::RigidSpheroid::in_units_of_tc" "units::TimeUnit"] []
+        ["dynamics::RigidSpheroid::time_unit" "dynamics::RigidSpheroid::in_units_of_tc" "units::time_unit"] []
     36 "" "permutation of the axes"
         ["lorentz_violation::PrincipalCoefficients::permuted" "euler_angles::permuted_from_inertial"]
          ["figure_euler_angles_yzx" "figure_momentum_sphere"]
     37 "" "angle between the spin axis and a direction"
-        ["observables::spin_axis::cos_lambda_in_angles" "observables::spin_axis::cos_lambda"
+        ["observables::spin_axis::cos_lambda_in_angles"
          "observables::spin_axis::cos_lambda_rate"] []
     38 "" "its change" ["observables::spin_axis::cos_lambda_change"] []
     39 "" "changes of alpha and beta in single precession" ["observables::spin_axis::changes_from_start"] []
@@ -140,8 +138,7 @@ equations! {
          "observables::eta_distribution::root_mean_square_along_motion"] ["pulsar_bounds" "eta"
          "figure_bound_factor"]
     42 "dela" "change of lambda from the change of the pulse width"
-        ["observables::bound::lambda_change" "observables::bound::lambda_change_terms"
-         "observables::bound::zeta_change" "observables::bound::zeta_change_terms"
+        ["observables::bound::lambda_change" "observables::bound::lambda_change_terms" "observables::bound::zeta_change_terms"
          "observables::bound::cos_opening_angle"] ["pulsar_bounds"]
     43 "" "estimate of I^zz / C"
         ["star::estimates::inertia_over_c_estimate" "observables::bound::fluid_inertia_over_c"]
@@ -152,8 +149,7 @@ equations! {
          "propagation::SeriesProjection" "propagation::Turning" "observables::pulsar::Pulse"
          "observables::pulsar::PulseTrain" "observables::pulsar::Stamped"
          "observables::pulsar::rate_bounds::RateBounds" "observables::pulsar::rate_bounds::rate_bounds"
-         "observables::pulsar::event_time::event_time" "observables::pulsar::event_time::edge_time"
-         "observables::pulsar::event_time::closest_approach_time"] ["figure_pulse_series"]
+         "observables::pulsar::event_time::event_time"] ["figure_pulse_series"]
     45 "" "magnetic axis in the body"
         ["observables::pulsar::Beam::new" "observables::pulsar::Beam::opposite"
          "observables::pulsar::Beam::direction"] ["figure_beam_cone"]
@@ -171,12 +167,11 @@ equations! {
         ["observables::pulsar::direction::azimuth_offset_point"
          "observables::pulsar::direction::magnetic_axis_direction"] []
     51 "pulsep" "pulsar period"
-        ["observables::pulsar::period::azimuth_rate" "observables::pulsar::period::azimuth_rate_off_pole"
+        ["observables::pulsar::period::azimuth_rate"
          "observables::pulsar::period::instantaneous_period" "observables::pulsar::period::approximate_period"
          "observables::pulsar::PulseTrain::periods"] []
     52 "" "rate of the azimuth relative to the line of nodes"
-        ["observables::pulsar::period::azimuth_offset_rate"
-         "observables::pulsar::period::azimuth_offset_rate_off_pole"] []
+        ["observables::pulsar::period::azimuth_offset_rate"] []
     53 "" "pulse width"
         ["observables::pulsar::width::edge_azimuths" "observables::pulsar::width::PulseWidth"
          "observables::pulsar::PulseTrain::durations"] []
@@ -197,14 +192,14 @@ equations! {
          "dynamics::wave_source::spheroid_inertia_acceleration"] []
     65 "gwa" "body-frame tensor A^ij" ["dynamics::wave_source::wave_tensor"] []
     66 "" "torque"
-        ["dynamics::torque::torque_from_gradient" "dynamics::torque::torque_from_gradient_off_pole"
+        ["dynamics::torque::torque_from_gradient"
          "dynamics::torque::torque_on_body" "dynamics::equations_of_motion::torque_on_axis"] []
     67 "" "differences of the moments of inertia" ["dynamics::PrincipalInertia::differences"] []
     68 "gwwf" "ddot I^{IJ} of free precession" ["dynamics::wave_source::free_inertia_acceleration"] []
     69 "" "polarization tensors" ["observables::gravitational_wave::polarization_tensors"] []
     70 "thphinertial" "basis normal to the line of sight" ["observables::Observer::at"] []
     71 "hpluscross" "h_+ and h_x"
-        ["observables::gravitational_wave::polarizations" "observables::gravitational_wave::Polarizations"
+        ["observables::gravitational_wave::polarizations" "observables::gravitational_wave::wave_of_state" "observables::gravitational_wave::Polarizations"
          "observables::gravitational_wave::strain_unit"] ["spectral_lines" "figure_waves" "figure_wave_spectra"]
     72 "ecc" "eccentricity" ["star::spheroid_shape::SpheroidShape"] []
     73 "" "interior potential of a uniform ellipsoid"
@@ -216,8 +211,8 @@ equations! {
         ["star::uniform_spheroid::UniformSpheroid::c" "star::potential_coefficients::reduced_difference"]
          ["appendix_expansions"]
     76 "" "hydrostatic equilibrium" ["star::maclaurin::MaclaurinSpheroid::pressure"] []
-    77 "" "rotation of a Maclaurin spheroid" ["star::maclaurin::MaclaurinSpheroid::rotation_rate_squared"] []
-    78 "estc" "T_rot = 2 C" ["star::maclaurin::MaclaurinSpheroid::rotational_energy"] []
+    77 "" "rotation of a Maclaurin spheroid" ["star::maclaurin::MaclaurinSpheroid::new"] []
+    78 "estc" "T_rot = 2 C" ["star::maclaurin::MaclaurinSpheroid::new"] []
     79 "" "oblateness from the eccentricity" ["star::spheroid_shape::SpheroidShape::oblateness"] []
 }
 

@@ -77,7 +77,7 @@ pub struct Formulas {
 impl Viewing {
     /// The formulas for angles `[beta, gamma]` and rates `[alpha', gamma']`.
     pub fn formulas(&self, [beta, gamma]: [f64; 2], [alpha_rate, gamma_rate]: [f64; 2]) -> Result<Formulas, Error> {
-        let offset_rate = azimuth_offset_rate(beta, gamma, gamma_rate, self.chi, self.delta)?;
+        let offset_rate = azimuth_offset_rate(beta, gamma, gamma_rate, self.chi, self.delta);
         let theta = cosine_of_colatitude(beta, gamma, self.chi, self.delta).acos();
         let width = match pulse_width(self.rho, theta, self.theta_o) {
             PulseWidth::Pulsed(width) => width,

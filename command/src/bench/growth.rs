@@ -1,7 +1,7 @@
 //! Growth of errors over long motions: energy, K and phase.
 
 use nalgebra::Vector3;
-use twofold::dynamics::first_integrals::{clebsch_integral, energy};
+use twofold::dynamics::first_integrals::first_integrals;
 use twofold::dynamics::{AxisState, RotationState};
 use twofold::propagation::Motion;
 
@@ -96,9 +96,9 @@ pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, S
 fn integrals(scene: &BenchScene, state: &AxisState<f64>) -> [DoubleDouble; 2] {
     let lift = <DoubleDouble as twofold::Scalar>::from_f64;
     let lifted = scene.problem.map(lift);
-    let (spheroid, s) = (lifted.spheroid(), lifted.coefficients());
-    let (n, l) = (state.axis.map(lift), state.momentum.map(lift));
-    [energy(spheroid, s, &n, &l), clebsch_integral(spheroid, s, &n, &l)]
+    let state = AxisState { axis: state.axis.map(lift), momentum: state.momentum.map(lift) };
+    let found = first_integrals(lifted.spheroid(), lifted.coefficients(), &state);
+    [found.energy, found.clebsch]
 }
 
 /// Sums of the magnitudes of the terms of energy and K.

@@ -119,7 +119,7 @@ pub(super) fn signal(example: &PaperExample, table: &Table) -> Result<Vec<Vec<f6
     for t in table.times() {
         let state = motion.state(t)?;
         let (angles, euler_rates) = (state.angles()?, state.rates(&body)?);
-        let offset_rate = azimuth_offset_rate(angles.beta, angles.gamma, euler_rates.gamma, CHI, 0.0)?;
+        let offset_rate = azimuth_offset_rate(angles.beta, angles.gamma, euler_rates.gamma, CHI, 0.0);
         let rate = euler_rates.alpha + offset_rate;
         let (theta, _) = magnetic_axis_direction(&angles, CHI, 0.0)?;
         let width = match pulse_width(RHO, theta, THETA_O) {

@@ -11,7 +11,7 @@ use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame};
 use twofold::numerics::elliptic::carlson::{rc, rd, rf, rj};
 use twofold::numerics::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::observables::Observer;
-use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination, lambda_change, zeta_change};
+use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination, lambda_change};
 use twofold::observables::eta_distribution::EtaDistribution;
 use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::pulsar::timing::ConstantPeriod;
@@ -37,7 +37,7 @@ use twofold::star::maclaurin::MaclaurinSpheroid;
 use twofold::star::potential_coefficients::potential_coefficients;
 use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
-use twofold::units::TimeUnit;
+use twofold::units::time_unit;
 
 use super::bytes::Bytes;
 
@@ -291,7 +291,7 @@ fn stars(bytes: &mut Bytes<'_>) {
             let _ = black_box(MaclaurinSpheroid::new(star).map(|star| star.pressure(1.0, 1.0)));
         }
     }
-    let _ = black_box(TimeUnit::new(next()));
+    let _ = black_box(time_unit(next()));
     let day = next();
     if let Ok(epoch) = Epoch::new(day as i64, next()) {
         let _ = black_box(epoch.after([next(), next()]).map(|after| after.to_string().parse::<Epoch>()));
@@ -308,10 +308,10 @@ fn bounds(bytes: &mut Bytes<'_>) {
     let mut next = || bytes.number();
     let drift =
         SpinAxisDrift { polar_inertia_over_c: next(), spin: next(), interval: next(), cos_lambda_change: next() };
-    let _ = black_box((drift.combination_bound(next()), drift.combination_bound_at(next())));
+    let _ = black_box((drift.combination_bound(next()), eta_from_inclination(next())));
     let _ = black_box((eta_from_inclination(next()), pulse_width(next(), next(), next())));
     let [a, b, c, d] = std::array::from_fn(|_| next());
-    let _ = black_box((zeta_change(a, b, c, d), lambda_change(a, b, c, d)));
+    let _ = black_box(lambda_change(a, b, c, d));
     for found in [EtaDistribution::at_inclination(a, b), EtaDistribution::at_constant(a, b)].into_iter().flatten() {
         let _ = black_box((found.root_mean_square(), found.probability_above(c), found.quantile(d)));
     }

@@ -107,7 +107,7 @@ fn physical(section: &Section<'_>) -> Result<(Star, Option<String>), Fault> {
     let refused = |error: Error| section.fault(format!("[star] is not a uniform oblate spheroid: {error}"));
     let shape = SpheroidShape::from_oblateness(oblateness).map_err(refused)?;
     let body = UniformSpheroid::from_mass(mass * SOLAR_MASS, mean_radius, shape).map_err(refused)?;
-    let time = body.time_unit().map_err(refused)?.seconds();
+    let time = body.time_unit().map_err(refused)?;
     let inertia = body.moment_of_inertia();
     let break_up = break_up_frequency(&body);
     let caution = (frequency.abs() > break_up).then(|| {
@@ -135,7 +135,7 @@ fn physical(section: &Section<'_>) -> Result<(Star, Option<String>), Fault> {
 /// Rotation frequency (Hz) at which the centrifugal acceleration at the equator of a uniform spheroid, `Omega^2 a1`, is that of
 /// gravity, by Eq. (73) `2 pi rho A_1 a1`: `Omega^2 = 2 pi rho A_1`, for a sphere `M / R^3`. Newtonian.
 fn break_up_frequency(body: &UniformSpheroid<f64>) -> f64 {
-    (TAU * body.density() * potential_coefficients(body.shape()).a1).sqrt() / TAU
+    (TAU * body.density * potential_coefficients(&body.shape).a1).sqrt() / TAU
 }
 
 /// `s^IJ` in the inertial frame of the file, and its principal frame.

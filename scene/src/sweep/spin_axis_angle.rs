@@ -7,7 +7,7 @@ use gauss_quad::GaussLegendre;
 use nalgebra::Vector3;
 use twofold::Error;
 use twofold::dynamics::RigidSpheroid;
-use twofold::observables::spin_axis::{cos_lambda, cos_lambda_rate};
+use twofold::observables::spin_axis::cos_lambda_rate;
 
 use crate::samples::AxisStateAt;
 
@@ -95,7 +95,7 @@ impl SpinAxisAngle {
     fn take(&mut self, motion: &AxisStateAt<'_>, time: f64) -> Result<Place, Error> {
         let state = motion(time)?;
         let across = self.direction.cross(&state.axis).norm();
-        let angle = across.atan2(cos_lambda(&self.direction, &state.axis));
+        let angle = across.atan2(self.direction.dot(&state.axis));
         self.least = self.least.min(angle);
         self.largest = self.largest.max(angle);
         let rate = cos_lambda_rate(&self.spheroid, &self.direction, &state.axis, &state.momentum);

@@ -1,4 +1,4 @@
-//! The axis that the angular momentum goes round.
+//! The axis about which the angular momentum precesses.
 
 use nalgebra::Matrix3;
 

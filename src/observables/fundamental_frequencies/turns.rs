@@ -1,4 +1,4 @@
-//! Whole turns of angles.
+//! Counts whole turns of angles.
 
 use core::f64::consts::TAU;
 

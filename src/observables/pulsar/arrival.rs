@@ -1,10 +1,11 @@
-//! Times of arrival of a pulse train and the numbers of its pulses. Eqs. (44), (47).
+//! Arrival times of the pulses of a train, and their turn numbers. Eqs. (44), (47).
 
 use core::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use super::edge_search::{BySeries, ByStates, EdgeSearch, Margin};
+use super::edge_search::EdgeSearch;
+use super::margin::{BySeries, ByStates, Margin};
 use super::rate_bounds::RateBounds;
 use super::root::root;
 use super::turns::Turns;

@@ -1,36 +1,24 @@
 //! The beam: a cone about the magnetic axis, and whether it holds the line of sight. Eqs. (44), (45), (47).
 //!
-//! # Example
-//!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
-//! use twofold::observables::Observer;
 //! use twofold::observables::pulsar::beam::{Beam, axis_along_line_of_sight};
+//! use twofold::{BodyState, EulerAngles, EulerRates, Observer, RigidSpheroid};
 //!
-//! let (chi, delta, rho) = (0.5, 0.0, 0.6_f64);
-//! let beam = Beam::new(chi, delta, rho);
-//! let sight = Observer::at(0.8, 0.0).direction;
-//! let along = axis_along_line_of_sight(&angles, chi, delta, 0.8, 0.0);
-//! assert!((beam.direction(&state).dot(&sight) - along).abs() < 1e-15);
-//! // Above zero the pulse is seen.
-//! assert!((beam.margin(&state, &sight) - (along - rho.cos())).abs() < 1e-15);
+//! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
+//! let state = BodyState::from_angles(&RigidSpheroid::in_units_of_tc(1.1_f64), &angles, &rates);
+//! let (beam, sight) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0).direction);
+//! // The observer is inside the cone where the margin is above zero.
+//! let along = axis_along_line_of_sight(&angles, 0.5, 0.0, 0.8, 0.0);
+//! assert!((beam.margin(&state, &sight) - (along - 0.6_f64.cos())).abs() < 1e-15);
 //! ```
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::sin_cos_of_sum;
 use crate::dynamics::equations_of_motion::{angular_velocity, reduced_rates};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::euler_angles::EulerAngles;
 use crate::numerics::scalar::Scalar;
+use crate::observables::sin_cos_of_sum;
 
 /// A cone of radiation fixed in the body.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,32 +1,9 @@
-//! A pulsar as a clock: its pulses near any time, numbered without a break over decades. Eqs. (44), (47).
-//!
-//! # Example
-//!
-//! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
-//! use twofold::observables::Observer;
-//! use twofold::observables::pulsar::{Beam, PulsarClock};
-//! use twofold::solutions::averaged::AveragingOrder;
-//!
-//! // 1e10 t_c from now, of a violation as weak as in real stars.
-//! let weak = s.scaled(1e-12).tensor();
-//! let mut clock = PulsarClock::new(&star, &weak, &state, &Beam::new(0.5, 0.0, 0.6), &Observer::at(0.8, 0.0), AveragingOrder::Second)?;
-//! let pulse = clock.pulse_near([1e10, 0.0])?.expect("the beam passes the line of sight");
-//! assert!((pulse.midpoint[0] - 1e10).abs() < clock.period());
-//! # Ok::<(), twofold::Error>(())
-//! ```
+//! A pulsar as a clock: its pulse near any time, with turns counted without a break over decades. Eqs. (44), (47).
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::edge_search::{ByStates, EdgeSearch, Event, Margin};
+use super::edge_search::{EdgeSearch, Event};
+use super::margin::{ByStates, Margin};
 use super::position_angle::{position_angle, position_angle_rate};
 use super::rate_bounds::{RateBounds, rate_bounds};
 use super::train::{PulseTrain, check_beam};
@@ -45,7 +22,7 @@ use crate::solutions::averaged::{AveragedSolution, AveragingOrder};
 /// Most rotation of the body in one turn about L (rad): the search takes a tenth of a second.
 const MOST_ROTATION: f64 = 1e5;
 
-/// A pulsar in averaged motion, its beam and who looks at it.
+/// A pulsar in averaged motion, with its beam and its observer.
 ///
 /// ```
 /// use nalgebra::{Matrix3, Vector3};
@@ -254,7 +231,7 @@ impl PulsarClock {
             midpoint: (DoubleDouble::from(t) + pulse.midpoint().into()).into(),
             duration: pulse.duration(),
             position_angle: middle,
-            position_angle_rate: position_angle_rate(&m, &omega, &self.observer).unwrap_or(f64::NAN),
+            position_angle_rate: if middle.is_nan() { middle } else { position_angle_rate(&m, &omega, &self.observer) },
             swing: wrapped(from(pulse.end) - middle) + wrapped(middle - from(pulse.start)),
             state: state.rotated(&self.given_from_principal),
         })

@@ -1,38 +1,24 @@
 //! Colatitude and azimuth of the magnetic axis in the inertial frame. Eqs. (49), (50), (54).
 //!
-//! # Example
-//!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
-//! use twofold::observables::pulsar::Beam;
+//! use twofold::EulerAngles;
 //! use twofold::observables::pulsar::direction::{
 //!     axis_along_line_of_sight_in_azimuth, azimuth_offset_point, cosine_of_colatitude, magnetic_axis_direction,
 //! };
 //!
-//! let (chi, delta) = (0.5, 0.2);
+//! let (angles, chi, delta) = (EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 }, 0.5, 0.2);
 //! let (theta, phi) = magnetic_axis_direction(&angles, chi, delta)?;
-//! let m = Beam::new(chi, delta, 0.6).direction(&state);
-//! assert!((m.z - theta.cos()).abs() < 1e-15 && (m.y.atan2(m.x) - phi).sin().abs() < 1e-14);
 //! assert!((cosine_of_colatitude(angles.beta, angles.gamma, chi, delta) - theta.cos()).abs() < 1e-15);
 //! let (x, y) = azimuth_offset_point(angles.beta, angles.gamma, chi, delta);
-//! assert!((y.atan2(x) + angles.alpha - phi).sin().abs() < 1e-14);
-//! // Seen along itself.
-//! assert!((axis_along_line_of_sight_in_azimuth(theta, phi, theta, phi) - 1.0).abs() < 1e-15);
+//! assert!((x.hypot(y) - theta.sin()).abs() < 1e-15 && (y.atan2(x) + angles.alpha - phi).sin().abs() < 1e-14);
+//! assert!((axis_along_line_of_sight_in_azimuth(theta, phi, theta, phi) - 1.0).abs() < 1e-15); // seen along itself
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
-use super::sin_cos_of_sum;
 use crate::error::Error;
 use crate::euler_angles::EulerAngles;
 use crate::numerics::scalar::{Real, Scalar};
+use crate::observables::sin_cos_of_sum;
 
 /// `cos Theta = cos b cos chi + sin b sin chi sin(g + delta)` of the magnetic axis, Eq. (49) `[tranang]`.
 pub fn cosine_of_colatitude<S: Scalar>(beta: S, gamma: S, chi: S, delta: S) -> S {
@@ -78,7 +64,7 @@ pub fn axis_along_line_of_sight_in_azimuth<S: Scalar>(theta: S, phi: S, theta_o:
 }
 
 /// Refuses a magnetic axis on the Z axis, given `sin^2 Theta`.
-pub(super) fn refuse_pole(sin_squared: f64) -> Result<(), Error> {
+fn refuse_pole(sin_squared: f64) -> Result<(), Error> {
     let sin = sin_squared.sqrt();
     Error::ensure(sin > f64::EPSILON, "sin Theta of the magnetic axis", sin, "above 2.2e-16: on Z it has no azimuth")
 }

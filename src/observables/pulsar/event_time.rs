@@ -1,37 +1,15 @@
-//! Times of a pulse as functions of what they depend on: the implicit function theorem. Eq. (44).
-//!
-//! # Example
+//! Times of a pulse with their derivatives by parameters, from the implicit function theorem. Eq. (44).
 //!
 //! ```
-//! use nalgebra::{Matrix3, Vector3};
 //! use num_dual::Dual64;
-//! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-//! use twofold::observables::Observer;
-//! use twofold::observables::pulsar::event_time::{closest_approach_time, edge_time, event_time};
-//! use twofold::observables::pulsar::{Beam, pulse_train};
-//! use twofold::propagation::Motion;
+//! use twofold::observables::pulsar::event_time::event_time;
 //!
 //! // The root of t^2 = p at p = 4, by p: dt/dp = 1/4.
 //! let root = event_time(2.0, Dual64::from_re(4.0) - Dual64::new(4.0, 1.0), 4.0)?;
 //! assert_eq!((root.re, root.eps), (2.0, 0.25));
-//! // The edge of a pulse by itself, where nothing carries a derivative.
-//! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
-//! let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(-0.7, 0.1, 1.5));
-//! let start = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
-//! let motion = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?.taylor((0.0, 20.0), 1e-13)?;
-//! let (beam, sight) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0).direction);
-//! let pulse = pulse_train(&motion, &beam, &sight, (0.0, 20.0))?.pulses[1];
-//! let (place, near) = ((motion.spheroid(), &s), pulse.midpoint());
-//! let edge = edge_time(pulse.start, &beam, &sight, place, &motion.state(pulse.start)?)?;
-//! assert!((edge - pulse.start).abs() < 1e-12);
-//! assert!((closest_approach_time(near, &beam, &sight, place, &motion.state(near)?)? - near).abs() < 0.1);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
-use nalgebra::{Matrix3, Vector3};
-
-use super::Beam;
-use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::numerics::scalar::Real;
 
@@ -44,45 +22,14 @@ use crate::numerics::scalar::Real;
 /// `t` is a root to rounding, `value` is `f` at that fixed time with its derivatives by `p`, and `rate` is `df/dt` there. This is
 /// one step of Newton's method in numbers that carry derivatives; its real part moves `t` by what rounding had left.
 ///
+/// With the [rates of the margin](super::Beam::margin_rates) `[f, f', f'', ..]` at `t`, an edge of a pulse, Eq. (44) `[ineq]`, is
+/// `event_time(t, f, f'.re())`, and a closest approach `event_time(t, f', f''.re())`.
+///
 /// # Errors
 /// [`Error::Domain`] for a rate of zero or one that is not finite: the root is a touch, and no function of `p`.
 pub fn event_time<S: Real>(t: f64, value: S, rate: f64) -> Result<S, Error> {
     Error::ensure(rate.abs() > 0.0 && rate.is_finite(), "rate at a root", rate, "finite and not zero: no touch")?;
     Ok(S::from_f64(t) - value / rate)
-}
-
-/// Time at which the line of sight (unit vector `n`) crosses the edge of a beam, `m.n = cos(rho)`, Eq. (44) `[ineq]`, with its first
-/// derivatives.
-///
-/// `t` is that time and `state` the state at the fixed time `t`, with derivatives, as are body, tensor, beam and line of sight.
-///
-/// # Errors
-/// [`Error::Domain`] where the line of sight only touches the edge.
-pub fn edge_time<S: Real>(
-    t: f64,
-    beam: &Beam<S>,
-    line_of_sight: &Vector3<S>,
-    (spheroid, s): (&RigidSpheroid<S>, &Matrix3<S>),
-    state: &BodyState<S>,
-) -> Result<S, Error> {
-    let [margin, rate, ..] = beam.margin_rates(spheroid, s, state, line_of_sight);
-    event_time(t, margin, rate.re())
-}
-
-/// Time at which the magnetic axis is nearest to the line of sight, `d(m.n)/dt = 0`, with its first derivatives. Arguments as for
-/// [`edge_time`].
-///
-/// # Errors
-/// [`Error::Domain`] where the second derivative of `m.n` vanishes.
-pub fn closest_approach_time<S: Real>(
-    t: f64,
-    beam: &Beam<S>,
-    line_of_sight: &Vector3<S>,
-    (spheroid, s): (&RigidSpheroid<S>, &Matrix3<S>),
-    state: &BodyState<S>,
-) -> Result<S, Error> {
-    let [_, rate, second, _] = beam.margin_rates(spheroid, s, state, line_of_sight);
-    event_time(t, rate, second.re())
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ pub mod clock;
 pub mod direction;
 mod edge_search;
 pub mod event_time;
+mod margin;
 pub mod period;
 pub mod position_angle;
 pub mod rate_bounds;
@@ -23,11 +24,3 @@ pub use clock::{ClockPulse, NearState, PulsarClock};
 pub use spin_fit::SpinFit;
 pub use timing::ConstantPeriod;
 pub use train::{Pulse, PulseTrain, Stamped, propagated_pulse_train, pulse_train};
-
-use crate::numerics::scalar::Scalar;
-
-/// Sine and cosine of `a + b` from those of each: over an exact field a sum of angles has no code of its own.
-fn sin_cos_of_sum<S: Scalar>(a: S, b: S) -> (S, S) {
-    let ((sa, ca), (sb, cb)) = (a.sin_cos(), b.sin_cos());
-    (sa * cb + ca * sb, ca * cb - sa * sb)
-}

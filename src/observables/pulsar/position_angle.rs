@@ -13,50 +13,31 @@
 //! 341 (2001)). For a line, such as a polarization, `psi` is known up to half a turn. Nothing in the model asks the star to spin
 //! about a fixed axis: with `Theta(t)` and `Phi(t)` of Eq. (49) `[tranang]` it holds for any motion.
 //!
-//! # Example
-//!
 //! ```
-//! # use nalgebra::{Matrix3, Vector3};
-//! # use twofold::dynamics::{BodyState, RigidSpheroid};
-//! # use twofold::euler_angles::{EulerAngles, EulerRates};
-//! # use twofold::lorentz_violation::PrincipalCoefficients;
-//! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
-//! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
-//! let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
-//! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-//! let state = BodyState::from_angles(&star, &angles, &rates);
-//! use twofold::dynamics::equations_of_motion::angular_velocity;
-//! use twofold::observables::Observer;
-//! use twofold::observables::pulsar::Beam;
+//! use nalgebra::Vector3;
+//! use twofold::Observer;
 //! use twofold::observables::pulsar::position_angle::{
-//!     position_angle, position_angle_rate, position_angle_rate_off_line_of_sight, rotating_vector_gradient,
-//!     rotating_vector_point, rotating_vector_position_angle, sky_from_inertial,
+//!     position_angle, position_angle_rate, rotating_vector_gradient, rotating_vector_point, rotating_vector_position_angle, sky_from_inertial,
 //! };
 //!
-//! let observer = Observer::at(0.8, 0.4);
-//! let m = Beam::new(0.5, 0.2, 0.6).direction(&state);
-//! let psi = position_angle(&m, &observer)?;
-//! // In the rotating vector model, from colatitude and azimuth.
-//! let (theta, phi) = (m.z.acos(), m.y.atan2(m.x));
-//! assert!((rotating_vector_position_angle(theta, phi, 0.8, 0.4)? - psi).sin().abs() < 1e-14);
-//! let (x, y) = rotating_vector_point(theta, phi, 0.8, 0.4);
-//! assert!((y.atan2(x) - psi).sin().abs() < 1e-14);
-//! let omega = angular_velocity(&star, &state.axis, &state.momentum);
-//! assert_eq!(position_angle_rate(&m, &omega, &observer)?, position_angle_rate_off_line_of_sight(&m, &omega, &observer));
-//! let (by_theta, by_phi) = rotating_vector_gradient(theta, phi, 0.8, 0.4);
-//! assert!(by_theta.is_finite() && by_phi.is_finite());
-//! // The line of sight is the third axis of the sky.
-//! assert!((sky_from_inertial(&observer) * observer.direction - Vector3::z()).amax() < 1e-15);
+//! let (observer, m) = (Observer::at(0.8, 0.4), Vector3::new(0.6, 0.0, 0.8_f64));
+//! let (psi, theta) = (position_angle(&m, &observer)?, 0.6_f64.asin());
+//! assert!((rotating_vector_position_angle(theta, 0.0, 0.8, 0.4)? - psi).abs() < 1e-14);
+//! // The star turns once in 2 pi about Z: psi' is the derivative by the azimuth.
+//! let (_, by_azimuth) = rotating_vector_gradient(theta, 0.0, 0.8, 0.4);
+//! assert!((position_angle_rate(&m, &Vector3::z(), &observer) - by_azimuth).abs() < 1e-13);
+//! let (north, east) = rotating_vector_point(theta, 0.0, 0.8, 0.4);
+//! assert!(((sky_from_inertial(&observer) * m).xy() - nalgebra::Vector2::new(north, east)).amax() < 1e-15);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::period::azimuth_rate_off_pole;
-use super::sin_cos_of_sum;
+use super::period::azimuth_rate;
 use crate::error::Error;
 use crate::numerics::scalar::{Real, Scalar};
 use crate::observables::Observer;
+use crate::observables::sin_cos_of_sum;
 
 /// Rotation from the inertial frame to the sky of an observer: rows north `-theta-hat_o`, east `-phi-hat_o` and, towards the
 /// observer, `n-hat`, Eqs. (46), (70) `[thphinertial]`.
@@ -81,23 +62,11 @@ pub fn position_angle<S: Real>(axis: &Vector3<S>, observer: &Observer<S>) -> Res
 /// Exact rate `psi' = [Omega.n - (Omega.m)(m.n)] / |m x n|^2` (here `n = n-hat`) of the position angle of an axis `m` fixed in
 /// a body that turns with `omega`, all in inertial components.
 ///
-/// # Errors
-/// As for [`position_angle`]. Near the line of sight the relative error grows as `1 / |m x n|^2`.
-pub fn position_angle_rate<S: Real>(axis: &Vector3<S>, omega: &Vector3<S>, observer: &Observer<S>) -> Result<S, Error> {
-    let on_sky = sky_from_inertial(observer) * axis;
-    refuse_line_of_sight(on_sky.x, on_sky.y)?;
-    Ok(position_angle_rate_off_line_of_sight(axis, omega, observer))
-}
-
-/// [`position_angle_rate`] without the check of its domain, for exact fields.
-pub fn position_angle_rate_off_line_of_sight<S: Scalar>(
-    axis: &Vector3<S>,
-    omega: &Vector3<S>,
-    observer: &Observer<S>,
-) -> S {
+/// Not finite along the line of sight; near it the relative error grows as `1 / |m x n|^2`.
+pub fn position_angle_rate<S: Scalar>(axis: &Vector3<S>, omega: &Vector3<S>, observer: &Observer<S>) -> S {
     // The position angle is an azimuth about the line of sight.
     let sky = sky_from_inertial(observer);
-    azimuth_rate_off_pole(&(sky * axis), &(sky * omega))
+    azimuth_rate(&(sky * axis), &(sky * omega))
 }
 
 /// The point `(m . north, m . east)` at the angle `psi`, of length `|m x n-hat|`, for the magnetic axis at `(Theta, Phi)` and

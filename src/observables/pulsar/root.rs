@@ -1,4 +1,4 @@
-//! A root of a function of time between two times at which its signs differ.
+//! Finds a root of a function of time between two times at which its signs differ.
 
 use crate::error::Error;
 

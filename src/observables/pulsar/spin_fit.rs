@@ -1,7 +1,5 @@
 //! A constant frequency, with or without a spin-down, fitted to numbered arrival times over decades.
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::observables::pulsar::SpinFit;
 //!

@@ -1,4 +1,4 @@
-//! Residuals of times of arrival against a constant period.
+//! Residuals of arrival times against a constant period.
 
 use crate::error::Error;
 

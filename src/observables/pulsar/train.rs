@@ -1,7 +1,5 @@
 //! The pulse train of a motion: every stretch of time with the line of sight inside the beam. Eq. (44).
 //!
-//! # Example
-//!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
 //! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
@@ -28,7 +26,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::Beam;
 pub use super::edge_search::GRAZING;
-use super::edge_search::{BySeries, ByStates, EdgeSearch, Event, Margin};
+use super::edge_search::{EdgeSearch, Event};
+use super::margin::{BySeries, ByStates, Margin};
 use super::rate_bounds::{RateBounds, rate_bounds};
 use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;

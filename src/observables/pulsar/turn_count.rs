@@ -1,4 +1,4 @@
-//! The number of a turn, without a break over decades: from the phases of the averaged motion.
+//! Turn numbers without a break over decades, from the phases of the averaged motion.
 //!
 //! [`Turns`](super::turns) follows a motion from one half radian to the next. Over 1e11 turns the whole turns must come of the phases:
 //! with the symmetry axis `n` at the angle `theta` to `l` and the magnetic axis `m` at `chi` to `n`, the azimuth of `m` about `l` is

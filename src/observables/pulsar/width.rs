@@ -1,7 +1,5 @@
 //! The pulse width at constant colatitude of the magnetic axis. Eqs. (53), (55), (56).
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::observables::pulsar::width::{PulseWidth, cosine_of_half_width, edge_azimuths, pulse_width};
 //!

@@ -1,4 +1,4 @@
-//! Which integer combination of given frequencies a line is, or none.
+//! Names a spectral line as an integer combination of given frequencies, where there is one.
 
 use core::fmt;
 

@@ -1,4 +1,4 @@
-//! Weighted least squares for a constant and any number of real waves together, frequencies included.
+//! Weighted least squares for a constant and several sinusoids together, frequencies included.
 
 use core::f64::consts::FRAC_PI_2;
 

@@ -1,7 +1,5 @@
-//! Spectra of what is observed of a motion: amplitudes by the fast Fourier transform, lists of lines, and which combination of
-//! the motion's fundamental frequencies each line is.
-//!
-//! # Example
+//! Spectra of time series: amplitudes by the fast Fourier transform, lists of lines, and lines as combinations of the fundamental frequencies
+//! of the motion.
 //!
 //! ```
 //! use twofold::observables::spectrum::{

@@ -1,4 +1,4 @@
-//! Spectrum of what a fit leaves of a series: where further lines are, and how far what is left shifts those found.
+//! Spectrum of the residuals of a fit: where further lines are, and how far they shift those found.
 
 use core::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! A real number in equal steps of time.
+//! A real time series in equal steps.
 
 use crate::dynamics::BodyState;
 use crate::error::Error;

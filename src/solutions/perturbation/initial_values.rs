@@ -131,11 +131,7 @@ impl Inversion<f64> {
         Inversion {
             form: self.form,
             kind: self.kind,
-            spheroid: RigidSpheroid {
-                inertia_xx: lift(self.spheroid.inertia_xx),
-                inertia_zz: lift(self.spheroid.inertia_zz),
-                constant_c: lift(self.spheroid.constant_c),
-            },
+            spheroid: self.spheroid.map(lift),
             s: PrincipalCoefficients { xx: lift(self.s.xx), yy: lift(self.s.yy), zz: lift(self.s.zz) },
             spin: lift(self.spin),
             initial: AxisAngles {

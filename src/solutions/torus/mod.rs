@@ -1,6 +1,6 @@
 //! Invariant tori of the motion: states with given first integrals, and the exact frequencies.
 //!
-//! `(n, L)` has the commuting integrals `H` and `K` ([`clebsch_integral`](crate::dynamics::first_integrals::clebsch_integral)), so it moves on
+//! `(n, L)` has the commuting integrals `H` and `K` ([`clebsch`](crate::dynamics::first_integrals::FirstIntegrals::clebsch)), so it moves on
 //! tori of two dimensions; the turn about `n`, moved by `L.n`, makes the third.
 //!
 //! # Example

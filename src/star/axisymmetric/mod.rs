@@ -24,8 +24,6 @@
 //! degree; what is left decreases as `degree^-5`. For a uniform spheroid of axis ratio 0.95, 0.6, 2 the relative error of C
 //! at degree 16 is 4e-6, 6e-5, 2e-4, at degree 32 it is 2e-7, 2e-6, 5e-6. For the sphere degree 2 is exact.
 //!
-//! # Example
-//!
 //! ```
 //! use twofold::star::axisymmetric::axisymmetric_integrals;
 //! use twofold::star::uniform_spheroid::UniformSpheroid;
@@ -69,13 +67,13 @@ impl<S, D: Fn(S, S) -> S, B: Fn(S) -> (S, S)> AxisymmetricBody<S> for (D, B) {
 
 impl<S: Real> AxisymmetricBody<S> for UniformSpheroid<S> {
     fn density(&self, _r: S, _mu: S) -> S {
-        UniformSpheroid::density(self)
+        self.density
     }
 
     /// `r_s = a3 / sqrt(1 - e^2 (1 - mu^2))`.
     fn surface(&self, mu: S) -> (S, S) {
-        let e2 = self.shape().eccentricity_squared();
-        let inside = self.shape().axis_ratio_squared() + e2 * mu * mu;
+        let e2 = self.shape.eccentricity_squared();
+        let inside = self.shape.axis_ratio_squared() + e2 * mu * mu;
         let radius = self.polar_radius() / inside.sqrt();
         (radius, -(radius * e2 * mu / inside))
     }

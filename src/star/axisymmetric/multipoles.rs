@@ -1,4 +1,4 @@
-//! The sums and integrals of the multipole quadrature.
+//! Sums and integrals of the multipole expansion.
 
 use core::f64::consts::PI;
 use core::num::NonZeroUsize;

@@ -8,7 +8,7 @@ use twofold::lorentz_violation::{
     principal_frame_along, principal_frame_with_derivatives,
 };
 use twofold::solutions::free::rotated_by;
-use twofold::units::TimeUnit;
+use twofold::units::time_unit;
 
 use crate::values::scene::tensor;
 use crate::values::table::Table;
@@ -57,12 +57,7 @@ fn principal_frames() {
             let size = found.asymmetry.norm();
             table.row(
                 "  symmetry",
-                &[
-                    ("difference", &found.difference),
-                    ("within rounding", &found.is_symmetric_within_rounding()),
-                    ("asymmetry", &(if size < 1e-15 { 0.0 } else { size })),
-                    ("refused", &found.refuse_asymmetry().is_err()),
-                ],
+                &[("difference", &found.difference), ("asymmetry", &(if size < 1e-15 { 0.0 } else { size }))],
             );
         });
     }
@@ -76,17 +71,7 @@ fn principal_frames() {
 #[test]
 fn units_epochs_and_turns() {
     let mut table = Table::default();
-    let unit = TimeUnit::new(3.7e-9).expect("a unit");
-    table.row(
-        "unit",
-        &[
-            ("seconds", &unit.seconds()),
-            ("in seconds", &unit.in_seconds(2.3)),
-            ("in t_c", &unit.in_t_c(0.7)),
-            ("in rad/s", &unit.in_radians_per_second(1.9)),
-            ("in Hz", &unit.in_hertz(1.9)),
-        ],
-    );
+    table.row("unit", &[("seconds", &time_unit(3.7e-9).expect("a unit"))]);
     let epoch = Epoch::new(55_321, 0.375).expect("an epoch");
     for seconds in [[0.0, 0.0], [1.0, 1e-12], [54_000.0, 0.0], [-33_000.0, 1e-9], [1e9, -1e-7], [-1e10, 0.0]] {
         let after = epoch.after(seconds).expect("an epoch");

@@ -139,9 +139,9 @@ fn clocks() {
 #[test]
 fn periods_and_distributions() {
     let mut table = Table::default();
-    let rate = azimuth_rate(&state().axis, &Vector3::new(0.3, -0.2, 1.7)).expect("a rate");
+    let rate = azimuth_rate(&state().axis, &Vector3::new(0.3, -0.2, 1.7));
     table.row("azimuth", &[("rate", &rate), ("period", &instantaneous_period(rate))]);
-    let offset = azimuth_offset_rate(0.8, 0.3, 1.1, 0.6, 0.2).expect("a rate");
+    let offset = azimuth_offset_rate(0.8, 0.3, 1.1, 0.6, 0.2);
     table.row("offset", &[("rate", &offset), ("period", &approximate_period(1.3, offset))]);
     for ratio in [-0.9, 0.3, 2.5] {
         let inclined = || EtaDistribution::at_inclination(ratio, 0.7);
@@ -150,7 +150,6 @@ fn periods_and_distributions() {
             ("at a constant", EtaDistribution::at_constant(ratio, 0.7)),
             ("of an unknown axis", EtaDistribution::of_unknown_axis(ratio)),
             ("at a known angle", inclined().and_then(|eta| eta.seen_at(2.0))),
-            ("times a factor", inclined().and_then(|eta| eta.times([(0.0, 1.0), (0.5, 2.0), (3.0, 1.0)]))),
         ] {
             let name = format!("eta {name}, r {ratio}");
             table.found(&name, found, |table, found| {
@@ -196,10 +195,10 @@ fn stars() {
     table.row(
         "pressure",
         &[
-            ("in the centre", &star.central_pressure()),
+            ("in the centre", &star.central_pressure),
             ("inside", &star.pressure(0.4, 0.3)),
             ("on the axis", &star.pressure(0.0, 0.7)),
-            ("integral", &star.pressure_integral()),
+            ("integral", &star.pressure_integral),
         ],
     );
     table.check("stars");

@@ -100,6 +100,9 @@ impl Table {
             Err(Error::Domain { quantity, allowed, .. }) => {
                 self.row(name, &[("refused,", &quantity.to_string()), ("to be", &allowed.to_string())]);
             }
+            Err(Error::Unsupported { what, why }) => {
+                self.row(name, &[("refused,", &what.to_string()), ("since", &why.to_string())]);
+            }
             Err(Error::NotConverged { what, .. }) => self.row(name, &[("no convergence,", &what.to_string())]),
         }
     }

@@ -5,7 +5,8 @@ use twofold::Scalar;
 use twofold::dynamics::RigidSpheroid;
 use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_preferred_frame, principal_frame};
 use twofold::observables::bound::{
-    SpinAxisDrift, cos_opening_angle, lambda_change_terms, preferred_frame_bound, zeta_change_terms,
+    SpinAxisDrift, cos_opening_angle, eta_from_inclination, lambda_change_terms, preferred_frame_bound,
+    zeta_change_terms,
 };
 use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change};
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
@@ -126,7 +127,7 @@ fn estimate_of_known_change() -> Result<Measured, String> {
                 interval,
                 cos_lambda_change: cos_lambda_change(theta, phi, (constants.alpha_0, constants.beta_0), changes),
             };
-            let estimate = drift.combination_bound_at(constants.beta_0)?;
+            let estimate = drift.combination_bound(eta_from_inclination(constants.beta_0)?)?;
             return Ok((estimate / (s.combination() * factor).abs() - 1.0).abs() / f64::EPSILON);
         }
     })

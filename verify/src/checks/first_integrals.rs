@@ -3,9 +3,7 @@
 use nalgebra::Matrix3;
 use twofold::dynamics::BodyState;
 use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates};
-use twofold::dynamics::first_integrals::{
-    clebsch_integral, energy, energy_in_angles, first_integrals, spin_in_angles, symmetric_adjugate,
-};
+use twofold::dynamics::first_integrals::{energy_in_angles, first_integrals, spin_in_angles, symmetric_adjugate};
 
 use crate::check::Check;
 use crate::derivation::spheroid_motion::{accelerations, fixed_coefficients, fixed_spheroid};
@@ -42,7 +40,7 @@ fn integrals_in_angles<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     [
         energy_in_angles(&spheroid, &s, &angles, &rates),
         spin_in_angles(&angles, &rates),
-        clebsch_integral(&spheroid, &s.tensor(), &state.axis, &state.momentum),
+        first_integrals(&spheroid, &s.tensor(), &state).clebsch,
     ]
     .map(F::derivative)
     .to_vec()
@@ -91,9 +89,10 @@ fn other_clebsch_form<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let (s_n, along) = (s * n, l.dot(n));
     let other = l.dot(&(s * l)) - l.dot(l) * trace - c * moment * s_n.dot(&s_n) * 2.0;
     let spin_part = along * along / p.spheroid.inertia_zz - along * along / moment;
-    let h = energy(&p.spheroid, s, n, l) - spin_part / 2.0;
+    let integrals = first_integrals(&p.spheroid, s, &state);
+    let h = integrals.energy - spin_part / 2.0;
     let constant = c * moment * (trace * trace - (s * s).trace());
-    vec![clebsch_integral(&p.spheroid, s, n, l) - (other + moment * trace * h * 2.0 - constant)]
+    vec![integrals.clebsch - (other + moment * trace * h * 2.0 - constant)]
 }
 
 fn adjugate_times_s<F: Differentiable>(p: &Point<F>) -> Vec<F> {

@@ -142,7 +142,7 @@ fn formulas<S: Real>(model: &Parameters<S>) -> Result<Vec<S>, twofold::Error> {
     let mut signal = Vec::new();
     for k in 0..200 {
         let gamma = model.angles.gamma + rates.gamma * (step * f64::from(k));
-        let offset_rate = azimuth_offset_rate(beta_0, gamma, rates.gamma, chi, S::zero())?;
+        let offset_rate = azimuth_offset_rate(beta_0, gamma, rates.gamma, chi, S::zero());
         signal.push(approximate_period(rates.alpha, offset_rate));
         let cosine = cosine_of_colatitude(beta_0, gamma, chi, S::zero());
         let theta = (one - cosine * cosine).sqrt().atan2(cosine);

@@ -6,9 +6,7 @@ use twofold::dynamics::BodyState;
 use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
-use twofold::observables::spin_axis::{
-    changes_from_start, cos_lambda, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
-};
+use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate};
 use twofold::propagation::Motion;
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
@@ -73,7 +71,7 @@ pub fn checks() -> Vec<Check> {
 fn spin_axis_angle<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let in_angles = cos_lambda_in_angles(p.frame.beta, p.frame.alpha, p.angles.alpha, p.angles.beta);
     let (direction, axis) = (observer(p).direction, symmetry_axis(p.angles.alpha, p.angles.beta));
-    vec![in_angles - cos_lambda(&direction, &axis), in_angles + cos_lambda(&-direction, &axis)]
+    vec![in_angles - direction.dot(&axis)]
 }
 
 fn spin_axis_change<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -117,7 +115,7 @@ fn error(s: &PrincipalCoefficients<f64>, amplitude: f64, interval: f64) -> Resul
     let (theta, phi) = (0.8, 0.5);
     let moved = end.axis - problem.initial().axis;
     let changes = changes_from_start(&solution, interval);
-    let by_motion = cos_lambda(&Observer::at(theta, phi).direction, &moved);
+    let by_motion = Observer::at(theta, phi).direction.dot(&moved);
     Ok((by_motion - cos_lambda_change(theta, phi, (start.alpha, start.beta), changes)).abs())
 }
 

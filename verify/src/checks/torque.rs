@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::equations_of_motion::torque_on_axis;
 use twofold::dynamics::potential::potential_gradient_in_angles;
-use twofold::dynamics::torque::{torque_from_gradient_off_pole, torque_on_body};
+use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
 use twofold::euler_angles::{body_from_inertial, body_rates, tensor_in_body_frame};
 
 use crate::check::Check;
@@ -14,7 +14,7 @@ use crate::random::Point;
 
 identities! {
     /// the torque does the work -dU under a change of each Euler angle alone, for any potential (U_gamma not zero)
-    torque_from_gradient: Property "torque-from-gradient" [22, 66];
+    work_of_torque: Property "torque-from-gradient" [22, 66];
     /// Eq. (66) of the potential in angles, torque_on_body with the tensor U^ij of a spheroid and -2 C n x (s n) agree
     torque_on_spheroid: Property "torque-on-spheroid" [21, 66];
     /// torque_on_body is minus the derivative of -(1/2) s^ij U^ij under a rotation about each body axis, and Eq. (66) of its angle derivatives;
@@ -27,8 +27,8 @@ pub fn checks() -> Vec<Check> {
     identities()
 }
 
-fn torque_from_gradient<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-    let torque = torque_from_gradient_off_pole(&p.angles, &p.gradient);
+fn work_of_torque<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let torque = torque_from_gradient(&p.angles, &p.gradient);
     (0..3).map(|i| torque.dot(&body_rates(&p.angles, &unit_rates(i))) + p.gradient[i]).collect()
 }
 
@@ -36,7 +36,7 @@ fn torque_on_spheroid<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let (xx, zz) = (p.numbers[0], p.numbers[1]);
     let (q, c) = (&p.angles, (xx - zz) / 2.0);
     let (by_alpha, by_beta) = potential_gradient_in_angles(c, &p.s, q.alpha, q.beta);
-    let from_gradient = torque_from_gradient_off_pole(q, &Vector3::new(by_alpha, by_beta, F::zero()));
+    let from_gradient = torque_from_gradient(q, &Vector3::new(by_alpha, by_beta, F::zero()));
     let rotation = body_from_inertial(q);
     let s_body = tensor_in_body_frame(&rotation, &p.s.tensor());
     let on_body = torque_on_body(&s_body, &Matrix3::from_diagonal(&Vector3::new(xx, xx, zz)));
@@ -55,7 +55,7 @@ fn torque_under_rotations<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let gradient = gradient_in_angles(q, &p.s_inertial, u);
     let mut out = Vec::new();
     out.extend(&(on_body - torque_by_virtual_rotation(&rotation, &p.s_inertial, u)));
-    out.extend(&(on_body - torque_from_gradient_off_pole(q, &gradient)));
+    out.extend(&(on_body - torque_from_gradient(q, &gradient)));
     out.extend(&(on_body - rotation * inertial));
     out
 }

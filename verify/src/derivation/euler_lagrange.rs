@@ -18,11 +18,7 @@ pub fn euler_lagrange<F: Differentiable>(
     v: &EulerRates<F>,
     a: &EulerRates<F>,
 ) -> [F; 3] {
-    let spheroid = RigidSpheroid {
-        inertia_xx: F::constant(spheroid.inertia_xx),
-        inertia_zz: F::constant(spheroid.inertia_zz),
-        constant_c: F::constant(spheroid.constant_c),
-    };
+    let spheroid = spheroid.map(F::constant);
     let s = PrincipalCoefficients::new([s.xx, s.yy, s.zz].map(F::constant));
     [0, 1, 2].map(|i| {
         let unit = |j| if i == j { F::one() } else { F::zero() };

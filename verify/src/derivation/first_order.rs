@@ -90,11 +90,7 @@ fn about_stationary_spin<F: Differentiable>(
         beta_rate: both_small(first.beta_rate),
     };
     let accelerations = (both_small(first.alpha_acceleration), both_small(first.beta_acceleration));
-    let spheroid = RigidSpheroid {
-        inertia_xx: F::constant(spheroid.inertia_xx),
-        inertia_zz: F::constant(spheroid.inertia_zz),
-        constant_c: F::constant(spheroid.constant_c),
-    };
+    let spheroid = spheroid.map(F::constant);
     let (of_alpha, of_beta) = euler_angle_residuals(&spheroid, &s, F::constant(zeroth.spin), &motion, accelerations);
     [of_alpha, of_beta].map(|residual| F::derivative_1(residual) + F::derivative_12(residual))
 }

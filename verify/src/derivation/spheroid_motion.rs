@@ -33,11 +33,7 @@ pub fn accelerations<F: Differentiable>(
 
 /// The spheroid as a constant with an infinitesimal.
 pub fn fixed_spheroid<F: Differentiable>(spheroid: &RigidSpheroid<F>) -> RigidSpheroid<F::First> {
-    RigidSpheroid {
-        inertia_xx: F::fixed(spheroid.inertia_xx),
-        inertia_zz: F::fixed(spheroid.inertia_zz),
-        constant_c: F::fixed(spheroid.constant_c),
-    }
+    spheroid.map(F::fixed)
 }
 
 /// The coefficients as constants with an infinitesimal.

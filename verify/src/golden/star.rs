@@ -17,7 +17,7 @@ use super::{GoldenLine, GoldenTable, Printed};
 pub(super) fn estimates() -> Result<GoldenTable, Error> {
     let density = 1e15 * GRAM_PER_CUBIC_CENTIMETRE;
     let deformation = |period: f64| centrifugal_oblateness_scaled(1.0 / period, 10.0, 1.4);
-    let t_c = |oblateness: f64| time_unit_estimate(density, oblateness).map(|t| t.seconds());
+    let t_c = |oblateness: f64| time_unit_estimate(density, oblateness);
     Ok(GoldenTable {
         name: "star_estimates",
         title: "Estimates for neutron stars: Eq. (20) at 10 km and 1.4 solar masses, Eqs. (43) and (58) at 1e15 g/cm^3",

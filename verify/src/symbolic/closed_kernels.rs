@@ -6,7 +6,7 @@ use twofold::dynamics::{AxisState, BodyState};
 use twofold::euler_angles::body_from_inertial;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
-use twofold::observables::bound::{SpinAxisDrift, fluid_inertia_over_c};
+use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination, fluid_inertia_over_c};
 use twofold::observables::wave_harmonics::WaveHarmonics;
 use twofold::solutions::averaged::{
     AveragingOrder, generator, generator_slopes, mean_angular_velocity, mean_potential, middle_axis_growth,
@@ -44,10 +44,10 @@ pub(super) fn all() -> Vec<ClosedKernel> {
                 energies.xx,
                 energies.zz,
                 star.c(),
-                star.oblateness(),
+                star.shape.oblateness(),
                 star.polar_inertia_over_c()?,
-                rotating.rotation_rate_squared(),
-                rotating.rotational_energy(),
+                rotating.rotation_rate_squared,
+                rotating.rotational_energy,
             ])
         }),
         ("inertia-over-c", |p| {
@@ -111,7 +111,7 @@ pub(super) fn all() -> Vec<ClosedKernel> {
             let polar_inertia_over_c = p.at("i_zz") / p.at("c");
             let (spin, interval, cos_lambda_change) = (p.at("spin"), p.at("x_1"), p.at("x_2"));
             let drift = SpinAxisDrift { polar_inertia_over_c, spin, interval, cos_lambda_change };
-            Ok(vec![drift.combination_bound_at(p.at("beta"))?])
+            Ok(vec![drift.combination_bound(eta_from_inclination(p.at("beta"))?)?])
         }),
     ];
     kernels.map(|(name, values)| ClosedKernel { name, values }).to_vec()

@@ -11,7 +11,7 @@ use twofold::dynamics::potential::{
     anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body, nordtvedt_potential,
     potential_gradient_in_angles,
 };
-use twofold::dynamics::torque::{torque_from_gradient_off_pole, torque_on_body};
+use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
 use twofold::dynamics::wave_source::{
     free_inertia_acceleration, rotation_rate, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
 };
@@ -24,11 +24,9 @@ use twofold::observables::pulsar::beam::axis_along_line_of_sight;
 use twofold::observables::pulsar::direction::{
     axis_along_line_of_sight_in_azimuth, azimuth_offset_point, cosine_of_colatitude,
 };
-use twofold::observables::pulsar::period::{azimuth_offset_rate_off_pole, azimuth_rate_off_pole};
+use twofold::observables::pulsar::period::{azimuth_offset_rate, azimuth_rate};
 use twofold::observables::pulsar::width::cosine_of_half_width;
-use twofold::observables::spin_axis::{
-    changes_from_start, cos_lambda, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
-};
+use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate};
 use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
@@ -109,7 +107,7 @@ kernels! {
     };
     "third-integral" => |p| vec![first_integrals(&p.spheroid(), &p.coefficients().tensor(), &p.state()).clebsch];
     "torque-from-gradient" => |p| {
-        components(&torque_from_gradient_off_pole(&p.angles(), &p.vector(["g_1", "g_2", "g_3"])))
+        components(&torque_from_gradient(&p.angles(), &p.vector(["g_1", "g_2", "g_3"])))
     };
     "torque-on-body" => |p| components(&torque_on_body(&p.symmetric("S"), &p.symmetric("u")));
     "torque-on-axis" => |p| {
@@ -129,7 +127,7 @@ kernels! {
         let direct = spheroid_inertia_acceleration(&spheroid, &s, &state.axis, &state.momentum);
         let rotation = body_from_inertial(&p.angles());
         let (by_alpha, by_beta) = gradient(p);
-        let torque = torque_from_gradient_off_pole(&p.angles(), &Vector3::new(by_alpha, by_beta, F::zero()));
+        let torque = torque_from_gradient(&p.angles(), &Vector3::new(by_alpha, by_beta, F::zero()));
         let in_body = wave_tensor(&spheroid.inertia(), &body_rates(&p.angles(), &p.rates()), &torque);
         [flat(&direct), flat(&tensor_in_inertial_frame(&rotation, &in_body))].concat()
     };
@@ -141,7 +139,7 @@ kernels! {
         let (state, to_observer) = (p.state(), observer(p).direction);
         vec![
             cos_lambda_in_angles(theta_o, phi_o, alpha, beta),
-            cos_lambda(&to_observer, &state.axis),
+            to_observer.dot(&state.axis),
             cos_lambda_change(theta_o, phi_o, (alpha, beta), (p.at("x_1"), p.at("x_2"))),
             cos_lambda_rate(&p.spheroid(), &to_observer, &state.axis, &state.momentum),
         ]
@@ -164,8 +162,8 @@ kernels! {
         let omega = angular_velocity(&p.spheroid(), &state.axis, &state.momentum);
         let [beta, gamma, chi, delta] = ["beta", "gamma", "chi", "delta"].map(|name| p.at(name));
         vec![
-            azimuth_rate_off_pole(&beam(p).direction(&state), &omega),
-            azimuth_offset_rate_off_pole(beta, gamma, p.at("gamma_1"), chi, delta),
+            azimuth_rate(&beam(p).direction(&state), &omega),
+            azimuth_offset_rate(beta, gamma, p.at("gamma_1"), chi, delta),
         ]
     };
     "margin-rates" => |p| {

@@ -9,7 +9,7 @@ use twofold::observables::pulsar::beam::axis_along_line_of_sight;
 use twofold::observables::pulsar::direction::{
     axis_along_line_of_sight_in_azimuth, azimuth_offset_point, cosine_of_colatitude,
 };
-use twofold::observables::pulsar::period::{azimuth_offset_rate_off_pole, azimuth_rate_off_pole};
+use twofold::observables::pulsar::period::{azimuth_offset_rate, azimuth_rate};
 
 use crate::check::Check;
 use crate::derivation::{Differentiable, moving_angles};
@@ -23,7 +23,7 @@ identities! {
     /// cos Theta is m_Z, the point at the angle alpha + DeltaPhi is (m_X, m_Y), and its tangent is that of Eq. (50) as printed
     direction_of_magnetic_axis: Property "direction-of-magnetic-axis" [45, 49, 50];
     /// Eq. (52), in the regular form and as printed, is the time derivative of the angle (50) at constant beta
-    azimuth_offset_rate: Autodiff "azimuth-offset-rate" [50, 52];
+    offset_rate_of_azimuth: Autodiff "azimuth-offset-rate" [50, 52];
     /// the exact rate of the azimuth is that of (m_X, m_Y) along any motion, and alpha' + DeltaPhi' of Eq. (52) where beta is constant
     magnetic_azimuth_rate: Autodiff "magnetic-azimuth-rate" [49, 51, 52];
 }
@@ -76,10 +76,10 @@ fn direction_of_magnetic_axis<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     ]
 }
 
-fn azimuth_offset_rate<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+fn offset_rate_of_azimuth<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let [chi, delta, ..] = four_angles(p);
     let (beta, gamma, gamma_rate) = (p.angles.beta, p.angles.gamma, p.rates.gamma);
-    let rate = azimuth_offset_rate_off_pole(beta, gamma, gamma_rate, chi, delta);
+    let rate = azimuth_offset_rate(beta, gamma, gamma_rate, chi, delta);
     let moving = azimuth_offset_point(F::fixed(beta), F::first(gamma, gamma_rate), F::fixed(chi), F::fixed(delta));
     let (x, y) = (F::value(moving.0), F::value(moving.1));
     let swept = x * F::derivative(moving.1) - y * F::derivative(moving.0);
@@ -98,13 +98,13 @@ fn magnetic_azimuth_rate<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let in_body = spherical(chi, delta);
     let m = rotation * in_body;
     let moving = body_from_inertial(&moving_angles(q, v)).transpose() * in_body.map(F::fixed);
-    let rate = azimuth_rate_off_pole(&m, &(rotation * body_rates(q, v)));
+    let rate = azimuth_rate(&m, &(rotation * body_rates(q, v)));
     let swept = m.x * F::derivative(moving.y) - m.y * F::derivative(moving.x);
     let mut level = *v;
     level.beta = F::zero();
-    let at_constant_beta = azimuth_rate_off_pole(&m, &(rotation * body_rates(q, &level)));
+    let at_constant_beta = azimuth_rate(&m, &(rotation * body_rates(q, &level)));
     vec![
         rate * (m.x * m.x + m.y * m.y) - swept,
-        at_constant_beta - v.alpha - azimuth_offset_rate_off_pole(q.beta, q.gamma, v.gamma, chi, delta),
+        at_constant_beta - v.alpha - azimuth_offset_rate(q.beta, q.gamma, v.gamma, chi, delta),
     ]
 }

@@ -8,8 +8,8 @@ use twofold::observables::Observer;
 use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::direction::magnetic_axis_direction;
 use twofold::observables::pulsar::position_angle::{
-    position_angle, position_angle_rate, position_angle_rate_off_line_of_sight, rotating_vector_gradient,
-    rotating_vector_point, rotating_vector_position_angle, sky_from_inertial,
+    position_angle, position_angle_rate, rotating_vector_gradient, rotating_vector_point,
+    rotating_vector_position_angle, sky_from_inertial,
 };
 use twofold::propagation::Motion;
 
@@ -124,7 +124,7 @@ fn rate_of_position_angle<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let rotation = body_from_inertial(q).transpose();
     let in_body = spherical(chi, delta);
     let m = rotation * in_body;
-    let rate = position_angle_rate_off_line_of_sight(&m, &(rotation * body_rates(q, v)), &observer);
+    let rate = position_angle_rate(&m, &(rotation * body_rates(q, v)), &observer);
     let moving = body_from_inertial(&moving_angles(q, v)).transpose() * in_body.map(F::fixed);
     let m_rate = moving.map(F::derivative);
     let sky = sky_from_inertial(&observer);
@@ -138,7 +138,7 @@ fn rate_of_position_angle<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let omega = axis.cross(&axis_rate);
     vec![
         rate * (here.x * here.x + here.y * here.y) - (here.x * there.y - here.y * there.x),
-        position_angle_rate_off_line_of_sight(&axis, &omega, &observer) - by_theta * theta_rate - by_phi * phi_rate,
+        position_angle_rate(&axis, &omega, &observer) - by_theta * theta_rate - by_phi * phi_rate,
     ]
 }
 
@@ -164,7 +164,7 @@ fn upright_star() -> Result<Measured, String> {
             let (down, along) = (chi.sin() * phi.sin(), zeta.sin() * chi.cos() - zeta.cos() * chi.sin() * phi.cos());
             let printed = down.atan2(along);
             let omega = angular_velocity(motion.spheroid(), &state.axis, &state.momentum);
-            let rate = position_angle_rate(&m, &omega, &observer)?;
+            let rate = position_angle_rate(&m, &omega, &observer);
             let gradient = rotating_vector_gradient(chi, spin * t + delta, zeta, phi_o).1 * spin;
             let scale = f64::EPSILON * (4.0 + (4.0 + phi.abs()) / across);
             let errors = [wrapped(psi + printed).abs(), (rate - gradient).abs() * across / (4.0 * spin.abs().max(0.1))];
@@ -188,7 +188,6 @@ fn state_and_angles() -> Result<Measured, String> {
         let difference = wrapped(position_angle(&m, &observer)? - by_angles).abs();
         let across = m.cross(&observer.direction).norm();
         let refused = position_angle(&observer.direction, &observer).is_err()
-            && position_angle_rate(&-observer.direction, &m, &observer).is_err()
             && rotating_vector_position_angle(theta_o, phi_o, theta_o, phi_o).is_err();
         Ok(if refused { difference * across / f64::EPSILON } else { f64::INFINITY })
     })

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::Vector3;
 use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::bound::SpinAxisDrift;
+use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination};
 use twofold::propagation::{AveragedMotion, Motion};
 use twofold::solutions::averaged::AveragingOrder;
 use twofold::solutions::perturbation::{Form, Precession};
@@ -109,7 +109,7 @@ fn drift() -> Result<Measured, String> {
         // Over all directions o of observers the mean square of o.d is |d|^2 / 3.
         let cos_lambda_change = (end - axis).norm() / 3.0_f64.sqrt();
         let drift = SpinAxisDrift { polar_inertia_over_c: spheroid.inertia_zz, spin, interval, cos_lambda_change };
-        let estimate = drift.combination_bound_at(beta_0)?;
+        let estimate = drift.combination_bound(eta_from_inclination(beta_0)?)?;
         let expected = s.combination().abs() * beta_0.sin() / 3.0_f64.sqrt();
         Ok((estimate / expected - 1.0).abs())
     })

@@ -137,7 +137,7 @@ fn triaxial_limit() -> Result<Measured, String> {
     worst_over(35, 400, &semi_axes(), |&[a1, _, a3]| {
         let (triaxial, spheroid) = (ellipsoid([a1, a1, a3])?, UniformSpheroid::from_semi_axes(a1, a3, 1.0)?);
         let (a, u, i) = (triaxial.coefficients(), triaxial.potential_energy_tensor(), triaxial.moments_of_inertia());
-        let s = potential_coefficients(spheroid.shape());
+        let s = potential_coefficients(&spheroid.shape);
         let (us, is) = (spheroid.potential_energy_tensor(), spheroid.moment_of_inertia());
         Ok(largest_relative(
             [a.x, a.y, a.z, u.x, u.y, u.z, i.x, i.y, i.z, triaxial.central_coefficient()],

@@ -2,14 +2,12 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use twofold::Real;
 use twofold::dynamics::angular_acceleration::angular_acceleration;
 use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates, torque_on_axis};
 use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations, euler_angle_residuals};
-use twofold::dynamics::first_integrals::{
-    clebsch_integral, energy, energy_in_angles, first_integrals, spin, spin_in_angles, symmetric_adjugate,
-};
+use twofold::dynamics::first_integrals::{energy_in_angles, first_integrals, spin_in_angles, symmetric_adjugate};
 use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
 use twofold::dynamics::lagrangian::lagrangian;
 use twofold::dynamics::point_masses::{anisotropic_potential_of_masses, preferred_frame_potential_of_masses};
@@ -19,7 +17,7 @@ use twofold::dynamics::potential::{
 };
 use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
 use twofold::dynamics::wave_source::{free_inertia_acceleration, spheroid_inertia_acceleration, wave_tensor};
-use twofold::dynamics::{BodyState, PrincipalInertia, RigidSpheroid};
+use twofold::dynamics::{AxisState, BodyState, PrincipalInertia, RigidSpheroid};
 use twofold::lorentz_violation::{coefficients_from_preferred_frame, preferred_frame_parameter};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
@@ -78,7 +76,7 @@ functions! {
     ThePreferredFrameParameter(x) { vec![x[0]] }
     // beta, gamma, gradient (3)
     TorqueFromGradient: "torque_from_gradient", (x) {
-        torque_from_gradient(&angles(&[S::zero(), x[0], x[1]]), &vector(&x[2..])).map_or(none(3), |torque| joined(&[torque]))
+        joined(&[torque_from_gradient(&angles(&[S::zero(), x[0], x[1]]), &vector(&x[2..]))])
     }
     // omega (3), torque (3), inertia (3)
     Acceleration: "angular_acceleration", (x) {
@@ -132,9 +130,9 @@ functions! {
         let all = first_integrals(&body(&x[15..]), &symmetric(x), &state(&x[6..]));
         vec![all.energy, all.spin, all.clebsch]
     }
-    Energy: "energy".beside::<NaiveEnergy>("L.L / (2 I^xx) and the rest"), (x) {
+    Energy: "first_integrals".beside::<NaiveEnergy>("L.L / (2 I^xx) and the rest"), (x) {
         let spheroid = body(&x[3..]);
-        vec![energy(&spheroid, &symmetric(&x[6..]), &Vector3::z(), &vector(x))]
+        vec![first_integrals(&spheroid, &symmetric(&x[6..]), &AxisState { axis: Vector3::z(), momentum: vector(x) }).energy]
     }
     /// `L.L / (2 I^xx) + (1 / I^zz - 1 / I^xx) (L.n)^2 / 2 + C n.(s n)`.
     NaiveEnergy(x) {
@@ -143,10 +141,14 @@ functions! {
         let spinning = (S::one() / inertia_zz - S::one() / inertia_xx) * along * along / 2.0;
         vec![momentum.dot(&momentum) / (inertia_xx * 2.0) + spinning + constant_c * x[8]]
     }
-    Spin: "spin", (x) { vec![spin(&body(&x[6..]), &vector(x), &vector(&x[3..]))] }
+    Spin: "first_integrals", (x) {
+        let state = AxisState { axis: vector(x), momentum: vector(&x[3..]) };
+        vec![first_integrals(&body(&x[6..]), &Matrix3::zeros(), &state).spin]
+    }
     Adjugate: "symmetric_adjugate", (x) { entries(&symmetric_adjugate(&symmetric(x))) }
-    Clebsch: "clebsch_integral", (x) {
-        vec![clebsch_integral(&body(&x[15..]), &symmetric(x), &vector(&x[6..]), &vector(&x[9..]))]
+    Clebsch: "FirstIntegrals::clebsch", (x) {
+        let state = AxisState { axis: vector(&x[6..]), momentum: vector(&x[9..]) };
+        vec![first_integrals(&body(&x[15..]), &symmetric(x), &state).clebsch]
     }
     InertiaAcceleration: "spheroid_inertia_acceleration".composite(), (x) {
         entries(&spheroid_inertia_acceleration(&body(&x[15..]), &symmetric(x), &vector(&x[6..]), &vector(&x[9..])))

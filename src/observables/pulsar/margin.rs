@@ -1,0 +1,88 @@
+//! The margin `m.n - cos rho` by which the line of sight is inside the beam, along a motion.
+
+use nalgebra::Vector3;
+
+use super::Beam;
+use crate::dynamics::BodyState;
+use crate::error::Error;
+use crate::propagation::{Motion, SeriesProjection, Turning};
+
+/// The margin `m.n - cos rho` along a motion.
+pub(super) trait Margin {
+    /// With its first three time derivatives at the time `t`.
+    fn at(&self, t: f64) -> Result<[f64; 4], Error>;
+
+    /// The latest time in `(after, t]` at which it takes less work than elsewhere, or `t`.
+    fn cheapest_time(&self, after: f64, t: f64) -> f64;
+
+    /// Whether the derivatives come from a law that the motion states, so that the values may disagree with them.
+    const BY_STATED_LAW: bool = false;
+
+    /// What the values may be wrong by at the time `t`.
+    fn estimated_error(&self, _t: f64) -> f64 {
+        0.0
+    }
+}
+
+/// From the series of a motion, which are cheapest where they start.
+pub(super) struct BySeries<'a> {
+    projection: &'a SeriesProjection<'a>,
+    /// `cos rho`.
+    edge: f64,
+}
+
+impl<'a> BySeries<'a> {
+    /// `projection` is that of the axis of the beam on the line of sight.
+    pub(super) fn new(projection: &'a SeriesProjection<'a>, beam: &Beam<f64>) -> Self {
+        Self { projection, edge: beam.half_opening.cos() }
+    }
+}
+
+impl Margin for BySeries<'_> {
+    fn at(&self, t: f64) -> Result<[f64; 4], Error> {
+        let [product, rate, second, third] = self.projection.at(t)?;
+        Ok([product - self.edge, rate, second, third])
+    }
+
+    fn cheapest_time(&self, after: f64, t: f64) -> f64 {
+        self.projection.cheapest_time(after, t).unwrap_or(t)
+    }
+}
+
+/// From the states of any motion.
+pub(super) struct ByStates<'a, M> {
+    pub(super) motion: &'a M,
+    pub(super) turning: Turning<'a>,
+    pub(super) beam: &'a Beam<f64>,
+    pub(super) line_of_sight: &'a Vector3<f64>,
+}
+
+impl<M: Motion<f64, State = BodyState<f64>>> Margin for ByStates<'_, M> {
+    fn at(&self, t: f64) -> Result<[f64; 4], Error> {
+        let (state, motion) = (self.motion.state(t)?, self.motion);
+        match &self.turning {
+            Turning::Equations => {
+                Ok(self.beam.margin_rates(motion.spheroid(), motion.coefficients(), &state, self.line_of_sight))
+            }
+            Turning::Given { rates, bounds } => {
+                let rates = rates(t)?;
+                for (rate, bound) in rates.iter().zip(bounds) {
+                    let size = rate.norm();
+                    let allowed = "at most the bound that the motion states for it";
+                    Error::ensure(size <= bound * (1.0 + 1e-9), "size of Omega or a derivative of it", size, allowed)?;
+                }
+                Ok(self.beam.margin_rates_turning(&rates, &state, self.line_of_sight))
+            }
+        }
+    }
+
+    fn cheapest_time(&self, _: f64, t: f64) -> f64 {
+        t
+    }
+
+    const BY_STATED_LAW: bool = true;
+
+    fn estimated_error(&self, t: f64) -> f64 {
+        self.motion.error_estimate(t)
+    }
+}
