@@ -1,11 +1,11 @@
 //! The columns of a table: the header of each group and its values at a sample of the motion.
 
+use twofold::dynamics::AxisState;
 use twofold::dynamics::equations_of_motion::{angular_velocity, euler_rates_of_axis};
 use twofold::dynamics::first_integrals::first_integrals;
 use twofold::observables::pulsar::position_angle::{position_angle, position_angle_rate};
 use twofold::observables::spin_axis::cos_lambda_rate;
 use twofold::plan::Output;
-use twofold::propagation::AxisState;
 
 use crate::samples::Sample;
 use crate::scene_file::{COLUMN_GROUPS, Scene, Units, did_you_mean, listed};

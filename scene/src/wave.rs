@@ -1,10 +1,10 @@
 //! The gravitational wave of a star at its observer.
 
 use nalgebra::Matrix3;
+use twofold::dynamics::AxisState;
 use twofold::dynamics::RigidSpheroid;
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{Polarizations, strain_unit, wave_of_state};
-use twofold::propagation::AxisState;
 
 use crate::scene_file::Scene;
 

@@ -1,12 +1,10 @@
 //! The plan: what is computed, by which method, and what is left out.
 
-use nalgebra::Matrix3;
-
 use super::candidate::evaluations;
-use super::{Candidate, Evaluations, Method, Output, PlannedAxisMotion, PlannedMotion, Prediction};
+use super::{Candidate, Evaluations, Method, Output, PlannedMotion, Prediction};
 use super::{Request, State};
 use crate::dynamics::equations_of_motion::angular_velocity;
-use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
+use crate::dynamics::{AxisState, Problem, RotationState};
 use crate::error::Error;
 use crate::parameters::Parameter;
 use crate::propagation::largest_torque;
@@ -158,39 +156,6 @@ impl Plan {
         problem.motion_by(self.needed_method()?, self.stretch, self.accuracy)
     }
 
-    /// By [`Problem::plan`].
-    pub fn from_parts(
-        spheroid: &RigidSpheroid<f64>,
-        s: &Matrix3<f64>,
-        initial: &BodyState<f64>,
-        request: &Request,
-    ) -> Result<Self, Error> {
-        // old entry: goes when its callers have moved
-        Self::new(&Problem::new(*spheroid, *s, *initial)?, request)
-    }
-
-    /// By [`Plan::motion`].
-    pub fn axis_motion(
-        &self,
-        spheroid: &RigidSpheroid<f64>,
-        s: &Matrix3<f64>,
-        initial: &BodyState<f64>,
-    ) -> Result<PlannedAxisMotion, Error> {
-        // old entry: goes when its callers have moved
-        PlannedAxisMotion::axis_by(self.needed_method()?, spheroid, s, initial, self.stretch, self.accuracy)
-    }
-
-    /// By [`Plan::motion`].
-    pub fn motion_from_parts(
-        &self,
-        spheroid: &RigidSpheroid<f64>,
-        s: &Matrix3<f64>,
-        initial: &BodyState<f64>,
-    ) -> Result<PlannedMotion, Error> {
-        // old entry: goes when its callers have moved
-        self.motion(&Problem::new(*spheroid, *s, *initial)?)
-    }
-
     /// Whether a time costs the same however many turns lie before it: in closed form, and without events or turns to be counted.
     pub fn costs_the_same_at_any_time(&self) -> bool {
         let counts = |output: &Output| {
@@ -218,7 +183,9 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
+    use crate::dynamics::{BodyState, RigidSpheroid};
     use crate::euler_angles::{EulerAngles, EulerRates};
+    use nalgebra::Matrix3;
 
     const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
 

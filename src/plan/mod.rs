@@ -57,7 +57,7 @@ pub use cost::{Cost, MACHINE};
 pub use decision::{Plan, Skipped};
 pub use gradient::{Gradient, StateFunction, gradient, gradient_in_parts};
 pub use method::Method;
-pub use motion::{PlannedAxisMotion, PlannedMotion};
+pub use motion::PlannedMotion;
 pub use output::{Evaluations, Need, Output, State};
 pub use request::{Request, Samples};
 pub use work::{Counted, Work};

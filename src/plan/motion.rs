@@ -143,40 +143,6 @@ impl<X: RotationState<f64>> Motion<f64> for PlannedMotion<X> {
     }
 }
 
-/// A motion of `n` and `L` by any method.
-// old entry: goes when its callers have moved
-pub type PlannedAxisMotion = PlannedMotion<AxisState<f64>>;
-
-impl PlannedMotion<AxisState<f64>> {
-    /// By [`Problem::motion_by`].
-    pub fn axis_by(
-        method: Method,
-        spheroid: &RigidSpheroid<f64>,
-        s: &Matrix3<f64>,
-        initial: &BodyState<f64>,
-        span: (f64, f64),
-        accuracy: f64,
-    ) -> Result<Self, Error> {
-        // old entry: goes when its callers have moved
-        Self::of(method, &Problem::new(*spheroid, *s, *initial)?, span, accuracy)
-    }
-}
-
-impl PlannedMotion {
-    /// By [`Problem::motion_by`].
-    pub fn by(
-        method: Method,
-        spheroid: &RigidSpheroid<f64>,
-        s: &Matrix3<f64>,
-        initial: &BodyState<f64>,
-        span: (f64, f64),
-        accuracy: f64,
-    ) -> Result<Self, Error> {
-        // old entry: goes when its callers have moved
-        Self::of(method, &Problem::new(*spheroid, *s, *initial)?, span, accuracy)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

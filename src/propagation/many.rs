@@ -1,8 +1,6 @@
 //! Many motions, as fast as the processor can.
 
-use nalgebra::Matrix3;
-
-use crate::dynamics::{AxisState, Problem, RigidSpheroid};
+use crate::dynamics::{AxisState, Problem};
 use crate::error::Error;
 #[cfg(target_arch = "x86_64")]
 use crate::numerics::registers::Register;
@@ -52,36 +50,6 @@ pub fn states_of_many(motions: &[SampledProblem<'_>]) -> Vec<Result<Samples<Axis
     motions.iter().map(alone).collect()
 }
 
-/// One of many motions.
-// old entry: goes when its callers have moved
-#[derive(Debug, Clone, Copy)]
-pub struct AxisScene<'t> {
-    /// The body.
-    pub spheroid: RigidSpheroid<f64>,
-    /// The tensor `s^IJ` in the frame of the initial state.
-    pub violation: Matrix3<f64>,
-    /// State at the start.
-    pub initial: AxisState<f64>,
-    /// Time of the initial state.
-    pub start: f64,
-    /// Times of the states asked.
-    pub times: &'t [f64],
-    /// Accuracy.
-    pub accuracy: f64,
-}
-
-/// By [`states_of_many`].
-pub fn axis_states_of_many(scenes: &[AxisScene<'_>]) -> Vec<Result<Samples<AxisState<f64>>, Error>> {
-    // old entry: goes when its callers have moved
-    let (mut sound, mut outcomes) = (Vec::new(), Vec::new());
-    for &AxisScene { spheroid, violation, initial, start, times, accuracy } in scenes {
-        let problem = Problem::new(spheroid, violation, initial);
-        outcomes.push(problem.map(|problem| sound.push(SampledProblem { problem, start, times, accuracy })));
-    }
-    let mut found = states_of_many(&sound).into_iter();
-    outcomes.into_iter().map(|outcome| outcome.and_then(|()| found.next().expect("one for each"))).collect()
-}
-
 #[cfg(target_arch = "x86_64")]
 fn in_lanes<R: Register>(register: R, motions: &[SampledProblem<'_>]) -> Vec<Result<Samples<AxisState<f64>>, Error>> {
     let mut outcomes: Vec<_> = motions.iter().map(|_| None).collect();
@@ -106,6 +74,8 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
+    use crate::dynamics::RigidSpheroid;
+    use nalgebra::Matrix3;
 
     #[test]
     fn both_register_widths_give_the_same_bits() {

@@ -33,13 +33,8 @@ mod turning;
 pub use closed::{AveragedMotion, SymmetricMotion, UniformMotion, largest_torque};
 pub use continuous_angles::{ContinuousAngles, MOST_COUNTED};
 pub(crate) use input::check_time;
-pub use many::{AxisScene, SampledProblem, axis_states_of_many, states_of_many};
+pub use many::{SampledProblem, states_of_many};
 pub use motion::Motion;
 pub(crate) use taylor::projected_by_segments;
-pub use taylor::{
-    ACCURACY_RANGE, ErrorEstimates, STEP_LIMIT, Samples, SeriesProjection, TaylorForecast, TaylorMotion,
-    axis_states_at, propagate, propagate_axis, states_at, taylor_forecast,
-};
+pub use taylor::{ACCURACY_RANGE, ErrorEstimates, STEP_LIMIT, Samples, SeriesProjection, TaylorForecast, TaylorMotion};
 pub use turning::{GivenRates, Turning};
-// old entry: goes when its callers have moved
-pub use crate::dynamics::AxisState;

@@ -2,8 +2,9 @@
 
 use allocation_counter::{AllocationInfo, measure};
 use twofold::Error;
+use twofold::dynamics::{AxisState, Problem};
 use twofold::plan::{Method, Output, Plan, Request, State};
-use twofold::propagation::{Motion, propagate, propagate_axis};
+use twofold::propagation::Motion;
 use twofold_verify::reference::{ReferenceMotion, reference_motion};
 
 /// Makes the motion of a plan and evaluates it at its samples; what that took, the plan apart.
@@ -14,11 +15,11 @@ fn carried_out(scene: &ReferenceMotion, plan: &Plan) -> Result<AllocationInfo, E
     let info = measure(|| {
         result = match plan.state {
             State::Nothing => Ok(()),
-            State::Axis | State::AxisAndMomentum => plan
-                .axis_motion(&body, &s, &initial)
+            State::Axis | State::AxisAndMomentum => Problem::new(body, s, initial)
+                .and_then(|problem| plan.motion(&problem.reduced()))
                 .and_then(|motion| (0..plan.samples).try_for_each(|i| motion.axis_state(times(i)).map(drop))),
-            State::Orientation => plan
-                .motion_from_parts(&body, &s, &initial)
+            State::Orientation => Problem::new(body, s, initial)
+                .and_then(|problem| plan.motion(&problem))
                 .and_then(|motion| (0..plan.samples).try_for_each(|i| motion.state(times(i)).map(drop))),
         };
     });
@@ -39,7 +40,7 @@ fn plans_take_no_more_than_listed() -> Result<(), Error> {
             let mut first = None;
             for samples in [10, 1000] {
                 let request = Request::new(outputs, (0.0, 200.0), samples, 1e-10);
-                let plan = Plan::from_parts(&body, &s, &initial, &request)?;
+                let plan = Problem::new(body, s, initial).and_then(|problem| problem.plan(&request))?;
                 let info = carried_out(&scene, &plan)?;
                 let Some(prediction) = plan.prediction else {
                     assert_eq!((plan.state, info.count_total), (State::Nothing, 0), "{name}: {outputs:?}");
@@ -71,9 +72,13 @@ fn steps_take_nothing() -> Result<(), Error> {
         let mut steps = Ok(0);
         let info = measure(|| {
             steps = if full {
-                propagate(&body, &s, &initial, (0.0, span), 1e-10).map(|motion| motion.step_count())
+                Problem::new(body, s, initial)
+                    .and_then(|problem| problem.taylor((0.0, span), 1e-10))
+                    .map(|motion| motion.step_count())
             } else {
-                propagate_axis(&body, &s, &(&initial).into(), (0.0, span), 1e-10).map(|motion| motion.step_count())
+                Problem::new(body, s, AxisState::from(&initial))
+                    .and_then(|problem| problem.taylor((0.0, span), 1e-10))
+                    .map(|motion| motion.step_count())
             };
         });
         steps.map(|steps| (steps, info.count_total))
@@ -93,7 +98,7 @@ fn a_plan_is_small() -> Result<(), Error> {
     let (body, s, initial) = (scene.spheroid, scene.violation(), scene.initial());
     let request = Request::new(&Output::ALL, (0.0, 1e4), 10_000, 1e-13);
     let mut made = Err(Error::NotConverged { what: "plan", iterations: 0, residual: 0.0 });
-    let info = measure(|| made = Plan::from_parts(&body, &s, &initial, &request));
+    let info = measure(|| made = Problem::new(body, s, initial).and_then(|problem| problem.plan(&request)));
     made?;
     assert!(info.bytes_total < 16_384, "{} bytes", info.bytes_total);
     Ok(())

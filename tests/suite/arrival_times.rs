@@ -4,13 +4,12 @@ use std::f64::consts::TAU;
 
 use approx::assert_relative_eq;
 use twofold::Error;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::epoch::Epoch;
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
-use twofold::observables::pulsar::{Beam, PulsarClock, SpinFit, propagated_pulse_train, pulse_train};
-use twofold::propagation::propagate;
+use twofold::observables::pulsar::{Beam, PulsarClock, SpinFit, pulse_train};
 use twofold::solutions::averaged::AveragingOrder;
 
 /// The phase `3.25 + 2 t + 0.05 t^2` at whole numbers from 30 on: far from the time zero, and far from a straight line.
@@ -148,13 +147,13 @@ fn a_clock_refuses_a_beam_that_may_go_round_either() -> Result<(), Error> {
 fn a_pulse_at_the_end_of_a_span_is_cut_there() -> Result<(), Error> {
     let (star, s, state) = star();
     let (beam, observer) = (Beam::new(1.2, 0.0, 0.6), Observer::at(0.8, 0.0));
-    let motion = propagate(&star, &s.tensor(), &state, (0.0, 60.0), 1e-12)?;
+    let motion = Problem::new(star, s.tensor(), state).and_then(|problem| problem.taylor((0.0, 60.0), 1e-12))?;
     let whole = pulse_train(&motion, &beam, &observer.direction, (0.0, 60.0))?;
     let pulse = whole.pulses.iter().find(|pulse| pulse.is_whole()).expect("a whole pulse");
     let end = pulse.midpoint();
     for accuracy in [1e-12, 1e-4] {
-        let (train, _) =
-            propagated_pulse_train(&star, &s.tensor(), &state, (0.0, end), accuracy, &beam, &observer.direction)?;
+        let (train, _) = Problem::new(star, s.tensor(), state)
+            .and_then(|problem| problem.taylor_pulse_train((0.0, end), accuracy, &beam, &observer.direction))?;
         let last = train.pulses.last().expect("the pulse");
         assert!(last.cut_at_end && last.end == end, "{last:?}");
         assert_relative_eq!(last.start, pulse.start, epsilon = 1e-3);

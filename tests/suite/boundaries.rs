@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 use twofold::Error;
 use twofold::dynamics::euler_angle_equations::AxisAngles;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, euler_rates};
 use twofold::lorentz_violation::{PrincipalCoefficients, preferred_frame_parameter, principal_frame};
 use twofold::numerics::elliptic::jacobi::{complete_integral, jacobi};
@@ -15,8 +15,8 @@ use twofold::observables::bound::{
     SpinAxisDrift, eta_from_inclination, lambda_change, preferred_frame_bound, zeta_change_terms,
 };
 use twofold::observables::fundamental_frequencies::fundamental_frequencies;
-use twofold::observables::pulsar::{Beam, PulsarClock, arrivals, propagated_pulse_train, pulse_train};
-use twofold::propagation::{ContinuousAngles, Motion, UniformMotion, propagate};
+use twofold::observables::pulsar::{Beam, PulsarClock, arrivals, pulse_train};
+use twofold::propagation::{ContinuousAngles, Motion, UniformMotion};
 use twofold::solutions::averaged::AveragingOrder;
 use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::perturbation::{
@@ -211,7 +211,9 @@ fn time_unit_needs_an_oblate_star() {
 fn propagation_refuses_what_it_cannot_follow() {
     let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.0 };
     let start = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.0 });
-    let run = |state: &BodyState<f64>, span, accuracy| propagate(&star(), &S.tensor(), state, span, accuracy);
+    let run = |state: &BodyState<f64>, span, accuracy| {
+        Problem::new(star(), S.tensor(), *state).and_then(|problem| problem.taylor(span, accuracy))
+    };
     refused(run(&start, (0.0, 1.0), 1e-17), "accuracy");
     refused(run(&start, (0.0, 1.0), f64::NAN), "accuracy");
     refused(run(&start, (0.0, 1.0), 0.1), "accuracy");
@@ -223,11 +225,20 @@ fn propagation_refuses_what_it_cannot_follow() {
     let needs_too_many = run(&start, (0.0, 1e9), 1e-10);
     refused(needs_too_many.map(|_| ()), "steps");
     let hollow = RigidSpheroid { inertia_zz: 0.0, ..star() };
-    refused(propagate(&hollow, &S.tensor(), &start, (0.0, 1.0), 1e-10).map(|_| ()), "moment of inertia");
+    refused(
+        Problem::new(hollow, S.tensor(), start).and_then(|problem| problem.taylor((0.0, 1.0), 1e-10)).map(|_| ()),
+        "moment of inertia",
+    );
     let endless = S.scaled(f64::INFINITY).tensor();
-    refused(propagate(&star(), &endless, &start, (0.0, 1.0), 1e-10).map(|_| ()), "entry of s^IJ");
+    refused(
+        Problem::new(star(), endless, start).and_then(|problem| problem.taylor((0.0, 1.0), 1e-10)).map(|_| ()),
+        "entry of s^IJ",
+    );
     let bad = RigidSpheroid { constant_c: f64::NAN, ..star() };
-    refused(propagate(&bad, &S.tensor(), &start, (0.0, 1.0), 1e-10).map(|_| ()), "constant C");
+    refused(
+        Problem::new(bad, S.tensor(), start).and_then(|problem| problem.taylor((0.0, 1.0), 1e-10)).map(|_| ()),
+        "constant C",
+    );
 
     let motion = run(&start, (1.0, 3.0), 1e-10).expect("a short motion");
     for t in [0.999, 3.001, f64::NAN] {
@@ -250,9 +261,11 @@ fn pulses_are_searched_in_turns_that_can_be_counted() {
     let (none, beam, n) = (Matrix3::zeros(), Beam::new(0.5, 0.0, 0.3), Vector3::new(0.6, 0.0, 0.8));
     let both = |spin, span: (f64, f64)| {
         let start = spinning(spin);
-        let motion = propagate(&needle, &none, &start, span, 1e-10)?;
+        let motion = Problem::new(needle, none, start).and_then(|problem| problem.taylor(span, 1e-10))?;
         let kept = pulse_train(&motion, &beam, &n, span);
-        let propagated = propagated_pulse_train(&needle, &none, &start, span, 1e-10, &beam, &n).map(|found| found.0);
+        let propagated = Problem::new(needle, none, start)
+            .and_then(|problem| problem.taylor_pulse_train(span, 1e-10, &beam, &n))
+            .map(|found| found.0);
         assert_eq!(kept.is_ok(), propagated.is_ok(), "spin {spin}, {span:?}");
         assert_eq!(kept.as_ref().err(), propagated.as_ref().err());
         kept
@@ -267,7 +280,9 @@ fn pulses_are_searched_in_turns_that_can_be_counted() {
 
     // Turns of the train of a slower star, counted along a faster one.
     let train = both(1.0, (0.0, 100.0)).expect("a train");
-    let faster = propagate(&needle, &none, &spinning(1e52), (0.0, 100.0), 1e-10).expect("a motion");
+    let faster = Problem::new(needle, none, spinning(1e52))
+        .and_then(|problem| problem.taylor((0.0, 100.0), 1e-10))
+        .expect("a motion");
     refused(arrivals(&faster, &beam, &n, &train), "rotation (rad)");
 }
 
@@ -309,9 +324,10 @@ fn spans_for_frequencies_are_told_in_turns() {
         momentum: Vector3::new(0.3, -0.4, 1.2),
         equatorial_axis: Vector3::y(),
     };
-    let value = |state: &BodyState<f64>, s: &Matrix3<f64>, span| match fundamental_frequencies(
-        &UniformMotion::free_from_parts(&body, s, state, span),
-    ) {
+    let value = |state: &BodyState<f64>, s: &Matrix3<f64>, span| match fundamental_frequencies(&UniformMotion::free(
+        &Problem::new(body, *s, *state).expect("a problem"),
+        span,
+    )) {
         Err(Error::Domain { quantity, value, .. }) => (quantity, value),
         other => panic!("{other:?}"),
     };
@@ -370,7 +386,9 @@ fn turns_are_counted_next_to_the_poles() {
         let angles = EulerAngles { alpha: 0.3, beta, gamma: 0.1 };
         let start = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 0.2, beta: 0.0, gamma: 1.0 });
         let symmetric = PrincipalCoefficients { xx: 0.01, yy: 0.01, zz: -0.04 };
-        let motion = propagate(&star(), &symmetric.tensor(), &start, (0.0, 100.0), 1e-13).expect("a motion");
+        let motion = Problem::new(star(), symmetric.tensor(), start)
+            .and_then(|problem| problem.taylor((0.0, 100.0), 1e-13))
+            .expect("a motion");
         let end = ContinuousAngles::new(&motion, 0.0, &angles).and_then(|mut a| a.at(100.0)).expect("angles");
         // Rotation about Z as a whole: alpha + gamma near the upper pole, alpha - gamma near the lower one.
         let (turned, expected) =
@@ -387,7 +405,7 @@ fn turns_next_to_a_pole_are_refused_where_they_cannot_be_counted() {
     let count = |off: f64, spin: f64| {
         let angles = EulerAngles { alpha: 0.3, beta: off, gamma: 0.1 };
         let start = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 0.0, beta: 0.0, gamma: spin });
-        let motion = UniformMotion::free_from_parts(&star(), &s, &start, (0.0, 30.0));
+        let motion = UniformMotion::free(&Problem::new(star(), s, start).expect("a problem"), (0.0, 30.0));
         ContinuousAngles::new(&motion, 0.0, &angles).and_then(|mut turns| turns.at(30.0))
     };
     refused(count(1e-13, 0.0), "pieces");
@@ -401,7 +419,7 @@ fn turns_go_on_after_a_refusal() {
     let angles = EulerAngles { alpha: 0.3, beta: 0.7_f64, gamma: 0.1 };
     let start = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 2.4, beta: 0.0, gamma: 0.5 });
     let none = Matrix3::zeros();
-    let whole = UniformMotion::free_from_parts(&star(), &none, &start, (0.0, 30.0));
+    let whole = UniformMotion::free(&Problem::new(star(), none, start).expect("a problem"), (0.0, 30.0));
     let exact = ContinuousAngles::new(&whole, 0.0, &angles).and_then(|mut turns| turns.at(15.0)).expect("angles");
     // Not finite for a moment.
     let broken = GivenStates::like(&whole, |t| {
@@ -424,12 +442,16 @@ fn the_unit_of_time_does_not_matter() {
     let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
     let rates = EulerRates { alpha: 1.2, beta: 0.3, gamma: -0.2 };
     let start = BodyState::from_angles(&star(), &angles, &rates);
-    let expected =
-        propagate(&star(), &S.tensor(), &start, (0.0, 20.0), 1e-14).and_then(|m| m.state(20.0)).expect("a motion");
+    let expected = Problem::new(star(), S.tensor(), start)
+        .and_then(|problem| problem.taylor((0.0, 20.0), 1e-14))
+        .and_then(|m| m.state(20.0))
+        .expect("a motion");
     for rate in [1e-30, 1e-18, 1e-10, 1e10, 1e18, 1e30] {
         let body = RigidSpheroid { constant_c: rate * rate, ..star() };
         let start = BodyState { momentum: start.momentum * rate, ..start };
-        let motion = propagate(&body, &S.tensor(), &start, (0.0, 20.0 / rate), 1e-14).expect("a motion");
+        let motion = Problem::new(body, S.tensor(), start)
+            .and_then(|problem| problem.taylor((0.0, 20.0 / rate), 1e-14))
+            .expect("a motion");
         let end = motion.state(20.0 / rate).expect("its end");
         let difference = (end.axis - expected.axis).norm() + (end.equatorial_axis - expected.equatorial_axis).norm();
         assert!(difference < 1e-13, "rate {rate:e}: {difference:e}");
@@ -437,7 +459,10 @@ fn the_unit_of_time_does_not_matter() {
     // Squares of L overflow.
     let heavy = RigidSpheroid { inertia_xx: 1e200, inertia_zz: 1.1e200, constant_c: 1e200 };
     let start = BodyState { momentum: start.momentum * 1e200, ..start };
-    refused(propagate(&heavy, &S.tensor(), &start, (0.0, 20.0), 1e-14).map(|_| ()), "rate at which the body turns");
+    refused(
+        Problem::new(heavy, S.tensor(), start).and_then(|problem| problem.taylor((0.0, 20.0), 1e-14)).map(|_| ()),
+        "rate at which the body turns",
+    );
 
     let symmetric = PrincipalCoefficients { yy: 0.02, ..S };
     for rate in [1e-160, 1e-100, 1e100, 1e150] {
@@ -451,19 +476,22 @@ fn the_unit_of_time_does_not_matter() {
 #[test]
 fn what_exerts_no_torque_makes_no_error() {
     let state = BodyState { axis: Vector3::z(), momentum: Vector3::new(0.1, 0.7, 1.3), equatorial_axis: Vector3::x() };
-    let free = UniformMotion::free_from_parts(&star(), &Matrix3::zeros(), &state, (0.0, 1e6));
+    let free = UniformMotion::free(&Problem::new(star(), Matrix3::zeros(), state).expect("a problem"), (0.0, 1e6));
     assert_eq!(free.state(77_777.7).expect("a state").momentum, state.momentum);
     let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
     let slow = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 1.2e-6, beta: 3e-7, gamma: -2e-7 });
     for s in [0.3, 1.0 / 3.0, 100.1] {
-        let motion =
-            propagate(&star(), &Matrix3::from_diagonal_element(s), &slow, (0.0, 1e4), 1e-13).expect("a motion");
+        let motion = Problem::new(star(), Matrix3::from_diagonal_element(s), slow)
+            .and_then(|problem| problem.taylor((0.0, 1e4), 1e-13))
+            .expect("a motion");
         let (end, exact) = (motion.state(1e4).expect("its end"), free_rotation(&star(), &slow, 1e4));
         let error = (end.axis - exact.axis).norm().max((end.momentum - exact.momentum).norm() / slow.momentum.norm());
         assert!(error <= motion.error_estimate(1e4), "s = {s}: {error:e}, estimate {:e}", motion.error_estimate(1e4));
     }
     let at_rest = BodyState { momentum: Vector3::zeros(), ..slow };
-    let motion = propagate(&star(), &Matrix3::zeros(), &at_rest, (0.0, 1e8), 1e-13).expect("a motion");
+    let motion = Problem::new(star(), Matrix3::zeros(), at_rest)
+        .and_then(|problem| problem.taylor((0.0, 1e8), 1e-13))
+        .expect("a motion");
     assert!(motion.error_estimate(1e8) < 2e-13, "{:e}", motion.error_estimate(1e8));
 }
 
@@ -478,7 +506,9 @@ fn a_pendulum_keeps_its_plane() {
         let angles = EulerAngles { beta, ..angles };
         let rates = EulerRates { alpha: alpha_rate, beta: 0.1, gamma: 0.0 };
         let start = BodyState::from_angles(&star(), &angles, &rates);
-        let motion = propagate(&star(), &s.tensor(), &start, (0.0, 50.0), 1e-14).expect("a motion");
+        let motion = Problem::new(star(), s.tensor(), start)
+            .and_then(|problem| problem.taylor((0.0, 50.0), 1e-14))
+            .expect("a motion");
         let solution = SymmetricSolution::new(&star(), &s, &angles, &rates).expect("a solution");
         for t in (0..=100).map(|i| 0.5 * f64::from(i)) {
             let (now, exact) = (motion.state(t).expect("in the span"), body_from_inertial(&solution.angles(t)));

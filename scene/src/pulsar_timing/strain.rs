@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
+use twofold::dynamics::AxisState;
 use twofold::epoch::Epoch;
 use twofold::observables::gravitational_wave::Polarizations;
-use twofold::propagation::AxisState;
 
 use super::PulsarScene;
 use crate::wave::spheroid_wave;

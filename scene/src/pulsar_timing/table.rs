@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use twofold::dynamics::AxisState;
 use twofold::observables::wave_harmonics::WaveHarmonics;
-use twofold::propagation::AxisState;
 
 use super::{PulsarScene, Timing};
 

@@ -1,11 +1,12 @@
 //! What a sweep writes of each scene: columns at its times, and summaries of its whole span.
 
 use twofold::Error;
+use twofold::dynamics::AxisState;
 use twofold::dynamics::BodyState;
 use twofold::dynamics::first_integrals::first_integrals;
 use twofold::lorentz_violation::principal_frame;
 use twofold::plan::{Method, Output, Plan, State};
-use twofold::propagation::{AxisState, SampledProblem, states_of_many};
+use twofold::propagation::{SampledProblem, states_of_many};
 use twofold::solutions::averaged::slow_precession::slow_precession;
 
 use super::chunk::guarded;

@@ -23,4 +23,4 @@ pub use beam::Beam;
 pub use clock::{ClockPulse, NearState, PulsarClock};
 pub use spin_fit::SpinFit;
 pub use timing::ConstantPeriod;
-pub use train::{Pulse, PulseTrain, Stamped, propagated_pulse_train, pulse_train};
+pub use train::{Pulse, PulseTrain, Stamped, pulse_train};

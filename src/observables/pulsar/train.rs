@@ -22,14 +22,14 @@
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use super::Beam;
 pub use super::edge_search::GRAZING;
 use super::edge_search::{EdgeSearch, Event};
 use super::margin::{BySeries, ByStates, Margin};
 use super::rate_bounds::{RateBounds, rate_bounds};
-use crate::dynamics::{BodyState, Problem, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem};
 use crate::error::Error;
 use crate::numerics::hermite::Jet;
 use crate::propagation::{Motion, Samples, projected_by_segments};
@@ -167,20 +167,6 @@ impl Problem<f64> {
         let (step_count, order) = (motion.step_count(), motion.order());
         Ok((train, Samples { states: vec![motion.state(span.1)?], error_estimates: Vec::new(), step_count, order }))
     }
-}
-
-/// By [`Problem::taylor_pulse_train`].
-pub fn propagated_pulse_train(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &BodyState<f64>,
-    span: (f64, f64),
-    accuracy: f64,
-    beam: &Beam<f64>,
-    line_of_sight: &Vector3<f64>,
-) -> Result<(PulseTrain, Samples<BodyState<f64>>), Error> {
-    // old entry: goes when its callers have moved
-    Problem::new(*spheroid, *s, *initial)?.taylor_pulse_train(span, accuracy, beam, line_of_sight)
 }
 
 /// A train in the making.

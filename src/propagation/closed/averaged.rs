@@ -54,31 +54,6 @@ impl<S: Real> AveragedMotion<S> {
         })
     }
 
-    /// By [`new`](Self::new).
-    pub fn from_parts(
-        spheroid: &RigidSpheroid<S>,
-        s: &Matrix3<S>,
-        initial: &BodyState<S>,
-        span: (f64, f64),
-        order: AveragingOrder,
-    ) -> Result<Self, Error> {
-        // old entry: goes when its callers have moved
-        Self::new(&Problem::unchecked(*spheroid, *s, *initial), span, order)
-    }
-
-    /// By [`in_frame`](Self::in_frame).
-    pub fn in_frame_from_parts(
-        spheroid: &RigidSpheroid<S>,
-        s: &Matrix3<S>,
-        initial: &BodyState<S>,
-        span: (f64, f64),
-        order: AveragingOrder,
-        frame: (PrincipalCoefficients<S>, Matrix3<S>),
-    ) -> Result<Self, Error> {
-        // old entry: goes when its callers have moved
-        Self::in_frame(&Problem::unchecked(*spheroid, *s, *initial), span, order, frame)
-    }
-
     /// The same motion with the time counted from `epoch[0] + epoch[1]`: near it a double is enough for a time, after any number of turns.
     ///
     /// # Errors

@@ -89,17 +89,6 @@ impl<S: Real> SymmetricMotion<S> {
         })
     }
 
-    /// By [`new`](Self::new).
-    pub fn from_parts(
-        spheroid: &RigidSpheroid<S>,
-        s: &Matrix3<S>,
-        initial: &BodyState<S>,
-        span: (f64, f64),
-    ) -> Result<Self, Error> {
-        // old entry: goes when its callers have moved
-        Self::new(&Problem::unchecked(*spheroid, *s, *initial), span)
-    }
-
     /// Bound on the components of `n` and `L` of what the difference of the two eigenvalues does within a time; zero where they
     /// are equal within rounding, which [`Motion::error_estimate`] counts.
     ///

@@ -111,28 +111,6 @@ impl<S: Real> UniformMotion<S> {
         })
     }
 
-    /// By [`free`](Self::free).
-    pub fn free_from_parts(
-        spheroid: &RigidSpheroid<S>,
-        s: &Matrix3<S>,
-        initial: &BodyState<S>,
-        span: (f64, f64),
-    ) -> Self {
-        // old entry: goes when its callers have moved
-        Self::free(&Problem::unchecked(*spheroid, *s, *initial), span)
-    }
-
-    /// By [`steady`](Self::steady).
-    pub fn steady_from_parts(
-        spheroid: &RigidSpheroid<S>,
-        s: &Matrix3<S>,
-        initial: &BodyState<S>,
-        span: (f64, f64),
-    ) -> Result<Self, Error> {
-        // old entry: goes when its callers have moved
-        Self::steady(&Problem::unchecked(*spheroid, *s, *initial), span)
-    }
-
     /// Time since the start of the motion.
     fn elapsed(&self, t: S) -> Result<S, Error> {
         check_time(self.span, t.re())?;

@@ -1,13 +1,11 @@
 //! Which scheme, and which step, for an accuracy asked.
 
-use nalgebra::Matrix3;
-
-use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
+use crate::dynamics::{Problem, RotationState};
 use crate::error::Error;
 use crate::numerics::fused::detect_fused;
 use crate::propagation::input::check_request;
 use crate::propagation::splitting::error::expected_rounding;
-use crate::propagation::splitting::motion::{PrincipalProblem, SPLITTING_STEP_LIMIT, SplittingMotion};
+use crate::propagation::splitting::motion::{PrincipalProblem, SPLITTING_STEP_LIMIT};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::splitting::schemes::{
     GRADIENT_8_6_4, GRADIENT_8_6_6, GRADIENT_8_8_6, KAHAN_LI_8, NEAR_INTEGRABLE_6_2, NEAR_INTEGRABLE_10_4, SRKN_6B,
@@ -177,18 +175,6 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     }
 }
 
-/// By [`Problem::splitting_forecast`].
-pub fn splitting_forecast(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &AxisState<f64>,
-    span: (f64, f64),
-    accuracy: f64,
-) -> Result<SplittingForecast, Error> {
-    // old entry: goes when its callers have moved
-    Problem::new(*spheroid, *s, *initial)?.splitting_forecast(span, accuracy)
-}
-
 /// Parameters whose tangent maps go along with one motion: four registers of four doubles.
 pub(crate) const TANGENTS_AT_ONCE: usize = 16;
 
@@ -224,30 +210,6 @@ pub(super) fn cheapest<const V: usize>(
         coverage: goal.coverage(),
         rounding: expected_rounding(turn),
     }
-}
-
-/// By [`Problem::splitting`].
-pub fn propagate_by_best_splitting(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &AxisState<f64>,
-    span: (f64, f64),
-    accuracy: f64,
-) -> Result<SplittingMotion<AxisState<f64>>, Error> {
-    // old entry: goes when its callers have moved
-    Problem::new(*spheroid, *s, *initial)?.splitting(span, accuracy)
-}
-
-/// By [`Problem::splitting`].
-pub fn propagate_orientation_by_best_splitting(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &BodyState<f64>,
-    span: (f64, f64),
-    accuracy: f64,
-) -> Result<SplittingMotion, Error> {
-    // old entry: goes when its callers have moved
-    Problem::new(*spheroid, *s, *initial)?.splitting(span, accuracy)
 }
 
 /// How splitting would reach the samples of a motion.
@@ -309,6 +271,8 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
+    use crate::dynamics::{AxisState, RigidSpheroid};
+    use nalgebra::Matrix3;
 
     #[test]
     fn the_error_of_a_derivative_is_the_slope_of_the_error() {

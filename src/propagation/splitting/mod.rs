@@ -34,11 +34,9 @@ mod stepping;
 #[cfg(target_arch = "x86_64")]
 mod tangents;
 
+pub use choice::SplittingForecast;
 pub(crate) use choice::{Goal, TANGENTS_AT_ONCE, require_tangent_maps};
-pub use choice::{
-    SplittingForecast, propagate_by_best_splitting, propagate_orientation_by_best_splitting, splitting_forecast,
-};
-pub use motion::{SPLITTING_STEP_LIMIT, SplittingMotion, propagate_by_splitting, propagate_orientation_by_splitting};
+pub use motion::{SPLITTING_STEP_LIMIT, SplittingMotion};
 pub use scheme::{Ends, Scheme};
 pub use schemes::{
     GRADIENT_8_6_4, GRADIENT_8_6_6, GRADIENT_8_8_6, KAHAN_LI_8, NEAR_INTEGRABLE_6_2, NEAR_INTEGRABLE_10_4, SCHEMES,

@@ -308,32 +308,6 @@ impl<X: RotationState<f64>> Motion<f64> for SplittingMotion<X> {
     }
 }
 
-/// By [`Problem::splitting_by`].
-pub fn propagate_by_splitting(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &AxisState<f64>,
-    span: (f64, f64),
-    scheme: &'static Scheme,
-    step: f64,
-) -> Result<SplittingMotion<AxisState<f64>>, Error> {
-    // old entry: goes when its callers have moved
-    Problem::new(*spheroid, *s, *initial)?.splitting_by(scheme, span, step)
-}
-
-/// By [`Problem::splitting_by`].
-pub fn propagate_orientation_by_splitting(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &BodyState<f64>,
-    span: (f64, f64),
-    scheme: &'static Scheme,
-    step: f64,
-) -> Result<SplittingMotion, Error> {
-    // old entry: goes when its callers have moved
-    Problem::new(*spheroid, *s, *initial)?.splitting_by(scheme, span, step)
-}
-
 #[cfg(test)]
 mod tests {
     use approx::assert_relative_eq;

@@ -1,8 +1,6 @@
 //! Steps without a record, for runs of any length.
 
-use nalgebra::Matrix3;
-
-use crate::dynamics::{AxisState, Problem, RigidSpheroid, RotationState};
+use crate::dynamics::{AxisState, Problem, RotationState};
 use crate::error::Error;
 use crate::propagation::ACCURACY_RANGE;
 use crate::propagation::input::check_request;
@@ -48,18 +46,6 @@ impl Splitting {
         Ok(Self { scene, steps, state })
     }
 
-    /// By [`Splitting::new`].
-    pub fn from_parts(
-        spheroid: &RigidSpheroid<f64>,
-        s: &Matrix3<f64>,
-        initial: &AxisState<f64>,
-        scheme: &Scheme,
-        step: f64,
-    ) -> Result<Self, Error> {
-        // old entry: goes when its callers have moved
-        Self::new(&Problem::new(*spheroid, *s, *initial)?, scheme, step)
-    }
-
     /// Takes a number of steps.
     pub fn advance(&mut self, steps: u64) {
         self.steps.advance(&mut self.state, self.scene.casimir, steps);
@@ -78,8 +64,10 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
+    use crate::dynamics::RigidSpheroid;
     use crate::propagation::Motion;
     use crate::propagation::splitting::STRANG;
+    use nalgebra::Matrix3;
 
     #[test]
     fn steps_without_a_record_are_those_of_the_motion_that_is_kept() {

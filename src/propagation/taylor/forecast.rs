@@ -1,8 +1,6 @@
 //! What a numerical motion will take, from its first step.
 
-use nalgebra::Matrix3;
-
-use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
+use crate::dynamics::{Problem, RotationState};
 use crate::error::Error;
 use crate::numerics::arithmetic::plain;
 use crate::propagation::taylor::error_growth::{ErrorGrowth, READING};
@@ -35,24 +33,6 @@ impl<X: RotationState<f64>> Problem<f64, X> {
         } else {
             forecast::<X, 2>(self, duration, accuracy)
         }
-    }
-}
-
-/// By [`Problem::taylor_forecast`].
-pub fn taylor_forecast(
-    spheroid: &RigidSpheroid<f64>,
-    s: &Matrix3<f64>,
-    initial: &BodyState<f64>,
-    with_equatorial_axis: bool,
-    duration: f64,
-    accuracy: f64,
-) -> Result<TaylorForecast, Error> {
-    // old entry: goes when its callers have moved
-    let problem = Problem::new(*spheroid, *s, *initial)?;
-    if with_equatorial_axis {
-        problem.taylor_forecast(duration, accuracy)
-    } else {
-        problem.reduced().taylor_forecast(duration, accuracy)
     }
 }
 
@@ -94,6 +74,8 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
+    use crate::dynamics::{BodyState, RigidSpheroid};
+    use nalgebra::Matrix3;
 
     #[test]
     fn a_motion_without_end_has_no_digits() {

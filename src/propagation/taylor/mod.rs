@@ -32,13 +32,13 @@ use crate::numerics::scalar::{Real, cast, cast_ref};
 use crate::propagation::Motion;
 use clock::StepLimit;
 use errors::{StepError, TaylorErrors};
-pub use forecast::{TaylorForecast, taylor_forecast};
+pub use forecast::TaylorForecast;
 #[cfg(target_arch = "x86_64")]
 pub(super) use lanes::axis_states_in_lanes;
 pub use projection::SeriesProjection;
 #[cfg(target_arch = "x86_64")]
 pub(super) use samples::span_of;
-pub use samples::{ErrorEstimates, Samples, axis_states_at, states_at};
+pub use samples::{ErrorEstimates, Samples};
 pub(crate) use segments::projected_by_segments;
 
 use scaled_problem::ScaledProblem;
@@ -373,30 +373,6 @@ impl<S: Real, X: RotationState<S>> Motion<S> for TaylorMotion<S, X> {
         let KeptSeries { setup, steps, fused, .. } = cast_ref::<_, KeptSeries<f64, 3>>(series)?;
         Some(SeriesProjection::new(setup, steps, (*fused)?, in_body, direction))
     }
-}
-
-/// By [`Problem::taylor`].
-pub fn propagate<S: Real>(
-    spheroid: &RigidSpheroid<S>,
-    s: &Matrix3<S>,
-    initial: &BodyState<S>,
-    span: (f64, f64),
-    accuracy: f64,
-) -> Result<TaylorMotion<S>, Error> {
-    // old entry: goes when its callers have moved
-    Problem::new(*spheroid, *s, *initial)?.taylor(span, accuracy)
-}
-
-/// By [`Problem::taylor`].
-pub fn propagate_axis<S: Real>(
-    spheroid: &RigidSpheroid<S>,
-    s: &Matrix3<S>,
-    initial: &AxisState<S>,
-    span: (f64, f64),
-    accuracy: f64,
-) -> Result<TaylorMotion<S, AxisState<S>>, Error> {
-    // old entry: goes when its callers have moved
-    Problem::new(*spheroid, *s, *initial)?.taylor(span, accuracy)
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! States at given times, without keeping the motion between them.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
-use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
+use crate::dynamics::{AxisState, Problem, RotationState};
 use crate::error::Error;
 use crate::numerics::arithmetic::{LoadStore, plain};
 use crate::numerics::fused::run_fused;
@@ -65,34 +65,6 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
             sampled(self, start, times, (accuracy, estimates), state)
         }
     }
-}
-
-/// By [`Problem::taylor_states`].
-pub fn states_at<S: Real>(
-    spheroid: &RigidSpheroid<S>,
-    s: &Matrix3<S>,
-    initial: &BodyState<S>,
-    start: f64,
-    times: &[f64],
-    accuracy: f64,
-    estimates: ErrorEstimates,
-) -> Result<Samples<BodyState<S>>, Error> {
-    // old entry: goes when its callers have moved
-    Problem::new(*spheroid, *s, *initial)?.taylor_states(start, times, accuracy, estimates)
-}
-
-/// By [`Problem::taylor_states`].
-pub fn axis_states_at<S: Real>(
-    spheroid: &RigidSpheroid<S>,
-    s: &Matrix3<S>,
-    initial: &AxisState<S>,
-    start: f64,
-    times: &[f64],
-    accuracy: f64,
-    estimates: ErrorEstimates,
-) -> Result<Samples<AxisState<S>>, Error> {
-    // old entry: goes when its callers have moved
-    Problem::new(*spheroid, *s, *initial)?.taylor_states(start, times, accuracy, estimates)
 }
 
 /// The span from the start to the last of the times, which must be in the order in which a motion reaches them.

@@ -3,18 +3,16 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 use twofold::Real;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::AxisState;
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::parameters::{Parameter, Parameters};
-use twofold::plan::{Method, Output, Plan, Request, StateFunction, gradient_in_parts};
-use twofold::propagation::splitting::{
-    SCHEMES, propagate_by_best_splitting, propagate_by_splitting, propagate_orientation_by_best_splitting,
-    propagate_orientation_by_splitting, splitting_forecast,
-};
+use twofold::plan::{Method, Output, Request, StateFunction, gradient_in_parts};
+use twofold::propagation::splitting::SCHEMES;
 use twofold::propagation::{
-    AveragedMotion, AxisScene, AxisState, ContinuousAngles, ErrorEstimates, Motion, SymmetricMotion, UniformMotion,
-    axis_states_at, axis_states_of_many, propagate, propagate_axis, states_at, taylor_forecast,
+    AveragedMotion, ContinuousAngles, ErrorEstimates, Motion, SampledProblem, SymmetricMotion, UniformMotion,
+    states_of_many,
 };
 use twofold::solutions::averaged::AveragingOrder;
 use twofold::solutions::free::{free_precession_rates, free_rotation};
@@ -51,7 +49,7 @@ fn look<M: Motion<f64, State = BodyState<f64>>>(table: &mut Table, name: &str, m
 fn closed_forms() {
     let mut table = Table::default();
     for (name, span) in [("free", SPAN), ("free backwards", BACK)] {
-        let motion = UniformMotion::free_from_parts(&STAR, &(general() * 1e-6), &state(), span);
+        let motion = UniformMotion::free(&Problem::new(STAR, general() * 1e-6, state()).expect("a problem"), span);
         look(&mut table, name, &motion);
         for t in [5.0, 1e6] {
             let (truncation, rounding) = (motion.truncation(t), motion.rounding(t));
@@ -70,11 +68,15 @@ fn steady(table: &mut Table) {
     let s = PrincipalCoefficients::new([0.02, 0.02, -0.03]);
     let turn = body_from_inertial(&EulerAngles { alpha: -0.3, beta: 0.6, gamma: 0.2 });
     let look_at = |table: &mut Table, name: &str, s: &Matrix3<f64>, initial: &BodyState<f64>, span| {
-        table.found(name, UniformMotion::steady_from_parts(&STAR, s, initial, span), |table, motion| {
-            look(table, name, &motion);
-            let (rounding, truncation) = (motion.rounding(50.0), motion.truncation(50.0));
-            table.row(&format!("{name}, after 50"), &[("rounding", &rounding), ("truncation", &truncation)]);
-        });
+        table.found(
+            name,
+            Problem::new(STAR, *s, *initial).and_then(|problem| UniformMotion::steady(&problem, span)),
+            |table, motion| {
+                look(table, name, &motion);
+                let (rounding, truncation) = (motion.rounding(50.0), motion.truncation(50.0));
+                table.row(&format!("{name}, after 50"), &[("rounding", &rounding), ("truncation", &truncation)]);
+            },
+        );
     };
     for kind in [Precession::Twofold, Precession::Single] {
         let (spin, beta) = (1.9, 0.8);
@@ -88,7 +90,10 @@ fn steady(table: &mut Table) {
             look_at(table, &format!("steady {kind:?} to {}", span.1), &s, &given, span);
         }
         let off = BodyState { momentum: given.momentum * (1.0 + 1e-9), ..given };
-        table.refusal(&format!("not steady {kind:?}"), UniformMotion::steady_from_parts(&STAR, &s, &off, SPAN));
+        table.refusal(
+            &format!("not steady {kind:?}"),
+            Problem::new(STAR, s, off).and_then(|problem| UniformMotion::steady(&problem, SPAN)),
+        );
     }
     let s = PrincipalCoefficients::new([0.021, -0.004, 0.009]).tensor();
     for size in [3.0, 0.0, -2.0] {
@@ -116,13 +121,20 @@ fn symmetric_motions() {
     ] {
         for span in [SPAN, BACK] {
             let name = format!("{name} to {}", span.1);
-            table.found(&name, SymmetricMotion::from_parts(&STAR, &s, &initial, span), |table, motion| {
-                look(table, &name, &motion);
-                for t in [-400.0, 1e7] {
-                    let (truncation, rounding) = (motion.truncation(t), motion.rounding(t));
-                    table.row(&format!("{name}, after {t}"), &[("truncation", &truncation), ("rounding", &rounding)]);
-                }
-            });
+            table.found(
+                &name,
+                Problem::new(STAR, s, initial).and_then(|problem| SymmetricMotion::new(&problem, span)),
+                |table, motion| {
+                    look(table, &name, &motion);
+                    for t in [-400.0, 1e7] {
+                        let (truncation, rounding) = (motion.truncation(t), motion.rounding(t));
+                        table.row(
+                            &format!("{name}, after {t}"),
+                            &[("truncation", &truncation), ("rounding", &rounding)],
+                        );
+                    }
+                },
+            );
         }
     }
     table.check("symmetric_motions");
@@ -140,43 +152,47 @@ fn mean_motions() {
     ] {
         for order in [AveragingOrder::First, AveragingOrder::Second] {
             let name = format!("{name}, {order:?}");
-            table.found(&name, AveragedMotion::from_parts(&STAR, &s, &initial, SPAN, order), |table, motion| {
-                look(table, &name, &motion);
-                let mean = motion.mean();
-                let rates = mean.rates();
-                table.row(
-                    &name,
-                    &[
-                        ("rates", &[rates.slow, rates.about_momentum, rates.about_axis]),
-                        ("strength", &mean.relative_strength()),
-                    ],
-                );
-                for t in [40.0, -7.0] {
+            table.found(
+                &name,
+                Problem::new(STAR, s, initial).and_then(|problem| AveragedMotion::new(&problem, SPAN, order)),
+                |table, motion| {
+                    look(table, &name, &motion);
+                    let mean = motion.mean();
+                    let rates = mean.rates();
                     table.row(
-                        &format!("{name}, t {t}"),
+                        &name,
                         &[
-                            ("truncation", &motion.truncation(t)),
-                            ("rounding", &motion.rounding(t)),
-                            ("of the averaged motion", &mean.truncation(t)),
-                            ("and", &mean.rounding(t)),
-                            ("error", &mean.error_estimate(t)),
+                            ("rates", &[rates.slow, rates.about_momentum, rates.about_axis]),
+                            ("strength", &mean.relative_strength()),
                         ],
                     );
-                }
-                let turns = motion.turns([25.0, 1e-3]);
-                let turns = [turns.slow, turns.about_momentum, turns.about_axis];
-                table.row(
-                    &format!("{name}, turns"),
-                    &[
-                        ("whole", &turns.map(|turns| turns.whole as f64)),
-                        ("fraction", &turns.map(|turns| turns.fraction)),
-                        ("angle", &turns.map(|turns| turns.angle())),
-                    ],
-                );
-                look(table, &format!("{name}, near 20.5"), &motion.near([20.0, 0.5]).expect("within the span"));
-                table.refusal(&format!("{name}, near 40"), motion.near([40.0, 0.0]));
-                table.refusal(&format!("{name}, derivatives"), motion.require_derivatives());
-            });
+                    for t in [40.0, -7.0] {
+                        table.row(
+                            &format!("{name}, t {t}"),
+                            &[
+                                ("truncation", &motion.truncation(t)),
+                                ("rounding", &motion.rounding(t)),
+                                ("of the averaged motion", &mean.truncation(t)),
+                                ("and", &mean.rounding(t)),
+                                ("error", &mean.error_estimate(t)),
+                            ],
+                        );
+                    }
+                    let turns = motion.turns([25.0, 1e-3]);
+                    let turns = [turns.slow, turns.about_momentum, turns.about_axis];
+                    table.row(
+                        &format!("{name}, turns"),
+                        &[
+                            ("whole", &turns.map(|turns| turns.whole as f64)),
+                            ("fraction", &turns.map(|turns| turns.fraction)),
+                            ("angle", &turns.map(|turns| turns.angle())),
+                        ],
+                    );
+                    look(table, &format!("{name}, near 20.5"), &motion.near([20.0, 0.5]).expect("within the span"));
+                    table.refusal(&format!("{name}, near 40"), motion.near([40.0, 0.0]));
+                    table.refusal(&format!("{name}, derivatives"), motion.require_derivatives());
+                },
+            );
         }
     }
     table.check("mean_motions");
@@ -190,15 +206,19 @@ fn taylor_series() {
     for accuracy in [1e-14, 1e-11, 1e-5] {
         for span in [SPAN, BACK] {
             let name = format!("{accuracy:e} to {}", span.1);
-            let forecast = taylor_forecast(&STAR, &s, &state(), true, span.1 - span.0, accuracy).expect("a forecast");
+            let forecast = Problem::new(STAR, s, state())
+                .and_then(|problem| problem.taylor_forecast(span.1 - span.0, accuracy))
+                .expect("a forecast");
             table.row(
                 &format!("{name}, forecast"),
                 &[("order", &forecast.order), ("steps", &forecast.steps), ("rounding", &forecast.rounding)],
             );
-            let motion = propagate(&STAR, &s, &state(), span, accuracy).expect("a motion");
+            let motion =
+                Problem::new(STAR, s, state()).and_then(|problem| problem.taylor(span, accuracy)).expect("a motion");
             table.row(&name, &[("steps", &motion.step_count()), ("order", &motion.order())]);
             look(&mut table, &name, &motion);
-            let motion = propagate_axis(&STAR, &s, &axis, span, accuracy).expect("a motion");
+            let motion =
+                Problem::new(STAR, s, axis).and_then(|problem| problem.taylor(span, accuracy)).expect("a motion");
             let middle = 0.5 * (span.0 + span.1);
             table.row(
                 &format!("{name}, axis"),
@@ -213,19 +233,27 @@ fn taylor_series() {
     }
     let times = [2.0, 3.5, 9.0, 9.0, 31.0];
     for estimates in [ErrorEstimates::Wanted, ErrorEstimates::NotWanted] {
-        let found = states_at(&STAR, &s, &state(), SPAN.0, &times, 1e-11, estimates).expect("states");
+        let found = Problem::new(STAR, s, state())
+            .and_then(|problem| problem.taylor_states(SPAN.0, &times, 1e-11, estimates))
+            .expect("states");
         table.row("samples", &[("steps", &found.step_count), ("order", &found.order)]);
         for (i, state) in found.states.iter().enumerate() {
             let error = found.error_estimates.get(i).copied();
             table.row(&format!("sample at {}", times[i]), &[("", state), ("error", &error)]);
         }
     }
-    let back = axis_states_at(&STAR, &s, &axis, 2.0, &[1.0, -5.0], 1e-9, ErrorEstimates::Wanted).expect("states");
+    let back = Problem::new(STAR, s, axis)
+        .and_then(|problem| problem.taylor_states(2.0, &[1.0, -5.0], 1e-9, ErrorEstimates::Wanted))
+        .expect("states");
     for (state, error) in back.states.iter().zip(&back.error_estimates) {
         table.row("axis backwards", &[("", state), ("error", error)]);
     }
     for (name, times) in [("times not in order", &[5.0, 4.0, 6.0][..]), ("no times", &[])] {
-        table.refusal(name, states_at(&STAR, &s, &state(), 2.0, times, 1e-9, ErrorEstimates::NotWanted));
+        table.refusal(
+            name,
+            Problem::new(STAR, s, state())
+                .and_then(|problem| problem.taylor_states(2.0, times, 1e-9, ErrorEstimates::NotWanted)),
+        );
     }
     dual_samples(&mut table);
     table.check("taylor_series");
@@ -241,7 +269,9 @@ fn dual_samples(table: &mut Table) {
         momentum: given.momentum.map(lift),
         equatorial_axis: given.equatorial_axis.map(lift),
     };
-    let found = states_at(&star, &s, &initial, 2.0, &[3.0, 12.0], 1e-11, ErrorEstimates::Wanted).expect("states");
+    let found = Problem::new(star, s, initial)
+        .and_then(|problem| problem.taylor_states(2.0, &[3.0, 12.0], 1e-11, ErrorEstimates::Wanted))
+        .expect("states");
     for (state, error) in found.states.iter().zip(&found.error_estimates) {
         let BodyState { axis, momentum, equatorial_axis } = *state;
         let slopes =
@@ -249,7 +279,7 @@ fn dual_samples(table: &mut Table) {
         let value = equatorial_axis.map(|x| x.re());
         table.row("by I^xx", &[("derivatives", &slopes), ("e_x", &value), ("error", error)]);
     }
-    let motion = propagate(&star, &s, &initial, SPAN, 1e-11).expect("a motion");
+    let motion = Problem::new(star, s, initial).and_then(|problem| problem.taylor(SPAN, 1e-11)).expect("a motion");
     table.row(
         "dense, t 17",
         &[
@@ -264,17 +294,15 @@ fn dual_samples(table: &mut Table) {
 #[test]
 fn many_axes() {
     let mut table = Table::default();
-    let mut look = |name: &str, scenes: &[AxisScene<'_>]| {
-        for (k, (scene, found)) in scenes.iter().zip(axis_states_of_many(scenes)).enumerate() {
-            let AxisScene { spheroid, violation, initial, start, times, accuracy } = scene;
+    let mut look = |name: &str, motions: &[SampledProblem<'_>]| {
+        for (k, (motion, found)) in motions.iter().zip(states_of_many(motions)).enumerate() {
+            let SampledProblem { problem, start, times, accuracy } = motion;
             let name = format!("{name}, {k}");
             table.found(&name, found, |table, found| {
                 let last = found.states.last().expect("a state");
                 table.row(&name, &[("steps", &found.step_count), ("order", &found.order), ("last", last)]);
                 let accuracy = accuracy.max(1e-13);
-                let alone =
-                    axis_states_at(spheroid, violation, initial, *start, times, accuracy, ErrorEstimates::NotWanted)
-                        .expect("states");
+                let alone = problem.taylor_states(*start, times, accuracy, ErrorEstimates::NotWanted).expect("states");
                 assert_eq!(found.states.len(), times.len(), "{name}");
                 for (state, alone) in found.states.iter().zip(&alone.states) {
                     let difference = (state.axis - alone.axis).norm() + (state.momentum - alone.momentum).norm();
@@ -284,36 +312,26 @@ fn many_axes() {
         }
     };
     let times: Vec<Vec<f64>> = (0..11).map(|k| vec![0.5 * f64::from(k) + 1.0, 3.0 * f64::from(k) + 4.0]).collect();
-    let scene = |k: usize, times, accuracy| AxisScene {
-        spheroid: STAR,
-        violation: general() * (1.0 + 0.1 * k as f64),
-        initial: AxisState::from(&state()),
-        start: 0.5,
-        times,
-        accuracy,
+    let motion = |star, k: usize, times, accuracy| {
+        let problem = Problem::new(star, general() * (1.0 + 0.1 * k as f64), AxisState::from(&state()));
+        SampledProblem { problem: problem.expect("a problem"), start: 0.5, times, accuracy }
     };
-    let mut scenes: Vec<_> =
-        times.iter().enumerate().map(|(k, times)| scene(k, times, if k == 3 { 1e-5 } else { 1e-11 })).collect();
-    look("all good", &scenes);
-    scenes[5].initial.axis.x = 3.0;
-    scenes[7].accuracy = 1.0;
-    look("two refused", &scenes);
+    let mut motions: Vec<_> =
+        times.iter().enumerate().map(|(k, times)| motion(STAR, k, times, if k == 3 { 1e-5 } else { 1e-11 })).collect();
+    look("all good", &motions);
+    motions[7].accuracy = 1.0;
+    look("one refused", &motions);
     // So many times that steps of a splitting would be cut short: series of three orders, in turn.
     let dense: Vec<Vec<f64>> =
         (0..13).map(|k| (0..110 + k).map(|j| 0.6 + 0.03 * f64::from(k) + 0.025 * f64::from(j)).collect()).collect();
-    let mut series: Vec<_> = dense
-        .iter()
-        .enumerate()
-        .map(|(k, times)| AxisScene {
-            spheroid: if k % 4 == 1 { PROLATE } else { STAR },
-            ..scene(k, times, [1e-5, 1e-15, 1e-10][k % 3])
-        })
-        .collect();
-    // Backwards, one that is too long for its steps, and one that is no state.
+    let star = |k: usize| if k % 4 == 1 { PROLATE } else { STAR };
+    let accuracy = |k: usize| [1e-5, 1e-15, 1e-10][k % 3];
+    let mut series: Vec<_> =
+        dense.iter().enumerate().map(|(k, times)| motion(star(k), k, times, accuracy(k))).collect();
+    // Backwards, and one that is too long for its steps.
     let back: Vec<f64> = dense[6].iter().rev().copied().collect();
-    series[6] = AxisScene { start: 5.0, times: &back, ..series[6] };
-    series[9] = AxisScene { times: &[1.0, 1e12], accuracy: 1e-15, ..series[9] };
-    series[4].initial.momentum.x = f64::NAN;
+    series[6] = SampledProblem { start: 5.0, times: &back, ..series[6] };
+    series[9] = SampledProblem { times: &[1.0, 1e12], accuracy: 1e-15, ..series[9] };
     look("series", &series);
     table.check("many_axes");
 }
@@ -327,19 +345,23 @@ fn splitting() {
         for accuracy in [1e-2, 1e-4, 1e-7, 1e-10, 1e-13, 1e-16] {
             for (of, s) in [("s", s), ("s / 1e3", s * 1e-3)] {
                 let name = format!("{of} to {} within {accuracy:e}", span.1);
-                table.found(&name, splitting_forecast(&STAR, &s, &axis, span, accuracy), |table, found| {
-                    table.row(
-                        &name,
-                        &[
-                            ("", &found.scheme.name),
-                            ("step", &found.step),
-                            ("steps", &found.steps),
-                            ("truncation", &found.truncation),
-                            ("coverage", &found.coverage),
-                            ("rounding", &found.rounding),
-                        ],
-                    );
-                });
+                table.found(
+                    &name,
+                    Problem::new(STAR, s, axis).and_then(|problem| problem.splitting_forecast(span, accuracy)),
+                    |table, found| {
+                        table.row(
+                            &name,
+                            &[
+                                ("", &found.scheme.name),
+                                ("step", &found.step),
+                                ("steps", &found.steps),
+                                ("truncation", &found.truncation),
+                                ("coverage", &found.coverage),
+                                ("rounding", &found.rounding),
+                            ],
+                        );
+                    },
+                );
             }
         }
     }
@@ -350,17 +372,23 @@ fn splitting() {
     for scheme in SCHEMES {
         for (span, step) in [(SPAN, 0.21), (BACK, 0.4)] {
             let name = format!("{} to {}", scheme.name, span.1);
-            let motion = propagate_by_splitting(&STAR, &s, &axis, span, scheme, step).expect("a motion");
+            let motion = Problem::new(STAR, s, axis)
+                .and_then(|problem| problem.splitting_by(scheme, span, step))
+                .expect("a motion");
             table.row(&name, &[("step", &motion.step()), ("steps", &motion.step_count())]);
             see(&mut table, &name, &motion, span.0 + 0.13 * (span.1 - span.0));
         }
-        let motion = propagate_orientation_by_splitting(&STAR, &s, &state(), SPAN, scheme, 0.3).expect("a motion");
+        let motion = Problem::new(STAR, s, state())
+            .and_then(|problem| problem.splitting_by(scheme, SPAN, 0.3))
+            .expect("a motion");
         look(&mut table, &format!("{}, orientation", scheme.name), &motion);
     }
     for accuracy in [1e-4, 1e-9] {
-        let motion = propagate_by_best_splitting(&STAR, &s, &axis, SPAN, accuracy).expect("a motion");
+        let motion =
+            Problem::new(STAR, s, axis).and_then(|problem| problem.splitting(SPAN, accuracy)).expect("a motion");
         see(&mut table, &format!("best, {}", motion.scheme().name), &motion, 20.0);
-        let motion = propagate_orientation_by_best_splitting(&STAR, &s, &state(), SPAN, accuracy).expect("a motion");
+        let motion =
+            Problem::new(STAR, s, state()).and_then(|problem| problem.splitting(SPAN, accuracy)).expect("a motion");
         look(&mut table, "best, orientation", &motion);
     }
     table.check("splitting");
@@ -399,7 +427,8 @@ fn gradients() {
                 for derivatives in [all.clone(), without_tensor.clone(), Vec::new()] {
                     let name = format!("{name}, {}, {method:?}, {}", output.name(), derivatives.len());
                     let request = Request { method, derivatives, ..Request::new(&[output], SPAN, 3, 1e-10) };
-                    let plan = Plan::from_parts(&start.spheroid, &start.violation, &start.state(), &request);
+                    let plan = Problem::new(start.spheroid, start.violation, start.state())
+                        .and_then(|problem| problem.plan(&request));
                     let times = [[2.0, 0.0], [20.0, 0.5]];
                     let found = plan.and_then(|plan| gradient_in_parts(&plan, &start, &Whole, &times));
                     table.found(&name, found, |table, found| {
@@ -420,7 +449,8 @@ fn gradients() {
 #[test]
 fn angles_that_count_turns() {
     let mut table = Table::default();
-    let motion = propagate(&STAR, &general(), &state(), SPAN, 1e-11).expect("a motion");
+    let motion =
+        Problem::new(STAR, general(), state()).and_then(|problem| problem.taylor(SPAN, 1e-11)).expect("a motion");
     let turned = EulerAngles { alpha: ANGLES.alpha + 12.0 * std::f64::consts::PI, ..ANGLES };
     let mut angles = ContinuousAngles::new(&motion, SPAN.0, &turned).expect("angles");
     for t in [2.0, 9.0, 31.0, 4.0] {

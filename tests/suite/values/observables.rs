@@ -1,15 +1,14 @@
 //! Pulses, arrivals, clocks, distributions and stars.
 
 use nalgebra::Vector3;
-use twofold::dynamics::BodyState;
+use twofold::dynamics::{BodyState, Problem};
 use twofold::observables::Observer;
 use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
 use twofold::observables::pulsar::period::{
     approximate_period, azimuth_offset_rate, azimuth_rate, instantaneous_period,
 };
 use twofold::observables::pulsar::rate_bounds::rate_bounds;
-use twofold::observables::pulsar::{Beam, PulsarClock, PulseTrain, arrivals, propagated_pulse_train, pulse_train};
-use twofold::propagation::propagate;
+use twofold::observables::pulsar::{Beam, PulsarClock, PulseTrain, arrivals, pulse_train};
 use twofold::solutions::averaged::AveragingOrder;
 use twofold::star::axisymmetric::axisymmetric_integrals;
 use twofold::star::maclaurin::MaclaurinSpheroid;
@@ -48,7 +47,8 @@ fn train(table: &mut Table, name: &str, train: &PulseTrain) {
 fn pulses() {
     let mut table = Table::default();
     let span = (0.0, 60.0);
-    let motion = propagate(&STAR, &general(), &state(), span, 1e-12).expect("a motion");
+    let motion =
+        Problem::new(STAR, general(), state()).and_then(|problem| problem.taylor(span, 1e-12)).expect("a motion");
     for (name, beam, observer) in [
         ("usual", beam(), observer()),
         ("narrow", Beam::new(0.8, -0.3, 0.05), Observer::at(1.0, 0.2)),
@@ -70,7 +70,8 @@ fn pulses() {
         });
         for (what, s) in [("propagated", general()), ("free", general() * 0.0)] {
             let name = format!("{name}, {what}");
-            let found = propagated_pulse_train(&STAR, &s, &state(), (0.0, 21.0), 1e-9, &beam, o);
+            let found = Problem::new(STAR, s, state())
+                .and_then(|problem| problem.taylor_pulse_train((0.0, 21.0), 1e-9, &beam, o));
             table.found(&name, found, |table, (found, end)| {
                 train(table, &name, &found);
                 for state in &end.states {

@@ -3,13 +3,11 @@
 use std::collections::BTreeSet;
 
 use nalgebra::Matrix3;
-use twofold::dynamics::BodyState;
+use twofold::dynamics::{BodyState, Problem};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::parameters::Parameter;
-use twofold::plan::{
-    Cost, Counted, Method, Output, Plan, PlannedAxisMotion, PlannedMotion, Request, Samples, State, Work,
-};
-use twofold::propagation::{Motion, largest_torque, propagate};
+use twofold::plan::{Cost, Counted, Method, Output, Plan, Request, Samples, State, Work};
+use twofold::propagation::{Motion, largest_torque};
 
 use crate::values::scene::{STAR, general, state, tensor};
 use crate::values::table::{Table, Written};
@@ -43,46 +41,50 @@ struct Plans {
 impl Plans {
     /// What is computed, in a sentence; and predictions of the methods that were considered.
     fn add(&mut self, name: &str, request: &Request, s: &Matrix3<f64>, with_candidates: impl FnOnce(&Plan) -> bool) {
-        self.table.found(name, Plan::from_parts(&STAR, s, &state(), request), |table, plan| {
-            let method = plan.method.map_or("no method", Method::name);
-            let cost = if plan.costs_the_same_at_any_time() { "the same at any time" } else { "by steps" };
-            let skipped: Vec<_> = plan.skipped.iter().map(|skipped| skipped.what).collect();
-            self.skipped.extend(plan.skipped.iter().map(|skipped| format!("{}: {}", skipped.what, skipped.why)));
-            let stretch = format!("{} to {}", plan.stretch.0, plan.stretch.1);
-            table.row(
-                name,
-                &[
-                    ("", &format!("{} by {method}", plan.state.name())),
-                    ("cost", &cost),
-                    ("stretch", &stretch),
-                    ("samples", &plan.samples),
-                    ("accuracy", &plan.accuracy),
-                    ("without", &skipped.join(", ")),
-                ],
-            );
-            if !with_candidates(&plan) {
-                let names: Vec<_> = plan.considered.iter().map(|candidate| candidate.method.name()).collect();
-                return table.row("  considered", &[("", &names.join(", "))]);
-            }
-            for candidate in &plan.considered {
-                let name = format!("  {}", candidate.method.name());
-                table.found(&name, candidate.prediction.clone(), |table, found| {
-                    table.row(
-                        &name,
-                        &[
-                            ("", &if plan.admits(&found) { "admitted" } else { "not admitted" }),
-                            ("truncation", &found.truncation),
-                            // Part of which is that of the state given.
-                            ("rounding 2 to the", &(found.rounding.log2().round() as i64)),
-                            ("order", &found.order),
-                            ("bytes", &found.bytes),
-                            ("cost", &found.cost),
-                            ("", &found.work),
-                        ],
-                    );
-                });
-            }
-        });
+        self.table.found(
+            name,
+            Problem::new(STAR, *s, state()).and_then(|problem| problem.plan(request)),
+            |table, plan| {
+                let method = plan.method.map_or("no method", Method::name);
+                let cost = if plan.costs_the_same_at_any_time() { "the same at any time" } else { "by steps" };
+                let skipped: Vec<_> = plan.skipped.iter().map(|skipped| skipped.what).collect();
+                self.skipped.extend(plan.skipped.iter().map(|skipped| format!("{}: {}", skipped.what, skipped.why)));
+                let stretch = format!("{} to {}", plan.stretch.0, plan.stretch.1);
+                table.row(
+                    name,
+                    &[
+                        ("", &format!("{} by {method}", plan.state.name())),
+                        ("cost", &cost),
+                        ("stretch", &stretch),
+                        ("samples", &plan.samples),
+                        ("accuracy", &plan.accuracy),
+                        ("without", &skipped.join(", ")),
+                    ],
+                );
+                if !with_candidates(&plan) {
+                    let names: Vec<_> = plan.considered.iter().map(|candidate| candidate.method.name()).collect();
+                    return table.row("  considered", &[("", &names.join(", "))]);
+                }
+                for candidate in &plan.considered {
+                    let name = format!("  {}", candidate.method.name());
+                    table.found(&name, candidate.prediction.clone(), |table, found| {
+                        table.row(
+                            &name,
+                            &[
+                                ("", &if plan.admits(&found) { "admitted" } else { "not admitted" }),
+                                ("truncation", &found.truncation),
+                                // Part of which is that of the state given.
+                                ("rounding 2 to the", &(found.rounding.log2().round() as i64)),
+                                ("order", &found.order),
+                                ("bytes", &found.bytes),
+                                ("cost", &found.cost),
+                                ("", &found.work),
+                            ],
+                        );
+                    });
+                }
+            },
+        );
     }
 
     fn check(mut self, name: &str) {
@@ -174,18 +176,21 @@ fn costs_and_counts() {
             _ => (general(), state()),
         };
         let name = format!("orientation by {}", method.name());
-        let motion = PlannedMotion::by(method, &STAR, &s, &initial, (0.0, 9.0), 1e-9);
+        let motion = Problem::new(STAR, s, initial).and_then(|problem| problem.motion_by(method, (0.0, 9.0), 1e-9));
         table.found(&name, motion, |table, motion| {
             let (state, error) = (motion.state(8.0).expect("a state"), motion.error_estimate(8.0));
             table.row(&name, &[("", &motion.work()), ("at 8", &state), ("error", &error)]);
         });
         let name = format!("axis by {}", method.name());
-        let motion = PlannedAxisMotion::axis_by(method, &STAR, &s, &initial, (0.0, 9.0), 1e-9);
+        let motion =
+            Problem::new(STAR, s, initial).and_then(|problem| problem.reduced().motion_by(method, (0.0, 9.0), 1e-9));
         table.found(&name, motion, |table, motion| {
             table.row(&name, &[("", &motion.work()), ("at 8", &motion.axis_state(8.0).expect("a state"))]);
         });
     }
-    let counted = Counted::new(propagate(&STAR, &general(), &state(), (0.0, 9.0), 1e-9).expect("a motion"));
+    let counted = Counted::new(
+        Problem::new(STAR, general(), state()).and_then(|problem| problem.taylor((0.0, 9.0), 1e-9)).expect("a motion"),
+    );
     for t in [1.0, 2.0, 3.0] {
         counted.axis_state(t).expect("a state");
     }
@@ -195,11 +200,20 @@ fn costs_and_counts() {
     table.row("counted", &[("", &counted.evaluations())]);
     let plan = |output| {
         let request = Request::new(&[output], (0.0, 9.0), 3, 1e-9);
-        Plan::from_parts(&STAR, &general(), &state(), &request).expect("a plan")
+        Problem::new(STAR, general(), state()).and_then(|problem| problem.plan(&request)).expect("a plan")
     };
     let (axis, none) = (plan(Output::SymmetryAxis), plan(Output::PerturbationAngles));
-    table.refusal("orientation of a plan for the axis", axis.motion_from_parts(&STAR, &general(), &state()));
-    table.refusal("axis of a plan for the axis", axis.axis_motion(&STAR, &general(), &state()));
-    table.refusal("motion of a plan for none", none.axis_motion(&STAR, &general(), &state()));
+    table.refusal(
+        "orientation of a plan for the axis",
+        Problem::new(STAR, general(), state()).and_then(|problem| axis.motion(&problem)),
+    );
+    table.refusal(
+        "axis of a plan for the axis",
+        Problem::new(STAR, general(), state()).and_then(|problem| axis.motion(&problem.reduced())),
+    );
+    table.refusal(
+        "motion of a plan for none",
+        Problem::new(STAR, general(), state()).and_then(|problem| none.motion(&problem.reduced())),
+    );
     table.check("costs_and_counts");
 }

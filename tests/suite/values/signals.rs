@@ -1,12 +1,11 @@
 //! Spectral lines, their identification, mean rates and fundamental frequencies.
 
 use nalgebra::Matrix3;
-use twofold::dynamics::BodyState;
+use twofold::dynamics::{BodyState, Problem};
 use twofold::observables::fundamental_frequencies::{MeanRate, fundamental_frequencies, mean_rate, mean_rates_about};
 use twofold::observables::spectrum::{
     FrequencyBasis, Generator, Identification, Series, Window, amplitude_spectrum, spectral_lines,
 };
-use twofold::propagation::propagate;
 
 use crate::values::scene::{STAR, general, state, tensor};
 use crate::values::table::{Table, Written};
@@ -146,7 +145,8 @@ fn frequencies() {
         ("symmetric", tensor([0.2, 0.2, -0.3]), state(), 2000.0),
         ("too short", general(), state(), 30.0),
     ] {
-        let motion = propagate(&STAR, &s, &initial, (0.0, end), 1e-9).expect("a motion");
+        let motion =
+            Problem::new(STAR, s, initial).and_then(|problem| problem.taylor((0.0, end), 1e-9)).expect("a motion");
         let about_given = mean_rates_about(&motion, &Matrix3::identity());
         for (of, found) in [("", fundamental_frequencies(&motion)), (", about the given axes", about_given)] {
             let name = format!("{name}{of}");

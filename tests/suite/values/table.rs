@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use nalgebra::Vector3;
 use twofold::Error;
+use twofold::dynamics::AxisState;
 use twofold::dynamics::BodyState;
-use twofold::propagation::AxisState;
 
 /// Longest line.
 const WIDTH: usize = 116;

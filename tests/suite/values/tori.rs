@@ -1,9 +1,9 @@
 //! Tori: states with given integrals, separatrices, exact frequencies; averages of motions about the middle axis.
 
+use twofold::dynamics::AxisState;
 use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
 use twofold::dynamics::{BodyState, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::AxisState;
 use twofold::solutions::averaged::slow_precession::slow_precession;
 use twofold::solutions::averaged::{AveragedSolution, AveragingOrder, middle_axis_growth, period_near_separatrix};
 use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};

@@ -1,6 +1,7 @@
 //! The two polarizations of the quadrupole wave. Eqs. (69)-(71).
 
 use nalgebra::{Matrix3, Vector3};
+use twofold::dynamics::AxisState;
 use twofold::dynamics::equations_of_motion::{angular_velocity, torque_on_axis};
 use twofold::dynamics::wave_source::{
     free_inertia_acceleration, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
@@ -11,7 +12,7 @@ use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{
     Polarizations, metric_perturbation, polarization_tensors, polarizations, strain_unit,
 };
-use twofold::propagation::{AxisState, Motion};
+use twofold::propagation::Motion;
 use twofold::units::geometrised::HERTZ;
 use twofold::units::si::KILOPARSEC;
 

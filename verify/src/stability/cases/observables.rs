@@ -4,6 +4,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector3;
 use twofold::Real;
+use twofold::dynamics::AxisState;
 use twofold::dynamics::BodyState;
 use twofold::epoch::{DAY, Epoch};
 use twofold::observables::Observer;
@@ -32,7 +33,6 @@ use twofold::observables::pulsar::position_angle::{
 use twofold::observables::pulsar::width::{PulseWidth, cosine_of_half_width, edge_azimuths, pulse_width};
 use twofold::observables::spin_axis::{cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate};
 use twofold::observables::wave_harmonics::WaveHarmonics;
-use twofold::propagation::AxisState;
 use twofold::units::geometrised::{KILOGRAM, METRE};
 use twofold::units::time_unit;
 
