@@ -1,4 +1,4 @@
-//! The rotation of spheroidal neutron stars under Lorentz violation: motions, what an observer sees of them, and gradients of both.
+//! The rotation of spheroidal neutron stars under Lorentz violation: motions, what an observer sees of them, gradients of both, and fits.
 //!
 //! The model is that of Xu, Gao and Shao, *Precession of spheroids under Lorentz violation and observational consequences for neutron
 //! stars*. Every numbered equation but the action is a function, generic over the scalar type, with its number and LaTeX label. Nothing
@@ -27,7 +27,8 @@
 //! | spectral lines and fundamental frequencies | [`observables::spectrum`], [`observables::fundamental_frequencies`] |
 //! | gravitational waves | [`observables::gravitational_wave`] |
 //! | bounds on `s^IJ` from pulsars | [`observables::bound`], [`observables::eta_distribution`] |
-//! | gradients, for fits | [`plan::gradient`](plan), or any function with [`num_dual`] numbers |
+//! | gradients | [`plan::gradient`], or any function with [`num_dual`] numbers |
+//! | fits to data, Fisher matrices, forecasts | [`inference`], [`parameters`] |
 //! | solutions in closed form | [`solutions`] |
 //! | the paper's equations one by one | [`dynamics`], [`euler_angles`], [`lorentz_violation`], [`curvature_coupling`] |
 //! | moments of inertia and `C` of a star | [`star`] |

@@ -6,6 +6,7 @@ mod boundaries;
 mod claims;
 mod equations;
 mod error_estimate;
+mod first_crate;
 mod exact_arithmetic;
 mod higher_derivatives;
 mod mean_parts;
