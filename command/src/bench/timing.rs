@@ -15,12 +15,10 @@ pub fn clock() -> f64 {
     }
 }
 
-/// Times of one case.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Times {
+pub(crate) struct Times {
     /// The least (s): what others on the machine disturbed least.
     pub least: f64,
-    /// The median (s).
     pub median: f64,
 }
 
@@ -32,10 +30,7 @@ impl Times {
 }
 
 /// Runs every case once to warm up, then `rounds` times each, in turn; `done` hears the part of the rounds that is over.
-///
-/// # Errors
-/// What a case reports.
-pub fn in_turn<R>(
+pub(crate) fn in_turn<R>(
     cases: &mut [impl FnMut() -> Result<R, String>],
     rounds: usize,
     done: impl FnMut(f64),

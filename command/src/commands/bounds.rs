@@ -249,7 +249,6 @@ fn value_of(rows: &[Row], key: &str) -> Option<f64> {
     rows.iter().find(|row| row.key == key).map(|row| row.value)
 }
 
-/// The confidence of the limits.
 fn percent() -> String {
     format!("{:.0} %", CONFIDENCE * 100.0)
 }

@@ -12,7 +12,6 @@ use twofold_scene::measurements::{missing_section, parameters_of, parse_noise};
 use twofold_scene::scene_file::{Scene, nearest};
 use twofold_scene::significant::significant;
 
-/// A scene, what is measured of it and what is not known of it.
 pub(super) struct Measurement {
     pub(super) name: String,
     pub(super) scene: Scene,
@@ -67,7 +66,6 @@ impl Measurement {
         signal.events_after(&self.sample_times()?).map_err(refused)
     }
 
-    /// Samples of the strain: those of the scene.
     pub(super) fn samples(&self) -> Result<Vec<f64>, Failure> {
         if self.noise.iter().all(|(observable, _)| observable.is_of_pulses()) {
             return Ok(Vec::new());
@@ -75,7 +73,6 @@ impl Measurement {
         self.sample_times()
     }
 
-    /// The samples of the scene.
     fn sample_times(&self) -> Result<Vec<f64>, Failure> {
         const MOST: usize = 100_000;
         let count = self.scene.times.count();

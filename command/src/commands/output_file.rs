@@ -55,12 +55,10 @@ impl OutputFile {
         Ok(Self { path, temporary, replace })
     }
 
-    /// The file to write to.
     pub(super) fn file(&self) -> &File {
         self.temporary.as_file()
     }
 
-    /// Gives the file its name.
     pub(super) fn complete(self) -> Result<(), Failure> {
         let named = if self.replace {
             self.temporary.persist(&self.path)

@@ -98,7 +98,6 @@ impl Progress {
 struct Lines {
     /// Tenths done at the last line.
     tenths: u32,
-    /// Time of the last line.
     last: Option<Duration>,
 }
 
@@ -119,7 +118,6 @@ impl Lines {
     }
 }
 
-/// What a line says.
 fn line((first, step, steps): (u64, u64, u64), unit: Option<&str>, elapsed: Duration) -> String {
     let left = |seconds: f64| HumanDuration(Duration::from_secs(seconds.min(1e15) as u64));
     let rate = (step - first) as f64 / elapsed.as_secs_f64().max(1e-9);

@@ -109,7 +109,6 @@ fn some_failed(out: &Path) -> Failure {
     Failure::Partly(format!("some scenes failed: {} says which and why", errors_beside(out).display()))
 }
 
-/// Format of a table.
 #[derive(Clone, Copy, PartialEq)]
 enum Format {
     Csv,
@@ -187,7 +186,6 @@ fn convert(table: impl Read, file: &File, out: &Path) -> Result<(), Failure> {
     file.sync_all().map_err(|error| Failure::Failed(format!("{} cannot be written: {error}", out.display())))
 }
 
-/// Writes a table as Parquet.
 #[cfg(not(feature = "parquet"))]
 fn convert(_: impl Read, _: &File, out: &Path) -> Result<(), Failure> {
     Format::of(out).map(|_| ())

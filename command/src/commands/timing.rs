@@ -184,7 +184,6 @@ fn positive(option: &str, value: f64) -> Result<(), Failure> {
     Err(Failure::BadInput(format!("{option} {value}: allowed is a number above zero")))
 }
 
-/// A date from the command line.
 pub(super) fn date(text: &str) -> Result<Epoch, String> {
     text.parse().map_err(|_| "allowed is a modified Julian date from 0 to 1e7, as 55321.25".to_owned())
 }

@@ -3,7 +3,6 @@
 use super::known::KnownFile;
 use super::recompute::Scales;
 
-/// Up to what a column may differ, and why so much.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Allowed {
     /// Largest difference allowed; none if there is nothing to judge the column by.
@@ -21,7 +20,6 @@ impl Allowed {
     const UNKNOWN: Self = Self { limit: None, reason: "no error of the file itself is known to judge it by" };
 }
 
-/// What is allowed for a column of a file.
 pub(super) fn allowed(known: &KnownFile, column: &str, scales: Option<&Scales>) -> Allowed {
     let own = |column: &str| own_error(known, column);
     if let Some(limit) = own(column) {

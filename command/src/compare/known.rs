@@ -1,6 +1,5 @@
 //! The authors' files: what each holds, and how far it is known to be off.
 
-/// What a file holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Content {
     /// Euler angles, numerically and by the perturbation solution, and two body axes.
@@ -15,21 +14,17 @@ pub(super) enum Content {
     Waves,
 }
 
-/// A column of a file beside its time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column {
     pub(super) name: &'static str,
     pub(super) unit: &'static str,
 }
 
-/// One of the files that the authors published.
 #[derive(Debug)]
 pub(super) struct KnownFile {
     pub(super) name: &'static str,
     pub(super) content: Content,
-    /// Name of the example.
     pub(super) example: &'static str,
-    /// Rows of the published file.
     pub(super) rows: usize,
     /// Quantities of which it is known by how much the published file is off; for the series, `m.n` that they are roots of.
     pub(super) own_errors: &'static [(&'static str, f64)],
@@ -65,7 +60,6 @@ const fn columns_of(content: Content) -> &'static [Column] {
 }
 
 impl KnownFile {
-    /// Columns beside time.
     pub(super) fn columns(&self) -> &'static [Column] {
         columns_of(self.content)
     }

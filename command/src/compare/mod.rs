@@ -21,7 +21,6 @@ use self::recompute::Scales;
 use twofold_scene::scene_file::nearest;
 use twofold_verify::paper_examples::{PaperExample, paper_examples};
 
-/// Whether a column agrees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// It differs by no more than allowed.
@@ -32,14 +31,10 @@ pub enum Verdict {
     NotJudged,
 }
 
-/// The largest difference in a column.
 #[derive(Debug, Clone)]
 pub struct ColumnDifference {
-    /// Name of the column.
     pub column: String,
-    /// Unit of the difference.
     pub unit: &'static str,
-    /// Largest difference in size.
     pub difference: f64,
     /// Time of the row with the largest difference, in t_c.
     pub time: f64,
@@ -47,29 +42,22 @@ pub struct ColumnDifference {
     pub allowed: Option<f64>,
     /// Why so much, or why nothing is known.
     pub reason: &'static str,
-    /// What follows.
     pub verdict: Verdict,
 }
 
-/// A file beside what is computed here.
 #[derive(Debug, Clone)]
 pub struct ComparedFile {
-    /// Name of the file.
     pub file: &'static str,
     /// Initial values of the motion computed here.
     pub start: String,
-    /// Rows compared.
     pub rows: usize,
-    /// Its columns.
     pub columns: Vec<ColumnDifference>,
     /// What else was seen.
     pub notes: Vec<String>,
 }
 
-/// A folder of the authors' files.
 #[derive(Debug, Clone)]
 pub struct Comparison {
-    /// The folder as it was named.
     pub folder: String,
     /// Files compared, in the order of the known names; the series of periods and widths twice.
     pub files: Vec<ComparedFile>,
@@ -80,14 +68,12 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Names of the files with a column that differs.
     pub fn differing(&self) -> Vec<&'static str> {
         let differs = |file: &&ComparedFile| file.columns.iter().any(|column| column.verdict == Verdict::Differs);
         self.files.iter().filter(differs).map(|file| file.file).collect()
     }
 }
 
-/// Why there is no comparison.
 #[derive(Debug)]
 pub enum CompareError {
     /// The folder, or files in it, are not what they should be.
@@ -103,9 +89,6 @@ impl From<twofold::Error> for CompareError {
 }
 
 /// Compares every known file in `folder`. All are read and checked before anything is computed.
-///
-/// # Errors
-/// A folder without any known file, a file that is malformed, and a motion that cannot be computed.
 pub fn compare(folder: &Path) -> Result<Comparison, CompareError> {
     let input = |message: String| CompareError::Input(vec![message]);
     let shown = folder.display();

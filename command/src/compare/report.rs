@@ -90,7 +90,6 @@ pub fn text(comparison: &Comparison) -> String {
     text
 }
 
-/// The comparison as a JSON object.
 pub fn json(comparison: &Comparison) -> String {
     let finite = |x: f64| if x.is_finite() { json!(x) } else { json!(null) };
     let files: Vec<_> = comparison

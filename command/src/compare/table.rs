@@ -57,7 +57,6 @@ impl fmt::Display for FileFault {
     }
 }
 
-/// Reads and checks a known file.
 pub(super) fn read(path: &Path, known: &KnownFile) -> Result<Table, FileFault> {
     let name = path.display().to_string();
     let refuse = |message: String| FileFault::of_file(&name, message);

@@ -19,7 +19,6 @@ fn edge(subject: &Subject) -> f64 {
     subject.pulsar.map_or(f64::NAN, |pulsar| pulsar.rho.cos())
 }
 
-/// `m.n` over the span shown.
 fn alignment(subject: &Subject) -> Result<Table, String> {
     let (viewer, pulsar) = subject.line_of_sight()?;
     let (beam, observer) = (pulsar.beam(), viewer.basis());

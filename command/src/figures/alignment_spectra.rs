@@ -38,7 +38,6 @@ const TOP: f64 = 18.0;
 const PANEL_HEIGHT: f64 = 118.0;
 const GAP: f64 = 20.0;
 
-/// Panel `i` of `count`.
 fn panel(subject: &Subject, i: usize, count: usize, highest: f64) -> Panel {
     let frame = Rectangle {
         left: LEFT,

@@ -3,7 +3,6 @@
 use super::style::{BLACK, GREY, LABEL, Line, PAGE, SMALL, solid};
 use super::svg::{Anchor, At, Page, Rectangle};
 
-/// An axis of a panel.
 #[derive(Debug, Clone)]
 pub(super) struct Axis {
     label: String,
@@ -50,7 +49,6 @@ impl Axis {
         Self { label: String::new(), ..self.clone() }
     }
 
-    /// Place of a value, from 0 to 1.
     fn place(&self, value: f64) -> f64 {
         let scale = |x: f64| if self.logarithmic { x.log10() } else { x };
         (scale(value) - scale(self.low)) / (scale(self.high) - scale(self.low))
@@ -130,14 +128,12 @@ pub(super) fn signed(number: &str) -> String {
     }
 }
 
-/// A mark at a point of a series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Mark {
     Disc,
     Ring,
 }
 
-/// A frame on the page with two axes.
 #[derive(Debug, Clone)]
 pub(super) struct Panel {
     pub(super) frame: Rectangle,
@@ -153,11 +149,8 @@ pub(super) const BELOW: f64 = 29.0;
 
 /// Two panels over one another for each of some subjects, side by side.
 pub(super) struct TwoRows {
-    /// Number of subjects.
     pub(super) columns: usize,
-    /// Height of a panel.
     pub(super) height: f64,
-    /// Distance between two subjects.
     pub(super) between: f64,
 }
 
@@ -165,7 +158,6 @@ impl TwoRows {
     const TOP: f64 = 18.0;
     const GAP: f64 = 8.0;
 
-    /// The panel of a subject in a row.
     pub(super) fn frame(&self, column: usize, row: usize) -> Rectangle {
         let count = self.columns as f64;
         let width = (PAGE - LEFT - 8.0 - (count - 1.0) * self.between) / count;
@@ -193,7 +185,6 @@ impl Panel {
         self.y.power()
     }
 
-    /// Place of a point on the page.
     pub(super) fn at(&self, x: f64, y: f64) -> At {
         let f = &self.frame;
         [f.left + self.x.place(x) * f.width, f.bottom() - self.y.place(y) * f.height]

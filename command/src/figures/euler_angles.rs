@@ -10,7 +10,6 @@ use super::svg::Page;
 use super::table::Table;
 use super::{Caption, Sheet};
 
-/// The angles that are drawn.
 const ANGLES: EulerAngles<f64> = EulerAngles { alpha: 1.0, beta: 0.8, gamma: 0.9 };
 
 const INERTIAL: Line = solid(BLACK, 1.0);

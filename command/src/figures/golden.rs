@@ -183,9 +183,6 @@ const SINGLE: &[Numbers] = &[
 ];
 
 /// All golden tables: those of the verification, then those of `figures`, which must be all.
-///
-/// # Errors
-/// If a number cannot be computed, or a figure is missing.
 pub fn golden_tables(figures: &[Figure]) -> Result<Vec<GoldenTable>, String> {
     let mut tables = golden::tables()?;
     tables.extend(tables_of(figures)?);

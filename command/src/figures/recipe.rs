@@ -5,7 +5,6 @@ use super::{
     momentum_sphere, motion, pulse_series, regime_map, wave_spectra, waves,
 };
 
-/// What a figure is drawn from.
 #[derive(Clone, Copy)]
 enum Maker {
     /// Nothing but itself.
@@ -14,7 +13,6 @@ enum Maker {
     Motions(Needs, &'static [usize], fn(&str, &[&Subject]) -> Result<Sheet, String>),
 }
 
-/// What a figure of a motion needs beside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Needs {
     Nothing,
@@ -22,21 +20,17 @@ enum Needs {
     ObserverAndBeam,
 }
 
-/// What a maker makes.
 pub(super) struct Sheet {
     pub(super) caption: Caption,
     pub(super) tables: Vec<Table>,
     pub(super) svg: String,
 }
 
-/// A figure that can be drawn.
 #[derive(Clone, Copy)]
 pub struct Recipe {
-    /// Name of the figure and of its files.
     pub name: &'static str,
     /// Number of the paper's figure, by order of appearance.
     pub paper_figure: Option<u8>,
-    /// What it is, one line.
     pub summary: &'static str,
     maker: Maker,
 }
@@ -197,9 +191,6 @@ impl Recipe {
 
     /// Draws the figure: those of [`RECIPES`] with the [`examples`](super::examples()), those of [`OF_A_SCENE`] with one
     /// motion.
-    ///
-    /// # Errors
-    /// If its data cannot be computed.
     pub fn draw(&self, motions: &[Subject]) -> Result<Figure, String> {
         let sheet = match self.maker {
             Maker::Alone(make) => make(),

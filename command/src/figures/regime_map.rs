@@ -94,7 +94,6 @@ fn map(
 const COLOURS: [[f64; 3]; 5] =
     [[253.0, 231.0, 37.0], [94.0, 201.0, 98.0], [33.0, 145.0, 140.0], [59.0, 82.0, 139.0], [68.0, 1.0, 84.0]];
 
-/// Colour of a band by its place from 0 to 1.
 fn colour(part: f64) -> String {
     let place = part.clamp(0.0, 1.0) * 4.0;
     let i = (place as usize).min(3);
@@ -163,7 +162,6 @@ fn draw(maps: &[Map; 4]) -> String {
     page.finish("Error of the perturbation solutions")
 }
 
-/// The scale of colours.
 fn scale(page: &mut Page, left: f64, top: f64, height: f64) {
     let step = height / BANDS as f64;
     for band in 0..BANDS {

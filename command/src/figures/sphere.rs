@@ -30,7 +30,6 @@ impl View {
         }
     }
 
-    /// Place of a point on the page.
     pub(super) fn at(&self, v: &Vector3<f64>) -> At {
         [self.centre[0] + self.unit * v.dot(&self.right), self.centre[1] - self.unit * v.dot(&self.up)]
     }

@@ -24,9 +24,7 @@ pub struct Shown {
     pub equatorial_axis: f64,
     /// `m.n`.
     pub beam: f64,
-    /// Waves.
     pub waves: f64,
-    /// Pulse series.
     pub pulses: f64,
 }
 
@@ -45,13 +43,9 @@ pub struct Subject {
     pub printed: Result<Perturbation<f64>, &'static str>,
     /// The corrected solution with the same initial values.
     pub corrected: Option<Perturbation<f64>>,
-    /// The observer.
     pub observer: Option<Viewer>,
-    /// The beam.
     pub pulsar: Option<Pulsar>,
-    /// How much is shown.
     pub shown: Shown,
-    /// The motion.
     pub motion: TaylorMotion<f64>,
     /// Length of the series of which spectra are taken, t_c.
     pub(super) spectrum_duration: f64,
@@ -65,9 +59,6 @@ impl Subject {
     /// The motion of `duration` (t_c, forwards or backwards) without observer and beam.
     ///
     /// Long motions are shown from the start for as long as curves can be told apart.
-    ///
-    /// # Errors
-    /// A motion that cannot be computed.
     pub fn new(
         name: &str,
         problem: Problem<f64>,
@@ -107,9 +98,6 @@ impl Subject {
     }
 
     /// The motion of a scene.
-    ///
-    /// # Errors
-    /// A motion that cannot be computed.
     pub fn of_scene(name: &str, scene: &Scene) -> Result<Self, String> {
         let motion = Self::new(name, scene.problem, scene.initial_angles, scene.duration())?;
         let (scale, printed) = (Scale::of_scene(scene), scene.perturbation);
@@ -136,9 +124,6 @@ impl Subject {
     }
 
     /// The observer.
-    ///
-    /// # Errors
-    /// A motion without one.
     pub(super) fn viewer(&self) -> Result<Viewer, String> {
         self.observer.ok_or_else(|| format!("{}: no observer is given", self.name))
     }
@@ -149,9 +134,6 @@ impl Subject {
     }
 
     /// The observer and the beam.
-    ///
-    /// # Errors
-    /// A motion without one of them.
     pub(super) fn line_of_sight(&self) -> Result<(Viewer, Pulsar), String> {
         Ok((self.viewer()?, self.pulsar.ok_or_else(|| format!("{}: no beam is given", self.name))?))
     }
@@ -165,7 +147,6 @@ impl Subject {
         twofold.map_or(Vec::new(), |solution| vec![drawn(solution.zeroth_rate), drawn(gamma)])
     }
 
-    /// State at a time of the motion.
     pub(super) fn state(&self, t: f64) -> Result<BodyState<f64>, String> {
         self.motion.state(t).map_err(|error| format!("{}: {error}", self.name))
     }

@@ -5,10 +5,8 @@ use std::fmt::Write;
 use super::markup::{Level, escaped, runs};
 use super::style::{CENTIMETRE, FONTS, LABEL, Line};
 
-/// A point of the page.
 pub(super) type At = [f64; 2];
 
-/// A rectangle of the page.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rectangle {
     pub(super) left: f64,
@@ -38,7 +36,6 @@ pub(super) enum Anchor {
 /// Smallest size of letters, those below and above the line included.
 const SMALLEST: f64 = 7.0;
 
-/// A page.
 #[derive(Debug)]
 pub(super) struct Page {
     name: String,
@@ -73,7 +70,6 @@ impl Page {
         self.body.push('\n');
     }
 
-    /// A line through points.
     pub(super) fn path(&mut self, points: &[At], line: Line) {
         if points.len() > 1 {
             let data = path_data(points);
@@ -99,7 +95,6 @@ impl Page {
         ));
     }
 
-    /// A circle, filled or not.
     pub(super) fn circle(&mut self, [x, y]: At, radius: f64, fill: &str, line: Option<Line>) {
         let stroke = line.map(stroke).unwrap_or_default();
         self.write(format_args!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"{fill}\"{stroke}/>"));

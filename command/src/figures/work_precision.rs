@@ -12,13 +12,11 @@ use crate::bench::method::Carries;
 use crate::bench::table::methods;
 use crate::bench::work_precision::{Row, front};
 
-/// Name of the figure.
 const NAME: &str = "work-precision";
 
 /// The scenes that are drawn, from left to right.
 const SCENES: [&str; 3] = ["tp-II", "nearly-free", "strongly-violated"];
 
-/// Errors that are shown.
 const ERRORS: (f64, f64) = (1e-15, 1e-2);
 
 /// Lines and marks of the methods, in order of appearance; further ones begin again.
@@ -98,7 +96,6 @@ pub fn work_precision(rows: &[Row]) -> Figure {
 /// Names in a line of the legend.
 const PER_LINE: usize = 4;
 
-/// Where its lines begin.
 const LEGEND_LEFT: f64 = 12.0;
 
 /// All methods, those of `n` and `L` first.

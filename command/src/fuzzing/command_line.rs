@@ -13,7 +13,6 @@ use crate::commands::{Cli, Command, FisherArgs, ForecastArgs, MeasurementArgs, r
 use twofold_scene::scene_file::Scene;
 use twofold_scene::sweep::{Sweep, SweepText};
 
-/// Files that the arguments can name.
 const FILES: [(&str, &str); 5] = [
     ("s.toml", include_str!("../../../scene/scenes/tp-1.toml")),
     ("p.toml", include_str!("../../../scene/scenes/b1937+21.toml")),

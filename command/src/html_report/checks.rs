@@ -24,7 +24,6 @@ pub(super) fn section(content: &Content, index: &Index) -> Markup {
     }
 }
 
-/// A table of checks.
 fn table(results: &[&report::Result], index: &Index) -> Markup {
     let columns = ["Check", "What holds", "Measured", "Bound", "Verdict", "Time [s]"];
     html! {

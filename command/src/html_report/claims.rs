@@ -40,7 +40,6 @@ pub(super) fn section(content: &Content, index: &Index) -> Markup {
     }
 }
 
-/// Links to claims.
 pub(super) fn links(claims: &[&Claim]) -> Markup {
     html! {
         @for (place, claim) in claims.iter().enumerate() {

@@ -6,32 +6,26 @@ use maud::{Markup, html};
 
 use super::typography::typeset;
 
-/// Id of an equation's entry on the page.
 pub(super) fn equation(number: u8) -> String {
     format!("eq-{number}")
 }
 
-/// Id of a check's row.
 pub(super) fn check(id: &str) -> String {
     format!("check-{id}")
 }
 
-/// Id of a golden table.
 pub(super) fn golden(name: &str) -> String {
     format!("golden-{name}")
 }
 
-/// Id of a figure.
 pub(super) fn figure(name: &str) -> String {
     format!("figure-{name}")
 }
 
-/// Id of a claim.
 pub(super) fn claim(id: &str) -> String {
     format!("claim-{id}")
 }
 
-/// Id of a discrepancy.
 pub(super) fn discrepancy(number: &str) -> String {
     format!("discrepancy-{number}")
 }

@@ -25,15 +25,10 @@ use cross_reference::Index;
 use twofold_verify::golden::GoldenTable;
 use twofold_verify::report;
 
-/// What a report is about.
 pub struct Content {
-    /// Every check with what became of it.
     pub results: Vec<report::Result>,
-    /// Time that they took together.
     pub seconds: f64,
-    /// The golden tables.
     pub golden: Vec<GoldenTable>,
-    /// The figures.
     pub figures: Vec<Figure>,
     /// Where and when.
     pub environment: Environment,
@@ -46,9 +41,6 @@ const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:; base-uri 'none'; form-action 'none'";
 
 /// The page.
-///
-/// # Errors
-/// LaTeX or Markdown of ours that cannot be set.
 pub fn page(content: &Content) -> Result<String, String> {
     let mut index = index(content);
     claims::note(&mut index);

@@ -50,7 +50,6 @@ enum Piece<'t> {
     Above(&'t str),
 }
 
-/// The text with its formulas set.
 pub(super) fn typeset(text: &str) -> Markup {
     html! {
         @for piece in pieces(text) {

@@ -63,9 +63,6 @@ impl Pulsar {
     /// The change of `lambda` is normal about its measured value with its error, the effect of the other numbers normal to first
     /// order, and directions, change and numbers do not depend on each other. [`Limit::all`] is what the bound times `eta` then does
     /// not exceed with the probability [`CONFIDENCE`]: for given directions the quantile of a posterior with a flat prior.
-    ///
-    /// # Errors
-    /// As for [`directions`](Self::directions).
     pub fn limit(&self, figure: &Figure) -> Result<Limit, Error> {
         let inputs = figure.from_inputs.hypot(figure.value * self.relative_uncertainty_of_eta());
         let together = Normal { mean: figure.value, deviation: figure.from_change.unwrap_or(0.0).hypot(inputs) };
@@ -88,9 +85,6 @@ impl Pulsar {
 
     /// The limit that a measured change of zero with the same error would give: how sensitive the pulse is, whatever was found.
     /// None if the change has no error.
-    ///
-    /// # Errors
-    /// As for [`limit`](Self::limit).
     pub fn sensitivity(&self, figure: &Figure) -> Result<Option<f64>, Error> {
         // Other uncertainties are relative to a change: to none they add nothing.
         let unchanged = Figure { value: 0.0, from_inputs: 0.0, ..figure.clone() };

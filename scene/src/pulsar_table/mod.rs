@@ -162,9 +162,6 @@ pub fn paper() -> Vec<Pulsar> {
 }
 
 /// The pulsars in the file at `path`.
-///
-/// # Errors
-/// A file that cannot be read, and everything that [`pulsars`] refuses.
 pub fn pulsars_in_file(path: &str) -> Result<Vec<Pulsar>, SceneError> {
     pulsars(path, &TABLE.read(path)?)
 }

@@ -78,9 +78,7 @@ impl FileFormat {
 /// Numbers that stand in place of those written, each with the dotted key of one, such as `lorentz_violation.w[2]`.
 #[derive(Clone, Copy)]
 pub(crate) struct Replaced<'a> {
-    /// The keys.
     pub(crate) keys: &'a [String],
-    /// A number for each.
     pub(crate) numbers: &'a [f64],
 }
 
@@ -109,7 +107,6 @@ pub(crate) struct Section<'a> {
 pub(crate) struct Entry<'a> {
     text: &'a str,
     replaced: Replaced<'a>,
-    /// Dotted key.
     key: String,
     span: Range<usize>,
     value: &'a DeValue<'a>,
@@ -159,17 +156,14 @@ impl<'a> Section<'a> {
         self.table.iter().find(|(k, _)| k.get_ref() == key).map(|(_, value)| value)
     }
 
-    /// The number of `key`, or `default`.
     pub(crate) fn number_or(&self, key: &str, default: f64) -> Result<f64, Fault> {
         self.optional(key).map_or(Ok(default), |entry| entry.number())
     }
 
-    /// The string of `key`, if it is there.
     pub(crate) fn optional_string(&self, key: &str) -> Result<Option<&'a str>, Fault> {
         self.optional(key).map(|entry| entry.string()).transpose()
     }
 
-    /// The value of `key`, if it is there.
     pub(crate) fn optional(&self, key: &str) -> Option<Entry<'a>> {
         let value = self.find(key)?;
         Some(self.entry(key, value))
@@ -218,7 +212,6 @@ impl<'a> Section<'a> {
         Ok(())
     }
 
-    /// The section `key`, if it is there.
     pub(crate) fn section(&self, key: &str) -> Result<Option<Section<'a>>, Fault> {
         self.table(key, &format!("a section, written [{}]", self.dotted(key)))
     }
@@ -267,7 +260,6 @@ impl<'a> Entry<'a> {
         Fault::at(self.span.clone(), format!("`{}` = {value}: {why}", self.key))
     }
 
-    /// A finite number.
     pub(crate) fn number(&self) -> Result<f64, Fault> {
         if let Some(number) = self.replaced.get(&self.key) {
             return if number.is_finite() { Ok(number) } else { Err(self.refuse("a finite number")) };
@@ -304,7 +296,6 @@ impl<'a> Entry<'a> {
         self.number_where(allowed, |x| range.contains(&x))
     }
 
-    /// A whole number from `low` to `high`.
     pub(crate) fn whole_number(&self, low: usize, high: usize) -> Result<usize, Fault> {
         match self.value {
             DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
@@ -314,7 +305,6 @@ impl<'a> Entry<'a> {
         .ok_or_else(|| self.refuse(&format!("a whole number from {low} to {high}")))
     }
 
-    /// `true` or `false`.
     pub(crate) fn boolean(&self) -> Result<bool, Fault> {
         match self.value {
             DeValue::Boolean(value) => Ok(*value),
@@ -322,7 +312,6 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// A string.
     pub(crate) fn string(&self) -> Result<&'a str, Fault> {
         match self.value {
             DeValue::String(string) => Ok(string),
@@ -353,7 +342,6 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// Whether the value is a list.
     pub(crate) fn is_list(&self) -> bool {
         matches!(self.value, DeValue::Array(_))
     }
@@ -371,7 +359,6 @@ impl<'a> Entry<'a> {
         Ok(array.iter().enumerate().map(entry).collect())
     }
 
-    /// Whether the value is a string.
     pub(crate) fn is_string(&self) -> bool {
         matches!(self.value, DeValue::String(_))
     }
@@ -386,7 +373,6 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// Three finite numbers.
     pub(crate) fn vector(&self, allowed: &str) -> Result<Vector3<f64>, Fault> {
         let entries = self.list(allowed)?;
         if entries.len() != 3 {

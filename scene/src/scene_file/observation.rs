@@ -310,7 +310,6 @@ pub const COLUMN_GROUPS: [(&str, Output); 12] = [
     ("h", Output::GravitationalWave),
 ];
 
-/// The columns of a scene that does not name any.
 pub(super) fn columns_of_the_motion() -> Vec<Output> {
     COLUMN_GROUPS[..6].iter().map(|(_, output)| *output).collect()
 }

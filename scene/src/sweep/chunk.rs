@@ -16,11 +16,8 @@ pub(super) struct Row {
 /// The rows of a chunk as they stand in the tables.
 #[derive(Debug, Default)]
 pub(super) struct ChunkText {
-    /// Lines of the table.
     pub(super) rows: Vec<u8>,
-    /// Lines of the table of errors.
     pub(super) errors: Vec<u8>,
-    /// Number of those.
     pub(super) failed: u64,
 }
 

@@ -13,16 +13,13 @@ pub(super) struct Mark {
     pub(super) next: u64,
     /// Rows that say that their scene failed.
     pub(super) failed: u64,
-    /// Length of the table.
     pub(super) rows: Prefix,
-    /// Length of the table of errors.
     pub(super) errors: Prefix,
 }
 
 /// A file up to some byte.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Prefix {
-    /// Length in bytes.
     pub(super) length: u64,
     /// CRC-32 of the bytes since the mark before.
     pub(super) checksum: u32,
@@ -39,7 +36,6 @@ pub(super) struct Journal {
     pub(super) complete: bool,
 }
 
-/// A line of a journal.
 pub(super) fn line(value: &Value) -> Vec<u8> {
     let text = value.to_string();
     format!("{:08x} {text}\n", crc32fast::hash(text.as_bytes())).into_bytes()
@@ -57,7 +53,6 @@ pub(super) fn completion() -> Value {
 }
 
 impl Mark {
-    /// As a line of a journal holds it.
     pub(super) fn to_value(self) -> Value {
         json!({
             "next": self.next,

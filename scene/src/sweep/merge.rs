@@ -21,9 +21,6 @@ pub enum MergeError {
 
 /// Writes the rows of `parts`, tables of the sweep with their names, one after the other under one header, and makes sure that
 /// they are all scenes of the sweep, in order.
-///
-/// # Errors
-/// See [`MergeError`].
 pub fn merge(
     sweep: &Sweep<'_>,
     parts: &mut [(String, Box<dyn BufRead>)],

@@ -43,9 +43,6 @@ struct Group {
 }
 
 /// Writes the CSV table `table` to `file`. The same table gives the same bytes.
-///
-/// # Errors
-/// See [`ConversionError`].
 pub fn write_parquet(table: impl Read, file: &File) -> Result<(), ConversionError> {
     let mut table = csv::Reader::from_reader(table);
     let header: Vec<_> = table.headers()?.iter().map(str::to_owned).collect();

@@ -13,7 +13,6 @@ pub(super) struct Source {
     pub(super) number: usize,
     pub(super) beam: Beam<f64>,
     line_of_sight: Vector3<f64>,
-    /// Pulses so far.
     pub(super) seen: usize,
     open: Option<Unfinished>,
     last_midpoint: Option<f64>,

@@ -107,9 +107,6 @@ impl Sampling {
     }
 
     /// The plan for a column, and for the fundamental frequencies of the motion if lines are to be named by them.
-    ///
-    /// # Errors
-    /// A method that the scene does not allow.
     pub fn plan(scene: &Scene, column: &Column, identified: bool) -> Result<Plan, Error> {
         let frequencies = identified.then_some(Output::FundamentalFrequencies);
         let outputs: Vec<_> = [column.group].into_iter().chain(frequencies).collect();
@@ -121,9 +118,6 @@ impl Sampling {
 
     /// Computes the motion by a [`plan`](Sampling::plan) and samples a column. The step follows from the rotation rate alone, not
     /// from the scene's samples.
-    ///
-    /// # Errors
-    /// A motion that cannot be computed, and a time at which the column does not exist.
     pub fn of(scene: &Scene, column: &Column, plan: &Plan) -> Result<Self, TrajectoryError> {
         match plan.state {
             State::Nothing => {
@@ -159,9 +153,6 @@ impl Sampling {
     }
 
     /// Writes the amplitude spectrum as CSV.
-    ///
-    /// # Errors
-    /// `writer` failing.
     pub fn write_spectrum(&self, scene: &Scene, column: &Column, writer: impl Write) -> Result<(), TrajectoryError> {
         let mut table = csv::Writer::from_writer(writer);
         table.write_record([frequency_title(scene, "frequency"), format!("amplitude [{}]", column.unit)])?;
