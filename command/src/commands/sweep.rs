@@ -12,7 +12,7 @@ use super::progress::Progress;
 use super::run::note_size;
 use super::{Failure, note};
 use twofold_scene::sweep::{
-    Done, Identity, MergeError, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, merge,
+    Done, Identity, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, merge,
 };
 
 #[derive(Args)]
@@ -211,17 +211,16 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     }
     errors.flush().map_err(cannot)?;
     drop(errors);
-    let refused = |error: MergeError| Failure::BadInput(error.to_string());
     match format {
         Format::Csv => {
             let mut writer = BufWriter::new(output.file());
-            merge(sweep, &mut parts, &mut writer).map_err(refused)?;
+            merge(sweep, &mut parts, &mut writer).map_err(Failure::BadInput)?;
             writer.flush().map_err(|error| Failure::Failed(format!("{}: {error}", args.out.display())))?;
         }
         Format::Parquet => {
             let cannot = |error: io::Error| Failure::Failed(format!("a temporary file: {error}"));
             let mut whole = tempfile::tempfile().map_err(cannot)?;
-            merge(sweep, &mut parts, BufWriter::new(&whole)).map_err(refused)?;
+            merge(sweep, &mut parts, BufWriter::new(&whole)).map_err(Failure::BadInput)?;
             whole.rewind().map_err(cannot)?;
             convert(whole, output.file(), &args.out)?;
         }

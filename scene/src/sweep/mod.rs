@@ -22,7 +22,7 @@ pub use engine::{Done, compute};
 pub use file::SweepText;
 pub use identity::Identity;
 pub use journal::signed_again;
-pub use merge::{MergeError, csv_line, merge};
+pub use merge::{csv_line, merge};
 pub use shard::Shard;
 pub use spool::{Spool, SpoolError, SpoolFiles};
 
