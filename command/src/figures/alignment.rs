@@ -1,13 +1,6 @@
 //! `m.n`, the cosine of the angle between the beam and the line of sight, in time.
 
-use super::axes::{Axis, BELOW, LEFT, Panel};
-use super::number::significant;
-use super::parameters::{line_of_sight, parameters};
-use super::style::{BLACK, BLUE, PAGE, SMALL, VERMILION, dashed, solid};
-use super::subject::times;
-use super::svg::{Anchor, Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Sheet, Subject};
+use super::drawing::*;
 
 pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
     let tables = subjects.iter().map(|subject| alignment(subject)).collect::<Result<Vec<_>, _>>()?;

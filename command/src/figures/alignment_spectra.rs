@@ -1,13 +1,7 @@
 //! Spectra of `m.n`.
 
-use super::axes::{Axis, BELOW, LEFT, Panel};
-use super::number::ALIKE;
-use super::parameters::{line_of_sight, parameters};
+use super::drawing::*;
 use super::spectrum::{self, Spectrum};
-use super::style::{BLACK, PAGE, VERMILION, dashed, solid};
-use super::svg::{Anchor, Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Sheet, Subject};
 
 /// Amplitudes that are shown; above the strongest line there is room for names.
 const AMPLITUDES: (f64, f64) = (1e-5, 40.0);

@@ -1,10 +1,6 @@
 //! Which approximate motion meets a given error, over strength of the torque and time.
 
-use super::axes::{Axis, BELOW, LEFT, Panel};
-use super::style::{BLACK, PAGE, SMALL, solid};
-use super::svg::{Anchor, Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Sheet};
+use super::drawing::*;
 use twofold_verify::checks::regimes::method_errors::{Errors, Geometry, errors};
 
 /// Powers of ten of the strength, two each decade.

@@ -13,6 +13,7 @@ mod contour;
 mod curve_tests;
 #[cfg(test)]
 mod data_tests;
+mod drawing;
 #[cfg(test)]
 mod drawn;
 mod euler_angles;

@@ -4,14 +4,7 @@ use nalgebra::Vector3;
 use twofold::dynamics::{BodyState, Problem};
 use twofold::euler_angles::EulerAngles;
 
-use super::sphere::{View, arc};
-use super::style::{
-    BLACK, BLUE, COLUMN, GREEN, GREY, LIGHT, Line, ORANGE, PURPLE, VERMILION, dash_dotted, dashed, solid,
-};
-use super::subject::{Subject, times};
-use super::svg::Page;
-use super::table::Table;
-use super::{Caption, Sheet};
+use super::drawing::*;
 use twofold_verify::paper_examples::{COEFFICIENTS, SPIN, spheroid};
 
 /// Values of `l.(s l)` between those of the three axes.

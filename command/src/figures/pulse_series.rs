@@ -4,15 +4,7 @@ use twofold::observables::pulsar::Stamped;
 use twofold::observables::pulsar::period::approximate_period;
 use twofold::solutions::perturbation::{Perturbation, ShiftedRates};
 
-use super::axes::{Axis, BELOW, LEFT, Mark, Panel, TwoRows};
-use super::legend::{Sample, legend};
-use super::number::{Spread, significant};
-use super::parameters::{line_of_sight, parameters};
-use super::style::{BLACK, BLUE, GREEN, GREY, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
-use super::subject::times;
-use super::svg::{Anchor, Page};
-use super::table::Table;
-use super::{Caption, Sheet, Subject};
+use super::drawing::*;
 use twofold_verify::pulse_series::{PaperCurves, PulseSeries, Viewing, pulse_series};
 
 /// The curves with the names that the legend and the data give their angles and rates.

@@ -3,12 +3,8 @@
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::{Form, Precession};
 
-use super::axes::{Axis, BELOW, Mark, Panel, draw_mark};
 use super::contour::{bands, isoline};
-use super::style::{BLACK, PAGE, SMALL, solid};
-use super::svg::{Anchor, Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Sheet};
+use super::drawing::*;
 use twofold_verify::checks::regimes::perturbation_error::Case;
 
 /// `beta_0` of the columns of the maps.

@@ -3,14 +3,9 @@
 use twofold::dynamics::BodyState;
 use twofold::observables::gravitational_wave::Polarizations;
 
-use super::axes::{Axis, BELOW, Panel, TwoRows};
-use super::number::{number, significant};
-use super::parameters::{line_of_sight, parameters};
+use super::drawing::*;
 use super::spectrum::{self, NamedLine, Spectrum};
-use super::style::{BLACK, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
-use super::svg::{Anchor, Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Sheet, Subject, waves};
+use super::waves;
 
 const LINE: Line = solid(BLACK, 0.8);
 

@@ -4,14 +4,7 @@ use twofold::dynamics::{AxisState, BodyState};
 use twofold::observables::gravitational_wave::Polarizations;
 use twofold::units::si::KILOPARSEC;
 
-use super::axes::{Axis, BELOW, Panel, TwoRows};
-use super::number::{ALIKE, Spread, significant};
-use super::parameters::{line_of_sight, parameters};
-use super::style::{BLUE, PAGE, VERMILION, solid};
-use super::subject::times;
-use super::svg::Page;
-use super::table::Table;
-use super::{Caption, Sheet, Subject};
+use super::drawing::*;
 use twofold_scene::wave::spheroid_wave;
 
 pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {

@@ -1,13 +1,7 @@
 //! Time against error of every method on some scenes.
 
-use super::axes::{Axis, BELOW, LEFT, Mark, Panel};
-use super::legend::{Sample, legend_row};
-use super::style::{
-    BLACK, BLUE, GREEN, GREY, Line, ORANGE, PAGE, PURPLE, VERMILION, dash_dotted, dashed, dotted, solid,
-};
-use super::svg::{Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Figure};
+use super::Figure;
+use super::drawing::*;
 use crate::bench::method::Carries;
 use crate::bench::table::methods;
 use crate::bench::work_precision::{Row, front};

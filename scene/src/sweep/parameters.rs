@@ -40,9 +40,15 @@ pub(super) enum Source {
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Law {
     /// Of the number itself, `from` included.
-    Uniform { from: f64, to: f64 },
+    Uniform {
+        from: f64,
+        to: f64,
+    },
     /// Of its logarithm.
-    LogUniform { from: f64, to: f64 },
+    LogUniform {
+        from: f64,
+        to: f64,
+    },
     Normal(Normal<f64>),
 }
 
