@@ -38,9 +38,6 @@ impl Sample {
     }
 
     /// Symmetry axis and angular momentum.
-    ///
-    /// # Panics
-    /// For an output that does not need them.
     pub fn axis(&self) -> AxisState<f64> {
         match &self.state {
             SampledState::Axis(state) => *state,
@@ -50,9 +47,6 @@ impl Sample {
     }
 
     /// The whole orientation.
-    ///
-    /// # Panics
-    /// For an output that does not need it.
     pub fn orientation(&self) -> &BodyState<f64> {
         match &self.state {
             SampledState::Orientation(state) => state,

@@ -103,8 +103,7 @@ fn scales(scene: &BenchScene) -> [f64; 2] {
     [l.dot(&l) / 2.0 + n.dot(&(s * n)), l.dot(&(s * l)) + 2.0 * n.dot(&(adjugate * n))]
 }
 
-/// The exponent `p` of `error ~ time^p` by least squares in logarithms, over the rows of a method from 1,000 t_c on, if there are three:
-/// a random walk takes longer to show what it is.
+/// The exponent `p` of `error ~ time^p` by least squares, from 1,000 t_c on: a random walk takes longer to show what it is.
 pub(crate) fn exponent(rows: &[Row], method: &str, error: impl Fn(&Row) -> f64) -> Option<Slope> {
     let of_this = rows.iter().filter(|row| row.method == method && row.time >= 1e3);
     order(&of_this.map(|row| (row.time, error(row))).collect::<Vec<_>>(), 0.0).ok()

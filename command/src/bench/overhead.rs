@@ -122,8 +122,7 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
     Ok(cases.iter().zip(all).map(row).collect())
 }
 
-/// Numbers that carry a derivative by each of the parameters. What the derivatives are does not matter to the time; that none
-/// is known to be zero does.
+/// Numbers with a derivative by each of the parameters. Their values do not matter to the time; that none is known to be zero does.
 fn seeded() -> impl Fn(f64) -> DualSVec64<{ PARAMETERS.len() }> {
     |x| DualSVec64::new(x, Derivative::some(SVector::from_element(x)))
 }

@@ -1,7 +1,6 @@
 //! Times of several cases, taken in turn.
 
-/// Seconds that this thread has worked: other programs on the machine disturb them less than a clock on the wall. Where there
-/// is no such clock, the one on the wall.
+/// Seconds that this thread has worked, which other programs disturb less than a clock on the wall; without such a clock, the latter.
 pub fn clock() -> f64 {
     #[cfg(unix)]
     {

@@ -8,8 +8,7 @@ use tempfile::NamedTempFile;
 use super::Failure;
 use super::interrupt::unfinished;
 
-/// The path of an output, if nothing stands in the way. A link is followed, so that what it points to is replaced and not the
-/// link.
+/// The path of an output, if nothing stands in the way. A link is followed: what it points to is replaced.
 pub(super) fn free_name(path: &Path, replace: bool) -> Result<PathBuf, Failure> {
     let refuse = |why: &str| Err(Failure::BadInput(format!("--out {}: {why}", path.display())));
     if path == Path::new("-") {

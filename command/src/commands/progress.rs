@@ -92,8 +92,7 @@ impl Progress {
     }
 }
 
-/// When lines are written: the first after ten seconds; then one at each tenth of the work, ten seconds apart at least, and one a
-/// minute where a tenth takes longer.
+/// Lines come after ten seconds, then at each tenth of the work, at least ten seconds and at most a minute apart.
 #[derive(Default)]
 struct Lines {
     /// Tenths done at the last line.

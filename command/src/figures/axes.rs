@@ -73,8 +73,7 @@ impl Axis {
         }
     }
 
-    /// Values of the large ticks with their numbers, and of the small ones, for an axis of the given length that takes one
-    /// number each `spacing`.
+    /// Large ticks with their numbers, and small ones, of an axis of this length with one number each `spacing`.
     fn ticks(&self, length: f64, spacing: f64) -> (Vec<(f64, String)>, Vec<f64>) {
         if self.logarithmic { self.decades(length, spacing) } else { self.steps(length, spacing) }
     }

@@ -191,8 +191,7 @@ fn near(a: f64, b: f64) -> bool {
     (a - b).abs() < 0.03
 }
 
-/// The frames of a picture in order of drawing; an axis without numbers shares those of the frame below or to the left. A frame that has
-/// nothing to read off is left out.
+/// The frames of a picture in order of drawing; an axis without numbers shares those of the frame below or to the left.
 pub(super) fn frames(elements: &[Element]) -> Vec<Frame> {
     let corners = elements.iter().filter_map(|element| match element {
         // A closed line round something with ticks: other boxes have no numbers beside them.

@@ -46,8 +46,7 @@ fn near_separatrix() -> Result<Subject, String> {
     Subject::new("near Y", Problem::new(spheroid, COEFFICIENTS.tensor(), state)?, angles, SPAN)
 }
 
-/// The two closed lines with `l.(s l) = h`: about the axis of the smallest eigenvalue below the middle one, about that of
-/// the largest above.
+/// The two closed lines with `l.(s l) = h`: below the middle eigenvalue about the axis of the smallest, above about that of the largest.
 fn contour(h: f64) -> Vec<Vec<Vector3<f64>>> {
     let [largest, middle, smallest] = [COEFFICIENTS.xx, COEFFICIENTS.yy, COEFFICIENTS.zz];
     let about_z = h < middle;

@@ -77,8 +77,7 @@ fn series(subject: &Subject) -> Result<Series, String> {
     Ok(Series { pulses, curves })
 }
 
-/// Period and length with the angles and rates of the motion at the instant; by Eqs. (51) and (56) with its mean rates, and with
-/// those of Eq. (57).
+/// Period and length with the angles and rates at the instant; by Eqs. (51) and (56) with mean rates, and with those of Eq. (57).
 fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, String> {
     let message = |error: twofold::Error| format!("{}: {error}", subject.name);
     let (viewer, pulsar) = subject.line_of_sight()?;

@@ -159,8 +159,7 @@ impl Recipe {
         }
     }
 
-    /// Draws the figure: those of [`RECIPES`] with the [`examples`](super::examples()), those of [`OF_A_SCENE`] with one
-    /// motion.
+    /// Draws the figure: those of [`RECIPES`] with the four examples, those of [`OF_A_SCENE`] with one motion.
     pub fn draw(&self, motions: &[Subject]) -> Result<Figure, String> {
         let sheet = match self.maker {
             Maker::Alone(make) => make(),

@@ -56,9 +56,7 @@ pub struct Subject {
 const MOST_ROTATION: f64 = 600.0;
 
 impl Subject {
-    /// The motion of `duration` (t_c, forwards or backwards) without observer and beam.
-    ///
-    /// Long motions are shown from the start for as long as curves can be told apart.
+    /// The motion of `duration` (t_c, either way) without observer and beam, shown for as long as curves can be told apart.
     pub fn new(
         name: &str,
         problem: Problem<f64>,
@@ -138,8 +136,7 @@ impl Subject {
         Ok((self.viewer()?, self.pulsar.ok_or_else(|| format!("{}: no beam is given", self.name))?))
     }
 
-    /// `alpha'` and `|gamma'|` of free precession at the mean inclination, Eq. (48), as they are drawn, where the motion is twofold precession
-    /// by its constants.
+    /// `alpha'` and `|gamma'|` of free precession, Eq. (48), as they are drawn, where the motion is twofold precession by its constants.
     pub(super) fn free_rates(&self) -> Vec<f64> {
         let twofold = self.printed.ok().filter(|solution| solution.zeroth_rate != 0.0);
         let gamma = self.problem.spheroid().oblateness() * self.spin();

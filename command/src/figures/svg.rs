@@ -83,8 +83,7 @@ impl Page {
         self.write(format_args!("<path d=\"{data}Z\" fill=\"{fill}\"/>"));
     }
 
-    /// A filled rectangle that leaves no seam to its neighbours, drawn from left to right and upwards: it reaches a little over its
-    /// lower and its right side.
+    /// A filled rectangle that reaches a little over its lower and its right side, so that no seam is left between neighbours.
     pub(super) fn cell(&mut self, r: Rectangle, fill: &str) {
         self.write(format_args!(
             "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>",

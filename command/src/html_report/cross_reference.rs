@@ -83,8 +83,7 @@ impl Index {
         self.known.contains(&id).then(|| html! { a href={ "#" (id) } { (name) } })
     }
 
-    /// Plain text with its formulas set, in which `(25)`, `discrepancy 1` and `Figure 8` are links, where there is something
-    /// of the name.
+    /// Plain text with its formulas set, in which `(25)`, `discrepancy 1` and `Figure 8` are links to what is on the page.
     pub(super) fn linked(&self, text: &str) -> Markup {
         self.linked_with(text, typeset)
     }

@@ -48,9 +48,6 @@ impl Pulsar {
     ///
     /// The change of width is taken as it stands, as the paper does; what its error makes of it is a [`Limit`](super::Limit).
     /// Uncertainties are linear, by automatic derivatives, for inputs that do not depend on each other.
-    ///
-    /// # Errors
-    /// [`Error::Domain`] where the width is stationary.
     pub fn figures(&self) -> Result<Vec<Figure>, Error> {
         let values = computed(&self.map(|quantity| quantity.value))?;
         let measured = self.measured_change();

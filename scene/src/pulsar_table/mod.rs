@@ -154,9 +154,6 @@ impl<T: Copy> Pulsar<T> {
 }
 
 /// The pulsars of the paper's table.
-///
-/// # Panics
-/// If the table compiled into the program is malformed.
 pub fn paper() -> Vec<Pulsar> {
     pulsars("paper.toml", PAPER).expect("the table of the paper is well-formed")
 }

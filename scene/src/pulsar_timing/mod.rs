@@ -48,9 +48,6 @@ pub struct PulsarScene {
 
 impl PulsarScene {
     /// Of a scene.
-    ///
-    /// # Errors
-    /// A sentence about what the scene lacks, or why the averaged motion does not hold for it.
     pub fn new(scene: &Scene) -> Result<Self, String> {
         let lacks =
             |what: &str| format!("the scene lacks {what}, without which it has no arrival times (docs/pulsars.md)");

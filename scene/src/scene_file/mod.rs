@@ -71,8 +71,7 @@ pub(crate) enum Columns<'a> {
 }
 
 impl Scene {
-    /// The scene with the built-in name, or in the file at the path, `name_or_path`. Built-in names come first: write
-    /// `./tp-1` for a file of that name.
+    /// The scene with the built-in name, or in the file at the path; `./tp-1` is a file, `tp-1` is built in.
     pub fn named(name_or_path: &str) -> Result<Self, SceneError> {
         Self::named_for(name_or_path, Columns::OfTheFile)
     }
@@ -82,8 +81,7 @@ impl Scene {
         Self::named_for(name_or_path, Columns::Named(names))
     }
 
-    /// As [`Scene::named`], for one who does not use the columns of the file: they are those of the motion, and the file may
-    /// name groups without what these need.
+    /// As [`Scene::named`], with the columns of the motion, whatever the file names.
     pub fn named_without_columns(name_or_path: &str) -> Result<Self, SceneError> {
         Self::named_for(name_or_path, Columns::Unused)
     }

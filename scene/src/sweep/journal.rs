@@ -81,8 +81,7 @@ impl Mark {
     }
 }
 
-/// The journal `bytes` with the digits of its number `number` in line `line` replaced and the line signed anew: what is no accident.
-/// For fuzzing.
+/// The journal `bytes` with the digits of a number of a line replaced and the line signed anew, for fuzzing.
 pub fn signed_again(bytes: &[u8], line: usize, number: usize, digits: &[u8]) -> Vec<u8> {
     let mut lines: Vec<Vec<u8>> = bytes.split_inclusive(|byte| *byte == b'\n').map(<[u8]>::to_vec).collect();
     let Some(place) = lines.get_mut(line).filter(|line| line.len() > 9) else { return bytes.to_vec() };

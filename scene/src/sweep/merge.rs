@@ -4,8 +4,7 @@ use std::io::{self, BufRead, Write};
 
 use super::Sweep;
 
-/// Writes the rows of `parts`, tables of the sweep with their names, one after the other under one header, and makes sure that
-/// they are all scenes of the sweep, in order.
+/// Writes the rows of `parts`, named tables, under one header; they must be all scenes of the sweep, in order.
 pub fn merge(
     sweep: &Sweep<'_>,
     parts: &mut [(String, Box<dyn BufRead>)],

@@ -66,8 +66,7 @@ impl Source {
         }
     }
 
-    /// Whether it is beyond doubt at a time of the segment if the beam is seen, and which turn it is: the magnetic axis neither
-    /// on the edge nor opposite to the line of sight.
+    /// Whether the magnetic axis is neither on the edge of the beam nor, for the count of turns, opposite to the line of sight.
     pub(super) fn is_clear_at(&self, segment: &Segment<BodyState<f64>>, time: f64) -> Result<(bool, bool), Error> {
         const CLEAR: f64 = 1e-6;
         let state = segment.motion.state(time)?;

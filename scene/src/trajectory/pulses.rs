@@ -160,8 +160,7 @@ impl Numbered {
     }
 }
 
-/// The width of Eq. (56) with the colatitude of the beam at a time that one of the motions holds; none where the formula has
-/// no pulse.
+/// The width of Eq. (56) at a time that one of the motions holds; none where the formula has no pulse.
 fn width_at(time: f64, motions: [Option<&Counted<PlannedMotion>>; 2], beam: &Beam<f64>, theta_o: f64) -> Option<f64> {
     let state = motions.into_iter().flatten().find_map(|motion| motion.state(time).ok())?;
     let m = beam.direction(&state);

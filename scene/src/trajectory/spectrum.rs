@@ -88,9 +88,6 @@ pub struct LinesSummary {
 
 impl Sampling {
     /// Why the span of a scene cannot be sampled.
-    ///
-    /// # Errors
-    /// A sentence about the span.
     pub fn check(scene: &Scene) -> Result<(), String> {
         let rotation = scene.rotation();
         if rotation == 0.0 {
@@ -116,8 +113,7 @@ impl Sampling {
         scene.problem.plan(&request)
     }
 
-    /// Computes the motion by a [`plan`](Sampling::plan) and samples a column. The step follows from the rotation rate alone, not
-    /// from the scene's samples.
+    /// Computes the motion by a [`plan`](Sampling::plan) and samples a column, in steps that follow from the rotation rate alone.
     pub fn of(scene: &Scene, column: &Column, plan: &Plan) -> Result<Self, TrajectoryError> {
         match plan.state {
             State::Nothing => {
@@ -164,9 +160,6 @@ impl Sampling {
     }
 
     /// Writes the lines as CSV, strongest first.
-    ///
-    /// # Errors
-    /// A span too short for the fundamental frequencies, or `writer` failing.
     pub fn write_lines(
         &self,
         scene: &Scene,
@@ -232,9 +225,6 @@ impl Sampling {
     }
 
     /// The fundamental frequencies, or why this motion has none.
-    ///
-    /// # Errors
-    /// A span too short for them.
     fn basis(&self) -> Result<Result<FrequencyBasis, Error>, TrajectoryError> {
         let motion = self.motion.as_ref().expect("names of lines are in the plan");
         match fundamental_frequencies(motion).and_then(|found| found.basis()) {
