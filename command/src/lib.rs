@@ -6,6 +6,7 @@ mod compare;
 pub mod figures;
 pub mod fuzzing;
 mod html_report;
+mod text_table;
 
 /// The example of the README, run as a documentation test.
 #[cfg(doctest)]

@@ -160,7 +160,7 @@ fn example(name: &str) -> PaperExample {
 }
 
 fn by_rows(known: &'static KnownFile, table: &Table, ours: &[Vec<f64>], scales: Option<&Scales>) -> ComparedFile {
-    let columns = known.columns().iter().enumerate().map(|(i, column)| {
+    let columns = known.columns().into_iter().enumerate().map(|(i, column)| {
         let differences = table.rows.iter().zip(ours).map(|(theirs, ours)| (theirs[0], theirs[i + 1] - ours[i]));
         judged(column.name, column.unit, differences, allowed(known, column.name, scales))
     });

@@ -457,11 +457,6 @@ impl SceneError {
         let place = fault.span.map(|span| Place::of(text, span));
         Self { file: file.to_owned(), place, message: fault.message }
     }
-
-    /// Line and column, from one, where the fault has a place.
-    pub fn line_and_column(&self) -> Option<(usize, usize)> {
-        self.place.as_ref().map(|place| (place.line, place.column))
-    }
 }
 
 impl Place {
