@@ -9,7 +9,7 @@ use twofold::propagation::{Motion, SampledProblem, states_of_many};
 use super::Effort;
 use super::overhead::ACCURACY;
 use super::scene::{BenchScene, DURATION};
-use super::timing::in_turn;
+use super::timing::{Times, in_turn};
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Row {
@@ -37,26 +37,18 @@ pub(crate) fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<
     let scene = BenchScene::named("tp-II");
     let mut outputs: Vec<_> = OUTPUTS.iter().map(|count| || sampled(&scene, *count)).collect();
     let times = in_turn(&mut outputs, effort.rounds.min(20), |part| done(part / 3.0))?;
-    let mut rows: Vec<_> = OUTPUTS
-        .iter()
-        .zip(times)
-        .map(|(count, times)| Row {
-            of: "outputs",
+    let row = |of| {
+        move |(count, times): (&usize, Times)| Row {
+            of,
             count: *count,
             least: times.least,
             each: times.least / *count as f64,
-        })
-        .collect();
-
+        }
+    };
+    let mut rows: Vec<_> = OUTPUTS.iter().zip(times).map(row("outputs")).collect();
     let mut scenes: Vec<_> = SCENES.iter().map(|count| || spread(&scene, *count, 1)).collect();
     let times = in_turn(&mut scenes, effort.rounds.div_ceil(10), |part| done((1.0 + part) / 3.0))?;
-    let row = |(count, times): (&usize, super::timing::Times)| Row {
-        of: "scenes",
-        count: *count,
-        least: times.least,
-        each: times.least / *count as f64,
-    };
-    rows.extend(SCENES.iter().zip(times).map(row));
+    rows.extend(SCENES.iter().zip(times).map(row("scenes")));
 
     let most = thread::available_parallelism().map_or(1, NonZero::get);
     let cores: Vec<_> = (1..=most).filter(|n| n.is_power_of_two() || *n == most).collect();

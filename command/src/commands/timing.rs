@@ -68,7 +68,7 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let endings = ["csv", "par", "tim", "h_plus.txt", "h_cross.txt"];
     let folder = OutputFolder::at(&args.out, args.force, |found| endings.iter().any(|ending| found == file(ending)))?;
     let timing = pulsar.timed(&epochs, args.f1).map_err(|error| match error {
-        TimingError::NoPulse(_) => refused(error.to_string()),
+        TimingError::NoPulse(why) => refused(why),
         TimingError::Motion(error) => error.into(),
     })?;
     folder.write(&file("csv"), csv(&pulsar, &timing).as_bytes())?;

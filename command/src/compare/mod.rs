@@ -14,7 +14,6 @@ use std::sync::OnceLock;
 use allowed::{Allowed, allowed};
 use known::{Content, KNOWN, KnownFile};
 pub use report::{json, text};
-pub use table::FileFault;
 use table::Table;
 
 use self::recompute::Scales;
@@ -108,7 +107,7 @@ pub fn compare(folder: &Path) -> Result<Comparison, CompareError> {
         return Err(input(format!("{shown}: has none of the authors' files {}{guess}", known_names.join(", "))));
     }
     let tables: Vec<_> = found.iter().map(|known| table::read(&folder.join(known.name), known)).collect();
-    let faults: Vec<_> = tables.iter().filter_map(|table| table.as_ref().err()).map(FileFault::to_string).collect();
+    let faults: Vec<_> = tables.iter().filter_map(|table| table.as_ref().err().cloned()).collect();
     if !faults.is_empty() {
         return Err(CompareError::Input(faults));
     }
@@ -134,7 +133,7 @@ pub(crate) fn compare_text(kind: usize, text: &str, rows: usize) -> Option<Resul
         KNOWN.iter().flat_map(|known| (1..=LONGEST).map(move |rows| with(known, rows))).collect()
     });
     let known = short.get(kind.checked_mul(LONGEST)?.checked_add(rows.checked_sub(1)?)?)?;
-    let compared = table::parse(known.name, text, known).map_err(|fault| fault.to_string()).and_then(|table| {
+    let compared = table::parse(known.name, text, known).and_then(|table| {
         let files = compare_file(known, &table).map_err(|error| error.to_string())?;
         Ok(Comparison { folder: String::new(), files, absent: Vec::new(), not_read: Vec::new() })
     });
