@@ -66,7 +66,7 @@ impl Axis {
         if power == 0 || self.label.is_empty() {
             return self.label.clone();
         }
-        let power = format!("10^{{{}}}", signed(&power.to_string()));
+        let power = power_of_ten(power);
         match self.label.strip_suffix(']').and_then(|label| label.rsplit_once('[')) {
             Some((quantity, unit)) => format!("{quantity}[{power} {unit}]"),
             None => format!("{} / {power}", self.label),
@@ -109,13 +109,18 @@ impl Axis {
         let every = ((last - first) * spacing / length).ceil().max(1.0) as i32;
         let decades = (first - 1e-9).ceil() as i32..=(last + 1e-9).floor() as i32;
         let large = decades.clone().filter(|n| n % every == 0);
-        let large = large.map(|n| (10f64.powi(n), format!("10^{{{}}}", signed(&n.to_string())))).collect();
+        let large = large.map(|n| (10f64.powi(n), power_of_ten(n))).collect();
         let all = (decades.start() - 1..=*decades.end()).flat_map(|n| {
             let digits = if every > 1 { 1..=1 } else { 1..=9 };
             digits.map(move |m| f64::from(m) * 10f64.powi(n))
         });
         (large, all.filter(|x| (self.low..=self.high).contains(x)).collect())
     }
+}
+
+/// `10^{−3}`.
+pub(super) fn power_of_ten(power: i32) -> String {
+    format!("10^{{{}}}", signed(&power.to_string()))
 }
 
 /// A number with a minus sign in place of the hyphen, and no sign on a zero.
@@ -146,31 +151,33 @@ pub(super) struct Panel {
 pub(super) const LEFT: f64 = 42.0;
 pub(super) const BELOW: f64 = 29.0;
 
-/// Two panels over one another for each of some subjects, side by side.
-pub(super) struct TwoRows {
-    pub(super) columns: usize,
+/// Panels of one size in columns and rows.
+pub(super) struct Grid {
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) width: f64,
     pub(super) height: f64,
-    pub(super) between: f64,
+    /// Distances between columns and between rows.
+    pub(super) between: [f64; 2],
 }
 
-impl TwoRows {
-    const TOP: f64 = 18.0;
-    const GAP: f64 = 8.0;
-
-    pub(super) fn frame(&self, column: usize, row: usize) -> Rectangle {
-        let count = self.columns as f64;
-        let width = (PAGE - LEFT - 8.0 - (count - 1.0) * self.between) / count;
-        Rectangle {
-            left: LEFT + (width + self.between) * column as f64,
-            top: Self::TOP + (self.height + Self::GAP) * row as f64,
-            width,
-            height: self.height,
-        }
+impl Grid {
+    /// Two panels over one another for each of some subjects, side by side.
+    pub(super) fn two_rows(columns: usize, height: f64, between: f64) -> Self {
+        let count = columns as f64;
+        let width = (PAGE - LEFT - 8.0 - (count - 1.0) * between) / count;
+        Self { left: LEFT, top: 18.0, width, height, between: [between, 8.0] }
     }
 
-    /// The lower end of the panels.
-    pub(super) fn bottom(&self) -> f64 {
-        Self::TOP + 2.0 * self.height + Self::GAP
+    pub(super) fn frame(&self, column: usize, row: usize) -> Rectangle {
+        let Self { width, height, between: [across, down], .. } = *self;
+        let (left, top) = (self.left + (width + across) * column as f64, self.top + (height + down) * row as f64);
+        Rectangle { left, top, width, height }
+    }
+
+    /// The lower end of some rows.
+    pub(super) fn bottom(&self, rows: usize) -> f64 {
+        self.top + rows as f64 * self.height + (rows as f64 - 1.0) * self.between[1]
     }
 }
 
@@ -222,10 +229,7 @@ impl Panel {
     pub(super) fn draw_frame(&self, page: &mut Page) {
         let f = self.frame;
         let line = solid(BLACK, 0.6);
-        let corners =
-            [[f.left, f.top], [f.right(), f.top], [f.right(), f.bottom()], [f.left, f.bottom()], [f.left, f.top]];
-        page.path(&corners, line);
-
+        page.outline(f, line);
         let (large, small) = self.x.ticks(f.width, 34.0);
         for (value, length) in large.iter().map(|(v, _)| (*v, 3.5)).chain(small.iter().map(|v| (*v, 2.0))) {
             let x = f.left + self.x.place(value) * f.width;

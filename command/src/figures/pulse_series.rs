@@ -106,10 +106,10 @@ fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, Stri
 }
 
 fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
-    let grid = TwoRows { columns: subjects.len(), height: 92.0, between: 46.0 };
+    let grid = Grid::two_rows(subjects.len(), 92.0, 46.0);
     let with_legend = series.iter().any(|series| series.curves.is_some());
     let legend_height = if with_legend { 14.0 } else { 0.0 };
-    let mut page = Page::new(name, PAGE, grid.bottom() + BELOW + legend_height);
+    let mut page = Page::new(name, PAGE, grid.bottom(2) + BELOW + legend_height);
     for (i, (subject, series)) in subjects.iter().zip(series).enumerate() {
         let x = subject.scale.time_axis(subject.shown.pulses);
         for (row, (points, label, taken_off)) in
@@ -159,7 +159,7 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
         }
     }
     if with_legend {
-        let y = grid.bottom() + BELOW + 8.0;
+        let y = grid.bottom(2) + BELOW + 8.0;
         legend(&mut page, [LEFT, y], &[(Sample::Mark(Mark::Disc, BLACK), "pulses")]);
         for ((line, of), x) in CURVES.iter().zip([66.0, 210.0, 316.0]) {
             let name = if x < 70.0 { format!("Eqs. (51), (56) {of}") } else { (*of).to_owned() };

@@ -77,6 +77,11 @@ impl Page {
         }
     }
 
+    pub(super) fn outline(&mut self, r: Rectangle, line: Line) {
+        let (right, bottom) = (r.right(), r.bottom());
+        self.path(&[[r.left, r.top], [right, r.top], [right, bottom], [r.left, bottom], [r.left, r.top]], line);
+    }
+
     /// A filled polygon without a border.
     pub(super) fn area(&mut self, points: &[At], fill: &str) {
         let data = path_data(points);
