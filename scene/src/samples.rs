@@ -11,7 +11,6 @@ use crate::scene_file::Scene;
 /// Rotation per segment of motion that is kept in memory at a time, in rad.
 pub(crate) const ROTATION_PER_SEGMENT: f64 = 5e4;
 
-/// The motion at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// Time since the start, in t_c.
@@ -32,12 +31,10 @@ pub enum SampledState {
 }
 
 impl Sample {
-    /// A state without angles and error estimate.
     pub fn new(since_start: f64, state: SampledState) -> Self {
         Self { since_start, state, angles: None, error_estimate: None }
     }
 
-    /// Symmetry axis and angular momentum.
     pub fn axis(&self) -> AxisState<f64> {
         match &self.state {
             SampledState::Axis(state) => *state,
@@ -46,7 +43,6 @@ impl Sample {
         }
     }
 
-    /// The whole orientation.
     pub fn orientation(&self) -> &BodyState<f64> {
         match &self.state {
             SampledState::Orientation(state) => state,

@@ -251,7 +251,6 @@ fn rounded(x: f64) -> String {
     }
 }
 
-/// A ratio to two digits.
 fn two_digits(x: f64) -> String {
     if x.abs() < 9.95 { format!("{x:.*}", if x.abs() < 0.995 { 2 } else { 1 }) } else { format!("{x:.0}") }
 }

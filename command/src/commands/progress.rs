@@ -71,7 +71,6 @@ impl Progress {
         self.show_step((part * Self::STEPS) as u64);
     }
 
-    /// Says how many steps are done.
     pub(super) fn show_step(&mut self, step: u64) {
         let elapsed = self.start.elapsed();
         match &mut self.shown {

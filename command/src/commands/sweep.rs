@@ -130,7 +130,6 @@ impl Format {
     }
 }
 
-/// The table of errors of the table `out`.
 fn errors_beside(out: &Path) -> PathBuf {
     let mut name = out.as_os_str().to_owned();
     name.push(".errors.csv");
@@ -178,7 +177,6 @@ fn give_names(spool: &mut Spool, out: &Path, errors: &Path, (replace, format): (
     files.remove().map_err(failed)
 }
 
-/// Writes a table as Parquet.
 #[cfg(feature = "parquet")]
 fn convert(table: impl Read, file: &File, out: &Path) -> Result<(), Failure> {
     let done = twofold_scene::sweep::parquet_file::write_parquet(BufReader::new(table), file);

@@ -22,7 +22,6 @@ use twofold_verify::paper_examples::{PaperExample, paper_examples};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// It differs by no more than allowed.
     Agrees,
     /// It differs by more, or by what is not a number.
     Differs,

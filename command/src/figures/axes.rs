@@ -212,7 +212,6 @@ impl Panel {
         page.path(&[self.at(x, self.y.low), self.at(x, self.y.high)], line);
     }
 
-    /// Marks at points inside the frame.
     pub(super) fn marks(&self, page: &mut Page, points: &[(f64, f64)], mark: Mark, size: f64, colour: &'static str) {
         for &(x, y) in points {
             draw_mark(page, self.at(x, y), mark, size, colour);

@@ -321,7 +321,6 @@ fn fill(frame: &mut Frame, elements: &[Element], insets: &[[f64; 4]]) {
     }
 }
 
-/// Names of what is shown so.
 type Named<T> = Vec<(T, String)>;
 
 /// The names beside samples of lines and marks: by line, or by the colour of a mark.

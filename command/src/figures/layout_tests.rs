@@ -192,7 +192,6 @@ fn captions_close_their_marks() {
     }
 }
 
-/// A word of a caption beside what it stands for in the picture.
 #[test]
 fn captions_name_what_is_drawn_and_nothing_else() {
     let (dashes, dots) = ("stroke-dasharray=\"5 2.5\"", "stroke-dasharray=\"1.2 1.8\"");
@@ -233,7 +232,6 @@ fn captions_have_numbers_with_digits() {
     }
 }
 
-/// A physical star is drawn in s, Hz and strain.
 #[test]
 fn physical_stars_are_drawn_in_si() {
     let scene = Scene::named("b1828-11").unwrap();

@@ -29,7 +29,6 @@ impl Series {
         self.curves.as_ref().map(|table| table.points(0, 1 + row + 2 * i))
     }
 
-    /// All values of a row, with those of its curves.
     fn values(&self, row: usize) -> Vec<f64> {
         let points = if row == 0 { &self.pulses.periods } else { &self.pulses.lengths };
         let on_curves = (0..CURVES.len()).filter_map(|i| self.curve(row, i)).flatten().map(|(_, y)| y);
@@ -174,7 +173,6 @@ fn reference(values: &[f64]) -> Option<f64> {
     Spread::of(values.iter().copied()).and_then(Spread::reference)
 }
 
-/// Points with a value taken off.
 fn shifted(points: impl Iterator<Item = (f64, f64)>, by: f64) -> Vec<(f64, f64)> {
     points.map(|(t, value)| (t, value - by)).collect()
 }

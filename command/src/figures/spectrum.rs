@@ -127,7 +127,6 @@ pub(super) fn lines_table(name: String, lines: &[NamedLine], frequency: String, 
     table
 }
 
-/// A sentence of clauses: with a capital and a full stop.
 pub(super) fn sentence(clauses: &str) -> String {
     let mut letters = clauses.chars();
     letters.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))

@@ -21,7 +21,6 @@ const DIRECTIONS: [(&str, &str, &str); 5] = [
     ("near Y", "#e69f00", "#f5dba6"),
 ];
 
-/// The paths in a picture of the sphere, each with the rows that it shows.
 fn paths(figure: &Figure, elements: &[Element]) -> Vec<(String, Vec<[f64; 3]>, &'static str, &'static str)> {
     let vectors = |table: &Table, heads: [&str; 3], until: f64| -> Vec<[f64; 3]> {
         let places = heads.map(|head| table.columns.iter().position(|column| column == head).expect("a column"));

@@ -126,7 +126,6 @@ impl Subject {
         self.observer.ok_or_else(|| format!("{}: no observer is given", self.name))
     }
 
-    /// Whether the strain at the observer is not known.
     pub(super) fn lacks_distance(&self) -> bool {
         self.scale.units.are_physical() && self.observer.is_some_and(|viewer| viewer.distance.is_none())
     }

@@ -46,7 +46,6 @@ pub fn command_line(bytes: &[u8]) {
     clean(folder);
 }
 
-/// The folder of this process, with the files.
 fn folder() -> &'static Path {
     static FOLDER: OnceLock<TempDir> = OnceLock::new();
     let folder = FOLDER.get_or_init(|| {

@@ -10,7 +10,6 @@ use super::{Content, golden};
 use twofold_verify::claims::{Claim, Verdict, claims};
 use twofold_verify::report;
 
-/// Notes what the claims name.
 pub(super) fn note(index: &mut Index) {
     for claim in claims() {
         let id = cross_reference::claim(claim.id);

@@ -60,7 +60,6 @@ impl Index {
         }
     }
 
-    /// Notes everything that `text` names.
     pub(super) fn note_text(&mut self, text: &str, source: &str, label: &str) {
         for target in self.pieces(text).into_iter().filter_map(|(_, target)| target) {
             self.note(target, source, label);

@@ -140,7 +140,6 @@ mod tests {
         (page(&content).expect("a page"), ids)
     });
 
-    /// The values of an attribute.
     fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {
         let start = format!(" {attribute}=\"");
         let parts = page.split(start.as_str()).skip(1);

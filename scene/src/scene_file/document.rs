@@ -12,7 +12,6 @@ use toml::de::{DeTable, DeValue};
 
 use super::LARGEST_FILE;
 
-/// A kind of file.
 pub(crate) struct FileFormat {
     /// Its name in messages, with the article: `a scene`.
     pub(crate) name: &'static str,
@@ -83,7 +82,6 @@ pub(crate) struct Replaced<'a> {
 }
 
 impl Replaced<'_> {
-    /// Everything as written.
     pub(crate) const NOTHING: Self = Self { keys: &[], numbers: &[] };
 
     fn get(&self, key: &str) -> Option<f64> {
@@ -91,7 +89,6 @@ impl Replaced<'_> {
     }
 }
 
-/// A table of the document.
 pub(crate) struct Section<'a> {
     text: &'a str,
     replaced: Replaced<'a>,
@@ -103,7 +100,6 @@ pub(crate) struct Section<'a> {
     table: &'a DeTable<'a>,
 }
 
-/// A value of a section.
 pub(crate) struct Entry<'a> {
     text: &'a str,
     replaced: Replaced<'a>,
@@ -248,7 +244,6 @@ impl<'a> Section<'a> {
 }
 
 impl<'a> Entry<'a> {
-    /// A refusal of the value.
     pub(crate) fn refuse(&self, allowed: &str) -> Fault {
         self.refuse_because(&format!("allowed is {allowed}"))
     }
@@ -291,7 +286,6 @@ impl<'a> Entry<'a> {
         if holds(x) { Ok(x) } else { Err(self.refuse(allowed)) }
     }
 
-    /// A finite number of a range.
     pub(crate) fn number_in(&self, allowed: &str, range: RangeInclusive<f64>) -> Result<f64, Fault> {
         self.number_where(allowed, |x| range.contains(&x))
     }
@@ -452,7 +446,6 @@ impl SceneError {
         Self { file: file.to_owned(), place: None, message: message.into() }
     }
 
-    /// A refusal at a place of `text`.
     pub(crate) fn in_text(file: &str, text: &str, fault: Fault) -> Self {
         let place = fault.span.map(|span| Place::of(text, span));
         Self { file: file.to_owned(), place, message: fault.message }

@@ -123,7 +123,6 @@ fn is_sexagesimal(text: &str, most: u8) -> bool {
     whole.parse::<u8>().is_ok_and(|x| x <= most) && minutes.len() == 2 && below(minutes) && below(seconds)
 }
 
-/// Most rows of output.
 pub(crate) const MOST_SAMPLES: usize = 10_000_000;
 
 /// Times of the output, strictly increasing or strictly decreasing, in units of the output.
@@ -412,13 +411,11 @@ impl Scene {
         if lacking.is_empty() { Ok(()) } else { Err(format!("the scene lacks {}", lacking.join(" and "))) }
     }
 
-    /// Whether the strain at the observer is not known.
     fn lacks_distance(&self) -> bool {
         self.units.are_physical() && self.observer.is_some_and(|observer| observer.distance.is_none())
     }
 }
 
-/// `name` is none of the names known.
 fn unknown(name: &str, what: &str, known: &[&str]) -> String {
     format!("`{name}` is no {what}; allowed are {}.{}", listed(known), did_you_mean(name, known))
 }

@@ -68,7 +68,6 @@ impl SweepText {
     }
 }
 
-/// The scene that is varied.
 #[derive(Debug)]
 pub(super) struct Base<'t> {
     text: &'t str,

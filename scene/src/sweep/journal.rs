@@ -47,7 +47,6 @@ fn value(line: &[u8]) -> Option<Value> {
     if intact { serde_json::from_str(text).ok() } else { None }
 }
 
-/// The line that says that the table is complete.
 pub(super) fn completion() -> Value {
     json!({ "complete": true })
 }
@@ -97,7 +96,6 @@ pub fn signed_again(bytes: &[u8], line: usize, number: usize, digits: &[u8]) -> 
 }
 
 impl Journal {
-    /// Reads the lines that are intact.
     pub(super) fn read(mut file: impl Read) -> std::io::Result<Self> {
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes)?;

@@ -129,7 +129,6 @@ impl Outputs {
         Ok(samples)
     }
 
-    /// The numbers of one scene, from its samples if they are known.
     fn values_of(&self, scene: &Scene, known: Option<Result<Vec<Sample>, Error>>) -> Result<Vec<f64>, String> {
         let mut angle = match scene.observer {
             Some(observer) if self.summaries.contains(&Summary::Lambda) => {

@@ -34,7 +34,6 @@ pub enum ConversionError {
     Parquet(ParquetError),
 }
 
-/// The columns of a row group.
 struct Group {
     numbers: Vec<i64>,
     statuses: Vec<ByteArray>,

@@ -36,7 +36,6 @@ pub(super) struct Numbered {
     pub(super) arrival: Option<(i64, f64)>,
 }
 
-/// A pulse as far as it is known.
 struct Unfinished {
     pulse: Pulse,
     approach: Option<Approach>,

@@ -239,7 +239,6 @@ impl Sampling {
 /// The quantity that [`fundamental_frequencies`] refuses in a span of few turns.
 const SHORT_SPAN: &str = "span in turns of n about L";
 
-/// Steps of the series.
 fn intervals(scene: &Scene) -> f64 {
     (scene.rotation() * HARMONICS / std::f64::consts::PI).ceil().max(15.0)
 }
