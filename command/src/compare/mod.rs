@@ -17,6 +17,7 @@ pub use report::{json, text};
 use table::Table;
 
 use self::recompute::Scales;
+use crate::commands::Failure;
 use twofold_scene::scene_file::nearest;
 use twofold_verify::paper_examples::{PaperExample, paper_examples};
 
@@ -72,23 +73,9 @@ impl Comparison {
     }
 }
 
-#[derive(Debug)]
-pub enum CompareError {
-    /// The folder, or files in it, are not what they should be.
-    Input(Vec<String>),
-    /// A motion could not be computed.
-    Motion(twofold::Error),
-}
-
-impl From<twofold::Error> for CompareError {
-    fn from(error: twofold::Error) -> Self {
-        CompareError::Motion(error)
-    }
-}
-
 /// Compares every known file in `folder`. All are read and checked before anything is computed.
-pub fn compare(folder: &Path) -> Result<Comparison, CompareError> {
-    let input = |message: String| CompareError::Input(vec![message]);
+pub fn compare(folder: &Path) -> Result<Comparison, Failure> {
+    let input = Failure::BadInput;
     let shown = folder.display();
     let entries =
         fs::read_dir(folder).map_err(|error| input(format!("{shown}: no folder that can be read: {error}")))?;
@@ -108,11 +95,12 @@ pub fn compare(folder: &Path) -> Result<Comparison, CompareError> {
     let tables: Vec<_> = found.iter().map(|known| table::read(&folder.join(known.name), known)).collect();
     let faults: Vec<_> = tables.iter().filter_map(|table| table.as_ref().err().cloned()).collect();
     if !faults.is_empty() {
-        return Err(CompareError::Input(faults));
+        return Err(input(faults.join("\n")));
     }
     let mut files = Vec::new();
     for (known, table) in found.iter().zip(tables.into_iter().flatten()) {
-        files.extend(compare_file(known, &table)?);
+        let motion = |error| Failure::Failed(format!("a motion could not be computed: {error}"));
+        files.extend(compare_file(known, &table).map_err(motion)?);
     }
     Ok(Comparison {
         folder: shown.to_string(),

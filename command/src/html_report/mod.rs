@@ -16,7 +16,7 @@ mod markdown;
 mod summary;
 mod typography;
 
-pub use environment::Environment;
+pub use environment::{Environment, environment};
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -107,7 +107,7 @@ fn index(content: &Content) -> Index {
 fn environment_section(content: &Content) -> Markup {
     html! {
         dl.facts {
-            @for (name, value) in &content.environment.facts { (equations::row(name, vec![html! { (value) }])) }
+            @for (name, value) in &content.environment { (equations::row(name, vec![html! { (value) }])) }
             (equations::row("Checks", vec![html! { (content.results.len()) " in " (format!("{:.1}", content.seconds)) " s" }]))
         }
     }
@@ -136,7 +136,7 @@ mod tests {
         let ids = results.iter().map(|(check, _)| check.id).collect();
         let figures = crate::figures::DRAWN.clone();
         let golden = crate::figures::golden_tables(&figures).expect("numbers");
-        let content = Content { results, seconds: 1.0, golden, figures, environment: Environment::of_this_run() };
+        let content = Content { results, seconds: 1.0, golden, figures, environment: environment() };
         (page(&content).expect("a page"), ids)
     });
 

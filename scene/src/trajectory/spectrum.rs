@@ -258,10 +258,8 @@ fn series(
         if column.group == Output::EulerAngles {
             sample.angles = sample.orientation().angles().ok();
         }
-        column.value_and_size(scene, &sample).ok_or_else(|| TrajectoryError::Undefined {
-            column: column.name.clone(),
-            time: format!("{:?} {}", scene.output_time(since_start), scene.units.time_name),
-        })
+        let time = || format!("{:?} {}", scene.output_time(since_start), scene.units.time_name);
+        column.value_and_size(scene, &sample).ok_or_else(|| TrajectoryError::Undefined(column.name.clone(), time()))
     };
     let (mut values, mut largest) = (Vec::new(), 0.0_f64);
     for index in 0..=intervals as usize {
