@@ -12,11 +12,13 @@ use toml::de::{DeTable, DeValue};
 
 use super::LARGEST_FILE;
 
+type Names = fn() -> Vec<&'static str>;
+
 pub(crate) struct FileFormat {
     /// Its name in messages, with the article: `a scene`.
     pub(crate) name: &'static str,
     /// The names of the built-in files of this kind and the command that lists them, if there are any.
-    pub(crate) built_in: Option<(fn() -> Vec<&'static str>, &'static str)>,
+    pub(crate) built_in: Option<(Names, &'static str)>,
 }
 
 impl FileFormat {
