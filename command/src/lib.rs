@@ -2,10 +2,11 @@
 
 pub mod bench;
 pub mod commands;
-pub mod compare;
+mod compare;
 pub mod figures;
 pub mod fuzzing;
-pub mod html_report;
+mod html_report;
+mod text_table;
 
 /// The example of the README, run as a documentation test.
 #[cfg(doctest)]

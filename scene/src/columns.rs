@@ -40,9 +40,6 @@ pub fn header(group: Output, units: &Units) -> Vec<String> {
 }
 
 /// As many values as the [`header`] has names, in the units of the output; none where they do not exist.
-///
-/// # Panics
-/// If the sample has less of the state than the group needs.
 pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>> {
     let (body, s, units) = (scene.problem.spheroid(), scene.problem.coefficients(), &scene.units);
     Some(match group {
@@ -109,8 +106,7 @@ pub struct Column {
     /// The group that it belongs to, as an output of a plan; its angles need not count turns.
     pub group: Output,
     index: usize,
-    /// The columns of its group with the same unit, itself among them: they are parts of one quantity, as the components of a vector, and
-    /// have one rounding.
+    /// The columns of its group with the same unit, itself among them: the components of one quantity, with one rounding.
     parts: Vec<usize>,
     /// Name as in the header of the table, without the unit.
     pub name: String,
@@ -120,9 +116,6 @@ pub struct Column {
 
 impl Column {
     /// The column called `name`, if it oscillates and the scene has what it needs.
-    ///
-    /// # Errors
-    /// A sentence that says which columns there are, or why this one cannot be taken.
     pub fn oscillating(name: &str, scene: &Scene) -> Result<Self, String> {
         if TURNING.contains(&name) {
             return Err(format!(
@@ -164,8 +157,7 @@ impl Column {
         columns.iter().enumerate().map(column).collect()
     }
 
-    /// The value at a sample and the size of what it is a part of, as `|L|` for a component of `L`, in the unit of the output;
-    /// none where they do not exist.
+    /// The value at a sample and the size of what it is a part of, as `|L|` for a component of `L`; none where they do not exist.
     pub fn value_and_size(&self, scene: &Scene, sample: &Sample) -> Option<(f64, f64)> {
         let values = values(self.group, scene, sample)?;
         let size = self.parts.iter().fold(0.0_f64, |size, &part| size.hypot(values[part]));

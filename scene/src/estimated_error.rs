@@ -3,8 +3,7 @@
 /// Rounding of a component of a direction, or of `L` in units of its size, printed as a double.
 pub const ROUNDING_OF_COMPONENT: f64 = 0.5 * f64::EPSILON;
 
-/// An estimated error to be printed beside numbers that are rounded by `rounding`: below that no reader can see anything of it, and the rounding
-/// is the error. What is no number stays none.
+/// An estimated error beside numbers rounded by `rounding`: the larger of the two. What is no number stays none.
 pub fn as_printed(error: f64, rounding: f64) -> f64 {
     if error < rounding { rounding } else { error }
 }

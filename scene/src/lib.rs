@@ -7,7 +7,7 @@ pub mod plan;
 pub mod pulsar_table;
 pub mod pulsar_timing;
 pub mod random;
-pub mod samples;
+mod samples;
 pub mod scene_file;
 pub mod significant;
 pub mod sweep;

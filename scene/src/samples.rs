@@ -11,12 +11,10 @@ use crate::scene_file::Scene;
 /// Rotation per segment of motion that is kept in memory at a time, in rad.
 pub(crate) const ROTATION_PER_SEGMENT: f64 = 5e4;
 
-/// The motion at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// Time since the start, in t_c.
     pub since_start: f64,
-    /// State at that time, as far as the plan computes it.
     pub state: SampledState,
     /// The Euler angles with their turns, where the plan counts turns; none where the symmetry axis is on a pole.
     pub angles: Option<EulerAngles<f64>>,
@@ -27,24 +25,16 @@ pub struct Sample {
 /// As much of a state as a plan computes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SampledState {
-    /// No motion.
     Nothing,
-    /// Symmetry axis and angular momentum.
     Axis(AxisState<f64>),
-    /// The whole orientation.
     Orientation(BodyState<f64>),
 }
 
 impl Sample {
-    /// A state without angles and error estimate.
     pub fn new(since_start: f64, state: SampledState) -> Self {
         Self { since_start, state, angles: None, error_estimate: None }
     }
 
-    /// Symmetry axis and angular momentum.
-    ///
-    /// # Panics
-    /// For an output that does not need them.
     pub fn axis(&self) -> AxisState<f64> {
         match &self.state {
             SampledState::Axis(state) => *state,
@@ -53,10 +43,6 @@ impl Sample {
         }
     }
 
-    /// The whole orientation.
-    ///
-    /// # Panics
-    /// For an output that does not need it.
     pub fn orientation(&self) -> &BodyState<f64> {
         match &self.state {
             SampledState::Orientation(state) => state,
@@ -68,11 +54,8 @@ impl Sample {
 /// Which errors of a motion are estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ErrorEstimates {
-    /// None.
     None,
-    /// That at the end of the span.
     AtEnd,
-    /// That of each sample.
     OfEachSample,
 }
 
@@ -88,9 +71,6 @@ pub(crate) type AxisStateAt<'m> = dyn Fn(f64) -> Result<AxisState<f64>, Error> +
 
 /// Computes the motion of `scene` by `plan`. `take` is given each time of the output with the sample there, `after_segment` the motion of
 /// each segment with its first and last time, after the samples in it.
-///
-/// # Errors
-/// A motion that cannot be computed, and what `take` and `after_segment` return.
 pub(crate) fn for_each_sample<E: From<Error>>(
     scene: &Scene,
     plan: &Plan,
@@ -180,9 +160,6 @@ pub(crate) trait SegmentState: RotationState<f64> {
     fn sampled(motion: &Counted<PlannedMotion<Self>>, t: [f64; 2]) -> Result<SampledState, Error>;
 
     /// The Euler angles with their turns from the time `from`, where they are `start`; none where they do not exist.
-    ///
-    /// # Errors
-    /// A time outside the motion.
     fn angles<'m>(
         motion: &'m Counted<PlannedMotion<Self>>,
         from: f64,
@@ -243,21 +220,14 @@ pub enum ErrorAtEnd {
 
 /// One segment; times since the start, in t_c.
 pub(crate) struct Segment<X> {
-    /// The motion from `from` to `to`.
     pub motion: Counted<PlannedMotion<X>>,
-    /// First time; later than `to` where the span leads backwards.
     pub from: f64,
-    /// Last time.
     pub to: f64,
-    /// Whether the span ends here.
     pub is_last: bool,
 }
 
 impl<'s, X: SegmentState> Segments<'s, X> {
     /// The segments of a plan for `scene`, one at least.
-    ///
-    /// # Errors
-    /// A plan without a motion.
     pub fn new(scene: &'s Scene, plan: &Plan) -> Result<Self, Error> {
         Self::with_rotation(scene, plan, ROTATION_PER_SEGMENT)
     }
@@ -275,9 +245,6 @@ impl<'s, X: SegmentState> Segments<'s, X> {
     }
 
     /// Computes the next segment, if there is one.
-    ///
-    /// # Errors
-    /// A motion that cannot be computed.
     pub fn next(&mut self) -> Result<Option<Segment<X>>, Error> {
         if self.next == self.count {
             return Ok(None);
@@ -299,16 +266,12 @@ impl<'s, X: SegmentState> Segments<'s, X> {
     }
 
     /// Lets the next segment begin earlier, at a time of this one.
-    ///
-    /// # Errors
-    /// A time outside the segment.
     pub fn resume_at(&mut self, segment: &Segment<X>, time: f64) -> Result<(), Error> {
         self.state = segment.motion.inner().state(time)?;
         self.from = time;
         Ok(())
     }
 
-    /// Error at the end.
     fn error_at_end(&self, last: &Counted<PlannedMotion<X>>, to: f64, plan: &Plan) -> ErrorAtEnd {
         if self.count == 1 || self.method.is_closed_form() {
             return ErrorAtEnd::Estimated(last.error_estimate(to));

@@ -2,8 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-/// `x` with `digits` significant digits: a decimal where the power of ten of its first digit is one of `decimals`, else the mantissa and that
-/// power. Zero has no sign.
+/// `x` with so many significant digits: a decimal if the power of ten of the first is in `decimals`, else mantissa and power.
 pub fn rounded(x: f64, digits: usize, decimals: RangeInclusive<i32>) -> (String, Option<i32>) {
     if x == 0.0 {
         return ("0".to_owned(), None);

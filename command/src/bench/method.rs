@@ -87,8 +87,7 @@ pub const METHODS: &[Method] = &[
 pub const WITH_PULSES: &[Method] =
     &[Method { name: "Taylor", carries: Carries::Orientation, settings: ACCURACIES, run: taylor_with_pulses }];
 
-/// Scenes near the one given, which is the first: their `s` differ by parts of 1e-4. The state is that of the first; the second number is
-/// how many there are.
+/// Numbers of scenes beside the one given, which is the first; their `s` differ by parts of 1e-4. The state is that of the first.
 pub const MANY_SCENES: &[(Method, usize)] = &[
     (Method { name: "lanes, 8 scenes", carries: Carries::Axis, settings: ACCURACIES, run: in_lanes::<8> }, 8),
     (Method { name: "lanes, 16 scenes", carries: Carries::Axis, settings: ACCURACIES, run: in_lanes::<16> }, 16),

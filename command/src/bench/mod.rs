@@ -5,13 +5,13 @@
 
 pub mod growth;
 pub mod method;
-pub mod overhead;
+pub(crate) mod overhead;
 mod runge_kutta;
 pub mod scaling;
 pub mod scene;
-pub mod table;
+pub(crate) mod table;
 pub mod timing;
-pub mod work_precision;
+pub(crate) mod work_precision;
 
 /// How much is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -21,7 +21,6 @@ use twofold_verify::double_double::DoubleDouble;
 /// Accuracy of the motions.
 pub const ACCURACY: f64 = 1e-12;
 
-/// Parameters of the gradient.
 const PARAMETERS: [Parameter; 10] = [
     Parameter::InertiaXx,
     Parameter::InertiaZz,
@@ -38,11 +37,8 @@ const PARAMETERS: [Parameter; 10] = [
 /// Something beside a motion, or a motion over other numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// What it is.
     pub what: &'static str,
-    /// What the motion carries.
     pub carries: Carries,
-    /// Times (s).
     pub times: Times,
     /// Over the least time of the bare motion of the same `carries`, or of the state at its end where that is what the row is of.
     pub ratio: f64,
@@ -51,9 +47,6 @@ pub struct Row {
 type Case<'a> = (&'static str, Carries, Box<dyn FnMut() -> Result<(), String> + 'a>);
 
 /// All of them on tp-II; `done` hears which part is over.
-///
-/// # Errors
-/// What a motion or a search reports.
 pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
     let scene = &BenchScene::named("tp-II");
     let span = (0.0, DURATION);
@@ -129,8 +122,7 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
     Ok(cases.iter().zip(all).map(row).collect())
 }
 
-/// Numbers that carry a derivative by each of the parameters. What the derivatives are does not matter to the time; that none
-/// is known to be zero does.
+/// Numbers with a derivative by each of the parameters. Their values do not matter to the time; that none is known to be zero does.
 fn seeded() -> impl Fn(f64) -> DualSVec64<{ PARAMETERS.len() }> {
     |x| DualSVec64::new(x, Derivative::some(SVector::from_element(x)))
 }

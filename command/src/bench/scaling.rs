@@ -9,14 +9,12 @@ use twofold::propagation::{Motion, SampledProblem, states_of_many};
 use super::Effort;
 use super::overhead::ACCURACY;
 use super::scene::{BenchScene, DURATION};
-use super::timing::in_turn;
+use super::timing::{Times, in_turn};
 
-/// A cost.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub(crate) struct Row {
     /// What is counted: `outputs`, `scenes` or `cores`.
     pub of: &'static str,
-    /// How many there are.
     pub count: usize,
     /// Least time of the whole (s).
     pub least: f64,
@@ -24,10 +22,8 @@ pub struct Row {
     pub each: f64,
 }
 
-/// Numbers of outputs of one motion.
 const OUTPUTS: [usize; 6] = [1, 10, 100, 1000, 10_000, 100_000];
 
-/// Numbers of scenes, one after another.
 const SCENES: [usize; 3] = [1, 10, 100];
 
 /// Scenes that are spread over cores.
@@ -37,33 +33,22 @@ const SPREAD: usize = 1600;
 const TOGETHER: usize = 16;
 
 /// All of them on tp-II and scenes near it; `done` hears which part is over.
-///
-/// # Errors
-/// What a motion reports.
-pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
+pub(crate) fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
     let scene = BenchScene::named("tp-II");
     let mut outputs: Vec<_> = OUTPUTS.iter().map(|count| || sampled(&scene, *count)).collect();
     let times = in_turn(&mut outputs, effort.rounds.min(20), |part| done(part / 3.0))?;
-    let mut rows: Vec<_> = OUTPUTS
-        .iter()
-        .zip(times)
-        .map(|(count, times)| Row {
-            of: "outputs",
+    let row = |of| {
+        move |(count, times): (&usize, Times)| Row {
+            of,
             count: *count,
             least: times.least,
             each: times.least / *count as f64,
-        })
-        .collect();
-
+        }
+    };
+    let mut rows: Vec<_> = OUTPUTS.iter().zip(times).map(row("outputs")).collect();
     let mut scenes: Vec<_> = SCENES.iter().map(|count| || spread(&scene, *count, 1)).collect();
     let times = in_turn(&mut scenes, effort.rounds.div_ceil(10), |part| done((1.0 + part) / 3.0))?;
-    let row = |(count, times): (&usize, super::timing::Times)| Row {
-        of: "scenes",
-        count: *count,
-        least: times.least,
-        each: times.least / *count as f64,
-    };
-    rows.extend(SCENES.iter().zip(times).map(row));
+    rows.extend(SCENES.iter().zip(times).map(row("scenes")));
 
     let most = thread::available_parallelism().map_or(1, NonZero::get);
     let cores: Vec<_> = (1..=most).filter(|n| n.is_power_of_two() || *n == most).collect();
@@ -115,9 +100,6 @@ fn spread(scene: &BenchScene, count: usize, cores: usize) -> Result<f64, String>
 }
 
 /// Time from nothing to the first state of a motion (s), the least of many: what a method costs before its first step.
-///
-/// # Errors
-/// What a motion reports.
 pub fn set_up(effort: &Effort) -> Result<f64, String> {
     let scene = BenchScene::named("tp-II");
     let mut least = f64::INFINITY;

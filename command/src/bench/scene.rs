@@ -24,9 +24,6 @@ pub struct BenchScene {
 
 impl BenchScene {
     /// The seven scenes.
-    ///
-    /// # Panics
-    /// If the data compiled into the program are malformed.
     pub fn all() -> Vec<Self> {
         let states = rows(include_str!("../../data/bench_states.csv"));
         let scene = |(name, v): (String, Vec<DoubleDouble>)| {
@@ -48,18 +45,12 @@ impl BenchScene {
     }
 
     /// The scene called `name`.
-    ///
-    /// # Panics
-    /// If there is none.
     pub fn named(name: &str) -> Self {
         let found = Self::all().into_iter().find(|scene| scene.name == name);
         found.unwrap_or_else(|| panic!("no scene is called {name}"))
     }
 
     /// The problem `i` of many beside this one: their `s` differ by parts of `step`.
-    ///
-    /// # Panics
-    /// For parts that are not finite.
     pub fn beside(&self, i: usize, step: f64) -> Problem<f64, AxisState<f64>> {
         let problem = &self.problem;
         let s = problem.coefficients() * (1.0 + step * i as f64);
@@ -67,9 +58,6 @@ impl BenchScene {
     }
 
     /// Largest error of a component of `n`, `L / |L|` and, where it is carried, `e_x` at the time `t` of a reference.
-    ///
-    /// # Panics
-    /// If there is no reference at that time.
     pub fn error(&self, t: f64, end: &End) -> f64 {
         let reference = self.references.iter().find(|(time, _)| *time == t);
         let (_, reference) = reference.unwrap_or_else(|| panic!("no reference of {} at t = {t}", self.name));

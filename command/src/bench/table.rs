@@ -6,16 +6,11 @@ use super::method::{BASELINE, Carries};
 use super::work_precision::{self, ERRORS, ratios, time_at};
 use super::{growth, overhead, scaling};
 
-/// All that was measured.
 #[derive(Debug, Clone, Default)]
 pub struct Results {
-    /// Time against error.
     pub work_precision: Vec<work_precision::Row>,
-    /// Growth of errors.
     pub growth: Vec<growth::Row>,
-    /// What comes on top of a motion.
     pub overhead: Vec<overhead::Row>,
-    /// Cost against numbers of outputs, scenes and cores.
     pub scaling: Vec<scaling::Row>,
     /// Time before the first step (s).
     pub set_up: f64,
@@ -53,7 +48,6 @@ fn time(seconds: f64) -> String {
     }
 }
 
-/// The scenes in order of appearance.
 fn scenes(rows: &[work_precision::Row]) -> Vec<&str> {
     distinct(rows.iter().map(|row| row.scene.as_str()))
 }
@@ -104,7 +98,6 @@ pub fn work_precision(rows: &[work_precision::Row]) -> String {
     text
 }
 
-/// Growth of errors, with the exponents.
 pub fn growth(rows: &[growth::Row]) -> String {
     let mut lines: Vec<_> = rows
         .iter()
@@ -125,7 +118,6 @@ pub fn growth(rows: &[growth::Row]) -> String {
     markdown(&["method", "time [t_c]", "energy", "K", "phase"], &lines)
 }
 
-/// What comes on top of a motion.
 pub fn overhead(rows: &[overhead::Row]) -> String {
     let cells = |row: &overhead::Row| {
         vec![row.what.to_owned(), row.carries.to_string(), time(row.times.least), format!("{:.2}", row.ratio)]
@@ -136,7 +128,6 @@ pub fn overhead(rows: &[overhead::Row]) -> String {
     )
 }
 
-/// Cost against numbers.
 pub fn scaling(rows: &[scaling::Row]) -> String {
     let cells = |row: &scaling::Row| vec![row.of.to_owned(), row.count.to_string(), time(row.least), time(row.each)];
     markdown(&["number of", "", "least time", "of each"], &rows.iter().map(cells).collect::<Vec<_>>())

@@ -1,7 +1,6 @@
 //! Times of several cases, taken in turn.
 
-/// Seconds that this thread has worked: other programs on the machine disturb them less than a clock on the wall. Where there
-/// is no such clock, the one on the wall.
+/// Seconds that this thread has worked, which other programs disturb less than a clock on the wall; without such a clock, the latter.
 pub fn clock() -> f64 {
     #[cfg(unix)]
     {
@@ -15,12 +14,10 @@ pub fn clock() -> f64 {
     }
 }
 
-/// Times of one case.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Times {
+pub(crate) struct Times {
     /// The least (s): what others on the machine disturbed least.
     pub least: f64,
-    /// The median (s).
     pub median: f64,
 }
 
@@ -32,10 +29,7 @@ impl Times {
 }
 
 /// Runs every case once to warm up, then `rounds` times each, in turn; `done` hears the part of the rounds that is over.
-///
-/// # Errors
-/// What a case reports.
-pub fn in_turn<R>(
+pub(crate) fn in_turn<R>(
     cases: &mut [impl FnMut() -> Result<R, String>],
     rounds: usize,
     done: impl FnMut(f64),

@@ -8,19 +8,14 @@ use super::timing::{Times, in_turn};
 /// One run of one method on one scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// The scene.
     pub scene: String,
-    /// The method.
     pub method: String,
-    /// What it carries.
     pub carries: Carries,
     /// Accuracy, tolerance or step.
     pub setting: f64,
     /// Largest error of a component of `n`, `L / |L|` and, where it is carried, `e_x` at the end.
     pub error: f64,
-    /// Times of a run (s).
     pub times: Times,
-    /// Steps.
     pub steps: usize,
     /// Right-hand sides, coefficients of series, or rotations and kicks.
     pub evaluations: usize,
@@ -30,9 +25,6 @@ pub struct Row {
 pub const ERRORS: [f64; 8] = [1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
 
 /// All scenes by all methods to [`DURATION`]; `done` hears which part is over.
-///
-/// # Errors
-/// What a method reports.
 pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
     let scenes = BenchScene::all();
     let mut rows = Vec::new();

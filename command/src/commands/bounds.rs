@@ -3,11 +3,10 @@
 use clap::Args;
 use std::fmt::Write as _;
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, LineStyle, Table};
 use serde_json::{Value, json};
 
 use super::{Failure, print};
+use crate::text_table::text_table;
 use twofold_scene::pulsar_table::published::{PUBLISHED, PrintedBounds, printed_bounds};
 use twofold_scene::pulsar_table::{
     COMBINATION, CONFIDENCE, CONSERVATIVE_ETA, Figure, Limit, Pulsar, ROUND_INERTIA_OVER_C, pulsars_in_file,
@@ -77,11 +76,11 @@ pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
         if pulsar.measured_change().is_none() {
             let _ = writeln!(text, "Delta W has no error: it is taken as a limit");
         }
-        let _ = writeln!(text, "{}\n", table_of(rows).trim_fmt());
+        let _ = writeln!(text, "{}\n", table_of(rows));
     }
     text.push_str(&recommendation(chosen, &limit, of_chosen.map_or(&[], |(_, rows)| rows)));
     let _ = writeln!(text, "\nPublished by others; components in the Sun-centred frame, most with all of them free");
-    let _ = writeln!(text, "{}", published().trim_fmt());
+    let _ = writeln!(text, "{}", published());
     print(&text)
 }
 
@@ -171,14 +170,14 @@ fn rows(pulsar: &Pulsar, printed: Option<PrintedBounds>) -> Result<Vec<Row>, Str
     Ok(rows)
 }
 
-fn table_of(rows: &[Row]) -> Table {
+fn table_of(rows: &[Row]) -> String {
     let measured = rows.iter().any(|row| row.from_change.is_some());
     let compares = rows.iter().any(|row| row.printed.is_some());
     let mut header = vec!["", "value"];
     header.extend(measured.then_some("+- by Delta W"));
     header.push("+- by others");
     header.extend(compares.then_some(["printed", "ours/printed"]).into_iter().flatten());
-    let mut table = plain_table(&header, 1..header.len());
+    let mut table = vec![header.into_iter().map(String::from).collect()];
     let cell = |x: Option<f64>| x.map(rounded).unwrap_or_default();
     for row in rows {
         let mut cells = vec![row.label.clone(), rounded(row.value)];
@@ -190,30 +189,18 @@ fn table_of(rows: &[Row]) -> Table {
                 row.over_printed().map_or(String::new(), two_digits),
             ]);
         }
-        table.add_row(cells);
+        table.push(cells);
     }
-    table
+    text_table(&table, |column| column > 0, true)
 }
 
-fn published() -> Table {
-    let mut table = plain_table(&["", "limit", "", "source", "seen"], 1..2);
+fn published() -> String {
+    let mut table = vec![["", "limit", "", "source", "seen"].map(String::from).to_vec()];
     for p in PUBLISHED {
-        table.add_row([p.quantity, &format!("{:.1e}", p.limit), p.meaning, p.source, p.seen.name()]);
+        let limit = format!("{:.1e}", p.limit);
+        table.push([p.quantity, &limit, p.meaning, p.source, p.seen.name()].map(String::from).to_vec());
     }
-    table
-}
-
-fn plain_table(header: &[&str], numbers: std::ops::Range<usize>) -> Table {
-    let mut table = Table::new();
-    let line = LineStyle::none().fill('─').junction('─');
-    table.load_style(NOTHING.header_separator(line).bottom_border(line));
-    table.set_header(header);
-    for column in numbers {
-        if let Some(column) = table.column_mut(column) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
-    table
+    text_table(&table, |column| column == 1, true)
 }
 
 fn recommendation(pulsar: &Pulsar, limit: &Limit, rows: &[Row]) -> String {
@@ -249,7 +236,6 @@ fn value_of(rows: &[Row], key: &str) -> Option<f64> {
     rows.iter().find(|row| row.key == key).map(|row| row.value)
 }
 
-/// The confidence of the limits.
 fn percent() -> String {
     format!("{:.0} %", CONFIDENCE * 100.0)
 }
@@ -265,7 +251,6 @@ fn rounded(x: f64) -> String {
     }
 }
 
-/// A ratio to two digits.
 fn two_digits(x: f64) -> String {
     if x.abs() < 9.95 { format!("{x:.*}", if x.abs() < 0.995 { 2 } else { 1 }) } else { format!("{x:.0}") }
 }

@@ -1,7 +1,7 @@
 //! `twofold compare`.
 
 use super::{Failure, print};
-use crate::compare::{self, CompareError};
+use crate::compare;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -16,10 +16,7 @@ pub(crate) struct CompareArgs {
 }
 
 pub(super) fn compare(args: &CompareArgs) -> Result<(), Failure> {
-    let comparison = compare::compare(&args.authors_data).map_err(|error| match error {
-        CompareError::Input(faults) => Failure::BadInput(faults.join("\n")),
-        CompareError::Motion(error) => Failure::Failed(format!("a motion could not be computed: {error}")),
-    })?;
+    let comparison = compare::compare(&args.authors_data)?;
     print(&format!("{}\n", if args.json { compare::json(&comparison) } else { compare::text(&comparison) }))?;
     let differing = comparison.differing();
     if differing.is_empty() {

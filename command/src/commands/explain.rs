@@ -7,7 +7,6 @@ use twofold::plan::{Candidate, MACHINE, Plan, Prediction, Promise, State};
 use twofold_scene::estimated_error::{ROUNDING_OF_COMPONENT, as_printed};
 use twofold_scene::scene_file::Scene;
 
-/// The plan as text.
 pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
     let mut text = String::new();
     let time = scene.units.time_name;

@@ -58,7 +58,6 @@ pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
     tell(&format!("{}: {} figure{s}, {files} files\n", args.out.display(), chosen.len()))
 }
 
-/// The motion of a built-in scene or of a scene file.
 fn motion_of(scene: &str) -> Result<Subject, Failure> {
     let read = read_scene(scene)?;
     let name = Path::new(scene).file_stem().map_or_else(|| scene.into(), |stem| stem.to_string_lossy());

@@ -88,11 +88,10 @@ fn read(measurement: &Measurement, files: &[String]) -> Result<Vec<Datum>, Failu
     let mut data = Vec::new();
     let signal =
         Signal::new(&measurement.parameters, measurement.end).map_err(|error| measurement.refused(error.into()))?;
-    let is_long = signal.is_long();
     for file in files {
         let table = DataFile::read(file).map_err(Failure::BadInput)?;
         let of_pulses = table.is_of_pulses().map_err(Failure::BadInput)?;
-        if of_pulses && is_long {
+        if of_pulses && signal.is_long() {
             return Err(Failure::BadInput(format!(
                 "{file}: arrival times of one double each, for a span of more than 1e5 rad of rotation: allowed are --simulate and strains"
             )));
@@ -130,8 +129,6 @@ fn read(measurement: &Measurement, files: &[String]) -> Result<Vec<Datum>, Failu
         }
     }
     // A pulse in the first turn may be cut in a model beside that of the data.
-    let signal =
-        Signal::new(&measurement.parameters, measurement.end).map_err(|error| measurement.refused(error.into()))?;
     let before = data.len();
     data.retain(|datum| !matches!(datum.place, Place::Turn { near, .. } if near < signal.turn()));
     if data.len() < before {

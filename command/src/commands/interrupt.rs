@@ -11,7 +11,6 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// Status of a command ended by such a request, by the shells' convention.
 pub(super) const INTERRUPTED: u8 = 130;
 
-/// What is done at a request to end.
 struct OnRequest {
     /// Set at the first request, for work that stops by itself; the next request ends the process.
     stop: Option<Arc<AtomicBool>>,
@@ -26,9 +25,6 @@ fn on_request() -> MutexGuard<'static, OnRequest> {
 }
 
 /// Heeds requests to end from now on. To be called before anything is begun.
-///
-/// # Errors
-/// A system that gives no handler or no thread.
 #[cfg(unix)]
 pub(super) fn watch() -> io::Result<()> {
     let mut signals = signal_hook::iterator::Signals::new(heeded(ignored()))?;
@@ -37,9 +33,6 @@ pub(super) fn watch() -> io::Result<()> {
 }
 
 /// Heeds requests to end from now on. To be called before anything is begun.
-///
-/// # Errors
-/// A system that gives no handler.
 #[cfg(windows)]
 pub(super) fn watch() -> io::Result<()> {
     ctrlc::try_set_handler(requested).map_err(io::Error::other)

@@ -1,18 +1,15 @@
 //! What `fisher`, `fit` and `forecast` share: the scene, what is measured of it, what is not known.
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, LineStyle, Table};
-
 use super::output_file::OutputFile;
 use super::run::{failed, read_scene};
 use super::{Failure, MeasurementArgs, TableArgs, note};
+use crate::text_table::text_table;
 use twofold::inference::{Event, Fisher, InferenceError, Noise, Signal, check_span};
 use twofold::parameters::{Parameter, Parameters};
 use twofold_scene::measurements::{missing_section, parameters_of, parse_noise};
 use twofold_scene::scene_file::{Scene, nearest};
 use twofold_scene::significant::significant;
 
-/// A scene, what is measured of it and what is not known of it.
 pub(super) struct Measurement {
     pub(super) name: String,
     pub(super) scene: Scene,
@@ -67,7 +64,6 @@ impl Measurement {
         signal.events_after(&self.sample_times()?).map_err(refused)
     }
 
-    /// Samples of the strain: those of the scene.
     pub(super) fn samples(&self) -> Result<Vec<f64>, Failure> {
         if self.noise.iter().all(|(observable, _)| observable.is_of_pulses()) {
             return Ok(Vec::new());
@@ -75,7 +71,6 @@ impl Measurement {
         self.sample_times()
     }
 
-    /// The samples of the scene.
     fn sample_times(&self) -> Result<Vec<f64>, Failure> {
         const MOST: usize = 100_000;
         let count = self.scene.times.count();
@@ -150,19 +145,7 @@ pub(super) fn write_csv(args: &TableArgs, rows: &[Vec<String>]) -> Result<(), Fa
 
 /// A table for reading: the first row is its header, the first column on the left and the others on the right.
 pub(super) fn readable(rows: &[Vec<String>]) -> String {
-    let mut table = Table::new();
-    table.load_style(NOTHING.header_separator(LineStyle::none().fill('─').junction('─')));
-    for (place, row) in rows.iter().enumerate() {
-        if place == 0 {
-            table.set_header(row);
-        } else {
-            table.add_row(row);
-        }
-    }
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    format!("{}\n", table.trim_fmt())
+    text_table(rows, |column| column > 0, false) + "\n"
 }
 
 /// Unknowns with their values, standard deviations and correlations: a table for reading, and one with all numbers.

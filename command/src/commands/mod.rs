@@ -166,7 +166,7 @@ pub(crate) struct StabilityArgs {
 }
 
 /// How a command ends when it does not succeed.
-enum Failure {
+pub(crate) enum Failure {
     /// A check or a computation failed: status 1.
     Failed(String),
     /// The input is not usable: status 2.

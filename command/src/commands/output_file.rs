@@ -8,8 +8,7 @@ use tempfile::NamedTempFile;
 use super::Failure;
 use super::interrupt::unfinished;
 
-/// The path of an output, if nothing stands in the way. A link is followed, so that what it points to is replaced and not the
-/// link.
+/// The path of an output, if nothing stands in the way. A link is followed: what it points to is replaced.
 pub(super) fn free_name(path: &Path, replace: bool) -> Result<PathBuf, Failure> {
     let refuse = |why: &str| Err(Failure::BadInput(format!("--out {}: {why}", path.display())));
     if path == Path::new("-") {
@@ -55,12 +54,10 @@ impl OutputFile {
         Ok(Self { path, temporary, replace })
     }
 
-    /// The file to write to.
     pub(super) fn file(&self) -> &File {
         self.temporary.as_file()
     }
 
-    /// Gives the file its name.
     pub(super) fn complete(self) -> Result<(), Failure> {
         let named = if self.replace {
             self.temporary.persist(&self.path)

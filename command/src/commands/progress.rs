@@ -71,7 +71,6 @@ impl Progress {
         self.show_step((part * Self::STEPS) as u64);
     }
 
-    /// Says how many steps are done.
     pub(super) fn show_step(&mut self, step: u64) {
         let elapsed = self.start.elapsed();
         match &mut self.shown {
@@ -92,13 +91,11 @@ impl Progress {
     }
 }
 
-/// When lines are written: the first after ten seconds; then one at each tenth of the work, ten seconds apart at least, and one a
-/// minute where a tenth takes longer.
+/// Lines come after ten seconds, then at each tenth of the work, at least ten seconds and at most a minute apart.
 #[derive(Default)]
 struct Lines {
     /// Tenths done at the last line.
     tenths: u32,
-    /// Time of the last line.
     last: Option<Duration>,
 }
 
@@ -119,7 +116,6 @@ impl Lines {
     }
 }
 
-/// What a line says.
 fn line((first, step, steps): (u64, u64, u64), unit: Option<&str>, elapsed: Duration) -> String {
     let left = |seconds: f64| HumanDuration(Duration::from_secs(seconds.min(1e15) as u64));
     let rate = (step - first) as f64 / elapsed.as_secs_f64().max(1e-9);

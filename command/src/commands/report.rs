@@ -8,7 +8,7 @@ use super::output_folder::OutputFolder;
 use super::verify::{conclude, run_all};
 use super::{Failure, tell};
 use crate::figures;
-use crate::html_report::{Content, Environment, page};
+use crate::html_report::{Content, environment, page};
 use twofold_verify::{checks, report};
 
 #[derive(Args)]
@@ -30,7 +30,7 @@ pub(super) fn report(args: &ReportArgs) -> Result<(), Failure> {
     let seconds = start.elapsed().as_secs_f64();
     let figures = figures::all().map_err(Failure::Failed)?;
     let golden = figures::golden_tables(&figures).map_err(Failure::Failed)?;
-    let content = Content { results, seconds, golden, figures, environment: Environment::of_this_run() };
+    let content = Content { results, seconds, golden, figures, environment: environment() };
     folder.write(PAGE, page(&content).map_err(Failure::Failed)?.as_bytes())?;
     folder.complete()?;
     let summary = report::summary(&content.results, seconds);

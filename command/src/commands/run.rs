@@ -74,7 +74,6 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Uses the method that the arguments name.
 pub(super) fn force_method(scene: &mut Scene, args: &PlanArgs, name: &str) -> Result<(), Failure> {
     let Some(method) = &args.method else { return Ok(()) };
     scene.choose_method(method).map_err(|why| Failure::BadInput(format!("--method for {name}: {why}")))
@@ -102,7 +101,6 @@ const BYTES_OF_A_NUMBER: f64 = 19.0;
 /// Size of a table from which on it is foretold.
 const LARGE: f64 = 1e7;
 
-/// Foretells the size of a large table.
 pub(super) fn note_size(rows: f64, columns: usize) {
     let size = rows * columns as f64 * BYTES_OF_A_NUMBER;
     if size >= LARGE {

@@ -39,7 +39,6 @@ pub(crate) struct SpectrumArgs {
     pub(crate) output: OutputArgs,
 }
 
-/// Which table of a spectrum.
 #[derive(Clone, Copy, clap::ValueEnum)]
 pub(crate) enum SpectrumTable {
     Lines,

@@ -12,7 +12,7 @@ use super::progress::Progress;
 use super::run::note_size;
 use super::{Failure, note};
 use twofold_scene::sweep::{
-    Done, Identity, MergeError, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, merge,
+    Done, Identity, Shard, Spool, SpoolError, SpoolFiles, Sweep, SweepText, compute, csv_line, merge,
 };
 
 #[derive(Args)]
@@ -109,7 +109,6 @@ fn some_failed(out: &Path) -> Failure {
     Failure::Partly(format!("some scenes failed: {} says which and why", errors_beside(out).display()))
 }
 
-/// Format of a table.
 #[derive(Clone, Copy, PartialEq)]
 enum Format {
     Csv,
@@ -131,7 +130,6 @@ impl Format {
     }
 }
 
-/// The table of errors of the table `out`.
 fn errors_beside(out: &Path) -> PathBuf {
     let mut name = out.as_os_str().to_owned();
     name.push(".errors.csv");
@@ -179,7 +177,6 @@ fn give_names(spool: &mut Spool, out: &Path, errors: &Path, (replace, format): (
     files.remove().map_err(failed)
 }
 
-/// Writes a table as Parquet.
 #[cfg(feature = "parquet")]
 fn convert(table: impl Read, file: &File, out: &Path) -> Result<(), Failure> {
     let done = twofold_scene::sweep::parquet_file::write_parquet(BufReader::new(table), file);
@@ -187,7 +184,6 @@ fn convert(table: impl Read, file: &File, out: &Path) -> Result<(), Failure> {
     file.sync_all().map_err(|error| Failure::Failed(format!("{} cannot be written: {error}", out.display())))
 }
 
-/// Writes a table as Parquet.
 #[cfg(not(feature = "parquet"))]
 fn convert(_: impl Read, _: &File, out: &Path) -> Result<(), Failure> {
     Format::of(out).map(|_| ())
@@ -213,17 +209,16 @@ fn merge_parts(args: &SweepArgs, sweep: &Sweep<'_>, format: Format) -> Result<()
     }
     errors.flush().map_err(cannot)?;
     drop(errors);
-    let refused = |error: MergeError| Failure::BadInput(error.to_string());
     match format {
         Format::Csv => {
             let mut writer = BufWriter::new(output.file());
-            merge(sweep, &mut parts, &mut writer).map_err(refused)?;
+            merge(sweep, &mut parts, &mut writer).map_err(Failure::BadInput)?;
             writer.flush().map_err(|error| Failure::Failed(format!("{}: {error}", args.out.display())))?;
         }
         Format::Parquet => {
             let cannot = |error: io::Error| Failure::Failed(format!("a temporary file: {error}"));
             let mut whole = tempfile::tempfile().map_err(cannot)?;
-            merge(sweep, &mut parts, BufWriter::new(&whole)).map_err(refused)?;
+            merge(sweep, &mut parts, BufWriter::new(&whole)).map_err(Failure::BadInput)?;
             whole.rewind().map_err(cannot)?;
             convert(whole, output.file(), &args.out)?;
         }

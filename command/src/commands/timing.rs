@@ -68,7 +68,7 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let endings = ["csv", "par", "tim", "h_plus.txt", "h_cross.txt"];
     let folder = OutputFolder::at(&args.out, args.force, |found| endings.iter().any(|ending| found == file(ending)))?;
     let timing = pulsar.timed(&epochs, args.f1).map_err(|error| match error {
-        TimingError::NoPulse(_) => refused(error.to_string()),
+        TimingError::NoPulse(why) => refused(why),
         TimingError::Motion(error) => error.into(),
     })?;
     folder.write(&file("csv"), csv(&pulsar, &timing).as_bytes())?;
@@ -184,7 +184,6 @@ fn positive(option: &str, value: f64) -> Result<(), Failure> {
     Err(Failure::BadInput(format!("{option} {value}: allowed is a number above zero")))
 }
 
-/// A date from the command line.
 pub(super) fn date(text: &str) -> Result<Epoch, String> {
     text.parse().map_err(|_| "allowed is a modified Julian date from 0 to 1e7, as 55321.25".to_owned())
 }

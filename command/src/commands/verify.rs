@@ -45,7 +45,6 @@ pub(super) fn verify(args: &VerifyArgs) -> Result<(), Failure> {
     conclude(&results)
 }
 
-/// Success if every check passed.
 pub(super) fn conclude(results: &[report::Result]) -> Result<(), Failure> {
     let failed: Vec<_> = results.iter().filter(|(_, outcome)| !outcome.passed).map(|(check, _)| check.id).collect();
     if failed.is_empty() { Ok(()) } else { Err(Failure::Failed(format!("failing checks: {}", failed.join(", ")))) }

@@ -3,7 +3,6 @@
 use super::known::KnownFile;
 use super::recompute::Scales;
 
-/// Up to what a column may differ, and why so much.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Allowed {
     /// Largest difference allowed; none if there is nothing to judge the column by.
@@ -21,39 +20,30 @@ impl Allowed {
     const UNKNOWN: Self = Self { limit: None, reason: "no error of the file itself is known to judge it by" };
 }
 
-/// What is allowed for a column of a file.
 pub(super) fn allowed(known: &KnownFile, column: &str, scales: Option<&Scales>) -> Allowed {
     let own = |column: &str| own_error(known, column);
+    let up_to = |limit, reason| Allowed { limit: Some(limit), reason };
     if let Some(limit) = own(column) {
-        return Allowed {
-            limit: Some(limit),
-            reason: "the file's own error against 34-digit reference motions, to its last digit",
-        };
+        return up_to(limit, "the file's own error against 34-digit reference motions, to its last digit");
     }
     let Some(scales) = scales else { return Allowed::UNKNOWN };
     if column.ends_with("Eq. (33)") {
-        return Allowed {
-            limit: Some(ROUNDINGS * scales.phase * f64::EPSILON / 2.0),
-            reason: "Eq. (33) as printed in doubles: 8 roundings of 1.1e-16 of its largest phase",
-        };
+        let limit = ROUNDINGS * scales.phase * f64::EPSILON / 2.0;
+        return up_to(limit, "Eq. (33) as printed in doubles: 8 roundings of 1.1e-16 of its largest phase");
     }
     let (Some(alpha), Some(beta)) = (own("alpha"), own("beta")) else { return Allowed::UNKNOWN };
     let &Scales { duration, sin_beta, cos_beta, alpha_rate, beta_rate, .. } = scales;
     match column {
-        "e_z X" | "e_z Y" => Allowed {
-            limit: Some(sin_beta * alpha + beta),
-            reason: "from the errors of the file's alpha and beta: sin(beta) |d alpha| + |d beta|",
-        },
-        "e_z Z" => {
-            Allowed { limit: Some(sin_beta * beta), reason: "from the error of the file's beta: sin(beta) |d beta|" }
+        "e_z X" | "e_z Y" => {
+            let reason = "from the errors of the file's alpha and beta: sin(beta) |d alpha| + |d beta|";
+            up_to(sin_beta * alpha + beta, reason)
         }
-        _ => Allowed {
-            limit: Some(
-                alpha + beta + cos_beta * alpha + duration * sin_beta * (beta_rate * alpha + alpha_rate * beta),
-            ),
-            reason: "from the errors of the file's alpha and beta: |d alpha| + |d beta| + |d gamma|, with the largest d gamma \
-                     that gamma' = Omega^z - alpha' cos(beta) allows",
-        },
+        "e_z Z" => up_to(sin_beta * beta, "from the error of the file's beta: sin(beta) |d beta|"),
+        _ => up_to(
+            alpha + beta + cos_beta * alpha + duration * sin_beta * (beta_rate * alpha + alpha_rate * beta),
+            "from the errors of the file's alpha and beta: |d alpha| + |d beta| + |d gamma|, with the largest d gamma \
+             that gamma' = Omega^z - alpha' cos(beta) allows",
+        ),
     }
 }
 

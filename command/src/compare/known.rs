@@ -1,6 +1,5 @@
 //! The authors' files: what each holds, and how far it is known to be off.
 
-/// What a file holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Content {
     /// Euler angles, numerically and by the perturbation solution, and two body axes.
@@ -15,59 +14,48 @@ pub(super) enum Content {
     Waves,
 }
 
-/// A column of a file beside its time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column {
     pub(super) name: &'static str,
     pub(super) unit: &'static str,
 }
 
-/// One of the files that the authors published.
 #[derive(Debug)]
 pub(super) struct KnownFile {
     pub(super) name: &'static str,
     pub(super) content: Content,
-    /// Name of the example.
     pub(super) example: &'static str,
-    /// Rows of the published file.
     pub(super) rows: usize,
     /// Quantities of which it is known by how much the published file is off; for the series, `m.n` that they are roots of.
     pub(super) own_errors: &'static [(&'static str, f64)],
 }
 
-const fn columns_of(content: Content) -> &'static [Column] {
-    const fn column(name: &'static str, unit: &'static str) -> Column {
-        Column { name, unit }
-    }
-    const ANGLES: &[Column] = &[
-        column("alpha", "rad"),
-        column("alpha, Eq. (33)", "rad"),
-        column("beta", "rad"),
-        column("beta, Eq. (33)", "rad"),
-        column("e_x X", "1"),
-        column("e_x Y", "1"),
-        column("e_x Z", "1"),
-        column("e_z X", "1"),
-        column("e_z Y", "1"),
-        column("e_z Z", "1"),
-    ];
-    const SIGNAL: &[Column] = &[column("m.n", "1"), column("P, Eq. (51)", "t_c"), column("W / <Phi'>", "t_c")];
-    const PERIODS: &[Column] = &[column("period", "t_c")];
-    const WIDTHS: &[Column] = &[column("duration", "t_c")];
-    const WAVES: &[Column] = &[column("h_+", "1"), column("h_x", "1")];
-    match content {
-        Content::Angles => ANGLES,
-        Content::Signal => SIGNAL,
-        Content::Periods => PERIODS,
-        Content::Widths => WIDTHS,
-        Content::Waves => WAVES,
-    }
-}
-
 impl KnownFile {
-    /// Columns beside time.
-    pub(super) fn columns(&self) -> &'static [Column] {
-        columns_of(self.content)
+    pub(super) fn columns(&self) -> Vec<Column> {
+        let names: &[_] = match self.content {
+            Content::Angles => &[
+                "alpha",
+                "alpha, Eq. (33)",
+                "beta",
+                "beta, Eq. (33)",
+                "e_x X",
+                "e_x Y",
+                "e_x Z",
+                "e_z X",
+                "e_z Y",
+                "e_z Z",
+            ],
+            Content::Signal => &["m.n", "P, Eq. (51)", "W / <Phi'>"],
+            Content::Periods => &["period"],
+            Content::Widths => &["duration"],
+            Content::Waves => &["h_+", "h_x"],
+        };
+        let unit = |name: &str| match name {
+            _ if name.starts_with("alpha") || name.starts_with("beta") => "rad",
+            "P, Eq. (51)" | "W / <Phi'>" | "period" | "duration" => "t_c",
+            _ => "1",
+        };
+        names.iter().map(|name| Column { name, unit: unit(name) }).collect()
     }
 }
 

@@ -14,17 +14,15 @@ use std::sync::OnceLock;
 use allowed::{Allowed, allowed};
 use known::{Content, KNOWN, KnownFile};
 pub use report::{json, text};
-pub use table::FileFault;
 use table::Table;
 
 use self::recompute::Scales;
+use crate::commands::Failure;
 use twofold_scene::scene_file::nearest;
 use twofold_verify::paper_examples::{PaperExample, paper_examples};
 
-/// Whether a column agrees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// It differs by no more than allowed.
     Agrees,
     /// It differs by more, or by what is not a number.
     Differs,
@@ -32,14 +30,10 @@ pub enum Verdict {
     NotJudged,
 }
 
-/// The largest difference in a column.
 #[derive(Debug, Clone)]
 pub struct ColumnDifference {
-    /// Name of the column.
     pub column: String,
-    /// Unit of the difference.
     pub unit: &'static str,
-    /// Largest difference in size.
     pub difference: f64,
     /// Time of the row with the largest difference, in t_c.
     pub time: f64,
@@ -47,29 +41,22 @@ pub struct ColumnDifference {
     pub allowed: Option<f64>,
     /// Why so much, or why nothing is known.
     pub reason: &'static str,
-    /// What follows.
     pub verdict: Verdict,
 }
 
-/// A file beside what is computed here.
 #[derive(Debug, Clone)]
 pub struct ComparedFile {
-    /// Name of the file.
     pub file: &'static str,
     /// Initial values of the motion computed here.
     pub start: String,
-    /// Rows compared.
     pub rows: usize,
-    /// Its columns.
     pub columns: Vec<ColumnDifference>,
     /// What else was seen.
     pub notes: Vec<String>,
 }
 
-/// A folder of the authors' files.
 #[derive(Debug, Clone)]
 pub struct Comparison {
-    /// The folder as it was named.
     pub folder: String,
     /// Files compared, in the order of the known names; the series of periods and widths twice.
     pub files: Vec<ComparedFile>,
@@ -80,34 +67,15 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Names of the files with a column that differs.
     pub fn differing(&self) -> Vec<&'static str> {
         let differs = |file: &&ComparedFile| file.columns.iter().any(|column| column.verdict == Verdict::Differs);
         self.files.iter().filter(differs).map(|file| file.file).collect()
     }
 }
 
-/// Why there is no comparison.
-#[derive(Debug)]
-pub enum CompareError {
-    /// The folder, or files in it, are not what they should be.
-    Input(Vec<String>),
-    /// A motion could not be computed.
-    Motion(twofold::Error),
-}
-
-impl From<twofold::Error> for CompareError {
-    fn from(error: twofold::Error) -> Self {
-        CompareError::Motion(error)
-    }
-}
-
 /// Compares every known file in `folder`. All are read and checked before anything is computed.
-///
-/// # Errors
-/// A folder without any known file, a file that is malformed, and a motion that cannot be computed.
-pub fn compare(folder: &Path) -> Result<Comparison, CompareError> {
-    let input = |message: String| CompareError::Input(vec![message]);
+pub fn compare(folder: &Path) -> Result<Comparison, Failure> {
+    let input = Failure::BadInput;
     let shown = folder.display();
     let entries =
         fs::read_dir(folder).map_err(|error| input(format!("{shown}: no folder that can be read: {error}")))?;
@@ -125,13 +93,14 @@ pub fn compare(folder: &Path) -> Result<Comparison, CompareError> {
         return Err(input(format!("{shown}: has none of the authors' files {}{guess}", known_names.join(", "))));
     }
     let tables: Vec<_> = found.iter().map(|known| table::read(&folder.join(known.name), known)).collect();
-    let faults: Vec<_> = tables.iter().filter_map(|table| table.as_ref().err()).map(FileFault::to_string).collect();
+    let faults: Vec<_> = tables.iter().filter_map(|table| table.as_ref().err().cloned()).collect();
     if !faults.is_empty() {
-        return Err(CompareError::Input(faults));
+        return Err(input(faults.join("\n")));
     }
     let mut files = Vec::new();
     for (known, table) in found.iter().zip(tables.into_iter().flatten()) {
-        files.extend(compare_file(known, &table)?);
+        let motion = |error| Failure::Failed(format!("a motion could not be computed: {error}"));
+        files.extend(compare_file(known, &table).map_err(motion)?);
     }
     Ok(Comparison {
         folder: shown.to_string(),
@@ -151,7 +120,7 @@ pub(crate) fn compare_text(kind: usize, text: &str, rows: usize) -> Option<Resul
         KNOWN.iter().flat_map(|known| (1..=LONGEST).map(move |rows| with(known, rows))).collect()
     });
     let known = short.get(kind.checked_mul(LONGEST)?.checked_add(rows.checked_sub(1)?)?)?;
-    let compared = table::parse(known.name, text, known).map_err(|fault| fault.to_string()).and_then(|table| {
+    let compared = table::parse(known.name, text, known).and_then(|table| {
         let files = compare_file(known, &table).map_err(|error| error.to_string())?;
         Ok(Comparison { folder: String::new(), files, absent: Vec::new(), not_read: Vec::new() })
     });
@@ -177,7 +146,7 @@ fn example(name: &str) -> PaperExample {
 }
 
 fn by_rows(known: &'static KnownFile, table: &Table, ours: &[Vec<f64>], scales: Option<&Scales>) -> ComparedFile {
-    let columns = known.columns().iter().enumerate().map(|(i, column)| {
+    let columns = known.columns().into_iter().enumerate().map(|(i, column)| {
         let differences = table.rows.iter().zip(ours).map(|(theirs, ours)| (theirs[0], theirs[i + 1] - ours[i]));
         judged(column.name, column.unit, differences, allowed(known, column.name, scales))
     });

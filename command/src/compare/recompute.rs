@@ -32,7 +32,6 @@ fn beam() -> Beam<f64> {
     Beam::new(CHI, 0.0, RHO)
 }
 
-/// Where a motion starts.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Start {
     angles: EulerAngles<f64>,
@@ -68,15 +67,10 @@ impl Start {
 /// How large what the errors of the body axes depend on becomes in a motion.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Scales {
-    /// Length of the span in t_c.
     pub(super) duration: f64,
-    /// Largest `sin beta`.
     pub(super) sin_beta: f64,
-    /// Largest `|cos beta|`.
     pub(super) cos_beta: f64,
-    /// Largest `|alpha'|`.
     pub(super) alpha_rate: f64,
-    /// Largest `|beta'|`.
     pub(super) beta_rate: f64,
     /// Largest phase in Eq. (33), rad; that of the homogeneous solution times its amplitude.
     pub(super) phase: f64,

@@ -2,11 +2,10 @@
 
 use std::fmt::Write as _;
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table};
 use serde_json::json;
 
-use super::{Comparison, Verdict};
+use super::{ColumnDifference, ComparedFile, Comparison, Verdict};
+use crate::text_table::text_table;
 
 impl Verdict {
     fn name(self) -> &'static str {
@@ -21,27 +20,9 @@ impl Verdict {
 /// A table of the largest differences, what is allowed for each column and why, and what was left aside.
 pub fn text(comparison: &Comparison) -> String {
     let mut reasons: Vec<&str> = Vec::new();
-    let line = LineStyle::none().fill('─').junction('─');
-    let mut table = Table::new();
-    table
-        .load_style(NOTHING.header_separator(line).bottom_border(line))
-        .set_content_arrangement(ContentArrangement::Disabled)
-        .set_header([
-            "file",
-            "rows",
-            "started from",
-            "column",
-            "largest difference",
-            "at t [t_c]",
-            "allowed",
-            "",
-            "verdict",
-        ]);
-    for index in [1, 5, 6] {
-        if let Some(column) = table.column_mut(index) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
+    let header =
+        ["file", "rows", "started from", "column", "largest difference", "at t [t_c]", "allowed", "", "verdict"];
+    let mut table = vec![header.map(String::from).to_vec()];
     for file in &comparison.files {
         for (i, column) in file.columns.iter().enumerate() {
             let number = reasons.iter().position(|reason| *reason == column.reason).unwrap_or_else(|| {
@@ -49,7 +30,7 @@ pub fn text(comparison: &Comparison) -> String {
                 reasons.len() - 1
             });
             let first = |text: &str| if i == 0 { text.to_owned() } else { String::new() };
-            table.add_row([
+            table.push(vec![
                 first(file.file),
                 first(&file.rows.to_string()),
                 first(&file.start),
@@ -62,7 +43,7 @@ pub fn text(comparison: &Comparison) -> String {
             ]);
         }
     }
-    let mut text = format!("{}\n\n", table.trim_fmt());
+    let mut text = format!("{}\n\n", text_table(&table, |column| [1, 5, 6].contains(&column), true));
     for (i, reason) in reasons.iter().enumerate() {
         let _ = writeln!(text, "[{}] {reason}", i + 1);
     }
@@ -90,40 +71,31 @@ pub fn text(comparison: &Comparison) -> String {
     text
 }
 
-/// The comparison as a JSON object.
 pub fn json(comparison: &Comparison) -> String {
     let finite = |x: f64| if x.is_finite() { json!(x) } else { json!(null) };
-    let files: Vec<_> = comparison
-        .files
-        .iter()
-        .map(|file| {
-            let columns: Vec<_> = file
-                .columns
-                .iter()
-                .map(|column| {
-                    json!({
-                        "column": column.column,
-                        "unit": column.unit,
-                        "largest_difference": finite(column.difference),
-                        "at": finite(column.time),
-                        "allowed": column.allowed,
-                        "reason": column.reason,
-                        "verdict": column.verdict.name().to_lowercase(),
-                    })
-                })
-                .collect();
-            json!({
-                "file": file.file,
-                "rows": file.rows,
-                "started_from": file.start,
-                "columns": columns,
-                "notes": file.notes,
-            })
+    let column = |column: &ColumnDifference| {
+        json!({
+            "column": column.column,
+            "unit": column.unit,
+            "largest_difference": finite(column.difference),
+            "at": finite(column.time),
+            "allowed": column.allowed,
+            "reason": column.reason,
+            "verdict": column.verdict.name().to_lowercase(),
         })
-        .collect();
+    };
+    let file = |file: &ComparedFile| {
+        json!({
+            "file": file.file,
+            "rows": file.rows,
+            "started_from": file.start,
+            "columns": file.columns.iter().map(column).collect::<Vec<_>>(),
+            "notes": file.notes,
+        })
+    };
     let whole = json!({
         "folder": comparison.folder,
-        "files": files,
+        "files": comparison.files.iter().map(file).collect::<Vec<_>>(),
         "absent": comparison.absent,
         "not_read": comparison.not_read,
         "differing": comparison.differing(),

@@ -37,7 +37,7 @@ pub(super) fn by_stamps(
             table.rows.iter().filter_map(|row| near(row).map(|stamped| (row.as_slice(), stamped))).collect();
         let alone = table.rows.len() - pairs.len();
         let mut columns = Vec::new();
-        let [value] = known.columns() else { continue };
+        let [value] = known.columns()[..] else { continue };
         for (name, index) in [("stamp", 0), (value.name, 1)] {
             let differences = pairs.iter().map(|(row, ours)| (row[0], row[index] - [ours.time, ours.value][index]));
             let allowed = if of_the_file { allowed_of_series(known, name, slowest) } else { Allowed::OTHER_START };

@@ -1,6 +1,5 @@
 //! Reading a file of the authors: numbers in columns, separated by tabs or spaces, without a header.
 
-use std::fmt;
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
@@ -30,37 +29,10 @@ impl Table {
     }
 }
 
-/// Why a file cannot be compared, with its place in the file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FileFault {
-    file: String,
-    place: Option<(usize, usize)>,
-    message: String,
-}
-
-impl FileFault {
-    fn of_file(file: &str, message: impl Into<String>) -> Self {
-        Self { file: file.to_owned(), place: None, message: message.into() }
-    }
-
-    fn at(file: &str, line: usize, column: usize, message: impl Into<String>) -> Self {
-        Self { file: file.to_owned(), place: Some((line, column)), message: message.into() }
-    }
-}
-
-impl fmt::Display for FileFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.place {
-            Some((line, column)) => write!(f, "{}:{line}:{column}: {}", self.file, self.message),
-            None => write!(f, "{}: {}", self.file, self.message),
-        }
-    }
-}
-
-/// Reads and checks a known file.
-pub(super) fn read(path: &Path, known: &KnownFile) -> Result<Table, FileFault> {
+/// Reads and checks a known file. A refusal names the file and, where there is one, line and column.
+pub(super) fn read(path: &Path, known: &KnownFile) -> Result<Table, String> {
     let name = path.display().to_string();
-    let refuse = |message: String| FileFault::of_file(&name, message);
+    let refuse = |message: String| format!("{name}: {message}");
     if path.is_dir() {
         return Err(refuse("is a directory, not a file of numbers".into()));
     }
@@ -79,13 +51,13 @@ pub(super) fn read(path: &Path, known: &KnownFile) -> Result<Table, FileFault> {
         let before = &error.as_bytes()[..at];
         let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
         let column = before.iter().rev().take_while(|&&byte| byte != b'\n').count() + 1;
-        FileFault::at(&name, line, column, "is not text: a byte that is not UTF-8")
+        format!("{name}:{line}:{column}: is not text: a byte that is not UTF-8")
     })?;
     parse(&name, &text, known)
 }
 
-pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, FileFault> {
-    let fault = |line, column, message: String| Err(FileFault::at(file, line, column, message));
+pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, String> {
+    let fault = |line: usize, column: usize, message: String| Err(format!("{file}:{line}:{column}: {message}"));
     let (rows_wanted, columns) = (known.rows, known.columns());
     let width = columns.len() + 1;
     let mut rows: Vec<Vec<f64>> = Vec::new();
@@ -124,7 +96,7 @@ pub(super) fn parse(file: &str, text: &str, known: &KnownFile) -> Result<Table, 
         rows.push(row);
     }
     if rows.is_empty() {
-        return Err(FileFault::of_file(file, "is empty"));
+        return Err(format!("{file}: is empty"));
     }
     if rows.len() < rows_wanted {
         let end = text.lines().last().map_or(0, |line| line.chars().count()) + 1;

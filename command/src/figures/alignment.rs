@@ -1,13 +1,6 @@
 //! `m.n`, the cosine of the angle between the beam and the line of sight, in time.
 
-use super::axes::{Axis, BELOW, LEFT, Panel};
-use super::number::significant;
-use super::parameters::{line_of_sight, parameters};
-use super::style::{BLACK, BLUE, PAGE, SMALL, VERMILION, dashed, solid};
-use super::subject::times;
-use super::svg::{Anchor, Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Sheet, Subject};
+use super::drawing::*;
 
 pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
     let tables = subjects.iter().map(|subject| alignment(subject)).collect::<Result<Vec<_>, _>>()?;
@@ -19,7 +12,6 @@ fn edge(subject: &Subject) -> f64 {
     subject.pulsar.map_or(f64::NAN, |pulsar| pulsar.rho.cos())
 }
 
-/// `m.n` over the span shown.
 fn alignment(subject: &Subject) -> Result<Table, String> {
     let (viewer, pulsar) = subject.line_of_sight()?;
     let (beam, observer) = (pulsar.beam(), viewer.basis());
@@ -31,21 +23,14 @@ fn alignment(subject: &Subject) -> Result<Table, String> {
 }
 
 fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
-    let (top, panel_height, gap) = (18.0, 84.0, 30.0);
-    let count = subjects.len() as f64;
-    let mut page = Page::new(name, PAGE, top + count * panel_height + (count - 1.0) * gap + BELOW);
+    let grid = Grid { left: LEFT, top: 18.0, width: PAGE - LEFT - 34.0, height: 84.0, between: [0.0, 30.0] };
+    let mut page = Page::new(name, PAGE, grid.bottom(subjects.len()) + BELOW);
     for (i, (subject, table)) in subjects.iter().zip(tables).enumerate() {
-        let frame = Rectangle {
-            left: LEFT,
-            top: top + (panel_height + gap) * i as f64,
-            width: PAGE - LEFT - 34.0,
-            height: panel_height,
-        };
         let x = subject.scale.time_axis(subject.shown.beam);
         let values = table.rows.iter().map(|row| row[1]);
         let edge = edge(subject);
         let y = Axis::around("**m** · **n**", values.chain([edge]));
-        let panel = Panel::new(frame, if i + 1 < subjects.len() { x.unnamed() } else { x }, y);
+        let panel = Panel::new(grid.frame(0, i), if i + 1 < subjects.len() { x.unnamed() } else { x }, y);
         let points = table.points(0, 1);
         panel.curve(&mut page, &points, solid(BLACK, 0.6));
         for pulse in points.chunk_by(|a, b| (a.1 > edge) == (b.1 > edge)).filter(|piece| piece[0].1 > edge) {

@@ -1,13 +1,7 @@
 //! Spectra of `m.n`.
 
-use super::axes::{Axis, BELOW, LEFT, Panel};
-use super::number::ALIKE;
-use super::parameters::{line_of_sight, parameters};
+use super::drawing::*;
 use super::spectrum::{self, Spectrum};
-use super::style::{BLACK, PAGE, VERMILION, dashed, solid};
-use super::svg::{Anchor, Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Sheet, Subject};
 
 /// Amplitudes that are shown; above the strongest line there is room for names.
 const AMPLITUDES: (f64, f64) = (1e-5, 40.0);
@@ -34,21 +28,12 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
     Ok(Sheet { svg: draw(name, subjects, &spectra, highest), caption, tables })
 }
 
-const TOP: f64 = 18.0;
-const PANEL_HEIGHT: f64 = 118.0;
-const GAP: f64 = 20.0;
+const GRID: Grid = Grid { left: LEFT, top: 18.0, width: PAGE - LEFT - 10.0, height: 118.0, between: [0.0, 20.0] };
 
-/// Panel `i` of `count`.
 fn panel(subject: &Subject, i: usize, count: usize, highest: f64) -> Panel {
-    let frame = Rectangle {
-        left: LEFT,
-        top: TOP + (PANEL_HEIGHT + GAP) * i as f64,
-        width: PAGE - LEFT - 10.0,
-        height: PANEL_HEIGHT,
-    };
     let x = Axis::linear(subject.scale.frequency_label(), 0.0, highest);
     let y = Axis::logarithmic("amplitude of **m** · **n**", AMPLITUDES.0, AMPLITUDES.1);
-    Panel::new(frame, if i + 1 == count { x } else { x.bare() }, y)
+    Panel::new(GRID.frame(0, i), if i + 1 == count { x } else { x.bare() }, y)
 }
 
 /// The names over lines with their places, the strongest first, as far as there is room.
@@ -65,7 +50,7 @@ fn names(panel: &Panel, spectrum: &Spectrum, highest: f64) -> Vec<([f64; 2], Str
 
 fn draw(name: &str, subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -> String {
     let count = subjects.len();
-    let mut page = Page::new(name, PAGE, TOP + count as f64 * PANEL_HEIGHT + (count as f64 - 1.0) * GAP + BELOW);
+    let mut page = Page::new(name, PAGE, GRID.bottom(count) + BELOW);
     for (i, (subject, spectrum)) in subjects.iter().zip(spectra).enumerate() {
         let panel = panel(subject, i, count, highest);
         for rate in subject.free_rates() {

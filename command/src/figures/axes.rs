@@ -3,7 +3,6 @@
 use super::style::{BLACK, GREY, LABEL, Line, PAGE, SMALL, solid};
 use super::svg::{Anchor, At, Page, Rectangle};
 
-/// An axis of a panel.
 #[derive(Debug, Clone)]
 pub(super) struct Axis {
     label: String,
@@ -50,7 +49,6 @@ impl Axis {
         Self { label: String::new(), ..self.clone() }
     }
 
-    /// Place of a value, from 0 to 1.
     fn place(&self, value: f64) -> f64 {
         let scale = |x: f64| if self.logarithmic { x.log10() } else { x };
         (scale(value) - scale(self.low)) / (scale(self.high) - scale(self.low))
@@ -68,15 +66,14 @@ impl Axis {
         if power == 0 || self.label.is_empty() {
             return self.label.clone();
         }
-        let power = format!("10^{{{}}}", signed(&power.to_string()));
+        let power = power_of_ten(power);
         match self.label.strip_suffix(']').and_then(|label| label.rsplit_once('[')) {
             Some((quantity, unit)) => format!("{quantity}[{power} {unit}]"),
             None => format!("{} / {power}", self.label),
         }
     }
 
-    /// Values of the large ticks with their numbers, and of the small ones, for an axis of the given length that takes one
-    /// number each `spacing`.
+    /// Large ticks with their numbers, and small ones, of an axis of this length with one number each `spacing`.
     fn ticks(&self, length: f64, spacing: f64) -> (Vec<(f64, String)>, Vec<f64>) {
         if self.logarithmic { self.decades(length, spacing) } else { self.steps(length, spacing) }
     }
@@ -112,13 +109,18 @@ impl Axis {
         let every = ((last - first) * spacing / length).ceil().max(1.0) as i32;
         let decades = (first - 1e-9).ceil() as i32..=(last + 1e-9).floor() as i32;
         let large = decades.clone().filter(|n| n % every == 0);
-        let large = large.map(|n| (10f64.powi(n), format!("10^{{{}}}", signed(&n.to_string())))).collect();
+        let large = large.map(|n| (10f64.powi(n), power_of_ten(n))).collect();
         let all = (decades.start() - 1..=*decades.end()).flat_map(|n| {
             let digits = if every > 1 { 1..=1 } else { 1..=9 };
             digits.map(move |m| f64::from(m) * 10f64.powi(n))
         });
         (large, all.filter(|x| (self.low..=self.high).contains(x)).collect())
     }
+}
+
+/// `10^{−3}`.
+pub(super) fn power_of_ten(power: i32) -> String {
+    format!("10^{{{}}}", signed(&power.to_string()))
 }
 
 /// A number with a minus sign in place of the hyphen, and no sign on a zero.
@@ -130,14 +132,12 @@ pub(super) fn signed(number: &str) -> String {
     }
 }
 
-/// A mark at a point of a series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Mark {
     Disc,
     Ring,
 }
 
-/// A frame on the page with two axes.
 #[derive(Debug, Clone)]
 pub(super) struct Panel {
     pub(super) frame: Rectangle,
@@ -151,35 +151,33 @@ pub(super) struct Panel {
 pub(super) const LEFT: f64 = 42.0;
 pub(super) const BELOW: f64 = 29.0;
 
-/// Two panels over one another for each of some subjects, side by side.
-pub(super) struct TwoRows {
-    /// Number of subjects.
-    pub(super) columns: usize,
-    /// Height of a panel.
+/// Panels of one size in columns and rows.
+pub(super) struct Grid {
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) width: f64,
     pub(super) height: f64,
-    /// Distance between two subjects.
-    pub(super) between: f64,
+    /// Distances between columns and between rows.
+    pub(super) between: [f64; 2],
 }
 
-impl TwoRows {
-    const TOP: f64 = 18.0;
-    const GAP: f64 = 8.0;
-
-    /// The panel of a subject in a row.
-    pub(super) fn frame(&self, column: usize, row: usize) -> Rectangle {
-        let count = self.columns as f64;
-        let width = (PAGE - LEFT - 8.0 - (count - 1.0) * self.between) / count;
-        Rectangle {
-            left: LEFT + (width + self.between) * column as f64,
-            top: Self::TOP + (self.height + Self::GAP) * row as f64,
-            width,
-            height: self.height,
-        }
+impl Grid {
+    /// Two panels over one another for each of some subjects, side by side.
+    pub(super) fn two_rows(columns: usize, height: f64, between: f64) -> Self {
+        let count = columns as f64;
+        let width = (PAGE - LEFT - 8.0 - (count - 1.0) * between) / count;
+        Self { left: LEFT, top: 18.0, width, height, between: [between, 8.0] }
     }
 
-    /// The lower end of the panels.
-    pub(super) fn bottom(&self) -> f64 {
-        Self::TOP + 2.0 * self.height + Self::GAP
+    pub(super) fn frame(&self, column: usize, row: usize) -> Rectangle {
+        let Self { width, height, between: [across, down], .. } = *self;
+        let (left, top) = (self.left + (width + across) * column as f64, self.top + (height + down) * row as f64);
+        Rectangle { left, top, width, height }
+    }
+
+    /// The lower end of some rows.
+    pub(super) fn bottom(&self, rows: usize) -> f64 {
+        self.top + rows as f64 * self.height + (rows as f64 - 1.0) * self.between[1]
     }
 }
 
@@ -193,7 +191,6 @@ impl Panel {
         self.y.power()
     }
 
-    /// Place of a point on the page.
     pub(super) fn at(&self, x: f64, y: f64) -> At {
         let f = &self.frame;
         [f.left + self.x.place(x) * f.width, f.bottom() - self.y.place(y) * f.height]
@@ -215,7 +212,6 @@ impl Panel {
         page.path(&[self.at(x, self.y.low), self.at(x, self.y.high)], line);
     }
 
-    /// Marks at points inside the frame.
     pub(super) fn marks(&self, page: &mut Page, points: &[(f64, f64)], mark: Mark, size: f64, colour: &'static str) {
         for &(x, y) in points {
             draw_mark(page, self.at(x, y), mark, size, colour);
@@ -232,10 +228,7 @@ impl Panel {
     pub(super) fn draw_frame(&self, page: &mut Page) {
         let f = self.frame;
         let line = solid(BLACK, 0.6);
-        let corners =
-            [[f.left, f.top], [f.right(), f.top], [f.right(), f.bottom()], [f.left, f.bottom()], [f.left, f.top]];
-        page.path(&corners, line);
-
+        page.outline(f, line);
         let (large, small) = self.x.ticks(f.width, 34.0);
         for (value, length) in large.iter().map(|(v, _)| (*v, 3.5)).chain(small.iter().map(|v| (*v, 2.0))) {
             let x = f.left + self.x.place(value) * f.width;

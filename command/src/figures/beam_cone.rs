@@ -3,11 +3,7 @@
 use nalgebra::Vector3;
 use twofold::observables::Observer;
 
-use super::sphere::{View, arc};
-use super::style::{BLACK, BLUE, COLUMN, GREY, Line, VERMILION, dashed, solid};
-use super::svg::Page;
-use super::table::Table;
-use super::{Caption, Sheet};
+use super::drawing::*;
 
 /// Colatitude and azimuth of the beam's axis, semi-open angle, colatitude and azimuth of the observer: those that are drawn.
 const BEAM: [f64; 2] = [0.72, 0.8];

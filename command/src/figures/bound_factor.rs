@@ -1,11 +1,6 @@
 //! The factor `eta` of Eq. (41) against the inclination.
 
-use super::axes::{Axis, BELOW, LEFT, Panel};
-use super::legend::{Sample, legend};
-use super::style::{BLACK, BLUE, COLUMN, GREY, Line, VERMILION, dash_dotted, dashed, dotted, solid};
-use super::svg::{Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Sheet};
+use super::drawing::*;
 use twofold_verify::eta::{PAPER_ASYMMETRY, eta_curve};
 
 const NAME: &str = "bound-factor";

@@ -128,17 +128,9 @@ fn carried(table: &str) -> &'static str {
 
 /// Columns that no curve shows: lists of lines and gaps, the paths on spheres, what maps are made of.
 fn is_not_a_curve(figure: &str, table: &str, column: &str) -> bool {
-    match figure {
-        "perturbation-regimes"
-        | "method-regimes"
-        | "momentum-sphere"
-        | "beam-cone"
-        | "euler-angles"
-        | "euler-angles-yzx" => true,
-        _ => {
-            table.ends_with("lines") || table.ends_with("-gaps") || table == "paths" || column.starts_with("frequency")
-        }
-    }
+    let is_spatial = ["momentum-sphere", "beam-cone", "euler-angles", "euler-angles-yzx"].contains(&figure);
+    let is_list = table.ends_with("lines") || table.ends_with("-gaps") || table == "paths";
+    is_spatial || is_list || figure.ends_with("-regimes") || column.starts_with("frequency")
 }
 
 #[test]
@@ -154,15 +146,9 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
                 let told = frame.remarks.iter().find_map(|words| words.strip_prefix(['P', 'W'])?.strip_prefix(" = "));
                 number(told.expect("a remark").trim_end_matches(" s").trim_end_matches(" t_c")).expect("a number")
             });
+            let least = if frame.y.label.starts_with("amp") { 1e-300 } else { f64::NEG_INFINITY };
             let place = |row: &[f64], x: usize, y: usize| {
-                [
-                    frame.x.place(row[x]),
-                    frame.y.place((row[y] - taken_off.unwrap_or(0.0)).max(if frame.y.label.starts_with("amp") {
-                        1e-300
-                    } else {
-                        f64::NEG_INFINITY
-                    })),
-                ]
+                [frame.x.place(row[x]), frame.y.place((row[y] - taken_off.unwrap_or(0.0)).max(least))]
             };
             for (style, pieces) in &frame.curves {
                 let named: Vec<_> =
@@ -177,11 +163,9 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
                     let (table, x, y) = columns(figure, &frame, name);
                     let rows: Vec<_> = table.rows.iter().map(|row| place(row, x, y)).collect();
                     let what = format!("{} {}: {}", figure.name, table.name, table.columns[y]);
-                    let is_part = match (figure.name.as_str(), style.1.as_str()) {
-                        // Pulses are drawn thick where m.n is above the level; grey lines join what has no gap between.
-                        ("beam-alignment", "1.7") | ("pulse-series", "0.5") => true,
-                        _ => false,
-                    };
+                    // Pulses are drawn thick where m.n is above the level; grey lines join what has no gap between.
+                    let part = (figure.name.as_str(), style.1.as_str());
+                    let is_part = [("beam-alignment", "1.7"), ("pulse-series", "0.5")].contains(&part);
                     if is_part && figure.name == "beam-alignment" {
                         let edge = frame.levels[0];
                         // A pulse of one row is no line.
@@ -202,8 +186,7 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
                         assert!(farthest(&corners, &alone) < HALF_A_PIXEL, "{what}: a grey line goes elsewhere");
                     } else {
                         assert_same(&what, &rows, pieces, &frame.corners);
-                        drawn.insert((table.name.clone(), table.columns[x].clone()));
-                        drawn.insert((table.name.clone(), table.columns[y].clone()));
+                        drawn.extend([x, y].map(|column| (table.name.clone(), table.columns[column].clone())));
                     }
                     count += 1;
                 }
@@ -221,8 +204,7 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
                     let off = (row[0] - place[0]).hypot(row[1] - place[1]);
                     assert!(off < HALF_A_PIXEL, "{} {}: a mark is {off} pt off its row", figure.name, table.name);
                 }
-                drawn.insert((table.name.clone(), table.columns[x].clone()));
-                drawn.insert((table.name.clone(), table.columns[y].clone()));
+                drawn.extend([x, y].map(|column| (table.name.clone(), table.columns[column].clone())));
                 count += 1;
             }
         }

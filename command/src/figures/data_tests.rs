@@ -61,25 +61,22 @@ fn column(table: &Table, head: &str) -> usize {
 }
 
 /// A head of the figure beside that of `run`, in the unit of a scene.
-fn heads(scene: &Scene, what: &str) -> (&'static str, Vec<(&'static str, &'static str)>) {
+fn heads(scene: &Scene, what: &str) -> Vec<(&'static str, &'static str)> {
     let wave = if scene.units.are_physical() {
         ["h_+ [1]", "h_x [1]"]
     } else {
         ["h_+ [G I^xx / (c^4 t_c^2 r)]", "h_x [G I^xx / (c^4 t_c^2 r)]"]
     };
     match what {
-        "angles" => ("angles", vec![("alpha [rad]", "alpha [rad]"), ("beta [rad]", "beta [rad]")]),
-        "perturbation" => (
-            "perturbation",
-            vec![
-                ("alpha by perturbation printed [rad]", "alpha_printed [rad]"),
-                ("beta by perturbation printed [rad]", "beta_printed [rad]"),
-            ],
-        ),
-        "e_x" => ("e_x", ["e_x_X [1]", "e_x_Y [1]", "e_x_Z [1]"].map(|head| (head, head)).to_vec()),
-        "e_z" => ("e_z", ["e_z_X [1]", "e_z_Y [1]", "e_z_Z [1]"].map(|head| (head, head)).to_vec()),
-        "m.n" => ("m.n", vec![("m.n [1]", "m.n [1]")]),
-        _ => ("h", vec![(wave[0], "h_plus [1]"), (wave[1], "h_cross [1]")]),
+        "angles" => vec![("alpha [rad]", "alpha [rad]"), ("beta [rad]", "beta [rad]")],
+        "perturbation" => vec![
+            ("alpha by perturbation printed [rad]", "alpha_printed [rad]"),
+            ("beta by perturbation printed [rad]", "beta_printed [rad]"),
+        ],
+        "e_x" => ["e_x_X [1]", "e_x_Y [1]", "e_x_Z [1]"].map(|head| (head, head)).to_vec(),
+        "e_z" => ["e_z_X [1]", "e_z_Y [1]", "e_z_Z [1]"].map(|head| (head, head)).to_vec(),
+        "m.n" => vec![("m.n [1]", "m.n [1]")],
+        _ => vec![(wave[0], "h_plus [1]"), (wave[1], "h_cross [1]")],
     }
 }
 
@@ -119,19 +116,15 @@ fn the_data_of_motions_are_the_columns_of_run_from_the_start_on() {
             if rows.is_empty() {
                 continue;
             }
-            let (group, heads) = heads(&scene, what);
-            let columns = run(&scene, group, &rows.iter().map(|row| row[time]).collect::<Vec<_>>());
-            for (ours, theirs) in heads {
+            let columns = run(&scene, what, &rows.iter().map(|row| row[time]).collect::<Vec<_>>());
+            for (ours, theirs) in heads(&scene, what) {
                 let place = column(table, ours);
                 let expected = columns.column(theirs);
                 let size = if what == "h" { expected.iter().fold(0.0_f64, |size, x| size.max(x.abs())) } else { 1.0 };
                 for (i, (row, expected)) in rows.iter().zip(expected).enumerate() {
                     // Near a pole angles are known no better than direction over distance from it.
-                    let beta = if what == "angles" || what == "perturbation" {
-                        row[column(table, "beta [rad]")].sin()
-                    } else {
-                        1.0
-                    };
+                    let is_of_angles = ["angles", "perturbation"].contains(&what);
+                    let beta = if is_of_angles { row[column(table, "beta [rad]")].sin() } else { 1.0 };
                     let off = (row[place] - expected).abs();
                     assert!(
                         off <= SAME * size / beta.min(1.0),
@@ -168,13 +161,8 @@ fn periods_and_lengths_are_those_of_the_pulses() {
         let pulses = Columns::of(csv);
         let whole: Vec<_> = pulses.column("cut").iter().map(|cut| cut.is_nan()).collect();
         let of = |head: &str| {
-            pulses
-                .column(&format!("{head} [{unit}]"))
-                .into_iter()
-                .zip(&whole)
-                .filter(|(_, whole)| **whole)
-                .map(|(x, _)| x)
-                .collect::<Vec<_>>()
+            let all = pulses.column(&format!("{head} [{unit}]")).into_iter().zip(&whole);
+            all.filter(|(_, whole)| **whole).map(|(x, _)| x).collect::<Vec<_>>()
         };
         let (midpoints, durations) = (of("midpoint"), of("duration"));
         for row in &lengths.rows {
@@ -420,15 +408,8 @@ fn parts_of_the_time_in_captions_are_those_of_the_columns() {
                 continue;
             };
             let words: Vec<_> = before.rsplit([',', ' ']).take(3).collect();
-            let said = leading(
-                &words
-                    .iter()
-                    .rev()
-                    .skip_while(|word| word.parse::<f64>().is_err())
-                    .copied()
-                    .collect::<Vec<_>>()
-                    .join(" "),
-            );
+            let number = words.into_iter().rev().skip_while(|word| word.parse::<f64>().is_err());
+            let said = leading(&number.collect::<Vec<_>>().join(" "));
             // Two digits.
             assert!((said - part).abs() <= 0.0501 * part, "{name}: {said} %, {part} % of the rows");
             compared += 1;

@@ -7,32 +7,43 @@ pub(super) type Style = (String, String, String);
 
 pub(super) type Point = [f64; 2];
 
+/// A line, or a filled area; what cuts it off, if anything does.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Path {
+    pub(super) points: Vec<Point>,
+    pub(super) style: Style,
+    pub(super) fill: String,
+    pub(super) clip: Option<[f64; 4]>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Text {
+    pub(super) at: Point,
+    pub(super) words: String,
+    pub(super) fill: String,
+    pub(super) anchor: String,
+    pub(super) turned: bool,
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Element {
-    /// A line, or a filled area; what cuts it off, if anything does.
-    Path {
-        points: Vec<Point>,
-        style: Style,
-        fill: String,
-        clip: Option<[f64; 4]>,
-    },
-    Circle {
-        at: Point,
-        radius: f64,
-        fill: String,
-        stroke: String,
-    },
-    Cell {
-        corners: [f64; 4],
-        fill: String,
-    },
-    Text {
-        at: Point,
-        words: String,
-        fill: String,
-        anchor: String,
-        turned: bool,
-    },
+    Path(Path),
+    Circle { at: Point, radius: f64, fill: String, stroke: String },
+    Cell { corners: [f64; 4], fill: String },
+    Text(Text),
+}
+
+pub(super) fn paths(elements: &[Element]) -> impl Iterator<Item = &Path> {
+    elements.iter().filter_map(|element| if let Element::Path(path) = element { Some(path) } else { None })
+}
+
+pub(super) fn texts(elements: &[Element]) -> impl DoubleEndedIterator<Item = &Text> {
+    elements.iter().filter_map(|element| if let Element::Text(text) = element { Some(text) } else { None })
+}
+
+/// Whether a rectangle `[left, top, right, bottom]` holds a point, or one that is less than `slack` away.
+pub(super) fn holds([left, top, right, bottom]: &[f64; 4], [x, y]: Point, slack: f64) -> bool {
+    x > left - slack && x < right + slack && y > top - slack && y < bottom + slack
 }
 
 /// The elements in the order of drawing. The writer puts one on each line.
@@ -59,14 +70,9 @@ pub(super) fn elements(svg: &str) -> Vec<Element> {
                 let (x, y) = pair.split_once(' ').expect("two numbers");
                 [x, y].map(|x| x.parse().expect("a number"))
             };
-            let style = (text("stroke"), text("stroke-width"), text("stroke-dasharray"));
-            let style = (style.0.to_owned(), style.1.to_owned(), style.2.to_owned());
-            elements.push(Element::Path {
-                points: points.map(point).collect(),
-                style,
-                fill: text("fill").into(),
-                clip,
-            });
+            let style = (text("stroke").into(), text("stroke-width").into(), text("stroke-dasharray").into());
+            let points = points.map(point).collect();
+            elements.push(Element::Path(Path { points, style, fill: text("fill").into(), clip }));
         } else if line.starts_with("<circle") {
             let at = [number("cx"), number("cy")];
             let [fill, stroke] = ["fill", "stroke"].map(|name| text(name).to_owned());
@@ -77,7 +83,7 @@ pub(super) fn elements(svg: &str) -> Vec<Element> {
             let at = [number("x"), number("y")];
             let turned = line.contains("rotate(-90");
             let (fill, anchor) = (text("fill").to_owned(), text("text-anchor").to_owned());
-            elements.push(Element::Text { at, words: words(line), fill, anchor, turned });
+            elements.push(Element::Text(Text { at, words: words(line), fill, anchor, turned }));
         }
     }
     elements
@@ -120,7 +126,7 @@ pub(super) fn number(words: &str) -> Option<f64> {
 }
 
 /// An axis: its label, and the way from the page to the numbers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Scale {
     pub(super) label: String,
     logarithmic: bool,
@@ -169,7 +175,7 @@ fn taken_out(label: String) -> (String, f64) {
 }
 
 /// A frame with what is drawn in it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Frame {
     pub(super) corners: [f64; 4],
     pub(super) x: Scale,
@@ -187,29 +193,28 @@ pub(super) struct Frame {
     pub(super) remarks: Vec<String>,
 }
 
+impl Path {
+    /// Whether it is cut off by this frame.
+    fn is_within(&self, corners: &[f64; 4]) -> bool {
+        self.clip.is_some_and(|clip| clip.iter().zip(corners).all(|(a, b)| near(*a, *b)))
+    }
+}
+
 fn near(a: f64, b: f64) -> bool {
     (a - b).abs() < 0.03
 }
 
-/// The frames of a picture in order of drawing; an axis without numbers shares those of the frame below or to the left. A frame that has
-/// nothing to read off is left out.
+/// The frames of a picture in order of drawing; an axis without numbers shares those of the frame below or to the left.
 pub(super) fn frames(elements: &[Element]) -> Vec<Frame> {
-    let corners = elements.iter().filter_map(|element| match element {
-        // A closed line round something with ticks: other boxes have no numbers beside them.
-        Element::Path { points, fill, .. } if points.len() == 5 && points[0] == points[4] && fill == "none" => {
-            let [left, top, right, bottom] = [points[0][0], points[0][1], points[2][0], points[2][1]];
-            (right - left > 30.0 && bottom - top > 30.0).then_some([left, top, right, bottom])
-        }
-        _ => None,
-    });
-    let corners: Vec<_> = corners.collect();
+    // A closed line round something with ticks: other boxes have no numbers beside them.
+    let closed = paths(elements)
+        .filter(|Path { points, fill, .. }| points.len() == 5 && points[0] == points[4] && fill == "none");
+    let corners = closed.map(|Path { points, .. }| [points[0][0], points[0][1], points[2][0], points[2][1]]);
+    let corners: Vec<_> = corners.filter(|c| c[2] - c[0] > 30.0 && c[3] - c[1] > 30.0).collect();
     let own: Vec<_> = corners.iter().map(|c| scales(elements, c)).collect();
     let is_inside = |c: &[f64; 4], o: &[f64; 4]| c != o && c[0] > o[0] && c[1] > o[1] && c[2] < o[2] && c[3] < o[3];
     let frame = |(i, c): (usize, &[f64; 4])| {
-        let is_empty = elements.iter().all(|element| match element {
-            Element::Path { clip: Some(clip), .. } => !clip.iter().zip(c).all(|(a, b)| near(*a, *b)),
-            _ => true,
-        });
+        let is_empty = !paths(elements).any(|path| path.is_within(c));
         let outer = corners.iter().position(|o| is_inside(c, o));
         let like = |same: &dyn Fn(&[f64; 4]) -> bool, axis: usize| {
             (0..corners.len()).filter(|&j| same(&corners[j])).find_map(|j| own[j][axis].clone())
@@ -222,11 +227,8 @@ pub(super) fn frames(elements: &[Element]) -> Vec<Frame> {
         };
         if let Some(outer) = outer {
             // What an inset shows is told by the frame around it, its powers of ten by the words above.
-            let mut above = elements.iter().filter_map(|element| match element {
-                Element::Text { at, words, .. } if near(at[0], c[2]) && near(at[1], c[1] - 4.0) => Some(words.clone()),
-                _ => None,
-            });
-            let (_, power) = taken_out(above.next_back().unwrap_or_default());
+            let above = texts(elements).rfind(|text| near(text.at[0], c[2]) && near(text.at[1], c[1] - 4.0));
+            let (_, power) = taken_out(above.map_or(String::new(), |text| text.words.clone()));
             y.ends = y.ends.map(|(place, value)| (place, value * power));
             let shared = |axis: usize| {
                 own[outer][axis].clone().or_else(|| {
@@ -239,31 +241,16 @@ pub(super) fn frames(elements: &[Element]) -> Vec<Frame> {
         if x.label.is_empty() {
             x.label = like(&|o| near(o[0], c[0]) && o[1] > c[1], 0).expect("a frame below").label;
         }
-        let mut heading = elements.iter().filter_map(|element| match element {
-            Element::Text { at, words, turned: false, anchor, .. }
-                if anchor.is_empty() && near(at[0], corners[outer.unwrap_or(i)][0]) && at[1] < c[1] =>
-            {
-                Some(words.clone())
-            }
-            _ => None,
-        });
-        let heading = heading.next_back().unwrap_or_default();
+        let left = corners[outer.unwrap_or(i)][0];
+        let is_heading =
+            |text: &&Text| !text.turned && text.anchor.is_empty() && near(text.at[0], left) && text.at[1] < c[1];
+        let heading = texts(elements).rfind(is_heading).map_or(String::new(), |text| text.words.clone());
         let heading = match heading.split_once(") ") {
             Some((letter, rest)) if letter.starts_with('(') && letter.len() == 2 => rest.to_owned(),
             _ if heading.starts_with('(') && heading.len() == 3 => String::new(),
             _ => heading,
         };
-        let mut frame = Frame {
-            corners: *c,
-            x,
-            y,
-            heading,
-            curves: Vec::new(),
-            marks: Vec::new(),
-            levels: Vec::new(),
-            uprights: Vec::new(),
-            remarks: Vec::new(),
-        };
+        let mut frame = Frame { corners: *c, x, y, heading, ..Frame::default() };
         fill(&mut frame, elements, &corners.iter().copied().filter(|o| is_inside(o, c)).collect::<Vec<_>>());
         Some(frame)
     };
@@ -274,19 +261,13 @@ pub(super) fn frames(elements: &[Element]) -> Vec<Frame> {
 fn scales(elements: &[Element], &[left, top, right, bottom]: &[f64; 4]) -> [Option<Scale>; 2] {
     let (mut ticks, mut labels) = ([Vec::new(), Vec::new()], [String::new(), String::new()]);
     let marked = |place: f64, axis: usize| {
-        elements.iter().any(|element| match element {
-            Element::Path { points, .. } if points.len() == 2 => {
-                let [a, b] = [points[0], points[1]];
-                match axis {
-                    0 => near(a[0], place) && near(b[0], place) && near(a[1], bottom) && near(b[1], bottom - 3.5),
-                    _ => near(a[1], place) && near(b[1], place) && near(a[0], left) && near(b[0], left + 3.5),
-                }
-            }
+        paths(elements).any(|path| match (axis, &path.points[..]) {
+            (0, [a, b]) => near(a[0], place) && near(b[0], place) && near(a[1], bottom) && near(b[1], bottom - 3.5),
+            (_, [a, b]) => near(a[1], place) && near(b[1], place) && near(a[0], left) && near(b[0], left + 3.5),
             _ => false,
         })
     };
-    for element in elements {
-        let Element::Text { at: [x, y], words, anchor, turned, .. } = element else { continue };
+    for Text { at: [x, y], words, anchor, turned, .. } in texts(elements) {
         let (across, along) = (*x > left - 0.1 && *x < right + 0.1, *y > top && *y < bottom + 4.0);
         if anchor == "middle" && across && near(*y, bottom + 11.5) && marked(*x, 0) {
             ticks[0].push((*x, words.clone()));
@@ -306,19 +287,16 @@ fn scales(elements: &[Element], &[left, top, right, bottom]: &[f64; 4]) -> [Opti
 
 fn fill(frame: &mut Frame, elements: &[Element], insets: &[[f64; 4]]) {
     let [left, top, right, bottom] = frame.corners;
-    let is_within =
-        |[x, y]: Point, c: &[f64; 4]| x >= c[0] - 3.0 && x <= c[2] + 3.0 && y >= c[1] - 16.0 && y <= c[3] + 14.0;
+    let is_within = |at: Point, c: &[f64; 4]| holds(&[c[0], c[1] - 13.0, c[2], c[3] + 11.0], at, 3.0);
     for element in elements {
         match element {
-            Element::Path { points, style, clip: Some(clip), .. }
-                if clip.iter().zip(frame.corners).all(|(a, b)| near(*a, b)) =>
-            {
+            Element::Path(path @ Path { points, style, .. }) if path.is_within(&frame.corners) => {
                 match frame.curves.iter_mut().find(|(known, _)| known == style) {
                     Some((_, pieces)) => pieces.push(points.clone()),
                     None => frame.curves.push((style.clone(), vec![points.clone()])),
                 }
             }
-            Element::Path { points, style, clip: None, .. } if points.len() == 2 && style.1 != "0.6" => {
+            Element::Path(Path { points, style, clip: None, .. }) if points.len() == 2 && style.1 != "0.6" => {
                 let [a, b] = [points[0], points[1]];
                 if near(a[0], left) && near(b[0], right) && near(a[1], b[1]) && a[1] > top && a[1] < bottom {
                     frame.levels.push(frame.y.value(a[1]));
@@ -326,25 +304,15 @@ fn fill(frame: &mut Frame, elements: &[Element], insets: &[[f64; 4]]) {
                     frame.uprights.push(frame.x.value(a[0]));
                 }
             }
-            Element::Circle { at, radius, fill, stroke }
-                if *radius < 2.0
-                    && at[0] >= left - 0.1
-                    && at[0] <= right + 0.1
-                    && at[1] >= top - 0.1
-                    && at[1] <= bottom + 0.1 =>
-            {
+            Element::Circle { at, radius, fill, stroke } if *radius < 2.0 && holds(&frame.corners, *at, 0.1) => {
                 let colour = if stroke.is_empty() { fill } else { stroke };
                 match frame.marks.iter_mut().find(|(known, _)| known == colour) {
                     Some((_, places)) => places.push(*at),
                     None => frame.marks.push((colour.clone(), vec![*at])),
                 }
             }
-            Element::Text { at, words, .. }
-                if at[0] > left
-                    && at[0] < right + 20.0
-                    && at[1] > top
-                    && at[1] < bottom
-                    && !insets.iter().any(|c| is_within(*at, c)) =>
+            Element::Text(Text { at, words, .. })
+                if holds(&[left, top, right + 20.0, bottom], *at, 0.0) && !insets.iter().any(|c| is_within(*at, c)) =>
             {
                 frame.remarks.push(words.clone());
             }
@@ -353,16 +321,15 @@ fn fill(frame: &mut Frame, elements: &[Element], insets: &[[f64; 4]]) {
     }
 }
 
-/// Names of what is shown so.
 type Named<T> = Vec<(T, String)>;
 
 /// The names beside samples of lines and marks: by line, or by the colour of a mark.
 pub(super) fn legend(elements: &[Element]) -> (Named<Style>, Named<String>) {
     let (mut lines, mut marks) = (Vec::new(), Vec::new());
     for pair in elements.windows(2) {
-        let Element::Text { at: [x, y], words, .. } = &pair[1] else { continue };
+        let Element::Text(Text { at: [x, y], words, .. }) = &pair[1] else { continue };
         match &pair[0] {
-            Element::Path { points, style, .. }
+            Element::Path(Path { points, style, .. })
                 if points.len() == 2
                     && near(points[1][0] - points[0][0], 20.0)
                     && near(*x, points[1][0] + 4.0)
@@ -391,13 +358,9 @@ impl Ball {
     pub(super) fn of(elements: &[Element], names: [&str; 3], lengths: [f64; 3]) -> Option<Self> {
         let arrows = arrows(elements);
         let find = |name: &str| arrows.iter().find(|(found, ..)| found == name);
-        let first = elements.iter().find_map(|element| match element {
-            // The dashed part of an axis inside the sphere begins at the origin; an arrow without one begins there itself.
-            Element::Path { points, style, .. } if points.len() == 2 && style.0 == "#8c8c8c" && style.1 == "0.6" => {
-                Some(points[0])
-            }
-            _ => None,
-        });
+        // The dashed part of an axis inside the sphere begins at the origin; an arrow without one begins there itself.
+        let is_dashed = |path: &&Path| path.points.len() == 2 && path.style.0 == "#8c8c8c" && path.style.1 == "0.6";
+        let first = paths(elements).find(is_dashed).map(|path| path.points[0]);
         let origin = first.or_else(|| find(names[0]).map(|(_, from, _)| *from))?;
         let [x, y, z] = names.map(|name| find(name).map(|(_, _, head)| *head));
         let part = |head: Point, length: f64| [0, 1].map(|i| (head[i] - origin[i]) / length);
@@ -422,13 +385,10 @@ impl Ball {
 pub(super) fn arrows(elements: &[Element]) -> Vec<(String, Point, Point)> {
     let mut arrows = Vec::new();
     for (i, three) in elements.windows(2).enumerate() {
-        let [Element::Path { points: shaft, .. }, Element::Path { points: head, fill, .. }] = three else { continue };
-        let name = elements[i + 2..].iter().find_map(|element| match element {
-            Element::Text { words, .. } => Some(words.clone()),
-            _ => None,
-        });
-        if shaft.len() == 2 && head.len() == 4 && fill != "none" {
-            arrows.push((name.unwrap_or_default(), shaft[0], head[0]));
+        let [Element::Path(shaft), Element::Path(head)] = three else { continue };
+        let name = texts(&elements[i + 2..]).next().map_or(String::new(), |text| text.words.clone());
+        if shaft.points.len() == 2 && head.points.len() == 4 && head.fill != "none" {
+            arrows.push((name, shaft.points[0], head.points[0]));
         }
     }
     arrows

@@ -3,14 +3,9 @@
 use nalgebra::Vector3;
 use twofold::euler_angles::{EulerAngles, body_from_inertial};
 
+use super::drawing::*;
 use super::markup::plain;
-use super::sphere::{View, arc};
-use super::style::{BLACK, BLUE, COLUMN, GREY, LIGHT, Line, VERMILION, dashed, solid};
-use super::svg::Page;
-use super::table::Table;
-use super::{Caption, Sheet};
 
-/// The angles that are drawn.
 const ANGLES: EulerAngles<f64> = EulerAngles { alpha: 1.0, beta: 0.8, gamma: 0.9 };
 
 const INERTIAL: Line = solid(BLACK, 1.0);

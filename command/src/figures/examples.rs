@@ -10,19 +10,14 @@ use super::subject::{ACCURACY, Shown, Subject, corrected_solution};
 use twofold_scene::scene_file::{Pulsar, Viewer};
 use twofold_verify::paper_examples::{COEFFICIENTS, PaperExample, SPIN, paper_examples, spheroid};
 
-/// The observer of the paper's figures.
 pub(super) const OBSERVER: Viewer = Viewer { theta_o: 0.8, phi_o: 0.0, distance: None };
 
-/// The beam of the paper's figures.
 const PULSAR: Pulsar = Pulsar { chi: 0.5, delta: 0.0, rho: 0.6, second_beam: false };
 
 /// Length of the series of which spectra are taken (t_c): pairs of lines of tp-II are 0.0024 apart.
 const SPECTRUM_DURATION: f64 = 17_150.0;
 
 /// The paper's four examples, in its order.
-///
-/// # Errors
-/// None for the four examples.
 pub fn examples() -> Result<[Subject; 4], String> {
     let [a, b, c, d] = paper_examples().map(|example| subject(&example));
     Ok([a?, b?, c?, d?])

@@ -35,87 +35,33 @@ pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
 
 /// A physical star in free precession about Z, of which every line is known in closed form.
 const TONE: &str = r#"
-[star]
-mass = 1.4
-radius = 12.0
-oblateness = 1e-3
-spin_frequency = 57.0
-[lorentz_violation]
-eigenvalues = [0.0, 0.0, 0.0]
-[initial]
-alpha = 0.4
-beta = 0.3
-gamma = 1.3
-alpha_rate = 375.2601393880295  # (1 + oblateness) 2 pi 57 / cos(beta): L is along Z
-beta_rate = 0.0
-[observer]
-theta_o = 1.1
-phi_o = 0.6
-distance = 2.5
-[pulsar]
-chi = 0.7
-delta = -0.8
-rho = 0.5
-[time]
-start = -3.0
-span = 2.0
-samples = 3
+star = { mass = 1.4, radius = 12.0, oblateness = 1e-3, spin_frequency = 57.0 }
+lorentz_violation = { eigenvalues = [0.0, 0.0, 0.0] }
+# The rate is (1 + oblateness) 2 pi 57 / cos(beta): L is along Z.
+initial = { alpha = 0.4, beta = 0.3, gamma = 1.3, alpha_rate = 375.2601393880295, beta_rate = 0.0 }
+observer = { theta_o = 1.1, phi_o = 0.6, distance = 2.5 }
+pulsar = { chi = 0.7, delta = -0.8, rho = 0.5 }
+time = { start = -3.0, span = 2.0, samples = 3 }
 "#;
 
 /// A physical star without any symmetry.
 const ASKEW: &str = r#"
-[star]
-mass = 1.4
-radius = 12.0
-oblateness = 1e-3
-spin_frequency = -57.0
-[lorentz_violation]
-tensor = [[2e-5, 1.1e-5, -0.7e-5], [1.1e-5, -0.9e-5, 0.5e-5], [-0.7e-5, 0.5e-5, -1.4e-5]]
-[initial]
-alpha = 0.4
-beta = 0.9
-gamma = 1.3
-alpha_rate = -380.0
-beta_rate = 21.0
-[observer]
-theta_o = 1.1
-phi_o = 0.6
-distance = 2.5
-[pulsar]
-chi = 0.7
-delta = -0.8
-rho = 0.5
-[time]
-start = 12.0
-span = 2.0
-samples = 41
+star = { mass = 1.4, radius = 12.0, oblateness = 1e-3, spin_frequency = -57.0 }
+lorentz_violation.tensor = [[2e-5, 1.1e-5, -0.7e-5], [1.1e-5, -0.9e-5, 0.5e-5], [-0.7e-5, 0.5e-5, -1.4e-5]]
+initial = { alpha = 0.4, beta = 0.9, gamma = 1.3, alpha_rate = -380.0, beta_rate = 21.0 }
+observer = { theta_o = 1.1, phi_o = 0.6, distance = 2.5 }
+pulsar = { chi = 0.7, delta = -0.8, rho = 0.5 }
+time = { start = 12.0, span = 2.0, samples = 41 }
 "#;
 
 /// A physical star given by constants in a frame that is not the principal one, seen from a known distance, with a beam that never passes.
 const TILTED: &str = r#"
-[star]
-mass = 1.4
-radius = 12.0
-oblateness = 2e-5
-spin_frequency = 50.0
-[lorentz_violation]
-tensor = [[1e-9, 2e-10, 0.0], [2e-10, -3e-10, 1e-10], [0.0, 1e-10, -7e-10]]
-[initial]
-kind = "twofold"
-alpha_0 = 0.3
-beta_0 = 0.7
-amplitude = 0.001
-phase = 0.0
-[observer]
-theta_o = 1.5
-phi_o = 0.0
-distance = 1.0
-[pulsar]
-chi = 0.1
-rho = 0.05
-[time]
-span = 5.0
-samples = 3
+star = { mass = 1.4, radius = 12.0, oblateness = 2e-5, spin_frequency = 50.0 }
+lorentz_violation.tensor = [[1e-9, 2e-10, 0.0], [2e-10, -3e-10, 1e-10], [0.0, 1e-10, -7e-10]]
+initial = { kind = "twofold", alpha_0 = 0.3, beta_0 = 0.7, amplitude = 0.001, phase = 0.0 }
+observer = { theta_o = 1.5, phi_o = 0.0, distance = 1.0 }
+pulsar = { chi = 0.1, rho = 0.05 }
+time = { span = 5.0, samples = 3 }
 "#;
 
 fn of_scene(name: &str, scene: &Scene) -> Vec<Figure> {
@@ -246,7 +192,6 @@ fn captions_close_their_marks() {
     }
 }
 
-/// A word of a caption beside what it stands for in the picture.
 #[test]
 fn captions_name_what_is_drawn_and_nothing_else() {
     let (dashes, dots) = ("stroke-dasharray=\"5 2.5\"", "stroke-dasharray=\"1.2 1.8\"");
@@ -287,7 +232,6 @@ fn captions_have_numbers_with_digits() {
     }
 }
 
-/// A physical star is drawn in s, Hz and strain.
 #[test]
 fn physical_stars_are_drawn_in_si() {
     let scene = Scene::named("b1828-11").unwrap();

@@ -4,14 +4,12 @@ use super::axes::{Mark, draw_mark};
 use super::style::{BLACK, Line, SMALL};
 use super::svg::{Anchor, At, Page};
 
-/// What a legend shows beside a name.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Sample {
     Line(Line),
     Mark(Mark, &'static str),
 }
 
-/// Length of a line in a legend.
 const SAMPLE: f64 = 20.0;
 
 /// Names under one another, the first at `at`.

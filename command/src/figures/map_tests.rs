@@ -1,7 +1,7 @@
 //! Every cell and line of the maps, read off the picture, is what the tables say.
 
 use super::curve_tests::{HALF_A_PIXEL, LABELS, assert_same, entry};
-use super::drawn::{Element, Frame, Point, elements, frames, number};
+use super::drawn::{Element, Frame, Path, Point, Text, elements, frames, holds, number, paths, texts};
 use super::layout_tests::FIGURES;
 
 fn frames_with_titles(elements: &[Element]) -> Vec<(String, Frame)> {
@@ -29,10 +29,8 @@ fn the_map_of_the_errors_is_its_table() {
     // The bar is to the right of all frames; its numbers are powers of ten.
     let right = frames.iter().map(|(_, frame)| frame.corners[2]).fold(0.0, f64::max);
     let bar: Vec<_> = cells.iter().filter(|(corners, _)| corners[0] > right && corners[1] < 200.0).collect();
-    let powers = elements.iter().filter_map(|element| match element {
-        Element::Text { at: [x, y], words, .. } if *x > right && *y < 200.0 => Some((y - 2.8, number(words)?.log10())),
-        _ => None,
-    });
+    let beside = texts(&elements).filter(|text| text.at[0] > right && text.at[1] < 200.0);
+    let powers = beside.filter_map(|text| Some((text.at[1] - 2.8, number(&text.words)?.log10())));
     let powers: Vec<_> = powers.collect();
     let [(p, a), (q, b)] = [powers[0], powers[powers.len() - 1]];
     let power = |y: f64| a + (b - a) * (y - p) / (q - p);
@@ -91,12 +89,8 @@ fn the_map_of_the_errors_is_its_table() {
             };
             (value, steepest / fine.iter().map(|size| 6.0 * size).fold(f64::INFINITY, f64::min))
         };
-        for element in &elements {
-            let Element::Path { points, style, .. } = element else { continue };
-            let is_inside = points.iter().all(|[x, y]| {
-                (*x - frame.corners[0]) * (frame.corners[2] - x) >= -0.1
-                    && (*y - frame.corners[1]) * (frame.corners[3] - y) >= -0.1
-            });
+        for Path { points, style, .. } in paths(&elements) {
+            let is_inside = points.iter().all(|at| holds(&frame.corners, *at, 0.02));
             if points.len() == 2 && style.1 == "0.8" && is_inside {
                 for (value, slope) in points.iter().map(|at| between(*at)) {
                     let off = (value - value.round()).abs();
@@ -112,7 +106,7 @@ fn the_map_of_the_errors_is_its_table() {
         };
         for (name, beta, parameter) in examples {
             let ring = elements.windows(2).find_map(|pair| match pair {
-                [Element::Circle { at, radius, .. }, Element::Text { words, .. }]
+                [Element::Circle { at, radius, .. }, Element::Text(Text { words, .. })]
                     if words == name && *radius == 2.2 && at[0] > frame.corners[0] && at[0] < frame.corners[2] =>
                 {
                     Some(*at)
@@ -133,7 +127,7 @@ fn the_map_of_the_methods_is_its_tables() {
     let figure = FIGURES.iter().find(|figure| figure.name == "method-regimes").expect("a figure");
     let elements = elements(&figure.svg);
     let colours = elements.iter().enumerate().filter_map(|(i, element)| match (element, elements.get(i + 2)) {
-        (Element::Cell { fill, .. }, Some(Element::Text { words, .. })) => Some((fill.clone(), words.clone())),
+        (Element::Cell { fill, .. }, Some(Element::Text(Text { words, .. }))) => Some((fill.clone(), words.clone())),
         _ => None,
     });
     let colours: Vec<_> = colours.collect();
@@ -156,23 +150,19 @@ fn the_map_of_the_methods_is_its_tables() {
         let table = figure.tables.iter().find(|table| table.name == entry(&titles, title)).expect("a table");
         assert_eq!((frame.x.label.as_str(), frame.y.label.as_str()), ("time [t_c]", "strength x"));
         assert_eq!(table.columns[..2], ["x [1]", "t [t_c]"]);
-        let asked = elements.iter().find_map(|element| match element {
-            Element::Text { at, words, .. } if at[1] > top && at[1] < bottom => {
-                number(words.strip_prefix("error ")?.strip_suffix(" rad")?)
-            }
-            _ => None,
-        });
+        let mut beside = texts(&elements).filter(|text| text.at[1] > top && text.at[1] < bottom);
+        let asked = beside.find_map(|text| number(text.words.strip_prefix("error ")?.strip_suffix(" rad")?));
         let asked = asked.expect("an error").log10();
         let mut times: Vec<_> = table.rows.iter().map(|row| row[1]).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
         let mut shown = Vec::new();
         for pair in elements.windows(2) {
-            let [Element::Path { points, fill, .. }, Element::Path { points: edge, .. }] = pair else { continue };
+            let [Element::Path(Path { points, fill, .. }), Element::Path(Path { points: edge, .. })] = pair else {
+                continue;
+            };
             let Some((_, name)) = colours.iter().find(|(colour, _)| colour == fill) else { continue };
-            let is_here =
-                points.iter().all(|[x, y]| *x > left - 0.1 && *x < right + 0.1 && *y > top - 0.1 && *y < bottom + 0.1);
-            if !is_here {
+            if !points.iter().all(|at| holds(&frame.corners, *at, 0.1)) {
                 continue;
             }
             let head = entry(&methods, name);

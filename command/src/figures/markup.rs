@@ -2,7 +2,6 @@
 //!
 //! Labels in pictures become `<tspan>`s, captions Markdown or HTML; a name in a table loses its markup.
 
-/// A stretch of text in one style.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Run {
     pub(super) text: String,
@@ -11,7 +10,6 @@ pub(super) struct Run {
     pub(super) level: Level,
 }
 
-/// Where a run stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Level {
     Line,
@@ -19,7 +17,6 @@ pub(super) enum Level {
     Above,
 }
 
-/// The runs of a text.
 pub(super) fn runs(text: &str) -> Vec<Run> {
     let mut runs = Vec::new();
     let mut run = Run { text: String::new(), italic: false, bold: false, level: Level::Line };
@@ -69,7 +66,6 @@ pub fn plain(text: &str) -> String {
     runs(text).iter().map(|run| format!("{}{}", sign(run.level), run.text)).collect()
 }
 
-/// The text as HTML.
 pub fn html(text: &str) -> String {
     let wrapped = |inner: String, tag: &str, wanted: bool| {
         if wanted { format!("<{tag}>{inner}</{tag}>") } else { inner }

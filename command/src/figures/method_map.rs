@@ -1,10 +1,6 @@
 //! Which approximate motion meets a given error, over strength of the torque and time.
 
-use super::axes::{Axis, BELOW, LEFT, Panel};
-use super::style::{BLACK, PAGE, SMALL, solid};
-use super::svg::{Anchor, Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Sheet};
+use super::drawing::*;
 use twofold_verify::checks::regimes::method_errors::{Errors, Geometry, errors};
 
 /// Powers of ten of the strength, two each decade.
@@ -40,21 +36,13 @@ struct Map {
     methods: Vec<(usize, usize)>,
 }
 
-fn name(geometry: Geometry) -> &'static str {
+/// Names in tables and in headings.
+fn names(geometry: Geometry) -> (&'static str, &'static str) {
     match geometry {
-        Geometry::NearAxis => "near-axis",
-        Geometry::Tilted => "tilted",
-        Geometry::Single => "single",
-        Geometry::NearSeparatrix => "near-separatrix",
-    }
-}
-
-fn title(geometry: Geometry) -> &'static str {
-    match geometry {
-        Geometry::NearAxis => "twofold, *L* near *Z*",
-        Geometry::Tilted => "twofold, *L* tilted",
-        Geometry::Single => "single",
-        Geometry::NearSeparatrix => "near the separatrix",
+        Geometry::NearAxis => ("near-axis", "twofold, *L* near *Z*"),
+        Geometry::Tilted => ("tilted", "twofold, *L* tilted"),
+        Geometry::Single => ("single", "single"),
+        Geometry::NearSeparatrix => ("near-separatrix", "near the separatrix"),
     }
 }
 
@@ -74,7 +62,7 @@ fn map(geometry: Geometry) -> Result<Map, String> {
     let mut columns = vec!["x [1]".to_owned(), "t [t_c]".to_owned()];
     columns.extend(shown.map(|i| format!("{}: error of n [rad]", COLUMNS[i])));
     columns.extend(["second", "first"].map(|order| format!("mean {order}: error of n; L/G or e_x [1]")));
-    let mut table = Table::new(name(geometry), columns);
+    let mut table = Table::new(names(geometry).0, columns);
     for (strength, errors) in &rows {
         for Errors { time, printed, corrected, averaged, averaged_state } in errors {
             let mut row = vec![*strength, *time, averaged[1], averaged[0]];
@@ -88,28 +76,23 @@ fn map(geometry: Geometry) -> Result<Map, String> {
 }
 
 fn draw(maps: &[Map]) -> String {
-    let (top, height, gap, between) = (16.0, 92.0, 20.0, 12.0);
     let left = LEFT + 2.0;
-    let width = (PAGE - left - 22.0 - 3.0 * between) / 4.0;
-    let bottom = top + 2.0 * height + gap + BELOW;
+    let width = (PAGE - left - 22.0 - 3.0 * 12.0) / 4.0;
+    let grid = Grid { left, top: 16.0, width, height: 92.0, between: [12.0, 20.0] };
+    let bottom = grid.bottom(2) + BELOW;
     let mut page = Page::new("method-regimes", PAGE, bottom + 18.0);
     for (down, (asked, power)) in ASKED.into_iter().enumerate() {
         for (across, (map, geometry)) in maps.iter().zip(Geometry::ALL).enumerate() {
-            let frame = Rectangle {
-                left: left + (width + between) * across as f64,
-                top: top + (height + gap) * down as f64,
-                width,
-                height,
-            };
+            let frame = grid.frame(across, down);
             let x = Axis::logarithmic("time [*t*_{c}]", 10f64.powf(TIMES.0), 10f64.powf(TIMES.1));
             let x = if down == 0 { x.bare() } else { x };
             let y = Axis::logarithmic("strength *x*", 10f64.powf(STRENGTHS.0), 10f64.powf(STRENGTHS.1));
             let panel = Panel::new(frame, x, if across == 0 { y } else { y.bare() });
             fill(&mut page, map, frame, asked);
             panel.draw_frame(&mut page);
-            panel.letter(&mut page, 4 * down + across, 8, if down == 0 { title(geometry) } else { "" });
+            panel.letter(&mut page, 4 * down + across, 8, if down == 0 { names(geometry).1 } else { "" });
         }
-        let middle = top + (height + gap) * down as f64 + height / 2.0;
+        let middle = grid.frame(0, down).top + grid.height / 2.0;
         page.turned_text([PAGE - 14.0, middle], 90.0, Anchor::Middle, SMALL, BLACK, &format!("error {power} rad"));
     }
     legend(&mut page, bottom + 8.0);
@@ -149,8 +132,7 @@ fn legend(page: &mut Page, top: f64) {
     for ((name, colour), width) in METHODS.iter().rev().zip(widths) {
         let r = Rectangle { left, top, width: 12.0, height: 8.0 };
         page.cell(r, colour);
-        let corners = [[left, top], [left + 12.0, top], [left + 12.0, top + 8.0], [left, top + 8.0], [left, top]];
-        page.path(&corners, solid(BLACK, 0.6));
+        page.outline(r, solid(BLACK, 0.6));
         page.text([left + 15.0, top + 7.0], Anchor::Start, SMALL, BLACK, name);
         left += width;
     }

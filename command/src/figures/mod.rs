@@ -13,6 +13,7 @@ mod contour;
 mod curve_tests;
 #[cfg(test)]
 mod data_tests;
+mod drawing;
 #[cfg(test)]
 mod drawn;
 mod euler_angles;
@@ -46,62 +47,52 @@ mod wave_spectra;
 mod waves;
 mod work_precision;
 
-pub use examples::examples;
+pub(crate) use examples::examples;
 pub use golden::golden_tables;
-pub use markup::{html, markdown, plain};
-pub use png::png;
+pub(crate) use markup::{html, markdown, plain};
+pub(crate) use png::png;
 use rayon::prelude::*;
 use recipe::Sheet;
-pub use recipe::{OF_A_SCENE, RECIPES, Recipe};
-pub use subject::{Shown, Subject};
-pub use table::Table;
-pub use work_precision::work_precision;
+pub(crate) use recipe::{OF_A_SCENE, RECIPES, Recipe};
+pub(crate) use subject::Subject;
+pub(crate) use table::Table;
+pub(crate) use work_precision::work_precision;
 
 /// A figure: its drawing, its data and what there is to say about it.
 #[derive(Debug, Clone)]
 pub struct Figure {
-    /// Name of its files, without endings.
-    pub name: String,
+    pub(crate) name: String,
     /// Number of the paper's figure, by order of appearance.
-    pub paper_figure: Option<u8>,
-    /// What it is, one line of plain text.
-    pub summary: String,
+    pub(crate) paper_figure: Option<u8>,
+    pub(crate) summary: String,
     /// Caption, with the markup of [`markdown`], [`html`] and [`plain`].
-    pub caption: Caption,
-    /// The data.
-    pub tables: Vec<Table>,
+    pub(crate) caption: Caption,
+    pub(crate) tables: Vec<Table>,
     /// The picture, a whole SVG document.
-    pub svg: String,
+    pub(crate) svg: String,
 }
 
-/// What a caption says.
 #[derive(Debug, Clone)]
-pub struct Caption {
-    /// What is shown.
-    pub shows: String,
-    /// With which parameters.
-    pub parameters: String,
-    /// By which method and equations.
-    pub method: String,
-    /// What the picture says.
-    pub says: String,
+pub(crate) struct Caption {
+    pub(crate) shows: String,
+    pub(crate) parameters: String,
+    pub(crate) method: String,
+    pub(crate) says: String,
 }
 
 impl Caption {
-    /// The parts in order.
-    pub fn paragraphs(&self) -> [&str; 4] {
+    pub(crate) fn paragraphs(&self) -> [&str; 4] {
         [&self.shows, &self.parameters, &self.method, &self.says]
     }
 }
 
 impl Figure {
-    /// Name of the file of one of its tables.
-    pub fn table_file(&self, table: &Table) -> String {
+    pub(crate) fn table_file(&self, table: &Table) -> String {
         if table.name.is_empty() { format!("{}.csv", self.name) } else { format!("{}.{}.csv", self.name, table.name) }
     }
 
     /// Summary, caption and data files as a page of Markdown.
-    pub fn description(&self) -> String {
+    pub(crate) fn description(&self) -> String {
         let number = self.paper_figure.map_or(String::new(), |number| format!(" (Figure {number} of the paper)"));
         let mut page = format!("# {}{number}\n", self.summary);
         for paragraph in self.caption.paragraphs() {
@@ -113,9 +104,6 @@ impl Figure {
 }
 
 /// All figures, drawn: the paper's in its order, then ours.
-///
-/// # Errors
-/// If the data of one cannot be computed.
 pub fn all() -> Result<Vec<Figure>, String> {
     let examples = examples()?;
     RECIPES.par_iter().map(|recipe| recipe.draw(&examples)).collect()

@@ -4,14 +4,7 @@ use nalgebra::Vector3;
 use twofold::dynamics::{BodyState, Problem};
 use twofold::euler_angles::EulerAngles;
 
-use super::sphere::{View, arc};
-use super::style::{
-    BLACK, BLUE, COLUMN, GREEN, GREY, LIGHT, Line, ORANGE, PURPLE, VERMILION, dash_dotted, dashed, solid,
-};
-use super::subject::{Subject, times};
-use super::svg::Page;
-use super::table::Table;
-use super::{Caption, Sheet};
+use super::drawing::*;
 use twofold_verify::paper_examples::{COEFFICIENTS, SPIN, spheroid};
 
 /// Values of `l.(s l)` between those of the three axes.
@@ -53,8 +46,7 @@ fn near_separatrix() -> Result<Subject, String> {
     Subject::new("near Y", Problem::new(spheroid, COEFFICIENTS.tensor(), state)?, angles, SPAN)
 }
 
-/// The two closed lines with `l.(s l) = h`: about the axis of the smallest eigenvalue below the middle one, about that of
-/// the largest above.
+/// The two closed lines with `l.(s l) = h`: below the middle eigenvalue about the axis of the smallest, above about that of the largest.
 fn contour(h: f64) -> Vec<Vec<Vector3<f64>>> {
     let [largest, middle, smallest] = [COEFFICIENTS.xx, COEFFICIENTS.yy, COEFFICIENTS.zz];
     let about_z = h < middle;

@@ -3,16 +3,7 @@
 use nalgebra::Vector3;
 use twofold::solutions::perturbation::Perturbation;
 
-use super::axes::{Axis, BELOW, LEFT, Panel, heading};
-use super::legend::{Sample, legend_row};
-use super::number::{Spread, number, significant};
-use super::parameters::parameters;
-use super::sphere::View;
-use super::style::{BLACK, BLUE, GREEN, Line, PAGE, VERMILION, dashed, dotted, solid};
-use super::subject::times;
-use super::svg::{Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Sheet, Subject};
+use super::drawing::*;
 
 const NUMERICAL: Line = solid(BLACK, 0.9);
 /// Lines of the solutions of a subject, in its order.

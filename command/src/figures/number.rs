@@ -1,6 +1,6 @@
 //! Numbers in captions, with markup.
 
-use super::axes::signed;
+use super::axes::{power_of_ten, signed};
 use twofold_scene::significant::rounded;
 
 /// Six significant digits without trailing zeros.
@@ -19,7 +19,7 @@ pub(super) fn significant(x: f64, digits: usize) -> String {
     let trimmed = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     match power {
         None => signed(trimmed),
-        Some(power) => format!("{} × 10^{{{}}}", signed(trimmed), signed(&power.to_string())),
+        Some(power) => format!("{} × {}", signed(trimmed), power_of_ten(power)),
     }
 }
 

@@ -25,18 +25,12 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
 });
 
 /// The SVG with its fonts resolved, as it will be drawn.
-///
-/// # Errors
-/// Text that is not SVG.
 pub(super) fn tree(svg: &str) -> Result<Tree, String> {
     let options = Options { fontdb: FONTS.clone(), ..Options::default() };
     Tree::from_str(svg, &options).map_err(|error| format!("not SVG: {error}"))
 }
 
 /// The PNG of an SVG, at 300 pixels per inch.
-///
-/// # Errors
-/// Text that is not SVG, or a picture that is too large.
 pub fn png(svg: &str) -> Result<Vec<u8>, String> {
     let tree = tree(svg)?;
     let scale = RESOLUTION / CSS_PIXELS;

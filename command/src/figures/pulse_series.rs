@@ -4,15 +4,7 @@ use twofold::observables::pulsar::Stamped;
 use twofold::observables::pulsar::period::approximate_period;
 use twofold::solutions::perturbation::{Perturbation, ShiftedRates};
 
-use super::axes::{Axis, BELOW, LEFT, Mark, Panel, TwoRows};
-use super::legend::{Sample, legend};
-use super::number::{Spread, significant};
-use super::parameters::{line_of_sight, parameters};
-use super::style::{BLACK, BLUE, GREEN, GREY, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
-use super::subject::times;
-use super::svg::{Anchor, Page};
-use super::table::Table;
-use super::{Caption, Sheet, Subject};
+use super::drawing::*;
 use twofold_verify::pulse_series::{PaperCurves, PulseSeries, Viewing, pulse_series};
 
 /// The curves with the names that the legend and the data give their angles and rates.
@@ -37,7 +29,6 @@ impl Series {
         self.curves.as_ref().map(|table| table.points(0, 1 + row + 2 * i))
     }
 
-    /// All values of a row, with those of its curves.
     fn values(&self, row: usize) -> Vec<f64> {
         let points = if row == 0 { &self.pulses.periods } else { &self.pulses.lengths };
         let on_curves = (0..CURVES.len()).filter_map(|i| self.curve(row, i)).flatten().map(|(_, y)| y);
@@ -85,8 +76,7 @@ fn series(subject: &Subject) -> Result<Series, String> {
     Ok(Series { pulses, curves })
 }
 
-/// Period and length with the angles and rates of the motion at the instant; by Eqs. (51) and (56) with its mean rates, and with
-/// those of Eq. (57).
+/// Period and length with the angles and rates at the instant; by Eqs. (51) and (56) with mean rates, and with those of Eq. (57).
 fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, String> {
     let message = |error: twofold::Error| format!("{}: {error}", subject.name);
     let (viewer, pulsar) = subject.line_of_sight()?;
@@ -115,10 +105,10 @@ fn curves(subject: &Subject, solution: &Perturbation<f64>) -> Result<Table, Stri
 }
 
 fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
-    let grid = TwoRows { columns: subjects.len(), height: 92.0, between: 46.0 };
+    let grid = Grid::two_rows(subjects.len(), 92.0, 46.0);
     let with_legend = series.iter().any(|series| series.curves.is_some());
     let legend_height = if with_legend { 14.0 } else { 0.0 };
-    let mut page = Page::new(name, PAGE, grid.bottom() + BELOW + legend_height);
+    let mut page = Page::new(name, PAGE, grid.bottom(2) + BELOW + legend_height);
     for (i, (subject, series)) in subjects.iter().zip(series).enumerate() {
         let x = subject.scale.time_axis(subject.shown.pulses);
         for (row, (points, label, taken_off)) in
@@ -168,7 +158,7 @@ fn draw(name: &str, subjects: &[&Subject], series: &[Series]) -> String {
         }
     }
     if with_legend {
-        let y = grid.bottom() + BELOW + 8.0;
+        let y = grid.bottom(2) + BELOW + 8.0;
         legend(&mut page, [LEFT, y], &[(Sample::Mark(Mark::Disc, BLACK), "pulses")]);
         for ((line, of), x) in CURVES.iter().zip([66.0, 210.0, 316.0]) {
             let name = if x < 70.0 { format!("Eqs. (51), (56) {of}") } else { (*of).to_owned() };
@@ -183,7 +173,6 @@ fn reference(values: &[f64]) -> Option<f64> {
     Spread::of(values.iter().copied()).and_then(Spread::reference)
 }
 
-/// Points with a value taken off.
 fn shifted(points: impl Iterator<Item = (f64, f64)>, by: f64) -> Vec<(f64, f64)> {
     points.map(|(t, value)| (t, value - by)).collect()
 }

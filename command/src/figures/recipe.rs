@@ -5,16 +5,16 @@ use super::{
     momentum_sphere, motion, pulse_series, regime_map, wave_spectra, waves,
 };
 
-/// What a figure is drawn from.
+type OfMotions = fn(&str, &[&Subject]) -> Result<Sheet, String>;
+
 #[derive(Clone, Copy)]
 enum Maker {
     /// Nothing but itself.
     Alone(fn() -> Result<Sheet, String>),
     /// Motions with what the figure shows of them: those of the paper's examples with the given places, or one of a scene.
-    Motions(Needs, &'static [usize], fn(&str, &[&Subject]) -> Result<Sheet, String>),
+    Motions(Needs, &'static [usize], OfMotions),
 }
 
-/// What a figure of a motion needs beside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Needs {
     Nothing,
@@ -22,33 +22,24 @@ enum Needs {
     ObserverAndBeam,
 }
 
-/// What a maker makes.
 pub(super) struct Sheet {
     pub(super) caption: Caption,
     pub(super) tables: Vec<Table>,
     pub(super) svg: String,
 }
 
-/// A figure that can be drawn.
 #[derive(Clone, Copy)]
 pub struct Recipe {
-    /// Name of the figure and of its files.
     pub name: &'static str,
     /// Number of the paper's figure, by order of appearance.
     pub paper_figure: Option<u8>,
-    /// What it is, one line.
     pub summary: &'static str,
     maker: Maker,
 }
 
 /// All figures: the paper's in its order, then ours.
 pub const RECIPES: &[Recipe] = &[
-    Recipe {
-        name: "euler-angles",
-        paper_figure: Some(1),
-        summary: "Euler angles between the frames X-Y-Z and x-y-z",
-        maker: Maker::Alone(euler_angles::common),
-    },
+    alone("euler-angles", Some(1), "Euler angles between the frames X-Y-Z and x-y-z", euler_angles::common),
     Recipe {
         name: "motion-tp-1",
         paper_figure: Some(2),
@@ -73,18 +64,8 @@ pub const RECIPES: &[Recipe] = &[
         summary: "Example II of single precession: Euler angles and the paths of the body axes",
         maker: Maker::Motions(Needs::Nothing, &[3], motion::sheet),
     },
-    Recipe {
-        name: "euler-angles-yzx",
-        paper_figure: Some(6),
-        summary: "Euler angles between the frames Y-Z-X and x-y-z",
-        maker: Maker::Alone(euler_angles::permuted),
-    },
-    Recipe {
-        name: "beam-cone",
-        paper_figure: Some(7),
-        summary: "Cone model of pulsar radiation: magnetic axis and line of sight",
-        maker: Maker::Alone(beam_cone::sheet),
-    },
+    alone("euler-angles-yzx", Some(6), "Euler angles between the frames Y-Z-X and x-y-z", euler_angles::permuted),
+    alone("beam-cone", Some(7), "Cone model of pulsar radiation: magnetic axis and line of sight", beam_cone::sheet),
     Recipe {
         name: "beam-alignment",
         paper_figure: Some(8),
@@ -115,24 +96,14 @@ pub const RECIPES: &[Recipe] = &[
         summary: "Spectra of the gravitational waves of tp-I and tp-II, with the third harmonic enlarged",
         maker: Maker::Motions(Needs::Waves, &[0, 1], wave_spectra::sheet),
     },
-    Recipe {
-        name: "bound-factor",
-        paper_figure: None,
-        summary: "Factor eta of the bounds from pulsars against the inclination",
-        maker: Maker::Alone(bound_factor::sheet),
-    },
-    Recipe {
-        name: "perturbation-regimes",
-        paper_figure: None,
-        summary: "Error of the perturbation solutions over their parameters",
-        maker: Maker::Alone(regime_map::sheet),
-    },
-    Recipe {
-        name: "method-regimes",
-        paper_figure: None,
-        summary: "Which approximate motion meets a given error, by strength of the torque and time",
-        maker: Maker::Alone(method_map::sheet),
-    },
+    alone("bound-factor", None, "Factor eta of the bounds from pulsars against the inclination", bound_factor::sheet),
+    alone("perturbation-regimes", None, "Error of the perturbation solutions over their parameters", regime_map::sheet),
+    alone(
+        "method-regimes",
+        None,
+        "Which approximate motion meets a given error, by strength of the torque and time",
+        method_map::sheet,
+    ),
     Recipe {
         name: "momentum-sphere",
         paper_figure: None,
@@ -143,43 +114,36 @@ pub const RECIPES: &[Recipe] = &[
 
 /// Figures of any motion, for a scene.
 pub const OF_A_SCENE: &[Recipe] = &[
-    Recipe {
-        name: "motion",
-        paper_figure: None,
-        summary: "Euler angles and the paths of the body axes",
-        maker: Maker::Motions(Needs::Nothing, &[0], motion::sheet),
-    },
-    Recipe {
-        name: "beam-alignment",
-        paper_figure: None,
-        summary: "Cosine of the angle between beam and line of sight in time",
-        maker: Maker::Motions(Needs::ObserverAndBeam, &[0], alignment::sheet),
-    },
-    Recipe {
-        name: "beam-alignment-spectra",
-        paper_figure: None,
-        summary: "Spectrum of the cosine of the angle between beam and line of sight",
-        maker: Maker::Motions(Needs::ObserverAndBeam, &[0], alignment_spectra::sheet),
-    },
-    Recipe {
-        name: "pulse-series",
-        paper_figure: None,
-        summary: "Periods and lengths of the pulses",
-        maker: Maker::Motions(Needs::ObserverAndBeam, &[0], pulse_series::sheet),
-    },
-    Recipe {
-        name: "waves",
-        paper_figure: None,
-        summary: "Gravitational waves h_+ and h_x in time",
-        maker: Maker::Motions(Needs::Waves, &[0], waves::sheet),
-    },
-    Recipe {
-        name: "wave-spectra",
-        paper_figure: None,
-        summary: "Spectra of the gravitational waves",
-        maker: Maker::Motions(Needs::Waves, &[0], wave_spectra::sheet),
-    },
+    of_scene("motion", "Euler angles and the paths of the body axes", Needs::Nothing, motion::sheet),
+    of_scene(
+        "beam-alignment",
+        "Cosine of the angle between beam and line of sight in time",
+        Needs::ObserverAndBeam,
+        alignment::sheet,
+    ),
+    of_scene(
+        "beam-alignment-spectra",
+        "Spectrum of the cosine of the angle between beam and line of sight",
+        Needs::ObserverAndBeam,
+        alignment_spectra::sheet,
+    ),
+    of_scene("pulse-series", "Periods and lengths of the pulses", Needs::ObserverAndBeam, pulse_series::sheet),
+    of_scene("waves", "Gravitational waves h_+ and h_x in time", Needs::Waves, waves::sheet),
+    of_scene("wave-spectra", "Spectra of the gravitational waves", Needs::Waves, wave_spectra::sheet),
 ];
+
+const fn alone(
+    name: &'static str,
+    paper_figure: Option<u8>,
+    summary: &'static str,
+    make: fn() -> Result<Sheet, String>,
+) -> Recipe {
+    Recipe { name, paper_figure, summary, maker: Maker::Alone(make) }
+}
+
+const fn of_scene(name: &'static str, summary: &'static str, needs: Needs, make: OfMotions) -> Recipe {
+    Recipe { name, paper_figure: None, summary, maker: Maker::Motions(needs, &[0], make) }
+}
 
 impl Recipe {
     /// What the figure needs of a scene file and a motion lacks.
@@ -195,11 +159,7 @@ impl Recipe {
         }
     }
 
-    /// Draws the figure: those of [`RECIPES`] with the [`examples`](super::examples()), those of [`OF_A_SCENE`] with one
-    /// motion.
-    ///
-    /// # Errors
-    /// If its data cannot be computed.
+    /// Draws the figure: those of [`RECIPES`] with the four examples, those of [`OF_A_SCENE`] with one motion.
     pub fn draw(&self, motions: &[Subject]) -> Result<Figure, String> {
         let sheet = match self.maker {
             Maker::Alone(make) => make(),

@@ -3,12 +3,8 @@
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::{Form, Precession};
 
-use super::axes::{Axis, BELOW, Mark, Panel, draw_mark};
 use super::contour::{bands, isoline};
-use super::style::{BLACK, PAGE, SMALL, solid};
-use super::svg::{Anchor, Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Sheet};
+use super::drawing::*;
 use twofold_verify::checks::regimes::perturbation_error::Case;
 
 /// `beta_0` of the columns of the maps.
@@ -94,7 +90,6 @@ fn map(
 const COLOURS: [[f64; 3]; 5] =
     [[253.0, 231.0, 37.0], [94.0, 201.0, 98.0], [33.0, 145.0, 140.0], [59.0, 82.0, 139.0], [68.0, 1.0, 84.0]];
 
-/// Colour of a band by its place from 0 to 1.
 fn colour(part: f64) -> String {
     let place = part.clamp(0.0, 1.0) * 4.0;
     let i = (place as usize).min(3);
@@ -108,12 +103,11 @@ const BANDS: usize = 10;
 fn draw(maps: &[Map; 4]) -> String {
     let (left, top, height, between, below) = (40.0, 18.0, 128.0, 52.0, BELOW + 18.0);
     let width = (PAGE - left - 52.0 - between) / 2.0;
+    let grid = Grid { left, top, width, height, between: [between, below] };
     let mut page = Page::new("perturbation-regimes", PAGE, 2.0 * top + 2.0 * height + below + BELOW - top);
     let names = ["twofold, printed", "twofold, corrected", "single, printed", "single, corrected"];
     for (i, (map, what)) in maps.iter().zip(names).enumerate() {
-        let (column, row) = ((i % 2) as f64, (i / 2) as f64);
-        let frame =
-            Rectangle { left: left + (width + between) * column, top: top + (height + below) * row, width, height };
+        let frame = grid.frame(i % 2, i / 2);
         let (powers, label) = if i < 2 { (POWERS, "*A* *t*_{c}") } else { (ASYMMETRY_POWERS, "asymmetry of *s*") };
         let x = Axis::linear("*β*_{0} [rad]", INCLINATIONS.0, INCLINATIONS.1);
         let y = Axis::logarithmic(label, 10f64.powf(powers.0), 10f64.powf(powers.1));
@@ -163,20 +157,17 @@ fn draw(maps: &[Map; 4]) -> String {
     page.finish("Error of the perturbation solutions")
 }
 
-/// The scale of colours.
 fn scale(page: &mut Page, left: f64, top: f64, height: f64) {
     let step = height / BANDS as f64;
     for band in 0..BANDS {
         let r = Rectangle { left, top: top + height - step * (band + 1) as f64, width: 9.0, height: step };
         page.cell(r, &colour((band as f64 + 0.5) / BANDS as f64));
     }
-    let corners = [[left, top], [left + 9.0, top], [left + 9.0, top + height], [left, top + height], [left, top]];
-    page.path(&corners, solid(BLACK, 0.6));
+    page.outline(Rectangle { left, top, width: 9.0, height }, solid(BLACK, 0.6));
     for power in -4..=0 {
         let y = top + height * (1.0 - (f64::from(power) - ERRORS.0) / (ERRORS.1 - ERRORS.0));
         page.path(&[[left + 6.5, y], [left + 9.0, y]], solid(BLACK, 0.6));
-        let number = format!("10^{{{}}}", super::axes::signed(&power.to_string()));
-        page.text([left + 12.0, y + 0.35 * SMALL], Anchor::Start, SMALL, BLACK, &number);
+        page.text([left + 12.0, y + 0.35 * SMALL], Anchor::Start, SMALL, BLACK, &power_of_ten(power));
     }
     page.label([left + 4.5, top - 4.5], Anchor::Middle, "error [rad]");
 }

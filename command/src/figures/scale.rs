@@ -8,17 +8,14 @@ use twofold_scene::scene_file::{Scene, Units};
 /// What is drawn for one `t_c` and for `h = 1`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
-    /// Units of the star.
     pub(super) units: Units,
     /// Strain of `h = 1` at the observer; in the paper's units one.
     strain: f64,
 }
 
 impl Scale {
-    /// The paper's units.
     pub const PAPER: Self = Self { units: Units::PAPER, strain: 1.0 };
 
-    /// That of a scene.
     pub(super) fn of_scene(scene: &Scene) -> Self {
         Self { units: scene.units, strain: scene.strain_unit() }
     }
@@ -38,7 +35,6 @@ impl Scale {
         h * self.strain
     }
 
-    /// The unit of time with markup.
     pub(super) fn time_unit(&self) -> &'static str {
         if self.units.are_physical() { "s" } else { "*t*_{c}" }
     }
@@ -59,32 +55,26 @@ impl Scale {
         format!("{what} [{}]", self.units.time_name)
     }
 
-    /// Label of an axis of frequencies.
     pub(super) fn frequency_label(&self) -> &'static str {
         if self.units.are_physical() { "frequency [Hz]" } else { "angular frequency × *t*_{c}" }
     }
 
-    /// Unit of frequencies in a sentence.
     pub(super) fn frequency_unit(&self) -> &'static str {
         if self.units.are_physical() { "Hz" } else { "rad/*t*_{c}" }
     }
 
-    /// Header of a column of frequencies.
     pub(super) fn frequency_column(&self) -> String {
         format!("frequency [{}]", if self.units.are_physical() { "Hz" } else { "rad/t_c" })
     }
 
-    /// Label of an axis of a wave in time.
     pub(super) fn wave_label(&self, symbol: &str) -> String {
         if self.units.are_physical() { symbol.to_owned() } else { format!("{symbol} *r* / *I*^{{*xx*}}") }
     }
 
-    /// Unit of waves in a sentence.
     pub(super) fn wave_unit(&self) -> &'static str {
         if self.units.are_physical() { "as strain" } else { "in units of *G* *I*^{*xx*} / (*c*^{4} *t*_{c}^{2} *r*)" }
     }
 
-    /// Unit of waves in the head of a column.
     pub(super) fn wave_column_unit(&self) -> &'static str {
         if self.units.are_physical() { "1" } else { "G I^xx / (c^4 t_c^2 r)" }
     }

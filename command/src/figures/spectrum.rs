@@ -23,7 +23,6 @@ const WEAKEST: f64 = 1e-5;
 /// Most lines that are fitted: the errors of all count the strongest one that is left out.
 const MOST_FITTED: usize = 200;
 
-/// Most lines of a table.
 const MOST_LINES: usize = 40;
 
 /// A motion long enough to part its frequencies.
@@ -44,7 +43,6 @@ impl LongMotion {
     }
 }
 
-/// A line with its name.
 pub(super) struct NamedLine {
     pub(super) frequency: f64,
     pub(super) amplitude: f64,
@@ -129,13 +127,11 @@ pub(super) fn lines_table(name: String, lines: &[NamedLine], frequency: String, 
     table
 }
 
-/// A sentence of clauses: with a capital and a full stop.
 pub(super) fn sentence(clauses: &str) -> String {
     let mut letters = clauses.chars();
     letters.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
 }
 
-/// The fundamental frequencies in words.
 pub(super) fn rates(subject: &Subject) -> Result<String, String> {
     let Some(f) = &subject.long_motion()?.frequencies else {
         return Ok(format!("{}: none is certain over the length of the series", subject.name));
@@ -157,7 +153,6 @@ pub(super) fn rates(subject: &Subject) -> Result<String, String> {
     Ok(format!("{}: {}", subject.name, known.collect::<Vec<_>>().join(", ")))
 }
 
-/// Lengths of the series.
 pub(super) fn length_in_words(subjects: &[&Subject]) -> String {
     let length = |s: &&Subject| format!("{} {}", number(s.scale.time(s.spectrum_duration)), s.scale.time_unit());
     let mut lengths: Vec<_> = subjects.iter().map(length).collect();

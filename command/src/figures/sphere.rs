@@ -5,7 +5,6 @@ use nalgebra::Vector3;
 use super::style::{GREY, LIGHT, Line, dashed, solid};
 use super::svg::{At, Page};
 
-/// A view from far away.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View {
     centre: At,
@@ -30,7 +29,6 @@ impl View {
         }
     }
 
-    /// Place of a point on the page.
     pub(super) fn at(&self, v: &Vector3<f64>) -> At {
         [self.centre[0] + self.unit * v.dot(&self.right), self.centre[1] - self.unit * v.dot(&self.up)]
     }
@@ -56,12 +54,10 @@ impl View {
         }
     }
 
-    /// A line in space, all of it drawn.
     pub(super) fn line(&self, page: &mut Page, points: &[Vector3<f64>], line: Line) {
         page.path(&points.iter().map(|v| self.at(v)).collect::<Vec<_>>(), line);
     }
 
-    /// An arrow from the origin to `head`.
     pub(super) fn arrow(&self, page: &mut Page, head: &Vector3<f64>, line: Line) {
         page.arrow(self.centre, self.at(head), line);
     }

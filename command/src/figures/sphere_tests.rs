@@ -1,7 +1,7 @@
 //! Every path on a sphere and every vector of the figures, read off the picture, is that of the tables.
 
 use super::curve_tests::{HALF_A_PIXEL, farthest};
-use super::drawn::{Ball, Element, Point, arrows, elements, number};
+use super::drawn::{Ball, Element, Path, Point, arrows, elements, number, paths as drawn_paths, texts};
 use super::layout_tests::FIGURES;
 use super::{Figure, Table, plain};
 
@@ -21,18 +21,13 @@ const DIRECTIONS: [(&str, &str, &str); 5] = [
     ("near Y", "#e69f00", "#f5dba6"),
 ];
 
-/// The paths in a picture of the sphere, each with the rows that it shows.
 fn paths(figure: &Figure, elements: &[Element]) -> Vec<(String, Vec<[f64; 3]>, &'static str, &'static str)> {
     let vectors = |table: &Table, heads: [&str; 3], until: f64| -> Vec<[f64; 3]> {
         let places = heads.map(|head| table.columns.iter().position(|column| column == head).expect("a column"));
         table.rows.iter().filter(|row| row[0].abs() <= until).map(|row| places.map(|place| row[place])).collect()
     };
     if figure.name == "momentum-sphere" {
-        let name_is = |colour: &str, name: &str| {
-            elements
-                .iter()
-                .any(|element| matches!(element, Element::Text { words, fill, .. } if words == name && fill == colour))
-        };
+        let name_is = |colour: &str, name: &str| texts(elements).any(|text| text.words == name && text.fill == colour);
         return DIRECTIONS
             .into_iter()
             .map(|(name, front, back)| {
@@ -72,16 +67,12 @@ fn every_path_on_a_sphere_is_that_of_its_columns() {
         for (name, rows, front, back) in paths(figure, &elements) {
             let what = format!("{} {name}", figure.name);
             let of = |colour: &str| -> Vec<Vec<Point>> {
-                let lines = elements.iter().filter_map(|element| match element {
-                    // The arrows and the curves beside have other widths.
-                    Element::Path { points, style, clip: None, .. }
-                        if style.0 == colour && (!is_motion || ["0.5", "1.1"].contains(&style.1.as_str())) =>
-                    {
-                        Some(points.clone())
-                    }
-                    _ => None,
-                });
-                lines.collect()
+                // The arrows and the curves beside have other widths.
+                let is_of = |Path { style, clip, .. }: &&Path| {
+                    let (stroke, width, _) = style;
+                    clip.is_none() && stroke == colour && (!is_motion || ["0.5", "1.1"].contains(&width.as_str()))
+                };
+                drawn_paths(&elements).filter(is_of).map(|path| path.points.clone()).collect()
             };
             let lines = [of(back), of(front)];
             for (is_front, lines) in [false, true].into_iter().zip(&lines) {
@@ -141,13 +132,10 @@ fn vectors_in_pictures_of_frames_are_those_of_the_tables() {
         if name != "beam-cone" {
             let node = vector("line of nodes");
             let ends = [node.map(|part| -part), node].map(|end| ball.place(end));
-            let is_drawn = elements.iter().any(|element| match element {
-                Element::Path { points, style, .. } => {
-                    style.0 == "#d55e00"
-                        && points.len() == 2
-                        && ends.iter().zip(points).all(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]) < HALF_A_PIXEL)
-                }
-                _ => false,
+            let is_drawn = drawn_paths(&elements).any(|Path { points, style, .. }| {
+                style.0 == "#d55e00"
+                    && points.len() == 2
+                    && ends.iter().zip(points).all(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]) < HALF_A_PIXEL)
             });
             assert!(is_drawn, "{name}: the line of nodes is elsewhere");
         }

@@ -28,7 +28,6 @@ pub(super) const BLUE: &str = "#0072b2";
 pub(super) const VERMILION: &str = "#d55e00";
 pub(super) const PURPLE: &str = "#cc79a7";
 
-/// How a line is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Line {
     pub(super) colour: &'static str,
@@ -37,22 +36,18 @@ pub(super) struct Line {
     pub(super) dashes: &'static str,
 }
 
-/// A solid line.
 pub(super) const fn solid(colour: &'static str, width: f64) -> Line {
     Line { colour, width, dashes: "" }
 }
 
-/// A dashed line.
 pub(super) const fn dashed(colour: &'static str, width: f64) -> Line {
     Line { colour, width, dashes: "5 2.5" }
 }
 
-/// A dotted line.
 pub(super) const fn dotted(colour: &'static str, width: f64) -> Line {
     Line { colour, width, dashes: "1.2 1.8" }
 }
 
-/// A line of dashes and dots.
 pub(super) const fn dash_dotted(colour: &'static str, width: f64) -> Line {
     Line { colour, width, dashes: "6 2 1.2 2" }
 }

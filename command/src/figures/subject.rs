@@ -24,9 +24,7 @@ pub struct Shown {
     pub equatorial_axis: f64,
     /// `m.n`.
     pub beam: f64,
-    /// Waves.
     pub waves: f64,
-    /// Pulse series.
     pub pulses: f64,
 }
 
@@ -45,13 +43,9 @@ pub struct Subject {
     pub printed: Result<Perturbation<f64>, &'static str>,
     /// The corrected solution with the same initial values.
     pub corrected: Option<Perturbation<f64>>,
-    /// The observer.
     pub observer: Option<Viewer>,
-    /// The beam.
     pub pulsar: Option<Pulsar>,
-    /// How much is shown.
     pub shown: Shown,
-    /// The motion.
     pub motion: TaylorMotion<f64>,
     /// Length of the series of which spectra are taken, t_c.
     pub(super) spectrum_duration: f64,
@@ -62,12 +56,7 @@ pub struct Subject {
 const MOST_ROTATION: f64 = 600.0;
 
 impl Subject {
-    /// The motion of `duration` (t_c, forwards or backwards) without observer and beam.
-    ///
-    /// Long motions are shown from the start for as long as curves can be told apart.
-    ///
-    /// # Errors
-    /// A motion that cannot be computed.
+    /// The motion of `duration` (t_c, either way) without observer and beam, shown for as long as curves can be told apart.
     pub fn new(
         name: &str,
         problem: Problem<f64>,
@@ -107,9 +96,6 @@ impl Subject {
     }
 
     /// The motion of a scene.
-    ///
-    /// # Errors
-    /// A motion that cannot be computed.
     pub fn of_scene(name: &str, scene: &Scene) -> Result<Self, String> {
         let motion = Self::new(name, scene.problem, scene.initial_angles, scene.duration())?;
         let (scale, printed) = (Scale::of_scene(scene), scene.perturbation);
@@ -136,28 +122,20 @@ impl Subject {
     }
 
     /// The observer.
-    ///
-    /// # Errors
-    /// A motion without one.
     pub(super) fn viewer(&self) -> Result<Viewer, String> {
         self.observer.ok_or_else(|| format!("{}: no observer is given", self.name))
     }
 
-    /// Whether the strain at the observer is not known.
     pub(super) fn lacks_distance(&self) -> bool {
         self.scale.units.are_physical() && self.observer.is_some_and(|viewer| viewer.distance.is_none())
     }
 
     /// The observer and the beam.
-    ///
-    /// # Errors
-    /// A motion without one of them.
     pub(super) fn line_of_sight(&self) -> Result<(Viewer, Pulsar), String> {
         Ok((self.viewer()?, self.pulsar.ok_or_else(|| format!("{}: no beam is given", self.name))?))
     }
 
-    /// `alpha'` and `|gamma'|` of free precession at the mean inclination, Eq. (48), as they are drawn, where the motion is twofold precession
-    /// by its constants.
+    /// `alpha'` and `|gamma'|` of free precession, Eq. (48), as they are drawn, where the motion is twofold precession by its constants.
     pub(super) fn free_rates(&self) -> Vec<f64> {
         let twofold = self.printed.ok().filter(|solution| solution.zeroth_rate != 0.0);
         let gamma = self.problem.spheroid().oblateness() * self.spin();
@@ -165,7 +143,6 @@ impl Subject {
         twofold.map_or(Vec::new(), |solution| vec![drawn(solution.zeroth_rate), drawn(gamma)])
     }
 
-    /// State at a time of the motion.
     pub(super) fn state(&self, t: f64) -> Result<BodyState<f64>, String> {
         self.motion.state(t).map_err(|error| format!("{}: {error}", self.name))
     }

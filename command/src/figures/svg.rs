@@ -5,10 +5,8 @@ use std::fmt::Write;
 use super::markup::{Level, escaped, runs};
 use super::style::{CENTIMETRE, FONTS, LABEL, Line};
 
-/// A point of the page.
 pub(super) type At = [f64; 2];
 
-/// A rectangle of the page.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rectangle {
     pub(super) left: f64,
@@ -38,7 +36,6 @@ pub(super) enum Anchor {
 /// Smallest size of letters, those below and above the line included.
 const SMALLEST: f64 = 7.0;
 
-/// A page.
 #[derive(Debug)]
 pub(super) struct Page {
     name: String,
@@ -73,12 +70,16 @@ impl Page {
         self.body.push('\n');
     }
 
-    /// A line through points.
     pub(super) fn path(&mut self, points: &[At], line: Line) {
         if points.len() > 1 {
             let data = path_data(points);
             self.write(format_args!("<path d=\"{data}\" fill=\"none\"{}/>", stroke(line)));
         }
+    }
+
+    pub(super) fn outline(&mut self, r: Rectangle, line: Line) {
+        let (right, bottom) = (r.right(), r.bottom());
+        self.path(&[[r.left, r.top], [right, r.top], [right, bottom], [r.left, bottom], [r.left, r.top]], line);
     }
 
     /// A filled polygon without a border.
@@ -87,8 +88,7 @@ impl Page {
         self.write(format_args!("<path d=\"{data}Z\" fill=\"{fill}\"/>"));
     }
 
-    /// A filled rectangle that leaves no seam to its neighbours, drawn from left to right and upwards: it reaches a little over its
-    /// lower and its right side.
+    /// A filled rectangle that reaches a little over its lower and its right side, so that no seam is left between neighbours.
     pub(super) fn cell(&mut self, r: Rectangle, fill: &str) {
         self.write(format_args!(
             "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>",
@@ -99,7 +99,6 @@ impl Page {
         ));
     }
 
-    /// A circle, filled or not.
     pub(super) fn circle(&mut self, [x, y]: At, radius: f64, fill: &str, line: Option<Line>) {
         let stroke = line.map(stroke).unwrap_or_default();
         self.write(format_args!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"{fill}\"{stroke}/>"));

@@ -1,6 +1,5 @@
 //! The data of a figure as columns of numbers.
 
-/// A table: columns of the same length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// What tells it from the other tables of its figure; empty where there is one only.
@@ -17,7 +16,6 @@ impl Table {
         Self { name: name.into(), columns: columns.into_iter().map(Into::into).collect(), rows: Vec::new() }
     }
 
-    /// Adds a row.
     pub(super) fn push(&mut self, row: impl Into<Vec<f64>>) {
         let row = row.into();
         debug_assert_eq!(row.len(), self.columns.len(), "a number for each column of {}", self.name);

@@ -3,14 +3,9 @@
 use twofold::dynamics::BodyState;
 use twofold::observables::gravitational_wave::Polarizations;
 
-use super::axes::{Axis, BELOW, Panel, TwoRows};
-use super::number::{number, significant};
-use super::parameters::{line_of_sight, parameters};
+use super::drawing::*;
 use super::spectrum::{self, NamedLine, Spectrum};
-use super::style::{BLACK, Line, PAGE, SMALL, VERMILION, dashed, dotted, solid};
-use super::svg::{Anchor, Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Sheet, Subject, waves};
+use super::waves;
 
 const LINE: Line = solid(BLACK, 0.8);
 
@@ -79,8 +74,8 @@ fn part(spectrum: &Spectrum, rate: f64) -> impl Iterator<Item = (f64, f64)> {
 }
 
 fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f64) -> Result<String, String> {
-    let grid = TwoRows { columns: subjects.len(), height: 98.0, between: 44.0 };
-    let mut page = Page::new(name, PAGE, grid.bottom() + BELOW);
+    let grid = Grid::two_rows(subjects.len(), 98.0, 44.0);
+    let mut page = Page::new(name, PAGE, grid.bottom(2) + BELOW);
     // One scale for both stars and polarizations, so that sizes can be compared.
     let most = subjects.iter().zip(spectra).map(|(s, both)| largest(both).max(waves::error(s))).fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };
@@ -127,7 +122,7 @@ fn inset(page: &mut Page, frame: Rectangle, rate: f64, spectrum: &Spectrum) {
     panel.draw_frame(page);
     let power = match panel.y_power() {
         0 => String::new(),
-        power => format!(" [10^{{{}}}]", super::axes::signed(&power.to_string())),
+        power => format!(" [{}]", power_of_ten(power)),
     };
     page.text([inner.right(), inner.top - 4.0], Anchor::End, SMALL, "#000000", &format!("near 3 d*α*/d*t*{power}"));
 }

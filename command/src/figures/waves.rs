@@ -4,14 +4,7 @@ use twofold::dynamics::{AxisState, BodyState};
 use twofold::observables::gravitational_wave::Polarizations;
 use twofold::units::si::KILOPARSEC;
 
-use super::axes::{Axis, BELOW, Panel, TwoRows};
-use super::number::{ALIKE, Spread, significant};
-use super::parameters::{line_of_sight, parameters};
-use super::style::{BLUE, PAGE, VERMILION, solid};
-use super::subject::times;
-use super::svg::Page;
-use super::table::Table;
-use super::{Caption, Sheet, Subject};
+use super::drawing::*;
 use twofold_scene::wave::spheroid_wave;
 
 pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
@@ -51,8 +44,8 @@ fn waves(subject: &Subject) -> Result<Table, String> {
 }
 
 fn draw(name: &str, subjects: &[&Subject], tables: &[Table]) -> String {
-    let grid = TwoRows { columns: subjects.len(), height: 74.0, between: 44.0 };
-    let mut page = Page::new(name, PAGE, grid.bottom() + BELOW);
+    let grid = Grid::two_rows(subjects.len(), 74.0, 44.0);
+    let mut page = Page::new(name, PAGE, grid.bottom(2) + BELOW);
     // One scale for both stars and polarizations, so that sizes can be compared.
     let values = || tables.iter().flat_map(|table| table.rows.iter().flat_map(|row| [row[1], row[2]]));
     // What the motion does not know is not spread over the frame.

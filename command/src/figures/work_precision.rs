@@ -1,24 +1,16 @@
 //! Time against error of every method on some scenes.
 
-use super::axes::{Axis, BELOW, LEFT, Mark, Panel};
-use super::legend::{Sample, legend_row};
-use super::style::{
-    BLACK, BLUE, GREEN, GREY, Line, ORANGE, PAGE, PURPLE, VERMILION, dash_dotted, dashed, dotted, solid,
-};
-use super::svg::{Page, Rectangle};
-use super::table::Table;
-use super::{Caption, Figure};
+use super::Figure;
+use super::drawing::*;
 use crate::bench::method::Carries;
 use crate::bench::table::methods;
 use crate::bench::work_precision::{Row, front};
 
-/// Name of the figure.
 const NAME: &str = "work-precision";
 
 /// The scenes that are drawn, from left to right.
 const SCENES: [&str; 3] = ["tp-II", "nearly-free", "strongly-violated"];
 
-/// Errors that are shown.
 const ERRORS: (f64, f64) = (1e-15, 1e-2);
 
 /// Lines and marks of the methods, in order of appearance; further ones begin again.
@@ -35,26 +27,20 @@ const STYLES: [(Line, Mark); 8] = [
 
 /// Time of a motion of 1,000 t_c against its error: the best runs of each method, `n` and `L` above, with `e_x` below.
 pub fn work_precision(rows: &[Row]) -> Figure {
-    let (top, gap, between) = (16.0, 22.0, 14.0);
-    let (width, height) = ((PAGE - LEFT - 6.0 - 2.0 * between) / 3.0, 118.0);
+    let width = (PAGE - LEFT - 6.0 - 2.0 * 14.0) / 3.0;
+    let grid = Grid { left: LEFT, top: 16.0, width, height: 118.0, between: [14.0, 22.0] };
     let names = names(rows);
     let legend_lines = names.len().div_ceil(PER_LINE);
-    let bottom = top + 2.0 * height + gap + BELOW;
+    let bottom = grid.bottom(2) + BELOW;
     let mut page = Page::new(NAME, PAGE, bottom + 6.0 + 13.0 * legend_lines as f64);
     let y = times(rows);
     let mut tables = Vec::new();
     for (down, carries) in Carries::ALL.into_iter().enumerate() {
         for (across, scene) in SCENES.into_iter().enumerate() {
-            let frame = Rectangle {
-                left: LEFT + (width + between) * across as f64,
-                top: top + (height + gap) * down as f64,
-                width,
-                height,
-            };
             let x = Axis::logarithmic("largest error of a component", ERRORS.0, ERRORS.1);
             let x = if down == 0 { x.bare() } else { x };
             let label = Axis::logarithmic("time [ms]", y.0, y.1);
-            let panel = Panel::new(frame, x, if across == 0 { label } else { label.bare() });
+            let panel = Panel::new(grid.frame(across, down), x, if across == 0 { label } else { label.bare() });
             for (name, (line, mark)) in names.iter().zip(STYLES.iter().cycle()) {
                 let of_this = |row: &&Row| row.scene == scene && row.carries == carries && row.method == *name;
                 let runs = rows.iter().filter(of_this).map(|row| (row.error.max(ERRORS.0), row.times.least * 1e3));
@@ -98,7 +84,6 @@ pub fn work_precision(rows: &[Row]) -> Figure {
 /// Names in a line of the legend.
 const PER_LINE: usize = 4;
 
-/// Where its lines begin.
 const LEGEND_LEFT: f64 = 12.0;
 
 /// All methods, those of `n` and `L` first.

@@ -6,39 +6,11 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 pub(super) struct Bytes<'a>(&'a [u8]);
 
 /// Numbers at which formulas turn: zeros, signs, ends of ranges, poles, what is not a number.
-const SPECIAL: [f64; 32] = [
-    0.0,
-    -0.0,
-    1.0,
-    -1.0,
-    f64::NAN,
-    f64::INFINITY,
-    f64::NEG_INFINITY,
-    f64::MIN_POSITIVE,
-    5e-324,
-    -5e-324,
-    f64::MAX,
-    f64::MIN,
-    f64::EPSILON,
-    1.0 - f64::EPSILON / 2.0,
-    1.0 + f64::EPSILON,
-    PI,
-    FRAC_PI_2,
-    TAU,
-    -PI,
-    0.577_350_269_189_625_8,
-    1.0 / 3.0,
-    0.5,
-    2.0,
-    1e-8,
-    1e-16,
-    1e-160,
-    1e160,
-    1e15,
-    1e-13,
-    1e300,
-    1.1,
-    0.02,
+const SPECIAL: [[f64; 8]; 4] = [
+    [0.0, -0.0, 1.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MIN_POSITIVE],
+    [5e-324, -5e-324, f64::MAX, f64::MIN, f64::EPSILON, 1.0 - f64::EPSILON / 2.0, 1.0 + f64::EPSILON, PI],
+    [FRAC_PI_2, TAU, -PI, 0.577_350_269_189_625_8, 1.0 / 3.0, 0.5, 2.0, 1e-8],
+    [1e-16, 1e-160, 1e160, 1e15, 1e-13, 1e300, 1.1, 0.02],
 ];
 
 impl<'a> Bytes<'a> {
@@ -64,7 +36,7 @@ impl<'a> Bytes<'a> {
     /// A special number, one of any bits, or one of ordinary size with its sign.
     pub(super) fn number(&mut self) -> f64 {
         match self.byte() {
-            kind @ 0..64 => SPECIAL[usize::from(kind) % SPECIAL.len()],
+            kind @ 0..64 => SPECIAL.as_flattened()[usize::from(kind) % 32],
             64..96 => f64::from_bits(u64::from_le_bytes(std::array::from_fn(|_| self.byte()))),
             96..128 => self.ordinary() * 10f64.powi(i32::from(self.byte() as i8)),
             _ => self.ordinary(),

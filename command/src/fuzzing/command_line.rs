@@ -13,7 +13,6 @@ use crate::commands::{Cli, Command, FisherArgs, ForecastArgs, MeasurementArgs, r
 use twofold_scene::scene_file::Scene;
 use twofold_scene::sweep::{Sweep, SweepText};
 
-/// Files that the arguments can name.
 const FILES: [(&str, &str); 5] = [
     ("s.toml", include_str!("../../../scene/scenes/tp-1.toml")),
     ("p.toml", include_str!("../../../scene/scenes/b1937+21.toml")),
@@ -47,7 +46,6 @@ pub fn command_line(bytes: &[u8]) {
     clean(folder);
 }
 
-/// The folder of this process, with the files.
 fn folder() -> &'static Path {
     static FOLDER: OnceLock<TempDir> = OnceLock::new();
     let folder = FOLDER.get_or_init(|| {

@@ -82,7 +82,6 @@ impl Case {
         Self { body, s, tensor, angles, rates, state, span, accuracy: 10f64.powf(-exponent), beam, observer }
     }
 
-    /// The problem, if its numbers are in range.
     fn problem(&self) -> Option<Problem<f64>> {
         Problem::new(self.body, self.tensor, self.state).ok()
     }
@@ -148,7 +147,6 @@ fn numerical(case: &Case) {
     let _ = black_box(problem.taylor_states(span.0, &case.times(), *accuracy, ErrorEstimates::Wanted));
 }
 
-/// Evaluates a motion within its span.
 fn look_within<M: Motion<f64, State = BodyState<f64>>>(motion: &M, case: &Case) {
     for time in case.times() {
         let _ = black_box((motion.state(time), motion.error_estimate(time)));

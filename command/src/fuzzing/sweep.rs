@@ -7,8 +7,7 @@ use twofold_scene::sweep::{Sweep, SweepText};
 /// Stands between the text of a sweep and that of its scene.
 const BETWEEN: &str = "\n%%\n";
 
-/// The text of a sweep file, and after `%%` that of the scene that it names: read and, where that is little work, its first scenes
-/// computed.
+/// The texts of a sweep file and, after `%%`, of the scene that it names: read and, where that is little work, computed in part.
 pub fn sweep(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let (text, scene) = text.split_once(BETWEEN).map_or((text, None), |(text, scene)| (text, Some(scene)));

@@ -24,7 +24,6 @@ pub(super) fn section(content: &Content, index: &Index) -> Markup {
     }
 }
 
-/// A table of checks.
 fn table(results: &[&report::Result], index: &Index) -> Markup {
     let columns = ["Check", "What holds", "Measured", "Bound", "Verdict", "Time [s]"];
     html! {
@@ -101,7 +100,6 @@ pub(super) fn failures(content: &Content) -> Markup {
     }
 }
 
-/// The text with its first letter a capital.
 pub(super) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())

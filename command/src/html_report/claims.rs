@@ -10,7 +10,6 @@ use super::{Content, golden};
 use twofold_verify::claims::{Claim, Verdict, claims};
 use twofold_verify::report;
 
-/// Notes what the claims name.
 pub(super) fn note(index: &mut Index) {
     for claim in claims() {
         let id = cross_reference::claim(claim.id);
@@ -40,7 +39,6 @@ pub(super) fn section(content: &Content, index: &Index) -> Markup {
     }
 }
 
-/// Links to claims.
 pub(super) fn links(claims: &[&Claim]) -> Markup {
     html! {
         @for (place, claim) in claims.iter().enumerate() {

@@ -6,32 +6,26 @@ use maud::{Markup, html};
 
 use super::typography::typeset;
 
-/// Id of an equation's entry on the page.
 pub(super) fn equation(number: u8) -> String {
     format!("eq-{number}")
 }
 
-/// Id of a check's row.
 pub(super) fn check(id: &str) -> String {
     format!("check-{id}")
 }
 
-/// Id of a golden table.
 pub(super) fn golden(name: &str) -> String {
     format!("golden-{name}")
 }
 
-/// Id of a figure.
 pub(super) fn figure(name: &str) -> String {
     format!("figure-{name}")
 }
 
-/// Id of a claim.
 pub(super) fn claim(id: &str) -> String {
     format!("claim-{id}")
 }
 
-/// Id of a discrepancy.
 pub(super) fn discrepancy(number: &str) -> String {
     format!("discrepancy-{number}")
 }
@@ -66,7 +60,6 @@ impl Index {
         }
     }
 
-    /// Notes everything that `text` names.
     pub(super) fn note_text(&mut self, text: &str, source: &str, label: &str) {
         for target in self.pieces(text).into_iter().filter_map(|(_, target)| target) {
             self.note(target, source, label);
@@ -89,8 +82,7 @@ impl Index {
         self.known.contains(&id).then(|| html! { a href={ "#" (id) } { (name) } })
     }
 
-    /// Plain text with its formulas set, in which `(25)`, `discrepancy 1` and `Figure 8` are links, where there is something
-    /// of the name.
+    /// Plain text with its formulas set, in which `(25)`, `discrepancy 1` and `Figure 8` are links to what is on the page.
     pub(super) fn linked(&self, text: &str) -> Markup {
         self.linked_with(text, typeset)
     }

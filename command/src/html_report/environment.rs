@@ -6,32 +6,27 @@ use std::thread;
 use std::time::{Duration, SystemTime};
 
 /// Facts about the run, each with its name, in the order in which they are shown.
-#[derive(Debug, Clone)]
-pub struct Environment {
-    pub(super) facts: Vec<(&'static str, String)>,
+pub type Environment = Vec<(&'static str, String)>;
+
+/// Of this process, now.
+pub fn environment() -> Environment {
+    let mut facts = vec![("Version", concat!("twofold ", env!("CARGO_PKG_VERSION")).to_owned())];
+    facts.extend(source().map(|commit| ("Source", commit)));
+    let optimised = if cfg!(debug_assertions) { "with debug assertions" } else { "release" };
+    facts.extend([
+        ("Compiler", twofold_scene::COMPILER.to_owned()),
+        ("Target", format!("{}, {optimised}", twofold_scene::TARGET)),
+        ("Processors", thread::available_parallelism().map_or_else(|_| "unknown".to_owned(), |n| n.to_string())),
+        ("Date and time", date_and_time(SystemTime::now())),
+    ]);
+    facts
 }
 
-impl Environment {
-    /// Of this process, now.
-    pub fn of_this_run() -> Self {
-        let mut facts = vec![("Version", concat!("twofold ", env!("CARGO_PKG_VERSION")).to_owned())];
-        facts.extend(source().map(|commit| ("Source", commit)));
-        let optimised = if cfg!(debug_assertions) { "with debug assertions" } else { "release" };
-        facts.extend([
-            ("Compiler", twofold_scene::COMPILER.to_owned()),
-            ("Target", format!("{}, {optimised}", twofold_scene::TARGET)),
-            ("Processors", thread::available_parallelism().map_or_else(|_| "unknown".to_owned(), |n| n.to_string())),
-            ("Date and time", date_and_time(SystemTime::now())),
-        ]);
-        Self { facts }
-    }
-
-    /// Version, source and date in a sentence.
-    pub(super) fn brief(&self) -> String {
-        let brief = |name: &str| ["Version", "Source", "Date and time"].contains(&name);
-        let facts: Vec<_> = self.facts.iter().filter(|(name, _)| brief(name)).map(|(_, fact)| fact.as_str()).collect();
-        format!("{}.", facts.join(", "))
-    }
+/// Version, source and date in a sentence.
+pub(super) fn brief(facts: &Environment) -> String {
+    let is_brief = |name: &str| ["Version", "Source", "Date and time"].contains(&name);
+    let facts: Vec<_> = facts.iter().filter(|(name, _)| is_brief(name)).map(|(_, fact)| fact.as_str()).collect();
+    format!("{}.", facts.join(", "))
 }
 
 /// The date in UTC, if the clock is one of our time: a machine may wake up in 1969 or in the year 10000.

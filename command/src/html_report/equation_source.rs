@@ -9,7 +9,6 @@ pub(super) enum Form {
     Note,
 }
 
-/// One entry.
 #[derive(Debug, Clone)]
 pub(super) struct Entry {
     pub(super) number: u8,
@@ -19,7 +18,6 @@ pub(super) struct Entry {
     pub(super) latex: String,
 }
 
-/// All entries in the order of the file.
 pub(super) fn entries() -> Result<Vec<Entry>, String> {
     let mut entries: Vec<Entry> = Vec::new();
     for line in include_str!("../../data/equations.tex").lines() {

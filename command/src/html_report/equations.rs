@@ -10,7 +10,6 @@ use super::typography::typeset;
 use super::{Content, latex, markdown};
 use twofold_verify::equation_table::EQUATIONS;
 
-/// Numbers of all equations.
 pub(super) fn numbers() -> impl Iterator<Item = u8> {
     EQUATIONS.iter().map(|equation| equation.number)
 }

@@ -28,7 +28,6 @@ const SHOWN: &[(&str, &[&str])] = &[
     ("momentum-sphere", &["two-first-integrals", "opposite-forced-precession", "middle-axis"]),
 ];
 
-/// Notes what the figures show and name.
 pub(super) fn note(content: &Content, index: &mut Index) {
     for figure in &content.figures {
         let (id, label) = (cross_reference::figure(&figure.name), name(figure));

@@ -19,7 +19,6 @@ pub(super) fn section(content: &Content, index: &Index) -> Markup {
     }
 }
 
-/// A link to a golden table.
 pub(super) fn link(name: &str) -> Markup {
     html! { a href={ "#" (cross_reference::golden(name)) } { code { (name) } } }
 }

@@ -3,7 +3,6 @@
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 use maud::{Markup, PreEscaped};
 
-/// A displayed equation.
 pub(super) fn displayed(latex: &str) -> Result<Markup, String> {
     mathml(latex, MathDisplay::Block)
 }

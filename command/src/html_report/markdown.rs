@@ -7,8 +7,7 @@ use super::cross_reference::{self, Index};
 use super::latex;
 use super::typography::typeset;
 
-/// A page without its first heading. Numbered headings (`## 3. Title`) are discrepancies: they get ids, and what stands below
-/// them is noted in `index` as naming what it names.
+/// A page without its first heading. Numbered headings (`## 3. Title`) are discrepancies, with ids; what they name is noted in `index`.
 pub(super) fn page(markdown: &str, index: &mut Index) -> Result<Markup, String> {
     let parser = Parser::new_ext(markdown, Options::ENABLE_TABLES | Options::ENABLE_MATH);
     let mut events = TextMergeStream::new(parser);

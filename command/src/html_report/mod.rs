@@ -16,7 +16,7 @@ mod markdown;
 mod summary;
 mod typography;
 
-pub use environment::Environment;
+pub use environment::{Environment, environment};
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -25,15 +25,10 @@ use cross_reference::Index;
 use twofold_verify::golden::GoldenTable;
 use twofold_verify::report;
 
-/// What a report is about.
 pub struct Content {
-    /// Every check with what became of it.
     pub results: Vec<report::Result>,
-    /// Time that they took together.
     pub seconds: f64,
-    /// The golden tables.
     pub golden: Vec<GoldenTable>,
-    /// The figures.
     pub figures: Vec<Figure>,
     /// Where and when.
     pub environment: Environment,
@@ -46,9 +41,6 @@ const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; img-src data:; font-src data:; base-uri 'none'; form-action 'none'";
 
 /// The page.
-///
-/// # Errors
-/// LaTeX or Markdown of ours that cannot be set.
 pub fn page(content: &Content) -> Result<String, String> {
     let mut index = index(content);
     claims::note(&mut index);
@@ -115,7 +107,7 @@ fn index(content: &Content) -> Index {
 fn environment_section(content: &Content) -> Markup {
     html! {
         dl.facts {
-            @for (name, value) in &content.environment.facts { (equations::row(name, vec![html! { (value) }])) }
+            @for (name, value) in &content.environment { (equations::row(name, vec![html! { (value) }])) }
             (equations::row("Checks", vec![html! { (content.results.len()) " in " (format!("{:.1}", content.seconds)) " s" }]))
         }
     }
@@ -144,11 +136,10 @@ mod tests {
         let ids = results.iter().map(|(check, _)| check.id).collect();
         let figures = crate::figures::DRAWN.clone();
         let golden = crate::figures::golden_tables(&figures).expect("numbers");
-        let content = Content { results, seconds: 1.0, golden, figures, environment: Environment::of_this_run() };
+        let content = Content { results, seconds: 1.0, golden, figures, environment: environment() };
         (page(&content).expect("a page"), ids)
     });
 
-    /// The values of an attribute.
     fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {
         let start = format!(" {attribute}=\"");
         let parts = page.split(start.as_str()).skip(1);

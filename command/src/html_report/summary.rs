@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::environment::brief;
 use super::equations::row;
 use super::{Content, TITLE, checks, claims, equations};
 use twofold_verify::claims::Verdict;
@@ -14,7 +15,7 @@ pub(super) fn header(content: &Content) -> Markup {
             p {
                 "The equations of R. Xu, Y. Gao and L. Shao, " cite { "Precession of spheroids under Lorentz violation and "
                 "observational consequences for neutron stars" } ", as implemented by twofold, and what became of the checks of "
-                "each. " (content.environment.brief())
+                "each. " (brief(&content.environment))
             }
             (verdict(content))
             (counts(content))

@@ -2,45 +2,11 @@
 
 use maud::{Markup, html};
 
-const SYMBOLS: [(&str, &str); 37] = [
-    ("alpha", "α"),
-    ("beta", "β"),
-    ("gamma", "γ"),
-    ("delta", "δ"),
-    ("epsilon", "ϵ"),
-    ("eps", "ϵ"),
-    ("zeta", "ζ"),
-    ("eta", "η"),
-    ("theta", "θ"),
-    ("kappa", "κ"),
-    ("lambda", "λ"),
-    ("mu", "μ"),
-    ("nu", "ν"),
-    ("xi", "ξ"),
-    ("pi", "π"),
-    ("rho", "ρ"),
-    ("sigma", "σ"),
-    ("tau", "τ"),
-    ("phi", "ϕ"),
-    ("varphi", "φ"),
-    ("chi", "χ"),
-    ("psi", "ψ"),
-    ("omega", "ω"),
-    ("Gamma", "Γ"),
-    ("Delta", "Δ"),
-    ("Theta", "Θ"),
-    ("Lambda", "Λ"),
-    ("Phi", "Φ"),
-    ("Psi", "Ψ"),
-    ("Omega", "Ω"),
-    ("DeltaPhi", "ΔΦ"),
-    ("<=", "≤"),
-    (">=", "≥"),
-    ("<~", "≲"),
-    ("+-", "±"),
-    ("-+", "∓"),
-    ("->", "→"),
-];
+/// Names and what is set for them, in turn.
+const SYMBOLS: &str = "alpha α beta β gamma γ delta δ epsilon ϵ eps ϵ zeta ζ eta η theta θ kappa κ \
+    lambda λ mu μ nu ν xi ξ pi π rho ρ sigma σ tau τ phi ϕ varphi φ \
+    chi χ psi ψ omega ω Gamma Γ Delta Δ Theta Θ Lambda Λ Phi Φ Psi Ψ Omega Ω \
+    DeltaPhi ΔΦ <= ≤ >= ≥ <~ ≲ +- ± -+ ∓ -> →";
 
 /// A stretch of text in one position.
 #[derive(Debug, PartialEq)]
@@ -50,7 +16,6 @@ enum Piece<'t> {
     Above(&'t str),
 }
 
-/// The text with its formulas set.
 pub(super) fn typeset(text: &str) -> Markup {
     html! {
         @for piece in pieces(text) {
@@ -141,7 +106,8 @@ fn power_of_ten(text: &str) -> Option<(&str, &str, usize)> {
 }
 
 fn symbol_of(word: &str) -> Option<&'static str> {
-    SYMBOLS.iter().find(|(name, _)| *name == word).map(|(_, letter)| *letter)
+    let mut words = SYMBOLS.split(' ');
+    std::iter::from_fn(|| words.next().zip(words.next())).find(|(name, _)| *name == word).map(|(_, letter)| letter)
 }
 
 /// The index or power at the beginning of `text` without its braces, and the length of what it takes.

@@ -29,9 +29,6 @@ type Rows = Vec<(u64, Vec<String>)>;
 
 impl DataFile {
     /// Reads the file at `path`, up to 64 MiB.
-    ///
-    /// # Errors
-    /// A file that cannot be read, is longer or is not text.
     pub fn read(path: &str) -> Result<Self, String> {
         let mut bytes = Vec::new();
         let file = File::open(path).map_err(|error| format!("{path}: {error}"))?;
@@ -44,9 +41,6 @@ impl DataFile {
     }
 
     /// A table whose bytes are known; messages call it `name`.
-    ///
-    /// # Errors
-    /// Bytes that are not text.
     pub fn of_bytes(name: &str, bytes: Vec<u8>) -> Result<Self, String> {
         let text = String::from_utf8(bytes).map_err(|error| {
             let byte = error.utf8_error().valid_up_to() + 1;
@@ -56,9 +50,6 @@ impl DataFile {
     }
 
     /// Whether it is a table of pulses, by its header.
-    ///
-    /// # Errors
-    /// A header that is no line of a table.
     pub fn is_of_pulses(&self) -> Result<bool, String> {
         let mut reader = csv::Reader::from_reader(self.text.as_bytes());
         let header = reader.headers().map_err(|error| format!("{}: {error}", self.name))?;
@@ -154,9 +145,6 @@ impl DataFile {
     }
 
     /// The strains in a table of `twofold run` with the columns `h`.
-    ///
-    /// # Errors
-    /// As for [`DataFile::pulses`].
     pub fn strain(&self, scene: &Scene, noise: &[Noise]) -> Result<Vec<Datum>, String> {
         let wanted = [format!("t [{}]", scene.units.time_name), "h_plus [1]".to_owned(), "h_cross [1]".to_owned()];
         let mut data = Vec::new();

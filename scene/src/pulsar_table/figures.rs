@@ -48,9 +48,6 @@ impl Pulsar {
     ///
     /// The change of width is taken as it stands, as the paper does; what its error makes of it is a [`Limit`](super::Limit).
     /// Uncertainties are linear, by automatic derivatives, for inputs that do not depend on each other.
-    ///
-    /// # Errors
-    /// [`Error::Domain`] where the width is stationary.
     pub fn figures(&self) -> Result<Vec<Figure>, Error> {
         let values = computed(&self.map(|quantity| quantity.value))?;
         let measured = self.measured_change();
@@ -70,9 +67,6 @@ impl Pulsar {
     }
 
     /// The figure with this key.
-    ///
-    /// # Errors
-    /// As for [`figures`](Self::figures), and for a key that the pulse has not.
     pub fn figure(&self, key: &str) -> Result<Figure, String> {
         let figures = self.figures()?;
         figures.into_iter().find(|figure| figure.key == key).ok_or_else(|| format!("{}: no figure {key}", self.name))
@@ -101,26 +95,17 @@ impl Pulsar {
     }
 
     /// The figures of random inputs of the given distributions, in the order of [`figures`](Self::figures).
-    ///
-    /// # Errors
-    /// As for [`figures`](Self::figures).
     pub fn random_figures(&self, random: &mut Random) -> Result<Vec<f64>, Error> {
         Ok(computed(&self.map(|quantity| quantity.draw(random)))?.into_iter().map(|c| c.value).collect())
     }
 
     /// Bound on `|2 s^ZZ - s^XX - s^YY| / eta` by Eq. (41) with a given `I^zz / C` (s^2).
-    ///
-    /// # Errors
-    /// As for [`figures`](Self::figures).
     pub fn bound_over_eta(&self, inertia_over_c: f64) -> Result<f64, Error> {
         let values = self.map(|quantity| quantity.value);
         drift(&values, inertia_over_c)?.combination_bound(1.0)
     }
 
     /// Change of `lambda` (deg) by Eq. (42).
-    ///
-    /// # Errors
-    /// As for [`figures`](Self::figures).
     pub fn lambda_change(&self) -> Result<f64, Error> {
         change_of_lambda(&self.map(|quantity| quantity.value))
     }

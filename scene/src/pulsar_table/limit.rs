@@ -34,9 +34,6 @@ impl Pulsar {
     /// The directions that are not known, for a spin axis at the angle `lambda` to the line of sight: all orientations of the axes of the
     /// tensor, or with `beta_0` those at that inclination. The tensor is taken as symmetric about Z, which has the largest `eta` at 95 % if
     /// nothing is known of its axes. None if `eta` is given.
-    ///
-    /// # Errors
-    /// [`Error::Domain`] for an axis along the line of sight: a motion across it is not seen.
     pub fn directions(&self) -> Result<Option<Directions>, Error> {
         let inclination = match self.eta {
             Eta::Given(_) => return Ok(None),
@@ -63,9 +60,6 @@ impl Pulsar {
     /// The change of `lambda` is normal about its measured value with its error, the effect of the other numbers normal to first
     /// order, and directions, change and numbers do not depend on each other. [`Limit::all`] is what the bound times `eta` then does
     /// not exceed with the probability [`CONFIDENCE`]: for given directions the quantile of a posterior with a flat prior.
-    ///
-    /// # Errors
-    /// As for [`directions`](Self::directions).
     pub fn limit(&self, figure: &Figure) -> Result<Limit, Error> {
         let inputs = figure.from_inputs.hypot(figure.value * self.relative_uncertainty_of_eta());
         let together = Normal { mean: figure.value, deviation: figure.from_change.unwrap_or(0.0).hypot(inputs) };
@@ -86,11 +80,7 @@ impl Pulsar {
         })
     }
 
-    /// The limit that a measured change of zero with the same error would give: how sensitive the pulse is, whatever was found.
-    /// None if the change has no error.
-    ///
-    /// # Errors
-    /// As for [`limit`](Self::limit).
+    /// The limit that a measured change of zero with the same error would give; none if the change has no error.
     pub fn sensitivity(&self, figure: &Figure) -> Result<Option<f64>, Error> {
         // Other uncertainties are relative to a change: to none they add nothing.
         let unchanged = Figure { value: 0.0, from_inputs: 0.0, ..figure.clone() };
@@ -100,9 +90,6 @@ impl Pulsar {
 
 /// The pulse of a table whose limit is recommended, and that limit: the pulse that would give the strongest one for a measured
 /// change of zero, or, where its change is given as a limit, for that. So it is chosen by errors and not by what was found.
-///
-/// # Errors
-/// For a table without pulses, and what [`Pulsar::limit`] reports.
 pub fn recommended(pulsars: &[Pulsar]) -> Result<(&Pulsar, Limit), String> {
     let mut best: Option<(f64, &Pulsar, Limit)> = None;
     for pulsar in pulsars {

@@ -154,17 +154,11 @@ impl<T: Copy> Pulsar<T> {
 }
 
 /// The pulsars of the paper's table.
-///
-/// # Panics
-/// If the table compiled into the program is malformed.
 pub fn paper() -> Vec<Pulsar> {
     pulsars("paper.toml", PAPER).expect("the table of the paper is well-formed")
 }
 
 /// The pulsars in the file at `path`.
-///
-/// # Errors
-/// A file that cannot be read, and everything that [`pulsars`] refuses.
 pub fn pulsars_in_file(path: &str) -> Result<Vec<Pulsar>, SceneError> {
     pulsars(path, &TABLE.read(path)?)
 }

@@ -21,9 +21,6 @@ const PRINTED: [(&str, PrintedBounds); 3] = [
 ];
 
 /// The pulses of the paper's table with what is printed of them.
-///
-/// # Panics
-/// If the table compiled into the program has another pulse.
 pub fn printed_bounds() -> Vec<(Pulsar, PrintedBounds)> {
     let printed = |pulsar: Pulsar| {
         let (_, printed) = PRINTED.iter().find(|(name, _)| *name == pulsar.name).expect("a column for each pulse");

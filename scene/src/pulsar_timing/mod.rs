@@ -21,7 +21,7 @@ use twofold::solutions::averaged::AveragingOrder;
 use crate::scene_file::Scene;
 
 pub use decimal::decimal;
-pub use no_pulse::{NoPulse, TimingError};
+pub use no_pulse::TimingError;
 pub use parameters::{par, tim};
 pub use strain::{Series, strain_series};
 pub use table::csv;
@@ -48,9 +48,6 @@ pub struct PulsarScene {
 
 impl PulsarScene {
     /// Of a scene.
-    ///
-    /// # Errors
-    /// A sentence about what the scene lacks, or why the averaged motion does not hold for it.
     pub fn new(scene: &Scene) -> Result<Self, String> {
         let lacks =
             |what: &str| format!("the scene lacks {what}, without which it has no arrival times (docs/pulsars.md)");
@@ -123,7 +120,7 @@ impl PulsarScene {
             }
         }
         if pulses.is_empty() {
-            return Err(TimingError::NoPulse(NoPulse::at(self, &self.beam, epochs)));
+            return Err(no_pulse::no_pulse(self, epochs));
         }
         let middle = epochs.iter().map(|at| at.day() as f64).sum::<f64>() / epochs.len() as f64;
         // It may be later than a date that is written.

@@ -5,28 +5,16 @@ use std::fmt;
 
 use twofold::Error;
 use twofold::epoch::Epoch;
-use twofold::observables::pulsar::Beam;
 
 use super::PulsarScene;
 
 /// Why there are no arrival times.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TimingError {
-    /// No epoch has a pulse.
-    NoPulse(NoPulse),
+    /// No epoch has a pulse; a sentence with the closest approach.
+    NoPulse(String),
     /// The motion cannot be followed to an epoch, or too few pulses are left for the fit.
     Motion(Error),
-}
-
-/// The angles (rad) of the magnetic axis to the line of sight in turns without a pulse.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NoPulse {
-    /// The smallest.
-    pub nearest: f64,
-    /// The largest.
-    pub farthest: f64,
-    /// The semi-open angle of the beam.
-    pub half_opening: f64,
 }
 
 /// Most epochs in whose turns the angles are looked at, equally spaced.
@@ -35,30 +23,29 @@ const MOST: usize = 1000;
 /// Looks in one turn. The extrema between them are found by a step of Newton's method, to some `(2 pi / LOOKS)^4` of a radian.
 const LOOKS: usize = 180;
 
-impl NoPulse {
-    pub(super) fn at(pulsar: &PulsarScene, beam: &Beam<f64>, epochs: &[Epoch]) -> Self {
-        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-        let period = pulsar.clock.period();
-        let (edge, problem) = (beam.half_opening.cos(), &pulsar.problem);
-        for epoch in epochs.iter().step_by(epochs.len().div_ceil(MOST)) {
-            let near = pulsar.clock.near(epoch.seconds_since(&pulsar.epoch));
-            let at = |t: f64| {
-                let state = near.state(t);
-                beam.margin_rates(problem.spheroid(), problem.coefficients(), &state, &pulsar.observer.direction)
-            };
-            let step = period / LOOKS as f64;
-            for k in 0..LOOKS {
-                let t = period * (k as f64 / LOOKS as f64 - 0.5);
-                let [margin, rate, second, _] = at(t);
-                let to_extremum = -rate / second;
-                let margins =
-                    if to_extremum.abs() <= step { [margin, at(t + to_extremum)[0]] } else { [margin, margin] };
-                (least, most) = margins.iter().fold((least, most), |(least, most), m| (m.min(least), m.max(most)));
-            }
+/// Why the turns of `epochs` have no pulse.
+pub(super) fn no_pulse(pulsar: &PulsarScene, epochs: &[Epoch]) -> TimingError {
+    let beam = &pulsar.beam;
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    let period = pulsar.clock.period();
+    let (edge, problem) = (beam.half_opening.cos(), &pulsar.problem);
+    for epoch in epochs.iter().step_by(epochs.len().div_ceil(MOST)) {
+        let near = pulsar.clock.near(epoch.seconds_since(&pulsar.epoch));
+        let at = |t: f64| {
+            let state = near.state(t);
+            beam.margin_rates(problem.spheroid(), problem.coefficients(), &state, &pulsar.observer.direction)
+        };
+        let step = period / LOOKS as f64;
+        for k in 0..LOOKS {
+            let t = period * (k as f64 / LOOKS as f64 - 0.5);
+            let [margin, rate, second, _] = at(t);
+            let to_extremum = -rate / second;
+            let margins = if to_extremum.abs() <= step { [margin, at(t + to_extremum)[0]] } else { [margin, margin] };
+            (least, most) = margins.iter().fold((least, most), |(least, most), m| (m.min(least), m.max(most)));
         }
-        let angle = |margin: f64| (margin + edge).clamp(-1.0, 1.0).acos();
-        Self { nearest: angle(most), farthest: angle(least), half_opening: beam.half_opening }
     }
+    let angle = |margin: f64| (margin + edge).clamp(-1.0, 1.0).acos();
+    TimingError::NoPulse(sentence(angle(most), angle(least), beam.half_opening))
 }
 
 impl From<Error> for TimingError {
@@ -76,38 +63,33 @@ impl From<TimingError> for String {
 impl fmt::Display for TimingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoPulse(no_pulse) => no_pulse.fmt(f),
+            Self::NoPulse(why) => f.write_str(why),
             Self::Motion(error) => error.fmt(f),
         }
     }
 }
 
-impl fmt::Display for NoPulse {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { nearest, farthest, half_opening } = *self;
-        if nearest >= half_opening {
-            write!(
-                f,
-                "no pulse: the beam never passes the line of sight at these epochs. The magnetic axis comes to {nearest:.6} rad of it at \
-                 closest, and `pulsar.rho` is {half_opening} rad: allowed is a `pulsar.rho` above that distance, or a `pulsar.chi` or an \
-                 observer for which it is smaller"
-            )
-        } else if farthest <= half_opening {
-            write!(
-                f,
-                "no pulse: the line of sight is always inside the beam at these epochs. The magnetic axis is {farthest:.6} rad from it at \
-                 most ({nearest:.6} rad at closest), and `pulsar.rho` is {half_opening} rad: allowed is a `pulsar.rho` below that distance, \
-                 or a `pulsar.chi` or an observer for which it is larger"
-            )
-        } else {
-            write!(
-                f,
-                "no pulse: no turn near these epochs has both edges of a pulse within {:.1} rad of its middle. The magnetic axis is from \
-                 {nearest:.6} to {farthest:.6} rad from the line of sight, and `pulsar.rho` is {half_opening} rad: pulses that last over \
-                 more than a turn are not timed, allowed is another `pulsar.rho`",
-                1.5 * TAU
-            )
-        }
+/// By the least and the largest angle (rad) of the magnetic axis to the line of sight.
+fn sentence(nearest: f64, farthest: f64, half_opening: f64) -> String {
+    if nearest >= half_opening {
+        format!(
+            "no pulse: the beam never passes the line of sight at these epochs. The magnetic axis comes to {nearest:.6} rad of it at \
+             closest, and `pulsar.rho` is {half_opening} rad: allowed is a `pulsar.rho` above that distance, or a `pulsar.chi` or an \
+             observer for which it is smaller"
+        )
+    } else if farthest <= half_opening {
+        format!(
+            "no pulse: the line of sight is always inside the beam at these epochs. The magnetic axis is {farthest:.6} rad from it at \
+             most ({nearest:.6} rad at closest), and `pulsar.rho` is {half_opening} rad: allowed is a `pulsar.rho` below that distance, \
+             or a `pulsar.chi` or an observer for which it is larger"
+        )
+    } else {
+        format!(
+            "no pulse: no turn near these epochs has both edges of a pulse within {:.1} rad of its middle. The magnetic axis is from \
+             {nearest:.6} to {farthest:.6} rad from the line of sight, and `pulsar.rho` is {half_opening} rad: pulses that last over \
+             more than a turn are not timed, allowed is another `pulsar.rho`",
+            1.5 * TAU
+        )
     }
 }
 
@@ -118,13 +100,13 @@ mod tests {
     /// The beam that `a_pulse_is_not_given_where_it_lasts_over_more_turns_than_are_searched` has: it comes and goes with the wobble.
     #[test]
     fn pulses_longer_than_a_turn_are_told_from_no_passage_and_from_no_end() {
-        for (nearest, farthest, sentence) in [
+        for (nearest, farthest, part) in [
             (0.2, 0.8, "no turn near these epochs has both edges of a pulse within 9.4 rad"),
             (0.8, 0.9, "never passes the line of sight"),
             (0.2, 0.7, "always inside the beam"),
         ] {
-            let text = TimingError::NoPulse(NoPulse { nearest, farthest, half_opening: 0.75 }).to_string();
-            assert!(text.contains(sentence) && text.contains("`pulsar.rho` is 0.75 rad"), "{text}");
+            let text = sentence(nearest, farthest, 0.75);
+            assert!(text.contains(part) && text.contains("`pulsar.rho` is 0.75 rad"), "{text}");
         }
     }
 }

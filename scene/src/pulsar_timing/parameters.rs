@@ -13,9 +13,6 @@ fn reference(timing: &Timing) -> i64 {
 }
 
 /// The `.par`: the fitted frequency in TDB. Nothing in it needs an ephemeris or a clock file, since the site is the barycentre.
-///
-/// # Errors
-/// A fit whose pulse nearest to `PEPOCH` is far from it.
 pub fn par(scene: &Scene, timing: &Timing) -> Result<String, Error> {
     let at_reference = timing.epoch.after(timing.fit.time_of(reference(timing)))?;
     let mut text = String::new();

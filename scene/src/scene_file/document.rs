@@ -12,12 +12,13 @@ use toml::de::{DeTable, DeValue};
 
 use super::LARGEST_FILE;
 
-/// A kind of file.
+type Names = fn() -> Vec<&'static str>;
+
 pub(crate) struct FileFormat {
     /// Its name in messages, with the article: `a scene`.
     pub(crate) name: &'static str,
     /// The names of the built-in files of this kind and the command that lists them, if there are any.
-    pub(crate) built_in: Option<(fn() -> Vec<&'static str>, &'static str)>,
+    pub(crate) built_in: Option<(Names, &'static str)>,
 }
 
 impl FileFormat {
@@ -78,14 +79,11 @@ impl FileFormat {
 /// Numbers that stand in place of those written, each with the dotted key of one, such as `lorentz_violation.w[2]`.
 #[derive(Clone, Copy)]
 pub(crate) struct Replaced<'a> {
-    /// The keys.
     pub(crate) keys: &'a [String],
-    /// A number for each.
     pub(crate) numbers: &'a [f64],
 }
 
 impl Replaced<'_> {
-    /// Everything as written.
     pub(crate) const NOTHING: Self = Self { keys: &[], numbers: &[] };
 
     fn get(&self, key: &str) -> Option<f64> {
@@ -93,7 +91,6 @@ impl Replaced<'_> {
     }
 }
 
-/// A table of the document.
 pub(crate) struct Section<'a> {
     text: &'a str,
     replaced: Replaced<'a>,
@@ -105,11 +102,9 @@ pub(crate) struct Section<'a> {
     table: &'a DeTable<'a>,
 }
 
-/// A value of a section.
 pub(crate) struct Entry<'a> {
     text: &'a str,
     replaced: Replaced<'a>,
-    /// Dotted key.
     key: String,
     span: Range<usize>,
     value: &'a DeValue<'a>,
@@ -159,17 +154,14 @@ impl<'a> Section<'a> {
         self.table.iter().find(|(k, _)| k.get_ref() == key).map(|(_, value)| value)
     }
 
-    /// The number of `key`, or `default`.
     pub(crate) fn number_or(&self, key: &str, default: f64) -> Result<f64, Fault> {
         self.optional(key).map_or(Ok(default), |entry| entry.number())
     }
 
-    /// The string of `key`, if it is there.
     pub(crate) fn optional_string(&self, key: &str) -> Result<Option<&'a str>, Fault> {
         self.optional(key).map(|entry| entry.string()).transpose()
     }
 
-    /// The value of `key`, if it is there.
     pub(crate) fn optional(&self, key: &str) -> Option<Entry<'a>> {
         let value = self.find(key)?;
         Some(self.entry(key, value))
@@ -218,7 +210,6 @@ impl<'a> Section<'a> {
         Ok(())
     }
 
-    /// The section `key`, if it is there.
     pub(crate) fn section(&self, key: &str) -> Result<Option<Section<'a>>, Fault> {
         self.table(key, &format!("a section, written [{}]", self.dotted(key)))
     }
@@ -255,7 +246,6 @@ impl<'a> Section<'a> {
 }
 
 impl<'a> Entry<'a> {
-    /// A refusal of the value.
     pub(crate) fn refuse(&self, allowed: &str) -> Fault {
         self.refuse_because(&format!("allowed is {allowed}"))
     }
@@ -267,7 +257,6 @@ impl<'a> Entry<'a> {
         Fault::at(self.span.clone(), format!("`{}` = {value}: {why}", self.key))
     }
 
-    /// A finite number.
     pub(crate) fn number(&self) -> Result<f64, Fault> {
         if let Some(number) = self.replaced.get(&self.key) {
             return if number.is_finite() { Ok(number) } else { Err(self.refuse("a finite number")) };
@@ -299,12 +288,10 @@ impl<'a> Entry<'a> {
         if holds(x) { Ok(x) } else { Err(self.refuse(allowed)) }
     }
 
-    /// A finite number of a range.
     pub(crate) fn number_in(&self, allowed: &str, range: RangeInclusive<f64>) -> Result<f64, Fault> {
         self.number_where(allowed, |x| range.contains(&x))
     }
 
-    /// A whole number from `low` to `high`.
     pub(crate) fn whole_number(&self, low: usize, high: usize) -> Result<usize, Fault> {
         match self.value {
             DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
@@ -314,7 +301,6 @@ impl<'a> Entry<'a> {
         .ok_or_else(|| self.refuse(&format!("a whole number from {low} to {high}")))
     }
 
-    /// `true` or `false`.
     pub(crate) fn boolean(&self) -> Result<bool, Fault> {
         match self.value {
             DeValue::Boolean(value) => Ok(*value),
@@ -322,7 +308,6 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// A string.
     pub(crate) fn string(&self) -> Result<&'a str, Fault> {
         match self.value {
             DeValue::String(string) => Ok(string),
@@ -353,7 +338,6 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// Whether the value is a list.
     pub(crate) fn is_list(&self) -> bool {
         matches!(self.value, DeValue::Array(_))
     }
@@ -371,7 +355,6 @@ impl<'a> Entry<'a> {
         Ok(array.iter().enumerate().map(entry).collect())
     }
 
-    /// Whether the value is a string.
     pub(crate) fn is_string(&self) -> bool {
         matches!(self.value, DeValue::String(_))
     }
@@ -386,7 +369,6 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// Three finite numbers.
     pub(crate) fn vector(&self, allowed: &str) -> Result<Vector3<f64>, Fault> {
         let entries = self.list(allowed)?;
         if entries.len() != 3 {
@@ -466,15 +448,9 @@ impl SceneError {
         Self { file: file.to_owned(), place: None, message: message.into() }
     }
 
-    /// A refusal at a place of `text`.
     pub(crate) fn in_text(file: &str, text: &str, fault: Fault) -> Self {
         let place = fault.span.map(|span| Place::of(text, span));
         Self { file: file.to_owned(), place, message: fault.message }
-    }
-
-    /// Line and column, from one, where the fault has a place.
-    pub fn line_and_column(&self) -> Option<(usize, usize)> {
-        self.place.as_ref().map(|place| (place.line, place.column))
     }
 }
 

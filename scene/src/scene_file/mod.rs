@@ -71,28 +71,17 @@ pub(crate) enum Columns<'a> {
 }
 
 impl Scene {
-    /// The scene with the built-in name, or in the file at the path, `name_or_path`. Built-in names come first: write
-    /// `./tp-1` for a file of that name.
-    ///
-    /// # Errors
-    /// A file that cannot be read, and everything that [`Scene::from_toml`] refuses.
+    /// The scene with the built-in name, or in the file at the path; `./tp-1` is a file, `tp-1` is built in.
     pub fn named(name_or_path: &str) -> Result<Self, SceneError> {
         Self::named_for(name_or_path, Columns::OfTheFile)
     }
 
     /// As [`Scene::named`], with the groups of columns called `names` in place of those of the file.
-    ///
-    /// # Errors
-    /// Those of [`Scene::named`], and those of [`Scene::choose_columns`].
     pub fn named_with_columns(name_or_path: &str, names: &[&str]) -> Result<Self, SceneError> {
         Self::named_for(name_or_path, Columns::Named(names))
     }
 
-    /// As [`Scene::named`], for one who does not use the columns of the file: they are those of the motion, and the file may
-    /// name groups without what these need.
-    ///
-    /// # Errors
-    /// Those of [`Scene::named`], but for the needs of columns.
+    /// As [`Scene::named`], with the columns of the motion, whatever the file names.
     pub fn named_without_columns(name_or_path: &str) -> Result<Self, SceneError> {
         Self::named_for(name_or_path, Columns::Unused)
     }

@@ -232,7 +232,6 @@ const CONSTANTS: [&str; 5] = ["kind", "alpha_0", "beta_0", "amplitude", "phase"]
 pub(super) struct Initial {
     /// State in the frame of the file.
     pub(super) state: BodyState<f64>,
-    /// Its Euler angles.
     pub(super) angles: EulerAngles<f64>,
     /// The printed perturbation solution in the same frame, time from the start, or why there is none.
     pub(super) perturbation: Result<Perturbation<f64>, &'static str>,

@@ -123,7 +123,6 @@ fn is_sexagesimal(text: &str, most: u8) -> bool {
     whole.parse::<u8>().is_ok_and(|x| x <= most) && minutes.len() == 2 && below(minutes) && below(seconds)
 }
 
-/// Most rows of output.
 pub(crate) const MOST_SAMPLES: usize = 10_000_000;
 
 /// Times of the output, strictly increasing or strictly decreasing, in units of the output.
@@ -200,8 +199,7 @@ pub(super) fn read_time(section: &Section<'_>, units: &Units) -> Result<Times, F
     Ok(Times::Even { start, end: start + span * JULIAN_YEAR, samples: samples(section)? })
 }
 
-/// The epoch of the start, a modified Julian date, a number or a string with all its digits; and a sentence if it looks like another
-/// kind of date.
+/// The epoch of the start, a modified Julian date; and a sentence if it looks like another kind of date.
 pub(super) fn read_epoch(
     section: &Section<'_>,
     units: &Units,
@@ -293,8 +291,7 @@ fn listed_times(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
 
 pub(super) const DEFAULT_ACCURACY: f64 = 1e-13;
 
-/// The groups of columns that a table can have, in its order, by their names in a scene file. The first six are those of the motion itself,
-/// which every scene has.
+/// The groups of columns of a table, in its order, by their names in a scene file. Every scene has the first six, those of the motion.
 pub const COLUMN_GROUPS: [(&str, Output); 12] = [
     ("angles", Output::EulerAngles),
     ("rates", Output::EulerRates),
@@ -310,7 +307,6 @@ pub const COLUMN_GROUPS: [(&str, Output); 12] = [
     ("h", Output::GravitationalWave),
 ];
 
-/// The columns of a scene that does not name any.
 pub(super) fn columns_of_the_motion() -> Vec<Output> {
     COLUMN_GROUPS[..6].iter().map(|(_, output)| *output).collect()
 }
@@ -325,8 +321,7 @@ pub(crate) fn in_table_order(wanted: &[Output]) -> Vec<Output> {
     COLUMN_GROUPS.iter().map(|(_, output)| *output).filter(|output| wanted.contains(output)).collect()
 }
 
-/// Reads columns and accuracy into a scene that is complete otherwise. Columns that are not `used` need nothing of the
-/// scene, which keeps those it has.
+/// Reads columns and accuracy into a scene that is complete otherwise. It keeps its columns where those of the file are not `used`.
 pub(super) fn read_output(section: &Section<'_>, scene: &mut Scene, used: bool) -> Result<(), Fault> {
     section.only(&["columns", "accuracy", "method"])?;
     read_accuracy_and_method(section, scene)?;
@@ -368,9 +363,6 @@ pub(crate) fn read_accuracy_and_method(section: &Section<'_>, scene: &mut Scene)
 
 impl Scene {
     /// Forces the method called `name`, in place of the cheapest one.
-    ///
-    /// # Errors
-    /// A sentence about a name that is unknown, or about why the scene does not allow the method.
     pub fn choose_method(&mut self, name: &str) -> Result<(), String> {
         self.method = Some(Method::named(name).ok_or_else(|| unknown(name, "method", &Method::ALL.map(Method::name)))?);
         self.plan(&[Output::EquatorialAxis])
@@ -379,9 +371,6 @@ impl Scene {
     }
 
     /// Replaces the columns by the groups called `names`.
-    ///
-    /// # Errors
-    /// A sentence about a name that is unknown or comes twice, or about a group that needs what the scene lacks.
     pub fn choose_columns(&mut self, names: &[&str]) -> Result<(), String> {
         let mut wanted = Vec::new();
         for &name in names {
@@ -401,9 +390,6 @@ impl Scene {
     }
 
     /// Whether the scene has the sections that an output is computed from.
-    ///
-    /// # Errors
-    /// A sentence that says what the scene lacks.
     pub fn has_what_is_needed_for(&self, output: Output) -> Result<(), String> {
         let no_observer = self.observer.is_none().then(|| "the section [observer]".to_owned());
         let no_pulsar = self.pulsar.is_none().then(|| "the section [pulsar]".to_owned());
@@ -425,13 +411,11 @@ impl Scene {
         if lacking.is_empty() { Ok(()) } else { Err(format!("the scene lacks {}", lacking.join(" and "))) }
     }
 
-    /// Whether the strain at the observer is not known.
     fn lacks_distance(&self) -> bool {
         self.units.are_physical() && self.observer.is_some_and(|observer| observer.distance.is_none())
     }
 }
 
-/// `name` is none of the names known.
 fn unknown(name: &str, what: &str, known: &[&str]) -> String {
     format!("`{name}` is no {what}; allowed are {}.{}", listed(known), did_you_mean(name, known))
 }

@@ -30,9 +30,6 @@ pub enum Done {
 
 /// Computes the scenes up to `end` that the table does not hold and appends them, in order, until all are there or `stop` is
 /// set; chunks in work are then finished. `progress` is told the first scene that is not written.
-///
-/// # Errors
-/// A table that cannot be written.
 pub fn compute(
     sweep: &Sweep<'_>,
     spool: &mut Spool,

@@ -14,7 +14,6 @@ use crate::scene_file::{
     columns_in, did_you_mean, listed, read_accuracy_and_method, read_end, read_times,
 };
 
-/// Files with a sweep.
 const SWEEP: FileFormat = FileFormat { name: "a sweep", built_in: None };
 
 /// Sections of a scene that can be varied.
@@ -33,17 +32,11 @@ pub struct SweepText {
 
 impl SweepText {
     /// Reads the sweep file at `path`, and the scene that it names: a built-in one, or a file beside it.
-    ///
-    /// # Errors
-    /// A file that cannot be read or is not TOML.
     pub fn read(path: &str) -> Result<Self, SceneError> {
         Self::of(path, SWEEP.read(path)?)
     }
 
     /// A sweep file at `path` whose text is known, and the scene that it names.
-    ///
-    /// # Errors
-    /// A scene that cannot be read, and text that is not TOML.
     pub fn of(path: &str, text: String) -> Result<Self, SceneError> {
         Self::with(path, text, |name| match BUILT_IN.iter().find(|scene| scene.name == name) {
             Some(built_in) => Ok((name.to_owned(), built_in.toml.to_owned())),
@@ -75,7 +68,6 @@ impl SweepText {
     }
 }
 
-/// The scene that is varied.
 #[derive(Debug)]
 pub(super) struct Base<'t> {
     text: &'t str,

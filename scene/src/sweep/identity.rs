@@ -26,7 +26,6 @@ impl Identity {
         Self { file: text.file.clone(), facts }
     }
 
-    /// As a line of a journal holds it.
     pub(super) fn facts(&self) -> &Value {
         &self.facts
     }

@@ -13,16 +13,13 @@ pub(super) struct Mark {
     pub(super) next: u64,
     /// Rows that say that their scene failed.
     pub(super) failed: u64,
-    /// Length of the table.
     pub(super) rows: Prefix,
-    /// Length of the table of errors.
     pub(super) errors: Prefix,
 }
 
 /// A file up to some byte.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Prefix {
-    /// Length in bytes.
     pub(super) length: u64,
     /// CRC-32 of the bytes since the mark before.
     pub(super) checksum: u32,
@@ -39,7 +36,6 @@ pub(super) struct Journal {
     pub(super) complete: bool,
 }
 
-/// A line of a journal.
 pub(super) fn line(value: &Value) -> Vec<u8> {
     let text = value.to_string();
     format!("{:08x} {text}\n", crc32fast::hash(text.as_bytes())).into_bytes()
@@ -51,13 +47,11 @@ fn value(line: &[u8]) -> Option<Value> {
     if intact { serde_json::from_str(text).ok() } else { None }
 }
 
-/// The line that says that the table is complete.
 pub(super) fn completion() -> Value {
     json!({ "complete": true })
 }
 
 impl Mark {
-    /// As a line of a journal holds it.
     pub(super) fn to_value(self) -> Value {
         json!({
             "next": self.next,
@@ -86,8 +80,7 @@ impl Mark {
     }
 }
 
-/// The journal `bytes` with the digits of its number `number` in line `line` replaced and the line signed anew: what is no accident.
-/// For fuzzing.
+/// The journal `bytes` with the digits of a number of a line replaced and the line signed anew, for fuzzing.
 pub fn signed_again(bytes: &[u8], line: usize, number: usize, digits: &[u8]) -> Vec<u8> {
     let mut lines: Vec<Vec<u8>> = bytes.split_inclusive(|byte| *byte == b'\n').map(<[u8]>::to_vec).collect();
     let Some(place) = lines.get_mut(line).filter(|line| line.len() > 9) else { return bytes.to_vec() };
@@ -103,7 +96,6 @@ pub fn signed_again(bytes: &[u8], line: usize, number: usize, digits: &[u8]) -> 
 }
 
 impl Journal {
-    /// Reads the lines that are intact.
     pub(super) fn read(mut file: impl Read) -> std::io::Result<Self> {
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes)?;

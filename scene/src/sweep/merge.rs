@@ -1,44 +1,25 @@
 //! The tables of all shards as one.
 
-use std::fmt;
 use std::io::{self, BufRead, Write};
 
 use super::Sweep;
 
-/// Why tables are not the parts of one.
-#[derive(Debug)]
-pub enum MergeError {
-    /// What a part holds in place of what is next.
-    NotNext {
-        /// Name of the part.
-        part: String,
-        /// What is wrong with it.
-        why: String,
-    },
-    /// A file that cannot be read or written.
-    File(String, io::Error),
-}
-
-/// Writes the rows of `parts`, tables of the sweep with their names, one after the other under one header, and makes sure that
-/// they are all scenes of the sweep, in order.
-///
-/// # Errors
-/// See [`MergeError`].
+/// Writes the rows of `parts`, named tables, under one header; they must be all scenes of the sweep, in order.
 pub fn merge(
     sweep: &Sweep<'_>,
     parts: &mut [(String, Box<dyn BufRead>)],
     mut writer: impl Write,
-) -> Result<(), MergeError> {
-    let mut write = |bytes: &[u8]| writer.write_all(bytes).map_err(|error| MergeError::File("the table".into(), error));
+) -> Result<(), String> {
+    let mut write = |bytes: &[u8]| writer.write_all(bytes).map_err(|error| format!("the table: {error}"));
     let header = csv_line(&sweep.header());
     write(&header)?;
     let mut next = 0;
     for (part, reader) in &mut *parts {
-        let not_next = |why: String| MergeError::NotNext { part: part.clone(), why };
+        let not_next = |why: String| format!("{part} {why}");
         let mut line = Vec::new();
         let mut read = |line: &mut Vec<u8>| {
             line.clear();
-            reader.read_until(b'\n', line).map_err(|error| MergeError::File(part.clone(), error))
+            reader.read_until(b'\n', line).map_err(|error: io::Error| format!("{part}: {error}"))
         };
         read(&mut line)?;
         if line != header {
@@ -56,9 +37,8 @@ pub fn merge(
         }
     }
     if next != sweep.scenes {
-        let part = parts.last().map_or(String::new(), |(part, _)| part.clone());
-        let why = format!("is the last and ends before scene {next}: the sweep has {}", sweep.scenes);
-        return Err(MergeError::NotNext { part, why });
+        let part = parts.last().map_or("", |(part, _)| part);
+        return Err(format!("{part} is the last and ends before scene {next}: the sweep has {}", sweep.scenes));
     }
     Ok(())
 }
@@ -69,14 +49,3 @@ pub fn csv_line(fields: &[String]) -> Vec<u8> {
     writer.write_record(fields).expect("memory takes a record");
     writer.into_inner().expect("memory takes a record")
 }
-
-impl fmt::Display for MergeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            MergeError::NotNext { part, why } => write!(f, "{part} {why}"),
-            MergeError::File(file, error) => write!(f, "{file}: {error}"),
-        }
-    }
-}
-
-impl std::error::Error for MergeError {}

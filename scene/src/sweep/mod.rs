@@ -22,7 +22,7 @@ pub use engine::{Done, compute};
 pub use file::SweepText;
 pub use identity::Identity;
 pub use journal::signed_again;
-pub use merge::{MergeError, csv_line, merge};
+pub use merge::{csv_line, merge};
 pub use shard::Shard;
 pub use spool::{Spool, SpoolError, SpoolFiles};
 
@@ -86,9 +86,6 @@ impl Sweep<'_> {
     }
 
     /// The scene with `parameters`.
-    ///
-    /// # Errors
-    /// A sentence about a parameter out of its range.
     fn scene(&self, parameters: &[f64]) -> Result<Scene, String> {
         let scene = self.base.scene(&self.parameters.keys, parameters, &self.outputs.times)?;
         Ok(Scene { accuracy: self.accuracy, method: self.method, ..scene })
@@ -104,8 +101,7 @@ impl Sweep<'_> {
         Some([rows, errors])
     }
 
-    /// Scenes that are computed together. It decides about speed and memory, not about results: a chunk is about a quarter of a
-    /// second's work or less, and its rows take a few megabytes.
+    /// Scenes that are computed together: about a quarter of a second's work and a few megabytes. Results do not depend on it.
     fn chunk_length(&self) -> u64 {
         let by_time = (5e4 / self.rotation.max(1.0)) as usize;
         let by_memory = 65_536 / self.header().len();

@@ -23,22 +23,17 @@ pub(super) const ERRORS: &str = "errors";
 /// What is written of each scene.
 #[derive(Debug)]
 pub(super) struct Outputs {
-    /// Times, in the units of the scene.
     pub(super) times: Times,
-    /// Groups of columns at each of the times.
     pub(super) groups: Vec<Output>,
     /// Whether the errors of the motion at each of the times are.
     pub(super) errors: bool,
-    /// Numbers for the whole span.
     pub(super) summaries: Vec<Summary>,
 }
 
-/// Numbers for the whole span of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Summary {
     /// Least, largest and mean angle between the spin axis and the direction to the observer.
     Lambda,
-    /// Number of pulses.
     Pulses,
     /// Axis and rate of the slow precession to first order.
     SlowPrecession,
@@ -88,9 +83,6 @@ impl Outputs {
     }
 
     /// The numbers of each scene, as many as the header has names; not a number where one does not exist.
-    ///
-    /// # Errors
-    /// For each scene a sentence that says what could not be computed.
     pub(super) fn values(&self, scenes: &[&Scene]) -> Vec<Result<Vec<f64>, String>> {
         let together = self.samples_of_many(scenes);
         scenes.iter().zip(together).map(|(scene, samples)| guarded(|| self.values_of(scene, samples))).collect()
@@ -138,7 +130,6 @@ impl Outputs {
         Ok(samples)
     }
 
-    /// The numbers of one scene, from its samples if they are known.
     fn values_of(&self, scene: &Scene, known: Option<Result<Vec<Sample>, Error>>) -> Result<Vec<f64>, String> {
         let mut angle = match scene.observer {
             Some(observer) if self.summaries.contains(&Summary::Lambda) => {

@@ -18,16 +18,12 @@ pub(super) struct Parameters {
     pub(super) seed: u64,
 }
 
-/// Where the numbers of a parameter come from.
 #[derive(Debug)]
 pub(super) enum Source {
-    /// As listed.
     Values(Vec<f64>),
     /// Between two ends, both included.
     Grid {
-        /// First point.
         from: f64,
-        /// Last point.
         to: f64,
         /// Whether ratios of neighbours are equal, rather than differences.
         logarithmic: bool,
@@ -36,7 +32,6 @@ pub(super) enum Source {
     Random {
         /// Stream of random numbers, one for each such parameter.
         stream: u64,
-        /// Distribution.
         law: Law,
     },
 }
@@ -45,10 +40,15 @@ pub(super) enum Source {
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Law {
     /// Of the number itself, `from` included.
-    Uniform { from: f64, to: f64 },
+    Uniform {
+        from: f64,
+        to: f64,
+    },
     /// Of its logarithm.
-    LogUniform { from: f64, to: f64 },
-    /// Gaussian.
+    LogUniform {
+        from: f64,
+        to: f64,
+    },
     Normal(Normal<f64>),
 }
 
@@ -56,7 +56,6 @@ pub(super) enum Law {
 const WORDS_PER_DRAW: u128 = 64;
 
 impl Parameters {
-    /// Number of scenes; none beyond `u64`.
     pub(super) fn count(&self) -> Option<u64> {
         self.lengths.iter().try_fold(1_u64, |count, &length| count.checked_mul(length))
     }

@@ -24,17 +24,11 @@ pub enum ConversionError {
     /// The table cannot be read.
     Table(csv::Error),
     /// A field that is not what its column holds.
-    Field {
-        /// Line of the table.
-        line: u64,
-        /// Name of the column.
-        column: String,
-    },
+    Field(u64, String),
     /// The file cannot be written.
     Parquet(ParquetError),
 }
 
-/// The columns of a row group.
 struct Group {
     numbers: Vec<i64>,
     statuses: Vec<ByteArray>,
@@ -43,9 +37,6 @@ struct Group {
 }
 
 /// Writes the CSV table `table` to `file`. The same table gives the same bytes.
-///
-/// # Errors
-/// See [`ConversionError`].
 pub fn write_parquet(table: impl Read, file: &File) -> Result<(), ConversionError> {
     let mut table = csv::Reader::from_reader(table);
     let header: Vec<_> = table.headers()?.iter().map(str::to_owned).collect();
@@ -66,7 +57,7 @@ pub fn write_parquet(table: impl Read, file: &File) -> Result<(), ConversionErro
     let mut record = csv::StringRecord::new();
     while table.read_record(&mut record)? {
         let line = record.position().map_or(0, csv::Position::line);
-        group.take(&record, &header).map_err(|column| ConversionError::Field { line, column })?;
+        group.take(&record, &header).map_err(|column| ConversionError::Field(line, column))?;
         if group.numbers.len() == rows_per_group {
             group.write(&header, &mut writer)?;
             group = Group::new(header.len());
@@ -139,7 +130,7 @@ impl fmt::Display for ConversionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             ConversionError::Table(error) => write!(f, "the table cannot be read: {error}"),
-            ConversionError::Field { line, column } => {
+            ConversionError::Field(line, column) => {
                 write!(f, "line {line} of the table holds no number in the column `{column}`")
             }
             ConversionError::Parquet(error) => write!(f, "the Parquet file cannot be written: {error}"),

@@ -49,9 +49,6 @@ impl SpinAxisAngle {
     }
 
     /// Takes the motion from `from` to `to` into account.
-    ///
-    /// # Errors
-    /// A time that the motion does not hold.
     pub(super) fn add(&mut self, motion: &AxisStateAt<'_>, from: f64, to: f64) -> Result<(), Error> {
         let panels = ((to - from).abs() * self.turning_rate / TAU * PANELS_PER_TURN).ceil().max(1.0);
         let half = (to - from) / panels / 2.0;

@@ -49,7 +49,6 @@ pub struct Spool {
 struct Growing {
     file: File,
     length: u64,
-    /// Of the bytes since the last mark.
     checksum: Hasher,
 }
 
@@ -71,18 +70,12 @@ impl SpoolFiles {
     }
 
     /// Removes what an interrupted process has left.
-    ///
-    /// # Errors
-    /// A file that is there and stays, and a process that is writing it.
     pub fn discard(&self) -> Result<(), SpoolError> {
         let in_use = |journal: File| matches!(journal.try_lock(), Err(fs::TryLockError::WouldBlock));
         if File::open(&self.journal).is_ok_and(in_use) { Err(SpoolError::InUse) } else { self.remove() }
     }
 
     /// Removes what is there.
-    ///
-    /// # Errors
-    /// A file that is there and stays.
     pub fn remove(&self) -> Result<(), SpoolError> {
         // The journal last: without it the others would not be known.
         for path in [&self.rows, &self.errors, &self.journal] {
@@ -98,9 +91,6 @@ impl SpoolFiles {
 impl Spool {
     /// Begins a table of `scenes` with two headers, or continues the part of it that is there: up to the last mark at which both files are
     /// as the journal says. The files are locked for other processes, where the file system can do that.
-    ///
-    /// # Errors
-    /// See [`SpoolError`].
     pub fn open(
         files: SpoolFiles,
         identity: &Identity,
@@ -166,9 +156,6 @@ impl Spool {
     }
 
     /// Appends lines to the table and to that of errors; `next` is the first scene that is then not in them.
-    ///
-    /// # Errors
-    /// A file that cannot be written.
     pub fn append(&mut self, next: u64, [rows, errors]: [&[u8]; 2], failed: u64) -> Result<(), SpoolError> {
         self.rows.append(rows).map_err(refused(&self.files.rows))?;
         self.errors.append(errors).map_err(refused(&self.files.errors))?;
@@ -178,9 +165,6 @@ impl Spool {
     }
 
     /// Makes sure that what was appended outlives the process and the machine's power: first the tables, then the journal.
-    ///
-    /// # Errors
-    /// A file that cannot be written.
     pub fn commit(&mut self) -> Result<(), SpoolError> {
         self.mark.rows = self.rows.mark().map_err(refused(&self.files.rows))?;
         self.mark.errors = self.errors.mark().map_err(refused(&self.files.errors))?;
@@ -188,9 +172,6 @@ impl Spool {
     }
 
     /// Notes that the table is complete.
-    ///
-    /// # Errors
-    /// A file that cannot be written.
     pub fn completed(&mut self) -> Result<(), SpoolError> {
         self.complete = true;
         self.write_line(&journal::completion())

@@ -12,12 +12,7 @@ pub enum TrajectoryError {
     /// The motion, or what follows from it, could not be computed.
     Motion(Error),
     /// A column does not exist at a time, written with its unit.
-    Undefined {
-        /// Name of the column.
-        column: String,
-        /// Time and unit.
-        time: String,
-    },
+    Undefined(String, String),
     /// The span is too short for the fundamental frequencies of the motion, or it has none.
     NoFrequencies(Error),
     /// The rows could not be written.
@@ -42,7 +37,7 @@ impl fmt::Display for TrajectoryError {
         match self {
             TrajectoryError::Incomplete(lacks) => f.write_str(lacks),
             TrajectoryError::Motion(error) => write!(f, "the motion could not be computed: {error}"),
-            TrajectoryError::Undefined { column, time } => {
+            TrajectoryError::Undefined(column, time) => {
                 write!(f, "`{column}` does not exist at t = {time}, where an axis is on a pole, and so has no spectrum")
             }
             TrajectoryError::NoFrequencies(error) => write!(

@@ -13,7 +13,6 @@ pub(super) struct Source {
     pub(super) number: usize,
     pub(super) beam: Beam<f64>,
     line_of_sight: Vector3<f64>,
-    /// Pulses so far.
     pub(super) seen: usize,
     open: Option<Unfinished>,
     last_midpoint: Option<f64>,
@@ -37,7 +36,6 @@ pub(super) struct Numbered {
     pub(super) arrival: Option<(i64, f64)>,
 }
 
-/// A pulse as far as it is known.
 struct Unfinished {
     pulse: Pulse,
     approach: Option<Approach>,
@@ -67,8 +65,7 @@ impl Source {
         }
     }
 
-    /// Whether it is beyond doubt at a time of the segment if the beam is seen, and which turn it is: the magnetic axis neither
-    /// on the edge nor opposite to the line of sight.
+    /// Whether the magnetic axis is neither on the edge of the beam nor, for the count of turns, opposite to the line of sight.
     pub(super) fn is_clear_at(&self, segment: &Segment<BodyState<f64>>, time: f64) -> Result<(bool, bool), Error> {
         const CLEAR: f64 = 1e-6;
         let state = segment.motion.state(time)?;

@@ -29,7 +29,6 @@ pub struct PulseSummary {
     pub work: Work,
 }
 
-/// Names of the columns with their units.
 fn header(scene: &Scene) -> Vec<String> {
     let time = scene.units.time_name;
     let mut names = vec!["beam".to_owned(), "pulse".to_owned()];
@@ -41,9 +40,6 @@ fn header(scene: &Scene) -> Vec<String> {
 
 /// Writes every pulse of the span of `scene` as CSV, in order of the time at which it is over. Memory is bounded whatever the
 /// span; a pulse that lasts from one segment of the motion to the next is one pulse.
-///
-/// # Errors
-/// A scene without observer or pulsar, a motion or pulse train that cannot be computed, or `writer` failing.
 pub fn write_pulses(
     scene: &Scene,
     writer: impl Write,
@@ -164,8 +160,7 @@ impl Numbered {
     }
 }
 
-/// The width of Eq. (56) with the colatitude of the beam at a time that one of the motions holds; none where the formula has
-/// no pulse.
+/// The width of Eq. (56) at a time that one of the motions holds; none where the formula has no pulse.
 fn width_at(time: f64, motions: [Option<&Counted<PlannedMotion>>; 2], beam: &Beam<f64>, theta_o: f64) -> Option<f64> {
     let state = motions.into_iter().flatten().find_map(|motion| motion.state(time).ok())?;
     let m = beam.direction(&state);

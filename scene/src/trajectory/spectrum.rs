@@ -88,9 +88,6 @@ pub struct LinesSummary {
 
 impl Sampling {
     /// Why the span of a scene cannot be sampled.
-    ///
-    /// # Errors
-    /// A sentence about the span.
     pub fn check(scene: &Scene) -> Result<(), String> {
         let rotation = scene.rotation();
         if rotation == 0.0 {
@@ -107,9 +104,6 @@ impl Sampling {
     }
 
     /// The plan for a column, and for the fundamental frequencies of the motion if lines are to be named by them.
-    ///
-    /// # Errors
-    /// A method that the scene does not allow.
     pub fn plan(scene: &Scene, column: &Column, identified: bool) -> Result<Plan, Error> {
         let frequencies = identified.then_some(Output::FundamentalFrequencies);
         let outputs: Vec<_> = [column.group].into_iter().chain(frequencies).collect();
@@ -119,11 +113,7 @@ impl Sampling {
         scene.problem.plan(&request)
     }
 
-    /// Computes the motion by a [`plan`](Sampling::plan) and samples a column. The step follows from the rotation rate alone, not
-    /// from the scene's samples.
-    ///
-    /// # Errors
-    /// A motion that cannot be computed, and a time at which the column does not exist.
+    /// Computes the motion by a [`plan`](Sampling::plan) and samples a column, in steps that follow from the rotation rate alone.
     pub fn of(scene: &Scene, column: &Column, plan: &Plan) -> Result<Self, TrajectoryError> {
         match plan.state {
             State::Nothing => {
@@ -159,9 +149,6 @@ impl Sampling {
     }
 
     /// Writes the amplitude spectrum as CSV.
-    ///
-    /// # Errors
-    /// `writer` failing.
     pub fn write_spectrum(&self, scene: &Scene, column: &Column, writer: impl Write) -> Result<(), TrajectoryError> {
         let mut table = csv::Writer::from_writer(writer);
         table.write_record([frequency_title(scene, "frequency"), format!("amplitude [{}]", column.unit)])?;
@@ -173,9 +160,6 @@ impl Sampling {
     }
 
     /// Writes the lines as CSV, strongest first.
-    ///
-    /// # Errors
-    /// A span too short for the fundamental frequencies, or `writer` failing.
     pub fn write_lines(
         &self,
         scene: &Scene,
@@ -241,9 +225,6 @@ impl Sampling {
     }
 
     /// The fundamental frequencies, or why this motion has none.
-    ///
-    /// # Errors
-    /// A span too short for them.
     fn basis(&self) -> Result<Result<FrequencyBasis, Error>, TrajectoryError> {
         let motion = self.motion.as_ref().expect("names of lines are in the plan");
         match fundamental_frequencies(motion).and_then(|found| found.basis()) {
@@ -258,7 +239,6 @@ impl Sampling {
 /// The quantity that [`fundamental_frequencies`] refuses in a span of few turns.
 const SHORT_SPAN: &str = "span in turns of n about L";
 
-/// Steps of the series.
 fn intervals(scene: &Scene) -> f64 {
     (scene.rotation() * HARMONICS / std::f64::consts::PI).ceil().max(15.0)
 }
@@ -278,10 +258,8 @@ fn series(
         if column.group == Output::EulerAngles {
             sample.angles = sample.orientation().angles().ok();
         }
-        column.value_and_size(scene, &sample).ok_or_else(|| TrajectoryError::Undefined {
-            column: column.name.clone(),
-            time: format!("{:?} {}", scene.output_time(since_start), scene.units.time_name),
-        })
+        let time = || format!("{:?} {}", scene.output_time(since_start), scene.units.time_name);
+        column.value_and_size(scene, &sample).ok_or_else(|| TrajectoryError::Undefined(column.name.clone(), time()))
     };
     let (mut values, mut largest) = (Vec::new(), 0.0_f64);
     for index in 0..=intervals as usize {

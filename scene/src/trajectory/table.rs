@@ -35,9 +35,6 @@ pub fn header(scene: &Scene) -> Vec<String> {
 /// Computes the motion of `scene` by the [plan](Scene::plan) for its columns and writes it as CSV: the [`header`],
 /// then a row per time. Numbers are written with as few digits as identify the double. Memory is bounded whatever the span.
 /// `progress` is given the part of the span that is done, from 0 to 1.
-///
-/// # Errors
-/// A motion that cannot be computed, or `writer` failing.
 pub fn write_csv(scene: &Scene, writer: impl Write, progress: impl FnMut(f64)) -> Result<Summary, TrajectoryError> {
     let plan = scene.plan(&scene.columns)?;
     let progress = RefCell::new(progress);

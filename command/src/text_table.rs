@@ -1,0 +1,16 @@
+//! Tables for reading in a terminal.
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, LineStyle, Table};
+
+/// Rows under the first, their header, with a line between and one below them all if `closed`. Which columns are on the right is asked.
+pub(crate) fn text_table(rows: &[Vec<String>], on_the_right: impl Fn(usize) -> bool, closed: bool) -> String {
+    let line = LineStyle::none().fill('─').junction('─');
+    let style = NOTHING.header_separator(line);
+    let mut table = Table::new();
+    table.load_style(if closed { style.bottom_border(line) } else { style }).set_header(&rows[0]).add_rows(&rows[1..]);
+    for (_, column) in table.column_iter_mut().enumerate().filter(|(place, _)| on_the_right(*place)) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table.trim_fmt()
+}
