@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::common::{file, folder, names_in, refuses, stderr, succeeds, twofold};
+use crate::common::{file, folder, has_all, names_in, refuses, stderr, succeeds, twofold};
 
 /// Status 2, nothing on standard output, one message that contains the fragments, no file.
 fn assert_refused(scene: &Path, fragments: &[&str]) {
@@ -20,9 +20,7 @@ fn assert_refused(scene: &Path, fragments: &[&str]) {
         assert!(message.starts_with("error: "), "{message}");
         assert_eq!(message.matches("error: ").count(), 1, "{scene}: {message}");
         assert!(!message.contains("panicked"), "{message}");
-        for fragment in fragments {
-            assert!(message.contains(fragment), "{scene}: expected `{fragment}` in\n{message}");
-        }
+        has_all(&message, fragments);
         assert!(names_in(folder.path()).is_empty(), "{scene}: left {:?}", names_in(folder.path()));
     }
 }
@@ -83,8 +81,7 @@ fn an_output_file_appears_complete_and_is_not_overwritten() {
     let folder = folder();
     let out = folder.path().join("motion.csv");
     let out = out.to_str().expect("path in UTF-8");
-    let printed = twofold(&["run", "tp-1"]);
-    assert_eq!(printed.status.code(), Some(0));
+    let printed = succeeds(&["run", "tp-1"]);
     assert!(stderr(&printed).starts_with("note: estimated error of n, e_x and L / |L| at the end of the span: "));
     assert!(printed.stdout.starts_with(b"t [t_c],alpha [rad],beta [rad],gamma [rad],alpha_rate [rad/t_c],"));
     assert_eq!(printed.stdout.iter().filter(|&&byte| byte == b'\n').count(), 4002);
@@ -190,8 +187,7 @@ fn a_report_that_cannot_be_written_is_refused_before_the_checks_are_run() {
 
 #[test]
 fn scenes_are_listed_and_each_listed_name_runs() {
-    let output = twofold(&["scenes"]);
-    assert_eq!(output.status.code(), Some(0));
+    let output = succeeds(&["scenes"]);
     let text = String::from_utf8(output.stdout).expect("text");
     let (scenes, sweeps) = text.split_once("\nSweeps").expect("both kinds");
     let names = |list: &str| -> Vec<String> {
@@ -274,9 +270,7 @@ fn columns_of_the_command_line_replace_those_of_the_scene() {
         ("perturbation", &["the scene lacks a perturbation solution", "`initial.kind`"]),
     ] {
         let output = refuses(&["run", "free", "--columns", columns]);
-        for fragment in fragments {
-            assert!(stderr(&output).contains(fragment), "expected `{fragment}` in {}", stderr(&output));
-        }
+        has_all(&stderr(&output), fragments);
     }
 }
 

@@ -29,6 +29,21 @@ pub fn refuses(args: &[&str]) -> Output {
     output
 }
 
+/// A command that ended with this status.
+#[track_caller]
+pub fn ends(output: Output, status: i32) -> Output {
+    assert_eq!(output.status.code(), Some(status), "{}", stderr(&output));
+    output
+}
+
+/// A text with all of these in it.
+#[track_caller]
+pub fn has_all(text: &str, fragments: &[&str]) {
+    for fragment in fragments {
+        assert!(text.contains(fragment), "expected `{fragment}` in\n{text}");
+    }
+}
+
 /// A file with a text in a folder that is removed at the end, and its path.
 pub fn file(name: &str, text: impl AsRef<[u8]>) -> (TempDir, String) {
     let folder = folder();
