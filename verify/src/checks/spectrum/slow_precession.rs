@@ -29,7 +29,8 @@ checks! {
     AtMost(0.06) "|formula / measured - 1|, the larger of L and n averaged over the fast rotation and L and n at the start";
     because "the formula is of first order in s, whose largest difference is 0.06";
     /// its relative error falls with s as of first order, and the slow frequency is proportional to s to that order
-    Regime "slow-precession-order" [57]: order_in_s;
+    Regime "slow-precession-order" [57]:
+        || order_of_error(&[1.0, 0.5, 0.25], |k| slow_frequency(k).map(|[formula, measured]| (formula / measured - 1.0).abs()));
     Within(0.75, 1.4) "order of the relative error in s: tp-II with s scaled by 1, 1/2, 1/4";
     because "one, with corrections of relative order 0.06 k per factor of two";
 }
@@ -138,8 +139,4 @@ fn formula_of_tp_2() -> Result<Measured, String> {
     let error = largest([averaged, initial].map(|formula| (formula / measured - 1.0).abs()));
     let detail = format!("from averages {averaged:.5}, from initial values {initial:.5}, measured {measured:.8}");
     Ok(Measured::new(error, detail))
-}
-
-fn order_in_s() -> Result<Measured, String> {
-    order_of_error(&[1.0, 0.5, 0.25], |k| slow_frequency(k).map(|[formula, measured]| (formula / measured - 1.0).abs()))
 }
