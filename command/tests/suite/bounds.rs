@@ -3,32 +3,20 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{has_all, succeeds, twofold};
+use crate::common::{has_all, is_refused, succeeds, twofold};
+use twofold_verify::refused_files::refused_files;
 
-/// Status 2, nothing on standard output, one message that contains the fragments.
-fn assert_refused(table: &Path, fragments: &[&str]) {
+fn assert_refused(table: &Path, fragments: &[impl AsRef<str>]) {
     for extra in [&["--json"][..], &[]] {
-        let output = twofold(&[&["bounds", table.to_str().expect("path in UTF-8")], extra].concat());
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{}: {message}", table.display());
-        assert!(output.stdout.is_empty(), "{}: something on standard output", table.display());
-        assert!(message.starts_with("error: ") && message.matches("error: ").count() == 1, "{message}");
-        has_all(&message, fragments);
+        is_refused(&twofold(&[&["bounds", table.to_str().expect("path in UTF-8")], extra].concat()), fragments);
     }
 }
 
 #[test]
 fn bad_tables_are_refused() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/bad-pulsars");
-    let mut count = 0;
-    for entry in fs::read_dir(folder).expect("folder of bad tables") {
-        let path = entry.expect("entry").path();
-        let text = fs::read_to_string(&path).expect("text");
-        let expected = text.lines().next().and_then(|line| line.strip_prefix("# expect: ")).expect("`# expect:`");
-        assert_refused(&path, &expected.split(" | ").collect::<Vec<_>>());
-        count += 1;
-    }
-    assert!(count >= 50, "only {count} bad tables found");
+    let files = refused_files("bad-pulsars");
+    files.iter().for_each(|(file, expected)| assert_refused(Path::new(file), expected));
+    assert!(files.len() >= 50, "only {} bad tables found", files.len());
 }
 
 #[test]

@@ -5,22 +5,16 @@ use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::common::{file, folder, has_all, names_in, refuses, stderr, succeeds, twofold};
+use crate::common::{file, folder, has_all, is_refused, names_in, refuses, stderr, succeeds, twofold};
+use twofold_verify::refused_files::refused_files;
 
-/// Status 2, nothing on standard output, one message that contains the fragments, no file.
-fn assert_refused(scene: &Path, fragments: &[&str]) {
+/// Refused, and no file is left.
+fn assert_refused(scene: &Path, fragments: &[impl AsRef<str>]) {
     let folder = folder();
     let out = folder.path().join("motion.csv");
     let scene = scene.to_str().expect("path in UTF-8");
     for extra in [&["--out", out.to_str().expect("path in UTF-8")][..], &[]] {
-        let output = twofold(&[&["run", scene], extra].concat());
-        let message = stderr(&output);
-        assert_eq!(output.status.code(), Some(2), "{scene}: {message}");
-        assert!(output.stdout.is_empty(), "{scene}: something on standard output");
-        assert!(message.starts_with("error: "), "{message}");
-        assert_eq!(message.matches("error: ").count(), 1, "{scene}: {message}");
-        assert!(!message.contains("panicked"), "{message}");
-        has_all(&message, fragments);
+        is_refused(&twofold(&[&["run", scene], extra].concat()), fragments);
         assert!(names_in(folder.path()).is_empty(), "{scene}: left {:?}", names_in(folder.path()));
     }
 }
@@ -38,16 +32,9 @@ fn columns_of_a_scene_need_sections_only_where_they_are_written() {
 
 #[test]
 fn bad_scenes_are_refused_before_anything_is_written() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/bad-scenes");
-    let mut count = 0;
-    for entry in fs::read_dir(folder).expect("folder of bad scenes") {
-        let path = entry.expect("entry").path();
-        let text = fs::read_to_string(&path).expect("text");
-        let expected = text.lines().next().and_then(|line| line.strip_prefix("# expect: ")).expect("`# expect:`");
-        assert_refused(&path, &expected.split(" | ").collect::<Vec<_>>());
-        count += 1;
-    }
-    assert!(count >= 95, "only {count} bad scenes found");
+    let files = refused_files("bad-scenes");
+    files.iter().for_each(|(file, expected)| assert_refused(Path::new(file), expected));
+    assert!(files.len() >= 95, "only {} bad scenes found", files.len());
 }
 
 #[test]

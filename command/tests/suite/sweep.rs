@@ -4,8 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use crate::common::{comes_to, ends, folder, has_all, names_in, stderr, stdout, twofold};
+use crate::common::{comes_to, ends, folder, is_refused, names_in, stderr, stdout, twofold};
 use twofold_verify::random::Random;
+use twofold_verify::refused_files::refused_files;
 
 /// Draws and grids about tp-2; a tenth of the scenes is refused.
 const SWEEP: &str = r#"
@@ -200,7 +201,7 @@ fn threads_and_shards_do_not_change_a_byte() {
     let names: Vec<_> = names.iter().map(String::as_str).collect();
     let merge =
         |parts: &[&str], out: &str| sweep(folder.path(), &[&["sweep.toml", "--out", out, "--merge"], parts].concat());
-    let merged = ends(merge(&names, "merged.csv"), 3);
+    ends(merge(&names, "merged.csv"), 3);
     assert_eq!(read("one.csv"), read("merged.csv"));
     assert_eq!(read("one.csv.errors.csv"), read("merged.csv.errors.csv"));
     for (parts, why) in [
@@ -261,7 +262,7 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
     // Many columns make short chunks: a mark is never far, and little is lost by a kill.
     let text = SWEEP.replace("draws = 40", "draws = 20").replace("times = [3.0, 20.0]", "span = 300\nsamples = 201");
     written(folder.path(), "sweep.toml", &text);
-    let whole = ends(sweep(folder.path(), &["sweep.toml", "--out", "whole.csv"]), 3);
+    ends(sweep(folder.path(), &["sweep.toml", "--out", "whole.csv"]), 3);
     let (rows, journal) = (folder.path().join("table.csv.partial"), folder.path().join("table.csv.partial.journal"));
     let (mut kills, mut continued) = (0, 0);
     let mut random = Random::with_seed(0x5eed);
@@ -328,22 +329,13 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
 
 #[test]
 fn bad_sweeps_are_refused_before_anything_is_written() {
-    let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/bad-sweeps");
-    let mut count = 0;
-    for entry in fs::read_dir(bad).expect("folder of bad sweeps") {
-        let path = entry.expect("entry").path();
-        let text = fs::read_to_string(&path).expect("text");
-        let expected = text.lines().next().and_then(|line| line.strip_prefix("# expect: ")).expect("`# expect:`");
+    let files = refused_files("bad-sweeps");
+    for (file, expected) in &files {
         let folder = folder();
-        let output = sweep(folder.path(), &[path.to_str().expect("UTF-8"), "--out", "table.csv"]);
-        let message = stderr(&output);
-        assert_eq!(output.status.code(), Some(2), "{}: {message}", path.display());
-        assert!(message.starts_with("error: ") && message.matches("error: ").count() == 1, "{message}");
-        has_all(&message, &expected.split(" | ").collect::<Vec<_>>());
-        assert!(output.stdout.is_empty() && names_in(folder.path()).is_empty(), "{}", path.display());
-        count += 1;
+        is_refused(&sweep(folder.path(), &[file, "--out", "table.csv"]), expected);
+        assert!(names_in(folder.path()).is_empty(), "{file}");
     }
-    assert!(count >= 70, "only {count} bad sweeps found");
+    assert!(files.len() >= 70, "only {} bad sweeps found", files.len());
 }
 
 #[test]
