@@ -1,9 +1,7 @@
 //! Keeps `docs/reliability/stability.md` true.
 
-use std::collections::BTreeSet;
 use std::fs;
 
-use twofold_verify::checks;
 use twofold_verify::stability::cases::FAMILIES;
 use twofold_verify::stability::denormal::POINTS;
 use twofold_verify::stability::{Case, table};
@@ -46,14 +44,4 @@ fn denormal_inputs_give_the_limit() {
         numbers += found.compared;
     }
     assert!(sweeps > 70 && whole > sweeps - 4 && numbers > 12_000, "{sweeps} sweeps, {whole} whole, {numbers} numbers");
-}
-
-#[test]
-fn families_and_checks_are_the_same() {
-    let ids: BTreeSet<&str> = checks::all().iter().map(|check| check.id).collect();
-    for family in FAMILIES {
-        assert!(ids.contains(format!("stability-{}", family.name).as_str()), "{}", family.name);
-    }
-    let checks = ids.iter().filter(|id| id.starts_with("stability-")).count();
-    assert_eq!(checks, FAMILIES.len(), "one check for each family");
 }

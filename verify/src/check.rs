@@ -109,6 +109,57 @@ pub struct Check {
     pub measure: fn() -> Result<Measured, String>,
 }
 
+/// The checks of a module, as its function `checks()`. What holds is the doc comment of a row. A row is either one check, with the function that
+/// measures its figure, or an [`Identity`](crate::identity::Identity): the function of a point whose components vanish, the kind of its check in
+/// floating point ([`Kind::Autodiff`] if derivatives are in it), id and equation numbers.
+macro_rules! checks {
+    (@rows $checks:ident) => {};
+    (@rows $checks:ident $(#[doc = $statement:literal])+ $residuals:ident: $kind:ident $id:literal $equations:tt; $($rest:tt)*) => {
+        {
+            struct Row;
+            impl $crate::identity::Identity for Row {
+                const ID: &'static str = $id;
+                const ROUNDED: ($crate::check::Kind, &'static str) =
+                    ($crate::check::Kind::$kind, $crate::check::checks!(@rounded $kind $id));
+                const EQUATIONS: &'static [u8] = &$equations;
+                const STATEMENT: &'static str = concat!($($statement),+).trim_ascii();
+                fn residuals<F: $crate::derivation::Differentiable>(point: &$crate::random::Point<F>) -> Vec<F> {
+                    $residuals(point)
+                }
+            }
+            $checks.extend($crate::identity::checks::<Row>());
+        }
+        $crate::check::checks!(@rows $checks $($rest)*);
+    };
+    (
+        @rows $checks:ident $(#[doc = $statement:literal])+ $kind:ident $id:literal $equations:tt: $measure:expr;
+        $bound:ident $limits:tt $figure:literal; because $reason:literal; $($rest:tt)*
+    ) => {
+        $checks.push($crate::check::Check {
+            id: $id,
+            kind: $crate::check::Kind::$kind,
+            equations: &$equations,
+            statement: const { concat!($($statement),+).trim_ascii() },
+            figure: $figure,
+            bound: $crate::check::Bound::$bound $limits,
+            reason: $reason,
+            measure: $measure,
+        });
+        $crate::check::checks!(@rows $checks $($rest)*);
+    };
+    (@rounded Autodiff $id:literal) => { concat!($id, "-autodiff") };
+    (@rounded Property $id:literal) => { concat!($id, "-rounding") };
+    ($($rows:tt)+) => {
+        /// The checks of this subject.
+        pub fn checks() -> Vec<$crate::check::Check> {
+            let mut checks = Vec::new();
+            $crate::check::checks!(@rows checks $($rows)+);
+            checks
+        }
+    };
+}
+pub(crate) use checks;
+
 /// What became of a check.
 #[derive(Debug, Clone)]
 pub struct Outcome {

@@ -3,6 +3,24 @@
 /// Gives a type with `Scalar::from_f64` the sum, the negative, the product and the quotient that are written for it, and what `Scalar` takes
 /// besides: differences, assigning operators, products with constants, zero and one.
 macro_rules! field_operators {
+    (@operator [$type:ty $(, $parameter:ident)?] $trait:path, $name:ident($a:ident, $b:ident: $right:ty) $value:expr) => {
+        impl$(<$parameter: twofold::Scalar>)? $trait for $type {
+            type Output = Self;
+
+            #[inline]
+            fn $name(self, $b: $right) -> Self {
+                let $a = self;
+                $value
+            }
+        }
+    };
+    (@assigning [$type:ty $(, $parameter:ident)?] $trait:path, $name:ident $operator:tt) => {
+        impl$(<$parameter: twofold::Scalar>)? $trait for $type {
+            fn $name(&mut self, right: Self) {
+                *self = *self $operator right;
+            }
+        }
+    };
     (
         $type:ty $(, $parameter:ident)?;
         $a:ident + $b:ident = $sum:expr;
@@ -10,24 +28,18 @@ macro_rules! field_operators {
         $c:ident * $d:ident = $product:expr;
         $e:ident / $f:ident = $quotient:expr;
     ) => {
-        impl$(<$parameter: twofold::Scalar>)? core::ops::Add for $type {
-            type Output = Self;
-
-            #[inline]
-            fn add(self, $b: Self) -> Self {
-                let $a = self;
-                $sum
-            }
-        }
-
-        impl$(<$parameter: twofold::Scalar>)? core::ops::Sub for $type {
-            type Output = Self;
-
-            #[inline]
-            fn sub(self, rhs: Self) -> Self {
-                self + -rhs
-            }
-        }
+        field_operators! { @operator [$type $(, $parameter)?] core::ops::Add, add($a, $b: Self) $sum }
+        field_operators! { @operator [$type $(, $parameter)?] core::ops::Sub, sub(left, right: Self) left + -right }
+        field_operators! { @operator [$type $(, $parameter)?] core::ops::Mul, mul($c, $d: Self) $product }
+        field_operators! { @operator [$type $(, $parameter)?] core::ops::Div, div($e, $f: Self) $quotient }
+        field_operators! { @operator [$type $(, $parameter)?] core::ops::Mul<f64>,
+            mul(left, right: f64) left * <Self as twofold::Scalar>::from_f64(right) }
+        field_operators! { @operator [$type $(, $parameter)?] core::ops::Div<f64>,
+            div(left, right: f64) left / <Self as twofold::Scalar>::from_f64(right) }
+        field_operators! { @assigning [$type $(, $parameter)?] core::ops::AddAssign, add_assign + }
+        field_operators! { @assigning [$type $(, $parameter)?] core::ops::SubAssign, sub_assign - }
+        field_operators! { @assigning [$type $(, $parameter)?] core::ops::MulAssign, mul_assign * }
+        field_operators! { @assigning [$type $(, $parameter)?] core::ops::DivAssign, div_assign / }
 
         impl$(<$parameter: twofold::Scalar>)? core::ops::Neg for $type {
             type Output = Self;
@@ -36,66 +48,6 @@ macro_rules! field_operators {
             fn neg(self) -> Self {
                 let $of = self;
                 $negative
-            }
-        }
-
-        impl$(<$parameter: twofold::Scalar>)? core::ops::Mul for $type {
-            type Output = Self;
-
-            #[inline]
-            fn mul(self, $d: Self) -> Self {
-                let $c = self;
-                $product
-            }
-        }
-
-        impl$(<$parameter: twofold::Scalar>)? core::ops::Div for $type {
-            type Output = Self;
-
-            #[inline]
-            fn div(self, $f: Self) -> Self {
-                let $e = self;
-                $quotient
-            }
-        }
-
-        impl$(<$parameter: twofold::Scalar>)? core::ops::AddAssign for $type {
-            fn add_assign(&mut self, rhs: Self) {
-                *self = *self + rhs;
-            }
-        }
-
-        impl$(<$parameter: twofold::Scalar>)? core::ops::SubAssign for $type {
-            fn sub_assign(&mut self, rhs: Self) {
-                *self = *self - rhs;
-            }
-        }
-
-        impl$(<$parameter: twofold::Scalar>)? core::ops::MulAssign for $type {
-            fn mul_assign(&mut self, rhs: Self) {
-                *self = *self * rhs;
-            }
-        }
-
-        impl$(<$parameter: twofold::Scalar>)? core::ops::DivAssign for $type {
-            fn div_assign(&mut self, rhs: Self) {
-                *self = *self / rhs;
-            }
-        }
-
-        impl$(<$parameter: twofold::Scalar>)? core::ops::Mul<f64> for $type {
-            type Output = Self;
-
-            fn mul(self, rhs: f64) -> Self {
-                self * <Self as twofold::Scalar>::from_f64(rhs)
-            }
-        }
-
-        impl$(<$parameter: twofold::Scalar>)? core::ops::Div<f64> for $type {
-            type Output = Self;
-
-            fn div(self, rhs: f64) -> Self {
-                self / <Self as twofold::Scalar>::from_f64(rhs)
             }
         }
 

@@ -55,34 +55,6 @@ pub fn checks<I: Identity>() -> [Check; 2] {
     ]
 }
 
-/// The table of a module's identities, as the function `identities() -> Vec<Check>`: what holds, the function of a point whose components vanish, the
-/// kind of its check in floating point ([`Kind::Autodiff`] if derivatives are in it), id and equation numbers.
-macro_rules! identities {
-    ($($(#[doc = $statement:literal])+ $residuals:ident: $kind:ident $id:literal $equations:tt;)+) => {
-        fn identities() -> Vec<$crate::check::Check> {
-            let mut checks = Vec::new();
-            $({
-                struct Row;
-                impl $crate::identity::Identity for Row {
-                    const ID: &'static str = $id;
-                    const ROUNDED: ($crate::check::Kind, &'static str) =
-                        ($crate::check::Kind::$kind, $crate::identity::identities!(@rounded $kind $id));
-                    const EQUATIONS: &'static [u8] = &$equations;
-                    const STATEMENT: &'static str = concat!($($statement),+).trim_ascii();
-                    fn residuals<F: $crate::derivation::Differentiable>(point: &$crate::random::Point<F>) -> Vec<F> {
-                        $residuals(point)
-                    }
-                }
-                checks.extend($crate::identity::checks::<Row>());
-            })+
-            checks
-        }
-    };
-    (@rounded Autodiff $id:literal) => { concat!($id, "-autodiff") };
-    (@rounded Property $id:literal) => { concat!($id, "-rounding") };
-}
-pub(crate) use identities;
-
 fn points<F: Drawn>(seed: u64, count: usize) -> impl Iterator<Item = Point<F>> {
     let mut random = Random::with_seed(seed);
     (0..count).map(move |_| Point::draw(&mut random))

@@ -25,6 +25,7 @@ pub mod printed;
 pub mod pulse_series;
 pub mod random;
 pub mod reference;
+pub mod refused_files;
 pub mod report;
 pub mod second_integrator;
 pub mod simulation;

@@ -70,7 +70,7 @@ field_operators! {
         // 2^61 = 1: the high part is added to the low one.
         Self::new((product & u128::from(PRIME)) as u64 + (product >> 61) as u64)
     };
-    a / b = a * b.inverse();
+    a / b = core::ops::Mul::mul(a, b.inverse());
 }
 
 impl Scalar for Fp {

@@ -40,9 +40,12 @@ fn taylor(scene: &BenchScene, state: &AxisState<f64>, duration: f64) -> Result<A
 /// Length of a segment (t_c).
 const SEGMENT: f64 = 1000.0;
 
+/// Errors of a method at a time.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Row {
+pub struct Row {
+    /// Name of the method.
     pub method: &'static str,
+    /// The time (t_c).
     pub time: f64,
     /// Largest change of the energy at the end of a segment so far, over the sum of the magnitudes of its terms.
     pub energy: f64,
@@ -62,7 +65,7 @@ pub fn references() -> Vec<(f64, Vector3<DoubleDouble>)> {
 }
 
 /// Errors of every method along tp-II, at every power of ten from 100 t_c to the longest time; `done` hears which part is over.
-pub(crate) fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
+pub fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<Row>, String> {
     let scene = BenchScene::named("tp-II");
     let start = integrals(&scene, &scene.problem.initial().axis_state());
     let scale = scales(&scene);
@@ -104,7 +107,7 @@ fn scales(scene: &BenchScene) -> [f64; 2] {
 }
 
 /// The exponent `p` of `error ~ time^p` by least squares, from 1,000 t_c on: a random walk takes longer to show what it is.
-pub(crate) fn exponent(rows: &[Row], method: &str, error: impl Fn(&Row) -> f64) -> Option<Slope> {
+pub fn exponent(rows: &[Row], method: &str, error: impl Fn(&Row) -> f64) -> Option<Slope> {
     let of_this = rows.iter().filter(|row| row.method == method && row.time >= 1e3);
     order(&of_this.map(|row| (row.time, error(row))).collect::<Vec<_>>(), 0.0).ok()
 }

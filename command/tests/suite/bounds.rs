@@ -3,34 +3,20 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::twofold;
+use crate::common::{has_all, is_refused, succeeds, twofold};
+use twofold_verify::refused_files::refused_files;
 
-/// Status 2, nothing on standard output, one message that contains the fragments.
-fn assert_refused(table: &Path, fragments: &[&str]) {
+fn assert_refused(table: &Path, fragments: &[impl AsRef<str>]) {
     for extra in [&["--json"][..], &[]] {
-        let output = twofold(&[&["bounds", table.to_str().expect("path in UTF-8")], extra].concat());
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{}: {message}", table.display());
-        assert!(output.stdout.is_empty(), "{}: something on standard output", table.display());
-        assert!(message.starts_with("error: ") && message.matches("error: ").count() == 1, "{message}");
-        for fragment in fragments {
-            assert!(message.contains(fragment), "{}: expected `{fragment}` in\n{message}", table.display());
-        }
+        is_refused(&twofold(&[&["bounds", table.to_str().expect("path in UTF-8")], extra].concat()), fragments);
     }
 }
 
 #[test]
 fn bad_tables_are_refused() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/bad-pulsars");
-    let mut count = 0;
-    for entry in fs::read_dir(folder).expect("folder of bad tables") {
-        let path = entry.expect("entry").path();
-        let text = fs::read_to_string(&path).expect("text");
-        let expected = text.lines().next().and_then(|line| line.strip_prefix("# expect: ")).expect("`# expect:`");
-        assert_refused(&path, &expected.split(" | ").collect::<Vec<_>>());
-        count += 1;
-    }
-    assert!(count >= 50, "only {count} bad tables found");
+    let files = refused_files("bad-pulsars");
+    files.iter().for_each(|(file, expected)| assert_refused(Path::new(file), expected));
+    assert!(files.len() >= 50, "only {} bad tables found", files.len());
 }
 
 #[test]
@@ -60,13 +46,10 @@ fn bounds_as_json(arguments: &[&str]) -> serde_json::Value {
 
 #[test]
 fn the_built_in_table_is_printed_beside_the_paper() {
-    let output = twofold(&["bounds"]);
-    assert_eq!(output.status.code(), Some(0));
+    let output = succeeds(&["bounds"]);
     assert!(output.stderr.is_empty());
     let text = String::from_utf8(output.stdout).expect("text");
-    for name in ["PSR B1937+21, main pulse", "PSR B1937+21, interpulse", "PSR J1744-1134"] {
-        assert!(text.contains(name), "{text}");
-    }
+    has_all(&text, &["PSR B1937+21, main pulse", "PSR B1937+21, interpulse", "PSR J1744-1134"]);
     assert!(text.contains("printed") && text.contains("-18.861"), "{text}");
     assert_eq!(text.matches("Recommended: |2 s^ZZ - s^XX - s^YY| < 2.8e-14 at 95 % confidence").count(), 1, "{text}");
     assert!(
@@ -76,9 +59,7 @@ fn the_built_in_table_is_printed_beside_the_paper() {
     for reading in ["(a) bound / eta ", "(b) bound / eta ", "(c) as (b), by the error of Delta W: limit / eta "] {
         assert_eq!(text.matches(reading).count(), 3, "{reading} for each pulse in {text}");
     }
-    for published in ["arXiv:2311.11038", "arXiv:1706.06294", "arXiv:1307.2552", "arXiv:1209.4503", "arXiv:1412.2320"] {
-        assert!(text.contains(published), "no {published} in {text}");
-    }
+    has_all(&text, &["arXiv:2311.11038", "arXiv:1706.06294", "arXiv:1307.2552", "arXiv:1209.4503", "arXiv:1412.2320"]);
 }
 
 /// The readings of the paper's table: with the stated star, with the star's own deformation, with the measured error, all together.

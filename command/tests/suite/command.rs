@@ -5,24 +5,16 @@ use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::common::{file, folder, names_in, refuses, stderr, succeeds, twofold};
+use crate::common::{file, folder, has_all, is_refused, names_in, refuses, stderr, succeeds, twofold};
+use twofold_verify::refused_files::refused_files;
 
-/// Status 2, nothing on standard output, one message that contains the fragments, no file.
-fn assert_refused(scene: &Path, fragments: &[&str]) {
+/// Refused, and no file is left.
+fn assert_refused(scene: &Path, fragments: &[impl AsRef<str>]) {
     let folder = folder();
     let out = folder.path().join("motion.csv");
     let scene = scene.to_str().expect("path in UTF-8");
     for extra in [&["--out", out.to_str().expect("path in UTF-8")][..], &[]] {
-        let output = twofold(&[&["run", scene], extra].concat());
-        let message = stderr(&output);
-        assert_eq!(output.status.code(), Some(2), "{scene}: {message}");
-        assert!(output.stdout.is_empty(), "{scene}: something on standard output");
-        assert!(message.starts_with("error: "), "{message}");
-        assert_eq!(message.matches("error: ").count(), 1, "{scene}: {message}");
-        assert!(!message.contains("panicked"), "{message}");
-        for fragment in fragments {
-            assert!(message.contains(fragment), "{scene}: expected `{fragment}` in\n{message}");
-        }
+        is_refused(&twofold(&[&["run", scene], extra].concat()), fragments);
         assert!(names_in(folder.path()).is_empty(), "{scene}: left {:?}", names_in(folder.path()));
     }
 }
@@ -40,16 +32,9 @@ fn columns_of_a_scene_need_sections_only_where_they_are_written() {
 
 #[test]
 fn bad_scenes_are_refused_before_anything_is_written() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/bad-scenes");
-    let mut count = 0;
-    for entry in fs::read_dir(folder).expect("folder of bad scenes") {
-        let path = entry.expect("entry").path();
-        let text = fs::read_to_string(&path).expect("text");
-        let expected = text.lines().next().and_then(|line| line.strip_prefix("# expect: ")).expect("`# expect:`");
-        assert_refused(&path, &expected.split(" | ").collect::<Vec<_>>());
-        count += 1;
-    }
-    assert!(count >= 95, "only {count} bad scenes found");
+    let files = refused_files("bad-scenes");
+    files.iter().for_each(|(file, expected)| assert_refused(Path::new(file), expected));
+    assert!(files.len() >= 95, "only {} bad scenes found", files.len());
 }
 
 #[test]
@@ -83,8 +68,7 @@ fn an_output_file_appears_complete_and_is_not_overwritten() {
     let folder = folder();
     let out = folder.path().join("motion.csv");
     let out = out.to_str().expect("path in UTF-8");
-    let printed = twofold(&["run", "tp-1"]);
-    assert_eq!(printed.status.code(), Some(0));
+    let printed = succeeds(&["run", "tp-1"]);
     assert!(stderr(&printed).starts_with("note: estimated error of n, e_x and L / |L| at the end of the span: "));
     assert!(printed.stdout.starts_with(b"t [t_c],alpha [rad],beta [rad],gamma [rad],alpha_rate [rad/t_c],"));
     assert_eq!(printed.stdout.iter().filter(|&&byte| byte == b'\n').count(), 4002);
@@ -190,8 +174,7 @@ fn a_report_that_cannot_be_written_is_refused_before_the_checks_are_run() {
 
 #[test]
 fn scenes_are_listed_and_each_listed_name_runs() {
-    let output = twofold(&["scenes"]);
-    assert_eq!(output.status.code(), Some(0));
+    let output = succeeds(&["scenes"]);
     let text = String::from_utf8(output.stdout).expect("text");
     let (scenes, sweeps) = text.split_once("\nSweeps").expect("both kinds");
     let names = |list: &str| -> Vec<String> {
@@ -274,9 +257,7 @@ fn columns_of_the_command_line_replace_those_of_the_scene() {
         ("perturbation", &["the scene lacks a perturbation solution", "`initial.kind`"]),
     ] {
         let output = refuses(&["run", "free", "--columns", columns]);
-        for fragment in fragments {
-            assert!(stderr(&output).contains(fragment), "expected `{fragment}` in {}", stderr(&output));
-        }
+        has_all(&stderr(&output), fragments);
     }
 }
 

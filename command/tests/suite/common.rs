@@ -29,6 +29,32 @@ pub fn refuses(args: &[&str]) -> Output {
     output
 }
 
+/// A command that ended with this status.
+#[track_caller]
+pub fn ends(output: Output, status: i32) -> Output {
+    assert_eq!(output.status.code(), Some(status), "{}", stderr(&output));
+    output
+}
+
+/// A text with all of these in it.
+#[track_caller]
+pub fn has_all(text: &str, fragments: &[impl AsRef<str>]) {
+    for fragment in fragments.iter().map(AsRef::as_ref) {
+        assert!(text.contains(fragment), "expected `{fragment}` in\n{text}");
+    }
+}
+
+/// A command that refused its input: status 2, nothing on standard output, one message with all of these in it.
+#[track_caller]
+pub fn is_refused(output: &Output, fragments: &[impl AsRef<str>]) {
+    let message = stderr(output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(output.stdout.is_empty(), "something on standard output beside {message}");
+    assert!(message.starts_with("error: ") && message.matches("error: ").count() == 1, "{message}");
+    assert!(!message.contains("panicked"), "{message}");
+    has_all(&message, fragments);
+}
+
 /// A file with a text in a folder that is removed at the end, and its path.
 pub fn file(name: &str, text: impl AsRef<[u8]>) -> (TempDir, String) {
     let folder = folder();

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use crate::common::{folder, names_in, stderr};
+use crate::common::{ends, folder, has_all, names_in, stderr};
 
 fn figures(folder: &Path, args: &[&str]) -> Output {
     let command = Command::new(env!("CARGO_BIN_EXE_twofold")).arg("figures").args(args).current_dir(folder).output();
@@ -14,8 +14,7 @@ fn figures(folder: &Path, args: &[&str]) -> Output {
 #[test]
 fn a_figure_has_its_four_kinds_of_files() {
     let folder = folder();
-    let output = figures(folder.path(), &["waves", "1"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let output = ends(figures(folder.path(), &["waves", "1"]), 0);
     assert_eq!(String::from_utf8_lossy(&output.stdout), "figures: 2 figures, 9 files\n");
     let made = folder.path().join("figures");
     let expected = [
@@ -49,28 +48,17 @@ fn nothing_is_replaced_unless_asked() {
     for (file, text) in [("beam-cone.svg", "mine"), ("beam-cone.pdf", "mine"), ("notes.txt", "mine")] {
         fs::write(made.join(file), text).expect("file");
     }
-    let refused = figures(folder.path(), &["beam-cone", "--out", "figures"]);
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(
-        stderr(&refused).contains("--out figures: beam-cone.svg exists there; --force replaces it"),
-        "{}",
-        stderr(&refused)
-    );
+    let refused = ends(figures(folder.path(), &["beam-cone", "--out", "figures"]), 2);
+    has_all(&stderr(&refused), &["--out figures: beam-cone.svg exists there; --force replaces it"]);
     assert_eq!(names_in(&made), ["beam-cone.pdf", "beam-cone.svg", "notes.txt"]);
     assert_eq!(fs::read(made.join("beam-cone.svg")).expect("file"), b"mine");
 
     fs::create_dir(made.join("waves.png")).expect("folder");
-    let not_a_file = figures(folder.path(), &["waves", "--force"]);
-    assert_eq!(not_a_file.status.code(), Some(2));
-    assert!(
-        stderr(&not_a_file).contains("waves.png exists there and is not a regular file"),
-        "{}",
-        stderr(&not_a_file)
-    );
+    let not_a_file = ends(figures(folder.path(), &["waves", "--force"]), 2);
+    has_all(&stderr(&not_a_file), &["waves.png exists there and is not a regular file"]);
     assert_eq!(names_in(&made), ["beam-cone.pdf", "beam-cone.svg", "notes.txt", "waves.png"]);
 
-    let forced = figures(folder.path(), &["beam-cone", "--force"]);
-    assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));
+    ends(figures(folder.path(), &["beam-cone", "--force"]), 0);
     assert!(fs::read(made.join("beam-cone.svg")).expect("file").starts_with(b"<svg"));
     for untouched in ["beam-cone.pdf", "notes.txt"] {
         assert_eq!(fs::read(made.join(untouched)).expect("file"), b"mine");
@@ -103,19 +91,13 @@ fn a_scene_has_the_figures_for_which_it_has_sections() {
     let text = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n\
                 [initial]\nalpha = 0.0\nbeta = 0.7\nalpha_rate = 1.5\nbeta_rate = 0.0\n[time]\nspan = -30.0\nsamples = 2\n";
     fs::write(folder.path().join("my-star.toml"), text).expect("scene");
-    let output = figures(folder.path(), &["--scene", "my-star.toml", "--out", "all"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let output = ends(figures(folder.path(), &["--scene", "my-star.toml", "--out", "all"]), 0);
     assert_eq!(stderr(&output).matches("the scene lacks the section [observer]").count(), 5, "{}", stderr(&output));
     let made = names_in(&folder.path().join("all"));
     assert_eq!(made, ["motion.angles.csv", "motion.md", "motion.paths.csv", "motion.png", "motion.svg"]);
 
-    let named = figures(folder.path(), &["waves", "--scene", "my-star.toml", "--out", "none"]);
-    assert_eq!(named.status.code(), Some(2));
-    assert!(
-        stderr(&named).contains("error: my-star.toml: the scene lacks the section [observer]"),
-        "{}",
-        stderr(&named)
-    );
+    let named = ends(figures(folder.path(), &["waves", "--scene", "my-star.toml", "--out", "none"]), 2);
+    has_all(&stderr(&named), &["error: my-star.toml: the scene lacks the section [observer]"]);
     assert!(!folder.path().join("none").exists());
 }
 
@@ -127,21 +109,17 @@ fn the_strain_of_a_physical_star_needs_its_distance() {
                 theta_o = 0.8\nphi_o = 0.0\n[time]\nspan = 2.0\nsamples = 3\n";
     fs::write(folder.path().join("near.toml"), text).expect("scene");
     let lacking = "the scene lacks `observer.distance` [kpc], without which a physical star has no strain";
-    let output = figures(folder.path(), &["waves", "--scene", "near.toml"]);
-    assert_eq!(output.status.code(), Some(2));
+    let output = ends(figures(folder.path(), &["waves", "--scene", "near.toml"]), 2);
     assert!(stderr(&output).contains(&format!("error: near.toml: {lacking}")), "{}", stderr(&output));
 
     let far = text.replace("phi_o = 0.0", "phi_o = 0.0\ndistance = 2.0");
     fs::write(folder.path().join("far.toml"), far).expect("scene");
-    let output = figures(folder.path(), &["waves", "--scene", "far.toml"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    ends(figures(folder.path(), &["waves", "--scene", "far.toml"]), 0);
     let made = folder.path().join("figures");
     let csv = fs::read_to_string(made.join("waves.far.csv")).expect("CSV");
     assert!(csv.starts_with("t [s],h_+ [1],h_x [1]\n0.0,"), "{}", &csv[..60]);
     let caption = fs::read_to_string(made.join("waves.md")).expect("caption");
-    for fragment in ["as strain at 2 kpc", "*ε* = 0.001,", "/(2π) = 100 Hz", "time in s."] {
-        assert!(caption.contains(fragment), "{caption}");
-    }
+    has_all(&caption, &["as strain at 2 kpc", "*ε* = 0.001,", "/(2π) = 100 Hz", "time in s."]);
 }
 
 #[test]

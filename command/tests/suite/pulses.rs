@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{file, folder, stderr, succeeds, twofold};
+use crate::common::{ends, file, folder, stderr, succeeds, twofold};
 
 #[test]
 fn pulses_are_written_like_a_motion() {
@@ -32,8 +32,7 @@ fn pulses_are_written_like_a_motion() {
         twofold(&["pulses", scene.to_str().expect("UTF-8")])
     };
     for section in ["[observer]", "[pulsar]"] {
-        let output = of_built_in(section);
-        assert_eq!(output.status.code(), Some(2));
+        let output = ends(of_built_in(section), 2);
         assert!(stderr(&output).contains(&format!("the scene lacks the section {section}")), "{}", stderr(&output));
         assert!(output.stdout.is_empty());
     }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use crate::common::{comes_to, folder, names_in, send, stderr};
+use crate::common::{comes_to, ends, folder, names_in, send, stderr};
 
 const LONG: &str = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n\
                     [initial]\nalpha = 0.0\nbeta = 0.7\nalpha_rate = 1.5\nbeta_rate = 0.0\n[time]\nspan = 4e7\nsamples = 2\n";
@@ -114,7 +114,6 @@ fn a_run_to_standard_output_is_interrupted_too() {
     let rows = || fs::metadata(folder.path().join("motion.csv")).is_ok_and(|found| found.len() > 0);
     assert!(comes_to(&mut child, rows), "it ended by itself");
     send(&child, "TERM");
-    let output = child.wait_with_output().expect("its end");
-    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    let output = ends(child.wait_with_output().expect("its end"), 130);
     assert!(stderr(&output).ends_with("error: interrupted\n"), "{}", stderr(&output));
 }

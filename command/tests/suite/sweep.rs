@@ -4,8 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use crate::common::{comes_to, folder, names_in, stderr, stdout, twofold};
+use crate::common::{comes_to, ends, folder, is_refused, names_in, stderr, stdout, twofold};
 use twofold_verify::random::Random;
+use twofold_verify::refused_files::refused_files;
 
 /// Draws and grids about tp-2; a tenth of the scenes is refused.
 const SWEEP: &str = r#"
@@ -68,8 +69,7 @@ fn a_row_is_the_motion_of_its_scene() {
     let text = SWEEP.replace("\"tp-2\"", "\"base.toml\"").replace("draws = 40", "draws = 1");
     let text = text.replace("[\"e_z\", \"angles\", \"errors\"]", "[\"e_z\", \"L\", \"lambda\", \"h\", \"integrals\"]");
     written(folder.path(), "sweep.toml", &text);
-    let output = sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]);
-    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    ends(sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]), 3);
     let table = rows(&folder.path().join("table.csv"));
     assert_eq!(table.len(), 21);
     let groups = "e_z,L,integrals,lambda,h";
@@ -127,8 +127,7 @@ fn rows_are_computed_by_the_method_that_is_named() {
         for (name, text) in [("of-scene", sweep_of("named.toml", "")), ("of-sweep", sweep_of("plain.toml", &key))] {
             written(folder.path(), "sweep.toml", &text);
             let table = format!("{method}-{name}.csv");
-            let output = sweep(folder.path(), &["sweep.toml", "--out", &table]);
-            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            ends(sweep(folder.path(), &["sweep.toml", "--out", &table]), 0);
             for row in rows(&folder.path().join(&table)).iter().skip(1) {
                 assert_eq!(row[3..], expected[..], "{method}, {name}");
             }
@@ -145,8 +144,7 @@ fn the_documented_sweep_runs() {
     let example = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
     let folder = folder();
     written(folder.path(), "sweep.toml", example);
-    let output = sweep(folder.path(), &["sweep.toml", "--out", "table.csv", "--shard", "3/500"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    ends(sweep(folder.path(), &["sweep.toml", "--out", "table.csv", "--shard", "3/500"]), 0);
     let table = rows(&folder.path().join("table.csv"));
     assert_eq!((table.len(), table[1][0].as_str()), (10, "18"));
 }
@@ -157,8 +155,7 @@ fn summaries_agree_with_the_other_commands() {
     let text = "scene = \"tp-2\"\n[[vary]]\nparameter = \"pulsar.rho\"\nvalues = [0.6]\n[time]\nspan = 400\n[output]\ncolumns = []\n\
                 summaries = [\"lambda\", \"pulses\", \"slow_precession\"]\n";
     written(folder.path(), "sweep.toml", text);
-    let output = sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    ends(sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]), 0);
     let found = numbers(&rows(&folder.path().join("table.csv"))[1][3..]);
 
     let run = stdout(&twofold(&["run", "tp-2", "--columns", "lambda"]));
@@ -204,8 +201,7 @@ fn threads_and_shards_do_not_change_a_byte() {
     let names: Vec<_> = names.iter().map(String::as_str).collect();
     let merge =
         |parts: &[&str], out: &str| sweep(folder.path(), &[&["sweep.toml", "--out", out, "--merge"], parts].concat());
-    let merged = merge(&names, "merged.csv");
-    assert_eq!(merged.status.code(), Some(3), "{}", stderr(&merged));
+    ends(merge(&names, "merged.csv"), 3);
     assert_eq!(read("one.csv"), read("merged.csv"));
     assert_eq!(read("one.csv.errors.csv"), read("merged.csv.errors.csv"));
     for (parts, why) in [
@@ -214,8 +210,7 @@ fn threads_and_shards_do_not_change_a_byte() {
         (&[names[0], names[0]], "has scene 0 where scene 114 is to come"),
         (&["sweep.toml"], "does not begin with the header"),
     ] {
-        let refused = merge(parts, "refused.csv");
-        assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
+        let refused = ends(merge(parts, "refused.csv"), 2);
         assert!(why == "part-1.csv" || stderr(&refused).contains(why), "{}", stderr(&refused));
         assert!(!names_in(folder.path()).iter().any(|name| name.contains("refused")), "{:?}", names_in(folder.path()));
     }
@@ -225,8 +220,7 @@ fn threads_and_shards_do_not_change_a_byte() {
 fn bad_rows_are_reported_and_do_not_end_the_sweep() {
     let folder = folder();
     written(folder.path(), "sweep.toml", SWEEP);
-    let output = sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]);
-    assert_eq!(output.status.code(), Some(3));
+    let output = ends(sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]), 3);
     let message = stderr(&output);
     assert!(message.contains("note: 800 scenes in ") && message.contains("80 of 800 failed"), "{message}");
     assert!(message.contains("error: some scenes failed: table.csv.errors.csv says which and why\n"), "{message}");
@@ -250,11 +244,9 @@ fn bad_rows_are_reported_and_do_not_end_the_sweep() {
     assert_eq!(names_in(folder.path()), ["sweep.toml", "table.csv", "table.csv.errors.csv"]);
     // A later sweep without failures does not leave the old errors beside its table.
     written(folder.path(), "sweep.toml", &SWEEP.replace("to = 2.1", "to = 2.0"));
-    let refused = sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]);
-    assert_eq!(refused.status.code(), Some(2));
+    let refused = ends(sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]), 2);
     assert!(stderr(&refused).contains("--out table.csv: exists; --force replaces it"), "{}", stderr(&refused));
-    let replaced = sweep(folder.path(), &["sweep.toml", "--out", "table.csv", "--force"]);
-    assert_eq!(replaced.status.code(), Some(0), "{}", stderr(&replaced));
+    ends(sweep(folder.path(), &["sweep.toml", "--out", "table.csv", "--force"]), 0);
     assert_eq!(names_in(folder.path()), ["sweep.toml", "table.csv"]);
 }
 
@@ -270,8 +262,7 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
     // Many columns make short chunks: a mark is never far, and little is lost by a kill.
     let text = SWEEP.replace("draws = 40", "draws = 20").replace("times = [3.0, 20.0]", "span = 300\nsamples = 201");
     written(folder.path(), "sweep.toml", &text);
-    let whole = sweep(folder.path(), &["sweep.toml", "--out", "whole.csv"]);
-    assert_eq!(whole.status.code(), Some(3), "{}", stderr(&whole));
+    ends(sweep(folder.path(), &["sweep.toml", "--out", "whole.csv"]), 3);
     let (rows, journal) = (folder.path().join("table.csv.partial"), folder.path().join("table.csv.partial.journal"));
     let (mut kills, mut continued) = (0, 0);
     let mut random = Random::with_seed(0x5eed);
@@ -330,8 +321,7 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
     // A changed sweep does not go on, and leaves what is there.
     written(folder.path(), "sweep.toml", &text.replace("seed = 3", "seed = 4"));
     let before = fs::read(&rows).expect("a part");
-    let refused = sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]);
-    assert_eq!(refused.status.code(), Some(2));
+    let refused = ends(sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]), 2);
     let message = stderr(&refused);
     assert!(message.contains("line 3 was `seed = 3` and is `seed = 4`; --restart begins anew"), "{message}");
     assert!(before == fs::read(&rows).expect("a part"));
@@ -339,24 +329,13 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
 
 #[test]
 fn bad_sweeps_are_refused_before_anything_is_written() {
-    let bad = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/bad-sweeps");
-    let mut count = 0;
-    for entry in fs::read_dir(bad).expect("folder of bad sweeps") {
-        let path = entry.expect("entry").path();
-        let text = fs::read_to_string(&path).expect("text");
-        let expected = text.lines().next().and_then(|line| line.strip_prefix("# expect: ")).expect("`# expect:`");
+    let files = refused_files("bad-sweeps");
+    for (file, expected) in &files {
         let folder = folder();
-        let output = sweep(folder.path(), &[path.to_str().expect("UTF-8"), "--out", "table.csv"]);
-        let message = stderr(&output);
-        assert_eq!(output.status.code(), Some(2), "{}: {message}", path.display());
-        assert!(message.starts_with("error: ") && message.matches("error: ").count() == 1, "{message}");
-        for fragment in expected.split(" | ") {
-            assert!(message.contains(fragment), "{}: expected `{fragment}` in\n{message}", path.display());
-        }
-        assert!(output.stdout.is_empty() && names_in(folder.path()).is_empty(), "{}", path.display());
-        count += 1;
+        is_refused(&sweep(folder.path(), &[file, "--out", "table.csv"]), expected);
+        assert!(names_in(folder.path()).is_empty(), "{file}");
     }
-    assert!(count >= 70, "only {count} bad sweeps found");
+    assert!(files.len() >= 70, "only {} bad sweeps found", files.len());
 }
 
 #[test]
@@ -385,8 +364,7 @@ fn misuse_is_refused() {
 fn parquet_is_refused_with_the_name_of_its_feature() {
     let folder = folder();
     written(folder.path(), "sweep.toml", SWEEP);
-    let output = sweep(folder.path(), &["sweep.toml", "--out", "a.parquet"]);
-    assert_eq!(output.status.code(), Some(2));
+    let output = ends(sweep(folder.path(), &["sweep.toml", "--out", "a.parquet"]), 2);
     assert!(stderr(&output).contains("--features twofold-verify/parquet"), "{}", stderr(&output));
     assert_eq!(names_in(folder.path()), ["sweep.toml"]);
 }
@@ -426,8 +404,7 @@ fn errors_are_the_changes_of_what_is_constant() {
     let text = "scene = \"star.toml\"\n[[vary]]\nparameter = \"initial.beta\"\nvalues = [0.8, 0.9]\n[time]\n\
                 times = [0.0, 0.03, 0.2]\n[output]\ncolumns = [\"integrals\", \"e_z\", \"errors\"]\naccuracy = 1e-2\nmethod = \"taylor\"\n";
     written(folder.path(), "sweep.toml", text);
-    let output = sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    ends(sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]), 0);
     let table = rows(&folder.path().join("table.csv"));
     assert_eq!(table.len(), 3);
     for row in &table[1..] {

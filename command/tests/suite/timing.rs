@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{folder, names_in, refuses, stderr, stdout, succeeds, twofold};
+use crate::common::{folder, has_all, names_in, refuses, stderr, stdout, succeeds, twofold};
 use twofold::epoch::Epoch;
 use twofold::observables::pulsar::SpinFit;
 use twofold_scene::pulsar_timing::PulsarScene;
@@ -268,9 +268,7 @@ fn a_scene_without_pulses_is_told_why() {
         let output = twofold(&["timing", path, "--out", results.to_str().expect("path")]);
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{name}: {message}");
-        for fragment in [&[path][..], fragments].concat() {
-            assert!(message.contains(fragment), "{name}: expected `{fragment}` in {message}");
-        }
+        has_all(&message, &[&[path][..], fragments].concat());
         assert!(!results.exists() || names_in(&results).is_empty(), "{name}");
     }
 }
@@ -349,11 +347,7 @@ fn files_are_not_replaced_without_leave() {
     written(&["b1642-03", "--epochs", "5"], out.path());
     let before = read(out.path(), "b1642-03.csv");
     let again = refuses(&["timing", "b1642-03", "--epochs", "6", "--out", out.path().to_str().expect("path")]);
-    assert!(
-        stderr(&again).contains("b1642-03.csv and 4 more exist there; --force replaces them"),
-        "{}",
-        stderr(&again)
-    );
+    has_all(&stderr(&again), &["b1642-03.csv and 4 more exist there; --force replaces them"]);
     assert_eq!(read(out.path(), "b1642-03.csv"), before);
     written(&["b1642-03", "--epochs", "6", "--force"], out.path());
     assert_eq!(rows(&read(out.path(), "b1642-03.csv")).len(), 6);

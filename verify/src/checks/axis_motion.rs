@@ -7,65 +7,32 @@ use twofold::dynamics::equations_of_motion::reduced_rates;
 use twofold::propagation::Motion;
 
 use super::propagation::{against_reference, estimate_against_reference};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component, largest_difference};
+use crate::check::{Measured, Worst, checks, largest, largest_component, largest_difference};
 use crate::physical_domain::{scenes, worst_over};
 use crate::reference::reference_motion;
 use crate::second_integrator::axis_states;
 
-/// Checks of this subject.
-pub fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "axis-motion-reference",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "the motion of n and L alone reproduces those of a 34-digit integration, ten scenes at every listed time",
-            figure: "largest error of a component",
-            bound: Bound::AtMost(1e-12),
-            reason: "rounding of the initial values (1e-16) and of up to 1,200 steps, grown with a phase of 600 rad",
-            measure: against_reference::<AxisState<f64>>,
-        },
-        Check {
-            id: "axis-motion-error-estimate",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "the error estimate of the motion of n and L alone is not below its true error, from accuracy 1e-3 to 1e-14",
-            figure: "largest true error / estimate",
-            bound: Bound::AtMost(1.0),
-            reason: "an estimate below the true error is wrong",
-            measure: estimate_against_reference::<AxisState<f64>>,
-        },
-        Check {
-            id: "axis-motion-of-whole-motion",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "n and L of random motions do not depend on whether e_x is carried along, forwards and backwards in time",
-            figure: "largest difference / sum of the two error estimates",
-            bound: Bound::AtMost(1.0),
-            reason: "the same motion, twice computed with other steps",
-            measure: against_whole_motion,
-        },
-        Check {
-            id: "axis-motion-second-integrator",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "between the steps, too, n and L of the paper's four examples are those of a Runge-Kutta method of another crate with dense output",
-            figure: "largest difference of a component at 1,000 times up to 100 t_c",
-            bound: Bound::AtMost(1e-11),
-            reason: "the other method's tolerance 1e-14 per step, added up over some hundred steps and grown with a phase of 150 rad",
-            measure: against_second_integrator,
-        },
-        Check {
-            id: "axis-motion-dense-output",
-            kind: Kind::Autodiff,
-            equations: &[25],
-            statement: "the dense output of the motion of n and L, differentiated in time by duals, satisfies dn/dt = L x n / I^xx and dL/dt = -2 C n x (s n)",
-            figure: "largest residual / (2.2e-16, size of the rates), 100 random motions",
-            bound: Bound::AtMost(16.0),
-            reason: "differentiating a series of order 22 multiplies its rounding by up to 22/3; the state and its rates add a few",
-            measure: dense_output_solves_equations,
-        },
-    ]
+checks! {
+    /// the motion of n and L alone reproduces those of a 34-digit integration, ten scenes at every listed time
+    Oracle "axis-motion-reference" [25]: against_reference::<AxisState<f64>>;
+    AtMost(1e-12) "largest error of a component";
+    because "rounding of the initial values (1e-16) and of up to 1,200 steps, grown with a phase of 600 rad";
+    /// the error estimate of the motion of n and L alone is not below its true error, from accuracy 1e-3 to 1e-14
+    Oracle "axis-motion-error-estimate" [25]: estimate_against_reference::<AxisState<f64>>;
+    AtMost(1.0) "largest true error / estimate";
+    because "an estimate below the true error is wrong";
+    /// n and L of random motions do not depend on whether e_x is carried along, forwards and backwards in time
+    Property "axis-motion-of-whole-motion" [25]: against_whole_motion;
+    AtMost(1.0) "largest difference / sum of the two error estimates";
+    because "the same motion, twice computed with other steps";
+    /// between the steps, too, n and L of the paper's four examples are those of a Runge-Kutta method of another crate with dense output
+    Oracle "axis-motion-second-integrator" [25]: against_second_integrator;
+    AtMost(1e-11) "largest difference of a component at 1,000 times up to 100 t_c";
+    because "the other method's tolerance 1e-14 per step, added up over some hundred steps and grown with a phase of 150 rad";
+    /// the dense output of the motion of n and L, differentiated in time by duals, satisfies dn/dt = L x n / I^xx and dL/dt = -2 C n x (s n)
+    Autodiff "axis-motion-dense-output" [25]: dense_output_solves_equations;
+    AtMost(16.0) "largest residual / (2.2e-16, size of the rates), 100 random motions";
+    because "differentiating a series of order 22 multiplies its rounding by up to 22/3; the state and its rates add a few";
 }
 
 fn against_whole_motion() -> Result<Measured, String> {

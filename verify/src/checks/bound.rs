@@ -11,78 +11,38 @@ use twofold::observables::bound::{
 use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change};
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, smallest};
+use crate::check::{Measured, Worst, checks, smallest};
 use crate::derivation::Differentiable;
-use crate::identity::identities;
 use crate::random::{Point, worst_of_draws};
 use twofold_scene::pulsar_table::published::{PrintedBounds, printed_bounds};
 use twofold_scene::pulsar_table::{Pulsar, ROUND_INERTIA_OVER_C};
 
-identities! {
+checks! {
     /// cos rho = cos chi cos zeta + sin chi sin zeta cos(W/2) stays constant along Delta zeta, and along Eq. (42) as printed with lambda = pi -
     /// zeta
     pulse_width_change: Autodiff "pulse-width-change" [42];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    identities()
-        .into_iter()
-        .chain([
-            Check {
-                id: "bound-estimate",
-                kind: Kind::Property,
-                equations: &[31, 38, 39, 40, 41],
-                statement: "for A = 0 and s^XX = s^YY, the estimate (40) of the change (38), (39) is |2 s^ZZ - s^XX - s^YY| times the \
-                            factor sin t sin b cos(a - p) that the paper takes to be one",
-                figure: "largest relative difference / 2.2e-16, 200 random points",
-                bound: Bound::AtMost(32.0),
-                reason: "some ten products on each side, and cos(a - p), kept above 0.1, from two terms that may cancel to a tenth",
-                measure: estimate_of_known_change,
-            },
-            Check {
-                id: "preferred-frame-bound",
-                kind: Kind::Property,
-                equations: &[5, 40, 41],
-                statement: "a tensor of the form (5) has the combination -2 alpha_2 |w|^2 with Z along w: a bound equal to it gives |alpha_2|",
-                figure: "largest relative difference / 2.2e-16, 200 random alpha_2 and w",
-                bound: Bound::AtMost(16.0),
-                reason: "the eigenvalues are right to a few ulp of the largest one, which counts once or, as -w^2, twice",
-                measure: bound_of_known_tensor,
-            },
-            Check {
-                id: "pulsar-angle-changes",
-                kind: Kind::Oracle,
-                equations: &[42],
-                statement: "Eq. (42) gives the changes of lambda printed for the two pulsars",
-                figure: "largest difference / unit of the last printed digit",
-                bound: Bound::AtMost(0.5),
-                reason: "rounding of the printed numbers",
-                measure: printed_changes,
-            },
-            Check {
-                id: "pulsar-bounds-stated-inertia",
-                kind: Kind::Oracle,
-                equations: &[41, 42, 43],
-                statement: "(a) with the I^zz/C that the paper states, Eq. (41) gives larger bounds for the two pulsars than are printed",
-                figure: "smallest ratio of the bound by Eq. (41), with the printed I^zz/C = 1e-5 s^2, to the printed one",
-                bound: Bound::AtLeast(2.0),
-                reason: "a power of ten between half and twice our number would be a fair rounding",
-                measure: stated_inertia,
-            },
-            Check {
-                id: "pulsar-bounds-own-deformation",
-                kind: Kind::Oracle,
-                equations: &[18, 41, 42],
-                statement: "(b) with each star's own deformation, I^zz/C = 4/Omega^2, the bounds printed for both pulses of PSR B1937+21 \
-                            are conservative, and that for PSR J1744-1134 is too strong by less than a factor of two",
-                figure: "ratio of the bound by Eq. (41) to the printed one, PSR J1744-1134; infinite if that of a pulse of PSR B1937+21 is above one",
-                bound: Bound::Within(1.0, 2.0),
-                reason: "above one the printed bound is stronger than ours; a power of ten within a factor of two is a fair rounding",
-                measure: own_deformation,
-            },
-        ])
-        .collect()
+    /// for A = 0 and s^XX = s^YY, the estimate (40) of the change (38), (39) is |2 s^ZZ - s^XX - s^YY| times the factor sin t sin b cos(a - p) that
+    /// the paper takes to be one
+    Property "bound-estimate" [31, 38, 39, 40, 41]: estimate_of_known_change;
+    AtMost(32.0) "largest relative difference / 2.2e-16, 200 random points";
+    because "some ten products on each side, and cos(a - p), kept above 0.1, from two terms that may cancel to a tenth";
+    /// a tensor of the form (5) has the combination -2 alpha_2 |w|^2 with Z along w: a bound equal to it gives |alpha_2|
+    Property "preferred-frame-bound" [5, 40, 41]: bound_of_known_tensor;
+    AtMost(16.0) "largest relative difference / 2.2e-16, 200 random alpha_2 and w";
+    because "the eigenvalues are right to a few ulp of the largest one, which counts once or, as -w^2, twice";
+    /// Eq. (42) gives the changes of lambda printed for the two pulsars
+    Oracle "pulsar-angle-changes" [42]: printed_changes;
+    AtMost(0.5) "largest difference / unit of the last printed digit";
+    because "rounding of the printed numbers";
+    /// (a) with the I^zz/C that the paper states, Eq. (41) gives larger bounds for the two pulsars than are printed
+    Oracle "pulsar-bounds-stated-inertia" [41, 42, 43]: stated_inertia;
+    AtLeast(2.0) "smallest ratio of the bound by Eq. (41), with the printed I^zz/C = 1e-5 s^2, to the printed one";
+    because "a power of ten between half and twice our number would be a fair rounding";
+    /// (b) with each star's own deformation, I^zz/C = 4/Omega^2, the bounds printed for both pulses of PSR B1937+21 are conservative, and that for
+    /// PSR J1744-1134 is too strong by less than a factor of two
+    Oracle "pulsar-bounds-own-deformation" [18, 41, 42]: own_deformation;
+    Within(1.0, 2.0) "ratio of the bound by Eq. (41) to the printed one, PSR J1744-1134; infinite if that of a pulse of PSR B1937+21 is above one";
+    because "above one the printed bound is stronger than ours; a power of ten within a factor of two is a fair rounding";
 }
 
 fn pulse_width_change<F: Differentiable>(p: &Point<F>) -> Vec<F> {

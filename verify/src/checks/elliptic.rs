@@ -6,84 +6,40 @@ use twofold::numerics::elliptic::carlson::{rc, rd, rf, rf_of_roots, rj, rj_of_ro
 use twofold::numerics::elliptic::jacobi::{JacobiFunctions, complete_integral, jacobi};
 use twofold::numerics::scalar::Real;
 
-use crate::check::{Bound, Check, Kind, Measured, largest, worst_of};
+use crate::check::{Measured, checks, largest, worst_of};
 use crate::physical_domain::worst_over;
 use crate::reference::records;
 
-/// Checks of this subject.
-pub fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "carlson-table",
-            kind: Kind::Oracle,
-            equations: &[],
-            statement: "R_F, R_C, R_D, R_J, conjugate pairs and complete ones included, agree with 60-digit values",
-            figure: "largest relative error / 2.2e-16",
-            bound: Bound::AtMost(4.0),
-            reason: "each duplication rounds a few times and divides inherited errors by four: the sum stays near two roundings",
-            measure: carlson_values,
-        },
-        Check {
-            id: "carlson-derivatives",
-            kind: Kind::Oracle,
-            equations: &[],
-            statement: "the first three derivatives of Carlson's integrals by dual numbers agree with those of 60-digit values",
-            figure: "largest error / (k! value / argument^k, 2.2e-16)",
-            bound: Bound::AtMost(16.0),
-            reason: "as for the values, times the number of terms of a product's third derivative, eight",
-            measure: carlson_derivatives,
-        },
-        Check {
-            id: "carlson-ellip",
-            kind: Kind::Oracle,
-            equations: &[],
-            statement: "R_F, R_C, R_D, R_J agree with the crate ellip at random arguments over twelve decades",
-            figure: "largest relative difference / 2.2e-16",
-            bound: Bound::AtMost(8.0),
-            reason: "four units in the last place for each of the two",
-            measure: carlson_against_ellip,
-        },
-        Check {
-            id: "jacobi-table",
-            kind: Kind::Oracle,
-            equations: &[],
-            statement: "K, sn, cn, dn agree with 60-digit values for m from -9999 to 1 - 1e-30, over several periods",
-            figure: "largest error / (value + |u| slope, 2.2e-16)",
-            bound: Bound::AtMost(12.0),
-            reason: "up to eight steps of the ladder with three roundings of half a unit each",
-            measure: jacobi_values,
-        },
-        Check {
-            id: "jacobi-parameter-derivatives",
-            kind: Kind::Oracle,
-            equations: &[],
-            statement: "first and second derivatives of sn, cn, dn by m1 agree with those of 60-digit values",
-            figure: "largest error / (k! (value + |u| slope) / m1^k, 2.2e-16)",
-            bound: Bound::AtMost(32.0),
-            reason: "the error of the values, times the number of terms of a product's second derivative, four",
-            measure: jacobi_parameter_derivatives,
-        },
-        Check {
-            id: "jacobi-argument-derivatives",
-            kind: Kind::Autodiff,
-            equations: &[],
-            statement: "by duals sn' = cn dn, cn' = -sn dn, dn' = -m sn cn, and so the second and third derivatives of sn",
-            figure: "largest error / ((1 + |m|)^(order/2), 2.2e-16)",
-            bound: Bound::AtMost(32.0),
-            reason: "the error of the values, three factors in each term, and its derivatives",
-            measure: jacobi_argument_derivatives,
-        },
-        Check {
-            id: "jacobi-identities",
-            kind: Kind::Property,
-            equations: &[],
-            statement: "sn^2 + cn^2 = 1, dn^2 + m sn^2 = 1, dn^2 = m1 + m cn^2 at random arguments and parameters",
-            figure: "largest residual / (sum of magnitudes, 2.2e-16)",
-            bound: Bound::AtMost(24.0),
-            reason: "twice the relative error of the values, which are squared",
-            measure: jacobi_identities,
-        },
-    ]
+checks! {
+    /// R_F, R_C, R_D, R_J, conjugate pairs and complete ones included, agree with 60-digit values
+    Oracle "carlson-table" []:
+        || worst_of(carlson_table(), |row| Ok(relative(carlson(&row.function, &row.arguments), row.expected[0])));
+    AtMost(4.0) "largest relative error / 2.2e-16";
+    because "each duplication rounds a few times and divides inherited errors by four: the sum stays near two roundings";
+    /// the first three derivatives of Carlson's integrals by dual numbers agree with those of 60-digit values
+    Oracle "carlson-derivatives" []: carlson_derivatives;
+    AtMost(16.0) "largest error / (k! value / argument^k, 2.2e-16)";
+    because "as for the values, times the number of terms of a product's third derivative, eight";
+    /// R_F, R_C, R_D, R_J agree with the crate ellip at random arguments over twelve decades
+    Oracle "carlson-ellip" []: carlson_against_ellip;
+    AtMost(8.0) "largest relative difference / 2.2e-16";
+    because "four units in the last place for each of the two";
+    /// K, sn, cn, dn agree with 60-digit values for m from -9999 to 1 - 1e-30, over several periods
+    Oracle "jacobi-table" []: jacobi_values;
+    AtMost(12.0) "largest error / (value + |u| slope, 2.2e-16)";
+    because "up to eight steps of the ladder with three roundings of half a unit each";
+    /// first and second derivatives of sn, cn, dn by m1 agree with those of 60-digit values
+    Oracle "jacobi-parameter-derivatives" []: jacobi_parameter_derivatives;
+    AtMost(32.0) "largest error / (k! (value + |u| slope) / m1^k, 2.2e-16)";
+    because "the error of the values, times the number of terms of a product's second derivative, four";
+    /// by duals sn' = cn dn, cn' = -sn dn, dn' = -m sn cn, and so the second and third derivatives of sn
+    Autodiff "jacobi-argument-derivatives" []: jacobi_argument_derivatives;
+    AtMost(32.0) "largest error / ((1 + |m|)^(order/2), 2.2e-16)";
+    because "the error of the values, three factors in each term, and its derivatives";
+    /// sn^2 + cn^2 = 1, dn^2 + m sn^2 = 1, dn^2 = m1 + m cn^2 at random arguments and parameters
+    Property "jacobi-identities" []: jacobi_identities;
+    AtMost(24.0) "largest residual / (sum of magnitudes, 2.2e-16)";
+    because "twice the relative error of the values, which are squared";
 }
 
 #[derive(Debug)]
@@ -141,10 +97,6 @@ fn roots_of_pair<S: Real>(re: S, im: S) -> (S, S) {
     let modulus = (re * re + im * im).sqrt();
     let twice = if re.re() < 0.0 { im * im / (modulus - re) } else { modulus + re };
     ((twice * 2.0).sqrt(), modulus)
-}
-
-fn carlson_values() -> Result<Measured, String> {
-    worst_of(carlson_table(), |row| Ok(relative(carlson(&row.function, &row.arguments), row.expected[0])))
 }
 
 fn carlson_derivatives() -> Result<Measured, String> {

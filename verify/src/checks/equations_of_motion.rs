@@ -8,15 +8,14 @@ use twofold::dynamics::first_integrals::spin_in_angles;
 use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
 use twofold::euler_angles::{body_from_inertial, body_rates};
 
-use crate::check::Check;
+use crate::check::checks;
 use crate::derivation::euler_lagrange::euler_lagrange;
 use crate::derivation::spheroid_motion::{accelerations, axis_angles, fixed_spheroid, gamma_acceleration};
 use crate::derivation::{Differentiable, moving_angles, moving_rates};
-use crate::identity::identities;
 use crate::random::Point;
 use twofold::euler_angles::EulerRates;
 
-identities! {
+checks! {
     /// the Euler-Lagrange equation of gamma is I^zz d(Omega^z)/dt = 0, at any rates and accelerations
     spin_equation: Autodiff "spin-equation" [21, 23, 24];
     /// the Euler-Lagrange equations of alpha and beta at constant Omega^z are I^xx times those of the paper, at any accelerations
@@ -29,11 +28,6 @@ identities! {
     inertial_frame: Property "inertial-frame" [7, 25, 60];
     /// with any three eigenvalues a spin along X, Y or Z, both ways, is stationary: along X and Y beta stays at pi/2
     spin_along_principal_axis: Property "spin-along-principal-axis" [25, 27];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    identities()
 }
 
 fn spin_equation<F: Differentiable>(p: &Point<F>) -> Vec<F> {

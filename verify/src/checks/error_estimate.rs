@@ -2,33 +2,20 @@
 
 use twofold::plan::Method;
 
-use crate::check::{Bound, Check, Kind, Measured, worst_of};
+use crate::check::{Measured, checks, worst_of};
 use crate::error_scenes::ErrorScene;
 
-/// Checks of this subject. `cargo run --release -p twofold-tools --bin estimate_ratio` is the same over 10,000 scenes.
-pub fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "error-estimate-not-below",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "the estimated error of a motion is not below its true error",
-            figure: "largest true / estimated error, 200 random scenes up to 60 rad, accuracies 1e-3 to 1e-16, and 6 hard ones",
-            bound: Bound::AtMost(1.0),
-            reason: "an estimate below the true error is wrong",
-            measure: true_over_estimated,
-        },
-        Check {
-            id: "error-estimate-not-far-above",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "the estimated error of a motion is rarely more than a hundred times its true error",
-            figure: "share of estimates above 100 times the true error, the same scenes",
-            bound: Bound::AtMost(0.05),
-            reason: "an error that changes its sign vanishes at some times: it is below a hundredth of its size at some percent of random ones, and the steps of the estimate are no finer",
-            measure: far_above,
-        },
-    ]
+// `cargo run --release -p twofold-tools --bin estimate_ratio` is the same over 10,000 scenes.
+checks! {
+    /// the estimated error of a motion is not below its true error
+    Oracle "error-estimate-not-below" [25]: || worst_of(scenes().chain(HARD), ratio);
+    AtMost(1.0) "largest true / estimated error, 200 random scenes up to 60 rad, accuracies 1e-3 to 1e-16, and 6 hard ones";
+    because "an estimate below the true error is wrong";
+    /// the estimated error of a motion is rarely more than a hundred times its true error
+    Oracle "error-estimate-not-far-above" [25]: far_above;
+    AtMost(0.05) "share of estimates above 100 times the true error, the same scenes";
+    because "an error that changes its sign vanishes at some times: it is below a hundredth of its size at some percent of random ones, and the \
+     steps of the estimate are no finer";
 }
 
 /// Seed of the scenes.
@@ -50,10 +37,6 @@ fn scenes() -> impl Iterator<Item = (u64, u64)> {
         .map(|number| (SEED, number))
         .filter(|&(seed, number)| ErrorScene::draw(seed, number).turned() < 60.0)
         .take(200)
-}
-
-fn true_over_estimated() -> Result<Measured, String> {
-    worst_of(scenes().chain(HARD), ratio)
 }
 
 fn far_above() -> Result<Measured, String> {

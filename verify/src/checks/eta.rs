@@ -16,10 +16,9 @@ use twofold::observables::eta::{
 use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, worst_of};
+use crate::check::{Measured, Worst, checks, largest, worst_of};
 use crate::derivation::Differentiable;
 use crate::eta::{PAPER_ASYMMETRY, eta_curve, numerical_axis_rate, seen_rate, twelve_turns};
-use crate::identity::identities;
 use crate::measured_order::order_of_error;
 use crate::paper_examples::{COEFFICIENTS, SPIN};
 use crate::random::{Point, Random, worst_of_draws};
@@ -33,176 +32,81 @@ const MULTIPLES: [f64; 7] = [2.1, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 /// Shapes of the tensor: symmetric about Z, the paper's, the most asymmetric one.
 const SHAPES: [f64; 3] = [0.0, PAPER_ASYMMETRY, -1.0 / 3.0];
 
-identities! {
+checks! {
     /// the secular rate of the spin axis is torque over angular momentum, is a^(1) about Z for s^XX = s^YY, and has the square of Eq. (41) with eta
     /// = 1 / speed
     torque_over_momentum: Property "secular-axis-rate" [31, 32, 41];
     /// angles at the start by the asymmetry ratio alone are those of Eq. (34), lower signs, with A = 0
     start_by_asymmetry_ratio: Property "single-precession-start" [34];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    let mut checks = identities();
-    checks.extend([
-        Check {
-            id: "eta-azimuth-mean",
-            kind: Kind::Property,
-            equations: &[41],
-            statement: "the closed mean of the squared speed of the spin axis over its azimuth is the mean over eight azimuths",
-            figure: "largest relative difference / 2.2e-16, 300 random inclinations and asymmetry ratios",
-            bound: Bound::AtMost(16.0),
-            reason: "the speed squared has azimuthal orders 0, 2 and 4, for which eight equal steps are exact; some ten roundings on each side",
-            measure: azimuth_mean,
-        },
-        Check {
-            id: "eta-along-motion",
-            kind: Kind::Oracle,
-            equations: &[41],
-            statement: "the mean of the squared speed along the secular motion, by elliptic integrals, is that of an integration in time over a period",
-            figure: "largest relative difference, and distance from the start after the period, 60 random motions on both sides of the separatrix",
-            bound: Bound::AtMost(1e-9),
-            reason: "Runge-Kutta of order four with 4000 steps a period: (2 pi / 4000)^4 / 120 a radian, times the harmonics of a motion near the separatrix",
-            measure: along_motion,
-        },
-        Check {
-            id: "eta-distribution",
-            kind: Kind::Oracle,
-            equations: &[37, 41],
-            statement: "eta over random directions to the observer and random azimuths of the axis is distributed as by the sum over speeds",
-            figure: "largest Kolmogorov-Smirnov statistic sqrt(N) D, 20,000 samples each at four inclinations, seed 41",
-            bound: Bound::AtMost(1.95),
-            reason: "exceeded by chance in one case of a thousand",
-            measure: distribution,
-        },
-        Check {
-            id: "eta-unknown-axis",
-            kind: Kind::Oracle,
-            equations: &[41],
-            statement: "for a symmetric tensor and an axis of which nothing is known, P(eta > x) is the closed integral",
-            figure: "largest relative difference for x = 2.1 to 1000",
-            bound: Bound::AtMost(3e-6),
-            reason: "midpoint rule over a kink, beyond which 664 of the 16384 nodes lie at x = 1000: (1/664)^2 of the part beyond",
-            measure: unknown_axis,
-        },
-        Check {
-            id: "eta-at-known-angle",
-            kind: Kind::Oracle,
-            equations: &[37, 41],
-            statement: "eta over random orientations of the tensor's axes, for an observer at a known angle to the spin axis, is distributed as by \
-                        the sum over speeds",
-            figure: "largest Kolmogorov-Smirnov statistic sqrt(N) D at 100 of 20,000 samples each, lambda = 30, 95 and 100 deg, three shapes of the tensor, seed 42",
-            bound: Bound::AtMost(1.95),
-            reason: "exceeded by chance in one case of a thousand",
-            measure: known_angle,
-        },
-        Check {
-            id: "eta-at-known-angle-integral",
-            kind: Kind::Oracle,
-            equations: &[41],
-            statement: "for a symmetric tensor, P(eta > x) at a known angle is an integral over the inclination of Z to the third axis, at right angles to \
-                        the spin axis and to the apparent motion",
-            figure: "largest relative difference for x sin(lambda) = 2.1 to 1000",
-            bound: Bound::AtMost(1e-5),
-            reason: "midpoint rule over a corner, beyond which 664 of the 16384 nodes lie at x = 1000: their number to the power of -3/2, over the \
-                     part of the probability that is next to it, some 1/10",
-            measure: known_angle_integral,
-        },
-        Check {
-            id: "eta-largest-for-symmetric-tensor",
-            kind: Kind::Property,
-            equations: &[41],
-            statement: "of all shapes of the tensor the one symmetric about Z has the largest eta at 95 %, if nothing is known of its axes",
-            figure: "largest ratio to the eta at 95 % of r = 0, |r| = 0.01 to 3, line of sight at a right angle to the spin axis",
-            bound: Bound::AtMost(1.0),
-            reason: "asymmetry adds to the speed where the axis would be slow, near the equator and the pole",
-            measure: symmetric_is_largest,
-        },
-        Check {
-            id: "eta-ten-exceeded",
-            kind: Kind::Regime,
-            equations: &[41],
-            statement: "for the paper's own tensor more than 5 % of directions and azimuths have an eta above 40, at every inclination",
-            figure: "smallest eta at 95 %, beta_0 = 0.05 to 1.57",
-            bound: Bound::AtLeast(40.0),
-            reason: "measured; 10 would be an upper limit at that confidence if it were not exceeded at some inclination",
-            measure: ten_exceeded,
-        },
-        Check {
-            id: "eta-secular-rate",
-            kind: Kind::Regime,
-            equations: &[40, 41],
-            statement: "the mean rate of the spin axis over twelve turns of the numerical motion is the secular one to first order in s",
-            figure: "slope of log(relative difference) against log k, s of the examples scaled by k = 3e-2 to 1e-3",
-            bound: Bound::Within(0.9, 1.1),
-            reason: "what is neglected is of second order in s, of first order relative to the rate; the curvature of the path adds (k 12 turns)^2/24",
-            measure: secular_rate,
-        },
-        Check {
-            id: "eta-by-numerical-motion",
-            kind: Kind::Regime,
-            equations: &[40, 41],
-            statement: "median, 84 % and 97.5 % of eta from numerical motions are those of the secular rate",
-            figure: "largest relative difference, beta_0 = 0.2 to 1.5, s of the examples scaled by 1e-3, 24 azimuths",
-            bound: Bound::AtMost(0.01),
-            reason: "first order in s, 1e-3 x (0.04 / 0.11), over the share of the fastest speed that the axis has near its slowest azimuths, 1/r = 11",
-            measure: by_numerical_motion,
-        },
-        Check {
-            id: "eta-estimate-order",
-            kind: Kind::Regime,
-            equations: &[40, 41],
-            statement: "for beta_0 from 0.2 to 1.1 the paper's 1 / cos beta_0 is eta to an order of magnitude, and always too small",
-            figure: "largest log10(eta cos beta_0), infinite if one is negative; root mean square over directions, azimuths and time or at the inclination, three shapes of the tensor",
-            bound: Bound::AtMost(1.0),
-            reason: "an order of magnitude: a factor of ten",
-            measure: estimate_order,
-        },
-        Check {
-            id: "eta-estimate-lacks-sine",
-            kind: Kind::Regime,
-            equations: &[38, 39, 40, 41],
-            statement: "towards beta_0 = 0 eta grows as 1 / sin beta_0, where 1 / cos beta_0 goes to one: the estimate leaves out the factor sin beta of Eq. (38)",
-            figure: "slope of log eta against log beta_0, 1e-3 to 1e-1, the paper's tensor",
-            bound: Bound::Within(-1.01, -0.99),
-            reason: "sqrt(3 / (1 + r^2)) / (sin b cos b): the next order shifts the slope by some b^2",
-            measure: small_inclinations,
-        },
-        Check {
-            id: "eta-depends-on-average",
-            kind: Kind::Regime,
-            equations: &[41],
-            statement: "another average gives another eta at pi/2: without later times, at that inclination, its root mean square value is sqrt(6) / |r|",
-            figure: "|eta / 26.94 - 1| at pi/2, the paper's tensor, root mean square over directions and azimuths",
-            bound: Bound::AtMost(1e-3),
-            reason: "sqrt(6) x 11 to four digits",
-            measure: || {
-                let eta: f64 = root_mean_square_eta(PAPER_ASYMMETRY, FRAC_PI_2)?;
-                Ok(Measured::new((eta / 26.94 - 1.0).abs(), format!("{eta:.4}")))
-            },
-        },
-        Check {
-            id: "eta-near-right-angle",
-            kind: Kind::Regime,
-            equations: &[41],
-            statement: "for the paper's tensor eta increases to 10 towards pi/2, as the paper says, if the changes of inclination along the motion are averaged over",
-            figure: "largest eta for beta_0 = 1.1 to pi/2, root mean square over directions, azimuths and time",
-            bound: Bound::Within(5.0, 20.0),
-            reason: "'10' read as within a factor of two",
-            measure: near_right_angle,
-        },
-        Check {
-            id: "eta-ten-is-no-maximum",
-            kind: Kind::Regime,
-            equations: &[5, 41],
-            statement: "10 is no upper limit of eta: at beta_0 = pi/2 it grows without limit as the tensor becomes symmetric, as that of alpha_2 is",
-            figure: "slope of log eta(pi/2) against log |r|, r = 1e-2 to 1e-4",
-            bound: Bound::Within(-0.51, -0.49),
-            reason: "the axis swings up to cos beta ~ sqrt|r| and moves with that speed; the next order shifts the slope by about r",
-            measure: symmetric_limit,
-        },
-    ]);
-    checks
+    /// the closed mean of the squared speed of the spin axis over its azimuth is the mean over eight azimuths
+    Property "eta-azimuth-mean" [41]: azimuth_mean;
+    AtMost(16.0) "largest relative difference / 2.2e-16, 300 random inclinations and asymmetry ratios";
+    because "the speed squared has azimuthal orders 0, 2 and 4, for which eight equal steps are exact; some ten roundings on each side";
+    /// the mean of the squared speed along the secular motion, by elliptic integrals, is that of an integration in time over a period
+    Oracle "eta-along-motion" [41]: along_motion;
+    AtMost(1e-9) "largest relative difference, and distance from the start after the period, 60 random motions on both sides of the separatrix";
+    because "Runge-Kutta of order four with 4000 steps a period: (2 pi / 4000)^4 / 120 a radian, times the harmonics of a motion near the separatrix";
+    /// eta over random directions to the observer and random azimuths of the axis is distributed as by the sum over speeds
+    Oracle "eta-distribution" [37, 41]: distribution;
+    AtMost(1.95) "largest Kolmogorov-Smirnov statistic sqrt(N) D, 20,000 samples each at four inclinations, seed 41";
+    because "exceeded by chance in one case of a thousand";
+    /// for a symmetric tensor and an axis of which nothing is known, P(eta > x) is the closed integral
+    Oracle "eta-unknown-axis" [41]: unknown_axis;
+    AtMost(3e-6) "largest relative difference for x = 2.1 to 1000";
+    because "midpoint rule over a kink, beyond which 664 of the 16384 nodes lie at x = 1000: (1/664)^2 of the part beyond";
+    /// eta over random orientations of the tensor's axes, for an observer at a known angle to the spin axis, is distributed as by the sum over speeds
+    Oracle "eta-at-known-angle" [37, 41]: known_angle;
+    AtMost(1.95) "largest Kolmogorov-Smirnov statistic sqrt(N) D at 100 of 20,000 samples each, lambda = 30, 95 and 100 deg, three shapes of the \
+     tensor, seed 42";
+    because "exceeded by chance in one case of a thousand";
+    /// for a symmetric tensor, P(eta > x) at a known angle is an integral over the inclination of Z to the third axis, at right angles to the spin
+    /// axis and to the apparent motion
+    Oracle "eta-at-known-angle-integral" [41]: known_angle_integral;
+    AtMost(1e-5) "largest relative difference for x sin(lambda) = 2.1 to 1000";
+    because "midpoint rule over a corner, beyond which 664 of the 16384 nodes lie at x = 1000: their number to the power of -3/2, over the part of \
+     the probability that is next to it, some 1/10";
+    /// of all shapes of the tensor the one symmetric about Z has the largest eta at 95 %, if nothing is known of its axes
+    Property "eta-largest-for-symmetric-tensor" [41]: symmetric_is_largest;
+    AtMost(1.0) "largest ratio to the eta at 95 % of r = 0, |r| = 0.01 to 3, line of sight at a right angle to the spin axis";
+    because "asymmetry adds to the speed where the axis would be slow, near the equator and the pole";
+    /// for the paper's own tensor more than 5 % of directions and azimuths have an eta above 40, at every inclination
+    Regime "eta-ten-exceeded" [41]: ten_exceeded;
+    AtLeast(40.0) "smallest eta at 95 %, beta_0 = 0.05 to 1.57";
+    because "measured; 10 would be an upper limit at that confidence if it were not exceeded at some inclination";
+    /// the mean rate of the spin axis over twelve turns of the numerical motion is the secular one to first order in s
+    Regime "eta-secular-rate" [40, 41]: secular_rate;
+    Within(0.9, 1.1) "slope of log(relative difference) against log k, s of the examples scaled by k = 3e-2 to 1e-3";
+    because "what is neglected is of second order in s, of first order relative to the rate; the curvature of the path adds (k 12 turns)^2/24";
+    /// median, 84 % and 97.5 % of eta from numerical motions are those of the secular rate
+    Regime "eta-by-numerical-motion" [40, 41]: by_numerical_motion;
+    AtMost(0.01) "largest relative difference, beta_0 = 0.2 to 1.5, s of the examples scaled by 1e-3, 24 azimuths";
+    because "first order in s, 1e-3 x (0.04 / 0.11), over the share of the fastest speed that the axis has near its slowest azimuths, 1/r = 11";
+    /// for beta_0 from 0.2 to 1.1 the paper's 1 / cos beta_0 is eta to an order of magnitude, and always too small
+    Regime "eta-estimate-order" [40, 41]: estimate_order;
+    AtMost(1.0) "largest log10(eta cos beta_0), infinite if one is negative; root mean square over directions, azimuths and time or at the \
+     inclination, three shapes of the tensor";
+    because "an order of magnitude: a factor of ten";
+    /// towards beta_0 = 0 eta grows as 1 / sin beta_0, where 1 / cos beta_0 goes to one: the estimate leaves out the factor sin beta of Eq. (38)
+    Regime "eta-estimate-lacks-sine" [38, 39, 40, 41]:
+        || order_of_error(&[1e-3, 1e-2, 1e-1], |beta| Ok(root_mean_square_along_motion(PAPER_ASYMMETRY, beta)));
+    Within(-1.01, -0.99) "slope of log eta against log beta_0, 1e-3 to 1e-1, the paper's tensor";
+    because "sqrt(3 / (1 + r^2)) / (sin b cos b): the next order shifts the slope by some b^2";
+    /// another average gives another eta at pi/2: without later times, at that inclination, its root mean square value is sqrt(6) / |r|
+    Regime "eta-depends-on-average" [41]: || {
+        let eta: f64 = root_mean_square_eta(PAPER_ASYMMETRY, FRAC_PI_2)?;
+        Ok(Measured::new((eta / 26.94 - 1.0).abs(), format!("{eta:.4}")))
+    };
+    AtMost(1e-3) "|eta / 26.94 - 1| at pi/2, the paper's tensor, root mean square over directions and azimuths";
+    because "sqrt(6) x 11 to four digits";
+    /// for the paper's tensor eta increases to 10 towards pi/2, as the paper says, if the changes of inclination along the motion are averaged over
+    Regime "eta-near-right-angle" [41]: near_right_angle;
+    Within(5.0, 20.0) "largest eta for beta_0 = 1.1 to pi/2, root mean square over directions, azimuths and time";
+    because "'10' read as within a factor of two";
+    /// 10 is no upper limit of eta: at beta_0 = pi/2 it grows without limit as the tensor becomes symmetric, as that of alpha_2 is
+    Regime "eta-ten-is-no-maximum" [5, 41]:
+        || order_of_error(&[1e-2, 1e-3, 1e-4], |ratio| Ok(root_mean_square_along_motion(-ratio, FRAC_PI_2)));
+    Within(-0.51, -0.49) "slope of log eta(pi/2) against log |r|, r = 1e-2 to 1e-4";
+    because "the axis swings up to cos beta ~ sqrt|r| and moves with that speed; the next order shifts the slope by about r";
 }
 
 fn torque_over_momentum<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -427,15 +331,7 @@ fn estimate_order() -> Result<Measured, String> {
     worst.finish()
 }
 
-fn small_inclinations() -> Result<Measured, String> {
-    order_of_error(&[1e-3, 1e-2, 1e-1], |beta| Ok(root_mean_square_along_motion(PAPER_ASYMMETRY, beta)))
-}
-
 fn near_right_angle() -> Result<Measured, String> {
     let inclinations = (0..=47).map(|i| FRAC_PI_2 - 0.01 * f64::from(i));
     worst_of(inclinations, |&beta| Ok(root_mean_square_along_motion(PAPER_ASYMMETRY, beta)))
-}
-
-fn symmetric_limit() -> Result<Measured, String> {
-    order_of_error(&[1e-2, 1e-3, 1e-4], |ratio| Ok(root_mean_square_along_motion(-ratio, FRAC_PI_2)))
 }

@@ -5,13 +5,12 @@ use twofold::dynamics::BodyState;
 use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates};
 use twofold::dynamics::first_integrals::{energy_in_angles, first_integrals, spin_in_angles, symmetric_adjugate};
 
-use crate::check::Check;
+use crate::check::checks;
 use crate::derivation::spheroid_motion::{accelerations, fixed_coefficients, fixed_spheroid};
 use crate::derivation::{Differentiable, moving_angles, moving_rates};
-use crate::identity::identities;
 use crate::random::Point;
 
-identities! {
+checks! {
     /// E, Omega^z and K do not change along the field of Eq. (25)
     integrals_in_angles: Autodiff "integrals-along-angles" [24, 25];
     /// E, Omega^z and K do not change along the regular equations, for s^IJ in any inertial frame
@@ -24,11 +23,6 @@ identities! {
     other_clebsch_form: Property "clebsch-forms" [24];
     /// adj(s) s = det(s) 1, of the adjugate in the third integral
     adjugate_times_s: Property "symmetric-adjugate" [24];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    identities()
 }
 
 fn integrals_in_angles<F: Differentiable>(p: &Point<F>) -> Vec<F> {

@@ -12,9 +12,8 @@ use twofold::observables::pulsar::period::{approximate_period, azimuth_offset_ra
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession, shifted_rates};
 
-use crate::check::{Bound, Check, Kind, Measured, largest};
+use crate::check::{Measured, checks, largest};
 use crate::derivation::Differentiable;
-use crate::identity::{self, Identity};
 use crate::paper_examples::{COEFFICIENTS, SPIN};
 use crate::random::Point;
 use twofold::inference::{Fisher, Jacobian, Observable, Signal, data_of};
@@ -22,91 +21,65 @@ use twofold::parameters::{Parameter, Parameters};
 use twofold_scene::measurements::parameters_of;
 use twofold_scene::scene_file::Scene;
 
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    let mut checks = identity::checks::<NullDirection>().to_vec();
-    checks.extend([
-        Check {
-            id: "fisher-rank-of-period-and-width",
-            kind: Kind::Autodiff,
-            equations: &[51, 52, 56, 57],
-            statement: "P(t) and W(t) by the formulas leave exactly one combination of Omega^z, eps, a^(1), beta_0, chi, rho, theta_o and the phase of gamma undetermined",
-            figure: "singular values of the Jacobian below 1e-12 of the largest, tp-I, 200 times over three turns of gamma",
-            bound: Bound::Within(1.0, 1.0),
-            reason: "rounding of the Jacobian is some 1e-15 times the square root of its 400 rows; the next singular value must be above 1e-6",
-            measure: rank_of_formulas,
-        },
-        Check {
-            id: "fisher-null-direction",
-            kind: Kind::Autodiff,
-            equations: &[51, 52, 56, 57],
-            statement: "what is undetermined is eps against a^(1) alone, at d eps : d a^(1) = cos beta_0 : Omega^z; Omega^z itself follows from the rates, gamma' + alpha' cos beta_0",
-            figure: "relative deviation of d(2 s^ZZ - s^XX - s^YY) : d eps of the direction found from that one, tp-I; infinite if it is not the only one or moves anything else",
-            bound: Bound::AtMost(1e-10),
-            reason: "rounding of the Jacobian, 1e-15 times some 20, over its second smallest singular value, 3e-3",
-            measure: null_direction,
-        },
-        Check {
-            id: "fisher-rank-of-exact-signal",
-            kind: Kind::Autodiff,
-            equations: &[25, 44, 57],
-            statement: "arrival times and widths of the pulses of the numerical motion determine all: eps and C s / I^xx too, beside eleven more unknowns. The defect is of the perturbation formulas",
-            figure: "decimal logarithm of the smallest singular value of the scaled Jacobian by 13 unknowns / what rounding can make of zero, tp-I, 200 t_c",
-            bound: Bound::AtLeast(3.0),
-            reason: "above zero the smallest singular value is not zero; at three, its direction is known to three digits",
-            measure: rank_of_signal,
-        },
-    ]);
-    checks
+checks! {
+    /// the rates (57) of alpha and gamma do not change along d eps : d a^(1) = cos beta_0 : Omega^z, and Omega^z = gamma' + alpha' cos beta_0
+    rates_along_null_direction: Autodiff "rates-blind-to-oblateness" [31, 32, 57];
+    /// P(t) and W(t) by the formulas leave exactly one combination of Omega^z, eps, a^(1), beta_0, chi, rho, theta_o and the phase of gamma
+    /// undetermined
+    Autodiff "fisher-rank-of-period-and-width" [51, 52, 56, 57]: rank_of_formulas;
+    Within(1.0, 1.0) "singular values of the Jacobian below 1e-12 of the largest, tp-I, 200 times over three turns of gamma";
+    because "rounding of the Jacobian is some 1e-15 times the square root of its 400 rows; the next singular value must be above 1e-6";
+    /// what is undetermined is eps against a^(1) alone, at d eps : d a^(1) = cos beta_0 : Omega^z; Omega^z itself follows from the rates, gamma' +
+    /// alpha' cos beta_0
+    Autodiff "fisher-null-direction" [51, 52, 56, 57]: null_direction;
+    AtMost(1e-10) "relative deviation of d(2 s^ZZ - s^XX - s^YY) : d eps of the direction found from that one, tp-I; infinite if it is not the only \
+     one or moves anything else";
+    because "rounding of the Jacobian, 1e-15 times some 20, over its second smallest singular value, 3e-3";
+    /// arrival times and widths of the pulses of the numerical motion determine all: eps and C s / I^xx too, beside eleven more unknowns. The
+    /// defect is of the perturbation formulas
+    Autodiff "fisher-rank-of-exact-signal" [25, 44, 57]: rank_of_signal;
+    AtLeast(3.0) "decimal logarithm of the smallest singular value of the scaled Jacobian by 13 unknowns / what rounding can make of zero, tp-I, 200 \
+     t_c";
+    because "above zero the smallest singular value is not zero; at three, its direction is known to three digits";
 }
 
-struct NullDirection;
-
-impl Identity for NullDirection {
-    const ID: &'static str = "rates-blind-to-oblateness";
-    const ROUNDED: (Kind, &'static str) = (Kind::Autodiff, "rates-blind-to-oblateness-autodiff");
-    const EQUATIONS: &'static [u8] = &[31, 32, 57];
-    const STATEMENT: &'static str = "the rates (57) of alpha and gamma do not change along d eps : d a^(1) = cos beta_0 : Omega^z, and Omega^z = gamma' + alpha' \
-         cos beta_0";
-
-    fn residuals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-        let (spin, beta_0) = (p.rates.gamma, p.angles.beta);
-        let (_, cos) = beta_0.sin_cos();
-        let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = p.spheroid;
-        let forced_rate = |inertia_zz: F, combination: F| constant_c * combination * cos / (inertia_zz * spin);
-        // I^zz = (1 + eps) I^xx; the combination that makes a^(1) grow by Omega^z a unit while I^zz grows.
-        let inertia_rate = inertia_xx * cos;
-        let combination = p.s.combination();
-        let combination_rate = spin * inertia_zz * spin / (constant_c * cos) + combination * inertia_rate / inertia_zz;
-        let spheroid = RigidSpheroid {
-            inertia_xx: F::fixed(inertia_xx),
-            inertia_zz: F::first(inertia_zz, inertia_rate),
-            constant_c: F::fixed(constant_c),
-        };
-        let s = PrincipalCoefficients {
-            xx: F::fixed(p.s.xx),
-            yy: F::fixed(p.s.yy),
-            zz: F::first(p.s.zz, combination_rate / 2.0),
-        };
-        let constants = Constants {
-            alpha_0: F::fixed(p.angles.alpha),
-            beta_0: F::fixed(beta_0),
-            amplitude: F::fixed(F::zero()),
-            phase: F::fixed(F::zero()),
-        };
-        let moved =
-            Perturbation::new_unchecked(Form::Printed, Precession::Twofold, &spheroid, &s, F::fixed(spin), &constants);
-        let gamma_rate = F::fixed(spin) - moved.rate * F::fixed(cos);
-        // gamma' as Eq. (57) prints it.
-        let oblateness = inertia_zz / inertia_xx - F::one();
-        let printed = cos * forced_rate(inertia_zz, combination) - oblateness * spin;
-        vec![
-            F::derivative(moved.rate),
-            F::derivative(gamma_rate),
-            F::derivative(moved.forced_rate) - spin,
-            F::value(gamma_rate) - printed,
-        ]
-    }
+fn rates_along_null_direction<F: Differentiable>(p: &Point<F>) -> Vec<F> {
+    let (spin, beta_0) = (p.rates.gamma, p.angles.beta);
+    let (_, cos) = beta_0.sin_cos();
+    let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = p.spheroid;
+    let forced_rate = |inertia_zz: F, combination: F| constant_c * combination * cos / (inertia_zz * spin);
+    // I^zz = (1 + eps) I^xx; the combination that makes a^(1) grow by Omega^z a unit while I^zz grows.
+    let inertia_rate = inertia_xx * cos;
+    let combination = p.s.combination();
+    let combination_rate = spin * inertia_zz * spin / (constant_c * cos) + combination * inertia_rate / inertia_zz;
+    let spheroid = RigidSpheroid {
+        inertia_xx: F::fixed(inertia_xx),
+        inertia_zz: F::first(inertia_zz, inertia_rate),
+        constant_c: F::fixed(constant_c),
+    };
+    let s = PrincipalCoefficients {
+        xx: F::fixed(p.s.xx),
+        yy: F::fixed(p.s.yy),
+        zz: F::first(p.s.zz, combination_rate / 2.0),
+    };
+    let constants = Constants {
+        alpha_0: F::fixed(p.angles.alpha),
+        beta_0: F::fixed(beta_0),
+        amplitude: F::fixed(F::zero()),
+        phase: F::fixed(F::zero()),
+    };
+    let moved =
+        Perturbation::new_unchecked(Form::Printed, Precession::Twofold, &spheroid, &s, F::fixed(spin), &constants);
+    let gamma_rate = F::fixed(spin) - moved.rate * F::fixed(cos);
+    // gamma' as Eq. (57) prints it.
+    let oblateness = inertia_zz / inertia_xx - F::one();
+    let printed = cos * forced_rate(inertia_zz, combination) - oblateness * spin;
+    vec![
+        F::derivative(moved.rate),
+        F::derivative(gamma_rate),
+        F::derivative(moved.forced_rate) - spin,
+        F::value(gamma_rate) - printed,
+    ]
 }
 
 /// `beta` stands for `beta_0`, `gamma` for its phase; `a^(1)` follows of `2 s^ZZ - s^XX - s^YY`.

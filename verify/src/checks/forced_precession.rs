@@ -6,45 +6,24 @@ use twofold::solutions::free::free_precession_rates;
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession, shifted_rates};
 use twofold::solutions::steady::steady_precession_rate;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::checks::perturbation_equations::{KINDS, constants, unperturbed_motion};
 use crate::derivation::Differentiable;
 use crate::derivation::first_order::{first_order_equations, first_order_motion};
 use crate::derivation::spheroid_motion::fixed_spheroid;
-use crate::identity::identities;
 use crate::random::{Point, Random};
 
-identities! {
+checks! {
     /// for s^XX = s^YY and A = 0 the printed rates are constant at constant inclination, and solve Eq. (25), so Eq. (26), to first order in s
     steady_precession: Autodiff "steady-precession-first-order" [25, 26, 28, 30, 31, 32];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    let mut checks = identities();
-    checks.extend([
-        Check {
-            id: "forced-precession-limit",
-            kind: Kind::Autodiff,
-            equations: &[26, 28, 31, 32],
-            statement: "the derivative of Eq. (26) by the size of s, at s = 0, is the forced precession -+a^(1)",
-            figure: "largest difference / (2.2e-16 x a^(1) with the magnitudes of its terms), 200 random points",
-            bound: Bound::AtMost(8.0),
-            reason: "some ten factors on each side, half an ulp each, and their derivatives",
-            measure: steady_rates_to_first_order,
-        },
-        Check {
-            id: "shifted-rates",
-            kind: Kind::Property,
-            equations: &[22, 48, 57],
-            statement: "the shifted rates are a and Omega^z - a cos b0 of twofold precession, and the free ones without s",
-            figure: "largest difference / (2.2e-16 x sum of magnitudes of the terms), 200 random points",
-            bound: Bound::AtMost(4.0),
-            reason: "three or four products and as many sums on each side, half an ulp each",
-            measure: shifted_rates_of_spin,
-        },
-    ]);
-    checks
+    /// the derivative of Eq. (26) by the size of s, at s = 0, is the forced precession -+a^(1)
+    Autodiff "forced-precession-limit" [26, 28, 31, 32]: steady_rates_to_first_order;
+    AtMost(8.0) "largest difference / (2.2e-16 x a^(1) with the magnitudes of its terms), 200 random points";
+    because "some ten factors on each side, half an ulp each, and their derivatives";
+    /// the shifted rates are a and Omega^z - a cos b0 of twofold precession, and the free ones without s
+    Property "shifted-rates" [22, 48, 57]: shifted_rates_of_spin;
+    AtMost(4.0) "largest difference / (2.2e-16 x sum of magnitudes of the terms), 200 random points";
+    because "three or four products and as many sums on each side, half an ulp each";
 }
 
 fn steady_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {

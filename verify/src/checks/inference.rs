@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::coverage::Coverage;
 use crate::simulation::Simulation;
 use twofold::dynamics::RigidSpheroid;
@@ -15,100 +15,56 @@ use twofold::parameters::{Parameter, Parameters, ThirdRate};
 use twofold_scene::measurements::parameters_of;
 use twofold_scene::scene_file::Scene;
 
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "data-derivatives",
-            kind: Kind::Oracle,
-            equations: &[25, 44, 71],
-            statement: "derivatives of arrival times, closest approaches, widths, periods and strains by all 21 unknowns are those of data recomputed from moved scenes: tp-I and 6 random stars",
-            figure: "largest difference from differences of fourth order / largest derivative by the same unknown of the same kind of data",
-            bound: Bound::AtMost(2e-8),
-            reason: "rounding of edges, 1e-13 and some times that for pulses that are slow at their edges, over the step of 2e-5; the truncation, which falls with the fourth power of the step, was 1.3e-5 at a step ten times as long, for a pulse about to go under, and is 1e-9",
-            measure: derivatives,
-        },
-        Check {
-            id: "data-derivatives-decades",
-            kind: Kind::Oracle,
-            equations: &[5, 25, 44, 71],
-            statement: "derivatives of arrival times, widths and strains after 1e9 turns, of stars with s = 1e-9, one with three eigenvalues in any frame and one with the tensor of alpha_2, are those of the pulses that PulsarClock finds for moved stars: by all unknowns that do not change the initial state; by all, after 1e6 turns with s = 1e-6",
-            figure: "largest difference from differences of fourth order / largest derivative by the same unknown of the same kind of data",
-            bound: Bound::AtMost(1e-5),
-            reason: "steps of 1e-3 of the scale of each unknown move the slow precession of some 10 rad by 0.01 rad, those by unknowns that change rates move the fast phases by as much: 1e-8 by truncation. A last digit of L in a moved start is 1e-9 rad after 1e6 turns and 1e-6 of a derivative by an angle, 1e3 times as much after 1e9 turns: there these unknowns are left out",
-            measure: decades,
-        },
-        Check {
-            id: "degenerate-directions-named-decades",
-            kind: Kind::Oracle,
-            equations: &[5, 23, 44, 71],
-            statement: "after 1e9 turns the symmetries are found and named as over short spans, of a star with the tensor of alpha_2 and one with three eigenvalues",
-            figure: "directions that are missing, without a name, or too many, of all 21 unknowns by arrivals and widths",
-            bound: Bound::AtMost(0.0),
-            reason: "a name is given or it is not",
-            measure: directions_of_decades,
-        },
-        Check {
-            id: "degenerate-directions-named",
-            kind: Kind::Oracle,
-            equations: &[23, 44, 71],
-            statement: "of all 21 unknowns every symmetry is found and named and nothing else is degenerate: the trace of s, C against s, gamma against delta, rotations of all, the strain scale; sets without them have full rank",
-            figure: "directions that are missing, without a name, or too many, in 11 sets of data and unknowns",
-            bound: Bound::AtMost(0.0),
-            reason: "a name is given or it is not",
-            measure: directions,
-        },
-        Check {
-            id: "fit-coverage",
-            kind: Kind::Oracle,
-            equations: &[25, 44, 71],
-            statement: "fits recover what was put in, and their error bars hold: 90 simulated measurements of random stars by pulses, by strain and by both, 10 to 13 unknowns, started three standard deviations off",
-            figure: "largest of |score| of five: parts within one and two standard deviations, mean pull, chi^2 of unknowns, chi^2 of residuals; a fit that fails is infinite",
-            bound: Bound::AtMost(4.0),
-            reason: "scores are standard normal if error bars hold: one of five is above 4 with 3e-4. Bars too small by a tenth give 4.9 for chi^2 of the unknowns alone",
-            measure: coverage,
-        },
-        Check {
-            id: "forecast-scaling-with-number",
-            kind: Kind::Regime,
-            equations: &[44],
-            statement: "with the span fixed, the uncertainty of s goes as the inverse root of the number of pulses",
-            figure: "power of the number of epochs, tp-2 with phi_o = 1, 12800 t_c, 200 to 1600 epochs",
-            bound: Bound::Within(-0.53, -0.47),
-            reason: "equally spaced epochs beat with the turns of the star, which changes single forecasts by some 5 %: over a factor of eight, 0.03",
-            measure: number_scaling,
-        },
-        Check {
-            id: "forecast-known-frame",
-            kind: Kind::Regime,
-            equations: &[41, 44],
-            statement: "where the slow precession is far from a turn, and the frame of s and the observer are known, the uncertainty of s goes as the inverse of the span: the drift of the spin axis is seen, as in Eq. (41)",
-            figure: "power of the span, tp-2 with s over 4000 and phi_o = 1, 500 to 8000 t_c, 100 epochs, 7 unknowns",
-            bound: Bound::Within(-1.1, -0.9),
-            reason: "s t is 2e-3 to 0.03 rad of slow precession and the next order that much of it; equally spaced epochs beat with the turns of the star, some 5 %",
-            measure: known_frame,
-        },
-        Check {
-            id: "forecast-unknown-frame",
-            kind: Kind::Regime,
-            equations: &[44],
-            statement: "there, with nothing known of the frame of s, the uncertainty of s goes as the inverse third power of the span: five unknowns (two of s, two of its frame, one of the observer) need the drift of the spin axis to third order in s t",
-            figure: "power of the span, sp-1 with s over 4000 and phi_o = 1, 1000 to 16000 t_c, 100 epochs, 13 unknowns",
-            bound: Bound::Within(-3.1, -2.8),
-            reason: "as for the known frame; the last span is a third of a radian of slow precession",
-            measure: unknown_frame,
-        },
-        Check {
-            id: "forecast-unknown-frame-size",
-            kind: Kind::Regime,
-            equations: &[44],
-            statement: "there the uncertainty goes as the inverse square of s, so that the relative one goes as (s t)^-3",
-            figure: "uncertainty with s over 8000 / uncertainty with s over 4000, sp-1, phi_o = 1, 8000 t_c",
-            bound: Bound::Within(3.6, 4.4),
-            reason: "four in the limit; the next order is s t = 0.15 rad of slow precession, and epochs beat with the turns",
-            measure: size_scaling,
-        },
-    ]
+checks! {
+    /// derivatives of arrival times, closest approaches, widths, periods and strains by all 21 unknowns are those of data recomputed from moved
+    /// scenes: tp-I and 6 random stars
+    Oracle "data-derivatives" [25, 44, 71]: derivatives;
+    AtMost(2e-8) "largest difference from differences of fourth order / largest derivative by the same unknown of the same kind of data";
+    because "rounding of edges, 1e-13 and some times that for pulses that are slow at their edges, over the step of 2e-5; the truncation, which \
+     falls with the fourth power of the step, was 1.3e-5 at a step ten times as long, for a pulse about to go under, and is 1e-9";
+    /// derivatives of arrival times, widths and strains after 1e9 turns, of stars with s = 1e-9, one with three eigenvalues in any frame and one
+    /// with the tensor of alpha_2, are those of the pulses that PulsarClock finds for moved stars: by all unknowns that do not change the initial
+    /// state; by all, after 1e6 turns with s = 1e-6
+    Oracle "data-derivatives-decades" [5, 25, 44, 71]: decades;
+    AtMost(1e-5) "largest difference from differences of fourth order / largest derivative by the same unknown of the same kind of data";
+    because "steps of 1e-3 of the scale of each unknown move the slow precession of some 10 rad by 0.01 rad, those by unknowns that change rates \
+     move the fast phases by as much: 1e-8 by truncation. A last digit of L in a moved start is 1e-9 rad after 1e6 turns and 1e-6 of a derivative by \
+     an angle, 1e3 times as much after 1e9 turns: there these unknowns are left out";
+    /// after 1e9 turns the symmetries are found and named as over short spans, of a star with the tensor of alpha_2 and one with three eigenvalues
+    Oracle "degenerate-directions-named-decades" [5, 23, 44, 71]: directions_of_decades;
+    AtMost(0.0) "directions that are missing, without a name, or too many, of all 21 unknowns by arrivals and widths";
+    because "a name is given or it is not";
+    /// of all 21 unknowns every symmetry is found and named and nothing else is degenerate: the trace of s, C against s, gamma against delta,
+    /// rotations of all, the strain scale; sets without them have full rank
+    Oracle "degenerate-directions-named" [23, 44, 71]: directions;
+    AtMost(0.0) "directions that are missing, without a name, or too many, in 11 sets of data and unknowns";
+    because "a name is given or it is not";
+    /// fits recover what was put in, and their error bars hold: 90 simulated measurements of random stars by pulses, by strain and by both, 10 to
+    /// 13 unknowns, started three standard deviations off
+    Oracle "fit-coverage" [25, 44, 71]: coverage;
+    AtMost(4.0) "largest of |score| of five: parts within one and two standard deviations, mean pull, chi^2 of unknowns, chi^2 of residuals; a fit \
+     that fails is infinite";
+    because "scores are standard normal if error bars hold: one of five is above 4 with 3e-4. Bars too small by a tenth give 4.9 for chi^2 of the \
+     unknowns alone";
+    /// with the span fixed, the uncertainty of s goes as the inverse root of the number of pulses
+    Regime "forecast-scaling-with-number" [44]: number_scaling;
+    Within(-0.53, -0.47) "power of the number of epochs, tp-2 with phi_o = 1, 12800 t_c, 200 to 1600 epochs";
+    because "equally spaced epochs beat with the turns of the star, which changes single forecasts by some 5 %: over a factor of eight, 0.03";
+    /// where the slow precession is far from a turn, and the frame of s and the observer are known, the uncertainty of s goes as the inverse of the
+    /// span: the drift of the spin axis is seen, as in Eq. (41)
+    Regime "forecast-known-frame" [41, 44]: known_frame;
+    Within(-1.1, -0.9) "power of the span, tp-2 with s over 4000 and phi_o = 1, 500 to 8000 t_c, 100 epochs, 7 unknowns";
+    because "s t is 2e-3 to 0.03 rad of slow precession and the next order that much of it; equally spaced epochs beat with the turns of the star, \
+     some 5 %";
+    /// there, with nothing known of the frame of s, the uncertainty of s goes as the inverse third power of the span: five unknowns (two of s, two
+    /// of its frame, one of the observer) need the drift of the spin axis to third order in s t
+    Regime "forecast-unknown-frame" [44]: unknown_frame;
+    Within(-3.1, -2.8) "power of the span, sp-1 with s over 4000 and phi_o = 1, 1000 to 16000 t_c, 100 epochs, 13 unknowns";
+    because "as for the known frame; the last span is a third of a radian of slow precession";
+    /// there the uncertainty goes as the inverse square of s, so that the relative one goes as (s t)^-3
+    Regime "forecast-unknown-frame-size" [44]: size_scaling;
+    Within(3.6, 4.4) "uncertainty with s over 8000 / uncertainty with s over 4000, sp-1, phi_o = 1, 8000 t_c";
+    because "four in the limit; the next order is s t = 0.15 rad of slow precession, and epochs beat with the turns";
 }
 
 fn tp_1() -> Result<Parameters<f64>, String> {

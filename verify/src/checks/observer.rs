@@ -3,20 +3,14 @@
 use nalgebra::Vector3;
 use twofold::observables::Observer;
 
-use crate::check::Check;
+use crate::check::checks;
 use crate::derivation::Differentiable;
-use crate::identity::identities;
 use crate::random::Point;
 
-identities! {
+checks! {
     /// n-hat has its colatitude from Z and its azimuth from X; theta-hat and sin(theta) phi-hat are its derivatives by them; the three are a
     /// right-handed orthonormal basis
     observer_basis: Autodiff "observer-basis" [46, 70];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    identities()
 }
 
 /// The observer of a random point.

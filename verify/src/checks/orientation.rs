@@ -7,13 +7,12 @@ use twofold::euler_angles::{
     body_from_inertial, body_rates, permuted_from_inertial, symmetry_axis, tensor_in_body_frame,
 };
 
-use crate::check::Check;
+use crate::check::checks;
 use crate::derivation::Differentiable;
 use crate::derivation::body_motion::{composed_rotation, cross_matrix, rotation_derivative};
-use crate::identity::identities;
 use crate::random::Point;
 
-identities! {
+checks! {
     /// R is R_z(gamma) R_x(beta) R_z(alpha), orthogonal, of determinant one, and its last row is the symmetry axis
     rotation_matrix: Property "rotation-matrix" [8, 9];
     /// s^ij = R^iI R^jJ s^IJ is e_i . (s e_j), component by component
@@ -24,11 +23,6 @@ identities! {
     rate_along_euler_rates: Autodiff "rotation-rate" [61, 62];
     /// the potential in the angles of the frame Y-Z-X with permuted coefficients is the potential of the same axis; three permutations are none
     axis_permutation: Property "axis-permutation" [21, 36];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    identities()
 }
 
 fn rotation_matrix<F: Differentiable>(p: &Point<F>) -> Vec<F> {

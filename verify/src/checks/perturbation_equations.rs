@@ -4,14 +4,13 @@ use twofold::Scalar;
 use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
-use crate::check::Check;
+use crate::check::checks;
 use crate::derivation::Differentiable;
 use crate::derivation::first_order::{UnperturbedMotion, first_order_equations, first_order_motion};
 use crate::derivation::spheroid_motion::{fixed_coefficients, fixed_spheroid};
-use crate::identity::identities;
 use crate::random::Point;
 
-identities! {
+checks! {
     /// the full first-order equations are the terms of first order of Eq. (25), about free precession and about a stationary spin
     linearisation: Autodiff "full-first-order-equations" [25, 27, 28, 29];
     /// Eq. (29) as printed lacks in the second equation, and there alone, a^2 sin^2(b0) beta1 for the upper signs and (C / I^xx) (2 s^ZZ - s^XX -
@@ -23,11 +22,6 @@ identities! {
     corrected_solution: Autodiff "corrected-perturbation-solution" [25, 27, 28, 30, 31, 32, 33];
     /// the rates are the time derivatives of the angles, both kinds, printed and corrected, any A and phi
     rates_of_angles: Autodiff "perturbed-angles" [27, 30, 32, 33];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    identities()
 }
 
 pub(super) const KINDS: [Precession; 2] = [Precession::Twofold, Precession::Single];

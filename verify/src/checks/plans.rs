@@ -11,84 +11,43 @@ use twofold::propagation::{Motion, SymmetricMotion, TaylorMotion, UniformMotion}
 use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_difference};
+use crate::check::{Measured, Worst, checks, largest, largest_difference};
 use crate::physical_domain::{RandomScene, scenes, worst_over};
 use crate::reference::reference_gradients;
 
-/// Checks of this subject.
-pub fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "plan-counts",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "right-hand sides that a plan foresees are those of the motion, at random over accuracies, spans and states carried",
-            figure: "largest ratio of counted to foreseen right-hand sides, or the inverse",
-            bound: Bound::AtMost(2.0),
-            reason: "the plan knows the first step; later ones are longer or shorter as torque and rotation add up or not",
-            measure: counts,
-        },
-        Check {
-            id: "plan-cheapest",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "at random no method asked for by name is foreseen to meet the accuracy at less cost than the one that a plan takes, with derivatives or without; each method is taken at times",
-            figure: "methods by name, of six for each of 600 plans, that are admitted and cost less",
-            bound: Bound::AtMost(0.0),
-            reason: "a plan is the cheapest choice; whether what is foreseen comes true is the matter of plan-error-bounds and plan-error-goals",
-            measure: cheapest,
-        },
-        Check {
-            id: "free-motion-bound",
-            kind: Kind::Property,
-            equations: &[48],
-            statement: "free rotation in place of the motion is off by at most its rigorous bound, over 1e-2 to 1e2 t_c",
-            figure: "largest difference of n, L and e_x from the numerical motion / (bound + its error estimate)",
-            bound: Bound::AtMost(1.0),
-            reason: "the bound follows from the largest torque alone",
-            measure: free_bound,
-        },
-        Check {
-            id: "symmetric-motion",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "for two equal eigenvalues of s^IJ in any frame the motion by elliptic functions is the numerical one within both estimates, also where the eigenvalues differ a little",
-            figure: "largest difference of n, L and e_x / sum of the two error estimates",
-            bound: Bound::AtMost(1.0),
-            reason: "the same motion, twice computed; the estimate counts rounding by the derivatives of the solution",
-            measure: symmetric_motion,
-        },
-        Check {
-            id: "steady-motion",
-            kind: Kind::Oracle,
-            equations: &[26],
-            statement: "steady precession about any axis is the numerical motion, and states beside it are refused",
-            figure: "largest difference of n, L and e_x / sum of the two error estimates",
-            bound: Bound::AtMost(1.0),
-            reason: "the same motion, twice computed",
-            measure: steady_motion,
-        },
-        Check {
-            id: "gradient-both-ways",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "derivatives of n, L and e_x by fifteen parameters by the tangent maps of a splitting scheme are those of duals through Taylor series: 60 random motions in any frame, forwards and backwards",
-            figure: "largest difference / (largest derivative by the same parameter at the same time, at least 1e-3); of values, / (1 + |L|)",
-            bound: Bound::AtMost(2e-10),
-            reason: "the maps go by an accuracy of 1e-11 (the series by 1e-15), times 20: the model of the error behind the choice of steps is one formula for all motions, and the worst of 3,000 motions exceeds it 8 times",
-            measure: gradients_both_ways,
-        },
-        Check {
-            id: "gradient-reference",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "derivatives of n, L and e_x by fifteen parameters are those of 45-digit motions, two scenes, by tangent maps and by duals",
-            figure: "largest error / largest derivative by the same parameter at the same time",
-            bound: Bound::AtMost(1e-10),
-            reason: "truncation and rounding of 1e-15 a step, grown with the derivatives over 20 t_c and some hundred steps: five digits at most",
-            measure: gradients,
-        },
-    ]
+checks! {
+    /// right-hand sides that a plan foresees are those of the motion, at random over accuracies, spans and states carried
+    Property "plan-counts" [25]: counts;
+    AtMost(2.0) "largest ratio of counted to foreseen right-hand sides, or the inverse";
+    because "the plan knows the first step; later ones are longer or shorter as torque and rotation add up or not";
+    /// at random no method asked for by name is foreseen to meet the accuracy at less cost than the one that a plan takes, with derivatives or
+    /// without; each method is taken at times
+    Property "plan-cheapest" [25]: cheapest;
+    AtMost(0.0) "methods by name, of six for each of 600 plans, that are admitted and cost less";
+    because "a plan is the cheapest choice; whether what is foreseen comes true is the matter of plan-error-bounds and plan-error-goals";
+    /// free rotation in place of the motion is off by at most its rigorous bound, over 1e-2 to 1e2 t_c
+    Property "free-motion-bound" [48]: free_bound;
+    AtMost(1.0) "largest difference of n, L and e_x from the numerical motion / (bound + its error estimate)";
+    because "the bound follows from the largest torque alone";
+    /// for two equal eigenvalues of s^IJ in any frame the motion by elliptic functions is the numerical one within both estimates, also where the
+    /// eigenvalues differ a little
+    Oracle "symmetric-motion" [25]: symmetric_motion;
+    AtMost(1.0) "largest difference of n, L and e_x / sum of the two error estimates";
+    because "the same motion, twice computed; the estimate counts rounding by the derivatives of the solution";
+    /// steady precession about any axis is the numerical motion, and states beside it are refused
+    Oracle "steady-motion" [26]: steady_motion;
+    AtMost(1.0) "largest difference of n, L and e_x / sum of the two error estimates";
+    because "the same motion, twice computed";
+    /// derivatives of n, L and e_x by fifteen parameters by the tangent maps of a splitting scheme are those of duals through Taylor series: 60
+    /// random motions in any frame, forwards and backwards
+    Oracle "gradient-both-ways" [25]: gradients_both_ways;
+    AtMost(2e-10) "largest difference / (largest derivative by the same parameter at the same time, at least 1e-3); of values, / (1 + |L|)";
+    because "the maps go by an accuracy of 1e-11 (the series by 1e-15), times 20: the model of the error behind the choice of steps is one formula \
+     for all motions, and the worst of 3,000 motions exceeds it 8 times";
+    /// derivatives of n, L and e_x by fifteen parameters are those of 45-digit motions, two scenes, by tangent maps and by duals
+    Oracle "gradient-reference" [25]: gradients;
+    AtMost(1e-10) "largest error / largest derivative by the same parameter at the same time";
+    because "truncation and rounding of 1e-15 a step, grown with the derivatives over 20 t_c and some hundred steps: five digits at most";
 }
 
 /// Largest difference at a time from the numerical motion over the sum of both error estimates, for a body in units `I^xx = C = 1`; `L` in units of

@@ -8,12 +8,11 @@ use twofold::dynamics::potential::anisotropic_potential_of_body;
 use twofold::euler_angles::body_from_inertial;
 use twofold::lorentz_violation::coefficients_from_preferred_frame;
 
-use crate::check::Check;
+use crate::check::checks;
 use crate::derivation::Differentiable;
-use crate::identity::identities;
 use crate::random::Point;
 
-identities! {
+checks! {
     /// with s^ij = -alpha_2 w^i w^j the potential of two masses is that of the PPN formalism; over three directions at right angles it sums to
     /// tr(s) / 2 of Newton's
     potential_of_masses: Property "potential-of-masses" [2, 4, 5];
@@ -22,11 +21,6 @@ identities! {
     /// k R of the action is s^{ab} R_{ab} for a curvature of Ricci tensor R_{ab} without trace and without Weyl part, for any k with the symmetries
     /// of the Riemann tensor; s is symmetric and has no trace
     coupling_to_curvature: Property "coupling-to-curvature" [1, 3];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    identities()
 }
 
 fn potential_of_masses<F: Differentiable>(p: &Point<F>) -> Vec<F> {

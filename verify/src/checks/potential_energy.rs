@@ -10,13 +10,12 @@ use twofold::dynamics::potential::{
 use twofold::euler_angles::{body_from_inertial, body_rates, symmetry_axis, tensor_in_body_frame};
 use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_preferred_frame};
 
-use crate::check::{Bound, Check, Kind, Measured};
+use crate::check::{Measured, checks};
 use crate::derivation::Differentiable;
-use crate::identity::identities;
 use crate::measured_order::measured_order;
 use crate::random::Point;
 
-identities! {
+checks! {
     /// the potential in Euler angles is C s^zz of the rotated tensor, and C n.(s n)
     potential_in_angles: Property "potential-in-angles" [7, 11, 21];
     /// the gradient kernel is the derivative of the potential by alpha and by beta
@@ -27,22 +26,10 @@ identities! {
     nordtvedt_form: Property "nordtvedt-form" [5, 11, 13];
     /// the kinetic energy in Euler rates is (1/2) I^ij Omega^i Omega^j of the body rates
     kinetic_energy_in_rates: Property "kinetic-energy" [22, 23];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    let mut checks = identities();
-    checks.push(Check {
-        id: "nordtvedt-form-needs-alignment",
-        kind: Kind::Regime,
-        equations: &[11, 13],
-        statement: "Nordtvedt's form differs from delta U = C s^zz to first order in the angle between angular velocity and axis",
-        figure: "slope of log(difference / C) against log of that angle, 1e-1 to 1e-5 rad",
-        bound: Bound::Within(0.95, 1.05),
-        reason: "one form has the direction of the angular velocity where the other has the axis; an integer order to 0.05",
-        measure: misaligned_nordtvedt,
-    });
-    checks
+    /// Nordtvedt's form differs from delta U = C s^zz to first order in the angle between angular velocity and axis
+    Regime "nordtvedt-form-needs-alignment" [11, 13]: misaligned_nordtvedt;
+    Within(0.95, 1.05) "slope of log(difference / C) against log of that angle, 1e-1 to 1e-5 rad";
+    because "one form has the direction of the angular velocity where the other has the axis; an integer order to 0.05";
 }
 
 /// Both forms for a star that turns about a direction at an angle from its axis, `w` at 0.6 rad from the axis.

@@ -8,104 +8,48 @@ use twofold::euler_angles::{body_from_inertial, permuted_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::{Motion, TaylorMotion};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component, largest_difference};
+use crate::check::{Measured, Worst, checks, largest, largest_component, largest_difference};
 use crate::physical_domain::{scenes, worst_over};
 use crate::reference::{ReferenceMotion, reference_motion, reference_motions};
 
-/// Checks of this subject.
-pub fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "propagation-reference",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "the numerical motion of ten scenes reproduces n, L, e_x of a 34-digit integration at every listed time",
-            figure: "largest error of a component",
-            bound: Bound::AtMost(1e-12),
-            reason: "rounding of the initial values (1e-16) and of up to 1,200 steps, grown with a phase of 600 rad",
-            measure: against_reference::<BodyState<f64>>,
-        },
-        Check {
-            id: "propagation-error-estimate",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "the error estimate of the numerical motion is not below its true error, from accuracy 1e-3 to 1e-14",
-            figure: "largest true error / estimate",
-            bound: Bound::AtMost(1.0),
-            reason: "an estimate below the true error is wrong",
-            measure: estimate_against_reference::<BodyState<f64>>,
-        },
-        Check {
-            id: "propagation-integrals",
-            kind: Kind::Property,
-            equations: &[24],
-            statement: "E, Omega^z and K of the four examples of the paper do not drift over 400 t_c",
-            figure: "largest drift / sum of the magnitudes of the integral's terms",
-            bound: Bound::AtMost(1e-14),
-            reason: "rounding of 1,200 steps adds up as their square root, 35 times 1.1e-16",
-            measure: integrals_of_examples,
-        },
-        Check {
-            id: "propagation-random-integrals",
-            kind: Kind::Property,
-            equations: &[24],
-            statement: "E, Omega^z, K, |n|, |e_x| and n.e_x are conserved along random motions over 50 t_c",
-            figure: "largest drift / (sum of magnitudes, 2.2e-16, sqrt(steps + 1))",
-            bound: Bound::AtMost(8.0),
-            reason: "a random walk of the rounding of each step, a few ulp at most each",
-            measure: integrals_of_random_motions,
-        },
-        Check {
-            id: "propagation-dense-output",
-            kind: Kind::Autodiff,
-            equations: &[22, 25],
-            statement: "the Euler angles of the dense output, differentiated twice in time by duals, satisfy Eq. (25)",
-            figure: "largest (|a'' - a''(25)| sin b + |b'' - b''(25)|) sin^2 b / (size of the terms, 2.2e-16)",
-            bound: Bound::AtMost(256.0),
-            reason: "rounding of n is divided by sin^2 b; differentiating a series of order 22 twice multiplies its rounding by up to (22/3)^2",
-            measure: dense_output_solves_equations,
-        },
-        Check {
-            id: "propagation-derivatives",
-            kind: Kind::Autodiff,
-            equations: &[25],
-            statement: "derivatives of the motion by a parameter, carried by duals through every step, agree with differences",
-            figure: "largest |dual - difference| / largest derivative",
-            bound: Bound::AtMost(1e-6),
-            reason: "a central difference of step 1e-5 has 1e-10 of truncation, grown with t^3, and 1e-8 of rounding",
-            measure: derivatives_by_duals,
-        },
-        Check {
-            id: "propagation-time-reversal",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "a random motion propagated over 30 t_c and back returns to its start",
-            figure: "largest error / sum of the two error estimates",
-            bound: Bound::AtMost(1.0),
-            reason: "the equations are reversible; what remains is the error that both ways estimate, and the other rate at which the way back turns e_x about n",
-            measure: time_reversal,
-        },
-        Check {
-            id: "propagation-units",
-            kind: Kind::Property,
-            equations: &[35],
-            statement: "the motion in any units is the dimensionless one with time in t_c",
-            figure: "largest difference / sum of the two error estimates",
-            bound: Bound::AtMost(1.0),
-            reason: "the same motion, twice computed",
-            measure: scaling_in_time_unit,
-        },
-        Check {
-            id: "propagation-frame-covariance",
-            kind: Kind::Property,
-            equations: &[7, 36],
-            statement: "a motion seen from a rotated inertial frame, the axis permutation (36) included, is the rotated motion",
-            figure: "largest difference / sum of the two error estimates",
-            bound: Bound::AtMost(1.0),
-            reason: "the same motion, twice computed",
-            measure: frame_covariance,
-        },
-    ]
+checks! {
+    /// the numerical motion of ten scenes reproduces n, L, e_x of a 34-digit integration at every listed time
+    Oracle "propagation-reference" [25]: against_reference::<BodyState<f64>>;
+    AtMost(1e-12) "largest error of a component";
+    because "rounding of the initial values (1e-16) and of up to 1,200 steps, grown with a phase of 600 rad";
+    /// the error estimate of the numerical motion is not below its true error, from accuracy 1e-3 to 1e-14
+    Oracle "propagation-error-estimate" [25]: estimate_against_reference::<BodyState<f64>>;
+    AtMost(1.0) "largest true error / estimate";
+    because "an estimate below the true error is wrong";
+    /// E, Omega^z and K of the four examples of the paper do not drift over 400 t_c
+    Property "propagation-integrals" [24]: integrals_of_examples;
+    AtMost(1e-14) "largest drift / sum of the magnitudes of the integral's terms";
+    because "rounding of 1,200 steps adds up as their square root, 35 times 1.1e-16";
+    /// E, Omega^z, K, |n|, |e_x| and n.e_x are conserved along random motions over 50 t_c
+    Property "propagation-random-integrals" [24]: integrals_of_random_motions;
+    AtMost(8.0) "largest drift / (sum of magnitudes, 2.2e-16, sqrt(steps + 1))";
+    because "a random walk of the rounding of each step, a few ulp at most each";
+    /// the Euler angles of the dense output, differentiated twice in time by duals, satisfy Eq. (25)
+    Autodiff "propagation-dense-output" [22, 25]: dense_output_solves_equations;
+    AtMost(256.0) "largest (|a'' - a''(25)| sin b + |b'' - b''(25)|) sin^2 b / (size of the terms, 2.2e-16)";
+    because "rounding of n is divided by sin^2 b; differentiating a series of order 22 twice multiplies its rounding by up to (22/3)^2";
+    /// derivatives of the motion by a parameter, carried by duals through every step, agree with differences
+    Autodiff "propagation-derivatives" [25]: derivatives_by_duals;
+    AtMost(1e-6) "largest |dual - difference| / largest derivative";
+    because "a central difference of step 1e-5 has 1e-10 of truncation, grown with t^3, and 1e-8 of rounding";
+    /// a random motion propagated over 30 t_c and back returns to its start
+    Property "propagation-time-reversal" [25]: time_reversal;
+    AtMost(1.0) "largest error / sum of the two error estimates";
+    because "the equations are reversible; what remains is the error that both ways estimate, and the other rate at which the way back turns e_x \
+     about n";
+    /// the motion in any units is the dimensionless one with time in t_c
+    Property "propagation-units" [35]: scaling_in_time_unit;
+    AtMost(1.0) "largest difference / sum of the two error estimates";
+    because "the same motion, twice computed";
+    /// a motion seen from a rotated inertial frame, the axis permutation (36) included, is the rotated motion
+    Property "propagation-frame-covariance" [7, 36]: frame_covariance;
+    AtMost(1.0) "largest difference / sum of the two error estimates";
+    because "the same motion, twice computed";
 }
 
 /// Largest difference of two states, of `L` in units of its size where that is above one.

@@ -10,10 +10,9 @@ use twofold::star::deformation::centrifugal_oblateness;
 use twofold::star::estimates::inertia_over_c_estimate;
 use twofold::units::{DEGREE, si};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, smallest, worst_of};
+use crate::check::{Measured, Worst, checks, smallest, worst_of};
 use crate::derivation::Differentiable;
 use crate::eta::seen_rate;
-use crate::identity::identities;
 use crate::random::{Point, Random, worst_of_draws};
 use twofold_scene::pulsar_table::published::{GLOBAL_2014, SOLITARY_ALPHA_2};
 use twofold_scene::pulsar_table::{self, CONFIDENCE, CONSERVATIVE_ETA, Figure, Pulsar, Quantity, Spread, recommended};
@@ -22,112 +21,49 @@ use twofold_scene::pulsar_table::{self, CONFIDENCE, CONSERVATIVE_ETA, Figure, Pu
 /// Kramer, Wex, Champion and Jessner, Class. Quantum Grav. 30, 165019 (2013) are remembered to give them: second-hand.
 const SLOPES: [f64; 3] = [-3.2, 3.5, 1.3];
 
-identities! {
+checks! {
     /// with I^zz/C = 4/Omega^2 and s = -alpha_2 w w the spin axis turns about w with Nordtvedt's rate (alpha_2/2) |w| Omega (w.l)
     nordtvedt_precession: Property "nordtvedt-precession" [5, 41];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    let mut checks = identities();
-    checks.extend([
-        Check {
-            id: "fluid-inertia-over-c",
-            kind: Kind::Property,
-            equations: &[20, 43],
-            statement: "I^zz/C = 4/Omega^2 is Eq. (43) with the oblateness of Eq. (20), times 5/4 for a uniform star, whatever density and radius",
-            figure: "largest relative difference / 2.2e-16, 200 random stars",
-            bound: Bound::AtMost(16.0),
-            reason: "some twelve products",
-            measure: fluid_inertia,
-        },
-        Check {
-            id: "pulsar-table-uncertainties",
-            kind: Kind::Oracle,
-            equations: &[41, 42, 43],
-            statement: "uncertainties of all figures of the pulsar table from the last digits of its numbers, by exact gradients, are those of random inputs",
-            figure: "largest |ratio to the standard deviation of 20,000 random draws - 1|, two pulsars, seed 42",
-            bound: Bound::AtMost(0.03),
-            reason: "linear propagation neglects the square of the relative uncertainty, 0.085^2 = 0.7 %, some times; a standard deviation of 20,000 draws scatters by 0.5 %",
-            measure: uncertainties,
-        },
-        Check {
-            id: "pulsar-limits-monte-carlo",
-            kind: Kind::Oracle,
-            equations: &[41, 42],
-            statement: "the limits at 95 % of the pulsar table are not exceeded by 95 % of random changes, other numbers, tensor axes and azimuths of \
-                        the line of sight about the spin axis, each turned through Eq. (41) with the rate of the axis itself",
-            figure: "largest |share above the limit - 0.05| / its standard error, 100,000 draws each of three pulses, seed 95",
-            bound: Bound::AtMost(4.0),
-            reason: "four standard errors of 0.0007; the linear effect of the inputs is good to 0.085^2 of the limit, 0.0004 of the share",
-            measure: limits_by_draws,
-        },
-        Check {
-            id: "pulsar-limits-coverage",
-            kind: Kind::Property,
-            equations: &[41],
-            statement: "whatever the true size of s, the limit at 95 % from a measurement with an error, in random directions, is above it in 95 % of cases or more",
-            figure: "smallest share of limits above the truth, 100,000 measurements each of eight sizes from 0.3 to 10,000 errors, seed 96",
-            bound: Bound::AtLeast(0.947),
-            reason: "0.95 less four standard errors of 0.0007",
-            measure: coverage,
-        },
-        Check {
-            id: "pulsar-changes-are-slopes",
-            kind: Kind::Oracle,
-            equations: &[42],
-            statement: "the changes of width that the paper's table calls bounds are 15 years of the slopes of Shao et al. 2013 (second-hand), \
-                        values with a sign",
-            figure: "largest difference in 1e-3 deg",
-            bound: Bound::AtMost(0.5),
-            reason: "rounding of the printed changes; the slopes are quoted second-hand",
-            measure: changes_are_slopes,
-        },
-        Check {
-            id: "pulsar-limits-with-error",
-            kind: Kind::Oracle,
-            equations: &[41, 42],
-            statement: "(c) with its second-hand error the change of width of PSR J1744-1134 gives a limit over eta at 95 % some ten times \
-                        weaker than the value alone",
-            figure: "limit over eta at 95 % by the error of Delta W / bound over eta without it, PSR J1744-1134",
-            bound: Bound::Within(10.58, 11.58),
-            reason: "1.96 errors of 108/20 times the value, and at most the value more",
-            measure: limits_with_error,
-        },
-        Check {
-            id: "bounds-consistent-with-alpha-2",
-            kind: Kind::Oracle,
-            equations: &[5, 41, 43],
-            statement: "the recommended limit as one on alpha_2, and the bound printed for PSR J1744-1134 with eta = 10, are of the order of the \
-                        published |alpha_2-hat| < 1.6e-9 of the two pulsars (arXiv:1307.2552)",
-            figure: "largest |log10(bound / 1.6e-9)|",
-            bound: Bound::AtMost(1.0),
-            reason: "an order of magnitude: the published limit knows the direction of w and joins two pulsars; the number is that of its abstract",
-            measure: alpha_2,
-        },
-        Check {
-            id: "bounds-beyond-global",
-            kind: Kind::Oracle,
-            equations: &[41],
-            statement: "with each star's own deformation the bounds of the table with eta = 10, and the limits at 95 %, are 3 to 5 orders of magnitude \
-                        below the published |s^XX + s^YY - 2 s^ZZ| < 1.2e-10 of 13 pulsar systems together (arXiv:1402.6452, another frame)",
-            figure: "least log10(1.2e-10 / bound) of three pulses; infinite if one is above 5",
-            bound: Bound::Within(3.0, 5.0),
-            reason: "as claimed; the published number is second-hand",
-            measure: beyond_global,
-        },
-        Check {
-            id: "bounds-beyond-global-stated-star",
-            kind: Kind::Oracle,
-            equations: &[41, 43],
-            statement: "with the stated I^zz/C of Eq. (43) and eta = 10 the bounds of two of the three pulses are less than 3 orders of magnitude below it",
-            figure: "least log10(1.2e-10 / bound) of three pulses; infinite if one is above 5",
-            bound: Bound::Within(2.0, 3.0),
-            reason: "2.40, 2.96 and 3.88: the claimed 3 to 5 would be above 3",
-            measure: beyond_global_stated_star,
-        },
-    ]);
-    checks
+    /// I^zz/C = 4/Omega^2 is Eq. (43) with the oblateness of Eq. (20), times 5/4 for a uniform star, whatever density and radius
+    Property "fluid-inertia-over-c" [20, 43]: fluid_inertia;
+    AtMost(16.0) "largest relative difference / 2.2e-16, 200 random stars";
+    because "some twelve products";
+    /// uncertainties of all figures of the pulsar table from the last digits of its numbers, by exact gradients, are those of random inputs
+    Oracle "pulsar-table-uncertainties" [41, 42, 43]: uncertainties;
+    AtMost(0.03) "largest |ratio to the standard deviation of 20,000 random draws - 1|, two pulsars, seed 42";
+    because "linear propagation neglects the square of the relative uncertainty, 0.085^2 = 0.7 %, some times; a standard deviation of 20,000 draws \
+     scatters by 0.5 %";
+    /// the limits at 95 % of the pulsar table are not exceeded by 95 % of random changes, other numbers, tensor axes and azimuths of the line of
+    /// sight about the spin axis, each turned through Eq. (41) with the rate of the axis itself
+    Oracle "pulsar-limits-monte-carlo" [41, 42]: limits_by_draws;
+    AtMost(4.0) "largest |share above the limit - 0.05| / its standard error, 100,000 draws each of three pulses, seed 95";
+    because "four standard errors of 0.0007; the linear effect of the inputs is good to 0.085^2 of the limit, 0.0004 of the share";
+    /// whatever the true size of s, the limit at 95 % from a measurement with an error, in random directions, is above it in 95 % of cases or more
+    Property "pulsar-limits-coverage" [41]: coverage;
+    AtLeast(0.947) "smallest share of limits above the truth, 100,000 measurements each of eight sizes from 0.3 to 10,000 errors, seed 96";
+    because "0.95 less four standard errors of 0.0007";
+    /// the changes of width that the paper's table calls bounds are 15 years of the slopes of Shao et al. 2013 (second-hand), values with a sign
+    Oracle "pulsar-changes-are-slopes" [42]: changes_are_slopes;
+    AtMost(0.5) "largest difference in 1e-3 deg";
+    because "rounding of the printed changes; the slopes are quoted second-hand";
+    /// (c) with its second-hand error the change of width of PSR J1744-1134 gives a limit over eta at 95 % some ten times weaker than the value alone
+    Oracle "pulsar-limits-with-error" [41, 42]: limits_with_error;
+    Within(10.58, 11.58) "limit over eta at 95 % by the error of Delta W / bound over eta without it, PSR J1744-1134";
+    because "1.96 errors of 108/20 times the value, and at most the value more";
+    /// the recommended limit as one on alpha_2, and the bound printed for PSR J1744-1134 with eta = 10, are of the order of the published
+    /// |alpha_2-hat| < 1.6e-9 of the two pulsars (arXiv:1307.2552)
+    Oracle "bounds-consistent-with-alpha-2" [5, 41, 43]: alpha_2;
+    AtMost(1.0) "largest |log10(bound / 1.6e-9)|";
+    because "an order of magnitude: the published limit knows the direction of w and joins two pulsars; the number is that of its abstract";
+    /// with each star's own deformation the bounds of the table with eta = 10, and the limits at 95 %, are 3 to 5 orders of magnitude below the
+    /// published |s^XX + s^YY - 2 s^ZZ| < 1.2e-10 of 13 pulsar systems together (arXiv:1402.6452, another frame)
+    Oracle "bounds-beyond-global" [41]: beyond_global;
+    Within(3.0, 5.0) "least log10(1.2e-10 / bound) of three pulses; infinite if one is above 5";
+    because "as claimed; the published number is second-hand";
+    /// with the stated I^zz/C of Eq. (43) and eta = 10 the bounds of two of the three pulses are less than 3 orders of magnitude below it
+    Oracle "bounds-beyond-global-stated-star" [41, 43]: beyond_global_stated_star;
+    Within(2.0, 3.0) "least log10(1.2e-10 / bound) of three pulses; infinite if one is above 5";
+    because "2.40, 2.96 and 3.88: the claimed 3 to 5 would be above 3";
 }
 
 fn nordtvedt_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {

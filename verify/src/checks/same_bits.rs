@@ -4,35 +4,21 @@ use twofold::dynamics::{BodyState, RotationState};
 use twofold::plan::Method;
 use twofold::propagation::Motion;
 
-use crate::check::{Bound, Check, Kind, Measured};
+use crate::check::{Measured, checks};
 use crate::error_scenes::ErrorScene;
 
 const SCENES: u64 = 60;
 const SEED: u64 = 11;
 
-pub fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "reversal-same-bits",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "free rotation, splitting and Taylor series at -t are at t with L reversed, to the last bit",
-            figure: "states of random scenes that differ in a bit",
-            bound: Bound::AtMost(0.0),
-            reason: "the equations are reversible, and rounding does not know signs: any difference is a step, a threshold or a branch that does",
-            measure: reversal,
-        },
-        Check {
-            id: "threads-same-bits",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "every method gives the same states and error estimates again, in the other order and on two threads, to the last bit",
-            figure: "states of random scenes that differ in a bit",
-            bound: Bound::AtMost(0.0),
-            reason: "nothing is kept between motions",
-            measure: threads,
-        },
-    ]
+checks! {
+    /// free rotation, splitting and Taylor series at -t are at t with L reversed, to the last bit
+    Property "reversal-same-bits" [25]: reversal;
+    AtMost(0.0) "states of random scenes that differ in a bit";
+    because "the equations are reversible, and rounding does not know signs: any difference is a step, a threshold or a branch that does";
+    /// every method gives the same states and error estimates again, in the other order and on two threads, to the last bit
+    Property "threads-same-bits" [25]: threads;
+    AtMost(0.0) "states of random scenes that differ in a bit";
+    because "nothing is kept between motions";
 }
 
 fn scene(method: Method, number: u64) -> Option<ErrorScene> {

@@ -14,111 +14,54 @@ use twofold::solutions::free::{free_precession_rates, free_rotation};
 use twofold::solutions::perturbation::{Constants, Form, Precession, constants_from_initial_values, initial_values};
 use twofold::solutions::steady::steady_precession_rate;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component, largest_difference, worst_of};
+use crate::check::{Measured, Worst, checks, largest, largest_component, largest_difference, worst_of};
 use crate::checks::perturbation_equations::{FORMS, KINDS};
 use crate::paper_examples::{PaperExample, paper_examples};
 use crate::physical_domain::{scenes, worst_over};
 use crate::printed::{caption_values, rounds_to};
 use crate::reference::reference_motion;
 
-/// Checks of this subject.
-pub fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "free-rotation-reference",
-            kind: Kind::Oracle,
-            equations: &[48],
-            statement: "the closed form of free rotation reproduces the 34-digit motion without Lorentz violation",
-            figure: "largest error of a component of n, e_x over 200 t_c",
-            bound: Bound::AtMost(5e-13),
-            reason: "rounding of the initial state, grown with a phase of 300 rad",
-            measure: free_reference,
-        },
-        Check {
-            id: "caption-initial-values",
-            kind: Kind::Oracle,
-            equations: &[34],
-            statement: "Eq. (34) gives the initial values in the captions of the four examples, to every digit printed",
-            figure: "values of 16 that do not round to the printed one",
-            bound: Bound::AtMost(0.0),
-            reason: "rounding of the printed digits",
-            measure: || {
-                let differs = |(_, printed, ours): &(_, &str, f64)| !rounds_to(*ours, printed);
-                let differing: Vec<_> = caption_values()?.into_iter().filter(differs).map(|(what, ..)| what).collect();
-                Ok(Measured::new(differing.len() as f64, differing.join(", ")))
-            },
-        },
-        Check {
-            id: "free-rotation-equations",
-            kind: Kind::Autodiff,
-            equations: &[25, 48],
-            statement: "the closed form of free rotation satisfies the regular equations of motion, L = 0 and t = 0 included",
-            figure: "largest |d/dt - rate| / (2.2e-16, size of the rates, 1 + phase)",
-            bound: Bound::AtMost(8.0),
-            reason: "rounding of two rotations and of their phase",
-            measure: free_equations,
-        },
-        Check {
-            id: "free-precession-rates",
-            kind: Kind::Property,
-            equations: &[48],
-            statement: "with the rates of Eq. (48) the angular momentum lies along Z",
-            figure: "largest |L x Z| / (2.2e-16 |L|)",
-            bound: Bound::AtMost(4.0),
-            reason: "rounding of the rotation matrix and of the rates",
-            measure: free_rates,
-        },
-        Check {
-            id: "steady-precession-equations",
-            kind: Kind::Property,
-            equations: &[25, 26],
-            statement: "both roots of Eq. (26) make Eq. (25) hold with constant beta, for s symmetric about Z and either sign of the spin",
-            figure: "largest residual of Eq. (25) / (2.2e-16, sum of the magnitudes of its terms)",
-            bound: Bound::AtMost(8.0),
-            reason: "the root is right to a few ulp, and each residual has four terms",
-            measure: steady_equations,
-        },
-        Check {
-            id: "steady-precession-limit",
-            kind: Kind::Oracle,
-            equations: &[26],
-            statement: "as s -> 0 the single root of Eq. (26) keeps its digits: it equals its series 2 s C cos b / (I^zz Omega^z) (1 + x + 2 x^2)",
-            figure: "largest relative error in 2.2e-16, s from 1e-6 to 1e-300",
-            bound: Bound::AtMost(4.0),
-            reason: "the next term of the series is 5 x^3 < 1e-17; a difference of the two terms of (26) would lose all digits",
-            measure: steady_limit,
-        },
-        Check {
-            id: "initial-values-inverse",
-            kind: Kind::Property,
-            equations: &[34],
-            statement: "constants of integration -> initial values (34) -> constants is the identity for the four examples",
-            figure: "largest error of alpha_0, beta_0, A cos phi, A sin phi",
-            bound: Bound::AtMost(1e-12),
-            reason: "rounding of 1e-16 through a Newton matrix of condition up to 1e3",
-            measure: inverse_round_trip,
-        },
-        Check {
-            id: "initial-values-inverse-random",
-            kind: Kind::Property,
-            equations: &[34],
-            statement: "initial values -> constants of integration -> initial values (34) is the identity, and no smaller A was missed",
-            figure: "largest error of an initial value",
-            bound: Bound::AtMost(1e-13),
-            reason: "the Newton iteration ends at rounding of terms of size pi, divided by a of 0.03 at the least",
-            measure: inverse_at_random,
-        },
-        Check {
-            id: "initial-values-inverse-derivatives",
-            kind: Kind::Autodiff,
-            equations: &[34],
-            statement: "the derivatives of the inverse of Eq. (34) are the inverse matrix of the derivatives of Eq. (34)",
-            figure: "largest entry of |J(inverse) J - 1|",
-            bound: Bound::AtMost(1e-11),
-            reason: "rounding through two matrices of condition up to 1e3",
-            measure: inverse_derivatives,
-        },
-    ]
+checks! {
+    /// the closed form of free rotation reproduces the 34-digit motion without Lorentz violation
+    Oracle "free-rotation-reference" [48]: free_reference;
+    AtMost(5e-13) "largest error of a component of n, e_x over 200 t_c";
+    because "rounding of the initial state, grown with a phase of 300 rad";
+    /// Eq. (34) gives the initial values in the captions of the four examples, to every digit printed
+    Oracle "caption-initial-values" [34]: || {
+        let differs = |(_, printed, ours): &(_, &str, f64)| !rounds_to(*ours, printed);
+        let differing: Vec<_> = caption_values()?.into_iter().filter(differs).map(|(what, ..)| what).collect();
+        Ok(Measured::new(differing.len() as f64, differing.join(", ")))
+    };
+    AtMost(0.0) "values of 16 that do not round to the printed one";
+    because "rounding of the printed digits";
+    /// the closed form of free rotation satisfies the regular equations of motion, L = 0 and t = 0 included
+    Autodiff "free-rotation-equations" [25, 48]: free_equations;
+    AtMost(8.0) "largest |d/dt - rate| / (2.2e-16, size of the rates, 1 + phase)";
+    because "rounding of two rotations and of their phase";
+    /// with the rates of Eq. (48) the angular momentum lies along Z
+    Property "free-precession-rates" [48]: free_rates;
+    AtMost(4.0) "largest |L x Z| / (2.2e-16 |L|)";
+    because "rounding of the rotation matrix and of the rates";
+    /// both roots of Eq. (26) make Eq. (25) hold with constant beta, for s symmetric about Z and either sign of the spin
+    Property "steady-precession-equations" [25, 26]: steady_equations;
+    AtMost(8.0) "largest residual of Eq. (25) / (2.2e-16, sum of the magnitudes of its terms)";
+    because "the root is right to a few ulp, and each residual has four terms";
+    /// as s -> 0 the single root of Eq. (26) keeps its digits: it equals its series 2 s C cos b / (I^zz Omega^z) (1 + x + 2 x^2)
+    Oracle "steady-precession-limit" [26]: steady_limit;
+    AtMost(4.0) "largest relative error in 2.2e-16, s from 1e-6 to 1e-300";
+    because "the next term of the series is 5 x^3 < 1e-17; a difference of the two terms of (26) would lose all digits";
+    /// constants of integration -> initial values (34) -> constants is the identity for the four examples
+    Property "initial-values-inverse" [34]: inverse_round_trip;
+    AtMost(1e-12) "largest error of alpha_0, beta_0, A cos phi, A sin phi";
+    because "rounding of 1e-16 through a Newton matrix of condition up to 1e3";
+    /// initial values -> constants of integration -> initial values (34) is the identity, and no smaller A was missed
+    Property "initial-values-inverse-random" [34]: inverse_at_random;
+    AtMost(1e-13) "largest error of an initial value";
+    because "the Newton iteration ends at rounding of terms of size pi, divided by a of 0.03 at the least";
+    /// the derivatives of the inverse of Eq. (34) are the inverse matrix of the derivatives of Eq. (34)
+    Autodiff "initial-values-inverse-derivatives" [34]: inverse_derivatives;
+    AtMost(1e-11) "largest entry of |J(inverse) J - 1|";
+    because "rounding through two matrices of condition up to 1e3";
 }
 
 fn free_reference() -> Result<Measured, String> {

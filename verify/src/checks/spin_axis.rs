@@ -10,16 +10,15 @@ use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change, cos
 use twofold::propagation::Motion;
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
-use crate::check::{Bound, Check, Kind, Measured};
+use crate::check::checks;
 use crate::checks::observer::observer;
 use crate::checks::perturbation_equations::constants;
 use crate::derivation::{Differentiable, moving_angles};
-use crate::identity::identities;
 use crate::measured_order::order_of_error;
 use crate::paper_examples::{COEFFICIENTS, SPIN, problem_from, spheroid};
 use crate::random::Point;
 
-identities! {
+checks! {
     /// Eq. (37) is e_z . n-hat, and changes sign with the direction
     spin_axis_angle: Property "spin-axis-angle" [37, 46];
     /// Eq. (38) is the derivative of Eq. (37) along any change of alpha and beta
@@ -28,44 +27,22 @@ identities! {
     spin_axis_rate: Property "spin-axis-rate" [22, 37, 38];
     /// the rates of the single solution at t = 0 times Delta t are Eq. (39) as printed
     single_precession_changes: Property "single-precession-changes" [30, 31, 39];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    let mut checks = identities();
-    checks.extend([
-        Check {
-            id: "spin-axis-changes-order-in-time",
-            kind: Kind::Regime,
-            equations: &[37, 38, 39],
-            statement: "Eq. (38) with the changes (39) misses the change of cos lambda of the numerical motion at second order in Delta t",
-            figure: "slope of log(error of Delta cos lambda) against log Delta t, 1e-3 to 1e-1 t_c, sp-I",
-            bound: Bound::Within(1.9, 2.1),
-            reason: "the rates at t = 0 are the motion's own, its acceleration is neglected; the third order shifts the slope by about Delta t",
-            measure: order_in_time,
-        },
-        Check {
-            id: "spin-axis-changes-order-in-s",
-            kind: Kind::Regime,
-            equations: &[37, 38, 39],
-            statement: "with A = 0 and s^XX = s^YY, Eqs. (38) and (39) hold over many turns of the star to second order in s",
-            figure: "slope of log(error of Delta cos lambda after 10 t_c) against log k, s of sp-I scaled by k = 1e-1 to 1e-3",
-            bound: Bound::Within(1.9, 2.1),
-            reason: "a^(1) is the rate to first order in s; the next orders shift the slope by about k",
-            measure: order_in_s,
-        },
-        Check {
-            id: "spin-axis-changes-oscillation",
-            kind: Kind::Regime,
-            equations: &[37, 38, 39],
-            statement: "the terms of (39) in A are no drift: over many turns the error is of first order, as the change itself",
-            figure: "slope of log(error of Delta cos lambda after 10 t_c) against log k, s and A = 0.01 scaled by k = 1e-2 to 1e-4",
-            bound: Bound::Within(0.9, 1.1),
-            reason: "A sin(phi) Delta t stands for (A / omega) times a difference of cosines, which has another size of the same order; the second order shifts the slope by at most some 7 k",
-            measure: order_with_amplitude,
-        },
-    ]);
-    checks
+    /// Eq. (38) with the changes (39) misses the change of cos lambda of the numerical motion at second order in Delta t
+    Regime "spin-axis-changes-order-in-time" [37, 38, 39]:
+        || order_of_error(&[1e-3, 3e-3, 1e-2, 3e-2, 1e-1], |interval| error(&COEFFICIENTS, 0.01, interval));
+    Within(1.9, 2.1) "slope of log(error of Delta cos lambda) against log Delta t, 1e-3 to 1e-1 t_c, sp-I";
+    because "the rates at t = 0 are the motion's own, its acceleration is neglected; the third order shifts the slope by about Delta t";
+    /// with A = 0 and s^XX = s^YY, Eqs. (38) and (39) hold over many turns of the star to second order in s
+    Regime "spin-axis-changes-order-in-s" [37, 38, 39]:
+        || order_of_error(&[1e-1, 3e-2, 1e-2, 3e-3, 1e-3], |k| error(&SYMMETRIC.scaled(k), 0.0, 10.0));
+    Within(1.9, 2.1) "slope of log(error of Delta cos lambda after 10 t_c) against log k, s of sp-I scaled by k = 1e-1 to 1e-3";
+    because "a^(1) is the rate to first order in s; the next orders shift the slope by about k";
+    /// the terms of (39) in A are no drift: over many turns the error is of first order, as the change itself
+    Regime "spin-axis-changes-oscillation" [37, 38, 39]:
+        || order_of_error(&[1e-2, 3e-3, 1e-3, 3e-4, 1e-4], |k| error(&SYMMETRIC.scaled(k), 0.01 * k, 10.0));
+    Within(0.9, 1.1) "slope of log(error of Delta cos lambda after 10 t_c) against log k, s and A = 0.01 scaled by k = 1e-2 to 1e-4";
+    because "A sin(phi) Delta t stands for (A / omega) times a difference of cosines, which has another size of the same order; the second order \
+     shifts the slope by at most some 7 k";
 }
 
 fn spin_axis_angle<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -117,18 +94,6 @@ fn error(s: &PrincipalCoefficients<f64>, amplitude: f64, interval: f64) -> Resul
     let changes = changes_from_start(&solution, interval);
     let by_motion = Observer::at(theta, phi).direction.dot(&moved);
     Ok((by_motion - cos_lambda_change(theta, phi, (start.alpha, start.beta), changes)).abs())
-}
-
-fn order_in_time() -> Result<Measured, String> {
-    order_of_error(&[1e-3, 3e-3, 1e-2, 3e-2, 1e-1], |interval| error(&COEFFICIENTS, 0.01, interval))
-}
-
-fn order_in_s() -> Result<Measured, String> {
-    order_of_error(&[1e-1, 3e-2, 1e-2, 3e-3, 1e-3], |k| error(&SYMMETRIC.scaled(k), 0.0, 10.0))
-}
-
-fn order_with_amplitude() -> Result<Measured, String> {
-    order_of_error(&[1e-2, 3e-3, 1e-3, 3e-4, 1e-4], |k| error(&SYMMETRIC.scaled(k), 0.01 * k, 10.0))
 }
 
 /// The coefficients of the examples without their asymmetry about Z.

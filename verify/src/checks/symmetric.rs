@@ -17,104 +17,48 @@ use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::solutions::symmetric::SymmetricSolution;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_difference};
+use crate::check::{Measured, Worst, checks, largest, largest_difference};
 use crate::physical_domain::{RandomScene, scenes, worst_over};
 use crate::reference::reference_motion;
 
-/// Checks of this subject.
-pub fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "symmetric-equations",
-            kind: Kind::Autodiff,
-            equations: &[22, 25],
-            statement: "the exact solution for s^XX = s^YY, differentiated twice in time by duals, satisfies Eq. (25) and conserves Omega^z",
-            figure: "largest residual sin^2 b / (size of the terms, 2.2e-16)",
-            bound: Bound::AtMost(64.0),
-            reason: "a term of the second derivative is a product of three functions, each with the few units in the last place of its own check",
-            measure: solves_equations,
-        },
-        Check {
-            id: "symmetric-reference",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "the exact solution reproduces n and e_x of the 34-digit motions `axisymmetric-violation` and `free` up to 200 t_c",
-            figure: "largest error of a component",
-            bound: Bound::AtMost(1e-13),
-            reason: "phases of 300 rad with frequencies rounded to 2.2e-16",
-            measure: against_reference,
-        },
-        Check {
-            id: "symmetric-propagation",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "the exact solution and the numerical motion agree in n and e_x over 50 t_c, at random for s^XX = s^YY",
-            figure: "largest difference / (error estimate of the numerical motion + 8 roundings of phase, initial angle and initial rate)",
-            bound: Bound::AtMost(1.0),
-            reason: "the same motion, twice computed; eight initial values and parameters are rounded",
-            measure: against_propagation,
-        },
-        Check {
-            id: "symmetric-poles",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "n and e_x of the exact solution are those of the numerical motion also from starts 1e-9 to 1e-2 rad from a pole",
-            figure: "largest difference / (error estimate of the numerical motion + 8 roundings of phase, initial angle and initial rate)",
-            bound: Bound::AtMost(1.0),
-            reason: "the same motion, twice computed; eight initial values and parameters are rounded",
-            measure: near_the_poles,
-        },
-        Check {
-            id: "symmetric-derivatives",
-            kind: Kind::Autodiff,
-            equations: &[25],
-            statement: "derivatives by s^ZZ and by the initial rates agree with those of the numerical motion, for s = 0 too",
-            figure: "largest difference min(sin b)^2 / (largest derivative, 1 + phase, 2.2e-16)",
-            bound: Bound::AtMost(64.0),
-            reason: "a derivative of the integral R_J is right to a few units of its natural size, which is larger than the derivative by 1 / sin^2 of the least distance from a pole",
-            measure: derivatives,
-        },
-        Check {
-            id: "symmetric-free-limit",
-            kind: Kind::Property,
-            equations: &[25, 48],
-            statement: "for s = 0 the exact solution is free precession about L, from any initial state",
-            figure: "largest difference of n and e_x / (1 + phase, 2.2e-16)",
-            bound: Bound::AtMost(8.0),
-            reason: "a few roundings of the rates, times the time",
-            measure: free_limit,
-        },
-        Check {
-            id: "symmetric-steady",
-            kind: Kind::Property,
-            equations: &[26],
-            statement: "started on either root of Eq. (26) the exact solution precesses steadily at that rate",
-            figure: "largest error of the angles at 50 t_c / (1 + phase, 1 + 1 / (stiffness sin^2 b), 2.2e-16)",
-            bound: Bound::AtMost(4.0),
-            reason: "roundings of the rates, times the time",
-            measure: steady,
-        },
-        Check {
-            id: "symmetric-period",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "after any number of periods beta returns and alpha, gamma have advanced by their mean rates",
-            figure: "largest error sin^2 b / (1 + phase, 2.2e-16)",
-            bound: Bound::AtMost(4.0),
-            reason: "roundings of the period and of the rates, times the time",
-            measure: periods,
-        },
-        Check {
-            id: "symmetric-refusals",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "s^XX != s^YY, a start on the pole, the separatrix and unstable steady precession are refused by name",
-            figure: "cases not refused",
-            bound: Bound::AtMost(0.0),
-            reason: "each is outside the domain of the solution",
-            measure: refusals,
-        },
-    ]
+checks! {
+    /// the exact solution for s^XX = s^YY, differentiated twice in time by duals, satisfies Eq. (25) and conserves Omega^z
+    Autodiff "symmetric-equations" [22, 25]: solves_equations;
+    AtMost(64.0) "largest residual sin^2 b / (size of the terms, 2.2e-16)";
+    because "a term of the second derivative is a product of three functions, each with the few units in the last place of its own check";
+    /// the exact solution reproduces n and e_x of the 34-digit motions `axisymmetric-violation` and `free` up to 200 t_c
+    Oracle "symmetric-reference" [25]: against_reference;
+    AtMost(1e-13) "largest error of a component";
+    because "phases of 300 rad with frequencies rounded to 2.2e-16";
+    /// the exact solution and the numerical motion agree in n and e_x over 50 t_c, at random for s^XX = s^YY
+    Oracle "symmetric-propagation" [25]: || worst_over(31, 300, &symmetric_scenes(), compare_with_propagation);
+    AtMost(1.0) "largest difference / (error estimate of the numerical motion + 8 roundings of phase, initial angle and initial rate)";
+    because "the same motion, twice computed; eight initial values and parameters are rounded";
+    /// n and e_x of the exact solution are those of the numerical motion also from starts 1e-9 to 1e-2 rad from a pole
+    Oracle "symmetric-poles" [25]: near_the_poles;
+    AtMost(1.0) "largest difference / (error estimate of the numerical motion + 8 roundings of phase, initial angle and initial rate)";
+    because "the same motion, twice computed; eight initial values and parameters are rounded";
+    /// derivatives by s^ZZ and by the initial rates agree with those of the numerical motion, for s = 0 too
+    Autodiff "symmetric-derivatives" [25]: derivatives;
+    AtMost(64.0) "largest difference min(sin b)^2 / (largest derivative, 1 + phase, 2.2e-16)";
+    because "a derivative of the integral R_J is right to a few units of its natural size, which is larger than the derivative by 1 / sin^2 of the \
+     least distance from a pole";
+    /// for s = 0 the exact solution is free precession about L, from any initial state
+    Property "symmetric-free-limit" [25, 48]: free_limit;
+    AtMost(8.0) "largest difference of n and e_x / (1 + phase, 2.2e-16)";
+    because "a few roundings of the rates, times the time";
+    /// started on either root of Eq. (26) the exact solution precesses steadily at that rate
+    Property "symmetric-steady" [26]: steady;
+    AtMost(4.0) "largest error of the angles at 50 t_c / (1 + phase, 1 + 1 / (stiffness sin^2 b), 2.2e-16)";
+    because "roundings of the rates, times the time";
+    /// after any number of periods beta returns and alpha, gamma have advanced by their mean rates
+    Property "symmetric-period" [25]: periods;
+    AtMost(4.0) "largest error sin^2 b / (1 + phase, 2.2e-16)";
+    because "roundings of the period and of the rates, times the time";
+    /// s^XX != s^YY, a start on the pole, the separatrix and unstable steady precession are refused by name
+    Property "symmetric-refusals" [25]: refusals;
+    AtMost(0.0) "cases not refused";
+    because "each is outside the domain of the solution";
 }
 
 /// Random scenes with `s^XX = s^YY`; both signs of `s^ZZ - s^XX`, so that the quartic has four real roots or two. Half of
@@ -226,10 +170,6 @@ fn compare_with_propagation(scene: &RandomScene) -> Result<f64, String> {
         most = largest([most, difference / (numerical.error_estimate(t) + rounding)]);
     }
     Ok(most)
-}
-
-fn against_propagation() -> Result<Measured, String> {
-    worst_over(31, 300, &symmetric_scenes(), compare_with_propagation)
 }
 
 fn near_the_poles() -> Result<Measured, String> {

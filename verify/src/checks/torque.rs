@@ -6,13 +6,12 @@ use twofold::dynamics::potential::potential_gradient_in_angles;
 use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
 use twofold::euler_angles::{body_from_inertial, body_rates, tensor_in_body_frame};
 
-use crate::check::Check;
+use crate::check::checks;
 use crate::derivation::Differentiable;
 use crate::derivation::virtual_rotation::{gradient_in_angles, torque_by_virtual_rotation, unit_rates};
-use crate::identity::identities;
 use crate::random::Point;
 
-identities! {
+checks! {
     /// the torque does the work -dU under a change of each Euler angle alone, for any potential (U_gamma not zero)
     work_of_torque: Property "torque-from-gradient" [22, 66];
     /// Eq. (66) of the potential in angles, torque_on_body with the tensor U^ij of a spheroid and -2 C n x (s n) agree
@@ -20,11 +19,6 @@ identities! {
     /// torque_on_body is minus the derivative of -(1/2) s^ij U^ij under a rotation about each body axis, and Eq. (66) of its angle derivatives;
     /// U^ij with six components
     torque_under_rotations: Autodiff "torque-on-body" [6, 17, 66];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    identities()
 }
 
 fn work_of_torque<F: Differentiable>(p: &Point<F>) -> Vec<F> {

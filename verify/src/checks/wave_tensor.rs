@@ -10,12 +10,11 @@ use twofold::dynamics::{BodyState, PrincipalInertia};
 use twofold::euler_angles::{EulerRates, body_from_inertial, body_rates};
 use twofold::observables::gravitational_wave::metric_perturbation;
 
-use crate::check::Check;
+use crate::check::checks;
 use crate::derivation::{Differentiable, accelerated_angles, body_motion};
-use crate::identity::identities;
 use crate::random::Point;
 
-identities! {
+checks! {
     /// with the torque d(R^T I Omega)/dt of any motion, the angular acceleration is the rate of the body rates
     eulers_equations: Autodiff "angular-acceleration" [22, 63, 67];
     /// R^T A R is the second time derivative of I^IJ along any motion with its torque, three moments of inertia; the trace vanishes
@@ -28,11 +27,6 @@ identities! {
     free_wave_source: Property "free-wave-source" [28, 65, 68];
     /// the strain from the moment of inertia is (2/r) times the second derivative of the mass quadrupole of turning masses
     quadrupole_formula: Autodiff "quadrupole-formula" [59, 60];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    identities()
 }
 
 fn eulers_equations<F: Differentiable>(p: &Point<F>) -> Vec<F> {

@@ -16,14 +16,13 @@ use twofold::propagation::Motion;
 use twofold::units::geometrised::HERTZ;
 use twofold::units::si::KILOPARSEC;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, worst_of};
+use crate::check::{Measured, Worst, checks, largest, worst_of};
 use crate::checks::observer::observer;
 use crate::derivation::Differentiable;
-use crate::identity::identities;
 use crate::random::Point;
 use crate::reference::{reference_motion, reference_motions};
 
-identities! {
+checks! {
     /// e_+ and e_x are symmetric, trace-free, transverse to n-hat, normal to each other and of square 2
     tensor_products: Property "polarization-tensors" [69, 70];
     /// h_+ e_+ + h_x e_x is P h P - (1/2) P tr(P h) with P = 1 - n n, for any symmetric h; both forms of Eq. (71) agree
@@ -38,56 +37,23 @@ identities! {
     wave_of_spinning_triaxial_body: Property "wave-of-spinning-triaxial-body" [59, 64, 65, 71];
     /// h_+ and h_x of free precession, Eq. (68), are the waveform of M. Zimmermann and E. Szedenits, Phys. Rev. D 20, 351 (1979)
     wave_of_free_precession: Property "wave-of-free-precession" [59, 68, 71];
-}
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    let mut checks = identities();
-    checks.extend([
-        Check {
-            id: "wave-of-motion-general-form",
-            kind: Kind::Oracle,
-            equations: &[59, 64, 65, 66, 71],
-            statement: "h_+ and h_x of tp-I and tp-II from n and L alone are those of the general A^ij with the torque, along the numerical motion",
-            figure: "largest difference of h, r = 1, at 2,000 times up to 200 t_c",
-            bound: Bound::AtMost(2e-14),
-            reason: "two formulas with terms up to 0.4; the axes of the motion are normal and of length one to 600 steps' rounding, 3e-15",
-            measure: two_forms_along_motion,
-        },
-        Check {
-            id: "wave-of-reference-motion",
-            kind: Kind::Oracle,
-            equations: &[59, 65, 66, 71],
-            statement: "h_+ and h_x of the numerical motion of ten scenes, and of that of n and L alone, are those of the 34-digit states, these by the \
-                        general A^ij",
-            figure: "largest difference of h, r = 1, theta_o = 0.8, phi_o = 0.3",
-            bound: Bound::AtMost(1e-12),
-            reason: "the numerical motion is held to 1e-12 of those states",
-            measure: against_reference,
-        },
-        Check {
-            id: "wave-of-published-data",
-            kind: Kind::Oracle,
-            equations: &[59, 65, 71],
-            statement: "h_+ and h_x of tp-I are those of the authors' published waveform data, first rows",
-            figure: "largest difference of h, r = 1, I^xx = 1, theta_o = 0.8, phi_o = 0",
-            bound: Bound::AtMost(1e-6),
-            reason: "the data come from a solver at its default tolerance of 1e-8 or so, and are off by up to 3e-6 later",
-            measure: against_published_data,
-        },
-        Check {
-            id: "strain-unit",
-            kind: Kind::Oracle,
-            equations: &[59, 65, 71],
-            statement: "in SI units a body of 1e38 kg m^2 and ellipticity 1e-6, spinning at 500 Hz at 1 kpc, has the amplitude 1.1e-24 \
-                        quoted for it (K. Riles, Prog. Part. Nucl. Phys. 68, 1 (2013))",
-            figure: "|h_0 / 1.1e-24 - 1|",
-            bound: Bound::AtMost(0.05 / 1.1),
-            reason: "rounding of the two digits quoted",
-            measure: textbook_strain,
-        },
-    ]);
-    checks
+    /// h_+ and h_x of tp-I and tp-II from n and L alone are those of the general A^ij with the torque, along the numerical motion
+    Oracle "wave-of-motion-general-form" [59, 64, 65, 66, 71]: two_forms_along_motion;
+    AtMost(2e-14) "largest difference of h, r = 1, at 2,000 times up to 200 t_c";
+    because "two formulas with terms up to 0.4; the axes of the motion are normal and of length one to 600 steps' rounding, 3e-15";
+    /// h_+ and h_x of the numerical motion of ten scenes, and of that of n and L alone, are those of the 34-digit states, these by the general A^ij
+    Oracle "wave-of-reference-motion" [59, 65, 66, 71]: against_reference;
+    AtMost(1e-12) "largest difference of h, r = 1, theta_o = 0.8, phi_o = 0.3";
+    because "the numerical motion is held to 1e-12 of those states";
+    /// h_+ and h_x of tp-I are those of the authors' published waveform data, first rows
+    Oracle "wave-of-published-data" [59, 65, 71]: against_published_data;
+    AtMost(1e-6) "largest difference of h, r = 1, I^xx = 1, theta_o = 0.8, phi_o = 0";
+    because "the data come from a solver at its default tolerance of 1e-8 or so, and are off by up to 3e-6 later";
+    /// in SI units a body of 1e38 kg m^2 and ellipticity 1e-6, spinning at 500 Hz at 1 kpc, has the amplitude 1.1e-24 quoted for it (K. Riles,
+    /// Prog. Part. Nucl. Phys. 68, 1 (2013))
+    Oracle "strain-unit" [59, 65, 71]: textbook_strain;
+    AtMost(0.05 / 1.1) "|h_0 / 1.1e-24 - 1|";
+    because "rounding of the two digits quoted";
 }
 
 fn tensor_products<F: Differentiable>(p: &Point<F>) -> Vec<F> {

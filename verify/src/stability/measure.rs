@@ -6,6 +6,7 @@ use super::input::points;
 use twofold::Scalar;
 
 use super::{Case, Scale, Wide, WideDual};
+use crate::check::{Measured, Worst};
 
 /// Points of a round, as a rule.
 pub const POINTS: usize = 40;
@@ -67,6 +68,25 @@ pub struct Found {
 /// Distance from a number to the next larger one.
 pub(super) fn spacing(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
+}
+
+/// The largest error of some cases, derivatives included, over its bound.
+pub(super) fn largest_over_bound(cases: Vec<Case>) -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for case in cases {
+        let found = case.measure(1);
+        let of_values = ("value", Some(found.kernel), case.class);
+        for (what, errors, class) in [of_values, ("derivative", found.derivative, case.class_of_derivatives)] {
+            let Some(errors) = errors else { continue };
+            worst.see(errors.ulp / class.bound(), || {
+                format!(
+                    "{what} {} of {}, {}: {:e} ulp at {:?}",
+                    errors.component, case.name, case.limit, errors.ulp, errors.place
+                )
+            });
+        }
+    }
+    worst.finish()
 }
 
 impl Case {

@@ -10,54 +10,28 @@ use twofold::solutions::averaged::{
 };
 
 use super::scenes::State;
-use crate::check::{Bound, Check, Kind, Measured, largest, largest_component};
+use crate::check::{Measured, checks, largest, largest_component};
 use crate::derivation::spheroid_motion::fixed_spheroid;
 use crate::random::worst_of_draws;
 
-/// Checks of this subject.
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "mean-generator-slopes",
-            kind: Kind::Autodiff,
-            equations: &[25],
-            statement: "the slopes of the generator of the averaged motion by n and L are its automatic derivatives",
-            figure: "largest difference / (C I^xx |s| / G), 200 random states",
-            bound: Bound::AtMost(1e-14),
-            reason: "some thirty roundings",
-            measure: slopes_of_generator,
-        },
-        Check {
-            id: "mean-generator-bracket",
-            kind: Kind::Autodiff,
-            equations: &[25],
-            statement: "the bracket of the kinetic energy with the generator is the part of the potential that depends on the fast angle",
-            figure: "largest |{L.L / (2 I^xx), W} + V - <V>| / (C |s|), 200 random states",
-            bound: Bound::AtMost(1e-14),
-            reason: "some thirty roundings",
-            measure: bracket_of_generator,
-        },
-        Check {
-            id: "mean-hamiltonian-second-order",
-            kind: Kind::Autodiff,
-            equations: &[25],
-            statement: "the closed form of the second order of the mean Hamiltonian, for traceless s, is half the average of {V + <V>, W} over the fast angle, by duals at nine angles",
-            figure: "largest difference / (C^2 I^xx |s|^2 / G^2), 200 random states",
-            bound: Bound::AtMost(1e-13),
-            reason: "nine brackets of some hundred roundings",
-            measure: second_order,
-        },
-        Check {
-            id: "mean-frame-rate",
-            kind: Kind::Autodiff,
-            equations: &[25],
-            statement: "the rates of the frame and of l are those that the mean Hamiltonian generates: w = <H>_L, dL/dt = w x L + <H>_n x n",
-            figure: "largest difference / (G / I^xx), 200 random states, both orders",
-            bound: Bound::AtMost(1e-13),
-            reason: "some hundred roundings",
-            measure: rates_of_frame,
-        },
-    ]
+checks! {
+    /// the slopes of the generator of the averaged motion by n and L are its automatic derivatives
+    Autodiff "mean-generator-slopes" [25]: slopes_of_generator;
+    AtMost(1e-14) "largest difference / (C I^xx |s| / G), 200 random states";
+    because "some thirty roundings";
+    /// the bracket of the kinetic energy with the generator is the part of the potential that depends on the fast angle
+    Autodiff "mean-generator-bracket" [25]: bracket_of_generator;
+    AtMost(1e-14) "largest |{L.L / (2 I^xx), W} + V - <V>| / (C |s|), 200 random states";
+    because "some thirty roundings";
+    /// the closed form of the second order of the mean Hamiltonian, for traceless s, is half the average of {V + <V>, W} over the fast angle, by
+    /// duals at nine angles
+    Autodiff "mean-hamiltonian-second-order" [25]: second_order;
+    AtMost(1e-13) "largest difference / (C^2 I^xx |s|^2 / G^2), 200 random states";
+    because "nine brackets of some hundred roundings";
+    /// the rates of the frame and of l are those that the mean Hamiltonian generates: w = <H>_L, dL/dt = w x L + <H>_n x n
+    Autodiff "mean-frame-rate" [25]: rates_of_frame;
+    AtMost(1e-13) "largest difference / (G / I^xx), 200 random states, both orders";
+    because "some hundred roundings";
 }
 
 /// A function of `n` and `L`.

@@ -8,34 +8,20 @@ use twofold::solutions::averaged::AveragingOrder;
 
 use super::scenes::{State, difference};
 use crate::averaged_scenes::averaged_solution;
-use crate::check::{Bound, Check, Kind, Measured, largest, worst_of};
+use crate::check::{Measured, checks, largest, worst_of};
 use crate::double_double::DoubleDouble;
 use crate::random::{Random, worst_of_draws};
 
-/// Checks of this subject.
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "mean-phase-decades",
-            kind: Kind::Oracle,
-            equations: &[25, 48],
-            statement: "the phases about L and about n after 4e11 turns (20 years at 642 Hz) are those of the same theory in double-double numbers, for s below 1e-6",
-            figure: "largest difference (turns), 40 random motions, both orders",
-            bound: Bound::AtMost(1e-9),
-            reason: "rounding of rates: what Lorentz violation adds, at most 1e-6 of 4e11 turns, is known to some 1e-16 of itself, 1e-10 turn; a bound of 1e-9 turn is 2 ps, far below 1 ns of timing",
-            measure: phases,
-        },
-        Check {
-            id: "mean-epochs",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "the motion near an epoch after up to 1e15 turns is that motion: the same state from the time zero, in two parts, and from the epoch",
-            figure: "largest difference of a component, 200 random motions, epochs from 1 to 1e15",
-            bound: Bound::AtMost(4e-14),
-            reason: "a phase rounded to 1e-16 turn at the epoch, and some hundred roundings of a state each",
-            measure: epochs,
-        },
-    ]
+checks! {
+    /// the phases about L and about n after 4e11 turns (20 years at 642 Hz) are those of the same theory in double-double numbers, for s below 1e-6
+    Oracle "mean-phase-decades" [25, 48]: phases;
+    AtMost(1e-9) "largest difference (turns), 40 random motions, both orders";
+    because "rounding of rates: what Lorentz violation adds, at most 1e-6 of 4e11 turns, is known to some 1e-16 of itself, 1e-10 turn; a bound of \
+     1e-9 turn is 2 ps, far below 1 ns of timing";
+    /// the motion near an epoch after up to 1e15 turns is that motion: the same state from the time zero, in two parts, and from the epoch
+    Property "mean-epochs" [25]: epochs;
+    AtMost(4e-14) "largest difference of a component, 200 random motions, epochs from 1 to 1e15";
+    because "a phase rounded to 1e-16 turn at the epoch, and some hundred roundings of a state each";
 }
 
 fn phases() -> Result<Measured, String> {

@@ -10,21 +10,17 @@ use twofold::solutions::averaged::AveragingOrder;
 use twofold::{Error, Real};
 
 use crate::averaged_scenes::{AveragedScene, averaged_solution};
-use crate::check::{Bound, Check, Kind, Measured, largest, worst_of};
+use crate::check::{Measured, checks, largest, worst_of};
 use crate::random::Random;
 
-/// Checks of this subject.
-pub(super) fn checks() -> Vec<Check> {
-    vec![Check {
-        id: "mean-derivatives",
-        kind: Kind::Autodiff,
-        equations: &[25],
-        statement: "the averaged motion in any frame over duals has the derivatives that differences of it have: by s^IJ (two equal eigenvalues, split along their axes or any others, included), L, n and the moments of inertia",
-        figure: "largest |dual - difference| / largest component of the derivative, 60 random motions, 24 of them with two equal eigenvalues, of five parameters",
-        bound: Bound::AtMost(1e-8),
-        reason: "differences of fourth order in steps of 1e-3 of the scale of change: 1e-14 / 1e-3 by rounding, 1e-12 / 30 times a fifth derivative of some hundred",
-        measure: derivatives,
-    }]
+checks! {
+    /// the averaged motion in any frame over duals has the derivatives that differences of it have: by s^IJ (two equal eigenvalues, split along
+    /// their axes or any others, included), L, n and the moments of inertia
+    Autodiff "mean-derivatives" [25]: derivatives;
+    AtMost(1e-8) "largest |dual - difference| / largest component of the derivative, 60 random motions, 24 of them with two equal eigenvalues, of \
+     five parameters";
+    because "differences of fourth order in steps of 1e-3 of the scale of change: 1e-14 / 1e-3 by rounding, 1e-12 / 30 times a fifth derivative of \
+     some hundred";
 }
 
 /// Eigenvalues and the rotation to the principal frame.

@@ -9,54 +9,29 @@ use twofold::solutions::averaged::{AveragedPhases, AveragingOrder};
 
 use super::scenes::difference;
 use crate::averaged_scenes::{AveragedScene, EstimateSeen};
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Measured, Worst, checks};
 use crate::double_double::DoubleDouble;
 use crate::random::Random;
 
-/// Checks of this subject.
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "mean-error-not-below",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "the error estimate of the averaged motion, of either order, is not below its error: any strength, symmetric tensors, near the separatrix, c = 1, c^2 = 1/3",
-            figure: "largest true error / estimate, 400 random motions at 12 times, up to 1,500 rad",
-            bound: Bound::AtMost(1.0),
-            reason: "an estimate below the true error is wrong",
-            measure: not_below,
-        },
-        Check {
-            id: "mean-error-separatrix",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "the estimate is not below the error beside the separatrix, nearer to it than what the order leaves out of the tensor, while L goes round a few times",
-            figure: "largest true error / estimate, 300 random motions at 12 times, both orders",
-            bound: Bound::AtMost(1.0),
-            reason: "an estimate below the true error is wrong",
-            measure: beside_separatrix,
-        },
-        Check {
-            id: "mean-error-rounding",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "the part of the estimate for rounding is not below the difference from the same theory in double-double numbers, nor a million times above it",
-            figure: "largest |log10| by which estimate / difference leaves [1, 1e6], 60 motions after up to 1e12 rad",
-            bound: Bound::AtMost(0.0),
-            reason: "a bound for each of some hundred roundings, and near the separatrix those of the start grow",
-            measure: rounding,
-        },
-        Check {
-            id: "mean-error-not-idle",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "the error estimate of the averaged motion is not much above its error",
-            figure: "median of estimate / largest true error, second order, of the same motions",
-            bound: Bound::AtMost(50.0),
-            reason: "one and a half orders of magnitude: the coefficients of the estimate are those of the worst geometry",
-            measure: not_idle,
-        },
-    ]
+checks! {
+    /// the error estimate of the averaged motion, of either order, is not below its error: any strength, symmetric tensors, near the separatrix, c
+    /// = 1, c^2 = 1/3
+    Property "mean-error-not-below" [25]: not_below;
+    AtMost(1.0) "largest true error / estimate, 400 random motions at 12 times, up to 1,500 rad";
+    because "an estimate below the true error is wrong";
+    /// the estimate is not below the error beside the separatrix, nearer to it than what the order leaves out of the tensor, while L goes round a
+    /// few times
+    Property "mean-error-separatrix" [25]: beside_separatrix;
+    AtMost(1.0) "largest true error / estimate, 300 random motions at 12 times, both orders";
+    because "an estimate below the true error is wrong";
+    /// the part of the estimate for rounding is not below the difference from the same theory in double-double numbers, nor a million times above it
+    Property "mean-error-rounding" [25]: rounding;
+    AtMost(0.0) "largest |log10| by which estimate / difference leaves [1, 1e6], 60 motions after up to 1e12 rad";
+    because "a bound for each of some hundred roundings, and near the separatrix those of the start grow";
+    /// the error estimate of the averaged motion is not much above its error
+    Property "mean-error-not-idle" [25]: not_idle;
+    AtMost(50.0) "median of estimate / largest true error, second order, of the same motions";
+    because "one and a half orders of magnitude: the coefficients of the estimate are those of the worst geometry";
 }
 
 const ORDERS: [AveragingOrder; 2] = [AveragingOrder::First, AveragingOrder::Second];

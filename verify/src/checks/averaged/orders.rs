@@ -8,75 +8,41 @@ use twofold::solutions::averaged::AveragingOrder;
 
 use super::scenes::{State, difference};
 use crate::averaged_scenes::averaged_solution;
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, worst_of};
+use crate::check::{Measured, Worst, checks, largest, worst_of};
 use crate::measured_order::{errors_at, largest_off_order};
 use crate::random::Random;
 use crate::reference::reference_motion;
 
-/// Checks of this subject.
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "averaged-motion-first-order",
-            kind: Kind::Regime,
-            equations: &[25, 57],
-            statement: "with tp-II's geometry and s scaled by k from 1e-1 to 1e-3 n, L and e_x of the first-order averaged motion are off by at most 0.03 k over 30/k t_c",
-            figure: "largest error of a component of n, L or e_x over k",
-            bound: Bound::AtMost(0.03),
-            reason: "what the first order leaves out of the rates is of the order of the square of the strength, 0.03 k here: (0.03 k)^2 over 30/k t_c is 0.027 k",
-            measure: || worst_of(SCALES, |&k| Ok(error_of_tp_2(AveragingOrder::First, k)? / k)),
-        },
-        Check {
-            id: "averaged-motion-second-order",
-            kind: Kind::Regime,
-            equations: &[25, 57],
-            statement: "at k = 0.1 the error of the averaged motion of second order is at least 20 times smaller than that of first order",
-            figure: "error of second order / error of first, n, L and e_x, k = 0.1",
-            bound: Bound::AtMost(0.05),
-            reason: "one power of C |s| I^xx / G^2 more, 0.003",
-            measure: gain_of_second_order,
-        },
-        Check {
-            id: "averaged-motion-slopes",
-            kind: Kind::Regime,
-            equations: &[25, 57],
-            statement: "the errors of the first and second order of the averaged motion fall with the first and second power of s over times 1/s",
-            figure: "largest |measured slope - order|, k from 1e-1 to 1e-3",
-            bound: Bound::AtMost(0.1),
-            reason: "corrections of relative order k",
-            measure: slopes_of_errors,
-        },
-        Check {
-            id: "averaged-motion-reference",
-            kind: Kind::Oracle,
-            equations: &[25, 57],
-            statement: "with tp-II's geometry and s scaled by k from 1e-1 to 1e-6 the first order is off by at most 0.03 k over 30/k t_c, against motion in double-double numbers",
-            figure: "largest error of a component of n, L or e_x over k, at tenths of the time",
-            bound: Bound::AtMost(0.03),
-            reason: "as for averaged-motion-first-order: (0.03 k)^2 over 30/k t_c is 0.027 k",
-            measure: first_order_of_reference,
-        },
-        Check {
-            id: "averaged-motion-reference-slopes",
-            kind: Kind::Oracle,
-            equations: &[25, 57],
-            statement: "against the same reference the errors of both orders fall with their powers of s down to k = 1e-5",
-            figure: "largest |measured slope - order|, k from 1e-1 to 1e-5",
-            bound: Bound::AtMost(0.1),
-            reason: "corrections of relative order k",
-            measure: slopes_of_reference,
-        },
-        Check {
-            id: "averaged-motion-regular",
-            kind: Kind::Regime,
-            equations: &[25, 26],
-            statement: "the second-order averaged motion holds for random geometries, single precession with n on L, c^2 = 1/3 and tensors with two equal values among them",
-            figure: "largest error of n, L / G or e_x over x^2 (1 + x G t / I^xx), x = C (s_max - s_min) I^xx / G^2, away from the separatrix",
-            bound: Bound::AtMost(6.0),
-            reason: "the periodic part of second order and rates of third, with coefficients of order one",
-            measure: random_geometries,
-        },
-    ]
+checks! {
+    /// with tp-II's geometry and s scaled by k from 1e-1 to 1e-3 n, L and e_x of the first-order averaged motion are off by at most 0.03 k over
+    /// 30/k t_c
+    Regime "averaged-motion-first-order" [25, 57]:
+        || worst_of(SCALES, |&k| Ok(error_of_tp_2(AveragingOrder::First, k)? / k));
+    AtMost(0.03) "largest error of a component of n, L or e_x over k";
+    because "what the first order leaves out of the rates is of the order of the square of the strength, 0.03 k here: (0.03 k)^2 over 30/k t_c is \
+     0.027 k";
+    /// at k = 0.1 the error of the averaged motion of second order is at least 20 times smaller than that of first order
+    Regime "averaged-motion-second-order" [25, 57]: gain_of_second_order;
+    AtMost(0.05) "error of second order / error of first, n, L and e_x, k = 0.1";
+    because "one power of C |s| I^xx / G^2 more, 0.003";
+    /// the errors of the first and second order of the averaged motion fall with the first and second power of s over times 1/s
+    Regime "averaged-motion-slopes" [25, 57]: slopes_of_errors;
+    AtMost(0.1) "largest |measured slope - order|, k from 1e-1 to 1e-3";
+    because "corrections of relative order k";
+    /// with tp-II's geometry and s scaled by k from 1e-1 to 1e-6 the first order is off by at most 0.03 k over 30/k t_c, against motion in
+    /// double-double numbers
+    Oracle "averaged-motion-reference" [25, 57]: || worst_of(errors_of_reference()?, |(k, [first, _])| Ok(first / k));
+    AtMost(0.03) "largest error of a component of n, L or e_x over k, at tenths of the time";
+    because "as for averaged-motion-first-order: (0.03 k)^2 over 30/k t_c is 0.027 k";
+    /// against the same reference the errors of both orders fall with their powers of s down to k = 1e-5
+    Oracle "averaged-motion-reference-slopes" [25, 57]: slopes_of_reference;
+    AtMost(0.1) "largest |measured slope - order|, k from 1e-1 to 1e-5";
+    because "corrections of relative order k";
+    /// the second-order averaged motion holds for random geometries, single precession with n on L, c^2 = 1/3 and tensors with two equal values
+    /// among them
+    Regime "averaged-motion-regular" [25, 26]: random_geometries;
+    AtMost(6.0) "largest error of n, L / G or e_x over x^2 (1 + x G t / I^xx), x = C (s_max - s_min) I^xx / G^2, away from the separatrix";
+    because "the periodic part of second order and rates of third, with coefficients of order one";
 }
 
 const ORDERS: [AveragingOrder; 2] = [AveragingOrder::First, AveragingOrder::Second];
@@ -179,10 +145,6 @@ fn errors_of_reference() -> Result<Vec<(f64, [f64; 2])>, String> {
         }
     }
     Ok(errors)
-}
-
-fn first_order_of_reference() -> Result<Measured, String> {
-    worst_of(errors_of_reference()?, |(k, [first, _])| Ok(first / k))
 }
 
 fn slopes_of_reference() -> Result<Measured, String> {

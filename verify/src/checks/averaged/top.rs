@@ -3,21 +3,16 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use twofold::solutions::averaged::Top;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::random::Random;
 
-/// Checks of this subject.
-pub(super) fn checks() -> Vec<Check> {
-    vec![Check {
-        id: "mean-top",
-        kind: Kind::Oracle,
-        equations: &[32],
-        statement: "the direction, the frame that it carries along and the integrals of its squares, by theta functions, are those of an integration: any order of the principal values, equal ones, on and near every axis and on the separatrix",
-        figure: "largest difference, of the integrals times the rate of the phase, 120 random tops over 10 units of time",
-        bound: Bound::AtMost(2e-10),
-        reason: "steps of 0.004 of the classical Runge-Kutta method: 0.004^4 / 120 times 10 is 2e-11, and Simpson's rule for the integrals is of the same order",
-        measure: tops,
-    }]
+checks! {
+    /// the direction, the frame that it carries along and the integrals of its squares, by theta functions, are those of an integration: any order
+    /// of the principal values, equal ones, on and near every axis and on the separatrix
+    Oracle "mean-top" [32]: tops;
+    AtMost(2e-10) "largest difference, of the integrals times the rate of the phase, 120 random tops over 10 units of time";
+    because "steps of 0.004 of the classical Runge-Kutta method: 0.004^4 / 120 times 10 is 2e-11, and Simpson's rule for the integrals is of the \
+     same order";
 }
 
 /// Direction, frame and integrals of the squares after 10 units of time.

@@ -4,63 +4,33 @@ use twofold::solutions::averaged::AveragingOrder;
 
 use super::scenes::{Scene, TWOFOLD, sum, worst_off_separatrix};
 use crate::averaged_scenes::averaged_solution;
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::measured_order::{errors_at, largest_off_order};
 
-/// Checks of this subject.
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "mean-frequency-first",
-            kind: Kind::Regime,
-            equations: &[57],
-            statement: "the slow frequency of tp-II, 0.03546436867 / t_c, follows from the averaged motion of first order to 5 %",
-            figure: "relative error",
-            bound: Bound::AtMost(0.05),
-            reason: "of first order in the strength of the torque, 0.024, with a coefficient of order one",
-            measure: || slow_frequency(AveragingOrder::First, 1.0),
-        },
-        Check {
-            id: "mean-frequency-second",
-            kind: Kind::Regime,
-            equations: &[57],
-            statement: "the slow frequency of tp-II follows from the averaged motion of second order to 0.5 %",
-            figure: "relative error",
-            bound: Bound::AtMost(0.005),
-            reason: "of second order in the strength of the torque, 0.024^2, with coefficients of order one to ten",
-            measure: || slow_frequency(AveragingOrder::Second, 1.0),
-        },
-        Check {
-            id: "mean-frequency-slopes",
-            kind: Kind::Regime,
-            equations: &[57],
-            statement: "the relative errors of the slow frequency by the first and the second order fall with the first and the second power of s",
-            figure: "largest |measured slope - order|, tp-II with s scaled by 0.1 to 1e-3",
-            bound: Bound::AtMost(0.05),
-            reason: "corrections of relative order k",
-            measure: slopes,
-        },
-        Check {
-            id: "mean-frequency-random",
-            kind: Kind::Regime,
-            equations: &[57],
-            statement: "all three rates of second order are right to the third power of the strength of the torque, for random motions of both kinds, on both sides of the separatrix",
-            figure: "largest |mean - exact| / (x^3 G / I^xx), x = C (s_max - s_min) I^xx / G^2 from 0.001 to 0.02, 60 random motions with k'^2 above 0.05",
-            bound: Bound::AtMost(15.0),
-            reason: "coefficients of order one, over the distance from the separatrix",
-            measure: random_rates,
-        },
-        Check {
-            id: "mean-lines-of-examples",
-            kind: Kind::Regime,
-            equations: &[57],
-            statement: "the lines that the paper marks at the free values 1.438 and 0.1 are at alpha' and gamma' by sums of the averaged motion's rates to second order",
-            figure: "largest |formula - exact| / |free value - exact|, alpha' and gamma' of tp-I and tp-II",
-            bound: Bound::AtMost(0.01),
-            reason: "third order against first, at a strength of 0.03",
-            measure: lines,
-        },
-    ]
+checks! {
+    /// the slow frequency of tp-II, 0.03546436867 / t_c, follows from the averaged motion of first order to 5 %
+    Regime "mean-frequency-first" [57]: || slow_frequency(AveragingOrder::First, 1.0);
+    AtMost(0.05) "relative error";
+    because "of first order in the strength of the torque, 0.024, with a coefficient of order one";
+    /// the slow frequency of tp-II follows from the averaged motion of second order to 0.5 %
+    Regime "mean-frequency-second" [57]: || slow_frequency(AveragingOrder::Second, 1.0);
+    AtMost(0.005) "relative error";
+    because "of second order in the strength of the torque, 0.024^2, with coefficients of order one to ten";
+    /// the relative errors of the slow frequency by the first and the second order fall with the first and the second power of s
+    Regime "mean-frequency-slopes" [57]: slopes;
+    AtMost(0.05) "largest |measured slope - order|, tp-II with s scaled by 0.1 to 1e-3";
+    because "corrections of relative order k";
+    /// all three rates of second order are right to the third power of the strength of the torque, for random motions of both kinds, on both sides
+    /// of the separatrix
+    Regime "mean-frequency-random" [57]: random_rates;
+    AtMost(15.0) "largest |mean - exact| / (x^3 G / I^xx), x = C (s_max - s_min) I^xx / G^2 from 0.001 to 0.02, 60 random motions with k'^2 above \
+     0.05";
+    because "coefficients of order one, over the distance from the separatrix";
+    /// the lines that the paper marks at the free values 1.438 and 0.1 are at alpha' and gamma' by sums of the averaged motion's rates to second
+    /// order
+    Regime "mean-lines-of-examples" [57]: lines;
+    AtMost(0.01) "largest |formula - exact| / |free value - exact|, alpha' and gamma' of tp-I and tp-II";
+    because "third order against first, at a strength of 0.03";
 }
 
 fn error_of_slow(order: AveragingOrder, k: f64) -> Result<(f64, f64, f64), String> {

@@ -12,53 +12,28 @@ use twofold::solutions::averaged::{AveragingOrder, middle_axis_growth, period_ne
 use twofold::solutions::torus::{separatrix_motion, states_with_integrals};
 
 use super::scenes::Scene;
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::measured_order::{errors_at, largest_off_order};
 
-/// Checks of this subject.
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "middle-axis-growth-orders",
-            kind: Kind::Regime,
-            equations: &[36],
-            statement: "the growth rate at the middle axis is that of the monodromy matrix of the unstable periodic motion to first and to second order; for a spin along the axis that of a closed quartic",
-            figure: "largest |measured slope of the relative error - order|, s of the examples scaled by 1 to 0.03, n turning about L at 0, 0.4 and 1.1 rad",
-            bound: Bound::AtMost(0.15),
-            reason: "corrections of relative order 0.06",
-            measure: growth_orders,
-        },
-        Check {
-            id: "middle-axis-growth-exact",
-            kind: Kind::Regime,
-            equations: &[36],
-            statement: "with the examples' s the second-order growth rate is right to half a percent",
-            figure: "largest relative error, n turning about L at 0, 0.4 and 1.1 rad",
-            bound: Bound::AtMost(0.005),
-            reason: "second order in a strength of 0.03 to 0.05, as for the slow frequency",
-            measure: growth_of_examples,
-        },
-        Check {
-            id: "separatrix-period-logarithm",
-            kind: Kind::Regime,
-            equations: &[36],
-            statement: "towards the separatrix the exact slow period grows by (2 / mu) ln 10 per tenth of the distance in K, with the exact mu",
-            figure: "largest relative difference, both sides, from k'^2 = 1e-3 to 1e-6",
-            bound: Bound::AtMost(1e-3),
-            reason: "the next term is k'^2 ln k' / 2, over 2.3",
-            measure: separatrix_logarithm,
-        },
-        Check {
-            id: "separatrix-period-formula",
-            kind: Kind::Regime,
-            equations: &[36],
-            statement: "the slow period near the separatrix is (4 / mu) ln(4 / k') with mu of second order and k' from K",
-            figure: "largest relative difference / strength of the torque, both sides, k'^2 from 1e-2 to 1e-6, s of the examples scaled by 1, 0.3, 0.1",
-            bound: Bound::AtMost(1.0),
-            reason: "k' is of first order in the strength, as the logarithm's constant",
-            measure: separatrix_formula,
-        },
-    ]
+checks! {
+    /// the growth rate at the middle axis is that of the monodromy matrix of the unstable periodic motion to first and to second order; for a spin
+    /// along the axis that of a closed quartic
+    Regime "middle-axis-growth-orders" [36]: growth_orders;
+    AtMost(0.15) "largest |measured slope of the relative error - order|, s of the examples scaled by 1 to 0.03, n turning about L at 0, 0.4 and 1.1 \
+     rad";
+    because "corrections of relative order 0.06";
+    /// with the examples' s the second-order growth rate is right to half a percent
+    Regime "middle-axis-growth-exact" [36]: growth_of_examples;
+    AtMost(0.005) "largest relative error, n turning about L at 0, 0.4 and 1.1 rad";
+    because "second order in a strength of 0.03 to 0.05, as for the slow frequency";
+    /// towards the separatrix the exact slow period grows by (2 / mu) ln 10 per tenth of the distance in K, with the exact mu
+    Regime "separatrix-period-logarithm" [36]: separatrix_logarithm;
+    AtMost(1e-3) "largest relative difference, both sides, from k'^2 = 1e-3 to 1e-6";
+    because "the next term is k'^2 ln k' / 2, over 2.3";
+    /// the slow period near the separatrix is (4 / mu) ln(4 / k') with mu of second order and k' from K
+    Regime "separatrix-period-formula" [36]: separatrix_formula;
+    AtMost(1.0) "largest relative difference / strength of the torque, both sides, k'^2 from 1e-2 to 1e-6, s of the examples scaled by 1, 0.3, 0.1";
+    because "k' is of first order in the strength, as the logarithm's constant";
 }
 
 /// A star whose axis turns about `L` at the angle `nutation`, `L` about the middle axis of the examples' s scaled by `k`: the unstable periodic motion, with

@@ -11,63 +11,35 @@ use twofold::solutions::symmetric::SymmetricSolution;
 use twofold::solutions::torus::states_with_integrals;
 
 use super::scenes::{SINGLE, Scene, TWOFOLD, sum, worst_off_separatrix};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, worst_of};
+use crate::check::{Measured, Worst, checks, largest, worst_of};
 use crate::random::worst_of_draws;
 
-/// Checks of this subject.
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "torus-states",
-            kind: Kind::Property,
-            equations: &[24],
-            statement: "states found from (E, Omega^z, K) of random motions, twofold and single, have these integrals, and one of them lies on the motion's own torus: it has the same frequencies",
-            figure: "largest of: difference of an integral / its size; difference of a frequency / rotation rate / 10; 60 random motions",
-            bound: Bound::AtMost(1e-13),
-            reason: "K is met to 1e-13 of its size by construction; the frequencies lose one digit more, as a period divides by the thickness of the torus",
-            measure: states,
-        },
-        Check {
-            id: "torus-frequencies-examples",
-            kind: Kind::Oracle,
-            equations: &[32, 57],
-            statement: "exact frequencies of the four examples are those of integration over 20,000 t_c with quadruple precision checks: the mean rates of alpha and gamma are sums of them",
-            figure: "largest difference beyond half a unit of the reference's last digit [1/t_c]",
-            bound: Bound::AtMost(1e-13),
-            reason: "rounding of a few periods; the references are given to 1e-11 and 1e-10",
-            measure: examples,
-        },
-        Check {
-            id: "torus-frequencies-symmetric",
-            kind: Kind::Oracle,
-            equations: &[25, 26],
-            statement: "with two equal eigenvalues the exact frequencies are those of the exact solution in elliptic functions: slow and about_axis are alpha' and gamma' but for whole turns of the nutation, which is about_momentum less the slow one",
-            figure: "largest difference / rotation rate, 12 random motions of both kinds",
-            bound: Bound::AtMost(1e-12),
-            reason: "1e-16 of rounding, of which both sides lose three to four digits where the torus is thin",
-            measure: symmetric,
-        },
-        Check {
-            id: "torus-frequencies-same-torus",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "from states later in the same motion the exact frequencies are the same: differences are within the sum of the estimated errors, and below 1e-12 of the rate",
-            figure: "largest of: difference / sum of the estimates; relative difference / 1e-12; tp-1, tp-2, sp-1, sp-2 and tp-2 with s scaled by 0.3, 0.1",
-            bound: Bound::AtMost(1.0),
-            reason: "the estimate is that of the rounding of a period over the thickness of the torus",
-            measure: same_torus,
-        },
-        Check {
-            id: "torus-frequencies-averages",
-            kind: Kind::Oracle,
-            equations: &[57],
-            statement: "the exact frequencies of tp-II are weighted averages over 4,800 and 9,600 t_c of numerical motion",
-            figure: "largest difference, relative, of the slow frequency",
-            bound: Bound::AtMost(1e-12),
-            reason: "windowed averages over some hundred slow turns leak less than 1e-12 of a line into its neighbours",
-            measure: averages,
-        },
-    ]
+checks! {
+    /// states found from (E, Omega^z, K) of random motions, twofold and single, have these integrals, and one of them lies on the motion's own
+    /// torus: it has the same frequencies
+    Property "torus-states" [24]: states;
+    AtMost(1e-13) "largest of: difference of an integral / its size; difference of a frequency / rotation rate / 10; 60 random motions";
+    because "K is met to 1e-13 of its size by construction; the frequencies lose one digit more, as a period divides by the thickness of the torus";
+    /// exact frequencies of the four examples are those of integration over 20,000 t_c with quadruple precision checks: the mean rates of alpha and
+    /// gamma are sums of them
+    Oracle "torus-frequencies-examples" [32, 57]: examples;
+    AtMost(1e-13) "largest difference beyond half a unit of the reference's last digit [1/t_c]";
+    because "rounding of a few periods; the references are given to 1e-11 and 1e-10";
+    /// with two equal eigenvalues the exact frequencies are those of the exact solution in elliptic functions: slow and about_axis are alpha' and
+    /// gamma' but for whole turns of the nutation, which is about_momentum less the slow one
+    Oracle "torus-frequencies-symmetric" [25, 26]: symmetric;
+    AtMost(1e-12) "largest difference / rotation rate, 12 random motions of both kinds";
+    because "1e-16 of rounding, of which both sides lose three to four digits where the torus is thin";
+    /// from states later in the same motion the exact frequencies are the same: differences are within the sum of the estimated errors, and below
+    /// 1e-12 of the rate
+    Property "torus-frequencies-same-torus" [25]: same_torus;
+    AtMost(1.0) "largest of: difference / sum of the estimates; relative difference / 1e-12; tp-1, tp-2, sp-1, sp-2 and tp-2 with s scaled by 0.3, \
+     0.1";
+    because "the estimate is that of the rounding of a period over the thickness of the torus";
+    /// the exact frequencies of tp-II are weighted averages over 4,800 and 9,600 t_c of numerical motion
+    Oracle "torus-frequencies-averages" [57]: averages;
+    AtMost(1e-12) "largest difference, relative, of the slow frequency";
+    because "windowed averages over some hundred slow turns leak less than 1e-12 of a line into its neighbours";
 }
 
 fn states() -> Result<Measured, String> {

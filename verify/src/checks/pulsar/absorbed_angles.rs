@@ -8,40 +8,27 @@ use twofold::observables::Observer;
 use twofold::observables::pulsar::Beam;
 use twofold::propagation::Motion;
 
-use crate::check::{Bound, Check, Kind, Measured, largest};
+use crate::check::{Measured, checks, largest};
 use crate::paper_examples::{COEFFICIENTS, paper_examples, problem_from};
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "beam-azimuth-absorbed",
-            kind: Kind::Property,
-            equations: &[45, 46, 47],
-            statement: "delta is absorbed in the initial value of gamma, and with s^XX = s^YY also phi_o in that of alpha",
-            figure: "largest change of m.n over 40 t_c of tp-I, delta = 0.4, phi_o = 0.7",
-            bound: Bound::AtMost(1e-13),
-            reason: "rounding of the motion over 60 rad, and of angles that are put in differently",
-            measure: || {
-                let equal = PrincipalCoefficients::new([0.015, 0.015, -0.04]);
-                let beam = change_of_signal(&COEFFICIENTS, 0.0, 0.4)?;
-                let both = change_of_signal(&equal, 0.7, 0.4)?;
-                Ok(Measured::new(
-                    largest([beam, both]),
-                    format!("delta alone {beam:.1e}, both with s^XX = s^YY {both:.1e}"),
-                ))
-            },
-        },
-        Check {
-            id: "observer-azimuth-not-absorbed",
-            kind: Kind::Regime,
-            equations: &[46, 47],
-            statement: "with s^XX and s^YY different phi_o is not absorbed in the initial value of alpha: another azimuth is another signal",
-            figure: "largest change of m.n over 40 t_c of tp-I, phi_o = 0.7",
-            bound: Bound::AtLeast(1e-3),
-            reason: "the potential depends on alpha with the amplitude s^XX - s^YY = 0.01",
-            measure: || Ok(Measured::new(change_of_signal(&COEFFICIENTS, 0.7, 0.0)?, "")),
-        },
-    ]
+checks! {
+    /// delta is absorbed in the initial value of gamma, and with s^XX = s^YY also phi_o in that of alpha
+    Property "beam-azimuth-absorbed" [45, 46, 47]: || {
+        let equal = PrincipalCoefficients::new([0.015, 0.015, -0.04]);
+        let beam = change_of_signal(&COEFFICIENTS, 0.0, 0.4)?;
+        let both = change_of_signal(&equal, 0.7, 0.4)?;
+        Ok(Measured::new(
+            largest([beam, both]),
+            format!("delta alone {beam:.1e}, both with s^XX = s^YY {both:.1e}"),
+        ))
+    };
+    AtMost(1e-13) "largest change of m.n over 40 t_c of tp-I, delta = 0.4, phi_o = 0.7";
+    because "rounding of the motion over 60 rad, and of angles that are put in differently";
+    /// with s^XX and s^YY different phi_o is not absorbed in the initial value of alpha: another azimuth is another signal
+    Regime "observer-azimuth-not-absorbed" [46, 47]:
+        || Ok(Measured::new(change_of_signal(&COEFFICIENTS, 0.7, 0.0)?, ""));
+    AtLeast(1e-3) "largest change of m.n over 40 t_c of tp-I, phi_o = 0.7";
+    because "the potential depends on alpha with the amplitude s^XX - s^YY = 0.01";
 }
 
 /// Largest difference between `m.n` of tp-I with `phi_o` and `delta`, and that of the star turned by them from the start.

@@ -11,7 +11,7 @@ use twofold::propagation::Motion;
 use twofold::solutions::perturbation::{ShiftedRates, shifted_rates};
 
 use super::cases::{Case, mean_rates, paper_signal};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, smallest};
+use crate::check::{Measured, Worst, checks, largest, smallest};
 use crate::paper_examples::{COEFFICIENTS, SPIN, spheroid};
 use crate::pulse_series::{PaperCurves, PulseSeries, Viewing, pulse_series};
 
@@ -24,73 +24,35 @@ const BETA_0: f64 = 0.7;
 /// Beam and observer of both.
 const VIEWING: Viewing = Viewing { chi: 0.5, delta: 0.0, rho: 0.6, theta_o: 0.8 };
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "pulse-series-fit-tp-1",
-            kind: Kind::Regime,
-            equations: &[51, 52, 56],
-            statement: "the paper's curves, 2 pi / (alpha' + DeltaPhi') and the width (56) with the angles and rates of the numerical motion at each time, \
-                 follow the period and width series of tp-I over 400 t_c",
-            figure: "largest root mean square deviation / that of the series from its mean",
-            bound: Bound::AtMost(0.5),
-            reason: "'they fit very well' read as leaving less than half of the modulation; the rate changes during the turn for which a formula at \
-                 an instant stands: by a tenth of its modulation, whose period is 10 turns",
-            measure: fit_of_tp_1,
-        },
-        Check {
-            id: "pulse-series-mean-rates-tp-1",
-            kind: Kind::Regime,
-            equations: &[51, 52, 56],
-            statement: "so do Eqs. (51), to first order, and (56) with constant beta_0 and the mean rates of the motion",
-            figure: "largest root mean square deviation / that of the series from its mean",
-            bound: Bound::AtMost(0.5),
-            reason: "as before; DeltaPhi' / alpha' reaches a third, so the first order has a tenth of P to err by",
-            measure: mean_rates_of_tp_1,
-        },
-        Check {
-            id: "pulse-series-drift-tp-1",
-            kind: Kind::Regime,
-            equations: &[51, 52, 56, 57],
-            statement: "with the shifted rates (57) they follow tp-I through one modulation of 40 t_c but not over 400 t_c, where gamma is a radian off",
-            figure: "smallest deviation over 400 t_c / largest over 40 t_c",
-            bound: Bound::AtLeast(2.0),
-            reason: "the rate of gamma in (57) is off by 0.003 per t_c: 0.1 rad over one modulation, more than 1 rad over ten",
-            measure: drift_of_tp_1,
-        },
-        Check {
-            id: "pulse-series-fail-tp-2",
-            kind: Kind::Regime,
-            equations: &[51, 52, 56],
-            statement: "the paper's curves fail for tp-II, whose intervals that are not single turns are left out; so does (56) with the mean rates of the \
-                 motion, and both formulas with (57)",
-            figure: "smallest root mean square deviation / that of the series from its mean",
-            bound: Bound::AtLeast(0.5),
-            reason: "'fail to approximate' read as the opposite of 'fit very well': more than half of the modulation is left",
-            measure: failure_of_tp_2,
-        },
-        Check {
-            id: "period-series-mean-rates-tp-2",
-            kind: Kind::Regime,
-            equations: &[51, 52],
-            statement: "but Eq. (51) with constant beta_0 and the mean rates of the motion follows the periods of single turns of tp-II over 400 t_c",
-            figure: "largest root mean square deviation of (51) and of 2 pi / (alpha' + DeltaPhi') / that of the series from its mean",
-            bound: Bound::AtMost(0.5),
-            reason: "as for tp-I",
-            measure: periods_of_tp_2,
-        },
-        Check {
-            id: "period-formula-tilted-momentum",
-            kind: Kind::Regime,
-            equations: &[51, 52],
-            statement: "where |gamma'| is a ten-thousandth of alpha', but L is tilted against Z by 0.45 rad, towards some azimuths Eq. (51) with the angles and rates at the time \
-                 of each pulse misses the period: free rotation, oblateness 1e-4, the axis 0.7 rad from L",
-            figure: "largest of eight azimuths of L of the smallest |Eq. (51) / period - 1| over 400 t_c",
-            bound: Bound::AtLeast(0.3),
-            reason: "the rate of alpha about Z swings by more than half during a turn of n about L, and a pulse always comes at the same phase of it",
-            measure: tilted_momentum,
-        },
-    ]
+checks! {
+    /// the paper's curves, 2 pi / (alpha' + DeltaPhi') and the width (56) with the angles and rates of the numerical motion at each time, follow
+    /// the period and width series of tp-I over 400 t_c
+    Regime "pulse-series-fit-tp-1" [51, 52, 56]: fit_of_tp_1;
+    AtMost(0.5) "largest root mean square deviation / that of the series from its mean";
+    because "'they fit very well' read as leaving less than half of the modulation; the rate changes during the turn for which a formula at an \
+     instant stands: by a tenth of its modulation, whose period is 10 turns";
+    /// so do Eqs. (51), to first order, and (56) with constant beta_0 and the mean rates of the motion
+    Regime "pulse-series-mean-rates-tp-1" [51, 52, 56]: mean_rates_of_tp_1;
+    AtMost(0.5) "largest root mean square deviation / that of the series from its mean";
+    because "as before; DeltaPhi' / alpha' reaches a third, so the first order has a tenth of P to err by";
+    /// with the shifted rates (57) they follow tp-I through one modulation of 40 t_c but not over 400 t_c, where gamma is a radian off
+    Regime "pulse-series-drift-tp-1" [51, 52, 56, 57]: drift_of_tp_1;
+    AtLeast(2.0) "smallest deviation over 400 t_c / largest over 40 t_c";
+    because "the rate of gamma in (57) is off by 0.003 per t_c: 0.1 rad over one modulation, more than 1 rad over ten";
+    /// the paper's curves fail for tp-II, whose intervals that are not single turns are left out; so does (56) with the mean rates of the motion,
+    /// and both formulas with (57)
+    Regime "pulse-series-fail-tp-2" [51, 52, 56]: failure_of_tp_2;
+    AtLeast(0.5) "smallest root mean square deviation / that of the series from its mean";
+    because "'fail to approximate' read as the opposite of 'fit very well': more than half of the modulation is left";
+    /// but Eq. (51) with constant beta_0 and the mean rates of the motion follows the periods of single turns of tp-II over 400 t_c
+    Regime "period-series-mean-rates-tp-2" [51, 52]: periods_of_tp_2;
+    AtMost(0.5) "largest root mean square deviation of (51) and of 2 pi / (alpha' + DeltaPhi') / that of the series from its mean";
+    because "as for tp-I";
+    /// where |gamma'| is a ten-thousandth of alpha', but L is tilted against Z by 0.45 rad, towards some azimuths Eq. (51) with the angles and
+    /// rates at the time of each pulse misses the period: free rotation, oblateness 1e-4, the axis 0.7 rad from L
+    Regime "period-formula-tilted-momentum" [51, 52]: tilted_momentum;
+    AtLeast(0.3) "largest of eight azimuths of L of the smallest |Eq. (51) / period - 1| over 400 t_c";
+    because "the rate of alpha about Z swings by more than half during a turn of n about L, and a pulse always comes at the same phase of it";
 }
 
 fn fit_of_tp_1() -> Result<Measured, String> {

@@ -10,53 +10,27 @@ use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
 use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod};
 
 use super::cases::{Case, upright_star, worst_over_random_cases};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::random::{Random, worst_of_draws};
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "arrival-closest-approach",
-            kind: Kind::Property,
-            equations: &[44],
-            statement: "there is an arrival for each whole pulse, inside it, and m.n is nowhere larger in the pulse",
-            figure: "largest excess of m.n at 100 times of a pulse over that at the closest approach / 2.2e-16, 600 random trains",
-            bound: Bound::AtMost(16.0),
-            reason: "m.n of two times is rounded some ten times each; the maximum is flat",
-            measure: highest_in_pulse,
-        },
-        Check {
-            id: "arrival-steady-rotation",
-            kind: Kind::Oracle,
-            equations: &[44, 51],
-            statement: "a star that does not precess, spinning either way about any direction, has a pulse each turn, its period, and no residuals",
-            figure: "largest error of period x number or residual / (2.2e-16 (8 + phase) times the sensitivity of the edge), 200 stars over 100 t_c",
-            bound: Bound::AtMost(8.0),
-            reason: "the spin that follows from n and L in a turned frame is off by some ulp, and the phase by that times 200 rad",
-            measure: steady_rotation,
-        },
-        Check {
-            id: "arrival-free-precession",
-            kind: Kind::Oracle,
-            equations: &[48, 51],
-            statement: "for free precession in any frame, alpha' = 13 |gamma'|, times of arrival repeat after 2 pi / |gamma'|, 13 turns later for \
-                 chi < beta and 12 for chi > beta, where the path of m leaves L outside of one turn; residuals have that period and are not zero",
-            figure: "largest error of a repetition [t_c]; infinite if residuals stay below 1e-3 t_c or a number is wrong",
-            bound: Bound::AtMost(1e-12),
-            reason: "phases up to 400 rad and a motion held to 1e-12",
-            measure: free_precession,
-        },
-        Check {
-            id: "constant-period-fit",
-            kind: Kind::Property,
-            equations: &[51],
-            statement: "residuals are time - epoch - period number, and normal to a constant and to the number: the least squares with weights",
-            figure: "largest error / (2.2e-16 times the sum of magnitudes), 200 random sets of 50 points with numbers up to 1e6",
-            bound: Bound::AtMost(4.0),
-            reason: "sums of 50 terms, each rounded a few times in directions that have no reason to agree",
-            measure: least_squares,
-        },
-    ]
+checks! {
+    /// there is an arrival for each whole pulse, inside it, and m.n is nowhere larger in the pulse
+    Property "arrival-closest-approach" [44]: highest_in_pulse;
+    AtMost(16.0) "largest excess of m.n at 100 times of a pulse over that at the closest approach / 2.2e-16, 600 random trains";
+    because "m.n of two times is rounded some ten times each; the maximum is flat";
+    /// a star that does not precess, spinning either way about any direction, has a pulse each turn, its period, and no residuals
+    Oracle "arrival-steady-rotation" [44, 51]: steady_rotation;
+    AtMost(8.0) "largest error of period x number or residual / (2.2e-16 (8 + phase) times the sensitivity of the edge), 200 stars over 100 t_c";
+    because "the spin that follows from n and L in a turned frame is off by some ulp, and the phase by that times 200 rad";
+    /// for free precession in any frame, alpha' = 13 |gamma'|, times of arrival repeat after 2 pi / |gamma'|, 13 turns later for chi < beta and 12
+    /// for chi > beta, where the path of m leaves L outside of one turn; residuals have that period and are not zero
+    Oracle "arrival-free-precession" [48, 51]: free_precession;
+    AtMost(1e-12) "largest error of a repetition [t_c]; infinite if residuals stay below 1e-3 t_c or a number is wrong";
+    because "phases up to 400 rad and a motion held to 1e-12";
+    /// residuals are time - epoch - period number, and normal to a constant and to the number: the least squares with weights
+    Property "constant-period-fit" [51]: least_squares;
+    AtMost(4.0) "largest error / (2.2e-16 times the sum of magnitudes), 200 random sets of 50 points with numbers up to 1e6";
+    because "sums of 50 terms, each rounded a few times in directions that have no reason to agree";
 }
 
 fn highest_in_pulse() -> Result<Measured, String> {

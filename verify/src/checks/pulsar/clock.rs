@@ -12,61 +12,39 @@ use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod, PulsarClock, a
 use twofold::propagation::{AveragedMotion, Motion};
 use twofold::solutions::averaged::{AveragedPhases, AveragedRates, AveragedSolution, AveragingOrder};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::double_double::DoubleDouble;
 use crate::measured_order::order_of_error;
 use crate::random::Random;
 use twofold_scene::pulsar_timing::PulsarScene;
 use twofold_scene::scene_file::{PULSARS, Scene};
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "pulsar-clock-numbers",
-            kind: Kind::Oracle,
-            equations: &[44],
-            statement: "numbers and midpoints of single pulses, looked up in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose \
-                 turns are followed from one half radian to the next: chi less or more than the wobble and its supplement, spins of both signs, \
-                 L that goes round the line of sight or not",
-            figure: "largest error of a midpoint [t_c]; infinite if a number is wrong, 40 random pulsars of 10 pulses or more",
-            bound: Bound::AtMost(1e-6),
-            reason: "the last step to an edge, some 1e-4 rad, is by derivatives of the exact motion, off by (C |s| I^xx / |L|^2)^2, up to 7e-4; a margin is slow at the edges of a short pulse",
-            measure: numbers,
-        },
-        Check {
-            id: "pulsar-clock-20-years",
-            kind: Kind::Oracle,
-            equations: &[44],
-            statement: "arrival times of the four built-in pulsars 20 years before and after their epochs, with their coefficients and with |s| of 1e-9, \
-                 are those of the same averaged motion in double-double arithmetic",
-            figure: "largest difference of a midpoint [s], 401 epochs each, those without a pulse left out",
-            bound: Bound::AtMost(1e-12),
-            reason: "directions are rounded to 1e-15 rad, at the edges of a pulse of 3 degrees 40 times that, and a radian is 65 ms at most",
-            measure: twenty_years,
-        },
-        Check {
-            id: "pulsar-clock-free-precession",
-            kind: Kind::Oracle,
-            equations: &[44, 48],
-            statement: "without Lorentz violation the residuals of B1828-11 follow from the azimuth of the magnetic axis about L: P (gamma - D) / (2 pi), \
-                 tan D = sin chi sin gamma / (cos chi sin theta + sin chi cos theta cos gamma)",
-            figure: "largest difference of arrival and formula, the best epoch and frequency taken away [s], 500 pulses over 10 years",
-            bound: Bound::AtMost(5e-11),
-            reason: "arrival times are rounded to 9e-12 s, and the residual to as much; at epsilon = 9e-9 what the formula leaves out (next check) is 1e-12 s",
-            measure: free_precession,
-        },
-        Check {
-            id: "pulsar-clock-free-precession-order",
-            kind: Kind::Oracle,
-            equations: &[44, 48],
-            statement: "what that formula leaves out is of first order in epsilon: a midpoint is not the closest approach, since the angle theta_m of the magnetic axis to L \
-                 changes between both edges and shifts it by theta_m' sin(zeta - theta_m) / (sin zeta sin theta_m phi'^2), zeta the angle of the line of sight to L",
-            figure: "slope of the largest difference over epsilon, 1e-6 to 1e-3, the wobble and the rotation of B1828-11",
-            bound: Bound::Within(0.95, 1.05),
-            reason: "theta_m' is the wobble angle times epsilon Omega^z",
-            measure: free_precession_order,
-        },
-    ]
+checks! {
+    /// numbers and midpoints of single pulses, looked up in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose
+    /// turns are followed from one half radian to the next: chi less or more than the wobble and its supplement, spins of both signs, L that goes
+    /// round the line of sight or not
+    Oracle "pulsar-clock-numbers" [44]: numbers;
+    AtMost(1e-6) "largest error of a midpoint [t_c]; infinite if a number is wrong, 40 random pulsars of 10 pulses or more";
+    because "the last step to an edge, some 1e-4 rad, is by derivatives of the exact motion, off by (C |s| I^xx / |L|^2)^2, up to 7e-4; a margin is \
+     slow at the edges of a short pulse";
+    /// arrival times of the four built-in pulsars 20 years before and after their epochs, with their coefficients and with |s| of 1e-9, are those
+    /// of the same averaged motion in double-double arithmetic
+    Oracle "pulsar-clock-20-years" [44]: twenty_years;
+    AtMost(1e-12) "largest difference of a midpoint [s], 401 epochs each, those without a pulse left out";
+    because "directions are rounded to 1e-15 rad, at the edges of a pulse of 3 degrees 40 times that, and a radian is 65 ms at most";
+    /// without Lorentz violation the residuals of B1828-11 follow from the azimuth of the magnetic axis about L: P (gamma - D) / (2 pi), tan D =
+    /// sin chi sin gamma / (cos chi sin theta + sin chi cos theta cos gamma)
+    Oracle "pulsar-clock-free-precession" [44, 48]: free_precession;
+    AtMost(5e-11) "largest difference of arrival and formula, the best epoch and frequency taken away [s], 500 pulses over 10 years";
+    because "arrival times are rounded to 9e-12 s, and the residual to as much; at epsilon = 9e-9 what the formula leaves out (next check) is 1e-12 \
+     s";
+    /// what that formula leaves out is of first order in epsilon: a midpoint is not the closest approach, since the angle theta_m of the magnetic
+    /// axis to L changes between both edges and shifts it by theta_m' sin(zeta - theta_m) / (sin zeta sin theta_m phi'^2), zeta the angle of the
+    /// line of sight to L
+    Oracle "pulsar-clock-free-precession-order" [44, 48]:
+        || order_of_error(&[1e-6, 1e-5, 1e-4, 1e-3], |epsilon| left_of_formula(Some(epsilon)).map(|[left, _]| left));
+    Within(0.95, 1.05) "slope of the largest difference over epsilon, 1e-6 to 1e-3, the wobble and the rotation of B1828-11";
+    because "theta_m' is the wobble angle times epsilon Omega^z";
 }
 
 fn any_direction(random: &mut Random) -> Vector3<f64> {
@@ -231,10 +209,6 @@ fn twenty_years() -> Result<Measured, String> {
 fn free_precession() -> Result<Measured, String> {
     let [left, size] = left_of_formula(None)?;
     Ok(Measured::new(left, format!("residuals up to {size:.2e} s")))
-}
-
-fn free_precession_order() -> Result<Measured, String> {
-    order_of_error(&[1e-6, 1e-5, 1e-4, 1e-3], |epsilon| left_of_formula(Some(epsilon)).map(|[left, _]| left))
 }
 
 /// B1828-11 without Lorentz violation, with its own or another `epsilon` at the same rotation about `L`, which is along Z.

@@ -6,48 +6,28 @@ use twofold::observables::pulsar::{Arrival, Beam, Pulse};
 use twofold::propagation::Motion;
 
 use super::cases::paper_signal;
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::reference::{ReferencePulse, reference_motions, reference_pulses};
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "signal-of-reference-motion",
-            kind: Kind::Oracle,
-            equations: &[45, 46, 47],
-            statement: "m.n of the numerical motion of ten scenes, as a vector and by Eq. (47) in its Euler angles, is that of the 34-digit states",
-            figure: "largest difference of m.n, three magnetic axes and three observers, every listed time",
-            bound: Bound::AtMost(1e-12),
-            reason: "the numerical motion is held to 1e-12 of those states",
-            measure: signal_of_reference_motion,
-        },
-        Check {
-            id: "pulse-edges-reference",
-            kind: Kind::Oracle,
-            equations: &[44, 47],
-            statement: "the edges of the first 160 whole pulses of tp-I and of tp-II each are the roots along a 34-digit motion, no pulse more or less",
-            figure: "largest error of an edge [t_c]; infinite for another number of pulses",
-            bound: Bound::AtMost(1e-12),
-            reason: "the motion's rounding after 1,500 rad, some 1e-14, over the rate of m.n, 0.04 to 0.5 per t_c",
-            measure: || {
-                worst_pulse(|pulse, _, expected| {
-                    largest([(pulse.start - expected.start).abs(), (pulse.end - expected.end).abs()])
-                })
-            },
-        },
-        Check {
-            id: "closest-approach-reference",
-            kind: Kind::Oracle,
-            equations: &[44, 47],
-            statement: "and so are the times at which m.n is largest in them",
-            figure: "largest error of a time [t_c]",
-            bound: Bound::AtMost(1e-12),
-            reason: "the rate of m.n, as exact as the motion, over a second derivative of 0.19 or more",
-            measure: || {
-                worst_pulse(|_, arrival, expected| (arrival.closest_approach - expected.closest_approach).abs())
-            },
-        },
-    ]
+checks! {
+    /// m.n of the numerical motion of ten scenes, as a vector and by Eq. (47) in its Euler angles, is that of the 34-digit states
+    Oracle "signal-of-reference-motion" [45, 46, 47]: signal_of_reference_motion;
+    AtMost(1e-12) "largest difference of m.n, three magnetic axes and three observers, every listed time";
+    because "the numerical motion is held to 1e-12 of those states";
+    /// the edges of the first 160 whole pulses of tp-I and of tp-II each are the roots along a 34-digit motion, no pulse more or less
+    Oracle "pulse-edges-reference" [44, 47]: || {
+        worst_pulse(|pulse, _, expected| {
+            largest([(pulse.start - expected.start).abs(), (pulse.end - expected.end).abs()])
+        })
+    };
+    AtMost(1e-12) "largest error of an edge [t_c]; infinite for another number of pulses";
+    because "the motion's rounding after 1,500 rad, some 1e-14, over the rate of m.n, 0.04 to 0.5 per t_c";
+    /// and so are the times at which m.n is largest in them
+    Oracle "closest-approach-reference" [44, 47]: || {
+        worst_pulse(|_, arrival, expected| (arrival.closest_approach - expected.closest_approach).abs())
+    };
+    AtMost(1e-12) "largest error of a time [t_c]";
+    because "the rate of m.n, as exact as the motion, over a second derivative of 0.19 or more";
 }
 
 fn signal_of_reference_motion() -> Result<Measured, String> {

@@ -11,53 +11,28 @@ use twofold::observables::pulsar::period::{approximate_period, instantaneous_per
 use twofold::observables::pulsar::width::{PulseWidth, cosine_of_half_width, edge_azimuths, pulse_width};
 
 use super::identities::spherical;
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_component};
+use crate::check::{Measured, Worst, checks, largest, largest_component};
 use crate::random::worst_of_draws;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "magnetic-axis-angles",
-            kind: Kind::Property,
-            equations: &[45, 49, 50],
-            statement: "Theta and Phi, the latter by the two-argument arc tangent, are the colatitude and azimuth of the turned axis in every quadrant",
-            figure: "largest error of a component / 2.2e-16, 2,000 random orientations",
-            bound: Bound::AtMost(8.0),
-            reason: "Phi up to 2 pi is rounded by half an ulp, 2 x 2.2e-16, twice, and so is the axis it is compared with",
-            measure: angles_of_axis,
-        },
-        Check {
-            id: "pulse-period-first-order",
-            kind: Kind::Property,
-            equations: &[51],
-            statement: "the approximate period of Eq. (51) is the exact one times 1 - (DeltaPhi' / alpha')^2: its error is of second order",
-            figure: "largest relative error / 2.2e-16, 2,000 random rates",
-            bound: Bound::AtMost(4.0),
-            reason: "four roundings of half an ulp on either side",
-            measure: second_order_of_period,
-        },
-        Check {
-            id: "pulse-width-edges",
-            kind: Kind::Property,
-            equations: &[44, 53, 54, 55, 56],
-            statement: "at the azimuths (55) the product (54) is cos rho, inside them it is above and outside below; without edges the axis is always or \
-                 never within rho of the line of sight",
-            figure: "largest error of cos rho or of cos(W/2) sin Theta sin theta_o / 2.2e-16, 20,000 random cases; infinite for a wrong kind",
-            bound: Bound::AtMost(16.0),
-            reason: "azimuths up to pi + phi_o are rounded by 2 x 2.2e-16 twice; the arguments of four half sines, the quotient and the arc tangent add as much",
-            measure: edges_of_width,
-        },
-        Check {
-            id: "narrow-pulse-width",
-            kind: Kind::Property,
-            equations: &[56],
-            statement: "for Theta = theta_o the width is 4 arcsin(sin(rho/2) / sin Theta), down to beams of 1e-12 rad",
-            figure: "largest relative error / 2.2e-16, rho = 1e-12 to 0.1, Theta = 0.2 to 2.9",
-            bound: Bound::AtMost(8.0),
-            reason: "some ten roundings of half an ulp; the printed cosine would lose all digits below rho = 1e-8",
-            measure: narrow_widths,
-        },
-    ]
+checks! {
+    /// Theta and Phi, the latter by the two-argument arc tangent, are the colatitude and azimuth of the turned axis in every quadrant
+    Property "magnetic-axis-angles" [45, 49, 50]: angles_of_axis;
+    AtMost(8.0) "largest error of a component / 2.2e-16, 2,000 random orientations";
+    because "Phi up to 2 pi is rounded by half an ulp, 2 x 2.2e-16, twice, and so is the axis it is compared with";
+    /// the approximate period of Eq. (51) is the exact one times 1 - (DeltaPhi' / alpha')^2: its error is of second order
+    Property "pulse-period-first-order" [51]: second_order_of_period;
+    AtMost(4.0) "largest relative error / 2.2e-16, 2,000 random rates";
+    because "four roundings of half an ulp on either side";
+    /// at the azimuths (55) the product (54) is cos rho, inside them it is above and outside below; without edges the axis is always or never
+    /// within rho of the line of sight
+    Property "pulse-width-edges" [44, 53, 54, 55, 56]: edges_of_width;
+    AtMost(16.0) "largest error of cos rho or of cos(W/2) sin Theta sin theta_o / 2.2e-16, 20,000 random cases; infinite for a wrong kind";
+    because "azimuths up to pi + phi_o are rounded by 2 x 2.2e-16 twice; the arguments of four half sines, the quotient and the arc tangent add as \
+     much";
+    /// for Theta = theta_o the width is 4 arcsin(sin(rho/2) / sin Theta), down to beams of 1e-12 rad
+    Property "narrow-pulse-width" [56]: narrow_widths;
+    AtMost(8.0) "largest relative error / 2.2e-16, rho = 1e-12 to 0.1, Theta = 0.2 to 2.9";
+    because "some ten roundings of half an ulp; the printed cosine would lose all digits below rho = 1e-8";
 }
 
 fn angles_of_axis() -> Result<Measured, String> {

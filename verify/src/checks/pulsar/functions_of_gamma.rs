@@ -4,24 +4,18 @@ use nalgebra::{DMatrix, DVector};
 use twofold::observables::pulsar::Stamped;
 
 use super::cases::{Case, mean_rates, paper_signal};
-use crate::check::{Bound, Check, Kind, Measured};
+use crate::check::{Measured, checks};
 use crate::pulse_series::pulse_series;
 
 /// Length of the series, t_c.
 const SPAN: f64 = 400.0;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![Check {
-        id: "width-series-not-of-gamma-tp-2",
-        kind: Kind::Regime,
-        equations: &[56],
-        statement: "the width (56) fails for tp-II with any constants: a function of the mean phase of gamma, as it is at constant rates, leaves most of \
-                 the width series, which has the slow period of the angular momentum as well, but little of that of tp-I",
-        figure: "what the harmonics of the mean phase up to the sixth leave of the widths: tp-II / tp-I",
-        bound: Bound::AtLeast(3.0),
-        reason: "three quarters of the modulation of tp-II is most, a quarter of that of tp-I little",
-        measure: functions_of_gamma,
-    }]
+checks! {
+    /// the width (56) fails for tp-II with any constants: a function of the mean phase of gamma, as it is at constant rates, leaves most of the
+    /// width series, which has the slow period of the angular momentum as well, but little of that of tp-I
+    Regime "width-series-not-of-gamma-tp-2" [56]: functions_of_gamma;
+    AtLeast(3.0) "what the harmonics of the mean phase up to the sixth leave of the widths: tp-II / tp-I";
+    because "three quarters of the modulation of tp-II is most, a quarter of that of tp-I little";
 }
 
 fn functions_of_gamma() -> Result<Measured, String> {

@@ -3,20 +3,14 @@
 use twofold::observables::pulsar::{Beam, pulse_train};
 
 use super::cases::{edges, worst_over_random_cases};
-use crate::check::{Bound, Check, Kind, Measured, largest};
+use crate::check::{Measured, checks, largest};
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![Check {
-        id: "pulse-train-grazing",
-        kind: Kind::Property,
-        equations: &[44],
-        statement: "with cos rho at an extremum of m.n, plus or minus 1e-10 to 1e-12, the short pulse (or gap) is there or is not, and lasts \
-                 2 sqrt(2 d / |f''|); with cos rho at the extremum, a grazing is reported",
-        figure: "largest relative error of the short duration; infinite for a wrong number of edges",
-        bound: Bound::AtMost(1e-2),
-        reason: "m.n - cos rho = 1e-12 has 4e-4 of rounding and of the motion's error; the next term of the duration is 1e-5",
-        measure: grazing_by_construction,
-    }]
+checks! {
+    /// with cos rho at an extremum of m.n, plus or minus 1e-10 to 1e-12, the short pulse (or gap) is there or is not, and lasts 2 sqrt(2 d /
+    /// |f''|); with cos rho at the extremum, a grazing is reported
+    Property "pulse-train-grazing" [44]: grazing_by_construction;
+    AtMost(1e-2) "largest relative error of the short duration; infinite for a wrong number of edges";
+    because "m.n - cos rho = 1e-12 has 4e-4 of rounding and of the motion's error; the next term of the duration is 1e-5";
 }
 
 const END: f64 = 20.0;

@@ -11,12 +11,11 @@ use twofold::observables::pulsar::direction::{
 };
 use twofold::observables::pulsar::period::{azimuth_offset_rate, azimuth_rate};
 
-use crate::check::Check;
+use crate::check::checks;
 use crate::derivation::{Differentiable, moving_angles};
-use crate::identity::identities;
 use crate::random::Point;
 
-identities! {
+checks! {
     /// Eq. (47) is the magnetic axis (45) turned by Eq. (9) along the line of sight, the margin of the beam adds -cos rho, the second beam has the
     /// opposite sign; Eq. (54) is the product of two unit vectors
     beam_along_line_of_sight: Property "axis-along-line-of-sight" [9, 44, 45, 47, 54];
@@ -26,10 +25,6 @@ identities! {
     offset_rate_of_azimuth: Autodiff "azimuth-offset-rate" [50, 52];
     /// the exact rate of the azimuth is that of (m_X, m_Y) along any motion, and alpha' + DeltaPhi' of Eq. (52) where beta is constant
     magnetic_azimuth_rate: Autodiff "magnetic-azimuth-rate" [49, 51, 52];
-}
-
-pub(super) fn checks() -> Vec<Check> {
-    identities()
 }
 
 /// The magnetic axis' angles `chi`, `delta` and the observer's `theta_o`, `phi_o` of a point.

@@ -9,42 +9,23 @@ use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::rate_bounds::rate_bounds;
 use twofold::propagation::Motion;
 
-use crate::check::{Bound, Check, Kind, Measured, largest};
+use crate::check::{Measured, checks, largest};
 use crate::physical_domain::{RandomScene, scenes, worst_over};
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "beam-margin-rates",
-            kind: Kind::Autodiff,
-            equations: &[44],
-            statement: "the first three time derivatives of m.n are those of the dense output, differentiated by duals",
-            figure: "largest error / (2.2e-16, bound on that derivative), 40 random motions, the third divided by 22/3",
-            bound: Bound::AtMost(64.0),
-            reason: "differentiating a series of order 22 k times multiplies its rounding by up to (22/3)^k, 54 for the second; the state adds a few",
-            measure: rates_by_duals,
-        },
-        Check {
-            id: "beam-margin-bounds",
-            kind: Kind::Property,
-            equations: &[44],
-            statement: "the first three time derivatives of m.n stay below the bounds from energy and spin at the start",
-            figure: "largest derivative / its bound, 40 random motions",
-            bound: Bound::AtMost(1.0),
-            reason: "the meaning of a bound",
-            measure: rates_within_bounds,
-        },
-        Check {
-            id: "beam-margin-high-bounds",
-            kind: Kind::Property,
-            equations: &[44],
-            statement: "so do the fourth and the sixth, by their mean values: the first and third divided differences of the third derivative",
-            figure: "largest mean value / its bound, 40 random motions, steps of 0.04 t_c",
-            bound: Bound::AtMost(1.0),
-            reason: "a bound of a derivative bounds its mean values; rounding of a third difference is 1e-11",
-            measure: high_rates_within_bounds,
-        },
-    ]
+checks! {
+    /// the first three time derivatives of m.n are those of the dense output, differentiated by duals
+    Autodiff "beam-margin-rates" [44]: rates_by_duals;
+    AtMost(64.0) "largest error / (2.2e-16, bound on that derivative), 40 random motions, the third divided by 22/3";
+    because "differentiating a series of order 22 k times multiplies its rounding by up to (22/3)^k, 54 for the second; the state adds a few";
+    /// the first three time derivatives of m.n stay below the bounds from energy and spin at the start
+    Property "beam-margin-bounds" [44]:
+        || along_motions(|bounds, _, duals| largest([1, 2, 3].map(|k| duals[k].abs() / bounds[k - 1])));
+    AtMost(1.0) "largest derivative / its bound, 40 random motions";
+    because "the meaning of a bound";
+    /// so do the fourth and the sixth, by their mean values: the first and third divided differences of the third derivative
+    Property "beam-margin-high-bounds" [44]: high_rates_within_bounds;
+    AtMost(1.0) "largest mean value / its bound, 40 random motions, steps of 0.04 t_c";
+    because "a bound of a derivative bounds its mean values; rounding of a third difference is 1e-11";
 }
 
 fn rates_by_duals() -> Result<Measured, String> {
@@ -52,10 +33,6 @@ fn rates_by_duals() -> Result<Measured, String> {
         let scale = [1.0, 1.0, 22.0 / 3.0];
         largest([1, 2, 3].map(|k| (kernel[k] - duals[k]).abs() / (bounds[k - 1] * scale[k - 1] * f64::EPSILON)))
     })
-}
-
-fn rates_within_bounds() -> Result<Measured, String> {
-    along_motions(|bounds, _, duals| largest([1, 2, 3].map(|k| duals[k].abs() / bounds[k - 1])))
 }
 
 fn high_rates_within_bounds() -> Result<Measured, String> {

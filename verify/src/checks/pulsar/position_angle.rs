@@ -15,12 +15,11 @@ use twofold::propagation::Motion;
 
 use super::cases;
 use super::identities::spherical;
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::derivation::{Differentiable, moving_angles};
-use crate::identity::identities;
 use crate::random::{Point, Random, worst_of_draws};
 
-identities! {
+checks! {
     /// north on the sky is the projection of Z, east is along Z x (direction in which the observer looks), as right ascension grows, and north x
     /// east points to the observer: from north to east is counterclockwise for him
     sky_directions: Property "sky-directions" [46, 70];
@@ -33,35 +32,15 @@ identities! {
     /// the rate of the position angle is that of the projection of m along any motion by duals, and the gradient of the rotating-vector model times
     /// the rates of Theta and Phi
     rate_of_position_angle: Autodiff "position-angle-rate" [22, 45, 49, 70];
-}
-
-pub(super) fn checks() -> Vec<Check> {
-    let mut checks = identities();
-    checks.extend([
-        Check {
-            id: "position-angle-of-upright-star",
-            kind: Kind::Oracle,
-            equations: &[45, 46, 70],
-            statement: "along the numerical motion of a star that spins about Z the position angle is minus the angle of Radhakrishnan and Cooke \
-                 (1969), tan = sin chi sin(Phi - phi_o) / (sin zeta cos chi - cos zeta sin chi cos(Phi - phi_o)), its half turn included",
-            figure: "largest error / (2.2e-16 (4 + phase / |m x n|)), 200 stars at 40 times",
-            bound: Bound::AtMost(4.0),
-            reason: "the phase of the motion and that of the formula are rounded by an ulp; near the line of sight it is divided by |m x n|",
-            measure: upright_star,
-        },
-        Check {
-            id: "position-angle-of-precessing-star",
-            kind: Kind::Property,
-            equations: &[45, 49, 70],
-            statement: "from the state and from Theta, Phi of Eq. (49) the position angle is the same, in every quadrant; along the line of sight both \
-                 refuse",
-            figure: "largest difference x |m x n| / 2.2e-16, 2,000 random orientations",
-            bound: Bound::AtMost(16.0),
-            reason: "some ten roundings of unit vectors, azimuths up to 2 pi rounded by 2 x 2.2e-16",
-            measure: state_and_angles,
-        },
-    ]);
-    checks
+    /// along the numerical motion of a star that spins about Z the position angle is minus the angle of Radhakrishnan and Cooke (1969), tan = sin
+    /// chi sin(Phi - phi_o) / (sin zeta cos chi - cos zeta sin chi cos(Phi - phi_o)), its half turn included
+    Oracle "position-angle-of-upright-star" [45, 46, 70]: upright_star;
+    AtMost(4.0) "largest error / (2.2e-16 (4 + phase / |m x n|)), 200 stars at 40 times";
+    because "the phase of the motion and that of the formula are rounded by an ulp; near the line of sight it is divided by |m x n|";
+    /// from the state and from Theta, Phi of Eq. (49) the position angle is the same, in every quadrant; along the line of sight both refuse
+    Property "position-angle-of-precessing-star" [45, 49, 70]: state_and_angles;
+    AtMost(16.0) "largest difference x |m x n| / 2.2e-16, 2,000 random orientations";
+    because "some ten roundings of unit vectors, azimuths up to 2 pi rounded by 2 x 2.2e-16";
 }
 
 /// `chi, delta`, and the observer's `theta_o, phi_o` of a point.

@@ -4,21 +4,15 @@ use twofold::dynamics::Problem;
 use twofold::euler_angles::{EulerAngles, EulerRates};
 
 use super::cases::signal_of;
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::reference::reference_motion;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![Check {
-        id: "pulse-train-authors",
-        kind: Kind::Oracle,
-        equations: &[44, 47],
-        statement: "m.n at t = 0, and widths and periods of tp-I from the initial values rounded as in the caption, are the authors' published data for \
-                 tp-I: chi = 0.5, delta = 0, theta_o = 0.8, phi_o = 0, rho = 0.6",
-        figure: "largest difference of a time stamp, width or period [t_c]",
-        bound: Bound::AtMost(1e-5),
-        reason: "their solver ran at its default tolerance: m.n is off by up to 2.7e-6, at a slope of about 0.3 per t_c",
-        measure: against_authors,
-    }]
+checks! {
+    /// m.n at t = 0, and widths and periods of tp-I from the initial values rounded as in the caption, are the authors' published data for tp-I:
+    /// chi = 0.5, delta = 0, theta_o = 0.8, phi_o = 0, rho = 0.6
+    Oracle "pulse-train-authors" [44, 47]: against_authors;
+    AtMost(1e-5) "largest difference of a time stamp, width or period [t_c]";
+    because "their solver ran at its default tolerance: m.n is off by up to 2.7e-6, at a slope of about 0.3 per t_c";
 }
 
 fn against_authors() -> Result<Measured, String> {

@@ -9,34 +9,20 @@ use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod};
 use twofold::propagation::{ContinuousAngles, Motion};
 
 use super::cases::{Case, for_random_cases, paper_signal};
-use crate::check::{Bound, Check, Kind, Measured, largest};
+use crate::check::{Measured, checks, largest};
 use crate::reference::reference_motion;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "arrival-numbers-about-z",
-            kind: Kind::Oracle,
-            equations: &[49, 50],
-            statement: "for tp-I and tp-II the numbers are the turns of the azimuth Phi about Z, by Eqs. (49), (50) and the continuous angles with DeltaPhi \
-                 taken about -pi/2, turns without a pulse included; closest approaches stay within half a period of those of a constant one",
-            figure: "wrong numbers, and times off by half a period or more, up to 1,000 t_c",
-            bound: Bound::AtMost(0.0),
-            reason: "counts",
-            measure: numbers_about_z,
-        },
-        Check {
-            id: "arrival-numbers-of-missed-turns",
-            kind: Kind::Property,
-            equations: &[44],
-            statement: "a narrower beam, which misses turns, numbers its pulses as the wider beam does the pulses that hold them: tp-II, sp-I, sp-II and \
-                 300 random stars",
-            figure: "pulses with another number",
-            bound: Bound::AtMost(0.0),
-            reason: "counts",
-            measure: numbers_of_missed_turns,
-        },
-    ]
+checks! {
+    /// for tp-I and tp-II the numbers are the turns of the azimuth Phi about Z, by Eqs. (49), (50) and the continuous angles with DeltaPhi taken
+    /// about -pi/2, turns without a pulse included; closest approaches stay within half a period of those of a constant one
+    Oracle "arrival-numbers-about-z" [49, 50]: numbers_about_z;
+    AtMost(0.0) "wrong numbers, and times off by half a period or more, up to 1,000 t_c";
+    because "counts";
+    /// a narrower beam, which misses turns, numbers its pulses as the wider beam does the pulses that hold them: tp-II, sp-I, sp-II and 300 random
+    /// stars
+    Property "arrival-numbers-of-missed-turns" [44]: numbers_of_missed_turns;
+    AtMost(0.0) "pulses with another number";
+    because "counts";
 }
 
 fn numbers_about_z() -> Result<Measured, String> {

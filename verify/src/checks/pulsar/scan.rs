@@ -4,20 +4,14 @@ use twofold::dynamics::equations_of_motion::angular_velocity;
 use twofold::propagation::Motion;
 
 use super::cases::{Case, edges, for_random_cases};
-use crate::check::{Bound, Check, Kind, Measured};
+use crate::check::{Measured, checks};
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![Check {
-        id: "pulse-train-scan",
-        kind: Kind::Oracle,
-        equations: &[44, 47],
-        statement: "the edges of both beams of 10,000 random stars over 10 t_c are as many as a scan of m.n finds, a point each 0.01 t_c, with each \
-             extremum between them refined, and inside and outside are the same",
-        figure: "trains with a wrong number of edges, or inside where the scan is outside, of 20,000 random ones",
-        bound: Bound::AtMost(0.0),
-        reason: "counts; the scan passes over no pair of edges, since it looks at every extremum, and leaves out only what m cannot reach in time",
-        measure: against_scan,
-    }]
+checks! {
+    /// the edges of both beams of 10,000 random stars over 10 t_c are as many as a scan of m.n finds, a point each 0.01 t_c, with each extremum
+    /// between them refined, and inside and outside are the same
+    Oracle "pulse-train-scan" [44, 47]: against_scan;
+    AtMost(0.0) "trains with a wrong number of edges, or inside where the scan is outside, of 20,000 random ones";
+    because "counts; the scan passes over no pair of edges, since it looks at every extremum, and leaves out only what m cannot reach in time";
 }
 
 fn against_scan() -> Result<Measured, String> {

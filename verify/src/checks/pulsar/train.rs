@@ -8,43 +8,22 @@ use twofold::observables::pulsar::{Beam, pulse_train};
 use twofold::propagation::Motion;
 
 use super::cases::{edges, upright_star, worst_over_random_cases};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::random::Random;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "pulse-train-edges",
-            kind: Kind::Property,
-            equations: &[44],
-            statement: "at every edge of 600 random trains m.n is cos rho",
-            figure: "largest |m.n - cos rho| / (2.2e-16 (4 + t |Omega|))",
-            bound: Bound::AtMost(2.0),
-            reason: "some roundings of m.n, and the rounding of t by half an ulp and of Newton's step by one",
-            measure: margin_at_edges,
-        },
-        Check {
-            id: "pulse-train-closed-form",
-            kind: Kind::Oracle,
-            equations: &[44, 51, 53, 56],
-            statement: "the trains of a star that spins about Z are those of Eqs. (51), (56), exact there: pulses, always on (the beam covers the pole) \
-                 and never on",
-            figure: "largest error of an edge / (2.2e-16 (1 + t) times the edge's sensitivity); infinite for a wrong number",
-            bound: Bound::AtMost(16.0),
-            reason: "the phase of a numerical motion of 100 steps is in error by some ten ulp",
-            measure: against_closed_form,
-        },
-        Check {
-            id: "pulse-train-symmetries",
-            kind: Kind::Property,
-            equations: &[44],
-            statement: "the opposite beam with the supplement of rho is on exactly between the pulses, and a part of the span gives the same pulses, cut",
-            figure: "largest difference of an edge; infinite for a wrong number",
-            bound: Bound::AtMost(1e-13),
-            reason: "the same roots from other brackets: rounding of t up to 40 t_c, 7e-15, and of m.n over its slope",
-            measure: symmetries,
-        },
-    ]
+checks! {
+    /// at every edge of 600 random trains m.n is cos rho
+    Property "pulse-train-edges" [44]: margin_at_edges;
+    AtMost(2.0) "largest |m.n - cos rho| / (2.2e-16 (4 + t |Omega|))";
+    because "some roundings of m.n, and the rounding of t by half an ulp and of Newton's step by one";
+    /// the trains of a star that spins about Z are those of Eqs. (51), (56), exact there: pulses, always on (the beam covers the pole) and never on
+    Oracle "pulse-train-closed-form" [44, 51, 53, 56]: against_closed_form;
+    AtMost(16.0) "largest error of an edge / (2.2e-16 (1 + t) times the edge's sensitivity); infinite for a wrong number";
+    because "the phase of a numerical motion of 100 steps is in error by some ten ulp";
+    /// the opposite beam with the supplement of rho is on exactly between the pulses, and a part of the span gives the same pulses, cut
+    Property "pulse-train-symmetries" [44]: symmetries;
+    AtMost(1e-13) "largest difference of an edge; infinite for a wrong number";
+    because "the same roots from other brackets: rounding of t up to 40 t_c, 7e-15, and of m.n over its slope";
 }
 
 const SPAN: (f64, f64) = (0.0, 20.0);

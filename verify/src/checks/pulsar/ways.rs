@@ -5,33 +5,18 @@ use twofold::observables::pulsar::{PulseTrain, pulse_train};
 use twofold::propagation::Motion;
 
 use super::cases::{Case, edges, for_random_cases, worst_over_random_cases};
-use crate::check::{Bound, Check, Kind, Measured, largest};
+use crate::check::{Measured, checks, largest};
 use crate::given_states::GivenStates;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "pulse-train-ways",
-            kind: Kind::Property,
-            equations: &[44],
-            statement: "the pulses of 600 random trains are the same from the series of the motion, from its states, and from series that are not kept",
-            figure: "largest difference of an edge times the slope of m.n; infinite for a wrong number",
-            bound: Bound::AtMost(1e-13),
-            reason: "the same roots from other brackets: rounding of t up to 20 t_c, 4e-15, and of m.n over its slope",
-            measure: ways_agree,
-        },
-        Check {
-            id: "series-projection",
-            kind: Kind::Property,
-            equations: &[44],
-            statement: "m.n and its first three time derivatives from the series of a motion are those from its states, and the same whatever \
-                        was looked at before",
-            figure: "largest difference / (2.2e-16 (4 + t |Omega|), power of 1 + |Omega|), 25 times of 600 random trains; infinite if not the same",
-            bound: Bound::AtMost(8.0),
-            reason: "some roundings of vectors and, for the third angle, of t times its rate; each derivative adds products",
-            measure: projection_against_states,
-        },
-    ]
+checks! {
+    /// the pulses of 600 random trains are the same from the series of the motion, from its states, and from series that are not kept
+    Property "pulse-train-ways" [44]: ways_agree;
+    AtMost(1e-13) "largest difference of an edge times the slope of m.n; infinite for a wrong number";
+    because "the same roots from other brackets: rounding of t up to 20 t_c, 4e-15, and of m.n over its slope";
+    /// m.n and its first three time derivatives from the series of a motion are those from its states, and the same whatever was looked at before
+    Property "series-projection" [44]: projection_against_states;
+    AtMost(8.0) "largest difference / (2.2e-16 (4 + t |Omega|), power of 1 + |Omega|), 25 times of 600 random trains; infinite if not the same";
+    because "some roundings of vectors and, for the third angle, of t times its rate; each derivative adds products";
 }
 
 const END: f64 = 20.0;

@@ -9,7 +9,7 @@ use twofold::solutions::perturbation::{Form, Precession};
 
 use super::perturbation_error::{Case, axis_at};
 use crate::averaged_scenes::averaged_solution;
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 
 /// Accuracy of the numerical motion.
 const ACCURACY: f64 = 1e-13;
@@ -23,17 +23,12 @@ const ITERATIONS: usize = 8;
 /// Samples between two times.
 const SAMPLES: u32 = 10;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![Check {
-        id: "averaged-motion-regimes",
-        kind: Kind::Regime,
-        equations: &[25, 57],
-        statement: "n, L and e_x of the averaged motion are off by less than 3 x^2 + 1.5 x^2 t to first order and 3 x^2 + 5 x^3 t to second, t in t_c: L near Z and tilted, single precession, near the separatrix",
-        figure: "largest error over that, x from 1e-5 to 1e-2, t to 3,000 t_c",
-        bound: Bound::AtMost(1.0),
-        reason: "the periodic part of second order, and rates of the order after the last, with coefficients of order one",
-        measure: averaged_motions,
-    }]
+checks! {
+    /// n, L and e_x of the averaged motion are off by less than 3 x^2 + 1.5 x^2 t to first order and 3 x^2 + 5 x^3 t to second, t in t_c: L near Z
+    /// and tilted, single precession, near the separatrix
+    Regime "averaged-motion-regimes" [25, 57]: averaged_motions;
+    AtMost(1.0) "largest error over that, x from 1e-5 to 1e-2, t to 3,000 t_c";
+    because "the periodic part of second order, and rates of the order after the last, with coefficients of order one";
 }
 
 fn averaged_motions() -> Result<Measured, String> {

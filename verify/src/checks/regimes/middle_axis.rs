@@ -5,32 +5,18 @@ use twofold::dynamics::{AxisState, Problem, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::Motion;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Measured, Worst, checks};
 use twofold::straight_line::slope;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "middle-axis-growth",
-            kind: Kind::Regime,
-            equations: &[36],
-            statement: "forced precession about the middle axis of s^IJ (X, Y, Z in turn) is unstable with the rate (2 C |P2| / G) sqrt((s1 - s2)(s2 - s3))",
-            figure: "largest |growth rate / formula - 1|, s of the examples scaled by 0.02, permuted, about X, Y, Z",
-            bound: Bound::AtMost(0.02),
-            reason: "the formula is of first order: relative error of the order of s = 8e-4, and the fit's window adds a percent",
-            measure: growth_about_middle_axis,
-        },
-        Check {
-            id: "outer-axes-stable",
-            kind: Kind::Regime,
-            equations: &[36],
-            statement: "forced precession about the axes of the largest and the smallest eigenvalue (X, Y, Z in turn) is stable",
-            figure: "largest tilt of L over twenty growth times of the middle axis / initial tilt",
-            bound: Bound::AtMost(10.0),
-            reason: "bounded by the axis ratio of the ellipse about the stable axis, at most sqrt(6) here, and the fast wobble of L",
-            measure: tilt_about_outer_axes,
-        },
-    ]
+checks! {
+    /// forced precession about the middle axis of s^IJ (X, Y, Z in turn) is unstable with the rate (2 C |P2| / G) sqrt((s1 - s2)(s2 - s3))
+    Regime "middle-axis-growth" [36]: growth_about_middle_axis;
+    AtMost(0.02) "largest |growth rate / formula - 1|, s of the examples scaled by 0.02, permuted, about X, Y, Z";
+    because "the formula is of first order: relative error of the order of s = 8e-4, and the fit's window adds a percent";
+    /// forced precession about the axes of the largest and the smallest eigenvalue (X, Y, Z in turn) is stable
+    Regime "outer-axes-stable" [36]: tilt_about_outer_axes;
+    AtMost(10.0) "largest tilt of L over twenty growth times of the middle axis / initial tilt";
+    because "bounded by the axis ratio of the ellipse about the stable axis, at most sqrt(6) here, and the fast wobble of L";
 }
 
 const SCALE: f64 = 0.02;

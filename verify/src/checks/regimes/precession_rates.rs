@@ -6,42 +6,23 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::fundamental_frequencies::{MeanRate, fundamental_frequencies, mean_rate};
 use twofold::propagation::{Motion, TaylorMotion};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Measured, Worst, checks};
 use crate::reference::reference_motion;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "forced-precession-direction",
-            kind: Kind::Regime,
-            equations: &[32, 57],
-            statement: "forced precession turns the angular momentum the same way for both kinds; what is opposite is the shift of the rate of alpha in tp-I, a change of its free precession",
-            figure: "signs that differ from: tp-I alpha +, tp-II azimuth of L -, sp-I azimuth of L -, sp-I alpha -",
-            bound: Bound::AtMost(0.0),
-            reason: "signs of numbers that are above 0.02 in size",
-            measure: directions,
-        },
-        Check {
-            id: "rates-of-both-examples",
-            kind: Kind::Regime,
-            equations: &[51, 56, 57],
-            statement: "the ratio of the mean rates |gamma'| / alpha' is the same in tp-I and tp-II: it does not tell where Eqs. (51), (56) apply",
-            figure: "|ratio of tp-II / ratio of tp-I - 1|",
-            bound: Bound::AtMost(0.05),
-            reason: "a twentieth of what is said to be small in one and not in the other",
-            measure: ratios_of_rates,
-        },
-        Check {
-            id: "momentum-precession-rate",
-            kind: Kind::Regime,
-            equations: &[26, 32],
-            statement: "the angular momentum precesses about Z at (2 C P2(c) / G) (s^ZZ - s^XX) l_Z with c = n.L/G: its sign reverses where c^2 crosses 1/3",
-            figure: "largest |rate - formula| / (|2 C (s^ZZ - s^XX) / G| k), c^2 from 0.05 to 1, symmetric s scaled by k",
-            bound: Bound::AtMost(0.1),
-            reason: "the formula is of first order: with s^ZZ - s^XX = -0.055 k its relative error is of the order 0.055 k",
-            measure: momentum_rate_across_magic_angle,
-        },
-    ]
+checks! {
+    /// forced precession turns the angular momentum the same way for both kinds; what is opposite is the shift of the rate of alpha in tp-I, a
+    /// change of its free precession
+    Regime "forced-precession-direction" [32, 57]: directions;
+    AtMost(0.0) "signs that differ from: tp-I alpha +, tp-II azimuth of L -, sp-I azimuth of L -, sp-I alpha -";
+    because "signs of numbers that are above 0.02 in size";
+    /// the ratio of the mean rates |gamma'| / alpha' is the same in tp-I and tp-II: it does not tell where Eqs. (51), (56) apply
+    Regime "rates-of-both-examples" [51, 56, 57]: ratios_of_rates;
+    AtMost(0.05) "|ratio of tp-II / ratio of tp-I - 1|";
+    because "a twentieth of what is said to be small in one and not in the other";
+    /// the angular momentum precesses about Z at (2 C P2(c) / G) (s^ZZ - s^XX) l_Z with c = n.L/G: its sign reverses where c^2 crosses 1/3
+    Regime "momentum-precession-rate" [26, 32]: momentum_rate_across_magic_angle;
+    AtMost(0.1) "largest |rate - formula| / (|2 C (s^ZZ - s^XX) / G| k), c^2 from 0.05 to 1, symmetric s scaled by k";
+    because "the formula is of first order: with s^ZZ - s^XX = -0.055 k its relative error is of the order 0.055 k";
 }
 
 /// Mean rates of `alpha`, of `gamma` and of the azimuth of `L` about Z.

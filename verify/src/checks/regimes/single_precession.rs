@@ -6,71 +6,39 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::{Form, Precession};
 
 use super::perturbation_error::Case;
-use crate::check::{Bound, Check, Kind, Measured, least_of, worst_of};
+use crate::check::{Measured, checks, least_of, worst_of};
 use crate::measured_order::{errors_at, measured_order};
 
-pub(super) fn checks() -> Vec<Check> {
-    let corrected_order = Check {
-        id: "single-corrected-order",
-        kind: Kind::Regime,
-        equations: &[29, 30, 33],
-        statement: "the error of the corrected single-precession solution is of second order in (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)",
-        figure: "slope of log(distance of the axes over one forced period) against log of the ratio, 2.7e-3 to 2.7e-4, s scaled by 1e-8, the one farthest from the integer of beta_0 = 0.3, 0.7, 1.1",
-        bound: Bound::Within(1.95, 2.05),
-        reason: "the first omitted terms are squares of the ratio, above 1e-7; terms of the order s are below 1e-9; an integer order measured to 0.05",
-        measure: || order_in_asymmetry(Form::Corrected, 2.0),
-    };
-    vec![
-        Check {
-            id: "single-mimics-small-inclination",
-            kind: Kind::Regime,
-            equations: &[33, 34],
-            statement: "for beta_0 up to 1 the single-precession solution follows the motion through one forced period",
-            figure: "largest distance of the heads of the true and the approximate axis over one forced period, beta_0 = 0.1 to 1",
-            bound: Bound::AtMost(1.0 / 3.0),
-            reason: "'mimic' read as staying within a third of the unit sphere's radius, with the coefficients of the examples",
-            measure: small_inclinations,
-        },
-        Check {
-            id: "single-fails-near-right-angle",
-            kind: Kind::Regime,
-            equations: &[33, 34],
-            statement: "towards beta_0 = pi/2 the single-precession solution fails completely, however small s is",
-            figure: "smallest distance reached over one forced period, beta_0 = 1.4 and 1.5, s scaled by 1, 0.1, 0.01",
-            bound: Bound::AtLeast(1.0),
-            reason: "'fails completely' read as losing the axis by more than the unit sphere's radius, 60 degrees",
-            measure: failure_near_right_angle,
-        },
-        Check {
-            id: "single-error-not-of-order-s",
-            kind: Kind::Regime,
-            equations: &[30, 33],
-            statement: "at a fixed ratio of s^XX - s^YY to 2 s^ZZ - s^XX - s^YY the error over a forced period does not vanish with s, printed or corrected",
-            figure: "slope of log(distance of the axes over one forced period) against log k, s scaled by k = 1e-2 to 1e-3, the one farther from zero",
-            bound: Bound::Within(-0.05, 0.05),
-            reason: "alpha1 and beta1 have the size of the ratio, not of s: order zero in s",
-            measure: order_in_s,
-        },
-        Check {
-            id: "single-printed-order",
-            statement: "the error of the printed single-precession solution is of first order in (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY), as the solution itself is",
-            bound: Bound::Within(0.9, 1.2),
-            reason: "a term of first order is missing from Eq. (29); at beta_0 = 0.3 its coefficient is some 0.01, and the second order adds a tenth to the slope",
-            measure: || order_in_asymmetry(Form::Printed, 1.0),
-            ..corrected_order
-        },
-        corrected_order,
-        Check {
-            id: "single-correction-at-full-s",
-            kind: Kind::Regime,
-            equations: &[33],
-            statement: "with the s of the examples the correction gains nothing: the error of sp-I stays within a hundredth, that of sp-II above the unit sphere's radius",
-            figure: "|1 - corrected / printed| of the distance of the axes over one forced period, sp-I; infinite if that of sp-II corrected is below 1",
-            bound: Bound::AtMost(0.01),
-            reason: "the error of sp-I is of the order s, that of sp-II of the square of (ratio / cos^2 beta_0): neither is the term that is added",
-            measure: correction_at_full_s,
-        },
-    ]
+checks! {
+    /// for beta_0 up to 1 the single-precession solution follows the motion through one forced period
+    Regime "single-mimics-small-inclination" [33, 34]: small_inclinations;
+    AtMost(1.0 / 3.0) "largest distance of the heads of the true and the approximate axis over one forced period, beta_0 = 0.1 to 1";
+    because "'mimic' read as staying within a third of the unit sphere's radius, with the coefficients of the examples";
+    /// towards beta_0 = pi/2 the single-precession solution fails completely, however small s is
+    Regime "single-fails-near-right-angle" [33, 34]: failure_near_right_angle;
+    AtLeast(1.0) "smallest distance reached over one forced period, beta_0 = 1.4 and 1.5, s scaled by 1, 0.1, 0.01";
+    because "'fails completely' read as losing the axis by more than the unit sphere's radius, 60 degrees";
+    /// at a fixed ratio of s^XX - s^YY to 2 s^ZZ - s^XX - s^YY the error over a forced period does not vanish with s, printed or corrected
+    Regime "single-error-not-of-order-s" [30, 33]: order_in_s;
+    Within(-0.05, 0.05) "slope of log(distance of the axes over one forced period) against log k, s scaled by k = 1e-2 to 1e-3, the one farther from \
+     zero";
+    because "alpha1 and beta1 have the size of the ratio, not of s: order zero in s";
+    /// the error of the printed single-precession solution is of first order in (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY), as the solution itself is
+    Regime "single-printed-order" [29, 30, 33]: || order_in_asymmetry(Form::Printed, 1.0);
+    Within(0.9, 1.2) "slope of log(distance of the axes over one forced period) against log of the ratio, 2.7e-3 to 2.7e-4, s scaled by 1e-8, the \
+     one farthest from the integer of beta_0 = 0.3, 0.7, 1.1";
+    because "a term of first order is missing from Eq. (29); at beta_0 = 0.3 its coefficient is some 0.01, and the second order adds a tenth to the \
+     slope";
+    /// the error of the corrected single-precession solution is of second order in (s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)
+    Regime "single-corrected-order" [29, 30, 33]: || order_in_asymmetry(Form::Corrected, 2.0);
+    Within(1.95, 2.05) "slope of log(distance of the axes over one forced period) against log of the ratio, 2.7e-3 to 2.7e-4, s scaled by 1e-8, the \
+     one farthest from the integer of beta_0 = 0.3, 0.7, 1.1";
+    because "the first omitted terms are squares of the ratio, above 1e-7; terms of the order s are below 1e-9; an integer order measured to 0.05";
+    /// with the s of the examples the correction gains nothing: the error of sp-I stays within a hundredth, that of sp-II above the unit sphere's
+    /// radius
+    Regime "single-correction-at-full-s" [33]: correction_at_full_s;
+    AtMost(0.01) "|1 - corrected / printed| of the distance of the axes over one forced period, sp-I; infinite if that of sp-II corrected is below 1";
+    because "the error of sp-I is of the order s, that of sp-II of the square of (ratio / cos^2 beta_0): neither is the term that is added";
 }
 
 /// The paper's numbers with `s` scaled by `k`.

@@ -12,54 +12,32 @@ use twofold::solutions::perturbation::{Form, Precession};
 use twofold::units::JULIAN_YEAR;
 
 use super::perturbation_error::{Case, axis_at};
-use crate::check::{Bound, Check, Kind, Measured, least_of, worst_of};
+use crate::check::{Measured, checks, least_of, worst_of};
 use crate::random::worst_of_draws;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "small-s-single",
-            kind: Kind::Regime,
-            equations: &[33, 34],
-            statement: "for beta_0 up to 1 the single-precession solution follows the motion through one forced period at s of 1e-6 to 1e-14 too, 1e12 turns",
-            figure: "largest distance of the heads of the true and the approximate axis over one forced period, beta_0 = 0.1 to 1",
-            bound: Bound::AtMost(1.0 / 3.0),
-            reason: "as for the examples: within a third of the unit sphere's radius",
-            measure: || {
-                worst_of(single(&[0.1, 0.3, 0.5, 0.7, 0.9, 1.0]), |case| case.axis_error_over_forced_period(1000))
-            },
-        },
-        Check {
-            id: "small-s-single-right-angle",
-            kind: Kind::Regime,
-            equations: &[33, 34],
-            statement: "the single-precession solution fails towards beta_0 = pi/2 as it does for the examples",
-            figure: "smallest distance reached over one forced period, beta_0 = 1.4 and 1.5",
-            bound: Bound::AtLeast(1.0),
-            reason: "as for the examples: more than the unit sphere's radius",
-            measure: || least_of(single(&[1.4, 1.5]), |case| case.axis_error_over_forced_period(1000)),
-        },
-        Check {
-            id: "small-s-twofold",
-            kind: Kind::Regime,
-            equations: &[30, 33],
-            statement: "the twofold solution, even the corrected one, holds the direction of L fixed: half a turn of its slow precession later L is on the other side of Z, however small s is",
-            figure: "smallest distance of the directions of L (the axis averaged over a fast rotation) over its tilt A / a, half a slow turn later, s scaled by 1e-5, 1e-7, 1e-9",
-            bound: Bound::AtLeast(1.5),
-            reason: "twice the tilt, less where the turn is an ellipse",
-            measure: twofold,
-        },
-        Check {
-            id: "small-s-drift",
-            kind: Kind::Regime,
-            equations: &[40, 41],
-            statement: "over 15 years of a millisecond pulsar with s of 1e-16 to 1e-12 the estimate (40), from the root mean square change of cos lambda over observers, gives sin(beta_0) / sqrt(3) of the combination of s",
-            figure: "largest |estimate / (combination sin(beta_0) / sqrt 3) - 1|, 40 random stars, beta_0 from 0.2 to 1.1",
-            bound: Bound::AtMost(1e-2),
-            reason: "the angle gone, at most 1e-2 rad; rounding is 1e-15 of 1e-6 rad",
-            measure: drift,
-        },
-    ]
+checks! {
+    /// for beta_0 up to 1 the single-precession solution follows the motion through one forced period at s of 1e-6 to 1e-14 too, 1e12 turns
+    Regime "small-s-single" [33, 34]: || {
+        worst_of(single(&[0.1, 0.3, 0.5, 0.7, 0.9, 1.0]), |case| case.axis_error_over_forced_period(1000))
+    };
+    AtMost(1.0 / 3.0) "largest distance of the heads of the true and the approximate axis over one forced period, beta_0 = 0.1 to 1";
+    because "as for the examples: within a third of the unit sphere's radius";
+    /// the single-precession solution fails towards beta_0 = pi/2 as it does for the examples
+    Regime "small-s-single-right-angle" [33, 34]:
+        || least_of(single(&[1.4, 1.5]), |case| case.axis_error_over_forced_period(1000));
+    AtLeast(1.0) "smallest distance reached over one forced period, beta_0 = 1.4 and 1.5";
+    because "as for the examples: more than the unit sphere's radius";
+    /// the twofold solution, even the corrected one, holds the direction of L fixed: half a turn of its slow precession later L is on the other
+    /// side of Z, however small s is
+    Regime "small-s-twofold" [30, 33]: twofold;
+    AtLeast(1.5) "smallest distance of the directions of L (the axis averaged over a fast rotation) over its tilt A / a, half a slow turn later, s \
+     scaled by 1e-5, 1e-7, 1e-9";
+    because "twice the tilt, less where the turn is an ellipse";
+    /// over 15 years of a millisecond pulsar with s of 1e-16 to 1e-12 the estimate (40), from the root mean square change of cos lambda over
+    /// observers, gives sin(beta_0) / sqrt(3) of the combination of s
+    Regime "small-s-drift" [40, 41]: drift;
+    AtMost(1e-2) "largest |estimate / (combination sin(beta_0) / sqrt 3) - 1|, 40 random stars, beta_0 from 0.2 to 1.1";
+    because "the angle gone, at most 1e-2 rad; rounding is 1e-15 of 1e-6 rad";
 }
 
 /// The examples' single precession, with `s` scaled down.

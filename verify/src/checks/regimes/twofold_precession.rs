@@ -7,7 +7,7 @@ use twofold::propagation::Motion;
 use twofold::solutions::perturbation::{Form, Precession};
 
 use super::perturbation_error::Case;
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, least_of};
+use crate::check::{Measured, Worst, checks, largest, least_of};
 use crate::measured_order::{errors_at, measured_order};
 
 /// A case of twofold precession with the paper's numbers.
@@ -18,79 +18,36 @@ fn paper(form: Form, k: f64, beta_0: f64, amplitude: f64) -> Case {
 /// Errors below this are rounding: 10 t_c of motion at 1e-15.
 const ROUNDING: f64 = 1e-13;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "twofold-printed-order",
-            kind: Kind::Regime,
-            equations: &[29, 30, 33],
-            statement: "the error of the printed twofold solution is of first order in s, that of the solution itself",
-            figure: "slope of log(error of beta over 10 t_c) against log k, tp-I with s scaled by k = 1e-2 to 1e-6",
-            bound: Bound::Within(0.95, 1.05),
-            reason: "a term of first order is missing from Eq. (29); an integer order measured to 0.05",
-            measure: || order_in_s(Form::Printed, 4..=12),
-        },
-        Check {
-            id: "twofold-corrected-order",
-            kind: Kind::Regime,
-            equations: &[29, 30, 33],
-            statement: "the error of the corrected twofold solution is of second order in s",
-            figure: "slope of log(error of beta over 10 t_c) against log k, tp-I with s scaled by k = 0.1 to 1e-5",
-            bound: Bound::Within(1.95, 2.05),
-            reason: "the first omitted terms are s^2; an integer order measured to 0.05",
-            measure: || order_in_s(Form::Corrected, 2..=10),
-        },
-        Check {
-            id: "twofold-printed-tilt",
-            kind: Kind::Regime,
-            equations: &[30, 33],
-            statement: "without Lorentz violation the printed homogeneous solution is off by about twice its own amplitude",
-            figure: "smallest error of beta over 10 t_c / (A / omega), A = 0.01 to 1e-5",
-            bound: Bound::AtLeast(1.5),
-            reason: "its frequency omega differs from a = |L| / I^xx, and two sinusoids out of step differ by up to twice their size",
-            measure: printed_tilt,
-        },
-        Check {
-            id: "twofold-corrected-tilt-order",
-            kind: Kind::Regime,
-            equations: &[30, 33],
-            statement: "without Lorentz violation the corrected homogeneous solution has an error of second order in A",
-            figure: "slope of log(error of beta over 10 t_c) against log A, A = 0.1 to 1e-5",
-            bound: Bound::Within(1.95, 2.05),
-            reason: "a tilt of the angular momentum is a linear motion with the frequency a",
-            measure: corrected_tilt_order,
-        },
-        Check {
-            id: "twofold-corrected-growth",
-            kind: Kind::Regime,
-            equations: &[32, 57],
-            statement: "the error of alpha in the corrected solution grows linearly with time, that of beta does not grow",
-            figure: "exponent of the growth of the error of alpha from 10 to 640 t_c",
-            bound: Bound::Within(0.9, 1.1),
-            reason: "the rate a has an error of second order, the amplitude of beta a constant one",
-            measure: growth_with_time,
-        },
-        Check {
-            id: "twofold-corrected-everywhere-better",
-            kind: Kind::Regime,
-            equations: &[33],
-            statement: "at every beta_0, A and asymmetry of s the corrected solution is the better one",
-            figure: "largest error of beta, corrected / printed, s scaled by 1e-3",
-            bound: Bound::AtMost(0.5),
-            reason: "second order against first; only towards beta_0 = 0 and pi/2, where the dropped term vanishes, do they meet",
-            measure: corrected_is_better,
-        },
-        Check {
-            id: "twofold-fails-for-large-tilt",
-            kind: Kind::Regime,
-            equations: &[33, 34],
-            statement: "where A is not small, as in tp-II, the twofold solution does not follow the motion",
-            figure: "largest error of beta over 40 t_c of tp-II / swing of beta in the motion",
-            bound: Bound::AtLeast(0.5),
-            reason: "the error is as large as what is to be described",
-            measure: large_tilt,
-        },
-    ]
+checks! {
+    /// the error of the printed twofold solution is of first order in s, that of the solution itself
+    Regime "twofold-printed-order" [29, 30, 33]: || order_in_s(Form::Printed, 4..=12);
+    Within(0.95, 1.05) "slope of log(error of beta over 10 t_c) against log k, tp-I with s scaled by k = 1e-2 to 1e-6";
+    because "a term of first order is missing from Eq. (29); an integer order measured to 0.05";
+    /// the error of the corrected twofold solution is of second order in s
+    Regime "twofold-corrected-order" [29, 30, 33]: || order_in_s(Form::Corrected, 2..=10);
+    Within(1.95, 2.05) "slope of log(error of beta over 10 t_c) against log k, tp-I with s scaled by k = 0.1 to 1e-5";
+    because "the first omitted terms are s^2; an integer order measured to 0.05";
+    /// without Lorentz violation the printed homogeneous solution is off by about twice its own amplitude
+    Regime "twofold-printed-tilt" [30, 33]:
+        || least_of([1e-2, 1e-3, 1e-4, 1e-5], |&amplitude| Ok(tilt_error(Form::Printed, amplitude)? * 1.1 / amplitude));
+    AtLeast(1.5) "smallest error of beta over 10 t_c / (A / omega), A = 0.01 to 1e-5";
+    because "its frequency omega differs from a = |L| / I^xx, and two sinusoids out of step differ by up to twice their size";
+    /// without Lorentz violation the corrected homogeneous solution has an error of second order in A
+    Regime "twofold-corrected-tilt-order" [30, 33]: corrected_tilt_order;
+    Within(1.95, 2.05) "slope of log(error of beta over 10 t_c) against log A, A = 0.1 to 1e-5";
+    because "a tilt of the angular momentum is a linear motion with the frequency a";
+    /// the error of alpha in the corrected solution grows linearly with time, that of beta does not grow
+    Regime "twofold-corrected-growth" [32, 57]: growth_with_time;
+    Within(0.9, 1.1) "exponent of the growth of the error of alpha from 10 to 640 t_c";
+    because "the rate a has an error of second order, the amplitude of beta a constant one";
+    /// at every beta_0, A and asymmetry of s the corrected solution is the better one
+    Regime "twofold-corrected-everywhere-better" [33]: corrected_is_better;
+    AtMost(0.5) "largest error of beta, corrected / printed, s scaled by 1e-3";
+    because "second order against first; only towards beta_0 = 0 and pi/2, where the dropped term vanishes, do they meet";
+    /// where A is not small, as in tp-II, the twofold solution does not follow the motion
+    Regime "twofold-fails-for-large-tilt" [33, 34]: large_tilt;
+    AtLeast(0.5) "largest error of beta over 40 t_c of tp-II / swing of beta in the motion";
+    because "the error is as large as what is to be described";
 }
 
 fn scale(half_decades: i32) -> f64 {
@@ -105,10 +62,6 @@ fn order_in_s(form: Form, half_decades: std::ops::RangeInclusive<i32>) -> Result
 /// Error of beta over 10 t_c of the homogeneous solution alone. `s` is too small to matter; zero would leave `a^(1)` without a sign.
 fn tilt_error(form: Form, amplitude: f64) -> Result<f64, String> {
     Ok(paper(form, 1e-40, 0.7, amplitude).errors(10.0, 400)?.beta)
-}
-
-fn printed_tilt() -> Result<Measured, String> {
-    least_of([1e-2, 1e-3, 1e-4, 1e-5], |&amplitude| Ok(tilt_error(Form::Printed, amplitude)? * 1.1 / amplitude))
 }
 
 fn corrected_tilt_order() -> Result<Measured, String> {

@@ -4,46 +4,27 @@ use std::f64::consts::{PI, TAU};
 
 use twofold::observables::spectrum::{Series, Window, amplitude_spectrum};
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, worst_of};
+use crate::check::{Measured, Worst, checks, largest, worst_of};
 use crate::random::Random;
 
 const WINDOWS: [Window; 4] =
     [Window::Uniform, Window::Hann, Window::Kaiser { shape: 10.0 }, Window::Kaiser { shape: 20.0 }];
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "spectrum-amplitudes",
-            kind: Kind::Property,
-            equations: &[47, 71],
-            statement: "a sinusoid of amplitude A on a frequency of the transform has the amplitude A there, for every window, and a constant its size at frequency zero",
-            figure: "largest relative error, even and odd lengths",
-            bound: Bound::AtMost(4e-8),
-            reason: "what the Kaiser windows leak from the line at the negative frequency and the constant is below 1.8e-8 (shape 20), of the sum with the constant twice that; \
-                 the others leak nothing to whole bins; shape 10 is left out as it leaks 2e-4",
-            measure: amplitudes,
-        },
-        Check {
-            id: "spectrum-parseval",
-            kind: Kind::Property,
-            equations: &[47, 71],
-            statement: "the squares of a spectrum's amplitudes sum to the mean square of the tapered series (Parseval), for every window",
-            figure: "largest relative difference, random series of 16 to 1,000 values",
-            bound: Bound::AtMost(1e-14),
-            reason: "rounding of a transform, about 2.2e-16 log2(N) / 2, and of a sum of 1,000 squares",
-            measure: parseval,
-        },
-        Check {
-            id: "spectrum-windows",
-            kind: Kind::Property,
-            equations: &[47, 71],
-            statement: "each window's line has its first zero and its largest sidelobe where the documentation says",
-            figure: "largest relative deviation of the largest sidelobe and of the half width",
-            bound: Bound::AtMost(0.03),
-            reason: "two digits are documented; the scan has 100 points a bin",
-            measure: windows,
-        },
-    ]
+checks! {
+    /// a sinusoid of amplitude A on a frequency of the transform has the amplitude A there, for every window, and a constant its size at frequency
+    /// zero
+    Property "spectrum-amplitudes" [47, 71]: amplitudes;
+    AtMost(4e-8) "largest relative error, even and odd lengths";
+    because "what the Kaiser windows leak from the line at the negative frequency and the constant is below 1.8e-8 (shape 20), of the sum with the \
+     constant twice that; the others leak nothing to whole bins; shape 10 is left out as it leaks 2e-4";
+    /// the squares of a spectrum's amplitudes sum to the mean square of the tapered series (Parseval), for every window
+    Property "spectrum-parseval" [47, 71]: parseval;
+    AtMost(1e-14) "largest relative difference, random series of 16 to 1,000 values";
+    because "rounding of a transform, about 2.2e-16 log2(N) / 2, and of a sum of 1,000 squares";
+    /// each window's line has its first zero and its largest sidelobe where the documentation says
+    Property "spectrum-windows" [47, 71]: windows;
+    AtMost(0.03) "largest relative deviation of the largest sidelobe and of the half width";
+    because "two digits are documented; the scan has 100 points a bin";
 }
 
 fn amplitudes() -> Result<Measured, String> {

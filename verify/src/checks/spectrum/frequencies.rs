@@ -12,54 +12,30 @@ use twofold::observables::fundamental_frequencies::{
 use twofold::solutions::symmetric::SymmetricSolution;
 
 use super::signals::{AVERAGING, motion_of};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::random::Random;
 use crate::reference::reference_motion;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "mean-rates-of-examples",
-            kind: Kind::Oracle,
-            equations: &[32, 57],
-            statement: "mean rates of alpha, gamma and the azimuth of L of the four examples equal those of integration over 20,000 t_c with quadruple precision checks",
-            figure: "largest difference beyond half a unit of the reference's last digit [1/t_c]",
-            bound: Bound::AtMost(1e-11),
-            reason: "averages over 2,400 t_c have converged to the last digits of the references, 1e-11 and 1e-10",
-            measure: rates_of_examples,
-        },
-        Check {
-            id: "mean-rates-symmetric",
-            kind: Kind::Oracle,
-            equations: &[25, 32, 57],
-            statement: "for s^XX = s^YY the mean rates of alpha and gamma, the nutation and the slow precession are those of the exact solution in elliptic functions: \
-                 the nutation is 2 pi over the period of the inclination, and alpha' = l' + nu' or l'",
-            figure: "largest difference [1/t_c], 6 random motions of both kinds",
-            bound: Bound::AtMost(1e-11),
-            reason: "averages over 2,400 t_c have converged to some 1e-12, and the exact solution is right to as much",
-            measure: symmetric_motions,
-        },
-        Check {
-            id: "mean-rates-of-frame",
-            kind: Kind::Property,
-            equations: &[36],
-            statement: "the same motion in the frames X-Y-Z, Y-Z-X and Z-X-Y has the same frequencies about the same principal axis, also where that is X; about an axis that L does not go round the slow rate is zero",
-            figure: "largest difference [1/t_c], tp-II and a motion about the axis of the largest eigenvalue",
-            bound: Bound::AtMost(2e-11),
-            reason: "two averages over 2,400 t_c, each off by 1e-11 at most as in the checks before",
-            measure: frames,
-        },
-        Check {
-            id: "mean-rate-uncertainty",
-            kind: Kind::Property,
-            equations: &[32, 57],
-            statement: "a mean rate over a shorter span differs from that over 2,400 t_c by no more than its estimated error",
-            figure: "largest difference / sum of the two estimates, four examples, spans of 800 and 1,400 t_c",
-            bound: Bound::AtMost(1.0),
-            reason: "the estimate compares with spans a quarter shorter, whose error is larger while averaging converges",
-            measure: uncertainties,
-        },
-    ]
+checks! {
+    /// mean rates of alpha, gamma and the azimuth of L of the four examples equal those of integration over 20,000 t_c with quadruple precision
+    /// checks
+    Oracle "mean-rates-of-examples" [32, 57]: rates_of_examples;
+    AtMost(1e-11) "largest difference beyond half a unit of the reference's last digit [1/t_c]";
+    because "averages over 2,400 t_c have converged to the last digits of the references, 1e-11 and 1e-10";
+    /// for s^XX = s^YY the mean rates of alpha and gamma, the nutation and the slow precession are those of the exact solution in elliptic
+    /// functions: the nutation is 2 pi over the period of the inclination, and alpha' = l' + nu' or l'
+    Oracle "mean-rates-symmetric" [25, 32, 57]: symmetric_motions;
+    AtMost(1e-11) "largest difference [1/t_c], 6 random motions of both kinds";
+    because "averages over 2,400 t_c have converged to some 1e-12, and the exact solution is right to as much";
+    /// the same motion in the frames X-Y-Z, Y-Z-X and Z-X-Y has the same frequencies about the same principal axis, also where that is X; about an
+    /// axis that L does not go round the slow rate is zero
+    Property "mean-rates-of-frame" [36]: frames;
+    AtMost(2e-11) "largest difference [1/t_c], tp-II and a motion about the axis of the largest eigenvalue";
+    because "two averages over 2,400 t_c, each off by 1e-11 at most as in the checks before";
+    /// a mean rate over a shorter span differs from that over 2,400 t_c by no more than its estimated error
+    Property "mean-rate-uncertainty" [32, 57]: uncertainties;
+    AtMost(1.0) "largest difference / sum of the two estimates, four examples, spans of 800 and 1,400 t_c";
+    because "the estimate compares with spans a quarter shorter, whose error is larger while averaging converges";
 }
 
 fn known(rate: Option<MeanRate>, what: &str) -> Result<f64, String> {

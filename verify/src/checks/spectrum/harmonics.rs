@@ -5,7 +5,7 @@ use std::ops::Range;
 use twofold::observables::spectrum::{LineList, SpectralLine};
 
 use super::signals::{Example, examples, strongest};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, smallest};
+use crate::check::{Measured, Worst, checks, largest, smallest};
 
 /// Frequencies about the fundamental, the second, third and fourth harmonic, for both examples [1/t_c].
 const FUNDAMENTAL: Range<f64> = 1.0..2.0;
@@ -13,89 +13,42 @@ const SECOND: Range<f64> = 2.5..3.5;
 const THIRD: Range<f64> = 4.0..5.0;
 const FOURTH: Range<f64> = 5.4..6.4;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "third-harmonic-tp-1",
-            kind: Kind::Oracle,
-            equations: &[71],
-            statement: "h of tp-I has a third harmonic at exactly three times its fundamental, alpha'",
-            figure: "|3 w_1 - w_3| of the highest lines about 1.5 and 4.5, h_+ and h_x [1/t_c]",
-            bound: Bound::AtMost(1e-9),
-            reason: "the documented error of a frequency of a line list",
-            measure: || third_harmonic(0),
-        },
-        Check {
-            id: "third-harmonic-tp-2",
-            kind: Kind::Oracle,
-            equations: &[71],
-            statement: "in tp-II the highest line about the third harmonic is 3 alpha' - l', not three times the fundamental alpha'; the line 3 alpha' is there and lower",
-            figure: "|3 w_1 - w_3| of the highest lines about 1.4 and 4.2, h_+ and h_x [1/t_c]",
-            bound: Bound::Within(0.0354, 0.0355),
-            reason: "the slow frequency, 0.03546; zero is claimed",
-            measure: || third_harmonic(1),
-        },
-        Check {
-            id: "third-harmonic-weaker",
-            kind: Kind::Oracle,
-            equations: &[71],
-            statement: "the third harmonic of tp-I is weaker than that of tp-II",
-            figure: "largest ratio of the two, each the highest line there over the highest about the fundamental, h_+ and h_x",
-            bound: Bound::AtMost(0.5),
-            reason: "'further suppressed' read as at most half",
-            measure: third_harmonic_ratio,
-        },
-        Check {
-            id: "fourth-harmonic-tp-1",
-            kind: Kind::Oracle,
-            equations: &[71],
-            statement: "'frequencies higher than the third harmonic have even much smaller amplitudes' does not hold in tp-I: the fourth has about half the amplitude of the third, or more",
-            figure: "smallest ratio of the highest lines about the fourth and the third harmonic, h_+ and h_x",
-            bound: Bound::AtLeast(0.4),
-            reason: "'much smaller' would be a fifth or less",
-            measure: || Ok(extreme(smallest, ratios(&examples()?[0], FOURTH, THIRD)?)),
-        },
-        Check {
-            id: "fourth-harmonic-tp-2",
-            kind: Kind::Oracle,
-            equations: &[71],
-            statement: "in tp-II the fourth harmonic is much smaller than the third",
-            figure: "largest ratio of the highest lines about the fourth and the third harmonic, h_+ and h_x",
-            bound: Bound::AtMost(0.2),
-            reason: "'much smaller' read as at most a fifth",
-            measure: || Ok(extreme(largest, ratios(&examples()?[1], FOURTH, THIRD)?)),
-        },
-        Check {
-            id: "spectra-peaks",
-            kind: Kind::Oracle,
-            equations: &[47, 48, 71],
-            statement: "the highest lines about the fundamental are at the mean rates of alpha, not at the 1.438 / t_c of free precession that the figures mark",
-            figure: "largest distance of the highest line between 1 and 2 from the mean rate of alpha, m.n, h_+ and h_x of tp-I and tp-II [1/t_c]",
-            bound: Bound::AtMost(1e-9),
-            reason: "the documented error of a frequency of a line list; 1.438 is 0.04 and 0.07 away",
-            measure: peaks,
-        },
-        Check {
-            id: "wave-lines-not-harmonics",
-            kind: Kind::Oracle,
-            equations: &[71],
-            statement: "the waves of tp-II are not made of harmonics of the mean rate of alpha alone: combinations with the slow frequency hold a share of their power",
-            figure: "least share of the sum of squared amplitudes in lines that are no multiple of alpha', h_+ and h_x",
-            bound: Bound::AtLeast(0.01),
-            reason: "none is claimed by 'all harmonics of the average rate of alpha'; a hundredth is far above the lines' errors",
-            measure: not_harmonics,
-        },
-        Check {
-            id: "wave-harmonics-fall",
-            kind: Kind::Oracle,
-            equations: &[71],
-            statement: "h of tp-I and tp-II has lines at alpha' to 4 alpha' and none higher from the third on than a tenth of the second",
-            figure: "largest ratio of the highest line about the third or fourth harmonic to that about the second, h_+ and h_x; infinite if a multiple is missing",
-            bound: Bound::AtMost(0.1),
-            reason: "'decrease rapidly' read as at most a tenth",
-            measure: harmonics_fall,
-        },
-    ]
+checks! {
+    /// h of tp-I has a third harmonic at exactly three times its fundamental, alpha'
+    Oracle "third-harmonic-tp-1" [71]: || third_harmonic(0);
+    AtMost(1e-9) "|3 w_1 - w_3| of the highest lines about 1.5 and 4.5, h_+ and h_x [1/t_c]";
+    because "the documented error of a frequency of a line list";
+    /// in tp-II the highest line about the third harmonic is 3 alpha' - l', not three times the fundamental alpha'; the line 3 alpha' is there and
+    /// lower
+    Oracle "third-harmonic-tp-2" [71]: || third_harmonic(1);
+    Within(0.0354, 0.0355) "|3 w_1 - w_3| of the highest lines about 1.4 and 4.2, h_+ and h_x [1/t_c]";
+    because "the slow frequency, 0.03546; zero is claimed";
+    /// the third harmonic of tp-I is weaker than that of tp-II
+    Oracle "third-harmonic-weaker" [71]: third_harmonic_ratio;
+    AtMost(0.5) "largest ratio of the two, each the highest line there over the highest about the fundamental, h_+ and h_x";
+    because "'further suppressed' read as at most half";
+    /// 'frequencies higher than the third harmonic have even much smaller amplitudes' does not hold in tp-I: the fourth has about half the
+    /// amplitude of the third, or more
+    Oracle "fourth-harmonic-tp-1" [71]: || Ok(extreme(smallest, ratios(&examples()?[0], FOURTH, THIRD)?));
+    AtLeast(0.4) "smallest ratio of the highest lines about the fourth and the third harmonic, h_+ and h_x";
+    because "'much smaller' would be a fifth or less";
+    /// in tp-II the fourth harmonic is much smaller than the third
+    Oracle "fourth-harmonic-tp-2" [71]: || Ok(extreme(largest, ratios(&examples()?[1], FOURTH, THIRD)?));
+    AtMost(0.2) "largest ratio of the highest lines about the fourth and the third harmonic, h_+ and h_x";
+    because "'much smaller' read as at most a fifth";
+    /// the highest lines about the fundamental are at the mean rates of alpha, not at the 1.438 / t_c of free precession that the figures mark
+    Oracle "spectra-peaks" [47, 48, 71]: peaks;
+    AtMost(1e-9) "largest distance of the highest line between 1 and 2 from the mean rate of alpha, m.n, h_+ and h_x of tp-I and tp-II [1/t_c]";
+    because "the documented error of a frequency of a line list; 1.438 is 0.04 and 0.07 away";
+    /// the waves of tp-II are not made of harmonics of the mean rate of alpha alone: combinations with the slow frequency hold a share of their power
+    Oracle "wave-lines-not-harmonics" [71]: not_harmonics;
+    AtLeast(0.01) "least share of the sum of squared amplitudes in lines that are no multiple of alpha', h_+ and h_x";
+    because "none is claimed by 'all harmonics of the average rate of alpha'; a hundredth is far above the lines' errors";
+    /// h of tp-I and tp-II has lines at alpha' to 4 alpha' and none higher from the third on than a tenth of the second
+    Oracle "wave-harmonics-fall" [71]: harmonics_fall;
+    AtMost(0.1) "largest ratio of the highest line about the third or fourth harmonic to that about the second, h_+ and h_x; infinite if a multiple \
+     is missing";
+    because "'decrease rapidly' read as at most a tenth";
 }
 
 /// The amplitude of the highest line about a harmonic over that about another one, of `h_+` and of `h_x`.

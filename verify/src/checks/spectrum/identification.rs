@@ -2,32 +2,19 @@
 
 use twofold::observables::spectrum::{FrequencyBasis, Generator, Identification};
 
-use crate::check::{Bound, Check, Kind, Measured};
+use crate::check::{Measured, checks};
 use crate::random::Random;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "line-identification-random",
-            kind: Kind::Property,
-            equations: &[47, 71],
-            statement: "frequencies that are no combination are reported as unidentified: of 20,000 random ones no more than the chance of 1e-3 allows are taken for one",
-            figure: "share identified / 1e-3, with an error of 1e-5; infinite if one is identified with an error of 1e-11, or if none is with 1e-5",
-            bound: Bound::AtMost(1.68),
-            reason: "1e-3 is allowed: 20 of 20,000, and three standard deviations are 13.4",
-            measure: random_frequencies,
-        },
-        Check {
-            id: "line-identification-known",
-            kind: Kind::Property,
-            equations: &[47, 71],
-            statement: "every combination up to order 8 of the frequencies of tp-II, given with an error of 1e-10, is identified as itself",
-            figure: "combinations not identified, or as another one",
-            bound: Bound::AtMost(0.0),
-            reason: "no two combinations of orders up to 10 are within 1e-9 of each other",
-            measure: known_combinations,
-        },
-    ]
+checks! {
+    /// frequencies that are no combination are reported as unidentified: of 20,000 random ones no more than the chance of 1e-3 allows are taken for
+    /// one
+    Property "line-identification-random" [47, 71]: random_frequencies;
+    AtMost(1.68) "share identified / 1e-3, with an error of 1e-5; infinite if one is identified with an error of 1e-11, or if none is with 1e-5";
+    because "1e-3 is allowed: 20 of 20,000, and three standard deviations are 13.4";
+    /// every combination up to order 8 of the frequencies of tp-II, given with an error of 1e-10, is identified as itself
+    Property "line-identification-known" [47, 71]: known_combinations;
+    AtMost(0.0) "combinations not identified, or as another one";
+    because "no two combinations of orders up to 10 are within 1e-9 of each other";
 }
 
 /// The frequencies of tp-II.

@@ -5,43 +5,24 @@ use std::f64::consts::{PI, TAU};
 use twofold::observables::spectrum::{LineList, Series, SpectralLine, spectral_lines};
 
 use super::signals::{beam, examples, line_of_sight, motion_of};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::random::Random;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "line-list-synthetic",
-            kind: Kind::Oracle,
-            equations: &[47, 71],
-            statement: "the lines of a known sum, amplitudes 1 to 1e-6, at random frequencies 0.02 apart or more, beside a constant: none missed, none invented, \
-                 frequencies, amplitudes and phases found",
-            figure: "largest error of a frequency [1/t_c], 8 sums of 24 lines over 4,000 t_c",
-            bound: Bound::AtMost(1e-9),
-            reason: "the documented error of a frequency of a line list",
-            measure: synthetic_sums,
-        },
-        Check {
-            id: "line-list-resolution",
-            kind: Kind::Oracle,
-            equations: &[47, 71],
-            statement: "two lines 10/T to 40/T apart, amplitude ratios 1 to 1e-3, and one line 10/T to 40/T from zero are found as such, and no error of a frequency exceeds three times its estimate",
-            figure: "largest error of a frequency in units of 2/T, T = 4,000 t_c",
-            bound: Bound::AtMost(1e-6),
-            reason: "1e-9 / t_c at T = 2,000 t_c in that unit: the documented error of a frequency, at the least distance documented",
-            measure: close_lines,
-        },
-        Check {
-            id: "line-list-incomplete",
-            kind: Kind::Oracle,
-            equations: &[47],
-            statement: "of m.n of tp-II over spans too short to resolve its lines, cut at 10 to 50 of them, the estimated errors of the frequencies are not too small",
-            figure: "largest error / estimated error of the ten strongest lines, spans of 3,000 to 8,000 t_c",
-            bound: Bound::AtMost(3.0),
-            reason: "an estimate; three times it for the other lists too",
-            measure: incomplete_lists,
-        },
-    ]
+checks! {
+    /// the lines of a known sum, amplitudes 1 to 1e-6, at random frequencies 0.02 apart or more, beside a constant: none missed, none invented,
+    /// frequencies, amplitudes and phases found
+    Oracle "line-list-synthetic" [47, 71]: synthetic_sums;
+    AtMost(1e-9) "largest error of a frequency [1/t_c], 8 sums of 24 lines over 4,000 t_c";
+    because "the documented error of a frequency of a line list";
+    /// two lines 10/T to 40/T apart, amplitude ratios 1 to 1e-3, and one line 10/T to 40/T from zero are found as such, and no error of a frequency
+    /// exceeds three times its estimate
+    Oracle "line-list-resolution" [47, 71]: close_lines;
+    AtMost(1e-6) "largest error of a frequency in units of 2/T, T = 4,000 t_c";
+    because "1e-9 / t_c at T = 2,000 t_c in that unit: the documented error of a frequency, at the least distance documented";
+    /// of m.n of tp-II over spans too short to resolve its lines, cut at 10 to 50 of them, the estimated errors of the frequencies are not too small
+    Oracle "line-list-incomplete" [47]: incomplete_lists;
+    AtMost(3.0) "largest error / estimated error of the ten strongest lines, spans of 3,000 to 8,000 t_c";
+    because "an estimate; three times it for the other lists too";
 }
 
 fn sum_of(lines: &[SpectralLine], constant: f64, start: f64, step: f64, count: usize) -> Series {

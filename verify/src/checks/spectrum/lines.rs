@@ -7,85 +7,43 @@ use twofold::observables::spectrum::{Series, SpectralLine, spectral_lines};
 use twofold::solutions::free::free_precession_rates;
 
 use super::signals::{Example, beam, examples, line_of_sight, strongest, wave_of};
-use crate::check::{Bound, Check, Kind, Measured, Worst};
+use crate::check::{Measured, Worst, checks};
 use crate::paper_examples::COEFFICIENTS;
 
 /// Frequencies of the order of the coefficients for Lorentz violation [1/t_c].
 const SLOW: std::ops::Range<f64> = 0.01..0.1;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "lines-identified",
-            kind: Kind::Oracle,
-            equations: &[47, 71],
-            statement: "every line of m.n above 1e-4 and of h_+ and h_x above 1e-6 of tp-I and tp-II is one combination of alpha', gamma' and the slow frequency",
-            figure: "lines unidentified or ambiguous",
-            bound: Bound::AtMost(0.0),
-            reason: "the motion is quasi-periodic with these three frequencies",
-            measure: all_identified,
-        },
-        Check {
-            id: "lines-of-motion",
-            kind: Kind::Oracle,
-            equations: &[47, 71],
-            statement: "the frequencies of these lines, found in the series alone, are those combinations of the mean rates",
-            figure: "largest difference, m.n above 1e-4, h above 1e-5 [1/t_c]",
-            bound: Bound::AtMost(1e-9),
-            reason: "the documented error of a frequency of a line list",
-            measure: lines_against_rates,
-        },
-        Check {
-            id: "free-precession-lines",
-            kind: Kind::Oracle,
-            equations: &[47, 48, 68, 71],
-            statement: "in free precession m.n has exactly four lines, alpha', |gamma'| and alpha' +- gamma', and h exactly two, alpha' and 2 alpha'",
-            figure: "largest amplitude in the spectrum of what these leave; infinite if one is missing or off by more than 1e-11",
-            bound: Bound::AtMost(1e-11),
-            reason: "the motion and the products of its components are rounded at 1e-15, its phase at 3e-12 over the span",
-            measure: free_precession,
-        },
-        Check {
-            id: "slow-line-tp-2",
-            kind: Kind::Oracle,
-            equations: &[47, 57],
-            statement: "m.n of tp-II has a line between 0.03 and 0.04 / t_c, and it is the mean rate of the azimuth of L about Z",
-            figure: "|frequency of the strongest line there - |mean rate|| [1/t_c]; infinite if it is below a tenth of the highest line",
-            bound: Bound::AtMost(1e-9),
-            reason: "the documented error of a frequency of a line list",
-            measure: slow_line_of_tp_2,
-        },
-        Check {
-            id: "slow-line-tp-1",
-            kind: Kind::Oracle,
-            equations: &[47, 57],
-            statement: "m.n of tp-I shows no such line: the azimuth of L counts turns of alpha, and the slow frequency, 0.0280 / t_c, is there all the same with less than a hundredth of the highest amplitude",
-            figure: "largest amplitude between 0.01 and 0.1 / that of the highest line; infinite unless L and alpha have one mean rate and the line is that of the averaged L",
-            bound: Bound::AtMost(0.01),
-            reason: "a hundredth cannot be seen on the figure's linear axis",
-            measure: slow_line_of_tp_1,
-        },
-        Check {
-            id: "slow-line-waves",
-            kind: Kind::Oracle,
-            equations: &[57, 71],
-            statement: "the waves of tp-I and tp-II show no line of the order of the coefficients",
-            figure: "largest amplitude between 0.01 and 0.1 / that of the highest line, h_+ and h_x",
-            bound: Bound::AtMost(0.01),
-            reason: "a hundredth cannot be seen on the figure's linear axis",
-            measure: slow_line_of_waves,
-        },
-        Check {
-            id: "slow-frequency-magnitude",
-            kind: Kind::Oracle,
-            equations: &[35, 57],
-            statement: "the slow frequency of tp-II has the order of magnitude of the coefficients for Lorentz violation",
-            figure: "|slow frequency| t_c / geometric mean of |s^XX|, |s^YY|, |s^ZZ|",
-            bound: Bound::Within(10f64.powf(-0.5), 3.162_277_660_168_379_5),
-            reason: "half a decade on either side",
-            measure: slow_magnitude,
-        },
-    ]
+checks! {
+    /// every line of m.n above 1e-4 and of h_+ and h_x above 1e-6 of tp-I and tp-II is one combination of alpha', gamma' and the slow frequency
+    Oracle "lines-identified" [47, 71]: all_identified;
+    AtMost(0.0) "lines unidentified or ambiguous";
+    because "the motion is quasi-periodic with these three frequencies";
+    /// the frequencies of these lines, found in the series alone, are those combinations of the mean rates
+    Oracle "lines-of-motion" [47, 71]: lines_against_rates;
+    AtMost(1e-9) "largest difference, m.n above 1e-4, h above 1e-5 [1/t_c]";
+    because "the documented error of a frequency of a line list";
+    /// in free precession m.n has exactly four lines, alpha', |gamma'| and alpha' +- gamma', and h exactly two, alpha' and 2 alpha'
+    Oracle "free-precession-lines" [47, 48, 68, 71]: free_precession;
+    AtMost(1e-11) "largest amplitude in the spectrum of what these leave; infinite if one is missing or off by more than 1e-11";
+    because "the motion and the products of its components are rounded at 1e-15, its phase at 3e-12 over the span";
+    /// m.n of tp-II has a line between 0.03 and 0.04 / t_c, and it is the mean rate of the azimuth of L about Z
+    Oracle "slow-line-tp-2" [47, 57]: slow_line_of_tp_2;
+    AtMost(1e-9) "|frequency of the strongest line there - |mean rate|| [1/t_c]; infinite if it is below a tenth of the highest line";
+    because "the documented error of a frequency of a line list";
+    /// m.n of tp-I shows no such line: the azimuth of L counts turns of alpha, and the slow frequency, 0.0280 / t_c, is there all the same with
+    /// less than a hundredth of the highest amplitude
+    Oracle "slow-line-tp-1" [47, 57]: slow_line_of_tp_1;
+    AtMost(0.01) "largest amplitude between 0.01 and 0.1 / that of the highest line; infinite unless L and alpha have one mean rate and the line is \
+     that of the averaged L";
+    because "a hundredth cannot be seen on the figure's linear axis";
+    /// the waves of tp-I and tp-II show no line of the order of the coefficients
+    Oracle "slow-line-waves" [57, 71]: slow_line_of_waves;
+    AtMost(0.01) "largest amplitude between 0.01 and 0.1 / that of the highest line, h_+ and h_x";
+    because "a hundredth cannot be seen on the figure's linear axis";
+    /// the slow frequency of tp-II has the order of magnitude of the coefficients for Lorentz violation
+    Oracle "slow-frequency-magnitude" [35, 57]: slow_magnitude;
+    Within(10f64.powf(-0.5), 3.162_277_660_168_379_5) "|slow frequency| t_c / geometric mean of |s^XX|, |s^YY|, |s^ZZ|";
+    because "half a decade on either side";
 }
 
 fn each_line(

@@ -6,33 +6,20 @@ use nalgebra::{DMatrix, DVector};
 use twofold::observables::pulsar::Stamped;
 
 use super::signals::{Example, beam, examples, line_of_sight};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::pulse_series::PulseSeries;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "period-series-40",
-            kind: Kind::Oracle,
-            equations: &[51, 57],
-            statement: "the series of pulse periods and widths of tp-I and tp-II have a period of about 40 t_c, that of gamma",
-            figure: "largest |2 pi / w - 40|, w between 0.1 and 0.2 / t_c the frequency whose first four multiples fit best [t_c]; infinite unless w is the rate of gamma",
-            bound: Bound::AtMost(5.0),
-            reason: "'about 40' read as 35 to 45",
-            measure: period_of_gamma,
-        },
-        Check {
-            id: "period-series-180",
-            kind: Kind::Oracle,
-            equations: &[51, 57],
-            statement: "those of tp-II have a period of about 180 t_c too, that of the slow precession",
-            figure: "largest |2 pi / w - 180|, w between 0.025 and 0.045 / t_c the frequency that fits best beside six multiples of gamma's [t_c]; infinite unless \
-                 w is the slow frequency and its amplitude half of the largest",
-            bound: Bound::AtMost(10.0),
-            reason: "'about 180' read as 170 to 190",
-            measure: period_of_slow_precession,
-        },
-    ]
+checks! {
+    /// the series of pulse periods and widths of tp-I and tp-II have a period of about 40 t_c, that of gamma
+    Oracle "period-series-40" [51, 57]: period_of_gamma;
+    AtMost(5.0) "largest |2 pi / w - 40|, w between 0.1 and 0.2 / t_c the frequency whose first four multiples fit best [t_c]; infinite unless w is \
+     the rate of gamma";
+    because "'about 40' read as 35 to 45";
+    /// those of tp-II have a period of about 180 t_c too, that of the slow precession
+    Oracle "period-series-180" [51, 57]: period_of_slow_precession;
+    AtMost(10.0) "largest |2 pi / w - 180|, w between 0.025 and 0.045 / t_c the frequency that fits best beside six multiples of gamma's [t_c]; \
+     infinite unless w is the slow frequency and its amplitude half of the largest";
+    because "'about 180' read as 170 to 190";
 }
 
 /// Period of gamma in the series of both examples: that whose first four multiples fit best.

@@ -8,54 +8,31 @@ use twofold::observables::spectrum::Window;
 use twofold::propagation::Motion;
 use twofold::solutions::averaged::slow_precession::slow_precession;
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::measured_order::order_of_error;
 use crate::random::{Random, worst_of_draws};
 use crate::reference::reference_motion;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "slow-precession-averaged",
-            kind: Kind::Oracle,
-            equations: &[32, 57],
-            statement: "the closed formula is the mean rate of dl/dt = kappa (s l) x l, axis and sense included, for all orders of the eigenvalues, both signs of kappa and both sides of the separatrix",
-            figure: "largest difference / (|kappa| (s1 - s3)), 24 random cases, Runge-Kutta integration",
-            bound: Bound::AtMost(1e-8),
-            reason: "step 0.02 in that unit: the phase error of the fourth-order method is 0.02^4 / 120 = 1.3e-9 times powers of the anharmonicity",
-            measure: averaged_equation,
-        },
-        Check {
-            id: "slow-precession-limits",
-            kind: Kind::Property,
-            equations: &[26, 32],
-            statement: "with two equal eigenvalues the formula is kappa times their distance from the third times the cosine of the inclination to its axis, and zero with three",
-            figure: "largest relative error / 2.2e-16",
-            bound: Bound::AtMost(16.0),
-            reason: "some fifteen roundings of half an ulp",
-            measure: limits,
-        },
-        Check {
-            id: "slow-frequency-formula",
-            kind: Kind::Regime,
-            equations: &[57],
-            statement: "a simple expression relates the slow frequency of tp-II to the coefficients: the formula gives it to 5%",
-            figure: "|formula / measured - 1|, the larger of L and n averaged over the fast rotation and L and n at the start",
-            bound: Bound::AtMost(0.06),
-            reason: "the formula is of first order in s, whose largest difference is 0.06",
-            measure: formula_of_tp_2,
-        },
-        Check {
-            id: "slow-precession-order",
-            kind: Kind::Regime,
-            equations: &[57],
-            statement: "its relative error falls with s as of first order, and the slow frequency is proportional to s to that order",
-            figure: "order of the relative error in s: tp-II with s scaled by 1, 1/2, 1/4",
-            bound: Bound::Within(0.75, 1.4),
-            reason: "one, with corrections of relative order 0.06 k per factor of two",
-            measure: order_in_s,
-        },
-    ]
+checks! {
+    /// the closed formula is the mean rate of dl/dt = kappa (s l) x l, axis and sense included, for all orders of the eigenvalues, both signs of
+    /// kappa and both sides of the separatrix
+    Oracle "slow-precession-averaged" [32, 57]: averaged_equation;
+    AtMost(1e-8) "largest difference / (|kappa| (s1 - s3)), 24 random cases, Runge-Kutta integration";
+    because "step 0.02 in that unit: the phase error of the fourth-order method is 0.02^4 / 120 = 1.3e-9 times powers of the anharmonicity";
+    /// with two equal eigenvalues the formula is kappa times their distance from the third times the cosine of the inclination to its axis, and
+    /// zero with three
+    Property "slow-precession-limits" [26, 32]: limits;
+    AtMost(16.0) "largest relative error / 2.2e-16";
+    because "some fifteen roundings of half an ulp";
+    /// a simple expression relates the slow frequency of tp-II to the coefficients: the formula gives it to 5%
+    Regime "slow-frequency-formula" [57]: formula_of_tp_2;
+    AtMost(0.06) "|formula / measured - 1|, the larger of L and n averaged over the fast rotation and L and n at the start";
+    because "the formula is of first order in s, whose largest difference is 0.06";
+    /// its relative error falls with s as of first order, and the slow frequency is proportional to s to that order
+    Regime "slow-precession-order" [57]:
+        || order_of_error(&[1.0, 0.5, 0.25], |k| slow_frequency(k).map(|[formula, measured]| (formula / measured - 1.0).abs()));
+    Within(0.75, 1.4) "order of the relative error in s: tp-II with s scaled by 1, 1/2, 1/4";
+    because "one, with corrections of relative order 0.06 k per factor of two";
 }
 
 fn averaged_equation() -> Result<Measured, String> {
@@ -162,8 +139,4 @@ fn formula_of_tp_2() -> Result<Measured, String> {
     let error = largest([averaged, initial].map(|formula| (formula / measured - 1.0).abs()));
     let detail = format!("from averages {averaged:.5}, from initial values {initial:.5}, measured {measured:.8}");
     Ok(Measured::new(error, detail))
-}
-
-fn order_in_s() -> Result<Measured, String> {
-    order_of_error(&[1.0, 0.5, 0.25], |k| slow_frequency(k).map(|[formula, measured]| (formula / measured - 1.0).abs()))
 }

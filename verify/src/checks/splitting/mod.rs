@@ -11,105 +11,51 @@ use twofold::propagation::splitting::{
     Scheme, Splitting,
 };
 
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, largest_difference, worst_of};
+use crate::check::{Measured, Worst, checks, largest, largest_difference, worst_of};
 use crate::measured_order::{errors_at, largest_off_order};
 use crate::physical_domain::{scenes, worst_over};
 use crate::reference::{reference_motion, reference_motions};
 
-/// Checks of this subject.
-pub fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "splitting-order-conditions",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "the logarithm of one step of every scheme is A + B up to the orders claimed, with one, two, three and more kicks",
-            figure: "largest coefficient that should vanish",
-            bound: Bound::AtMost(5e-14),
-            reason: "weights published with 15 digits; the logarithm adds up some hundred products of size one",
-            measure: order_conditions::residuals,
-        },
-        Check {
-            id: "splitting-orders",
-            kind: Kind::Regime,
-            equations: &[25],
-            statement: "the error of every scheme falls with the step as its order says, at s of order one",
-            figure: "largest |measured - claimed| order",
-            bound: Bound::AtMost(0.35),
-            reason: "the next term of the error is smaller by the square of the step, at most a tenth here",
-            measure: measured_orders,
-        },
-        Check {
-            id: "splitting-near-integrable",
-            kind: Kind::Regime,
-            equations: &[25],
-            statement: "the error of the near-integrable schemes at large steps is of first order in s",
-            figure: "largest |measured exponent of s - 1|",
-            bound: Bound::AtMost(0.1),
-            reason: "terms of second order in s are below a hundredth where s is below 1e-5",
-            measure: factor_of_violation,
-        },
-        Check {
-            id: "splitting-casimirs",
-            kind: Kind::Property,
-            equations: &[24],
-            statement: "|n| and L.n keep their values over 1e6 steps of every scheme, tp-II",
-            figure: "largest of ||n| - 1| and |L.n - its start|",
-            bound: Bound::AtMost(2e-14),
-            reason: "rounding of at most 64 steps of 17 stages, each some 1e-16, added up at random: 33 times 2e-16",
-            measure: casimirs,
-        },
-        Check {
-            id: "splitting-time-reversal",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "300 steps of every scheme forth and as many back return to the start, tp-II: the schemes are symmetric",
-            figure: "largest component of the difference",
-            bound: Bound::AtMost(1e-11),
-            reason: "rounding of 600 steps, at most 10,200 stages of 1e-16 added up at random and grown with a phase of 700 rad",
-            measure: time_reversal,
-        },
-        Check {
-            id: "splitting-reference",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "n, L and e_x of the ten reference scenes are those of a 34-digit integration, forced to small steps",
-            figure: "largest error of a component",
-            bound: Bound::AtMost(2e-12),
-            reason: "truncation at steps of 0.1 t_c (5.7e-12 were measured at 0.15, sp-II at 400 t_c, and it falls with the sixth power), rounding grown with a phase of 600 rad",
-            measure: against_reference,
-        },
-        Check {
-            id: "splitting-taylor-motion",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "n, L and e_x of 200 random motions by the chosen scheme, n and L by a forced one, are those of the Taylor motion, within steps and backwards too",
-            figure: "largest difference / sum of the two error estimates",
-            bound: Bound::AtMost(1.0),
-            reason: "the same motion, computed in two ways; each states its error",
-            measure: against_taylor_motion,
-        },
-        Check {
-            id: "splitting-many-motions",
-            kind: Kind::Property,
-            equations: &[25],
-            statement: "the numbers and errors of 90 random motions side by side do not depend on their neighbours: alone, in other company, in another order, at several times, backwards",
-            figure: "number of motions with other bits",
-            bound: Bound::AtMost(0.0),
-            reason: "no operation mixes two lanes",
-            measure: many::neighbours,
-        },
-        Check {
-            id: "splitting-many-accuracy",
-            kind: Kind::Oracle,
-            equations: &[25],
-            statement: "90 random motions side by side are those of the Taylor motion to the accuracies asked, from 1e-3 to 1e-14",
-            figure: "largest difference / (accuracy + error estimate of the Taylor motion)",
-            bound: Bound::AtMost(1.0),
-            reason: "the error may reach the accuracy; where rounding is larger, it is as large as that of the Taylor motion, which its estimate counts",
-            measure: many::accuracy,
-        },
-    ]
+checks! {
+    /// the logarithm of one step of every scheme is A + B up to the orders claimed, with one, two, three and more kicks
+    Property "splitting-order-conditions" [25]: order_conditions::residuals;
+    AtMost(5e-14) "largest coefficient that should vanish";
+    because "weights published with 15 digits; the logarithm adds up some hundred products of size one";
+    /// the error of every scheme falls with the step as its order says, at s of order one
+    Regime "splitting-orders" [25]: measured_orders;
+    AtMost(0.35) "largest |measured - claimed| order";
+    because "the next term of the error is smaller by the square of the step, at most a tenth here";
+    /// the error of the near-integrable schemes at large steps is of first order in s
+    Regime "splitting-near-integrable" [25]: factor_of_violation;
+    AtMost(0.1) "largest |measured exponent of s - 1|";
+    because "terms of second order in s are below a hundredth where s is below 1e-5";
+    /// |n| and L.n keep their values over 1e6 steps of every scheme, tp-II
+    Property "splitting-casimirs" [24]: casimirs;
+    AtMost(2e-14) "largest of ||n| - 1| and |L.n - its start|";
+    because "rounding of at most 64 steps of 17 stages, each some 1e-16, added up at random: 33 times 2e-16";
+    /// 300 steps of every scheme forth and as many back return to the start, tp-II: the schemes are symmetric
+    Property "splitting-time-reversal" [25]: time_reversal;
+    AtMost(1e-11) "largest component of the difference";
+    because "rounding of 600 steps, at most 10,200 stages of 1e-16 added up at random and grown with a phase of 700 rad";
+    /// n, L and e_x of the ten reference scenes are those of a 34-digit integration, forced to small steps
+    Oracle "splitting-reference" [25]: against_reference;
+    AtMost(2e-12) "largest error of a component";
+    because "truncation at steps of 0.1 t_c (5.7e-12 were measured at 0.15, sp-II at 400 t_c, and it falls with the sixth power), rounding grown \
+     with a phase of 600 rad";
+    /// n, L and e_x of 200 random motions by the chosen scheme, n and L by a forced one, are those of the Taylor motion, within steps and backwards
+    /// too
+    Oracle "splitting-taylor-motion" [25]: against_taylor_motion;
+    AtMost(1.0) "largest difference / sum of the two error estimates";
+    because "the same motion, computed in two ways; each states its error";
+    /// the numbers and errors of 90 random motions side by side do not depend on their neighbours: alone, in other company, in another order, at
+    /// several times, backwards
+    Property "splitting-many-motions" [25]: many::neighbours;
+    AtMost(0.0) "number of motions with other bits";
+    because "no operation mixes two lanes";
+    /// 90 random motions side by side are those of the Taylor motion to the accuracies asked, from 1e-3 to 1e-14
+    Oracle "splitting-many-accuracy" [25]: many::accuracy;
+    AtMost(1.0) "largest difference / (accuracy + error estimate of the Taylor motion)";
+    because "the error may reach the accuracy; where rounding is larger, it is as large as that of the Taylor motion, which its estimate counts";
 }
 
 fn tp_2() -> Problem<f64, AxisState<f64>> {

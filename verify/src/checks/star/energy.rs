@@ -11,76 +11,37 @@ use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::{relative, unit_spheroid};
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest, smallest, worst_of};
+use crate::check::{Measured, Worst, checks, largest, smallest, worst_of};
 use crate::random::Random;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "star-c-by-multipoles",
-            kind: Kind::Oracle,
-            equations: &[12, 17, 75],
-            statement: "C, U^xx and U^zz of uniform spheroids, oblate and prolate, agree with the multipole quadrature of \
-                        their densities",
-            figure: "largest error of C, U^xx / 2, U^zz / 2 / the quadrature's own estimate of the error of C",
-            bound: Bound::AtMost(0.2),
-            reason: "the estimate is the tail that extrapolation removes; what is left is O(degree^-2) of it, 0.03 to 0.06 seen",
-            measure: c_by_multipoles,
-        },
-        Check {
-            id: "star-multipole-order",
-            kind: Kind::Regime,
-            equations: &[12],
-            statement: "the multipole quadrature of C converges as degree^-5, and to 1e-5 at degree 32",
-            figure: "lowest measured order from degree 16 to 32, less one where 1e-5 is missed",
-            bound: Bound::Within(4.3, 5.7),
-            reason: "after extrapolation of the degree^-3 tail in (degree + 3/2)^-1 the next term is of order 5",
-            measure: multipole_order,
-        },
-        Check {
-            id: "star-multipole-moments",
-            kind: Kind::Oracle,
-            equations: &[10, 12],
-            statement: "mass and inertias of uniform spheroids agree with quadrature, and a sphere has C = 0 in it",
-            figure: "largest relative error (of C: in units of U^xx) / 2.2e-16",
-            bound: Bound::AtMost(16.0),
-            reason: "sums of 48 x 48 positive terms; the rules are exact to rounding",
-            measure: multipole_moments,
-        },
-        Check {
-            id: "star-stratified-density",
-            kind: Kind::Oracle,
-            equations: &[12, 15, 17],
-            statement: "for rho = 1 - m^2 on similar spheroids C and U^ij are 4/21 of those of the uniform spheroid (Roberts' \
-                        theorem for similar strata; the factor is that of the sphere)",
-            figure: "largest error of C, U^xx / 2, U^zz / 2 / the quadrature's own estimate of the error of C",
-            bound: Bound::AtMost(1.0),
-            reason: "for a density that vanishes at the surface the tail decreases faster than the extrapolation takes it to, \
-                     so that nearly all it adds, the estimate, is in error",
-            measure: stratified_density,
-        },
-        Check {
-            id: "star-multipole-derivative",
-            kind: Kind::Autodiff,
-            equations: &[12, 75],
-            statement: "the derivative of C with respect to e^2 passes through the quadrature",
-            figure: "largest relative error",
-            bound: Bound::AtMost(1e-3),
-            reason: "the error of C at degree 16, 6e-5, times the growth of its derivative in e^2",
-            measure: multipole_derivative,
-        },
-        Check {
-            id: "star-six-dimensional-integral",
-            kind: Kind::Oracle,
-            equations: &[2, 6, 12, 17, 75],
-            statement: "C, U^xx and, for an s^ij tilted to the axis, the self-energy of an oblate and a prolate spheroid lie within the statistical error of a \
-                        quasi-Monte Carlo sum of the raw six-dimensional integrals, the last as half the sum of the potential of two masses over all ordered pairs",
-            figure: "largest deviation / standard error of 16 randomly shifted lattices",
-            bound: Bound::AtMost(4.0),
-            reason: "Student's t with 15 degrees of freedom: 4 is passed by chance once in 900; the seed is fixed",
-            measure: six_dimensional_integral,
-        },
-    ]
+checks! {
+    /// C, U^xx and U^zz of uniform spheroids, oblate and prolate, agree with the multipole quadrature of their densities
+    Oracle "star-c-by-multipoles" [12, 17, 75]: c_by_multipoles;
+    AtMost(0.2) "largest error of C, U^xx / 2, U^zz / 2 / the quadrature's own estimate of the error of C";
+    because "the estimate is the tail that extrapolation removes; what is left is O(degree^-2) of it, 0.03 to 0.06 seen";
+    /// the multipole quadrature of C converges as degree^-5, and to 1e-5 at degree 32
+    Regime "star-multipole-order" [12]: multipole_order;
+    Within(4.3, 5.7) "lowest measured order from degree 16 to 32, less one where 1e-5 is missed";
+    because "after extrapolation of the degree^-3 tail in (degree + 3/2)^-1 the next term is of order 5";
+    /// mass and inertias of uniform spheroids agree with quadrature, and a sphere has C = 0 in it
+    Oracle "star-multipole-moments" [10, 12]: multipole_moments;
+    AtMost(16.0) "largest relative error (of C: in units of U^xx) / 2.2e-16";
+    because "sums of 48 x 48 positive terms; the rules are exact to rounding";
+    /// for rho = 1 - m^2 on similar spheroids C and U^ij are 4/21 of those of the uniform spheroid (Roberts' theorem for similar strata; the factor
+    /// is that of the sphere)
+    Oracle "star-stratified-density" [12, 15, 17]: stratified_density;
+    AtMost(1.0) "largest error of C, U^xx / 2, U^zz / 2 / the quadrature's own estimate of the error of C";
+    because "for a density that vanishes at the surface the tail decreases faster than the extrapolation takes it to, so that nearly all it adds, \
+     the estimate, is in error";
+    /// the derivative of C with respect to e^2 passes through the quadrature
+    Autodiff "star-multipole-derivative" [12, 75]: multipole_derivative;
+    AtMost(1e-3) "largest relative error";
+    because "the error of C at degree 16, 6e-5, times the growth of its derivative in e^2";
+    /// C, U^xx and, for an s^ij tilted to the axis, the self-energy of an oblate and a prolate spheroid lie within the statistical error of a
+    /// quasi-Monte Carlo sum of the raw six-dimensional integrals, the last as half the sum of the potential of two masses over all ordered pairs
+    Oracle "star-six-dimensional-integral" [2, 6, 12, 17, 75]: six_dimensional_integral;
+    AtMost(4.0) "largest deviation / standard error of 16 randomly shifted lattices";
+    because "Student's t with 15 degrees of freedom: 4 is passed by chance once in 900; the seed is fixed";
 }
 
 fn c_by_multipoles() -> Result<Measured, String> {

@@ -7,44 +7,23 @@ use gauss_quad::GaussLegendre;
 use twofold::star::maclaurin::MaclaurinSpheroid;
 
 use super::{coefficients_by_ellip, relative, unit_spheroid};
-use crate::check::{Bound, Check, Kind, Measured, largest};
+use crate::check::{Measured, checks, largest};
 use crate::physical_domain::worst_over;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "star-maclaurin-energy",
-            kind: Kind::Oracle,
-            equations: &[76, 77, 78],
-            statement: "the rate at which the surface of a spheroid is an equipotential, by elliptic integrals, is that of Eq. \
-                        (77), and with it T_rot = 2 C",
-            figure: "largest relative error x e^2 / 2.2e-16",
-            bound: Bound::AtMost(32.0),
-            reason: "the reference subtracts two coefficients of order one, good to a few ulp, whose difference is 4 e^2 / 15",
-            measure: energy,
-        },
-        Check {
-            id: "star-tensor-virial",
-            kind: Kind::Oracle,
-            equations: &[14, 15, 16, 17, 18, 76],
-            statement: "K^ij + delta^ij P - U^ij = 0 with K^ij and P integrated over a fluid whose pressure comes from Eq. (76) \
-                        with the potential by elliptic integrals, vanishing on the surface",
-            figure: "largest residual or surface pressure, relative to U^zz and to the central pressure / 2.2e-16",
-            bound: Bound::AtMost(128.0),
-            reason: "the pressure is a difference of potentials that is q^2 of them, so 1 / q^2 <= 16 of their few ulp are lost",
-            measure: tensor_virial,
-        },
-        Check {
-            id: "star-virial-closed-forms",
-            kind: Kind::Property,
-            equations: &[14, 18, 78],
-            statement: "the closed forms satisfy K^ij + delta^ij P - U^ij = 0 and T_rot = (K^xx + K^yy) / 2 = 2 C",
-            figure: "largest residual relative to U^xx, or relative error of T_rot, / 2.2e-16",
-            bound: Bound::AtMost(32.0),
-            reason: "products of about ten factors on either side",
-            measure: closed_forms,
-        },
-    ]
+checks! {
+    /// the rate at which the surface of a spheroid is an equipotential, by elliptic integrals, is that of Eq. (77), and with it T_rot = 2 C
+    Oracle "star-maclaurin-energy" [76, 77, 78]: energy;
+    AtMost(32.0) "largest relative error x e^2 / 2.2e-16";
+    because "the reference subtracts two coefficients of order one, good to a few ulp, whose difference is 4 e^2 / 15";
+    /// K^ij + delta^ij P - U^ij = 0 with K^ij and P integrated over a fluid whose pressure comes from Eq. (76) with the potential by elliptic
+    /// integrals, vanishing on the surface
+    Oracle "star-tensor-virial" [14, 15, 16, 17, 18, 76]: tensor_virial;
+    AtMost(128.0) "largest residual or surface pressure, relative to U^zz and to the central pressure / 2.2e-16";
+    because "the pressure is a difference of potentials that is q^2 of them, so 1 / q^2 <= 16 of their few ulp are lost";
+    /// the closed forms satisfy K^ij + delta^ij P - U^ij = 0 and T_rot = (K^xx + K^yy) / 2 = 2 C
+    Property "star-virial-closed-forms" [14, 18, 78]: closed_forms;
+    AtMost(32.0) "largest residual relative to U^xx, or relative error of T_rot, / 2.2e-16";
+    because "products of about ten factors on either side";
 }
 
 fn maclaurin(q: f64) -> Result<MaclaurinSpheroid<f64>, String> {

@@ -13,83 +13,38 @@ use twofold::units::geometrised::{GRAM_PER_CUBIC_CENTIMETRE, HERTZ, KILOMETRE, S
 use twofold::units::{cgs, geometrised, si, time_unit};
 
 use super::relative;
-use crate::check::{Bound, Check, Kind, Measured, worst_of};
+use crate::check::{Measured, checks, worst_of};
 use crate::physical_domain::worst_over;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "star-centrifugal-numbers",
-            kind: Kind::Oracle,
-            equations: &[20],
-            statement: "the centrifugal oblateness is 2.1e-3 at 100 Hz, 10 km, 1.4 solar masses, as printed, and 0.08 at 1.6 ms",
-            figure: "largest deviation / half a unit of the printed last digit",
-            bound: Bound::AtMost(1.0),
-            reason: "rounding to the printed digits",
-            measure: centrifugal_numbers,
-        },
-        Check {
-            id: "star-centrifugal-forms",
-            kind: Kind::Property,
-            equations: &[20],
-            statement: "both forms of Eq. (20) agree, through geometrised units",
-            figure: "largest relative error / 2.2e-16",
-            bound: Bound::AtMost(16.0),
-            reason: "about a dozen products on either side",
-            measure: centrifugal_forms,
-        },
-        Check {
-            id: "star-estimate-numbers",
-            kind: Kind::Oracle,
-            equations: &[43, 58],
-            statement: "at 1e15 g/cm^3, I^zz / C is 1.79e-5 s^2 for oblateness 1e-3, and t_c is 1.34 s for 1e-8 and 0.42 ms for 0.1",
-            figure: "largest deviation / half a unit of the last digit given here",
-            bound: Bound::AtMost(1.0),
-            reason: "rounding to these digits",
-            measure: estimate_numbers,
-        },
-        Check {
-            id: "star-estimate-magnitudes",
-            kind: Kind::Oracle,
-            equations: &[43, 58],
-            statement: "the printed orders of magnitude, 1e-5 s^2, 1 s and 1e-3 s, are those of the estimates",
-            figure: "largest |log10(ours / printed)|",
-            bound: Bound::AtMost(0.5),
-            reason: "the nearest power of ten",
-            measure: estimate_magnitudes,
-        },
-        Check {
-            id: "star-estimate-regime",
-            kind: Kind::Regime,
-            equations: &[35, 43, 58, 79],
-            statement: "I^zz / C of the uniform spheroid is its estimate times 1 + (5/7) eps + O(eps^2), and t_c^2 that over 1 + eps",
-            figure: "measured order of what is left, between eps = 0.02 and 0.01, farthest from 2",
-            bound: Bound::Within(1.95, 2.05),
-            reason: "the next term changes the order by about eps",
-            measure: estimate_regime,
-        },
-        Check {
-            id: "star-centrifugal-regime",
-            kind: Kind::Regime,
-            equations: &[20, 77, 79],
-            statement: "the oblateness of a Maclaurin spheroid is 5/4 of |Omega|^2 R^3 / M at small rates",
-            figure: "measured order of the relative deviation between eps = 0.02 and 0.01",
-            bound: Bound::Within(0.95, 1.05),
-            reason: "the next term changes the order by about eps",
-            measure: centrifugal_regime,
-        },
-        Check {
-            id: "star-units",
-            kind: Kind::Oracle,
-            equations: &[35],
-            statement: "G M_sun / c^3 is 4.925491 microseconds, G M_sun / c^2 1.476625 km, M_sun 1.98841e33 g, and the units agree \
-                        with each other",
-            figure: "largest deviation / half a unit of the last digit given here",
-            bound: Bound::AtMost(1.0),
-            reason: "published values (IAU 2015 B3 and CODATA 2018), rounded",
-            measure: units,
-        },
-    ]
+checks! {
+    /// the centrifugal oblateness is 2.1e-3 at 100 Hz, 10 km, 1.4 solar masses, as printed, and 0.08 at 1.6 ms
+    Oracle "star-centrifugal-numbers" [20]: centrifugal_numbers;
+    AtMost(1.0) "largest deviation / half a unit of the printed last digit";
+    because "rounding to the printed digits";
+    /// both forms of Eq. (20) agree, through geometrised units
+    Property "star-centrifugal-forms" [20]: centrifugal_forms;
+    AtMost(16.0) "largest relative error / 2.2e-16";
+    because "about a dozen products on either side";
+    /// at 1e15 g/cm^3, I^zz / C is 1.79e-5 s^2 for oblateness 1e-3, and t_c is 1.34 s for 1e-8 and 0.42 ms for 0.1
+    Oracle "star-estimate-numbers" [43, 58]: estimate_numbers;
+    AtMost(1.0) "largest deviation / half a unit of the last digit given here";
+    because "rounding to these digits";
+    /// the printed orders of magnitude, 1e-5 s^2, 1 s and 1e-3 s, are those of the estimates
+    Oracle "star-estimate-magnitudes" [43, 58]: estimate_magnitudes;
+    AtMost(0.5) "largest |log10(ours / printed)|";
+    because "the nearest power of ten";
+    /// I^zz / C of the uniform spheroid is its estimate times 1 + (5/7) eps + O(eps^2), and t_c^2 that over 1 + eps
+    Regime "star-estimate-regime" [35, 43, 58, 79]: estimate_regime;
+    Within(1.95, 2.05) "measured order of what is left, between eps = 0.02 and 0.01, farthest from 2";
+    because "the next term changes the order by about eps";
+    /// the oblateness of a Maclaurin spheroid is 5/4 of |Omega|^2 R^3 / M at small rates
+    Regime "star-centrifugal-regime" [20, 77, 79]: centrifugal_regime;
+    Within(0.95, 1.05) "measured order of the relative deviation between eps = 0.02 and 0.01";
+    because "the next term changes the order by about eps";
+    /// G M_sun / c^3 is 4.925491 microseconds, G M_sun / c^2 1.476625 km, M_sun 1.98841e33 g, and the units agree with each other
+    Oracle "star-units" [35]: units;
+    AtMost(1.0) "largest deviation / half a unit of the last digit given here";
+    because "published values (IAU 2015 B3 and CODATA 2018), rounded";
 }
 
 /// The largest deviation in units of half a last digit: `(value, stated, last digit)`.

@@ -6,43 +6,23 @@ use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 use twofold::{Error, Real};
 
-use crate::check::{Bound, Check, Kind, Measured, largest, worst_of};
+use crate::check::{Measured, checks, largest, worst_of};
 use crate::reference::records;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "star-coefficients-table",
-            kind: Kind::Oracle,
-            equations: &[74],
-            statement: "A_0, A_1, A_3 agree with 34-digit values from e = 0 through 1e-12 to 0.999 and from a3/a1 = 1 to 10",
-            figure: "largest error / ulp",
-            bound: Bound::AtMost(4.0),
-            reason: "about ten roundings without cancellation; 3.6 ulp were seen at 100,000 random shapes",
-            measure: coefficients_against_table,
-        },
-        Check {
-            id: "star-c-table",
-            kind: Kind::Oracle,
-            equations: &[75],
-            statement: "C agrees with 34-digit values from e = 0 through 1e-12 to 0.999 and from a3/a1 = 1 to 10",
-            figure: "largest error / ulp",
-            bound: Bound::AtMost(4.0),
-            reason: "about ten roundings without cancellation; 3.3 ulp were seen at 100,000 random shapes",
-            measure: c_against_table,
-        },
-        Check {
-            id: "star-derivatives-table",
-            kind: Kind::Autodiff,
-            equations: &[74, 75],
-            statement: "first and second derivatives of A_0, A_1, A_3, C with respect to e^2, and first ones with respect to e, \
-                        agree with 34-digit values, at e = 0 as elsewhere",
-            figure: "largest error / (2.2e-16 size), size = sum of |derivatives| to that order / min(1, q^2)",
-            bound: Bound::AtMost(8.0),
-            reason: "thrice the roundings of the value; e^2 given to an ulp leaves q^2 = 1 - e^2 with 1 / q^2 of it",
-            measure: derivatives_against_table,
-        },
-    ]
+checks! {
+    /// A_0, A_1, A_3 agree with 34-digit values from e = 0 through 1e-12 to 0.999 and from a3/a1 = 1 to 10
+    Oracle "star-coefficients-table" [74]: || against_table(&[0, 1, 2]);
+    AtMost(4.0) "largest error / ulp";
+    because "about ten roundings without cancellation; 3.6 ulp were seen at 100,000 random shapes";
+    /// C agrees with 34-digit values from e = 0 through 1e-12 to 0.999 and from a3/a1 = 1 to 10
+    Oracle "star-c-table" [75]: || against_table(&[3]);
+    AtMost(4.0) "largest error / ulp";
+    because "about ten roundings without cancellation; 3.3 ulp were seen at 100,000 random shapes";
+    /// first and second derivatives of A_0, A_1, A_3, C with respect to e^2, and first ones with respect to e, agree with 34-digit values, at e = 0
+    /// as elsewhere
+    Autodiff "star-derivatives-table" [74, 75]: derivatives_against_table;
+    AtMost(8.0) "largest error / (2.2e-16 size), size = sum of |derivatives| to that order / min(1, q^2)";
+    because "thrice the roundings of the value; e^2 given to an ulp leaves q^2 = 1 - e^2 with 1 / q^2 of it";
 }
 
 /// A row of the table: the shape's parameter, and value and two derivatives in `e^2` of A_0, A_1, A_3, C as decimals.
@@ -100,14 +80,6 @@ fn digits(decimal: &str) -> (i128, i32) {
     let fraction = mantissa.split_once('.').map_or(0, |(_, f)| f.len());
     let exponent: i32 = exponent.parse().expect("an exponent");
     (mantissa.replace('.', "").parse().expect("digits"), exponent - fraction as i32)
-}
-
-fn coefficients_against_table() -> Result<Measured, String> {
-    against_table(&[0, 1, 2])
-}
-
-fn c_against_table() -> Result<Measured, String> {
-    against_table(&[3])
 }
 
 /// The largest error of some of the four functions.

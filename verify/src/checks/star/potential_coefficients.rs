@@ -8,63 +8,31 @@ use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::{coefficients_by_ellip, relative};
-use crate::check::{Bound, Check, Kind, Measured, largest};
+use crate::check::{Measured, checks, largest};
 use crate::physical_domain::worst_over;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "star-printed-closed-forms",
-            kind: Kind::Oracle,
-            equations: &[74, 75],
-            statement: "A_0, A_1, A_3 and the bracket of C agree with the closed forms as printed, for e from 0.1 to 0.999",
-            figure: "largest error x e^2 / 2.2e-16",
-            bound: Bound::AtMost(8.0),
-            reason: "the printed forms subtract numbers of order one and divide by e^2",
-            measure: printed_closed_forms,
-        },
-        Check {
-            id: "star-elliptic-integrals",
-            kind: Kind::Oracle,
-            equations: &[73, 74],
-            statement: "A_i of spheroids and triaxial ellipsoids agree with Carlson's R_D of the crate ellip",
-            figure: "largest relative error / 2.2e-16, for spheroids x min(1, |e^2|)",
-            bound: Bound::AtMost(16.0),
-            reason: "R_D of the crate is good to 7e-16 and the products add four roundings; where two arguments are equal it \
-                     uses a closed form that divides by their distance e^2 to the third",
-            measure: against_elliptic_integrals,
-        },
-        Check {
-            id: "star-defining-integral",
-            kind: Kind::Oracle,
-            equations: &[73],
-            statement: "A_0 and A_i of triaxial ellipsoids agree with the trapezoidal rule on the integrals that define them",
-            figure: "largest relative error / 2.2e-16",
-            bound: Bound::AtMost(16.0),
-            reason: "the rule is exact to 1e-19 in y = ln u with step 0.4; some 80 terms of one sign, a few ulp each, are added",
-            measure: against_defining_integral,
-        },
-        Check {
-            id: "star-sum-rules",
-            kind: Kind::Property,
-            equations: &[73, 74],
-            statement: "A_1 + A_2 + A_3 = 2 (Poisson's equation) and A_0 = sum A_i a_i^2 for ellipsoids and spheroids",
-            figure: "largest relative error / 2.2e-16",
-            bound: Bound::AtMost(16.0),
-            reason: "sums of three positive terms, each to a few ulp",
-            measure: sum_rules,
-        },
-        Check {
-            id: "star-triaxial-limit",
-            kind: Kind::Oracle,
-            equations: &[73, 74, 75],
-            statement: "an ellipsoid with a1 = a2 has the A_i, U^ij and inertias of the spheroid",
-            figure: "largest relative error / 2.2e-16",
-            bound: Bound::AtMost(32.0),
-            reason: "two ways to the same coefficients, a few ulp each, times powers of the axes up to the fifth",
-            measure: triaxial_limit,
-        },
-    ]
+checks! {
+    /// A_0, A_1, A_3 and the bracket of C agree with the closed forms as printed, for e from 0.1 to 0.999
+    Oracle "star-printed-closed-forms" [74, 75]: printed_closed_forms;
+    AtMost(8.0) "largest error x e^2 / 2.2e-16";
+    because "the printed forms subtract numbers of order one and divide by e^2";
+    /// A_i of spheroids and triaxial ellipsoids agree with Carlson's R_D of the crate ellip
+    Oracle "star-elliptic-integrals" [73, 74]: against_elliptic_integrals;
+    AtMost(16.0) "largest relative error / 2.2e-16, for spheroids x min(1, |e^2|)";
+    because "R_D of the crate is good to 7e-16 and the products add four roundings; where two arguments are equal it uses a closed form that divides \
+     by their distance e^2 to the third";
+    /// A_0 and A_i of triaxial ellipsoids agree with the trapezoidal rule on the integrals that define them
+    Oracle "star-defining-integral" [73]: against_defining_integral;
+    AtMost(16.0) "largest relative error / 2.2e-16";
+    because "the rule is exact to 1e-19 in y = ln u with step 0.4; some 80 terms of one sign, a few ulp each, are added";
+    /// A_1 + A_2 + A_3 = 2 (Poisson's equation) and A_0 = sum A_i a_i^2 for ellipsoids and spheroids
+    Property "star-sum-rules" [73, 74]: sum_rules;
+    AtMost(16.0) "largest relative error / 2.2e-16";
+    because "sums of three positive terms, each to a few ulp";
+    /// an ellipsoid with a1 = a2 has the A_i, U^ij and inertias of the spheroid
+    Oracle "star-triaxial-limit" [73, 74, 75]: triaxial_limit;
+    AtMost(32.0) "largest relative error / 2.2e-16";
+    because "two ways to the same coefficients, a few ulp each, times powers of the axes up to the fifth";
 }
 
 fn printed_closed_forms() -> Result<Measured, String> {

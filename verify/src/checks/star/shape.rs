@@ -8,52 +8,26 @@ use twofold::star::spheroid_shape::SpheroidShape;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::unit_spheroid;
-use crate::check::{Bound, Check, Kind, Measured, Worst, largest};
+use crate::check::{Measured, Worst, checks, largest};
 use crate::physical_domain::worst_over;
 
-pub(super) fn checks() -> Vec<Check> {
-    vec![
-        Check {
-            id: "star-oblateness",
-            kind: Kind::Property,
-            equations: &[19, 72, 79],
-            statement: "(I^zz - I^xx) / I^xx is e^2 / (2 - e^2), and a spheroid built from it has it",
-            figure: "largest error / 2.2e-16",
-            bound: Bound::AtMost(8.0),
-            reason: "the difference of two inertias of order one, each to three roundings",
-            measure: oblateness,
-        },
-        Check {
-            id: "star-mass-and-radius",
-            kind: Kind::Property,
-            equations: &[10, 75],
-            statement: "a spheroid built from mass and mean radius has them, and the C of the one built from its semi-axes",
-            figure: "largest relative error / 2.2e-16, that of C x min(1, |e^2|)",
-            bound: Bound::AtMost(32.0),
-            reason: "a3 is known to an ulp, so e^2 to an ulp of one; C is of the fifth order in the lengths",
-            measure: mass_and_radius,
-        },
-        Check {
-            id: "star-appendix-remainders",
-            kind: Kind::Regime,
-            equations: &[74, 75],
-            statement: "the appendix's expansions have remainders O(e^4), those of A_1 and A_3 (printed O(e^2)) included",
-            figure: "the measured order farthest from 4, of A_0, A_1, A_3, C between e = 0.025 and 0.05",
-            bound: Bound::Within(3.98, 4.02),
-            reason: "the next term changes the order by about e^2 = 0.003; an order 2 would show",
-            measure: appendix_remainders,
-        },
-        Check {
-            id: "star-domain",
-            kind: Kind::Property,
-            equations: &[72, 74],
-            statement: "shapes outside the domain are refused; inside it 0 < A_i < 2 whatever the axis ratio",
-            figure: "number of violations",
-            bound: Bound::AtMost(0.0),
-            reason: "a count",
-            measure: domain,
-        },
-    ]
+checks! {
+    /// (I^zz - I^xx) / I^xx is e^2 / (2 - e^2), and a spheroid built from it has it
+    Property "star-oblateness" [19, 72, 79]: oblateness;
+    AtMost(8.0) "largest error / 2.2e-16";
+    because "the difference of two inertias of order one, each to three roundings";
+    /// a spheroid built from mass and mean radius has them, and the C of the one built from its semi-axes
+    Property "star-mass-and-radius" [10, 75]: mass_and_radius;
+    AtMost(32.0) "largest relative error / 2.2e-16, that of C x min(1, |e^2|)";
+    because "a3 is known to an ulp, so e^2 to an ulp of one; C is of the fifth order in the lengths";
+    /// the appendix's expansions have remainders O(e^4), those of A_1 and A_3 (printed O(e^2)) included
+    Regime "star-appendix-remainders" [74, 75]: appendix_remainders;
+    Within(3.98, 4.02) "the measured order farthest from 4, of A_0, A_1, A_3, C between e = 0.025 and 0.05";
+    because "the next term changes the order by about e^2 = 0.003; an order 2 would show";
+    /// shapes outside the domain are refused; inside it 0 < A_i < 2 whatever the axis ratio
+    Property "star-domain" [72, 74]: domain;
+    AtMost(0.0) "number of violations";
+    because "a count";
 }
 
 fn axis_ratio() -> impl Strategy<Value = f64> {

@@ -275,14 +275,8 @@ pub(super) fn cases() -> Vec<Case> {
             "alpha_2 from 1e-200 to 1",
             &list![Signed(-200.0, 0.0), COMPONENT; 3, INERTIA; 3, COMPONENT; 3],
         ),
-        FromPreferredFrame::case(
-            "alpha_2 from 1e-200 to 1",
-            &[Signed(-200.0, 0.0), Signed(-5.0, -2.0), Signed(-5.0, -2.0), Signed(-5.0, -2.0)],
-        ),
-        PreferredFrameParameter::case(
-            "alpha_2 from 1e-200 to 1",
-            &[Signed(-200.0, 0.0), Signed(-5.0, -2.0), Signed(-5.0, -2.0), Signed(-5.0, -2.0)],
-        ),
+        FromPreferredFrame::case("alpha_2 from 1e-200 to 1", &list![Signed(-200.0, 0.0), Signed(-5.0, -2.0); 3]),
+        PreferredFrameParameter::case("alpha_2 from 1e-200 to 1", &list![Signed(-200.0, 0.0), Signed(-5.0, -2.0); 3]),
         Strain::case("theta_o -> 0", &list![Log(-300.0, 0.4), TURN, COMPONENT; 6, Log(-20.0, 20.0)]),
         Strain::case("theta_o -> pi", &list![Near(PI, -15.0, -0.3), TURN, COMPONENT; 6, Log(-20.0, 20.0)]),
     ]);

@@ -364,10 +364,7 @@ pub(super) fn cases() -> Vec<Case> {
             &[Signed(-60.0, 0.0), Log(-10.0, 10.0), Log(-5.0, 5.0), Log(-5.0, 15.0), In(1.0, 10.0), In(0.0, 1.5)],
         ),
         EtaFromInclination::case("cos b -> 0", &[Near(FRAC_PI_2, -15.0, -0.1)]),
-        FluidAndPreferred::case(
-            "1e-100 to 1e100",
-            &[Log(-100.0, 100.0), Signed(-5.0, 0.0), Signed(-5.0, 0.0), Signed(-5.0, 0.0)],
-        ),
+        FluidAndPreferred::case("1e-100 to 1e100", &list![Log(-100.0, 100.0), Signed(-5.0, 0.0); 3]),
         MarginRates::case("rho -> 0", &[&[Log(-12.0, 0.0), t, t], &moving[..]].concat()),
         Along::case("sin b -> 0", &[Log(-300.0, 0.4), t, t, In(0.1, 3.0), t, In(0.1, 3.0), t]),
         AzimuthRate::case("magnetic axis to Z", &list![TINY; 2, Signed(-0.3, 0.0), c; 3]),

@@ -199,32 +199,10 @@ pub(super) fn cases() -> Vec<Case> {
         Shifted::case("cos b -> 0", &list![Near(FRAC_PI_2, -15.0, -0.5), SMALL; 3, SPIN, i; 3]),
         Shifted::case("sin b -> 0", &list![Near(PI, -15.0, -0.5), SMALL; 3, SPIN, i; 3]),
     ];
-    let constants_twofold = [
-        Signed(-300.0, -3.0),
-        Signed(-6.0, -3.0),
-        Signed(-6.0, -3.0),
-        SPIN,
-        TURN,
-        In(0.4, 1.0),
-        In(1.4, 2.0),
-        AMPLITUDE,
-        Fixed(1.0),
-        In(1.0, 1.2),
-        Fixed(1.0),
-    ];
-    let constants_single = [
-        In(0.01, 0.05),
-        Fixed(0.02),
-        Near(0.02, -15.0, -3.0),
-        SPIN,
-        TURN,
-        In(0.4, 1.0),
-        Signed(-9.0, -2.0),
-        AMPLITUDE,
-        Fixed(1.0),
-        In(1.0, 1.2),
-        Fixed(1.0),
-    ];
+    let body = [AMPLITUDE, Fixed(1.0), In(1.0, 1.2), Fixed(1.0)];
+    let constants_of = |s: [Input; 3], spread: Input| [&s[..], &[SPIN, TURN, In(0.4, 1.0), spread], &body].concat();
+    let constants_twofold = constants_of([Signed(-300.0, -3.0), Signed(-6.0, -3.0), Signed(-6.0, -3.0)], In(1.4, 2.0));
+    let constants_single = constants_of([In(0.01, 0.05), Fixed(0.02), Near(0.02, -15.0, -3.0)], Signed(-9.0, -2.0));
     cases.extend(
         [
             ConstantsTwofold::case("s -> 0, twofold", &constants_twofold),
@@ -239,26 +217,20 @@ pub(super) fn cases() -> Vec<Case> {
     let a1_vanishes = [&[Near(0.02, -15.0, -2.0), Fixed(0.01), Fixed(0.03)], &rest[..]].concat();
     let s_vanishes = [&[Signed(-300.0, -1.0), Signed(-300.0, -1.0), Signed(-300.0, -1.0)], &rest[..]].concat();
     let equal = [&[SMALL, Near(0.1, -15.0, -3.0), Fixed(0.1)], &rest[..]].concat();
+    macro_rules! of_each_solution {
+        ($limit:literal) => {
+            [
+                concat!($limit, ", twofold"),
+                concat!($limit, ", single"),
+                concat!($limit, ", corrected twofold"),
+                concat!($limit, ", corrected single"),
+            ]
+        };
+    }
     for (inputs, [twofold, single, corrected_twofold, corrected_single]) in [
-        (
-            &a1_vanishes,
-            [
-                "a^(1) -> 0, twofold",
-                "a^(1) -> 0, single",
-                "a^(1) -> 0, corrected twofold",
-                "a^(1) -> 0, corrected single",
-            ],
-        ),
-        (&s_vanishes, ["s -> 0, twofold", "s -> 0, single", "s -> 0, corrected twofold", "s -> 0, corrected single"]),
-        (
-            &equal,
-            [
-                "s^XX -> s^YY, twofold",
-                "s^XX -> s^YY, single",
-                "s^XX -> s^YY, corrected twofold",
-                "s^XX -> s^YY, corrected single",
-            ],
-        ),
+        (&a1_vanishes, of_each_solution!("a^(1) -> 0")),
+        (&s_vanishes, of_each_solution!("s -> 0")),
+        (&equal, of_each_solution!("s^XX -> s^YY")),
     ] {
         cases.extend([
             TwofoldByZ::case(twofold, inputs),

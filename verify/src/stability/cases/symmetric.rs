@@ -49,34 +49,15 @@ const RATE: Input = In(0.5, 1.5);
 pub(super) fn cases() -> Vec<Case> {
     let (i, one) = (In(0.5, 2.0), Fixed(1.0));
     let scene = |s: Input| [s, BETA, TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one];
+    let by_beta = |beta: Input| [beta, Signed(-6.0, -1.0), TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one];
     vec![
         AtByS::case("s -> 0", &scene(Signed(-300.0, -1.0))),
         WholeByS::case("s -> 0, relative to the rotation", &scene(Signed(-300.0, -1.0))),
         AtByS::case("s to 1", &scene(In(0.1, 1.0))),
         WholeByS::case("s to 1, relative to the rotation", &scene(In(0.1, 1.0))),
-        AtByBeta::case(
-            "cos b -> 0",
-            &[
-                Near(FRAC_PI_2, -15.0, -0.5),
-                Signed(-6.0, -1.0),
-                TURN,
-                TURN,
-                RATE,
-                Signed(-3.0, -0.3),
-                RATE,
-                one,
-                i,
-                one,
-            ],
-        ),
-        AtByBeta::case(
-            "sin b -> 0",
-            &[Log(-6.0, -0.5), Signed(-6.0, -1.0), TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one],
-        ),
-        AtByBeta::case(
-            "sin b -> 0 at beta = pi",
-            &[Below(PI, -6.0, -0.5), Signed(-6.0, -1.0), TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one],
-        ),
+        AtByBeta::case("cos b -> 0", &by_beta(Near(FRAC_PI_2, -15.0, -0.5))),
+        AtByBeta::case("sin b -> 0", &by_beta(Log(-6.0, -0.5))),
+        AtByBeta::case("sin b -> 0 at beta = pi", &by_beta(Below(PI, -6.0, -0.5))),
         AtByTime::case(
             "t to 1e15",
             &[Log(-10.0, 15.0), Signed(-6.0, -1.0), BETA, TURN, TURN, RATE, Signed(-3.0, -0.3), RATE, one, i, one],

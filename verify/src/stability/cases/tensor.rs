@@ -8,7 +8,7 @@ use twofold::lorentz_violation::{
 };
 
 use super::parts::{none, symmetric};
-use crate::stability::Input::{self, Fixed, In, Near, Signed};
+use crate::stability::Input::{Fixed, In, Near, Signed};
 use crate::stability::{Case, Wide, functions, list};
 
 /// Eigenvalues in descending order by Jacobi's rotations.
@@ -96,17 +96,10 @@ const ANY: &str = "entries from 1e-290 to 1";
 
 pub(super) fn cases() -> Vec<Case> {
     let (c, tiny) = (In(-1.0, 1.0), Signed(-15.0, -2.0));
-    let any = [
-        Signed(-290.0, 0.0),
-        Signed(-290.0, 0.0),
-        Signed(-290.0, 0.0),
-        Signed(-290.0, 0.0),
-        Signed(-290.0, 0.0),
-        Signed(-290.0, 0.0),
-    ];
+    let any = [Signed(-290.0, 0.0); 6];
     let isotropic = [Near(0.1, -15.0, -2.0), Fixed(0.1), Fixed(0.1), tiny, tiny, tiny];
     let pair = [Near(0.1, -15.0, -2.0), Fixed(0.1), In(-0.5, 0.0), tiny, Signed(-3.0, -1.0), Signed(-3.0, -1.0)];
-    let general: [Input; 6] = [c, c, c, c, c, c];
+    let general = [c; 6];
     let mut cases = Vec::new();
     for (limit, inputs) in [
         (ANY, any),
