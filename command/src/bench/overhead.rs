@@ -165,8 +165,9 @@ fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
 /// The motion over another scalar.
 fn over<S: Real>(scene: &BenchScene, lift: impl Fn(f64) -> S, carries: Carries) -> Result<(), String> {
     let (problem, span) = (scene.problem.map(lift), (0.0, DURATION));
-    Ok(match carries {
-        Carries::Axis => problem.reduced().taylor(span, ACCURACY).map(drop)?,
-        Carries::Orientation => problem.taylor(span, ACCURACY).map(drop)?,
-    })
+    match carries {
+        Carries::Axis => drop(problem.reduced().taylor(span, ACCURACY)?),
+        Carries::Orientation => drop(problem.taylor(span, ACCURACY)?),
+    }
+    Ok(())
 }

@@ -192,7 +192,7 @@ fn a_printed_scene_is_a_template() {
     let printed = twofold(&["scenes", "--print", "tp-2"]);
     assert_eq!((printed.status.code(), stderr(&printed).as_str()), (Some(0), ""));
     let (_folder, scene) = file("my-star.toml", &printed.stdout);
-    let run = |scene: &str| twofold(&["run", &scene, "--columns", "h"]).stdout;
+    let run = |scene: &str| twofold(&["run", scene, "--columns", "h"]).stdout;
     let table = run(&scene);
     assert!(table.starts_with(b"t [t_c],h_plus [1]") && table == run("tp-2"));
     let unknown = twofold(&["scenes", "--print", "tp-22"]);

@@ -130,7 +130,7 @@ fn what_the_data_do_not_determine_is_refused_with_the_reason() {
         (&Parameter::OF_PULSES, &[(Observable::Arrivals, 1e3), (Observable::Widths, 1e3)], &["d("]),
     ] {
         let message = refused(unknowns, noise);
-        has_all(&message, &reasons);
+        has_all(&message, reasons);
     }
 }
 
