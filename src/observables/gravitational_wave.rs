@@ -2,7 +2,7 @@
 //!
 //! The source is `ddot I^{IJ}`, the second time derivative of the moment-of-inertia tensor, from
 //! [`wave_tensor`](crate::dynamics::wave_source::wave_tensor),
-//! [`spheroid_inertia_acceleration`](crate::dynamics::wave_source::spheroid_inertia_acceleration) or, for the free
+//! [`spheroid_inertia_acceleration`] or, for the free
 //! waveform, [`free_inertia_acceleration`](crate::dynamics::wave_source::free_inertia_acceleration).
 //!
 //! Everything is in geometrised units, or in those of the paper with `I^xx = t_c = r = 1`, where `h` counts multiples of

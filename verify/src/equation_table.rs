@@ -88,14 +88,9 @@ equations! {
         ["dynamics::euler_angle_equations::euler_angle_residuals"
          "dynamics::euler_angle_equations::euler_angle_accelerations"
          "dynamics::equations_of_motion::reduced_rates" "dynamics::equations_of_motion::body_state_rates"
-         "propagation::propagate" "propagation::propagate_axis" "propagation::TaylorMotion"
-         "propagation::splitting::propagate_by_splitting" "propagation::splitting::propagate_by_best_splitting"
-         "propagation::splitting::propagate_orientation_by_splitting"
-         "propagation::splitting::propagate_orientation_by_best_splitting" "propagation::splitting::Splitting"
-         "propagation::axis_states_at" "propagation::axis_states_of_many"
-         "propagation::splitting::SplittingMotion::scheme" "propagation::splitting::SplittingMotion::step"
-         "propagation::splitting::SplittingMotion::step_count" "propagation::splitting::Scheme"
-         "propagation::splitting::splitting_forecast" "propagation::states_at" "propagation::AxisState"
+         "dynamics::Problem" "dynamics::Problem::taylor" "dynamics::Problem::taylor_states" "propagation::TaylorMotion"
+         "dynamics::Problem::splitting" "dynamics::Problem::splitting_by" "propagation::splitting::Splitting"
+         "propagation::splitting::SplittingMotion" "propagation::splitting::Scheme" "propagation::states_of_many"
          "propagation::ContinuousAngles" "solutions::symmetric::SymmetricSolution"] ["figure_motion_tp_1"
          "figure_motion_tp_2" "figure_motion_sp_1" "figure_motion_sp_2"]
     26 "sol1" "steady precession for symmetric s" ["solutions::steady::steady_precession_rate"] []
@@ -145,7 +140,7 @@ equations! {
          ["star_estimates"]
     44 "ineq" "line of sight inside the beam"
         ["observables::pulsar::Beam::margin" "observables::pulsar::Beam::margin_rates"
-         "observables::pulsar::train::pulse_train" "observables::pulsar::train::propagated_pulse_train"
+         "observables::pulsar::train::pulse_train" "dynamics::Problem::taylor_pulse_train"
          "propagation::SeriesProjection" "propagation::Turning" "observables::pulsar::Pulse"
          "observables::pulsar::PulseTrain" "observables::pulsar::Stamped"
          "observables::pulsar::rate_bounds::RateBounds" "observables::pulsar::rate_bounds::rate_bounds"

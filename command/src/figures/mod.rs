@@ -1,6 +1,6 @@
 //! The paper's figures and ours: data, drawing and caption of each.
 //!
-//! A figure is made of a [`Recipe`]. Its SVG carries its text as text; the PNG is drawn from the same SVG. Everything that
+//! A figure is made of a `Recipe`. Its SVG carries its text as text; the PNG is drawn from the same SVG. Everything that
 //! a curve shows is in the figure's tables.
 
 mod alignment;

@@ -15,7 +15,7 @@ use twofold::propagation::{Motion, TaylorMotion};
 use twofold_command::bench::method::{MANY_SCENES, METHODS};
 use twofold_command::bench::scene::BenchScene;
 
-/// Length of the motions [t_c], and their accuracy.
+/// Length of the motions (t_c), and their accuracy.
 const DURATION: f64 = 100.0;
 const ACCURACY: f64 = 1e-12;
 
