@@ -145,7 +145,7 @@ impl Plan {
         skipped
     }
 
-    /// The motion of the plan's problem or, stretch by stretch, from a later state of it; with or without `e_x`, as the problem has it.
+    /// The motion of the plan's problem or, segment by segment, from a later state of it; with or without `e_x`, as the problem has it.
     ///
     /// # Errors
     /// As for [`Problem::taylor`], or for the closed form chosen; [`Error::Unsupported`] for a problem with `e_x` if the plan carries less.

@@ -124,10 +124,11 @@ impl<X: RotationState<f64>> Motion<f64> for PlannedMotion<X> {
     }
 
     fn state_in_parts(&self, t: [f64; 2]) -> Result<X, Error> {
-        match self {
-            Self::Averaged(motion) => Ok(X::from_vectors(motion.state_in_parts(t)?.vectors())),
-            _ => self.state(t[0] + t[1]),
-        }
+        Ok(X::from_vectors(if X::VECTORS == 3 {
+            by_any!(self, motion => motion.state_in_parts(t)?.vectors())
+        } else {
+            self.axis_state_in_parts(t)?.vectors()
+        }))
     }
 
     fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<f64>, Error> {

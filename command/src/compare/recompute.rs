@@ -4,6 +4,7 @@ use twofold::Error;
 use twofold::dynamics::{AxisState, Problem};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::observables::Observer;
+use twofold::observables::gravitational_wave::wave_of_state;
 use twofold::observables::pulsar::direction::magnetic_axis_direction;
 use twofold::observables::pulsar::period::{azimuth_offset_rate, instantaneous_period};
 use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
@@ -12,7 +13,6 @@ use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion};
 use twofold::solutions::perturbation::{Form, Perturbation};
 
 use super::table::Table;
-use twofold_scene::wave::spheroid_wave;
 use twofold_verify::check::largest;
 use twofold_verify::paper_examples::{COEFFICIENTS, PaperExample, SPIN, spheroid};
 
@@ -147,7 +147,7 @@ pub(super) fn waves(example: &PaperExample, table: &Table) -> Result<Vec<Vec<f64
     let (observer, body, s) = (observer(), spheroid(), COEFFICIENTS.tensor());
     let row = |t: f64| {
         let state = motion.state(t)?;
-        let h = spheroid_wave(&body, &s, &AxisState::from(&state), &observer, 1.0);
+        let h = wave_of_state(&body, &s, &AxisState::from(&state), &observer);
         Ok(vec![h.plus, h.cross])
     };
     table.times().map(row).collect()

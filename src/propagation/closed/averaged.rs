@@ -94,7 +94,7 @@ impl<S: Real> AveragedMotion<S> {
         self.mean.state_at(phases).rotated(&self.given_from_principal)
     }
 
-    /// Refuses a motion of which no derivatives could be had: by any parameter, whichever comes.
+    /// Refuses a motion whose derivatives by some parameter do not exist.
     ///
     /// # Errors
     /// [`Error::Domain`] where `L` rests or is on a separatrix, and for three equal eigenvalues.

@@ -48,7 +48,7 @@ pub struct AveragedSolution<S> {
     /// Of the angles about `l` and about `n`, by the integral of the top.
     periodic: [S; 2],
     order: AveragingOrder,
-    /// That moves `l`.
+    /// Principal values of the tensor of the asymmetric top as which `l` moves.
     tensor: Vector3<S>,
     relative_strength: S,
     /// Time from the initial state to the time zero.

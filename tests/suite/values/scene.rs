@@ -1,4 +1,4 @@
-//! A star and a tensor of which no two numbers are equal, and none is one.
+//! A star and a tensor without special values: no two numbers are equal, and none is one.
 
 use nalgebra::Matrix3;
 use twofold::dynamics::{BodyState, RigidSpheroid};

@@ -161,7 +161,7 @@ def _printed(pulse, key):
 def of_bounds(name):
     """`twofold bounds --json`: rows of a place in the object and what is there."""
     paper = name == "paper"
-    path = HERE.parent / "pulsars" / "paper.toml" if paper else HERE / "bounds" / f"{name}.toml"
+    path = HERE.parents[2] / "scene" / "pulsars" / "paper.toml" if paper else HERE / "bounds" / f"{name}.toml"
     table, shifted = bounds.table(path, paper), bounds.table(path, paper, MOVE)
     rows, tolerances = [], []
 

@@ -3,14 +3,12 @@
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::AxisState;
 use twofold::dynamics::equations_of_motion::{angular_velocity, torque_on_axis};
-use twofold::dynamics::wave_source::{
-    free_inertia_acceleration, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
-};
-use twofold::dynamics::{BodyState, PrincipalInertia, Problem, RigidSpheroid, RotationState};
+use twofold::dynamics::wave_source::{free_inertia_acceleration, tensor_in_inertial_frame, wave_tensor};
+use twofold::dynamics::{BodyState, PrincipalInertia, Problem, RotationState};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial, body_rates};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::{
-    Polarizations, metric_perturbation, polarization_tensors, polarizations, strain_unit,
+    Polarizations, metric_perturbation, polarization_tensors, polarizations, strain_unit, wave_of_state,
 };
 use twofold::propagation::Motion;
 use twofold::units::geometrised::HERTZ;
@@ -88,24 +86,13 @@ fn polarizations_transverse_traceless<F: Differentiable>(p: &Point<F>) -> Vec<F>
     out
 }
 
-/// The wave of a spheroid in any state, by the short form.
-pub(super) fn wave_of_state<F: Differentiable>(
-    observer: &Observer<F>,
-    spheroid: &RigidSpheroid<F>,
-    s: &Matrix3<F>,
-    state: &AxisState<F>,
-) -> Polarizations<F> {
-    let source = spheroid_inertia_acceleration(spheroid, s, &state.axis, &state.momentum);
-    polarizations(observer, &metric_perturbation(F::one(), &source))
-}
-
 fn wave_of_rotated_scene<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let state = BodyState::from_angles(&p.spheroid, &p.angles, &p.rates);
     let here = observer(p);
-    let wave = wave_of_state(&here, &p.spheroid, &p.s_inertial, &AxisState::from(&state));
+    let wave = wave_of_state(&p.spheroid, &p.s_inertial, &AxisState::from(&state), &here);
     let seen = |observer: &Observer<F>, turn: &Matrix3<F>| {
         let s = turn * p.s_inertial * turn.transpose();
-        let other = wave_of_state(observer, &p.spheroid, &s, &AxisState::from(&state.rotated(turn)));
+        let other = wave_of_state(&p.spheroid, &s, &AxisState::from(&state.rotated(turn)), observer);
         [wave.plus - other.plus, wave.cross - other.cross]
     };
     let any = body_from_inertial(&EulerAngles { alpha: p.numbers[0], beta: p.numbers[1], gamma: p.numbers[2] });
@@ -186,7 +173,7 @@ fn wave_by_general_form(observer: &Observer<f64>, scene: &Problem<f64>, state: &
 
 /// The wave of a state by the short form.
 fn wave(observer: &Observer<f64>, scene: &Problem<f64>, state: &AxisState<f64>) -> Polarizations<f64> {
-    wave_of_state(observer, scene.spheroid(), scene.coefficients(), state)
+    wave_of_state(scene.spheroid(), scene.coefficients(), state, observer)
 }
 
 fn difference(a: &Polarizations<f64>, b: &Polarizations<f64>) -> f64 {

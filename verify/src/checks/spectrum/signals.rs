@@ -7,12 +7,11 @@ use twofold::Error;
 use twofold::dynamics::{BodyState, RotationState};
 use twofold::observables::Observer;
 use twofold::observables::fundamental_frequencies::{FundamentalFrequencies, fundamental_frequencies};
-use twofold::observables::gravitational_wave::Polarizations;
+use twofold::observables::gravitational_wave::{Polarizations, wave_of_state};
 use twofold::observables::pulsar::Beam;
 use twofold::observables::spectrum::{FrequencyBasis, LineList, Series, SpectralLine, spectral_lines};
 use twofold::propagation::{Motion, TaylorMotion};
 
-use crate::checks::waves::wave_of_state;
 use crate::reference::reference_motion;
 
 /// Angles of the paper's figures: observer, magnetic axis, half opening of the beam (rad).
@@ -105,7 +104,7 @@ pub(super) fn line_of_sight() -> Vector3<f64> {
 /// The wave of a state of a motion for the paper's observer.
 pub(super) fn wave_of(motion: &TaylorMotion<f64>, state: &BodyState<f64>) -> Polarizations<f64> {
     let observer = Observer::at(THETA_O, 0.0);
-    wave_of_state(&observer, motion.spheroid(), motion.coefficients(), &state.axis_state())
+    wave_of_state(motion.spheroid(), motion.coefficients(), &state.axis_state(), &observer)
 }
 
 /// The strongest line with a frequency in a range.
