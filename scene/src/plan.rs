@@ -61,7 +61,8 @@ impl Scene {
     /// A method that the scene does not allow, and a span too long for what goes through every turn.
     pub fn plan(&self, outputs: &[Output]) -> Result<Plan, Error> {
         let span = (0.0, self.duration());
-        let request = Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.accuracy) };
+        let request =
+            Request { method: self.method, ..Request::new(outputs, span, self.times.count(), self.tolerance) };
         let plan = self.problem.plan(&request)?;
         let rotation = self.rotation();
         Error::ensure(

@@ -4,7 +4,7 @@ use twofold::Error;
 use twofold::dynamics::{AxisState, BodyState, Problem, RotationState};
 use twofold::euler_angles::EulerAngles;
 use twofold::plan::{Counted, Method, Output, Plan, PlannedMotion, State, Work};
-use twofold::propagation::{ACCURACY_RANGE, ContinuousAngles, Motion};
+use twofold::propagation::{ContinuousAngles, Motion, TOLERANCE_RANGE};
 
 use crate::scene_file::Scene;
 
@@ -253,10 +253,10 @@ impl<'s, X: SegmentState> Segments<'s, X> {
         let (from, to) = (self.from, self.total * (self.next as f64 / self.count as f64));
         let motion = if self.method.is_closed_form() {
             // From the start of the scene: nothing adds up from segment to segment.
-            self.problem.motion_by(self.method, (0.0, self.total), self.scene.accuracy)?
+            self.problem.motion_by(self.method, (0.0, self.total), self.scene.tolerance)?
         } else {
             let problem = self.problem.starting_from(self.state)?;
-            let motion = problem.motion_by(self.method, (from, to), self.share_of_accuracy(to - from))?;
+            let motion = problem.motion_by(self.method, (from, to), self.share_of_tolerance(to - from))?;
             self.state = motion.state(to)?;
             motion
         };
@@ -279,15 +279,15 @@ impl<'s, X: SegmentState> Segments<'s, X> {
         ErrorAtEnd::Foreseen(plan.prediction.map_or(f64::NAN, |prediction| prediction.truncation + prediction.rounding))
     }
 
-    /// The part of the scene's accuracy that a segment may use up, so that the truncation per unit of time is that of one
+    /// The part of the scene's tolerance that a segment may use up, so that the truncation per unit of time is that of one
     /// motion over the whole span: an error of time `t` grows with the rotation from `t` on.
-    fn share_of_accuracy(&self, length: f64) -> f64 {
+    fn share_of_tolerance(&self, length: f64) -> f64 {
         let growth = |duration: f64| duration.abs() * (1.0 + self.scene.turning_rate() * duration.abs() / 2.0);
         if self.total == 0.0 {
-            return self.scene.accuracy;
+            return self.scene.tolerance;
         }
         // Rounding may pass by both ends of what a motion takes.
-        (self.scene.accuracy * growth(length) / growth(self.total)).clamp(ACCURACY_RANGE.0, ACCURACY_RANGE.1)
+        (self.scene.tolerance * growth(length) / growth(self.total)).clamp(TOLERANCE_RANGE.0, TOLERANCE_RANGE.1)
     }
 }
 
@@ -302,11 +302,11 @@ fn since_start_within(scene: &Scene, time: f64, from: f64, to: f64) -> [f64; 2] 
 mod tests {
     use super::*;
 
-    /// An error of the time `t` grows to `1 + rate (end - t)` times itself by the end. All of the segments together are to stay below the accuracy.
+    /// An error of the time `t` grows to `1 + rate (end - t)` times itself by the end. All of the segments together are to stay below the tolerance.
     #[test]
-    fn the_errors_of_all_segments_are_within_the_accuracy() {
+    fn the_errors_of_all_segments_are_within_the_tolerance() {
         let mut scene = Scene::named("tp-2").unwrap();
-        scene.accuracy = 1e-8;
+        scene.tolerance = 1e-8;
         scene.choose_method("taylor").unwrap();
         scene.choose_columns(&["e_z"]).unwrap();
         let plan = scene.plan(&scene.columns).unwrap();
@@ -319,7 +319,7 @@ mod tests {
             count += 1;
         }
         assert_eq!(count, 21);
-        assert!(sum < scene.accuracy, "{sum:e}");
+        assert!(sum < scene.tolerance, "{sum:e}");
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use num_dual::Dual64;
 
-use super::signal::{ACCURACY, strain, turning_rate};
+use super::signal::{TOLERANCE, strain, turning_rate};
 use super::{Datum, Event, InferenceError, Observable, Place, long_span};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
@@ -29,7 +29,7 @@ pub struct Jacobian {
     pub relative_error: f64,
 }
 
-/// The factor between the accuracy asked of derivatives and their error, at most: `gradient-both-ways` finds 8 in 3,000 motions.
+/// The factor between the tolerance of derivatives and their error, at most: `gradient-both-ways` finds 8 in 3,000 motions.
 const SAFETY: f64 = 20.0;
 
 /// The Jacobian of `data` by `unknowns`, at the pulses `events` of a star with these parameters.
@@ -60,7 +60,7 @@ pub fn jacobian(
     let found = Jacobian {
         matrix: &by_numbers * &weights,
         magnitudes: by_numbers.abs() * weights.abs(),
-        relative_error: SAFETY * (ACCURACY + f64::EPSILON * rotation),
+        relative_error: SAFETY * (TOLERANCE + f64::EPSILON * rotation),
     };
     match found.matrix.iter().find(|value| !value.is_finite()) {
         Some(&value) => {
@@ -119,7 +119,7 @@ impl States {
         let request = Request {
             derivatives: of_motion.collect(),
             method: is_long.then_some(Method::Averaged),
-            ..Request::new(&[output], (0.0, end), times.len(), ACCURACY)
+            ..Request::new(&[output], (0.0, end), times.len(), TOLERANCE)
         };
         let plan = parameters.problem()?.plan(&request)?;
         let found = gradient_in_parts(&plan, parameters, &Vectors, &times)?;

@@ -61,7 +61,7 @@ pub struct Signal {
 }
 
 /// Truncation error of motions and of their derivatives. Enough for times to 1e-12 of a turn.
-pub(super) const ACCURACY: f64 = 1e-13;
+pub(super) const TOLERANCE: f64 = 1e-13;
 
 /// Rate of a rotation with all of the angular momentum across the symmetry axis, `|L| / I^xx`.
 pub(super) fn turning_rate(parameters: &Parameters<f64>) -> f64 {
@@ -89,10 +89,10 @@ impl Signal {
         let is_long = long_span::is_long(parameters, end);
         let request = if is_long {
             long_span::check_span(parameters, end)?;
-            let request = Request::new(&[Output::PulseProfile], (0.0, end), 2, ACCURACY);
+            let request = Request::new(&[Output::PulseProfile], (0.0, end), 2, TOLERANCE);
             Request { method: Some(Method::Averaged), ..request }
         } else {
-            Request::new(&[Output::Pulses], (0.0, end), 2, ACCURACY)
+            Request::new(&[Output::Pulses], (0.0, end), 2, TOLERANCE)
         };
         let problem = parameters.problem()?;
         Ok(Self {

@@ -158,7 +158,7 @@ fn symmetric(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> 
         "zero within rounding, if derivatives are wanted",
     )?;
     // The rounding costs more than the motion: only for one that may be used.
-    let usable = truncation <= request.accuracy || request.method == Some(Method::Symmetric);
+    let usable = truncation <= request.tolerance || request.method == Some(Method::Symmetric);
     let rounding = if usable { motion.rounding(elapsed) } else { f64::NAN };
     Ok(Forecast::closed(Promise::Bound, truncation, rounding))
 }
@@ -178,24 +178,24 @@ fn mean(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Resul
 fn splitting(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
     let goal = if request.derivatives.is_empty() { Goal::State } else { Goal::Derivatives };
     let SplittingForecast { scheme, steps, truncation, coverage, rounding, .. } =
-        problem.splitting_forecast_for(goal, stretch, request.accuracy)?;
+        problem.splitting_forecast_for(goal, stretch, request.tolerance)?;
     // Rotations and kicks.
     let order = 2 * scheme.stages();
     Ok(Forecast { truncation, promise: Promise::Goal(coverage), rounding, order, steps })
 }
 
-/// Share of random motions whose error by Taylor series, rounding apart, stays below the accuracy asked: none of 10,000 with strong torques was
+/// Share of random motions whose error by Taylor series, rounding apart, stays below the tolerance: none of 10,000 with strong torques was
 /// above, and 0.3 % of 3,000 of every kind (`docs/plans.md`).
 const TAYLOR_COVERAGE: f64 = 0.99;
 
 fn taylor(problem: &Problem<f64>, request: &Request, state: State, stretch: (f64, f64)) -> Result<Forecast, Error> {
     let duration = (stretch.1 - stretch.0).abs();
     let TaylorForecast { order, steps, rounding } = if state == State::Orientation {
-        problem.taylor_forecast(duration, request.accuracy)?
+        problem.taylor_forecast(duration, request.tolerance)?
     } else {
-        problem.reduced().taylor_forecast(duration, request.accuracy)?
+        problem.reduced().taylor_forecast(duration, request.tolerance)?
     };
-    Ok(Forecast { truncation: request.accuracy, promise: Promise::Goal(TAYLOR_COVERAGE), rounding, order, steps })
+    Ok(Forecast { truncation: request.tolerance, promise: Promise::Goal(TAYLOR_COVERAGE), rounding, order, steps })
 }
 
 /// Evaluations that the outputs of a request need over a stretch of rotation by `rotation` rad.

@@ -35,8 +35,8 @@ pub struct Plan {
     pub samples: usize,
     /// Parameters by which derivatives are computed.
     pub derivatives: Vec<Parameter>,
-    /// Accuracy asked.
-    pub accuracy: f64,
+    /// Tolerance.
+    pub tolerance: f64,
     /// What the method will do; nothing where there is none.
     pub prediction: Option<Prediction>,
     /// Every method in the order of [`Method::ALL`], with what it would do or why it cannot.
@@ -64,7 +64,7 @@ impl Plan {
             stretch,
             samples: if at_samples { request.samples.count } else { 0 },
             derivatives: request.derivatives.clone(),
-            accuracy: request.accuracy,
+            tolerance: request.tolerance,
             prediction: None,
             considered: Vec::new(),
             skipped: Vec::new(),
@@ -84,13 +84,13 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Whether a method is foreseen to meet the accuracy by what it leaves out, and by rounding: above the accuracy, rounding must not be a hundred times that
+    /// Whether a method is foreseen to meet the tolerance by what it leaves out, and by rounding: above the tolerance, rounding must not be a hundred times that
     /// of another method. Phases after 1e12 turns are in doubles no longer what was asked.
     pub fn admits(&self, prediction: &Prediction) -> bool {
-        let meets = |prediction: &Prediction| prediction.truncation <= self.accuracy;
+        let meets = |prediction: &Prediction| prediction.truncation <= self.tolerance;
         let predictions = self.considered.iter().filter_map(|candidate| candidate.prediction.as_ref().ok());
         let least = predictions.filter(|other| meets(other)).map(|other| other.rounding).fold(f64::INFINITY, f64::min);
-        meets(prediction) && prediction.rounding <= (100.0 * least).max(self.accuracy)
+        meets(prediction) && prediction.rounding <= (100.0 * least).max(self.tolerance)
     }
 
     /// The cheapest method that is admitted; of methods asked for, the only one.
@@ -108,7 +108,7 @@ impl Plan {
                 _ => {}
             }
         }
-        Ok(best.expect("the Taylor series meets any accuracy in its range"))
+        Ok(best.expect("the Taylor series meets any tolerance in its range"))
     }
 
     fn left_out(&self, request: &Request, for_events: bool) -> Vec<Skipped> {
@@ -153,7 +153,7 @@ impl Plan {
         if X::VECTORS == 3 && self.state != State::Orientation {
             return Err(Error::Unsupported { what: "motion with e_x", why: "no output of the plan needs it" });
         }
-        problem.motion_by(self.needed_method()?, self.stretch, self.accuracy)
+        problem.motion_by(self.needed_method()?, self.stretch, self.tolerance)
     }
 
     /// Whether a time costs the same however many turns lie before it: in closed form, and without events or turns to be counted.
@@ -221,7 +221,7 @@ mod tests {
         let (best, admitted, refused) = (with_rounding(1.0), with_rounding(99.7), with_rounding(100.3));
         plan.considered = vec![Candidate { method: Method::Taylor, prediction: Ok(best) }];
         assert!(plan.admits(&best) && plan.admits(&admitted) && !plan.admits(&refused));
-        plan.accuracy = 100.4;
+        plan.tolerance = 100.4;
         assert!(plan.admits(&refused));
     }
 

@@ -43,7 +43,7 @@ pub struct Gradient {
 /// Values of `outputs` at `times` and their derivatives by the [`derivatives`](Plan::derivatives) of a plan, and by no others.
 ///
 /// All goes by the method of the plan. By splitting, one motion with the tangent map of each of its flows gives the derivatives by up to sixteen
-/// parameters at once, and the outputs follow by forward duals: values and derivatives are those of one numerical motion, made for the accuracy
+/// parameters at once, and the outputs follow by forward duals: values and derivatives are those of one numerical motion, made for the tolerance
 /// of the plan, relative to the largest derivative. By the other methods a forward dual goes through the motion for each parameter; steps of a
 /// series follow from real parts alone, and the error of derivatives through it can be some hundred times that of the motion.
 ///
@@ -155,10 +155,10 @@ fn states_by_splitting(
     order.sort_by(|&a, &b| (times[a] - first).abs().total_cmp(&(times[b] - first).abs()));
     let sorted: Vec<f64> = order.iter().map(|&place| times[place]).collect();
     let found = if plan.state == State::Orientation {
-        states_with_derivatives(seeded, first, &sorted, plan.accuracy)?
+        states_with_derivatives(seeded, first, &sorted, plan.tolerance)?
     } else {
         let reduced: Vec<_> = seeded.iter().map(Problem::reduced).collect();
-        states_with_derivatives(&reduced, first, &sorted, plan.accuracy)?
+        states_with_derivatives(&reduced, first, &sorted, plan.tolerance)?
     };
     let mut states = vec![Vec::new(); times.len()];
     for (place, state) in
@@ -189,8 +189,8 @@ fn seeded_motion(plan: &Plan, problem: &Problem<Dual64>) -> Result<StateAt, Erro
             let frame = principal_frame_along(problem.coefficients())?;
             states(AveragedMotion::in_frame(problem, span, AveragingOrder::Second, frame)?)
         }
-        _ if plan.state == State::Orientation => states(problem.taylor(span, plan.accuracy)?),
-        _ => states(problem.reduced().taylor(span, plan.accuracy)?),
+        _ if plan.state == State::Orientation => states(problem.taylor(span, plan.tolerance)?),
+        _ => states(problem.reduced().taylor(span, plan.tolerance)?),
     })
 }
 
@@ -226,9 +226,9 @@ mod tests {
         Parameters::new(spheroid, Matrix3::from_diagonal(&Vector3::from(s)), angles, rates)
     }
 
-    fn plan(start: &Parameters<f64>, method: Method, span: (f64, f64), accuracy: f64) -> Plan {
+    fn plan(start: &Parameters<f64>, method: Method, span: (f64, f64), tolerance: f64) -> Plan {
         let derivatives = vec![Parameter::Beta, Parameter::ConstantC];
-        let request = Request::new(&[Output::SymmetryAxis], span, 3, accuracy);
+        let request = Request::new(&[Output::SymmetryAxis], span, 3, tolerance);
         let request = Request { method: Some(method), derivatives, ..request };
         start.problem().unwrap().plan(&request).unwrap()
     }

@@ -13,7 +13,7 @@ pub enum Method {
     Symmetric,
     /// The averaged motion to second order in `s^IJ`, for bodies that turn fast against the torque.
     Averaged,
-    /// A splitting scheme and a step that suit the accuracy.
+    /// A splitting scheme and a step that suit the tolerance.
     Splitting,
     /// Taylor series with adaptive steps and dense output.
     Taylor,

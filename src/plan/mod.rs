@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! outputs -> needs (state, evaluations)  -> candidates (each method: may it? error? work?) -> the cheapest one that meets
-//! the accuracy -> a motion
+//! the tolerance -> a motion
 //! ```
 //!
 //! A [`Plan`] is a decision, made before any work, that can be read ([`Plan::skipped`], [`Plan::considered`]); its

@@ -30,29 +30,29 @@ const SAMPLES: usize = 1000;
 
 impl<X: RotationState<f64>> Problem<f64, X> {
     /// The motion from the initial state at `span.0` to `span.1` (forwards or backwards), by the cheapest method that is foreseen to meet the
-    /// `accuracy`: the largest error wanted at the end in the components of `n`, `e_x` and of `L` in units of its size, rounding apart.
+    /// `tolerance`: the largest error wanted at the end in the components of `n`, `e_x` and of `L` in units of its size, rounding apart.
     ///
     /// # Errors
     /// As for [`plan`](Self::plan) and [`taylor`](Self::taylor).
-    pub fn motion(&self, span: (f64, f64), accuracy: f64) -> Result<PlannedMotion<X>, Error> {
+    pub fn motion(&self, span: (f64, f64), tolerance: f64) -> Result<PlannedMotion<X>, Error> {
         let output = if X::VECTORS == 3 { Output::EquatorialAxis } else { Output::AngularMomentum };
-        self.plan(&Request::new(&[output], span, SAMPLES, accuracy))?.motion(self)
+        self.plan(&Request::new(&[output], span, SAMPLES, tolerance))?.motion(self)
     }
 
     /// The motion from the initial state at `span.0`, by a given method.
     ///
     /// # Errors
     /// Those of the method.
-    pub fn motion_by(&self, method: Method, span: (f64, f64), accuracy: f64) -> Result<PlannedMotion<X>, Error> {
-        PlannedMotion::of(method, &self.with_equatorial_axis(), span, accuracy)
+    pub fn motion_by(&self, method: Method, span: (f64, f64), tolerance: f64) -> Result<PlannedMotion<X>, Error> {
+        PlannedMotion::of(method, &self.with_equatorial_axis(), span, tolerance)
     }
 
-    /// The plan for a request: of the methods whose [predicted error](super::Prediction::truncation) is at most the accuracy asked, the cheapest one.
+    /// The plan for a request: of the methods whose [predicted error](super::Prediction::truncation) is at most the tolerance, the cheapest one.
     ///
     /// A method asked for by name is taken if it can be used at all, whatever its error: [`prediction`](Plan::prediction) tells it.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a method asked for that the problem does not allow, and for what no method takes (accuracy out of
+    /// [`Error::Domain`] for a method asked for that the problem does not allow, and for what no method takes (tolerance out of
     /// range).
     pub fn plan(&self, request: &Request) -> Result<Plan, Error> {
         Plan::new(self, request)
@@ -61,14 +61,14 @@ impl<X: RotationState<f64>> Problem<f64, X> {
 
 impl<X: RotationState<f64>> PlannedMotion<X> {
     /// Closed forms give either state from one that has `e_x`.
-    fn of(method: Method, problem: &Problem<f64>, span: (f64, f64), accuracy: f64) -> Result<Self, Error> {
+    fn of(method: Method, problem: &Problem<f64>, span: (f64, f64), tolerance: f64) -> Result<Self, Error> {
         Ok(match method {
             Method::Free => Self::Uniform(UniformMotion::free(problem, span)),
             Method::Steady => Self::Uniform(UniformMotion::steady(problem, span)?),
             Method::Symmetric => Self::Symmetric(SymmetricMotion::new(problem, span)?),
             Method::Averaged => Self::Averaged(AveragedMotion::new(problem, span, AveragingOrder::Second)?),
-            Method::Splitting => Self::Splitting(problem.carrying().splitting(span, accuracy)?),
-            Method::Taylor => Self::Taylor(problem.carrying().taylor(span, accuracy)?),
+            Method::Splitting => Self::Splitting(problem.carrying().splitting(span, tolerance)?),
+            Method::Taylor => Self::Taylor(problem.carrying().taylor(span, tolerance)?),
         })
     }
 

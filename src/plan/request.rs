@@ -22,7 +22,7 @@ pub struct Request {
     /// Samples, for the outputs that have values at samples.
     pub samples: Samples,
     /// Largest error wanted in the components of `n`, `e_x` and of `L` in units of its size, rounding apart.
-    pub accuracy: f64,
+    pub tolerance: f64,
     /// The method to use, rather than the cheapest one.
     pub method: Option<Method>,
     /// Parameters by which derivatives of the outputs are wanted.
@@ -31,12 +31,12 @@ pub struct Request {
 
 impl Request {
     /// A request for `outputs` at `count` samples from the first to the last time of the span.
-    pub fn new(outputs: &[Output], span: (f64, f64), count: usize, accuracy: f64) -> Self {
+    pub fn new(outputs: &[Output], span: (f64, f64), count: usize, tolerance: f64) -> Self {
         Self {
             outputs: outputs.to_vec(),
             span,
             samples: Samples { count, last: span.1 },
-            accuracy,
+            tolerance,
             method: None,
             derivatives: Vec::new(),
         }

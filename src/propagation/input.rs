@@ -1,12 +1,12 @@
 //! What motions refuse besides what a problem does.
 
 use crate::error::Error;
-use crate::propagation::ACCURACY_RANGE;
+use crate::propagation::TOLERANCE_RANGE;
 
-/// Refuses an accuracy out of range and a span that is not finite.
-pub(crate) fn check_request(span: (f64, f64), accuracy: f64) -> Result<(), Error> {
-    let (least, most) = ACCURACY_RANGE;
-    Error::ensure(least <= accuracy && accuracy <= most, "accuracy", accuracy, "between 1e-16 and 1e-2")?;
+/// Refuses a tolerance out of range and a span that is not finite.
+pub(crate) fn check_request(span: (f64, f64), tolerance: f64) -> Result<(), Error> {
+    let (least, most) = TOLERANCE_RANGE;
+    Error::ensure(least <= tolerance && tolerance <= most, "tolerance", tolerance, "between 1e-16 and 1e-2")?;
     for time in [span.0, span.1] {
         Error::ensure(time.is_finite(), "end of the time span", time, "a finite number")?;
     }

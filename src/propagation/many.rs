@@ -20,15 +20,15 @@ pub struct SampledProblem<'t> {
     /// Times of the states asked, in the order in which the motion reaches them from its start.
     pub times: &'t [f64],
     /// As for [`Problem::taylor`].
-    pub accuracy: f64,
+    pub tolerance: f64,
 }
 
-/// States of many motions at the times asked of each: those of [`Problem::taylor_states`] within the accuracy asked, at a fraction of
+/// States of many motions at the times asked of each: those of [`Problem::taylor_states`] within the tolerance, at a fraction of
 /// the time where the processor has vectors of doubles (AVX2: 4 motions at once, AVX-512: 8).
 ///
 /// There each motion goes by the splitting scheme that a model of cost and error chooses for it, as in [`Problem::splitting`], and by
 /// Taylor series where rounding would spoil that or samples lie close together. Elsewhere all go by Taylor series.
-/// The model holds for about 99 motions in 100; one near the unstable middle axis may miss the accuracy by a factor of ten.
+/// The model holds for about 99 motions in 100; one near the unstable middle axis may miss the tolerance by a factor of ten.
 ///
 /// Errors are not estimated. Each motion has its own steps, and its numbers do not depend on those beside it, on their order or on their number.
 ///
@@ -44,8 +44,8 @@ pub fn states_of_many(motions: &[SampledProblem<'_>]) -> Vec<Result<Samples<Axis
             return in_lanes(register, motions);
         }
     }
-    let alone = |SampledProblem { problem, start, times, accuracy }: &SampledProblem| {
-        problem.taylor_states(*start, times, *accuracy, ErrorEstimates::NotWanted)
+    let alone = |SampledProblem { problem, start, times, tolerance }: &SampledProblem| {
+        problem.taylor_states(*start, times, *tolerance, ErrorEstimates::NotWanted)
     };
     motions.iter().map(alone).collect()
 }
@@ -85,7 +85,7 @@ mod tests {
         let motion = |i: usize| {
             let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03)) * (1.0 + 0.1 * i as f64);
             let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, initial).unwrap();
-            SampledProblem { problem, start: 0.0, times: &times, accuracy: 10f64.powi(-3 - (i % 12) as i32) }
+            SampledProblem { problem, start: 0.0, times: &times, tolerance: 10f64.powi(-3 - (i % 12) as i32) }
         };
         let motions: Vec<_> = (0..31).map(motion).collect();
         assert_eq!(in_lanes(four, &motions), in_lanes(eight, &motions));

@@ -36,5 +36,7 @@ pub(crate) use input::check_time;
 pub use many::{SampledProblem, states_of_many};
 pub use motion::Motion;
 pub(crate) use taylor::projected_by_segments;
-pub use taylor::{ACCURACY_RANGE, ErrorEstimates, STEP_LIMIT, Samples, SeriesProjection, TaylorForecast, TaylorMotion};
+pub use taylor::{
+    ErrorEstimates, STEP_LIMIT, Samples, SeriesProjection, TOLERANCE_RANGE, TaylorForecast, TaylorMotion,
+};
 pub use turning::{GivenRates, Turning};

@@ -151,9 +151,9 @@ fn a_pulse_at_the_end_of_a_span_is_cut_there() -> Result<(), Error> {
     let whole = pulse_train(&motion, &beam, &observer.direction, (0.0, 60.0))?;
     let pulse = whole.pulses.iter().find(|pulse| pulse.is_whole()).expect("a whole pulse");
     let end = pulse.midpoint();
-    for accuracy in [1e-12, 1e-4] {
+    for tolerance in [1e-12, 1e-4] {
         let (train, _) = Problem::new(star, s.tensor(), state)
-            .and_then(|problem| problem.taylor_pulse_train((0.0, end), accuracy, &beam, &observer.direction))?;
+            .and_then(|problem| problem.taylor_pulse_train((0.0, end), tolerance, &beam, &observer.direction))?;
         let last = train.pulses.last().expect("the pulse");
         assert!(last.cut_at_end && last.end == end, "{last:?}");
         assert_relative_eq!(last.start, pulse.start, epsilon = 1e-3);

@@ -211,12 +211,12 @@ fn time_unit_needs_an_oblate_star() {
 fn propagation_refuses_what_it_cannot_follow() {
     let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.0 };
     let start = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.0 });
-    let run = |state: &BodyState<f64>, span, accuracy| {
-        Problem::new(star(), S.tensor(), *state).and_then(|problem| problem.taylor(span, accuracy))
+    let run = |state: &BodyState<f64>, span, tolerance| {
+        Problem::new(star(), S.tensor(), *state).and_then(|problem| problem.taylor(span, tolerance))
     };
-    refused(run(&start, (0.0, 1.0), 1e-17), "accuracy");
-    refused(run(&start, (0.0, 1.0), f64::NAN), "accuracy");
-    refused(run(&start, (0.0, 1.0), 0.1), "accuracy");
+    refused(run(&start, (0.0, 1.0), 1e-17), "tolerance");
+    refused(run(&start, (0.0, 1.0), f64::NAN), "tolerance");
+    refused(run(&start, (0.0, 1.0), 0.1), "tolerance");
     refused(run(&start, (0.0, f64::INFINITY), 1e-10), "time span");
     refused(run(&BodyState { axis: start.axis * 1.1, ..start }, (0.0, 1.0), 1e-10), "axis n");
     refused(run(&BodyState { equatorial_axis: start.axis, ..start }, (0.0, 1.0), 1e-10), "n . e_x");

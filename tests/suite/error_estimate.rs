@@ -11,7 +11,7 @@ proptest! {
     #[test]
     fn an_estimate_is_not_below_the_true_error(
         scene in scenes(),
-        log_accuracy in -16.0..-2.0f64,
+        log_tolerance in -16.0..-2.0f64,
         end in -30.0..30.0f64,
         share in 0.0..1.0f64,
     ) {
@@ -20,7 +20,7 @@ proptest! {
             problem,
             span: (0.0, end),
             time: end * share,
-            accuracy: 10f64.powf(log_accuracy),
+            tolerance: 10f64.powf(log_tolerance),
             strength: problem.coefficients().amax(),
             near_middle_axis: false,
         };

@@ -23,7 +23,7 @@ use twofold_verify::second_integrator::axis_states;
 
 const SAMPLES: usize = 3000;
 const END: f64 = 200.0;
-const ACCURACY: f64 = 1e-12;
+const TOLERANCE: f64 = 1e-12;
 
 /// The largest power of ten at which the error of the other method, too, is below 1e-12.
 const BASELINE_TOLERANCE: f64 = 1e-13;
@@ -42,11 +42,11 @@ fn main() -> Result<(), String> {
     let wave = |state: &AxisState<f64>| wave(&observer, &scene.spheroid, &s, state);
 
     let by_axis = |times: &[f64]| {
-        let motion = reduced.taylor((0.0, END), ACCURACY).map_err(text)?;
+        let motion = reduced.taylor((0.0, END), TOLERANCE).map_err(text)?;
         times.iter().map(|t| motion.axis_state(*t).map(|state| wave(&state)).map_err(text)).collect()
     };
     let by_whole_motion = |times: &[f64]| {
-        let motion = problem.taylor((0.0, END), ACCURACY).map_err(text)?;
+        let motion = problem.taylor((0.0, END), TOLERANCE).map_err(text)?;
         times.iter().map(|t| motion.state(*t).map(|state| wave(&(&state).into())).map_err(text)).collect()
     };
     let by_baseline = |times: &[f64]| {

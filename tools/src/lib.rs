@@ -71,7 +71,7 @@ impl Ratios {
     }
 }
 
-/// Length of the stretches of a long motion (t_c). Over one of them the accuracy 1e-16 asks for a truncation below 2e-25 per t_c.
+/// Length of the stretches of a long motion (t_c). Over one of them the tolerance 1e-16 asks for a truncation below 2e-25 per t_c.
 const STRETCH: f64 = 25_000.0;
 
 /// A long motion by the Taylor series over double-double numbers, made of stretches that are restarted from the end of the one before.

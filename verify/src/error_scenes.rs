@@ -27,8 +27,8 @@ pub struct ErrorScene {
     pub span: (f64, f64),
     /// Time asked for.
     pub time: f64,
-    /// Accuracy asked for.
-    pub accuracy: f64,
+    /// Tolerance.
+    pub tolerance: f64,
     /// Largest eigenvalue of `s^IJ` in magnitude.
     pub strength: f64,
     /// Whether `L` starts near the middle eigenvector.
@@ -103,9 +103,9 @@ impl ErrorScene {
         let start = random.within(-100.0, 100.0) * unit;
         let end = start + length * unit * if chance(random, 0.3) { -1.0 } else { 1.0 };
         let time = start + (end - start) * random.within(0.0, 1.0);
-        let accuracy = log(random, -16.0, -3.0);
+        let tolerance = log(random, -16.0, -3.0);
         let problem = Problem::new(spheroid, violation, initial).expect("parts of the domain");
-        Self { problem, span: (start, end), time, accuracy, strength, near_middle_axis }
+        Self { problem, span: (start, end), time, tolerance, strength, near_middle_axis }
     }
 
     /// Unit in which errors of `L` count: its size and what the torque makes of it.
@@ -149,7 +149,7 @@ impl ErrorScene {
         }
         self.problem = Problem::new(body, s, initial).ok()?;
         self.strength = s.amax();
-        self.accuracy = if method.is_closed_form() { 1e-16 } else { self.accuracy };
+        self.tolerance = if method.is_closed_form() { 1e-16 } else { self.tolerance };
         Some(self)
     }
 
@@ -158,7 +158,7 @@ impl ErrorScene {
     /// # Errors
     /// What the motion refuses.
     pub fn estimated_and_true(&self, method: Method) -> Result<(f64, f64), String> {
-        let motion = self.problem.motion_by(method, self.span, self.accuracy)?;
+        let motion = self.problem.motion_by(method, self.span, self.tolerance)?;
         Ok((motion.error_estimate(self.time), self.true_error(&motion.state(self.time)?)))
     }
 
@@ -167,7 +167,7 @@ impl ErrorScene {
     pub fn true_error(&self, state: &BodyState<f64>) -> f64 {
         // Exactly: that the motion rounds it is part of its error.
         let duration = DoubleDouble::from_f64(self.time) - DoubleDouble::from_f64(self.span.0);
-        if self.accuracy > 1e-5 && self.turned() > 5.0 && self.turned() < 300.0 {
+        if self.tolerance > 1e-5 && self.turned() > 5.0 && self.turned() < 300.0 {
             self.difference(state, &state_after::<f64>(&self.problem, duration.high(), 1e-16))
         } else {
             self.difference(state, &state_after::<DoubleDouble>(&self.problem, duration, 1e-22))

@@ -93,43 +93,43 @@ pub const MANY_SCENES: &[(Method, usize)] = &[
     (Method { name: "lanes, 16 scenes", carries: Carries::Axis, settings: ACCURACIES, run: in_lanes::<16> }, 16),
 ];
 
-fn taylor_with_pulses(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
+fn taylor_with_pulses(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
     let (beam, observer) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0));
-    let (train, end) = scene.problem.taylor_pulse_train((0.0, duration), accuracy, &beam, &observer.direction)?;
+    let (train, end) = scene.problem.taylor_pulse_train((0.0, duration), tolerance, &beam, &observer.direction)?;
     std::hint::black_box(train);
     Ok(end_of(&end))
 }
 
-fn in_lanes<const COUNT: usize>(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
+fn in_lanes<const COUNT: usize>(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
     let times = [duration];
-    let near = |i: usize| SampledProblem { problem: scene.beside(i, 1e-4), start: 0.0, times: &times, accuracy };
+    let near = |i: usize| SampledProblem { problem: scene.beside(i, 1e-4), start: 0.0, times: &times, tolerance };
     let mut found = states_of_many(&core::array::from_fn::<_, COUNT, _>(near));
     Ok(end_of(&found.swap_remove(0)?))
 }
 
-fn taylor_axis(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
-    let found = scene.problem.reduced().taylor_states(0.0, &[duration], accuracy, ErrorEstimates::NotWanted);
+fn taylor_axis(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
+    let found = scene.problem.reduced().taylor_states(0.0, &[duration], tolerance, ErrorEstimates::NotWanted);
     Ok(end_of(&found?))
 }
 
-fn taylor(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
-    Ok(end_of(&scene.problem.taylor_states(0.0, &[duration], accuracy, ErrorEstimates::NotWanted)?))
+fn taylor(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
+    Ok(end_of(&scene.problem.taylor_states(0.0, &[duration], tolerance, ErrorEstimates::NotWanted)?))
 }
 
-fn splitting_axis(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
-    end_of_splitting(&scene.problem.reduced(), duration, accuracy)
+fn splitting_axis(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
+    end_of_splitting(&scene.problem.reduced(), duration, tolerance)
 }
 
-fn splitting(scene: &BenchScene, duration: f64, accuracy: f64) -> Result<End, String> {
-    end_of_splitting(&scene.problem, duration, accuracy)
+fn splitting(scene: &BenchScene, duration: f64, tolerance: f64) -> Result<End, String> {
+    end_of_splitting(&scene.problem, duration, tolerance)
 }
 
 fn end_of_splitting<X: RotationState<f64>>(
     problem: &Problem<f64, X>,
     duration: f64,
-    accuracy: f64,
+    tolerance: f64,
 ) -> Result<End, String> {
-    let motion = problem.splitting((0.0, duration), accuracy)?;
+    let motion = problem.splitting((0.0, duration), tolerance)?;
     let steps = motion.step_count() as usize;
     Ok(End::new(&motion.state(duration)?, steps, 2 * steps * motion.scheme().stages()))
 }

@@ -18,8 +18,8 @@ use super::scene::{BenchScene, DURATION};
 use super::timing::{Times, in_turn};
 use twofold_verify::double_double::DoubleDouble;
 
-/// Accuracy of the motions.
-pub const ACCURACY: f64 = 1e-12;
+/// Tolerance of the motions.
+pub const TOLERANCE: f64 = 1e-12;
 
 const PARAMETERS: [Parameter; 10] = [
     Parameter::InertiaXx,
@@ -51,9 +51,9 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
     let scene = &BenchScene::named("tp-II");
     let span = (0.0, DURATION);
     let (beam, observer) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0));
-    let whole = || Ok::<_, String>(scene.problem.taylor(span, ACCURACY)?);
+    let whole = || Ok::<_, String>(scene.problem.taylor(span, TOLERANCE)?);
     let reduced = scene.problem.reduced();
-    let axis = || Ok::<_, String>(reduced.taylor(span, ACCURACY)?);
+    let axis = || Ok::<_, String>(reduced.taylor(span, TOLERANCE)?);
     let sampled = |count: usize| {
         move || {
             let motion = axis()?;
@@ -75,7 +75,7 @@ pub fn measure(effort: &Effort, done: impl FnMut(f64)) -> Result<Vec<Row>, Strin
         (
             "162 pulses, the motion not kept",
             full,
-            Box::new(|| Ok(scene.problem.taylor_pulse_train(span, ACCURACY, &beam, &observer.direction).map(drop)?)),
+            Box::new(|| Ok(scene.problem.taylor_pulse_train(span, TOLERANCE, &beam, &observer.direction).map(drop)?)),
         ),
         ("1,000 samples", n, Box::new(sampled(1000))),
         ("10,000 samples", n, Box::new(sampled(10_000))),
@@ -131,8 +131,8 @@ fn seeded() -> impl Fn(f64) -> DualSVec64<{ PARAMETERS.len() }> {
 fn at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
     let none = ErrorEstimates::NotWanted;
     match carries {
-        Carries::Axis => drop(black_box(scene.problem.reduced().taylor_states(0.0, &[DURATION], ACCURACY, none)?)),
-        Carries::Orientation => drop(black_box(scene.problem.taylor_states(0.0, &[DURATION], ACCURACY, none)?)),
+        Carries::Axis => drop(black_box(scene.problem.reduced().taylor_states(0.0, &[DURATION], TOLERANCE, none)?)),
+        Carries::Orientation => drop(black_box(scene.problem.taylor_states(0.0, &[DURATION], TOLERANCE, none)?)),
     }
     Ok(())
 }
@@ -155,7 +155,8 @@ impl StateFunction for Components {
 fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
     let (spheroid, initial) = (scene.problem.spheroid(), scene.problem.initial());
     let output = if carries == Carries::Axis { Output::AngularMomentum } else { Output::EquatorialAxis };
-    let request = Request { derivatives: PARAMETERS.to_vec(), ..Request::new(&[output], (0.0, DURATION), 1, ACCURACY) };
+    let request =
+        Request { derivatives: PARAMETERS.to_vec(), ..Request::new(&[output], (0.0, DURATION), 1, TOLERANCE) };
     let plan = scene.problem.plan(&request)?;
     let (angles, rates) = (initial.angles()?, initial.rates(spheroid)?);
     let start = Parameters::new(*spheroid, *scene.problem.coefficients(), angles, rates);
@@ -166,8 +167,8 @@ fn gradient_at_end(scene: &BenchScene, carries: Carries) -> Result<(), String> {
 fn over<S: Real>(scene: &BenchScene, lift: impl Fn(f64) -> S, carries: Carries) -> Result<(), String> {
     let (problem, span) = (scene.problem.map(lift), (0.0, DURATION));
     match carries {
-        Carries::Axis => drop(problem.reduced().taylor(span, ACCURACY)?),
-        Carries::Orientation => drop(problem.taylor(span, ACCURACY)?),
+        Carries::Axis => drop(problem.reduced().taylor(span, TOLERANCE)?),
+        Carries::Orientation => drop(problem.taylor(span, TOLERANCE)?),
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use std::time::Instant;
 use twofold::propagation::{Motion, SampledProblem, states_of_many};
 
 use super::Effort;
-use super::overhead::ACCURACY;
+use super::overhead::TOLERANCE;
 use super::scene::{BenchScene, DURATION};
 use super::timing::{Times, in_turn};
 
@@ -70,7 +70,7 @@ pub(crate) fn measure(effort: &Effort, mut done: impl FnMut(f64)) -> Result<Vec<
 
 fn sampled(scene: &BenchScene, count: usize) -> Result<f64, String> {
     let span = (0.0, DURATION);
-    let motion = scene.problem.reduced().taylor(span, ACCURACY)?;
+    let motion = scene.problem.reduced().taylor(span, TOLERANCE)?;
     (1..=count).try_fold(0.0, |sum, i| {
         let state = motion.state(DURATION * i as f64 / count as f64)?;
         Ok(sum + state.axis.z)
@@ -83,7 +83,7 @@ fn spread(scene: &BenchScene, count: usize, cores: usize) -> Result<f64, String>
         problem: scene.beside(i, 1e-5),
         start: 0.0,
         times: &[DURATION],
-        accuracy: ACCURACY,
+        tolerance: TOLERANCE,
     };
     let some = |first: usize| {
         let scenes: Vec<_> = (first..count.min(first + TOGETHER)).map(one).collect();
@@ -106,7 +106,7 @@ pub fn set_up(effort: &Effort) -> Result<f64, String> {
     for _ in 0..100 * effort.rounds {
         // The clock of the thread's work is too coarse for a microsecond.
         let clock = Instant::now();
-        let motion = scene.problem.reduced().taylor((0.0, 1e-3), ACCURACY)?;
+        let motion = scene.problem.reduced().taylor((0.0, 1e-3), TOLERANCE)?;
         std::hint::black_box(motion);
         least = least.min(clock.elapsed().as_secs_f64());
     }

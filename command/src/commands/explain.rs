@@ -65,7 +65,7 @@ pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
                 "{} by the method{}; asked is {:.0e}",
                 foreseen(prediction),
                 meaning(prediction.promise),
-                plan.accuracy
+                plan.tolerance
             ),
         );
         let rounding = as_printed(prediction.rounding, ROUNDING_OF_COMPONENT);
@@ -85,7 +85,7 @@ pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
             Ok(prediction) if plan.admits(prediction) => {
                 line(format_args!("  {name}: {}, error {}", duration(prediction.cost), foreseen(prediction)));
             }
-            Ok(prediction) if prediction.truncation <= plan.accuracy => {
+            Ok(prediction) if prediction.truncation <= plan.tolerance => {
                 let rounding = prediction.rounding;
                 line(format_args!("  {name}: loses digits that another keeps, about {rounding:.1e} by rounding"));
             }
@@ -117,7 +117,7 @@ fn meaning(promise: Promise) -> String {
     }
 }
 
-/// Why the method was taken, against the next best that meets the accuracy.
+/// Why the method was taken, against the next best that meets the tolerance.
 fn why(plan: &Plan) -> Option<String> {
     let (method, prediction) = (plan.method?, plan.prediction?);
     if plan.forced {
@@ -128,7 +128,7 @@ fn why(plan: &Plan) -> Option<String> {
         plan.admits(other).then_some((candidate.method, other.cost))
     });
     let next = usable.min_by(|a, b| a.1.total_cmp(&b.1));
-    let found = format!("the cheapest of those whose predicted error is at most {:.0e}", plan.accuracy);
+    let found = format!("the cheapest of those whose predicted error is at most {:.0e}", plan.tolerance);
     Some(match next {
         Some((other, cost)) => {
             format!("{found}; next is {}, {:.1} times the cost", other.name(), cost / prediction.cost)

@@ -120,9 +120,9 @@ fn note_lines(scene: &Scene, column: &Column, summary: &LinesSummary) {
     let least = format!("{:.1e}{unit}", summary.least);
     match summary.floor {
         Floor::Wanted => {}
-        Floor::Accuracy(size) => note(&format!(
-            "lines below {least} are not listed: the scene's accuracy is {:.0e}, of {size:.1e}{unit}",
-            scene.accuracy
+        Floor::Tolerance(size) => note(&format!(
+            "lines below {least} are not listed: the scene's tolerance is {:.0e}, of {size:.1e}{unit}",
+            scene.tolerance
         )),
         Floor::Noise => note(&format!(
             "lines below {least} are not listed: that is six times the noise, what is left or the rounding of the values and their times"

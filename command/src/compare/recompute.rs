@@ -17,7 +17,7 @@ use twofold_verify::check::largest;
 use twofold_verify::paper_examples::{COEFFICIENTS, PaperExample, SPIN, spheroid};
 
 /// Truncation error asked of a motion.
-const ACCURACY: f64 = 1e-14;
+const TOLERANCE: f64 = 1e-14;
 
 // The paper's observer and beam; phi_o = delta = 0.
 const THETA_O: f64 = 0.8;
@@ -60,7 +60,7 @@ impl Start {
 
     fn motion(&self, until: f64) -> Result<TaylorMotion<f64>, Error> {
         let problem = Problem::from_angles(spheroid(), COEFFICIENTS.tensor(), &self.angles, &self.rates)?;
-        problem.taylor((0.0, until), ACCURACY)
+        problem.taylor((0.0, until), TOLERANCE)
     }
 }
 

@@ -6,7 +6,7 @@ use twofold::euler_angles::EulerAngles;
 use twofold::solutions::perturbation::{Form, Perturbation};
 
 use super::scale::Scale;
-use super::subject::{ACCURACY, Shown, Subject, corrected_solution};
+use super::subject::{Shown, Subject, TOLERANCE, corrected_solution};
 use twofold_scene::scene_file::{Pulsar, Viewer};
 use twofold_verify::paper_examples::{COEFFICIENTS, PaperExample, SPIN, paper_examples, spheroid};
 
@@ -36,7 +36,7 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
     let shown = Shown { angles, equatorial_axis: angles.min(40.0), beam: 200.0, waves: 100.0, pulses: 400.0 };
     Ok(Subject {
         name: example.name.to_owned(),
-        motion: problem.taylor((0.0, 500.0), ACCURACY)?,
+        motion: problem.taylor((0.0, 500.0), TOLERANCE)?,
         problem,
         initial_angles,
         scale: Scale::PAPER,

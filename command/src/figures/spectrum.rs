@@ -8,7 +8,7 @@ use twofold::observables::spectrum::{Combination, Series, Window, amplitude_spec
 use twofold::propagation::TaylorMotion;
 
 use super::number::{number, significant};
-use super::subject::{ACCURACY, Subject};
+use super::subject::{Subject, TOLERANCE};
 use super::table::Table;
 
 /// Values in a series, of which 10 or more are on each wave that matters.
@@ -36,7 +36,7 @@ pub(super) struct LongMotion {
 impl LongMotion {
     /// The motion of `duration` (t_c) from the start of a subject.
     pub(super) fn of(subject: &Subject, duration: f64) -> Result<Self, String> {
-        let motion = subject.problem.taylor((0.0, duration), ACCURACY);
+        let motion = subject.problem.taylor((0.0, duration), TOLERANCE);
         let motion = motion.map_err(|error| format!("{}: {error}", subject.name))?;
         let frequencies = fundamental_frequencies(&motion).ok();
         Ok(Self { motion, frequencies })

@@ -13,7 +13,7 @@ use super::spectrum::{LongMotion, SERIES_ROTATION};
 use twofold_scene::scene_file::{Pulsar, Scene, Viewer};
 
 /// Truncation error of the motions, far below what a picture shows; the data of the figures have all their digits.
-pub(super) const ACCURACY: f64 = 1e-14;
+pub(super) const TOLERANCE: f64 = 1e-14;
 
 /// How much of a motion the figures show, in `t_c` from the start; none above the span of the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,7 +78,7 @@ impl Subject {
             waves: at_most(0.25 * MOST_ROTATION),
             pulses: all,
         };
-        let motion = problem.taylor((0.0, all), ACCURACY).map_err(|error| format!("{name}: {error}"))?;
+        let motion = problem.taylor((0.0, all), TOLERANCE).map_err(|error| format!("{name}: {error}"))?;
         Ok(Self {
             name: name.to_owned(),
             problem,

@@ -48,7 +48,7 @@ const REFUSED: f64 = 1e13;
 /// Steps that take some milliseconds.
 const MANY: f64 = 1e4;
 
-/// A scene as bytes give it, with a span, an accuracy, a beam and an observer.
+/// A scene as bytes give it, with a span, a tolerance, a beam and an observer.
 struct Case {
     body: RigidSpheroid<f64>,
     s: PrincipalCoefficients<f64>,
@@ -57,7 +57,7 @@ struct Case {
     rates: EulerRates<f64>,
     state: BodyState<f64>,
     span: (f64, f64),
-    accuracy: f64,
+    tolerance: f64,
     beam: Beam<f64>,
     observer: Observer<f64>,
 }
@@ -79,7 +79,7 @@ impl Case {
         let span = (next() * 10.0, next() * 10.0);
         let (beam, observer) = (Beam::new(next(), next(), next()), Observer::at(next(), next()));
         let exponent = f64::from(bytes.byte() % 20);
-        Self { body, s, tensor, angles, rates, state, span, accuracy: 10f64.powf(-exponent), beam, observer }
+        Self { body, s, tensor, angles, rates, state, span, tolerance: 10f64.powf(-exponent), beam, observer }
     }
 
     fn problem(&self) -> Option<Problem<f64>> {
@@ -136,15 +136,15 @@ pub fn model(bytes: &[u8]) {
 }
 
 fn numerical(case: &Case) {
-    let (Some(problem), Case { span, accuracy, .. }) = (case.problem(), case) else { return };
-    let _ = black_box(problem.taylor_forecast(span.1 - span.0, *accuracy));
+    let (Some(problem), Case { span, tolerance, .. }) = (case.problem(), case) else { return };
+    let _ = black_box(problem.taylor_forecast(span.1 - span.0, *tolerance));
     if !case.is_moderate() {
         return;
     }
-    if let Ok(motion) = problem.taylor(*span, *accuracy) {
+    if let Ok(motion) = problem.taylor(*span, *tolerance) {
         look_within(&motion, case);
     }
-    let _ = black_box(problem.taylor_states(span.0, &case.times(), *accuracy, ErrorEstimates::Wanted));
+    let _ = black_box(problem.taylor_states(span.0, &case.times(), *tolerance, ErrorEstimates::Wanted));
 }
 
 fn look_within<M: Motion<f64, State = BodyState<f64>>>(motion: &M, case: &Case) {
@@ -161,15 +161,15 @@ fn look_within<M: Motion<f64, State = BodyState<f64>>>(motion: &M, case: &Case) 
 }
 
 fn by_splitting(case: &Case, scheme: u8) {
-    let (Some(problem), Case { span, accuracy, .. }) = (case.problem(), case) else { return };
+    let (Some(problem), Case { span, tolerance, .. }) = (case.problem(), case) else { return };
     let reduced = problem.reduced();
-    let forecast = reduced.splitting_forecast(*span, *accuracy);
+    let forecast = reduced.splitting_forecast(*span, *tolerance);
     if !case.is_moderate() {
         return;
     }
     // Without a torque steps may be long, and a great rotation is made of as many as are allowed: minutes, as forecast.
     if forecast.map_or(true, |forecast| forecast.steps < MANY)
-        && let Ok(motion) = reduced.splitting(*span, *accuracy)
+        && let Ok(motion) = reduced.splitting(*span, *tolerance)
     {
         let _ = black_box((motion.state(span.1), motion.error_estimate(span.1)));
     }
@@ -196,12 +196,12 @@ fn closed(case: &Case) {
 }
 
 fn planned(case: &Case, bytes: &mut Bytes<'_>) {
-    let (Some(problem), Case { span, accuracy, .. }) = (case.problem(), case) else { return };
+    let (Some(problem), Case { span, tolerance, .. }) = (case.problem(), case) else { return };
     let wanted = bytes.below(1 << 14);
     let outputs: Vec<_> =
         Output::ALL.into_iter().enumerate().filter(|(i, _)| wanted >> i & 1 == 1).map(|(_, o)| o).collect();
     let method = Method::ALL.get(bytes.below(12)).copied();
-    let request = Request { method, ..Request::new(&outputs, *span, bytes.below(1000), *accuracy) };
+    let request = Request { method, ..Request::new(&outputs, *span, bytes.below(1000), *tolerance) };
     let Ok(plan) = problem.plan(&request) else { return };
     let _ = black_box(format!("{plan:?}"));
     let is_closed = plan.method.is_some_and(Method::is_closed_form);
@@ -217,13 +217,13 @@ fn planned(case: &Case, bytes: &mut Bytes<'_>) {
 }
 
 fn pulses(case: &Case) {
-    let (Some(problem), Case { span, accuracy, beam, observer, .. }) = (case.problem(), case) else { return };
+    let (Some(problem), Case { span, tolerance, beam, observer, .. }) = (case.problem(), case) else { return };
     if !case.is_moderate() {
         return;
     }
     let sight = observer.direction;
-    let _ = black_box(problem.taylor_pulse_train(*span, *accuracy, beam, &sight));
-    let Ok(motion) = problem.taylor(*span, *accuracy) else { return };
+    let _ = black_box(problem.taylor_pulse_train(*span, *tolerance, beam, &sight));
+    let Ok(motion) = problem.taylor(*span, *tolerance) else { return };
     if let Ok(train) = pulse_train(&motion, beam, &sight, *span) {
         let _ =
             black_box((train.periods().count(), train.durations().count(), arrivals(&motion, beam, &sight, &train)));
@@ -354,7 +354,7 @@ fn many(bytes: &mut Bytes<'_>) {
     let times: Vec<_> = cases.iter().map(|case| case.times()).collect();
     let sampled = |(case, times): (&Case, _)| {
         let problem = case.problem()?.reduced();
-        Some(SampledProblem { problem, start: case.span.0, times, accuracy: case.accuracy })
+        Some(SampledProblem { problem, start: case.span.0, times, tolerance: case.tolerance })
     };
     let sampled: Vec<_> = cases.iter().zip(times.iter().map(|times| &times[..])).filter_map(sampled).collect();
     assert_eq!(states_of_many(&sampled).len(), sampled.len());

@@ -13,10 +13,10 @@ use twofold_scene::scene_file::BUILT_IN;
 fn the_estimated_error_that_run_prints_is_that_of_its_last_row() {
     let folder = folder();
     let built_in = BUILT_IN.iter().find(|scene| scene.name == "tp-2").expect("tp-2").toml;
-    let last_row = |accuracy: &str, method: &str| {
-        let text = built_in.replace("accuracy = 1e-13", "");
+    let last_row = |tolerance: &str, method: &str| {
+        let text = built_in.replace("tolerance = 1e-13", "");
         let path = folder.path().join("scene.toml");
-        fs::write(&path, format!("{text}\n[output]\ncolumns = [\"e_x\", \"e_z\"]\naccuracy = {accuracy}\n"))
+        fs::write(&path, format!("{text}\n[output]\ncolumns = [\"e_x\", \"e_z\"]\ntolerance = {tolerance}\n"))
             .expect("scene");
         let output = succeeds(&["run", path.to_str().expect("path in UTF-8"), "--method", method]);
         let table = String::from_utf8(output.stdout.clone()).expect("text");
@@ -144,7 +144,7 @@ fn notes_and_plans_of_a_physical_star_have_its_times_in_seconds() {
     );
 }
 
-/// The method named as next is the cheapest of the others that meet the accuracy, and the ratio is that of their costs.
+/// The method named as next is the cheapest of the others that meet the tolerance, and the ratio is that of their costs.
 #[test]
 fn the_next_method_is_the_second_cheapest() {
     // Without violation all methods are good enough.
@@ -179,7 +179,7 @@ fn an_error_that_is_foreseen_is_not_called_estimated() {
     let tp_1 = BUILT_IN.iter().find(|scene| scene.name == "tp-1").expect("tp-1").toml;
     let (before, _) = tp_1.split_once("[time]").expect("times");
     for (span, words) in [(100.0, "note: estimated error"), (45_000.0, "note: error that the plan foresaw")] {
-        let times = format!("[time]\nspan = {span}\nsamples = 2\n[output]\naccuracy = 1e-6\nmethod = \"taylor\"\n");
+        let times = format!("[time]\nspan = {span}\nsamples = 2\n[output]\ntolerance = 1e-6\nmethod = \"taylor\"\n");
         fs::write(&scene, format!("{before}{times}")).expect("scene");
         let told = stderr(&twofold(&["run", scene.to_str().expect("path in UTF-8"), "--columns", "e_z"]));
         assert!(told.contains(&format!("{words} of n")), "{told}");

@@ -88,7 +88,7 @@ fn one_far_time_does_not_pay_for_those_before() {
             let mut scene = with_columns(name, &[column_group(column).expect("group")]);
             scene.times = Times::Listed { start: 0.0, times: vec![1000.0] };
             // Above the rounding after 200 turns, for which a closed form with phases in 32 digits is taken.
-            scene.accuracy = 1e-10;
+            scene.tolerance = 1e-10;
             let plan = scene.plan(&scene.columns).expect("plan");
             let work = written(&scene).work;
             assert_eq!((plan.method, work.evaluations()), (Some(method), 1.0), "{name}: {column}");

@@ -179,8 +179,8 @@ fn rounding_beside_a_constant_is_not_listed() {
         // A star that spins about its axis: what oscillates in its wave is 1e13 times below the constant term.
         ("b1937+21", "h_plus", "20", "six times the noise"),
         // A component of L that is 1e-13 of |L|.
-        ("b1828-11", "L_Y", "600", "the scene's accuracy is 1e-13, of 2.5e46 g cm^2/s"),
-        ("tp-1", "E", "400", "the scene's accuracy is 1e-13, of 1.0e0 C"),
+        ("b1828-11", "L_Y", "600", "the scene's tolerance is 1e-13, of 2.5e46 g cm^2/s"),
+        ("tp-1", "E", "400", "the scene's tolerance is 1e-13, of 1.0e0 C"),
     ] {
         let output = twofold(&["spectrum", scene, "--of", column, "--span", span, "--unidentified"]);
         assert!(lines_of(&output).is_empty(), "{scene} {column}: {}", String::from_utf8_lossy(&output.stdout));

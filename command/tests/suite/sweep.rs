@@ -96,7 +96,7 @@ fn a_row_is_the_motion_of_its_scene() {
     assert_eq!(header[header.len() - 1], "lambda_mean [rad]");
 }
 
-/// To the last digit: `n` and `L` of a method that is named are those of `run`, whether the sweep or its scene names it. At this accuracy
+/// To the last digit: `n` and `L` of a method that is named are those of `run`, whether the sweep or its scene names it. At this tolerance
 /// splitting and the series differ in every number.
 #[test]
 fn rows_are_computed_by_the_method_that_is_named() {
@@ -106,12 +106,12 @@ fn rows_are_computed_by_the_method_that_is_named() {
     written(
         folder.path(),
         "plain.toml",
-        &(scene.clone() + "\n[output]\naccuracy = 1e-6\ncolumns = [\"e_z\", \"L\"]\n"),
+        &(scene.clone() + "\n[output]\ntolerance = 1e-6\ncolumns = [\"e_z\", \"L\"]\n"),
     );
     let sweep_of = |base: &str, output: &str| {
         format!(
             "scene = \"{base}\"\n[[vary]]\nparameter = \"star.inertia_ratio\"\nvalues = [1.1, 1.1]\n[time]\ntimes = [3.0, 20.0]\n\
-             [output]\ncolumns = [\"e_z\", \"L\"]\naccuracy = 1e-6\n{output}"
+             [output]\ncolumns = [\"e_z\", \"L\"]\ntolerance = 1e-6\n{output}"
         )
     };
     let mut all = Vec::new();
@@ -402,7 +402,7 @@ fn errors_are_the_changes_of_what_is_constant() {
          span = 1.0\nsamples = 2\n",
     );
     let text = "scene = \"star.toml\"\n[[vary]]\nparameter = \"initial.beta\"\nvalues = [0.8, 0.9]\n[time]\n\
-                times = [0.0, 0.03, 0.2]\n[output]\ncolumns = [\"integrals\", \"e_z\", \"errors\"]\naccuracy = 1e-2\nmethod = \"taylor\"\n";
+                times = [0.0, 0.03, 0.2]\n[output]\ncolumns = [\"integrals\", \"e_z\", \"errors\"]\ntolerance = 1e-2\nmethod = \"taylor\"\n";
     written(folder.path(), "sweep.toml", text);
     ends(sweep(folder.path(), &["sweep.toml", "--out", "table.csv"]), 0);
     let table = rows(&folder.path().join("table.csv"));

@@ -19,7 +19,7 @@ pub(crate) use document::{Entry, Fault, FileFormat, Replaced, Section};
 pub use document::{SceneError, did_you_mean, listed, nearest, shortened};
 pub use motion::Units;
 pub use observation::{COLUMN_GROUPS, Catalogued, Pulsar, Times, Viewer, column_group, like_julian_date};
-pub(crate) use observation::{columns_in, read_accuracy_and_method, read_end, read_times};
+pub(crate) use observation::{columns_in, read_end, read_times, read_tolerance_and_method};
 
 /// Largest scene file that is read, in bytes.
 pub const LARGEST_FILE: u64 = 64 << 20;
@@ -50,7 +50,7 @@ pub struct Scene {
     /// Groups of columns of the table, in its order.
     pub columns: Vec<Output>,
     /// Largest truncation error at the end of the span.
-    pub accuracy: f64,
+    pub tolerance: f64,
     /// The method of the motion, where one is named.
     pub method: Option<Method>,
     /// Units of the file and of the output.
@@ -158,7 +158,7 @@ impl Scene {
             catalogued,
             perturbation: initial.perturbation,
             columns: observation::columns_of_the_motion(),
-            accuracy: observation::DEFAULT_ACCURACY,
+            tolerance: observation::DEFAULT_TOLERANCE,
             method: None,
             units: star.units,
             cautions: [spin_caution, epoch_caution].into_iter().flatten().collect(),

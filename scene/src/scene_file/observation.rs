@@ -289,7 +289,7 @@ fn listed_times(section: &Section<'_>, start: f64) -> Result<Times, Fault> {
     Ok(Times::Listed { start, times })
 }
 
-pub(super) const DEFAULT_ACCURACY: f64 = 1e-13;
+pub(super) const DEFAULT_TOLERANCE: f64 = 1e-13;
 
 /// The groups of columns of a table, in its order, by their names in a scene file. Every scene has the first six, those of the motion.
 pub const COLUMN_GROUPS: [(&str, Output); 12] = [
@@ -321,10 +321,10 @@ pub(crate) fn in_table_order(wanted: &[Output]) -> Vec<Output> {
     COLUMN_GROUPS.iter().map(|(_, output)| *output).filter(|output| wanted.contains(output)).collect()
 }
 
-/// Reads columns and accuracy into a scene that is complete otherwise. It keeps its columns where those of the file are not `used`.
+/// Reads columns and tolerance into a scene that is complete otherwise. It keeps its columns where those of the file are not `used`.
 pub(super) fn read_output(section: &Section<'_>, scene: &mut Scene, used: bool) -> Result<(), Fault> {
-    section.only(&["columns", "accuracy", "method"])?;
-    read_accuracy_and_method(section, scene)?;
+    section.only(&["columns", "tolerance", "method"])?;
+    read_tolerance_and_method(section, scene)?;
     let Some(list) = section.optional("columns") else { return Ok(()) };
     let names = COLUMN_GROUPS.map(|(name, _)| name);
     let words = list.words(&names)?;
@@ -349,10 +349,10 @@ pub(crate) fn columns_in(words: &[(Entry<'_>, &str)], scene: &Scene) -> Result<V
     Ok(in_table_order(&wanted))
 }
 
-/// Reads the keys `accuracy` and `method` into a scene, which keeps what it has where they are not given.
-pub(crate) fn read_accuracy_and_method(section: &Section<'_>, scene: &mut Scene) -> Result<(), Fault> {
-    if let Some(entry) = section.optional("accuracy") {
-        scene.accuracy = entry.number_in("a number from 1e-14 to 1e-2", 1e-14..=1e-2)?;
+/// Reads the keys `tolerance` and `method` into a scene, which keeps what it has where they are not given.
+pub(crate) fn read_tolerance_and_method(section: &Section<'_>, scene: &mut Scene) -> Result<(), Fault> {
+    if let Some(entry) = section.optional("tolerance") {
+        scene.tolerance = entry.number_in("a number from 1e-14 to 1e-2", 1e-14..=1e-2)?;
     }
     if let Some(entry) = section.optional("method") {
         let name = entry.word(&Method::ALL.map(Method::name))?;

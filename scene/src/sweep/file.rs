@@ -11,7 +11,7 @@ use super::parameters::{Law, Parameters, Source};
 use super::{MOST_COLUMNS, MOST_SCENES, Sweep};
 use crate::scene_file::{
     BUILT_IN, COLUMN_GROUPS, Columns, Entry, Fault, FileFormat, Replaced, SCENE, Scene, SceneError, Section, Times,
-    columns_in, did_you_mean, listed, read_accuracy_and_method, read_end, read_times,
+    columns_in, did_you_mean, listed, read_end, read_times, read_tolerance_and_method,
 };
 
 const SWEEP: FileFormat = FileFormat { name: "a sweep", built_in: None };
@@ -129,9 +129,9 @@ impl<'t> Sweep<'t> {
         let scenes = count.ok_or_else(|| {
             in_sweep(section.fault(format!("the sweep has too many scenes: allowed are {MOST_SCENES:.0e}")))
         })?;
-        let (accuracy, method, units) = (scene.accuracy, scene.method, scene.units);
+        let (tolerance, method, units) = (scene.tolerance, scene.method, scene.units);
         let rotation = scene.rotation();
-        let sweep = Sweep { about, base, parameters, outputs, scenes, cautions, accuracy, method, units, rotation };
+        let sweep = Sweep { about, base, parameters, outputs, scenes, cautions, tolerance, method, units, rotation };
         let columns = sweep.header().len();
         if columns > MOST_COLUMNS {
             let why = format!("the sweep has {columns} columns: allowed are {MOST_COLUMNS}; ask for fewer times");
@@ -299,13 +299,13 @@ fn ends(section: &Section<'_>, by_ratios: bool) -> Result<(f64, f64), Fault> {
     Ok((from, to))
 }
 
-/// Reads the section `[output]`, its accuracy and method into the scene.
+/// Reads the section `[output]`, its tolerance and method into the scene.
 fn outputs(document: &Section<'_>, scene: &mut Scene, times: Times) -> Result<Outputs, Fault> {
     let mut outputs = Outputs { times, groups: Vec::new(), errors: true, summaries: Vec::new() };
     outputs.groups = vec![Output::SymmetryAxis, Output::AngularMomentum];
     let Some(section) = document.section("output")? else { return Ok(outputs) };
-    section.only(&["columns", "summaries", "accuracy", "method"])?;
-    read_accuracy_and_method(&section, scene)?;
+    section.only(&["columns", "summaries", "tolerance", "method"])?;
+    read_tolerance_and_method(&section, scene)?;
     if let Some(list) = section.optional("columns") {
         let names: Vec<_> = COLUMN_GROUPS.iter().map(|(name, _)| *name).chain([ERRORS]).collect();
         let words = list.words(&names)?;

@@ -59,7 +59,7 @@ pub struct Sweep<'t> {
     pub scenes: u64,
     /// What in the scene as it stands looks like a mistake, a sentence each.
     pub cautions: Vec<String>,
-    accuracy: f64,
+    tolerance: f64,
     /// The method of every row, where one is named.
     method: Option<Method>,
     units: Units,
@@ -88,7 +88,7 @@ impl Sweep<'_> {
     /// The scene with `parameters`.
     fn scene(&self, parameters: &[f64]) -> Result<Scene, String> {
         let scene = self.base.scene(&self.parameters.keys, parameters, &self.outputs.times)?;
-        Ok(Scene { accuracy: self.accuracy, method: self.method, ..scene })
+        Ok(Scene { tolerance: self.tolerance, method: self.method, ..scene })
     }
 
     /// The lines of the table and of that of errors for one scene, if it cannot be read or is `wanted`.

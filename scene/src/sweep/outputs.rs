@@ -105,8 +105,8 @@ impl Outputs {
         let times = |&i: &usize| scenes[i].times.iter().map(|time| scenes[i].since_start(time)).collect::<Vec<_>>();
         let times: Vec<_> = plain.iter().map(times).collect();
         let motion = |(&i, times): (&usize, _)| {
-            let Scene { problem, accuracy, .. } = scenes[i];
-            SampledProblem { problem: problem.reduced(), start: 0.0, times, accuracy: *accuracy }
+            let Scene { problem, tolerance, .. } = scenes[i];
+            SampledProblem { problem: problem.reduced(), start: 0.0, times, tolerance: *tolerance }
         };
         let motions: Vec<_> = plain.iter().zip(times.iter().map(Vec::as_slice)).map(motion).collect();
         for ((i, times), states) in plain.into_iter().zip(&times).zip(states_of_many(&motions)) {

@@ -53,8 +53,8 @@ pub struct LinesWanted {
 pub enum Floor {
     /// What was asked.
     Wanted,
-    /// The accuracy of the motion, as a part of this size: of the column, or of what it is a component of.
-    Accuracy(f64),
+    /// The tolerance of the motion, as a part of this size: of the column, or of what it is a component of.
+    Tolerance(f64),
     /// The noise of what is left, rounding for instance: see [`LineList::noise`].
     Noise,
 }
@@ -109,7 +109,7 @@ impl Sampling {
         let outputs: Vec<_> = [column.group].into_iter().chain(frequencies).collect();
         let (intervals, span) = (intervals(scene), (0.0, scene.duration()));
         let samples = Samples { count: intervals as usize + 1, last: span.1 };
-        let request = Request { method: scene.method, samples, ..Request::new(&outputs, span, 0, scene.accuracy) };
+        let request = Request { method: scene.method, samples, ..Request::new(&outputs, span, 0, scene.tolerance) };
         scene.problem.plan(&request)
     }
 
@@ -218,8 +218,9 @@ impl Sampling {
         let spectrum = amplitude_spectrum(&about_mean, WINDOW)?;
         let strongest = spectrum.amplitudes.iter().fold(0.0_f64, |most, x| most.max(*x));
         // What is below the error of the motion is no line of it; nor may the least amplitude be zero.
-        let (wanted, error) = (strongest * wanted.least, (self.size * scene.accuracy).max(f64::MIN_POSITIVE));
-        let (floor, least) = if error > wanted { (Floor::Accuracy(self.size), error) } else { (Floor::Wanted, wanted) };
+        let (wanted, error) = (strongest * wanted.least, (self.size * scene.tolerance).max(f64::MIN_POSITIVE));
+        let (floor, least) =
+            if error > wanted { (Floor::Tolerance(self.size), error) } else { (Floor::Wanted, wanted) };
         let list = spectral_lines(&self.series, least, MOST_FITTED)?;
         Ok(if list.noise > least { (Floor::Noise, list.noise, list) } else { (floor, least, list) })
     }

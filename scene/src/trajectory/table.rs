@@ -97,11 +97,11 @@ mod tests {
         let rows = table(&format!(
             "[star]\ninertia_ratio = 1.1\nspin = {spin:?}\n[lorentz_violation]\neigenvalues = [0.0, 0.0, 0.0]\n[initial]\n\
              alpha = 0.3\nbeta = {beta:?}\nalpha_rate = {rate:?}\nbeta_rate = 0.0\n[time]\ntimes = {times:?}\n[output]\n\
-             columns = [\"angles\"]\naccuracy = 1e-6\nmethod = \"taylor\"\n"
+             columns = [\"angles\"]\ntolerance = 1e-6\nmethod = \"taylor\"\n"
         ));
         for (row, t) in rows.iter().zip(times) {
             let expected = 0.3 + rate * t;
-            // The accuracy, and below any part of a turn.
+            // The tolerance, and below any part of a turn.
             assert!((row[1] - expected).abs() < 1e-5, "t = {t}: {} and {expected}", row[1]);
         }
         assert_eq!(rows.len(), 3);

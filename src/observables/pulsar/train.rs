@@ -142,7 +142,7 @@ impl Problem<f64> {
     pub fn taylor_pulse_train(
         &self,
         span: (f64, f64),
-        accuracy: f64,
+        tolerance: f64,
         beam: &Beam<f64>,
         line_of_sight: &Vector3<f64>,
     ) -> Result<(PulseTrain, Samples<BodyState<f64>>), Error> {
@@ -150,7 +150,7 @@ impl Problem<f64> {
         let bounds = rate_bounds(self.spheroid(), self.coefficients(), self.initial());
         bounds.check_countable(span.0, span.1)?;
         let (mut train, mut node) = (Unfinished::default(), None);
-        let end = projected_by_segments(self, span, accuracy, (&beam.axis, line_of_sight), |projection, end| {
+        let end = projected_by_segments(self, span, tolerance, (&beam.axis, line_of_sight), |projection, end| {
             let search = EdgeSearch::new(BySeries::new(projection, beam), bounds);
             let start = match node {
                 Some(start) => start,
@@ -162,7 +162,7 @@ impl Problem<f64> {
         if let Some(end) = end {
             return Ok((train.finished(span.1), end));
         }
-        let motion = self.taylor(span, accuracy)?;
+        let motion = self.taylor(span, tolerance)?;
         let train = pulse_train(&motion, beam, line_of_sight, span)?;
         let (step_count, order) = (motion.step_count(), motion.order());
         Ok((train, Samples { states: vec![motion.state(span.1)?], error_estimates: Vec::new(), step_count, order }))

@@ -1,4 +1,4 @@
-//! Which scheme, and which step, for an accuracy asked.
+//! Which scheme, and which step, for a tolerance.
 
 use crate::dynamics::{Problem, RotationState};
 use crate::error::Error;
@@ -103,7 +103,7 @@ pub(crate) enum Goal {
 }
 
 impl Goal {
-    /// The error that counts against the accuracy.
+    /// The error that counts against the tolerance.
     fn error(self, model: &Model, epsilon: f64, turn: f64, step: f64) -> f64 {
         let error = model.error(epsilon, turn, step);
         match self {
@@ -112,9 +112,9 @@ impl Goal {
         }
     }
 
-    /// Largest step, as an angle (rad), at which that is within the accuracy.
-    fn step(self, model: &Model, epsilon: f64, turn: f64, accuracy: f64) -> f64 {
-        model.longest(|step| self.error(model, epsilon, turn, step) <= accuracy)
+    /// Largest step, as an angle (rad), at which that is within the tolerance.
+    fn step(self, model: &Model, epsilon: f64, turn: f64, tolerance: f64) -> f64 {
+        model.longest(|step| self.error(model, epsilon, turn, step) <= tolerance)
     }
 
     /// Share of random motions whose error stays below it: of 10,000 with strong torques 0.6 % and 3.5 % were above, of 3,000 of every kind 0.5 % and 0.9 %
@@ -151,8 +151,8 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     ///
     /// # Errors
     /// As for [`splitting`](Self::splitting).
-    pub fn splitting_forecast(&self, span: (f64, f64), accuracy: f64) -> Result<SplittingForecast, Error> {
-        self.splitting_forecast_for(Goal::State, span, accuracy)
+    pub fn splitting_forecast(&self, span: (f64, f64), tolerance: f64) -> Result<SplittingForecast, Error> {
+        self.splitting_forecast_for(Goal::State, span, tolerance)
     }
 
     /// The same for a goal.
@@ -191,13 +191,13 @@ pub(crate) fn require_tangent_maps() -> Result<(), Error> {
 pub(super) fn cheapest<const V: usize>(
     scene: &PrincipalProblem<V>,
     span: (f64, f64),
-    accuracy: f64,
+    tolerance: f64,
     goal: Goal,
 ) -> SplittingForecast {
     let (rate, duration) = (scene.largest_rate, (span.1 - span.0).abs());
     let epsilon = if rate > 0.0 { scene.spread / rate.powi(2) } else { 0.0 };
     let turn = rate * duration;
-    let steps = MODELS.iter().map(|model| (model, goal.step(model, epsilon, turn, accuracy)));
+    let steps = MODELS.iter().map(|model| (model, goal.step(model, epsilon, turn, tolerance)));
     let best = steps.min_by(|(a, x), (b, y)| a.cost_per_angle(*x).total_cmp(&b.cost_per_angle(*y)));
     let (model, step) = best.expect("the list of models is not empty");
     let step = if rate > 0.0 { step / rate } else { duration.max(1.0) };
@@ -222,9 +222,9 @@ pub(super) struct SampledForecast {
     pub(super) steps: u64,
 }
 
-/// Smallest accuracy over the angle turned (rad) at which truncation, not rounding, is the error of splitting.
+/// Smallest tolerance over the angle turned (rad) at which truncation, not rounding, is the error of splitting.
 #[cfg(target_arch = "x86_64")]
-const LEAST_ACCURACY_PER_ANGLE: f64 = 1e-16;
+const LEAST_TOLERANCE_PER_ANGLE: f64 = 1e-16;
 
 /// Most stages per radian at which splitting takes less time than series do.
 #[cfg(target_arch = "x86_64")]
@@ -236,13 +236,13 @@ pub(super) fn sampled_forecast<const V: usize>(
     scene: &PrincipalProblem<V>,
     start: f64,
     times: &[f64],
-    accuracy: f64,
+    tolerance: f64,
 ) -> Option<SampledForecast> {
     let duration = (times.last()? - start).abs();
     let rate = scene.largest_rate;
     let turn = rate * duration;
     let moves = turn > 0.0 && turn.is_finite();
-    if !moves || accuracy < LEAST_ACCURACY_PER_ANGLE * turn {
+    if !moves || tolerance < LEAST_TOLERANCE_PER_ANGLE * turn {
         return None;
     }
     let epsilon = scene.spread / rate.powi(2);
@@ -256,7 +256,7 @@ pub(super) fn sampled_forecast<const V: usize>(
         steps
     };
     let candidates = MODELS.iter().map(|model| {
-        let step = Goal::State.step(model, epsilon, turn, accuracy) / rate;
+        let step = Goal::State.step(model, epsilon, turn, tolerance) / rate;
         let steps = cut(step);
         (model, step, steps, model.stage_cost * model.scheme.stages() as f64 * steps)
     });
@@ -331,10 +331,10 @@ mod tests {
     #[test]
     fn schemes_are_compared_at_the_angle_turned() {
         for rate in [0.25, 0.8, 20.0] {
-            for (turn, accuracy) in [(7.03, 1e-5), (0.06, 1e-5), (700.0, 1e-9)] {
-                let found = cheapest(&scene(rate, 0.3), (5.0, 5.0 - turn / rate), accuracy, Goal::State);
+            for (turn, tolerance) in [(7.03, 1e-5), (0.06, 1e-5), (700.0, 1e-9)] {
+                let found = cheapest(&scene(rate, 0.3), (5.0, 5.0 - turn / rate), tolerance, Goal::State);
                 let steps = MODELS.iter().map(|model| {
-                    let step = Goal::State.step(model, 0.3, turn, accuracy);
+                    let step = Goal::State.step(model, 0.3, turn, tolerance);
                     (model.stage_cost * model.scheme.stages() as f64 / step, model, step)
                 });
                 let (_, model, step) = steps.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
@@ -343,7 +343,7 @@ mod tests {
                 assert_eq!(found.steps, (turn / step).ceil());
                 let error = 10.0 * model.error(0.3, turn, turn / found.steps);
                 assert_relative_eq!(found.truncation, error, max_relative = 1e-9);
-                assert!(found.truncation <= accuracy);
+                assert!(found.truncation <= tolerance);
             }
         }
         for (duration, step) in [(5.0, 5.0), (0.25, 1.0)] {

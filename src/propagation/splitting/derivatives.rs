@@ -39,12 +39,12 @@ pub(crate) fn states_with_derivatives<X: RotationState<Dual64>>(
     seeded: &[Problem<Dual64, X>],
     start: f64,
     times: &[f64],
-    accuracy: f64,
+    tolerance: f64,
 ) -> Result<Option<Vec<Vec<BodyState<Dual64>>>>, Error> {
     if X::VECTORS == 3 {
-        states_of::<X, 3>(seeded, start, times, accuracy)
+        states_of::<X, 3>(seeded, start, times, tolerance)
     } else {
-        states_of::<X, 2>(seeded, start, times, accuracy)
+        states_of::<X, 2>(seeded, start, times, tolerance)
     }
 }
 

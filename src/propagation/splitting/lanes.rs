@@ -29,16 +29,16 @@ pub(in crate::propagation) struct Ready<'t> {
 }
 
 impl<'t> Ready<'t> {
-    /// The motion of a scene whose times are in order, where splitting reaches its accuracy.
+    /// The motion of a scene whose times are in order, where splitting reaches its tolerance.
     ///
     /// # Errors
     /// What is wrong with the scene.
     pub(in crate::propagation) fn new(index: usize, motion: &SampledProblem<'t>) -> Result<Option<Self>, Error> {
-        let SampledProblem { problem, start, times, accuracy } = motion;
+        let SampledProblem { problem, start, times, tolerance } = motion;
         let span = (*start, times.last().copied().unwrap_or(*start));
-        check_request(span, *accuracy)?;
+        check_request(span, *tolerance)?;
         let scene = PrincipalProblem::new(problem)?;
-        let Some(SampledForecast { scheme, step, steps }) = sampled_forecast(&scene, *start, times, *accuracy) else {
+        let Some(SampledForecast { scheme, step, steps }) = sampled_forecast(&scene, *start, times, *tolerance) else {
             return Ok(None);
         };
         let angles = angles(scheme, step * scene.largest_rate);
@@ -212,12 +212,12 @@ mod tests {
     use crate::propagation::splitting::double_steps::DoubleSteps;
     use crate::solutions::free::rotated_by;
 
-    fn scene(s: [f64; 3], momentum: f64, start: f64, times: &[f64], accuracy: f64) -> SampledProblem<'_> {
+    fn scene(s: [f64; 3], momentum: f64, start: f64, times: &[f64], tolerance: f64) -> SampledProblem<'_> {
         let body = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
         let momentum = Vector3::new(0.3, -0.7, 1.1) * momentum;
         let initial = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum };
         let problem = Problem::new(body, Matrix3::from_diagonal(&Vector3::from(s)), initial).unwrap();
-        SampledProblem { problem, start, times, accuracy }
+        SampledProblem { problem, start, times, tolerance }
     }
 
     fn states(register: V3, ready: Ready<'_>) -> Vec<AxisState<f64>> {

@@ -16,7 +16,7 @@ use crate::propagation::splitting::error::ErrorEstimate;
 use crate::propagation::splitting::flows::{AXIS, Field, Moving, RATE, dot};
 use crate::propagation::splitting::scheme::Scheme;
 use crate::propagation::third_angle::{body_state, rate_about_axis};
-use crate::propagation::{ACCURACY_RANGE, Motion};
+use crate::propagation::{Motion, TOLERANCE_RANGE};
 
 /// Most steps of one motion.
 pub const SPLITTING_STEP_LIMIT: f64 = 1e10;
@@ -149,8 +149,8 @@ pub(super) struct KeptStates<const V: usize> {
 enum Steps {
     /// Those of a scheme, no longer than a length.
     Of(&'static Scheme, f64),
-    /// The cheapest ones for an accuracy.
-    For { accuracy: f64 },
+    /// The cheapest ones for a tolerance.
+    For { tolerance: f64 },
 }
 
 impl<X: RotationState<f64>> Problem<f64, X> {
@@ -169,21 +169,21 @@ impl<X: RotationState<f64>> Problem<f64, X> {
         span: (f64, f64),
         step: f64,
     ) -> Result<SplittingMotion<X>, Error> {
-        check_request(span, ACCURACY_RANGE.0)?;
+        check_request(span, TOLERANCE_RANGE.0)?;
         self.split(span, Steps::Of(scheme, step))
     }
 
-    /// The motion by the scheme and the step that a model of cost and error chooses for `accuracy` at the end of the
+    /// The motion by the scheme and the step that a model of cost and error chooses for `tolerance` at the end of the
     /// span (components of `n`, and of `L` in units of `|L| + sqrt(2 I^xx C |s|)`), between 1e-16 and 1e-2.
     ///
     /// The model is one formula for all motions. It does not foresee the growth of errors near the unstable middle axis;
     /// [`error_estimate`](Motion::error_estimate) does. Rounding limits what can be reached to some 1e-16 times the angle turned.
     ///
     /// # Errors
-    /// As for [`splitting_by`](Self::splitting_by), and for an accuracy out of range.
-    pub fn splitting(&self, span: (f64, f64), accuracy: f64) -> Result<SplittingMotion<X>, Error> {
-        check_request(span, accuracy)?;
-        self.split(span, Steps::For { accuracy })
+    /// As for [`splitting_by`](Self::splitting_by), and for a tolerance out of range.
+    pub fn splitting(&self, span: (f64, f64), tolerance: f64) -> Result<SplittingMotion<X>, Error> {
+        check_request(span, tolerance)?;
+        self.split(span, Steps::For { tolerance })
     }
 
     fn split(&self, span: (f64, f64), steps: Steps) -> Result<SplittingMotion<X>, Error> {
@@ -201,8 +201,8 @@ impl<const V: usize> KeptStates<V> {
         let scene = PrincipalProblem::new(problem)?;
         let (scheme, step) = match steps {
             Steps::Of(scheme, step) => (scheme, step),
-            Steps::For { accuracy } => {
-                let SplittingForecast { scheme, step, .. } = cheapest(&scene, span, accuracy, Goal::State);
+            Steps::For { tolerance } => {
+                let SplittingForecast { scheme, step, .. } = cheapest(&scene, span, tolerance, Goal::State);
                 (scheme, step)
             }
         };

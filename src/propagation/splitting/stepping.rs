@@ -2,7 +2,7 @@
 
 use crate::dynamics::{AxisState, Problem, RotationState};
 use crate::error::Error;
-use crate::propagation::ACCURACY_RANGE;
+use crate::propagation::TOLERANCE_RANGE;
 use crate::propagation::input::check_request;
 use crate::propagation::splitting::double_steps::DoubleSteps;
 use crate::propagation::splitting::flows::Moving;
@@ -37,7 +37,7 @@ impl Splitting {
     /// # Errors
     /// As for [`Problem::splitting_by`], and for a step that is zero or not finite.
     pub fn new<X: RotationState<f64>>(problem: &Problem<f64, X>, scheme: &Scheme, step: f64) -> Result<Self, Error> {
-        check_request((0.0, step), ACCURACY_RANGE.0)?;
+        check_request((0.0, step), TOLERANCE_RANGE.0)?;
         Error::ensure(step != 0.0, "step", step, "not zero")?;
         let scene = PrincipalProblem::new(problem)?;
         let steps = DoubleSteps::new(scheme, &scene.field, step, scene.largest_rate);

@@ -27,11 +27,11 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     ///
     /// # Errors
     /// As for [`taylor`](Self::taylor), but for the number of steps.
-    pub fn taylor_forecast(&self, duration: f64, accuracy: f64) -> Result<TaylorForecast, Error> {
+    pub fn taylor_forecast(&self, duration: f64, tolerance: f64) -> Result<TaylorForecast, Error> {
         if X::VECTORS == 3 {
-            forecast::<X, 3>(self, duration, accuracy)
+            forecast::<X, 3>(self, duration, tolerance)
         } else {
-            forecast::<X, 2>(self, duration, accuracy)
+            forecast::<X, 2>(self, duration, tolerance)
         }
     }
 }

@@ -35,9 +35,9 @@ pub(in crate::propagation) fn axis_states_in_lanes<R: Register>(
 ) -> Vec<Outcome> {
     let mut outcomes = Vec::with_capacity(scenes.len());
     let mut ready = Vec::with_capacity(scenes.len());
-    for (scene, SampledProblem { problem, start, times, accuracy }) in scenes.iter().enumerate() {
+    for (scene, SampledProblem { problem, start, times, tolerance }) in scenes.iter().enumerate() {
         let setup = span_of(*start, times)
-            .and_then(|span| ScaledProblem::new((true, Work::Quadratic), problem, span, *accuracy));
+            .and_then(|span| ScaledProblem::new((true, Work::Quadratic), problem, span, *tolerance));
         outcomes.push(setup.map(|setup| {
             let samples = Samples::with_room(times.len(), setup.order);
             ready.push(Ready { scene, times, setup });
@@ -154,15 +154,15 @@ mod tests {
         let scene = |i: usize| {
             let s = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, -0.3)) * (1.0 + 0.01 * i as f64);
             let problem = Problem::new(body, s, initial).unwrap();
-            SampledProblem { problem, start: 0.0, times: &times[i], accuracy: 1e-9 }
+            SampledProblem { problem, start: 0.0, times: &times[i], tolerance: 1e-9 }
         };
         let scenes: Vec<_> = (0..11).map(scene).collect();
         let together = axis_states_in_lanes(register, &scenes);
         for (scene, together) in scenes.iter().zip(&together) {
             let alone = axis_states_in_lanes(register, core::slice::from_ref(scene));
             assert_eq!(&alone[0], together);
-            let SampledProblem { problem, start, times, accuracy } = scene;
-            let exact = problem.taylor_states(*start, times, *accuracy, ErrorEstimates::NotWanted).unwrap();
+            let SampledProblem { problem, start, times, tolerance } = scene;
+            let exact = problem.taylor_states(*start, times, *tolerance, ErrorEstimates::NotWanted).unwrap();
             for (found, exact) in together.as_ref().unwrap().states.iter().zip(&exact.states) {
                 let error = (found.axis - exact.axis).amax().max((found.momentum - exact.momentum).amax());
                 assert!(error < 1e-7, "{times:?}: {error:e}");

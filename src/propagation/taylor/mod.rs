@@ -45,15 +45,15 @@ use scaled_problem::ScaledProblem;
 use series::{AXIS, MOMENTUM, Vectors};
 use step_size::Work;
 
-/// Smallest and largest accuracy of a numerical motion.
-pub const ACCURACY_RANGE: (f64, f64) = (1e-16, 1e-2);
+/// Smallest and largest tolerance of a numerical motion.
+pub const TOLERANCE_RANGE: (f64, f64) = (1e-16, 1e-2);
 
 /// Most steps that one motion may keep: each holds about 2 kB of coefficients for `f64`.
 pub const STEP_LIMIT: usize = 500_000;
 
 const LIMIT: StepLimit = StepLimit {
     steps: STEP_LIMIT,
-    allowed: "at most 500,000 steps: take a shorter span (and go on from its end) or a lower accuracy",
+    allowed: "at most 500,000 steps: take a shorter span (and go on from its end) or a larger tolerance",
 };
 
 /// A motion kept as Taylor series on adjoining steps: [`Problem::taylor`].
@@ -290,8 +290,8 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
     /// The numerical motion from the initial state at `span.0` to `span.1` (forwards or backwards), by Taylor series. Without `e_x` a third
     /// of the work is saved.
     ///
-    /// `accuracy` is the truncation error wanted in the components of `n`, `e_x` and of `L` in units of `|L| + sqrt(2 I^xx C |s|)` at the
-    /// end of the span, in [`ACCURACY_RANGE`]; rounding adds about `2e-16 sqrt(steps)` and its growth, see [`Motion::error_estimate`]. A
+    /// `tolerance` is the truncation error wanted in the components of `n`, `e_x` and of `L` in units of `|L| + sqrt(2 I^xx C |s|)` at the
+    /// end of the span, in [`TOLERANCE_RANGE`]; rounding adds about `2e-16 sqrt(steps)` and its growth, see [`Motion::error_estimate`]. A
     /// truncation below rounding costs little: the order of the series rises by one for each factor of four.
     ///
     /// Step sizes and order follow from the real parts alone, so that derivatives (duals) are those of the motion and not of
@@ -299,12 +299,12 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
     /// last digits may differ between processors, never between runs.
     ///
     /// # Errors
-    /// [`Error::Domain`] for an accuracy out of range, a span that is not finite, and one that needs more than [`STEP_LIMIT`] steps.
-    pub fn taylor(&self, span: (f64, f64), accuracy: f64) -> Result<TaylorMotion<S, X>, Error> {
+    /// [`Error::Domain`] for an tolerance out of range, a span that is not finite, and one that needs more than [`STEP_LIMIT`] steps.
+    pub fn taylor(&self, span: (f64, f64), tolerance: f64) -> Result<TaylorMotion<S, X>, Error> {
         let kept = if X::VECTORS == 3 {
-            Kept::Body(KeptSeries::new(self, span, accuracy)?)
+            Kept::Body(KeptSeries::new(self, span, tolerance)?)
         } else {
-            Kept::Axis(KeptSeries::new(self, span, accuracy)?)
+            Kept::Axis(KeptSeries::new(self, span, tolerance)?)
         };
         Ok(TaylorMotion { kept, state: PhantomData })
     }

@@ -15,7 +15,7 @@ use crate::propagation::third_angle::{body_state, rate_about_axis};
 
 /// An hour or so.
 pub(super) const LIMIT: StepLimit =
-    StepLimit { steps: 10_000_000_000, allowed: "at most 1e10 steps: take earlier times or a lower accuracy" };
+    StepLimit { steps: 10_000_000_000, allowed: "at most 1e10 steps: take earlier times or a larger tolerance" };
 
 /// States at given times, with what is known of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,17 +52,17 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
         &self,
         start: f64,
         times: &[f64],
-        accuracy: f64,
+        tolerance: f64,
         estimates: ErrorEstimates,
     ) -> Result<Samples<X>, Error> {
         if X::VECTORS == 3 {
             let AxisState { axis, momentum } = self.initial().axis_state();
             let rate = rate_about_axis(self.spheroid(), &axis, &momentum);
             let state = |vectors, t| X::from_vectors(body_state(vectors, rate * (t - S::from_f64(start))).vectors());
-            sampled(self, start, times, (accuracy, estimates), state)
+            sampled(self, start, times, (tolerance, estimates), state)
         } else {
             let state = |[n, l]: [Vector3<S>; 2], _| X::from_vectors([n, l, Vector3::zeros()]);
-            sampled(self, start, times, (accuracy, estimates), state)
+            sampled(self, start, times, (tolerance, estimates), state)
         }
     }
 }

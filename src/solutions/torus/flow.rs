@@ -9,7 +9,7 @@ use crate::numerics::scalar::{Real, length};
 const ORDER: usize = 26;
 
 /// Accuracy of a step.
-const ACCURACY: f64 = 1e-17;
+const TOLERANCE: f64 = 1e-17;
 
 /// Most steps of a way; once round a torus takes some ten.
 const MOST_STEPS: usize = 300;
@@ -99,7 +99,7 @@ fn expand<S: Real>(a: &Vector3<S>, b: &Vector3<S>, axes: &Axes<S>) -> [Axes<S>; 
     series
 }
 
-/// Step after which the last two terms are below the accuracy.
+/// Step after which the last two terms are below the tolerance.
 fn step_size<S: Real>(series: &[Axes<S>; ORDER + 1]) -> f64 {
     let size = |terms: &Axes<S>| {
         let [n, momentum, equatorial] = terms.map(|v| length_or_zero(&v));
@@ -107,7 +107,7 @@ fn step_size<S: Real>(series: &[Axes<S>; ORDER + 1]) -> f64 {
         n.max(equatorial).max(momentum / whole)
     };
     [ORDER - 1, ORDER]
-        .map(|order| (ACCURACY / size(&series[order]).max(f64::MIN_POSITIVE)).powf(1.0 / order as f64))
+        .map(|order| (TOLERANCE / size(&series[order]).max(f64::MIN_POSITIVE)).powf(1.0 / order as f64))
         .into_iter()
         .fold(f64::INFINITY, f64::min)
 }

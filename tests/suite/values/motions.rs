@@ -203,22 +203,22 @@ fn taylor_series() {
     let mut table = Table::default();
     let s = general();
     let axis = AxisState::from(&state());
-    for accuracy in [1e-14, 1e-11, 1e-5] {
+    for tolerance in [1e-14, 1e-11, 1e-5] {
         for span in [SPAN, BACK] {
-            let name = format!("{accuracy:e} to {}", span.1);
+            let name = format!("{tolerance:e} to {}", span.1);
             let forecast = Problem::new(STAR, s, state())
-                .and_then(|problem| problem.taylor_forecast(span.1 - span.0, accuracy))
+                .and_then(|problem| problem.taylor_forecast(span.1 - span.0, tolerance))
                 .expect("a forecast");
             table.row(
                 &format!("{name}, forecast"),
                 &[("order", &forecast.order), ("steps", &forecast.steps), ("rounding", &forecast.rounding)],
             );
             let motion =
-                Problem::new(STAR, s, state()).and_then(|problem| problem.taylor(span, accuracy)).expect("a motion");
+                Problem::new(STAR, s, state()).and_then(|problem| problem.taylor(span, tolerance)).expect("a motion");
             table.row(&name, &[("steps", &motion.step_count()), ("order", &motion.order())]);
             look(&mut table, &name, &motion);
             let motion =
-                Problem::new(STAR, s, axis).and_then(|problem| problem.taylor(span, accuracy)).expect("a motion");
+                Problem::new(STAR, s, axis).and_then(|problem| problem.taylor(span, tolerance)).expect("a motion");
             let middle = 0.5 * (span.0 + span.1);
             table.row(
                 &format!("{name}, axis"),
@@ -290,48 +290,48 @@ fn dual_samples(table: &mut Table) {
     );
 }
 
-/// Each motion is that of its own, within the accuracy asked.
+/// Each motion is that of its own, within the tolerance.
 #[test]
 fn many_axes() {
     let mut table = Table::default();
     let mut look = |name: &str, motions: &[SampledProblem<'_>]| {
         for (k, (motion, found)) in motions.iter().zip(states_of_many(motions)).enumerate() {
-            let SampledProblem { problem, start, times, accuracy } = motion;
+            let SampledProblem { problem, start, times, tolerance } = motion;
             let name = format!("{name}, {k}");
             table.found(&name, found, |table, found| {
                 let last = found.states.last().expect("a state");
                 table.row(&name, &[("steps", &found.step_count), ("order", &found.order), ("last", last)]);
-                let accuracy = accuracy.max(1e-13);
-                let alone = problem.taylor_states(*start, times, accuracy, ErrorEstimates::NotWanted).expect("states");
+                let tolerance = tolerance.max(1e-13);
+                let alone = problem.taylor_states(*start, times, tolerance, ErrorEstimates::NotWanted).expect("states");
                 assert_eq!(found.states.len(), times.len(), "{name}");
                 for (state, alone) in found.states.iter().zip(&alone.states) {
                     let difference = (state.axis - alone.axis).norm() + (state.momentum - alone.momentum).norm();
-                    assert!(difference < 10.0 * accuracy, "{name}: {difference:e}");
+                    assert!(difference < 10.0 * tolerance, "{name}: {difference:e}");
                 }
             });
         }
     };
     let times: Vec<Vec<f64>> = (0..11).map(|k| vec![0.5 * f64::from(k) + 1.0, 3.0 * f64::from(k) + 4.0]).collect();
-    let motion = |star, k: usize, times, accuracy| {
+    let motion = |star, k: usize, times, tolerance| {
         let problem = Problem::new(star, general() * (1.0 + 0.1 * k as f64), AxisState::from(&state()));
-        SampledProblem { problem: problem.expect("a problem"), start: 0.5, times, accuracy }
+        SampledProblem { problem: problem.expect("a problem"), start: 0.5, times, tolerance }
     };
     let mut motions: Vec<_> =
         times.iter().enumerate().map(|(k, times)| motion(STAR, k, times, if k == 3 { 1e-5 } else { 1e-11 })).collect();
     look("all good", &motions);
-    motions[7].accuracy = 1.0;
+    motions[7].tolerance = 1.0;
     look("one refused", &motions);
     // So many times that steps of a splitting would be cut short: series of three orders, in turn.
     let dense: Vec<Vec<f64>> =
         (0..13).map(|k| (0..110 + k).map(|j| 0.6 + 0.03 * f64::from(k) + 0.025 * f64::from(j)).collect()).collect();
     let star = |k: usize| if k % 4 == 1 { PROLATE } else { STAR };
-    let accuracy = |k: usize| [1e-5, 1e-15, 1e-10][k % 3];
+    let tolerance = |k: usize| [1e-5, 1e-15, 1e-10][k % 3];
     let mut series: Vec<_> =
-        dense.iter().enumerate().map(|(k, times)| motion(star(k), k, times, accuracy(k))).collect();
+        dense.iter().enumerate().map(|(k, times)| motion(star(k), k, times, tolerance(k))).collect();
     // Backwards, and one that is too long for its steps.
     let back: Vec<f64> = dense[6].iter().rev().copied().collect();
     series[6] = SampledProblem { start: 5.0, times: &back, ..series[6] };
-    series[9] = SampledProblem { times: &[1.0, 1e12], accuracy: 1e-15, ..series[9] };
+    series[9] = SampledProblem { times: &[1.0, 1e12], tolerance: 1e-15, ..series[9] };
     look("series", &series);
     table.check("many_axes");
 }
@@ -342,12 +342,12 @@ fn splitting() {
     let s = general();
     let axis = AxisState::from(&state());
     for span in [SPAN, BACK, (0.0, 1e5)] {
-        for accuracy in [1e-2, 1e-4, 1e-7, 1e-10, 1e-13, 1e-16] {
+        for tolerance in [1e-2, 1e-4, 1e-7, 1e-10, 1e-13, 1e-16] {
             for (of, s) in [("s", s), ("s / 1e3", s * 1e-3)] {
-                let name = format!("{of} to {} within {accuracy:e}", span.1);
+                let name = format!("{of} to {} within {tolerance:e}", span.1);
                 table.found(
                     &name,
-                    Problem::new(STAR, s, axis).and_then(|problem| problem.splitting_forecast(span, accuracy)),
+                    Problem::new(STAR, s, axis).and_then(|problem| problem.splitting_forecast(span, tolerance)),
                     |table, found| {
                         table.row(
                             &name,
@@ -383,12 +383,12 @@ fn splitting() {
             .expect("a motion");
         look(&mut table, &format!("{}, orientation", scheme.name), &motion);
     }
-    for accuracy in [1e-4, 1e-9] {
+    for tolerance in [1e-4, 1e-9] {
         let motion =
-            Problem::new(STAR, s, axis).and_then(|problem| problem.splitting(SPAN, accuracy)).expect("a motion");
+            Problem::new(STAR, s, axis).and_then(|problem| problem.splitting(SPAN, tolerance)).expect("a motion");
         see(&mut table, &format!("best, {}", motion.scheme().name), &motion, 20.0);
         let motion =
-            Problem::new(STAR, s, state()).and_then(|problem| problem.splitting(SPAN, accuracy)).expect("a motion");
+            Problem::new(STAR, s, state()).and_then(|problem| problem.splitting(SPAN, tolerance)).expect("a motion");
         look(&mut table, "best, orientation", &motion);
     }
     table.check("splitting");

@@ -57,7 +57,7 @@ impl Plans {
                         ("cost", &cost),
                         ("stretch", &stretch),
                         ("samples", &plan.samples),
-                        ("accuracy", &plan.accuracy),
+                        ("tolerance", &plan.tolerance),
                         ("without", &skipped.join(", ")),
                     ],
                 );

@@ -74,25 +74,25 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         average_time * 1e6,
         averaged(&problem, last)?.error_estimate(last)
     );
-    let report = |name: &str, accuracy: f64, run: &dyn Fn() -> Result<Vec<BodyState<f64>>, Error>| match run() {
+    let report = |name: &str, tolerance: f64, run: &dyn Fn() -> Result<Vec<BodyState<f64>>, Error>| match run() {
         Ok(found) => {
             let time = least_time(2, run);
             // n and e_x.
             let off =
                 found.iter().zip(&right).map(|(a, b)| largest_difference(a, b, f64::INFINITY)).fold(0.0, f64::max);
             println!(
-                "  {name:9} at {accuracy:.0e}: {time:.2} s, off by {off:.1e}, {:.0} times the time",
+                "  {name:9} at {tolerance:.0e}: {time:.2} s, off by {off:.1e}, {:.0} times the time",
                 time / average_time
             );
         }
-        Err(why) => println!("  {name:9} at {accuracy:.0e}: {why}"),
+        Err(why) => println!("  {name:9} at {tolerance:.0e}: {why}"),
     };
-    for accuracy in [1e-8, 1e-12] {
-        report("taylor", accuracy, &|| {
-            Ok(problem.taylor_states(0.0, &times, accuracy, ErrorEstimates::NotWanted)?.states)
+    for tolerance in [1e-8, 1e-12] {
+        report("taylor", tolerance, &|| {
+            Ok(problem.taylor_states(0.0, &times, tolerance, ErrorEstimates::NotWanted)?.states)
         });
-        report("splitting", accuracy, &|| {
-            states(&problem.motion_by(Method::Splitting, (0.0, last), accuracy)?, &times)
+        report("splitting", tolerance, &|| {
+            states(&problem.motion_by(Method::Splitting, (0.0, last), tolerance)?, &times)
         });
     }
     Ok(())

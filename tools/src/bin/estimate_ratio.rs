@@ -35,7 +35,7 @@ fn main() {
         row(&format!("s from {low:e} to {high:e}"), &found, |scene| within(scene.strength, low, high));
     }
     for (low, high) in [(1e-16, 1e-14), (1e-14, 1e-12), (1e-12, 1e-8), (1e-8, 1e-5), (1e-5, 1e-3)] {
-        row(&format!("accuracy {low:e} to {high:e}"), &found, |scene| within(scene.accuracy, low, high));
+        row(&format!("tolerance {low:e} to {high:e}"), &found, |scene| within(scene.tolerance, low, high));
     }
     row("L near the middle axis", &found, |scene| scene.near_middle_axis);
     row("L = 0", &found, |scene| scene.problem.initial().momentum.norm() == 0.0);
@@ -47,8 +47,8 @@ fn main() {
     for (index, (number, scene, ratio, error)) in found.iter().enumerate() {
         if index < 3 || *ratio < 1.0 || *ratio > 1e5 {
             println!(
-                "scene {number}: ratio {ratio:.3e}, true error {error:.2e}, accuracy {:.1e}, s {:.1e}, {:.1} rad",
-                scene.accuracy,
+                "scene {number}: ratio {ratio:.3e}, true error {error:.2e}, tolerance {:.1e}, s {:.1e}, {:.1} rad",
+                scene.tolerance,
                 scene.strength,
                 scene.turned()
             );

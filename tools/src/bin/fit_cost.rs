@@ -4,7 +4,7 @@
 //! cargo run -p twofold-tools --bin fit_cost
 //! ```
 //!
-//! Each time is the least of many runs. The cost of a step is fitted over the orders that accuracies from 1e-2 to 1e-16 give,
+//! Each time is the least of many runs. The cost of a step is fitted over the orders that tolerances from 1e-2 to 1e-16 give,
 //! that of an evaluation over the same orders, by least squares of relative errors.
 
 use std::hint::black_box;
@@ -35,9 +35,9 @@ fn time_of_state(axis_at: impl Fn(f64) -> Result<f64, Error>) -> f64 {
 fn measured<X: RotationState<f64>>(
     problem: &Problem<f64, X>,
     method: Method,
-    accuracy: f64,
+    tolerance: f64,
 ) -> Result<(PlannedMotion<X>, f64, f64), Error> {
-    let make = || problem.motion_by(method, SPAN, accuracy);
+    let make = || problem.motion_by(method, SPAN, tolerance);
     let motion = make()?;
     let each = time_of_state(|t| Ok(motion.state(t)?.axis_state().axis.x));
     Ok((motion, time(make), each))
@@ -62,15 +62,15 @@ fn taylor<X: RotationState<f64>>(problem: &Problem<f64, X>) -> Result<(), Error>
     let state = state_of::<X>();
     let (mut steps, mut evaluations) = (Vec::new(), Vec::new());
     for exponent in [-2, -4, -6, -8, -10, -12, -14, -16] {
-        let accuracy = 10f64.powi(exponent);
-        let (motion, total, each) = measured(problem, Method::Taylor, accuracy)?;
+        let tolerance = 10f64.powi(exponent);
+        let (motion, total, each) = measured(problem, Method::Taylor, tolerance)?;
         let PlannedMotion::Taylor(series) = &motion else { unreachable!("asked for") };
         let (order, count) = (series.order(), series.step_count());
         let p = order as f64;
         steps.push((vec![1.0, p, p * p], total / count as f64));
         evaluations.push((vec![1.0, p], each));
         println!(
-            "  {} accuracy {accuracy:.0e}: order {order}, {count} steps, {:.0} ns a step, {each:.1} ns an evaluation",
+            "  {} tolerance {tolerance:.0e}: order {order}, {count} steps, {:.0} ns a step, {each:.1} ns an evaluation",
             state.name(),
             total / count as f64
         );
@@ -99,13 +99,13 @@ fn taylor<X: RotationState<f64>>(problem: &Problem<f64, X>) -> Result<(), Error>
 fn splitting<X: RotationState<f64>>(problem: &Problem<f64, X>) -> Result<(), Error> {
     let state = state_of::<X>();
     for exponent in [-2, -4, -6, -8, -10, -12] {
-        let accuracy = 10f64.powi(exponent);
-        let (motion, total, each) = measured(problem, Method::Splitting, accuracy)?;
+        let tolerance = 10f64.powi(exponent);
+        let (motion, total, each) = measured(problem, Method::Splitting, tolerance)?;
         let work = motion.work();
         let flows = work.right_hand_sides / work.steps;
         let model = Cost::of(Method::Splitting, state);
         println!(
-            "  splitting, {}, accuracy {accuracy:.0e}: {flows} flows, {} steps, {:.1} ns a flow, {each:.0} ns an evaluation; in the model {:.1} and {:.0}",
+            "  splitting, {}, tolerance {tolerance:.0e}: {flows} flows, {} steps, {:.1} ns a flow, {each:.0} ns an evaluation; in the model {:.1} and {:.0}",
             state.name(),
             work.steps,
             total / work.right_hand_sides,

@@ -15,16 +15,16 @@ use twofold::propagation::{Motion, TaylorMotion};
 use twofold_command::bench::method::{MANY_SCENES, METHODS};
 use twofold_command::bench::scene::BenchScene;
 
-/// Length of the motions (t_c), and their accuracy.
+/// Length of the motions (t_c), and their tolerance.
 const DURATION: f64 = 100.0;
-const ACCURACY: f64 = 1e-12;
+const TOLERANCE: f64 = 1e-12;
 
 type Kernel = fn(&BenchScene, &TaylorMotion<f64>, usize);
 
 /// Names, and what is done once per repeat.
 const KERNELS: [(&str, Kernel); 6] = [
     ("taylor-axis", |scene, _, _| {
-        drop(black_box(scene.problem.reduced().taylor((0.0, DURATION), ACCURACY)));
+        drop(black_box(scene.problem.reduced().taylor((0.0, DURATION), TOLERANCE)));
     }),
     ("taylor-orientation", |scene, _, _| drop(black_box(motion(scene)))),
     ("sample-axis", |_, motion, i| {
@@ -37,11 +37,11 @@ const KERNELS: [(&str, Kernel); 6] = [
         let (beam, observer) = (Beam::new(0.5, 0.0, 0.6), Observer::at(0.8, 0.0));
         drop(black_box(pulse_train(motion, &beam, &observer.direction, (0.0, DURATION))));
     }),
-    ("eight-scenes", |scene, _, _| drop(black_box((MANY_SCENES[0].0.run)(scene, DURATION, ACCURACY)))),
+    ("eight-scenes", |scene, _, _| drop(black_box((MANY_SCENES[0].0.run)(scene, DURATION, TOLERANCE)))),
 ];
 
 fn motion(scene: &BenchScene) -> TaylorMotion<f64> {
-    scene.problem.taylor((0.0, DURATION), ACCURACY).expect("a motion within the limits")
+    scene.problem.taylor((0.0, DURATION), TOLERANCE).expect("a motion within the limits")
 }
 
 fn main() {

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Half an hour on one core; less with `RUSTFLAGS="-C target-feature=+fma"`. The motion is made of stretches of 25,000 t_c,
-//! restarted from the end of the one before: over one stretch the accuracy 1e-16 asks for a truncation below 2e-25 per t_c, which a
+//! restarted from the end of the one before: over one stretch the tolerance 1e-16 asks for a truncation below 2e-25 per t_c, which a
 //! phase that grows for 1e7 t_c makes 1e-11 at most.
 
 use std::io::Write as _;

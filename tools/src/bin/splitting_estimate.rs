@@ -1,9 +1,9 @@
-//! Error estimate over true error of splitting motions, and true error over the accuracy asked, in random scenes.
+//! Error estimate over true error of splitting motions, and true error over the tolerance, in random scenes.
 //!
 //!     cargo run --release -p twofold-tools --bin splitting_estimate [SCENES, default 3000] [SEED, default 777]
 //!
-//! Half of the scenes leave the choice of scheme to the accuracy, the others go through all schemes. True errors by the Taylor
-//! motion at accuracy 1e-15.
+//! Half of the scenes leave the choice of scheme to the tolerance, the others go through all schemes. True errors by the Taylor
+//! motion at tolerance 1e-15.
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{AxisState, Problem, RigidSpheroid};
@@ -24,13 +24,13 @@ fn main() {
         let s = Matrix3::from_diagonal(&sign.map(|x| x.signum() * 10f64.powf(random.within(-8.0, -0.523))));
         let start = AxisState { axis, momentum };
         let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start).expect("in the domain");
-        let (end, accuracy) = (random.within(5.0, 105.0), 10f64.powf(random.within(-10.0, -3.0)));
+        let (end, tolerance) = (random.within(5.0, 105.0), 10f64.powf(random.within(-10.0, -3.0)));
         let turn_per_stage = random.within(0.1, 0.5);
         let span = (0.0, end);
         let truth = problem.taylor(span, 1e-15).expect("in the domain");
         let chosen = case % 2 == 0;
         let motion = if chosen {
-            problem.splitting(span, accuracy)
+            problem.splitting(span, tolerance)
         } else {
             let scheme = SCHEMES[case / 2 % SCHEMES.len()];
             let step = turn_per_stage * scheme.stages() as f64 / momentum.norm().max(0.3);
@@ -49,11 +49,11 @@ fn main() {
             ratios.push(motion.error_estimate(t) / error(t).max(f64::MIN_POSITIVE));
         }
         if chosen {
-            reached.push(error(end) / accuracy);
+            reached.push(error(end) / tolerance);
         }
     }
     println!("{refused} motions refused");
-    for (name, figures) in [("estimate / true error", ratios), ("true error / accuracy asked", reached)] {
+    for (name, figures) in [("estimate / true error", ratios), ("true error / tolerance", reached)] {
         let figures: Ratios = figures.into_iter().collect();
         println!(
             "{name}: {} figures, {} below 1, {} above 100, least {:.2e}",

@@ -31,11 +31,11 @@ fn main() {
         }
     }
     for exponent in [4, 6, 8, 10, 12, 14] {
-        let accuracy = 10f64.powi(-exponent);
-        let chosen = move || problem.splitting(span, accuracy).expect("tp-II");
-        runs.push((format!("chosen {accuracy:e}"), Box::new(move || Box::new(chosen()))));
-        let taylor = move || problem.taylor(span, accuracy).expect("tp-II");
-        runs.push((format!("taylor {accuracy:e}"), Box::new(move || Box::new(taylor()))));
+        let tolerance = 10f64.powi(-exponent);
+        let chosen = move || problem.splitting(span, tolerance).expect("tp-II");
+        runs.push((format!("chosen {tolerance:e}"), Box::new(move || Box::new(chosen()))));
+        let taylor = move || problem.taylor(span, tolerance).expect("tp-II");
+        runs.push((format!("taylor {tolerance:e}"), Box::new(move || Box::new(taylor()))));
     }
     let mut best = vec![f64::INFINITY; runs.len()];
     for _ in 0..15 {
@@ -43,7 +43,7 @@ fn main() {
             *time = time.min(least_time(1, run));
         }
     }
-    println!("method, step or accuracy asked; time [ms]; error of n; estimate");
+    println!("method, step or tolerance; time [ms]; error of n; estimate");
     for (time, (name, run)) in best.iter().zip(&runs) {
         let motion = run();
         let error = (motion.axis_state(END).expect("the end").axis - axis).amax();

@@ -4,7 +4,7 @@ Every table is computed three times: from the scene; from the scene with other n
 scene with every number moved by 1e-7 of itself, up or down. A column's tolerance is ten times
 
     the difference by numerics  +  the change of the column / 1e-7  x  the error that the command states for its motion:
-                                   the accuracy asked and 2.2e-16 for each radian of rotation
+                                   the tolerance asked and 2.2e-16 for each radian of rotation
 
 so that it is what an error of that size in the scene's numbers does to the column, and nothing is chosen by hand. Four roundings of the
 column's largest number come on top.
@@ -43,9 +43,9 @@ def moved(scene):
 
 
 def state_error(scene):
-    """What the command states of its motion: the accuracy asked and the rounding of the rotation over the span."""
+    """What the command states of its motion: the tolerance asked and the rounding of the rotation over the span."""
     motion = Motion(scene, scene.start, scene.start)
-    return scene.accuracy + 2.2e-16 * motion.turning * abs(scene.end - scene.start)
+    return scene.tolerance + 2.2e-16 * motion.turning * abs(scene.end - scene.start)
 
 
 def averaging_error(scene):

@@ -28,7 +28,7 @@ CASES = {
         "time.span": -21.0,
         "time.samples": 4,
         "output.columns": ["h", "rates", "lambda"],
-        "output.accuracy": 1e-9,
+        "output.tolerance": 1e-9,
         "output.method": "splitting",
     },
     "keys-constants": {
@@ -66,7 +66,7 @@ CASES = {
 }
 
 # The same numbers by another method, or with more or less of an error.
-SILENT = {"output.accuracy", "output.method"}
+SILENT = {"output.tolerance", "output.method"}
 
 
 def shows(folder, file, scene):

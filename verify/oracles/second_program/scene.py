@@ -25,7 +25,7 @@ class Scene:
         self._initial(document["initial"])
         self.observer = _observer(document["observer"]) if "observer" in document else None
         self.pulsar = document.get("pulsar")
-        self.accuracy = document.get("output", {}).get("accuracy", 1e-13)
+        self.tolerance = document.get("output", {}).get("tolerance", 1e-13)
 
     @staticmethod
     def read(path):

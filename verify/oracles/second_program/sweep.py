@@ -28,8 +28,8 @@ def read(path):
     if "times" not in time and "samples" not in time:
         start = time.get("start", 0.0)
         time = {"start": start, "times": [time["end"] if "end" in time else start + time["span"]]}
-    accuracy = sweep.get("output", {}).get("accuracy", scene.get("output", {}).get("accuracy", 1e-13))
-    return sweep, Scene({**scene, "time": time, "output": {"accuracy": accuracy}})
+    tolerance = sweep.get("output", {}).get("tolerance", scene.get("output", {}).get("tolerance", 1e-13))
+    return sweep, Scene({**scene, "time": time, "output": {"tolerance": tolerance}})
 
 
 def points(vary):

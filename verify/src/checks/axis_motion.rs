@@ -17,7 +17,7 @@ checks! {
     Oracle "axis-motion-reference" [25]: against_reference::<AxisState<f64>>;
     AtMost(1e-12) "largest error of a component";
     because "rounding of the initial values (1e-16) and of up to 1,200 steps, grown with a phase of 600 rad";
-    /// the error estimate of the motion of n and L alone is not below its true error, from accuracy 1e-3 to 1e-14
+    /// the error estimate of the motion of n and L alone is not below its true error, from tolerance 1e-3 to 1e-14
     Oracle "axis-motion-error-estimate" [25]: estimate_against_reference::<AxisState<f64>>;
     AtMost(1.0) "largest true error / estimate";
     because "an estimate below the true error is wrong";

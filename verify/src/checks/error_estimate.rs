@@ -9,7 +9,7 @@ use crate::error_scenes::ErrorScene;
 checks! {
     /// the estimated error of a motion is not below its true error
     Oracle "error-estimate-not-below" [25]: || worst_of(scenes().chain(HARD), ratio);
-    AtMost(1.0) "largest true / estimated error, 200 random scenes up to 60 rad, accuracies 1e-3 to 1e-16, and 6 hard ones";
+    AtMost(1.0) "largest true / estimated error, 200 random scenes up to 60 rad, tolerances 1e-3 to 1e-16, and 6 hard ones";
     because "an estimate below the true error is wrong";
     /// the estimated error of a motion is rarely more than a hundred times its true error
     Oracle "error-estimate-not-far-above" [25]: far_above;

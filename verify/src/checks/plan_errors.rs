@@ -20,12 +20,12 @@ checks! {
     AtMost(1.0) "largest share of true errors above (foreseen of the method + of rounding) / the share allowed";
     because "the shares, 1, 5 and 1 %, are those of 3,000 such scenes to 2,000 t_c and of 10,000 with strong torques (0.6, 3.5 and 0.3 % at most), \
      rounded up";
-    /// the goal of splitting is foreseen from its steps, not the accuracy asked in other words: it is not far above the true error either, the same
+    /// the goal of splitting is foreseen from its steps, not the tolerance in other words: it is not far above the true error either, the same
     /// scenes
     Oracle "plan-error-goals-not-idle" [25]: not_idle;
     AtMost(100.0) "median of (foreseen of the method + of rounding) / true error";
     because "ten times the model of the error, which for half of the motions is less than ten times the true one";
-    /// the rounding that a plan foresees for a numerical motion is what the motion's error estimate counts: accuracy 1e-16, off the middle axis,
+    /// the rounding that a plan foresees for a numerical motion is what the motion's error estimate counts: tolerance 1e-16, off the middle axis,
     /// 200 random scenes by Taylor series and by splitting, from 5 rad to 2000 t_c
     Property "plan-rounding" [25]: rounding;
     AtMost(0.05) "share of estimates more than ten times above or below what was foreseen";
@@ -52,7 +52,7 @@ fn plan(scene: &ErrorScene, method: Method, derivatives: &[Parameter]) -> Result
     let request = Request {
         method: Some(method),
         derivatives: derivatives.to_vec(),
-        ..Request::new(&[Output::EquatorialAxis], scene.span, 3, scene.accuracy)
+        ..Request::new(&[Output::EquatorialAxis], scene.span, 3, scene.tolerance)
     };
     scene.problem.plan(&request)
 }
@@ -144,7 +144,7 @@ fn rounding() -> Result<Measured, String> {
         for (number, scene) in
             scenes(method).filter(|(_, scene)| !scene.near_middle_axis && scene.turned() > 5.0).take(200)
         {
-            let scene = ErrorScene { accuracy: 1e-16, ..scene };
+            let scene = ErrorScene { tolerance: 1e-16, ..scene };
             let fault = |error: twofold::Error| format!("{}, scene {number} of seed {SEED}: {error}", method.name());
             let plan = plan(&scene, method, &[]).map_err(fault)?;
             let prediction = plan.prediction.ok_or("a plan without a prediction")?;

@@ -16,11 +16,11 @@ use crate::physical_domain::{RandomScene, scenes, worst_over};
 use crate::reference::reference_gradients;
 
 checks! {
-    /// right-hand sides that a plan foresees are those of the motion, at random over accuracies, spans and states carried
+    /// right-hand sides that a plan foresees are those of the motion, at random over tolerances, spans and states carried
     Property "plan-counts" [25]: counts;
     AtMost(2.0) "largest ratio of counted to foreseen right-hand sides, or the inverse";
     because "the plan knows the first step; later ones are longer or shorter as torque and rotation add up or not";
-    /// at random no method asked for by name is foreseen to meet the accuracy at less cost than the one that a plan takes, with derivatives or
+    /// at random no method asked for by name is foreseen to meet the tolerance at less cost than the one that a plan takes, with derivatives or
     /// without; each method is taken at times
     Property "plan-cheapest" [25]: cheapest;
     AtMost(0.0) "methods by name, of six for each of 600 plans, that are admitted and cost less";
@@ -42,7 +42,7 @@ checks! {
     /// random motions in any frame, forwards and backwards
     Oracle "gradient-both-ways" [25]: gradients_both_ways;
     AtMost(2e-10) "largest difference / (largest derivative by the same parameter at the same time, at least 1e-3); of values, / (1 + |L|)";
-    because "the maps go by an accuracy of 1e-11 (the series by 1e-15), times 20: the model of the error behind the choice of steps is one formula \
+    because "the maps go by an tolerance of 1e-11 (the series by 1e-15), times 20: the model of the error behind the choice of steps is one formula \
      for all motions, and the worst of 3,000 motions exceeds it 8 times";
     /// derivatives of n, L and e_x by fifteen parameters are those of 45-digit motions, two scenes, by tangent maps and by duals
     Oracle "gradient-reference" [25]: gradients;
@@ -67,12 +67,12 @@ fn over_estimates(
 
 fn counts() -> Result<Measured, String> {
     let strategy = (scenes(), -14.0..-3.0f64, 0.5..2.5f64, any::<bool>());
-    worst_over(41, 200, &strategy, |&(scene, accuracy, span, full)| {
+    worst_over(41, 200, &strategy, |&(scene, tolerance, span, full)| {
         let problem = scene.problem();
         let output = if full { Output::EquatorialAxis } else { Output::GravitationalWave };
         let request = Request {
             method: Some(Method::Taylor),
-            ..Request::new(&[output], (0.0, 10f64.powf(span)), 10, 10f64.powf(accuracy))
+            ..Request::new(&[output], (0.0, 10f64.powf(span)), 10, 10f64.powf(tolerance))
         };
         let plan = problem.plan(&request)?;
         let foreseen = plan.prediction.ok_or("a plan without prediction")?.work.right_hand_sides;
@@ -98,10 +98,10 @@ fn scenes_for_plans() -> impl Strategy<Value = RandomScene> {
 fn cheapest() -> Result<Measured, String> {
     let (mut seen, mut cheaper) = ([0; Method::ALL.len()], 0);
     let strategy = (scenes_for_plans(), -12.0..-2.0f64, 0.0..2.0f64, 1..20_usize, 0..3_usize);
-    worst_over(42, 600, &strategy, |&(scene, accuracy, span, samples, derivatives)| {
+    worst_over(42, 600, &strategy, |&(scene, tolerance, span, samples, derivatives)| {
         let request = Request {
             derivatives: [Parameter::Beta, Parameter::InertiaZz][..derivatives].to_vec(),
-            ..Request::new(&[Output::EquatorialAxis], (0.0, 10f64.powf(span)), samples, 10f64.powf(accuracy))
+            ..Request::new(&[Output::EquatorialAxis], (0.0, 10f64.powf(span)), samples, 10f64.powf(tolerance))
         };
         let plan = scene.problem().plan(&request)?;
         let (method, prediction) = plan.method.zip(plan.prediction).ok_or("a plan without a method")?;
@@ -219,14 +219,14 @@ impl StateFunction for Components {
 fn derivatives(
     start: &Parameters<f64>,
     method: Option<Method>,
-    accuracy: f64,
+    tolerance: f64,
     times: &[f64],
 ) -> Result<Gradient, Error> {
     let end = times.iter().fold(0.0, |end: f64, t| if t.abs() > end.abs() { *t } else { end });
     let request = Request {
         derivatives: Parameter::OF_MOTION.to_vec(),
         method,
-        ..Request::new(&[Output::EquatorialAxis], (0.0, end), times.len(), accuracy)
+        ..Request::new(&[Output::EquatorialAxis], (0.0, end), times.len(), tolerance)
     };
     gradient(&start.problem()?.plan(&request)?, start, &Components, times)
 }
@@ -265,7 +265,7 @@ fn gradients_both_ways() -> Result<Measured, String> {
         let start = Parameters::new(scene.spheroid(), violation, scene.angles(), scene.rates());
         let end = if *backwards { -20.0 } else { 20.0 };
         let both = [(None, 1e-11), (Some(Method::Taylor), 1e-15)]
-            .map(|(method, accuracy)| derivatives(&start, method, accuracy, &[end, 0.3 * end, 0.0]));
+            .map(|(method, tolerance)| derivatives(&start, method, tolerance, &[end, 0.3 * end, 0.0]));
         let [Ok(ours), Ok(theirs)] = both else { return Err(format!("{both:?}")) };
         if ours.jacobians == theirs.jacobians && has_vectors() {
             return Err("both ways are the same way".into());

@@ -17,7 +17,7 @@ checks! {
     Oracle "propagation-reference" [25]: against_reference::<BodyState<f64>>;
     AtMost(1e-12) "largest error of a component";
     because "rounding of the initial values (1e-16) and of up to 1,200 steps, grown with a phase of 600 rad";
-    /// the error estimate of the numerical motion is not below its true error, from accuracy 1e-3 to 1e-14
+    /// the error estimate of the numerical motion is not below its true error, from tolerance 1e-3 to 1e-14
     Oracle "propagation-error-estimate" [25]: estimate_against_reference::<BodyState<f64>>;
     AtMost(1.0) "largest true error / estimate";
     because "an estimate below the true error is wrong";
@@ -60,12 +60,12 @@ fn difference<X: RotationState<f64>>(a: &X, b: &X) -> f64 {
 /// The numerical motion of `n`, `L` and, as the type of state says, `e_x` of a reference motion, up to its last listed time.
 fn motion_of<X: RotationState<f64>>(
     reference: &ReferenceMotion,
-    accuracy: f64,
+    tolerance: f64,
 ) -> Result<TaylorMotion<f64, X>, twofold::Error> {
     let problem = reference.problem();
     let start = X::from_vectors(problem.initial().vectors());
     let end = reference.states.last().map_or(0.0, |(t, _)| *t);
-    Problem::new(reference.spheroid, *problem.coefficients(), start)?.taylor((0.0, end), accuracy)
+    Problem::new(reference.spheroid, *problem.coefficients(), start)?.taylor((0.0, end), tolerance)
 }
 
 pub(super) fn against_reference<X: RotationState<f64>>() -> Result<Measured, String> {
@@ -88,7 +88,7 @@ pub(super) fn estimate_against_reference<X: RotationState<f64>>() -> Result<Meas
             for (t, state) in &reference.states {
                 let error = difference(&motion.state(*t)?, &X::from_vectors(state.vectors()));
                 worst.see(error / motion.error_estimate(*t), || {
-                    format!("{} at t = {t}, accuracy 1e-{exponent}, error {error:e}", reference.name)
+                    format!("{} at t = {t}, tolerance 1e-{exponent}, error {error:e}", reference.name)
                 });
             }
         }

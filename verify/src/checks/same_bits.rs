@@ -30,7 +30,7 @@ fn scene(method: Method, number: u64) -> Option<ErrorScene> {
 
 /// State and estimate, or what the method refuses.
 fn state_of(method: Method, scene: &ErrorScene) -> Result<(BodyState<f64>, f64), String> {
-    let motion = scene.problem.motion_by(method, scene.span, scene.accuracy)?;
+    let motion = scene.problem.motion_by(method, scene.span, scene.tolerance)?;
     Ok((motion.state(scene.time)?, motion.error_estimate(scene.time)))
 }
 

@@ -52,16 +52,16 @@ impl Case {
     }
 }
 
-/// Sees `count` random scenes, propagated to the time `end` with the given accuracy, each with a random beam and its opposite.
+/// Sees `count` random scenes, propagated to the time `end` with the given tolerance, each with a random beam and its opposite.
 pub(super) fn for_random_cases(
     seed: u8,
     count: usize,
-    (end, accuracy): (f64, f64),
+    (end, tolerance): (f64, f64),
     mut see: impl FnMut(&Case, &mut Worst) -> Result<(), String>,
 ) -> Result<Worst, String> {
     let (mut random, mut worst, mut index) = (Random::with_seed(u64::from(seed)), Worst::default(), 0);
     worst_over(seed, count, &scenes(), |scene| {
-        let motion = scene.problem().taylor((0.0, end), accuracy)?;
+        let motion = scene.problem().taylor((0.0, end), tolerance)?;
         let (chi, delta) = (random.within(0.0, PI), random.within(-PI, PI));
         let (theta, phi) = (random.within(0.0, PI), random.within(-PI, PI));
         let observer = Observer::at(theta, phi).direction;
@@ -81,10 +81,10 @@ pub(super) fn for_random_cases(
 pub(super) fn worst_over_random_cases(
     seed: u8,
     count: usize,
-    end_and_accuracy: (f64, f64),
+    end_and_tolerance: (f64, f64),
     see: impl FnMut(&Case, &mut Worst) -> Result<(), String>,
 ) -> Result<Measured, String> {
-    for_random_cases(seed, count, end_and_accuracy, see)?.finish()
+    for_random_cases(seed, count, end_and_tolerance, see)?.finish()
 }
 
 /// The edges of the pulses, but for those at which the train is cut.

@@ -22,13 +22,13 @@ checks! {
 const END: f64 = 20.0;
 
 fn ways_agree() -> Result<Measured, String> {
-    const ACCURACY: f64 = 1e-14;
-    worst_over_random_cases(48, 300, (END, ACCURACY), |case, worst| {
+    const TOLERANCE: f64 = 1e-14;
+    worst_over_random_cases(48, 300, (END, TOLERANCE), |case, worst| {
         let Case { motion, beam, observer, .. } = case;
         let by_series = case.train()?;
         let by_states = pulse_train(&GivenStates::like(motion, |t| motion.state(t)), beam, observer, (0.0, END))?;
         let problem = Problem::new(*motion.spheroid(), *motion.coefficients(), motion.state(0.0)?)?;
-        let (not_kept, end) = problem.taylor_pulse_train((0.0, END), ACCURACY, beam, observer)?;
+        let (not_kept, end) = problem.taylor_pulse_train((0.0, END), TOLERANCE, beam, observer)?;
         let cut = |train: &PulseTrain| train.pulses.iter().map(|p| (p.cut_at_start, p.cut_at_end)).collect::<Vec<_>>();
         let compare = |other: &PulseTrain| match cut(&by_series) == cut(other) {
             true => case.difference_of_edges(&edges(&by_series), &edges(other)),

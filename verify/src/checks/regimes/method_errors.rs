@@ -11,8 +11,8 @@ use super::perturbation_error::{Case, axis_at};
 use crate::averaged_scenes::averaged_solution;
 use crate::check::{Measured, Worst, checks, largest};
 
-/// Accuracy of the numerical motion.
-const ACCURACY: f64 = 1e-13;
+/// Tolerance of the numerical motion.
+const TOLERANCE: f64 = 1e-13;
 
 /// `s_max - s_min` of the examples.
 const SPREAD: f64 = 0.06;
@@ -111,14 +111,14 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
     let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]).scaled(k);
     let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s.tensor(), start(k)?)?;
     let span = (0.0, *times.last().ok_or("no times")?);
-    let exact = problem.taylor(span, ACCURACY)?;
+    let exact = problem.taylor(span, TOLERANCE)?;
     let averaged = [AveragingOrder::First, AveragingOrder::Second].map(|order| averaged_solution(&problem, order));
     let [first, second] = averaged;
     let averaged = [first?, second?];
     // Each perturbation solution against the motion from its own initial values.
     let mut solutions = Vec::new();
     for case in geometry.cases(k).into_iter().flatten() {
-        solutions.push((case.solution()?, case.problem()?.taylor(span, ACCURACY)?, 0.0));
+        solutions.push((case.solution()?, case.problem()?.taylor(span, TOLERANCE)?, 0.0));
     }
     let (mut rows, mut from) = (Vec::new(), 0.0);
     let (mut axis_errors, mut state_errors) = ([0.0; 2], [0.0; 2]);

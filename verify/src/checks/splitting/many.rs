@@ -22,13 +22,13 @@ fn times(i: usize) -> Vec<f64> {
     times
 }
 
-/// Random motions at accuracies from 1e-3 to 1e-14, among them one without times and one at a bad accuracy.
+/// Random motions at tolerances from 1e-3 to 1e-14, among them one without times and one at a bad tolerance.
 fn motions<'t>(scenes: &[RandomScene], times: &'t [Vec<f64>]) -> Vec<SampledProblem<'t>> {
     let motion = |(i, (scene, times)): (usize, (&RandomScene, &'t Vec<f64>))| SampledProblem {
         problem: scene.problem().reduced(),
         start: 0.5,
         times: if i == 29 { &[] } else { times },
-        accuracy: if i == 41 { 1.0 } else { 10f64.powi(-3 - (i % 12) as i32) },
+        tolerance: if i == 41 { 1.0 } else { 10f64.powi(-3 - (i % 12) as i32) },
     };
     scenes.iter().zip(times).enumerate().map(motion).collect()
 }
@@ -64,15 +64,15 @@ pub(super) fn neighbours() -> Result<Measured, String> {
     Ok(Measured::new(f64::from(different as u32), format!("{COUNT} motions of seed {SEED}")))
 }
 
-/// The largest difference from the Taylor motion over the accuracy asked and that motion's estimate. A motion that only one of both
+/// The largest difference from the Taylor motion over the tolerance and that motion's estimate. A motion that only one of both
 /// refuses fails.
-pub(super) fn accuracy() -> Result<Measured, String> {
+pub(super) fn tolerance() -> Result<Measured, String> {
     let (scenes, times) = (drawn(SEED, COUNT, &scenes())?, (0..COUNT).map(times).collect::<Vec<_>>());
     let all = motions(&scenes, &times);
     let mut worst = Worst::default();
     for (i, (motion, found)) in all.iter().zip(states_of_many(&all)).enumerate() {
-        let SampledProblem { problem, start, times, accuracy } = motion;
-        let finest = if *accuracy < 0.1 { 1e-15 } else { *accuracy };
+        let SampledProblem { problem, start, times, tolerance } = motion;
+        let finest = if *tolerance < 0.1 { 1e-15 } else { *tolerance };
         let truth = problem.taylor_states(*start, times, finest, ErrorEstimates::Wanted);
         let truth = match (&found, truth) {
             (Err(ours), Err(theirs)) if ours.to_string() == theirs.to_string() => continue,
@@ -84,7 +84,7 @@ pub(super) fn accuracy() -> Result<Measured, String> {
         }
         let unit = problem.initial().momentum.norm().max(1.0);
         let apart = found.states.iter().zip(&truth.states).zip(&truth.error_estimates);
-        let figure = largest(apart.map(|((a, b), estimate)| largest_difference(a, b, unit) / (accuracy + estimate)));
+        let figure = largest(apart.map(|((a, b), estimate)| largest_difference(a, b, unit) / (tolerance + estimate)));
         worst.see(figure, || format!("motion {i} of seed {SEED}, {:?}", scenes[i]));
     }
     worst.finish()

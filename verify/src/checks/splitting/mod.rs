@@ -52,10 +52,10 @@ checks! {
     Property "splitting-many-motions" [25]: many::neighbours;
     AtMost(0.0) "number of motions with other bits";
     because "no operation mixes two lanes";
-    /// 90 random motions side by side are those of the Taylor motion to the accuracies asked, from 1e-3 to 1e-14
-    Oracle "splitting-many-accuracy" [25]: many::accuracy;
-    AtMost(1.0) "largest difference / (accuracy + error estimate of the Taylor motion)";
-    because "the error may reach the accuracy; where rounding is larger, it is as large as that of the Taylor motion, which its estimate counts";
+    /// 90 random motions side by side are those of the Taylor motion to the tolerances asked, from 1e-3 to 1e-14
+    Oracle "splitting-many-accuracy" [25]: many::tolerance;
+    AtMost(1.0) "largest difference / (tolerance + error estimate of the Taylor motion)";
+    because "the error may reach the tolerance; where rounding is larger, it is as large as that of the Taylor motion, which its estimate counts";
 }
 
 fn tp_2() -> Problem<f64, AxisState<f64>> {
