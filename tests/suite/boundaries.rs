@@ -5,7 +5,6 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 use twofold::Error;
-use twofold::dynamics::euler_angle_equations::AxisAngles;
 use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, angles_from_rotation, body_from_inertial, euler_rates};
 use twofold::lorentz_violation::{PrincipalCoefficients, preferred_frame_parameter, principal_frame};
@@ -14,14 +13,11 @@ use twofold::observables::Observer;
 use twofold::observables::bound::{
     SpinAxisDrift, eta_from_inclination, lambda_change, preferred_frame_bound, zeta_change_terms,
 };
-use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::pulsar::{Beam, PulsarClock, arrivals, pulse_train};
-use twofold::propagation::{ContinuousAngles, Motion, UniformMotion};
+use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion, UniformMotion};
 use twofold::solutions::averaged::AveragingOrder;
 use twofold::solutions::free::{free_precession_rates, free_rotation};
-use twofold::solutions::perturbation::{
-    Constants, Form, Perturbation, Precession, constants_from_initial_values, shifted_rates,
-};
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession, shifted_rates};
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::solutions::symmetric::SymmetricSolution;
 use twofold::star::spheroid_shape::SpheroidShape;
@@ -31,13 +27,23 @@ fn star() -> RigidSpheroid<f64> {
     RigidSpheroid::in_units_of_tc(1.1)
 }
 
-fn refused<T: std::fmt::Debug>(result: Result<T, Error>, quantity: &str) {
-    match result {
-        Err(Error::Domain { quantity: found, .. }) => {
-            assert!(found.contains(quantity), "{found} where {quantity} was meant")
-        }
-        other => panic!("{quantity}: not refused but {other:?}"),
+/// Refused for a quantity of that name, or accepted where it is empty.
+fn judged<T: std::fmt::Debug>(result: Result<T, Error>, quantity: &str) {
+    match &result {
+        Err(Error::Domain { quantity: found, .. }) if !quantity.is_empty() && found.contains(quantity) => {}
+        Ok(_) if quantity.is_empty() => {}
+        other => panic!("`{quantity}` was meant: {other:?}"),
     }
+}
+
+fn taylor(
+    body: RigidSpheroid<f64>,
+    s: Matrix3<f64>,
+    start: BodyState<f64>,
+    span: (f64, f64),
+    tolerance: f64,
+) -> Result<TaylorMotion<f64>, Error> {
+    Problem::new(body, s, start)?.taylor(span, tolerance)
 }
 
 const S: PrincipalCoefficients<f64> = PrincipalCoefficients { xx: 0.02, yy: 0.01, zz: -0.04 };
@@ -46,62 +52,60 @@ const S: PrincipalCoefficients<f64> = PrincipalCoefficients { xx: 0.02, yy: 0.01
 fn poles_are_reported() {
     for beta in [0.0, PI] {
         let angles = EulerAngles { alpha: 0.3, beta, gamma: 0.1 };
-        refused(euler_rates(&angles, &Vector3::new(0.1, 0.2, 0.3)), "sin beta");
-        refused(angles_from_rotation(&body_from_inertial(&angles)), "sin beta");
+        judged(euler_rates(&angles, &Vector3::new(0.1, 0.2, 0.3)), "sin beta");
+        judged(angles_from_rotation(&body_from_inertial(&angles)), "sin beta");
     }
-    let at = |beta| euler_rates(&EulerAngles { alpha: 0.3, beta, gamma: 0.1 }, &Vector3::new(0.1, 0.2, 0.3));
-    refused(at(f64::EPSILON), "sin beta");
-    assert!(at(2.0 * f64::EPSILON).is_ok() && at(-2.0 * f64::EPSILON).is_ok());
+    for (beta, quantity) in [(f64::EPSILON, "sin beta"), (2.0 * f64::EPSILON, ""), (-2.0 * f64::EPSILON, "")] {
+        let angles = EulerAngles { alpha: 0.3, beta, gamma: 0.1 };
+        judged(euler_rates(&angles, &Vector3::new(0.1, 0.2, 0.3)), quantity);
+    }
 }
 
 #[test]
 fn perturbation_solutions_know_where_they_hold() {
-    let constants = |beta_0| Constants { alpha_0: 0.1, beta_0, amplitude: 0.01, phase: 0.2 };
-    let printed = |kind, s, spin, beta_0| Perturbation::new(Form::Printed, kind, &star(), &s, spin, &constants(beta_0));
-    refused(printed(Precession::Single, S, 1.0, 0.0), "sin beta_0");
-    refused(printed(Precession::Twofold, S, 1.0, FRAC_PI_2), "cos beta_0");
-    refused(printed(Precession::Twofold, S, 0.0, 0.7), "spin");
-    refused(
-        Perturbation::new(Form::Corrected, Precession::Twofold, &star(), &S, 1.0, &constants(FRAC_PI_2)),
-        "cos beta_0",
-    );
-    refused(shifted_rates(&star(), &S, 0.0, 0.7), "spin");
     // 2 s^ZZ - s^XX - s^YY vanishes up to the rounding of 0.015.
     let balanced = PrincipalCoefficients { xx: 0.02, yy: 0.01, zz: 0.015 };
-    refused(printed(Precession::Single, balanced, 1.0, 0.7), "precession rate");
-    refused(printed(Precession::Single, balanced, 1e-3, 0.7), "precession rate");
-    refused(
-        printed(Precession::Single, PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: 0.0 }, 1.0, 0.7),
-        "precession rate",
-    );
-    assert!(printed(Precession::Twofold, balanced, 1.0, 0.7).is_ok());
     let nearly = PrincipalCoefficients { zz: 0.015 + 1e-14, ..balanced };
-    assert!(printed(Precession::Single, nearly, 1.0, 0.7).is_ok());
+    let none = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: 0.0 };
     // Forced and free precession cancel: a^(1) = omega / cos beta_0 up to rounding.
     let zz = 1.21 * 0.01 / (2.0 * 0.7f64.cos().powi(2));
-    let cancelling = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz };
-    refused(printed(Precession::Twofold, cancelling, 0.1, 0.7), "precession rate");
-    assert!(
-        printed(Precession::Twofold, PrincipalCoefficients { zz: zz * (1.0 + 1e-14), ..cancelling }, 0.1, 0.7).is_ok()
-    );
-    refused(printed(Precession::Twofold, S, 1e-310, 0.7), "precession rate");
+    let cancelling = PrincipalCoefficients { zz, ..none };
+    let hardly = PrincipalCoefficients { zz: zz * (1.0 + 1e-14), ..none };
     let tiny = f64::EPSILON;
-    refused(printed(Precession::Single, S, 1.0, tiny), "sin beta_0");
-    assert!(printed(Precession::Single, S, 1.0, 2.0 * tiny).is_ok());
-    assert!(printed(Precession::Single, S, 1.0, 0.7).is_ok());
-    assert!(printed(Precession::Single, S.scaled(1e-200), 1.0, 0.7).is_ok());
+    for (form, kind, s, spin, beta_0, quantity) in [
+        (Form::Printed, Precession::Single, S, 1.0, 0.0, "sin beta_0"),
+        (Form::Printed, Precession::Single, S, 1.0, tiny, "sin beta_0"),
+        (Form::Printed, Precession::Single, S, 1.0, 2.0 * tiny, ""),
+        (Form::Printed, Precession::Single, S, 1.0, 0.7, ""),
+        (Form::Printed, Precession::Single, S.scaled(1e-200), 1.0, 0.7, ""),
+        (Form::Printed, Precession::Twofold, S, 1.0, FRAC_PI_2, "cos beta_0"),
+        (Form::Corrected, Precession::Twofold, S, 1.0, FRAC_PI_2, "cos beta_0"),
+        (Form::Printed, Precession::Twofold, S, 0.0, 0.7, "spin"),
+        (Form::Printed, Precession::Twofold, S, 1e-310, 0.7, "precession rate"),
+        (Form::Printed, Precession::Single, balanced, 1.0, 0.7, "precession rate"),
+        (Form::Printed, Precession::Single, balanced, 1e-3, 0.7, "precession rate"),
+        (Form::Printed, Precession::Single, none, 1.0, 0.7, "precession rate"),
+        (Form::Printed, Precession::Single, nearly, 1.0, 0.7, ""),
+        (Form::Printed, Precession::Twofold, balanced, 1.0, 0.7, ""),
+        (Form::Printed, Precession::Twofold, cancelling, 0.1, 0.7, "precession rate"),
+        (Form::Printed, Precession::Twofold, hardly, 0.1, 0.7, ""),
+    ] {
+        let constants = Constants { alpha_0: 0.1, beta_0, amplitude: 0.01, phase: 0.2 };
+        judged(Perturbation::new(form, kind, &star(), &s, spin, &constants), quantity);
+    }
+    judged(shifted_rates(&star(), &S, 0.0, 0.7), "spin");
 }
 
 #[test]
 fn steady_precession_knows_where_it_exists() {
     let symmetric = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: 0.2 };
     let rate = |s, spin, beta| steady_precession_rate(Precession::Single, &star(), &s, spin, beta);
-    refused(rate(S, 1.0, 0.7), "s^XX - s^YY");
-    refused(rate(symmetric, 0.5, 0.1), "8 (s^ZZ - s^XX)");
-    refused(steady_precession_rate(Precession::Twofold, &star(), &symmetric, 1.0, FRAC_PI_2), "cos beta");
-    refused(rate(PrincipalCoefficients { xx: 0.1, yy: 0.1, zz: 0.1 }, 0.0, 0.7), "I^zz Omega^z");
+    judged(rate(S, 1.0, 0.7), "s^XX - s^YY");
+    judged(rate(symmetric, 0.5, 0.1), "8 (s^ZZ - s^XX)");
+    judged(steady_precession_rate(Precession::Twofold, &star(), &symmetric, 1.0, FRAC_PI_2), "cos beta");
+    judged(rate(PrincipalCoefficients { xx: 0.1, yy: 0.1, zz: 0.1 }, 0.0, 0.7), "I^zz Omega^z");
     assert!(rate(symmetric, 3.0, 0.1).is_ok());
-    refused(free_precession_rates(&star(), 1.0, FRAC_PI_2), "cos beta");
+    judged(free_precession_rates(&star(), 1.0, FRAC_PI_2), "cos beta");
     // Without spin the two roots differ in sign only, and the twofold one is the upper.
     let pendulum = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: -0.2 };
     let spinless = |kind| steady_precession_rate(kind, &star(), &pendulum, 0.0, 0.7).expect("real roots");
@@ -112,15 +116,15 @@ fn steady_precession_knows_where_it_exists() {
 #[test]
 fn bounds_know_where_they_say_nothing() {
     let drift = SpinAxisDrift { polar_inertia_over_c: 1e-5, spin: 4e3, interval: 5e8, cos_lambda_change: -1e-4 };
-    refused(SpinAxisDrift { interval: 0.0, ..drift }.combination_bound(1.0), "interval");
-    refused(SpinAxisDrift { interval: f64::NAN, ..drift }.combination_bound(1.0), "interval");
-    refused(eta_from_inclination(FRAC_PI_2), "cos beta_0");
+    judged(SpinAxisDrift { interval: 0.0, ..drift }.combination_bound(1.0), "interval");
+    judged(SpinAxisDrift { interval: f64::NAN, ..drift }.combination_bound(1.0), "interval");
+    judged(eta_from_inclination(FRAC_PI_2), "cos beta_0");
     assert!(drift.combination_bound(eta_from_inclination(2.5).unwrap()).is_ok_and(|bound| bound > 0.0));
     assert_eq!(eta_from_inclination(PI), Ok(1.0));
-    refused(preferred_frame_bound(1e-14, &Vector3::zeros()), "|w|^2");
+    judged(preferred_frame_bound(1e-14, &Vector3::zeros()), "|w|^2");
     // The line of sight through the axis of the beam: the width is the widest, and stationary.
-    refused(lambda_change(PI - 0.6, 0.6, 0.0, 1e-3), "line of sight");
-    refused(lambda_change(FRAC_PI_2, FRAC_PI_2, 0.3, 1e-3), "line of sight");
+    judged(lambda_change(PI - 0.6, 0.6, 0.0, 1e-3), "line of sight");
+    judged(lambda_change(FRAC_PI_2, FRAC_PI_2, 0.3, 1e-3), "line of sight");
     let ([sine, turning], lambda) =
         (zeta_change_terms(1.0, 0.8, 0.3), lambda_change(PI - 1.0, 0.8, 0.3, 1e-3).unwrap());
     let zeta: f64 = sine / turning * 1e-3;
@@ -129,11 +133,11 @@ fn bounds_know_where_they_say_nothing() {
 
 #[test]
 fn tensors_are_refused_with_the_entry_that_is_wrong() {
-    refused(principal_frame(&Matrix3::from_diagonal_element(f64::NAN)), "entry of s^IJ");
-    refused(principal_frame(&Matrix3::new(0.0, 0.1, 0.0, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0)), "s^JI");
+    judged(principal_frame(&Matrix3::from_diagonal_element(f64::NAN)), "entry of s^IJ");
+    judged(principal_frame(&Matrix3::new(0.0, 0.1, 0.0, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0)), "s^JI");
     let w = Vector3::new(1e-3, 2e-3, 0.0);
-    refused(preferred_frame_parameter(&Matrix3::identity(), &w), "alpha_2");
-    refused(preferred_frame_parameter::<f64>(&Matrix3::identity(), &Vector3::zeros()), "|w|^2");
+    judged(preferred_frame_parameter(&Matrix3::identity(), &w), "alpha_2");
+    judged(preferred_frame_parameter::<f64>(&Matrix3::identity(), &Vector3::zeros()), "|w|^2");
 }
 
 #[test]
@@ -144,7 +148,7 @@ fn tensors_may_be_asymmetric_by_rounding_only() {
         principal_frame(&tensor)
     };
     assert!(with_asymmetry(5e-11).is_ok());
-    refused(with_asymmetry(2e-10), "s^JI");
+    judged(with_asymmetry(2e-10), "s^JI");
 }
 
 /// The convention for what an eigenvalue problem leaves free: descending values, X and Y axes with their largest component
@@ -202,8 +206,8 @@ fn eccentricity_comes_from_the_axes_themselves() {
 
 #[test]
 fn time_unit_needs_an_oblate_star() {
-    refused(RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.9, constant_c: -0.1 }.time_unit(), "constant C");
-    refused(RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.0, constant_c: 0.0 }.time_unit(), "constant C");
+    judged(RigidSpheroid { inertia_xx: 1.0, inertia_zz: 0.9, constant_c: -0.1 }.time_unit(), "constant C");
+    judged(RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.0, constant_c: 0.0 }.time_unit(), "constant C");
     assert_eq!(RigidSpheroid { inertia_xx: 8.0, inertia_zz: 9.0, constant_c: 2.0 }.time_unit(), Ok(2.0));
 }
 
@@ -211,38 +215,32 @@ fn time_unit_needs_an_oblate_star() {
 fn propagation_refuses_what_it_cannot_follow() {
     let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.0 };
     let start = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.0 });
-    let run = |state: &BodyState<f64>, span, tolerance| {
-        Problem::new(star(), S.tensor(), *state).and_then(|problem| problem.taylor(span, tolerance))
-    };
-    refused(run(&start, (0.0, 1.0), 1e-17), "tolerance");
-    refused(run(&start, (0.0, 1.0), f64::NAN), "tolerance");
-    refused(run(&start, (0.0, 1.0), 0.1), "tolerance");
-    refused(run(&start, (0.0, f64::INFINITY), 1e-10), "time span");
-    refused(run(&BodyState { axis: start.axis * 1.1, ..start }, (0.0, 1.0), 1e-10), "axis n");
-    refused(run(&BodyState { equatorial_axis: start.axis, ..start }, (0.0, 1.0), 1e-10), "n . e_x");
-    refused(run(&BodyState { equatorial_axis: start.equatorial_axis * 0.5, ..start }, (0.0, 1.0), 1e-10), "axis e_x");
-    refused(run(&BodyState { momentum: Vector3::repeat(f64::NAN), ..start }, (0.0, 1.0), 1e-10), "component of L");
-    let needs_too_many = run(&start, (0.0, 1e9), 1e-10);
-    refused(needs_too_many.map(|_| ()), "steps");
-    let hollow = RigidSpheroid { inertia_zz: 0.0, ..star() };
-    refused(
-        Problem::new(hollow, S.tensor(), start).and_then(|problem| problem.taylor((0.0, 1.0), 1e-10)).map(|_| ()),
-        "moment of inertia",
-    );
-    let endless = S.scaled(f64::INFINITY).tensor();
-    refused(
-        Problem::new(star(), endless, start).and_then(|problem| problem.taylor((0.0, 1.0), 1e-10)).map(|_| ()),
-        "entry of s^IJ",
-    );
-    let bad = RigidSpheroid { constant_c: f64::NAN, ..star() };
-    refused(
-        Problem::new(bad, S.tensor(), start).and_then(|problem| problem.taylor((0.0, 1.0), 1e-10)).map(|_| ()),
-        "constant C",
-    );
+    let (axis, equatorial_axis, momentum) = (start.axis, start.equatorial_axis, start.momentum);
+    let (long, near) = ((0.0, 1e9), (0.0, 1.0));
+    for (state, span, tolerance, quantity) in [
+        (start, near, 1e-17, "tolerance"),
+        (start, near, f64::NAN, "tolerance"),
+        (start, near, 0.1, "tolerance"),
+        (start, (0.0, f64::INFINITY), 1e-10, "time span"),
+        (BodyState { axis: axis * 1.1, ..start }, near, 1e-10, "axis n"),
+        (BodyState { equatorial_axis: axis, ..start }, near, 1e-10, "n . e_x"),
+        (BodyState { equatorial_axis: equatorial_axis * 0.5, ..start }, near, 1e-10, "axis e_x"),
+        (BodyState { momentum: momentum * f64::NAN, ..start }, near, 1e-10, "component of L"),
+        (start, long, 1e-10, "steps"),
+    ] {
+        judged(taylor(star(), S.tensor(), state, span, tolerance), quantity);
+    }
+    for (body, s, quantity) in [
+        (RigidSpheroid { inertia_zz: 0.0, ..star() }, S, "moment of inertia"),
+        (star(), S.scaled(f64::INFINITY), "entry of s^IJ"),
+        (RigidSpheroid { constant_c: f64::NAN, ..star() }, S, "constant C"),
+    ] {
+        judged(taylor(body, s.tensor(), start, near, 1e-10), quantity);
+    }
 
-    let motion = run(&start, (1.0, 3.0), 1e-10).expect("a short motion");
+    let motion = taylor(star(), S.tensor(), start, (1.0, 3.0), 1e-10).expect("a short motion");
     for t in [0.999, 3.001, f64::NAN] {
-        refused(motion.state(t), "time t");
+        judged(motion.state(t), "time t");
         assert!(motion.error_estimate(t).is_nan());
     }
     assert!(motion.state(1.0).is_ok() && motion.state(3.0).is_ok());
@@ -261,29 +259,29 @@ fn pulses_are_searched_in_turns_that_can_be_counted() {
     let (none, beam, n) = (Matrix3::zeros(), Beam::new(0.5, 0.0, 0.3), Vector3::new(0.6, 0.0, 0.8));
     let both = |spin, span: (f64, f64)| {
         let start = spinning(spin);
-        let motion = Problem::new(needle, none, start).and_then(|problem| problem.taylor(span, 1e-10))?;
-        let kept = pulse_train(&motion, &beam, &n, span);
-        let propagated = Problem::new(needle, none, start)
-            .and_then(|problem| problem.taylor_pulse_train(span, 1e-10, &beam, &n))
-            .map(|found| found.0);
+        let problem = Problem::new(needle, none, start)?;
+        let kept = pulse_train(&problem.taylor(span, 1e-10)?, &beam, &n, span);
+        let propagated = problem.taylor_pulse_train(span, 1e-10, &beam, &n).map(|found| found.0);
         assert_eq!(kept.is_ok(), propagated.is_ok(), "spin {spin}, {span:?}");
         assert_eq!(kept.as_ref().err(), propagated.as_ref().err());
         kept
     };
-    refused(both(1e9, (0.0, 2.0)), "rotation (rad)");
-    refused(both(1e52, (0.0, 10.0)), "rotation (rad)");
-    refused(both(-1e52, (3.0, 4.0)), "rotation (rad)");
-    refused(both(1.0, (1e17, 1e17 + 128.0)), "time t");
-    refused(both(1.0, (-1e17, -1e17 + 128.0)), "time t");
+    for (spin, span, quantity) in [
+        (1e9, (0.0, 2.0), "rotation (rad)"),
+        (1e52, (0.0, 10.0), "rotation (rad)"),
+        (-1e52, (3.0, 4.0), "rotation (rad)"),
+        (1.0, (1e17, 1e17 + 128.0), "time t"),
+        (1.0, (-1e17, -1e17 + 128.0), "time t"),
+    ] {
+        judged(both(spin, span), quantity);
+    }
     assert!(both(1.0, (1e15, 1e15 + 128.0)).is_ok_and(|train| train.pulses.len() == 21));
     assert!(both(0.0, (0.0, 1e15)).is_ok_and(|train| train.pulses.len() == 1));
 
     // Turns of the train of a slower star, counted along a faster one.
     let train = both(1.0, (0.0, 100.0)).expect("a train");
-    let faster = Problem::new(needle, none, spinning(1e52))
-        .and_then(|problem| problem.taylor((0.0, 100.0), 1e-10))
-        .expect("a motion");
-    refused(arrivals(&faster, &beam, &n, &train), "rotation (rad)");
+    let faster = taylor(needle, none, spinning(1e52), (0.0, 100.0), 1e-10).expect("a motion");
+    judged(arrivals(&faster, &beam, &n, &train), "rotation (rad)");
 }
 
 #[test]
@@ -294,89 +292,11 @@ fn a_clock_takes_finite_times_of_two_parts() {
         .expect("a clock");
     let (endless, huge) = (f64::INFINITY, f64::MAX);
     for t in [[endless, 0.0], [0.0, endless], [huge, huge], [-huge, -huge], [1.0, f64::NAN], [endless, -endless]] {
-        refused(clock.pulse_near(t), "time t");
+        judged(clock.pulse_near(t), "time t");
     }
     let whole = clock.pulse_near([1e6 + 0.25, 0.0]).expect("a time").expect("a pulse");
     let parts = clock.pulse_near([1e6, 0.25]).expect("a time").expect("a pulse");
     assert_eq!((whole.number, whole.midpoint[0]), (parts.number, parts.midpoint[0]));
-}
-
-/// A needle that spins fast about itself, and slowly about L, is no clock.
-#[test]
-fn a_clock_turns_about_its_momentum() {
-    let (beam, observer) = (Beam::new(0.2, 0.0, 0.3), Observer::at(0.6, 0.0));
-    let clock = |inertia_zz: f64| {
-        let needle = RigidSpheroid { inertia_xx: 1.0, inertia_zz, constant_c: 0.0 };
-        let axis = Vector3::new(0.6, 0.0, 0.8);
-        let start = BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() };
-        PulsarClock::new(&needle, &Matrix3::zeros(), &start, &beam, &observer, AveragingOrder::Second)
-    };
-    assert!(clock(1e-4).is_ok());
-    refused(clock(1e-5), "rotation (rad) of the body");
-}
-
-/// What a span of samples is refused for is told in turns of the axis and in half radians of the fastest that it may turn.
-#[test]
-fn spans_for_frequencies_are_told_in_turns() {
-    let body = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: -0.8 };
-    let start = BodyState {
-        axis: Vector3::new(0.6, 0.0, 0.8),
-        momentum: Vector3::new(0.3, -0.4, 1.2),
-        equatorial_axis: Vector3::y(),
-    };
-    let value = |state: &BodyState<f64>, s: &Matrix3<f64>, span| match fundamental_frequencies(&UniformMotion::free(
-        &Problem::new(body, *s, *state).expect("a problem"),
-        span,
-    )) {
-        Err(Error::Domain { quantity, value, .. }) => (quantity, value),
-        other => panic!("{other:?}"),
-    };
-    let s = S.tensor();
-    let rate = 1.3 / 1.3;
-    for span in [(2.0, 42.0), (42.0, 2.0)] {
-        let (quantity, turns) = value(&start, &s, span);
-        assert_eq!(quantity, "span in turns of n about L");
-        assert!((turns - 40.0 * rate / std::f64::consts::TAU).abs() < 1e-12, "{turns}");
-    }
-    let fastest = 1.3 / 1.1 + (2.0 * 0.8 * s.norm() / 1.3).sqrt();
-    for span in [(2.0, 1e7), (1e7, 2.0)] {
-        let (quantity, halves) = value(&start, &s, span);
-        assert_eq!(quantity, "length of the span in half radians");
-        assert_eq!(halves, ((1e7 - 2.0) * fastest / 0.5).ceil());
-    }
-    let still = BodyState { momentum: Vector3::zeros(), ..start };
-    assert_eq!(value(&still, &Matrix3::zeros(), (0.0, 100.0)), ("rate of rotation", 0.0));
-    assert_eq!(
-        value(&BodyState { momentum: start.momentum * 1e300, ..start }, &(s * 1e300), (0.0, 100.0)).0,
-        "rate of rotation"
-    );
-}
-
-/// An amplitude of nothing, or of one part alone.
-#[test]
-fn constants_have_amplitudes_of_both_parts() {
-    let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.43, constant_c: 0.13 };
-    let none = PrincipalCoefficients::new([0.0; 3]);
-    let (spin, beta) = (-0.3, 0.7_f64);
-    let steady = steady_precession_rate(Precession::Twofold, &spheroid, &none, spin, beta).expect("a rate");
-    let of = |alpha_rate: f64, beta_rate: f64| {
-        let initial = AxisAngles { alpha: 0.2, beta, alpha_rate, beta_rate };
-        constants_from_initial_values(Form::Printed, Precession::Twofold, &spheroid, &none, spin, &initial)
-            .expect("constants")
-    };
-    let nothing = of(steady, 0.0);
-    assert!(nothing.amplitude < 1e-12, "{nothing:?}");
-    for (alpha, beta_rate) in [(1e-3, 0.0), (0.0, 1e-3), (-1e-3, 2e-3)] {
-        let found = of(steady + alpha, beta_rate);
-        let solution =
-            Perturbation::new(Form::Printed, Precession::Twofold, &spheroid, &none, spin, &found).expect("a solution");
-        let at = solution.at(0.0);
-        assert!((at.alpha - 0.2).abs() < 1e-12 && (at.beta - 0.7).abs() < 1e-12, "{found:?}");
-        assert!(
-            (at.alpha_rate - steady - alpha).abs() < 1e-12 && (at.beta_rate - beta_rate).abs() < 1e-12,
-            "{found:?}"
-        );
-    }
 }
 
 /// An axis that stays on a pole, or passes next to it, neither hangs nor loses count.
@@ -386,9 +306,7 @@ fn turns_are_counted_next_to_the_poles() {
         let angles = EulerAngles { alpha: 0.3, beta, gamma: 0.1 };
         let start = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 0.2, beta: 0.0, gamma: 1.0 });
         let symmetric = PrincipalCoefficients { xx: 0.01, yy: 0.01, zz: -0.04 };
-        let motion = Problem::new(star(), symmetric.tensor(), start)
-            .and_then(|problem| problem.taylor((0.0, 100.0), 1e-13))
-            .expect("a motion");
+        let motion = taylor(star(), symmetric.tensor(), start, (0.0, 100.0), 1e-13).expect("a motion");
         let end = ContinuousAngles::new(&motion, 0.0, &angles).and_then(|mut a| a.at(100.0)).expect("angles");
         // Rotation about Z as a whole: alpha + gamma near the upper pole, alpha - gamma near the lower one.
         let (turned, expected) =
@@ -408,7 +326,7 @@ fn turns_next_to_a_pole_are_refused_where_they_cannot_be_counted() {
         let motion = UniformMotion::free(&Problem::new(star(), s, start).expect("a problem"), (0.0, 30.0));
         ContinuousAngles::new(&motion, 0.0, &angles).and_then(|mut turns| turns.at(30.0))
     };
-    refused(count(1e-13, 0.0), "pieces");
+    judged(count(1e-13, 0.0), "pieces");
     assert!(count(1e-3, 0.0).is_ok_and(|end| (end.alpha - 0.3).abs() < 1e-9));
     assert!(count(0.3, 1.5).is_ok());
 }
@@ -428,7 +346,7 @@ fn turns_go_on_after_a_refusal() {
         Ok(if is_gone { BodyState { axis: state.axis * f64::NAN, ..state } } else { state })
     });
     let mut turns = ContinuousAngles::new(&broken, 0.0, &angles).expect("a start");
-    refused(turns.at(25.0), "state of the motion");
+    judged(turns.at(25.0), "state of the motion");
     let found = turns.at(15.0).expect("angles");
     assert!(
         (found.alpha - exact.alpha).abs() < 1e-9 && (found.gamma - exact.gamma).abs() < 1e-9,
@@ -442,16 +360,11 @@ fn the_unit_of_time_does_not_matter() {
     let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
     let rates = EulerRates { alpha: 1.2, beta: 0.3, gamma: -0.2 };
     let start = BodyState::from_angles(&star(), &angles, &rates);
-    let expected = Problem::new(star(), S.tensor(), start)
-        .and_then(|problem| problem.taylor((0.0, 20.0), 1e-14))
-        .and_then(|m| m.state(20.0))
-        .expect("a motion");
+    let expected = taylor(star(), S.tensor(), start, (0.0, 20.0), 1e-14).and_then(|m| m.state(20.0)).expect("a motion");
     for rate in [1e-30, 1e-18, 1e-10, 1e10, 1e18, 1e30] {
         let body = RigidSpheroid { constant_c: rate * rate, ..star() };
         let start = BodyState { momentum: start.momentum * rate, ..start };
-        let motion = Problem::new(body, S.tensor(), start)
-            .and_then(|problem| problem.taylor((0.0, 20.0 / rate), 1e-14))
-            .expect("a motion");
+        let motion = taylor(body, S.tensor(), start, (0.0, 20.0 / rate), 1e-14).expect("a motion");
         let end = motion.state(20.0 / rate).expect("its end");
         let difference = (end.axis - expected.axis).norm() + (end.equatorial_axis - expected.equatorial_axis).norm();
         assert!(difference < 1e-13, "rate {rate:e}: {difference:e}");
@@ -459,16 +372,13 @@ fn the_unit_of_time_does_not_matter() {
     // Squares of L overflow.
     let heavy = RigidSpheroid { inertia_xx: 1e200, inertia_zz: 1.1e200, constant_c: 1e200 };
     let start = BodyState { momentum: start.momentum * 1e200, ..start };
-    refused(
-        Problem::new(heavy, S.tensor(), start).and_then(|problem| problem.taylor((0.0, 20.0), 1e-14)).map(|_| ()),
-        "rate at which the body turns",
-    );
+    judged(taylor(heavy, S.tensor(), start, (0.0, 20.0), 1e-14), "rate at which the body turns");
 
     let symmetric = PrincipalCoefficients { yy: 0.02, ..S };
     for rate in [1e-160, 1e-100, 1e100, 1e150] {
         let body = RigidSpheroid { constant_c: rate * rate, ..star() };
         let rates = EulerRates { alpha: 1.2 * rate, beta: 0.3 * rate, gamma: -0.2 * rate };
-        refused(SymmetricSolution::new(&body, &symmetric, &angles, &rates).map(|_| ()), "period");
+        judged(SymmetricSolution::new(&body, &symmetric, &angles, &rates), "period");
     }
 }
 
@@ -481,17 +391,14 @@ fn what_exerts_no_torque_makes_no_error() {
     let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
     let slow = BodyState::from_angles(&star(), &angles, &EulerRates { alpha: 1.2e-6, beta: 3e-7, gamma: -2e-7 });
     for s in [0.3, 1.0 / 3.0, 100.1] {
-        let motion = Problem::new(star(), Matrix3::from_diagonal_element(s), slow)
-            .and_then(|problem| problem.taylor((0.0, 1e4), 1e-13))
-            .expect("a motion");
+        let isotropic = Matrix3::from_diagonal_element(s);
+        let motion = taylor(star(), isotropic, slow, (0.0, 1e4), 1e-13).expect("a motion");
         let (end, exact) = (motion.state(1e4).expect("its end"), free_rotation(&star(), &slow, 1e4));
         let error = (end.axis - exact.axis).norm().max((end.momentum - exact.momentum).norm() / slow.momentum.norm());
         assert!(error <= motion.error_estimate(1e4), "s = {s}: {error:e}, estimate {:e}", motion.error_estimate(1e4));
     }
     let at_rest = BodyState { momentum: Vector3::zeros(), ..slow };
-    let motion = Problem::new(star(), Matrix3::zeros(), at_rest)
-        .and_then(|problem| problem.taylor((0.0, 1e8), 1e-13))
-        .expect("a motion");
+    let motion = taylor(star(), Matrix3::zeros(), at_rest, (0.0, 1e8), 1e-13).expect("a motion");
     assert!(motion.error_estimate(1e8) < 2e-13, "{:e}", motion.error_estimate(1e8));
 }
 
@@ -506,9 +413,7 @@ fn a_pendulum_keeps_its_plane() {
         let angles = EulerAngles { beta, ..angles };
         let rates = EulerRates { alpha: alpha_rate, beta: 0.1, gamma: 0.0 };
         let start = BodyState::from_angles(&star(), &angles, &rates);
-        let motion = Problem::new(star(), s.tensor(), start)
-            .and_then(|problem| problem.taylor((0.0, 50.0), 1e-14))
-            .expect("a motion");
+        let motion = taylor(star(), s.tensor(), start, (0.0, 50.0), 1e-14).expect("a motion");
         let solution = SymmetricSolution::new(&star(), &s, &angles, &rates).expect("a solution");
         for t in (0..=100).map(|i| 0.5 * f64::from(i)) {
             let (now, exact) = (motion.state(t).expect("in the span"), body_from_inertial(&solution.angles(t)));

@@ -1,8 +1,11 @@
 //! Derivatives of order up to eight, by nested dual numbers: series are right to their last term, and rotations stay rotations.
 
 use nalgebra::{Matrix3, Vector3};
-use num_dual::{Dual2_64, Dual3, Dual3_64, DualNum};
-use twofold::lorentz_violation::{principal_frame, principal_frame_with_derivatives};
+use num_dual::{Dual2_64, Dual3, Dual3_64, Dual64, DualNum};
+use twofold::euler_angles::{EulerAngles, body_from_inertial};
+use twofold::lorentz_violation::{
+    PrincipalCoefficients, principal_frame, principal_frame_along, principal_frame_with_derivatives,
+};
 use twofold::solutions::free::rotated_by;
 
 /// Eight derivatives by one variable: three, three and two of them.
@@ -85,8 +88,7 @@ fn a_principal_frame_is_one_to_the_third_order() {
 /// What is told of two equal eigenvalues is relative to the largest.
 #[test]
 fn equal_eigenvalues_have_no_derivatives() {
-    let diagonal =
-        |values: [f64; 3]| Matrix3::from_diagonal(&Vector3::from(values)).map(|x| num_dual::Dual64::new(x, 0.1));
+    let diagonal = |values: [f64; 3]| Matrix3::from_diagonal(&Vector3::from(values)).map(|x| Dual64::new(x, 0.1));
     for unit in [1.0, 1e-9, 1e7] {
         let found = |values: [f64; 3]| principal_frame_with_derivatives(&diagonal(values.map(|x| x * unit))).is_ok();
         for (three, is_distinct) in [
@@ -98,6 +100,21 @@ fn equal_eigenvalues_have_no_derivatives() {
             ([0.02, 1e-5, 1e-5 + 0.6e-14], false),
         ] {
             assert_eq!(found(three), is_distinct, "{three:?} in units of {unit}");
+        }
+    }
+}
+
+/// Two or three equal eigenvalues that part along a path are in descending order as they do.
+#[test]
+fn equal_eigenvalues_part_in_descending_order() {
+    let turn = body_from_inertial(&EulerAngles { alpha: 0.4, beta: 1.2, gamma: -0.7 });
+    let slope = Matrix3::new(0.3, -0.2, 0.5, -0.2, 0.1, 0.4, 0.5, 0.4, -0.4);
+    for values in [[0.02, 0.02, -0.03], [0.02, -0.01, -0.01], [0.02; 3]] {
+        let tensor = turn.transpose() * PrincipalCoefficients::new(values).tensor() * turn;
+        let tensor = ((tensor + tensor.transpose()) * 0.5).zip_map(&slope, Dual64::new);
+        let (found, _) = principal_frame_along(&tensor).expect("a frame");
+        for (upper, lower) in [(found.xx, found.yy), (found.yy, found.zz)] {
+            assert!(upper.re > lower.re || upper.eps >= lower.eps, "{values:?}: {found:?}");
         }
     }
 }

@@ -9,7 +9,6 @@ mod error_estimate;
 mod exact_arithmetic;
 mod first_crate;
 mod higher_derivatives;
-mod mean_parts;
 mod orientation_properties;
 mod other_dynamics;
 mod pulsars;

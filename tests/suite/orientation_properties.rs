@@ -164,13 +164,6 @@ proptest! {
 }
 
 #[test]
-fn the_poles_are_refused() {
-    let pole = EulerAngles { alpha: 0.3, beta: 0.0, gamma: 0.2 };
-    assert!(matches!(angles_from_rotation(&body_from_inertial(&pole)), Err(Error::Domain { .. })));
-    assert!(matches!(euler_rates(&pole, &Vector3::new(0.1, 0.2, 0.3)), Err(Error::Domain { .. })));
-}
-
-#[test]
 fn the_replacement_has_the_sign_of_the_paper() {
     let tensor = coefficients_from_preferred_frame(2.0, &Vector3::new(0.0, 0.0, 1.0));
     assert_eq!(tensor, Matrix3::from_diagonal(&Vector3::new(-0.0, -0.0, -2.0)));

@@ -374,17 +374,6 @@ mod tests {
     }
 
     #[test]
-    fn a_time_without_end_is_refused_as_the_sum_that_it_is() {
-        let mut clock = wobbling(0.3);
-        let (inf, most) = (f64::INFINITY, f64::MAX);
-        for (t, value) in [([inf, 0.0], inf), ([0.0, inf], inf), ([0.0, -inf], -inf), ([most, most], inf)] {
-            let refused = Error::Domain { quantity: "time t", value, allowed: "a finite number" };
-            assert_eq!(clock.pulse_near(t), Err(refused), "{t:?}");
-        }
-        assert!(clock.pulse_near([3.0, 1e-17]).is_ok());
-    }
-
-    #[test]
     fn the_nearest_pulse_holds_the_time_or_ends_nearest_to_it() {
         let pulse = |start: f64, end: f64| Pulse { start, end, cut_at_start: false, cut_at_end: false };
         let of = |pulses: &[(f64, f64)]| PulseTrain {

@@ -331,62 +331,19 @@ mod tests {
         assert!(looks <= 1440, "{looks} looks");
     }
 
+    /// Of slow and fast stars: what is near and what is short is so in radians.
     #[test]
     fn grazings_are_told_on_either_side_of_the_edge() {
-        for (below, crossings, grazings) in
-            [(5e-14, 2, 1), (0.0, 0, 1), (-5e-14, 0, 1), (3e-13, 2, 0), (-3e-13, 0, 0), (-1e-3, 0, 0)]
-        {
-            for sign in [1.0, -1.0] {
-                for offset in [0.1, -0.8] {
-                    let search = search_of(vec![[sign, 1.0, 0.0]], sign * (1.0 - below));
-                    let events = found(&search, -1.0 + offset, 1.0 + offset);
-                    // At the edge itself rounding decides.
-                    assert!(events.0.len() == crossings || below.abs() < 1e-15, "{below:e}: {events:?}");
-                    assert_eq!(events.1.len(), grazings, "{below:e}: {events:?}");
-                    assert!(events.1.iter().all(|time| time.abs() < 1e-9));
-                }
-            }
-        }
-    }
-
-    /// Sums of waves against a fine grid.
-    #[test]
-    fn crossings_are_those_of_a_fine_grid() {
-        let (mut looks, mut all) = (0, 0);
-        for k in 0..60 {
-            let k = f64::from(k);
-            let waves = vec![[1.0, 1.0, k], [0.4, 2.3, 0.7 * k], [0.2, 5.1 + 0.01 * k, 0.3]];
-            let search = search_of(waves, -1.3 + 0.045 * k);
-            let (crossings, grazings) = found(&search, 0.0, 40.0);
-            looks += search.margin.looks.get();
-            let inside = |j: i32| search.margin.at(f64::from(j) * 2e-3).unwrap()[0] > 0.0;
-            let expected: Vec<_> =
-                (0..20_000).filter(|&j| inside(j) != inside(j + 1)).map(|j| (j, inside(j + 1))).collect();
-            // No two in one step of the grid, for these.
-            assert_eq!(crossings.len(), expected.len(), "{k}");
-            for ((time, entering), (j, is_entering)) in crossings.iter().zip(expected) {
-                assert!(
-                    *entering == is_entering && (time - (f64::from(j) + 0.5) * 2e-3).abs() <= 1.001e-3,
-                    "{k} {time}"
-                );
-                let [value, rate, ..] = search.margin.at(*time).unwrap();
-                assert!(value.abs() < 2e-14 + 8e-15 * rate.abs(), "{k} {time}: {value:e}");
-            }
-            assert!(grazings.is_empty());
-            all += crossings.len();
-        }
-        assert!(looks <= 5200, "{looks} looks for {all} crossings");
-    }
-
-    /// Slow and fast stars: what is near and what is short is so in radians.
-    #[test]
-    fn grazings_do_not_depend_on_the_unit_of_time() {
-        for w in [1e-7, 3e-3, 40.0, 1e6] {
-            for (below, crossings, grazings) in [(5e-14, 2, 1), (-5e-14, 0, 1), (3e-13, 2, 0), (-3e-13, 0, 0)] {
-                for sign in [1.0, -1.0] {
+        for w in [1.0, 1e-7, 3e-3, 40.0, 1e6] {
+            for (below, crossings, grazings) in
+                [(5e-14, 2, 1), (0.0, 0, 1), (-5e-14, 0, 1), (3e-13, 2, 0), (-3e-13, 0, 0), (-1e-3, 0, 0)]
+            {
+                for (sign, offset) in [(1.0, 0.1), (1.0, -0.8), (-1.0, 0.1), (-1.0, -0.8)] {
                     let search = search_of(vec![[sign, w, 0.0]], sign * (1.0 - below));
-                    let events = found(&search, -0.9 / w, 1.1 / w);
-                    assert_eq!((events.0.len(), events.1.len()), (crossings, grazings), "{w} {below:e}: {events:?}");
+                    let events = found(&search, (-1.0 + offset) / w, (1.0 + offset) / w);
+                    // At the edge itself rounding decides.
+                    assert!(events.0.len() == crossings || below.abs() < 1e-15, "{w} {below:e}: {events:?}");
+                    assert_eq!(events.1.len(), grazings, "{w} {below:e}: {events:?}");
                     assert!(events.1.iter().all(|time| (time * w).abs() < 1e-9));
                 }
             }

@@ -148,49 +148,4 @@ mod tests {
             assert!((time[0] - 4.75 / 641.928_233_334_553_6).abs() < 1e-8);
         }
     }
-
-    #[test]
-    fn a_spin_down_is_fitted_exactly() {
-        let (f0, f1) = (2.5, -3.7e-13);
-        let points: Vec<_> = (-50..50)
-            .map(|k| {
-                // The time at which the phase is whole.
-                let number = 17_000_003 * k;
-                let phase = DoubleDouble::from(number as f64);
-                let mut time = phase.over(f0.into());
-                for _ in 0..6 {
-                    time = (phase - DoubleDouble::from(f1 / 2.0) * time * time).over(f0.into());
-                }
-                (number, time.into())
-            })
-            .collect();
-        let fit = SpinFit::new(&points, true).expect("a fit");
-        assert!(fit.residuals.iter().all(|residual| residual.abs() < 1e-11), "{:?}", fit.residuals);
-        assert!((fit.frequency_rate / f1 - 1.0).abs() < 1e-10 && (fit.frequency[0] - f0).abs() < 1e-14);
-        let absorbed = SpinFit::new(&points, false).expect("a fit");
-        assert!(absorbed.residuals[0] > 1e-3 && absorbed.frequency_rate == 0.0);
-    }
-
-    #[test]
-    fn too_few_times_are_refused() {
-        let points = [(0, [0.0; 2]), (1, [1.0, 0.0])];
-        assert!(SpinFit::new(&points, false).is_ok() && SpinFit::new(&points, true).is_err());
-        assert!(SpinFit::new(&points[..1], false).is_err() && SpinFit::new(&[], false).is_err());
-        assert!(SpinFit::new(&[(0, [0.0; 2]), (1, [f64::NAN, 0.0])], false).is_err());
-        assert!(SpinFit::new(&[(3, [0.0; 2]), (3, [1.0, 0.0])], false).is_err());
-    }
-
-    /// Fewer than one turn per unit of time, either way.
-    #[test]
-    fn slow_phases_come_when_they_should() {
-        for frequency in [0.25, -0.3] {
-            let points: Vec<_> = (0..12).map(|k| (k, [(k as f64 - 1.5) / frequency, 0.0])).collect();
-            let fit = SpinFit::new(&points, false).expect("a fit");
-            for number in [-7, 0, 5, 1000] {
-                let expected = (number as f64 - 1.5) / frequency;
-                let time = fit.time_of(number)[0];
-                assert!((time - expected).abs() < 1e-13 * (10.0 + expected.abs()), "{number}: {time} {expected}");
-            }
-        }
-    }
 }

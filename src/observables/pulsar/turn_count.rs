@@ -206,95 +206,31 @@ impl Parts {
 mod tests {
     use approx::assert_relative_eq;
     use core::f64::consts::PI;
-    use nalgebra::{Rotation3, Unit};
 
     use super::*;
     use crate::dynamics::RigidSpheroid;
     use crate::lorentz_violation::PrincipalCoefficients;
     use crate::solutions::averaged::AveragingOrder;
 
-    fn motion() -> AveragedSolution<f64> {
+    const S: [f64; 3] = [2e-4, -1e-4, 0.5e-4];
+
+    fn solution(s: [f64; 3], axis: Vector3<f64>, momentum: Vector3<f64>) -> AveragedSolution<f64> {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
-        let s = PrincipalCoefficients::new([2e-4, -1e-4, 0.5e-4]);
-        let momentum = Vector3::new(0.3, 0.7, 2.0);
-        let axis = Vector3::new(0.1, -0.2, 0.9).normalize();
-        let equatorial_axis = axis.cross(&Vector3::x()).normalize();
-        AveragedSolution::new(&spheroid, &s, &BodyState { axis, momentum, equatorial_axis }, AveragingOrder::Second)
-            .unwrap()
+        let (axis, s) = (axis.normalize(), PrincipalCoefficients::new(s));
+        let initial = BodyState { axis, momentum, equatorial_axis: axis.cross(&Vector3::x()).normalize() };
+        AveragedSolution::new(&spheroid, &s, &initial, AveragingOrder::Second).unwrap()
     }
 
-    /// A count whose beam is at the angle `chi` to the axis, and the state in which the axis is at `theta` to L, at the azimuth `about_l`, and the
-    /// magnetic axis turned about it by `gamma` from the meridian away from L.
-    fn look(theta: f64, chi: f64, about_l: f64, gamma: f64) -> (TurnCount, BodyState<f64>, [Vector3<f64>; 3]) {
-        let l = Vector3::new(0.36, 0.48, 0.8);
-        let from = l.cross(&Vector3::x()).normalize();
-        let turned = |axis: &Vector3<f64>, angle: f64, v: Vector3<f64>| {
-            Rotation3::from_axis_angle(&Unit::new_normalize(*axis), angle) * v
-        };
-        let azimuth = turned(&l, about_l, from);
-        let axis = l * theta.cos() + azimuth * theta.sin();
-        let away = azimuth * theta.cos() - l * theta.sin();
-        let m = axis * chi.cos() + turned(&axis, gamma, away) * chi.sin();
-        // The beam's own azimuth about the body's axis.
-        let beam = Beam::new(chi, 0.7, 0.2);
-        let meridian = (m - axis * chi.cos()) / chi.sin();
-        let state = BodyState { axis, momentum: l * 2.7, equatorial_axis: turned(&axis, -0.7, meridian) };
-        let count = TurnCount {
-            beam,
-            line_of_sight: Vector3::new(0.1, -0.3, 0.6).normalize(),
-            upright: theta <= PI / 2.0,
-            encloses: theta.min(PI - theta) < chi && theta.min(PI - theta) < PI - chi,
-            last: ([0.0; 2], 0.0),
-        };
-        (count, state, [l, from, m])
+    fn motion() -> AveragedSolution<f64> {
+        solution(S, Vector3::new(0.1, -0.2, 0.9), Vector3::new(0.3, 0.7, 2.0))
     }
 
-    #[test]
-    fn what_is_bounded_is_the_azimuth_without_the_turns() {
-        let turns = motion().turns([31.7, 0.0]);
-        for (theta, chi) in
-            [(0.4, 0.9), (0.9, 0.4), (0.5, 2.9), (0.4, 1.9), (2.6, 0.9), (2.3, 0.4), (2.7, 1.9), (2.3, 2.9)]
-        {
-            for (about_l, gamma) in [(0.3, 0.2), (1.9, 2.2), (-2.5, -0.9), (0.8, -2.8), (3.0, 1.4)] {
-                let (count, state, [l, from, m]) = look(theta, chi, about_l, gamma);
-                assert!((count.beam.direction(&state) - m).norm() < 1e-14);
-                let parts = count.parts(&state, &turns).unwrap();
-                // Of -n, where that is on the side of L.
-                let sign = if count.upright { 1.0 } else { -1.0 };
-                let azimuth = |v: &Vector3<f64>| l.dot(&from.cross(v)).atan2(from.dot(v) - l.dot(&from) * l.dot(v));
-                let n = state.axis * sign;
-                let away = n * n.dot(&l) - l;
-                let turned = n.dot(&away.cross(&m)).atan2(away.dot(&m));
-                let weight = if count.encloses { 1.0 } else { 0.0 };
-                let side = if !count.encloses && chi.cos() * sign < 0.0 { PI } else { 0.0 };
-                let exact = azimuth(&m) - azimuth(&n) - weight * turned - side;
-                assert!(
-                    wrapped(parts.bounded - exact).abs() < 1e-13,
-                    "{theta} {chi} {gamma}: {} {exact}",
-                    parts.bounded
-                );
-                assert!(count.encloses || parts.bounded.abs() < FRAC_PI_2);
-                assert!(parts.bounded.abs() <= PI);
-                let phase = azimuth(&m) - azimuth(&count.line_of_sight);
-                assert!(wrapped(parts.phase - phase).abs() < 1e-13);
-                assert_eq!(count.weight(), weight * sign);
-                assert_eq!(parts.whole, turns.about_momentum.whole + (weight * sign) as i64 * turns.about_axis.whole);
-                let fast = turns.about_momentum.angle() + weight * sign * turns.about_axis.angle();
-                assert_relative_eq!(parts.fast, fast);
-                assert_eq!(parts.slow(), parts.phase - parts.bounded - parts.fast);
-            }
-        }
+    fn sight() -> Vector3<f64> {
+        Vector3::new(0.1, -0.3, 0.6).normalize()
     }
 
-    #[test]
-    fn the_number_is_the_nearest_to_all_parts_together() {
-        let (mut count, ..) = look(0.4, 0.9, 0.3, 0.2);
-        count.last.1 = 4.7;
-        let number = |parts: Parts| count.number(&parts);
-        assert_eq!(number(Parts { phase: -4.7, bounded: 4.7, whole: 20, fast: 4.7 }), 23);
-        count.last.1 = -4.7;
-        let number = |parts: Parts| count.number(&parts);
-        assert_eq!(number(Parts { phase: 4.7, bounded: -4.7, whole: 20, fast: -4.7 }), 17);
+    fn encircling(motion: &AveragedSolution<f64>) -> TurnCount {
+        TurnCount::new(motion, &Beam::new(0.9, 0.2, 0.3), &sight()).unwrap()
     }
 
     /// The strides of the slow part do not matter, nor does their sense.
@@ -303,7 +239,7 @@ mod tests {
         let motion = motion();
         let period = TAU / motion.rates().slow.abs();
         for beam in [Beam::new(0.9, 0.2, 0.3), Beam::new(0.06, 0.2, 0.3), Beam::new(3.0, 0.2, 0.3)] {
-            let start = TurnCount::new(&motion, &beam, &Vector3::new(0.1, -0.3, 0.6).normalize()).unwrap();
+            let start = TurnCount::new(&motion, &beam, &sight()).unwrap();
             let number = |count: &mut TurnCount, t: f64| {
                 let look = count.look(&motion, [t, 0.0], &motion.state(t)).unwrap();
                 (look.number, count.last.1)
@@ -334,9 +270,8 @@ mod tests {
     #[test]
     fn what_cannot_be_followed_is_refused() {
         let motion = motion();
-        let n = Vector3::new(0.1, -0.3, 0.6).normalize();
         let stride = 0.25 / motion.rates().slow.abs();
-        let mut count = TurnCount::new(&motion, &Beam::new(0.9, 0.2, 0.3), &n).unwrap();
+        let mut count = encircling(&motion);
         let refused = |count: &mut TurnCount, t: [f64; 2]| count.look(&motion, t, &motion.near(t).state(0.0)).is_err();
         for sign in [1.0, -1.0] {
             assert!(refused(&mut count, [sign * 1.01e6 * stride, 0.0]));
@@ -348,17 +283,8 @@ mod tests {
         let theta = motion.state(0.0).axis.angle(&motion.state(0.0).momentum);
         for (chi, is_refused) in [(theta, true), (PI - theta, true), (theta + 0.01, false), (PI - theta - 0.01, false)]
         {
-            assert_eq!(TurnCount::new(&motion, &Beam::new(chi, 0.2, 0.3), &n).is_err(), is_refused, "{chi}");
+            assert_eq!(TurnCount::new(&motion, &Beam::new(chi, 0.2, 0.3), &sight()).is_err(), is_refused, "{chi}");
         }
-    }
-
-    #[test]
-    fn the_time_since_the_last_look_is_that_of_sums() {
-        let motion = motion();
-        let mut count = TurnCount::new(&motion, &Beam::new(0.9, 0.2, 0.3), &Vector3::x()).unwrap();
-        assert_eq!((count.since_last([0.0; 2]), count.since_last([5.0, 0.25])), (0.0, 5.25));
-        count.last.0 = [3.0, 0.125];
-        assert_eq!(count.since_last([10.0, 0.5]), 7.375);
     }
 
     /// Wherever the magnetic axis and its azimuth without the turns are at the start, which may be most of a turn apart.
@@ -448,7 +374,8 @@ mod tests {
 
     #[test]
     fn the_limit_on_turns_is_checked_on_both_sides() {
-        let (motion, (count, state, _)) = (motion(), look(0.4, 0.9, 0.3, 0.2));
+        let motion = motion();
+        let (count, state) = (encircling(&motion), motion.state(0.0));
         let turns = motion.turns([31.7, 0.0]);
         let most = 4_000_000_000_000_000_000;
         for (size, is_refused) in [(most, false), (most + 1, true)] {
@@ -466,22 +393,15 @@ mod tests {
     /// Cosines that rounding, or an axis that is of unit length to 1e-9, makes larger than one.
     #[test]
     fn cosines_above_one_are_those_of_no_angle() {
-        let motion = motion();
-        let n = Vector3::new(0.1, -0.3, 0.6).normalize();
         for length in [1.0 + 5e-10, -1.0 - 5e-10] {
             let beam = Beam { axis: Vector3::z() * length, half_opening: 0.3 };
-            assert!(TurnCount::new(&motion, &beam, &n).is_ok_and(|count| !count.encloses), "{length}");
+            assert!(TurnCount::new(&motion(), &beam, &sight()).is_ok_and(|count| !count.encloses), "{length}");
         }
-        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
-        let s = PrincipalCoefficients::new([2e-4, -1e-4, 0.5e-4]);
         for k in 0..60 {
             let (sin, cos) = (0.1 * f64::from(k)).sin_cos();
             let axis = Vector3::new(sin, cos, 0.3 + 0.01 * f64::from(k)).normalize();
-            let equatorial_axis = axis.cross(&Vector3::z()).normalize();
             for sign in [1.0, -1.0] {
-                let state = BodyState { axis, momentum: axis * (sign * 2.7), equatorial_axis };
-                let motion = AveragedSolution::new(&spheroid, &s, &state, AveragingOrder::Second).unwrap();
-                let count = TurnCount::new(&motion, &Beam::new(0.5, 0.2, 0.3), &n).unwrap();
+                let count = encircling(&solution(S, axis, axis * (sign * 2.7)));
                 assert!(count.encloses && count.upright == (sign > 0.0));
             }
         }
@@ -490,11 +410,9 @@ mod tests {
     /// Without a torque nothing moves the axis of the beam from one side of `L` to the other, however near it is.
     #[test]
     fn a_beam_at_the_angle_of_the_wobble_is_refused_only_under_a_torque() {
-        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
         let initial = motion().state(0.0);
-        for (s, is_refused) in [([0.0; 3], false), ([2e-4, -1e-4, 0.5e-4], true)] {
-            let s = PrincipalCoefficients::new(s);
-            let motion = AveragedSolution::new(&spheroid, &s, &initial, AveragingOrder::Second).unwrap();
+        for (s, is_refused) in [([0.0; 3], false), (S, true)] {
+            let motion = solution(s, initial.axis, initial.momentum);
             let start = motion.state(0.0);
             let cos = start.axis.dot(&start.momentum.normalize());
             let beam = Beam { axis: Vector3::new((1.0 - cos * cos).sqrt(), 0.0, cos), half_opening: 0.3 };

@@ -266,28 +266,6 @@ mod tests {
     }
 
     #[test]
-    fn the_fit_finds_what_the_series_is_of() {
-        let weights = WINDOW.weights(COUNT).unwrap();
-        let exact = waves(&[(40.0, 0.3, 0.8), (52.0, -0.6, 0.1), (300.0, 2e-3, -9e-3)]);
-        let values: Vec<f64> = (0..COUNT).map(|j| value(0.7, &exact, j)).collect();
-        let start = waves(&[(40.4, 0.35, 0.7), (51.7, -0.5, 0.2), (300.2, 2.2e-3, -8e-3)]);
-        let mut fit = fit(&values, &weights, start);
-        assert_relative_eq!(fit.constant, 0.7, epsilon = 1e-6);
-        let mut changes = Vec::new();
-        for _ in 0..8 {
-            let residual = fit.residual();
-            changes.push(fit.improve(&residual, 2.0).unwrap());
-        }
-        assert!(changes[0] > 0.2 && changes[7] < 1e-12, "{changes:?}");
-        assert_relative_eq!(fit.constant, 0.7, epsilon = 1e-14);
-        for (found, exact) in fit.waves.iter().zip(&exact) {
-            assert!((found.phase - exact.phase).abs() * (COUNT as f64) < 1e-11);
-            assert!((found.cos_part - exact.cos_part).hypot(found.sin_part - exact.sin_part) < 1e-13);
-        }
-        assert!(fit.residual().iter().all(|left| left.abs() < 1e-13));
-    }
-
-    #[test]
     fn a_frequency_moves_no_farther_than_allowed() {
         let weights = WINDOW.weights(COUNT).unwrap();
         let exact = waves(&[(200.0, 3.0, -4.0)]);

@@ -209,7 +209,6 @@ fn improve(fit: &mut JointFit<'_>, steps: usize) -> Option<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::joint_fit::Wave;
     use super::*;
 
     fn series(values: Vec<f64>) -> Series {
@@ -372,43 +371,5 @@ mod tests {
         for (found, exact) in found.iter().zip([(300.0, 1.0), (100.0, 0.9), (106.0, 0.5)]) {
             assert!((found.0 - exact.0).abs() < 1e-6 && (found.1 - exact.1).abs() < 1e-6, "{found:?}");
         }
-    }
-
-    /// One wave for two lines: what is left of them makes the steps of the fit shrink by no more than one half.
-    #[test]
-    fn a_fit_takes_two_steps_after_a_round_and_twelve_at_the_end() {
-        let (weights, values) = of_waves(&[(100.0, 1.0), (107.0, 0.8)]);
-        let mut fit = JointFit::new(&values, &weights, WINDOW).unwrap();
-        let peaks = ResidualSpectrum::of(&fit.residual(), &weights).peaks(1e-3, &[], &[]);
-        fit.waves.push(peaks[0]);
-        let places: Vec<f64> = (0..16)
-            .map(|_| {
-                let residual = fit.residual();
-                fit.improve(&residual, 2.0).unwrap();
-                fit.waves[0].phase * 1024.0
-            })
-            .collect();
-        let list = spectral_lines(&series(values.clone()), 1e-3, 1).unwrap();
-        let found = list.lines[0].frequency * 128.0;
-        let off = |step: usize| (places[step] - found).abs();
-        assert!(off(13) < 1e-10 && off(12) > 1e-7 && off(14) > 1e-7, "{places:?} {found}");
-    }
-
-    #[test]
-    fn a_fit_ends_where_rounding_begins_and_steps_no_farther_than_half_of_the_least_distance() {
-        let (weights, values) = of_waves(&[(100.0, 1.0), (106.0, 0.5)]);
-        let start = |place: f64, amplitude: f64| {
-            let mut fit = JointFit::new(&values, &weights, WINDOW).unwrap();
-            fit.waves.push(Wave { phase: place / 1024.0, cos_part: amplitude, sin_part: 0.0 });
-            fit
-        };
-        let mut fit = start(101.0, 1.0);
-        improve(&mut fit, 100).unwrap();
-        let left = fit.improve(&fit.residual(), 2.0).unwrap();
-        assert!(left < 1e-13, "{left:e}");
-        // A wave that is far too weak would go far.
-        let mut fit = start(90.0, 1e-3);
-        improve(&mut fit, 1).unwrap();
-        assert!(((fit.waves[0].phase * 1024.0 - 90.0).abs() - 2.0).abs() < 1e-9);
     }
 }

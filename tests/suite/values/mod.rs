@@ -1,14 +1,11 @@
-//! Numbers of every kernel, choice and estimate at a few generic places, as snapshots for review in `golden/values/`.
+//! Numbers of choices, estimates and branches at a few generic places, as snapshots for review in `golden/values/`.
 //!
 //! What is right is shown elsewhere, by derivatives, references and bounds. Here it is held: a factor in an error estimate, a cost, the text of a
 //! plan, the sign of a rarely used branch.
 
-mod frames;
 mod motions;
 mod observables;
-mod perturbations;
 mod plans;
 mod scene;
-mod signals;
 mod table;
 mod tori;

@@ -1,397 +1,199 @@
-//! Motions of every method: states, steps, estimates, forecasts.
+//! Motions of every method: states, errors, steps, forecasts, derivatives.
 
 use nalgebra::{Matrix3, Vector3};
-use num_dual::Dual64;
-use twofold::Real;
-use twofold::dynamics::AxisState;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
+use twofold::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::parameters::{Parameter, Parameters};
 use twofold::plan::{Method, Output, Request, StateFunction, gradient_in_parts};
 use twofold::propagation::splitting::SCHEMES;
-use twofold::propagation::{
-    AveragedMotion, ContinuousAngles, ErrorEstimates, Motion, SampledProblem, SymmetricMotion, UniformMotion,
-    states_of_many,
-};
-use twofold::solutions::averaged::AveragingOrder;
-use twofold::solutions::free::{free_precession_rates, free_rotation};
+use twofold::propagation::{ContinuousAngles, ErrorEstimates, Motion, SampledProblem, states_of_many};
 use twofold::solutions::perturbation::Precession;
 use twofold::solutions::steady::steady_precession_rate;
+use twofold::{Error, Real};
 
-use crate::values::scene::{ANGLES, PROLATE, STAR, general, start, state, tensor};
+use crate::values::scene::{ANGLES, PROLATE, STAR, general, problem, start, state, tensor};
 use crate::values::table::Table;
 
 const SPAN: (f64, f64) = (2.0, 31.0);
 const BACK: (f64, f64) = (2.0, -17.0);
 
-/// States and error estimates of a motion; times in two parts are the same as their sum.
+/// A component of each vector, and the error estimate, at 31 % of the span. Times in two parts are the same as their sum.
 fn look<M: Motion<f64, State = BodyState<f64>>>(table: &mut Table, name: &str, motion: &M) {
     let (from, to) = motion.span();
-    for share in [0.31, 1.0] {
-        let t = from + share * (to - from);
-        table.found(name, motion.state(t), |table, state| {
-            table.row(&format!("{name}, t {t:.2}"), &[("", &state), ("error", &motion.error_estimate(t))]);
-            if let (Ok(whole), Ok(axis)) =
-                (motion.state_in_parts([0.75 * t, 0.25 * t]), motion.axis_state_in_parts([0.5 * t, 0.5 * t]))
-            {
-                let difference =
-                    (whole.axis - state.axis).norm() + (whole.equatorial_axis - state.equatorial_axis).norm();
-                let of_axis = (axis.axis - state.axis).norm() + (axis.momentum - state.momentum).norm();
-                assert!(difference < 1e-9 && of_axis < 1e-9, "{name} at {t}: {difference:e}, {of_axis:e}");
-            }
-        });
-    }
+    let t = from + 0.31 * (to - from);
+    let parts = [motion.state(t), motion.state_in_parts([0.75 * t, 0.25 * t])];
+    let [state, whole] = parts.map(|state| state.expect("a state"));
+    let axis = motion.axis_state_in_parts([0.5 * t, 0.5 * t]).expect("a state");
+    let difference = (whole.axis - state.axis).norm() + (whole.equatorial_axis - state.equatorial_axis).norm();
+    let of_axis = (axis.axis - state.axis).norm() + (axis.momentum - state.momentum).norm();
+    assert!(difference < 1e-9 && of_axis < 1e-9, "{name} at {t}: {difference:e}, {of_axis:e}");
     assert!(motion.state(to + (to - from)).is_err(), "{name}: after its span");
+    let components = Vector3::new(state.axis.z, state.momentum.x, state.equatorial_axis.y);
+    table.row(name, format_args!("{components:?}, error {:?}", motion.error_estimate(t)));
 }
 
-#[test]
-fn closed_forms() {
-    let mut table = Table::default();
-    for (name, span) in [("free", SPAN), ("free backwards", BACK)] {
-        let motion = UniformMotion::free(&Problem::new(STAR, general() * 1e-6, state()).expect("a problem"), span);
-        look(&mut table, name, &motion);
-        for t in [5.0, 1e6] {
-            let (truncation, rounding) = (motion.truncation(t), motion.rounding(t));
-            table.row(&format!("{name}, after {t}"), &[("truncation", &truncation), ("rounding", &rounding)]);
-        }
-    }
-    table.row("free rotation", &[("", &free_rotation(&STAR, &state(), 7.3))]);
-    let rates = free_precession_rates(&STAR, 1.9, 0.8).expect("rates");
-    table.row("free precession", &[("alpha, beta, gamma", &[rates.alpha, rates.beta, rates.gamma])]);
-    steady(&mut table);
-    table.check("closed_forms");
-}
-
-/// About the symmetry axis of a tensor, with either root; and at rest on a principal axis.
-fn steady(table: &mut Table) {
-    let s = PrincipalCoefficients::new([0.02, 0.02, -0.03]);
-    let turn = body_from_inertial(&EulerAngles { alpha: -0.3, beta: 0.6, gamma: 0.2 });
-    let look_at = |table: &mut Table, name: &str, s: &Matrix3<f64>, initial: &BodyState<f64>, span| {
-        table.found(
-            name,
-            Problem::new(STAR, *s, *initial).and_then(|problem| UniformMotion::steady(&problem, span)),
-            |table, motion| {
-                look(table, name, &motion);
-                let (rounding, truncation) = (motion.rounding(50.0), motion.truncation(50.0));
-                table.row(&format!("{name}, after 50"), &[("rounding", &rounding), ("truncation", &truncation)]);
-            },
-        );
-    };
-    for kind in [Precession::Twofold, Precession::Single] {
-        let (spin, beta) = (1.9, 0.8);
-        let rate = steady_precession_rate(kind, &STAR, &s, spin, beta).expect("a rate");
-        table.row(&format!("steady {kind:?}"), &[("rate", &rate)]);
-        let angles = EulerAngles { alpha: 0.4, beta, gamma: 0.1 };
-        let rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
-        let given = BodyState::from_angles(&STAR, &angles, &rates).rotated(&turn.transpose());
-        let s = turn.transpose() * s.tensor() * turn;
-        for span in [SPAN, BACK] {
-            look_at(table, &format!("steady {kind:?} to {}", span.1), &s, &given, span);
-        }
-        let off = BodyState { momentum: given.momentum * (1.0 + 1e-9), ..given };
-        table.refusal(
-            &format!("not steady {kind:?}"),
-            Problem::new(STAR, s, off).and_then(|problem| UniformMotion::steady(&problem, SPAN)),
-        );
-    }
-    let s = PrincipalCoefficients::new([0.021, -0.004, 0.009]).tensor();
-    for size in [3.0, 0.0, -2.0] {
-        let at_rest = BodyState { axis: Vector3::z(), momentum: Vector3::z() * size, equatorial_axis: Vector3::x() };
-        look_at(table, &format!("axis at rest, L {size}"), &s, &at_rest, SPAN);
-    }
-}
-
-#[test]
-fn symmetric_motions() {
-    let mut table = Table::default();
+/// Tensors with and without symmetry, and motions that are slow, steady, at rest, near a pole or turn the other way.
+fn problems() -> Vec<(String, Result<Problem<f64>, Error>)> {
     let moving = |angles: EulerAngles<f64>, alpha, beta, gamma| {
         BodyState::from_angles(&STAR, &angles, &EulerRates { alpha, beta, gamma })
     };
-    let upright = moving(EulerAngles { alpha: 0.1, beta: 1e-4, gamma: 0.0 }, 0.3, 2e-4, 0.9);
+    let upright = EulerAngles { alpha: 0.1, beta: 1e-4, gamma: 0.0 };
     let oblate = tensor([0.02, 0.02, -0.03]);
-    for (name, s, initial) in [
-        ("oblate tensor", oblate, state()),
-        ("prolate tensor", tensor([-0.01, 0.025, -0.01]), state()),
-        ("strong tensor", tensor([0.2, 0.2, -0.3]), state()),
-        ("nearly symmetric", tensor([0.02, 0.02 + 1e-9, -0.03]), state()),
-        ("hardly turning", oblate, moving(ANGLES, 0.02, -0.01, 0.03)),
-        ("swinging over the equator", oblate, moving(ANGLES, 0.0, 0.2, 0.0)),
-        ("near the pole", PrincipalCoefficients::new([0.02, 0.02, -0.03]).tensor(), upright),
-    ] {
-        for span in [SPAN, BACK] {
-            let name = format!("{name} to {}", span.1);
-            table.found(
-                &name,
-                Problem::new(STAR, s, initial).and_then(|problem| SymmetricMotion::new(&problem, span)),
-                |table, motion| {
-                    look(table, &name, &motion);
-                    for t in [-400.0, 1e7] {
-                        let (truncation, rounding) = (motion.truncation(t), motion.rounding(t));
-                        table.row(
-                            &format!("{name}, after {t}"),
-                            &[("truncation", &truncation), ("rounding", &rounding)],
-                        );
-                    }
-                },
-            );
-        }
+    let of = |name: &str, s, initial| (name.to_string(), Problem::new(STAR, s, initial));
+    let mut problems = vec![
+        of("general", general(), state()),
+        of("weak", general() * 1e-7, state()),
+        of("upside down", general() * 0.1, BodyState { momentum: -state().momentum, ..state() }),
+        of("n on L", general() * 0.01, BodyState { momentum: state().axis * 2.0, ..state() }),
+        of("oblate tensor", oblate, state()),
+        of("prolate tensor", tensor([-0.01, 0.025, -0.01]), state()),
+        of("strong tensor", tensor([0.2, 0.2, -0.3]), state()),
+        of("nearly symmetric", tensor([0.02, 0.02 + 1e-9, -0.03]), state()),
+        of("hardly turning", oblate, moving(ANGLES, 0.02, -0.01, 0.03)),
+        of("swinging over the equator", oblate, moving(ANGLES, 0.0, 0.2, 0.0)),
+        of("near the pole", Matrix3::from_diagonal(&Vector3::new(0.02, 0.02, -0.03)), moving(upright, 0.3, 2e-4, 0.9)),
+    ];
+    let (spin, beta) = (1.9, 0.8);
+    let s = PrincipalCoefficients::new([0.02, 0.02, -0.03]);
+    let turn = body_from_inertial(&EulerAngles { alpha: -0.3, beta: 0.6, gamma: 0.2 });
+    for kind in [Precession::Twofold, Precession::Single] {
+        let rate = steady_precession_rate(kind, &STAR, &s, spin, beta).expect("a rate");
+        let angles = EulerAngles { alpha: 0.4, beta, gamma: 0.1 };
+        let steady = moving(angles, rate, 0.0, spin - rate * beta.cos()).rotated(&turn.transpose());
+        let beside = BodyState { momentum: steady.momentum * (1.0 + 1e-9), ..steady };
+        let s = turn.transpose() * s.tensor() * turn;
+        problems.push(of(&format!("steady {kind:?} at the rate {rate}"), s, steady));
+        problems.push(of(&format!("beside steady {kind:?}"), s, beside));
     }
-    table.check("symmetric_motions");
+    for size in [3.0, 0.0, -2.0] {
+        let at_rest = BodyState { axis: Vector3::z(), momentum: Vector3::z() * size, equatorial_axis: Vector3::x() };
+        let s = Matrix3::from_diagonal(&Vector3::new(0.021, -0.004, 0.009));
+        problems.push(of(&format!("axis at rest, L {size}"), s, at_rest));
+    }
+    problems
 }
 
 #[test]
-fn mean_motions() {
+fn motions() {
     let mut table = Table::default();
-    for (name, s, initial) in [
-        ("general", general() * 0.1, state()),
-        ("weak", general() * 1e-7, state()),
-        ("two equal", tensor([0.002, 0.002, -0.003]), state()),
-        ("upside down", general() * 0.1, BodyState { momentum: -state().momentum, ..state() }),
-        ("n on L", general() * 0.01, BodyState { momentum: state().axis * 2.0, ..state() }),
-    ] {
-        for order in [AveragingOrder::First, AveragingOrder::Second] {
-            let name = format!("{name}, {order:?}");
-            table.found(
-                &name,
-                Problem::new(STAR, s, initial).and_then(|problem| AveragedMotion::new(&problem, SPAN, order)),
-                |table, motion| {
-                    look(table, &name, &motion);
-                    let mean = motion.mean();
-                    let rates = mean.rates();
-                    table.row(
-                        &name,
-                        &[
-                            ("rates", &[rates.slow, rates.about_momentum, rates.about_axis]),
-                            ("strength", &mean.relative_strength()),
-                        ],
-                    );
-                    for t in [40.0, -7.0] {
-                        table.row(
-                            &format!("{name}, t {t}"),
-                            &[
-                                ("truncation", &motion.truncation(t)),
-                                ("rounding", &motion.rounding(t)),
-                                ("of the averaged motion", &mean.truncation(t)),
-                                ("and", &mean.rounding(t)),
-                                ("error", &mean.error_estimate(t)),
-                            ],
-                        );
-                    }
-                    let turns = motion.turns([25.0, 1e-3]);
-                    let turns = [turns.slow, turns.about_momentum, turns.about_axis];
-                    table.row(
-                        &format!("{name}, turns"),
-                        &[
-                            ("whole", &turns.map(|turns| turns.whole as f64)),
-                            ("fraction", &turns.map(|turns| turns.fraction)),
-                            ("angle", &turns.map(|turns| turns.angle())),
-                        ],
-                    );
-                    look(table, &format!("{name}, near 20.5"), &motion.near([20.0, 0.5]).expect("within the span"));
-                    table.refusal(&format!("{name}, near 40"), motion.near([40.0, 0.0]));
-                    table.refusal(&format!("{name}, derivatives"), motion.require_derivatives());
-                },
-            );
-        }
-    }
-    table.check("mean_motions");
-}
-
-#[test]
-fn taylor_series() {
-    let mut table = Table::default();
-    let s = general();
-    let axis = AxisState::from(&state());
-    for tolerance in [1e-14, 1e-11, 1e-5] {
-        for span in [SPAN, BACK] {
-            let name = format!("{tolerance:e} to {}", span.1);
-            let forecast = Problem::new(STAR, s, state())
-                .and_then(|problem| problem.taylor_forecast(span.1 - span.0, tolerance))
-                .expect("a forecast");
-            table.row(
-                &format!("{name}, forecast"),
-                &[("order", &forecast.order), ("steps", &forecast.steps), ("rounding", &forecast.rounding)],
-            );
-            let motion =
-                Problem::new(STAR, s, state()).and_then(|problem| problem.taylor(span, tolerance)).expect("a motion");
-            table.row(&name, &[("steps", &motion.step_count()), ("order", &motion.order())]);
-            look(&mut table, &name, &motion);
-            let motion =
-                Problem::new(STAR, s, axis).and_then(|problem| problem.taylor(span, tolerance)).expect("a motion");
-            let middle = 0.5 * (span.0 + span.1);
-            table.row(
-                &format!("{name}, axis"),
-                &[
-                    ("steps", &motion.step_count()),
-                    ("order", &motion.order()),
-                    ("", &motion.axis_state(middle).expect("a state")),
-                    ("error", &motion.error_estimate(middle)),
-                ],
-            );
-        }
-    }
-    let times = [2.0, 3.5, 9.0, 9.0, 31.0];
-    for estimates in [ErrorEstimates::Wanted, ErrorEstimates::NotWanted] {
-        let found = Problem::new(STAR, s, state())
-            .and_then(|problem| problem.taylor_states(SPAN.0, &times, 1e-11, estimates))
-            .expect("states");
-        table.row("samples", &[("steps", &found.step_count), ("order", &found.order)]);
-        for (i, state) in found.states.iter().enumerate() {
-            let error = found.error_estimates.get(i).copied();
-            table.row(&format!("sample at {}", times[i]), &[("", state), ("error", &error)]);
-        }
-    }
-    let back = Problem::new(STAR, s, axis)
-        .and_then(|problem| problem.taylor_states(2.0, &[1.0, -5.0], 1e-9, ErrorEstimates::Wanted))
-        .expect("states");
-    for (state, error) in back.states.iter().zip(&back.error_estimates) {
-        table.row("axis backwards", &[("", state), ("error", error)]);
-    }
-    for (name, times) in [("times not in order", &[5.0, 4.0, 6.0][..]), ("no times", &[])] {
-        table.refusal(
-            name,
-            Problem::new(STAR, s, state())
-                .and_then(|problem| problem.taylor_states(2.0, times, 1e-9, ErrorEstimates::NotWanted)),
-        );
-    }
-    dual_samples(&mut table);
-    table.check("taylor_series");
-}
-
-/// By duals, which go without vectors of doubles.
-fn dual_samples(table: &mut Table) {
-    let (lift, slope) = (Dual64::from_re, |v: &Vector3<Dual64>| v.map(|x| x.eps));
-    let star = RigidSpheroid { inertia_xx: Dual64::new(1.3, 1.0), inertia_zz: lift(1.7), constant_c: lift(0.8) };
-    let (s, given) = (general().map(lift), state());
-    let initial = BodyState {
-        axis: given.axis.map(lift),
-        momentum: given.momentum.map(lift),
-        equatorial_axis: given.equatorial_axis.map(lift),
-    };
-    let found = Problem::new(star, s, initial)
-        .and_then(|problem| problem.taylor_states(2.0, &[3.0, 12.0], 1e-11, ErrorEstimates::Wanted))
-        .expect("states");
-    for (state, error) in found.states.iter().zip(&found.error_estimates) {
-        let BodyState { axis, momentum, equatorial_axis } = *state;
-        let slopes =
-            BodyState { axis: slope(&axis), momentum: slope(&momentum), equatorial_axis: slope(&equatorial_axis) };
-        let value = equatorial_axis.map(|x| x.re());
-        table.row("by I^xx", &[("derivatives", &slopes), ("e_x", &value), ("error", error)]);
-    }
-    let motion = Problem::new(star, s, initial).and_then(|problem| problem.taylor(SPAN, 1e-11)).expect("a motion");
-    table.row(
-        "dense, t 17",
-        &[
-            ("e_x by I^xx", &slope(&motion.state(lift(17.0)).expect("a state").equatorial_axis)),
-            ("n by I^xx and t", &slope(&motion.state(Dual64::new(17.0, 1.0)).expect("a state").axis)),
-            ("error", &motion.error_estimate(17.0)),
-        ],
-    );
-}
-
-/// Each motion is that of its own, within the tolerance.
-#[test]
-fn many_axes() {
-    let mut table = Table::default();
-    let mut look = |name: &str, motions: &[SampledProblem<'_>]| {
-        for (k, (motion, found)) in motions.iter().zip(states_of_many(motions)).enumerate() {
-            let SampledProblem { problem, start, times, tolerance } = motion;
-            let name = format!("{name}, {k}");
-            table.found(&name, found, |table, found| {
-                let last = found.states.last().expect("a state");
-                table.row(&name, &[("steps", &found.step_count), ("order", &found.order), ("last", last)]);
-                let tolerance = tolerance.max(1e-13);
-                let alone = problem.taylor_states(*start, times, tolerance, ErrorEstimates::NotWanted).expect("states");
-                assert_eq!(found.states.len(), times.len(), "{name}");
-                for (state, alone) in found.states.iter().zip(&alone.states) {
-                    let difference = (state.axis - alone.axis).norm() + (state.momentum - alone.momentum).norm();
-                    assert!(difference < 10.0 * tolerance, "{name}: {difference:e}");
+    for (name, problem) in problems() {
+        let problem = problem.expect("a problem");
+        for method in Method::ALL {
+            let motions = [SPAN, BACK].map(|span| problem.motion_by(method, span, 1e-9));
+            let name = format!("{name} by {}", method.name());
+            table.found(&name, motions.into_iter().collect::<Result<Vec<_>, _>>(), |table, motions| {
+                for (motion, end) in motions.iter().zip([SPAN.1, BACK.1]) {
+                    look(table, &format!("{name} to {end}"), motion);
                 }
             });
         }
-    };
-    let times: Vec<Vec<f64>> = (0..11).map(|k| vec![0.5 * f64::from(k) + 1.0, 3.0 * f64::from(k) + 4.0]).collect();
-    let motion = |star, k: usize, times, tolerance| {
-        let problem = Problem::new(star, general() * (1.0 + 0.1 * k as f64), AxisState::from(&state()));
-        SampledProblem { problem: problem.expect("a problem"), start: 0.5, times, tolerance }
-    };
-    let mut motions: Vec<_> =
-        times.iter().enumerate().map(|(k, times)| motion(STAR, k, times, if k == 3 { 1e-5 } else { 1e-11 })).collect();
-    look("all good", &motions);
-    motions[7].tolerance = 1.0;
-    look("one refused", &motions);
-    // So many times that steps of a splitting would be cut short: series of three orders, in turn.
-    let dense: Vec<Vec<f64>> =
-        (0..13).map(|k| (0..110 + k).map(|j| 0.6 + 0.03 * f64::from(k) + 0.025 * f64::from(j)).collect()).collect();
-    let star = |k: usize| if k % 4 == 1 { PROLATE } else { STAR };
-    let tolerance = |k: usize| [1e-5, 1e-15, 1e-10][k % 3];
-    let mut series: Vec<_> =
-        dense.iter().enumerate().map(|(k, times)| motion(star(k), k, times, tolerance(k))).collect();
-    // Backwards, and one that is too long for its steps.
-    let back: Vec<f64> = dense[6].iter().rev().copied().collect();
-    series[6] = SampledProblem { start: 5.0, times: &back, ..series[6] };
-    series[9] = SampledProblem { times: &[1.0, 1e12], tolerance: 1e-15, ..series[9] };
-    look("series", &series);
-    table.check("many_axes");
+    }
+    let turned = EulerAngles { alpha: ANGLES.alpha + 12.0 * std::f64::consts::PI, ..ANGLES };
+    let motion = problem(general()).taylor(SPAN, 1e-11).expect("a motion");
+    let mut angles = ContinuousAngles::new(&motion, SPAN.0, &turned).expect("angles");
+    for t in [2.0, 9.0, 31.0, 4.0] {
+        table.result(&format!("angles that count turns, t {t}"), angles.at(t));
+    }
+    table.check("motions");
 }
 
 #[test]
-fn splitting() {
+fn numerical_motions() {
     let mut table = Table::default();
-    let s = general();
-    let axis = AxisState::from(&state());
     for span in [SPAN, BACK, (0.0, 1e5)] {
         for tolerance in [1e-2, 1e-4, 1e-7, 1e-10, 1e-13, 1e-16] {
-            for (of, s) in [("s", s), ("s / 1e3", s * 1e-3)] {
-                let name = format!("{of} to {} within {tolerance:e}", span.1);
-                table.found(
-                    &name,
-                    Problem::new(STAR, s, axis).and_then(|problem| problem.splitting_forecast(span, tolerance)),
-                    |table, found| {
-                        table.row(
-                            &name,
-                            &[
-                                ("", &found.scheme.name),
-                                ("step", &found.step),
-                                ("steps", &found.steps),
-                                ("truncation", &found.truncation),
-                                ("coverage", &found.coverage),
-                                ("rounding", &found.rounding),
-                            ],
-                        );
-                    },
-                );
+            for (of, s) in [("s", general()), ("s / 1e3", general() * 1e-3)] {
+                let (name, reduced) = (format!("{of} to {} within {tolerance:e}", span.1), problem(s).reduced());
+                table.found(&name, reduced.splitting_forecast(span, tolerance), |table, found| {
+                    let (scheme, step, steps) = (found.scheme.name, found.step, found.steps);
+                    let (truncation, coverage, rounding) = (found.truncation, found.coverage, found.rounding);
+                    let text = format!("{scheme}, step {step:?}, steps {steps:?}, truncation {truncation:?}");
+                    table.row(&name, format_args!("{text}, coverage {coverage:?}, rounding {rounding:?}"));
+                });
+                table.result("  by", reduced.taylor_forecast(span.1 - span.0, tolerance));
             }
         }
     }
-    let see = |table: &mut Table, name: &str, motion: &dyn Motion<f64, State = AxisState<f64>>, t: f64| {
-        let (state, error) = (motion.axis_state(t).expect("a state"), motion.error_estimate(t));
-        table.row(&format!("{name}, t {t:.2}"), &[("", &state), ("error", &error)]);
-    };
+    for tolerance in [1e-14, 1e-11, 1e-5] {
+        for span in [SPAN, BACK] {
+            let name = format!("Taylor series to {} within {tolerance:e}", span.1);
+            let motion = problem(general()).taylor(span, tolerance).expect("a motion");
+            let reduced = problem(general()).reduced().taylor(span, tolerance).expect("a motion");
+            let steps = [(motion.step_count(), motion.order()), (reduced.step_count(), reduced.order())];
+            table.row(&name, format_args!("(steps, order) {steps:?} with e_x and without"));
+            look(&mut table, &name, &motion);
+            let middle = 0.5 * (span.0 + span.1);
+            let state = reduced.axis_state(middle).expect("a state");
+            table.row(&name, format_args!("{state:?}, error {:?}", reduced.error_estimate(middle)));
+        }
+    }
     for scheme in SCHEMES {
         for (span, step) in [(SPAN, 0.21), (BACK, 0.4)] {
-            let name = format!("{} to {}", scheme.name, span.1);
-            let motion = Problem::new(STAR, s, axis)
-                .and_then(|problem| problem.splitting_by(scheme, span, step))
-                .expect("a motion");
-            table.row(&name, &[("step", &motion.step()), ("steps", &motion.step_count())]);
-            see(&mut table, &name, &motion, span.0 + 0.13 * (span.1 - span.0));
+            let (name, t) = (format!("{} to {}", scheme.name, span.1), span.0 + 0.13 * (span.1 - span.0));
+            let reduced = problem(general()).reduced().splitting_by(scheme, span, step).expect("a motion");
+            let (state, error) = (reduced.axis_state(t).expect("a state"), reduced.error_estimate(t));
+            let (step, steps) = (reduced.step(), reduced.step_count());
+            table.row(&name, format_args!("step {step:?}, steps {steps}, {state:?}, error {error:?}"));
         }
-        let motion = Problem::new(STAR, s, state())
-            .and_then(|problem| problem.splitting_by(scheme, SPAN, 0.3))
-            .expect("a motion");
+        let motion = problem(general()).splitting_by(scheme, SPAN, 0.3).expect("a motion");
         look(&mut table, &format!("{}, orientation", scheme.name), &motion);
     }
     for tolerance in [1e-4, 1e-9] {
-        let motion =
-            Problem::new(STAR, s, axis).and_then(|problem| problem.splitting(SPAN, tolerance)).expect("a motion");
-        see(&mut table, &format!("best, {}", motion.scheme().name), &motion, 20.0);
-        let motion =
-            Problem::new(STAR, s, state()).and_then(|problem| problem.splitting(SPAN, tolerance)).expect("a motion");
-        look(&mut table, "best, orientation", &motion);
+        let (reduced, motion) = (problem(general()).reduced().splitting(SPAN, tolerance), problem(general()));
+        let scheme = reduced.expect("a motion").scheme().name;
+        let motion = motion.splitting(SPAN, tolerance).expect("a motion");
+        let name = format!("best within {tolerance:e}: {scheme}, with e_x {}", motion.scheme().name);
+        look(&mut table, &name, &motion);
     }
-    table.check("splitting");
+    table.check("numerical_motions");
+}
+
+#[test]
+fn samples() {
+    let mut table = Table::default();
+    let times = [2.0, 3.5, 9.0, 9.0, 31.0];
+    let problem = problem(general());
+    for estimates in [ErrorEstimates::Wanted, ErrorEstimates::NotWanted] {
+        table.result(&format!("{estimates:?}"), problem.taylor_states(SPAN.0, &times, 1e-11, estimates));
+    }
+    let back = problem.reduced().taylor_states(2.0, &[1.0, -5.0], 1e-9, ErrorEstimates::Wanted);
+    table.result("axis backwards", back);
+    for (name, times) in [("times not in order", &[5.0, 4.0, 6.0][..]), ("no times", &[])] {
+        table.result(name, problem.taylor_states(2.0, times, 1e-9, ErrorEstimates::NotWanted));
+    }
+    table.check("samples");
+}
+
+/// With so many times that steps of a splitting would be cut short, series of three orders side by side: each motion is that of its own.
+#[test]
+fn dense_samples_of_many_motions_are_those_of_each_alone() {
+    let dense: Vec<Vec<f64>> =
+        (0..13).map(|k| (0..110 + k).map(|j| 0.6 + 0.03 * f64::from(k) + 0.025 * f64::from(j)).collect()).collect();
+    let back: Vec<f64> = dense[6].iter().rev().copied().collect();
+    let mut motions: Vec<_> = (0..13)
+        .map(|k| {
+            let star = if k % 4 == 1 { PROLATE } else { STAR };
+            let problem = Problem::new(star, general() * (1.0 + 0.1 * k as f64), AxisState::from(&state()));
+            let tolerance = [1e-5, 1e-15, 1e-10][k % 3];
+            SampledProblem { problem: problem.expect("a problem"), start: 0.5, times: &dense[k], tolerance }
+        })
+        .collect();
+    // Backwards; too long for its steps; and refused.
+    motions[6] = SampledProblem { start: 5.0, times: &back, ..motions[6] };
+    motions[9] = SampledProblem { times: &[1.0, 1e12], tolerance: 1e-15, ..motions[9] };
+    motions[11].tolerance = 1.0;
+    for (k, (motion, found)) in motions.iter().zip(states_of_many(&motions)).enumerate() {
+        let SampledProblem { problem, start, times, tolerance } = motion;
+        let alone = problem.taylor_states(*start, times, *tolerance, ErrorEstimates::NotWanted);
+        assert_eq!(found.is_err(), [9, 11].contains(&k), "{k}: {found:?}");
+        let (Ok(found), Ok(alone)) = (found, alone) else { continue };
+        assert_eq!(found.states.len(), times.len(), "{k}");
+        for (state, alone) in found.states.iter().zip(&alone.states) {
+            let difference = (state.axis - alone.axis).norm() + (state.momentum - alone.momentum).norm();
+            assert!(difference < 10.0 * tolerance.max(1e-13), "{k}: {difference:e}");
+        }
+    }
 }
 
 /// The state itself.
@@ -432,30 +234,13 @@ fn gradients() {
                     let times = [[2.0, 0.0], [20.0, 0.5]];
                     let found = plan.and_then(|plan| gradient_in_parts(&plan, &start, &Whole, &times));
                     table.found(&name, found, |table, found| {
-                        let value = found.values.row(1).norm();
-                        let sizes: Vec<f64> = found.jacobians[1].column_iter().map(|column| column.norm()).collect();
-                        let names = request.derivatives.iter().map(|by| by.symbol());
-                        let mut cells: Vec<(&str, &dyn super::table::Written)> = vec![("value", &value)];
-                        cells.extend(names.zip(&sizes).map(|(name, size)| (name, size as _)));
-                        table.row(&name, &cells);
+                        let sizes = found.jacobians[1].column_iter().map(|column| column.norm());
+                        let by: Vec<_> = request.derivatives.iter().map(|by| by.symbol()).zip(sizes).collect();
+                        table.row(&name, format_args!("value {:?}, by {by:?}", found.values.row(1).norm()));
                     });
                 }
             }
         }
     }
     table.check("gradients");
-}
-
-#[test]
-fn angles_that_count_turns() {
-    let mut table = Table::default();
-    let motion =
-        Problem::new(STAR, general(), state()).and_then(|problem| problem.taylor(SPAN, 1e-11)).expect("a motion");
-    let turned = EulerAngles { alpha: ANGLES.alpha + 12.0 * std::f64::consts::PI, ..ANGLES };
-    let mut angles = ContinuousAngles::new(&motion, SPAN.0, &turned).expect("angles");
-    for t in [2.0, 9.0, 31.0, 4.0] {
-        let found = angles.at(t).expect("angles");
-        table.row(&format!("t {t}"), &[("alpha, beta, gamma", &[found.alpha, found.beta, found.gamma])]);
-    }
-    table.check("angles_that_count_turns");
 }

@@ -1,89 +1,21 @@
-//! Pulses, arrivals, clocks, distributions and stars.
+//! Clocks, spectral lines, periods, distributions and stars.
 
 use nalgebra::Vector3;
-use twofold::dynamics::{BodyState, Problem};
+use twofold::dynamics::BodyState;
 use twofold::observables::Observer;
 use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
 use twofold::observables::pulsar::period::{
     approximate_period, azimuth_offset_rate, azimuth_rate, instantaneous_period,
 };
-use twofold::observables::pulsar::rate_bounds::rate_bounds;
-use twofold::observables::pulsar::{Beam, PulsarClock, PulseTrain, arrivals, pulse_train};
+use twofold::observables::pulsar::{Beam, ClockPulse, PulsarClock};
+use twofold::observables::spectrum::{Series, Window, amplitude_spectrum, spectral_lines};
 use twofold::solutions::averaged::AveragingOrder;
 use twofold::star::axisymmetric::axisymmetric_integrals;
 use twofold::star::maclaurin::MaclaurinSpheroid;
 use twofold::star::uniform_spheroid::UniformSpheroid;
 
-use crate::values::scene::{PROLATE, STAR, beam, general, observer, state};
+use crate::values::scene::{PROLATE, STAR, general, state};
 use crate::values::table::Table;
-
-fn train(table: &mut Table, name: &str, train: &PulseTrain) {
-    for pulse in &train.pulses {
-        assert_eq!(pulse.is_whole(), !pulse.cut_at_start && !pulse.cut_at_end);
-        let cut = [(pulse.cut_at_start, "at its start"), (pulse.cut_at_end, "at its end")];
-        let cut: Vec<_> = cut.iter().filter(|(is_cut, _)| *is_cut).map(|(_, where_)| *where_).collect();
-        table.row(
-            &format!("{name}, pulse"),
-            &[
-                ("start", &pulse.start),
-                ("end", &pulse.end),
-                ("midpoint", &pulse.midpoint()),
-                ("duration", &pulse.duration()),
-                ("cut", &if cut.is_empty() { "nowhere".to_string() } else { cut.join(" and ") }),
-            ],
-        );
-    }
-    for time in &train.grazings {
-        table.row(&format!("{name}, grazing"), &[("t", time)]);
-    }
-    for (what, found) in [("period", train.periods().collect::<Vec<_>>()), ("duration", train.durations().collect())] {
-        for found in found {
-            table.row(&format!("{name}, {what}"), &[("t", &found.time), ("is", &found.value)]);
-        }
-    }
-}
-
-#[test]
-fn pulses() {
-    let mut table = Table::default();
-    let span = (0.0, 60.0);
-    let motion =
-        Problem::new(STAR, general(), state()).and_then(|problem| problem.taylor(span, 1e-12)).expect("a motion");
-    for (name, beam, observer) in [
-        ("usual", beam(), observer()),
-        ("narrow", Beam::new(0.8, -0.3, 0.05), Observer::at(1.0, 0.2)),
-        ("wide", Beam::new(0.6, 0.0, 1.2), Observer::at(0.5, 0.0)),
-        ("near n", Beam::new(0.1, 0.0, 0.3), Observer::at(1.3, 2.0)),
-        ("behind", Beam::new(2.6, 0.0, 0.4), Observer::at(2.2, -1.0)),
-    ] {
-        let o = &observer.direction;
-        table.found(name, pulse_train(&motion, &beam, o, span), |table, found| {
-            train(table, name, &found);
-            table.found(name, arrivals(&motion, &beam, o, &found), |table, arrivals| {
-                for arrival in arrivals {
-                    table.row(
-                        &format!("{name}, arrival {}", arrival.number),
-                        &[("midpoint", &arrival.midpoint), ("closest approach", &arrival.closest_approach)],
-                    );
-                }
-            });
-        });
-        for (what, s) in [("propagated", general()), ("free", general() * 0.0)] {
-            let name = format!("{name}, {what}");
-            let found = Problem::new(STAR, s, state())
-                .and_then(|problem| problem.taylor_pulse_train((0.0, 21.0), 1e-9, &beam, o));
-            table.found(&name, found, |table, (found, end)| {
-                train(table, &name, &found);
-                for state in &end.states {
-                    table.row(&name, &[("steps", &end.step_count), ("order", &end.order), ("end", state)]);
-                }
-            });
-        }
-    }
-    let bounds = rate_bounds(&STAR, &general(), &state());
-    table.row("bounds of rates", &[("first", &bounds.first), ("third", &bounds.third)]);
-    table.check("pulses");
-}
 
 #[test]
 fn clocks() {
@@ -95,55 +27,97 @@ fn clocks() {
         ("near n", Beam::new(0.1, 0.0, 0.9), Observer::at(1.0, 0.5)),
         ("wide", Beam::new(1.2, 0.0, 1.0), Observer::at(1.0, 0.0)),
     ];
-    for (of, star, s, initial, orders) in [
-        ("general", STAR, general() * 0.1, state(), &[AveragingOrder::First, AveragingOrder::Second][..]),
-        ("weak", STAR, general() * 1e-8, state(), &[AveragingOrder::Second]),
-        ("none", STAR, general() * 0.0, state(), &[AveragingOrder::Second]),
-        ("reversed", STAR, general() * 0.1, reversed, &[AveragingOrder::Second]),
-        ("prolate", PROLATE, general() * 0.1, state(), &[AveragingOrder::Second]),
+    for (of, star, s, initial, order) in [
+        ("general", STAR, general() * 0.1, state(), AveragingOrder::Second),
+        ("first order", STAR, general() * 0.1, state(), AveragingOrder::First),
+        ("weak", STAR, general() * 1e-8, state(), AveragingOrder::Second),
+        ("none", STAR, general() * 0.0, state(), AveragingOrder::Second),
+        ("reversed", STAR, general() * 0.1, reversed, AveragingOrder::Second),
+        ("prolate", PROLATE, general() * 0.1, state(), AveragingOrder::Second),
     ] {
-        for order in orders {
-            for (name, beam, observer) in &beams[..if of == "general" { 4 } else { 2 }] {
-                let name = format!("{of}, {name}, {order:?}");
-                let clock = PulsarClock::new(&star, &s, &initial, beam, observer, *order);
-                table.found(&name, clock, |table, mut clock| {
-                    table.row(&name, &[("period", &clock.period()), ("truncation", &clock.truncation(40.0))]);
-                    // In this order: the next pulse is looked for from the one before.
-                    for t in [[12.0, 0.3], [5e3, 0.25], [-250.0, 0.0], [30.0, 0.0]] {
-                        table.found(&name, clock.pulse_near(t), |table, pulse| {
-                            let Some(pulse) = pulse else { return table.row("  dark", &[("near", &t)]) };
-                            table.row(
-                                &format!("  pulse {}", pulse.number),
-                                &[
-                                    ("t", &(pulse.midpoint[0] + pulse.midpoint[1])),
-                                    ("duration", &pulse.duration),
-                                    ("angle", &pulse.position_angle),
-                                    ("rate", &pulse.position_angle_rate),
-                                    ("swing", &pulse.swing),
-                                    ("", &pulse.state),
-                                ],
-                            );
-                        });
-                        let near = clock.near(t).state(0.5);
-                        table.row(
-                            "  half later",
-                            &[("n_z, L_x, e_y", &[near.axis.z, near.momentum.x, near.equatorial_axis.y])],
-                        );
-                    }
-                });
-            }
+        for (name, beam, observer) in &beams[..if of == "general" { 4 } else { 1 }] {
+            let name = format!("{of}, {name}");
+            let clock = PulsarClock::new(&star, &s, &initial, beam, observer, order);
+            table.found(&name, clock, |table, mut clock| {
+                table.row(&name, format_args!("period {:?}, truncation {:?}", clock.period(), clock.truncation(40.0)));
+                // In this order: the next pulse is looked for from the one before.
+                for t in [[12.0, 0.3], [5e3, 0.25], [-250.0, 0.0], [30.0, 0.0]] {
+                    // To one double, whose last digits are roundings.
+                    let pulse = clock.pulse_near(t).map(|pulse| pulse.map(|pulse| (pulse.midpoint[0], pulse)));
+                    table.found("  pulse", pulse, |table, pulse| match pulse {
+                        Some((midpoint, pulse)) => {
+                            table.row("  pulse", ClockPulse { midpoint: [midpoint, 0.0], ..pulse })
+                        }
+                        None => table.row("  dark", t),
+                    });
+                }
+                table.row("  half after 30", clock.near([30.0, 0.0]).state(0.5));
+            });
         }
     }
     table.check("clocks");
+}
+
+fn series(waves: &[(f64, f64, f64)], constant: f64, count: usize) -> Series {
+    let step = 0.4;
+    let value = |k: usize| {
+        let t = 1.0 + step * k as f64;
+        constant
+            + waves.iter().map(|(frequency, amplitude, phase)| amplitude * (frequency * t + phase).cos()).sum::<f64>()
+    };
+    Series { start: 1.0, step, values: (0..count).map(value).collect() }
+}
+
+#[test]
+fn lines() {
+    let mut table = Table::default();
+    for (name, series) in [
+        ("three", series(&[(1.3, 1.0, 0.3), (2.1, 0.02, -1.0), (0.41, 3e-4, 2.0)], 0.7, 2000)),
+        ("close", series(&[(1.3, 1.0, 0.3), (1.3 + 25.0 / 800.0, 0.5, 1.0)], 0.0, 2000)),
+        ("very close", series(&[(1.3, 1.0, 0.3), (1.3 + 6.0 / 800.0, 0.5, 1.0)], 0.0, 2000)),
+        ("low and high", series(&[(0.03, 1.0, 0.3), (7.8, 0.5, 1.0)], -0.2, 2000)),
+        ("constant", series(&[], 0.3, 64)),
+        ("short", series(&[(1.3, 1.0, 0.3)], 0.3, 17)),
+    ] {
+        let (duration, highest) = (series.duration(), series.highest_frequency());
+        table.row(name, format_args!("duration {duration:?}, highest frequency {highest:?}"));
+        for (least, most) in [(1e-6, 20), (1e-2, 2)] {
+            let name = format!("{name} from {least:e}, {most}");
+            table.found(&name, spectral_lines(&series, least, most), |table, found| {
+                let (count, all) = (found.lines.len(), found.remainder < 1e-9);
+                table.row(&name, format_args!("constant {:?}, {count} lines, all {all}", found.constant));
+                for line in found.lines.iter().take(4) {
+                    let [frequency, amplitude, phase] = [line.frequency, line.amplitude, line.phase];
+                    let known = Some(line.uncertainty).filter(|uncertainty| *uncertainty > 1e-10);
+                    let text = format!("frequency {frequency:?}, amplitude {amplitude:?}, phase {phase:?}");
+                    table.row("  line", format_args!("{text}, +- {known:?}"));
+                }
+            });
+        }
+        for window in [Window::Uniform, Window::Hann, Window::Kaiser { shape: 9.0 }] {
+            let spectrum = amplitude_spectrum(&series, window).expect("a spectrum");
+            let apart = (spectrum.amplitudes.len() / 5).max(1);
+            // What rounds to zero is a rounding.
+            let points = spectrum.points().map(|(frequency, size)| (frequency, (size * 1e9).round() / 1e9));
+            let points: Vec<_> = points.skip(1).step_by(apart).take(5).collect();
+            let (spacing, half_width) = (spectrum.spacing, window.half_width(series.duration()));
+            assert_eq!(points[0].0, spectrum.frequency(1));
+            table.row(
+                &format!("  {window:?}"),
+                format_args!("spacing {spacing:?}, half width {half_width:?}, (frequency, amplitude) {points:?}"),
+            );
+        }
+    }
+    table.check("lines");
 }
 
 #[test]
 fn periods_and_distributions() {
     let mut table = Table::default();
     let rate = azimuth_rate(&state().axis, &Vector3::new(0.3, -0.2, 1.7));
-    table.row("azimuth", &[("rate", &rate), ("period", &instantaneous_period(rate))]);
+    table.row("azimuth", format_args!("rate {rate:?}, period {:?}", instantaneous_period(rate)));
     let offset = azimuth_offset_rate(0.8, 0.3, 1.1, 0.6, 0.2);
-    table.row("offset", &[("rate", &offset), ("period", &approximate_period(1.3, offset))]);
+    table.row("offset", format_args!("rate {offset:?}, period {:?}", approximate_period(1.3, offset)));
     for ratio in [-0.9, 0.3, 2.5] {
         let inclined = || EtaDistribution::at_inclination(ratio, 0.7);
         for (name, found) in [
@@ -154,18 +128,14 @@ fn periods_and_distributions() {
         ] {
             let name = format!("eta {name}, r {ratio}");
             table.found(&name, found, |table, found| {
-                table.row(
-                    &name,
-                    &[
-                        ("root mean square", &found.root_mean_square()),
-                        ("above 1", &found.probability_above(1.0)),
-                        ("5, 50, 95 %", &[0.05, 0.5, 0.95].map(|p| found.quantile(p).unwrap_or(f64::NAN))),
-                    ],
-                );
+                let (mean, above) = (found.root_mean_square(), found.probability_above(1.0));
+                let quantiles = [0.05, 0.5, 0.95].map(|p| found.quantile(p).unwrap_or(f64::NAN));
+                let text = format!("root mean square {mean:?}, above 1 {above:?}");
+                table.row(&name, format_args!("{text}, 5, 50, 95 % {quantiles:?}"));
             });
         }
-        let along = root_mean_square_along_motion(ratio, 0.7);
-        table.row(&format!("eta along the motion, r {ratio}"), &[("root mean square", &along)]);
+        let name = format!("eta along the motion, r {ratio}, root mean square");
+        table.row(&name, root_mean_square_along_motion(ratio, 0.7));
     }
     table.check("periods_and_distributions");
 }
@@ -176,31 +146,13 @@ fn stars() {
     let dense = |r: f64, mu: f64| 1.2 - r * r * (0.5 + 0.2 * mu * mu);
     let surface = |mu: f64| (1.0 + 0.1 * mu * mu, 0.2 * mu);
     for degree in [4, 8, 12] {
-        let found = axisymmetric_integrals(&(dense, surface), degree).expect("integrals");
-        let (inertia, energy) = (found.moment_of_inertia, found.potential_energy_tensor);
-        table.row(
-            &format!("degree {degree}"),
-            &[
-                ("mass", &found.mass),
-                ("C", &found.c),
-                ("+-", &found.c_error),
-                ("I^xx, I^zz", &[inertia.xx, inertia.zz]),
-                ("U^xx, U^zz", &[energy.xx, energy.zz]),
-            ],
-        );
+        table.result(&format!("degree {degree}"), axisymmetric_integrals(&(dense, surface), degree));
     }
     let spheroid = UniformSpheroid::from_semi_axes(1.3, 0.9, 0.7).expect("a spheroid");
     let found = axisymmetric_integrals(&spheroid, 8).expect("integrals");
-    table.row("uniform", &[("C", &found.c), ("+-", &found.c_error)]);
+    table.row("uniform", format_args!("C {:?} +- {:?}", found.c, found.c_error));
     let star = MaclaurinSpheroid::new(spheroid).expect("a spheroid");
-    table.row(
-        "pressure",
-        &[
-            ("in the centre", &star.central_pressure),
-            ("inside", &star.pressure(0.4, 0.3)),
-            ("on the axis", &star.pressure(0.0, 0.7)),
-            ("integral", &star.pressure_integral),
-        ],
-    );
+    let (inside, on_the_axis) = (star.pressure(0.4, 0.3), star.pressure(0.0, 0.7));
+    table.row("pressure", format_args!("inside {inside:?}, on the axis {on_the_axis:?}, of {star:?}"));
     table.check("stars");
 }

@@ -1,11 +1,9 @@
 //! A star and a tensor without special values: no two numbers are equal, and none is one.
 
 use nalgebra::Matrix3;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::Observer;
-use twofold::observables::pulsar::Beam;
 use twofold::parameters::Parameters;
 
 pub const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.7, constant_c: 0.8 };
@@ -29,14 +27,10 @@ pub fn state() -> BodyState<f64> {
     BodyState::from_angles(&STAR, &ANGLES, &RATES)
 }
 
+pub fn problem(s: Matrix3<f64>) -> Problem<f64> {
+    Problem::new(STAR, s, state()).expect("a problem")
+}
+
 pub fn start() -> Parameters<f64> {
     Parameters::new(STAR, general(), ANGLES, RATES)
-}
-
-pub fn beam() -> Beam<f64> {
-    Beam::new(1.25, 0.4, 0.5)
-}
-
-pub fn observer() -> Observer<f64> {
-    Observer::at(0.95, 0.35)
 }

@@ -1,11 +1,8 @@
-//! Rows of labelled numbers, compared with what was reviewed.
+//! Rows of what was found, compared with what was reviewed.
 
-use std::fmt::Write;
+use std::fmt::{Debug, Write};
 
-use nalgebra::Vector3;
 use twofold::Error;
-use twofold::dynamics::AxisState;
-use twofold::dynamics::BodyState;
 
 /// Longest line.
 const WIDTH: usize = 116;
@@ -13,75 +10,58 @@ const WIDTH: usize = 116;
 const SMALL: f64 = 1e-12;
 const NONE: f64 = 1e-16;
 
-/// What can stand in a row.
-pub trait Written {
-    fn written(&self) -> String;
+/// Six digits of a number.
+fn written(x: f64) -> String {
+    let rounded: f64 = format!("{x:.5e}").parse().expect("a number");
+    match x.abs() {
+        0.0 => "0".to_string(),
+        ..NONE => "below 1e-16".to_string(),
+        ..SMALL => format!("{x:.1e}"),
+        1e-3..1e6 => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
 }
 
-impl Written for f64 {
-    /// To six digits.
-    fn written(&self) -> String {
-        let rounded: f64 = format!("{self:.5e}").parse().expect("a number");
-        match self.abs() {
-            0.0 => "0".to_string(),
-            ..NONE => "below 1e-16".to_string(),
-            ..SMALL => format!("{self:.1e}"),
-            1e-3..1e6 => rounded.to_string(),
-            _ => format!("{rounded:e}"),
+/// Six decimals of a component, which is of order one. What rounds to zero has no sign.
+fn component(x: f64) -> String {
+    format!("{:.6}", (x * 1e6).round() / 1e6 + 0.0)
+}
+
+/// A debug text with every number rounded that has a point or an exponent and is in no quotes, those in `[[ ]]` as components of a vector.
+fn rounded(text: &str) -> String {
+    let (mut out, mut rest, mut brackets) = (String::new(), text, Vec::new());
+    let mut quoted = false;
+    while let Some(next) = rest.chars().next() {
+        let in_word = quoted || out.ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        let length = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit() || ".e-".contains(c)).len();
+        match rest[..length].parse::<f64>() {
+            Ok(number) if !in_word && rest[..length].contains(['.', 'e']) => {
+                out += &if brackets.ends_with(&['[', '[']) { component(number) } else { written(number) };
+                rest = &rest[length..];
+                continue;
+            }
+            _ => {}
         }
+        match next {
+            '[' | '(' | '{' => brackets.push(next),
+            ']' | ')' | '}' => drop(brackets.pop()),
+            '"' => quoted = !quoted,
+            _ => {}
+        }
+        let taken = if length > 0 { length } else { next.len_utf8() };
+        out += &rest[..taken];
+        rest = &rest[taken..];
     }
+    out
 }
-
-/// Numbers of order one, to six decimals. What rounds to zero has no sign.
-fn parts<'a>(values: impl IntoIterator<Item = &'a f64>) -> String {
-    let parts: Vec<_> = values.into_iter().map(|x| format!("{:.6}", (x * 1e6).round() / 1e6 + 0.0)).collect();
-    format!("({})", parts.join(", "))
-}
-
-impl<const N: usize> Written for [f64; N] {
-    fn written(&self) -> String {
-        parts(self)
-    }
-}
-
-impl Written for Vector3<f64> {
-    fn written(&self) -> String {
-        parts(self)
-    }
-}
-
-impl Written for AxisState<f64> {
-    fn written(&self) -> String {
-        format!("n {}, L {}", parts(&self.axis), parts(&self.momentum))
-    }
-}
-
-impl Written for BodyState<f64> {
-    fn written(&self) -> String {
-        format!("n {}, L {}, e_x {}", parts(&self.axis), parts(&self.momentum), parts(&self.equatorial_axis))
-    }
-}
-
-impl<T: Written> Written for Option<T> {
-    fn written(&self) -> String {
-        self.as_ref().map_or("none".to_string(), T::written)
-    }
-}
-
-macro_rules! as_displayed {
-    ($($type:ty),*) => { $(impl Written for $type { fn written(&self) -> String { self.to_string() } })* };
-}
-
-as_displayed!(bool, usize, u64, i64, &str, String);
 
 #[derive(Default)]
 pub struct Table(String);
 
 impl Table {
-    /// `name: label value, label value`, in as many lines as it takes.
-    pub fn row(&mut self, name: &str, cells: &[(&str, &dyn Written)]) {
-        let cells: Vec<_> = cells.iter().map(|(label, value)| format!("{label} {}", value.written())).collect();
-        let text = format!("{}: {}", name.trim_start(), cells.join(", "));
+    /// `name: found`, in as many lines as it takes.
+    pub fn row(&mut self, name: &str, found: impl Debug) {
+        let text = format!("{}: {}", name.trim_start(), rounded(&format!("{found:?}")));
         let mut line = " ".repeat(name.len() - name.trim_start().len());
         for word in text.split_whitespace() {
             if line.len() + word.len() > WIDTH {
@@ -98,18 +78,16 @@ impl Table {
         match found {
             Ok(found) => rows(self, found),
             Err(Error::Domain { quantity, allowed, .. }) => {
-                self.row(name, &[("refused,", &quantity.to_string()), ("to be", &allowed.to_string())]);
+                self.row(name, format_args!("refused, {quantity} to be {allowed}"));
             }
-            Err(Error::Unsupported { what, why }) => {
-                self.row(name, &[("refused,", &what.to_string()), ("since", &why.to_string())]);
-            }
-            Err(Error::NotConverged { what, .. }) => self.row(name, &[("no convergence,", &what.to_string())]),
+            Err(Error::Unsupported { what, why }) => self.row(name, format_args!("refused, {what} since {why}")),
+            Err(Error::NotConverged { what, .. }) => self.row(name, format_args!("no convergence, {what}")),
         }
     }
 
-    /// Why something is refused, or that it is not.
-    pub fn refusal<T>(&mut self, name: &str, found: Result<T, Error>) {
-        self.found(name, found, |table, _| table.row(name, &[("accepted", &"")]));
+    /// A row of what was found, or why there is nothing.
+    pub fn result<T: Debug>(&mut self, name: &str, found: Result<T, Error>) {
+        self.found(name, found, |table, found| table.row(name, found));
     }
 
     /// Compares with what was reviewed.

@@ -1,8 +1,7 @@
 //! Tori: states with given integrals, separatrices, exact frequencies; averages of motions about the middle axis.
 
-use twofold::dynamics::AxisState;
 use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{AxisState, BodyState};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::averaged::slow_precession::slow_precession;
 use twofold::solutions::averaged::{AveragedSolution, AveragingOrder, middle_axis_growth, period_near_separatrix};
@@ -11,101 +10,58 @@ use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_
 use crate::values::scene::{PROLATE, STAR, state};
 use crate::values::table::Table;
 
-type Scene = (&'static str, RigidSpheroid<f64>, PrincipalCoefficients<f64>, BodyState<f64>);
-
-fn scenes() -> Vec<Scene> {
-    let s = |values: [f64; 3]| PrincipalCoefficients::new(values);
-    let other = BodyState { momentum: state().axis.cross(&state().momentum) + state().axis * 0.7, ..state() };
-    vec![
-        ("general", STAR, s([0.021, -0.004, 0.009]), state()),
-        ("other order", STAR, s([-0.004, 0.021, 0.009]), state()),
-        ("weak", STAR, s([0.021e-3, -0.004e-3, 0.009e-3]), state()),
-        ("strong", STAR, s([0.21, -0.04, 0.09]), state()),
-        ("other motion", STAR, s([0.021, -0.004, 0.009]), other),
-        ("prolate", PROLATE, s([0.021, -0.004, 0.009]), state()),
-        ("two equal", STAR, s([0.02, 0.02, -0.03]), state()),
-        ("isotropic", STAR, s([0.02, 0.02, 0.02]), state()),
-    ]
-}
-
 #[test]
 fn states_on_tori() {
     let mut table = Table::default();
-    for (name, star, s, initial) in scenes() {
+    let other = BodyState { momentum: state().axis.cross(&state().momentum) + state().axis * 0.7, ..state() };
+    for (name, star, s, initial) in [
+        ("general", STAR, [0.021, -0.004, 0.009], state()),
+        ("other order", STAR, [-0.004, 0.021, 0.009], state()),
+        ("weak", STAR, [0.021e-3, -0.004e-3, 0.009e-3], state()),
+        ("strong", STAR, [0.21, -0.04, 0.09], state()),
+        ("other motion", STAR, [0.021, -0.004, 0.009], other),
+        ("prolate", PROLATE, [0.021, -0.004, 0.009], state()),
+        ("two equal", STAR, [0.02, 0.02, -0.03], state()),
+        ("isotropic", STAR, [0.02, 0.02, 0.02], state()),
+    ] {
+        let s = PrincipalCoefficients::new(s);
         let integrals = first_integrals(&star, &s.tensor(), &initial);
         let FirstIntegrals { energy, spin, clebsch } = integrals;
-        table.row(name, &[("E", &energy), ("Omega^z", &spin), ("K", &clebsch)]);
+        table.row(name, integrals);
         table.found("  states", states_with_integrals(&star, &s, &integrals), |table, found| {
-            table.row("  states", &[("round the axis", &found.round)]);
-            for state in &found.states {
-                table.row("  state", &[("", &AxisState::from(state))]);
-            }
-            if let Some([positive, negative]) = found.components() {
-                table.row("  component", &[("positive", &AxisState::from(&positive))]);
-                table.row("  component", &[("negative", &AxisState::from(&negative))]);
+            table.row("  states", format_args!("round the axis {:?}", found.round));
+            for state in found.states.iter().chain(found.components().iter().flatten()) {
+                table.row("  state", AxisState::from(state));
             }
         });
-        table.found("  separatrix", separatrix_motion(&star, &s, energy, spin), |table, state| {
-            table.row("  separatrix", &[("", &AxisState::from(&state))]);
-        });
+        table.result("  separatrix", separatrix_motion(&star, &s, energy, spin).map(|state| AxisState::from(&state)));
         for (what, wrong) in [
             ("-E", FirstIntegrals { energy: -energy, ..integrals }),
             ("2 K", FirstIntegrals { clebsch: 2.0 * clebsch, ..integrals }),
             ("no Omega^z", FirstIntegrals { spin: f64::NAN, ..integrals }),
         ] {
-            table.refusal(&format!("  {what}"), states_with_integrals(&star, &s, &wrong));
+            table.result(&format!("  {what}"), states_with_integrals(&star, &s, &wrong).map(|_| "accepted"));
         }
-        let slow = slow_precession(&star, &s, &initial.momentum, &initial.axis);
-        table.found("  slow precession", slow, |table, found| {
-            table.row("  slow precession", &[("axis", &found.axis), ("rate", &found.rate)]);
-        });
+        table.result("  slow precession", slow_precession(&star, &s, &initial.momentum, &initial.axis));
         for order in [AveragingOrder::First, AveragingOrder::Second] {
             let label = format!("  {order:?}");
-            table.found(&label, middle_axis_growth(&star, &s, energy, spin, order), |table, growth| {
-                table.row(&label, &[("growth about the middle axis", &growth)]);
-            });
+            let growth = middle_axis_growth(&star, &s, energy, spin, order);
+            table.result(&format!("{label}, growth about the middle axis"), growth);
             table.found(&label, AveragedSolution::new(&star, &s, &initial, order), |table, mean| {
-                let (rates, phases) = (mean.rates(), mean.phases(13.0));
-                table.row(
-                    &label,
-                    &[
-                        ("mean rates: slow", &rates.slow),
-                        ("about L", &rates.about_momentum),
-                        ("about n", &rates.about_axis),
-                    ],
-                );
-                table.row(
-                    &label,
-                    &[
-                        ("phases at 13", &[phases.slow, phases.about_momentum, phases.about_axis]),
-                        ("error", &mean.error_estimate(13.0)),
-                        ("", &mean.state(13.0)),
-                    ],
-                );
+                table.row(&label, format_args!("{:?}, strength {:?}", mean.rates(), mean.relative_strength()));
+                table.row("  at 13", format_args!("{:?}, error {:?}", mean.phases(13.0), mean.error_estimate(13.0)));
+                table.result(&format!("{label}, derivatives"), mean.require_derivatives());
             });
         }
-    }
-    let period = period_near_separatrix(0.03, 1e-5).expect("a period");
-    table.row("near the separatrix", &[("period", &period)]);
-    table.check("states_on_tori");
-}
-
-#[test]
-fn exact_frequencies() {
-    let mut table = Table::default();
-    for (name, star, s, initial) in scenes() {
-        table.found(name, torus_frequencies(&star, &s, &initial), |table, found| {
-            table.row(
-                name,
-                &[
-                    ("axis", &found.axis),
-                    ("slow", &found.slow),
-                    ("about L", &found.about_momentum),
-                    ("about n", &found.about_axis),
-                    ("uncertain", &!found.uncertainty.iter().all(|error| *error < 1e-12)),
-                ],
-            );
+        // Errors of exact frequencies are roundings, but near a resonance.
+        let found = torus_frequencies(&star, &s, &initial);
+        table.found("  exact frequencies", found, |table, found| {
+            let uncertain = found.uncertainty.iter().any(|error| *error >= 1e-12);
+            let (about_momentum, about_axis) = (found.about_momentum, found.about_axis);
+            let text = format!("axis {}, slow {:?}, about L {about_momentum:?}", found.axis, found.slow);
+            table.row("  exact frequencies", format_args!("{text}, about n {about_axis:?}, uncertain {uncertain}"));
         });
     }
-    table.check("exact_frequencies");
+    table.result("period near the separatrix", period_near_separatrix(0.03, 1e-5));
+    table.check("states_on_tori");
 }
