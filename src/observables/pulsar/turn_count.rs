@@ -209,7 +209,7 @@ mod tests {
     use nalgebra::{Rotation3, Unit};
 
     use super::*;
-    use crate::dynamics::RigidSpheroid;
+    use crate::dynamics::{Problem, RigidSpheroid};
     use crate::lorentz_violation::PrincipalCoefficients;
     use crate::solutions::averaged::AveragingOrder;
 
@@ -219,8 +219,8 @@ mod tests {
         let momentum = Vector3::new(0.3, 0.7, 2.0);
         let axis = Vector3::new(0.1, -0.2, 0.9).normalize();
         let equatorial_axis = axis.cross(&Vector3::x()).normalize();
-        AveragedSolution::new(&spheroid, &s, &BodyState { axis, momentum, equatorial_axis }, AveragingOrder::Second)
-            .unwrap()
+        let initial = BodyState { axis, momentum, equatorial_axis };
+        AveragedSolution::new(&Problem::new(spheroid, s.tensor(), initial).unwrap(), AveragingOrder::Second).unwrap()
     }
 
     /// A count whose beam is at the angle `chi` to the axis, and the state in which the axis is at `theta` to L, at the azimuth `about_l`, and the
@@ -480,7 +480,8 @@ mod tests {
             let equatorial_axis = axis.cross(&Vector3::z()).normalize();
             for sign in [1.0, -1.0] {
                 let state = BodyState { axis, momentum: axis * (sign * 2.7), equatorial_axis };
-                let motion = AveragedSolution::new(&spheroid, &s, &state, AveragingOrder::Second).unwrap();
+                let problem = Problem::new(spheroid, s.tensor(), state).unwrap();
+                let motion = AveragedSolution::new(&problem, AveragingOrder::Second).unwrap();
                 let count = TurnCount::new(&motion, &Beam::new(0.5, 0.2, 0.3), &n).unwrap();
                 assert!(count.encloses && count.upright == (sign > 0.0));
             }
@@ -494,7 +495,8 @@ mod tests {
         let initial = motion().state(0.0);
         for (s, is_refused) in [([0.0; 3], false), ([2e-4, -1e-4, 0.5e-4], true)] {
             let s = PrincipalCoefficients::new(s);
-            let motion = AveragedSolution::new(&spheroid, &s, &initial, AveragingOrder::Second).unwrap();
+            let problem = Problem::new(spheroid, s.tensor(), initial).unwrap();
+            let motion = AveragedSolution::new(&problem, AveragingOrder::Second).unwrap();
             let start = motion.state(0.0);
             let cos = start.axis.dot(&start.momentum.normalize());
             let beam = Beam { axis: Vector3::new((1.0 - cos * cos).sqrt(), 0.0, cos), half_opening: 0.3 };

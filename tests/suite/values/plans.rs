@@ -49,7 +49,7 @@ impl Plans {
                 let cost = if plan.costs_the_same_at_any_time() { "the same at any time" } else { "by steps" };
                 let skipped: Vec<_> = plan.skipped.iter().map(|skipped| skipped.what).collect();
                 self.skipped.extend(plan.skipped.iter().map(|skipped| format!("{}: {}", skipped.what, skipped.why)));
-                let stretch = format!("{} to {}", plan.stretch.0, plan.stretch.1);
+                let stretch = format!("{} to {}", plan.span.0, plan.span.1);
                 table.row(
                     name,
                     &[

@@ -2,7 +2,7 @@
 
 use twofold::dynamics::AxisState;
 use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::averaged::slow_precession::slow_precession;
 use twofold::solutions::averaged::{AveragedSolution, AveragingOrder, middle_axis_growth, period_near_separatrix};
@@ -32,6 +32,7 @@ fn scenes() -> Vec<Scene> {
 fn states_on_tori() {
     let mut table = Table::default();
     for (name, star, s, initial) in scenes() {
+        let problem = Problem::new(star, s.tensor(), initial).expect("a problem");
         let integrals = first_integrals(&star, &s.tensor(), &initial);
         let FirstIntegrals { energy, spin, clebsch } = integrals;
         table.row(name, &[("E", &energy), ("Omega^z", &spin), ("K", &clebsch)]);
@@ -64,7 +65,7 @@ fn states_on_tori() {
             table.found(&label, middle_axis_growth(&star, &s, energy, spin, order), |table, growth| {
                 table.row(&label, &[("growth about the middle axis", &growth)]);
             });
-            table.found(&label, AveragedSolution::new(&star, &s, &initial, order), |table, mean| {
+            table.found(&label, AveragedSolution::new(&problem, order), |table, mean| {
                 let (rates, phases) = (mean.rates(), mean.phases(13.0));
                 table.row(
                     &label,
@@ -94,7 +95,8 @@ fn states_on_tori() {
 fn exact_frequencies() {
     let mut table = Table::default();
     for (name, star, s, initial) in scenes() {
-        table.found(name, torus_frequencies(&star, &s, &initial), |table, found| {
+        let problem = Problem::new(star, s.tensor(), initial).expect("a problem");
+        table.found(name, torus_frequencies(&problem), |table, found| {
             table.row(
                 name,
                 &[
