@@ -236,7 +236,7 @@ impl<'s, X: SegmentState> Segments<'s, X> {
     pub(crate) fn with_rotation(scene: &'s Scene, plan: &Plan, most: f64) -> Result<Self, Error> {
         let (what, why) = ("motion of the plan", "none of its outputs needs one");
         let method = plan.method.ok_or(Error::Unsupported { what, why })?;
-        let total = plan.stretch.1;
+        let total = plan.span.1;
         let whole = plan.costs_the_same_at_any_time();
         let count = if whole { 1 } else { (total.abs() * scene.turning_rate() / most).ceil().max(1.0) as usize };
         let initial = X::from_vectors(scene.problem.initial().vectors());
@@ -311,7 +311,7 @@ mod tests {
         scene.choose_columns(&["e_z"]).unwrap();
         let plan = scene.plan(&scene.columns).unwrap();
         let rate = scene.turning_rate();
-        let end = plan.stretch.1;
+        let end = plan.span.1;
         let mut segments = Segments::<AxisState<f64>>::with_rotation(&scene, &plan, rate * end / 20.5).unwrap();
         let (mut sum, mut count) = (0.0, 0);
         while let Some(segment) = segments.next().unwrap() {

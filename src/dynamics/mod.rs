@@ -17,5 +17,4 @@ pub mod wave_source;
 pub use equations_of_motion::BodyState;
 pub use inertia::{PrincipalInertia, RigidSpheroid};
 pub use problem::Problem;
-pub(crate) use problem::check as check_problem;
 pub use state::{AxisState, RotationState};

@@ -133,11 +133,7 @@ impl<S: Real> Problem<S> {
 }
 
 /// Refuses what is not finite, not a frame, or out of range.
-pub(crate) fn check<S: Real, X: RotationState<S>>(
-    spheroid: &RigidSpheroid<S>,
-    s: &Matrix3<S>,
-    state: &X,
-) -> Result<(), Error> {
+fn check<S: Real, X: RotationState<S>>(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, state: &X) -> Result<(), Error> {
     for inertia in [spheroid.inertia_xx.re(), spheroid.inertia_zz.re()] {
         Error::ensure(inertia > 0.0 && inertia.is_finite(), "moment of inertia", inertia, "above zero and finite")?;
     }

@@ -75,7 +75,7 @@ pub(super) fn strain<S: Scalar>(
     observable: Observable,
 ) -> S {
     let state = AxisState { axis: *axis, momentum: *momentum };
-    let h = wave_of_state(&parameters.spheroid, &parameters.violation, &state, &parameters.observer());
+    let h = wave_of_state(&parameters.spheroid, &parameters.coefficients, &state, &parameters.observer());
     let h = if observable == Observable::StrainPlus { h.plus } else { h.cross };
     h * parameters.strain_scale * parameters.strain_unit
 }

@@ -69,7 +69,7 @@ fn rotation(parameters: &Parameters<f64>, axis: Vector3<f64>) -> Option<Vec<(Par
         return None;
     }
     let turned = Parameters {
-        violation: turn * lifted.violation * turn.transpose(),
+        coefficients: turn * lifted.coefficients * turn.transpose(),
         angles: state.angles().ok()?,
         alpha_rate: rates.alpha,
         beta_rate: rates.beta,

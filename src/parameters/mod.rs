@@ -49,7 +49,7 @@ pub struct Parameters<S> {
     /// The body.
     pub spheroid: RigidSpheroid<S>,
     /// `s^IJ`.
-    pub violation: Matrix3<S>,
+    pub coefficients: Matrix3<S>,
     /// By how much `s^IJ` has been multiplied, one at first.
     pub s_scale: S,
     /// Euler angles at the start.
@@ -81,14 +81,14 @@ impl<S: Scalar> Parameters<S> {
     /// on them.
     pub fn new(
         spheroid: RigidSpheroid<S>,
-        violation: Matrix3<S>,
+        coefficients: Matrix3<S>,
         angles: EulerAngles<S>,
         rates: EulerRates<S>,
     ) -> Self {
         let [zero, half, one] = [0.0, 0.5, 1.0].map(S::from_f64);
         Self {
             spheroid,
-            violation,
+            coefficients,
             s_scale: one,
             angles,
             alpha_rate: rates.alpha,
@@ -153,7 +153,7 @@ impl<S: Real> Parameters<S> {
     /// # Errors
     /// As for [`Problem::new`].
     pub fn problem(&self) -> Result<Problem<S>, Error> {
-        Problem::new(self.spheroid, self.violation, self.state())
+        Problem::new(self.spheroid, self.coefficients, self.state())
     }
 }
 
@@ -164,7 +164,7 @@ impl Parameters<f64> {
         let Self { spheroid, angles, .. } = self;
         Parameters {
             spheroid: spheroid.map(of),
-            violation: self.violation.map(of),
+            coefficients: self.coefficients.map(of),
             s_scale: of(self.s_scale),
             angles: EulerAngles { alpha: of(angles.alpha), beta: of(angles.beta), gamma: of(angles.gamma) },
             alpha_rate: of(self.alpha_rate),

@@ -187,7 +187,7 @@ impl Parameter {
 
     /// Its value.
     pub fn value<T: Scalar>(self, parameters: &Parameters<T>) -> T {
-        let s = &parameters.violation;
+        let s = &parameters.coefficients;
         match self {
             Oblateness => parameters.spheroid.oblateness(),
             SAxial => s[(2, 2)] * 2.0 - s[(0, 0)] - s[(1, 1)],
@@ -201,7 +201,7 @@ impl Parameter {
 
     /// The number that it is, if it is no combination of several.
     fn number<T: Scalar>(self, parameters: &mut Parameters<T>) -> &mut T {
-        let Parameters { spheroid, violation: s, angles, .. } = parameters;
+        let Parameters { spheroid, coefficients: s, angles, .. } = parameters;
         match self {
             InertiaXx => &mut spheroid.inertia_xx,
             InertiaZz => &mut spheroid.inertia_zz,
@@ -231,7 +231,7 @@ impl Parameter {
     /// # Panics
     /// For an index of `s^IJ` above 2.
     pub fn add<T: Scalar>(self, parameters: &mut Parameters<T>, change: T) {
-        let s = &mut parameters.violation;
+        let s = &mut parameters.coefficients;
         let mut diagonal = |parts: [f64; 3]| (0..3).for_each(|i| s[(i, i)] += change * parts[i]);
         match self {
             SAxial => diagonal([-1.0 / 6.0, -1.0 / 6.0, 1.0 / 3.0]),

@@ -49,22 +49,22 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// Considers a method for `evaluations` of a `state` up to the end of `stretch`.
+    /// Considers a method for `evaluations` of a `state` up to the end of `span`.
     pub(super) fn of(
         method: Method,
         problem: &Problem<f64>,
         request: &Request,
         state: State,
-        stretch: (f64, f64),
+        span: (f64, f64),
         evaluations: f64,
     ) -> Self {
         let errors = match method {
-            Method::Free => free(problem, request, stretch),
-            Method::Steady => steady(problem, request, stretch),
-            Method::Symmetric => symmetric(problem, request, stretch),
-            Method::Averaged => mean(problem, request, stretch),
-            Method::Splitting => splitting(problem, request, stretch),
-            Method::Taylor => taylor(problem, request, state, stretch),
+            Method::Free => free(problem, request, span),
+            Method::Steady => steady(problem, request, span),
+            Method::Symmetric => symmetric(problem, request, span),
+            Method::Averaged => mean(problem, request, span),
+            Method::Splitting => splitting(problem, request, span),
+            Method::Taylor => taylor(problem, request, state, span),
         };
         Self {
             method,
@@ -124,7 +124,7 @@ fn refuse_derivatives(request: &Request, why: &'static str) -> Result<(), Error>
     if by_tensor { Err(Error::Unsupported { what: "derivatives by components of s^IJ", why }) } else { Ok(()) }
 }
 
-fn free(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+fn free(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
     refuse_derivatives(request, "free rotation does not depend on s^IJ")?;
     let torque = largest_torque(problem.spheroid(), problem.coefficients());
     Error::ensure(
@@ -133,23 +133,23 @@ fn free(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Resul
         torque,
         "zero, if derivatives are wanted",
     )?;
-    let motion = UniformMotion::free(problem, stretch);
-    let elapsed = stretch.1 - stretch.0;
+    let motion = UniformMotion::free(problem, span);
+    let elapsed = span.1 - span.0;
     Ok(Forecast::closed(Promise::Bound, motion.truncation(elapsed), motion.rounding(elapsed)))
 }
 
-fn steady(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+fn steady(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
     if !request.derivatives.is_empty() {
         return Err(Error::Unsupported { what: "derivatives", why: "a steady precession is a single state" });
     }
-    let motion = UniformMotion::steady(problem, stretch)?;
-    Ok(Forecast::closed(Promise::Bound, 0.0, motion.rounding(stretch.1 - stretch.0)))
+    let motion = UniformMotion::steady(problem, span)?;
+    Ok(Forecast::closed(Promise::Bound, 0.0, motion.rounding(span.1 - span.0)))
 }
 
-fn symmetric(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+fn symmetric(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
     refuse_derivatives(request, "the elliptic solution needs two equal eigenvalues")?;
-    let motion = SymmetricMotion::new(problem, stretch)?;
-    let elapsed = stretch.1 - stretch.0;
+    let motion = SymmetricMotion::new(problem, span)?;
+    let elapsed = span.1 - span.0;
     let truncation = motion.truncation(elapsed);
     Error::ensure(
         request.derivatives.is_empty() || truncation == 0.0,
@@ -163,9 +163,9 @@ fn symmetric(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> 
     Ok(Forecast::closed(Promise::Bound, truncation, rounding))
 }
 
-fn mean(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
-    let motion = AveragedMotion::new(problem, stretch, AveragingOrder::Second)?;
-    let (mut truncation, rounding) = (motion.truncation(stretch.1), motion.rounding(stretch.1));
+fn mean(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
+    let motion = AveragedMotion::new(problem, span, AveragingOrder::Second)?;
+    let (mut truncation, rounding) = (motion.truncation(span.1), motion.rounding(span.1));
     if !request.derivatives.is_empty() {
         motion.require_derivatives()?;
         // A derivative by s^IJ has one order less, in its own unit.
@@ -175,10 +175,10 @@ fn mean(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Resul
     Ok(Forecast::closed(Promise::Estimate, truncation, rounding))
 }
 
-fn splitting(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> Result<Forecast, Error> {
+fn splitting(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
     let goal = if request.derivatives.is_empty() { Goal::State } else { Goal::Derivatives };
     let SplittingForecast { scheme, steps, truncation, coverage, rounding, .. } =
-        problem.splitting_forecast_for(goal, stretch, request.tolerance)?;
+        problem.splitting_forecast_for(goal, span, request.tolerance)?;
     // Rotations and kicks.
     let order = 2 * scheme.stages();
     Ok(Forecast { truncation, promise: Promise::Goal(coverage), rounding, order, steps })
@@ -188,8 +188,8 @@ fn splitting(problem: &Problem<f64>, request: &Request, stretch: (f64, f64)) -> 
 /// above, and 0.3 % of 3,000 of every kind (`docs/plans.md`).
 const TAYLOR_COVERAGE: f64 = 0.99;
 
-fn taylor(problem: &Problem<f64>, request: &Request, state: State, stretch: (f64, f64)) -> Result<Forecast, Error> {
-    let duration = (stretch.1 - stretch.0).abs();
+fn taylor(problem: &Problem<f64>, request: &Request, state: State, span: (f64, f64)) -> Result<Forecast, Error> {
+    let duration = (span.1 - span.0).abs();
     let TaylorForecast { order, steps, rounding } = if state == State::Orientation {
         problem.taylor_forecast(duration, request.tolerance)?
     } else {
@@ -198,7 +198,7 @@ fn taylor(problem: &Problem<f64>, request: &Request, state: State, stretch: (f64
     Ok(Forecast { truncation: request.tolerance, promise: Promise::Goal(TAYLOR_COVERAGE), rounding, order, steps })
 }
 
-/// Evaluations that the outputs of a request need over a stretch of rotation by `rotation` rad.
+/// Evaluations that the outputs of a request need for a rotation by `rotation` rad.
 pub(super) fn evaluations(request: &Request, rotation: f64) -> f64 {
     use super::Evaluations as E;
     let needs = || request.outputs.iter().map(|output: &Output| output.need().evaluations);
@@ -227,13 +227,13 @@ mod tests {
 
     const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
 
-    /// What a method would do over a stretch with a tensor of those principal values.
-    fn forecast(method: Method, s: [f64; 3], stretch: (f64, f64), derivatives: Vec<Parameter>) -> Candidate {
+    /// What a method would do over a span with a tensor of those principal values.
+    fn forecast(method: Method, s: [f64; 3], span: (f64, f64), derivatives: Vec<Parameter>) -> Candidate {
         let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
         let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
         let problem = Problem::from_angles(STAR, Matrix3::from_diagonal(&Vector3::from(s)), &angles, &rates).unwrap();
-        let request = Request::new(&[Output::SymmetryAxis], stretch, 5, 1e-9);
-        Candidate::of(method, &problem, &Request { derivatives, ..request }, State::Axis, stretch, 5.0)
+        let request = Request::new(&[Output::SymmetryAxis], span, 5, 1e-9);
+        Candidate::of(method, &problem, &Request { derivatives, ..request }, State::Axis, span, 5.0)
     }
 
     #[test]
@@ -245,13 +245,13 @@ mod tests {
     }
 
     #[test]
-    fn errors_and_work_go_by_the_length_of_the_stretch_alone() {
+    fn errors_and_work_go_by_the_length_of_the_span_alone() {
         for (method, s) in
             [(Method::Steady, [0.0; 3]), (Method::Splitting, [0.2, 0.1, -0.3]), (Method::Taylor, [0.2, 0.1, -0.3])]
         {
             let first = forecast(method, s, (0.0, 7.0), Vec::new()).prediction.unwrap();
-            for stretch in [(3.0, 10.0), (3.0, -4.0)] {
-                assert_eq!(forecast(method, s, stretch, Vec::new()).prediction, Ok(first), "{stretch:?}");
+            for span in [(3.0, 10.0), (3.0, -4.0)] {
+                assert_eq!(forecast(method, s, span, Vec::new()).prediction, Ok(first), "{span:?}");
             }
         }
     }

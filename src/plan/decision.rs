@@ -30,7 +30,7 @@ pub struct Plan {
     /// Whether the method was asked for by name.
     pub forced: bool,
     /// From the initial state to the last time that is needed.
-    pub stretch: (f64, f64),
+    pub span: (f64, f64),
     /// Samples that are evaluated; zero where only events are asked for.
     pub samples: usize,
     /// Parameters by which derivatives are computed.
@@ -53,15 +53,15 @@ impl Plan {
         let at_samples = evaluated(|e| matches!(e, Evaluations::AtSamples | Evaluations::CountingTurns { .. }));
         let for_events = evaluated(|e| matches!(e, Evaluations::ForEvents { .. }));
         let end = if for_events { request.span.1 } else { request.samples.last };
-        let stretch = (request.span.0, end);
-        let rotation = (end - stretch.0).abs() * turning_rate(problem);
+        let span = (request.span.0, end);
+        let rotation = (end - span.0).abs() * turning_rate(problem);
         let count = evaluations(request, rotation);
         let mut plan = Self {
             outputs: request.outputs.clone(),
             state,
             method: None,
             forced: request.method.is_some(),
-            stretch,
+            span,
             samples: if at_samples { request.samples.count } else { 0 },
             derivatives: request.derivatives.clone(),
             tolerance: request.tolerance,
@@ -75,7 +75,7 @@ impl Plan {
             plan.considered = Method::ALL
                 .into_iter()
                 .filter(wanted)
-                .map(|method| Candidate::of(method, &problem, request, state, stretch, count))
+                .map(|method| Candidate::of(method, &problem, request, state, span, count))
                 .collect();
             let (method, prediction) = plan.choose()?;
             (plan.method, plan.prediction) = (Some(method), Some(prediction));
@@ -134,7 +134,7 @@ impl Plan {
         if self.state != State::Nothing && self.samples == 0 {
             skip("samples", "events are found on the dense output, wherever they are");
         }
-        if self.stretch.1 != request.span.1 {
+        if self.span.1 != request.span.1 {
             skip("the span after the last sample", "nothing is asked there");
         }
         if self.derivatives.is_empty() {
@@ -153,7 +153,7 @@ impl Plan {
         if X::VECTORS == 3 && self.state != State::Orientation {
             return Err(Error::Unsupported { what: "motion with e_x", why: "no output of the plan needs it" });
         }
-        problem.motion_by(self.needed_method()?, self.stretch, self.tolerance)
+        problem.motion_by(self.needed_method()?, self.span, self.tolerance)
     }
 
     /// Whether a time costs the same however many turns lie before it: in closed form, and without events or turns to be counted.

@@ -48,7 +48,7 @@ pub struct Gradient {
 /// series follow from real parts alone, and the error of derivatives through it can be some hundred times that of the motion.
 ///
 /// # Errors
-/// As for the motion; [`Error::Domain`] for times outside its stretch, and for derivatives by splitting on a processor without vectors of four
+/// As for the motion; [`Error::Domain`] for times outside its span, and for derivatives by splitting on a processor without vectors of four
 /// doubles, for which no plan chooses it.
 pub fn gradient(
     plan: &Plan,
@@ -149,8 +149,8 @@ fn states_by_splitting(
     seeded: &[Problem<Dual64>],
     times: &[f64],
 ) -> Result<Vec<Vec<BodyState<Dual64>>>, Error> {
-    let (first, _) = plan.stretch;
-    times.iter().try_for_each(|&t| check_time(plan.stretch, t))?;
+    let (first, _) = plan.span;
+    times.iter().try_for_each(|&t| check_time(plan.span, t))?;
     let mut order: Vec<usize> = (0..times.len()).collect();
     order.sort_by(|&a, &b| (times[a] - first).abs().total_cmp(&(times[b] - first).abs()));
     let sorted: Vec<f64> = order.iter().map(|&place| times[place]).collect();
@@ -181,7 +181,7 @@ fn seeded_motion(plan: &Plan, problem: &Problem<Dual64>) -> Result<StateAt, Erro
     fn states(motion: impl Motion<Dual64> + 'static) -> StateAt {
         Box::new(move |t| Ok(BodyState::from_vectors(motion.state_in_parts(t)?.vectors())))
     }
-    let span = plan.stretch;
+    let span = plan.span;
     Ok(match plan.method {
         Some(Method::Free) => states(UniformMotion::free(problem, span)),
         Some(Method::Symmetric) => states(SymmetricMotion::new(problem, span)?),
@@ -291,7 +291,7 @@ mod tests {
         let (spin, beta) = (1.5, start.angles.beta);
         let rate = steady_precession_rate(Precession::Twofold, &start.spheroid, &coefficients, spin, beta).unwrap();
         let rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * beta.cos() };
-        start = Parameters::new(start.spheroid, start.violation, start.angles, rates);
+        start = Parameters::new(start.spheroid, start.coefficients, start.angles, rates);
         let request =
             Request { method: Some(Method::Steady), ..Request::new(&[Output::SymmetryAxis], (0.0, 20.0), 3, 1e-9) };
         let plan = start.problem().unwrap().plan(&request).unwrap();

@@ -30,8 +30,8 @@
 //! }
 //!
 //! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 });
-//! let (spheroid, violation) = (RigidSpheroid::in_units_of_tc(1.1), Matrix3::new(0.02, 0., 0., 0., 0.01, 0., 0., 0., -0.03));
-//! let start = Parameters::new(spheroid, violation, angles, rates);
+//! let (spheroid, coefficients) = (RigidSpheroid::in_units_of_tc(1.1), Matrix3::new(0.02, 0., 0., 0., 0.01, 0., 0., 0., -0.03));
+//! let start = Parameters::new(spheroid, coefficients, angles, rates);
 //! // n at a thousand times, with derivatives by two of the parameters: the plan says by which method, and what it costs.
 //! let request = Request::new(&[Output::SymmetryAxis], (0.0, 100.0), 1000, 1e-12);
 //! let plan = start.problem()?.plan(&Request { derivatives: vec![Parameter::S(2, 2), Parameter::Beta], ..request })?;

@@ -10,7 +10,7 @@ use twofold_verify::reference::{ReferenceMotion, reference_motion};
 /// Makes the motion of a plan and evaluates it at its samples; what that took, the plan apart.
 fn carried_out(scene: &ReferenceMotion, plan: &Plan) -> Result<AllocationInfo, Error> {
     let (body, s, initial) = (scene.spheroid, scene.violation(), scene.initial());
-    let times = |i: usize| plan.stretch.1 * i as f64 / plan.samples.max(2) as f64;
+    let times = |i: usize| plan.span.1 * i as f64 / plan.samples.max(2) as f64;
     let mut result = Ok(());
     let info = measure(|| {
         result = match plan.state {

@@ -150,7 +150,7 @@ impl AveragedScene {
     /// # Errors
     /// A motion that is refused.
     pub fn motion<S: Real>(&self, order: AveragingOrder) -> Result<AveragedSolution<S>, Error> {
-        averaged_solution(&self.problem.map(S::from_f64), order)
+        AveragedSolution::new(&self.problem.map(S::from_f64), order)
     }
 
     /// True error over estimate of an order, at random times and the end. What the numerical motion may be off does not count.
@@ -174,15 +174,6 @@ impl AveragedScene {
         }
         Ok(seen)
     }
-}
-
-/// The averaged solution of a problem in the principal frame of `s`.
-///
-/// # Errors
-/// A motion that is refused.
-pub fn averaged_solution<S: Real>(problem: &Problem<S>, order: AveragingOrder) -> Result<AveragedSolution<S>, Error> {
-    let principal = PrincipalCoefficients::new(problem.coefficients().diagonal().into());
-    AveragedSolution::new(problem.spheroid(), &principal, problem.initial(), order)
 }
 
 /// A direction near the separatrix; none where two principal values are equal.

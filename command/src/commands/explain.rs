@@ -26,7 +26,7 @@ pub(super) fn explained(scene: &Scene, plan: &Plan) -> String {
     if let Some(why) = why(plan) {
         row("why", why);
     }
-    let (from, to) = (in_output(plan.stretch.0), in_output(plan.stretch.1));
+    let (from, to) = (in_output(plan.span.0), in_output(plan.span.1));
     let closed = plan.method.is_none_or(|method| method.is_closed_form());
     row(
         "stretch",

@@ -264,7 +264,8 @@ fn solutions(case: &Case, time: f64) {
 
 fn torus(case: &Case, bytes: &mut Bytes<'_>) {
     let Case { body, s, state, .. } = case;
-    let _ = black_box(torus_frequencies(body, s, state));
+    let problem = Problem::new(*body, s.tensor(), *state);
+    let _ = black_box(problem.and_then(|problem| torus_frequencies(&problem)));
     let mut integrals = first_integrals(body, &s.tensor(), state);
     let _ = black_box(states_with_integrals(body, s, &integrals));
     integrals.energy = bytes.number();

@@ -78,7 +78,7 @@ fn error_bars_are_in_proportion_to_the_errors() {
 #[test]
 fn decades_give_the_truth() {
     let near = model("tp-2");
-    let truth = Parameters { violation: near.violation * 1e-9, phi_o: 1.0, ..near };
+    let truth = Parameters { coefficients: near.coefficients * 1e-9, phi_o: 1.0, ..near };
     use Parameter::{Chi, Gamma, PhiO, Rho, SAsymmetry, SAxial, Spin, ThetaO};
     let (unknowns, end) = (&[SAxial, SAsymmetry, Spin, Gamma, Chi, Rho, ThetaO, PhiO], 6e9);
     let signal = Signal::new(&truth, end).expect("signal");

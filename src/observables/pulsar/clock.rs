@@ -10,7 +10,7 @@ use super::train::{PulseTrain, check_beam};
 use super::turn_count::TurnCount;
 use super::{Beam, Pulse};
 use crate::dynamics::equations_of_motion::angular_velocity;
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
 use crate::numerics::angle::wrapped;
@@ -135,9 +135,10 @@ impl PulsarClock {
         check_beam(beam, &observer.direction)?;
         let frame = principal_frame(s)?;
         let turned = initial.rotated(&frame.principal_from_given);
-        let mean = AveragedSolution::with_free_rotation_of(initial, spheroid, &frame.coefficients, &turned, order)?;
-        let observer = observer.rotated(&frame.principal_from_given);
         let violation = frame.coefficients.tensor();
+        let mean =
+            AveragedSolution::with_free_rotation_of(initial, &Problem::new(*spheroid, violation, turned)?, order)?;
+        let observer = observer.rotated(&frame.principal_from_given);
         let turns = TurnCount::new(&mean, beam, &observer.direction)?;
         let bounds = rate_bounds(spheroid, &violation, &turned);
         let rotation = core::f64::consts::TAU * bounds.first / turns.rate(&mean);

@@ -208,7 +208,7 @@ mod tests {
     use core::f64::consts::PI;
 
     use super::*;
-    use crate::dynamics::RigidSpheroid;
+    use crate::dynamics::{Problem, RigidSpheroid};
     use crate::lorentz_violation::PrincipalCoefficients;
     use crate::solutions::averaged::AveragingOrder;
 
@@ -218,7 +218,7 @@ mod tests {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
         let (axis, s) = (axis.normalize(), PrincipalCoefficients::new(s));
         let initial = BodyState { axis, momentum, equatorial_axis: axis.cross(&Vector3::x()).normalize() };
-        AveragedSolution::new(&spheroid, &s, &initial, AveragingOrder::Second).unwrap()
+        AveragedSolution::new(&Problem::new(spheroid, s.tensor(), initial).unwrap(), AveragingOrder::Second).unwrap()
     }
 
     fn motion() -> AveragedSolution<f64> {

@@ -43,13 +43,14 @@ impl<S: Real> AveragedMotion<S> {
         order: AveragingOrder,
         (coefficients, principal_from_given): (PrincipalCoefficients<S>, Matrix3<S>),
     ) -> Result<Self, Error> {
-        let (body, initial) = (problem.spheroid(), problem.initial());
+        let initial = problem.initial();
         let turned = initial.rotated(&principal_from_given);
+        let principal = Problem::unchecked(*problem.spheroid(), coefficients.tensor(), turned);
         Ok(Self {
             problem: *problem,
             span,
             origin: [span.0, 0.0],
-            mean: AveragedSolution::with_free_rotation_of(initial, body, &coefficients, &turned, order)?,
+            mean: AveragedSolution::with_free_rotation_of(initial, &principal, order)?,
             given_from_principal: principal_from_given.transpose(),
         })
     }

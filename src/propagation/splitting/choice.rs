@@ -286,29 +286,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn the_longest_step_is_as_good_as_asked_for() {
-        for model in &MODELS {
-            let largest = model.largest_turn * model.scheme.stages() as f64;
-            for (epsilon, turn, error) in [(0.3, 1e3, 1e-9), (1e-3, 1e5, 1e-12), (1e-6, 1e2, 1e-10), (1e-9, 10.0, 1e-3)]
-            {
-                let [plain, both] = [Goal::State, Goal::Derivatives].map(|goal| goal.step(model, epsilon, turn, error));
-                assert!(0.0 < both && 0.0 < plain && both <= largest && plain <= largest);
-                let edge = largest * 2e-12;
-                assert!(
-                    10.0 * model.error(epsilon, turn, plain) <= error
-                        && (plain == largest || 10.0 * model.error(epsilon, turn, plain + edge) > error)
-                );
-                let is_good = |step: f64| {
-                    model.error(epsilon, turn, step) <= error
-                        && 10.0 * model.error_of_derivative(epsilon, step) <= error
-                };
-                assert!(is_good(both) && (both == largest || !is_good(both + edge)), "{both} {plain} {largest}");
-            }
-            assert_eq!(Goal::State.step(model, 1e-30, 1.0, 1.0), largest);
-        }
-    }
-
     const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
 
     /// A body that turns at most at `rate`, the torque making up the part `epsilon` of its square.

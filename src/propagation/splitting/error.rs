@@ -145,13 +145,11 @@ fn largest_difference<const V: usize>(a: &Moving<f64, V>, b: &Moving<f64, V>, ra
 
 #[cfg(test)]
 mod tests {
-    use approx::assert_relative_eq;
     use nalgebra::{Matrix3, Vector3};
 
     use super::*;
     use crate::dynamics::{AxisState, Problem, RigidSpheroid};
     use crate::propagation::Motion;
-    use crate::propagation::splitting::flows::AXIS;
     use crate::propagation::splitting::{STRANG, Scheme, SplittingMotion};
 
     const FAST: [f64; 3] = [0.3, -0.7, 1.1];
@@ -199,37 +197,6 @@ mod tests {
     fn the_two_motions_start_off_in_directions_normal_to_each_other() {
         let (first, second) = (Vector3::from(OFF), Vector3::from(OFF_ACROSS));
         assert!(first.dot(&second).abs() < 0.01 * first.norm() * second.norm());
-    }
-
-    /// Of a slow body among nearly equal eigenvalues the motion beside is the one that goes astray. The numbers of roundings have no meaning
-    /// of their own: this tells when they change.
-    #[test]
-    fn the_motion_beside_is_off_by_some_roundings_of_its_start_and_eigenvalues() {
-        let eigenvalues = [0.5012, 0.5004, 0.4984];
-        let motion = motion(eigenvalues, [0.22, 0.14, -0.08], &GRADIENT_8_8_6, 0.3125, 4000.0);
-        let (scene, rounding) = (&motion.axis_states().scene, 0.5012 * f64::EPSILON);
-        let [x, y, z] = eigenvalues;
-        let rounded = [x + 3.7 * rounding, y - 5.3 * rounding, z + 4.1 * rounding];
-        let field = Field::new(scene.field.strength, rounded);
-        let along = DoubleSteps::new(&GRADIENT_8_8_6, &field, motion.step(), scene.largest_rate);
-        let mut beside = scene.start;
-        for (place, unit) in [(AXIS, 1.0), (RATE, scene.largest_rate)] {
-            for (x, part) in beside.vectors[place].iter_mut().zip([9.4, 8.9, -3.1]) {
-                *x += part * f64::EPSILON * unit;
-            }
-        }
-        along.open(&mut beside);
-        let mut most = 0.0_f64;
-        // 2000 pairs of steps make 250 times to compare.
-        for time in 1..=250 {
-            along.advance(&mut beside, scene.casimir, 16);
-            let mut closed = beside;
-            along.close(&mut closed);
-            most = most.max(largest_difference(&closed, &motion.axis_states().after(16 * time), scene.largest_rate));
-        }
-        let estimate = ErrorEstimate::new(motion.axis_states());
-        assert_eq!(estimate.largest.len(), 250);
-        assert_relative_eq!(estimate.largest[249], 6.0 * most, max_relative = 1e-9);
     }
 
     #[test]

@@ -339,36 +339,7 @@ impl<S: Ring> Field<S> {
 
 #[cfg(test)]
 mod tests {
-    use num_dual::Dual64;
-
     use super::*;
-
-    /// `|Gamma|^2 / (I^xx)^2`, for `n` of any length.
-    fn gradient_squared(field: &Field<f64>, n: [Dual64; 3]) -> Dual64 {
-        let torque = [n[1] * n[2] * field.torque[0], n[2] * n[0] * field.torque[1], n[0] * n[1] * field.torque[2]];
-        torque.iter().map(|x| x * x).sum()
-    }
-
-    #[test]
-    fn kick_of_the_force_gradient_is_that_of_its_potential() {
-        let field = Field::new(1.7, [0.3, -0.2, 0.5]);
-        let n = [0.48, 0.6, 0.64];
-        let slope: [f64; 3] = [0, 1, 2].map(|i| {
-            let mut at = n.map(Dual64::from_re);
-            at[i].eps = 1.0;
-            gradient_squared(&field, at).eps
-        });
-        // The potential -c tau^3 |Gamma|^2 / I^xx changes w by +c tau^3 n x d/dn of it over I^xx.
-        let expected = cross(&n, &slope);
-        let mut moving = Moving::new([n, [0.0; 3]]);
-        moving.kick(&field.kick(0.0, 0.01, 0.7));
-        for i in 0..3 {
-            assert!(
-                (moving.vectors[RATE][i] - expected[i] * 0.01 * 0.7f64.powi(3)).abs() < 1e-16,
-                "{i}: {moving:?}, {expected:?}"
-            );
-        }
-    }
 
     #[test]
     fn rotation_is_that_of_rodrigues_at_any_angle() {

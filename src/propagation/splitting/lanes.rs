@@ -271,22 +271,4 @@ mod tests {
         alone.close(&mut state);
         assert_eq!(found, [of_body.state(&state)]);
     }
-
-    #[test]
-    fn the_state_put_in_a_place_is_taken_from_it_again() {
-        let Some(register) = V3::try_new() else { return };
-        let state = |first: f64| Moving::<f64, 3> {
-            vectors: [0.0, 3.0, 6.0].map(|x| [first + x, first + x + 1.0, first + x + 2.0]),
-            low: [0.25, 3.25, 6.25].map(|x| [first + x, first + x + 1.0, first + x + 2.0]),
-        };
-        let other = Moving { low: [[0.0; 3]; 3], ..state(100.0) };
-        let mut states = Moving::<SideBySide<V3, 2>, 3>::gather(register, |_| &other);
-        for place in [2, 7] {
-            states.put(place, &state(10.0 * place as f64));
-        }
-        for place in 0..SideBySide::<V3, 2>::COUNT {
-            let expected = if place == 2 || place == 7 { state(10.0 * place as f64) } else { other };
-            assert_eq!(states.take(place), expected);
-        }
-    }
 }

@@ -129,7 +129,7 @@ macro_rules! of_either {
 #[derive(Debug, Clone)]
 pub(super) struct KeptStates<const V: usize> {
     spheroid: RigidSpheroid<f64>,
-    violation: Matrix3<f64>,
+    coefficients: Matrix3<f64>,
     span: (f64, f64),
     pub(super) scheme: &'static Scheme,
     pub(super) scene: PrincipalProblem<V>,
@@ -220,8 +220,20 @@ impl<const V: usize> KeptStates<V> {
         steps.keep(&mut state, scene.casimir, (stride, step_count / stride), &mut states);
         let end = states.last().map_or(0.0, |state| state.vectors.iter().flatten().sum());
         Error::ensure(end.is_finite(), "step", step, "shorter: with this one the motion leaves the range of numbers")?;
-        let (spheroid, violation, estimate) = (*problem.spheroid(), *problem.coefficients(), OnceLock::new());
-        Ok(Self { spheroid, violation, span, scheme, scene, step: whole, step_count, stride, steps, states, estimate })
+        let (spheroid, coefficients, estimate) = (*problem.spheroid(), *problem.coefficients(), OnceLock::new());
+        Ok(Self {
+            spheroid,
+            coefficients,
+            span,
+            scheme,
+            scene,
+            step: whole,
+            step_count,
+            stride,
+            steps,
+            states,
+            estimate,
+        })
     }
 
     /// The state after a number of whole steps.
@@ -283,7 +295,7 @@ impl<X: RotationState<f64>> Motion<f64> for SplittingMotion<X> {
     }
 
     fn coefficients(&self) -> &Matrix3<f64> {
-        of_either!(self, states => &states.violation)
+        of_either!(self, states => &states.coefficients)
     }
 
     fn span(&self) -> (f64, f64) {
@@ -371,19 +383,6 @@ mod tests {
             assert!((found.momentum - alone.state().momentum).amax() < 1e-11, "{whole}");
         }
         assert_relative_eq!(motion.axis_state(step * count as f64).unwrap().axis.norm(), 1.0, max_relative = 1e-12);
-    }
-
-    #[test]
-    fn between_its_steps_a_motion_goes_by_one_step_of_the_rest() {
-        let motion = motion((0.0, 8.0), 2.0).unwrap();
-        for (time, whole, rest) in [(0.7, 0, 0.7), (1.0, 0, 1.0), (4.5, 2, 0.5), (7.0, 3, 1.0)] {
-            let kept = motion.axis_states();
-            let mut state = kept.after(whole);
-            let partial = DoubleSteps::new(&STRANG, &kept.scene.field, rest, kept.scene.largest_rate);
-            partial.single(&mut state, kept.scene.casimir);
-            let (found, expected) = (motion.axis_state(time).unwrap(), kept.scene.state(&state));
-            assert!((found.axis - expected.axis).amax() < 1e-15 && (found.momentum - expected.momentum).amax() < 1e-15);
-        }
     }
 
     /// What the product of the number of steps and their length loses is known by a fused product here.

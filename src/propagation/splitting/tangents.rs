@@ -218,17 +218,6 @@ mod tests {
 
     use super::*;
 
-    #[test]
-    fn slopes_are_those_of_the_polynomials() {
-        let c = [0.3, -1.7, 0.9, 2.3, -0.6, 1.1, 0.7, -1.9];
-        for x in [0.0, 0.2, 0.49, -0.8] {
-            for (terms, used) in [(5, 5), (8, 8)] {
-                let exact: f64 = (1..used).map(|k| k as f64 * c[k] * f64::powi(x, k as i32 - 1)).sum();
-                assert_relative_eq!(slope(&c, x, terms), exact, max_relative = 1e-14);
-            }
-        }
-    }
-
     /// By `d/dx sin(t)/t = (cos(t) - sin(t)/t) / (2 x)` and `d/dx (1 - cos(t))/x = (sin(t)/t - 2 (1 - cos(t))/x) / (2 x)`, `x = t^2`.
     #[test]
     fn slopes_of_the_sine_and_the_versine_meet_where_the_series_end() {
@@ -245,12 +234,6 @@ mod tests {
                 assert_relative_eq!(*found, exact, epsilon = 4e-16 / x, max_relative = 1e-15);
             }
         }
-    }
-
-    #[test]
-    fn products_are_of_all_three_components() {
-        let v = [FusedDouble(0.3), FusedDouble(-1.1), FusedDouble(0.7)];
-        assert_relative_eq!(product(&v, &[2.0, 5.0, -3.0]).0, 0.6 - 5.5 - 2.1, max_relative = 1e-15);
     }
 
     #[test]

@@ -183,89 +183,11 @@ impl Covariance {
 #[cfg(test)]
 mod tests {
     use approx::assert_relative_eq;
-    use nalgebra::{SMatrix, SVector};
 
     use super::*;
 
-    type Whole = SMatrix<f64, 7, 7>;
-
     fn matrix(seed: f64) -> Matrix3<f64> {
         Matrix3::from_fn(|i, j| (seed + 1.7 * i as f64 - 0.9 * j as f64 + (i * j) as f64).sin())
-    }
-
-    /// A kick and a rotation, and both as matrices on `(theta, w, rho)`.
-    fn maps() -> [(LinearMap, Whole); 2] {
-        let (kick, length, rotation, mean) = (matrix(0.3), Vector3::new(0.4, -1.2, 0.7), matrix(1.1), matrix(-2.3));
-        let mut kicked = Whole::identity();
-        kicked.fixed_view_mut::<3, 3>(3, 0).copy_from(&kick);
-        kicked.fixed_view_mut::<3, 1>(3, 6).copy_from(&length);
-        let mut rotated = Whole::identity();
-        rotated.fixed_view_mut::<3, 3>(0, 0).copy_from(&rotation);
-        rotated.fixed_view_mut::<3, 3>(0, 3).copy_from(&mean);
-        let (of_kick, of_rotation) = (Vector3::new(1e-9, 3e-9, -2e-9), Vector3::new(-4e-9, 1e-9, 5e-9));
-        [
-            (LinearMap::Kick { from_rotation: kick, from_length: length, made: of_kick }, kicked),
-            (LinearMap::Rotation { from_rotation: rotation, from_momentum: mean, made: of_rotation }, rotated),
-        ]
-    }
-
-    fn known() -> Difference {
-        Difference {
-            rotation: Vector3::new(2e-9, -1e-9, 3e-9),
-            momentum: Vector3::new(5e-9, 4e-9, -7e-9),
-            length: 6e-9,
-            off_frame: [8e-9, -3e-9],
-        }
-    }
-
-    /// The estimate of what is carried against that of seven by seven matrices, in two units of momentum.
-    #[test]
-    fn what_is_known_and_its_covariance_are_carried_by_the_maps() {
-        for unit in [1.0, 3.7] {
-            let mut growth = ErrorGrowth::none(unit);
-            let (mut whole, mut mean, mut off_frame) = (Whole::zeros(), SVector::<f64, 7>::zeros(), 0.0);
-            let mut off_known = [0.0; 2];
-            let deviations = [2e-8, 5e-8];
-            for round in 0..3 {
-                for (map, matrix) in maps() {
-                    growth.carry(&map);
-                    whole = matrix * whole * matrix.transpose();
-                    mean = matrix * mean;
-                    let (at, made) = match &map {
-                        LinearMap::Kick { made, .. } => (3, made),
-                        LinearMap::Rotation { made, .. } => (0, made),
-                    };
-                    let mut part = mean.fixed_rows_mut::<3>(at);
-                    part += made;
-                }
-                growth.add(&known(), deviations);
-                let Difference { rotation, momentum, length, off_frame: [a, b] } = known();
-                mean += SVector::from([rotation.x, rotation.y, rotation.z, momentum.x, momentum.y, momentum.z, length]);
-                off_known = [off_known[0] + a, off_known[1] + b];
-                for i in 0..7 {
-                    whole[(i, i)] += deviations[usize::from((3..6).contains(&i))].powi(2);
-                }
-                off_frame += 2.0 * deviations[0].powi(2);
-
-                let trace = |from: usize| (from..from + 3).map(|i| whole[(i, i)]).sum::<f64>();
-                let others = whole[(6, 6)] + off_frame;
-                let variance = trace(0) + trace(3) / (unit * unit) + others;
-                let lengths = mean[6].powi(2) + off_known[0].powi(2) + off_known[1].powi(2);
-                let size = |turn: f64| (turn + mean.fixed_rows::<3>(3).norm_squared() / (unit * unit) + lengths).sqrt();
-                let turn = mean.fixed_rows::<3>(0).into_owned();
-                let expected = 3.0 * size(turn.norm_squared()) + 6.0 * variance.sqrt() + 4.0 * f64::EPSILON;
-                assert_relative_eq!(growth.estimate(None), expected, max_relative = 1e-12);
-                // About the axis a rotation is no error, nor is what is off the frame of unknown size.
-                let axis = Vector3::new(0.36, 0.48, 0.8);
-                let about = axis.dot(&(whole.fixed_view::<3, 3>(0, 0) * axis));
-                let across = turn - axis * axis.dot(&turn);
-                let expected = 3.0 * size(across.norm_squared())
-                    + 6.0 * (variance - about - off_frame).sqrt()
-                    + 4.0 * f64::EPSILON;
-                assert_relative_eq!(growth.estimate(Some(&axis)), expected, max_relative = 1e-12);
-                assert!(round < 3 && expected < 1.0);
-            }
-        }
     }
 
     /// What is left after a contraction holds the rounding of what was there: 32 units of all of it.

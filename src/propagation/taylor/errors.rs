@@ -44,7 +44,7 @@ impl StepError {
 /// Goes through the steps of a motion in their order.
 pub(super) struct TaylorErrors<const V: usize> {
     spheroid: RigidSpheroid<f64>,
-    violation: Matrix3<f64>,
+    tensor: Matrix3<f64>,
     flow: LinearisedFlow,
     shared: SharedRounding,
     /// Relative, of each coefficient from the first on.
@@ -67,11 +67,11 @@ impl<const V: usize> TaylorErrors<V> {
     /// At the start of a motion.
     pub(super) fn of<S: Real>(setup: &ScaledProblem<S, V>) -> Self {
         let (scale, spheroid) = (&setup.scale, setup.spheroid.map(S::re));
-        let violation = setup.frame.violation.map(S::re);
+        let tensor = setup.frame.tensor.map(S::re);
         let unit = scale.time;
         let rate = unit / spheroid.inertia_xx;
         let (shared, at_start) = SharedRounding::of(setup);
-        let flow = LinearisedFlow::new(&spheroid, &violation, unit, shared);
+        let flow = LinearisedFlow::new(&spheroid, &tensor, unit, shared);
         let excess = excess_of_shares(setup).map(|[axis, momentum]| {
             Columns::from_columns(&core::array::from_fn::<_, V, _>(|i| if i == MOMENTUM { momentum } else { axis }))
         });
@@ -86,7 +86,7 @@ impl<const V: usize> TaylorErrors<V> {
         let momentum_unit = scale.momentum * rate;
         Self {
             spheroid,
-            violation,
+            tensor,
             flow,
             shared,
             excess,
@@ -168,7 +168,7 @@ impl<const V: usize> TaylorErrors<V> {
     /// Right-hand sides of the equations of motion in the unit of time of the series.
     fn rates(&self, state: &Columns<V>) -> Columns<V> {
         let (n, momentum): (Vector3<f64>, Vector3<f64>) = (state.column(AXIS).into(), state.column(MOMENTUM).into());
-        let (axis_rate, momentum_rate) = reduced_rates(&self.spheroid, &self.violation, &n, &momentum);
+        let (axis_rate, momentum_rate) = reduced_rates(&self.spheroid, &self.tensor, &n, &momentum);
         let mut rates = Columns::<V>::zeros();
         rates.set_column(AXIS, &axis_rate);
         rates.set_column(MOMENTUM, &momentum_rate);
@@ -192,44 +192,4 @@ fn difference<const V: usize>(state: &Columns<V>, small: &Columns<V>, rate: f64)
         made.off_frame = [of_x.dot(&x), of_x.dot(&n) + of_axis.dot(&x)];
     }
     made
-}
-
-#[cfg(test)]
-mod tests {
-    use approx::assert_relative_eq;
-
-    use super::*;
-    use crate::dynamics::{AxisState, Problem};
-    use crate::propagation::taylor::step_size::Work;
-
-    /// Half a unit in the last place of the largest change of a direction and of that of the momentum, six times their root of squares, by
-    /// hand for a step backwards whose coefficients are any numbers.
-    #[test]
-    fn a_step_rounds_its_changes_of_directions_and_of_the_momentum() {
-        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
-        let violation = Matrix3::from_diagonal(&Vector3::new(0.02_f64, 0.01, -0.03));
-        let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 2.9)];
-        let [axis, momentum] = vectors;
-        let problem = Problem::new(spheroid, violation, AxisState { axis, momentum }).unwrap();
-        let setup = ScaledProblem::<_, 2>::new((true, Work::Waiting), &problem, (0.0, -1.0), 1e-10).unwrap();
-        let mut errors = TaylorErrors::of(&setup);
-        let unit = errors.unit / 1.3;
-        let strength = (2.0_f64 * 1.3).sqrt() * (0.8 * violation.norm()).sqrt();
-        let momentum_unit = (vectors[1].norm() + strength) * unit;
-        let h = -0.4;
-        let column = |x: f64, y: f64, z: f64| Vector3::new(x, y, z);
-        let slow = [Vector3::z(), column(0.05, 0.02, 0.1)];
-        let series = [
-            Columns::<2>::from_columns(&slow),
-            Columns::from_columns(&[column(0.3, -0.5, 0.2), column(2.0, -1.5, 0.4)]),
-            Columns::from_columns(&[column(0.7, 0.1, -0.9), column(-3.0, 1.0, 2.2)]),
-            Columns::zeros(),
-        ];
-        let turned = column(0.3 + 0.28, 0.5 + 0.04, 0.2 + 0.36).norm() * 0.4;
-        let kicked = column(2.0 + 1.2, 1.5 + 0.4, 0.4 + 0.88).norm() * 0.4 * unit;
-        assert!(slow[1].norm() * unit * 0.4 < turned && errors.flow.strength() * 0.4 < kicked);
-        let step = errors.step_of_columns(&series, h, &series[0]);
-        let expected = 6.0 * 0.5 * f64::EPSILON * turned.hypot(kicked / momentum_unit);
-        assert_relative_eq!(step.rounded, expected, epsilon = 0.0, max_relative = 1e-12);
-    }
 }

@@ -45,7 +45,7 @@ fn forecast<X: RotationState<f64>, const V: usize>(
     let spheroid = problem.spheroid();
     let steps = (duration.abs() / setup.drive().first_step(plain())).ceil().max(1.0);
     let scale = &setup.scale;
-    let pull = 2.0 * (spheroid.constant_c / spheroid.inertia_xx).abs() * setup.frame.violation.norm();
+    let pull = 2.0 * (spheroid.constant_c / spheroid.inertia_xx).abs() * setup.frame.tensor.norm();
     let strength = if scale.turning_rate > 0.0 { pull / scale.turning_rate.powi(2) } else { 0.0 };
     let rounding = expected_rounding(scale.turning_rate * duration.abs(), steps, strength, V);
     Ok(TaylorForecast { order: setup.order, steps, rounding })
@@ -87,10 +87,10 @@ mod tests {
     #[test]
     fn a_short_motion_is_one_step() {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
-        let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        let tensor = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
         let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.5, 1.2));
         let initial = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
-        let problem = Problem::new(spheroid, violation, initial).unwrap();
+        let problem = Problem::new(spheroid, tensor, initial).unwrap();
         for duration in [0.0, 1e-3, -1e-3] {
             assert_eq!(problem.taylor_forecast(duration, 1e-10).unwrap().steps, 1.0, "{duration}");
             assert_eq!(problem.reduced().taylor_forecast(duration, 1e-10).unwrap().steps, 1.0, "{duration}");

@@ -10,7 +10,7 @@ use crate::numerics::scalar::Real;
 /// The tensor `s^IJ` without its isotropic part, in the frame of a series, and the way back.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SeriesFrame<S> {
-    pub(super) violation: Matrix3<S>,
+    pub(super) tensor: Matrix3<S>,
     is_principal: bool,
     /// Rotation from the principal frame, where that is the frame of the series and not the given one.
     given_from_series: Option<Matrix3<f64>>,
@@ -21,14 +21,14 @@ impl<S: Real> SeriesFrame<S> {
     pub(super) fn of(anisotropic: &Matrix3<S>, principal: bool) -> Result<Self, Error> {
         let off_diagonal = [(0, 1), (0, 2), (1, 2)].iter().any(|&place| anisotropic[place].re() != 0.0);
         if !principal || !off_diagonal {
-            return Ok(Self { violation: *anisotropic, is_principal: principal, given_from_series: None });
+            return Ok(Self { tensor: *anisotropic, is_principal: principal, given_from_series: None });
         }
         let frame = principal_frame(&anisotropic.map(S::re))?;
         // A step of Newton's method makes the axes orthonormal to rounding: what goes in by them comes out by them.
         let back = frame.principal_from_given.transpose();
         let back = back * (Matrix3::identity() * 1.5 - back.transpose() * back * 0.5);
-        let violation = frame.coefficients.tensor().map(S::from_f64);
-        Ok(Self { violation, is_principal: true, given_from_series: Some(back) })
+        let tensor = frame.coefficients.tensor().map(S::from_f64);
+        Ok(Self { tensor, is_principal: true, given_from_series: Some(back) })
     }
 
     /// Whether it is the principal frame that is computed in, or the given one by whole tensors.

@@ -33,15 +33,10 @@ pub(super) struct LinearisedFlow {
 }
 
 impl LinearisedFlow {
-    /// For the body in the unit of time `unit`; `violation` is `s^IJ` without its trace.
-    pub(super) fn new(
-        spheroid: &RigidSpheroid<f64>,
-        violation: &Matrix3<f64>,
-        unit: f64,
-        shared: SharedRounding,
-    ) -> Self {
+    /// For the body in the unit of time `unit`; `tensor` is `s^IJ` without its trace.
+    pub(super) fn new(spheroid: &RigidSpheroid<f64>, tensor: &Matrix3<f64>, unit: f64, shared: SharedRounding) -> Self {
         let RigidSpheroid { inertia_xx, constant_c, .. } = *spheroid;
-        let pull = violation * (2.0 * unit * (constant_c / inertia_xx) * unit);
+        let pull = tensor * (2.0 * unit * (constant_c / inertia_xx) * unit);
         Self { pull, shared, rate: unit / inertia_xx }
     }
 
@@ -153,12 +148,12 @@ mod tests {
 
     fn flow() -> LinearisedFlow {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
-        let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        let tensor = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
         let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 1.0)];
         let [axis, momentum] = vectors;
-        let problem = Problem::unchecked(spheroid, violation, AxisState { axis, momentum });
+        let problem = Problem::unchecked(spheroid, tensor, AxisState { axis, momentum });
         let setup = ScaledProblem::<f64, 2>::new((true, Work::Quadratic), &problem, (0.0, 1.0), 1e-10).unwrap();
-        LinearisedFlow::new(&spheroid, &violation, 1.0, SharedRounding::of(&setup).0)
+        LinearisedFlow::new(&spheroid, &tensor, 1.0, SharedRounding::of(&setup).0)
     }
 
     /// The rotation by `w h` and its mean from the time zero to `h`, on both sides of the angle of a thousandth where the series end.

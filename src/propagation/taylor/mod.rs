@@ -330,7 +330,7 @@ impl<S: Real, X: RotationState<S>> Motion<S> for TaylorMotion<S, X> {
     }
 
     fn coefficients(&self) -> &Matrix3<S> {
-        of_either!(self, series => &series.setup.violation)
+        of_either!(self, series => &series.setup.tensor)
     }
 
     fn span(&self) -> (f64, f64) {
@@ -409,14 +409,14 @@ mod tests {
     #[test]
     fn what_rounding_makes_of_the_time_is_in_the_estimated_error() {
         let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.6, constant_c: 0.8 };
-        let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        let tensor = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
         let initial = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.5, 1.2) };
-        let problem = Problem::new(spheroid, violation, initial).unwrap();
+        let problem = Problem::new(spheroid, tensor, initial).unwrap();
         let kept = |start: f64| problem.taylor((start, 30.0), 1e-6).unwrap().error_estimate(30.0);
         let sampled = |start: f64| {
             problem.taylor_states(start, &[30.0], 1e-6, ErrorEstimates::Wanted).unwrap().error_estimates[0]
         };
-        let size: f64 = violation.norm();
+        let size: f64 = tensor.norm();
         let momentum = initial.momentum.norm() + (2.6 * 0.8 * size).sqrt();
         let turning = momentum / 1.3 * (1.0 + 0.3 / 1.6);
         // Half a unit in the last place of 30 is 1.8e-15.

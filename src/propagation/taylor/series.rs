@@ -63,7 +63,7 @@ pub(super) struct Recurrence<A: Arithmetic, const V: usize> {
     /// `2 C unit / (k+1)`, in the principal frame times the differences of eigenvalues.
     share_of_momentum: Box<Row<A::Vector>>,
     /// Columns of `s`.
-    violation: [A::Vector; 3],
+    tensor: [A::Vector; 3],
     axis: Box<Row<A::Permuted>>,
     momentum: Box<Row<A::Permuted>>,
     /// `s n`; unused in the principal frame.
@@ -82,13 +82,13 @@ struct Sums<T> {
 impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
     /// The recurrences up to `order`. `axis_rate` is `unit / I^xx` for the unit of time of the series, `momentum_rate` is
     /// `2 C unit`, in the principal frame times the differences of eigenvalues `s^YY - s^ZZ, s^ZZ - s^XX, s^XX - s^YY`;
-    /// `violation` has the columns of `s`, which are not used there.
+    /// `tensor` has the columns of `s`, which are not used there.
     pub(super) fn new(
         arithmetic: A,
         order: usize,
         axis_rate: A::Vector,
         momentum_rate: A::Vector,
-        violation: [A::Vector; 3],
+        tensor: [A::Vector; 3],
     ) -> Self {
         let a = arithmetic;
         let zero = a.zero();
@@ -98,7 +98,7 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
             order,
             share_of_axis: Row::filled(zero),
             share_of_momentum: Row::filled(zero),
-            violation,
+            tensor,
             axis: turned(),
             momentum: turned(),
             pulled: turned(),
@@ -246,7 +246,7 @@ impl<A: Arithmetic, const V: usize> Recurrence<A, V> {
         self.axis.put(k, a.permuted(coefficient[AXIS]));
         self.momentum.put(k, a.permuted(coefficient[MOMENTUM]));
         if !A::PRINCIPAL_FRAME {
-            self.pulled.put(k, a.permuted(a.combine(&self.violation, coefficient[AXIS])));
+            self.pulled.put(k, a.permuted(a.combine(&self.tensor, coefficient[AXIS])));
         }
         if V > COMPANION {
             self.companion.put(k, a.permuted(coefficient[COMPANION]));

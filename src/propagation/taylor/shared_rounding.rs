@@ -35,9 +35,9 @@ impl SharedRounding {
     /// Of a motion, and the difference of its start in `n`, `L` and the vector carried along.
     pub(super) fn of<S: Real, const V: usize>(setup: &ScaledProblem<S, V>) -> (Self, [Vector3<f64>; V]) {
         let spheroid = setup.spheroid.map(S::re);
-        let given = setup.violation.map(S::re);
+        let given = setup.tensor.map(S::re);
         let frame = &setup.frame;
-        let used = frame.violation.map(S::re);
+        let used = frame.tensor.map(S::re);
         let start = setup.given_start.map(|v| v.map(S::re));
         let rates = setup.drive().rates();
 
@@ -156,17 +156,17 @@ mod tests {
 
     const SPHEROID: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.1, constant_c: 0.8 };
 
-    fn setup<const V: usize>(violation: &Matrix3<f64>, vectors: [Vector3<f64>; V]) -> ScaledProblem<f64, V> {
-        setup_of(SPHEROID, violation, vectors)
+    fn setup<const V: usize>(tensor: &Matrix3<f64>, vectors: [Vector3<f64>; V]) -> ScaledProblem<f64, V> {
+        setup_of(SPHEROID, tensor, vectors)
     }
 
     fn setup_of<const V: usize>(
         spheroid: RigidSpheroid<f64>,
-        violation: &Matrix3<f64>,
+        tensor: &Matrix3<f64>,
         vectors: [Vector3<f64>; V],
     ) -> ScaledProblem<f64, V> {
         let vectors = core::array::from_fn(|i| vectors.get(i).copied().unwrap_or_default());
-        let problem = Problem::unchecked(spheroid, *violation, BodyState::from_vectors(vectors));
+        let problem = Problem::unchecked(spheroid, *tensor, BodyState::from_vectors(vectors));
         ScaledProblem::new((true, Work::Waiting), &problem, (0.0, 1.0), 1e-10).unwrap()
     }
 
@@ -176,7 +176,7 @@ mod tests {
         let given = Matrix3::new(0.21, 0.04, -0.03, 0.04, 0.0011, 0.06, -0.03, 0.06, -0.003);
         let setup = setup(&given, [Vector3::z(), Vector3::new(0.1, 0.2, 2.9)]);
         let found = SharedRounding::of(&setup).0.tensor;
-        let (back, used) = (setup.frame.given_from_series().unwrap(), setup.frame.violation);
+        let (back, used) = (setup.frame.given_from_series().unwrap(), setup.frame.tensor);
         let isotropic = given.trace() / 3.0;
         let sum = |term: &dyn Fn(usize) -> DoubleDouble| term(0) + term(1) + term(2);
         let traceless = |i: usize, j: usize| DoubleDouble::sum(given[(i, j)], if i == j { -isotropic } else { 0.0 });
@@ -222,10 +222,10 @@ mod tests {
     /// By fused multiplication, of twelve coefficients. A rate of one is not exact in its parts, one of zero is.
     #[test]
     fn shares_of_the_rates_are_rounded() {
-        let violation = Matrix3::from_diagonal(&Vector3::new(0.021, 0.021, -0.042));
+        let tensor = Matrix3::from_diagonal(&Vector3::new(0.021, 0.021, -0.042));
         let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.0, constant_c: 0.8 };
         let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 1.1)];
-        let setup = setup_of(spheroid, &violation, vectors);
+        let setup = setup_of(spheroid, &tensor, vectors);
         let rates = setup.drive().rates();
         assert_eq!((rates.axis, rates.momentum_of_principal[2]), (1.0, 0.0));
         let found = excess_of_shares(&setup);

@@ -15,7 +15,7 @@ use crate::propagation::taylor::step_size::{Scale, step_size};
 pub(super) struct Stepper<'a, S, const V: usize> {
     pub(super) spheroid: &'a RigidSpheroid<S>,
     /// Traceless, in the frame of the series.
-    pub(super) violation: &'a Matrix3<S>,
+    pub(super) tensor: &'a Matrix3<S>,
     /// In the frame of the series.
     pub(super) start: &'a Vectors<Padded<S>, V>,
     pub(super) scale: &'a Scale,
@@ -43,7 +43,7 @@ impl<S: Real, const V: usize> Stepper<'_, S, V> {
         let RigidSpheroid { inertia_xx, constant_c, .. } = *self.spheroid;
         let unit = self.scale.time;
         let momentum = constant_c * (2.0 * unit);
-        let [x, y, z] = [0, 1, 2].map(|i| self.violation[(i, i)]);
+        let [x, y, z] = [0, 1, 2].map(|i| self.tensor[(i, i)]);
         let momentum_of_principal = [y - z, z - x, x - y].map(|difference| momentum * difference);
         Rates { axis: S::from_f64(unit) / inertia_xx, momentum, momentum_of_principal }
     }
@@ -55,7 +55,7 @@ impl<S: Real, const V: usize> Stepper<'_, S, V> {
         } else {
             a.splat(rates.momentum)
         };
-        let columns = [0, 1, 2].map(|i| a.load(&Padded::from(self.violation.column(i).into_owned())));
+        let columns = [0, 1, 2].map(|i| a.load(&Padded::from(self.tensor.column(i).into_owned())));
         Recurrence::new(a, self.order, a.splat(rates.axis), momentum_rate, columns)
     }
 

@@ -4,7 +4,7 @@
 //!
 //! ```
 //! use nalgebra::Vector3;
-//! use twofold::dynamics::{BodyState, RigidSpheroid};
+//! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 //! use twofold::euler_angles::{EulerAngles, EulerRates};
 //! use twofold::lorentz_violation::PrincipalCoefficients;
 //! use twofold::solutions::averaged::slow_precession::slow_precession;
@@ -20,7 +20,7 @@
 //! let state = BodyState::from_angles(&star, &angles, &rates);
 //! let weak = s.scaled(1e-3);
 //! let values = Vector3::new(weak.xx, weak.yy, weak.zz);
-//! let motion = AveragedSolution::new(&star, &weak, &state, AveragingOrder::Second)?;
+//! let motion = AveragedSolution::new(&Problem::new(star, weak.tensor(), state)?, AveragingOrder::Second)?;
 //! assert!((motion.state(0.0).axis - state.axis).amax() < 1e-12);
 //! assert!((motion.state(1e3).axis.norm() - 1.0).abs() < 1e-3);
 //!

@@ -8,9 +8,8 @@ use super::generator::{Axes, transformation};
 use super::hamiltonian::{AveragingOrder, MeanPotential};
 use super::phases::{Added, AveragedPhases, AveragedRates, AveragedTurns, Turns, excess_of_length, turning};
 use super::top::{Top, TopPhases, TopShape};
-use crate::dynamics::{BodyState, RigidSpheroid, check_problem};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
-use crate::lorentz_violation::PrincipalCoefficients;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::{Real, length};
 
@@ -71,20 +70,14 @@ fn rotated_about<S: Real>(axis: &Vector3<S>, v: &Vector3<S>, angle: S) -> Vector
 }
 
 impl<S: Real> AveragedSolution<S> {
-    /// The motion from `initial`, in the principal frame of `s`, at the time zero.
+    /// The motion of a problem in the principal frame of its `s`, from its initial state at the time zero.
     ///
     /// # Errors
-    /// [`Error::Domain`] for a state or parameter that is not finite, axes that are not orthonormal (to 1e-9), moments of inertia that are
-    /// not positive; and where the motion is not a fast rotation with a slow precession: `|C| (s_max - s_min) I^xx / |L|^2` must be
-    /// below 0.2, and the mean energy must determine `G`. With derivatives (duals), also where `L` rests or is on a separatrix: there the
-    /// elliptic functions have none.
-    pub fn new(
-        spheroid: &RigidSpheroid<S>,
-        s: &PrincipalCoefficients<S>,
-        initial: &BodyState<S>,
-        order: AveragingOrder,
-    ) -> Result<Self, Error> {
-        Self::with_free_rotation_of(initial, spheroid, s, initial, order)
+    /// [`Error::Domain`] for `s` that is not diagonal, and where the motion is not a fast rotation with a slow precession:
+    /// `|C| (s_max - s_min) I^xx / |L|^2` must be below 0.2, and the mean energy must determine `G`. With derivatives (duals), also where `L`
+    /// rests or is on a separatrix: there the elliptic functions have none.
+    pub fn new(problem: &Problem<S>, order: AveragingOrder) -> Result<Self, Error> {
+        Self::with_free_rotation_of(problem.initial(), problem, order)
     }
 
     /// As [`new`](Self::new), for an initial state that was `given` in another frame. There `|L|` and `L.n` have all their digits, of which a
@@ -94,14 +87,20 @@ impl<S: Real> AveragedSolution<S> {
     /// As for [`new`](Self::new).
     pub fn with_free_rotation_of(
         given: &BodyState<S>,
-        spheroid: &RigidSpheroid<S>,
-        s: &PrincipalCoefficients<S>,
-        initial: &BodyState<S>,
+        problem: &Problem<S>,
         order: AveragingOrder,
     ) -> Result<Self, Error> {
-        check_problem(spheroid, &s.tensor(), initial)?;
+        let (spheroid, initial) = (problem.spheroid(), problem.initial());
+        let off_diagonal = [(0, 1), (0, 2), (1, 2)].map(|place| problem.coefficients()[place].re().abs());
+        let largest = off_diagonal.into_iter().fold(0.0, f64::max);
+        Error::ensure(
+            largest == 0.0,
+            "largest s^IJ off the diagonal",
+            largest,
+            "zero: use the principal frame of s^IJ",
+        )?;
         let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
-        let values = Vector3::new(s.xx, s.yy, s.zz);
+        let values = problem.coefficients().diagonal();
         let s = values.map(|value| value - (values.x + values.y + values.z) / 3.0);
         // The rotation from the frame given would bring in its rounding, and that of its derivatives, which are as large as the inverse of `s`.
         let size = length(&given.momentum);
@@ -339,6 +338,7 @@ impl<S: Real> AveragedSolution<S> {
 #[cfg(test)]
 mod tests {
     use approx::assert_relative_eq;
+    use nalgebra::Matrix3;
     use num_dual::Dual64;
 
     use super::*;
@@ -347,9 +347,9 @@ mod tests {
         let [inertia_xx, inertia_zz, constant_c] = [1.3, 1.6, 0.8].map(S::from_f64);
         let [axis, equatorial_axis] = [axis, [0.0, 1.0, 0.0]].map(|v| Vector3::from(v.map(S::from_f64)));
         let initial = BodyState { axis, momentum: momentum.into(), equatorial_axis };
-        let s = PrincipalCoefficients::new(values.map(S::from_f64));
+        let s = Matrix3::from_diagonal(&values.map(S::from_f64).into());
         let spheroid = RigidSpheroid { inertia_xx, inertia_zz, constant_c };
-        AveragedSolution::new(&spheroid, &s, &initial, AveragingOrder::First).unwrap()
+        AveragedSolution::new(&Problem::new(spheroid, s, initial).unwrap(), AveragingOrder::First).unwrap()
     }
 
     fn motion<S: Real>(values: [f64; 3], momentum: [S; 3]) -> AveragedSolution<S> {

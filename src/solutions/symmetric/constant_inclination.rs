@@ -77,16 +77,6 @@ mod tests {
     }
 
     #[test]
-    fn the_slope_is_that_of_the_rate_at_constant_momentum() {
-        let motion = steady::<f64>();
-        let omega = 0.9;
-        let momentum = motion.rates.alpha * motion.sin * motion.sin + omega * motion.cos;
-        let u = Dual64::from(motion.cos).derivative();
-        let rate = (Dual64::from(momentum) - u * omega) / (Dual64::from(1.0) - u * u);
-        assert_relative_eq!(motion.slope_of_alpha(omega), rate.eps, max_relative = 1e-14);
-    }
-
-    #[test]
     fn rates_are_those_of_the_angles() {
         let omega = 0.9;
         let start = angles(omega, 0.0);

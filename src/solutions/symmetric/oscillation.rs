@@ -260,23 +260,6 @@ mod tests {
         }
     }
 
-    /// By the pair itself, conjugate as its mean is less than the root of its product; also where the sum of squares would cancel.
-    #[test]
-    fn the_roots_of_a_conjugate_pair_are_those_of_its_members() {
-        for mean in [-0.65, -0.3, 0.2] {
-            let motion = oscillation(mean, 0.7);
-            for (xi, eta) in [(0.3, 1.4), (0.9, 0.5), (0.6, -2.3)] {
-                let (real, imaginary) = (xi * xi + mean * eta * eta, (0.49_f64 - mean * mean).sqrt() * eta * eta);
-                let size = real.hypot(imaginary);
-                // The root of a member has the real part sqrt((size + real) / 2), and the sum of both is twice that.
-                let half_turn = imaginary.atan2(real) / 2.0;
-                let (sum, product) = motion.roots_of_pair(xi, eta);
-                assert_relative_eq!(product, size, max_relative = 1e-14);
-                assert_relative_eq!(sum, 2.0 * size.sqrt() * half_turn.cos(), max_relative = 1e-13);
-            }
-        }
-    }
-
     /// Beside the pole and through it, where the square of the constant is out of range.
     #[test]
     fn through_a_pole_there_is_half_a_turn_in_the_sense_of_the_constant() {

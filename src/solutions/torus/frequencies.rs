@@ -2,14 +2,13 @@
 
 use core::f64::consts::TAU;
 
-use nalgebra::{Matrix2, Vector3};
+use nalgebra::Matrix2;
 
 use super::flow::Integrals;
 use super::lattice::{MOST_CORRECTIONS, Period, ROUNDING, Torus};
 use super::slow_course::SlowCourse;
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
-use crate::lorentz_violation::PrincipalCoefficients;
 use crate::solutions::averaged::{AveragedRates, AveragedSolution, AveragingOrder};
 
 /// Difference from the rates of the averaged motion, in slow ones, up to which it names the others.
@@ -35,7 +34,7 @@ pub struct TorusFrequencies {
     pub uncertainty: [f64; 3],
 }
 
-/// Exact frequencies of the motion from `initial`, in the principal frame of `s`, which turns fast against the torque.
+/// Exact frequencies of the motion of a problem in the principal frame of its `s`, which turns fast against the torque.
 ///
 /// `H` and `K` have commuting flows on the torus of `(n, L)`. The times `(t_i, k_i)` along both that lead back to the start form a lattice; a basis
 /// of it, once round `L` and once round the slow circle of `L`, is found by Newton steps, which need no derivatives of the flow: what is left to
@@ -53,13 +52,10 @@ pub struct TorusFrequencies {
 /// # Errors
 /// [`Error::Domain`] as for [`AveragedSolution::new`], and for isotropic `s`. [`Error::NotConverged`] where the torus is thin or no torus: `n` on `L`, `L` on an axis, the
 /// separatrix.
-pub fn torus_frequencies(
-    spheroid: &RigidSpheroid<f64>,
-    s: &PrincipalCoefficients<f64>,
-    initial: &BodyState<f64>,
-) -> Result<TorusFrequencies, Error> {
-    let mean = AveragedSolution::new(spheroid, s, initial, AveragingOrder::Second)?;
-    let values = Vector3::new(s.xx, s.yy, s.zz);
+pub fn torus_frequencies(problem: &Problem<f64>) -> Result<TorusFrequencies, Error> {
+    let mean = AveragedSolution::new(problem, AveragingOrder::Second)?;
+    let (spheroid, initial) = (problem.spheroid(), problem.initial());
+    let values = problem.coefficients().diagonal();
     let values = values.map(|value| value - values.mean());
     let spread = values.max() - values.min();
     Error::ensure(spread > 0.0, "s_max - s_min", spread, "above zero: without it there is no torque")?;
@@ -132,22 +128,29 @@ fn named([round_l, turned]: [f64; 2], round_axis: f64, mean: &AveragedRates<f64>
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
     use crate::dynamics::first_integrals::{FirstIntegrals, first_integrals};
+    use crate::lorentz_violation::PrincipalCoefficients;
     use crate::solutions::torus::{separatrix_motion, states_with_integrals};
 
-    fn scene(direction: Vector3<f64>) -> (RigidSpheroid<f64>, PrincipalCoefficients<f64>, BodyState<f64>) {
-        let axis = Vector3::new(0.6, 0.0, 0.8);
-        let state = BodyState { axis, momentum: direction * 1.4, equatorial_axis: Vector3::y() };
-        (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new([0.02, 0.01, -0.04]), state)
+    const S: PrincipalCoefficients<f64> = PrincipalCoefficients { xx: 0.02, yy: 0.01, zz: -0.04 };
+    const BODY: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.1, constant_c: 1.0 };
+
+    fn state(direction: Vector3<f64>) -> BodyState<f64> {
+        BodyState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: direction * 1.4, equatorial_axis: Vector3::y() }
+    }
+
+    fn frequencies(s: &PrincipalCoefficients<f64>, state: BodyState<f64>) -> Result<TorusFrequencies, Error> {
+        torus_frequencies(&Problem::new(BODY, s.tensor(), state).unwrap())
     }
 
     #[test]
     fn components_are_images_with_the_same_frequencies() {
-        let (body, s, state) = scene(Vector3::new(0.0, 0.28, 0.96));
-        let integrals = first_integrals(&body, &s.tensor(), &state);
-        let found = states_with_integrals(&body, &s, &integrals).unwrap();
-        let ends = found.components().unwrap().map(|state| torus_frequencies(&body, &s, &state).unwrap());
+        let integrals = first_integrals(&BODY, &S.tensor(), &state(Vector3::new(0.0, 0.28, 0.96)));
+        let found = states_with_integrals(&BODY, &S, &integrals).unwrap();
+        let ends = found.components().unwrap().map(|state| frequencies(&S, state).unwrap());
         assert_eq!(found.round, Some(ends[0].axis));
         assert!((ends[0].slow + ends[1].slow).abs() < 1e-14 && ends[0].slow.abs() > 1e-3);
         let off = |a: Option<f64>, b: Option<f64>| (a.unwrap() - b.unwrap()).abs();
@@ -157,62 +160,24 @@ mod tests {
 
     #[test]
     fn what_is_no_torus_is_refused() {
-        let (body, s, state) = scene(Vector3::z());
+        let state = state(Vector3::z());
         let isotropic = PrincipalCoefficients::new([0.01; 3]);
-        assert!(matches!(torus_frequencies(&body, &isotropic, &state), Err(Error::Domain { .. })));
+        assert!(matches!(frequencies(&isotropic, state), Err(Error::Domain { .. })));
         let spin = BodyState { axis: Vector3::z(), equatorial_axis: Vector3::x(), ..state };
-        assert!(matches!(torus_frequencies(&body, &s, &spin), Err(Error::NotConverged { .. })));
-        let integrals = first_integrals(&body, &s.tensor(), &state);
-        let refused = |change: &dyn Fn(&mut FirstIntegrals<f64>)| {
-            let mut integrals = integrals;
-            change(&mut integrals);
-            assert!(matches!(states_with_integrals(&body, &s, &integrals), Err(Error::Domain { .. })));
-        };
-        refused(&|integrals| integrals.clebsch += 0.2);
-        refused(&|integrals| integrals.clebsch -= 0.2);
-        refused(&|integrals| integrals.energy = 0.1);
-        refused(&|integrals| integrals.spin = f64::NAN);
-        assert!(states_with_integrals(&body, &isotropic, &integrals).is_err());
-        assert!(separatrix_motion(&body, &isotropic, integrals.energy, integrals.spin).is_err());
-        let unstable = separatrix_motion(&body, &s, integrals.energy, integrals.spin).unwrap();
-        assert!(torus_frequencies(&body, &s, &unstable).is_err());
-    }
-
-    /// Of a small torque: the flow along `K` that a turn needs beside that along `H`, to first order in it.
-    #[test]
-    fn a_fast_turn_is_nearly_closed() {
-        let body = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
-        let values = Vector3::new(2.1e-4, -1.3e-4, -0.8e-4);
-        let spread = values.max() - values.min();
-        for momentum in [Vector3::new(0.4, 0.7, 1.9), Vector3::new(-1.6, 0.3, 0.8)] {
-            let axis = Vector3::new(0.6, 0.0, 0.8);
-            let start = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
-            let guess = fast_turn(&body, spread, &start);
-            let integrals = Integrals::new(&body, &values, spread);
-            let torus = Torus { integrals, start: [axis, momentum, Vector3::y()], size: momentum.norm() };
-            let found = torus.period(guess).unwrap();
-            for (time, near) in found.times.into_iter().zip(guess) {
-                assert!((near / time - 1.0).abs() < 2e-3, "{guess:?} {found:?}");
-            }
+        assert!(matches!(frequencies(&S, spin), Err(Error::NotConverged { .. })));
+        let integrals = first_integrals(&BODY, &S.tensor(), &state);
+        for wrong in [
+            FirstIntegrals { clebsch: integrals.clebsch + 0.2, ..integrals },
+            FirstIntegrals { clebsch: integrals.clebsch - 0.2, ..integrals },
+            FirstIntegrals { energy: 0.1, ..integrals },
+            FirstIntegrals { spin: f64::NAN, ..integrals },
+        ] {
+            assert!(matches!(states_with_integrals(&BODY, &S, &wrong), Err(Error::Domain { .. })), "{wrong:?}");
         }
-    }
-
-    /// By the inverse of periods that are changed one after the other, each by a share of its error.
-    #[test]
-    fn errors_of_rates_are_those_of_changed_periods() {
-        let (periods, of_periods) = (Matrix2::new(5.0, -0.7, 1.9, 311.0), [3e-6, 2e-5]);
-        let inverse = periods.try_inverse().unwrap();
-        let found = errors_of_rates(&inverse, of_periods);
-        for (i, error) in found.into_iter().enumerate() {
-            let mut worst = 0.0_f64;
-            for signs in 0..16 {
-                let sign = |bit: u32| if signs >> bit & 1 == 0 { 1.0 } else { -1.0 };
-                let moved = Matrix2::from_fn(|row, k| sign((2 * row + k) as u32) * of_periods[k]);
-                let changed = (periods + moved).try_inverse().unwrap() - inverse;
-                worst = worst.max((TAU * changed[(i, 0)]).abs());
-            }
-            assert!((worst / error - 1.0).abs() < 1e-4, "{i}: {worst:e} {error:e}");
-        }
+        assert!(states_with_integrals(&BODY, &isotropic, &integrals).is_err());
+        assert!(separatrix_motion(&BODY, &isotropic, integrals.energy, integrals.spin).is_err());
+        let unstable = separatrix_motion(&BODY, &S, integrals.energy, integrals.spin).unwrap();
+        assert!(frequencies(&S, unstable).is_err());
     }
 
     #[test]
@@ -236,20 +201,5 @@ mod tests {
         for near in [0.15, -0.15] {
             assert!(off(near, 0.0).is_some() && off(0.0, near).is_some() && off(near, -near).is_some());
         }
-    }
-
-    /// Of the rates about `L` and `n` beyond that of the slow one, and of the body's own turn in the last.
-    #[test]
-    fn uncertainties_grow_from_the_slow_rate_to_the_fast_ones() {
-        let (body, s, state) = scene(Vector3::new(0.0, 0.28, 0.96));
-        let found = torus_frequencies(&body, &s, &state).unwrap();
-        let [slow, about_momentum, about_axis] = found.uncertainty;
-        let rotation = 1.4 / body.inertia_xx;
-        assert!(slow > 0.0 && about_momentum > slow, "{found:?}");
-        assert!(
-            about_momentum > 0.2 * ROUNDING * rotation && about_momentum < 100.0 * ROUNDING * rotation,
-            "{found:?}"
-        );
-        assert!(((about_axis - about_momentum) / (ROUNDING * rotation) - 1.0).abs() < 1e-9, "{found:?}");
     }
 }

@@ -141,12 +141,6 @@ mod tests {
         Torus { integrals, start, size: momentum.norm() }
     }
 
-    /// `n`, and `L` in units of its length: all parts of the start count.
-    fn off(torus: &Torus, at: &Axes<f64>) -> f64 {
-        let n = (at[0] - torus.start[0]).amax();
-        n.max((at[1] - torus.start[1]).amax() / torus.start[1].norm())
-    }
-
     #[test]
     fn a_way_without_another_is_the_difference() {
         let period = |times, turn, error| Period { times, turn, error };
@@ -159,70 +153,6 @@ mod tests {
         assert_eq!(found.times, wanted.times);
         assert!((long.without(3.0, &short).error / 3.6e-3 - 1.0).abs() < 1e-15);
         assert_eq!(long.without(3.0, &short).times, [2.5, 180.0]);
-    }
-
-    #[test]
-    fn a_gap_is_that_of_the_ends() {
-        let torus = torus(0.3, [0.4, -0.7, 1.9]);
-        let ([a, b], times) = (torus.gap([0.8, -0.5]).1, [0.8, -0.5]);
-        for (k, end) in [(0.5, a), (-0.5, b)] {
-            let alone = torus.integrals.moved([times[0] * k, 0.0], &torus.start);
-            let both = torus.integrals.moved([0.0, times[1] * k], &alone);
-            assert!((0..3).all(|i| (both[i] - end[i]).norm() < 1e-14));
-        }
-        let gap = torus.gap(times).0;
-        for i in 0..3 {
-            assert!((gap[i] - (a[0] - b[0])[i]).abs() < 1e-15);
-            assert!((gap[3 + i] - (a[1] - b[1])[i] / torus.size).abs() < 1e-15);
-        }
-    }
-
-    #[test]
-    fn ways_found_are_closed_and_turn_the_body_as_told() {
-        for (strength, momentum) in [(0.3, [0.4, -0.7, 1.9]), (0.1, [1.6, 0.5, -0.4]), (0.03, [-0.3, 1.2, 1.1])] {
-            let torus = torus(strength, momentum);
-            let fast = TAU * BODY.inertia_xx / torus.size;
-            let found = torus.period([fast, 0.0]).unwrap();
-            let end = torus.integrals.moved(found.times, &torus.start);
-            assert!(off(&torus, &end) < 1e-13, "{found:?}");
-            // The vector of the body, turned about n.
-            let [n, _, e] = torus.start;
-            let turned = e * found.turn.cos() + n.cross(&e) * found.turn.sin();
-            assert!((turned - end[2]).norm() < 1e-12, "{found:?} {turned} {}", end[2]);
-            // A start that is off by a twentieth of a turn leads to the same way.
-            let again = torus.period([1.05 * found.times[0], found.times[1]]).unwrap();
-            assert!((0..2).all(|i| (again.times[i] - found.times[i]).abs() < 1e-12), "{found:?} {again:?}");
-            // The error is the gap over how much a time moves the ends, where that is least: by the flows after the way.
-            let rates = [[1.0, 0.0], [0.0, 1.0]].map(|unit| torus.vector(torus.integrals.rates(unit, &end)));
-            let gram = SMatrix::<f64, 2, 2>::from_fn(|i, j| rates[i].dot(&rates[j]));
-            let least = gram.symmetric_eigenvalues().min().sqrt();
-            let gap = found.error * least;
-            assert!(gap > 0.8 * ROUNDING && gap < 5.0 * ROUNDING, "{gap:e}");
-        }
-    }
-
-    #[test]
-    fn a_slow_way_is_found_from_a_poor_start() {
-        for (strength, momentum) in [(0.1, [0.4, -0.7, 1.9]), (0.03, [1.6, 0.5, -0.4]), (0.03, [0.3, 1.9, 0.2])] {
-            let torus = torus(strength, momentum);
-            let fast = torus.period([TAU * BODY.inertia_xx / torus.size, 0.0]).unwrap();
-            let area = |slow: &Period| (fast.times[0] * slow.times[1] - fast.times[1] * slow.times[0]).abs();
-            // As it is seen: L of the averaged motion comes back after some time along K.
-            let rough = TAU * BODY.inertia_xx / torus.size;
-            let found: Vec<_> = (1..40)
-                .filter_map(|i| torus.slow_period(fast.times, 0.25 * f64::from(i) * rough))
-                .filter(|slow| area(slow) > 1e-6)
-                .collect();
-            assert!(!found.is_empty());
-            let least = found.iter().map(area).fold(f64::INFINITY, f64::min);
-            let period = least / fast.times[0];
-            for (k, share) in [0.95, 0.98, 1.0, 1.02, 1.05].into_iter().enumerate() {
-                let slow = torus.slow_period(fast.times, share * period);
-                let slow = slow.unwrap_or_else(|| panic!("{strength} {k}: none"));
-                assert!((area(&slow) / least - 1.0).abs() < 1e-9, "{strength} {k}: {slow:?} {}", area(&slow) / least);
-                assert!(off(&torus, &torus.integrals.moved(slow.times, &torus.start)) < 1e-13);
-            }
-        }
     }
 
     /// A flow that is slower by far than the other one leads nowhere within rounding.

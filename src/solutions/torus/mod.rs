@@ -6,7 +6,7 @@
 //! # Example
 //!
 //! ```
-//! use twofold::dynamics::{BodyState, RigidSpheroid};
+//! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 //! use twofold::euler_angles::{EulerAngles, EulerRates};
 //! use twofold::lorentz_violation::PrincipalCoefficients;
 //! use twofold::dynamics::first_integrals::first_integrals;
@@ -17,12 +17,13 @@
 //! let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
 //! let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
 //! let state = BodyState::from_angles(&star, &angles, &rates);
-//! let frequencies = torus_frequencies(&star, &s, &state)?;
+//! let problem = Problem::new(star, s.tensor(), state)?;
+//! let frequencies = torus_frequencies(&problem)?;
 //! assert!(frequencies.slow != 0.0);
 //! // A state with the same integrals lies on the same torus.
 //! let integrals = first_integrals(&star, &s.tensor(), &state);
 //! let other = states_with_integrals(&star, &s, &integrals)?.states[0];
-//! assert!((torus_frequencies(&star, &s, &other)?.slow / frequencies.slow - 1.0).abs() < 1e-9);
+//! assert!((torus_frequencies(&problem.starting_from(other)?)?.slow / frequencies.slow - 1.0).abs() < 1e-9);
 //! let unstable = separatrix_motion(&star, &s, integrals.energy, integrals.spin)?;
 //! assert!((first_integrals(&star, &s.tensor(), &unstable).energy - integrals.energy).abs() < 1e-9);
 //! # Ok::<(), twofold::Error>(())

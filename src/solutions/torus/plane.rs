@@ -225,44 +225,6 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_plane_has_the_integrals_of_its_states() {
-        let values = Vector3::new(S.xx, S.yy, S.zz);
-        for body in [BODY, PROLATE] {
-            for axes in [[0, 1], [1, 2], [2, 0]] {
-                for b in [0.3, 1.2, -0.7, 2.9] {
-                    for along in [0.9, -0.4, 0.0] {
-                        let state = in_plane(axes, b, along, 1.7);
-                        let integrals = first_integrals(&body, &S.tensor(), &state);
-                        let plane = wanted(&body, &integrals).plane(&values, axes);
-                        assert_relative_eq!(plane.momentum_across(b), 1.7, max_relative = 1e-14);
-                        assert!(plane.miss(b).abs() < 1e-15, "{axes:?} {b} {along}: {}", plane.miss(b));
-                        let found = plane.state(b);
-                        assert_relative_eq!(found.axis, state.axis, epsilon = 1e-15);
-                        assert_relative_eq!(found.momentum, state.momentum, epsilon = 1e-14);
-                        let h = 1e-5;
-                        let slope = (plane.miss(b + h) - plane.miss(b - h)) / (2.0 * h);
-                        assert_relative_eq!(plane.slope(b), slope, epsilon = 1e-9);
-                        // Without any correction.
-                        let x = (2.0 * b).cos();
-                        let candidates = plane.candidates();
-                        let nearest = candidates.iter().fold(f64::INFINITY, |least, c| least.min((c - x).abs()));
-                        // Two that are nearly one, where u = 0 is near, to half the digits.
-                        let allowed = if along == 0.0 { 1e-12 } else { 1e-6 };
-                        assert!(nearest < allowed, "{axes:?} {b} {along}: {x} {candidates:?}");
-                        // At another K it is the distance from that.
-                        let other = FirstIntegrals { clebsch: integrals.clebsch - 0.25, ..integrals };
-                        assert_relative_eq!(
-                            wanted(&body, &other).plane(&values, axes).miss(b),
-                            0.25,
-                            max_relative = 1e-13
-                        );
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
     fn the_range_is_where_the_momentum_is_real() {
         let range =
             |along: f64, square: [f64; 2]| Plane { axes: [0, 1], along, half: 0.1, square, q: [0.0; 3] }.range();
@@ -279,61 +241,6 @@ pub(super) mod tests {
         assert_eq!(range(2.0, [2.5, -1.0]), None);
         let square = Plane { axes: [0, 1], along: 2.0, half: 0.1, square: [3.5, 1.0], q: [0.0; 3] };
         assert_eq!(square.momentum_across(1.2), 0.0);
-    }
-
-    /// With `L` along `n` in the plane the equation is quadratic; in a plane of two equal eigenvalues `K` says nothing.
-    #[test]
-    fn candidates_are_as_many_as_the_degree_says() {
-        let plane =
-            |half: f64, along: f64| Plane { axes: [0, 1], along, half, square: [4.0, 0.1], q: [-0.2, 0.3, 1.1] };
-        assert!(plane(0.0, 0.7).candidates().is_empty());
-        // Both ends twice, where the slope vanishes, and two roots.
-        let mut found = plane(0.3, 0.0).candidates();
-        assert_eq!(found.len(), 7, "{found:?}");
-        found.dedup();
-        assert_eq!(found.len(), 5, "{found:?}");
-        for (half, along) in [(1.0, 0.4), (0.5, 1.0), (0.3, -0.9)] {
-            let plane = plane(half, along);
-            let roots: Vec<f64> = plane.candidates();
-            // K = K_0 on either side of the axis, by a fine search.
-            for side in [1.0, -1.0] {
-                for i in 0..2000 {
-                    let [left, right] = [i, i + 1].map(|i| side * f64::from(i) * core::f64::consts::FRAC_PI_2 / 2000.0);
-                    if plane.miss(left) * plane.miss(right) < 0.0 {
-                        let x = (left + right).cos();
-                        let nearest = roots.iter().fold(f64::INFINITY, |least, root| least.min((root - x).abs()));
-                        assert!(nearest < 1e-3, "{half} {along}: {x} {roots:?}");
-                    }
-                }
-            }
-            assert_eq!(roots.len(), 12, "{roots:?}");
-        }
-    }
-
-    #[test]
-    fn what_may_be_off_and_where_an_extremum_is_sought() {
-        let wanted = Wanted { constant_c: -0.8, inertia: 1.3, hamiltonian: 2.0, along: 0.7, third: 0.0 };
-        let plane = Plane { axes: [0, 1], along: 0.7, half: 0.1, square: [3.0, -2.0], q: [0.0; 3] };
-        // (3 + 2 + 1.04) 0.2
-        let allowed = wanted.tolerance(&plane, &Vector3::new(0.1, -0.2, 0.05));
-        assert_relative_eq!(allowed, 1.208e-13, max_relative = 1e-12, epsilon = 0.0);
-        let slow = Plane { square: [-3.0, 2.0], ..plane };
-        assert_eq!(wanted.tolerance(&slow, &Vector3::new(0.1, -0.2, 0.05)), allowed);
-        // sin b = L.n / |L|, |L|^2 = 5.2; 4 C D I / L^2 = 0.8 D.
-        let middle = (0.7 / 5.2_f64.sqrt()).asin();
-        for (spread, reach) in [(0.03, 0.024), (0.11, 0.088), (0.2, 0.1)] {
-            let [left, right] = wanted.about_second_axis(spread);
-            assert_relative_eq!(left, middle - reach, max_relative = 1e-12);
-            assert_relative_eq!(right, middle + reach, max_relative = 1e-12);
-        }
-        let slow = Wanted { hamiltonian: 0.2, along: 0.4, ..wanted };
-        let [left, right] = slow.about_second_axis(1e-9);
-        assert_relative_eq!(0.5 * (left + right), (0.4 / 0.52_f64.sqrt()).asin(), max_relative = 1e-12);
-        // L along n, more than there is: the plane's axis itself.
-        let none = Wanted { hamiltonian: -0.2, along: 0.4, ..wanted };
-        let [left, right] = none.about_second_axis(0.1);
-        assert_relative_eq!(0.5 * (left + right), core::f64::consts::FRAC_PI_2, max_relative = 1e-12);
-        assert_relative_eq!(right - left, 0.2, max_relative = 1e-12);
     }
 
     #[test]

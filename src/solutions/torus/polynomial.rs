@@ -53,21 +53,6 @@ mod tests {
         })
     }
 
-    #[test]
-    fn values_are_those_of_the_powers() {
-        assert_eq!(value(&[3.0, -2.0, 0.5, 4.0], 2.0), 3.0 - 4.0 + 2.0 + 32.0);
-        // The ends are among the places, once for each degree.
-        let places = |coefficients: &[f64], expected: &[f64]| {
-            let mut found = roots_and_touches(coefficients, -1.0, 1.0);
-            found.dedup();
-            assert_eq!(found.len(), expected.len(), "{found:?}");
-            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-16), "{found:?}");
-        };
-        places(&[-0.25, 0.0, 1.0], &[-1.0, -0.5, 0.0, 0.5, 1.0]);
-        places(&[-0.375, 1.0], &[-1.0, 0.375, 1.0]);
-        places(&[1.0, 0.0, 1.0], &[-1.0, 0.0, 1.0]);
-    }
-
     /// A root at an end is that place alone, and where no sign changes there is none.
     #[test]
     fn no_root_is_told_twice() {

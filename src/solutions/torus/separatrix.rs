@@ -64,38 +64,8 @@ pub fn separatrix_motion(
 mod tests {
     use approx::assert_relative_eq;
 
-    use super::super::plane::tests::{BODY, PROLATE, S, wanted};
+    use super::super::plane::tests::{BODY, PROLATE, S};
     use super::*;
-    use crate::dynamics::first_integrals::first_integrals;
-
-    /// Where `K` is largest or least in the plane, whatever the size of the torque.
-    #[test]
-    fn the_separatrix_is_an_extremum() {
-        for body in [BODY, PROLATE] {
-            for strength in [1.0, 1e-3, 1e-6] {
-                let s = S.scaled(strength);
-                for (energy, spin) in [(2.0, 0.3), (5.0, -0.9), (1.0, 0.0), (40.0, 1.1)] {
-                    let state = separatrix_motion(&body, &s, energy, spin).unwrap();
-                    let integrals = first_integrals(&body, &s.tensor(), &state);
-                    assert_relative_eq!(integrals.energy, energy, max_relative = 1e-14);
-                    assert_relative_eq!(integrals.spin, spin, epsilon = 1e-15);
-                    // In the plane of X and Z, L near Z.
-                    assert_eq!((state.axis.y, state.momentum.y), (0.0, 0.0));
-                    let off = (state.momentum.x / state.momentum.norm()).abs();
-                    assert!(off < 2.0 * strength, "{strength} {energy} {spin}: {off}");
-                    let plane = wanted(&body, &integrals).plane(&Vector3::new(s.xx, s.yy, s.zz), [0, 2]);
-                    let b = state.axis.z.atan2(state.axis.x);
-                    let scale = strength * integrals.energy;
-                    assert!(plane.slope(b).abs() < 1e-13 * scale, "{:e}", plane.slope(b) / scale);
-                }
-            }
-        }
-        for eigenvalues in [[0.1, 0.1, -0.2], [0.2, -0.1, -0.1], [0.0, 0.0, 0.0]] {
-            let refused = separatrix_motion(&BODY, &PrincipalCoefficients::new(eigenvalues), 2.0, 0.3);
-            let Err(Error::Domain { quantity, value, .. }) = refused else { panic!("{refused:?}") };
-            assert!(quantity.starts_with("least difference") && value == 0.0, "{quantity}: {value}");
-        }
-    }
 
     /// `L` along `n`: `K` has no extremum where the slope is looked at, and both ends tell the same sign.
     #[test]

@@ -214,7 +214,7 @@ impl StateFunction for Whole {
 #[test]
 fn gradients() {
     let mut table = Table::default();
-    let of = |violation| Parameters { violation, ..start() };
+    let of = |coefficients| Parameters { coefficients, ..start() };
     let scenes = [
         ("general", start(), vec![None, Some(Method::Taylor), Some(Method::Averaged), Some(Method::Splitting)]),
         ("weak", of(general() * 1e-3), vec![Some(Method::Averaged)]),
@@ -229,7 +229,7 @@ fn gradients() {
                 for derivatives in [all.clone(), without_tensor.clone(), Vec::new()] {
                     let name = format!("{name}, {}, {method:?}, {}", output.name(), derivatives.len());
                     let request = Request { method, derivatives, ..Request::new(&[output], SPAN, 3, 1e-10) };
-                    let plan = Problem::new(start.spheroid, start.violation, start.state())
+                    let plan = Problem::new(start.spheroid, start.coefficients, start.state())
                         .and_then(|problem| problem.plan(&request));
                     let times = [[2.0, 0.0], [20.0, 0.5]];
                     let found = plan.and_then(|plan| gradient_in_parts(&plan, &start, &Whole, &times));

@@ -25,7 +25,7 @@ impl Plans {
             let cost = if plan.costs_the_same_at_any_time() { "the same at any time" } else { "by steps" };
             let skipped: Vec<_> = plan.skipped.iter().map(|skipped| skipped.what).collect();
             self.skipped.extend(plan.skipped.iter().map(|skipped| format!("{}: {}", skipped.what, skipped.why)));
-            let text = format!("{state} by {method}, cost {cost}, to {:?}, samples {}", plan.stretch.1, plan.samples);
+            let text = format!("{state} by {method}, cost {cost}, to {:?}, samples {}", plan.span.1, plan.samples);
             table.row(name, format_args!("{text}, without {}", skipped.join(", ")));
             if !with_candidates(&plan) {
                 return;

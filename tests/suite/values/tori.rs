@@ -1,7 +1,7 @@
 //! Tori: states with given integrals, separatrices, exact frequencies; averages of motions about the middle axis.
 
 use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
-use twofold::dynamics::{AxisState, BodyState};
+use twofold::dynamics::{AxisState, BodyState, Problem};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::averaged::slow_precession::slow_precession;
 use twofold::solutions::averaged::{AveragedSolution, AveragingOrder, middle_axis_growth, period_near_separatrix};
@@ -25,6 +25,7 @@ fn states_on_tori() {
         ("isotropic", STAR, [0.02, 0.02, 0.02], state()),
     ] {
         let s = PrincipalCoefficients::new(s);
+        let problem = Problem::new(star, s.tensor(), initial).expect("a problem");
         let integrals = first_integrals(&star, &s.tensor(), &initial);
         let FirstIntegrals { energy, spin, clebsch } = integrals;
         table.row(name, integrals);
@@ -47,14 +48,14 @@ fn states_on_tori() {
             let label = format!("  {order:?}");
             let growth = middle_axis_growth(&star, &s, energy, spin, order);
             table.result(&format!("{label}, growth about the middle axis"), growth);
-            table.found(&label, AveragedSolution::new(&star, &s, &initial, order), |table, mean| {
+            table.found(&label, AveragedSolution::new(&problem, order), |table, mean| {
                 table.row(&label, format_args!("{:?}, strength {:?}", mean.rates(), mean.relative_strength()));
                 table.row("  at 13", format_args!("{:?}, error {:?}", mean.phases(13.0), mean.error_estimate(13.0)));
                 table.result(&format!("{label}, derivatives"), mean.require_derivatives());
             });
         }
         // Errors of exact frequencies are roundings, but near a resonance.
-        let found = torus_frequencies(&star, &s, &initial);
+        let found = torus_frequencies(&problem);
         table.found("  exact frequencies", found, |table, found| {
             let uncertain = found.uncertainty.iter().any(|error| *error >= 1e-12);
             let (about_momentum, about_axis) = (found.about_momentum, found.about_axis);

@@ -107,7 +107,7 @@ fn constants() -> Result<Parameters<f64>, String> {
 
 /// Period by Eqs. (51), (52) and width by Eq. (56), with the rates (57), at 200 times over three turns of gamma.
 fn formulas<S: Real>(model: &Parameters<S>) -> Result<Vec<S>, twofold::Error> {
-    let (one, spheroid, s) = (S::one(), model.spheroid, model.violation);
+    let (one, spheroid, s) = (S::one(), model.spheroid, model.coefficients);
     let s = PrincipalCoefficients { xx: s[(0, 0)], yy: s[(1, 1)], zz: s[(2, 2)] };
     let (beta_0, chi) = (model.angles.beta, model.chi);
     let rates = shifted_rates(&spheroid, &s, model.spin(), beta_0)?;

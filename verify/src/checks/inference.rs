@@ -330,7 +330,7 @@ const TIMES_AND_WIDTHS: [Noise; 2] = [(Observable::Arrivals, 1e-4), (Observable:
 /// A built-in scene with s scaled, seen from an azimuth at which the first drift of the spin axis is seen.
 fn scaled(name: &str, scale: f64) -> Result<Parameters<f64>, String> {
     let model = parameters_of(&Scene::named(name)?)?;
-    Ok(Parameters { violation: model.violation * scale, phi_o: 1.0, ..model })
+    Ok(Parameters { coefficients: model.coefficients * scale, phi_o: 1.0, ..model })
 }
 
 fn number_scaling() -> Result<Measured, String> {

@@ -4,10 +4,9 @@ use core::f64::consts::TAU;
 
 use twofold::Scalar;
 use twofold::propagation::{AveragedMotion, Motion};
-use twofold::solutions::averaged::AveragingOrder;
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
 
 use super::scenes::{State, difference};
-use crate::averaged_scenes::averaged_solution;
 use crate::check::{Measured, checks, largest, worst_of};
 use crate::double_double::DoubleDouble;
 use crate::random::{Random, worst_of_draws};
@@ -30,8 +29,8 @@ fn phases() -> Result<Measured, String> {
         let state = State::random(&mut random);
         let problem = state.problem(10f64.powf(random.within(-15.0, -6.0)))?;
         let order = if case % 2 == 0 { AveragingOrder::First } else { AveragingOrder::Second };
-        let averaged = averaged_solution(&problem, order)?;
-        let rates = *averaged_solution(&problem.map(DoubleDouble::from_f64), order)?.rates();
+        let averaged = AveragedSolution::new(&problem, order)?;
+        let rates = *AveragedSolution::new(&problem.map(DoubleDouble::from_f64), order)?.rates();
         let turns = 4e11;
         let time = [turns / averaged.rates().about_momentum * TAU, 1e-9 * random.within(-1.0, 1.0)];
         let found = averaged.turns(time);

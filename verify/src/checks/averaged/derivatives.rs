@@ -6,10 +6,10 @@ use twofold::dynamics::{BodyState, Problem, RotationState};
 use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame_along, principal_frame_with_derivatives};
 use twofold::numerics::scalar::length;
 use twofold::propagation::{AveragedMotion, Motion};
-use twofold::solutions::averaged::AveragingOrder;
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
 use twofold::{Error, Real};
 
-use crate::averaged_scenes::{AveragedScene, averaged_solution};
+use crate::averaged_scenes::AveragedScene;
 use crate::check::{Measured, checks, largest, worst_of};
 use crate::random::Random;
 
@@ -45,7 +45,7 @@ impl Family {
         if self.kind == 0 && self.equal {
             let parted =
                 Problem::new(*principal.spheroid(), principal.coefficients() + along_axes, *principal.initial())?;
-            return Ok(averaged_solution(&parted, AveragingOrder::Second)?.state(t));
+            return Ok(AveragedSolution::new(&parted, AveragingOrder::Second)?.state(t));
         }
         let problem = principal.rotated(&frame);
         let (mut body, mut tensor, mut state) = (*problem.spheroid(), *problem.coefficients(), *problem.initial());

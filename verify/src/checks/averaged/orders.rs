@@ -4,10 +4,9 @@ use nalgebra::Vector3;
 use twofold::Error;
 use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use twofold::propagation::Motion;
-use twofold::solutions::averaged::AveragingOrder;
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
 
 use super::scenes::{State, difference};
-use crate::averaged_scenes::averaged_solution;
 use crate::check::{Measured, Worst, checks, largest, worst_of};
 use crate::measured_order::{errors_at, largest_off_order};
 use crate::random::Random;
@@ -59,7 +58,7 @@ fn tp_2(k: f64) -> Result<Problem<f64>, Error> {
 fn error_of_tp_2(order: AveragingOrder, k: f64) -> Result<f64, String> {
     let problem = tp_2(k)?;
     let exact = problem.taylor((0.0, 30.0 / k), 1e-13)?;
-    let averaged = averaged_solution(&problem, order)?;
+    let averaged = AveragedSolution::new(&problem, order)?;
     let at = |i| {
         let t = 30.0 / k * f64::from(i) / 200.0;
         Ok(difference(&averaged.state(t), &exact.state(t)?))
@@ -109,7 +108,7 @@ fn random_geometries() -> Result<Measured, String> {
         }
         followed += 1;
         let problem = state.problem(1.0)?;
-        let averaged = averaged_solution(&problem, AveragingOrder::Second)?;
+        let averaged = AveragedSolution::new(&problem, AveragingOrder::Second)?;
         let (x, rate) = (averaged.relative_strength(), state.momentum.norm() / state.body.inertia_xx);
         let end = 3.0 / (x * rate);
         let exact = problem.taylor((0.0, end), 1e-13)?;
@@ -140,7 +139,7 @@ fn errors_of_reference() -> Result<Vec<(f64, [f64; 2])>, String> {
         }
         let (_, most) = errors.last_mut().ok_or("no k")?;
         for (order, most) in ORDERS.into_iter().zip(most) {
-            let averaged = averaged_solution(&tp_2(k)?, order)?;
+            let averaged = AveragedSolution::new(&tp_2(k)?, order)?;
             *most = largest([*most, difference(&averaged.state(t), &exact)]);
         }
     }

@@ -5,10 +5,9 @@ use twofold::Error;
 use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
 use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::averaged::AveragingOrder;
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
 use twofold::solutions::torus::{TorusFrequencies, torus_frequencies};
 
-use crate::averaged_scenes::averaged_solution;
 use crate::check::{Measured, worst_of};
 use crate::random::Random;
 use crate::reference::reference_motion;
@@ -32,7 +31,7 @@ impl Scene {
     }
 
     pub(super) fn torus(&self) -> Result<TorusFrequencies, String> {
-        torus_frequencies(&self.body, &self.s, &self.start).map_err(String::from)
+        Ok(torus_frequencies(&self.problem()?)?)
     }
 
     /// Exact rates: `slow`, `about_momentum`, `about_axis`.
@@ -44,7 +43,7 @@ impl Scene {
 
     /// Rates of the averaged motion with the names and signs of the exact ones.
     pub(super) fn averaged(&self, order: AveragingOrder) -> Result<[f64; 3], String> {
-        let averaged = averaged_solution(&self.problem()?, order)?;
+        let averaged = AveragedSolution::new(&self.problem()?, order)?;
         let rates = averaged.rates();
         Ok([rates.slow.abs(), rates.about_momentum, rates.about_axis])
     }

@@ -127,9 +127,9 @@ impl Exact {
         let turned = given.rotated(&frame.principal_from_given).map(number);
         let c = frame.coefficients;
         let s = PrincipalCoefficients::new([c.xx, c.yy, c.zz].map(number));
-        let (start, spheroid) = (*given.map(number).initial(), turned.spheroid());
-        let order = AveragingOrder::Second;
-        let mean = AveragedSolution::with_free_rotation_of(&start, spheroid, &s, turned.initial(), order)?;
+        let start = *given.map(number).initial();
+        let turned = Problem::new(*turned.spheroid(), s.tensor(), *turned.initial())?;
+        let mean = AveragedSolution::with_free_rotation_of(&start, &turned, AveragingOrder::Second)?;
         Ok(Self {
             rates: *mean.rates(),
             start: mean.phases_at([0.0; 2]),

@@ -4,11 +4,10 @@ use nalgebra::Vector3;
 use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::Motion;
-use twofold::solutions::averaged::AveragingOrder;
+use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
 use twofold::solutions::perturbation::{Form, Precession};
 
 use super::perturbation_error::{Case, axis_at};
-use crate::averaged_scenes::averaged_solution;
 use crate::check::{Measured, Worst, checks, largest};
 
 /// Tolerance of the numerical motion.
@@ -112,7 +111,7 @@ pub fn errors(geometry: Geometry, strength: f64, times: &[f64]) -> Result<Vec<Er
     let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s.tensor(), start(k)?)?;
     let span = (0.0, *times.last().ok_or("no times")?);
     let exact = problem.taylor(span, TOLERANCE)?;
-    let averaged = [AveragingOrder::First, AveragingOrder::Second].map(|order| averaged_solution(&problem, order));
+    let averaged = [AveragingOrder::First, AveragingOrder::Second].map(|order| AveragedSolution::new(&problem, order));
     let [first, second] = averaged;
     let averaged = [first?, second?];
     // Each perturbation solution against the motion from its own initial values.

@@ -1,8 +1,8 @@
 //! The averaged motion: Hamiltonian, generator, slow precession, top, separatrix.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use twofold::Real;
-use twofold::dynamics::BodyState;
+use twofold::dynamics::{BodyState, Problem};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::averaged::slow_precession::slow_precession;
 use twofold::solutions::averaged::{
@@ -79,7 +79,9 @@ functions! {
         let across = n.cross(&unit(vector(&x[9..])));
         let state = BodyState { axis: n, momentum: vector(&x[6..]), equatorial_axis: unit(across) };
         let s = PrincipalCoefficients { xx: x[0], yy: x[1], zz: x[2] };
-        AveragedSolution::new(&body(&x[12..]), &s, &state, AveragingOrder::Second).map_or(none(3), |motion| {
+        let problem = Problem::new(body(&x[12..]), s.tensor(), state);
+        let motion = problem.and_then(|problem| AveragedSolution::new(&problem, AveragingOrder::Second));
+        motion.map_or(none(3), |motion| {
             let rates = motion.rates();
             vec![rates.slow, rates.about_momentum, rates.about_axis]
         })
@@ -149,8 +151,9 @@ fn turns(x: &[f64]) -> Vec<f64> {
         momentum: Vector3::new(0.0, 0.0, x[3]),
         equatorial_axis: Vector3::new(0.0, 1.0, 0.0),
     };
-    let s = PrincipalCoefficients { xx: 0.0, yy: 0.0, zz: 0.0 };
-    AveragedSolution::new(&spheroid, &s, &state, AveragingOrder::Second).map_or(none(2), |motion| {
+    let problem = Problem::new(spheroid, Matrix3::zeros(), state);
+    let motion = problem.and_then(|problem| AveragedSolution::new(&problem, AveragingOrder::Second));
+    motion.map_or(none(2), |motion| {
         let turns = motion.turns([x[0], 0.0]);
         vec![turns.about_momentum.fraction, turns.about_axis.fraction]
     })

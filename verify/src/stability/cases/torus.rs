@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use twofold::Real;
 use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::symmetric::SymmetricSolution;
@@ -92,7 +92,8 @@ fn separatrix(x: &[f64]) -> Vec<f64> {
 fn frequencies(x: &[f64]) -> Vec<f64> {
     let (spheroid, s, angles, rates) = twofold(x);
     let state = BodyState::from_angles(&spheroid, &angles, &rates);
-    torus_frequencies(&spheroid, &s, &state)
+    Problem::new(spheroid, s.tensor(), state)
+        .and_then(|problem| torus_frequencies(&problem))
         .map_or(none(2), |found| vec![found.about_momentum.unwrap_or(f64::NAN), found.about_axis.unwrap_or(f64::NAN)])
 }
 
