@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::fs;
 use std::path::Path;
 
+use twofold::numerics::angle::wrapped;
 use twofold::observables::pulsar::direction::magnetic_axis_direction;
 use twofold::observables::pulsar::position_angle::rotating_vector_position_angle;
 use twofold_scene::columns;
@@ -197,15 +198,14 @@ fn columns_of_observables_agree_with_one_another() {
             let slope = (triple[2][value] - triple[0][value]) / (2.0 * step);
             assert!((slope - triple[1][value + 1]).abs() < 1e-5, "column {value}: {slope}");
         }
-        let turn = |angle: f64| (angle + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
-        let slope = turn(triple[2][13] - triple[0][13]) / (2.0 * step);
+        let slope = wrapped(triple[2][13] - triple[0][13]) / (2.0 * step);
         assert!((slope - triple[1][14]).abs() < 1e-4, "psi: {slope} instead of {}", triple[1][14]);
         let row = &triple[1];
         let psi = rotating_vector_position_angle(row[11], row[12], 0.8, 0.0).expect("off the line of sight");
-        assert!(turn(psi - row[13]).abs() < 1e-11, "{row:?}");
+        assert!(wrapped(psi - row[13]).abs() < 1e-11, "{row:?}");
         let angles = twofold::euler_angles::EulerAngles { alpha: row[1], beta: row[2], gamma: row[3] };
         let (theta, phi) = magnetic_axis_direction(&angles, 0.5, 0.0).expect("off the pole");
-        assert!((theta - row[11]).abs() < 1e-12 && turn(phi - row[12]).abs() < 1e-12, "{row:?}");
+        assert!((theta - row[11]).abs() < 1e-12 && wrapped(phi - row[12]).abs() < 1e-12, "{row:?}");
         assert!((row[7] - (0.8_f64.sin() * row[4] + 0.8_f64.cos() * row[6])).abs() < 1e-15);
     }
 }
