@@ -1,11 +1,10 @@
-//! Fits of arrival times, clocks and epochs by cases with answers in closed form, one for each sign, factor and branch.
+//! Fits of arrival times and clocks by cases with answers in closed form, one for each sign, factor and branch.
 
 use std::f64::consts::TAU;
 
 use approx::assert_relative_eq;
 use twofold::Error;
 use twofold::dynamics::{Problem, RigidSpheroid};
-use twofold::epoch::Epoch;
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
@@ -95,15 +94,6 @@ fn different_times_and_numbers_are_counted() {
     assert!(SpinFit::new(&whole(&[(0, 0.0), (largest, 1e16)]), false).is_ok());
     assert!(SpinFit::new(&whole(&[(0, 0.0), (largest + 1, 1e16)]), false).is_err());
     assert!(SpinFit::new(&whole(&[(0, 0.0), (-largest - 1, 1e16)]), false).is_err());
-}
-
-#[test]
-fn an_epoch_a_rounding_before_midnight_is_midnight() -> Result<(), Error> {
-    let start = Epoch::new(55_000, 0.0)?;
-    assert_eq!(start.after([86_400.0, -1e-17])?, Epoch::new(55_001, 0.0)?);
-    assert_eq!(start.after([86_400.0, 0.0])?, Epoch::new(55_001, 0.0)?);
-    assert_eq!(start.after([43_200.0, 0.0])?, Epoch::new(55_000, 0.5)?);
-    Ok(())
 }
 
 fn star() -> Result<Problem<f64>, Error> {

@@ -261,26 +261,12 @@ mod tests {
     use core::f64::consts::{PI, TAU};
 
     use super::*;
-
-    /// `cos t - edge`.
-    struct Wave(f64);
-
-    impl Margin for Wave {
-        fn at(&self, t: f64) -> Result<[f64; 4], Error> {
-            Ok([t.cos() - self.0, -t.sin(), -t.cos(), t.sin()])
-        }
-
-        fn cheapest_time(&self, _: f64, t: f64) -> f64 {
-            t
-        }
-    }
+    use crate::observables::pulsar::margin::tests::search_of;
 
     #[test]
     fn the_pulse_that_holds_a_time_is_found_where_the_margin_bends_downwards() {
-        let around = |edge: f64, time: f64, period: f64| {
-            let bounds = RateBounds { first: 1.0, second: 1.0, third: 1.0, fourth: 1.0, sixth: 1.0 };
-            around(&EdgeSearch::new(Wave(edge), bounds), time, period).unwrap()
-        };
+        let around =
+            |edge: f64, time: f64, period: f64| around(&search_of(vec![[1.0, 1.0, 0.0]], edge), time, period).unwrap();
         for time in [-0.15, 0.02, 0.1] {
             let pulse = around(0.5, time, TAU).expect("a pulse");
             assert!((pulse.start + PI / 3.0).abs() < 1e-14 && (pulse.end - PI / 3.0).abs() < 1e-14, "{pulse:?}");
