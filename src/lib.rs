@@ -51,7 +51,6 @@ pub mod plan;
 pub mod propagation;
 pub mod solutions;
 pub mod star;
-pub mod straight_line;
 pub mod units;
 
 pub use dynamics::{AxisState, BodyState, Problem, RigidSpheroid};

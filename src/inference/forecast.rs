@@ -21,8 +21,8 @@
 //! ```
 
 use super::{Datum, Fisher, InferenceError, Noise, Observable, Signal, data_of};
+use crate::numerics::straight_line::{Slope, slope};
 use crate::parameters::{Parameter, Parameters};
-use crate::straight_line::{Slope, slope};
 
 /// What a campaign of measurements will tell.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -216,7 +216,7 @@ impl Term {
 
 impl Jacobian {
     /// With each row divided by the standard deviation of its datum.
-    pub fn weighted(mut self, data: &[Datum]) -> Self {
+    pub(crate) fn weighted(mut self, data: &[Datum]) -> Self {
         let weights = DVector::from_iterator(data.len(), data.iter().map(|datum| 1.0 / datum.sigma));
         for matrix in [&mut self.matrix, &mut self.magnitudes] {
             matrix.row_iter_mut().zip(&weights).for_each(|(mut row, weight)| row *= *weight);

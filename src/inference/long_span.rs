@@ -41,9 +41,7 @@ pub fn check_span(parameters: &Parameters<f64>, end: f64) -> Result<(), Error> {
 }
 
 fn clock(parameters: &Parameters<f64>) -> Result<PulsarClock, Error> {
-    let Parameters { spheroid, coefficients, .. } = parameters;
-    let (beam, observer) = (parameters.beam(), parameters.observer());
-    PulsarClock::new(spheroid, coefficients, &parameters.state(), &beam, &observer, AveragingOrder::Second)
+    PulsarClock::new(&parameters.problem()?, &parameters.beam(), &parameters.observer(), AveragingOrder::Second)
 }
 
 /// A pulse with its times counted from the double nearest to its midpoint. The closest approach is not looked for.

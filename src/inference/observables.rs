@@ -84,7 +84,7 @@ pub fn data_of(signal: &Signal, events: &[Event], samples: &[f64], noise: &[Nois
     let mut data = Vec::new();
     let of_every_turn = [Observable::ClosestApproaches, Observable::Periods];
     Error::ensure(
-        !(signal.is_long() && noise.iter().any(|(kind, _)| of_every_turn.contains(kind))),
+        !(signal.is_long && noise.iter().any(|(kind, _)| of_every_turn.contains(kind))),
         "span for closest approaches and periods",
         signal.end,
         "one of at most 1e5 rad of rotation; arrivals and widths may have any",

@@ -34,7 +34,7 @@ impl Event {
     }
 
     /// What is observed of it, given the pulse before: none for a period without a pulse in the turn before.
-    pub fn value(&self, before: Option<&Event>, observable: Observable) -> Option<f64> {
+    pub(crate) fn value(&self, before: Option<&Event>, observable: Observable) -> Option<f64> {
         match observable {
             Observable::Arrivals => Some(self.midpoint()),
             Observable::ClosestApproaches => Some(self.closest),
@@ -54,8 +54,9 @@ pub struct Signal {
     pub parameters: Parameters<f64>,
     /// Last time.
     pub end: f64,
+    /// Whether the span is one of more than 1e5 rad of rotation. Its pulses are those near given times, by the averaged motion of second order.
+    pub is_long: bool,
     motion: PlannedMotion,
-    is_long: bool,
     beam: Beam<f64>,
     line_of_sight: Vector3<f64>,
 }
@@ -103,11 +104,6 @@ impl Signal {
             beam: parameters.beam(),
             line_of_sight: parameters.observer().direction,
         })
-    }
-
-    /// Whether the span is one of more than 1e5 rad of rotation. Its pulses are those near given times, by the averaged motion of second order.
-    pub fn is_long(&self) -> bool {
-        self.is_long
     }
 
     /// Every whole pulse that is the only one of its turn.
@@ -191,7 +187,7 @@ impl Signal {
     ///
     /// # Errors
     /// A time outside the span.
-    pub fn strain(&self, observable: Observable, t: f64) -> Result<f64, Error> {
+    pub(crate) fn strain(&self, observable: Observable, t: f64) -> Result<f64, Error> {
         let state = self.motion.axis_state(t)?;
         Ok(strain(&self.parameters, [&state.axis, &state.momentum], observable))
     }

@@ -2,16 +2,15 @@
 //!
 //! ```
 //! use core::f64::consts::TAU;
-//! use twofold::numerics::angle::{whole_turns, wrapped};
+//! use twofold::numerics::angle::wrapped;
 //!
-//! assert_eq!(whole_turns(3.0 * TAU + 0.3), 3.0 * TAU);
 //! assert!((wrapped(3.0 * TAU + 0.3) - 0.3).abs() < 1e-14);
 //! ```
 
 use core::f64::consts::TAU;
 
 /// The whole turns (rad) nearest to an angle.
-pub fn whole_turns(angle: f64) -> f64 {
+pub(crate) fn whole_turns(angle: f64) -> f64 {
     (angle / TAU).round() * TAU
 }
 

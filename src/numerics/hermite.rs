@@ -191,16 +191,6 @@ mod tests {
         assert_eq!(between([0.0, 0.0, 1.01 * bend]).convexity(), Some(true));
     }
 
-    #[test]
-    fn root_of_the_polynomial_is_close() {
-        for i in 1..40 {
-            let (from, length) = (-0.03 * f64::from(i), 1.5);
-            let polynomial = Quintic::between(&sine(from, 0.0), &sine(from + length, 0.0), BOUNDS);
-            let root = from + polynomial.root() * length;
-            assert!(root.abs() < 1e-3, "{root} from {from}");
-        }
-    }
-
     /// Polynomials of any shape, many with three or five roots.
     #[test]
     fn the_root_is_close_to_one_of_the_polynomial() {

@@ -17,4 +17,5 @@ pub(crate) mod rounding;
 pub mod scalar;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod side_by_side;
+pub mod straight_line;
 pub mod window;

@@ -27,14 +27,13 @@
 //! ```
 //! use nalgebra::Vector3;
 //! use num_dual::Dual64;
-//! use twofold::numerics::scalar::{constant_vector, length, real_part};
+//! use twofold::numerics::scalar::length;
 //!
 //! // The length of (3, 4 + x, 0) and its derivative at x = 0.
-//! let mut v = constant_vector::<Dual64>(&Vector3::new(3.0, 4.0, 0.0));
+//! let mut v = Vector3::new(3.0, 4.0, 0.0).map(Dual64::from_re);
 //! v.y.eps = 1.0;
 //! let found = length(&v);
 //! assert_eq!((found.re, found.eps), (5.0, 0.8));
-//! assert_eq!(real_part(&v), Vector3::new(3.0, 4.0, 0.0));
 //! ```
 
 use core::any::Any;
@@ -164,17 +163,12 @@ pub(crate) fn cast_ref<T: 'static, U: 'static>(value: &T) -> Option<&U> {
     (value as &dyn Any).downcast_ref()
 }
 
-/// A constant vector, with zero derivatives.
-pub fn constant_vector<S: Scalar>(v: &Vector3<f64>) -> Vector3<S> {
-    v.map(S::from_f64)
-}
-
 /// Euclidean length of `v`. The derivative at the zero vector does not exist and comes out as NaN.
 pub fn length<S: Real>(v: &Vector3<S>) -> S {
     v.dot(v).sqrt()
 }
 
 /// Real parts of a vector.
-pub fn real_part<S: Real>(v: &Vector3<S>) -> Vector3<f64> {
+pub(crate) fn real_part<S: Real>(v: &Vector3<S>) -> Vector3<f64> {
     v.map(S::re)
 }

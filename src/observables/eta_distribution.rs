@@ -1,12 +1,12 @@
 //! Distribution of `eta` of Eq. (41) `[est1]` over directions to the observer and over unknown orientations of the spin axis.
 //!
 //! ```
-//! use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
+//! use twofold::observables::eta_distribution::{EtaDistribution, SpinAxis, root_mean_square_along_motion};
 //!
 //! // One speed: eta is uniform in 1/eta.
 //! let one = EtaDistribution::from_speeds([(0.5, 1.0)])?;
 //! assert!((one.probability_above(4.0) - 0.5).abs() < 1e-15 && (one.quantile(0.5)? - 4.0).abs() < 1e-12);
-//! assert!(EtaDistribution::of_unknown_axis(0.0)?.quantile(0.9)? > 10.0);
+//! assert!(EtaDistribution::new(0.0, SpinAxis::Unknown)?.quantile(0.9)? > 10.0);
 //! // Seen at a right angle to the spin axis: one azimuth in two is within 45 degrees of the motion.
 //! let seen = one.clone().seen_at(core::f64::consts::FRAC_PI_2)?;
 //! assert!((seen.quantile(0.5)? - 2.0 * 2.0_f64.sqrt()).abs() < 1e-12);
@@ -44,6 +44,19 @@ enum Directions {
     Isotropic,
     /// Those at an angle to the spin axis, given by its sine; every azimuth is as probable.
     OnCone { sine: f64 },
+}
+
+/// What is known of the spin axis of a star.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SpinAxis {
+    /// Its inclination `beta` (rad) to Z; the azimuth is random. Random azimuths are those of a random time too: the secular motion keeps areas
+    /// on the sphere of directions.
+    AtInclination(f64),
+    /// The constant `beta_0` (rad) of a single precession by Eq. (34) `[integraltoinitial]` with a random constant `alpha_0` and `A = 0`: the
+    /// inclination itself is then another, [`single_precession_start`].
+    AtConstant(f64),
+    /// Nothing: every direction is as probable.
+    Unknown,
 }
 
 impl EtaDistribution {
@@ -84,51 +97,40 @@ impl EtaDistribution {
         Ok(Self { directions: Directions::OnCone { sine: sine.abs() }, ..self })
     }
 
-    /// For a spin axis at the inclination `beta` (rad) to Z and a random azimuth, asymmetry ratio `r`.
-    ///
-    /// Random azimuths are those of a random time too: the secular motion keeps areas on the sphere of directions.
+    /// For a spin axis of which so much is known, and the asymmetry ratio `r`.
     ///
     /// # Errors
-    /// [`Error::Domain`] for arguments that are not finite.
-    pub fn at_inclination(asymmetry_ratio: f64, beta: f64) -> Result<Self, Error> {
-        Self::from_speeds(
-            quarter_turn().map(|(alpha, weight)| (squared_speed(asymmetry_ratio, alpha, beta).sqrt(), weight)),
-        )
-    }
-
-    /// For the start of a single precession with the constant `beta_0` (rad) of Eq. (34) `[integraltoinitial]`, a random
-    /// constant `alpha_0` and `A = 0`: the inclination itself is then another,
-    /// [`single_precession_start`].
-    ///
-    /// # Errors
-    /// [`Error::Domain`] where Eq. (34) gives an inclination outside `[0, pi]` for some `alpha_0`.
-    pub fn at_constant(asymmetry_ratio: f64, beta_0: f64) -> Result<Self, Error> {
-        let allowed = "from 0 to pi: the perturbation solution does not describe such a motion";
-        let mut speeds = Vec::with_capacity(NODES);
-        for (alpha_0, weight) in quarter_turn() {
-            let (alpha, beta) = single_precession_start(asymmetry_ratio, alpha_0, beta_0);
-            Error::ensure((0.0..=core::f64::consts::PI).contains(&beta), "inclination by Eq. (34)", beta, allowed)?;
-            speeds.push((squared_speed(asymmetry_ratio, alpha, beta).sqrt(), weight));
+    /// [`Error::Domain`] for numbers that are not finite, and where Eq. (34) gives an inclination outside `[0, pi]` for some `alpha_0`.
+    pub fn new(asymmetry_ratio: f64, axis: SpinAxis) -> Result<Self, Error> {
+        let speed = |alpha, beta| squared_speed(asymmetry_ratio, alpha, beta).sqrt();
+        match axis {
+            SpinAxis::AtInclination(beta) => {
+                Self::from_speeds(quarter_turn().map(|(alpha, weight)| (speed(alpha, beta), weight)))
+            }
+            SpinAxis::AtConstant(beta_0) => {
+                let allowed = "from 0 to pi: the perturbation solution does not describe such a motion";
+                let mut speeds = Vec::with_capacity(NODES);
+                for (alpha_0, weight) in quarter_turn() {
+                    let (alpha, beta) = single_precession_start(asymmetry_ratio, alpha_0, beta_0);
+                    let is_inclination = (0.0..=core::f64::consts::PI).contains(&beta);
+                    Error::ensure(is_inclination, "inclination by Eq. (34)", beta, allowed)?;
+                    speeds.push((speed(alpha, beta), weight));
+                }
+                Self::from_speeds(speeds)
+            }
+            SpinAxis::Unknown => {
+                // More nodes near the equator and the pole, where the axis is slow. About an axis of symmetry all azimuths are the same, and
+                // do not smooth the corner of the probability at the speed that it asks for.
+                let (latitudes, azimuths) = if asymmetry_ratio == 0.0 { (64 * NODES, 1) } else { (NODES, NODES) };
+                let latitudes = midpoints(latitudes)
+                    .map(|u| (FRAC_PI_2 * u * u * u * (10.0 - 15.0 * u + 6.0 * u * u), (u * (1.0 - u)).powi(2)));
+                Self::from_speeds(latitudes.flat_map(|(latitude, node_weight)| {
+                    let (beta, band) = (FRAC_PI_2 - latitude, node_weight * latitude.cos());
+                    let azimuths = quarter_turn().take(azimuths);
+                    azimuths.map(move |(alpha, weight)| (speed(alpha, beta), weight * band))
+                }))
+            }
         }
-        Self::from_speeds(speeds)
-    }
-
-    /// For a spin axis of which nothing is known: every direction is as probable.
-    ///
-    /// # Errors
-    /// [`Error::Domain`] for a ratio that is not finite.
-    pub fn of_unknown_axis(asymmetry_ratio: f64) -> Result<Self, Error> {
-        // More nodes near the equator and the pole, where the axis is slow. About an axis of symmetry all azimuths are the same, and
-        // do not smooth the corner of the probability at the speed that it asks for.
-        let (latitudes, azimuths) = if asymmetry_ratio == 0.0 { (64 * NODES, 1) } else { (NODES, NODES) };
-        let latitudes = midpoints(latitudes)
-            .map(|u| (FRAC_PI_2 * u * u * u * (10.0 - 15.0 * u + 6.0 * u * u), (u * (1.0 - u)).powi(2)));
-        Self::from_speeds(latitudes.flat_map(|(latitude, node_weight)| {
-            let (beta, band) = (FRAC_PI_2 - latitude, node_weight * latitude.cos());
-            quarter_turn()
-                .take(azimuths)
-                .map(move |(alpha, weight)| (squared_speed(asymmetry_ratio, alpha, beta).sqrt(), weight * band))
-        }))
     }
 
     /// `eta` for the root mean square of `d cos lambda / dt`. At one inclination and for isotropic directions it is
@@ -256,7 +258,7 @@ mod tests {
     /// By the closed form of `P(eta > x)`, one less the mean of `sqrt(1 - 2 a / sin t)`, `a = 1 / (x sin(lambda))`, done in 20 digits.
     #[test]
     fn an_unknown_axis_has_the_quantiles_of_the_integral() {
-        let unknown = EtaDistribution::of_unknown_axis(0.0).unwrap().seen_at(100f64.to_radians()).unwrap();
+        let unknown = EtaDistribution::new(0.0, SpinAxis::Unknown).unwrap().seen_at(100f64.to_radians()).unwrap();
         let found = unknown.quantile(0.95).unwrap();
         assert!((found / 88.635_652_034_956_56 - 1.0).abs() < 4e-6, "{found}");
     }
@@ -266,9 +268,9 @@ mod tests {
         assert!(EtaDistribution::from_speeds([]).is_err());
         assert!(EtaDistribution::from_speeds([(f64::NAN, 1.0)]).is_err());
         assert!(EtaDistribution::from_speeds([(1.0, -1.0)]).is_err());
-        assert!(EtaDistribution::at_inclination(f64::INFINITY, 1.0).is_err());
-        assert!(EtaDistribution::at_constant(-1.0 / 11.0, 1.56).is_err());
-        let some = EtaDistribution::of_unknown_axis(0.0).unwrap();
+        assert!(EtaDistribution::new(f64::INFINITY, SpinAxis::AtInclination(1.0)).is_err());
+        assert!(EtaDistribution::new(-1.0 / 11.0, SpinAxis::AtConstant(1.56)).is_err());
+        let some = EtaDistribution::new(0.0, SpinAxis::Unknown).unwrap();
         assert!(some.clone().seen_at(0.0).is_err() && some.clone().seen_at(f64::NAN).is_err());
         for probability in [0.0, 1.0, f64::NAN] {
             assert!(some.quantile(probability).is_err());

@@ -38,6 +38,14 @@ mod tests {
         pub(super) state: F,
     }
 
+    impl<F> Made<F> {
+        /// Of a spheroid in units of `t_c`, without violation or error.
+        pub(super) fn new(span: (f64, f64), state: F) -> Self {
+            let (spheroid, coefficients) = (RigidSpheroid::in_units_of_tc(1.1), Matrix3::zeros());
+            Self { spheroid, coefficients, span, error: 0.0, state }
+        }
+    }
+
     impl<F: Fn(f64) -> Result<BodyState<f64>, Error>> Motion<f64> for Made<F> {
         type State = BodyState<f64>;
 

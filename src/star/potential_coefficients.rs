@@ -30,7 +30,7 @@
 //! let shape = SpheroidShape::from_axis_ratio(0.9_f64)?;
 //! let a = potential_coefficients(&shape);
 //! assert!((2.0 * a.a1 + a.a3 - 2.0).abs() < 1e-15 && (a.a1 - 0.81 * a.a3 - a.difference).abs() < 1e-14);
-//! assert!((reduced_difference(&shape) * 0.9 * shape.eccentricity_squared() / a.difference - 1.0).abs() < 1e-14);
+//! assert!((reduced_difference(&shape) * 0.9 * shape.eccentricity_squared / a.difference - 1.0).abs() < 1e-14);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
@@ -69,7 +69,7 @@ pub struct PotentialCoefficients<S> {
 /// `A_1 = (2 q^2 + D) / (1 + 2 q^2)`, `A_3 = 2 (1 - D) / (1 + 2 q^2)`, `A_0 = 2 (3 q^2 + e^2 D) / (1 + 2 q^2)`. For a
 /// prolate one `A_1 = 1 - A_3 / 2`, of which the derivatives do not cancel.
 pub fn potential_coefficients<S: Real>(shape: &SpheroidShape<S>) -> PotentialCoefficients<S> {
-    let (q, q2, e2) = (shape.axis_ratio(), shape.axis_ratio_squared(), shape.eccentricity_squared());
+    let (q, q2, e2) = (shape.axis_ratio, shape.axis_ratio_squared, shape.eccentricity_squared);
     let sum = q2 * 2.0 + S::one();
     if q.re() > NEEDLE {
         let (difference, a0) = needle(q, q2);
@@ -93,7 +93,7 @@ fn needle<S: Real>(q: S, q2: S) -> (S, S) {
 
 /// The function `beta = (A_1 - q^2 A_3) / (q e^2)` of the module: positive, analytic, 4/15 for the sphere.
 pub fn reduced_difference<S: Real>(shape: &SpheroidShape<S>) -> S {
-    let (q, q2, e2) = (shape.axis_ratio(), shape.axis_ratio_squared(), shape.eccentricity_squared());
+    let (q, q2, e2) = (shape.axis_ratio, shape.axis_ratio_squared, shape.eccentricity_squared);
     if q.re() > NEEDLE { needle(q, q2).0 / (q * e2) } else { half_angle_step(q, q2, e2) }
 }
 

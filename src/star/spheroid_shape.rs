@@ -10,7 +10,7 @@
 //!     SpheroidShape::from_eccentricity_squared(0.36)?,
 //!     SpheroidShape::from_oblateness(shape.oblateness())?,
 //! ] {
-//!     assert!((same.axis_ratio() - 0.8).abs() < 1e-14);
+//!     assert!((same.axis_ratio - 0.8).abs() < 1e-14);
 //! }
 //! # Ok::<(), twofold::Error>(())
 //! ```
@@ -26,11 +26,14 @@ use crate::numerics::scalar::Real;
 /// `e^2` is negative; all functions of the shape are analytic in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpheroidShape<S> {
-    axis_ratio: S,
-    axis_ratio_squared: S,
-    eccentricity_squared: S,
-    /// What the rounding of `q^2` and of `e^2` lost, where it is known.
-    lost: (S, S),
+    /// Axis ratio `q = a3 / a1`.
+    pub axis_ratio: S,
+    /// Squared axis ratio `q^2 = 1 - e^2`.
+    pub axis_ratio_squared: S,
+    /// Squared eccentricity `e^2 = 1 - (a3 / a1)^2`, Eq. (72) `[ecc]`; negative for a prolate spheroid.
+    pub eccentricity_squared: S,
+    /// What the rounding of `q^2` and of `e^2` lost, zero where it is not known.
+    pub(crate) lost: (S, S),
 }
 
 impl<S: Real> SpheroidShape<S> {
@@ -91,27 +94,6 @@ impl<S: Real> SpheroidShape<S> {
         let e2 = epsilon * 2.0 / (S::one() + epsilon);
         let lost = (S::zero(), S::zero());
         Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost })
-    }
-
-    /// Axis ratio `q = a3 / a1`.
-    pub fn axis_ratio(&self) -> S {
-        self.axis_ratio
-    }
-
-    /// Squared axis ratio `q^2 = 1 - e^2`.
-    pub fn axis_ratio_squared(&self) -> S {
-        self.axis_ratio_squared
-    }
-
-    /// Squared eccentricity `e^2 = 1 - (a3 / a1)^2`, Eq. (72) `[ecc]`; negative for a prolate spheroid.
-    pub fn eccentricity_squared(&self) -> S {
-        self.eccentricity_squared
-    }
-
-    /// What the rounding of [`axis_ratio_squared`](Self::axis_ratio_squared) and of
-    /// [`eccentricity_squared`](Self::eccentricity_squared) lost, zero where that is not known.
-    pub(crate) fn lost(&self) -> (S, S) {
-        self.lost
     }
 
     /// Oblateness `epsilon = e^2 / (2 - e^2)` of the uniform spheroid, Eq. (79).

@@ -64,17 +64,17 @@ impl<S: Real> UniformSpheroid<S> {
         positive(mass.re(), "mass M")?;
         positive(mean_radius.re(), "mean radius R")?;
         let density = mass * (0.75 / PI) / (mean_radius * mean_radius * mean_radius);
-        Self::new(mean_radius / cube_root(shape.axis_ratio()), density, shape)
+        Self::new(mean_radius / cube_root(shape.axis_ratio), density, shape)
     }
 
     /// Polar semi-axis `a3`.
     pub fn polar_radius(&self) -> S {
-        self.equatorial_radius * self.shape.axis_ratio()
+        self.equatorial_radius * self.shape.axis_ratio
     }
 
     /// Mean radius `R = (a1^2 a3)^(1/3)`.
     pub fn mean_radius(&self) -> S {
-        self.equatorial_radius * cube_root(self.shape.axis_ratio())
+        self.equatorial_radius * cube_root(self.shape.axis_ratio)
     }
 
     /// Volume `(4 pi / 3) a1^2 a3`.
@@ -90,7 +90,7 @@ impl<S: Real> UniformSpheroid<S> {
     /// Second moments of the mass, `int rho x^2 d^3x = M a1^2 / 5` and `int rho z^2 d^3x = M a3^2 / 5`.
     pub(crate) fn second_moments(&self) -> AxisymmetricTensor<S> {
         let xx = self.mass() * self.equatorial_radius * self.equatorial_radius / 5.0;
-        AxisymmetricTensor { xx, zz: xx * self.shape.axis_ratio_squared() }
+        AxisymmetricTensor { xx, zz: xx * self.shape.axis_ratio_squared }
     }
 
     /// Moments of inertia `I^zz = (2/5) M a1^2 = (8 pi / 15) rho a1^4 a3` and `I^xx = I^yy = M (a1^2 + a3^2) / 5`.
@@ -114,13 +114,13 @@ impl<S: Real> UniformSpheroid<S> {
     pub fn c(&self) -> S {
         let surface_density = self.density * self.equatorial_radius * self.equatorial_radius;
         // Three products of which only the last sum is rounded: together with the factors' own errors they would pass 4 ulp.
-        let (q2, e2) = (self.shape.axis_ratio_squared(), self.shape.eccentricity_squared());
+        let (q2, e2) = (self.shape.axis_ratio_squared, self.shape.eccentricity_squared);
         let beta = reduced_difference(&self.shape);
         let (reduced, lost_1) = two_product(e2, beta);
         let (shape, lost_2) = two_product(q2, reduced);
         let (high, low) = FOUR_PI_SQUARED_OVER_15;
         let (constant, lost_3) = two_product(shape, S::from_f64(high));
-        let (q2_lost, e2_lost) = self.shape.lost();
+        let (q2_lost, e2_lost) = self.shape.lost;
         let lost = lost_2 + q2 * lost_1 + reduced * q2_lost + q2 * beta * e2_lost;
         let factor = constant + (lost_3 + lost * high + shape * low);
         factor * (surface_density * surface_density * self.equatorial_radius)

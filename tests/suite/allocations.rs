@@ -2,24 +2,23 @@
 
 use allocation_counter::{AllocationInfo, measure};
 use twofold::Error;
-use twofold::dynamics::{AxisState, Problem};
 use twofold::plan::{Method, Output, Plan, Request, State};
 use twofold::propagation::Motion;
 use twofold_verify::reference::{ReferenceMotion, reference_motion};
 
 /// Makes the motion of a plan and evaluates it at its samples; what that took, the plan apart.
 fn carried_out(scene: &ReferenceMotion, plan: &Plan) -> Result<AllocationInfo, Error> {
-    let (body, s, initial) = (scene.spheroid, scene.violation(), scene.initial());
+    let problem = scene.problem();
     let times = |i: usize| plan.span.1 * i as f64 / plan.samples.max(2) as f64;
     let mut result = Ok(());
     let info = measure(|| {
         result = match plan.state {
             State::Nothing => Ok(()),
-            State::Axis | State::AxisAndMomentum => Problem::new(body, s, initial)
-                .and_then(|problem| plan.motion(&problem.reduced()))
+            State::Axis | State::AxisAndMomentum => plan
+                .motion(&problem.reduced())
                 .and_then(|motion| (0..plan.samples).try_for_each(|i| motion.axis_state(times(i)).map(drop))),
-            State::Orientation => Problem::new(body, s, initial)
-                .and_then(|problem| plan.motion(&problem))
+            State::Orientation => plan
+                .motion(&problem)
                 .and_then(|motion| (0..plan.samples).try_for_each(|i| motion.state(times(i)).map(drop))),
         };
     });
@@ -35,12 +34,11 @@ fn plans_take_no_more_than_listed() -> Result<(), Error> {
     let together = [Output::ALL.to_vec()];
     for name in ["free", "axisymmetric-violation", "tp-2"] {
         let scene = reference_motion(name);
-        let (body, s, initial) = (scene.spheroid, scene.violation(), scene.initial());
         for outputs in alone.iter().chain(&together) {
             let mut first = None;
             for samples in [10, 1000] {
                 let request = Request::new(outputs, (0.0, 200.0), samples, 1e-10);
-                let plan = Problem::new(body, s, initial).and_then(|problem| problem.plan(&request))?;
+                let plan = scene.problem().plan(&request)?;
                 let info = carried_out(&scene, &plan)?;
                 let Some(prediction) = plan.prediction else {
                     assert_eq!((plan.state, info.count_total), (State::Nothing, 0), "{name}: {outputs:?}");
@@ -66,19 +64,14 @@ fn plans_take_no_more_than_listed() -> Result<(), Error> {
 /// Sixteen times as many steps take four more doublings of three vectors: nothing in a step itself.
 #[test]
 fn steps_take_nothing() -> Result<(), Error> {
-    let scene = reference_motion("tp-2");
-    let (body, s, initial) = (scene.spheroid, scene.violation(), scene.initial());
+    let problem = reference_motion("tp-2").problem();
     let count = |span: f64, full: bool| {
         let mut steps = Ok(0);
         let info = measure(|| {
             steps = if full {
-                Problem::new(body, s, initial)
-                    .and_then(|problem| problem.taylor((0.0, span), 1e-10))
-                    .map(|motion| motion.step_count())
+                problem.taylor((0.0, span), 1e-10).map(|motion| motion.step_count())
             } else {
-                Problem::new(body, s, AxisState::from(&initial))
-                    .and_then(|problem| problem.taylor((0.0, span), 1e-10))
-                    .map(|motion| motion.step_count())
+                problem.reduced().taylor((0.0, span), 1e-10).map(|motion| motion.step_count())
             };
         });
         steps.map(|steps| (steps, info.count_total))
@@ -94,11 +87,10 @@ fn steps_take_nothing() -> Result<(), Error> {
 /// A plan itself is a few short lists.
 #[test]
 fn a_plan_is_small() -> Result<(), Error> {
-    let scene = reference_motion("tp-2");
-    let (body, s, initial) = (scene.spheroid, scene.violation(), scene.initial());
+    let problem = reference_motion("tp-2").problem();
     let request = Request::new(&Output::ALL, (0.0, 1e4), 10_000, 1e-13);
     let mut made = Err(Error::NotConverged { what: "plan", iterations: 0, residual: 0.0 });
-    let info = measure(|| made = Problem::new(body, s, initial).and_then(|problem| problem.plan(&request)));
+    let info = measure(|| made = problem.plan(&request));
     made?;
     assert!(info.bytes_total < 16_384, "{} bytes", info.bytes_total);
     Ok(())

@@ -13,8 +13,21 @@ use twofold_verify::given_states::{GivenStates, Law};
 
 const SPAN: (f64, f64) = (0.0, 100.0);
 
-fn star() -> RigidSpheroid<f64> {
-    RigidSpheroid::in_units_of_tc(1.1)
+/// A motion with these states over the span, without violation.
+fn given<F>(state: F, law: Option<Law>) -> GivenStates<F> {
+    GivenStates { spheroid: RigidSpheroid::in_units_of_tc(1.1), violation: Matrix3::zeros(), span: SPAN, state, law }
+}
+
+/// A star turned about Z at a rate, with the momentum of one radian a unit of time.
+fn turned(rate: f64) -> impl Fn(f64) -> Result<BodyState<f64>, Error> {
+    move |t| {
+        let (sin, cos) = (rate * t).sin_cos();
+        Ok(BodyState { axis: Vector3::z(), momentum: Vector3::z() * 1.1, equatorial_axis: Vector3::new(cos, sin, 0.0) })
+    }
+}
+
+fn beam_and_sight() -> (Beam<f64>, Vector3<f64>) {
+    (Beam::new(0.5, 0.4, 0.3), Observer::at(0.6, 0.3).direction)
 }
 
 /// Times at which the margin of a beam changes its sign, by a scan in steps of 1e-3 and bisection, and whether upwards.
@@ -63,14 +76,10 @@ fn assert_all_found<M: Motion<f64, State = BodyState<f64>>>(motion: &M, least: u
 /// About Z at four radians a unit of time, with the momentum of one: 63 turns.
 #[test]
 fn a_star_turned_rigidly_at_another_rate_shows_every_pulse() {
-    let state = |t: f64| {
-        let (sin, cos) = (4.0 * t).sin_cos();
-        Ok(BodyState { axis: Vector3::z(), momentum: Vector3::z() * 1.1, equatorial_axis: Vector3::new(cos, sin, 0.0) })
-    };
     let law: Law = (|_| [Vector3::z() * 4.0, Vector3::zeros(), Vector3::zeros()], [4.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    let motion = GivenStates { spheroid: star(), violation: Matrix3::zeros(), span: SPAN, state, law: Some(law) };
+    let motion = given(turned(4.0), Some(law));
     assert_all_found(&motion, 2 * (400.0 / TAU) as usize);
-    let (beam, n) = (Beam::new(0.5, 0.4, 0.3), Observer::at(0.6, 0.3).direction);
+    let (beam, n) = beam_and_sight();
     let train = pulse_train(&motion, &beam, &n, SPAN).expect("pulses");
     let numbers: Vec<_> = arrivals(&motion, &beam, &n, &train).expect("numbers").iter().map(|a| a.number).collect();
     assert_eq!(numbers, (0..numbers.len() as i64).collect::<Vec<_>>());
@@ -79,16 +88,8 @@ fn a_star_turned_rigidly_at_another_rate_shows_every_pulse() {
 /// A star that claims to follow the equations of motion, which would turn it at 1 radian a unit of time.
 #[test]
 fn a_motion_that_does_not_turn_as_it_says_is_refused() {
-    let (beam, n) = (Beam::new(0.5, 0.4, 0.3), Observer::at(0.6, 0.3).direction);
-    let pulses = |rate: f64| {
-        let state = move |t: f64| {
-            let (sin, cos) = (rate * t).sin_cos();
-            let (axis, momentum) = (Vector3::z(), Vector3::z() * 1.1);
-            Ok(BodyState { axis, momentum, equatorial_axis: Vector3::new(cos, sin, 0.0) })
-        };
-        let motion = GivenStates { spheroid: star(), violation: Matrix3::zeros(), span: SPAN, state, law: None };
-        pulse_train(&motion, &beam, &n, SPAN)
-    };
+    let (beam, n) = beam_and_sight();
+    let pulses = |rate: f64| pulse_train(&given(turned(rate), None), &beam, &n, SPAN);
     for rate in [4.0, 1.03] {
         let error = pulses(rate).unwrap_err().to_string();
         assert!(error.contains("do not turn as the motion's `turning` says"), "{rate}: {error}");
@@ -109,7 +110,7 @@ fn a_star_with_a_torque_of_its_own_shows_every_pulse() {
         [1.3 + 3.0 * cos, -6.0 * sin, -12.0 * cos].map(|rate| Vector3::z() * rate)
     };
     let law = Some((rates as fn(f64) -> _, [4.3, 6.0, 12.0, 24.0, 48.0, 96.0]));
-    let motion = GivenStates { spheroid: star(), violation: Matrix3::zeros(), span: SPAN, state, law };
+    let motion = given(state, law);
     assert_all_found(&motion, 60);
 }
 
@@ -140,17 +141,13 @@ fn a_star_that_is_made_to_precess_shows_every_pulse() {
         rates as fn(f64) -> _,
         [0, 1, 2, 3, 4, 5].map(|order| 0.2 * 1.7_f64.powi(order) + if order == 0 { 1.7 } else { 0.0 }),
     ));
-    let motion = GivenStates { spheroid: star(), violation: Matrix3::zeros(), span: SPAN, state, law };
+    let motion = given(state, law);
     assert_all_found(&motion, 10);
 }
 
 /// Rates above the bounds that their motion states, and bounds that are none.
 #[test]
 fn rates_above_their_bounds_are_refused() {
-    let state = |t: f64| {
-        let (sin, cos) = (4.0 * t).sin_cos();
-        Ok(BodyState { axis: Vector3::z(), momentum: Vector3::z() * 1.1, equatorial_axis: Vector3::new(cos, sin, 0.0) })
-    };
     let rates = |_| [Vector3::z() * 4.0, Vector3::x() * 0.1, Vector3::zeros()];
     for (bounds, refused) in [
         ([4.0, 0.1, 0.0, 0.0, 0.0, 0.0], None),
@@ -160,7 +157,7 @@ fn rates_above_their_bounds_are_refused() {
         ([4.0, 0.1, 0.0, 0.0, 0.0, f64::INFINITY], Some(("bound on a derivative of Omega", f64::INFINITY))),
     ] {
         let law = Some((rates as fn(f64) -> _, bounds));
-        let motion = GivenStates { spheroid: star(), violation: Matrix3::zeros(), span: (0.0, 0.1), state, law };
+        let motion = GivenStates { span: (0.0, 0.1), ..given(turned(4.0), law) };
         let found = pulse_train(&motion, &Beam::new(0.5, 0.4, 0.3), &Vector3::x(), (0.0, 0.1));
         match (found, refused) {
             (Ok(_), None) => {}

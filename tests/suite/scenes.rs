@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::fs;
 use std::path::Path;
 
+use twofold::numerics::angle::wrapped;
 use twofold::observables::pulsar::direction::magnetic_axis_direction;
 use twofold::observables::pulsar::position_angle::rotating_vector_position_angle;
 use twofold_scene::columns;
@@ -17,8 +18,7 @@ fn every_built_in_scene_runs() {
     for built_in in BUILT_IN {
         let scene = Scene::named(built_in.name).unwrap_or_else(|error| panic!("{error}"));
         assert!(!scene.about.is_empty() && scene.about.len() < 100, "{}", built_in.name);
-        let mut table = Vec::new();
-        let summary = trajectory::write_csv(&scene, &mut table, |_| {}).expect(built_in.name);
+        let summary = trajectory::write_csv(&scene, std::io::sink(), |_| {}).expect(built_in.name);
         assert_eq!(summary.rows, scene.times.iter().count(), "{}", built_in.name);
         assert_eq!(summary.rows_on_pole, 0, "{}", built_in.name);
     }
@@ -108,16 +108,7 @@ fn a_physical_star_moves_as_in_its_own_units() {
     let spin = std::f64::consts::TAU * 50.0 * unit;
     let star = format!("[star]\ninertia_ratio = 1.1\nspin = {spin:?}\n");
     let dimensionless = read(&format!("{star}{}", rest.replace("0.7\n", &format!("0.7\n{rates}"))));
-    let table = |scene: &Scene| {
-        let mut bytes = Vec::new();
-        trajectory::write_csv(scene, &mut bytes, |_| {}).expect("motion");
-        let text = String::from_utf8(bytes).expect("text");
-        text.lines()
-            .skip(1)
-            .map(|line| line.split(',').map(|field| field.parse().expect("number")).collect::<Vec<f64>>())
-            .collect::<Vec<_>>()
-    };
-    let (in_seconds, in_tc) = (table(&physical), table(&dimensionless));
+    let (in_seconds, in_tc) = (numbers(&csv(&physical)), numbers(&csv(&dimensionless)));
     let (momentum, energy) = (physical.units.momentum, physical.units.energy);
     let mut factors = vec![unit, 1.0, 1.0, 1.0];
     factors.extend([1.0 / unit; 3]);
@@ -133,6 +124,13 @@ fn a_physical_star_moves_as_in_its_own_units() {
     }
 }
 
+/// The table of a scene.
+fn csv(scene: &Scene) -> Vec<u8> {
+    let mut table = Vec::new();
+    trajectory::write_csv(scene, &mut table, |_| {}).expect("motion");
+    table
+}
+
 /// Rows of numbers of a table without empty fields.
 fn numbers(table: &[u8]) -> Vec<Vec<f64>> {
     let text = std::str::from_utf8(table).expect("text");
@@ -143,9 +141,7 @@ fn numbers(table: &[u8]) -> Vec<Vec<f64>> {
 /// A scene with the columns `names` and its table.
 fn table_of(mut scene: Scene, names: &[&str]) -> Vec<Vec<f64>> {
     scene.choose_columns(names).expect("columns");
-    let mut bytes = Vec::new();
-    trajectory::write_csv(&scene, &mut bytes, |_| {}).expect("motion");
-    numbers(&bytes)
+    numbers(&csv(&scene))
 }
 
 #[test]
@@ -174,10 +170,8 @@ fn columns_are_those_asked_for_in_their_order() {
     for (name, group) in COLUMN_GROUPS {
         let mut scene = Scene::named("tp-1").expect("tp-1");
         scene.choose_columns(&[name]).unwrap_or_else(|why| panic!("{why}"));
-        let mut table = Vec::new();
-        trajectory::write_csv(&scene, &mut table, |_| {}).expect("motion");
         let width = columns::header(group, &scene.units).len() + 1;
-        assert!(numbers(&table).iter().all(|row| row.len() == width), "{name}");
+        assert!(numbers(&csv(&scene)).iter().all(|row| row.len() == width), "{name}");
     }
 }
 
@@ -197,15 +191,14 @@ fn columns_of_observables_agree_with_one_another() {
             let slope = (triple[2][value] - triple[0][value]) / (2.0 * step);
             assert!((slope - triple[1][value + 1]).abs() < 1e-5, "column {value}: {slope}");
         }
-        let turn = |angle: f64| (angle + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
-        let slope = turn(triple[2][13] - triple[0][13]) / (2.0 * step);
+        let slope = wrapped(triple[2][13] - triple[0][13]) / (2.0 * step);
         assert!((slope - triple[1][14]).abs() < 1e-4, "psi: {slope} instead of {}", triple[1][14]);
         let row = &triple[1];
         let psi = rotating_vector_position_angle(row[11], row[12], 0.8, 0.0).expect("off the line of sight");
-        assert!(turn(psi - row[13]).abs() < 1e-11, "{row:?}");
+        assert!(wrapped(psi - row[13]).abs() < 1e-11, "{row:?}");
         let angles = twofold::euler_angles::EulerAngles { alpha: row[1], beta: row[2], gamma: row[3] };
         let (theta, phi) = magnetic_axis_direction(&angles, 0.5, 0.0).expect("off the pole");
-        assert!((theta - row[11]).abs() < 1e-12 && turn(phi - row[12]).abs() < 1e-12, "{row:?}");
+        assert!((theta - row[11]).abs() < 1e-12 && wrapped(phi - row[12]).abs() < 1e-12, "{row:?}");
         assert!((row[7] - (0.8_f64.sin() * row[4] + 0.8_f64.cos() * row[6])).abs() < 1e-15);
     }
 }

@@ -71,7 +71,7 @@ equations! {
         ["dynamics::RigidSpheroid::oblateness" "star::spheroid_shape::SpheroidShape::oblateness"] []
     20 "epf" "centrifugal deformation"
         ["star::deformation::centrifugal_oblateness" "star::deformation::centrifugal_oblateness_scaled"
-         "star::deformation::centrifugal_coefficient"] ["star_estimates"]
+         "star::deformation::CENTRIFUGAL_COEFFICIENT"] ["star_estimates"]
     21 "anisopot" "self-energy in Euler angles"
         ["dynamics::potential::anisotropic_potential_in_angles"
          "dynamics::potential::potential_gradient_in_angles"] []

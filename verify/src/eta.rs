@@ -9,7 +9,7 @@ use twofold::euler_angles::symmetry_axis;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::bound::eta_from_inclination;
 use twofold::observables::eta::secular_axis_rate;
-use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
+use twofold::observables::eta_distribution::{EtaDistribution, SpinAxis, root_mean_square_along_motion};
 use twofold::propagation::Motion;
 
 use crate::random::Random;
@@ -72,8 +72,11 @@ pub fn eta_curve(asymmetry_ratio: f64, inclinations: &[f64]) -> Result<Vec<EtaPo
             beta_0,
             printed: eta_from_inclination(beta_0)?,
             along_motion: root_mean_square_along_motion(asymmetry_ratio, beta_0),
-            at_inclination: EtaStatistics::of(&EtaDistribution::at_inclination(asymmetry_ratio, beta_0)?)?,
-            at_constant: match EtaDistribution::at_constant(asymmetry_ratio, beta_0) {
+            at_inclination: EtaStatistics::of(&EtaDistribution::new(
+                asymmetry_ratio,
+                SpinAxis::AtInclination(beta_0),
+            )?)?,
+            at_constant: match EtaDistribution::new(asymmetry_ratio, SpinAxis::AtConstant(beta_0)) {
                 Ok(distribution) => Some(EtaStatistics::of(&distribution)?),
                 Err(_) => None,
             },

@@ -1,6 +1,6 @@
 //! The order of an error in a small parameter, as the figure of a check.
 
-use twofold::straight_line::order;
+use twofold::numerics::straight_line::order;
 
 use crate::check::{Measured, Worst};
 

@@ -7,7 +7,7 @@ use twofold::propagation::Motion;
 
 use super::Effort;
 use super::scene::{BenchScene, rows};
-use twofold::straight_line::{Slope, order};
+use twofold::numerics::straight_line::{Slope, order};
 use twofold_verify::check::largest;
 use twofold_verify::double_double::DoubleDouble;
 

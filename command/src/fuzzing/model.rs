@@ -12,7 +12,7 @@ use twofold::numerics::elliptic::carlson::{rc, rd, rf, rj};
 use twofold::numerics::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::observables::Observer;
 use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination, lambda_change};
-use twofold::observables::eta_distribution::EtaDistribution;
+use twofold::observables::eta_distribution::{EtaDistribution, SpinAxis};
 use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::pulsar::timing::ConstantPeriod;
 use twofold::observables::pulsar::width::pulse_width;
@@ -231,8 +231,8 @@ fn pulses(case: &Case) {
 }
 
 fn clock(case: &Case, time: f64) {
-    let Case { body, tensor, state, beam, observer, .. } = case;
-    if let Ok(mut clock) = PulsarClock::new(body, tensor, state, beam, observer, AveragingOrder::Second) {
+    let (Some(problem), Case { beam, observer, .. }) = (case.problem(), case) else { return };
+    if let Ok(mut clock) = PulsarClock::new(&problem, beam, observer, AveragingOrder::Second) {
         let _ = black_box((clock.period(), clock.truncation(time)));
         for time in [[0.0, 0.0], [time, 0.0], [time, time * 1e-17]] {
             let _ = black_box(clock.pulse_near(time));
@@ -311,7 +311,10 @@ fn bounds(bytes: &mut Bytes<'_>) {
     let _ = black_box((eta_from_inclination(next()), pulse_width(next(), next(), next())));
     let [a, b, c, d] = std::array::from_fn(|_| next());
     let _ = black_box(lambda_change(a, b, c, d));
-    for found in [EtaDistribution::at_inclination(a, b), EtaDistribution::at_constant(a, b)].into_iter().flatten() {
+    for found in [EtaDistribution::new(a, SpinAxis::AtInclination(b)), EtaDistribution::new(a, SpinAxis::AtConstant(b))]
+        .into_iter()
+        .flatten()
+    {
         let _ = black_box((found.root_mean_square(), found.probability_above(c), found.quantile(d)));
     }
 }
@@ -346,7 +349,7 @@ fn timing(bytes: &mut Bytes<'_>) {
         points.push((number, time));
         in_parts.push((number, [time, bytes.usual() * 1e-17]));
     }
-    let _ = black_box(ConstantPeriod::fit(&points));
+    let _ = black_box(ConstantPeriod::fit(&points, None));
     let _ = black_box(SpinFit::new(&in_parts, with_rate));
 }
 

@@ -68,9 +68,8 @@ impl PulsarScene {
         }
         let observer = viewer.basis();
         let problem = Problem::new(spheroid, *scene.problem.coefficients(), initial)?;
-        let clock =
-            PulsarClock::new(&spheroid, problem.coefficients(), &initial, &beam, &observer, AveragingOrder::Second)
-                .map_err(|why| format!("the scene has no averaged motion: {why}"))?;
+        let clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second)
+            .map_err(|why| format!("the scene has no averaged motion: {why}"))?;
         Ok(Self {
             problem,
             observer,

@@ -32,8 +32,7 @@ pub(super) fn no_pulse(pulsar: &PulsarScene, epochs: &[Epoch]) -> TimingError {
     for epoch in epochs.iter().step_by(epochs.len().div_ceil(MOST)) {
         let near = pulsar.clock.near(epoch.seconds_since(&pulsar.epoch));
         let at = |t: f64| {
-            let state = near.state(t);
-            beam.margin_rates(problem.spheroid(), problem.coefficients(), &state, &pulsar.observer.direction)
+            beam.margin_rates(problem.spheroid(), problem.coefficients(), &near(t), &pulsar.observer.direction)
         };
         let step = period / LOOKS as f64;
         for k in 0..LOOKS {

@@ -37,10 +37,10 @@ impl PulsarScene {
 pub fn strain_series(pulsar: &PulsarScene, series: &Series) -> Option<[String; 2]> {
     let header = |name: &str| format!("# {name} [1] against time [s] from MJD {} (TDB, barycentre)\n", series.start);
     let mut texts = ["h_plus", "h_cross"].map(header);
-    let mean = pulsar.clock.near(series.start.seconds_since(&pulsar.epoch));
+    let state = pulsar.clock.near(series.start.seconds_since(&pulsar.epoch));
     for k in 0..series.samples {
         let time = k as f64 / series.rate;
-        let wave = pulsar.wave(&AxisState::from(&mean.state(time)))?;
+        let wave = pulsar.wave(&AxisState::from(&state(time)))?;
         for (text, h) in texts.iter_mut().zip([wave.plus, wave.cross]) {
             writeln!(text, "{time:?} {h:?}").expect("writing to a string succeeds");
         }

@@ -75,7 +75,9 @@ pub fn write_csv(scene: &Scene, writer: impl Write, progress: impl FnMut(f64)) -
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::{PI, TAU};
+    use std::f64::consts::TAU;
+
+    use twofold::numerics::angle::wrapped;
 
     use super::*;
 
@@ -121,8 +123,7 @@ mod tests {
         ));
         let azimuths: Vec<f64> = rows.iter().map(|row| row[2].atan2(row[1])).collect();
         for three in azimuths.windows(3) {
-            let second = three[2] - 2.0 * three[1] + three[0];
-            let off = (second + PI).rem_euclid(TAU) - PI;
+            let off = wrapped(three[2] - 2.0 * three[1] + three[0]);
             assert!(off.abs() < 1e-7, "{off:e}");
         }
         assert_eq!(azimuths.len(), 40);

@@ -81,11 +81,11 @@ impl<S: Real> ArithmeticGeometricMean<S> {
     }
 
     /// `K(m) / a = pi / (2 AGM(a, b))`: the time in which `sn(a t | m)` goes from 0 to 1.
-    pub fn quarter_period(&self) -> S {
+    pub(crate) fn quarter_period(&self) -> S {
         S::from_f64(FRAC_PI_2) / self.limit()
     }
 
-    /// `sn(a t | m) / a`, `cn(a t | m)`, `dn(a t | m)` for `|t|` up to half the [`quarter_period`](Self::quarter_period).
+    /// `sn(a t | m) / a`, `cn(a t | m)`, `dn(a t | m)` for `|t|` up to half the quarter period `K(m) / a`.
     ///
     /// Relative error of each a few ulp there, also for `m -> 1`; it grows towards the zeros of `cn` beyond.
     pub fn functions(&self, t: S) -> JacobiFunctions<S> {

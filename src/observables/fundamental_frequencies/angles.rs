@@ -69,29 +69,6 @@ mod tests {
         Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0)
     }
 
-    #[test]
-    fn the_nutation_is_from_the_side_of_the_axis_or_from_the_first_one() {
-        let angle = 0.7_f64;
-        let close = |found: Vec<f64>| found.len() == 1 && (found[0] - angle).abs() < 1e-14;
-        // L along Z: the first axis is Y, and -X comes after it.
-        let fast = 0.3 * (Vector3::y() * angle.cos() - Vector3::x() * angle.sin()) + 0.1 * Vector3::z();
-        assert!(close(nutation_angles(&[averaged(2.5 * Vector3::z(), fast)], &cyclic(), false)));
-        // The third axis is X, and Y comes after it.
-        let fast = 0.3 * (Vector3::x() * angle.cos() + Vector3::y() * angle.sin()) + 0.1 * Vector3::z();
-        assert!(close(nutation_angles(&[averaged(2.5 * Vector3::z(), fast)], &cyclic(), true)));
-    }
-
-    #[test]
-    fn the_body_turns_from_where_its_axis_moves_to() {
-        let angle = 0.7_f64;
-        // n is at X as seen from L, along Z, and moves to Y; Z comes after that about X.
-        let mut one = averaged(2.5 * Vector3::z(), 0.3 * Vector3::x());
-        one.state.axis = Vector3::x();
-        one.state.equatorial_axis = Vector3::y() * angle.cos() + Vector3::z() * angle.sin();
-        let found = body_angles(&[one]);
-        assert!(found.len() == 1 && (found[0] - angle).abs() < 1e-14, "{found:?}");
-    }
-
     /// At a distance from X, the third axis, and a height along it.
     fn beside(distance: f64, height: f64) -> Vector3<f64> {
         Vector3::new(height, 0.6 * distance, -0.8 * distance)

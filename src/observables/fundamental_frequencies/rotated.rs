@@ -67,11 +67,8 @@ mod tests {
             equatorial_axis: Vector3::y(),
         };
         let motion = Made {
-            spheroid: RigidSpheroid::in_units_of_tc(1.1),
             coefficients: Matrix3::new(0.3, -0.5, 0.8, -0.5, 0.6, 0.35, 0.8, 0.35, -0.2),
-            span: (0.0, 3.0),
-            error: 1e-7,
-            state: |_| Ok(given),
+            ..Made::new((0.0, 3.0), |_| Ok(given))
         };
         let turned = Rotated::new(&motion, Rotation3::from_euler_angles(0.3, -0.8, 1.7).matrix());
         let state = turned.state(1.0).unwrap();

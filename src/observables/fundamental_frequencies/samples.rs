@@ -179,14 +179,7 @@ mod tests {
             Error::ensure(t == 0.0, "later time", t, "zero")?;
             Ok(state(Vector3::new(0.0, momentum, 0.0), t))
         };
-        let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-        match Samples::of(&Made {
-            spheroid,
-            coefficients: Matrix3::zeros(),
-            span: (0.0, end),
-            error: 0.0,
-            state: known,
-        }) {
+        match Samples::of(&Made::new((0.0, end), known)) {
             Err(Error::Domain { quantity, .. }) => quantity,
             other => panic!("{:?}", other.map(|samples| samples.states.len())),
         }

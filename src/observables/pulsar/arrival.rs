@@ -120,61 +120,24 @@ impl<P: Margin> EdgeSearch<P> {
 
 #[cfg(test)]
 mod tests {
-    use core::cell::Cell;
-
     use nalgebra::Matrix3;
 
     use super::*;
-    use crate::dynamics::Problem;
-    use crate::dynamics::{BodyState, RigidSpheroid};
+    use crate::dynamics::{BodyState, Problem, RigidSpheroid};
     use crate::euler_angles::{EulerAngles, EulerRates};
     use crate::observables::Observer;
+    use crate::observables::pulsar::margin::tests::{search, search_of, waves};
     use crate::observables::pulsar::{Pulse, pulse_train};
 
-    /// A margin by a function, looked at so many times.
-    struct Given<F>(F, Cell<usize>);
-
-    impl<F: Fn(f64) -> [f64; 4]> Margin for Given<F> {
-        fn at(&self, t: f64) -> Result<[f64; 4], Error> {
-            self.1.set(self.1.get() + 1);
-            // A search takes some dozens.
-            Error::ensure(self.1.get() < 10_000, "looks", 1e4, "fewer")?;
-            Ok((self.0)(t))
-        }
-
-        fn cheapest_time(&self, _: f64, t: f64) -> f64 {
-            t
-        }
-    }
-
-    fn search<F: Fn(f64) -> [f64; 4]>(first: f64, third: f64, margin: F) -> EdgeSearch<Given<F>> {
-        let bounds = RateBounds { first, second: f64::NAN, third, fourth: f64::NAN, sixth: f64::NAN };
-        EdgeSearch::new(Given(margin, Cell::new(0)), bounds)
+    fn bounded(first: f64, third: f64) -> RateBounds {
+        RateBounds { first, second: f64::NAN, third, fourth: f64::NAN, sixth: f64::NAN }
     }
 
     /// Times of all maxima, and the looks that they took.
-    fn maxima(
-        first: f64,
-        third: f64,
-        (from, to): (f64, f64),
-        margin: impl Fn(f64) -> [f64; 4] + Clone,
-    ) -> (Vec<f64>, usize) {
-        let looks = Cell::new(0);
-        let counted = |t: f64| {
-            looks.set(looks.get() + 1);
-            margin(t)
-        };
-        let mut found = Vec::new();
-        search(first, third, counted).maxima(from, to, &mut |time, _| found.push(time)).unwrap();
-        (found, looks.get())
-    }
-
-    /// `a cos(w t)` with three derivatives.
-    fn wave(a: f64, w: f64) -> impl Fn(f64) -> [f64; 4] + Clone {
-        move |t: f64| {
-            let (sin, cos) = (w * t).sin_cos();
-            [cos, -w * sin, -w * w * cos, w * w * w * sin].map(|x| a * x)
-        }
+    fn maxima(bounds: RateBounds, (from, to): (f64, f64), margin: impl Fn(f64) -> [f64; 4]) -> (Vec<f64>, usize) {
+        let (search, mut found) = (search(bounds, margin), Vec::new());
+        search.maxima(from, to, &mut |time, _| found.push(time)).unwrap();
+        (found, search.margin.1.get())
     }
 
     #[test]
@@ -188,7 +151,7 @@ mod tests {
             pulses: vec![pulse(3, true), pulse(4, false), pulse(5, false), pulse(7, false)],
             grazings: vec![],
         };
-        let of_a_wave = search(1.0, 1.0, wave(1.0, 1.0));
+        let of_a_wave = search_of(vec![[1.0, 1.0, 0.0]], 0.0);
         let found = of_a_wave.arrivals(&train, &mut |t| Ok(20 + (t / TAU).round() as i64)).unwrap();
         assert_eq!(found.iter().map(|arrival| arrival.number).collect::<Vec<_>>(), [0, 1, 3]);
         for (arrival, k) in found.iter().zip([4.0, 5.0, 7.0]) {
@@ -206,7 +169,7 @@ mod tests {
                 for j in 0..30 {
                     let (first, last) = (f64::from(j % 3), f64::from(j / 3));
                     let span = ((0.1 + 0.31 * last - TAU * first) / w, (TAU * (first + 1.0) - 1.7 + 0.23 * last) / w);
-                    let (found, looks) = maxima(w, a * w * w * w, span, wave(a, w));
+                    let (found, looks) = maxima(bounded(w, a * w * w * w), span, waves(vec![[a, w, 0.0]], 0.0));
                     let expected: Vec<_> =
                         (-3..9).map(|k| f64::from(k) * TAU / w).filter(|t| span.0 < *t && *t <= span.1).collect();
                     assert_eq!(found.len(), expected.len(), "{w} {a} {span:?}: {found:?}");
@@ -222,7 +185,7 @@ mod tests {
     }
 
     /// `1 - u^4`, flat at its top.
-    fn flat(top: f64, w: f64) -> impl Fn(f64) -> [f64; 4] + Clone {
+    fn flat(top: f64, w: f64) -> impl Fn(f64) -> [f64; 4] {
         move |t: f64| {
             let u = (t - top) * w;
             [1.0 - u.powi(4), -4.0 * w * u.powi(3), -12.0 * (w * u).powi(2), -24.0 * w.powi(3) * u]
@@ -231,7 +194,7 @@ mod tests {
 
     #[test]
     fn a_flat_top_is_one_maximum() {
-        let (found, looks) = maxima(1.0, 24.0 * 1.3, (2.0, 3.1), flat(2.7, 1.0));
+        let (found, looks) = maxima(bounded(1.0, 24.0 * 1.3), (2.0, 3.1), flat(2.7, 1.0));
         assert!(found.len() == 1 && (found[0] - 2.7).abs() < 1e-9, "{found:?}");
         // Only the four thousandths of a radian about it are divided to the end.
         assert!(looks < 2500, "{looks}");
@@ -243,11 +206,14 @@ mod tests {
         let start = 2_f64.powi(52);
         let w = 0.15_f64;
         for top in [0.3, 1.4, 2.2, 3.6, 5.0] {
-            let (found, _) = maxima(w, 24.0 * 1.2 * w.powi(3), (start, start + 8.0), move |t| flat(top, w)(t - start));
+            let (found, _) =
+                maxima(bounded(w, 24.0 * 1.2 * w.powi(3)), (start, start + 8.0), move |t| flat(top, w)(t - start));
             assert!(found.len() == 1 && (found[0] - start - top).abs() <= 1.0, "{top}: {found:?}");
         }
         // The middle of this stretch is rounded to two thirds of it.
-        let (found, _) = maxima(w, w.powi(3), (start, start + 3.0), move |t| wave(1.0, w)(t - start - 0.1));
+        let (found, _) = maxima(bounded(w, w.powi(3)), (start, start + 3.0), move |t| {
+            waves(vec![[1.0, w, 0.0]], 0.0)(t - start - 0.1)
+        });
         assert!(found.len() == 1 && (found[0] - start).abs() <= 1.0, "{found:?}");
     }
 
@@ -255,7 +221,7 @@ mod tests {
     #[test]
     fn maxima_that_are_close_together_are_told_apart() {
         let (w, a) = (1000.0, 1e-4);
-        let (found, _) = maxima(w, 6.0 * w.powi(3) * 0.0223, (0.25 - 1.31e-5, 0.25 + 2.23e-5), move |t| {
+        let (found, _) = maxima(bounded(w, 6.0 * w.powi(3) * 0.0223), (0.25 - 1.31e-5, 0.25 + 2.23e-5), move |t| {
             let u = (t - 0.25) * w;
             let square = u * u;
             [

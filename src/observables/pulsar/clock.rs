@@ -26,7 +26,7 @@ const MOST_ROTATION: f64 = 1e5;
 ///
 /// ```
 /// use nalgebra::{Matrix3, Vector3};
-/// use twofold::dynamics::{BodyState, RigidSpheroid};
+/// use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 /// use twofold::observables::Observer;
 /// use twofold::observables::pulsar::{Beam, PulsarClock};
 /// use twofold::solutions::averaged::AveragingOrder;
@@ -36,7 +36,8 @@ const MOST_ROTATION: f64 = 1e5;
 /// let spin = 4033.0;
 /// let start = BodyState { axis: Vector3::z(), momentum: Vector3::z() * (1.001 * spin), equatorial_axis: Vector3::x() };
 /// let (beam, observer) = (Beam::new(1.3, 0.0, 0.15), Observer::at(1.35, 0.0));
-/// let mut clock = PulsarClock::new(&spheroid, &Matrix3::zeros(), &start, &beam, &observer, AveragingOrder::Second)?;
+/// let problem = Problem::new(spheroid, Matrix3::zeros(), start)?;
+/// let mut clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second)?;
 /// let pulse = clock.pulse_near([4.7e8, 0.0])?.expect("a pulse in every turn");
 /// assert_eq!(pulse.number, (4.7e8 * spin / core::f64::consts::TAU).round() as i64);
 /// # Ok::<(), twofold::Error>(())
@@ -74,20 +75,6 @@ pub struct ClockPulse {
     pub state: BodyState<f64>,
 }
 
-/// States near a time, in the frame of the initial state.
-#[derive(Debug, Clone, Copy)]
-pub struct NearState {
-    mean: AveragedSolution<f64>,
-    given_from_principal: Matrix3<f64>,
-}
-
-impl NearState {
-    /// The state a time `t` later.
-    pub fn state(&self, t: f64) -> BodyState<f64> {
-        self.mean.state(t).rotated(&self.given_from_principal)
-    }
-}
-
 /// The motion near a time.
 struct Near<'a> {
     clock: &'a PulsarClock,
@@ -119,21 +106,20 @@ impl Motion<f64> for Near<'_> {
 }
 
 impl PulsarClock {
-    /// The pulsar whose state at the time zero is `initial`; `initial`, `s` and `observer` in one inertial frame.
+    /// The pulsar whose state at the time zero is the initial one of `problem`, in whose frame the `observer` is.
     ///
     /// # Errors
     /// [`Error::Domain`] as for [`AveragedSolution::new`] and [`pulse_train`](super::pulse_train), where the line of sight or the magnetic
     /// axis is along L, about which turns are counted, and for a body that turns by more than 1e5 rad in one such turn.
     pub fn new(
-        spheroid: &RigidSpheroid<f64>,
-        s: &Matrix3<f64>,
-        initial: &BodyState<f64>,
+        problem: &Problem<f64>,
         beam: &Beam<f64>,
         observer: &Observer<f64>,
         order: AveragingOrder,
     ) -> Result<Self, Error> {
         check_beam(beam, &observer.direction)?;
-        let frame = principal_frame(s)?;
+        let (spheroid, initial) = (problem.spheroid(), problem.initial());
+        let frame = principal_frame(problem.coefficients())?;
         let turned = initial.rotated(&frame.principal_from_given);
         let violation = frame.coefficients.tensor();
         let mean =
@@ -175,9 +161,10 @@ impl PulsarClock {
         self.mean.truncation(t) / self.turns.rate(&self.mean)
     }
 
-    /// The motion with the time counted from `t[0] + t[1]`, for states in the frame of the initial one.
-    pub fn near(&self, t: [f64; 2]) -> NearState {
-        NearState { mean: self.mean.near(t), given_from_principal: self.given_from_principal }
+    /// The state as a function of the time since `t[0] + t[1]`, in the frame of the initial one.
+    pub fn near(&self, t: [f64; 2]) -> impl Fn(f64) -> BodyState<f64> {
+        let (mean, given_from_principal) = (self.mean.near(t), self.given_from_principal);
+        move |since| mean.state(since).rotated(&given_from_principal)
     }
 
     /// The pulse of the turn nearest to the time `t[0] + t[1]`, of its pulses that nearest to the middle of the turn; none if that turn
@@ -275,26 +262,12 @@ mod tests {
     use core::f64::consts::{PI, TAU};
 
     use super::*;
-
-    /// `cos t - edge`.
-    struct Wave(f64);
-
-    impl Margin for Wave {
-        fn at(&self, t: f64) -> Result<[f64; 4], Error> {
-            Ok([t.cos() - self.0, -t.sin(), -t.cos(), t.sin()])
-        }
-
-        fn cheapest_time(&self, _: f64, t: f64) -> f64 {
-            t
-        }
-    }
+    use crate::observables::pulsar::margin::tests::search_of;
 
     #[test]
     fn the_pulse_that_holds_a_time_is_found_where_the_margin_bends_downwards() {
-        let around = |edge: f64, time: f64, period: f64| {
-            let bounds = RateBounds { first: 1.0, second: 1.0, third: 1.0, fourth: 1.0, sixth: 1.0 };
-            around(&EdgeSearch::new(Wave(edge), bounds), time, period).unwrap()
-        };
+        let around =
+            |edge: f64, time: f64, period: f64| around(&search_of(vec![[1.0, 1.0, 0.0]], edge), time, period).unwrap();
         for time in [-0.15, 0.02, 0.1] {
             let pulse = around(0.5, time, TAU).expect("a pulse");
             assert!((pulse.start + PI / 3.0).abs() < 1e-14 && (pulse.end - PI / 3.0).abs() < 1e-14, "{pulse:?}");
@@ -316,7 +289,8 @@ mod tests {
         let start = BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() };
         let beam = Beam::new(0.3, 0.4, half_opening);
         let observer = Observer::at(0.01, 0.0);
-        PulsarClock::new(&spheroid, &Matrix3::zeros(), &start, &beam, &observer, AveragingOrder::Second).unwrap()
+        let problem = Problem::new(spheroid, Matrix3::zeros(), start).unwrap();
+        PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second).unwrap()
     }
 
     #[test]
@@ -351,8 +325,8 @@ mod tests {
             let axis = Vector3::new(theta.sin(), 0.0, theta.cos());
             let start = BodyState { axis, momentum: Vector3::z() * 0.8, equatorial_axis: Vector3::y() };
             let (beam, observer) = (Beam::new(1.2, 0.4, 0.3), Observer::at(1.1, 0.0));
-            let clock =
-                PulsarClock::new(&spheroid, &Matrix3::zeros(), &start, &beam, &observer, AveragingOrder::Second);
+            let problem = Problem::new(spheroid, Matrix3::zeros(), start).unwrap();
+            let clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second);
             assert_eq!(clock.is_err(), is_refused, "{theta}: {:?}", clock.err());
             if let Err(Error::Domain { quantity, value, .. }) = clock {
                 let rotation = TAU / (theta / 2.0).tan();

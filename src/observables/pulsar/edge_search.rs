@@ -26,7 +26,7 @@ pub(super) enum Event {
 
 /// The search along a motion, by what bounds the derivatives of the margin.
 pub(super) struct EdgeSearch<P> {
-    margin: P,
+    pub(super) margin: P,
     pub(super) bounds: RateBounds,
     /// Divisions that the piece at hand may still take.
     divisions: Cell<u32>,
@@ -228,41 +228,10 @@ impl<P: Margin> EdgeSearch<P> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// `sum a cos(w t + p) - edge`, which counts how often it is looked at.
-    struct Waves {
-        waves: Vec<[f64; 3]>,
-        edge: f64,
-        looks: Cell<usize>,
-    }
-
-    impl Margin for Waves {
-        fn at(&self, t: f64) -> Result<[f64; 4], Error> {
-            self.looks.set(self.looks.get() + 1);
-            let mut found = [-self.edge, 0.0, 0.0, 0.0];
-            for &[a, w, p] in &self.waves {
-                let (sin, cos) = (w * t + p).sin_cos();
-                for (entry, term) in found.iter_mut().zip([cos, -w * sin, -w * w * cos, w * w * w * sin]) {
-                    *entry += a * term;
-                }
-            }
-            Ok(found)
-        }
-
-        fn cheapest_time(&self, _: f64, t: f64) -> f64 {
-            t
-        }
-    }
-
-    fn search_of(waves: Vec<[f64; 3]>, edge: f64) -> EdgeSearch<Waves> {
-        let bound = |order: i32| waves.iter().map(|[a, w, _]| a.abs() * w.powi(order)).sum::<f64>();
-        let bounds =
-            RateBounds { first: bound(1), second: bound(2), third: bound(3), fourth: bound(4), sixth: bound(6) };
-        EdgeSearch::new(Waves { waves, edge, looks: Cell::new(0) }, bounds)
-    }
+    use crate::observables::pulsar::margin::tests::search_of;
 
     /// Times of crossings (and whether upwards), and of grazings.
-    fn found(search: &EdgeSearch<Waves>, from: f64, to: f64) -> (Vec<(f64, bool)>, Vec<f64>) {
+    fn found<P: Margin>(search: &EdgeSearch<P>, from: f64, to: f64) -> (Vec<(f64, bool)>, Vec<f64>) {
         let (mut crossings, mut grazings) = (Vec::new(), Vec::new());
         let start = search.jet(from).unwrap();
         search
@@ -324,7 +293,7 @@ mod tests {
                         let error = (time + offset - exact).abs();
                         assert!(error < 4e-16 / half + 4e-16, "{exponent}: {error:e}");
                     }
-                    looks += search.margin.looks.get();
+                    looks += search.margin.1.get();
                 }
             }
         }

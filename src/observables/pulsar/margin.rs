@@ -86,3 +86,57 @@ impl<M: Motion<f64, State = BodyState<f64>>> Margin for ByStates<'_, M> {
         self.motion.error_estimate(t)
     }
 }
+
+#[cfg(test)]
+pub(super) mod tests {
+    use core::cell::Cell;
+
+    use super::*;
+    use crate::observables::pulsar::edge_search::EdgeSearch;
+    use crate::observables::pulsar::rate_bounds::RateBounds;
+
+    /// A margin by a function, which counts how often it is looked at.
+    pub(in crate::observables::pulsar) struct Given<F>(F, pub(in crate::observables::pulsar) Cell<usize>);
+
+    impl<F: Fn(f64) -> [f64; 4]> Margin for Given<F> {
+        fn at(&self, t: f64) -> Result<[f64; 4], Error> {
+            self.1.set(self.1.get() + 1);
+            // A search takes some dozens.
+            Error::ensure(self.1.get() < 10_000, "looks", 1e4, "fewer")?;
+            Ok((self.0)(t))
+        }
+
+        fn cheapest_time(&self, _: f64, t: f64) -> f64 {
+            t
+        }
+    }
+
+    /// A search by a function with bounds on its derivatives.
+    pub(in crate::observables::pulsar) fn search<F: Fn(f64) -> [f64; 4]>(
+        bounds: RateBounds,
+        margin: F,
+    ) -> EdgeSearch<Given<F>> {
+        EdgeSearch::new(Given(margin, Cell::new(0)), bounds)
+    }
+
+    /// `sum a cos(w t + p) - edge` with three derivatives.
+    pub(in crate::observables::pulsar) fn waves(waves: Vec<[f64; 3]>, edge: f64) -> impl Fn(f64) -> [f64; 4] {
+        move |t| {
+            waves.iter().fold([-edge, 0.0, 0.0, 0.0], |found, [a, w, p]| {
+                let (sin, cos) = (w * t + p).sin_cos();
+                let terms = [cos, -w * sin, -w * w * cos, w * w * w * sin];
+                core::array::from_fn(|k| found[k] + a * terms[k])
+            })
+        }
+    }
+
+    /// The same with the bounds that their amplitudes and frequencies give.
+    pub(in crate::observables::pulsar) fn search_of(
+        of: Vec<[f64; 3]>,
+        edge: f64,
+    ) -> EdgeSearch<Given<impl Fn(f64) -> [f64; 4]>> {
+        let bound = |order: i32| of.iter().map(|[a, w, _]| a.abs() * w.powi(order)).sum::<f64>();
+        let [first, second, third, fourth, sixth] = [1, 2, 3, 4, 6].map(bound);
+        search(RateBounds { first, second, third, fourth, sixth }, waves(of, edge))
+    }
+}

@@ -20,7 +20,7 @@ pub mod width;
 
 pub use arrival::{Arrival, arrivals};
 pub use beam::Beam;
-pub use clock::{ClockPulse, NearState, PulsarClock};
+pub use clock::{ClockPulse, PulsarClock};
 pub use spin_fit::SpinFit;
 pub use timing::ConstantPeriod;
 pub use train::{Pulse, PulseTrain, Stamped, pulse_train};

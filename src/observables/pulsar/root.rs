@@ -72,29 +72,28 @@ mod tests {
         seen.into_inner()
     }
 
+    /// The search begins at the guess, or in the middle; steps that leave the bracket or do not shrink are halvings of it.
     #[test]
-    fn the_search_begins_at_the_guess_or_in_the_middle() {
-        assert_eq!(looks((2.0, 10.0), 3.0, 7.3, &[])[0], 3.0);
-        for outside in [1.0, 2.0, 10.0, 11.0, f64::NAN] {
-            assert_eq!(looks((2.0, 10.0), outside, 7.3, &[])[0], 6.0);
+    fn times_that_are_looked_at_are_those_of_the_rules() {
+        let none: &[f64] = &[];
+        for (guess, steps, expected) in [
+            (3.0, none, &[3.0][..]),
+            (1.0, none, &[6.0]),
+            (2.0, none, &[6.0]),
+            (10.0, none, &[6.0]),
+            (11.0, none, &[6.0]),
+            (f64::NAN, none, &[6.0, 8.0, 7.0, 7.5, 7.25]),
+            // As short as half the bracket at first.
+            (3.0, &[4.5], &[3.0, 6.5, 8.25]),
+            (3.0, &[3.9], &[3.0, 6.9, 8.45]),
+            // 2 is less than half of 8, 0.9 less than half of 2, 0.5 not less than half of 0.9: then the bracket is [5.9, 10].
+            (3.0, &[2.0, 0.9, 0.5], &[3.0, 5.0, 5.9, 7.95]),
+            // After that, half of the bracket's length is the measure again, 2.05.
+            (3.0, &[2.0, 0.9, 0.5, -2.0], &[3.0, 5.0, 5.9, 7.95, 5.95]),
+            (3.0, &[2.0, 0.9, 0.5, -2.06], &[3.0, 5.0, 5.9, 7.95, 6.925000000000001]),
+        ] {
+            assert_eq!(looks((2.0, 10.0), guess, 7.3, steps)[..expected.len()], *expected, "{guess} {steps:?}");
         }
-    }
-
-    #[test]
-    fn steps_that_leave_the_bracket_are_halvings() {
-        assert_eq!(looks((2.0, 10.0), f64::NAN, 7.3, &[])[..5], [6.0, 8.0, 7.0, 7.5, 7.25]);
-        // As short as half the bracket at first.
-        assert_eq!(looks((2.0, 10.0), 3.0, 7.3, &[4.5])[..3], [3.0, 6.5, 8.25]);
-        assert_eq!(looks((2.0, 10.0), 3.0, 7.3, &[3.9])[..3], [3.0, 6.9, 8.45]);
-    }
-
-    #[test]
-    fn steps_that_do_not_shrink_are_halvings() {
-        // 2 is less than half of 8, 0.9 less than half of 2, 0.5 not less than half of 0.9: then the bracket is [5.9, 10].
-        assert_eq!(looks((2.0, 10.0), 3.0, 7.3, &[2.0, 0.9, 0.5])[..4], [3.0, 5.0, 5.9, 7.95]);
-        // After that, half of the bracket's length is the measure again, 2.05.
-        assert_eq!(looks((2.0, 10.0), 3.0, 7.3, &[2.0, 0.9, 0.5, -2.0])[..5], [3.0, 5.0, 5.9, 7.95, 5.95]);
-        assert_eq!(looks((2.0, 10.0), 3.0, 7.3, &[2.0, 0.9, 0.5, -2.06])[4], 6.925000000000001);
     }
 
     #[test]

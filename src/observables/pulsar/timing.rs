@@ -14,23 +14,17 @@ pub struct ConstantPeriod {
 }
 
 impl ConstantPeriod {
-    /// The fit to points `(number, time)`, all of the same weight.
-    ///
-    /// # Errors
-    /// As for [`fit_weighted`](Self::fit_weighted).
-    pub fn fit(points: &[(i64, f64)]) -> Result<Self, Error> {
-        Self::fit_weighted(points, &vec![1.0; points.len()])
-    }
-
     /// The fit to points `(number, time)` that makes `sum weight residual^2` least, a weight being the inverse square of a
-    /// time's uncertainty in any unit.
+    /// time's uncertainty in any unit; all of the same weight if none are given.
     ///
     /// Numbers and times are counted from their weighted means, so that the residuals keep the digits of the times.
     ///
     /// # Errors
     /// [`Error::Domain`] unless there is one weight for each point, finite and not negative, times are finite, numbers are at most
     /// 2^53 in size, and two numbers at least differ among the points with weight.
-    pub fn fit_weighted(points: &[(i64, f64)], weights: &[f64]) -> Result<Self, Error> {
+    pub fn fit(points: &[(i64, f64)], weights: Option<&[f64]>) -> Result<Self, Error> {
+        let equal = vec![1.0; points.len()];
+        let weights = weights.unwrap_or(&equal);
         let (counted, wanted) = (weights.len() as f64, "one weight for each point");
         Error::ensure(weights.len() == points.len(), "number of weights", counted, wanted)?;
         for (&(number, time), &weight) in points.iter().zip(weights) {

@@ -94,15 +94,23 @@ mod tests {
     use crate::dynamics::{Problem, RigidSpheroid};
     use crate::propagation::UniformMotion;
 
+    /// The free motion of a prolate star from its axis and its angular momentum.
+    fn free(axis: Vector3<f64>, momentum: Vector3<f64>, span: (f64, f64)) -> UniformMotion<f64> {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.8, constant_c: 1.0 };
+        let start = BodyState { axis, momentum, equatorial_axis: axis.cross(&Vector3::z()).normalize() };
+        UniformMotion::free(&Problem::new(spheroid, Matrix3::zeros(), start).unwrap(), span)
+    }
+
+    fn sight() -> Vector3<f64> {
+        Vector3::new(0.1, -0.3, 0.6).normalize()
+    }
+
     /// Looks are half a radian apart, however fast the star turns.
     #[test]
     fn fast_turns_are_counted() {
-        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.8, constant_c: 1.0 };
         let (axis, rate) = (Vector3::new(0.36, 0.48, 0.8), 300.0);
-        let equatorial_axis = axis.cross(&Vector3::z()).normalize();
-        let start = BodyState { axis, momentum: axis * (0.8 * rate), equatorial_axis };
-        let motion = UniformMotion::free(&Problem::new(spheroid, Matrix3::zeros(), start).unwrap(), (1.0, 2.0));
-        let (beam, n) = (Beam::new(0.6, 0.3, 0.2), Vector3::new(0.1, -0.3, 0.6).normalize());
+        let motion = free(axis, axis * (0.8 * rate), (1.0, 2.0));
+        let (beam, n) = (Beam::new(0.6, 0.3, 0.2), sight());
         let mut turns = Turns::new(&motion, &beam, &n, rate, 1.0).unwrap();
         let first = turns.at(1.0).unwrap();
         for t in [1.001, 1.13, 1.7] {
@@ -113,12 +121,9 @@ mod tests {
     /// One passage, at a thousandth of a radian, wherever the looks are: within half a radian the azimuth turns by more than half a turn.
     #[test]
     fn a_close_passage_is_followed_in_any_stride() {
-        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.8, constant_c: 1.0 };
         let (l, theta) = (Vector3::new(0.36, 0.48, 0.8), 0.7_f64);
         let axis = l * theta.cos() + l.cross(&Vector3::z()).normalize() * theta.sin();
-        let start = BodyState { axis, momentum: l * 2.1, equatorial_axis: axis.cross(&l).normalize() };
-        let motion = UniformMotion::free(&Problem::new(spheroid, Matrix3::zeros(), start).unwrap(), (3.0, 60.0));
-        let n = Vector3::new(0.1, -0.3, 0.6).normalize();
+        let (motion, n) = (free(axis, l * 2.1, (3.0, 60.0)), sight());
         for chi in [theta - 1e-3, theta + 1e-3, PI - theta - 1e-3, PI - theta + 1e-3] {
             let beam = Beam::new(chi, 0.3, 0.2);
             let along = |t: f64| beam.direction(&motion.state(t).unwrap()).dot(&l).abs();

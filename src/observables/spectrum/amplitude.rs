@@ -18,14 +18,9 @@ pub struct AmplitudeSpectrum {
 }
 
 impl AmplitudeSpectrum {
-    /// Angular frequency of the amplitude with the given index, rad per unit of time.
-    pub fn frequency(&self, index: usize) -> f64 {
-        self.spacing * index as f64
-    }
-
-    /// Frequency and amplitude of each point.
+    /// Angular frequency (rad per unit of time) and amplitude of each point.
     pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.amplitudes.iter().enumerate().map(|(index, &amplitude)| (self.frequency(index), amplitude))
+        self.amplitudes.iter().enumerate().map(|(index, &amplitude)| (self.spacing * index as f64, amplitude))
     }
 }
 

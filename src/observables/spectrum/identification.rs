@@ -42,7 +42,7 @@ pub struct Combination {
 
 impl Combination {
     /// `sum |k|`.
-    pub fn order(&self) -> i32 {
+    pub(crate) fn order(&self) -> i32 {
         self.terms.iter().map(|(k, _)| k.abs()).sum()
     }
 

@@ -68,10 +68,9 @@ pub const LEAST_LENGTH: usize = 16;
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Matrix3, Vector3};
+    use nalgebra::Vector3;
 
     use super::*;
-    use crate::dynamics::RigidSpheroid;
     use crate::observables::tests::Made;
 
     /// What is observed is the time itself.
@@ -81,8 +80,7 @@ mod tests {
             let state = |t: f64| {
                 Ok(BodyState { axis: Vector3::z(), momentum: Vector3::new(t, 0.0, 1.0), equatorial_axis: Vector3::x() })
             };
-            let spheroid = RigidSpheroid::in_units_of_tc(1.1);
-            let motion = Made { spheroid, coefficients: Matrix3::zeros(), span, error: 0.0, state };
+            let motion = Made::new(span, state);
             // Some of these steps, added up, pass the end by rounding.
             for count in 16..200 {
                 let series = Series::of_motion(&motion, count, |state| state.momentum.x).unwrap();

@@ -72,8 +72,8 @@ impl<S: Real> AxisymmetricBody<S> for UniformSpheroid<S> {
 
     /// `r_s = a3 / sqrt(1 - e^2 (1 - mu^2))`.
     fn surface(&self, mu: S) -> (S, S) {
-        let e2 = self.shape.eccentricity_squared();
-        let inside = self.shape.axis_ratio_squared() + e2 * mu * mu;
+        let e2 = self.shape.eccentricity_squared;
+        let inside = self.shape.axis_ratio_squared + e2 * mu * mu;
         let radius = self.polar_radius() / inside.sqrt();
         (radius, -(radius * e2 * mu / inside))
     }

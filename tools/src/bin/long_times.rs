@@ -8,9 +8,9 @@
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, Problem};
 use twofold::numerics::scalar::{Real, Scalar};
+use twofold::numerics::straight_line::{Slope, order};
 use twofold::propagation::{AveragedMotion, Motion, SymmetricMotion, UniformMotion};
 use twofold::solutions::averaged::AveragingOrder;
-use twofold::straight_line::{Slope, order};
 use twofold_command::bench::growth::{self, references};
 use twofold_command::bench::scene::BenchScene;
 use twofold_command::bench::{Effort, growth::METHODS};

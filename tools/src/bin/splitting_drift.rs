@@ -3,8 +3,8 @@
 //!     cargo run --release -p twofold-tools --bin splitting_drift [STEPS, default 1e9]
 
 use twofold::dynamics::AxisState;
+use twofold::numerics::straight_line::slope;
 use twofold::propagation::splitting::{GRADIENT_8_6_6, Splitting};
-use twofold::straight_line::slope;
 use twofold_tools::argument;
 use twofold_verify::random::Random;
 use twofold_verify::reference::reference_motion;

@@ -13,7 +13,7 @@ use twofold::observables::eta::{
     mean_squared_speed, root_mean_square_eta, secular_axis_rate, single_precession_start, squared_speed,
     squared_speed_along_motion,
 };
-use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
+use twofold::observables::eta_distribution::{EtaDistribution, SpinAxis, root_mean_square_along_motion};
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
 use crate::check::{Measured, Worst, checks, largest, worst_of};
@@ -203,7 +203,7 @@ fn distribution() -> Result<Measured, String> {
             (COEFFICIENTS.combination() / direction.dot(&rate)).abs()
         };
         let samples = (0..SAMPLES).map(eta).collect();
-        Ok(kolmogorov_smirnov(samples, &EtaDistribution::at_inclination(PAPER_ASYMMETRY, beta)?, 1))
+        Ok(kolmogorov_smirnov(samples, &EtaDistribution::new(PAPER_ASYMMETRY, SpinAxis::AtInclination(beta))?, 1))
     })
 }
 
@@ -211,7 +211,7 @@ fn known_angle() -> Result<Measured, String> {
     let (mut random, mut worst) = (Random::with_seed(42), Worst::default());
     for ratio in SHAPES {
         let s = PrincipalCoefficients::new(of_shape(ratio)).tensor();
-        let unknown = EtaDistribution::of_unknown_axis(ratio)?;
+        let unknown = EtaDistribution::new(ratio, SpinAxis::Unknown)?;
         for degrees in [30.0_f64, 95.0, 100.0] {
             let lambda = degrees.to_radians();
             let samples = (0..SAMPLES).map(|_| 1.0 / seen_rate(&mut random, &s, lambda).abs()).collect();
@@ -225,7 +225,7 @@ fn known_angle() -> Result<Measured, String> {
 fn known_angle_integral() -> Result<Measured, String> {
     let rule = GaussLegendre::new(NonZeroUsize::new(80).ok_or("no nodes")?);
     let lambda = 1.745_f64;
-    let distribution = EtaDistribution::of_unknown_axis(0.0)?.seen_at(lambda)?;
+    let distribution = EtaDistribution::new(0.0, SpinAxis::Unknown)?.seen_at(lambda)?;
     worst_of(MULTIPLES, |&scaled| {
         // n.dl/dt = sin(lambda) (Z.l)(Z.b) with b at right angles to l: half of (1 - mu^2) sin(2 phi) about the third axis, so that
         // P = int_0^1 (2/pi) asin min(1, 2 / (x (1 - mu^2))) d mu. The integrand is one from the kink on, a root before it.
@@ -240,7 +240,7 @@ fn known_angle_integral() -> Result<Measured, String> {
 }
 
 fn symmetric_is_largest() -> Result<Measured, String> {
-    let of_shape = |ratio: f64| EtaDistribution::of_unknown_axis(ratio)?.seen_at(FRAC_PI_2)?.quantile(0.95);
+    let of_shape = |ratio: f64| EtaDistribution::new(ratio, SpinAxis::Unknown)?.seen_at(FRAC_PI_2)?.quantile(0.95);
     let symmetric = of_shape(0.0)?;
     worst_of([0.01, 0.03, 1.0 / 11.0, 0.2, 1.0 / 3.0, 1.0, 3.0], |&ratio: &f64| Ok(of_shape(-ratio)? / symmetric))
 }
@@ -249,12 +249,12 @@ fn ten_exceeded() -> Result<Measured, String> {
     let (mut smallest, mut at) = (f64::INFINITY, 0.0);
     for i in 0..=152 {
         let beta = 0.05 + 0.01 * f64::from(i);
-        let eta = EtaDistribution::at_inclination(PAPER_ASYMMETRY, beta)?.quantile(0.95)?;
+        let eta = EtaDistribution::new(PAPER_ASYMMETRY, SpinAxis::AtInclination(beta))?.quantile(0.95)?;
         if eta < smallest {
             (smallest, at) = (eta, beta);
         }
     }
-    let share = EtaDistribution::of_unknown_axis(PAPER_ASYMMETRY)?.probability_above(10.0);
+    let share = EtaDistribution::new(PAPER_ASYMMETRY, SpinAxis::Unknown)?.probability_above(10.0);
     let detail = format!("at beta_0 = {at:.2}; above 10 with probability {share:.2} if nothing is known of the axis");
     Ok(Measured::new(smallest, detail))
 }
@@ -271,7 +271,7 @@ fn kolmogorov_smirnov(mut samples: Vec<f64>, expected: &EtaDistribution, every: 
 }
 
 fn unknown_axis() -> Result<Measured, String> {
-    let distribution = EtaDistribution::of_unknown_axis(0.0)?;
+    let distribution = EtaDistribution::new(0.0, SpinAxis::Unknown)?;
     worst_of(MULTIPLES, |&x| {
         // P = int_0^1 min(1, 1 / (x mu sqrt(1 - mu^2))) d mu; the integrand leaves 1 where mu^2 (1 - mu^2) = 1 / x^2.
         let root = (1.0 - 4.0 / (x * x)).sqrt();

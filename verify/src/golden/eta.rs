@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use twofold::Error;
-use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
+use twofold::observables::eta_distribution::{EtaDistribution, SpinAxis, root_mean_square_along_motion};
 use twofold::units::DEGREE;
 
 use super::{GoldenLine, GoldenTable, Printed};
@@ -38,7 +38,7 @@ pub(super) fn table() -> Result<GoldenTable, Error> {
         }
     }
     for (ratio, name) in [(0.0, "0"), (PAPER_ASYMMETRY, "-1/11"), (-1.0 / 3.0, "-1/3")] {
-        let unknown = EtaDistribution::of_unknown_axis(ratio)?;
+        let unknown = EtaDistribution::new(ratio, SpinAxis::Unknown)?;
         line(format!("r = {name}, axis unknown: median"), Printed::No, unknown.quantile(0.5)?);
         line(format!("r = {name}, axis unknown: 95 %"), Printed::No, unknown.quantile(0.95)?);
         for lambda in [95.0, 100.0] {

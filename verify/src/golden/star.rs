@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use num_dual::Dual64;
 use twofold::Error;
-use twofold::star::deformation::{centrifugal_coefficient, centrifugal_oblateness_scaled};
+use twofold::star::deformation::{CENTRIFUGAL_COEFFICIENT, centrifugal_oblateness_scaled};
 use twofold::star::estimates::{inertia_over_c_estimate, time_unit_estimate};
 use twofold::star::potential_coefficients::potential_coefficients;
 use twofold::star::spheroid_shape::SpheroidShape;
@@ -22,7 +22,7 @@ pub(super) fn estimates() -> Result<GoldenTable, Error> {
         name: "star_estimates",
         title: "Estimates for neutron stars: Eq. (20) at 10 km and 1.4 solar masses, Eqs. (43) and (58) at 1e15 g/cm^3",
         lines: vec![
-            GoldenLine::new("eps_f at 100 Hz, Eq. (20)", Printed::Decimal("2.1e-3"), centrifugal_coefficient()),
+            GoldenLine::new("eps_f at 100 Hz, Eq. (20)", Printed::Decimal("2.1e-3"), CENTRIFUGAL_COEFFICIENT),
             GoldenLine::new("eps_f at 1.6 ms (PSR B1937+21), Eq. (20)", Printed::Order("1e-3"), deformation(1.6e-3)),
             GoldenLine::new("eps_f at 4.1 ms (PSR J1744-1134), Eq. (20)", Printed::Order("1e-3"), deformation(4.1e-3)),
             GoldenLine::new(

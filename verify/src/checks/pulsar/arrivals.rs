@@ -96,7 +96,7 @@ fn steady_rotation() -> Result<Measured, String> {
         let numbers_in_order = found.iter().enumerate().all(|(i, arrival)| arrival.number == i as i64);
         let mut figure: f64 = if numbers_in_order && found.len() > 4 { 0.0 } else { f64::INFINITY };
         for (slope, time) in [across * (width / 2.0).sin(), across].into_iter().zip(TIMES) {
-            let fit = ConstantPeriod::fit(&numbered(&found, time))?;
+            let fit = ConstantPeriod::fit(&numbered(&found, time), None)?;
             let scale = rounding(100.0, slope);
             let period = (fit.period - TAU / spin.abs()).abs() * found.len() as f64;
             figure = largest([figure, period / scale, largest(fit.residuals.iter().map(|r| r.abs() / scale))]);
@@ -124,7 +124,7 @@ fn free_precession() -> Result<Measured, String> {
                 let later = |a: &Arrival| found.iter().find(|b| b.number == a.number + i64::from(turns)).map(time);
                 let errors = found.iter().filter_map(|a| later(a).map(|t| (t - time(a) - repetition).abs()));
                 let errors: Vec<f64> = errors.collect();
-                let fit = ConstantPeriod::fit(&numbered(&found, time))?;
+                let fit = ConstantPeriod::fit(&numbered(&found, time), None)?;
                 let modulation = largest(fit.residuals.iter().map(|r| r.abs()));
                 // Three of four periods have a later one; in the least favourable case they hold four pulses each.
                 let enough = errors.len() >= 12 && modulation > 1e-3;
@@ -147,7 +147,7 @@ fn least_squares() -> Result<Measured, String> {
             })
             .collect();
         let weights: Vec<f64> = points.iter().map(|_| random.within(0.0, 2.0)).collect();
-        let fit = ConstantPeriod::fit_weighted(&points, &weights)?;
+        let fit = ConstantPeriod::fit(&points, Some(&weights))?;
         let mut figure = 0.0;
         let (mut sums, mut sizes) = ([0.0; 2], [0.0; 2]);
         for ((&(number, time), weight), residual) in points.iter().zip(&weights).zip(&fit.residuals) {
@@ -162,12 +162,12 @@ fn least_squares() -> Result<Measured, String> {
         }
         let normal = largest([0, 1].map(|k| sums[k].abs() / (f64::EPSILON * sizes[k])));
         let halved: Vec<f64> = weights.iter().map(|w| w / 2.0).collect();
-        let same = ConstantPeriod::fit_weighted(&points, &halved)? == fit;
-        let refused = ConstantPeriod::fit(&points[..1]).is_err()
-            && ConstantPeriod::fit(&[]).is_err()
-            && ConstantPeriod::fit_weighted(&points, &weights[1..]).is_err()
-            && ConstantPeriod::fit_weighted(&points, &vec![0.0; 50]).is_err()
-            && ConstantPeriod::fit(&[(0, 1.0), (1, f64::NAN)]).is_err();
+        let same = ConstantPeriod::fit(&points, Some(&halved))? == fit;
+        let refused = ConstantPeriod::fit(&points[..1], None).is_err()
+            && ConstantPeriod::fit(&[], None).is_err()
+            && ConstantPeriod::fit(&points, Some(&weights[1..])).is_err()
+            && ConstantPeriod::fit(&points, Some(&vec![0.0; 50])).is_err()
+            && ConstantPeriod::fit(&[(0, 1.0), (1, f64::NAN)], None).is_err();
         Ok(if same && refused { largest([figure, normal]) } else { f64::INFINITY })
     })
 }

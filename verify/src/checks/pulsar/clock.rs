@@ -88,8 +88,7 @@ fn numbers() -> Result<Measured, String> {
             continue;
         }
         stars += 1;
-        let (spheroid, s, start) = (problem.spheroid(), problem.coefficients(), problem.initial());
-        let mut clock = PulsarClock::new(spheroid, s, start, &beam, &observer, AveragingOrder::Second)?;
+        let mut clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second)?;
         let mut offset = None;
         for _ in 0..30.min(single.len()) {
             let i = single.swap_remove((random.word() % single.len() as u64) as usize);
@@ -254,7 +253,7 @@ fn left_of_formula(epsilon: Option<f64>) -> Result<[f64; 2], String> {
     // What is left of the difference without its mean and its slope.
     let left = timing.pulses.iter().zip(&timing.fit.residuals);
     let left = left.map(|(timed, residual)| (timed.pulse.number, residual - late(&timed.pulse.state)));
-    let fit = ConstantPeriod::fit(&left.collect::<Vec<_>>())?;
+    let fit = ConstantPeriod::fit(&left.collect::<Vec<_>>(), None)?;
     let size = largest(timing.fit.residuals.iter().map(|r| r.abs()));
     Ok([largest(fit.residuals.iter().map(|r| r.abs())), size])
 }

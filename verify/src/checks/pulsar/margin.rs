@@ -3,7 +3,6 @@
 use nalgebra::Vector3;
 use num_dual::Dual3_64;
 use twofold::dynamics::{BodyState, RotationState};
-use twofold::numerics::scalar::constant_vector;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::rate_bounds::rate_bounds;
@@ -70,11 +69,11 @@ fn of_motion(scene: &RandomScene, figure: fn([f64; 3], [f64; 4], [f64; 4]) -> f6
     let bounds = rate_bounds(problem.spheroid(), problem.coefficients(), problem.initial());
     let motion = problem.map(Dual3_64::from).taylor((0.0, 20.0), 1e-16)?;
     let (beam, observer) = beam_and_observer(scene);
-    let beam_lifted = Beam { axis: constant_vector(&beam.axis), half_opening: Dual3_64::from(0.7) };
+    let beam_lifted = Beam { axis: beam.axis.map(Dual3_64::from), half_opening: Dual3_64::from(0.7) };
     Ok(largest((0..25).map(|i| {
         let t = 0.3 + 0.8 * f64::from(i);
         let Ok(state) = motion.state(Dual3_64::new(t, 1.0, 0.0, 0.0)) else { return f64::NAN };
-        let by_duals = beam_lifted.margin(&state, &constant_vector(&observer));
+        let by_duals = beam_lifted.margin(&state, &observer.map(Dual3_64::from));
         let real = BodyState::from_vectors(state.vectors().map(|vector| vector.map(|x| x.re)));
         let kernel = beam.margin_rates(problem.spheroid(), problem.coefficients(), &real, &observer);
         figure(

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use twofold::Scalar;
 use twofold::dynamics::equations_of_motion::angular_velocity;
 use twofold::euler_angles::{EulerAngles, body_from_inertial, body_rates};
+use twofold::numerics::angle::wrapped;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::direction::magnetic_axis_direction;
@@ -119,11 +120,6 @@ fn rate_of_position_angle<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         rate * (here.x * here.x + here.y * here.y) - (here.x * there.y - here.y * there.x),
         position_angle_rate(&axis, &omega, &observer) - by_theta * theta_rate - by_phi * phi_rate,
     ]
-}
-
-/// An angle brought to (-pi, pi].
-fn wrapped(angle: f64) -> f64 {
-    angle.sin().atan2(angle.cos())
 }
 
 fn upright_star() -> Result<Measured, String> {

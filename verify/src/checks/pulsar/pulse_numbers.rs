@@ -43,7 +43,7 @@ fn numbers_about_z() -> Result<Measured, String> {
             wrong += i32::from(number != arrival.number as f64);
         }
         let points: Vec<_> = found.iter().map(|a| (a.number, a.closest_approach)).collect();
-        let fit = ConstantPeriod::fit(&points)?;
+        let fit = ConstantPeriod::fit(&points, None)?;
         wrong += fit.residuals.iter().map(|r| i32::from(r.abs() >= fit.period / 2.0)).sum::<i32>();
         let most = largest(fit.residuals.iter().map(|r| r.abs()));
         let turns = found.last().map_or(0, |a| a.number + 1);

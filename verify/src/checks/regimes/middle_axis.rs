@@ -6,7 +6,7 @@ use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::propagation::Motion;
 
 use crate::check::{Measured, Worst, checks};
-use twofold::straight_line::slope;
+use twofold::numerics::straight_line::slope;
 
 checks! {
     /// forced precession about the middle axis of s^IJ (X, Y, Z in turn) is unstable with the rate (2 C |P2| / G) sqrt((s1 - s2)(s2 - s3))

@@ -39,7 +39,7 @@ fn amplitudes() -> Result<Measured, String> {
                 let errors = [
                     spectrum.amplitudes[bin] / amplitude - 1.0,
                     spectrum.amplitudes[0] / amplitude - 1.0,
-                    spectrum.frequency(bin) / frequency - 1.0,
+                    spectrum.spacing * bin as f64 / frequency - 1.0,
                 ];
                 worst.see(largest(errors.map(f64::abs)), || format!("{window:?}, N = {count}, bin {bin}: {errors:?}"));
             }

@@ -1,7 +1,8 @@
 //! Line lists of known sums.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
+use twofold::numerics::angle::wrapped;
 use twofold::observables::spectrum::{LineList, Series, SpectralLine, spectral_lines};
 
 use super::signals::{beam, examples, line_of_sight, motion_of};
@@ -43,7 +44,7 @@ fn compare(found: &LineList, known: &[SpectralLine], rounding: f64) -> [f64; 3] 
     for line in known {
         let near = |l: &&SpectralLine| (l.frequency - line.frequency).abs();
         let nearest = found.lines.iter().min_by(|a, b| near(a).total_cmp(&near(b))).expect("there are lines");
-        let turned = ((nearest.phase - line.phase + PI).rem_euclid(TAU) - PI).abs();
+        let turned = wrapped(nearest.phase - line.phase).abs();
         let error = near(&nearest);
         let honest = error <= 3.0 * nearest.uncertainty;
         let here = [

@@ -38,7 +38,7 @@ fn by_epsilon<S: Real>(epsilon: S) -> [S; 3] {
 }
 
 fn shape<S: Real>(shape: &SpheroidShape<S>) -> Vec<S> {
-    vec![shape.axis_ratio(), shape.axis_ratio_squared(), shape.eccentricity_squared(), shape.oblateness()]
+    vec![shape.axis_ratio, shape.axis_ratio_squared, shape.eccentricity_squared, shape.oblateness()]
 }
 
 fn exact_shape<S: Real>([q, q2, e2]: [S; 3]) -> Vec<S> {
@@ -271,7 +271,7 @@ functions! {
         vec![estimate, estimate.sqrt()]
     }
     Deformation: "centrifugal_oblateness", (x) { vec![centrifugal_oblateness(x[0], x[1], x[2])] }
-    DeformationScaled: "centrifugal_oblateness_scaled, centrifugal_coefficient"
+    DeformationScaled: "centrifugal_oblateness_scaled, CENTRIFUGAL_COEFFICIENT"
         .against::<ExactDeformationScaled>(), (x) {
         vec![centrifugal_oblateness_scaled(x[0], x[1], x[2])]
     }

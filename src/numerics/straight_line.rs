@@ -3,7 +3,7 @@
 //! # Example
 //!
 //! ```
-//! use twofold::straight_line::{order, slope};
+//! use twofold::numerics::straight_line::{order, slope};
 //!
 //! assert_eq!(slope(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)])?.value, 2.0);
 //! // An error of second order; the last point is rounding.
