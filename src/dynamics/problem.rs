@@ -67,7 +67,7 @@ impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
         Self {
             spheroid: self.spheroid,
             coefficients: other_from_this * self.coefficients * other_from_this.transpose(),
-            initial: X::from_vectors(self.initial.vectors().map(|vector| other_from_this * vector)),
+            initial: self.initial.rotated(other_from_this),
         }
     }
 

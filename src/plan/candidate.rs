@@ -165,11 +165,12 @@ fn symmetric(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Res
 
 fn mean(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
     let motion = AveragedMotion::new(problem, span, AveragingOrder::Second)?;
-    let (mut truncation, rounding) = (motion.truncation(span.1), motion.rounding(span.1));
+    let elapsed = span.1 - span.0;
+    let (mut truncation, rounding) = (motion.mean.truncation(elapsed), motion.mean.rounding(elapsed));
     if !request.derivatives.is_empty() {
-        motion.require_derivatives()?;
+        motion.mean.require_derivatives()?;
         // A derivative by s^IJ has one order less, in its own unit.
-        truncation /= motion.mean().relative_strength();
+        truncation /= motion.mean.relative_strength;
         truncation += error_of_principal_frame_along(principal_frame(problem.coefficients())?.coefficients);
     }
     Ok(Forecast::closed(Promise::Estimate, truncation, rounding))

@@ -65,7 +65,7 @@ pub fn gradient(
 ///
 /// # Errors
 /// As for [`gradient`].
-pub fn gradient_in_parts(
+pub(crate) fn gradient_in_parts(
     plan: &Plan,
     start: &Parameters<f64>,
     outputs: &impl StateFunction,

@@ -76,8 +76,8 @@ impl<X: RotationState<f64>> PlannedMotion<X> {
     pub fn work(&self) -> Work {
         match self {
             Self::Uniform(_) | Self::Symmetric(_) | Self::Averaged(_) => Work::default(),
-            Self::Splitting(motion) => Work::of_series(motion.step_count() as usize, 2 * motion.scheme().stages()),
-            Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
+            Self::Splitting(motion) => Work::of_series(motion.step_count as usize, 2 * motion.scheme.stages()),
+            Self::Taylor(motion) => Work::of_series(motion.step_count, motion.order),
         }
     }
 }

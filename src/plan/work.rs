@@ -60,7 +60,8 @@ impl core::ops::AddAssign for Work {
 /// ```
 #[derive(Debug)]
 pub struct Counted<M> {
-    motion: M,
+    /// The motion itself.
+    pub motion: M,
     axis: Cell<u64>,
     orientation: Cell<u64>,
 }
@@ -69,11 +70,6 @@ impl<M> Counted<M> {
     /// Counts from zero.
     pub fn new(motion: M) -> Self {
         Self { motion, axis: Cell::new(0), orientation: Cell::new(0) }
-    }
-
-    /// The motion itself.
-    pub fn inner(&self) -> &M {
-        &self.motion
     }
 
     /// Evaluations so far, as [`Work`] without steps.

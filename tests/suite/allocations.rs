@@ -74,11 +74,11 @@ fn steps_take_nothing() -> Result<(), Error> {
             steps = if full {
                 Problem::new(body, s, initial)
                     .and_then(|problem| problem.taylor((0.0, span), 1e-10))
-                    .map(|motion| motion.step_count())
+                    .map(|motion| motion.step_count)
             } else {
                 Problem::new(body, s, AxisState::from(&initial))
                     .and_then(|problem| problem.taylor((0.0, span), 1e-10))
-                    .map(|motion| motion.step_count())
+                    .map(|motion| motion.step_count)
             };
         });
         steps.map(|steps| (steps, info.count_total))

@@ -53,7 +53,7 @@ equations! {
     10 "spheroid" "surface of a spheroid"
         ["star::spheroid_shape::SpheroidShape" "star::uniform_spheroid::UniformSpheroid"] []
     11 "pecorrect2" "delta U = C s^zz"
-        ["dynamics::potential::anisotropic_potential" "dynamics::potential::anisotropic_potential_of_axis"] []
+        ["dynamics::potential::anisotropic_potential_of_axis"] []
     12 "" "constant C as an integral"
         ["star::axisymmetric::axisymmetric_integrals" "star::axisymmetric::AxisymmetricIntegrals"
          "star::uniform_spheroid::UniformSpheroid"] []

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 
 use super::uniform::largest_torque;
-use crate::dynamics::{BodyState, Problem, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::euler_angles::{EulerAngles, EulerRates};
 use crate::lorentz_violation::{PrincipalCoefficients, SymmetryOfTensor};

@@ -59,6 +59,10 @@ const LIMIT: StepLimit = StepLimit {
 /// A motion kept as Taylor series on adjoining steps: [`Problem::taylor`].
 #[derive(Debug, Clone)]
 pub struct TaylorMotion<S, X = BodyState<S>> {
+    /// Number of steps.
+    pub step_count: usize,
+    /// Order of the series.
+    pub order: usize,
     kept: Kept<S>,
     state: PhantomData<X>,
 }
@@ -306,19 +310,11 @@ impl<S: Real, X: RotationState<S>> Problem<S, X> {
         } else {
             Kept::Axis(KeptSeries::new(self, span, tolerance)?)
         };
-        Ok(TaylorMotion { kept, state: PhantomData })
-    }
-}
-
-impl<S: Real, X: RotationState<S>> TaylorMotion<S, X> {
-    /// Number of steps.
-    pub fn step_count(&self) -> usize {
-        of_either!(self, series => series.steps.count())
-    }
-
-    /// Order of the series.
-    pub fn order(&self) -> usize {
-        of_either!(self, series => series.setup.order)
+        let (step_count, order) = match &kept {
+            Kept::Axis(series) => (series.steps.count(), series.setup.order),
+            Kept::Body(series) => (series.steps.count(), series.setup.order),
+        };
+        Ok(TaylorMotion { step_count, order, kept, state: PhantomData })
     }
 }
 

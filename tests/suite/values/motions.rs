@@ -4,11 +4,11 @@ use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 use twofold::Real;
 use twofold::dynamics::AxisState;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::parameters::{Parameter, Parameters};
-use twofold::plan::{Method, Output, Request, StateFunction, gradient_in_parts};
+use twofold::plan::{Method, Output, Request, StateFunction, gradient};
 use twofold::propagation::splitting::SCHEMES;
 use twofold::propagation::{
     AveragedMotion, ContinuousAngles, ErrorEstimates, Motion, SampledProblem, SymmetricMotion, UniformMotion,
@@ -157,28 +157,28 @@ fn mean_motions() {
                 Problem::new(STAR, s, initial).and_then(|problem| AveragedMotion::new(&problem, SPAN, order)),
                 |table, motion| {
                     look(table, &name, &motion);
-                    let mean = motion.mean();
-                    let rates = mean.rates();
+                    let mean = &motion.mean;
+                    let rates = &mean.rates;
                     table.row(
                         &name,
                         &[
                             ("rates", &[rates.slow, rates.about_momentum, rates.about_axis]),
-                            ("strength", &mean.relative_strength()),
+                            ("strength", &mean.relative_strength),
                         ],
                     );
                     for t in [40.0, -7.0] {
                         table.row(
                             &format!("{name}, t {t}"),
                             &[
-                                ("truncation", &motion.truncation(t)),
-                                ("rounding", &motion.rounding(t)),
+                                ("truncation", &mean.truncation(t - SPAN.0)),
+                                ("rounding", &mean.rounding(t - SPAN.0)),
                                 ("of the averaged motion", &mean.truncation(t)),
                                 ("and", &mean.rounding(t)),
                                 ("error", &mean.error_estimate(t)),
                             ],
                         );
                     }
-                    let turns = motion.turns([25.0, 1e-3]);
+                    let turns = mean.turns([25.0 - SPAN.0, 1e-3]);
                     let turns = [turns.slow, turns.about_momentum, turns.about_axis];
                     table.row(
                         &format!("{name}, turns"),
@@ -190,7 +190,7 @@ fn mean_motions() {
                     );
                     look(table, &format!("{name}, near 20.5"), &motion.near([20.0, 0.5]).expect("within the span"));
                     table.refusal(&format!("{name}, near 40"), motion.near([40.0, 0.0]));
-                    table.refusal(&format!("{name}, derivatives"), motion.require_derivatives());
+                    table.refusal(&format!("{name}, derivatives"), mean.require_derivatives());
                 },
             );
         }
@@ -215,7 +215,7 @@ fn taylor_series() {
             );
             let motion =
                 Problem::new(STAR, s, state()).and_then(|problem| problem.taylor(span, tolerance)).expect("a motion");
-            table.row(&name, &[("steps", &motion.step_count()), ("order", &motion.order())]);
+            table.row(&name, &[("steps", &motion.step_count), ("order", &motion.order)]);
             look(&mut table, &name, &motion);
             let motion =
                 Problem::new(STAR, s, axis).and_then(|problem| problem.taylor(span, tolerance)).expect("a motion");
@@ -223,8 +223,8 @@ fn taylor_series() {
             table.row(
                 &format!("{name}, axis"),
                 &[
-                    ("steps", &motion.step_count()),
-                    ("order", &motion.order()),
+                    ("steps", &motion.step_count),
+                    ("order", &motion.order),
                     ("", &motion.axis_state(middle).expect("a state")),
                     ("error", &motion.error_estimate(middle)),
                 ],
@@ -375,7 +375,7 @@ fn splitting() {
             let motion = Problem::new(STAR, s, axis)
                 .and_then(|problem| problem.splitting_by(scheme, span, step))
                 .expect("a motion");
-            table.row(&name, &[("step", &motion.step()), ("steps", &motion.step_count())]);
+            table.row(&name, &[("step", &motion.step), ("steps", &motion.step_count)]);
             see(&mut table, &name, &motion, span.0 + 0.13 * (span.1 - span.0));
         }
         let motion = Problem::new(STAR, s, state())
@@ -386,7 +386,7 @@ fn splitting() {
     for tolerance in [1e-4, 1e-9] {
         let motion =
             Problem::new(STAR, s, axis).and_then(|problem| problem.splitting(SPAN, tolerance)).expect("a motion");
-        see(&mut table, &format!("best, {}", motion.scheme().name), &motion, 20.0);
+        see(&mut table, &format!("best, {}", motion.scheme.name), &motion, 20.0);
         let motion =
             Problem::new(STAR, s, state()).and_then(|problem| problem.splitting(SPAN, tolerance)).expect("a motion");
         look(&mut table, "best, orientation", &motion);
@@ -429,8 +429,8 @@ fn gradients() {
                     let request = Request { method, derivatives, ..Request::new(&[output], SPAN, 3, 1e-10) };
                     let plan = Problem::new(start.spheroid, start.coefficients, start.state())
                         .and_then(|problem| problem.plan(&request));
-                    let times = [[2.0, 0.0], [20.0, 0.5]];
-                    let found = plan.and_then(|plan| gradient_in_parts(&plan, &start, &Whole, &times));
+                    let times = [2.0, 20.5];
+                    let found = plan.and_then(|plan| gradient(&plan, &start, &Whole, &times));
                     table.found(&name, found, |table, found| {
                         let value = found.values.row(1).norm();
                         let sizes: Vec<f64> = found.jacobians[1].column_iter().map(|column| column.norm()).collect();

@@ -66,7 +66,7 @@ fn states_on_tori() {
                 table.row(&label, &[("growth about the middle axis", &growth)]);
             });
             table.found(&label, AveragedSolution::new(&problem, order), |table, mean| {
-                let (rates, phases) = (mean.rates(), mean.phases(13.0));
+                let (rates, phases) = (&mean.rates, mean.phases_at([13.0, 0.0]));
                 table.row(
                     &label,
                     &[
