@@ -80,9 +80,7 @@ impl<M> Counted<M> {
             ..Work::default()
         }
     }
-}
 
-impl<M> Counted<M> {
     fn count<X: RotationState<f64>>(&self) {
         let counter = if X::VECTORS == 3 { &self.orientation } else { &self.axis };
         counter.set(counter.get() + 1);

@@ -111,7 +111,7 @@ equations! {
         ["solutions::perturbation::Perturbation::first_order"] ["twofold_regimes" "single_regimes"
          "figure_perturbation_regimes" "figure_method_regimes"]
     34 "integraltoinitial" "initial values from the constants, and back"
-        ["solutions::perturbation::initial_values" "solutions::perturbation::constants_from_initial_values"]
+        ["solutions::perturbation::Perturbation::at" "solutions::perturbation::constants_from_initial_values"]
          ["caption_initial_values"]
     35 "unitt" "unit of time t_c"
         ["dynamics::RigidSpheroid::time_unit" "dynamics::RigidSpheroid::in_units_of_tc" "units::time_unit"] []

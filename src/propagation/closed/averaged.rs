@@ -124,19 +124,12 @@ impl<S: Real> Motion<S> for AveragedMotion<S> {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Vector3;
-
     use super::*;
-    use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::dynamics::fixture::problem;
 
     #[test]
     fn an_epoch_lies_in_the_span_with_both_its_parts() {
-        let star = RigidSpheroid::in_units_of_tc(1.1);
-        let s = Matrix3::from_diagonal(&Vector3::new(2e-6, 1e-6, -3e-6));
-        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
-        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-        let problem = Problem::from_angles(star, s, &angles, &rates).unwrap();
-        let motion = AveragedMotion::new(&problem, (0.0, 100.0), AveragingOrder::Second).unwrap();
+        let motion = AveragedMotion::new(&problem([2e-6, 1e-6, -3e-6]), (0.0, 100.0), AveragingOrder::Second).unwrap();
         let allows = |epoch| motion.near(epoch).is_ok();
         assert!(allows([110.0, -20.0]) && allows([40.0, 50.0]) && allows([-20.0, 30.0]));
         assert!(!allows([90.0, 20.0]) && !allows([60.0, -70.0]));

@@ -318,7 +318,10 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+    use crate::dynamics::fixture::axis_problem;
     use crate::propagation::splitting::{STRANG, Splitting};
+
+    const S: [f64; 3] = [0.3, 0.1, -0.4];
 
     impl SplittingMotion<AxisState<f64>> {
         pub(in crate::propagation::splitting) fn axis_states(&self) -> &KeptStates<2> {
@@ -327,15 +330,8 @@ mod tests {
         }
     }
 
-    const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
-
-    fn problem() -> Problem<f64, AxisState<f64>> {
-        let start = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.7, 1.1) };
-        Problem::new(STAR, Matrix3::from_diagonal(&Vector3::new(0.3, 0.1, -0.4)), start).unwrap()
-    }
-
     fn motion(span: (f64, f64), step: f64) -> Result<SplittingMotion<AxisState<f64>>, Error> {
-        problem().splitting_by(&STRANG, span, step)
+        axis_problem(S).splitting_by(&STRANG, span, step)
     }
 
     #[test]
@@ -366,7 +362,7 @@ mod tests {
         let long = motion.axis_states();
         assert_eq!((long.step_count, long.stride), (count, 3));
         assert_eq!((long.states.len(), long.states.capacity()), (66_668, 66_668));
-        let mut alone = Splitting::new(&problem(), &STRANG, long.step).unwrap();
+        let mut alone = Splitting::new(&axis_problem(S), &STRANG, long.step).unwrap();
         let mut done = 0;
         for whole in [1, 2, 3, 1004, 9998] {
             alone.advance(whole - done);

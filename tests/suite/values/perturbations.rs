@@ -3,7 +3,7 @@
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::perturbation::{
-    Constants, Form, Precession, constants_from_initial_values, initial_values, shifted_rates,
+    Constants, Form, Perturbation, Precession, constants_from_initial_values, shifted_rates,
 };
 use twofold::solutions::symmetric::SymmetricSolution;
 
@@ -23,8 +23,9 @@ fn constants_of_integration() {
                 let name = format!("{strength}, {kind:?}, beta_0 {beta_0}");
                 table.found(
                     &name,
-                    initial_values(Form::Printed, kind, &STAR, &s, 1.9, &constants),
-                    |table, initial| {
+                    Perturbation::new(Form::Printed, kind, &STAR, &s, 1.9, &constants),
+                    |table, solution| {
+                        let initial = solution.at(0.0);
                         let angles = [initial.alpha, initial.beta];
                         table.row(&name, &[("angles", &angles), ("rates", &[initial.alpha_rate, initial.beta_rate])]);
                         let back = constants_from_initial_values(Form::Printed, kind, &STAR, &s, 1.9, &initial);
