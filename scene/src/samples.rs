@@ -267,7 +267,7 @@ impl<'s, X: SegmentState> Segments<'s, X> {
 
     /// Lets the next segment begin earlier, at a time of this one.
     pub fn resume_at(&mut self, segment: &Segment<X>, time: f64) -> Result<(), Error> {
-        self.state = segment.motion.inner().state(time)?;
+        self.state = segment.motion.motion.state(time)?;
         self.from = time;
         Ok(())
     }

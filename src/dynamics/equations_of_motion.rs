@@ -126,15 +126,6 @@ impl<S: Scalar> BodyState<S> {
         let y = self.axis.cross(&self.equatorial_axis);
         Matrix3::from_rows(&[self.equatorial_axis.transpose(), y.transpose(), self.axis.transpose()])
     }
-
-    /// The same motion seen from another inertial frame: every vector multiplied by the rotation `other_from_this`.
-    pub fn rotated(&self, other_from_this: &Matrix3<S>) -> Self {
-        Self {
-            axis: other_from_this * self.axis,
-            momentum: other_from_this * self.momentum,
-            equatorial_axis: other_from_this * self.equatorial_axis,
-        }
-    }
 }
 
 impl<S: Real> BodyState<S> {

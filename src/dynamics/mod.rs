@@ -4,6 +4,8 @@ pub mod angular_acceleration;
 pub mod equations_of_motion;
 pub mod euler_angle_equations;
 pub mod first_integrals;
+#[cfg(test)]
+pub(crate) mod fixture;
 pub mod inertia;
 pub mod kinetic_energy;
 pub mod lagrangian;

@@ -48,25 +48,3 @@ pub fn preferred_frame_potential_of_masses<S: Scalar>(
     let along = w.dot(direction);
     alpha_2 * masses[0] * masses[1] * along * along / distance / 2.0
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Numbers worked out by hand: s^xx = 0.2, s^xy = 0.1, n = (3/5, 4/5, 0).
-    #[test]
-    fn potentials_are_those_of_the_formulas() {
-        let s = Matrix3::new(0.2, 0.1, 0.0, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0);
-        let (masses, distance, direction) = ([2.0_f64, 5.0], 4.0, Vector3::new(0.6, 0.8, 0.0));
-        // n.(s n) = 0.2 * 0.36 + 2 * 0.1 * 0.48 = 0.168.
-        let found = anisotropic_potential_of_masses(&s, masses, distance, &direction);
-        assert!((found + 0.5 * 10.0 / 4.0 * 0.168).abs() < 1e-16);
-        // w.n = 0.5 * 0.6 - 0.25 * 0.8 = 0.1.
-        let w = Vector3::new(0.5, -0.25, 7.0);
-        let found = preferred_frame_potential_of_masses(0.3, &w, masses, distance, &direction);
-        assert!((found - 0.5 * 0.3 * 10.0 / 4.0 * 0.01).abs() < 1e-17);
-        // Either mass may be the first, and either end of the direction.
-        let turned = anisotropic_potential_of_masses(&s, [5.0, 2.0], distance, &-direction);
-        assert_eq!(turned, anisotropic_potential_of_masses(&s, masses, distance, &direction));
-    }
-}

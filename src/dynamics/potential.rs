@@ -3,7 +3,7 @@
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
 //! use twofold::dynamics::potential::{
-//!     anisotropic_potential, anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body,
+//!     anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body,
 //!     nordtvedt_potential, potential_gradient_in_angles,
 //! };
 //! use twofold::{PrincipalCoefficients, euler_angles::symmetry_axis};
@@ -15,7 +15,7 @@
 //! assert!(((later - energy) / 1e-6 - potential_gradient_in_angles(c, &s, alpha, beta).0).abs() < 1e-6);
 //! // With the symmetry axis along Z, where U^ij = diag(0, 0, -2 C) gives the same.
 //! let tensor = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, -2.0 * c));
-//! assert_eq!(anisotropic_potential_of_body(&s.tensor(), &tensor), anisotropic_potential(c, s.zz));
+//! assert_eq!(anisotropic_potential_of_body(&s.tensor(), &tensor), c * s.zz);
 //! assert_eq!(nordtvedt_potential(1e-9, 2.0 * c, &Vector3::zeros(), &Vector3::z()), 0.0); // at rest in the preferred frame
 //! ```
 
@@ -23,13 +23,6 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::lorentz_violation::PrincipalCoefficients;
 use crate::numerics::scalar::Scalar;
-
-/// `delta U = C s^zz` of a spheroid from the body-frame component `s^zz`, Eq. (11) `[pecorrect2]`.
-///
-/// The part of the self-energy that does not depend on the orientation, `-(1/2) U^xx tr s`, is left out, as in the paper.
-pub fn anisotropic_potential<S: Scalar>(constant_c: S, s_zz_body: S) -> S {
-    constant_c * s_zz_body
-}
 
 /// `delta U` of a spheroid in the principal frame of `s^IJ`, in Euler angles, Eq. (21) `[anisopot]`:
 ///
@@ -55,8 +48,10 @@ pub fn potential_gradient_in_angles<S: Scalar>(
     (constant_c * s.asymmetry() * sa * ca * sb * sb * 2.0, constant_c * (equatorial - s.zz) * sb * cb * 2.0)
 }
 
-/// `delta U = C n . (s n)` of a spheroid with symmetry axis `n` (unit vector) in any inertial frame: Eq. (11)
-/// `[pecorrect2]` without angles, regular everywhere.
+/// `delta U = C s^zz = C n . (s n)` of a spheroid with symmetry axis `n` (unit vector) in any frame: Eq. (11) `[pecorrect2]`, regular
+/// everywhere.
+///
+/// The part of the self-energy that does not depend on the orientation, `-(1/2) U^xx tr s`, is left out, as in the paper.
 pub fn anisotropic_potential_of_axis<S: Scalar>(constant_c: S, s: &Matrix3<S>, axis: &Vector3<S>) -> S {
     constant_c * axis.dot(&(s * axis))
 }

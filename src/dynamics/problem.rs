@@ -67,7 +67,7 @@ impl<S: Scalar, X: RotationState<S>> Problem<S, X> {
         Self {
             spheroid: self.spheroid,
             coefficients: other_from_this * self.coefficients * other_from_this.transpose(),
-            initial: X::from_vectors(self.initial.vectors().map(|vector| other_from_this * vector)),
+            initial: self.initial.rotated(other_from_this),
         }
     }
 
@@ -168,8 +168,6 @@ fn check<S: Real, X: RotationState<S>>(spheroid: &RigidSpheroid<S>, s: &Matrix3<
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Rotation3;
-
     use super::*;
 
     #[test]
@@ -182,22 +180,5 @@ mod tests {
             let other = BodyState { equatorial_axis: -chosen.initial().equatorial_axis, ..*chosen.initial() };
             assert_eq!(chosen.starting_from(other).unwrap().with_equatorial_axis().initial(), &other);
         }
-    }
-
-    /// `n.(s n)` and `n.L` do not know the frame.
-    #[test]
-    fn a_problem_turns_with_its_tensor() {
-        let state = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.7, 1.1) };
-        let s = Matrix3::new(0.3, -0.5, 0.8, -0.5, 0.6, 0.35, 0.8, 0.35, -0.2);
-        let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, state).unwrap();
-        let turned = problem.rotated(Rotation3::from_euler_angles(0.3, -0.8, 1.7).matrix());
-        let scalars = |problem: &Problem<f64, AxisState<f64>>| {
-            let AxisState { axis, momentum } = problem.initial();
-            [axis.dot(&(problem.coefficients() * axis)), axis.dot(momentum)]
-        };
-        for (scalar, same) in scalars(&problem).into_iter().zip(scalars(&turned)) {
-            assert!((scalar - same).abs() < 1e-14);
-        }
-        assert!((turned.initial().axis - state.axis).norm() > 0.1);
     }
 }

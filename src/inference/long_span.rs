@@ -31,7 +31,7 @@ pub fn check_span(parameters: &Parameters<f64>, end: f64) -> Result<(), Error> {
         return Ok(());
     }
     let motion = AveragedMotion::new(&parameters.problem()?, (0.0, end), AveragingOrder::Second)?;
-    let left_out = motion.truncation(end);
+    let left_out = motion.mean.truncation(end);
     Error::ensure(
         left_out <= MOST_LEFT_OUT,
         "what the averaged motion leaves out (rad) over a span of more than 1e5 rad of rotation",

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 
+use crate::dynamics::RotationState;
 use crate::numerics::scalar::Real;
 use crate::parameters::{Parameter, Parameters};
 

@@ -110,7 +110,7 @@ impl<S: Scalar> Parameters<S> {
     }
 
     /// The same with the rate of `gamma` held.
-    pub fn holding_gamma_rate(self) -> Self {
+    pub(crate) fn holding_gamma_rate(self) -> Self {
         Self { third_rate: ThirdRate::Gamma(self.rates().gamma), ..self }
     }
 

@@ -163,7 +163,7 @@ impl Parameter {
     }
 
     /// How far its value can be from a known one at all: a radian, the rate of rotation, one.
-    pub fn range(self, parameters: &Parameters<f64>) -> f64 {
+    pub(crate) fn range(self, parameters: &Parameters<f64>) -> f64 {
         match self {
             Spin | GammaRate | AlphaRate | BetaRate => {
                 let Parameters { alpha_rate, beta_rate, .. } = parameters;
@@ -174,7 +174,7 @@ impl Parameter {
     }
 
     /// Interval that a fit stays within, where there is one.
-    pub fn limits(self) -> (Option<f64>, Option<f64>) {
+    pub(crate) fn limits(self) -> (Option<f64>, Option<f64>) {
         use std::f64::consts::PI;
         match self {
             Beta | ThetaO | Chi => (Some(0.0), Some(PI)),

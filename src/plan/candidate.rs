@@ -165,11 +165,12 @@ fn symmetric(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Res
 
 fn mean(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
     let motion = AveragedMotion::new(problem, span, AveragingOrder::Second)?;
-    let (mut truncation, rounding) = (motion.truncation(span.1), motion.rounding(span.1));
+    let elapsed = span.1 - span.0;
+    let (mut truncation, rounding) = (motion.mean.truncation(elapsed), motion.mean.rounding(elapsed));
     if !request.derivatives.is_empty() {
-        motion.require_derivatives()?;
+        motion.mean.require_derivatives()?;
         // A derivative by s^IJ has one order less, in its own unit.
-        truncation /= motion.mean().relative_strength();
+        truncation /= motion.mean.relative_strength;
         truncation += error_of_principal_frame_along(principal_frame(problem.coefficients())?.coefficients);
     }
     Ok(Forecast::closed(Promise::Estimate, truncation, rounding))
@@ -218,22 +219,15 @@ pub(super) fn evaluations(request: &Request, rotation: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use approx::assert_relative_eq;
-    use nalgebra::{Matrix3, Vector3};
 
     use super::*;
-    use crate::dynamics::RigidSpheroid;
-    use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::dynamics::fixture::problem;
     use crate::parameters::Parameter;
-
-    const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
 
     /// What a method would do over a span with a tensor of those principal values.
     fn forecast(method: Method, s: [f64; 3], span: (f64, f64), derivatives: Vec<Parameter>) -> Candidate {
-        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
-        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-        let problem = Problem::from_angles(STAR, Matrix3::from_diagonal(&Vector3::from(s)), &angles, &rates).unwrap();
-        let request = Request::new(&[Output::SymmetryAxis], span, 5, 1e-9);
-        Candidate::of(method, &problem, &Request { derivatives, ..request }, State::Axis, span, 5.0)
+        let request = Request { derivatives, ..Request::new(&[Output::SymmetryAxis], span, 5, 1e-9) };
+        Candidate::of(method, &problem(s), &request, State::Axis, span, 5.0)
     }
 
     #[test]
@@ -254,12 +248,5 @@ mod tests {
                 assert_eq!(forecast(method, s, span, Vec::new()).prediction, Ok(first), "{span:?}");
             }
         }
-    }
-
-    #[test]
-    fn turns_are_counted_with_three_evaluations_a_sample_or_twelve_a_radian() {
-        let request = Request::new(&[Output::EulerAngles], (0.0, 1.0), 7, 1e-9);
-        assert_eq!(evaluations(&request, 0.01), 21.0 + 7.0);
-        assert_eq!(evaluations(&request, 10.0), 120.0 + 7.0);
     }
 }

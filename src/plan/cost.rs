@@ -44,7 +44,7 @@ impl Cost {
     /// By splitting a state beside tangent maps takes 1.4 times the work of a state alone, and each register of four directions 0.6 times that;
     /// a dual number takes ten times the
     /// work of a series in vector registers and three times that of a closed form, and goes through it once for each parameter.
-    pub fn with_derivatives(method: Method, state: State, count: usize) -> Self {
+    pub(super) fn with_derivatives(method: Method, state: State, count: usize) -> Self {
         let factor = match (method, count) {
             (_, 0) => 1.0,
             (Method::Splitting, _) => 1.4 * method.motions_for(count) as f64 + 0.6 * count.div_ceil(4) as f64,

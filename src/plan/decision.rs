@@ -1,8 +1,7 @@
 //! The plan: what is computed, by which method, and what is left out.
 
 use super::candidate::evaluations;
-use super::{Candidate, Evaluations, Method, Output, PlannedMotion, Prediction};
-use super::{Request, State};
+use super::{Candidate, Evaluations, Method, Output, PlannedMotion, Prediction, Request, State};
 use crate::dynamics::equations_of_motion::angular_velocity;
 use crate::dynamics::{AxisState, Problem, RotationState};
 use crate::error::Error;
@@ -153,7 +152,8 @@ impl Plan {
         if X::VECTORS == 3 && self.state != State::Orientation {
             return Err(Error::Unsupported { what: "motion with e_x", why: "no output of the plan needs it" });
         }
-        problem.motion_by(self.needed_method()?, self.span, self.tolerance)
+        let none = Error::Unsupported { what: "motion of the plan", why: "none of its outputs needs one" };
+        problem.motion_by(self.method.ok_or(none)?, self.span, self.tolerance)
     }
 
     /// Whether a time costs the same however many turns lie before it: in closed form, and without events or turns to be counted.
@@ -162,10 +162,6 @@ impl Plan {
             matches!(output.need().evaluations, Evaluations::CountingTurns { .. } | Evaluations::ForEvents { .. })
         };
         self.method.is_none_or(Method::is_closed_form) && !self.outputs.iter().any(counts)
-    }
-
-    fn needed_method(&self) -> Result<Method, Error> {
-        self.method.ok_or(Error::Unsupported { what: "motion of the plan", why: "none of its outputs needs one" })
     }
 }
 
@@ -179,44 +175,19 @@ fn turning_rate<X: RotationState<f64>>(problem: &Problem<f64, X>) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use approx::assert_relative_eq;
-    use nalgebra::Vector3;
-
     use super::*;
-    use crate::dynamics::{BodyState, RigidSpheroid};
-    use crate::euler_angles::{EulerAngles, EulerRates};
-    use nalgebra::Matrix3;
+    use crate::dynamics::fixture::problem;
 
-    const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
+    const S: [f64; 3] = [0.02, 0.01, -0.03];
 
-    fn problem() -> Problem<f64> {
-        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
-        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-        Problem::from_angles(STAR, Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03)), &angles, &rates).unwrap()
-    }
-
-    /// The plan for one output over a span, with seven samples.
-    fn plan(output: Output, method: Option<Method>, span: (f64, f64)) -> Plan {
-        let request = Request { method, ..Request::new(&[output], span, 7, 1e-9) };
-        problem().plan(&request).unwrap()
-    }
-
-    #[test]
-    fn events_take_evaluations_by_the_angle_turned_forwards_and_backwards() {
-        let BodyState { axis, momentum, .. } = *problem().initial();
-        // A prolate body turns faster than |L| / I^xx.
-        let along = momentum.dot(&axis);
-        let omega = ((momentum - axis * along) / 1.3).norm().hypot(along / 1.1);
-        let rate = omega + (2.0 * 0.7 * (2.0 * 14e-4_f64).sqrt() / 1.3).sqrt();
-        for span in [(3.0, 53.0), (3.0, -47.0)] {
-            let work = plan(Output::Pulses, Some(Method::Taylor), span).prediction.unwrap().work;
-            assert_relative_eq!(work.orientation_evaluations, 8.0 * 50.0 * rate, max_relative = 1e-12);
-        }
+    /// The plan for one output, with seven samples.
+    fn plan(output: Output, method: Option<Method>) -> Plan {
+        problem(S).plan(&Request { method, ..Request::new(&[output], (0.0, 50.0), 7, 1e-9) }).unwrap()
     }
 
     #[test]
     fn rounding_up_to_a_hundred_times_the_least_is_admitted() {
-        let mut plan = plan(Output::SymmetryAxis, Some(Method::Taylor), (0.0, 50.0));
+        let mut plan = plan(Output::SymmetryAxis, Some(Method::Taylor));
         let with_rounding = |rounding| Prediction { truncation: 0.0, rounding, ..plan.prediction.unwrap() };
         let (best, admitted, refused) = (with_rounding(1.0), with_rounding(99.7), with_rounding(100.3));
         plan.considered = vec![Candidate { method: Method::Taylor, prediction: Ok(best) }];
@@ -226,18 +197,8 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_form_needs_times_between_samples_for_turns_and_events_alone() {
-        let skips = |output| {
-            let skipped = plan(output, Some(Method::Free), (0.0, 50.0)).skipped;
-            skipped.iter().any(|skipped| skipped.what == "times between samples")
-        };
-        assert!(skips(Output::SymmetryAxis) && skips(Output::PulseProfile));
-        assert!(!skips(Output::EulerAngles) && !skips(Output::Pulses));
-    }
-
-    #[test]
     fn a_plan_without_a_motion_tells_that_no_output_needs_one() {
-        let motion = plan(Output::PerturbationAngles, None, (0.0, 50.0)).motion(&problem().reduced());
+        let motion = plan(Output::PerturbationAngles, None).motion(&problem(S).reduced());
         let Err(Error::Unsupported { why, .. }) = motion else { panic!("{motion:?}") };
         assert_eq!(why, "none of its outputs needs one");
     }

@@ -65,7 +65,7 @@ pub fn gradient(
 ///
 /// # Errors
 /// As for [`gradient`].
-pub fn gradient_in_parts(
+pub(crate) fn gradient_in_parts(
     plan: &Plan,
     start: &Parameters<f64>,
     outputs: &impl StateFunction,
@@ -196,10 +196,9 @@ fn seeded_motion(plan: &Plan, problem: &Problem<Dual64>) -> Result<StateAt, Erro
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Vector3;
-
     use super::*;
-    use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::dynamics::fixture::{ANGLES, RATES, STAR, tensor};
+    use crate::euler_angles::EulerRates;
     use crate::lorentz_violation::PrincipalCoefficients;
     use crate::parameters::Parameter;
     use crate::plan::{Output, Request};
@@ -220,10 +219,7 @@ mod tests {
     }
 
     fn start(s: [f64; 3]) -> Parameters<f64> {
-        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
-        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
-        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-        Parameters::new(spheroid, Matrix3::from_diagonal(&Vector3::from(s)), angles, rates)
+        Parameters::new(STAR, tensor(s), ANGLES, RATES)
     }
 
     fn plan(start: &Parameters<f64>, method: Method, span: (f64, f64), tolerance: f64) -> Plan {

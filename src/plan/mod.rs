@@ -16,7 +16,7 @@
 //! use twofold::dynamics::{BodyState, RigidSpheroid};
 //! use twofold::euler_angles::{EulerAngles, EulerRates};
 //! use twofold::parameters::{Parameter, Parameters};
-//! use twofold::plan::{Output, Request, StateFunction, gradient, gradient_in_parts};
+//! use twofold::plan::{Output, Request, StateFunction, gradient};
 //! use twofold::numerics::scalar::Real;
 //!
 //! struct Height;
@@ -38,7 +38,6 @@
 //! assert!(plan.method.is_some() && plan.prediction.is_some());
 //! let found = gradient(&plan, &start, &Height, &[0.0])?;
 //! assert!((found.jacobians[0][(0, 1)] + angles.beta.sin()).abs() < 1e-14);
-//! assert_eq!(found, gradient_in_parts(&plan, &start, &Height, &[[0.0, 0.0]])?);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
@@ -55,7 +54,8 @@ mod work;
 pub use candidate::{Candidate, Prediction, Promise};
 pub use cost::{Cost, MACHINE};
 pub use decision::{Plan, Skipped};
-pub use gradient::{Gradient, StateFunction, gradient, gradient_in_parts};
+pub(crate) use gradient::gradient_in_parts;
+pub use gradient::{Gradient, StateFunction, gradient};
 pub use method::Method;
 pub use motion::PlannedMotion;
 pub use output::{Evaluations, Need, Output, State};

@@ -44,7 +44,16 @@ impl<X: RotationState<f64>> Problem<f64, X> {
     /// # Errors
     /// Those of the method.
     pub fn motion_by(&self, method: Method, span: (f64, f64), tolerance: f64) -> Result<PlannedMotion<X>, Error> {
-        PlannedMotion::of(method, &self.with_equatorial_axis(), span, tolerance)
+        // Closed forms give either state from one that has e_x.
+        let problem = self.with_equatorial_axis();
+        Ok(match method {
+            Method::Free => PlannedMotion::Uniform(UniformMotion::free(&problem, span)),
+            Method::Steady => PlannedMotion::Uniform(UniformMotion::steady(&problem, span)?),
+            Method::Symmetric => PlannedMotion::Symmetric(SymmetricMotion::new(&problem, span)?),
+            Method::Averaged => PlannedMotion::Averaged(AveragedMotion::new(&problem, span, AveragingOrder::Second)?),
+            Method::Splitting => PlannedMotion::Splitting(self.splitting(span, tolerance)?),
+            Method::Taylor => PlannedMotion::Taylor(self.taylor(span, tolerance)?),
+        })
     }
 
     /// The plan for a request: of the methods whose [predicted error](super::Prediction::truncation) is at most the tolerance, the cheapest one.
@@ -60,24 +69,12 @@ impl<X: RotationState<f64>> Problem<f64, X> {
 }
 
 impl<X: RotationState<f64>> PlannedMotion<X> {
-    /// Closed forms give either state from one that has `e_x`.
-    fn of(method: Method, problem: &Problem<f64>, span: (f64, f64), tolerance: f64) -> Result<Self, Error> {
-        Ok(match method {
-            Method::Free => Self::Uniform(UniformMotion::free(problem, span)),
-            Method::Steady => Self::Uniform(UniformMotion::steady(problem, span)?),
-            Method::Symmetric => Self::Symmetric(SymmetricMotion::new(problem, span)?),
-            Method::Averaged => Self::Averaged(AveragedMotion::new(problem, span, AveragingOrder::Second)?),
-            Method::Splitting => Self::Splitting(problem.carrying().splitting(span, tolerance)?),
-            Method::Taylor => Self::Taylor(problem.carrying().taylor(span, tolerance)?),
-        })
-    }
-
     /// Steps and right-hand sides that it took.
     pub fn work(&self) -> Work {
         match self {
             Self::Uniform(_) | Self::Symmetric(_) | Self::Averaged(_) => Work::default(),
-            Self::Splitting(motion) => Work::of_series(motion.step_count() as usize, 2 * motion.scheme().stages()),
-            Self::Taylor(motion) => Work::of_series(motion.step_count(), motion.order()),
+            Self::Splitting(motion) => Work::of_series(motion.step_count as usize, 2 * motion.scheme.stages()),
+            Self::Taylor(motion) => Work::of_series(motion.step_count, motion.order),
         }
     }
 }
@@ -147,14 +144,11 @@ impl<X: RotationState<f64>> Motion<f64> for PlannedMotion<X> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::dynamics::fixture::problem;
 
     #[test]
     fn a_time_in_two_parts_is_their_sum() {
-        let s = Matrix3::from_diagonal(&Vector3::new(2e-6, 1e-6, -3e-6));
-        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
-        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-        let problem = Problem::from_angles(RigidSpheroid::in_units_of_tc(1.1), s, &angles, &rates).unwrap();
+        let problem = problem([2e-6, 1e-6, -3e-6]);
         for method in [Method::Free, Method::Averaged, Method::Splitting, Method::Taylor] {
             let motion = problem.motion_by(method, (0.0, 10.0), 1e-9).unwrap();
             let (parts, sum) = (motion.state_in_parts([5.0, 0.375]).unwrap(), motion.state(5.375).unwrap());
@@ -165,11 +159,8 @@ mod tests {
     /// `n` and `L` do not depend on the equatorial axis that a closed form of a reduced problem is given.
     #[test]
     fn a_reduced_motion_is_that_of_n_and_l() {
-        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
-        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
         for (method, s) in Method::ALL.into_iter().zip([[0.0; 3], [0.0; 3], [0.1, 0.1, -0.2], [0.02, 0.01, -0.03]]) {
-            let s = Matrix3::from_diagonal(&Vector3::from(s));
-            let problem = Problem::from_angles(RigidSpheroid::in_units_of_tc(1.1), s, &angles, &rates).unwrap();
+            let problem = problem(s);
             let whole = problem.motion_by(method, (0.0, 10.0), 1e-9).unwrap();
             let reduced = problem.reduced().motion_by(method, (0.0, 10.0), 1e-9).unwrap();
             for t in [0.0, 0.7, 7.3] {

@@ -60,7 +60,8 @@ impl core::ops::AddAssign for Work {
 /// ```
 #[derive(Debug)]
 pub struct Counted<M> {
-    motion: M,
+    /// The motion itself.
+    pub motion: M,
     axis: Cell<u64>,
     orientation: Cell<u64>,
 }
@@ -71,11 +72,6 @@ impl<M> Counted<M> {
         Self { motion, axis: Cell::new(0), orientation: Cell::new(0) }
     }
 
-    /// The motion itself.
-    pub fn inner(&self) -> &M {
-        &self.motion
-    }
-
     /// Evaluations so far, as [`Work`] without steps.
     pub fn evaluations(&self) -> Work {
         Work {
@@ -84,9 +80,7 @@ impl<M> Counted<M> {
             ..Work::default()
         }
     }
-}
 
-impl<M> Counted<M> {
     fn count<X: RotationState<f64>>(&self) {
         let counter = if X::VECTORS == 3 { &self.orientation } else { &self.axis };
         counter.set(counter.get() + 1);

@@ -174,14 +174,11 @@ mod tests {
     use nalgebra::Matrix3;
 
     use super::*;
-    use crate::dynamics::Problem;
-    use crate::dynamics::RigidSpheroid;
+    use crate::dynamics::fixture::{ANGLES as START, STAR};
+    use crate::dynamics::{Problem, RigidSpheroid};
     use crate::euler_angles::EulerRates;
     use crate::plan::Counted;
     use crate::propagation::UniformMotion;
-
-    const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
-    const START: EulerAngles<f64> = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
 
     /// Free precession about Z at the rate 1, from a time on.
     fn precession(from: f64) -> (UniformMotion<f64>, EulerRates<f64>) {

@@ -71,20 +71,15 @@ fn in_lanes<R: Register>(register: R, motions: &[SampledProblem<'_>]) -> Vec<Res
 
 #[cfg(all(test, target_arch = "x86_64"))]
 mod tests {
-    use nalgebra::Vector3;
-
     use super::*;
-    use crate::dynamics::RigidSpheroid;
-    use nalgebra::Matrix3;
+    use crate::dynamics::fixture::axis_problem;
 
     #[test]
     fn both_register_widths_give_the_same_bits() {
         let (Some(four), Some(eight)) = (pulp::x86::V3::try_new(), pulp::x86::V4::try_new()) else { return };
         let times = [3.0, 3.0, 40.0, 47.5];
-        let initial = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, 0.2, 1.1) };
         let motion = |i: usize| {
-            let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03)) * (1.0 + 0.1 * i as f64);
-            let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, initial).unwrap();
+            let problem = axis_problem([0.02, 0.01, -0.03].map(|value| value * (1.0 + 0.1 * i as f64)));
             SampledProblem { problem, start: 0.0, times: &times, tolerance: 10f64.powi(-3 - (i % 12) as i32) }
         };
         let motions: Vec<_> = (0..31).map(motion).collect();

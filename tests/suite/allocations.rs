@@ -69,9 +69,9 @@ fn steps_take_nothing() -> Result<(), Error> {
         let mut steps = Ok(0);
         let info = measure(|| {
             steps = if full {
-                problem.taylor((0.0, span), 1e-10).map(|motion| motion.step_count())
+                problem.taylor((0.0, span), 1e-10).map(|motion| motion.step_count)
             } else {
-                problem.reduced().taylor((0.0, span), 1e-10).map(|motion| motion.step_count())
+                problem.reduced().taylor((0.0, span), 1e-10).map(|motion| motion.step_count)
             };
         });
         steps.map(|steps| (steps, info.count_total))

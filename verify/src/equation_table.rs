@@ -53,7 +53,7 @@ equations! {
     10 "spheroid" "surface of a spheroid"
         ["star::spheroid_shape::SpheroidShape" "star::uniform_spheroid::UniformSpheroid"] []
     11 "pecorrect2" "delta U = C s^zz"
-        ["dynamics::potential::anisotropic_potential" "dynamics::potential::anisotropic_potential_of_axis"] []
+        ["dynamics::potential::anisotropic_potential_of_axis"] []
     12 "" "constant C as an integral"
         ["star::axisymmetric::axisymmetric_integrals" "star::axisymmetric::AxisymmetricIntegrals"
          "star::uniform_spheroid::UniformSpheroid"] []
@@ -111,7 +111,7 @@ equations! {
         ["solutions::perturbation::Perturbation::first_order"] ["twofold_regimes" "single_regimes"
          "figure_perturbation_regimes" "figure_method_regimes"]
     34 "integraltoinitial" "initial values from the constants, and back"
-        ["solutions::perturbation::initial_values" "solutions::perturbation::constants_from_initial_values"]
+        ["solutions::perturbation::Perturbation::at" "solutions::perturbation::constants_from_initial_values"]
          ["caption_initial_values"]
     35 "unitt" "unit of time t_c"
         ["dynamics::RigidSpheroid::time_unit" "dynamics::RigidSpheroid::in_units_of_tc" "units::time_unit"] []

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
+use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::numerics::scalar::{Real, Scalar};

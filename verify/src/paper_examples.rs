@@ -6,7 +6,7 @@ use twofold::dynamics::euler_angle_equations::AxisAngles;
 use twofold::dynamics::{Problem, RigidSpheroid};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::{Constants, Form, Precession, initial_values};
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
 /// `Omega^z` of all four examples [1/t_c].
 pub const SPIN: f64 = 1.0;
@@ -36,7 +36,7 @@ impl PaperExample {
     /// # Errors
     /// None for the four examples.
     pub fn initial_values(&self) -> Result<AxisAngles<f64>, twofold::Error> {
-        initial_values(Form::Printed, self.kind, &spheroid(), &COEFFICIENTS, SPIN, &self.constants)
+        Ok(Perturbation::new(Form::Printed, self.kind, &spheroid(), &COEFFICIENTS, SPIN, &self.constants)?.at(0.0))
     }
 
     /// The problem, with `gamma = 0` at the start.

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::Matrix3;
 use twofold::Error;
-use twofold::dynamics::{BodyState, RigidSpheroid};
+use twofold::dynamics::{BodyState, RigidSpheroid, RotationState};
 use twofold::euler_angles::{EulerAngles, EulerRates};
 use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_preferred_frame, principal_frame};
 use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};

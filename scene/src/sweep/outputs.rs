@@ -3,6 +3,7 @@
 use twofold::Error;
 use twofold::dynamics::AxisState;
 use twofold::dynamics::BodyState;
+use twofold::dynamics::RotationState;
 use twofold::dynamics::first_integrals::first_integrals;
 use twofold::lorentz_violation::principal_frame;
 use twofold::plan::{Method, Output, Plan, State};

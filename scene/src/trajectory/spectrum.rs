@@ -137,7 +137,7 @@ impl Sampling {
     ) -> Result<(Self, Counted<PlannedMotion<X>>), TrajectoryError> {
         let motion = Counted::new(motion);
         let (series, size) = series(scene, column, |t| X::sampled(&motion, [t, 0.0]))?;
-        let mut work = motion.inner().work();
+        let mut work = motion.motion.work();
         work += motion.evaluations();
         Ok((Self { motion: None, series, size, work }, motion))
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 
-use crate::dynamics::{AxisState, BodyState, RigidSpheroid};
+use crate::dynamics::{AxisState, BodyState, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::propagation::{Motion, Turning};
 

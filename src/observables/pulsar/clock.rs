@@ -10,7 +10,7 @@ use super::train::{PulseTrain, check_beam};
 use super::turn_count::TurnCount;
 use super::{Beam, Pulse};
 use crate::dynamics::equations_of_motion::angular_velocity;
-use crate::dynamics::{BodyState, Problem, RigidSpheroid};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
 use crate::numerics::angle::wrapped;

@@ -73,7 +73,7 @@ impl TurnCount {
         let (theta, chi) = (c.abs().min(1.0).acos(), beam.axis.z.clamp(-1.0, 1.0).acos());
         // The wobble changes by some x along the motion: nearer than that the axis of the beam goes now round L, now round n.
         let nearest = (theta - chi).abs().min((core::f64::consts::PI - theta - chi).abs());
-        let changes = motion.relative_strength();
+        let changes = motion.relative_strength;
         Error::ensure(
             nearest > changes || changes == 0.0,
             "distance of the wobble from the angle of the beam (rad)",
@@ -94,7 +94,7 @@ impl TurnCount {
 
     /// Rate (rad per unit of time) at which turns follow one another.
     pub(super) fn rate(&self, motion: &AveragedSolution<f64>) -> f64 {
-        let rates = motion.rates();
+        let rates = &motion.rates;
         rates.about_momentum + self.weight() * rates.about_axis
     }
 
@@ -129,7 +129,7 @@ impl TurnCount {
 
     /// Follows the slow part to the time `t`.
     fn follow(&mut self, motion: &AveragedSolution<f64>, t: [f64; 2], parts: &Parts) -> Result<(), Error> {
-        let step = STRIDE / motion.rates().slow.abs();
+        let step = STRIDE / motion.rates.slow.abs();
         let strides = self.since_last(t).abs() / step;
         Error::ensure(
             strides <= MOST_STRIDES,
@@ -237,7 +237,7 @@ mod tests {
     #[test]
     fn the_slow_part_is_followed_both_ways() {
         let motion = motion();
-        let period = TAU / motion.rates().slow.abs();
+        let period = TAU / motion.rates.slow.abs();
         for beam in [Beam::new(0.9, 0.2, 0.3), Beam::new(0.06, 0.2, 0.3), Beam::new(3.0, 0.2, 0.3)] {
             let start = TurnCount::new(&motion, &beam, &sight()).unwrap();
             let number = |count: &mut TurnCount, t: f64| {
@@ -270,7 +270,7 @@ mod tests {
     #[test]
     fn what_cannot_be_followed_is_refused() {
         let motion = motion();
-        let stride = 0.25 / motion.rates().slow.abs();
+        let stride = 0.25 / motion.rates.slow.abs();
         let mut count = encircling(&motion);
         let refused = |count: &mut TurnCount, t: [f64; 2]| count.look(&motion, t, &motion.near(t).state(0.0)).is_err();
         for sign in [1.0, -1.0] {
@@ -320,7 +320,7 @@ mod tests {
     #[test]
     fn the_slow_part_is_followed_past_the_line_of_sight() {
         let motion = motion();
-        let stride = STRIDE / motion.rates().slow.abs();
+        let stride = STRIDE / motion.rates.slow.abs();
         let l = |t: f64| motion.near([t, 0.0]).state(0.0).momentum.normalize();
         let mut farthest = 0.0_f64;
         for sense in [1.0, -1.0] {
@@ -354,7 +354,7 @@ mod tests {
     #[test]
     fn a_passage_between_two_neighbouring_times_is_passed() {
         let motion = motion();
-        let spacing = (0.05 / motion.rates().slow.abs()).log2().round().exp2();
+        let spacing = (0.05 / motion.rates.slow.abs()).log2().round().exp2();
         for sense in [1.0, -1.0] {
             let start = sense * spacing * 2_f64.powi(52);
             let l = |x: f64| motion.near([start, sense * x * spacing]).state(0.0).momentum.normalize();

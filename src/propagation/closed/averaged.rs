@@ -2,14 +2,14 @@
 
 use nalgebra::Matrix3;
 
-use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
+use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::{PrincipalCoefficients, principal_frame_with_derivatives};
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::scalar::Real;
 use crate::propagation::Motion;
 use crate::propagation::input::check_time;
-use crate::solutions::averaged::{AveragedPhases, AveragedSolution, AveragedTurns, AveragingOrder};
+use crate::solutions::averaged::{AveragedPhases, AveragedSolution, AveragingOrder};
 
 /// A motion by [`AveragedSolution`], whatever the frame in which the tensor is given: for a body that turns fast against the torque, over any
 /// number of turns.
@@ -19,7 +19,8 @@ pub struct AveragedMotion<S> {
     span: (f64, f64),
     /// Time of the initial state, in two parts.
     origin: [f64; 2],
-    mean: AveragedSolution<S>,
+    /// The motion in the principal frame of `s`, and its rates. Times count from the initial state, or from the epoch of [`near`](Self::near).
+    pub mean: AveragedSolution<S>,
     given_from_principal: Matrix3<S>,
 }
 
@@ -70,16 +71,6 @@ impl<S: Real> AveragedMotion<S> {
         })
     }
 
-    /// Phases at the time `t[0] + t[1]`: whole turns since the initial state or the epoch of [`near`](Self::near), and the rest.
-    pub fn turns(&self, t: [f64; 2]) -> AveragedTurns {
-        self.mean.turns(self.elapsed(t))
-    }
-
-    /// The motion in the principal frame of `s`, and its rates.
-    pub fn mean(&self) -> &AveragedSolution<S> {
-        &self.mean
-    }
-
     /// Time since that from which phases are counted.
     fn elapsed(&self, t: [f64; 2]) -> [f64; 2] {
         let sum = DoubleDouble::sum(t[0], t[1]) + DoubleDouble::sum(-self.origin[0], -self.origin[1]);
@@ -93,24 +84,6 @@ impl<S: Real> AveragedMotion<S> {
 
     fn state_of(&self, phases: &AveragedPhases<S>) -> BodyState<S> {
         self.mean.state_at(phases).rotated(&self.given_from_principal)
-    }
-
-    /// Refuses a motion whose derivatives by some parameter do not exist.
-    ///
-    /// # Errors
-    /// [`Error::Domain`] where `L` rests or is on a separatrix, and for three equal eigenvalues.
-    pub fn require_derivatives(&self) -> Result<(), Error> {
-        self.mean.require_derivatives()
-    }
-
-    /// Of what the order leaves out, at the time `t`: see [`AveragedSolution::truncation`].
-    pub fn truncation(&self, t: f64) -> f64 {
-        self.mean.truncation(t - self.origin[0])
-    }
-
-    /// See [`AveragedSolution::rounding`].
-    pub fn rounding(&self, t: f64) -> f64 {
-        self.mean.rounding(t - self.origin[0])
     }
 }
 
@@ -131,7 +104,7 @@ impl<S: Real> Motion<S> for AveragedMotion<S> {
 
     fn state(&self, t: S) -> Result<BodyState<S>, Error> {
         let phases = self.phases([t.re(), 0.0])?;
-        let later = |phases: AveragedPhases<S>| phases.later(self.mean.rates(), t - S::from_f64(t.re()));
+        let later = |phases: AveragedPhases<S>| phases.later(&self.mean.rates, t - S::from_f64(t.re()));
         Ok(self.state_of(&if S::HAS_DERIVATIVES { later(phases) } else { phases }))
     }
 
@@ -143,7 +116,7 @@ impl<S: Real> Motion<S> for AveragedMotion<S> {
         self.state_in_parts(t).map(|state| AxisState::from(&state))
     }
 
-    /// [`truncation`](AveragedMotion::truncation) and [`rounding`](AveragedMotion::rounding); the rounding of `t` itself is not counted.
+    /// That of the [averaged motion](AveragedSolution::error_estimate); the rounding of `t` itself is not counted.
     fn error_estimate(&self, t: f64) -> f64 {
         self.mean.error_estimate(t - self.origin[0])
     }
@@ -151,19 +124,12 @@ impl<S: Real> Motion<S> for AveragedMotion<S> {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Vector3;
-
     use super::*;
-    use crate::euler_angles::{EulerAngles, EulerRates};
+    use crate::dynamics::fixture::problem;
 
     #[test]
     fn an_epoch_lies_in_the_span_with_both_its_parts() {
-        let star = RigidSpheroid::in_units_of_tc(1.1);
-        let s = Matrix3::from_diagonal(&Vector3::new(2e-6, 1e-6, -3e-6));
-        let angles = EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 };
-        let rates = EulerRates { alpha: 1.4, beta: 0.1, gamma: 0.2 };
-        let problem = Problem::from_angles(star, s, &angles, &rates).unwrap();
-        let motion = AveragedMotion::new(&problem, (0.0, 100.0), AveragingOrder::Second).unwrap();
+        let motion = AveragedMotion::new(&problem([2e-6, 1e-6, -3e-6]), (0.0, 100.0), AveragingOrder::Second).unwrap();
         let allows = |epoch| motion.near(epoch).is_ok();
         assert!(allows([110.0, -20.0]) && allows([40.0, 50.0]) && allows([-20.0, 30.0]));
         assert!(!allows([90.0, 20.0]) && !allows([60.0, -70.0]));

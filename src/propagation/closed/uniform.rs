@@ -209,6 +209,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+    use crate::dynamics::fixture::STAR;
 
     /// The axis lies in the equator of `s` and precesses about its pole at the rate 1/4 without torque; a spin would need one.
     #[test]
@@ -231,12 +232,11 @@ mod tests {
     /// Without torque: about `L` at the rate `|L| / I^xx`, against which the axis resists by its spin of either sign.
     #[test]
     fn the_condition_of_a_steady_motion_is_the_same_for_both_senses_of_spin() {
-        let star = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
         let (sin, cos) = 0.7_f64.sin_cos();
         for axis in [Vector3::new(sin, 0.0, cos), Vector3::new(sin, 0.0, -cos)] {
             let initial = BodyState { axis, momentum: Vector3::z() * 1.7, equatorial_axis: Vector3::y() };
             let motion =
-                UniformMotion::steady(&Problem::new(star, Matrix3::zeros(), initial).unwrap(), (0.0, 100.0)).unwrap();
+                UniformMotion::steady(&Problem::new(STAR, Matrix3::zeros(), initial).unwrap(), (0.0, 100.0)).unwrap();
             assert_relative_eq!(motion.condition, 1.0 + ((1.0 + cos) / sin).powi(2), max_relative = 1e-12);
         }
     }
@@ -246,7 +246,7 @@ mod tests {
         let initial = BodyState { axis: Vector3::x(), momentum: Vector3::z() * 2.0, equatorial_axis: Vector3::y() };
         let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
         for constant_c in [0.7, -0.7] {
-            let star = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c };
+            let star = RigidSpheroid { constant_c, ..STAR };
             assert_relative_eq!(largest_torque(&star, &s), 0.7 * (2.0 * 14e-4_f64).sqrt(), max_relative = 1e-12);
             let motion = UniformMotion::free(&Problem::new(star, s, initial).unwrap(), (0.0, 100.0));
             for neglected_torque in [0.1, 1.0] {

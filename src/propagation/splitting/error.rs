@@ -145,29 +145,24 @@ fn largest_difference<const V: usize>(a: &Moving<f64, V>, b: &Moving<f64, V>, ra
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Matrix3, Vector3};
+    use nalgebra::Vector3;
 
     use super::*;
-    use crate::dynamics::{AxisState, Problem, RigidSpheroid};
+    use crate::dynamics::AxisState;
+    use crate::dynamics::fixture::{AXIS_STATE, axis_problem};
     use crate::propagation::Motion;
     use crate::propagation::splitting::{STRANG, Scheme, SplittingMotion};
 
-    const FAST: [f64; 3] = [0.3, -0.7, 1.1];
-
     type Reduced = SplittingMotion<AxisState<f64>>;
 
-    fn motion(s: [f64; 3], momentum: [f64; 3], scheme: &'static Scheme, step: f64, count: f64) -> Reduced {
-        let star = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
-        let initial = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::from(momentum) };
-        let s = Matrix3::from_diagonal(&Vector3::from(s));
-        Problem::new(star, s, initial).unwrap().splitting_by(scheme, (3.0, 3.0 + step * count), step).unwrap()
+    fn motion(s: [f64; 3], scheme: &'static Scheme, step: f64, count: f64) -> Reduced {
+        axis_problem(s).splitting_by(scheme, (3.0, 3.0 + step * count), step).unwrap()
     }
 
     #[test]
     fn motions_are_compared_at_256_times_or_half_as_many() {
         for (count, times, stride) in [(512.0, 256, 1.0), (514.0, 129, 2.0)] {
-            let estimate =
-                ErrorEstimate::new(motion([0.3, 0.1, -0.4], FAST, &GRADIENT_8_8_6, 0.0625, count).axis_states());
+            let estimate = ErrorEstimate::new(motion([0.3, 0.1, -0.4], &GRADIENT_8_8_6, 0.0625, count).axis_states());
             assert_eq!((estimate.largest.len(), estimate.interval), (times, 2.0 * stride * 0.0625));
             assert!(estimate.largest.iter().all(|&error| error < 1e-10), "{:?}", estimate.largest.last());
         }
@@ -175,17 +170,17 @@ mod tests {
 
     #[test]
     fn the_error_is_unknown_where_two_steps_turn_by_more_than_ten_thousand_radians() {
-        let rate = Vector3::from(FAST).norm() / 1.3;
-        let estimate = |turn: f64| motion([0.0; 3], FAST, &STRANG, 0.5 * turn / rate, 2.0).error_estimate(3.0);
+        let rate = AXIS_STATE.momentum.norm() / 1.3;
+        let estimate = |turn: f64| motion([0.0; 3], &STRANG, 0.5 * turn / rate, 2.0).error_estimate(3.0);
         let at_end =
-            |turn: f64| motion([0.0; 3], FAST, &STRANG, 0.5 * turn / rate, 2.0).error_estimate(3.0 + 0.9 * turn / rate);
+            |turn: f64| motion([0.0; 3], &STRANG, 0.5 * turn / rate, 2.0).error_estimate(3.0 + 0.9 * turn / rate);
         assert!(at_end(9.5e3).is_finite() && at_end(1.05e4) == f64::INFINITY);
         assert_eq!(estimate(1.05e4), 4.0 * f64::EPSILON);
     }
 
     #[test]
     fn at_the_start_alone_nothing_but_rounding_is_off() {
-        let motion = motion([0.3, 0.1, -0.4], FAST, &STRANG, 0.5, 8.0);
+        let motion = motion([0.3, 0.1, -0.4], &STRANG, 0.5, 8.0);
         assert_eq!(ErrorEstimate::new(motion.axis_states()).interval, 1.0);
         assert_eq!(motion.error_estimate(3.0), 4.0 * f64::EPSILON);
         for elapsed in [0.3, 1.0, 2.7] {

@@ -303,9 +303,7 @@ impl Field<f64> {
         let torque = [s[1] - s[2], s[2] - s[0], s[0] - s[1]].map(|difference| difference * strength);
         Self { strength, tensor: s.map(|value| value - mean), torque }
     }
-}
 
-impl Field<f64> {
     /// The same numbers of another kind.
     pub(super) fn convert<T: Double>(&self) -> Field<T> {
         Field { strength: T::of(self.strength), tensor: self.tensor.map(T::of), torque: self.torque.map(T::of) }

@@ -203,20 +203,17 @@ impl<R: Register, const N: usize> Field<SideBySide<R, N>> {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Matrix3, Vector3};
     use pulp::x86::V3;
 
     use super::*;
-    use crate::dynamics::{Problem, RigidSpheroid};
+    use crate::dynamics::fixture::{AXIS_STATE, axis_problem};
     use crate::propagation::splitting::NEAR_INTEGRABLE_6_2;
     use crate::propagation::splitting::double_steps::DoubleSteps;
     use crate::solutions::free::rotated_by;
 
     fn scene(s: [f64; 3], momentum: f64, start: f64, times: &[f64], tolerance: f64) -> SampledProblem<'_> {
-        let body = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
-        let momentum = Vector3::new(0.3, -0.7, 1.1) * momentum;
-        let initial = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum };
-        let problem = Problem::new(body, Matrix3::from_diagonal(&Vector3::from(s)), initial).unwrap();
+        let initial = AxisState { momentum: AXIS_STATE.momentum * momentum, ..AXIS_STATE };
+        let problem = axis_problem(s).starting_from(initial).unwrap();
         SampledProblem { problem, start, times, tolerance }
     }
 

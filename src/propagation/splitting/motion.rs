@@ -104,6 +104,12 @@ impl PrincipalProblem<3> {
 /// whole step for spans below 100,000 steps, and in any case a number that does not depend on the time asked.
 #[derive(Debug, Clone)]
 pub struct SplittingMotion<X = BodyState<f64>> {
+    /// The scheme.
+    pub scheme: &'static Scheme,
+    /// Length of one step, negative for a motion backwards in time.
+    pub step: f64,
+    /// Number of steps, even.
+    pub step_count: u64,
     kept: Kept,
     state: PhantomData<X>,
 }
@@ -192,7 +198,11 @@ impl<X: RotationState<f64>> Problem<f64, X> {
         } else {
             Kept::Axis(KeptStates::new(self, span, steps)?)
         };
-        Ok(SplittingMotion { kept, state: PhantomData })
+        let (scheme, step, step_count) = match &kept {
+            Kept::Axis(states) => (states.scheme, states.step, states.step_count),
+            Kept::Body(states) => (states.scheme, states.step, states.step_count),
+        };
+        Ok(SplittingMotion { scheme, step, step_count, kept, state: PhantomData })
     }
 }
 
@@ -270,23 +280,6 @@ impl<const V: usize> KeptStates<V> {
     }
 }
 
-impl<X: RotationState<f64>> SplittingMotion<X> {
-    /// The scheme.
-    pub fn scheme(&self) -> &'static Scheme {
-        of_either!(self, states => states.scheme)
-    }
-
-    /// Length of one step, negative for a motion backwards in time.
-    pub fn step(&self) -> f64 {
-        of_either!(self, states => states.step)
-    }
-
-    /// Number of steps, even.
-    pub fn step_count(&self) -> u64 {
-        of_either!(self, states => states.step_count)
-    }
-}
-
 impl<X: RotationState<f64>> Motion<f64> for SplittingMotion<X> {
     type State = X;
 
@@ -325,7 +318,10 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+    use crate::dynamics::fixture::axis_problem;
     use crate::propagation::splitting::{STRANG, Splitting};
+
+    const S: [f64; 3] = [0.3, 0.1, -0.4];
 
     impl SplittingMotion<AxisState<f64>> {
         pub(in crate::propagation::splitting) fn axis_states(&self) -> &KeptStates<2> {
@@ -334,15 +330,8 @@ mod tests {
         }
     }
 
-    const STAR: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: 0.7 };
-
-    fn problem() -> Problem<f64, AxisState<f64>> {
-        let start = AxisState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: Vector3::new(0.3, -0.7, 1.1) };
-        Problem::new(STAR, Matrix3::from_diagonal(&Vector3::new(0.3, 0.1, -0.4)), start).unwrap()
-    }
-
     fn motion(span: (f64, f64), step: f64) -> Result<SplittingMotion<AxisState<f64>>, Error> {
-        problem().splitting_by(&STRANG, span, step)
+        axis_problem(S).splitting_by(&STRANG, span, step)
     }
 
     #[test]
@@ -355,7 +344,7 @@ mod tests {
 
     #[test]
     fn the_number_of_steps_is_the_least_even_one_but_for_rounding() {
-        let count = |duration: f64, step: f64| motion((0.0, duration), step).unwrap().step_count();
+        let count = |duration: f64, step: f64| motion((0.0, duration), step).unwrap().step_count;
         // 1.1 / 0.1 / 2 and the like are a rounding above a whole number.
         for (duration, step, expected) in [(1.0, 7.0, 2), (1.0, 0.3, 4), (0.6, 0.1, 6), (2.2, 0.1, 22), (6.6, 1.1, 6)] {
             assert_eq!(count(duration, step), expected, "{duration} / {step}");
@@ -373,7 +362,7 @@ mod tests {
         let long = motion.axis_states();
         assert_eq!((long.step_count, long.stride), (count, 3));
         assert_eq!((long.states.len(), long.states.capacity()), (66_668, 66_668));
-        let mut alone = Splitting::new(&problem(), &STRANG, long.step).unwrap();
+        let mut alone = Splitting::new(&axis_problem(S), &STRANG, long.step).unwrap();
         let mut done = 0;
         for whole in [1, 2, 3, 1004, 9998] {
             alone.advance(whole - done);
@@ -389,7 +378,7 @@ mod tests {
     #[test]
     fn the_time_of_a_step_is_taken_without_its_rounding() {
         let motion = motion((0.0, 700.0), 0.7).unwrap();
-        let lost = |whole: u64| (-(whole as f64)).mul_add(motion.step(), whole as f64 * motion.step());
+        let lost = |whole: u64| (-(whole as f64)).mul_add(motion.step, whole as f64 * motion.step);
         let late: Vec<u64> = (740..1000).filter(|&whole| lost(whole) > 4e-14).collect();
         assert!(late.len() > 3);
         for whole in late {
@@ -397,7 +386,7 @@ mod tests {
             let mut state = kept.after(whole);
             let rest = DoubleSteps::new(&STRANG, &kept.scene.field, lost(whole), kept.scene.largest_rate);
             rest.single(&mut state, kept.scene.casimir);
-            let found = motion.axis_state(whole as f64 * motion.step()).unwrap();
+            let found = motion.axis_state(whole as f64 * motion.step).unwrap();
             assert!((found.axis - kept.scene.state(&state).axis).amax() < 1e-15, "{whole}");
         }
     }

@@ -226,26 +226,3 @@ pub static SCHEMES: [&Scheme; 9] = [
     &GRADIENT_8_6_6,
     &GRADIENT_8_8_6,
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The steps make up one, and their third, fifth and seventh powers nothing: conditions of order eight, on every weight.
-    #[test]
-    fn weights_of_composed_steps_meet_their_conditions() {
-        let sum = |power: i32| 2.0 * KAHAN_LI[..8].iter().map(|w| w.powi(power)).sum::<f64>() + KAHAN_LI[8].powi(power);
-        assert!((sum(1) - 1.0).abs() < 1e-15, "{:e}", sum(1) - 1.0);
-        for power in [3, 5, 7] {
-            assert!(sum(power).abs() < 1e-15, "{power}: {:e}", sum(power));
-        }
-    }
-
-    #[test]
-    fn the_order_is_the_least_of_its_parts() {
-        for orders in [[2, 4, 6], [4, 2, 6], [6, 4, 2], [4, 6, 2]] {
-            let Scheme { name, ends, rotations, kicks, gradients, source, .. } = STRANG;
-            assert_eq!(Scheme { name, orders, ends, rotations, kicks, gradients, source }.order(), 2);
-        }
-    }
-}

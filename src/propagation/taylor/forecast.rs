@@ -71,11 +71,8 @@ fn expected_rounding(turn: f64, steps: f64, strength: f64, vectors: usize) -> f6
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Vector3;
-
     use super::*;
-    use crate::dynamics::{BodyState, RigidSpheroid};
-    use nalgebra::Matrix3;
+    use crate::dynamics::fixture::problem;
 
     #[test]
     fn a_motion_without_end_has_no_digits() {
@@ -86,11 +83,7 @@ mod tests {
 
     #[test]
     fn a_short_motion_is_one_step() {
-        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
-        let tensor = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
-        let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.5, 1.2));
-        let initial = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
-        let problem = Problem::new(spheroid, tensor, initial).unwrap();
+        let problem = problem([0.02, 0.01, -0.03]);
         for duration in [0.0, 1e-3, -1e-3] {
             assert_eq!(problem.taylor_forecast(duration, 1e-10).unwrap().steps, 1.0, "{duration}");
             assert_eq!(problem.reduced().taylor_forecast(duration, 1e-10).unwrap().steps, 1.0, "{duration}");

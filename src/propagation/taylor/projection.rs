@@ -75,7 +75,7 @@ impl<'a> SeriesProjection<'a> {
     }
 
     /// The time in `(after, t]` at which it takes least work, the latest at which a series starts, if that is not `t`.
-    pub fn cheapest_time(&self, after: f64, t: f64) -> Option<f64> {
+    pub(crate) fn cheapest_time(&self, after: f64, t: f64) -> Option<f64> {
         let step = self.step_near(t).ok()?;
         let direction = self.setup.direction();
         let start = self.steps.starts.get(if direction > 0.0 { step } else { step + 1 })?;

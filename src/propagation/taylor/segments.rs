@@ -61,16 +61,11 @@ pub(crate) fn projected_by_segments(
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Matrix3;
-
     use super::*;
-    use crate::dynamics::RigidSpheroid;
 
     #[test]
     fn a_motion_backwards_in_time_is_not_followed() {
-        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.7, constant_c: 0.8 };
-        let start = BodyState { axis: Vector3::z(), momentum: Vector3::z(), equatorial_axis: Vector3::x() };
-        let problem = Problem::new(spheroid, Matrix3::zeros(), start).unwrap();
+        let problem = crate::dynamics::fixture::problem([0.0; 3]);
         let both = (&Vector3::x(), &Vector3::y());
         let followed = projected_by_segments(&problem, (70.0, 2.0), 1e-5, both, |_, _| panic!("backwards"));
         assert!(followed.unwrap().is_none());

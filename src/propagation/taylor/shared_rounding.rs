@@ -156,11 +156,7 @@ mod tests {
 
     const SPHEROID: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 0.1, constant_c: 0.8 };
 
-    fn setup<const V: usize>(tensor: &Matrix3<f64>, vectors: [Vector3<f64>; V]) -> ScaledProblem<f64, V> {
-        setup_of(SPHEROID, tensor, vectors)
-    }
-
-    fn setup_of<const V: usize>(
+    fn setup<const V: usize>(
         spheroid: RigidSpheroid<f64>,
         tensor: &Matrix3<f64>,
         vectors: [Vector3<f64>; V],
@@ -174,7 +170,7 @@ mod tests {
     #[test]
     fn the_tensor_solved_for_differs_by_what_was_rounded() {
         let given = Matrix3::new(0.21, 0.04, -0.03, 0.04, 0.0011, 0.06, -0.03, 0.06, -0.003);
-        let setup = setup(&given, [Vector3::z(), Vector3::new(0.1, 0.2, 2.9)]);
+        let setup = setup(SPHEROID, &given, [Vector3::z(), Vector3::new(0.1, 0.2, 2.9)]);
         let found = SharedRounding::of(&setup).0.tensor;
         let (back, used) = (setup.frame.given_from_series().unwrap(), setup.frame.tensor);
         let isotropic = given.trace() / 3.0;
@@ -214,7 +210,7 @@ mod tests {
         let axis = Vector3::new(0.6, 0.0, 0.8);
         let vectors = |across: f64| [axis * (1.0 - 1e-10), Vector3::z(), Vector3::y() + axis * across];
         for across in [3e-10, -3e-10] {
-            let off_frame = SharedRounding::of(&setup(&Matrix3::zeros(), vectors(across))).0.off_frame;
+            let off_frame = SharedRounding::of(&setup(SPHEROID, &Matrix3::zeros(), vectors(across))).0.off_frame;
             assert_relative_eq!(off_frame, 8e-10, epsilon = 0.0, max_relative = 1e-5);
         }
     }
@@ -225,7 +221,7 @@ mod tests {
         let tensor = Matrix3::from_diagonal(&Vector3::new(0.021, 0.021, -0.042));
         let spheroid = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.0, constant_c: 0.8 };
         let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 1.1)];
-        let setup = setup_of(spheroid, &tensor, vectors);
+        let setup = setup(spheroid, &tensor, vectors);
         let rates = setup.drive().rates();
         assert_eq!((rates.axis, rates.momentum_of_principal[2]), (1.0, 0.0));
         let found = excess_of_shares(&setup);

@@ -39,16 +39,16 @@ impl<S: Real> AveragedSolution<S> {
     /// [`rounding`](Self::rounding). It grows from the initial state on, also after [`near`](Self::near).
     pub fn error_estimate(&self, t: f64) -> f64 {
         // Directions are at most two apart, and G is off by less than the strength.
-        let most = 2.0 * (1.0 + self.relative_strength().re());
+        let most = 2.0 * (1.0 + self.relative_strength.re());
         (self.truncation(t) + self.rounding(t)).min(most)
     }
 
     /// What the order leaves out, at the time `t`.
     pub fn truncation(&self, t: f64) -> f64 {
-        let x = self.relative_strength().re();
+        let x = self.relative_strength.re();
         // The terms of higher order as a geometric series.
         let x = x / (1.0 - x);
-        let power = match self.order() {
+        let power = match self.order {
             AveragingOrder::First => x,
             AveragingOrder::Second => x * x,
         };
@@ -64,7 +64,7 @@ impl<S: Real> AveragedSolution<S> {
     /// digits, but for the length of `n`, which an axis given in doubles has only to rounding: the rate about `n` changes by as much.
     pub fn rounding(&self, t: f64) -> f64 {
         // What is added to the phases, of which the slow rate is a part; at c^2 = 1/3 a small one.
-        let added = self.tensor().map(S::re).amax() + self.relative_strength().re() * self.turning_rate();
+        let added = self.tensor().map(S::re).amax() + self.relative_strength.re() * self.turning_rate();
         // Theta functions lose half the digits of k'.
         let lost = self.top().complement().sqrt().max(1e-8);
         let fault = Fault {
@@ -103,7 +103,7 @@ fn neighbouring_rates(k: &Vector3<f64>, l: &Vector3<f64>, distance: f64) -> [f64
         if !beside.is_beside(&here) {
             return [f64::INFINITY, f64::INFINITY];
         }
-        let (there, here) = (beside.rates(), here.rates());
+        let (there, here) = (beside.rates, here.rates);
         let slow = here.slow.abs().max(f64::MIN_POSITIVE);
         most[0] = most[0].max((there.slow - here.slow).abs() / slow * speed);
         most[1] = most[1].max((there.about - here.about).abs());

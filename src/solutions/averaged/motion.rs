@@ -43,13 +43,17 @@ pub struct AveragedSolution<S> {
     turning: [DoubleDouble; 3],
     /// `n.n - 1` of the initial axis as given.
     excess_of_length: f64,
-    rates: AveragedRates<S>,
+    /// Mean rates.
+    pub rates: AveragedRates<S>,
     /// Of the angles about `l` and about `n`, by the integral of the top.
     periodic: [S; 2],
-    order: AveragingOrder,
+    /// How many orders are taken along.
+    pub order: AveragingOrder,
     /// Principal values of the tensor of the asymmetric top as which `l` moves.
     tensor: Vector3<S>,
-    relative_strength: S,
+    /// `|C| (s_max - s_min) I^xx / |L|^2` at the start, whose powers the orders are in: errors are of its size (first order) or of its square
+    /// (second), and grow with its square, or its cube, times the angle turned.
+    pub relative_strength: S,
     /// Time from the initial state to the time zero.
     since_start: f64,
 }
@@ -154,7 +158,7 @@ impl<S: Real> AveragedSolution<S> {
         let (mean_h, mean_m) = (s.dot(&squares), s.component_mul(&s).dot(&squares));
         let mean = potential.at(g, c, mean_h, mean_m);
         let energy_of_top = tensor.dot(&l.component_mul(&l));
-        let TopPhases { slow, about } = top.rates();
+        let TopPhases { slow, about } = top.rates;
         let added = Added {
             slow,
             about_momentum: excess / inertia_xx + about + mean.about_momentum(g, c) - energy_of_top,
@@ -173,10 +177,10 @@ impl<S: Real> AveragedSolution<S> {
             -(mean.by_c_h * c / g) * by_h + (mean.by_size_m - mean.by_c_m * c / g) * by_m,
             (mean.by_c_h * by_h + mean.by_c_m * by_m) / g,
         ];
-        let shape = top.at(top.start());
+        let shape = top.at(top.start);
         let to_shape = shape.frame.transpose();
         let [n, equatorial_axis] = [n, equatorial].map(|v| to_shape * v);
-        let starts = AveragedPhases { slow: top.start(), about_momentum: S::zero(), about_axis: S::zero() };
+        let starts = AveragedPhases { slow: top.start, about_momentum: S::zero(), about_axis: S::zero() };
         Ok(Self {
             strength,
             s,
@@ -202,17 +206,6 @@ impl<S: Real> AveragedSolution<S> {
         Self { starts: self.phases_at(t), since_start: self.since_start + (t[0] + t[1]), ..*self }
     }
 
-    /// Mean rates.
-    pub fn rates(&self) -> &AveragedRates<S> {
-        &self.rates
-    }
-
-    /// `|C| (s_max - s_min) I^xx / |L|^2` at the start, whose powers the orders are in: errors are of its size (first order) or of its square (second), and
-    /// grow with its square, or its cube, times the angle turned.
-    pub fn relative_strength(&self) -> S {
-        self.relative_strength
-    }
-
     /// Refuses a motion that has no derivatives by some of its parameters.
     ///
     /// # Errors
@@ -227,11 +220,6 @@ impl<S: Real> AveragedSolution<S> {
             "above zero, if derivatives are wanted",
         )?;
         require_round(&self.top)
-    }
-
-    /// How many orders are taken along.
-    pub fn order(&self) -> AveragingOrder {
-        self.order
     }
 
     /// By how much the rate about `n` is uncertain, since the length of `n` is rounded (rad per unit of time).
@@ -274,7 +262,7 @@ impl<S: Real> AveragedSolution<S> {
     /// Phases at the time `t[0] + t[1]`, modulo a turn.
     pub fn phases_at(&self, t: [f64; 2]) -> AveragedPhases<S> {
         let AveragedTurns { slow, about_momentum, about_axis } = self.turns(t);
-        let slow = if self.top.is_periodic() { slow.angle() } else { slow.angle() + slow.whole as f64 * TAU };
+        let slow = if self.top.complement() > 0.0 { slow.angle() } else { slow.angle() + slow.whole as f64 * TAU };
         let angles = [slow, about_momentum.angle(), about_axis.angle()];
         let [slow, about_momentum, about_axis] = angles.map(S::from_f64);
         let real = AveragedPhases { slow, about_momentum, about_axis };
@@ -295,7 +283,7 @@ impl<S: Real> AveragedSolution<S> {
     }
 
     /// Phases at the time `t`, modulo a turn.
-    pub fn phases(&self, t: S) -> AveragedPhases<S> {
+    fn phases(&self, t: S) -> AveragedPhases<S> {
         let phases = self.phases_at([t.re(), 0.0]);
         if S::HAS_DERIVATIVES { phases.later(&self.rates, t - S::from_f64(t.re())) } else { phases }
     }
@@ -362,11 +350,11 @@ mod tests {
     #[test]
     fn on_the_separatrix_the_phase_is_not_taken_modulo_a_turn() {
         let motion = motion(WEAK, [1.0, 1.0, 1.0]);
-        assert!(!motion.top.is_periodic());
-        let rate = motion.rates().slow;
+        assert_eq!(motion.top.complement(), 0.0);
+        let rate = motion.rates.slow;
         for angle in [0.4, 3.0, 9.7, 20.0, -20.0, -4.1] {
             let found = motion.phases_at([angle / rate, 0.0]).slow;
-            assert_relative_eq!(found, motion.top.start() + angle, max_relative = 1e-13);
+            assert_relative_eq!(found, motion.top.start + angle, max_relative = 1e-13);
         }
     }
 
@@ -397,7 +385,7 @@ mod tests {
     fn a_turning_rate_has_no_sign() {
         let motion = motion([0.02, 0.01, -0.03], [0.3, -0.5, 2.0]);
         let rate = motion.turning_rate();
-        assert_relative_eq!(rate, motion.rates().about_momentum, max_relative = 1e-14);
+        assert_relative_eq!(rate, motion.rates.about_momentum, max_relative = 1e-14);
         let mut turning = motion.turning;
         turning[1] = DoubleDouble::default() - turning[1];
         assert_eq!(AveragedSolution { turning, ..motion }.turning_rate(), rate);
@@ -408,7 +396,7 @@ mod tests {
     fn derivatives_of_phases_take_the_whole_time() {
         let momentum = [Dual64::new(0.3, 1.0), Dual64::from(-0.5), Dual64::new(2.0, 0.5)];
         let motion = motion([0.02, 0.01, -0.03], momentum);
-        let rates = motion.rates();
+        let rates = motion.rates;
         let found = motion.phases_at([30.0, 12.0]);
         assert!((motion.starts.slow + rates.slow * 42.0).eps.abs() > 0.1);
         assert_relative_eq!(found.slow.eps, (motion.starts.slow + rates.slow * 42.0).eps, max_relative = 1e-12);

@@ -130,14 +130,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn phases_grow_with_their_rates() {
-        let rates = AveragedRates { slow: 0.5, about_momentum: 3.0, about_axis: -0.25 };
-        let start = AveragedPhases { slow: 1.0, about_momentum: -2.0, about_axis: 0.125 };
-        let expected = AveragedPhases { slow: 3.0, about_momentum: 10.0, about_axis: -0.875 };
-        assert_eq!(start.later(&rates, 4.0), expected);
-    }
-
-    #[test]
     fn the_nearest_whole_number_is_that_of_any_size() {
         for x in [0.4, -0.4, 1.6, -7.7, 1e14 + 0.4, 1e15 + 0.375, -1e15 - 0.625, 4e15, 1e300] {
             assert_eq!(nearest(x), f64::round(x), "{x}");

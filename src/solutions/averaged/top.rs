@@ -45,9 +45,10 @@ pub struct Top<S> {
     differences: [S; 2],
     /// `A_1^2 / b`.
     share: S,
-    /// Mean rate of the frame about `l` and of the phase, and the phase at the start.
-    rates: TopPhases<S>,
-    start: S,
+    /// Mean rates of the phases (rad per unit of time).
+    pub rates: TopPhases<S>,
+    /// The phase `z` at the start.
+    pub start: S,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -201,7 +202,7 @@ impl<S: Real> Top<S> {
         matches!(self.course, Course::Round { .. }) && self.amplitudes[0].re() > 0.0
     }
 
-    /// `k'`, zero on the separatrix and one where the phase grows evenly.
+    /// `k'`, one where the phase grows evenly and zero on the separatrix, the only place where the phase does not repeat itself after a turn.
     pub fn complement(&self) -> f64 {
         match &self.course {
             Course::Still { .. } => 1.0,
@@ -230,21 +231,6 @@ impl<S: Real> Top<S> {
             Course::Round { mean, .. } => rates / mean.re() * (first * first + second * second).sqrt(),
             Course::Separatrix { .. } => rates * (first * first + second * second).sqrt(),
         }
-    }
-
-    /// Whether the phase repeats itself after a turn, as it does but on a separatrix.
-    pub fn is_periodic(&self) -> bool {
-        !matches!(self.course, Course::Separatrix { .. })
-    }
-
-    /// Mean rates of the phases (rad per unit of time).
-    pub fn rates(&self) -> TopPhases<S> {
-        self.rates
-    }
-
-    /// The phase `z` at the start.
-    pub fn start(&self) -> S {
-        self.start
     }
 
     /// Mean of the squares of the components of `l`.
@@ -362,7 +348,7 @@ mod tests {
     fn the_largest_speed_on_the_separatrix_bounds_that_along_it() {
         let (x, z) = (0.3125_f64, 0.625_f64);
         let top = Top::new(K, &Vector3::new(x, (1.0 - x * x - z * z).sqrt(), z));
-        assert!(!top.is_periodic());
+        assert_eq!(top.complement(), 0.0);
         let (first, third) = (0.2_f64.sqrt(), 0.8_f64.sqrt());
         let fastest = 5.0 * first * third;
         // The bound adds the largest speeds of both parts: it goes by the axis of the largest value, with the part along the third for m_1.

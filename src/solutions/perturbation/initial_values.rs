@@ -13,23 +13,7 @@ use crate::numerics::angle::whole_turns;
 use crate::numerics::scalar::{Real, Scalar};
 use crate::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
-/// Initial angles and rates of a perturbation solution, in the printed form Eq. (34) `[integraltoinitial]`:
-/// [`Perturbation::at`] zero.
-///
-/// # Errors
-/// As for [`Perturbation::new`].
-pub fn initial_values<S: Real>(
-    form: Form,
-    kind: Precession,
-    spheroid: &RigidSpheroid<S>,
-    s: &PrincipalCoefficients<S>,
-    spin: S,
-    constants: &Constants<S>,
-) -> Result<AxisAngles<S>, Error> {
-    Ok(Perturbation::new(form, kind, spheroid, s, spin, constants)?.at(S::zero()))
-}
-
-/// Constants of integration of the perturbation solution that has given initial values: the inverse of [`initial_values`], in the
+/// Constants of integration of the perturbation solution that has given initial values: the inverse of [`Perturbation::at`] zero, the
 /// printed form of Eq. (34) `[integraltoinitial]`.
 ///
 /// `A cos phi` and `A sin phi` follow directly from the rates; `alpha_0`, `beta_0` by Newton's method with exact derivatives, started at
@@ -52,22 +36,9 @@ pub fn constants_from_initial_values<S: Real>(
     // Eq. (34) repeats itself after a turn of alpha: near zero Newton's method loses no digits to it.
     let turns = whole_turns(initial.alpha.re());
     let initial = &AxisAngles { alpha: initial.alpha - S::from_f64(turns), ..*initial };
-    let real = Inversion {
-        form,
-        kind,
-        spheroid: spheroid.map(S::re),
-        s: PrincipalCoefficients { xx: s.xx.re(), yy: s.yy.re(), zz: s.zz.re() },
-        spin: spin.re(),
-        initial: AxisAngles {
-            alpha: initial.alpha.re(),
-            beta: initial.beta.re(),
-            alpha_rate: initial.alpha_rate.re(),
-            beta_rate: initial.beta_rate.re(),
-        },
-    };
-    let Root { point, inverse } = real.solve()?;
-    let mut found = point.map(S::from_f64);
     let generic = Inversion { form, kind, spheroid: *spheroid, s: *s, spin, initial: *initial };
+    let Root { point, inverse } = generic.map(S::re).solve()?;
+    let mut found = point.map(S::from_f64);
     // Each step with the real inverse makes the derivatives right to one more order.
     for _ in 0..3 {
         found -= inverse.map(S::from_f64) * generic.residual(&found);
@@ -95,6 +66,25 @@ struct Root {
 }
 
 impl<S: Scalar> Inversion<S> {
+    /// The same numbers of another type.
+    fn map<T>(&self, to: impl Fn(S) -> T) -> Inversion<T> {
+        let AxisAngles { alpha, beta, alpha_rate, beta_rate } = self.initial;
+        let PrincipalCoefficients { xx, yy, zz } = self.s;
+        Inversion {
+            form: self.form,
+            kind: self.kind,
+            spheroid: self.spheroid.map(&to),
+            s: PrincipalCoefficients { xx: to(xx), yy: to(yy), zz: to(zz) },
+            spin: to(self.spin),
+            initial: AxisAngles {
+                alpha: to(alpha),
+                beta: to(beta),
+                alpha_rate: to(alpha_rate),
+                beta_rate: to(beta_rate),
+            },
+        }
+    }
+
     fn at(&self, x: &Vector2<S>, amplitude: S, phase: S) -> Perturbation<S> {
         let constants = Constants { alpha_0: x.x, beta_0: x.y, amplitude, phase };
         Perturbation::new_unchecked(self.form, self.kind, &self.spheroid, &self.s, self.spin, &constants)
@@ -126,23 +116,6 @@ impl Inversion<f64> {
     const STARTS: usize = 64;
     const ITERATIONS: usize = 60;
 
-    fn lifted(&self) -> Inversion<Dual64> {
-        let lift = Dual64::from_f64;
-        Inversion {
-            form: self.form,
-            kind: self.kind,
-            spheroid: self.spheroid.map(lift),
-            s: PrincipalCoefficients { xx: lift(self.s.xx), yy: lift(self.s.yy), zz: lift(self.s.zz) },
-            spin: lift(self.spin),
-            initial: AxisAngles {
-                alpha: lift(self.initial.alpha),
-                beta: lift(self.initial.beta),
-                alpha_rate: lift(self.initial.alpha_rate),
-                beta_rate: lift(self.initial.beta_rate),
-            },
-        }
-    }
-
     fn jacobian(lifted: &Inversion<Dual64>, x: &Vector2<f64>) -> Matrix2<f64> {
         let column = |i: usize| {
             let mut point = x.map(Dual64::from);
@@ -153,7 +126,7 @@ impl Inversion<f64> {
     }
 
     fn solve(&self) -> Result<Root, Error> {
-        let lifted = self.lifted();
+        let lifted = self.map(Dual64::from_re);
         let grid = (0..Self::STARTS).map(|i| PI * (i as f64 + 0.5) / Self::STARTS as f64);
         core::iter::once(self.initial.beta)
             .chain(grid)
@@ -203,19 +176,35 @@ mod tests {
         RigidSpheroid { inertia_xx, inertia_zz, constant_c }
     }
 
-    fn angles([alpha, beta, alpha_rate, beta_rate]: [f64; 4]) -> AxisAngles<f64> {
+    fn coefficients<S: Scalar>(values: [f64; 3]) -> PrincipalCoefficients<S> {
+        PrincipalCoefficients::new(values.map(S::from_f64))
+    }
+
+    fn angles<S>([alpha, beta, alpha_rate, beta_rate]: [S; 4]) -> AxisAngles<S> {
         AxisAngles { alpha, beta, alpha_rate, beta_rate }
     }
 
-    fn assert_same(found: &AxisAngles<f64>, exact: &AxisAngles<f64>) {
+    type Body<S> = (RigidSpheroid<S>, PrincipalCoefficients<S>);
+
+    /// The initial values of the printed solution with spin one.
+    fn start<S: Real>(kind: Precession, (spheroid, s): &Body<S>, constants: &Constants<S>) -> AxisAngles<S> {
+        Perturbation::new(Form::Printed, kind, spheroid, s, S::one(), constants).unwrap().at(S::zero())
+    }
+
+    /// The constants of these initial values, which are those of the constants again.
+    fn constants(kind: Precession, body: &Body<f64>, initial: [f64; 4]) -> Constants<f64> {
+        let initial = angles(initial);
+        let found = constants_from_initial_values(Form::Printed, kind, &body.0, &body.1, 1.0, &initial).unwrap();
+        let again = start(kind, body, &found);
         for (found, exact) in [
-            (found.alpha, exact.alpha),
-            (found.beta, exact.beta),
-            (found.alpha_rate, exact.alpha_rate),
-            (found.beta_rate, exact.beta_rate),
+            (again.alpha, initial.alpha),
+            (again.beta, initial.beta),
+            (again.alpha_rate, initial.alpha_rate),
+            (again.beta_rate, initial.beta_rate),
         ] {
             assert_relative_eq!(found, exact, max_relative = 1e-12, epsilon = 1e-13);
         }
+        found
     }
 
     /// Here the solution of the smallest `|A|` is met from the first, and from the last, of the inclinations of the grid alone; the next
@@ -226,14 +215,8 @@ mod tests {
             (1.42, [0.044, -0.049, -0.018], [-1.24, 0.123, 1.77, 0.08], 0.15),
             (1.67, [-0.026, 0.069, 0.062], [-0.23, 2.99, -0.28, 0.78], 0.82),
         ] {
-            let (spheroid, s, initial) = (body(inertia_zz, 1.0), PrincipalCoefficients::new(s), angles(initial));
-            let found =
-                constants_from_initial_values(Form::Printed, Precession::Single, &spheroid, &s, 1.0, &initial).unwrap();
+            let found = constants(Precession::Single, &(body(inertia_zz, 1.0), coefficients(s)), initial);
             assert!(found.amplitude < amplitude, "{found:?}");
-            assert_same(
-                &initial_values(Form::Printed, Precession::Single, &spheroid, &s, 1.0, &found).unwrap(),
-                &initial,
-            );
         }
     }
 
@@ -242,17 +225,15 @@ mod tests {
     #[test]
     fn sixty_steps_are_enough_or_not() {
         let (alpha, beta) = (0.4, 0.9_f64);
-        let initial = angles([alpha, beta, 1.1 / beta.cos(), 0.0]);
-        let s = PrincipalCoefficients::new([0.0; 3]);
         let inversion = Inversion {
             form: Form::Printed,
             kind: Precession::Twofold,
             spheroid: body(1.1, 0.0),
-            s,
+            s: coefficients([0.0; 3]),
             spin: 1.0,
-            initial,
+            initial: angles([alpha, beta, 1.1 / beta.cos(), 0.0]),
         };
-        let lifted = inversion.lifted();
+        let lifted = inversion.map(Dual64::from_re);
         let from = |distance: f64, off: f64| inversion.newton(&lifted, Vector2::new(alpha + distance, beta + off));
         for (distance, off) in [(11.7, 0.0), (-11.7, 0.0), (11.5, 5.2e-4), (0.0, 0.0)] {
             let root = from(distance, off).expect("converges").point;
@@ -266,40 +247,24 @@ mod tests {
     /// At `alpha = 0` and `beta' = 0` the forced motion has both as well, so that `cos phi` vanishes, and `A` does not.
     #[test]
     fn a_phase_of_a_quarter_turn_is_no_vanishing_amplitude() {
-        let (spheroid, s) = (body(1.1, 0.3), PrincipalCoefficients::new([0.02, 0.01, -0.04]));
         for alpha_rate in [1.3, 1.9] {
-            let initial = angles([0.0, 0.8, alpha_rate, 0.0]);
-            let found = constants_from_initial_values(Form::Printed, Precession::Twofold, &spheroid, &s, 1.0, &initial)
-                .unwrap();
+            let body = (body(1.1, 0.3), coefficients([0.02, 0.01, -0.04]));
+            let found = constants(Precession::Twofold, &body, [0.0, 0.8, alpha_rate, 0.0]);
             assert_eq!(found.alpha_0, 0.0);
             assert_relative_eq!(found.phase.abs(), PI / 2.0, max_relative = 1e-15);
             assert!(found.amplitude > 0.05, "{found:?}");
-            assert_same(
-                &initial_values(Form::Printed, Precession::Twofold, &spheroid, &s, 1.0, &found).unwrap(),
-                &initial,
-            );
         }
     }
 
     /// There the root and the angle have no derivatives, and are given none.
     #[test]
     fn a_vanishing_amplitude_has_no_phase_and_no_derivatives() {
-        let s = PrincipalCoefficients::new([0.0; 3]);
         // With omega one the quotients of duals are those of doubles.
-        let initial = angles([0.4, 0.9, 1.0 / 0.9_f64.sin_cos().1, 0.0]);
-        let found =
-            constants_from_initial_values(Form::Printed, Precession::Twofold, &body(1.0, 0.0), &s, 1.0, &initial)
-                .unwrap();
+        let initial = [0.4, 0.9, 1.0 / 0.9_f64.sin_cos().1, 0.0];
+        let found = constants(Precession::Twofold, &(body(1.0, 0.0), coefficients([0.0; 3])), initial);
         assert_eq!((found.amplitude, found.phase), (0.0, 0.0));
         let lift = |value: f64| Dual64::new(value, 1.0);
-        let (spheroid, s) = (body(1.0, 0.0), PrincipalCoefficients::new([Dual64::from(0.0); 3]));
-        let AxisAngles { alpha, beta, alpha_rate, beta_rate } = initial;
-        let varied = AxisAngles {
-            alpha: lift(alpha),
-            beta: lift(beta),
-            alpha_rate: lift(alpha_rate),
-            beta_rate: lift(beta_rate),
-        };
+        let (spheroid, s, varied) = (body(1.0, 0.0), coefficients([0.0; 3]), angles(initial.map(lift)));
         let found =
             constants_from_initial_values(Form::Printed, Precession::Twofold, &spheroid, &s, lift(1.0), &varied)
                 .unwrap();
@@ -310,11 +275,11 @@ mod tests {
     /// What is left of Eq. (34) at the initial angles, by its own right side.
     #[test]
     fn what_does_not_converge_tells_how_far_it_is() {
-        let (spheroid, s) = (body(0.75, 1.0), PrincipalCoefficients::new([-0.1, 1.06, 1.57]));
+        let body = (body(0.75, 1.0), coefficients([-0.1, 1.06, 1.57]));
         let initial = angles([1.13, 0.61, 0.25, 0.71]);
         let at = |amplitude: f64, phase: f64| {
             let constants = Constants { alpha_0: initial.alpha, beta_0: initial.beta, amplitude, phase };
-            initial_values(Form::Printed, Precession::Single, &spheroid, &s, 1.0, &constants).unwrap()
+            start(Precession::Single, &body, &constants)
         };
         let forced = at(0.0, 0.0);
         let p = initial.beta_rate - forced.beta_rate;
@@ -322,7 +287,7 @@ mod tests {
         let there = at(p.hypot(q), q.atan2(p));
         assert_relative_eq!(there.alpha_rate, initial.alpha_rate, max_relative = 1e-12);
         let left = (there.alpha - initial.alpha).hypot(there.beta - initial.beta);
-        match constants_from_initial_values(Form::Printed, Precession::Single, &spheroid, &s, 1.0, &initial) {
+        match constants_from_initial_values(Form::Printed, Precession::Single, &body.0, &body.1, 1.0, &initial) {
             Err(Error::NotConverged { iterations, residual, .. }) => {
                 assert_eq!(iterations, 60);
                 assert_relative_eq!(residual, left, max_relative = 1e-12);
@@ -334,20 +299,13 @@ mod tests {
     /// Constants that are linear in one variable are found back with no second and no third derivative.
     #[test]
     fn derivatives_hold_up_to_the_third_order() {
-        let number = Dual3_64::from;
         let linear = |value: f64, slope: f64| Dual3_64::new(value, slope, 0.0, 0.0);
-        let s = PrincipalCoefficients::new([0.02, 0.01, -0.04].map(number));
-        let exact = Constants {
-            alpha_0: linear(0.3, 0.7),
-            beta_0: linear(0.7, -0.4),
-            amplitude: linear(0.2, 0.1),
-            phase: linear(0.5, 0.9),
-        };
-        let spheroid = body(1.1, 0.3);
-        let start = initial_values(Form::Printed, Precession::Twofold, &spheroid, &s, number(1.0), &exact).unwrap();
-        let found =
-            constants_from_initial_values(Form::Printed, Precession::Twofold, &spheroid, &s, number(1.0), &start)
-                .unwrap();
+        let (alpha_0, beta_0) = (linear(0.3, 0.7), linear(0.7, -0.4));
+        let exact = Constants { alpha_0, beta_0, amplitude: linear(0.2, 0.1), phase: linear(0.5, 0.9) };
+        let (kind, one) = (Precession::Twofold, Dual3_64::from(1.0));
+        let body = (body(1.1, 0.3), coefficients([0.02, 0.01, -0.04]));
+        let initial = start(kind, &body, &exact);
+        let found = constants_from_initial_values(Form::Printed, kind, &body.0, &body.1, one, &initial).unwrap();
         for (found, exact) in [
             (found.alpha_0, exact.alpha_0),
             (found.beta_0, exact.beta_0),

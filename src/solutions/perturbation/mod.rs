@@ -16,15 +16,13 @@
 //! use twofold::dynamics::RigidSpheroid;
 //! use twofold::lorentz_violation::PrincipalCoefficients;
 //! use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
-//! use twofold::solutions::perturbation::{
-//!     Constants, Form, Precession, Perturbation, constants_from_initial_values, initial_values, shifted_rates,
-//! };
+//! use twofold::solutions::perturbation::{Constants, Form, Precession, Perturbation, constants_from_initial_values, shifted_rates};
 //!
 //! let star = RigidSpheroid::in_units_of_tc(1.1_f64);
 //! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
 //! // tp-I: constants to initial values and back.
 //! let constants = Constants { alpha_0: 0.3, beta_0: 0.7, amplitude: 0.01, phase: 0.5 };
-//! let start = initial_values(Form::Printed, Precession::Twofold, &star, &s, 1.0, &constants)?;
+//! let start = Perturbation::new(Form::Printed, Precession::Twofold, &star, &s, 1.0, &constants)?.at(0.0);
 //! let back = constants_from_initial_values(Form::Printed, Precession::Twofold, &star, &s, 1.0, &start)?;
 //! assert!((back.beta_0 - constants.beta_0).abs() < 1e-12);
 //! let solution = Perturbation::new(Form::Corrected, Precession::Twofold, &star, &s, 1.0, &constants)?;
@@ -45,5 +43,5 @@ pub mod linearised;
 mod solution;
 
 pub use constants::{Constants, Form, Precession};
-pub use initial_values::{constants_from_initial_values, initial_values};
+pub use initial_values::constants_from_initial_values;
 pub use solution::{Perturbation, ShiftedRates, shifted_rates};

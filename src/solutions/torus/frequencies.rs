@@ -90,7 +90,7 @@ pub fn torus_frequencies(problem: &Problem<f64>) -> Result<TorusFrequencies, Err
     // Names.
     let turned = (round_l * fast.turn + round_axis * slow.turn) / TAU;
     let turned = turned - spheroid.oblateness() * initial.momentum.dot(&initial.axis) / spheroid.inertia_zz;
-    let names = named([round_l, turned], round_axis, mean.rates());
+    let names = named([round_l, turned], round_axis, &mean.rates);
     let uncertainty = [errors[1], errors[0] + errors[1], errors[0] + errors[1] + ROUNDING * fast_rate];
     Ok(TorusFrequencies {
         axis: course.axis,

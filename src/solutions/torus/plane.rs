@@ -3,7 +3,9 @@
 use nalgebra::Vector3;
 
 use super::polynomial::roots_and_touches;
-use crate::dynamics::BodyState;
+use crate::dynamics::first_integrals::FirstIntegrals;
+use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::error::Error;
 
 /// `K` of a state may be off by this times the size of its terms, some `L.L s` and `C I^xx s`: a double root of the quartic is known to half the digits, and
 /// `K` then to all.
@@ -17,13 +19,13 @@ const FARTHEST: f64 = 1e-3;
 
 /// What is asked of a state.
 pub(super) struct Wanted {
-    pub(super) constant_c: f64,
-    pub(super) inertia: f64,
+    constant_c: f64,
+    inertia: f64,
     /// `L.L / (2 I^xx) + C n.(s n)`.
-    pub(super) hamiltonian: f64,
+    hamiltonian: f64,
     /// `L.n`.
-    pub(super) along: f64,
-    pub(super) third: f64,
+    along: f64,
+    third: f64,
 }
 
 /// `n` and `L` in a principal plane: `n = (cos b, sin b)`, `L = p n + u (-sin b, cos b)` in the axes `axes`.
@@ -123,6 +125,17 @@ pub(super) fn is_image(one: &BodyState<f64>, other: &BodyState<f64>) -> bool {
 }
 
 impl Wanted {
+    /// A state of this body with these integrals.
+    pub(super) fn new(body: &RigidSpheroid<f64>, integrals: &FirstIntegrals<f64>) -> Result<Self, Error> {
+        let RigidSpheroid { inertia_xx: inertia, inertia_zz, constant_c } = *body;
+        let FirstIntegrals { energy, spin, clebsch: third } = *integrals;
+        let least = inertia.min(inertia_zz);
+        Error::ensure(least > 0.0, "moments of inertia", least, "above zero")?;
+        let along = inertia_zz * spin;
+        let hamiltonian = energy - along * spin / 2.0 + along * along / (2.0 * inertia);
+        Ok(Self { constant_c, inertia, hamiltonian, along, third })
+    }
+
     pub(super) fn plane(&self, s: &Vector3<f64>, axes: [usize; 2]) -> Plane {
         let [si, sj] = axes.map(|i| s[i]);
         let (middle, half) = ((si + sj) / 2.0, (si - sj) / 2.0);
@@ -191,8 +204,7 @@ pub(super) mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
-    use crate::dynamics::RigidSpheroid;
-    use crate::dynamics::first_integrals::{FirstIntegrals, first_integrals};
+    use crate::dynamics::first_integrals::first_integrals;
     use crate::lorentz_violation::PrincipalCoefficients;
 
     pub(in crate::solutions::torus) const BODY: RigidSpheroid<f64> =
@@ -201,18 +213,6 @@ pub(super) mod tests {
         RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.1, constant_c: -0.8 };
     pub(in crate::solutions::torus) const S: PrincipalCoefficients<f64> =
         PrincipalCoefficients { xx: 0.21, yy: -0.04, zz: 0.09 };
-
-    pub(in crate::solutions::torus) fn wanted(body: &RigidSpheroid<f64>, integrals: &FirstIntegrals<f64>) -> Wanted {
-        let FirstIntegrals { energy, spin, clebsch } = *integrals;
-        let along = body.inertia_zz * spin;
-        Wanted {
-            constant_c: body.constant_c,
-            inertia: body.inertia_xx,
-            hamiltonian: energy - along * spin / 2.0 + along * along / (2.0 * body.inertia_xx),
-            along,
-            third: clebsch,
-        }
-    }
 
     /// In a plane, `n` at the angle `b`, and what crosses it.
     fn in_plane(axes: [usize; 2], b: f64, along: f64, across: f64) -> BodyState<f64> {
@@ -248,7 +248,7 @@ pub(super) mod tests {
         let body = BODY;
         let state = in_plane([0, 1], 0.3, 0.9, 1.7);
         let integrals = first_integrals(&body, &S.tensor(), &state);
-        let plane = wanted(&body, &integrals).plane(&Vector3::new(S.xx, S.yy, S.zz), [0, 1]);
+        let plane = Wanted::new(&body, &integrals).unwrap().plane(&Vector3::new(S.xx, S.yy, S.zz), [0, 1]);
         for off in [5e-4, -5e-4, 1e-7] {
             assert_relative_eq!(plane.corrected(0.3 + off), 0.3, max_relative = 1e-13);
         }
@@ -258,7 +258,7 @@ pub(super) mod tests {
         // L.n a rounding of zero: Newton's steps take nothing of what is left, and end at once.
         for along in [1e-13, 1e-18, 1e-300] {
             let integrals = FirstIntegrals { energy: 1.183_538_461_538_461_4, spin: along / 1.5, clebsch: -0.098_128 };
-            let plane = wanted(&body, &integrals).plane(&Vector3::new(S.xx, S.yy, S.zz), [2, 0]);
+            let plane = Wanted::new(&body, &integrals).unwrap().plane(&Vector3::new(S.xx, S.yy, S.zz), [2, 0]);
             for start in [0.0, 1e-9, -1e-9, 1e-8] {
                 assert!((plane.corrected(start) - start).abs() < FARTHEST);
             }
@@ -297,7 +297,7 @@ pub(super) mod tests {
     fn two_states_at_one_place_come_in_order() {
         let values = Vector3::new(S.xx, S.yy, S.zz);
         let state = in_plane([0, 1], 0.4, 0.0, 1.7);
-        let found = wanted(&BODY, &first_integrals(&BODY, &S.tensor(), &state)).in_plane(&values, 2);
+        let found = Wanted::new(&BODY, &first_integrals(&BODY, &S.tensor(), &state)).unwrap().in_plane(&values, 2);
         let sides: Vec<_> =
             found.iter().filter(|s| (s.axis.x - 0.4_f64.cos()).abs() < 1e-9).map(|s| s.axis.y).collect();
         assert!(sides.len() == 2 && sides[0] > 0.38 && sides[1] < -0.38, "{found:?}");

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::plane::Wanted;
+use crate::dynamics::first_integrals::FirstIntegrals;
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
 use crate::lorentz_violation::PrincipalCoefficients;
@@ -21,7 +22,6 @@ pub fn separatrix_motion(
     energy: f64,
     spin: f64,
 ) -> Result<BodyState<f64>, Error> {
-    let RigidSpheroid { inertia_xx, inertia_zz, constant_c } = *spheroid;
     let values = Vector3::new(s.xx, s.yy, s.zz);
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| values[j].total_cmp(&values[i]));
@@ -32,15 +32,8 @@ pub fn separatrix_motion(
         gap,
         "above zero: else there is no separatrix",
     )?;
-    Error::ensure(
-        inertia_xx > 0.0 && inertia_zz > 0.0,
-        "moments of inertia",
-        inertia_xx.min(inertia_zz),
-        "above zero",
-    )?;
-    let along = inertia_zz * spin;
-    let hamiltonian = energy - along * spin / 2.0 + along * along / (2.0 * inertia_xx);
-    let wanted = Wanted { constant_c, inertia: inertia_xx, hamiltonian, along, third: 0.0 };
+    // In a plane the slope of K does not depend on its value.
+    let wanted = Wanted::new(spheroid, &FirstIntegrals { energy, spin, clebsch: 0.0 })?;
     let plane = wanted.plane(&values, [order[0], order[1]]);
     let [mut left, mut right] = wanted.about_second_axis(values.max() - values.min());
     let first = plane.slope(left);
@@ -73,12 +66,8 @@ mod tests {
         for (body, strength) in [(BODY, 1.0), (PROLATE, 1.0), (BODY, 0.1), (PROLATE, 0.1)] {
             let s = S.scaled(strength);
             let spin = 1.2;
-            let along = body.inertia_zz * spin;
-            let more = 0.02 * strength;
-            let energy = along * spin / 2.0 + more;
-            let hamiltonian = more + along * along / (2.0 * body.inertia_xx);
-            let wanted =
-                Wanted { constant_c: body.constant_c, inertia: body.inertia_xx, hamiltonian, along, third: 0.0 };
+            let energy = body.inertia_zz * spin * spin / 2.0 + 0.02 * strength;
+            let wanted = Wanted::new(&body, &FirstIntegrals { energy, spin, clebsch: 0.0 }).unwrap();
             let values = Vector3::new(s.xx, s.yy, s.zz);
             let slopes = wanted.about_second_axis(0.25 * strength).map(|b| wanted.plane(&values, [0, 2]).slope(b));
             match separatrix_motion(&body, &s, energy, spin) {

@@ -41,7 +41,7 @@ impl SlowCourse {
         let tensor = values * (2.0 * initial.momentum.norm() / (spheroid.inertia_xx * spread));
         let rate = |l: &Vector3<f64>| tensor.component_mul(l).cross(l);
         let mut axes = [initial.axis, initial.momentum, initial.equatorial_axis];
-        let guess = TAU / Top::new(tensor.into(), &direction(axes)).rates().slow.abs();
+        let guess = TAU / Top::new(tensor.into(), &direction(axes)).rates.slow.abs();
         let part = guess / PARTS_OF_TURN as f64;
         let still = Error::NotConverged {
             what: "way of L round its axis: L is on an axis, or this is the separatrix",

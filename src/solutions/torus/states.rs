@@ -63,23 +63,10 @@ pub fn states_with_integrals(
     {
         Error::ensure(value.is_finite(), name, value, "a finite number")?;
     }
-    Error::ensure(
-        inertia_xx > 0.0 && inertia_zz > 0.0,
-        "moments of inertia",
-        inertia_xx.min(inertia_zz),
-        "above zero",
-    )?;
+    let wanted = Wanted::new(spheroid, integrals)?;
     let spread = values.max() - values.min();
     Error::ensure(spread > 0.0, "s_max - s_min", spread, "above zero: without it K says no more than E and Omega^z")?;
-    let along = inertia_zz * spin;
-    let spin_energy = along * spin / 2.0;
-    let wanted = Wanted {
-        constant_c,
-        inertia: inertia_xx,
-        hamiltonian: energy - spin_energy + along * along / (2.0 * inertia_xx),
-        along,
-        third: clebsch,
-    };
+    let spin_energy = inertia_zz * spin * spin / 2.0;
     let pull = values * constant_c;
     Error::ensure(
         energy - spin_energy >= pull.min(),

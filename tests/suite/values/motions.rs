@@ -1,11 +1,11 @@
 //! Motions of every method: states, errors, steps, forecasts, derivatives.
 
 use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
+use twofold::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::parameters::{Parameter, Parameters};
-use twofold::plan::{Method, Output, Request, StateFunction, gradient_in_parts};
+use twofold::plan::{Method, Output, Request, StateFunction, gradient};
 use twofold::propagation::splitting::SCHEMES;
 use twofold::propagation::{ContinuousAngles, ErrorEstimates, Motion, SampledProblem, states_of_many};
 use twofold::solutions::perturbation::Precession;
@@ -120,7 +120,7 @@ fn numerical_motions() {
             let name = format!("Taylor series to {} within {tolerance:e}", span.1);
             let motion = problem(general()).taylor(span, tolerance).expect("a motion");
             let reduced = problem(general()).reduced().taylor(span, tolerance).expect("a motion");
-            let steps = [(motion.step_count(), motion.order()), (reduced.step_count(), reduced.order())];
+            let steps = [(motion.step_count, motion.order), (reduced.step_count, reduced.order)];
             table.row(&name, format_args!("(steps, order) {steps:?} with e_x and without"));
             look(&mut table, &name, &motion);
             let middle = 0.5 * (span.0 + span.1);
@@ -133,7 +133,7 @@ fn numerical_motions() {
             let (name, t) = (format!("{} to {}", scheme.name, span.1), span.0 + 0.13 * (span.1 - span.0));
             let reduced = problem(general()).reduced().splitting_by(scheme, span, step).expect("a motion");
             let (state, error) = (reduced.axis_state(t).expect("a state"), reduced.error_estimate(t));
-            let (step, steps) = (reduced.step(), reduced.step_count());
+            let (step, steps) = (reduced.step, reduced.step_count);
             table.row(&name, format_args!("step {step:?}, steps {steps}, {state:?}, error {error:?}"));
         }
         let motion = problem(general()).splitting_by(scheme, SPAN, 0.3).expect("a motion");
@@ -141,9 +141,9 @@ fn numerical_motions() {
     }
     for tolerance in [1e-4, 1e-9] {
         let (reduced, motion) = (problem(general()).reduced().splitting(SPAN, tolerance), problem(general()));
-        let scheme = reduced.expect("a motion").scheme().name;
+        let scheme = reduced.expect("a motion").scheme.name;
         let motion = motion.splitting(SPAN, tolerance).expect("a motion");
-        let name = format!("best within {tolerance:e}: {scheme}, with e_x {}", motion.scheme().name);
+        let name = format!("best within {tolerance:e}: {scheme}, with e_x {}", motion.scheme.name);
         look(&mut table, &name, &motion);
     }
     table.check("numerical_motions");
@@ -231,8 +231,8 @@ fn gradients() {
                     let request = Request { method, derivatives, ..Request::new(&[output], SPAN, 3, 1e-10) };
                     let plan = Problem::new(start.spheroid, start.coefficients, start.state())
                         .and_then(|problem| problem.plan(&request));
-                    let times = [[2.0, 0.0], [20.0, 0.5]];
-                    let found = plan.and_then(|plan| gradient_in_parts(&plan, &start, &Whole, &times));
+                    let times = [2.0, 20.5];
+                    let found = plan.and_then(|plan| gradient(&plan, &start, &Whole, &times));
                     table.found(&name, found, |table, found| {
                         let sizes = found.jacobians[1].column_iter().map(|column| column.norm());
                         let by: Vec<_> = request.derivatives.iter().map(|by| by.symbol()).zip(sizes).collect();

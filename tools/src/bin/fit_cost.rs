@@ -65,7 +65,7 @@ fn taylor<X: RotationState<f64>>(problem: &Problem<f64, X>) -> Result<(), Error>
         let tolerance = 10f64.powi(exponent);
         let (motion, total, each) = measured(problem, Method::Taylor, tolerance)?;
         let PlannedMotion::Taylor(series) = &motion else { unreachable!("asked for") };
-        let (order, count) = (series.order(), series.step_count());
+        let (order, count) = (series.order, series.step_count);
         let p = order as f64;
         steps.push((vec![1.0, p, p * p], total / count as f64));
         evaluations.push((vec![1.0, p], each));

@@ -1,11 +1,11 @@
 //! The equations of motion in Euler angles and in regular form. Eq. (25).
 
 use nalgebra::Vector3;
-use twofold::dynamics::BodyState;
 use twofold::dynamics::equations_of_motion::{angular_velocity, body_state_rates, reduced_rates, torque_on_axis};
 use twofold::dynamics::euler_angle_equations::euler_angle_residuals;
 use twofold::dynamics::first_integrals::spin_in_angles;
 use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
+use twofold::dynamics::{BodyState, RotationState};
 use twofold::euler_angles::{body_from_inertial, body_rates};
 
 use crate::check::checks;

@@ -4,8 +4,8 @@
 use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
 use twofold::dynamics::potential::{
-    anisotropic_potential, anisotropic_potential_in_angles, anisotropic_potential_of_axis,
-    anisotropic_potential_of_body, nordtvedt_potential, potential_gradient_in_angles,
+    anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body, nordtvedt_potential,
+    potential_gradient_in_angles,
 };
 use twofold::euler_angles::{body_from_inertial, body_rates, symmetry_axis, tensor_in_body_frame};
 use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_preferred_frame};
@@ -51,7 +51,7 @@ fn potential_in_angles<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let body = tensor_in_body_frame(&rotation, &p.s.tensor());
     let in_angles = anisotropic_potential_in_angles(c, &p.s, p.angles.alpha, p.angles.beta);
     vec![
-        in_angles - anisotropic_potential(c, body[(2, 2)]),
+        in_angles - anisotropic_potential_of_axis(c, &body, &Vector3::z()),
         in_angles - anisotropic_potential_of_axis(c, &p.s.tensor(), &rotation.row(2).transpose()),
     ]
 }
@@ -75,7 +75,7 @@ fn potential_of_body<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let tensor = Matrix3::from_diagonal(&Vector3::new(xx, xx, zz));
     vec![
         anisotropic_potential_of_body(&body, &tensor) + xx * p.s_inertial.trace() / 2.0
-            - anisotropic_potential(c, body[(2, 2)]),
+            - anisotropic_potential_of_axis(c, &body, &Vector3::z()),
     ]
 }
 

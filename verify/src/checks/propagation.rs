@@ -136,7 +136,7 @@ fn integrals_of_random_motions() -> Result<Measured, String> {
             (integrals_and_scales(&problem, problem.initial()), integrals_and_scales(&problem, &end));
         let drift = largest((0..3).map(|k| (after[k] - before[k]).abs() / scale[k]));
         let frame = [end.axis.norm() - 1.0, end.equatorial_axis.norm() - 1.0, end.axis.dot(&end.equatorial_axis)];
-        Ok(largest([drift, largest(frame.map(f64::abs))]) / (f64::EPSILON * (motion.step_count() as f64 + 1.0).sqrt()))
+        Ok(largest([drift, largest(frame.map(f64::abs))]) / (f64::EPSILON * (motion.step_count as f64 + 1.0).sqrt()))
     })
 }
 

@@ -11,7 +11,7 @@ use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use twofold::euler_angles::EulerAngles;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::free::{free_precession_rates, free_rotation};
-use twofold::solutions::perturbation::{Constants, Form, Precession, constants_from_initial_values, initial_values};
+use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession, constants_from_initial_values};
 use twofold::solutions::steady::steady_precession_rate;
 
 use crate::check::{Measured, Worst, checks, largest, largest_component, largest_difference, worst_of};
@@ -152,7 +152,7 @@ const S: [f64; 3] = [0.02, 0.01, -0.04];
 fn inverse_round_trip() -> Result<Measured, String> {
     let (spheroid, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new(S));
     let round_trip = |form: Form, kind: Precession, constants: &Constants<f64>| -> Result<f64, String> {
-        let initial = initial_values(form, kind, &spheroid, &s, 1.0, constants)?;
+        let initial = Perturbation::new(form, kind, &spheroid, &s, 1.0, constants)?.at(0.0);
         let found = constants_from_initial_values(form, kind, &spheroid, &s, 1.0, &initial)?;
         let vector = |c: &Constants<f64>| {
             let (sin, cos) = c.phase.sin_cos();
@@ -177,7 +177,9 @@ fn inverse_at_random() -> Result<Measured, String> {
     for (form, kind) in FORMS.into_iter().flat_map(|form| KINDS.map(|kind| (form, kind))) {
         let random = worst_over(14, 200, &domain, |&(alpha_0, beta_0, amplitude, phase, spin)| {
             let constants = Constants { alpha_0, beta_0, amplitude, phase };
-            let forward = |c: &Constants<f64>| initial_values(form, kind, &spheroid, &s, spin, c).map_err(String::from);
+            let forward = |c: &Constants<f64>| {
+                Ok::<_, twofold::Error>(Perturbation::new(form, kind, &spheroid, &s, spin, c)?.at(0.0))
+            };
             let initial = forward(&constants)?;
             let found = constants_from_initial_values(form, kind, &spheroid, &s, spin, &initial)?;
             if found.amplitude > amplitude + 1e-12 {
@@ -206,8 +208,9 @@ fn inverse_derivatives() -> Result<Measured, String> {
             x
         };
         let forward = |[alpha_0, beta_0, amplitude, phase]: [Dual64; 4]| {
-            initial_values(form, kind, &spheroid, &s, spin, &Constants { alpha_0, beta_0, amplitude, phase })
-                .map(|q| [q.alpha, q.beta, q.alpha_rate, q.beta_rate])
+            let constants = Constants { alpha_0, beta_0, amplitude, phase };
+            let q = Perturbation::new(form, kind, &spheroid, &s, spin, &constants)?.at(lift(0.0));
+            Ok::<_, twofold::Error>([q.alpha, q.beta, q.alpha_rate, q.beta_rate])
         };
         let backward = |[alpha, beta, alpha_rate, beta_rate]: [Dual64; 4]| {
             constants_from_initial_values(

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use twofold::Error;
-use twofold::dynamics::{AxisState, BodyState};
+use twofold::dynamics::{AxisState, BodyState, RotationState};
 use twofold::euler_angles::body_from_inertial;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;

@@ -79,12 +79,12 @@ fn rounding() -> Result<Measured, String> {
         let exact = scene.motion::<DoubleDouble>(AveragingOrder::Second)?;
         let t = 10f64.powf(random.within(0.0, 12.0));
         // Only the part that grows with the slow phase: in double-double numbers phases are not reduced, and the fast ones are the same theory.
-        let rates = exact.rates();
+        let rates = &exact.rates;
         let phases = [rates.slow, rates.about_momentum, rates.about_axis].map(|rate| rate * DoubleDouble::from_f64(t));
         let tau = DoubleDouble::tau();
         let [slow, about_momentum, about_axis] =
             phases.map(|phase| phase - tau * DoubleDouble::from_f64((phase.high() / TAU).round()));
-        let start = exact.phases(DoubleDouble::from_f64(0.0));
+        let start = exact.phases_at([0.0; 2]);
         let right = exact.state_at(&AveragedPhases { slow: start.slow + slow, about_momentum, about_axis });
         let right = BodyState::from_vectors(right.vectors().map(|v| v.map(DoubleDouble::high)));
         let off = difference(&averaged.state(t), &right);

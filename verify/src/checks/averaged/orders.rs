@@ -109,7 +109,7 @@ fn random_geometries() -> Result<Measured, String> {
         followed += 1;
         let problem = state.problem(1.0)?;
         let averaged = AveragedSolution::new(&problem, AveragingOrder::Second)?;
-        let (x, rate) = (averaged.relative_strength(), state.momentum.norm() / state.body.inertia_xx);
+        let (x, rate) = (averaged.relative_strength, state.momentum.norm() / state.body.inertia_xx);
         let end = 3.0 / (x * rate);
         let exact = problem.taylor((0.0, end), 1e-13)?;
         for i in 0..=20 {

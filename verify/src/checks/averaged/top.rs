@@ -66,9 +66,9 @@ fn tops() -> Result<Measured, String> {
         let l = l.normalize();
         let top = Top::new(k.into(), &l);
         let time = 10.0;
-        let (start, end) = (top.at(top.start()), top.at(top.start() + top.rates().slow * time));
+        let (start, end) = (top.at(top.start), top.at(top.start + top.rates.slow * time));
         let about =
-            top.rates().about * time + end.turned[1].atan2(end.turned[0]) - start.turned[1].atan2(start.turned[0]);
+            top.rates.about * time + end.turned[1].atan2(end.turned[0]) - start.turned[1].atan2(start.turned[0]);
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), about);
         let frame = end.frame * turn * start.frame.transpose();
         // What enters a phase is this times rates as small as the slow one.
@@ -77,7 +77,7 @@ fn tops() -> Result<Measured, String> {
         let off = largest([
             (frame - by_steps).amax(),
             (end.frame.column(2) - direction).amax(),
-            (squares - integral).amax() * top.rates().slow.abs().min(1.0),
+            (squares - integral).amax() * top.rates.slow.abs().min(1.0),
         ]);
         worst.see(off, || format!("case {case} of seed 58: k = {k:?}, l = {l:?}"));
     }

@@ -3,6 +3,7 @@
 use nalgebra::{Rotation3, UnitVector3, Vector3};
 use twofold::Error;
 use twofold::dynamics::BodyState;
+use twofold::dynamics::RotationState;
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::observables::Observer;
 use twofold::observables::pulsar::Beam;

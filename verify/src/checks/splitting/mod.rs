@@ -73,7 +73,7 @@ fn error_of(scheme: &'static Scheme, factor: f64, step: f64) -> Result<(f64, f64
         let t = 0.5 * f64::from(i);
         most = largest([most, largest_difference(&motion.state(t)?, &truth.state(t)?, 1.0)]);
     }
-    Ok((motion.step(), most))
+    Ok((motion.step, most))
 }
 
 fn measured_orders() -> Result<Measured, String> {

@@ -25,8 +25,8 @@ fn hamiltonian<S: Real>(x: &[S], order: AveragingOrder) -> Vec<S> {
 /// `k` (3), `l` (3), phase.
 fn top<S: Real>(k: [S; 3], l: &Vector3<S>, phase: S) -> Vec<S> {
     let top = Top::new(k, l);
-    let (rates, squares, shape) = (top.rates(), top.mean_squares(), top.at(phase));
-    let mut all = vec![rates.slow, rates.about, top.start(), squares.x, squares.y, squares.z];
+    let (rates, squares, shape) = (top.rates, top.mean_squares(), top.at(phase));
+    let mut all = vec![rates.slow, rates.about, top.start, squares.x, squares.y, squares.z];
     all.extend(shape.frame.column(2).iter());
     all
 }
@@ -82,7 +82,7 @@ functions! {
         let problem = Problem::new(body(&x[12..]), s.tensor(), state);
         let motion = problem.and_then(|problem| AveragedSolution::new(&problem, AveragingOrder::Second));
         motion.map_or(none(3), |motion| {
-            let rates = motion.rates();
+            let rates = &motion.rates;
             vec![rates.slow, rates.about_momentum, rates.about_axis]
         })
     }

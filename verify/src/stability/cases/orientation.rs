@@ -3,9 +3,9 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Matrix3;
-use twofold::dynamics::BodyState;
 use twofold::dynamics::equations_of_motion::{angular_velocity, euler_rates_of_axis};
 use twofold::dynamics::wave_source::{rotation_rate, tensor_in_inertial_frame};
+use twofold::dynamics::{BodyState, RotationState};
 use twofold::euler_angles::{
     angles_from_rotation, body_from_inertial, body_rates, euler_rates, symmetry_axis, tensor_in_body_frame,
 };

@@ -11,7 +11,7 @@ use twofold::observables::spin_axis::changes_from_start;
 use twofold::solutions::free::{free_precession_rates, free_rotation, rotated_by};
 use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
 use twofold::solutions::perturbation::{
-    Constants, Form, Perturbation, Precession, constants_from_initial_values, initial_values, shifted_rates,
+    Constants, Form, Perturbation, Precession, constants_from_initial_values, shifted_rates,
 };
 use twofold::solutions::steady::steady_precession_rate;
 
@@ -109,10 +109,10 @@ functions! {
         shifted_rates(&body(&x[5..]), &principal(&x[1..]), x[4], x[0]).map_or(none(2), |rates| vec![rates.alpha, rates.gamma])
     }
     // beta_0, s (3), spin, alpha_0, A, phi, body
-    InitialValues: "initial_values".composite(), (x) {
+    InitialValues: "Perturbation::at zero".composite(), (x) {
         let constants = Constants { alpha_0: x[5], beta_0: x[0], amplitude: x[6], phase: x[7] };
-        initial_values(Form::Printed, Precession::Twofold, &body(&x[8..]), &principal(&x[1..]), x[4], &constants)
-            .map_or(none(4), |initial| axis_angles(&initial))
+        Perturbation::new(Form::Printed, Precession::Twofold, &body(&x[8..]), &principal(&x[1..]), x[4], &constants)
+            .map_or(none(4), |solution| axis_angles(&solution.at(S::zero())))
     }
     // s^ZZ, s^XX, s^YY, spin, alpha, beta, their rates, body
     ConstantsTwofold: "constants_from_initial_values", (x) { found_constants(Form::Printed, Precession::Twofold, x) }
