@@ -1,8 +1,7 @@
 //! The order of an error in a small parameter, as the figure of a check.
 
+use crate::prelude::*;
 use twofold::straight_line::order;
-
-use crate::check::{Measured, Worst};
 
 /// An error at some values of a parameter: the points for [`measured_order`].
 ///

@@ -1,12 +1,6 @@
 //! The paper's four examples, tp-I, tp-II, sp-I and sp-II.
 
-use std::f64::consts::FRAC_PI_2;
-
-use twofold::dynamics::euler_angle_equations::AxisAngles;
-use twofold::dynamics::{Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::{Constants, Form, Precession, initial_values};
+use crate::prelude::*;
 
 /// `Omega^z` of all four examples [1/t_c].
 pub const SPIN: f64 = 1.0;

@@ -1,15 +1,9 @@
 //! Random physical scenes: proptest strategies over the domain of the equations, run with a fixed seed by the checks.
 
-use std::f64::consts::PI;
-
+use crate::prelude::*;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-
-use crate::check::{Measured, Worst};
 
 /// A random scene in units `I^xx = C = 1`.
 #[derive(Debug, Clone, Copy)]

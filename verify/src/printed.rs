@@ -1,8 +1,6 @@
 //! Initial values that the paper prints in captions, beside what its formulas give.
 
-use twofold::Error;
-
-use crate::paper_examples::paper_examples;
+use crate::prelude::*;
 
 /// Whether `value`, rounded to the digits of `text`, is `text`. Powers of ten (`2.1e-3`) count digits of the mantissa.
 pub fn rounds_to(value: f64, text: &str) -> bool {

@@ -1,16 +1,8 @@
 //! Seeded random points: of the physical domain, or of the prime field.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::Scalar;
-use twofold::dynamics::{PrincipalInertia, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
+use crate::prelude::*;
 
 pub use twofold_scene::random::Random;
-
-use crate::check::{Measured, Worst};
-use crate::magnitudes::Conditioned;
-use crate::prime_field::Fp;
 
 /// The largest figure over `count` cases, each drawn from the random numbers of a seed.
 ///

@@ -1,10 +1,6 @@
 //! The reference motions: initial values and 34-digit states of ten scenes, and the pulses of two, carried as test data.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::parameters::{Parameter, Parameters};
+use crate::prelude::*;
 
 /// One reference motion.
 #[derive(Debug, Clone)]

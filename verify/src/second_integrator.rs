@@ -1,13 +1,8 @@
 //! A second opinion on numerical motion: Verner's Runge-Kutta 9(8) of the crate `numeris`.
 
-use nalgebra::Vector3;
+use crate::prelude::*;
 use numeris::Vector;
 use numeris::ode::{AdaptiveSettings, RKAdaptive, RKV98, RKV98NoInterp};
-use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates};
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations};
-use twofold::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
 
 fn settings(tolerance: f64) -> AdaptiveSettings<f64> {
     AdaptiveSettings { abs_tol: tolerance, rel_tol: tolerance, max_steps: 10_000_000, ..AdaptiveSettings::default() }

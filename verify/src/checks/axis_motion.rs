@@ -1,15 +1,7 @@
 //! The motion of the symmetry axis and the angular momentum alone, without the angle about the axis.
 
-use nalgebra::Vector3;
-use num_dual::Dual64;
-use twofold::dynamics::AxisState;
-use twofold::dynamics::equations_of_motion::reduced_rates;
-use twofold::propagation::Motion;
-
 use super::propagation::{against_reference, estimate_against_reference};
-use crate::check::{Measured, Worst, checks, largest, largest_component, largest_difference};
-use crate::physical_domain::{scenes, worst_over};
-use crate::reference::reference_motion;
+use crate::prelude::*;
 use crate::second_integrator::axis_states;
 
 checks! {

@@ -1,19 +1,8 @@
 //! The equations of motion in Euler angles and in regular form. Eq. (25).
 
-use nalgebra::Vector3;
-use twofold::dynamics::BodyState;
-use twofold::dynamics::equations_of_motion::{angular_velocity, body_state_rates, reduced_rates, torque_on_axis};
-use twofold::dynamics::euler_angle_equations::euler_angle_residuals;
-use twofold::dynamics::first_integrals::spin_in_angles;
-use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
-use twofold::euler_angles::{body_from_inertial, body_rates};
-
-use crate::check::checks;
 use crate::derivation::euler_lagrange::euler_lagrange;
-use crate::derivation::spheroid_motion::{accelerations, axis_angles, fixed_spheroid, gamma_acceleration};
-use crate::derivation::{Differentiable, moving_angles, moving_rates};
-use crate::random::Point;
-use twofold::euler_angles::EulerRates;
+use crate::derivation::spheroid_motion::{accelerations, axis_angles, gamma_acceleration};
+use crate::prelude::*;
 
 checks! {
     /// the Euler-Lagrange equation of gamma is I^zz d(Omega^z)/dt = 0, at any rates and accelerations

@@ -1,9 +1,6 @@
 //! The estimated error of a numerical motion against its true one, over the whole space of motions.
 
-use twofold::plan::Method;
-
-use crate::check::{Measured, checks, worst_of};
-use crate::error_scenes::ErrorScene;
+use crate::prelude::*;
 
 // `cargo run --release -p twofold-tools --bin estimate_ratio` is the same over 10,000 scenes.
 checks! {

@@ -1,27 +1,15 @@
 //! The factor eta of the bound, from the averaged motion of the spin axis. Eqs. (31), (32), (34), (37)-(41).
 
-use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_4};
 use std::num::NonZeroUsize;
 
 use gauss_quad::GaussLegendre;
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::equations_of_motion::reduced_rates;
-use twofold::euler_angles::symmetry_axis;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::numerics::elliptic::jacobi::complete_integral;
 use twofold::observables::eta::{
-    mean_squared_speed, root_mean_square_eta, secular_axis_rate, single_precession_start, squared_speed,
-    squared_speed_along_motion,
+    mean_squared_speed, root_mean_square_eta, single_precession_start, squared_speed, squared_speed_along_motion,
 };
-use twofold::observables::eta_distribution::{EtaDistribution, root_mean_square_along_motion};
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
-use crate::check::{Measured, Worst, checks, largest, worst_of};
-use crate::derivation::Differentiable;
 use crate::eta::{PAPER_ASYMMETRY, eta_curve, numerical_axis_rate, seen_rate, twelve_turns};
-use crate::measured_order::order_of_error;
-use crate::paper_examples::{COEFFICIENTS, SPIN};
-use crate::random::{Point, Random, worst_of_draws};
+use crate::prelude::*;
 
 /// Samples of a distribution.
 const SAMPLES: usize = 20_000;

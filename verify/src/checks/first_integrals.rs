@@ -1,14 +1,7 @@
 //! What a motion conserves. Eq. (24), the third integral and the two of the geometry.
 
-use nalgebra::Matrix3;
-use twofold::dynamics::BodyState;
-use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates};
-use twofold::dynamics::first_integrals::{energy_in_angles, first_integrals, spin_in_angles, symmetric_adjugate};
-
-use crate::check::checks;
-use crate::derivation::spheroid_motion::{accelerations, fixed_coefficients, fixed_spheroid};
-use crate::derivation::{Differentiable, moving_angles, moving_rates};
-use crate::random::Point;
+use crate::derivation::spheroid_motion::{accelerations, fixed_coefficients};
+use crate::prelude::*;
 
 checks! {
     /// E, Omega^z and K do not change along the field of Eq. (25)

@@ -1,17 +1,8 @@
 //! Forced precession: the shift of the steady rates to first order in `s^IJ`. Eqs. (26), (31), (32), (57).
 
-use num_dual::Dual64;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::free::free_precession_rates;
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession, shifted_rates};
-use twofold::solutions::steady::steady_precession_rate;
-
-use crate::check::{Measured, Worst, checks, largest};
 use crate::checks::perturbation_equations::{KINDS, constants, unperturbed_motion};
-use crate::derivation::Differentiable;
 use crate::derivation::first_order::{first_order_equations, first_order_motion};
-use crate::derivation::spheroid_motion::fixed_spheroid;
-use crate::random::{Point, Random};
+use crate::prelude::*;
 
 checks! {
     /// for s^XX = s^YY and A = 0 the printed rates are constant at constant inclination, and solve Eq. (25), so Eq. (26), to first order in s

@@ -37,9 +37,8 @@ mod torque;
 mod wave_tensor;
 mod waves;
 
+use crate::prelude::*;
 use std::sync::{LazyLock, OnceLock};
-
-use crate::check::{Check, Outcome};
 
 /// All checks, in the order in which they are listed.
 pub fn all() -> Vec<Check> {

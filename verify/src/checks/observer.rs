@@ -1,11 +1,6 @@
 //! Direction of the observer and the basis normal to it. Eqs. (46), (70).
 
-use nalgebra::Vector3;
-use twofold::observables::Observer;
-
-use crate::check::checks;
-use crate::derivation::Differentiable;
-use crate::random::Point;
+use crate::prelude::*;
 
 checks! {
     /// n-hat has its colatitude from Z and its azimuth from X; theta-hat and sin(theta) phi-hat are its derivatives by them; the three are a

@@ -1,16 +1,7 @@
 //! The rotation matrix, the angular velocity and the permuted axes. Eqs. (7)-(9), (22), (36), (61), (62).
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::potential::{anisotropic_potential_in_angles, anisotropic_potential_of_axis};
-use twofold::dynamics::wave_source::rotation_rate;
-use twofold::euler_angles::{
-    body_from_inertial, body_rates, permuted_from_inertial, symmetry_axis, tensor_in_body_frame,
-};
-
-use crate::check::checks;
-use crate::derivation::Differentiable;
 use crate::derivation::body_motion::{composed_rotation, cross_matrix, rotation_derivative};
-use crate::random::Point;
+use crate::prelude::*;
 
 checks! {
     /// R is R_z(gamma) R_x(beta) R_z(alpha), orthogonal, of determinant one, and its last row is the symmetry axis

@@ -1,14 +1,8 @@
 //! The perturbation solutions and the equations that they solve. Eqs. (27)-(33).
 
-use twofold::Scalar;
-use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
-
-use crate::check::checks;
-use crate::derivation::Differentiable;
 use crate::derivation::first_order::{UnperturbedMotion, first_order_equations, first_order_motion};
-use crate::derivation::spheroid_motion::{fixed_coefficients, fixed_spheroid};
-use crate::random::Point;
+use crate::derivation::spheroid_motion::fixed_coefficients;
+use crate::prelude::*;
 
 checks! {
     /// the full first-order equations are the terms of first order of Eq. (25), about free precession and about a stationary spin

@@ -1,12 +1,9 @@
 //! The errors that plans foresee, of every method against true ones, in random scenes that it is made for.
 
-use twofold::parameters::{Parameter, Parameters};
-use twofold::plan::{Method, Output, Plan, Promise, Request, gradient};
-use twofold::propagation::Motion;
+use twofold::plan::{Output, Plan, Promise, Request, gradient};
 
 use super::plans::Components;
-use crate::check::{Measured, Worst, checks};
-use crate::error_scenes::ErrorScene;
+use crate::prelude::*;
 
 checks! {
     /// a bound or an estimate that a plan foresees, with its rounding, is not below the true error: free, steady, symmetric and averaged motion,

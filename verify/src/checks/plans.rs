@@ -1,18 +1,10 @@
 //! Plans: what is forecast against what is counted, motions in closed form against numerical ones, gradients.
 
-use nalgebra::{DMatrix, Matrix3, Vector3};
 use proptest::prelude::*;
-use twofold::Error;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
-use twofold::numerics::scalar::Real;
-use twofold::parameters::{Parameter, Parameters};
-use twofold::plan::{Gradient, Method, Output, Prediction, Request, StateFunction, gradient};
-use twofold::propagation::{Motion, SymmetricMotion, TaylorMotion, UniformMotion};
-use twofold::solutions::perturbation::Precession;
-use twofold::solutions::steady::steady_precession_rate;
+use twofold::plan::{Gradient, Output, Prediction, Request, StateFunction, gradient};
+use twofold::propagation::{SymmetricMotion, UniformMotion};
 
-use crate::check::{Measured, Worst, checks, largest, largest_difference};
-use crate::physical_domain::{RandomScene, scenes, worst_over};
+use crate::prelude::*;
 use crate::reference::reference_gradients;
 
 checks! {

@@ -1,16 +1,7 @@
 //! The numerical motion: against the 34-digit reference motions, its invariants, its dense output and its derivatives.
 
-use num_dual::{Dual2_64, Dual64};
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations};
-use twofold::dynamics::first_integrals::{first_integrals, symmetric_adjugate};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
-use twofold::euler_angles::{body_from_inertial, permuted_from_inertial};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{Motion, TaylorMotion};
-
-use crate::check::{Measured, Worst, checks, largest, largest_component, largest_difference};
-use crate::physical_domain::{scenes, worst_over};
-use crate::reference::{ReferenceMotion, reference_motion, reference_motions};
+use crate::prelude::*;
+use crate::reference::ReferenceMotion;
 
 checks! {
     /// the numerical motion of ten scenes reproduces n, L, e_x of a 34-digit integration at every listed time

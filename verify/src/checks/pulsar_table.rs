@@ -1,19 +1,9 @@
 //! Bounds from tables of pulsars: their uncertainties, and the same as bounds on alpha_2. Eqs. (5), (20), (41)-(43).
 
-use std::f64::consts::PI;
+use twofold::units::DEGREE;
 
-use nalgebra::Vector3;
-use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_preferred_frame};
-use twofold::observables::bound::fluid_inertia_over_c;
-use twofold::observables::eta::secular_axis_rate;
-use twofold::star::deformation::centrifugal_oblateness;
-use twofold::star::estimates::inertia_over_c_estimate;
-use twofold::units::{DEGREE, si};
-
-use crate::check::{Measured, Worst, checks, smallest, worst_of};
-use crate::derivation::Differentiable;
 use crate::eta::seen_rate;
-use crate::random::{Point, Random, worst_of_draws};
+use crate::prelude::*;
 use twofold_scene::pulsar_table::published::{GLOBAL_2014, SOLITARY_ALPHA_2};
 use twofold_scene::pulsar_table::{self, CONFIDENCE, CONSERVATIVE_ETA, Figure, Pulsar, Quantity, Spread, recommended};
 

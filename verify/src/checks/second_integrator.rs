@@ -1,9 +1,6 @@
 //! The numerical motion against another integrator of another crate, in both forms of the equations.
 
-use twofold::propagation::{ContinuousAngles, Motion};
-
-use crate::check::{Measured, checks, largest, largest_difference};
-use crate::physical_domain::{scenes, worst_over};
+use crate::prelude::*;
 use crate::second_integrator::{motion_in_angles, regular_motion};
 
 checks! {

@@ -1,25 +1,13 @@
 //! Free rotation, steady precession and the constants of integration of the perturbation solutions.
 
-use std::f64::consts::{FRAC_PI_2, PI};
-
-use nalgebra::{Matrix3, Matrix4, Vector4};
-use num_dual::Dual64;
+use nalgebra::{Matrix4, Vector4};
 use proptest::prelude::*;
-use twofold::dynamics::equations_of_motion::body_state_rates;
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_residuals};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
-use twofold::euler_angles::EulerAngles;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::free::{free_precession_rates, free_rotation};
-use twofold::solutions::perturbation::{Constants, Form, Precession, constants_from_initial_values, initial_values};
-use twofold::solutions::steady::steady_precession_rate;
+use twofold::solutions::perturbation::constants_from_initial_values;
 
-use crate::check::{Measured, Worst, checks, largest, largest_component, largest_difference, worst_of};
 use crate::checks::perturbation_equations::{FORMS, KINDS};
-use crate::paper_examples::{PaperExample, paper_examples};
-use crate::physical_domain::{scenes, worst_over};
+use crate::paper_examples::PaperExample;
+use crate::prelude::*;
 use crate::printed::{caption_values, rounds_to};
-use crate::reference::reference_motion;
 
 checks! {
     /// the closed form of free rotation reproduces the 34-digit motion without Lorentz violation

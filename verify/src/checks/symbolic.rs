@@ -1,6 +1,6 @@
 //! The second derivation: kernels against exact values that SymPy derived from the Lagrangian.
 
-use crate::check::{Measured, checks};
+use crate::prelude::*;
 use crate::symbolic::{Comparison, DATA, Document, compare_doubles, compare_field};
 
 const EQUATIONS: [u8; 44] = [

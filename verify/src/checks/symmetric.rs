@@ -1,25 +1,7 @@
 //! The exact motion for `s^XX = s^YY`: equations of motion, reference motions, numerical motion, derivatives and limits.
 
-use std::f64::consts::PI;
-
-use nalgebra::Vector3;
-use num_dual::{Dual2_64, Dual64};
+use crate::prelude::*;
 use proptest::prelude::*;
-use twofold::Error;
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::numerics::scalar::Real;
-use twofold::propagation::Motion;
-use twofold::solutions::free::free_rotation;
-use twofold::solutions::perturbation::Precession;
-use twofold::solutions::steady::steady_precession_rate;
-use twofold::solutions::symmetric::SymmetricSolution;
-
-use crate::check::{Measured, Worst, checks, largest, largest_difference};
-use crate::physical_domain::{RandomScene, scenes, worst_over};
-use crate::reference::reference_motion;
 
 checks! {
     /// the exact solution for s^XX = s^YY, differentiated twice in time by duals, satisfies Eq. (25) and conserves Omega^z

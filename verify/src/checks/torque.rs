@@ -1,15 +1,7 @@
 //! Torques as generalised forces. Eq. (66).
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::equations_of_motion::torque_on_axis;
-use twofold::dynamics::potential::potential_gradient_in_angles;
-use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
-use twofold::euler_angles::{body_from_inertial, body_rates, tensor_in_body_frame};
-
-use crate::check::checks;
-use crate::derivation::Differentiable;
 use crate::derivation::virtual_rotation::{gradient_in_angles, torque_by_virtual_rotation, unit_rates};
-use crate::random::Point;
+use crate::prelude::*;
 
 checks! {
     /// the torque does the work -dU under a change of each Euler angle alone, for any potential (U_gamma not zero)

@@ -1,18 +1,7 @@
 //! The source of the quadrupole wave: second time derivative of the moment-of-inertia tensor. Eqs. (59)-(65), (67), (68).
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::angular_acceleration::angular_acceleration;
-use twofold::dynamics::equations_of_motion::torque_on_axis;
-use twofold::dynamics::wave_source::{
-    free_inertia_acceleration, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
-};
-use twofold::dynamics::{BodyState, PrincipalInertia};
-use twofold::euler_angles::{EulerRates, body_from_inertial, body_rates};
-use twofold::observables::gravitational_wave::metric_perturbation;
-
-use crate::check::checks;
-use crate::derivation::{Differentiable, accelerated_angles, body_motion};
-use crate::random::Point;
+use crate::derivation::{accelerated_angles, body_motion};
+use crate::prelude::*;
 
 checks! {
     /// with the torque d(R^T I Omega)/dt of any motion, the angular acceleration is the rate of the body rates

@@ -1,24 +1,11 @@
 //! The two polarizations of the quadrupole wave. Eqs. (69)-(71).
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::AxisState;
-use twofold::dynamics::equations_of_motion::{angular_velocity, torque_on_axis};
-use twofold::dynamics::wave_source::{free_inertia_acceleration, tensor_in_inertial_frame, wave_tensor};
-use twofold::dynamics::{BodyState, PrincipalInertia, Problem, RotationState};
-use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial, body_rates};
-use twofold::observables::Observer;
-use twofold::observables::gravitational_wave::{
-    Polarizations, metric_perturbation, polarization_tensors, polarizations, strain_unit, wave_of_state,
-};
-use twofold::propagation::Motion;
+use twofold::observables::gravitational_wave::{Polarizations, polarization_tensors, strain_unit, wave_of_state};
 use twofold::units::geometrised::HERTZ;
 use twofold::units::si::KILOPARSEC;
 
-use crate::check::{Measured, Worst, checks, largest, worst_of};
 use crate::checks::observer::observer;
-use crate::derivation::Differentiable;
-use crate::random::Point;
-use crate::reference::{reference_motion, reference_motions};
+use crate::prelude::*;
 
 checks! {
     /// e_+ and e_x are symmetric, trace-free, transverse to n-hat, normal to each other and of square 2

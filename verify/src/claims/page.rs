@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::{Claim, Verdict, claims};
-use crate::check::{Check, Outcome};
 use crate::checks;
+use crate::prelude::*;
 
 /// A check of a claim and what it measured.
 #[derive(Debug, Clone)]

@@ -1,13 +1,6 @@
 //! The first-order equations by differentiating Eq. (25) with nothing dropped, and a solution put into them.
 
-use twofold::dynamics::RigidSpheroid;
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_residuals};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::linearised::FirstOrderMotion;
-use twofold::solutions::perturbation::{Constants, Perturbation, Precession};
-
-use crate::derivation::Differentiable;
-use crate::derivation::spheroid_motion::fixed_spheroid;
+use crate::prelude::*;
 
 /// The motion about which is expanded: `alpha' = rate`, `beta` constant.
 #[derive(Debug, Clone, Copy)]

@@ -3,13 +3,10 @@
 //! Each derivation is written once and runs on three kinds of numbers: a prime field (exact), `f64` with the dual numbers
 //! of `num_dual`, and [`Conditioned`] (how large rounding may be).
 
-use num_dual::{Dual64, HyperDual64};
-use twofold::Scalar;
-use twofold::euler_angles::{EulerAngles, EulerRates};
+use num_dual::HyperDual64;
 
 use crate::dual::Dual;
-use crate::magnitudes::Conditioned;
-use crate::prime_field::Fp;
+use crate::prelude::*;
 
 pub mod body_motion;
 pub mod euler_lagrange;

@@ -2,13 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use num_traits::Zero;
-use twofold::Scalar;
-
 use super::document::Document;
 use super::{closed_kernels, rational_kernels};
-use crate::check::Worst;
-use crate::prime_field::Fp;
+use crate::prelude::*;
 
 /// What a comparison counted.
 #[derive(Debug, Clone)]

@@ -1,37 +1,10 @@
 //! Kernels with rational values, under the names of `verify/oracles/symbolic/quantities.py` and with its order of components.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::angular_acceleration::angular_acceleration;
-use twofold::dynamics::equations_of_motion::{angular_velocity, body_state_rates, torque_on_axis};
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations, euler_angle_residuals};
-use twofold::dynamics::first_integrals::{energy_in_angles, first_integrals, spin_in_angles};
-use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
-use twofold::dynamics::lagrangian::lagrangian;
-use twofold::dynamics::potential::{
-    anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body, nordtvedt_potential,
-    potential_gradient_in_angles,
-};
-use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
-use twofold::dynamics::wave_source::{
-    free_inertia_acceleration, rotation_rate, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
-};
-use twofold::euler_angles::{body_from_inertial, body_rates, symmetry_axis, tensor_in_body_frame};
-use twofold::observables::Observer;
-use twofold::observables::bound::{cos_opening_angle, lambda_change_terms, zeta_change_terms};
-use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
-use twofold::observables::pulsar::Beam;
-use twofold::observables::pulsar::beam::axis_along_line_of_sight;
-use twofold::observables::pulsar::direction::{
-    axis_along_line_of_sight_in_azimuth, azimuth_offset_point, cosine_of_colatitude,
-};
-use twofold::observables::pulsar::period::{azimuth_offset_rate, azimuth_rate};
-use twofold::observables::pulsar::width::cosine_of_half_width;
-use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate};
-use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
+use twofold::observables::bound::lambda_change_terms;
 
 use super::point::Coded;
 use super::{RationalKernel, RationalPoint};
+use crate::prelude::*;
 
 /// Each kernel once, for every type of numbers.
 macro_rules! kernels {

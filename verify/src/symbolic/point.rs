@@ -1,15 +1,6 @@
 //! Points with rational coordinates.
 
-use std::collections::BTreeMap;
-
-use nalgebra::{Matrix3, Vector3};
-use twofold::Scalar;
-use twofold::dynamics::{BodyState, PrincipalInertia, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-
-use crate::magnitudes::Conditioned;
-use crate::prime_field::Fp;
+use crate::prelude::*;
 
 /// A type of numbers that rational numbers and rational points of the circle can be written in.
 pub trait Coded: Scalar {

@@ -1,17 +1,12 @@
 //! The error estimate of the averaged motion.
 
-use core::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use twofold::Scalar;
-use twofold::dynamics::{BodyState, RotationState};
-use twofold::solutions::averaged::{AveragedPhases, AveragingOrder};
+use twofold::solutions::averaged::AveragedPhases;
 
 use super::scenes::difference;
 use crate::averaged_scenes::{AveragedScene, EstimateSeen};
-use crate::check::{Measured, Worst, checks};
-use crate::double_double::DoubleDouble;
-use crate::random::Random;
+use crate::prelude::*;
 
 checks! {
     /// the error estimate of the averaged motion, of either order, is not below its error: any strength, symmetric tensors, near the separatrix, c

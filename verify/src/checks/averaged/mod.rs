@@ -1,5 +1,7 @@
 //! The averaged motion in closed form: its derivation, its errors and its derivatives.
 
+use crate::prelude::*;
+
 mod averaging;
 mod decades;
 mod derivatives;
@@ -7,8 +9,6 @@ mod estimates;
 mod orders;
 mod scenes;
 mod top;
-
-use crate::check::Check;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {

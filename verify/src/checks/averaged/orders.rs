@@ -1,17 +1,7 @@
 //! Both orders of the averaged motion against numerical motion.
 
-use nalgebra::Vector3;
-use twofold::Error;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
-use twofold::propagation::Motion;
-use twofold::solutions::averaged::AveragingOrder;
-
 use super::scenes::{State, difference};
-use crate::averaged_scenes::averaged_solution;
-use crate::check::{Measured, Worst, checks, largest, worst_of};
-use crate::measured_order::{errors_at, largest_off_order};
-use crate::random::Random;
-use crate::reference::reference_motion;
+use crate::prelude::*;
 
 checks! {
     /// with tp-II's geometry and s scaled by k from 1e-1 to 1e-3 n, L and e_x of the first-order averaged motion are off by at most 0.03 k over

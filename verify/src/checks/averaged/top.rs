@@ -1,10 +1,7 @@
 //! The top by integration.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use crate::prelude::*;
 use twofold::solutions::averaged::Top;
-
-use crate::check::{Measured, Worst, checks, largest};
-use crate::random::Random;
 
 checks! {
     /// the direction, the frame that it carries along and the integrals of its squares, by theta functions, are those of an integration: any order

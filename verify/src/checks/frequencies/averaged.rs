@@ -1,11 +1,7 @@
 //! Frequencies of the averaged motion against the exact ones.
 
-use twofold::solutions::averaged::AveragingOrder;
-
 use super::scenes::{Scene, TWOFOLD, sum, worst_off_separatrix};
-use crate::averaged_scenes::averaged_solution;
-use crate::check::{Measured, Worst, checks, largest};
-use crate::measured_order::{errors_at, largest_off_order};
+use crate::prelude::*;
 
 checks! {
     /// the slow frequency of tp-II, 0.03546436867 / t_c, follows from the averaged motion of first order to 5 %

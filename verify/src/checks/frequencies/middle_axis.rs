@@ -1,19 +1,10 @@
 //! The unstable motion about the middle axis, and slow periods near the separatrix.
 
-use core::f64::consts::{PI, TAU};
-
-use nalgebra::Vector3;
-use num_dual::Dual64;
-use twofold::dynamics::first_integrals::FirstIntegrals;
-use twofold::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::Motion;
-use twofold::solutions::averaged::{AveragingOrder, middle_axis_growth, period_near_separatrix};
-use twofold::solutions::torus::{separatrix_motion, states_with_integrals};
+use twofold::solutions::averaged::period_near_separatrix;
+use twofold::solutions::torus::separatrix_motion;
 
 use super::scenes::Scene;
-use crate::check::{Measured, Worst, checks, largest};
-use crate::measured_order::{errors_at, largest_off_order};
+use crate::prelude::*;
 
 checks! {
     /// the growth rate at the middle axis is that of the monodromy matrix of the unstable periodic motion to first and to second order; for a spin

@@ -1,11 +1,11 @@
 //! Frequencies: exact ones, those of the averaged motion, and what becomes of them near the separatrix.
 
+use crate::prelude::*;
+
 mod averaged;
 mod middle_axis;
 mod scenes;
 mod torus;
-
-use crate::check::Check;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {

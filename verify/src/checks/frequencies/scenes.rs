@@ -1,17 +1,7 @@
 //! Motions whose frequencies are compared.
 
-use nalgebra::Vector3;
-use twofold::Error;
-use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::averaged::AveragingOrder;
+use crate::prelude::*;
 use twofold::solutions::torus::{TorusFrequencies, torus_frequencies};
-
-use crate::averaged_scenes::averaged_solution;
-use crate::check::{Measured, worst_of};
-use crate::random::Random;
-use crate::reference::reference_motion;
 
 /// A motion in the principal frame of `s^IJ`.
 #[derive(Debug, Clone, Copy)]

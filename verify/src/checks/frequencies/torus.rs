@@ -1,18 +1,7 @@
 //! Exact frequencies from the periods of the torus, against known ones.
 
-use core::f64::consts::TAU;
-
-use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::fundamental_frequencies::fundamental_frequencies;
-use twofold::propagation::Motion;
-use twofold::solutions::symmetric::SymmetricSolution;
-use twofold::solutions::torus::states_with_integrals;
-
 use super::scenes::{SINGLE, Scene, TWOFOLD, sum, worst_off_separatrix};
-use crate::check::{Measured, Worst, checks, largest, worst_of};
-use crate::random::worst_of_draws;
+use crate::prelude::*;
 
 checks! {
     /// states found from (E, Omega^z, K) of random motions, twofold and single, have these integrals, and one of them lies on the motion's own

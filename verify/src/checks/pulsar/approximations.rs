@@ -2,17 +2,10 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::observables::Observer;
-use twofold::observables::pulsar::period::{approximate_period, instantaneous_period};
-use twofold::observables::pulsar::{Beam, Stamped};
-use twofold::propagation::Motion;
-use twofold::solutions::perturbation::{ShiftedRates, shifted_rates};
+use twofold::solutions::perturbation::ShiftedRates;
 
 use super::cases::{Case, mean_rates, paper_signal};
-use crate::check::{Measured, Worst, checks, largest, smallest};
-use crate::paper_examples::{COEFFICIENTS, SPIN, spheroid};
+use crate::prelude::*;
 use crate::pulse_series::{PaperCurves, PulseSeries, Viewing, pulse_series};
 
 /// Length of the series, t_c.

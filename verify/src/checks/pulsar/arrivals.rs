@@ -1,17 +1,7 @@
 //! Times of arrival and residuals. Eqs. (44), (48), (51).
 
-use std::f64::consts::{PI, TAU};
-
-use nalgebra::Matrix3;
-use twofold::dynamics::{Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
-use twofold::observables::Observer;
-use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
-use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod};
-
 use super::cases::{Case, upright_star, worst_over_random_cases};
-use crate::check::{Measured, Worst, checks, largest};
-use crate::random::{Random, worst_of_draws};
+use crate::prelude::*;
 
 checks! {
     /// there is an arrival for each whole pulse, inside it, and m.n is nowhere larger in the pulse

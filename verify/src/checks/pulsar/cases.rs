@@ -1,19 +1,8 @@
 //! Pulsars for the checks of the pulse train: random ones, the paper's, and such as spin about Z.
 
-use std::f64::consts::PI;
-
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::observables::Observer;
-use twofold::observables::pulsar::{Arrival, Beam, PulseTrain, arrivals, pulse_train};
-use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion};
+use crate::prelude::*;
+use twofold::observables::pulsar::PulseTrain;
 use twofold::solutions::perturbation::ShiftedRates;
-
-use crate::check::{Measured, Worst, largest};
-use crate::physical_domain::{scenes, worst_over};
-use crate::random::Random;
-use crate::reference::reference_motion;
 
 /// A motion with a beam and an observer.
 pub(super) struct Case {

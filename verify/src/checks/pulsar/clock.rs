@@ -1,23 +1,11 @@
 //! A pulsar as a clock over decades: numbers and arrival times. Eqs. (44), (47).
 
-use std::f64::consts::PI;
+use twofold::observables::pulsar::PulsarClock;
+use twofold::solutions::averaged::{AveragedPhases, AveragedRates};
 
-use nalgebra::Vector3;
-use num_traits::Zero;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame};
-use twofold::numerics::scalar::Scalar;
-use twofold::observables::Observer;
-use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod, PulsarClock, arrivals, pulse_train};
-use twofold::propagation::{AveragedMotion, Motion};
-use twofold::solutions::averaged::{AveragedPhases, AveragedRates, AveragedSolution, AveragingOrder};
-
-use crate::check::{Measured, Worst, checks, largest};
-use crate::double_double::DoubleDouble;
-use crate::measured_order::order_of_error;
-use crate::random::Random;
+use crate::prelude::*;
 use twofold_scene::pulsar_timing::PulsarScene;
-use twofold_scene::scene_file::{PULSARS, Scene};
+use twofold_scene::scene_file::PULSARS;
 
 checks! {
     /// numbers and midpoints of single pulses, looked up in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose

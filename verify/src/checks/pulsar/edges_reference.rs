@@ -1,13 +1,10 @@
 //! The pulsar signal against 34-digit motion: `m.n`, edges and closest approaches. Eqs. (44)-(47).
 
-use twofold::observables::Observer;
-use twofold::observables::pulsar::beam::axis_along_line_of_sight;
-use twofold::observables::pulsar::{Arrival, Beam, Pulse};
-use twofold::propagation::Motion;
+use twofold::observables::pulsar::Pulse;
 
 use super::cases::paper_signal;
-use crate::check::{Measured, Worst, checks, largest};
-use crate::reference::{ReferencePulse, reference_motions, reference_pulses};
+use crate::prelude::*;
+use crate::reference::{ReferencePulse, reference_pulses};
 
 checks! {
     /// m.n of the numerical motion of ten scenes, as a vector and by Eq. (47) in its Euler angles, is that of the 34-digit states

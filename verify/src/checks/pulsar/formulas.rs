@@ -1,18 +1,9 @@
 //! Angles of the magnetic axis, periods and widths with roots and inverse functions. Eqs. (49)-(51), (53)-(56).
 
-use std::f64::consts::{PI, TAU};
-
-use twofold::euler_angles::{EulerAngles, body_from_inertial};
-use twofold::observables::pulsar::Beam;
-use twofold::observables::pulsar::direction::{
-    axis_along_line_of_sight_in_azimuth, cosine_of_colatitude, magnetic_axis_direction,
-};
-use twofold::observables::pulsar::period::{approximate_period, instantaneous_period};
-use twofold::observables::pulsar::width::{PulseWidth, cosine_of_half_width, edge_azimuths, pulse_width};
+use twofold::observables::pulsar::width::edge_azimuths;
 
 use super::identities::spherical;
-use crate::check::{Measured, Worst, checks, largest, largest_component};
-use crate::random::worst_of_draws;
+use crate::prelude::*;
 
 checks! {
     /// Theta and Phi, the latter by the two-argument arc tangent, are the colatitude and azimuth of the turned axis in every quadrant

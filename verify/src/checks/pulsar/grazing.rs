@@ -1,9 +1,7 @@
 //! Pulses that the line of sight grazes. Eq. (44).
 
-use twofold::observables::pulsar::{Beam, pulse_train};
-
 use super::cases::{edges, worst_over_random_cases};
-use crate::check::{Measured, checks, largest};
+use crate::prelude::*;
 
 checks! {
     /// with cos rho at an extremum of m.n, plus or minus 1e-10 to 1e-12, the short pulse (or gap) is there or is not, and lasts 2 sqrt(2 d /

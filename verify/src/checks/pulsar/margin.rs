@@ -1,16 +1,9 @@
 //! Time derivatives of `m.n` along motions, and their bounds. Eq. (44).
 
-use nalgebra::Vector3;
+use crate::prelude::*;
 use num_dual::Dual3_64;
-use twofold::dynamics::{BodyState, RotationState};
 use twofold::numerics::scalar::constant_vector;
-use twofold::observables::Observer;
-use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::rate_bounds::rate_bounds;
-use twofold::propagation::Motion;
-
-use crate::check::{Measured, checks, largest};
-use crate::physical_domain::{RandomScene, scenes, worst_over};
 
 checks! {
     /// the first three time derivatives of m.n are those of the dense output, differentiated by duals

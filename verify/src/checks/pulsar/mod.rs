@@ -1,6 +1,8 @@
 //! Pulses of a precessing star: the kernels, their approximations, the pulse train, times of arrival and polarization. Eqs.
 //! (44), (45), (47), (49)-(56).
 
+use crate::prelude::*;
+
 mod absorbed_angles;
 mod approximations;
 mod arrivals;
@@ -18,8 +20,6 @@ mod pulse_numbers;
 mod scan;
 mod train;
 mod ways;
-
-use crate::check::Check;
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {

@@ -1,23 +1,13 @@
 //! Position angle of the polarization: the rotating-vector model of a precessing star. Eqs. (45), (46), (49), (70).
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::Scalar;
-use twofold::dynamics::equations_of_motion::angular_velocity;
-use twofold::euler_angles::{EulerAngles, body_from_inertial, body_rates};
-use twofold::observables::Observer;
-use twofold::observables::pulsar::Beam;
-use twofold::observables::pulsar::direction::magnetic_axis_direction;
 use twofold::observables::pulsar::position_angle::{
     position_angle, position_angle_rate, rotating_vector_gradient, rotating_vector_point,
     rotating_vector_position_angle, sky_from_inertial,
 };
-use twofold::propagation::Motion;
 
 use super::cases;
 use super::identities::spherical;
-use crate::check::{Measured, Worst, checks, largest};
-use crate::derivation::{Differentiable, moving_angles};
-use crate::random::{Point, Random, worst_of_draws};
+use crate::prelude::*;
 
 checks! {
     /// north on the sky is the projection of Z, east is along Z x (direction in which the observer looks), as right ascension grows, and north x

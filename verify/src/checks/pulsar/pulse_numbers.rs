@@ -1,16 +1,7 @@
 //! Numbers of pulses across turns that have none. Eqs. (44), (49), (50).
 
-use std::f64::consts::{FRAC_PI_2, TAU};
-
-use twofold::euler_angles::EulerAngles;
-use twofold::observables::Observer;
-use twofold::observables::pulsar::direction::azimuth_offset_point;
-use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod};
-use twofold::propagation::{ContinuousAngles, Motion};
-
 use super::cases::{Case, for_random_cases, paper_signal};
-use crate::check::{Measured, checks, largest};
-use crate::reference::reference_motion;
+use crate::prelude::*;
 
 checks! {
     /// for tp-I and tp-II the numbers are the turns of the azimuth Phi about Z, by Eqs. (49), (50) and the continuous angles with DeltaPhi taken

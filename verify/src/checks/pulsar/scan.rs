@@ -1,10 +1,7 @@
 //! The pulse train against a scan of `m.n`. Eq. (44).
 
-use twofold::dynamics::equations_of_motion::angular_velocity;
-use twofold::propagation::Motion;
-
 use super::cases::{Case, edges, for_random_cases};
-use crate::check::{Measured, checks};
+use crate::prelude::*;
 
 checks! {
     /// the edges of both beams of 10,000 random stars over 10 t_c are as many as a scan of m.n finds, a point each 0.01 t_c, with each extremum

@@ -1,15 +1,7 @@
 //! The pulse train: its edges, a closed form and symmetries. Eq. (44).
 
-use std::f64::consts::{PI, TAU};
-
-use twofold::observables::Observer;
-use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
-use twofold::observables::pulsar::{Beam, pulse_train};
-use twofold::propagation::Motion;
-
 use super::cases::{edges, upright_star, worst_over_random_cases};
-use crate::check::{Measured, Worst, checks, largest};
-use crate::random::Random;
+use crate::prelude::*;
 
 checks! {
     /// at every edge of 600 random trains m.n is cos rho

@@ -1,12 +1,10 @@
 //! The same pulse train by every way of looking at the magnetic axis. Eq. (44).
 
-use twofold::dynamics::Problem;
-use twofold::observables::pulsar::{PulseTrain, pulse_train};
-use twofold::propagation::Motion;
+use twofold::observables::pulsar::PulseTrain;
 
 use super::cases::{Case, edges, for_random_cases, worst_over_random_cases};
-use crate::check::{Measured, checks, largest};
 use crate::given_states::GivenStates;
+use crate::prelude::*;
 
 checks! {
     /// the pulses of 600 random trains are the same from the series of the motion, from its states, and from series that are not kept

@@ -1,15 +1,7 @@
 //! Errors of the approximate motions against the numerical one, by strength of the torque and by time.
 
-use nalgebra::Vector3;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::Motion;
-use twofold::solutions::averaged::AveragingOrder;
-use twofold::solutions::perturbation::{Form, Precession};
-
 use super::perturbation_error::{Case, axis_at};
-use crate::averaged_scenes::averaged_solution;
-use crate::check::{Measured, Worst, checks, largest};
+use crate::prelude::*;
 
 /// Tolerance of the numerical motion.
 const TOLERANCE: f64 = 1e-13;

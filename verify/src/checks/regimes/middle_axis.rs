@@ -1,11 +1,6 @@
 //! Precession about the middle principal axis of `s^IJ` is unstable.
 
-use nalgebra::Vector3;
-use twofold::dynamics::{AxisState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::Motion;
-
-use crate::check::{Measured, Worst, checks};
+use crate::prelude::*;
 use twofold::straight_line::slope;
 
 checks! {

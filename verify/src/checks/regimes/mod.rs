@@ -1,5 +1,7 @@
 //! Where the approximations hold: their errors against the numerical motion.
 
+use crate::prelude::*;
+
 pub mod method_errors;
 mod middle_axis;
 pub mod perturbation_error;
@@ -7,8 +9,6 @@ mod precession_rates;
 mod single_precession;
 mod small_s;
 mod twofold_precession;
-
-use crate::check::Check;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {

@@ -1,16 +1,6 @@
 //! Error of a perturbation solution against the numerical motion from the same initial values.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
-
-use nalgebra::Vector3;
-use twofold::dynamics::{Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{AveragedMotion, ContinuousAngles, Motion, TaylorMotion};
-use twofold::solutions::averaged::AveragingOrder;
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
-
-use crate::check::largest;
+use crate::prelude::*;
 
 /// The numbers of one comparison, those of the paper's examples unless changed.
 #[derive(Debug, Clone, Copy)]

@@ -1,13 +1,7 @@
 //! Mean rates of the precession angle and of the angular momentum, with their signs, for both kinds of precession.
 
-use nalgebra::Vector3;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::fundamental_frequencies::{MeanRate, fundamental_frequencies, mean_rate};
-use twofold::propagation::{Motion, TaylorMotion};
-
-use crate::check::{Measured, Worst, checks};
-use crate::reference::reference_motion;
+use crate::prelude::*;
+use twofold::observables::fundamental_frequencies::{MeanRate, mean_rate};
 
 checks! {
     /// forced precession turns the angular momentum the same way for both kinds; what is opposite is the shift of the rate of alpha in tp-I, a

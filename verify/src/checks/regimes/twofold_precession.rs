@@ -1,14 +1,7 @@
 //! Twofold precession: the printed solution is not right to first order, the corrected one is.
 
-use std::f64::consts::PI;
-
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::Motion;
-use twofold::solutions::perturbation::{Form, Precession};
-
 use super::perturbation_error::Case;
-use crate::check::{Measured, Worst, checks, largest, least_of};
-use crate::measured_order::{errors_at, measured_order};
+use crate::prelude::*;
 
 /// A case of twofold precession with the paper's numbers.
 fn paper(form: Form, k: f64, beta_0: f64, amplitude: f64) -> Case {

@@ -1,11 +1,7 @@
 //! Amplitude spectra and their windows.
 
-use std::f64::consts::{PI, TAU};
-
-use twofold::observables::spectrum::{Series, Window, amplitude_spectrum};
-
-use crate::check::{Measured, Worst, checks, largest, worst_of};
-use crate::random::Random;
+use crate::prelude::*;
+use twofold::observables::spectrum::{Window, amplitude_spectrum};
 
 const WINDOWS: [Window; 4] =
     [Window::Uniform, Window::Hann, Window::Kaiser { shape: 10.0 }, Window::Kaiser { shape: 20.0 }];

@@ -1,20 +1,9 @@
 //! Fundamental frequencies of motions against reference values, the exact symmetric solution, other frames and other spans.
 
-use std::f64::consts::TAU;
-
-use nalgebra::Matrix3;
-use twofold::dynamics::{Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates, permuted_from_inertial};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::fundamental_frequencies::{
-    FundamentalFrequencies, MeanRate, fundamental_frequencies, mean_rates_about,
-};
-use twofold::solutions::symmetric::SymmetricSolution;
+use twofold::observables::fundamental_frequencies::{FundamentalFrequencies, MeanRate, mean_rates_about};
 
 use super::signals::{AVERAGING, motion_of};
-use crate::check::{Measured, Worst, checks, largest};
-use crate::random::Random;
-use crate::reference::reference_motion;
+use crate::prelude::*;
 
 checks! {
     /// mean rates of alpha, gamma and the azimuth of L of the four examples equal those of integration over 20,000 t_c with quadruple precision

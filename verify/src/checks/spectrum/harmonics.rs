@@ -2,10 +2,8 @@
 
 use std::ops::Range;
 
-use twofold::observables::spectrum::{LineList, SpectralLine};
-
 use super::signals::{Example, examples, strongest};
-use crate::check::{Measured, Worst, checks, largest, smallest};
+use crate::prelude::*;
 
 /// Frequencies about the fundamental, the second, third and fourth harmonic, for both examples [1/t_c].
 const FUNDAMENTAL: Range<f64> = 1.0..2.0;

@@ -1,12 +1,7 @@
 //! Line lists of known sums.
 
-use std::f64::consts::{PI, TAU};
-
-use twofold::observables::spectrum::{LineList, Series, SpectralLine, spectral_lines};
-
 use super::signals::{beam, examples, line_of_sight, motion_of};
-use crate::check::{Measured, Worst, checks, largest};
-use crate::random::Random;
+use crate::prelude::*;
 
 checks! {
     /// the lines of a known sum, amplitudes 1 to 1e-6, at random frequencies 0.02 apart or more, beside a constant: none missed, none invented,

@@ -1,14 +1,7 @@
 //! Lines of the paper's signals: what they are, those of free precession, and the slow one.
 
-use nalgebra::Matrix3;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::observables::spectrum::{Series, SpectralLine, spectral_lines};
-use twofold::solutions::free::free_precession_rates;
-
 use super::signals::{Example, beam, examples, line_of_sight, strongest, wave_of};
-use crate::check::{Measured, Worst, checks};
-use crate::paper_examples::COEFFICIENTS;
+use crate::prelude::*;
 
 /// Frequencies of the order of the coefficients for Lorentz violation [1/t_c].
 const SLOW: std::ops::Range<f64> = 0.01..0.1;

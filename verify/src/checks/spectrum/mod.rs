@@ -1,5 +1,7 @@
 //! Spectra, line lists and fundamental frequencies, and what the paper says of its spectra.
 
+use crate::prelude::*;
+
 mod amplitudes;
 mod frequencies;
 mod harmonics;
@@ -9,8 +11,6 @@ mod lines;
 mod pulse_series;
 pub(crate) mod signals;
 mod slow_precession;
-
-use crate::check::Check;
 
 /// The checks of this subject.
 pub fn checks() -> Vec<Check> {

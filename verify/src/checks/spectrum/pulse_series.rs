@@ -1,12 +1,7 @@
 //! Periods in the series of pulse periods and widths.
 
-use std::f64::consts::TAU;
-
-use nalgebra::{DMatrix, DVector};
-use twofold::observables::pulsar::Stamped;
-
 use super::signals::{Example, beam, examples, line_of_sight};
-use crate::check::{Measured, Worst, checks, largest};
+use crate::prelude::*;
 use crate::pulse_series::PulseSeries;
 
 checks! {

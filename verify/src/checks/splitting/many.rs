@@ -1,10 +1,9 @@
 //! Many motions side by side.
 
-use twofold::dynamics::AxisState;
 use twofold::propagation::{ErrorEstimates, SampledProblem, Samples, states_of_many};
 
-use crate::check::{Measured, Worst, largest, largest_difference};
-use crate::physical_domain::{RandomScene, drawn, scenes};
+use crate::physical_domain::drawn;
+use crate::prelude::*;
 
 const SEED: u8 = 31;
 const COUNT: usize = 90;

@@ -3,18 +3,11 @@
 mod many;
 mod order_conditions;
 
-use twofold::Error;
-use twofold::dynamics::{AxisState, Problem};
-use twofold::propagation::Motion;
+use crate::prelude::*;
 use twofold::propagation::splitting::{
     GRADIENT_8_6_4, GRADIENT_8_6_6, GRADIENT_8_8_6, NEAR_INTEGRABLE_6_2, NEAR_INTEGRABLE_10_4, SCHEMES, SRKN_6B,
     Scheme, Splitting,
 };
-
-use crate::check::{Measured, Worst, checks, largest, largest_difference, worst_of};
-use crate::measured_order::{errors_at, largest_off_order};
-use crate::physical_domain::{scenes, worst_over};
-use crate::reference::{reference_motion, reference_motions};
 
 checks! {
     /// the logarithm of one step of every scheme is A + B up to the orders claimed, with one, two, three and more kicks

@@ -1,8 +1,7 @@
 //! Order conditions of the splitting schemes, in the free Lie algebra of the two flows.
 
+use crate::prelude::*;
 use twofold::propagation::splitting::{Ends, SCHEMES, Scheme};
-
-use crate::check::{Measured, Worst};
 
 /// Longest words kept: the degrees below the highest order, 10.
 const LENGTH: usize = 9;

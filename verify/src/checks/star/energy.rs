@@ -1,18 +1,9 @@
 //! C and U^ij against quadratures of the six-dimensional integrals that know nothing of the coefficients A_i.
 
-use std::f64::consts::PI;
-
-use nalgebra::{Matrix3, Vector3};
-use num_dual::Dual64;
-use twofold::dynamics::point_masses::anisotropic_potential_of_masses;
-use twofold::dynamics::potential::anisotropic_potential_of_body;
 use twofold::star::axisymmetric::{AxisymmetricBody, AxisymmetricIntegrals, axisymmetric_integrals};
-use twofold::star::spheroid_shape::SpheroidShape;
-use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::{relative, unit_spheroid};
-use crate::check::{Measured, Worst, checks, largest, smallest, worst_of};
-use crate::random::Random;
+use crate::prelude::*;
 
 checks! {
     /// C, U^xx and U^zz of uniform spheroids, oblate and prolate, agree with the multipole quadrature of their densities

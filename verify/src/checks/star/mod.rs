@@ -1,16 +1,13 @@
 //! The star: potential coefficients, the constant C, equilibrium, estimates.
 
+use crate::prelude::*;
+
 mod energy;
 mod equilibrium;
 mod estimates;
 mod multiprecision_table;
 mod potential_coefficients;
 mod shape;
-
-use twofold::star::spheroid_shape::SpheroidShape;
-use twofold::star::uniform_spheroid::UniformSpheroid;
-
-use crate::check::Check;
 
 /// Checks of this subject.
 pub fn checks() -> Vec<Check> {

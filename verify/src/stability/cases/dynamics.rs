@@ -1,28 +1,10 @@
 //! Potential, torque, energies, equations of motion, integrals, the source of the wave.
 
-use core::f64::consts::{FRAC_PI_2, PI};
-
-use nalgebra::{Matrix3, Vector3};
-use twofold::Real;
-use twofold::dynamics::angular_acceleration::angular_acceleration;
-use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates, torque_on_axis};
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations, euler_angle_residuals};
-use twofold::dynamics::first_integrals::{energy_in_angles, first_integrals, spin_in_angles, symmetric_adjugate};
-use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
-use twofold::dynamics::lagrangian::lagrangian;
-use twofold::dynamics::point_masses::{anisotropic_potential_of_masses, preferred_frame_potential_of_masses};
-use twofold::dynamics::potential::{
-    anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body, nordtvedt_potential,
-    potential_gradient_in_angles,
-};
-use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
-use twofold::dynamics::wave_source::{free_inertia_acceleration, spheroid_inertia_acceleration, wave_tensor};
-use twofold::dynamics::{AxisState, BodyState, PrincipalInertia, RigidSpheroid};
-use twofold::lorentz_violation::{coefficients_from_preferred_frame, preferred_frame_parameter};
-use twofold::observables::Observer;
-use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
+use twofold::dynamics::point_masses::preferred_frame_potential_of_masses;
+use twofold::lorentz_violation::preferred_frame_parameter;
 
 use super::parts::{angles, body, entries, joined, none, principal, rates, symmetric, vector};
+use crate::prelude::*;
 use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
 use crate::stability::{Case, functions, list};
 

@@ -1,16 +1,10 @@
 //! The averaged motion: Hamiltonian, generator, slow precession, top, separatrix.
 
-use nalgebra::Vector3;
-use twofold::Real;
-use twofold::dynamics::BodyState;
-use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::averaged::slow_precession::slow_precession;
-use twofold::solutions::averaged::{
-    AveragedSolution, AveragingOrder, Top, generator, generator_slopes, mean_angular_velocity, mean_potential,
-    middle_axis_growth, period_near_separatrix,
-};
+use twofold::solutions::averaged::{Top, period_near_separatrix};
 
 use super::parts::{body, joined, none, vector};
+use crate::prelude::*;
 use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
 use crate::stability::oracle::pi;
 use crate::stability::{Case, functions, list};

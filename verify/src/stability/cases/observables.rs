@@ -1,42 +1,23 @@
 //! What an observer sees: spin axis, bounds, beams, pulses, position angle, wave harmonics, eta, epochs.
 
-use core::f64::consts::{FRAC_PI_2, PI};
-
-use nalgebra::Vector3;
-use twofold::Real;
-use twofold::dynamics::AxisState;
-use twofold::dynamics::BodyState;
 use twofold::epoch::{DAY, Epoch};
-use twofold::observables::Observer;
-use twofold::observables::bound::{
-    SpinAxisDrift, cos_opening_angle, eta_from_inclination, fluid_inertia_over_c, lambda_change, preferred_frame_bound,
-    zeta_change_terms,
-};
+use twofold::observables::bound::{lambda_change, preferred_frame_bound};
 use twofold::observables::eta::{
-    mean_squared_speed, root_mean_square_eta, secular_axis_rate, single_precession_start, squared_speed,
-    squared_speed_along_motion,
+    mean_squared_speed, root_mean_square_eta, single_precession_start, squared_speed, squared_speed_along_motion,
 };
-use twofold::observables::eta_distribution::EtaDistribution;
 use twofold::observables::gravitational_wave::strain_unit;
-use twofold::observables::pulsar::beam::{Beam, axis_along_line_of_sight};
-use twofold::observables::pulsar::direction::{
-    axis_along_line_of_sight_in_azimuth, azimuth_offset_point, cosine_of_colatitude, magnetic_axis_direction,
-};
 use twofold::observables::pulsar::event_time::event_time;
-use twofold::observables::pulsar::period::{
-    approximate_period, azimuth_offset_rate, azimuth_rate, instantaneous_period,
-};
 use twofold::observables::pulsar::position_angle::{
     position_angle, position_angle_rate, rotating_vector_gradient, rotating_vector_point,
     rotating_vector_position_angle,
 };
-use twofold::observables::pulsar::width::{PulseWidth, cosine_of_half_width, edge_azimuths, pulse_width};
-use twofold::observables::spin_axis::{cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate};
+use twofold::observables::pulsar::width::edge_azimuths;
 use twofold::observables::wave_harmonics::WaveHarmonics;
 use twofold::units::geometrised::{KILOGRAM, METRE};
 use twofold::units::time_unit;
 
 use super::parts::{angles, body, joined, none, symmetric, vector};
+use crate::prelude::*;
 use crate::stability::Input::{self, Above, Fixed, In, Log, Near, Signed};
 use crate::stability::oracle::pi;
 use crate::stability::{Case, functions, list};

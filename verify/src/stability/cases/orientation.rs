@@ -1,18 +1,11 @@
 //! Euler angles: rotation matrix, rates and their inverses.
 
-use core::f64::consts::{FRAC_PI_2, PI};
-
-use nalgebra::Matrix3;
-use twofold::dynamics::BodyState;
-use twofold::dynamics::equations_of_motion::{angular_velocity, euler_rates_of_axis};
-use twofold::dynamics::wave_source::{rotation_rate, tensor_in_inertial_frame};
-use twofold::euler_angles::{
-    angles_from_rotation, body_from_inertial, body_rates, euler_rates, symmetry_axis, tensor_in_body_frame,
-};
-use twofold::observables::Observer;
+use twofold::dynamics::equations_of_motion::euler_rates_of_axis;
+use twofold::euler_angles::{angles_from_rotation, euler_rates};
 use twofold::observables::pulsar::position_angle::sky_from_inertial;
 
 use super::parts::{angles, body, entries, joined, matrix, none, of_angles, of_rates, rates, symmetric, vector};
+use crate::prelude::*;
 use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
 use crate::stability::{Case, functions, list};
 

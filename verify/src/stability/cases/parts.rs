@@ -1,10 +1,6 @@
 //! Vectors, tensors and bodies from the numbers of a case.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::Scalar;
-use twofold::dynamics::RigidSpheroid;
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
+use crate::prelude::*;
 
 pub(super) fn vector<S: Scalar>(x: &[S]) -> Vector3<S> {
     Vector3::new(x[0], x[1], x[2])

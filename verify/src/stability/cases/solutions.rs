@@ -1,21 +1,10 @@
 //! Free rotation, steady precession, perturbation solutions.
 
-use core::f64::consts::{FRAC_PI_2, PI};
-
-use nalgebra::Vector3;
-use twofold::Real;
-use twofold::dynamics::BodyState;
-use twofold::dynamics::euler_angle_equations::AxisAngles;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::spin_axis::changes_from_start;
-use twofold::solutions::free::{free_precession_rates, free_rotation, rotated_by};
-use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
-use twofold::solutions::perturbation::{
-    Constants, Form, Perturbation, Precession, constants_from_initial_values, initial_values, shifted_rates,
-};
-use twofold::solutions::steady::steady_precession_rate;
+use twofold::solutions::free::rotated_by;
+use twofold::solutions::perturbation::constants_from_initial_values;
 
 use super::parts::{body, joined, none, of_rates, principal, vector};
+use crate::prelude::*;
 use crate::stability::Input::{self, Below, Fixed, In, Log, Near, Signed};
 use crate::stability::{Case, functions, list};
 

@@ -1,12 +1,7 @@
 //! The exact motion for a tensor symmetric about Z.
 
-use core::f64::consts::{FRAC_PI_2, PI};
-
-use twofold::Real;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::symmetric::SymmetricSolution;
-
 use super::parts::{angles, body, none, of_angles, of_rates, rates};
+use crate::prelude::*;
 use crate::stability::Input::{self, Below, Fixed, In, Log, Near, Signed};
 use crate::stability::{Case, functions};
 
