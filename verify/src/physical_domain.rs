@@ -88,16 +88,13 @@ pub fn drawn<T: Strategy>(seed: u8, cases: usize, strategy: &T) -> Result<Vec<T:
 }
 
 /// The largest figure of `measure` over `cases` values of `strategy`, drawn with the given seed.
-pub fn worst_over<T: Strategy>(
+pub fn worst_over<T: Strategy, F: Figure>(
     seed: u8,
     cases: usize,
     strategy: &T,
-    mut measure: impl FnMut(&T::Value) -> Result<f64, String>,
+    mut measure: impl FnMut(&T::Value) -> Result<F, String>,
 ) -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (case, value) in drawn(seed, cases, strategy)?.iter().enumerate() {
-        let figure = measure(value).map_err(|e| format!("case {case} of seed {seed}, {value:?}: {e}"))?;
-        worst.see(figure, || format!("case {case} of seed {seed}, {value:?}"));
-    }
-    worst.finish()
+    worst_of(drawn(seed, cases, strategy)?.iter().enumerate(), |(case, value)| {
+        measure(value).map_err(|error| format!("case {case} of seed {seed}, {value:?}: {error}"))
+    })
 }

@@ -2,11 +2,11 @@
 
 pub(crate) use crate::averaged_scenes::averaged_solution;
 pub(crate) use crate::check::{
-    Bound, Check, Kind, Measured, Outcome, Worst, checks, largest, largest_component, largest_difference, least_of,
-    smallest, worst_of,
+    Bound, Check, Figure, Kind, Measured, Outcome, Worst, checks, largest, largest_component, largest_difference,
+    largest_of, least_of, smallest, worst_of,
 };
 pub(crate) use crate::derivation::spheroid_motion::fixed_spheroid;
-pub(crate) use crate::derivation::{Differentiable, moving_angles, moving_rates};
+pub(crate) use crate::derivation::{Differentiable, components, moving_angles, moving_rates};
 pub(crate) use crate::double_double::DoubleDouble;
 pub(crate) use crate::error_scenes::ErrorScene;
 pub(crate) use crate::field_operators::field_operators;

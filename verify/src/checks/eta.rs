@@ -117,7 +117,7 @@ fn torque_over_momentum<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let unit = p.s.combination() / (inertia_over_c * spin);
     let ratio = p.s.asymmetry() / p.s.combination();
     let square = rate.dot(&rate) - squared_speed(ratio, p.angles.alpha, p.angles.beta) * unit * unit;
-    from_torque.iter().chain(from_forced.iter()).copied().chain([square]).collect()
+    components![from_torque, from_forced, square]
 }
 
 fn start_by_asymmetry_ratio<F: Differentiable>(p: &Point<F>) -> Vec<F> {

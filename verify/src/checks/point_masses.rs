@@ -74,9 +74,7 @@ fn coupling_to_curvature<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         coupling += k[a][b][c][d] * curvature[a][b][c][d] / 2.0;
     }
     let s = coefficients_from_vacuum_value(&k);
-    let mut residuals = vec![coupling - s.component_mul(&ricci).sum(), s.component_mul(&metric).sum()];
-    residuals.extend((s - s.transpose()).iter());
-    residuals
+    components![coupling - s.component_mul(&ricci).sum(), s.component_mul(&metric).sum(), s - s.transpose()]
 }
 
 /// A symmetric matrix of its spatial part, its column of time and their common component.

@@ -62,8 +62,7 @@ fn nordtvedt_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let axis = p.gradient;
     let s = coefficients_from_preferred_frame(alpha_2, &w);
     let rate = secular_axis_rate(fluid_inertia_over_c(spin), spin, &s, &axis);
-    let nordtvedt = w.cross(&axis) * (-(alpha_2 * spin * w.dot(&axis)) / 2.0);
-    (rate - nordtvedt).iter().copied().collect()
+    components![rate - w.cross(&axis) * (-(alpha_2 * spin * w.dot(&axis)) / 2.0)]
 }
 
 fn fluid_inertia() -> Result<Measured, String> {

@@ -27,10 +27,7 @@ fn torque_on_spheroid<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let s_body = tensor_in_body_frame(&rotation, &p.s.tensor());
     let on_body = torque_on_body(&s_body, &Matrix3::from_diagonal(&Vector3::new(xx, xx, zz)));
     let on_axis = rotation * torque_on_axis(c, &p.s.tensor(), &rotation.row(2).transpose());
-    let mut out = Vec::new();
-    out.extend(&(from_gradient - on_body));
-    out.extend(&(from_gradient - on_axis));
-    out
+    components![from_gradient - on_body, from_gradient - on_axis]
 }
 
 fn torque_under_rotations<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -39,9 +36,9 @@ fn torque_under_rotations<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let on_body = torque_on_body(&tensor_in_body_frame(&rotation, &p.s_inertial), u);
     let inertial = torque_on_body(&p.s_inertial, &(rotation.transpose() * u * rotation));
     let gradient = gradient_in_angles(q, &p.s_inertial, u);
-    let mut out = Vec::new();
-    out.extend(&(on_body - torque_by_virtual_rotation(&rotation, &p.s_inertial, u)));
-    out.extend(&(on_body - torque_from_gradient(q, &gradient)));
-    out.extend(&(on_body - rotation * inertial));
-    out
+    components![
+        on_body - torque_by_virtual_rotation(&rotation, &p.s_inertial, u),
+        on_body - torque_from_gradient(q, &gradient),
+        on_body - rotation * inertial,
+    ]
 }

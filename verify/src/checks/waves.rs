@@ -46,16 +46,15 @@ fn tensor_products<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let tensors = polarization_tensors(&observer);
     let product = |i: usize, j: usize| tensors[i].component_mul(&tensors[j]).sum();
     let two = F::from_f64(2.0);
-    let mut out = vec![product(0, 0) - two, product(1, 1) - two, product(0, 1)];
-    for tensor in &tensors {
-        out.push(tensor.trace());
-        out.extend(&(tensor - tensor.transpose()));
-        out.extend(&(tensor * observer.direction));
-    }
-    // The sign of each: h_+ stretches along theta-hat, h_x along theta-hat + phi-hat.
-    out.push(observer.theta_hat.dot(&(tensors[0] * observer.theta_hat)) - F::one());
-    out.push(observer.theta_hat.dot(&(tensors[1] * observer.phi_hat)) - F::one());
-    out
+    components![
+        [product(0, 0) - two, product(1, 1) - two, product(0, 1)],
+        tensors.map(|tensor| tensor.trace()),
+        tensors.map(|tensor| tensor - tensor.transpose()),
+        tensors.map(|tensor| tensor * observer.direction),
+        // The sign of each: h_+ stretches along theta-hat, h_x along theta-hat + phi-hat.
+        observer.theta_hat.dot(&(tensors[0] * observer.theta_hat)) - F::one(),
+        observer.theta_hat.dot(&(tensors[1] * observer.phi_hat)) - F::one(),
+    ]
 }
 
 fn polarizations_transverse_traceless<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -66,11 +65,12 @@ fn polarizations_transverse_traceless<F: Differentiable>(p: &Point<F>) -> Vec<F>
     let normal = Matrix3::identity() - observer.direction * observer.direction.transpose();
     let projected = normal * h * normal - normal * ((normal * h).trace() / 2.0);
     let (theta, phi) = (&observer.theta_hat, &observer.phi_hat);
-    let mut out: Vec<F> = (e_plus * plus + e_cross * cross - projected).iter().copied().collect();
-    // Second form: -(1/r) of the source's components.
-    out.push(plus + (theta.dot(&(source * theta)) - phi.dot(&(source * phi))) / distance);
-    out.push(cross + theta.dot(&(source * phi)) * F::from_f64(2.0) / distance);
-    out
+    components![
+        e_plus * plus + e_cross * cross - projected,
+        // Second form: -(1/r) of the source's components.
+        plus + (theta.dot(&(source * theta)) - phi.dot(&(source * phi))) / distance,
+        cross + theta.dot(&(source * phi)) * F::from_f64(2.0) / distance,
+    ]
 }
 
 fn wave_of_rotated_scene<F: Differentiable>(p: &Point<F>) -> Vec<F> {

@@ -46,12 +46,13 @@ fn sky_directions<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let (sin, _) = theta_o.sin_cos();
     // The observer looks along -n; right ascension grows eastwards, as a turn about Z carries the sky.
     let (z, view) = (Vector3::z(), -observer.direction);
-    let mut out: Vec<F> = (sky * sky.transpose() - Matrix3::identity()).iter().copied().collect();
-    out.extend(&(north * sin - (z - view * view.dot(&z))));
-    out.extend(&(east * sin - z.cross(&view)));
-    out.extend(&(north.cross(&east) - towards));
-    out.extend(&(towards + view));
-    out
+    components![
+        sky * sky.transpose() - Matrix3::identity(),
+        north * sin - (z - view * view.dot(&z)),
+        east * sin - z.cross(&view),
+        north.cross(&east) - towards,
+        towards + view,
+    ]
 }
 
 fn rotating_vector_model<F: Differentiable>(p: &Point<F>) -> Vec<F> {
