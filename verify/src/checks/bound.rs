@@ -95,15 +95,12 @@ fn bound_of_known_tensor() -> Result<Measured, String> {
 }
 
 fn printed_changes() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (pulsar, printed) in printed_bounds() {
-        let ours = pulsar.lambda_change()? * 1e3;
+    worst_of(printed_bounds(), |(pulsar, printed)| {
         let printed = printed.lambda_change;
         let unit = if printed.contains('.') { 0.1 } else { 1.0 };
         let value: f64 = printed.parse().map_err(|_| format!("{printed} is not a number"))?;
-        worst.see((ours - value).abs() / unit, || format!("{ours} for {printed}"));
-    }
-    worst.finish()
+        Ok((pulsar.lambda_change()? * 1e3 - value).abs() / unit)
+    })
 }
 
 /// Bounds by Eq. (41) over those printed, both over eta: main pulse and interpulse of PSR B1937+21, PSR J1744-1134.

@@ -196,18 +196,16 @@ fn distribution() -> Result<Measured, String> {
 }
 
 fn known_angle() -> Result<Measured, String> {
-    let (mut random, mut worst) = (Random::with_seed(42), Worst::default());
-    for ratio in SHAPES {
+    let mut random = Random::with_seed(42);
+    worst_of(SHAPES, |&ratio| {
         let s = PrincipalCoefficients::new(of_shape(ratio)).tensor();
         let unknown = EtaDistribution::of_unknown_axis(ratio)?;
-        for degrees in [30.0_f64, 95.0, 100.0] {
+        worst_of([30.0_f64, 95.0, 100.0], |degrees| {
             let lambda = degrees.to_radians();
             let samples = (0..SAMPLES).map(|_| 1.0 / seen_rate(&mut random, &s, lambda).abs()).collect();
-            let figure = kolmogorov_smirnov(samples, &unknown.clone().seen_at(lambda)?, 200);
-            worst.see(figure, || format!("r = {ratio:.3}, lambda = {degrees} deg"));
-        }
-    }
-    worst.finish()
+            Ok(kolmogorov_smirnov(samples, &unknown.clone().seen_at(lambda)?, 200))
+        })
+    })
 }
 
 fn known_angle_integral() -> Result<Measured, String> {
@@ -234,17 +232,12 @@ fn symmetric_is_largest() -> Result<Measured, String> {
 }
 
 fn ten_exceeded() -> Result<Measured, String> {
-    let (mut smallest, mut at) = (f64::INFINITY, 0.0);
-    for i in 0..=152 {
-        let beta = 0.05 + 0.01 * f64::from(i);
-        let eta = EtaDistribution::at_inclination(PAPER_ASYMMETRY, beta)?.quantile(0.95)?;
-        if eta < smallest {
-            (smallest, at) = (eta, beta);
-        }
-    }
+    let inclinations = (0..=152).map(|i| 0.05 + 0.01 * f64::from(i));
+    let smallest =
+        least_of(inclinations, |&beta| Ok(EtaDistribution::at_inclination(PAPER_ASYMMETRY, beta)?.quantile(0.95)?))?;
     let share = EtaDistribution::of_unknown_axis(PAPER_ASYMMETRY)?.probability_above(10.0);
-    let detail = format!("at beta_0 = {at:.2}; above 10 with probability {share:.2} if nothing is known of the axis");
-    Ok(Measured::new(smallest, detail))
+    let detail = format!("{}; above 10 with probability {share:.2} if nothing is known of the axis", smallest.detail);
+    Ok(Measured::new(smallest.figure, detail))
 }
 
 /// Largest distance between the shares of samples and a distribution, at one sample of `every`, times the root of their number.
@@ -282,41 +275,30 @@ fn secular_rate() -> Result<Measured, String> {
 fn by_numerical_motion() -> Result<Measured, String> {
     let s = COEFFICIENTS.scaled(1e-3);
     let unit = s.combination().abs() / (1.1 * SPIN);
-    let azimuths: Vec<f64> = (0..24).map(|i| FRAC_PI_2 * (f64::from(i) + 0.5) / 24.0).collect();
-    let mut worst = Worst::default();
-    for beta in [0.2, 0.7, 1.1, 1.3, 1.5] {
+    worst_of([0.2, 0.7, 1.1, 1.3, 1.5], |&beta| {
         let (mut numerical, mut secular) = (Vec::new(), Vec::new());
-        for &alpha in &azimuths {
+        for alpha in (0..24).map(|i| FRAC_PI_2 * (f64::from(i) + 0.5) / 24.0) {
             let (rate, _) = numerical_axis_rate(&s, SPIN, (alpha, beta), twelve_turns(SPIN))?;
             numerical.push((rate.norm() / unit, 1.0));
             secular.push((squared_speed(PAPER_ASYMMETRY, alpha, beta).sqrt(), 1.0));
         }
         let (numerical, secular) = (EtaDistribution::from_speeds(numerical)?, EtaDistribution::from_speeds(secular)?);
-        for probability in [0.5, 0.84, 0.975] {
-            let (numerical, secular) = (numerical.quantile(probability)?, secular.quantile(probability)?);
-            worst.see((numerical / secular - 1.0).abs(), || {
-                format!("beta_0 = {beta}, probability {probability}: {numerical:.4}, {secular:.4}")
-            });
-        }
-    }
-    worst.finish()
+        worst_of([0.5, 0.84, 0.975], |&probability| {
+            Ok((numerical.quantile(probability)? / secular.quantile(probability)? - 1.0).abs())
+        })
+    })
 }
 
 fn estimate_order() -> Result<Measured, String> {
     let inclinations: Vec<f64> = (0..=90).map(|i| 0.2 + 0.01 * f64::from(i)).collect();
-    let mut worst = Worst::default();
-    for ratio in SHAPES {
-        for point in eta_curve(ratio, &inclinations)? {
-            let (along, at) = (point.along_motion, point.at_inclination.root_mean_square);
-            for eta in [along, at] {
+    worst_of(SHAPES, |&ratio| {
+        worst_of(eta_curve(ratio, &inclinations)?, |point| {
+            worst_of([point.along_motion, point.at_inclination.root_mean_square], |eta| {
                 let excess = (eta / point.printed).log10();
-                worst.see(if excess < 0.0 { f64::INFINITY } else { excess }, || {
-                    format!("r = {ratio:.3}, beta_0 = {:.2}: {eta:.3} for {:.3}", point.beta_0, point.printed)
-                });
-            }
-        }
-    }
-    worst.finish()
+                Ok(if excess < 0.0 { f64::INFINITY } else { excess })
+            })
+        })
+    })
 }
 
 fn near_right_angle() -> Result<Measured, String> {

@@ -224,22 +224,21 @@ fn derivatives(
 }
 
 fn gradients() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for scene in reference_gradients() {
+    worst_of(reference_gradients(), |scene| {
         let times: Vec<f64> = scene.derivatives.iter().map(|(t, _)| *t).collect();
-        for method in [None, Some(Method::Taylor)] {
-            let found = derivatives(&scene.start, method, 1e-15, &times)?;
-            for ((t, expected), found) in scene.derivatives.iter().zip(&found.jacobians) {
-                for (i, parameter) in Parameter::OF_MOTION.iter().enumerate() {
-                    let size = largest(expected[i].iter().map(|x| x.abs())).max(f64::MIN_POSITIVE);
-                    let errors = expected[i].iter().enumerate().map(|(row, x)| (found[(row, i)] - x).abs());
-                    let name = parameter.symbol();
-                    worst.see(largest(errors) / size, || format!("{} by {name} at t = {t}, {method:?}", scene.name));
-                }
-            }
-        }
-    }
-    worst.finish()
+        worst_of([None, Some(Method::Taylor)], |method| {
+            let found = derivatives(&scene.start, *method, 1e-15, &times)?;
+            worst_of(scene.derivatives.iter().zip(&found.jacobians), |((_, expected), found)| {
+                worst_of(
+                    Parameter::OF_MOTION.iter().zip(expected).zip(found.column_iter()),
+                    |((_, expected), found)| {
+                        let size = largest(expected.iter().map(|x| x.abs())).max(f64::MIN_POSITIVE);
+                        Ok(largest(expected.iter().zip(found).map(|(x, found)| (found - x).abs())) / size)
+                    },
+                )
+            })
+        })
+    })
 }
 
 /// Whether tangent maps are compiled for this processor.

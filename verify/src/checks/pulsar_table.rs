@@ -109,8 +109,7 @@ fn uncertainties() -> Result<Measured, String> {
 fn limits_by_draws() -> Result<Measured, String> {
     const DRAWS: u32 = 100_000;
     let mut random = Random::with_seed(95);
-    let mut worst = Worst::default();
-    for pulsar in pulsar_table::paper() {
+    worst_of(pulsar_table::paper(), |pulsar| {
         let figures = pulsar.figures()?;
         let own = figures.iter().position(|figure| figure.key == "bound_over_eta_own").ok_or("no bound")?;
         let limit = pulsar.limit(&figures[own])?.all;
@@ -124,9 +123,8 @@ fn limits_by_draws() -> Result<Measured, String> {
         let share = f64::from(above) / f64::from(DRAWS);
         let beyond = 1.0 - CONFIDENCE;
         let standard_error = (beyond * CONFIDENCE / f64::from(DRAWS)).sqrt();
-        worst.see((share - beyond).abs() / standard_error, || format!("{}: {share:.5} above {limit:.3e}", pulsar.name));
-    }
-    worst.finish()
+        Ok(Measured::new((share - beyond).abs() / standard_error, format!("{share:.5} above {limit:.3e}")))
+    })
 }
 
 fn coverage() -> Result<Measured, String> {
@@ -165,14 +163,14 @@ fn coverage() -> Result<Measured, String> {
 
 fn changes_are_slopes() -> Result<Measured, String> {
     let pulsars = pulsar_table::paper();
-    let mut worst = Worst::default();
-    for (pulsar, slope) in pulsars.iter().zip(SLOPES) {
+    if pulsars.len() != SLOPES.len() {
+        return Err(format!("{} pulses", pulsars.len()));
+    }
+    worst_of(pulsars.iter().zip(SLOPES), |(pulsar, slope)| {
         let change = pulsar.measured_change().ok_or_else(|| format!("{}: a change without an error", pulsar.name))?;
         // 52.5 for a printed 53 is met to the half unit, but for the rounding of both.
-        let difference = (change.value * 1e3 - slope * pulsar.years.value).abs() * (1.0 - 1e-12);
-        worst.see(difference, || format!("{}: {}", pulsar.name, change.value));
-    }
-    if pulsars.len() == SLOPES.len() { worst.finish() } else { Err(format!("{} pulses", pulsars.len())) }
+        Ok((change.value * 1e3 - slope * pulsar.years.value).abs() * (1.0 - 1e-12))
+    })
 }
 
 fn limits_with_error() -> Result<Measured, String> {

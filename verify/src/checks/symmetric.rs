@@ -113,15 +113,11 @@ fn solves_equations() -> Result<Measured, String> {
 }
 
 fn against_reference() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for name in ["axisymmetric-violation", "free"] {
+    worst_of(["axisymmetric-violation", "free"], |name| {
         let scene = reference_motion(name);
         let motion = SymmetricSolution::new(&scene.spheroid, &scene.coefficients, &scene.angles, &scene.rates)?;
-        for (t, expected) in &scene.states {
-            worst.see(difference(&state(&scene.spheroid, &motion, *t), expected), || format!("{name} at t = {t}"));
-        }
-    }
-    worst.finish()
+        worst_of(&scene.states, |(t, expected)| Ok(difference(&state(&scene.spheroid, &motion, *t), expected)))
+    })
 }
 
 /// Largest difference over the error estimate of the numerical motion and the rounding that no solution can avoid: of the

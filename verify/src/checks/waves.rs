@@ -168,36 +168,30 @@ fn difference(a: &Polarizations<f64>, b: &Polarizations<f64>) -> f64 {
 }
 
 fn two_forms_along_motion() -> Result<Measured, String> {
-    let (mut worst, observer) = (Worst::default(), Observer::at(0.8, 0.3));
-    for name in ["tp-1", "tp-2"] {
+    let observer = Observer::at(0.8, 0.3);
+    worst_of(["tp-1", "tp-2"], |name| {
         let scene = reference_motion(name).problem();
         let motion = scene.taylor((0.0, 200.0), 1e-15)?;
-        for i in 0..=2000 {
-            let t = 0.1 * f64::from(i);
+        worst_of((0..=2000).map(|i| 0.1 * f64::from(i)), |t| {
             let state = motion.state(t.min(200.0))?;
             let short = wave(&observer, &scene, &state.axis_state());
-            let general = wave_by_general_form(&observer, &scene, &state);
-            worst.see(difference(&short, &general), || format!("{name}, t = {t}"));
-        }
-    }
-    worst.finish()
+            Ok(difference(&short, &wave_by_general_form(&observer, &scene, &state)))
+        })
+    })
 }
 
 fn against_reference() -> Result<Measured, String> {
-    let (mut worst, observer) = (Worst::default(), Observer::at(0.8, 0.3));
-    for reference in reference_motions() {
+    let observer = Observer::at(0.8, 0.3);
+    worst_of(reference_motions(), |reference| {
         let scene = reference.problem();
         let end = reference.states.last().ok_or("a scene without states")?.0;
         let (motion, alone) = (scene.taylor((0.0, end), 1e-15)?, scene.reduced().taylor((0.0, end), 1e-15)?);
-        for (t, state) in &reference.states {
+        worst_of(&reference.states, |(t, state)| {
             let theirs = wave_by_general_form(&observer, &scene, state);
-            for state in [motion.axis_state(*t)?, alone.state(*t)?] {
-                let ours = wave(&observer, &scene, &state);
-                worst.see(difference(&ours, &theirs), || format!("{}, t = {t}", reference.name));
-            }
-        }
-    }
-    worst.finish()
+            let ours = [motion.axis_state(*t)?, alone.state(*t)?].map(|state| wave(&observer, &scene, &state));
+            Ok(largest(ours.map(|ours| difference(&ours, &theirs))))
+        })
+    })
 }
 
 /// The authors' published waveform data of tp-I: `t` in t_c, `h_+`, `h_x`.
