@@ -98,6 +98,7 @@ pub(super) fn worst_off_separatrix(
 }
 
 /// Which multiples of `slow`, `about_momentum` and `about_axis` the mean rates of alpha and gamma are.
+#[derive(Debug)]
 pub(super) struct Angles {
     pub(super) alpha: [f64; 3],
     pub(super) gamma: [f64; 3],

@@ -87,16 +87,12 @@ fn edges_of_width() -> Result<Measured, String> {
 }
 
 fn narrow_widths() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for decade in 1..=12 {
-        for i in 0..28 {
-            let (rho, theta) = (10f64.powi(-decade), 0.2 + 0.1 * f64::from(i));
-            let PulseWidth::Pulsed(width) = pulse_width(rho, theta, theta) else {
-                return Err(format!("no pulse at rho = {rho}, Theta = theta_o = {theta}"));
-            };
-            let expected = 4.0 * ((rho / 2.0).sin() / theta.sin()).asin();
-            worst.see((width / expected - 1.0).abs() / f64::EPSILON, || format!("rho = {rho:e}, Theta = {theta}"));
-        }
-    }
-    worst.finish()
+    let inclinations = |decade: i32| (0..28).map(move |i| (10f64.powi(-decade), 0.2 + 0.1 * f64::from(i)));
+    worst_of((1..=12).flat_map(inclinations), |&(rho, theta)| {
+        let PulseWidth::Pulsed(width) = pulse_width(rho, theta, theta) else {
+            return Err(format!("no pulse at rho = {rho}, Theta = theta_o = {theta}"));
+        };
+        let expected = 4.0 * ((rho / 2.0).sin() / theta.sin()).asin();
+        Ok((width / expected - 1.0).abs() / f64::EPSILON)
+    })
 }

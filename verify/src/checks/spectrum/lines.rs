@@ -73,13 +73,10 @@ fn all_identified() -> Result<Measured, String> {
 }
 
 fn lines_against_rates() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (example, signal, line) in each_line(1e-5)? {
+    worst_of(each_line(1e-5)?, |(example, _, line)| {
         let what = example.basis.identify(line.frequency, line.uncertainty);
-        let misfit = what.combination().map_or(f64::INFINITY, |combination| combination.misfit.abs());
-        worst.see(misfit, || format!("{} {signal} {line:?}: {what}", example.name));
-    }
-    worst.finish()
+        Ok(what.combination().map_or(f64::INFINITY, |combination| combination.misfit.abs()))
+    })
 }
 
 fn free_precession() -> Result<Measured, String> {
@@ -132,17 +129,13 @@ fn slow_line_of_tp_1() -> Result<Measured, String> {
 }
 
 fn slow_line_of_waves() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for example in examples()? {
-        for (signal, list) in example.waves() {
+    worst_of(examples()?, |example| {
+        worst_of(example.waves(), |(_, list)| {
             // A list without a line there has none above its least amplitude.
-            let line = strongest(list, SLOW).ok();
-            let amplitude = line.map_or(1e-6, |line| line.amplitude);
-            let ratio = amplitude / list.lines[0].amplitude;
-            worst.see(ratio, || format!("{} {signal} at {:.6?}", example.name, line.map(|line| line.frequency)));
-        }
-    }
-    worst.finish()
+            let amplitude = strongest(list, SLOW).map_or(1e-6, |line| line.amplitude);
+            Ok(amplitude / list.lines[0].amplitude)
+        })
+    })
 }
 
 fn slow_magnitude() -> Result<Measured, String> {

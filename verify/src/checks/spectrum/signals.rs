@@ -38,6 +38,8 @@ pub(crate) struct Example {
     pub(super) motion: TaylorMotion<f64>,
 }
 
+crate::reference::named!(Example);
+
 impl Example {
     /// `h_+` and `h_x`.
     pub fn waves(&self) -> [(&'static str, &LineList); 2] {

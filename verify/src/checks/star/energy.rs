@@ -155,12 +155,6 @@ fn deviations(q: f64, random: &mut Random) -> Result<[[f64; 2]; 3], String> {
 }
 
 fn six_dimensional_integral() -> Result<Measured, String> {
-    let mut worst = Worst::default();
     let mut random = Random::with_seed(7);
-    for q in [0.6, 1.5] {
-        for ([deviation, error], name) in deviations(q, &mut random)?.into_iter().zip(["C", "U^xx", "delta U"]) {
-            worst.see(deviation, || format!("{name} at a3/a1 = {q}, seed 7: standard error {error:e} of it"));
-        }
-    }
-    worst.finish()
+    worst_of([0.6, 1.5], |&q| worst_of(deviations(q, &mut random)?, |[deviation, _]| Ok(*deviation)))
 }
