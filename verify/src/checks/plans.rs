@@ -78,9 +78,9 @@ fn counts() -> Result<Measured, String> {
 fn scenes_for_plans() -> impl Strategy<Value = RandomScene> {
     (scenes(), 0..4_u8, -16.0..-6.0f64).prop_map(|(mut scene, kind, log)| {
         match kind {
-            0 => scene.s = [0.0; 3],
-            1 => scene.s[1] = scene.s[0],
-            2 => scene.s = scene.s.map(|x| x * 10f64.powf(log)),
+            0 => scene.s = PrincipalCoefficients::new([0.0; 3]),
+            1 => scene.s.yy = scene.s.xx,
+            2 => scene.s = scene.s.scaled(10f64.powf(log)),
             _ => {}
         }
         scene
@@ -133,9 +133,9 @@ fn symmetric_motion() -> Result<Measured, String> {
     let mut solved = 0;
     let strategy = (scenes(), prop::array::uniform3(-3.0..3.0f64), 0..3_u8, -12.0..-5.0f64, 0.0..2.0f64);
     let measured = worst_over(44, 400, &strategy, |&(mut scene, frame, kind, log, span)| {
-        scene.s[1] = scene.s[0];
+        scene.s.yy = scene.s.xx;
         if kind == 0 {
-            scene.s[1] *= 1.0 + 10f64.powf(log);
+            scene.s.yy *= 1.0 + 10f64.powf(log);
         }
         // Axes exchanged, too: the symmetry axis need not be that of the last eigenvalue.
         let problem = if kind == 1 { scene.problem() } else { turned(&scene.problem(), frame) };
@@ -156,12 +156,12 @@ fn steady_motion() -> Result<Measured, String> {
     let mut solved = 0;
     let strategy = (scenes(), prop::array::uniform3(-3.0..3.0f64), any::<bool>(), any::<bool>());
     let measured = worst_over(45, 300, &strategy, |&(mut scene, frame, twofold, is_turned)| {
-        scene.s[1] = scene.s[0];
-        let (body, coefficients, angles) = (scene.spheroid(), scene.coefficients(), scene.angles());
+        scene.s.yy = scene.s.xx;
+        let (body, coefficients, angles) = (scene.spheroid, scene.s, scene.angles);
         let kind = if twofold { Precession::Twofold } else { Precession::Single };
-        let spin = scene.rates[2];
+        let spin = scene.rates.gamma;
         let Ok(rate) = steady_precession_rate(kind, &body, &coefficients, spin, angles.beta) else { return Ok(0.0) };
-        scene.rates = [rate, 0.0, spin - rate * angles.beta.cos()];
+        scene.rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * angles.beta.cos() };
         let problem = if is_turned { turned(&scene.problem(), frame) } else { scene.problem() };
         let span = (0.0, 50.0);
         let Ok(motion) = UniformMotion::steady(&problem, span) else { return Ok(0.0) };
@@ -169,7 +169,7 @@ fn steady_motion() -> Result<Measured, String> {
         // What turns faster or slower by 1e-6 is not steady, wherever the torque is above rounding.
         let initial = problem.initial();
         let beside = problem.starting_from(BodyState { momentum: initial.momentum * (1.0 + 1e-6), ..*initial })?;
-        let pull = scene.s[2] - scene.s[0];
+        let pull = scene.s.zz - scene.s.xx;
         let (sin, cos) = angles.beta.sin_cos();
         let speed = rate.abs() + initial.momentum.norm() + (2.0 * pull.abs()).sqrt();
         let noticed = 1e-6 * (2.0 * pull * sin * cos).abs() / (speed * speed) > 1e-13;
@@ -253,7 +253,7 @@ fn gradients_both_ways() -> Result<Measured, String> {
     let strategy = (scenes(), prop::array::uniform3(-3.0..3.0f64), any::<bool>());
     worst_over(46, 60, &strategy, |(scene, frame, backwards)| {
         let violation = *turned(&scene.problem(), *frame).coefficients();
-        let start = Parameters::new(scene.spheroid(), violation, scene.angles(), scene.rates());
+        let start = Parameters::new(scene.spheroid, violation, scene.angles, scene.rates);
         let end = if *backwards { -20.0 } else { 20.0 };
         let both = [(None, 1e-11), (Some(Method::Taylor), 1e-15)]
             .map(|(method, tolerance)| derivatives(&start, method, tolerance, &[end, 0.3 * end, 0.0]));

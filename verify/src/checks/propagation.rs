@@ -132,7 +132,7 @@ fn dense_output_solves_equations() -> Result<Measured, String> {
             }
             let q = AxisAngles { alpha: a.re, beta: b.re, alpha_rate: a.v1, beta_rate: b.v1 };
             let spin = q.alpha_rate * q.beta.cos() + gamma.v1;
-            let (alpha, beta) = euler_angle_accelerations(&scene.spheroid(), &scene.coefficients(), spin, &q);
+            let (alpha, beta) = euler_angle_accelerations(&scene.spheroid, &scene.s, spin, &q);
             let size = 1.0 + q.alpha_rate.abs().powi(2) + q.beta_rate.abs() * q.alpha_rate.abs();
             let residual = ((a.v2 - alpha) * sin).abs() + (b.v2 - beta).abs();
             Ok(residual * sin * sin / (size * f64::EPSILON))
@@ -183,7 +183,8 @@ fn scaling_in_time_unit() -> Result<Measured, String> {
         let unit = (inertia / c).sqrt();
         let problem = scene.problem();
         let (plain, estimate) = end_of(&problem, (0.0, 20.0))?;
-        let spheroid = RigidSpheroid { inertia_xx: inertia, inertia_zz: inertia * scene.inertia_ratio, constant_c: c };
+        let spheroid =
+            RigidSpheroid { inertia_xx: inertia, inertia_zz: inertia * scene.spheroid.inertia_zz, constant_c: c };
         let initial = BodyState { momentum: problem.initial().momentum * (inertia / unit), ..*problem.initial() };
         let scaled = Problem::new(spheroid, *problem.coefficients(), initial)?;
         let (scaled, its_estimate) = end_of(&scaled, (0.0, 20.0 * unit))?;
@@ -195,7 +196,7 @@ fn scaling_in_time_unit() -> Result<Measured, String> {
 fn frame_covariance() -> Result<Measured, String> {
     worst_over(5, 200, &scenes(), |scene| {
         let (plain, estimate) = end_of(&scene.problem(), (0.0, 20.0))?;
-        largest_of([body_from_inertial(&scene.angles()), permuted_from_inertial()].map(|q| {
+        largest_of([body_from_inertial(&scene.angles), permuted_from_inertial()].map(|q| {
             let (rotated, its_estimate) = end_of(&scene.problem().rotated(&q), (0.0, 20.0))?;
             Ok(difference(&rotated, &plain.rotated(&q)) / (estimate + its_estimate))
         }))

@@ -73,7 +73,8 @@ fn free_equations() -> Result<Measured, String> {
         let moved = state.vectors().map(|v| v.map(|x| x.eps));
         let rates = rates.vectors().map(|v| v.map(|x| x.re));
         let most = largest(moved.iter().zip(&rates).map(|(moved, rate)| largest_component(&(moved - rate))));
-        let unit = f64::EPSILON * (size * (1.0 + size * t) * (1.0 + 1.0 / scene.inertia_ratio) + f64::MIN_POSITIVE);
+        let unit =
+            f64::EPSILON * (size * (1.0 + size * t) * (1.0 + 1.0 / scene.spheroid.inertia_zz) + f64::MIN_POSITIVE);
         Ok(most / unit)
     })
 }

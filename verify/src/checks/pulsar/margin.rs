@@ -48,7 +48,7 @@ fn high_rates_within_bounds() -> Result<Measured, String> {
 
 /// A beam and a line of sight from the numbers of a scene.
 fn beam_and_observer(scene: &RandomScene) -> (Beam<f64>, Vector3<f64>) {
-    let [chi, theta, azimuth] = scene.angles;
+    let EulerAngles { alpha: chi, beta: theta, gamma: azimuth } = scene.angles;
     (Beam::new(chi, azimuth, 0.7), Observer::at(theta, chi).direction)
 }
 
