@@ -167,10 +167,10 @@ impl AveragedScene {
 }
 
 /// The averaged solution of a problem in the principal frame of `s`.
-///
-/// # Errors
-/// A motion that is refused.
-pub fn averaged_solution<S: Real>(problem: &Problem<S>, order: AveragingOrder) -> Result<AveragedSolution<S>, Error> {
+pub(crate) fn averaged_solution<S: Real>(
+    problem: &Problem<S>,
+    order: AveragingOrder,
+) -> Result<AveragedSolution<S>, Error> {
     let principal = PrincipalCoefficients::new(problem.coefficients().diagonal().into());
     AveragedSolution::new(problem.spheroid(), &principal, problem.initial(), order)
 }

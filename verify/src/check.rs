@@ -239,10 +239,7 @@ impl Figure for Measured {
 }
 
 /// The largest figure over some cases, and in which it was seen.
-///
-/// # Errors
-/// The first case without a figure; no cases.
-pub fn worst_of<C: std::fmt::Debug, F: Figure>(
+pub(crate) fn worst_of<C: std::fmt::Debug, F: Figure>(
     cases: impl IntoIterator<Item = C>,
     mut figure: impl FnMut(&C) -> Result<F, String>,
 ) -> Result<Measured, String> {
@@ -255,10 +252,7 @@ pub fn worst_of<C: std::fmt::Debug, F: Figure>(
 }
 
 /// The smallest figure over some cases, and in which it was seen.
-///
-/// # Errors
-/// As for [`worst_of`].
-pub fn least_of<C: std::fmt::Debug>(
+pub(crate) fn least_of<C: std::fmt::Debug>(
     cases: impl IntoIterator<Item = C>,
     mut figure: impl FnMut(&C) -> Result<f64, String>,
 ) -> Result<Measured, String> {
@@ -272,10 +266,7 @@ pub fn largest(figures: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 /// The largest of some figures, none of them negative.
-///
-/// # Errors
-/// The first that is an error.
-pub fn largest_of<E>(figures: impl IntoIterator<Item = Result<f64, E>>) -> Result<f64, E> {
+pub(crate) fn largest_of<E>(figures: impl IntoIterator<Item = Result<f64, E>>) -> Result<f64, E> {
     Ok(largest(figures.into_iter().collect::<Result<Vec<_>, E>>()?))
 }
 

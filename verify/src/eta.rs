@@ -74,10 +74,7 @@ pub fn eta_curve(asymmetry_ratio: f64, inclinations: &[f64]) -> Result<Vec<EtaPo
 /// inclination `beta`, and the direction of `L` at the mean time. In units of `t_c`.
 ///
 /// The mean has a smooth weight that vanishes with all derivatives at both ends, so that the nutation leaves next to nothing.
-///
-/// # Errors
-/// As for [`Problem::taylor`].
-pub fn numerical_axis_rate(
+pub(crate) fn numerical_axis_rate(
     s: &PrincipalCoefficients<f64>,
     spin: f64,
     (alpha, beta): (f64, f64),

@@ -43,10 +43,10 @@ impl PaperExample {
 }
 
 /// The star of the examples with other coefficients, from given angles and rates, `gamma = 0` and the spin of the examples.
-///
-/// # Errors
-/// As for [`Problem::new`].
-pub fn problem_from(s: &PrincipalCoefficients<f64>, start: &AxisAngles<f64>) -> Result<Problem<f64>, twofold::Error> {
+pub(crate) fn problem_from(
+    s: &PrincipalCoefficients<f64>,
+    start: &AxisAngles<f64>,
+) -> Result<Problem<f64>, twofold::Error> {
     let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
     let gamma_rate = SPIN - start.alpha_rate * start.beta.cos();
     let rates = EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma: gamma_rate };

@@ -13,10 +13,7 @@ pub fn rounds_to(value: f64, text: &str) -> bool {
 }
 
 /// Initial values of the four examples: what each is, as printed (pi/2 as 1.5707963), and by Eq. (34).
-///
-/// # Errors
-/// None for the four examples.
-pub fn caption_values() -> Result<Vec<(String, &'static str, f64)>, Error> {
+pub(crate) fn caption_values() -> Result<Vec<(String, &'static str, f64)>, Error> {
     let captions = [
         ["1.5707963", "0.701", "1.509", "0"],
         ["1.5707963", "1.065", "0.889", "0"],

@@ -5,10 +5,7 @@ use crate::prelude::*;
 pub use twofold_scene::random::Random;
 
 /// The largest figure over `count` cases, each drawn from the random numbers of a seed.
-///
-/// # Errors
-/// The first case without a figure; no cases.
-pub fn worst_of_draws<F: Figure>(
+pub(crate) fn worst_of_draws<F: Figure>(
     seed: u64,
     count: usize,
     mut figure: impl FnMut(&mut Random) -> Result<F, String>,

@@ -7,10 +7,7 @@ use super::{closed_kernels, rational_kernels};
 use crate::prelude::*;
 
 /// Every rational kernel over the prime field: how many values differ from the images of the exact ones.
-///
-/// # Errors
-/// If kernels and file do not have the same names and numbers of components.
-pub fn compare_field(document: &Document) -> Result<Measured, String> {
+pub(crate) fn compare_field(document: &Document) -> Result<Measured, String> {
     let kernels = rational_kernels();
     let values = |i: usize, point: &_| Ok((kernels[i].field)(&document.layout.coded(point)));
     let pairs = pairs(document, &document.exact, kernels.iter().map(|kernel| kernel.name), values)?;
@@ -24,10 +21,7 @@ pub fn compare_field(document: &Document) -> Result<Measured, String> {
 }
 
 /// Every rational kernel in doubles: the largest error in units of 2.2e-16 times the sum of the magnitudes of the terms.
-///
-/// # Errors
-/// As for [`compare_field`].
-pub fn compare_doubles(document: &Document) -> Result<Measured, String> {
+pub(crate) fn compare_doubles(document: &Document) -> Result<Measured, String> {
     let kernels = rational_kernels();
     let values = |i: usize, point: &_| {
         let (values, scales) = ((kernels[i].doubles)(&document.layout.coded(point)), &document.layout.coded(point));
@@ -40,10 +34,7 @@ pub fn compare_doubles(document: &Document) -> Result<Measured, String> {
 }
 
 /// Every other kernel in doubles: the largest error in units of 2.2e-16 times the scale of the file.
-///
-/// # Errors
-/// As for [`compare_field`]; a kernel that refuses a point.
-pub fn compare_closed(document: &Document) -> Result<Measured, String> {
+pub(crate) fn compare_closed(document: &Document) -> Result<Measured, String> {
     let kernels = closed_kernels();
     let values = |i: usize, point: &_| (kernels[i].values)(&document.layout.coded(point));
     worst_of(

@@ -13,7 +13,7 @@ mod document;
 mod kernels;
 mod point;
 
-pub use compare::{compare_closed, compare_doubles, compare_field};
+pub(crate) use compare::{compare_closed, compare_doubles, compare_field};
 pub use document::{Document, Layout};
 pub use point::{Coded, RationalPoint};
 

@@ -3,10 +3,7 @@
 use twofold::dynamics::point_masses::preferred_frame_potential_of_masses;
 use twofold::lorentz_violation::preferred_frame_parameter;
 
-use super::parts::{angles, body, entries, joined, none, principal, rates, symmetric, vector};
-use crate::prelude::*;
-use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
-use crate::stability::{Case, functions, list};
+use super::parts::*;
 
 fn inertia<S: Real>(x: &[S]) -> PrincipalInertia<S> {
     PrincipalInertia { xx: x[0], yy: x[1], zz: x[2] }
@@ -14,10 +11,6 @@ fn inertia<S: Real>(x: &[S]) -> PrincipalInertia<S> {
 
 fn axis_angles<S: Real>(x: &[S]) -> AxisAngles<S> {
     AxisAngles { beta: x[0], alpha: x[1], alpha_rate: x[2], beta_rate: x[3] }
-}
-
-fn state<S: Real>(x: &[S]) -> BodyState<S> {
-    BodyState { axis: vector(x), momentum: vector(&x[3..]), equatorial_axis: vector(&x[6..]) }
 }
 
 functions! {
@@ -106,7 +99,7 @@ functions! {
     }
     StateRates: "body_state_rates".composite(), (x) {
         let rates = body_state_rates(&body(&x[15..]), &symmetric(x), &state(&x[6..]));
-        joined(&[rates.axis, rates.momentum, rates.equatorial_axis])
+        of_state(&rates)
     }
     Integrals: "first_integrals".composite(), (x) {
         let all = first_integrals(&body(&x[15..]), &symmetric(x), &state(&x[6..]));
@@ -164,10 +157,6 @@ functions! {
     }
 }
 
-const TURN: Input = In(-3.1, 3.1);
-const RATE: Input = Signed(-3.0, 1.0);
-const COMPONENT: Input = In(-1.0, 1.0);
-const INERTIA: Input = In(0.5, 2.0);
 const SMALL: Input = Signed(-9.0, -0.5);
 
 /// A tensor of the given input and the state and body after it.

@@ -16,11 +16,7 @@ use twofold::observables::wave_harmonics::WaveHarmonics;
 use twofold::units::geometrised::{KILOGRAM, METRE};
 use twofold::units::time_unit;
 
-use super::parts::{angles, body, joined, none, symmetric, vector};
-use crate::prelude::*;
-use crate::stability::Input::{self, Above, Fixed, In, Log, Near, Signed};
-use crate::stability::oracle::pi;
-use crate::stability::{Case, functions, list};
+use super::parts::*;
 
 fn width<S: Real>(width: PulseWidth<S>) -> Vec<S> {
     match width {
@@ -29,18 +25,10 @@ fn width<S: Real>(width: PulseWidth<S>) -> Vec<S> {
     }
 }
 
-fn state<S: Real>(x: &[S]) -> BodyState<S> {
-    BodyState { axis: vector(x), momentum: vector(&x[3..]), equatorial_axis: vector(&x[6..]) }
-}
-
 /// Colatitude and azimuth.
 fn on_sphere<S: Real>(x: &[S]) -> Vector3<S> {
     let ((st, ct), (sp, cp)) = (x[0].sin_cos(), x[1].sin_cos());
     Vector3::new(st * cp, st * sp, ct)
-}
-
-fn result<S: Real>(value: Result<S, twofold::Error>) -> Vec<S> {
-    value.map_or(none(1), |value| vec![value])
 }
 
 /// Mean of the squared speed, with constants to 31 digits.
@@ -308,9 +296,6 @@ fn fraction(x: &[f64]) -> Vec<f64> {
     epoch(x).map_or(none(1), |start| start.after([x[0], 0.0]).map_or(none(1), |end| vec![end.fraction()]))
 }
 
-const TURN: Input = In(-3.1, 3.1);
-const COMPONENT: Input = In(-1.0, 1.0);
-const INERTIA: Input = In(0.5, 2.0);
 const POLAR: Input = In(0.3, 2.8);
 const TINY: Input = Signed(-15.0, -0.5);
 const SMALL: Input = Signed(-6.0, -1.0);

@@ -4,11 +4,7 @@ use twofold::star::axisymmetric::axisymmetric_integrals;
 use twofold::star::ellipsoid::UniformEllipsoid;
 use twofold::star::potential_coefficients::reduced_difference;
 
-use super::parts::none;
-use crate::prelude::*;
-use crate::stability::Input::{Above, Below, Fixed, In, Log, Near, Signed};
-use crate::stability::oracle::{self, pi, ratio};
-use crate::stability::{Case, functions};
+use super::parts::*;
 
 /// Semi-axis ratio, its square and the squared eccentricity, to 31 digits.
 fn by_e<S: Real>(e: S) -> [S; 3] {

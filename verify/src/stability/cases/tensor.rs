@@ -2,10 +2,7 @@
 
 use twofold::lorentz_violation::{SymmetryOfTensor, principal_frame_along, principal_frame_with_derivatives};
 
-use super::parts::{none, symmetric};
-use crate::prelude::*;
-use crate::stability::Input::{Fixed, In, Near, Signed};
-use crate::stability::{Case, Wide, functions, list};
+use super::parts::*;
 
 /// Eigenvalues in descending order by Jacobi's rotations.
 fn eigenvalues<S: Real>(tensor: &Matrix3<S>) -> [S; 3] {

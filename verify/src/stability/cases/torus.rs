@@ -2,10 +2,7 @@
 
 use twofold::solutions::torus::{separatrix_motion, torus_frequencies};
 
-use super::parts::{angles, body, none, rates};
-use crate::prelude::*;
-use crate::stability::Input::{self, Fixed, In, Signed};
-use crate::stability::{Case, Function, Wide, functions};
+use super::parts::*;
 
 fn wide(x: f64) -> Wide {
     <Wide as twofold::Scalar>::from_f64(x)
