@@ -30,16 +30,3 @@ pub(crate) fn caption_values() -> Result<Vec<(String, &'static str, f64)>, Error
     }
     Ok(values)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::rounds_to;
-
-    #[test]
-    fn a_printed_number_is_met_by_what_rounds_to_it() {
-        for (ours, printed) in [(0.70099, "0.701"), (-0.0084, "-0.008"), (2.07e-3, "2.1e-3")] {
-            assert!(rounds_to(ours, printed), "{ours} for {printed}");
-        }
-        assert!(!rounds_to(0.70151, "0.701") && !rounds_to(2.16e-3, "2.1e-3"));
-    }
-}

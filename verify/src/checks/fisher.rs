@@ -2,6 +2,7 @@
 
 use std::f64::consts::SQRT_2;
 
+use crate::derivation::first_order::fixed_constants;
 use crate::prelude::*;
 use twofold::inference::Jacobian;
 use twofold_scene::measurements::parameters_of;
@@ -47,12 +48,8 @@ fn rates_along_null_direction<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         yy: F::fixed(p.s.yy),
         zz: F::first(p.s.zz, combination_rate / 2.0),
     };
-    let constants = Constants {
-        alpha_0: F::fixed(p.angles.alpha),
-        beta_0: F::fixed(beta_0),
-        amplitude: F::fixed(F::zero()),
-        phase: F::fixed(F::zero()),
-    };
+    let constants = Constants { alpha_0: p.angles.alpha, beta_0, amplitude: F::zero(), phase: F::zero() };
+    let constants = fixed_constants(&constants);
     let moved =
         Perturbation::new_unchecked(Form::Printed, Precession::Twofold, &spheroid, &s, F::fixed(spin), &constants);
     let gamma_rate = F::fixed(spin) - moved.rate * F::fixed(cos);

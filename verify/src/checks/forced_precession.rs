@@ -19,18 +19,14 @@ checks! {
 
 fn steady_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let symmetric = PrincipalCoefficients { yy: p.s.xx, ..p.s };
-    KINDS
-        .into_iter()
-        .flat_map(|kind| {
-            let constants = Constants { amplitude: F::zero(), ..constants(p) };
-            let printed =
-                Perturbation::new_unchecked(Form::Printed, kind, &p.spheroid, &symmetric, p.rates.gamma, &constants);
-            let first = first_order_motion(&printed, printed.homogeneous_frequency);
-            let unperturbed = unperturbed_motion(kind, p);
-            let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &symmetric, &unperturbed, &first);
-            [of_alpha, of_beta, first.beta, first.beta_rate, first.alpha_acceleration, first.beta_acceleration]
-        })
-        .collect()
+    let constants = Constants { amplitude: F::zero(), ..constants(p) };
+    components![KINDS.map(|kind| {
+        let printed =
+            Perturbation::new_unchecked(Form::Printed, kind, &p.spheroid, &symmetric, p.rates.gamma, &constants);
+        let first = first_order_motion(&printed, printed.homogeneous_frequency);
+        let equations = first_order_equations(&p.spheroid, &symmetric, &unperturbed_motion(kind, p), &first);
+        [equations, [first.beta, first.beta_rate], [first.alpha_acceleration, first.beta_acceleration]]
+    })]
 }
 
 /// Bodies, coefficients symmetric about Z and spins large enough for both roots of Eq. (26) to be real:
