@@ -143,6 +143,18 @@ impl<F: Differentiable, T: Components<F>, const N: usize> Components<F> for [T; 
     }
 }
 
+impl<F: Differentiable> Components<F> for Vec<F> {
+    fn append(&self, list: &mut Vec<F>) {
+        list.extend(self);
+    }
+}
+
+impl<F: Differentiable> Components<F> for (F, F) {
+    fn append(&self, list: &mut Vec<F>) {
+        list.extend([self.0, self.1]);
+    }
+}
+
 /// The components of all parts, one after the other.
 macro_rules! components {
     ($($part:expr),+ $(,)?) => {{

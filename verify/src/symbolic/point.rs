@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 /// A type of numbers that rational numbers and rational points of the circle can be written in.
-pub trait Coded: Scalar {
+pub trait Coded: Differentiable {
     /// The number `numerator / denominator`, both small integers.
     fn number(numerator: i32, denominator: i32) -> Self;
 
