@@ -78,11 +78,10 @@ fn fluid_inertia() -> Result<Measured, String> {
 fn uncertainties() -> Result<Measured, String> {
     const DRAWS: usize = 20_000;
     let mut random = Random::with_seed(42);
-    let mut worst = Worst::default();
-    for pulsar in pulsar_table::paper() {
+    worst_of(pulsar_table::paper(), |pulsar| {
         let figures = pulsar.figures()?;
         // The measured error of the change is as large as the change: its effect is in `pulsar-limits-monte-carlo`.
-        let pulsar = Pulsar { width_change: Quantity::exact(pulsar.width_change.value), ..pulsar };
+        let pulsar = Pulsar { width_change: Quantity::exact(pulsar.width_change.value), ..pulsar.clone() };
         let (mut sums, mut squares) = (vec![0.0; figures.len()], vec![0.0; figures.len()]);
         for _ in 0..DRAWS {
             let drawn = pulsar.random_figures(&mut random)?;
@@ -92,18 +91,13 @@ fn uncertainties() -> Result<Measured, String> {
                 squares[i] += deviation * deviation;
             }
         }
-        for (i, figure) in figures.iter().enumerate() {
-            let mean = sums[i] / DRAWS as f64;
-            let drawn = (squares[i] / DRAWS as f64 - mean * mean).sqrt() * figure.value.abs();
-            if figure.from_inputs == 0.0 && drawn < 1e-12 * figure.value.abs() {
-                continue;
-            }
-            worst.see((figure.from_inputs / drawn - 1.0).abs(), || {
-                format!("{}, {}: {:.3e}, drawn {drawn:.3e}", pulsar.name, figure.label, figure.from_inputs)
-            });
-        }
-    }
-    worst.finish()
+        worst_of(figures.iter().zip(sums).zip(squares), |((figure, sum), square)| {
+            let mean = sum / DRAWS as f64;
+            let drawn = (square / DRAWS as f64 - mean * mean).sqrt() * figure.value.abs();
+            let exact = figure.from_inputs == 0.0 && drawn < 1e-12 * figure.value.abs();
+            Ok(if exact { 0.0 } else { (figure.from_inputs / drawn - 1.0).abs() })
+        })
+    })
 }
 
 fn limits_by_draws() -> Result<Measured, String> {

@@ -52,8 +52,8 @@ fn compare(found: &LineList, known: &[SpectralLine], rounding: f64) -> [f64; 3] 
 }
 
 fn synthetic_sums() -> Result<Measured, String> {
-    let (mut random, mut worst, mut others) = (Random::with_seed(1990), Worst::default(), 0.0_f64);
-    for case in 0..8 {
+    let mut others = 0.0_f64;
+    let measured = worst_of_draws(1990, 8, |random| {
         let mut lines: Vec<SpectralLine> = Vec::new();
         while lines.len() < 24 {
             let frequency = random.within(0.02, 4.5);
@@ -63,19 +63,15 @@ fn synthetic_sums() -> Result<Measured, String> {
             }
         }
         let constant = random.within(-1.0, 1.0);
-        let series = sum_of(&lines, constant, -700.0, 4000.0 / 8192.0, 8192);
-        let list = spectral_lines(&series, 3e-7, 100)?;
+        let list = spectral_lines(&sum_of(&lines, constant, -700.0, 4000.0 / 8192.0, 8192), 3e-7, 100)?;
         let [frequency, amplitude, phase] = compare(&list, &lines, 1e-10);
         others = largest([others, amplitude, phase, (list.constant - constant).abs() / 1e-10]);
-        worst.see(frequency, || format!("sum {case} of seed 1990, {} lines found", list.lines.len()));
-    }
+        Ok(frequency)
+    })?;
     // Amplitudes, phases times amplitudes and constants: to 1e-10 of the strongest line.
-    let measured = worst.finish()?;
     let figure = if others <= 1.0 { measured.figure } else { f64::INFINITY };
-    Ok(Measured::new(
-        figure,
-        format!("{}; amplitudes, phases, constants within {:.1e}", measured.detail, others * 1e-10),
-    ))
+    let detail = format!("{}; amplitudes, phases, constants within {:.1e}", measured.detail, others * 1e-10);
+    Ok(Measured::new(figure, detail))
 }
 
 fn close_lines() -> Result<Measured, String> {
