@@ -1,16 +1,6 @@
 //! Random fast rotations against a weak torque, over the whole domain of the averaged motion, and the error of that motion beside its estimate.
 
-use core::f64::consts::TAU;
-
-use nalgebra::Vector3;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::Motion;
-use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
-use twofold::{Error, Real};
-
-use crate::check::largest_difference;
-use crate::random::Random;
+use crate::prelude::*;
 
 /// A problem in the principal frame of `s`, which is traceless, and how long its motion is followed from the time zero.
 #[derive(Debug, Clone, Copy)]

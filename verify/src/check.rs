@@ -220,26 +220,39 @@ impl Worst {
     }
 }
 
+/// What a case shows: a figure, or the worst figure of cases within it.
+pub trait Figure {
+    /// The figure and its line of detail.
+    fn measured(self) -> Measured;
+}
+
+impl Figure for f64 {
+    fn measured(self) -> Measured {
+        Measured::new(self, "")
+    }
+}
+
+impl Figure for Measured {
+    fn measured(self) -> Measured {
+        self
+    }
+}
+
 /// The largest figure over some cases, and in which it was seen.
-///
-/// # Errors
-/// The first case without a figure; no cases.
-pub fn worst_of<C: std::fmt::Debug>(
+pub(crate) fn worst_of<C: std::fmt::Debug, F: Figure>(
     cases: impl IntoIterator<Item = C>,
-    mut figure: impl FnMut(&C) -> Result<f64, String>,
+    mut figure: impl FnMut(&C) -> Result<F, String>,
 ) -> Result<Measured, String> {
     let mut worst = Worst::default();
     for case in cases {
-        worst.see(figure(&case)?, || format!("{case:?}"));
+        let Measured { figure, detail } = figure(&case)?.measured();
+        worst.see(figure, || format!("{case:?} {detail}"));
     }
     worst.finish()
 }
 
 /// The smallest figure over some cases, and in which it was seen.
-///
-/// # Errors
-/// As for [`worst_of`].
-pub fn least_of<C: std::fmt::Debug>(
+pub(crate) fn least_of<C: std::fmt::Debug>(
     cases: impl IntoIterator<Item = C>,
     mut figure: impl FnMut(&C) -> Result<f64, String>,
 ) -> Result<Measured, String> {
@@ -250,6 +263,11 @@ pub fn least_of<C: std::fmt::Debug>(
 /// The largest of some figures, none of them negative; NaN if one is NaN, which `f64::max` would drop.
 pub fn largest(figures: impl IntoIterator<Item = f64>) -> f64 {
     figures.into_iter().fold(0.0, |most: f64, x| if x.is_nan() || most.is_nan() { f64::NAN } else { most.max(x) })
+}
+
+/// The largest of some figures, none of them negative.
+pub(crate) fn largest_of<E>(figures: impl IntoIterator<Item = Result<f64, E>>) -> Result<f64, E> {
+    Ok(largest(figures.into_iter().collect::<Result<Vec<_>, E>>()?))
 }
 
 /// The smallest of some figures; NaN if one is NaN, which `f64::min` would drop, and infinite without one.

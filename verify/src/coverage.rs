@@ -1,10 +1,8 @@
 //! Whether error bars hold: fits of many simulated measurements against what was put in.
 
-use nalgebra::DVector;
 use rayon::prelude::*;
 
-use twofold::inference::InferenceError;
-
+use crate::prelude::*;
 use crate::simulation::Simulation;
 
 /// One fit against the truth.

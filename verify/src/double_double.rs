@@ -6,11 +6,8 @@
 use core::fmt;
 use core::str::FromStr;
 
-use num_traits::Zero;
-use twofold::numerics::scalar::{Real, Scalar};
+use crate::prelude::*;
 use xprec::Df64;
-
-use crate::field_operators::field_operators;
 
 /// An unevaluated sum of two doubles, the second below half an ulp of the first.
 #[derive(Clone, Copy, PartialEq)]

@@ -3,9 +3,7 @@
 //! The dual numbers of `num_dual` are built on floating-point primitives. These carry a prime field, and, nested,
 //! derivatives of any order.
 
-use twofold::{Real, Scalar};
-
-use crate::field_operators::field_operators;
+use crate::prelude::*;
 
 /// `re + eps epsilon` with `epsilon^2 = 0`: a value and its derivative. Equality is that of both parts.
 ///

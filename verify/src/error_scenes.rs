@@ -1,22 +1,8 @@
 //! Random scenes over the whole space of motions, and how the estimated error of each compares with its true one.
 
-use std::f64::consts::{PI, TAU};
-
-use nalgebra::{Matrix3, Rotation3, Vector3};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::numerics::scalar::{Real, Scalar};
-use twofold::plan::Method;
-use twofold::propagation::Motion;
-use twofold::solutions::perturbation::Precession;
-use twofold::solutions::steady::steady_precession_rate;
-
 use crate::averaged_scenes::direction;
-use crate::check::{largest, largest_component};
-use crate::double_double::DoubleDouble;
 use crate::independent_taylor::state_after;
-use crate::random::Random;
+use crate::prelude::*;
 
 /// A motion and a time at which its error is asked for.
 #[derive(Debug, Clone, Copy)]

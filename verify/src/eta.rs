@@ -1,18 +1,6 @@
 //! The curve of `eta` against the inclination, and the same from numerical motion.
 
-use std::f64::consts::TAU;
-
-use nalgebra::{Matrix3, Vector3};
-use twofold::Error;
-use twofold::dynamics::{AxisState, Problem, RigidSpheroid};
-use twofold::euler_angles::symmetry_axis;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::bound::eta_from_inclination;
-use twofold::observables::eta::secular_axis_rate;
-use twofold::observables::eta_distribution::{EtaDistribution, SpinAxis, root_mean_square_along_motion};
-use twofold::propagation::Motion;
-
-use crate::random::Random;
+use crate::prelude::*;
 
 /// Asymmetry ratio `(s^XX - s^YY) / (2 s^ZZ - s^XX - s^YY)` of the paper's examples, -1/11.
 pub const PAPER_ASYMMETRY: f64 = -1.0 / 11.0;
@@ -89,10 +77,7 @@ pub fn eta_curve(asymmetry_ratio: f64, inclinations: &[f64]) -> Result<Vec<EtaPo
 /// inclination `beta`, and the direction of `L` at the mean time. In units of `t_c`.
 ///
 /// The mean has a smooth weight that vanishes with all derivatives at both ends, so that the nutation leaves next to nothing.
-///
-/// # Errors
-/// As for [`Problem::taylor`].
-pub fn numerical_axis_rate(
+pub(crate) fn numerical_axis_rate(
     s: &PrincipalCoefficients<f64>,
     spin: f64,
     (alpha, beta): (f64, f64),

@@ -1,9 +1,7 @@
 //! A motion by its states alone, as a user of the library would write one.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::Error;
-use twofold::dynamics::{BodyState, RigidSpheroid};
-use twofold::propagation::{Motion, Turning};
+use crate::prelude::*;
+use twofold::propagation::Turning;
 
 /// `Omega`, `Omega'` and `Omega''` at a time, and bounds on `|Omega|` and its first five derivatives.
 pub type Law = (fn(f64) -> [Vector3<f64>; 3], [f64; 6]);

@@ -1,12 +1,7 @@
 //! An identity between the kernels and their derivation, tested without rounding and with it.
 
-use num_traits::Zero;
-
-use crate::check::{Bound, Check, Kind, Measured, Worst};
-use crate::derivation::Differentiable;
-use crate::magnitudes::Conditioned;
-use crate::prime_field::Fp;
-use crate::random::{Drawn, Point, Random};
+use crate::prelude::*;
+use crate::random::Drawn;
 
 /// Field points per exact check.
 const FIELD_POINTS: usize = 24;

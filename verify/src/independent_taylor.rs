@@ -1,7 +1,6 @@
 //! A Taylor integrator of its own for true errors: no code of the model, any number type, no dense output.
 
-use twofold::dynamics::{BodyState, Problem};
-use twofold::numerics::scalar::Real;
+use crate::prelude::*;
 
 type Vector<S> = [S; 3];
 

@@ -20,6 +20,7 @@ pub mod magnitudes;
 pub mod measured_order;
 pub mod paper_examples;
 pub mod physical_domain;
+mod prelude;
 pub mod prime_field;
 pub mod printed;
 pub mod pulse_series;

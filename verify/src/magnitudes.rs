@@ -1,8 +1,6 @@
 //! Numbers that carry the sum of the magnitudes of the terms they were computed from.
 
-use twofold::Scalar;
-
-use crate::field_operators::field_operators;
+use crate::prelude::*;
 
 /// A number with the sum of the magnitudes of all terms in it, cancelled ones included.
 ///

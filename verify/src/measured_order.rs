@@ -1,14 +1,10 @@
 //! The order of an error in a small parameter, as the figure of a check.
 
+use crate::prelude::*;
 use twofold::numerics::straight_line::order;
 
-use crate::check::{Measured, Worst};
-
 /// An error at some values of a parameter: the points for [`measured_order`].
-///
-/// # Errors
-/// A value without an error.
-pub fn errors_at(
+pub(crate) fn errors_at(
     parameters: impl IntoIterator<Item = f64>,
     mut error: impl FnMut(f64) -> Result<f64, String>,
 ) -> Result<Vec<(f64, f64)>, String> {
@@ -16,29 +12,23 @@ pub fn errors_at(
 }
 
 /// [`measured_order`] of the errors at some values of the parameter, none of them rounding.
-///
-/// # Errors
-/// A value without an error; too few of them.
-pub fn order_of_error(parameters: &[f64], error: impl Fn(f64) -> Result<f64, String>) -> Result<Measured, String> {
+pub(crate) fn order_of_error(
+    parameters: &[f64],
+    error: impl Fn(f64) -> Result<f64, String>,
+) -> Result<Measured, String> {
     measured_order(&errors_at(parameters.iter().copied(), error)?, 0.0)
 }
 
 /// Slope of a least-squares line through the logarithms of `points`, errors below `floor` left out, with its uncertainty and the points
 /// behind it.
-///
-/// # Errors
-/// If too few points are left.
-pub fn measured_order(points: &[(f64, f64)], floor: f64) -> Result<Measured, String> {
+pub(crate) fn measured_order(points: &[(f64, f64)], floor: f64) -> Result<Measured, String> {
     let slope = order(points, floor)?;
     let listed: Vec<_> = points.iter().map(|(x, y)| format!("{x:.1e}: {y:.2e}")).collect();
     Ok(Measured::new(slope.value, format!("+- {:.4}; {}", slope.error, listed.join(", "))))
 }
 
 /// The largest distance of a measured order from the expected one: of several errors, each with a name, what is expected, and its points.
-///
-/// # Errors
-/// An error whose order cannot be measured.
-pub fn largest_off_order<N: std::fmt::Display>(
+pub(crate) fn largest_off_order<N: std::fmt::Display>(
     errors: impl IntoIterator<Item = (N, f64, Vec<(f64, f64)>)>,
 ) -> Result<Measured, String> {
     let mut worst = Worst::default();

@@ -1,12 +1,6 @@
 //! The paper's four examples, tp-I, tp-II, sp-I and sp-II.
 
-use std::f64::consts::FRAC_PI_2;
-
-use twofold::dynamics::euler_angle_equations::AxisAngles;
-use twofold::dynamics::{Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
+use crate::prelude::*;
 
 /// `Omega^z` of all four examples [1/t_c].
 pub const SPIN: f64 = 1.0;
@@ -49,10 +43,10 @@ impl PaperExample {
 }
 
 /// The star of the examples with other coefficients, from given angles and rates, `gamma = 0` and the spin of the examples.
-///
-/// # Errors
-/// As for [`Problem::new`].
-pub fn problem_from(s: &PrincipalCoefficients<f64>, start: &AxisAngles<f64>) -> Result<Problem<f64>, twofold::Error> {
+pub(crate) fn problem_from(
+    s: &PrincipalCoefficients<f64>,
+    start: &AxisAngles<f64>,
+) -> Result<Problem<f64>, twofold::Error> {
     let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
     let gamma_rate = SPIN - start.alpha_rate * start.beta.cos();
     let rates = EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma: gamma_rate };

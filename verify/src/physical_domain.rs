@@ -1,64 +1,35 @@
 //! Random physical scenes: proptest strategies over the domain of the equations, run with a fixed seed by the checks.
 
-use std::f64::consts::PI;
-
+use crate::prelude::*;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-
-use crate::check::{Measured, Worst};
 
 /// A random scene in units `I^xx = C = 1`.
 #[derive(Debug, Clone, Copy)]
 pub struct RandomScene {
-    /// `I^zz / I^xx`.
-    pub inertia_ratio: f64,
+    /// The body.
+    pub spheroid: RigidSpheroid<f64>,
     /// Eigenvalues of `s^IJ`.
-    pub s: [f64; 3],
+    pub s: PrincipalCoefficients<f64>,
     /// Euler angles at the start.
-    pub angles: [f64; 3],
+    pub angles: EulerAngles<f64>,
     /// Euler rates at the start.
-    pub rates: [f64; 3],
+    pub rates: EulerRates<f64>,
 }
 
 impl RandomScene {
-    /// The body.
-    pub fn spheroid(&self) -> RigidSpheroid<f64> {
-        RigidSpheroid::in_units_of_tc(self.inertia_ratio)
-    }
-
-    /// Coefficients for Lorentz violation.
-    pub fn coefficients(&self) -> PrincipalCoefficients<f64> {
-        PrincipalCoefficients::new(self.s)
-    }
-
-    /// Euler angles at the start.
-    pub fn angles(&self) -> EulerAngles<f64> {
-        let [alpha, beta, gamma] = self.angles;
-        EulerAngles { alpha, beta, gamma }
-    }
-
-    /// Euler rates at the start.
-    pub fn rates(&self) -> EulerRates<f64> {
-        let [alpha, beta, gamma] = self.rates;
-        EulerRates { alpha, beta, gamma }
-    }
-
     /// The problem that starts so.
     ///
     /// # Panics
     /// None: the scenes are physical.
     pub fn problem(&self) -> Problem<f64> {
-        let problem = Problem::new(self.spheroid(), self.coefficients().tensor(), self.state());
-        problem.expect("the scenes are physical")
+        Problem::new(self.spheroid, self.s.tensor(), self.state()).expect("the scenes are physical")
     }
 
     /// State at the start.
     pub fn state(&self) -> BodyState<f64> {
-        BodyState::from_angles(&self.spheroid(), &self.angles(), &self.rates())
+        BodyState::from_angles(&self.spheroid, &self.angles, &self.rates)
     }
 }
 
@@ -76,10 +47,10 @@ pub fn scenes() -> impl Strategy<Value = RandomScene> {
         prop::array::uniform3(-2.0..2.0f64),
     )
         .prop_map(|(inertia_ratio, s, (alpha, beta, gamma), rates)| RandomScene {
-            inertia_ratio,
-            s,
-            angles: [alpha, beta, gamma],
-            rates,
+            spheroid: RigidSpheroid::in_units_of_tc(inertia_ratio),
+            s: PrincipalCoefficients::new(s),
+            angles: EulerAngles { alpha, beta, gamma },
+            rates: EulerRates { alpha: rates[0], beta: rates[1], gamma: rates[2] },
         })
 }
 
@@ -94,16 +65,13 @@ pub fn drawn<T: Strategy>(seed: u8, cases: usize, strategy: &T) -> Result<Vec<T:
 }
 
 /// The largest figure of `measure` over `cases` values of `strategy`, drawn with the given seed.
-pub fn worst_over<T: Strategy>(
+pub fn worst_over<T: Strategy, F: Figure>(
     seed: u8,
     cases: usize,
     strategy: &T,
-    mut measure: impl FnMut(&T::Value) -> Result<f64, String>,
+    mut measure: impl FnMut(&T::Value) -> Result<F, String>,
 ) -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (case, value) in drawn(seed, cases, strategy)?.iter().enumerate() {
-        let figure = measure(value).map_err(|e| format!("case {case} of seed {seed}, {value:?}: {e}"))?;
-        worst.see(figure, || format!("case {case} of seed {seed}, {value:?}"));
-    }
-    worst.finish()
+    worst_of(drawn(seed, cases, strategy)?.iter().enumerate(), |(case, value)| {
+        measure(value).map_err(|error| format!("case {case} of seed {seed}, {value:?}: {error}"))
+    })
 }

@@ -5,10 +5,8 @@
 
 use core::fmt;
 
-use num_traits::{One, Zero};
-use twofold::Scalar;
-
-use crate::field_operators::field_operators;
+use crate::prelude::*;
+use num_traits::One;
 
 /// The prime `2^61 - 1`. It is 3 modulo 4, so -1 is not a square.
 pub const PRIME: u64 = (1 << 61) - 1;

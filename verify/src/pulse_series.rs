@@ -1,15 +1,7 @@
 //! The paper's series of pulse periods and lengths, and its curves beside them. Eqs. (44), (47), (51), (52), (56).
 
-use std::f64::consts::TAU;
-
-use nalgebra::Vector3;
-use twofold::Error;
-use twofold::dynamics::BodyState;
-use twofold::observables::pulsar::direction::cosine_of_colatitude;
-use twofold::observables::pulsar::period::{azimuth_offset_rate, instantaneous_period};
-use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
-use twofold::observables::pulsar::{Beam, Pulse, Stamped, arrivals, pulse_train};
-use twofold::propagation::Motion;
+use crate::prelude::*;
+use twofold::observables::pulsar::Pulse;
 
 /// Series of the whole pulses of a motion.
 #[derive(Debug, Clone)]

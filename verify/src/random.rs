@@ -1,31 +1,17 @@
 //! Seeded random points: of the physical domain, or of the prime field.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::Scalar;
-use twofold::dynamics::{PrincipalInertia, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
+use crate::prelude::*;
 
 pub use twofold_scene::random::Random;
 
-use crate::check::{Measured, Worst};
-use crate::magnitudes::Conditioned;
-use crate::prime_field::Fp;
-
 /// The largest figure over `count` cases, each drawn from the random numbers of a seed.
-///
-/// # Errors
-/// The first case without a figure; no cases.
-pub fn worst_of_draws(
+pub(crate) fn worst_of_draws<F: Figure>(
     seed: u64,
     count: usize,
-    mut figure: impl FnMut(&mut Random) -> Result<f64, String>,
+    mut figure: impl FnMut(&mut Random) -> Result<F, String>,
 ) -> Result<Measured, String> {
-    let (mut random, mut worst) = (Random::with_seed(seed), Worst::default());
-    for case in 0..count {
-        worst.see(figure(&mut random)?, || format!("case {case} of seed {seed}"));
-    }
-    worst.finish()
+    let mut random = Random::with_seed(seed);
+    worst_of((0..count).map(|case| (case, seed)), |_| figure(&mut random))
 }
 
 /// A number that can be drawn from a range; a field without order takes any element.

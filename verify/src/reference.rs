@@ -1,13 +1,9 @@
 //! The reference motions: initial values and 34-digit states of ten scenes, and the pulses of two, carried as test data.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::parameters::{Parameter, Parameters};
+use crate::prelude::*;
 
 /// One reference motion.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct ReferenceMotion {
     /// Name of the scene.
     pub name: String,
@@ -24,6 +20,21 @@ pub struct ReferenceMotion {
     /// Times and states, the first at `t = 0`.
     pub states: Vec<(f64, BodyState<f64>)>,
 }
+
+/// A type whose values are known by their names.
+macro_rules! named {
+    ($type:ty) => {
+        impl std::fmt::Debug for $type {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(&self.name)
+            }
+        }
+    };
+}
+pub(crate) use named;
+
+named!(ReferenceMotion);
+named!(ReferenceGradient);
 
 impl ReferenceMotion {
     /// `s^IJ` in the principal frame.
@@ -113,7 +124,7 @@ pub fn reference_pulses(scene: &str) -> Vec<ReferencePulse> {
 }
 
 /// Derivatives of a motion by the parameters of its scene.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct ReferenceGradient {
     /// Name of the scene.
     pub name: String,

@@ -2,11 +2,10 @@
 
 use std::fmt::Write as _;
 
+use crate::prelude::*;
 use comfy_table::presets::{NOTHING, UTF8_HORIZONTAL_ONLY};
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, Width};
 use serde_json::{Value, json};
-
-use crate::check::{Bound, Check, Kind, Outcome};
 
 /// A check and its outcome.
 pub type Result = (Check, Outcome);

@@ -1,13 +1,8 @@
 //! A second opinion on numerical motion: Verner's Runge-Kutta 9(8) of the crate `numeris`.
 
-use nalgebra::Vector3;
+use crate::prelude::*;
 use numeris::Vector;
 use numeris::ode::{AdaptiveSettings, RKAdaptive, RKV98, RKV98NoInterp};
-use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates};
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations};
-use twofold::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
 
 fn settings(tolerance: f64) -> AdaptiveSettings<f64> {
     AdaptiveSettings { abs_tol: tolerance, rel_tol: tolerance, max_steps: 10_000_000, ..AdaptiveSettings::default() }
@@ -19,10 +14,7 @@ fn pack<const N: usize, X: RotationState<f64>>(state: &X) -> Vector<f64, N> {
 }
 
 /// State after `duration` by the regular equations.
-///
-/// # Errors
-/// What the integrator reports.
-pub fn regular_motion(problem: &Problem<f64>, duration: f64, tolerance: f64) -> Result<BodyState<f64>, String> {
+pub(crate) fn regular_motion(problem: &Problem<f64>, duration: f64, tolerance: f64) -> Result<BodyState<f64>, String> {
     let unpack = |y: &Vector<f64, 9>| {
         let vector = |k: usize| Vector3::new(y[3 * k], y[3 * k + 1], y[3 * k + 2]);
         BodyState { axis: vector(0), momentum: vector(1), equatorial_axis: vector(2) }
@@ -61,10 +53,7 @@ pub fn axis_states(
 }
 
 /// Euler angles after `duration` by Eq. (25) `[eleq]` and `gamma' = Omega^z - alpha' cos beta`; they count their turns.
-///
-/// # Errors
-/// What the integrator reports; near a pole the equations are singular.
-pub fn motion_in_angles(
+pub(crate) fn motion_in_angles(
     spheroid: &RigidSpheroid<f64>,
     s: &PrincipalCoefficients<f64>,
     (angles, rates): (&EulerAngles<f64>, &EulerRates<f64>),

@@ -1,13 +1,10 @@
 //! Simulated measurements of random stars, for the coverage of error bars.
 
-use nalgebra::Matrix3;
+use crate::prelude::*;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use twofold::Error;
-use twofold::dynamics::RigidSpheroid;
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::inference::{Datum, Fisher, Fit, InferenceError, Observable, Signal, data_of, fit, nonlinearity};
-use twofold::parameters::{Parameter, Parameters, ThirdRate};
+use twofold::inference::{Datum, Fit, fit, nonlinearity};
+use twofold::parameters::ThirdRate;
 use twofold_scene::measurements::{beside, with_noise};
 
 /// Kinds of simulated measurements.

@@ -1,15 +1,7 @@
 //! The motion of the symmetry axis and the angular momentum alone, without the angle about the axis.
 
-use nalgebra::Vector3;
-use num_dual::Dual64;
-use twofold::dynamics::AxisState;
-use twofold::dynamics::equations_of_motion::reduced_rates;
-use twofold::propagation::Motion;
-
 use super::propagation::{against_reference, estimate_against_reference};
-use crate::check::{Measured, Worst, checks, largest, largest_component, largest_difference};
-use crate::physical_domain::{scenes, worst_over};
-use crate::reference::reference_motion;
+use crate::prelude::*;
 use crate::second_integrator::axis_states;
 
 checks! {
@@ -39,50 +31,41 @@ fn against_whole_motion() -> Result<Measured, String> {
     worst_over(23, 200, &scenes(), |scene| {
         let problem = scene.problem();
         let size = problem.initial().momentum.norm().max(1.0);
-        let mut most = 0.0;
-        for end in [30.0, -30.0] {
+        worst_of([30.0, -30.0], |&end| {
             let whole = problem.taylor((0.0, end), 1e-13)?;
             let alone = problem.reduced().taylor((0.0, end), 1e-13)?;
-            for part in [0.37, 1.0] {
-                let t = part * end;
+            worst_of([0.37 * end, end], |&t| {
                 let ours = alone.state(t)?;
                 let estimates = alone.error_estimate(t) + whole.error_estimate(t);
-                for state in [whole.axis_state(t)?, AxisState::from(&whole.state(t)?)] {
-                    most = largest([most, largest_difference(&ours, &state, size) / estimates]);
-                }
-            }
-        }
-        Ok(most)
+                let states = [whole.axis_state(t)?, AxisState::from(&whole.state(t)?)];
+                Ok(largest(states.map(|state| largest_difference(&ours, &state, size) / estimates)))
+            })
+        })
     })
 }
 
 fn against_second_integrator() -> Result<Measured, String> {
     let times: Vec<f64> = (0..=1000).map(|i| 0.1 * f64::from(i)).collect();
-    let mut worst = Worst::default();
-    for name in ["tp-1", "tp-2", "sp-1", "sp-2"] {
+    worst_of(["tp-1", "tp-2", "sp-1", "sp-2"], |name| {
         let problem = reference_motion(name).problem().reduced();
         let motion = problem.taylor((0.0, 100.0), 1e-14)?;
-        for (t, theirs) in times.iter().zip(axis_states(&problem, &times, 1e-14)?) {
-            worst.see(largest_difference(&motion.state(*t)?, &theirs, 1.0), || format!("{name} at t = {t}"));
-        }
-    }
-    worst.finish()
+        let theirs = axis_states(&problem, &times, 1e-14)?;
+        worst_of(times.iter().zip(theirs), |(t, theirs)| Ok(largest_difference(&motion.state(**t)?, theirs, 1.0)))
+    })
 }
 
 fn dense_output_solves_equations() -> Result<Measured, String> {
     worst_over(24, 100, &scenes(), |scene| {
         let problem = scene.problem().reduced();
         let motion = problem.map(Dual64::from_re).taylor((0.0, 10.0), 1e-16)?;
-        let mut most = 0.0;
-        for i in 1..40 {
+        worst_of(1..40, |&i| {
             let state = motion.state(Dual64::new(0.25 * f64::from(i), 1.0))?;
             let real = |v: &Vector3<Dual64>| v.map(|x| x.re);
             let (axis_rate, momentum_rate) =
                 reduced_rates(problem.spheroid(), problem.coefficients(), &real(&state.axis), &real(&state.momentum));
             let residuals = [state.axis.map(|x| x.eps) - axis_rate, state.momentum.map(|x| x.eps) - momentum_rate];
             let size = 1.0 + real(&state.momentum).norm().powi(2);
-            most = largest([most, largest(residuals.iter().map(largest_component)) / (size * f64::EPSILON)]);
-        }
-        Ok(most)
+            Ok(largest(residuals.iter().map(largest_component)) / (size * f64::EPSILON))
+        })
     })
 }

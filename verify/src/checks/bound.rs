@@ -1,19 +1,8 @@
 //! Bounds from the spin axis and from the pulse width. Eqs. (40)-(42), and (5).
 
-use nalgebra::Vector3;
-use twofold::Scalar;
-use twofold::dynamics::RigidSpheroid;
-use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_preferred_frame, principal_frame};
-use twofold::observables::bound::{
-    SpinAxisDrift, cos_opening_angle, eta_from_inclination, lambda_change_terms, preferred_frame_bound,
-    zeta_change_terms,
-};
-use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change};
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
+use twofold::observables::bound::{lambda_change_terms, preferred_frame_bound};
 
-use crate::check::{Measured, Worst, checks, smallest};
-use crate::derivation::Differentiable;
-use crate::random::{Point, worst_of_draws};
+use crate::prelude::*;
 use twofold_scene::pulsar_table::published::{PrintedBounds, printed_bounds};
 use twofold_scene::pulsar_table::{Pulsar, ROUND_INERTIA_OVER_C};
 
@@ -106,15 +95,12 @@ fn bound_of_known_tensor() -> Result<Measured, String> {
 }
 
 fn printed_changes() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (pulsar, printed) in printed_bounds() {
-        let ours = pulsar.lambda_change()? * 1e3;
+    worst_of(printed_bounds(), |(pulsar, printed)| {
         let printed = printed.lambda_change;
         let unit = if printed.contains('.') { 0.1 } else { 1.0 };
         let value: f64 = printed.parse().map_err(|_| format!("{printed} is not a number"))?;
-        worst.see((ours - value).abs() / unit, || format!("{ours} for {printed}"));
-    }
-    worst.finish()
+        Ok((pulsar.lambda_change()? * 1e3 - value).abs() / unit)
+    })
 }
 
 /// Bounds by Eq. (41) over those printed, both over eta: main pulse and interpulse of PSR B1937+21, PSR J1744-1134.

@@ -3,11 +3,9 @@
 use num_dual::{Dual3_64, third_derivative};
 use proptest::prelude::*;
 use twofold::numerics::elliptic::carlson::{rc, rd, rf, rf_of_roots, rj, rj_of_roots};
-use twofold::numerics::elliptic::jacobi::{JacobiFunctions, complete_integral, jacobi};
-use twofold::numerics::scalar::Real;
+use twofold::numerics::elliptic::jacobi::{JacobiFunctions, jacobi};
 
-use crate::check::{Measured, checks, largest, worst_of};
-use crate::physical_domain::worst_over;
+use crate::prelude::*;
 use crate::reference::records;
 
 checks! {

@@ -1,19 +1,8 @@
 //! The equations of motion in Euler angles and in regular form. Eq. (25).
 
-use nalgebra::Vector3;
-use twofold::dynamics::equations_of_motion::{angular_velocity, body_state_rates, reduced_rates, torque_on_axis};
-use twofold::dynamics::euler_angle_equations::euler_angle_residuals;
-use twofold::dynamics::first_integrals::spin_in_angles;
-use twofold::dynamics::wave_source::spheroid_inertia_acceleration;
-use twofold::dynamics::{BodyState, RotationState};
-use twofold::euler_angles::{body_from_inertial, body_rates};
-
-use crate::check::checks;
 use crate::derivation::euler_lagrange::euler_lagrange;
-use crate::derivation::spheroid_motion::{accelerations, axis_angles, fixed_spheroid, gamma_acceleration};
-use crate::derivation::{Differentiable, moving_angles, moving_rates};
-use crate::random::Point;
-use twofold::euler_angles::EulerRates;
+use crate::derivation::spheroid_motion::{accelerations, axis_angles, gamma_acceleration};
+use crate::prelude::*;
 
 checks! {
     /// the Euler-Lagrange equation of gamma is I^zz d(Omega^z)/dt = 0, at any rates and accelerations
@@ -51,9 +40,7 @@ fn accelerations_of_angles<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let a = accelerations(&p.spheroid, &p.s, q, v);
     let spin = spin_in_angles(q, v);
     let (r_alpha, r_beta) = euler_angle_residuals(&p.spheroid, &p.s, spin, &axis_angles(q, v), (a.alpha, a.beta));
-    let mut out = vec![r_alpha, r_beta];
-    out.extend(euler_lagrange(&p.spheroid, &p.s, q, v, &a));
-    out
+    components![r_alpha, r_beta, euler_lagrange(&p.spheroid, &p.s, q, v, &a)]
 }
 
 fn regular_equations<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -61,18 +48,15 @@ fn regular_equations<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let a = accelerations(&p.spheroid, &p.s, q, v);
     let moving = BodyState::from_angles(&fixed_spheroid(&p.spheroid), &moving_angles(q, v), &moving_rates(v, &a));
     let state = BodyState::from_angles(&p.spheroid, q, v);
-    let rates = body_state_rates(&p.spheroid, &p.s.tensor(), &state);
+    let rates = body_state_rates(&p.spheroid, &p.s.tensor(), &state).vectors();
+    let along_motion = moving.vectors().map(|vector| vector.map(F::derivative));
     let rotation = body_from_inertial(q);
     let omega = angular_velocity(&p.spheroid, &state.axis, &state.momentum);
-    let mut out = Vec::new();
-    for (along_motion, by_kernel) in
-        [(moving.axis, rates.axis), (moving.momentum, rates.momentum), (moving.equatorial_axis, rates.equatorial_axis)]
-    {
-        out.extend(&(along_motion.map(F::derivative) - by_kernel));
-    }
-    out.extend(&(omega - rotation.transpose() * body_rates(q, v)));
-    out.extend(&(state.body_from_inertial() - rotation));
-    out
+    components![
+        [0, 1, 2].map(|i| along_motion[i] - rates[i]),
+        omega - rotation.transpose() * body_rates(q, v),
+        state.body_from_inertial() - rotation,
+    ]
 }
 
 fn inertial_frame<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -80,27 +64,22 @@ fn inertial_frame<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let s_turned = frame * p.s_inertial * frame.transpose();
     let state = BodyState::from_angles(&p.spheroid, &p.angles, &p.rates);
     let turned = state.rotated(&frame);
-    let rates = body_state_rates(&p.spheroid, &p.s_inertial, &state).rotated(&frame);
-    let rates_turned = body_state_rates(&p.spheroid, &s_turned, &turned);
+    let rates = body_state_rates(&p.spheroid, &p.s_inertial, &state).rotated(&frame).vectors();
+    let rates_turned = body_state_rates(&p.spheroid, &s_turned, &turned).vectors();
     let source = |s, state: &BodyState<F>| spheroid_inertia_acceleration(&p.spheroid, s, &state.axis, &state.momentum);
     let torque = |s, axis: &Vector3<F>| torque_on_axis(p.spheroid.constant_c, s, axis);
-    let mut out = Vec::new();
-    out.extend(&(rates.axis - rates_turned.axis));
-    out.extend(&(rates.momentum - rates_turned.momentum));
-    out.extend(&(rates.equatorial_axis - rates_turned.equatorial_axis));
-    out.extend(&(frame * torque(&p.s_inertial, &state.axis) - torque(&s_turned, &turned.axis)));
-    out.extend(&(frame * source(&p.s_inertial, &state) * frame.transpose() - source(&s_turned, &turned)));
-    out
+    components![
+        [0, 1, 2].map(|i| rates[i] - rates_turned[i]),
+        frame * torque(&p.s_inertial, &state.axis) - torque(&s_turned, &turned.axis),
+        frame * source(&p.s_inertial, &state) * frame.transpose() - source(&s_turned, &turned),
+    ]
 }
 
 fn spin_along_principal_axis<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-    let mut out = Vec::new();
-    for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-        for axis in [axis, -axis] {
-            let momentum = axis * (p.spheroid.inertia_zz * p.rates.gamma);
-            let (turning, torque) = reduced_rates(&p.spheroid, &p.s.tensor(), &axis, &momentum);
-            out.extend(turning.iter().chain(&torque));
-        }
-    }
-    out
+    let rates = |axis: Vector3<F>| {
+        let momentum = axis * (p.spheroid.inertia_zz * p.rates.gamma);
+        let (turning, torque) = reduced_rates(&p.spheroid, &p.s.tensor(), &axis, &momentum);
+        [turning, torque]
+    };
+    components![[Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| [rates(axis), rates(-axis)])]
 }

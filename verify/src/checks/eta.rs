@@ -1,27 +1,15 @@
 //! The factor eta of the bound, from the averaged motion of the spin axis. Eqs. (31), (32), (34), (37)-(41).
 
-use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_4};
 use std::num::NonZeroUsize;
 
 use gauss_quad::GaussLegendre;
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::equations_of_motion::reduced_rates;
-use twofold::euler_angles::symmetry_axis;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::numerics::elliptic::jacobi::complete_integral;
 use twofold::observables::eta::{
-    mean_squared_speed, root_mean_square_eta, secular_axis_rate, single_precession_start, squared_speed,
-    squared_speed_along_motion,
+    mean_squared_speed, root_mean_square_eta, single_precession_start, squared_speed, squared_speed_along_motion,
 };
-use twofold::observables::eta_distribution::{EtaDistribution, SpinAxis, root_mean_square_along_motion};
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
 
-use crate::check::{Measured, Worst, checks, largest, worst_of};
-use crate::derivation::Differentiable;
 use crate::eta::{PAPER_ASYMMETRY, eta_curve, numerical_axis_rate, seen_rate, twelve_turns};
-use crate::measured_order::order_of_error;
-use crate::paper_examples::{COEFFICIENTS, SPIN};
-use crate::random::{Point, Random, worst_of_draws};
+use crate::prelude::*;
 
 /// Samples of a distribution.
 const SAMPLES: usize = 20_000;
@@ -129,7 +117,7 @@ fn torque_over_momentum<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let unit = p.s.combination() / (inertia_over_c * spin);
     let ratio = p.s.asymmetry() / p.s.combination();
     let square = rate.dot(&rate) - squared_speed(ratio, p.angles.alpha, p.angles.beta) * unit * unit;
-    from_torque.iter().chain(from_forced.iter()).copied().chain([square]).collect()
+    components![from_torque, from_forced, square]
 }
 
 fn start_by_asymmetry_ratio<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -208,18 +196,16 @@ fn distribution() -> Result<Measured, String> {
 }
 
 fn known_angle() -> Result<Measured, String> {
-    let (mut random, mut worst) = (Random::with_seed(42), Worst::default());
-    for ratio in SHAPES {
+    let mut random = Random::with_seed(42);
+    worst_of(SHAPES, |&ratio| {
         let s = PrincipalCoefficients::new(of_shape(ratio)).tensor();
         let unknown = EtaDistribution::new(ratio, SpinAxis::Unknown)?;
-        for degrees in [30.0_f64, 95.0, 100.0] {
+        worst_of([30.0_f64, 95.0, 100.0], |degrees| {
             let lambda = degrees.to_radians();
             let samples = (0..SAMPLES).map(|_| 1.0 / seen_rate(&mut random, &s, lambda).abs()).collect();
-            let figure = kolmogorov_smirnov(samples, &unknown.clone().seen_at(lambda)?, 200);
-            worst.see(figure, || format!("r = {ratio:.3}, lambda = {degrees} deg"));
-        }
-    }
-    worst.finish()
+            Ok(kolmogorov_smirnov(samples, &unknown.clone().seen_at(lambda)?, 200))
+        })
+    })
 }
 
 fn known_angle_integral() -> Result<Measured, String> {
@@ -246,17 +232,12 @@ fn symmetric_is_largest() -> Result<Measured, String> {
 }
 
 fn ten_exceeded() -> Result<Measured, String> {
-    let (mut smallest, mut at) = (f64::INFINITY, 0.0);
-    for i in 0..=152 {
-        let beta = 0.05 + 0.01 * f64::from(i);
-        let eta = EtaDistribution::new(PAPER_ASYMMETRY, SpinAxis::AtInclination(beta))?.quantile(0.95)?;
-        if eta < smallest {
-            (smallest, at) = (eta, beta);
-        }
-    }
+    let inclinations = (0..=152).map(|i| 0.05 + 0.01 * f64::from(i));
+    let smallest =
+        least_of(inclinations, |&beta| Ok(EtaDistribution::new(PAPER_ASYMMETRY, SpinAxis::AtInclination(beta))?.quantile(0.95)?))?;
     let share = EtaDistribution::new(PAPER_ASYMMETRY, SpinAxis::Unknown)?.probability_above(10.0);
-    let detail = format!("at beta_0 = {at:.2}; above 10 with probability {share:.2} if nothing is known of the axis");
-    Ok(Measured::new(smallest, detail))
+    let detail = format!("{}; above 10 with probability {share:.2} if nothing is known of the axis", smallest.detail);
+    Ok(Measured::new(smallest.figure, detail))
 }
 
 /// Largest distance between the shares of samples and a distribution, at one sample of `every`, times the root of their number.
@@ -294,41 +275,30 @@ fn secular_rate() -> Result<Measured, String> {
 fn by_numerical_motion() -> Result<Measured, String> {
     let s = COEFFICIENTS.scaled(1e-3);
     let unit = s.combination().abs() / (1.1 * SPIN);
-    let azimuths: Vec<f64> = (0..24).map(|i| FRAC_PI_2 * (f64::from(i) + 0.5) / 24.0).collect();
-    let mut worst = Worst::default();
-    for beta in [0.2, 0.7, 1.1, 1.3, 1.5] {
+    worst_of([0.2, 0.7, 1.1, 1.3, 1.5], |&beta| {
         let (mut numerical, mut secular) = (Vec::new(), Vec::new());
-        for &alpha in &azimuths {
+        for alpha in (0..24).map(|i| FRAC_PI_2 * (f64::from(i) + 0.5) / 24.0) {
             let (rate, _) = numerical_axis_rate(&s, SPIN, (alpha, beta), twelve_turns(SPIN))?;
             numerical.push((rate.norm() / unit, 1.0));
             secular.push((squared_speed(PAPER_ASYMMETRY, alpha, beta).sqrt(), 1.0));
         }
         let (numerical, secular) = (EtaDistribution::from_speeds(numerical)?, EtaDistribution::from_speeds(secular)?);
-        for probability in [0.5, 0.84, 0.975] {
-            let (numerical, secular) = (numerical.quantile(probability)?, secular.quantile(probability)?);
-            worst.see((numerical / secular - 1.0).abs(), || {
-                format!("beta_0 = {beta}, probability {probability}: {numerical:.4}, {secular:.4}")
-            });
-        }
-    }
-    worst.finish()
+        worst_of([0.5, 0.84, 0.975], |&probability| {
+            Ok((numerical.quantile(probability)? / secular.quantile(probability)? - 1.0).abs())
+        })
+    })
 }
 
 fn estimate_order() -> Result<Measured, String> {
     let inclinations: Vec<f64> = (0..=90).map(|i| 0.2 + 0.01 * f64::from(i)).collect();
-    let mut worst = Worst::default();
-    for ratio in SHAPES {
-        for point in eta_curve(ratio, &inclinations)? {
-            let (along, at) = (point.along_motion, point.at_inclination.root_mean_square);
-            for eta in [along, at] {
+    worst_of(SHAPES, |&ratio| {
+        worst_of(eta_curve(ratio, &inclinations)?, |point| {
+            worst_of([point.along_motion, point.at_inclination.root_mean_square], |eta| {
                 let excess = (eta / point.printed).log10();
-                worst.see(if excess < 0.0 { f64::INFINITY } else { excess }, || {
-                    format!("r = {ratio:.3}, beta_0 = {:.2}: {eta:.3} for {:.3}", point.beta_0, point.printed)
-                });
-            }
-        }
-    }
-    worst.finish()
+                Ok(if excess < 0.0 { f64::INFINITY } else { excess })
+            })
+        })
+    })
 }
 
 fn near_right_angle() -> Result<Measured, String> {

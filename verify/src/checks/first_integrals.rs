@@ -1,14 +1,7 @@
 //! What a motion conserves. Eq. (24), the third integral and the two of the geometry.
 
-use nalgebra::Matrix3;
-use twofold::dynamics::BodyState;
-use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates};
-use twofold::dynamics::first_integrals::{energy_in_angles, first_integrals, spin_in_angles, symmetric_adjugate};
-
-use crate::check::checks;
-use crate::derivation::spheroid_motion::{accelerations, fixed_coefficients, fixed_spheroid};
-use crate::derivation::{Differentiable, moving_angles, moving_rates};
-use crate::random::Point;
+use crate::derivation::spheroid_motion::{accelerations, fixed_coefficients};
+use crate::prelude::*;
 
 checks! {
     /// E, Omega^z and K do not change along the field of Eq. (25)
@@ -50,23 +43,18 @@ fn integrals_of_state<F: Differentiable>(p: &Point<F>) -> Vec<F> {
 fn geometric_integrals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let state = BodyState::from_angles(&p.spheroid, &p.angles, &p.rates);
     let rates = body_state_rates(&p.spheroid, &p.s_inertial, &state);
-    let (n, l, e) = {
-        let moving = moving_state(&state, &rates);
-        (moving.axis, moving.momentum, moving.equatorial_axis)
-    };
+    let [n, l, e] = moving_state(&state, &rates).vectors();
     let (axis_rate, momentum_rate) = reduced_rates(&p.spheroid, &p.s_inertial, &state.axis, &state.momentum);
-    let mut out = [n.dot(&n), l.dot(&n), e.dot(&e), e.dot(&n)].map(F::derivative).to_vec();
-    out.extend(&(axis_rate - rates.axis));
-    out.extend(&(momentum_rate - rates.momentum));
-    out
+    components![
+        [n.dot(&n), l.dot(&n), e.dot(&e), e.dot(&n)].map(F::derivative),
+        axis_rate - rates.axis,
+        momentum_rate - rates.momentum,
+    ]
 }
 
 fn moving_state<F: Differentiable>(state: &BodyState<F>, rates: &BodyState<F>) -> BodyState<F::First> {
-    BodyState {
-        axis: state.axis.zip_map(&rates.axis, F::first),
-        momentum: state.momentum.zip_map(&rates.momentum, F::first),
-        equatorial_axis: state.equatorial_axis.zip_map(&rates.equatorial_axis, F::first),
-    }
+    let (at, rates) = (state.vectors(), rates.vectors());
+    BodyState::from_vectors([0, 1, 2].map(|i| at[i].zip_map(&rates[i], F::first)))
 }
 
 fn same_integrals<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -92,6 +80,5 @@ fn other_clebsch_form<F: Differentiable>(p: &Point<F>) -> Vec<F> {
 fn adjugate_times_s<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let s = &p.s_inertial;
     let determinant = s.column(0).dot(&s.column(1).cross(&s.column(2)));
-    let product = symmetric_adjugate(s) * s;
-    (product - Matrix3::from_diagonal_element(determinant)).iter().copied().collect()
+    components![symmetric_adjugate(s) * s - Matrix3::from_diagonal_element(determinant)]
 }

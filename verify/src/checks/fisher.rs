@@ -1,25 +1,11 @@
 //! What the pulsar's period and width can tell of the star: rank of the Fisher matrix. Eqs. (44), (51), (52), (56), (57).
 
-use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
+use std::f64::consts::SQRT_2;
 
-use nalgebra::{DMatrix, DVector};
-use twofold::Real;
-use twofold::dynamics::RigidSpheroid;
-use twofold::euler_angles::EulerAngles;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::pulsar::direction::cosine_of_colatitude;
-use twofold::observables::pulsar::period::{approximate_period, azimuth_offset_rate};
-use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession, shifted_rates};
-
-use crate::check::{Measured, checks, largest};
-use crate::derivation::Differentiable;
-use crate::paper_examples::{COEFFICIENTS, SPIN};
-use crate::random::Point;
-use twofold::inference::{Fisher, Jacobian, Observable, Signal, data_of};
-use twofold::parameters::{Parameter, Parameters};
+use crate::derivation::first_order::fixed_constants;
+use crate::prelude::*;
+use twofold::inference::Jacobian;
 use twofold_scene::measurements::parameters_of;
-use twofold_scene::scene_file::Scene;
 
 checks! {
     /// the rates (57) of alpha and gamma do not change along d eps : d a^(1) = cos beta_0 : Omega^z, and Omega^z = gamma' + alpha' cos beta_0
@@ -62,12 +48,8 @@ fn rates_along_null_direction<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         yy: F::fixed(p.s.yy),
         zz: F::first(p.s.zz, combination_rate / 2.0),
     };
-    let constants = Constants {
-        alpha_0: F::fixed(p.angles.alpha),
-        beta_0: F::fixed(beta_0),
-        amplitude: F::fixed(F::zero()),
-        phase: F::fixed(F::zero()),
-    };
+    let constants = Constants { alpha_0: p.angles.alpha, beta_0, amplitude: F::zero(), phase: F::zero() };
+    let constants = fixed_constants(&constants);
     let moved =
         Perturbation::new_unchecked(Form::Printed, Precession::Twofold, &spheroid, &s, F::fixed(spin), &constants);
     let gamma_rate = F::fixed(spin) - moved.rate * F::fixed(cos);

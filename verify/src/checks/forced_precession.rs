@@ -1,17 +1,8 @@
 //! Forced precession: the shift of the steady rates to first order in `s^IJ`. Eqs. (26), (31), (32), (57).
 
-use num_dual::Dual64;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::free::free_precession_rates;
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession, shifted_rates};
-use twofold::solutions::steady::steady_precession_rate;
-
-use crate::check::{Measured, Worst, checks, largest};
 use crate::checks::perturbation_equations::{KINDS, constants, unperturbed_motion};
-use crate::derivation::Differentiable;
 use crate::derivation::first_order::{first_order_equations, first_order_motion};
-use crate::derivation::spheroid_motion::fixed_spheroid;
-use crate::random::{Point, Random};
+use crate::prelude::*;
 
 checks! {
     /// for s^XX = s^YY and A = 0 the printed rates are constant at constant inclination, and solve Eq. (25), so Eq. (26), to first order in s
@@ -28,60 +19,49 @@ checks! {
 
 fn steady_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let symmetric = PrincipalCoefficients { yy: p.s.xx, ..p.s };
-    KINDS
-        .into_iter()
-        .flat_map(|kind| {
-            let constants = Constants { amplitude: F::zero(), ..constants(p) };
-            let printed =
-                Perturbation::new_unchecked(Form::Printed, kind, &p.spheroid, &symmetric, p.rates.gamma, &constants);
-            let first = first_order_motion(&printed, printed.homogeneous_frequency);
-            let unperturbed = unperturbed_motion(kind, p);
-            let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &symmetric, &unperturbed, &first);
-            [of_alpha, of_beta, first.beta, first.beta_rate, first.alpha_acceleration, first.beta_acceleration]
-        })
-        .collect()
+    let constants = Constants { amplitude: F::zero(), ..constants(p) };
+    components![KINDS.map(|kind| {
+        let printed =
+            Perturbation::new_unchecked(Form::Printed, kind, &p.spheroid, &symmetric, p.rates.gamma, &constants);
+        let first = first_order_motion(&printed, printed.homogeneous_frequency);
+        let equations = first_order_equations(&p.spheroid, &symmetric, &unperturbed_motion(kind, p), &first);
+        [equations, [first.beta, first.beta_rate], [first.alpha_acceleration, first.beta_acceleration]]
+    })]
 }
 
 /// Bodies, coefficients symmetric about Z and spins large enough for both roots of Eq. (26) to be real:
 /// `(I^zz Omega^z)^2 >= 9`, above `8 |s^ZZ - s^XX| C I^xx < 6.4`.
-fn symmetric_points() -> impl Iterator<Item = (Point<f64>, PrincipalCoefficients<f64>, f64)> {
-    let mut random = Random::with_seed(26);
-    (0..200).map(move |_| {
-        let point = Point::<f64>::draw(&mut random);
+fn worst_of_symmetric_points(
+    figure: impl Fn(&Point<f64>, &PrincipalCoefficients<f64>, f64) -> Result<f64, String>,
+) -> Result<Measured, String> {
+    worst_of_draws(26, 200, |random| {
+        let point = Point::<f64>::draw(random);
         let momentum = (3.0 + point.numbers[0].abs()).copysign(point.numbers[1]);
         let symmetric = PrincipalCoefficients { yy: point.s.xx, ..point.s };
-        (point, symmetric, momentum / point.spheroid.inertia_zz)
+        figure(&point, &symmetric, momentum / point.spheroid.inertia_zz)
     })
 }
 
 fn steady_rates_to_first_order() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (index, (p, s, spin)) in symmetric_points().enumerate() {
-        for kind in KINDS {
-            let (beta, constants) = (Dual64::from(p.angles.beta), constants(&p));
+    worst_of_symmetric_points(|p, s, spin| {
+        largest_of(KINDS.map(|kind| {
             let small = PrincipalCoefficients::new([s.xx, s.yy, s.zz].map(|x| Dual64::new(0.0, x)));
-            let spheroid = fixed_spheroid(&p.spheroid);
-            let exact = steady_precession_rate(kind, &spheroid, &small, Dual64::from(spin), beta);
-            let printed = Perturbation::new(Form::Printed, kind, &p.spheroid, &s, spin, &constants)?;
+            let (spheroid, beta) = (fixed_spheroid(&p.spheroid), Dual64::from(p.angles.beta));
+            let slope = steady_precession_rate(kind, &spheroid, &small, Dual64::from(spin), beta)?.eps;
+            let printed = Perturbation::new(Form::Printed, kind, &p.spheroid, s, spin, &constants(p))?;
             let shift = -kind.sign() * printed.forced_rate;
-            let slope = exact?.eps;
             let cancelled = 2.0 * (s.zz.abs() + s.xx.abs()) / s.combination().abs();
-            let place = || format!("{kind:?}, point {index} of seed 26: {slope:e}, a^(1) {shift:e}");
-            worst.see((slope - shift).abs() / (f64::EPSILON * shift.abs() * cancelled), place);
-        }
-    }
-    worst.finish()
+            Ok((slope - shift).abs() / (f64::EPSILON * shift.abs() * cancelled))
+        }))
+    })
 }
 
 fn shifted_rates_of_spin() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (index, (p, s, spin)) in symmetric_points().enumerate() {
+    worst_of_symmetric_points(|p, s, spin| {
         let (beta, spheroid) = (p.angles.beta, &p.spheroid);
-        let printed =
-            Perturbation::new_unchecked(Form::Printed, Precession::Twofold, spheroid, &s, spin, &constants(&p));
-        let shifted = shifted_rates(spheroid, &s, spin, beta)?;
-        let none = PrincipalCoefficients::new([0.0; 3]);
-        let unshifted = shifted_rates(spheroid, &none, spin, beta)?;
+        let printed = Perturbation::new_unchecked(Form::Printed, Precession::Twofold, spheroid, s, spin, &constants(p));
+        let shifted = shifted_rates(spheroid, s, spin, beta)?;
+        let unshifted = shifted_rates(spheroid, &PrincipalCoefficients::new([0.0; 3]), spin, beta)?;
         let free = free_precession_rates(spheroid, spin, beta)?;
         let cos_beta = beta.cos();
         let differences = [
@@ -93,8 +73,6 @@ fn shifted_rates_of_spin() -> Result<Measured, String> {
             free.alpha * cos_beta + free.gamma - spin,
         ];
         let terms = spin.abs() + printed.omega.abs() + (printed.forced_rate * cos_beta).abs();
-        let most = largest(differences.map(f64::abs));
-        worst.see(most / (f64::EPSILON * terms), || format!("point {index} of seed 26: {differences:?}"));
-    }
-    worst.finish()
+        Ok(largest(differences.map(f64::abs)) / (f64::EPSILON * terms))
+    })
 }

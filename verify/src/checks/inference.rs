@@ -2,18 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use crate::check::{Measured, Worst, checks, largest};
 use crate::coverage::Coverage;
+use crate::prelude::*;
 use crate::simulation::Simulation;
-use twofold::dynamics::RigidSpheroid;
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::inference::{
-    Datum, Event, Fisher, Forecast, InferenceError, Noise, Observable, Place, Signal, data_of, forecast, jacobian,
-    scaling,
-};
-use twofold::parameters::{Parameter, Parameters, ThirdRate};
+use twofold::inference::{Datum, Event, Forecast, Noise, Place, forecast, jacobian, scaling};
+use twofold::parameters::ThirdRate;
 use twofold_scene::measurements::parameters_of;
-use twofold_scene::scene_file::Scene;
 
 checks! {
     /// derivatives of arrival times, closest approaches, widths, periods and strains by all 21 unknowns are those of data recomputed from moved

@@ -1,11 +1,6 @@
 //! Direction of the observer and the basis normal to it. Eqs. (46), (70).
 
-use nalgebra::Vector3;
-use twofold::observables::Observer;
-
-use crate::check::checks;
-use crate::derivation::Differentiable;
-use crate::random::Point;
+use crate::prelude::*;
 
 checks! {
     /// n-hat has its colatitude from Z and its azimuth from X; theta-hat and sin(theta) phi-hat are its derivatives by them; the three are a
@@ -26,7 +21,7 @@ fn observer_basis<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let by_theta = along(F::first(theta, F::one()), F::fixed(phi));
     let by_phi = along(F::fixed(theta), F::first(phi, F::one()));
     let horizontal = Vector3::new(direction.x, direction.y, F::zero());
-    let mut out = vec![
+    components![
         direction.z - cos_theta,
         // The azimuth: the horizontal part lies along (cos phi, sin phi), and its length is sin theta.
         direction.x * sin_phi - direction.y * cos_phi,
@@ -35,9 +30,8 @@ fn observer_basis<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         theta_hat.dot(&theta_hat) - F::one(),
         phi_hat.dot(&phi_hat) - F::one(),
         theta_hat.dot(&phi_hat),
-    ];
-    out.extend(&(theta_hat - by_theta));
-    out.extend(&(phi_hat * sin_theta - by_phi));
-    out.extend(&(theta_hat.cross(&phi_hat) - direction));
-    out
+        theta_hat - by_theta,
+        phi_hat * sin_theta - by_phi,
+        theta_hat.cross(&phi_hat) - direction,
+    ]
 }

@@ -1,16 +1,7 @@
 //! The rotation matrix, the angular velocity and the permuted axes. Eqs. (7)-(9), (22), (36), (61), (62).
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::potential::{anisotropic_potential_in_angles, anisotropic_potential_of_axis};
-use twofold::dynamics::wave_source::rotation_rate;
-use twofold::euler_angles::{
-    body_from_inertial, body_rates, permuted_from_inertial, symmetry_axis, tensor_in_body_frame,
-};
-
-use crate::check::checks;
-use crate::derivation::Differentiable;
 use crate::derivation::body_motion::{composed_rotation, cross_matrix, rotation_derivative};
-use crate::random::Point;
+use crate::prelude::*;
 
 checks! {
     /// R is R_z(gamma) R_x(beta) R_z(alpha), orthogonal, of determinant one, and its last row is the symmetry axis
@@ -27,12 +18,13 @@ checks! {
 
 fn rotation_matrix<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let r = body_from_inertial(&p.angles);
-    let (x, y, z) = (r.row(0).transpose(), r.row(1).transpose(), r.row(2).transpose());
-    let mut out = vec![x.cross(&y).dot(&z) - F::one()];
-    out.extend(&(r - composed_rotation(&p.angles)));
-    out.extend(&(r * r.transpose() - Matrix3::identity()));
-    out.extend(&(z - symmetry_axis(p.angles.alpha, p.angles.beta)));
-    out
+    let [x, y, z] = [0, 1, 2].map(|row| r.row(row).transpose());
+    components![
+        x.cross(&y).dot(&z) - F::one(),
+        r - composed_rotation(&p.angles),
+        r * r.transpose() - Matrix3::identity(),
+        z - symmetry_axis(p.angles.alpha, p.angles.beta),
+    ]
 }
 
 fn tensor_components<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -44,14 +36,13 @@ fn tensor_components<F: Differentiable>(p: &Point<F>) -> Vec<F> {
 
 fn angular_velocity<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let turning = rotation_derivative(&p.angles, &p.rates) * body_from_inertial(&p.angles).transpose();
-    let omega_cross = cross_matrix(&body_rates(&p.angles, &p.rates));
-    (turning + omega_cross).iter().copied().collect()
+    components![turning + cross_matrix(&body_rates(&p.angles, &p.rates))]
 }
 
 fn rate_along_euler_rates<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let r = body_from_inertial(&p.angles);
     let omega = r.transpose() * body_rates(&p.angles, &p.rates);
-    (rotation_derivative(&p.angles, &p.rates) - rotation_rate(&r, &omega)).iter().copied().collect()
+    components![rotation_derivative(&p.angles, &p.rates) - rotation_rate(&r, &omega)]
 }
 
 fn axis_permutation<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -59,16 +50,13 @@ fn axis_permutation<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let c = p.spheroid.constant_c;
     let axis = permuted.transpose() * symmetry_axis(p.angles.alpha, p.angles.beta);
     let thrice = p.s.permuted().permuted().permuted();
-    let mut out = vec![
+    components![
         anisotropic_potential_in_angles(c, &p.s.permuted(), p.angles.alpha, p.angles.beta)
             - anisotropic_potential_of_axis(c, &p.s.tensor(), &axis),
-        thrice.xx - p.s.xx,
-        thrice.yy - p.s.yy,
-        thrice.zz - p.s.zz,
-    ];
-    out.extend(&(permuted * p.s.tensor() * permuted.transpose() - p.s.permuted().tensor()));
-    // A vector along X is along the third axis of the permuted frame, and the frame stays right-handed.
-    out.extend(&(permuted * Vector3::x() - Vector3::z()));
-    out.extend(&(permuted * permuted * permuted - Matrix3::identity()));
-    out
+        [thrice.xx - p.s.xx, thrice.yy - p.s.yy, thrice.zz - p.s.zz],
+        permuted * p.s.tensor() * permuted.transpose() - p.s.permuted().tensor(),
+        // A vector along X is along the third axis of the permuted frame, and the frame stays right-handed.
+        permuted * Vector3::x() - Vector3::z(),
+        permuted * permuted * permuted - Matrix3::identity(),
+    ]
 }

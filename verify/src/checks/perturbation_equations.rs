@@ -1,14 +1,8 @@
 //! The perturbation solutions and the equations that they solve. Eqs. (27)-(33).
 
-use twofold::Scalar;
-use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
-
-use crate::check::checks;
-use crate::derivation::Differentiable;
-use crate::derivation::first_order::{UnperturbedMotion, first_order_equations, first_order_motion};
-use crate::derivation::spheroid_motion::{fixed_coefficients, fixed_spheroid};
-use crate::random::Point;
+use crate::derivation::first_order::{Unperturbed, first_order_equations, first_order_motion, fixed_constants};
+use crate::derivation::spheroid_motion::fixed_coefficients;
+use crate::prelude::*;
 
 checks! {
     /// the full first-order equations are the terms of first order of Eq. (25), about free precession and about a stationary spin
@@ -38,20 +32,16 @@ pub(super) fn constants<F: Scalar>(p: &Point<F>) -> Constants<F> {
     }
 }
 
-fn zeroth_order<F: Scalar>(kind: Precession, p: &Point<F>) -> ZerothOrder<F> {
-    ZerothOrder { kind, spin: p.rates.gamma, alpha: p.angles.alpha, beta: p.angles.beta }
-}
-
 /// What the two kinds mean: free precession has `L` along Z, `I^zz Omega^z = L cos b`, `a = L / I^xx`, Eq. (28). The torque of a
 /// tensor with `s^XX = s^YY` turns a spinning star about Z at `a^(1)`, Eq. (31).
-pub(super) fn unperturbed_motion<F: Scalar>(kind: Precession, p: &Point<F>) -> UnperturbedMotion<F> {
+pub(super) fn unperturbed_motion<F: Scalar>(kind: Precession, p: &Point<F>) -> Unperturbed<F> {
     let (_, cos_beta) = p.angles.beta.sin_cos();
     let momentum = p.spheroid.inertia_zz * p.rates.gamma;
     let rate = match kind {
         Precession::Twofold => momentum / cos_beta / p.spheroid.inertia_xx,
         Precession::Single => p.spheroid.constant_c * p.s.combination() * cos_beta / momentum,
     };
-    UnperturbedMotion { kind, spin: p.rates.gamma, alpha: p.angles.alpha, beta: p.angles.beta, rate }
+    (ZerothOrder { kind, spin: p.rates.gamma, alpha: p.angles.alpha, beta: p.angles.beta }, rate)
 }
 
 /// Any first-order motion, solution or not.
@@ -65,85 +55,68 @@ fn any_first_order<F: Scalar>(p: &Point<F>) -> FirstOrderMotion<F> {
     }
 }
 
+fn solution_of<F: Differentiable>(form: Form, kind: Precession, p: &Point<F>) -> Perturbation<F> {
+    Perturbation::new_unchecked(form, kind, &p.spheroid, &p.s, p.rates.gamma, &constants(p))
+}
+
 fn linearisation<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let first = any_first_order(p);
-    KINDS
-        .into_iter()
-        .flat_map(|kind| {
-            let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &p.s, &unperturbed_motion(kind, p), &first);
-            let (full_alpha, full_beta) = full_residuals(&p.spheroid, &p.s, &zeroth_order(kind, p), &first);
-            [of_alpha - full_alpha, of_beta - full_beta]
-        })
-        .collect()
+    components![KINDS.map(|kind| {
+        let unperturbed = unperturbed_motion(kind, p);
+        let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &p.s, &unperturbed, &first);
+        let (full_alpha, full_beta) = full_residuals(&p.spheroid, &p.s, &unperturbed.0, &first);
+        [of_alpha - full_alpha, of_beta - full_beta]
+    })]
 }
 
 fn term_that_is_missing<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let first = any_first_order(p);
     let (sin_beta, _) = p.angles.beta.sin_cos();
-    KINDS
-        .into_iter()
-        .flat_map(|kind| {
-            let unperturbed = unperturbed_motion(kind, p);
-            let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &p.s, &unperturbed, &first);
-            let (printed_alpha, printed_beta) = printed_residuals(&p.spheroid, &p.s, &zeroth_order(kind, p), &first);
-            let stiffness = match kind {
-                Precession::Twofold => unperturbed.rate * unperturbed.rate,
-                Precession::Single => p.spheroid.constant_c * p.s.combination() / p.spheroid.inertia_xx,
-            };
-            let dropped = stiffness * sin_beta * sin_beta * first.beta;
-            [of_alpha - printed_alpha, of_beta - printed_beta - dropped]
-        })
-        .collect()
+    components![KINDS.map(|kind| {
+        let unperturbed = unperturbed_motion(kind, p);
+        let [of_alpha, of_beta] = first_order_equations(&p.spheroid, &p.s, &unperturbed, &first);
+        let (printed_alpha, printed_beta) = printed_residuals(&p.spheroid, &p.s, &unperturbed.0, &first);
+        let stiffness = match kind {
+            Precession::Twofold => unperturbed.1 * unperturbed.1,
+            Precession::Single => p.spheroid.constant_c * p.s.combination() / p.spheroid.inertia_xx,
+        };
+        let dropped = stiffness * sin_beta * sin_beta * first.beta;
+        [of_alpha - printed_alpha, of_beta - printed_beta - dropped]
+    })]
 }
 
 fn printed_solution<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-    KINDS
-        .into_iter()
-        .flat_map(|kind| {
-            let spin = p.rates.gamma;
-            let printed = Perturbation::new_unchecked(Form::Printed, kind, &p.spheroid, &p.s, spin, &constants(p));
-            let first = first_order_motion(&printed, printed.homogeneous_frequency);
-            let (of_alpha, of_beta) = printed_residuals(&p.spheroid, &p.s, &zeroth_order(kind, p), &first);
-            // Eq. (28) at zeroth order; about a stationary spin Eq. (32).
-            let rate = match kind {
-                Precession::Twofold => printed.zeroth_rate,
-                Precession::Single => printed.rate,
-            };
-            [of_alpha, of_beta, rate - unperturbed_motion(kind, p).rate]
-        })
-        .collect()
+    components![KINDS.map(|kind| {
+        let (zeroth, expected) = unperturbed_motion(kind, p);
+        let printed = solution_of(Form::Printed, kind, p);
+        let first = first_order_motion(&printed, printed.homogeneous_frequency);
+        let (of_alpha, of_beta) = printed_residuals(&p.spheroid, &p.s, &zeroth, &first);
+        // Eq. (28) at zeroth order; about a stationary spin Eq. (32).
+        let rate = match kind {
+            Precession::Twofold => printed.zeroth_rate,
+            Precession::Single => printed.rate,
+        };
+        [of_alpha, of_beta, rate - expected]
+    })]
 }
 
 fn corrected_solution<F: Differentiable>(p: &Point<F>) -> Vec<F> {
-    KINDS
-        .into_iter()
-        .flat_map(|kind| {
-            let spin = p.rates.gamma;
-            let solution = Perturbation::new_unchecked(Form::Corrected, kind, &p.spheroid, &p.s, spin, &constants(p));
-            // To first order the homogeneous frequency of the twofold solution is the zeroth-order rate.
-            let nu = match kind {
-                Precession::Twofold => solution.zeroth_rate,
-                Precession::Single => solution.homogeneous_frequency,
-            };
-            let first = first_order_motion(&solution, nu);
-            first_order_equations(&p.spheroid, &p.s, &unperturbed_motion(kind, p), &first)
-        })
-        .collect()
+    components![KINDS.map(|kind| {
+        let solution = solution_of(Form::Corrected, kind, p);
+        // To first order the homogeneous frequency of the twofold solution is the zeroth-order rate.
+        let nu = match kind {
+            Precession::Twofold => solution.zeroth_rate,
+            Precession::Single => solution.homogeneous_frequency,
+        };
+        first_order_equations(&p.spheroid, &p.s, &unperturbed_motion(kind, p), &first_order_motion(&solution, nu))
+    })]
 }
 
 fn rates_of_angles<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let (spheroid, s, spin) = (fixed_spheroid(&p.spheroid), fixed_coefficients(&p.s), F::fixed(p.rates.gamma));
-    let at_rest = constants(p);
-    let constants = Constants {
-        alpha_0: F::fixed(at_rest.alpha_0),
-        beta_0: F::fixed(at_rest.beta_0),
-        amplitude: F::fixed(at_rest.amplitude),
-        phase: F::fixed(at_rest.phase),
-    };
-    FORMS
-        .into_iter()
-        .flat_map(|form| KINDS.map(|kind| (form, kind)))
-        .flat_map(|(form, kind)| {
+    let constants = fixed_constants(&constants(p));
+    components![FORMS.map(|form| {
+        KINDS.map(|kind| {
             let solution = Perturbation::new_unchecked(form, kind, &spheroid, &s, spin, &constants);
             // Time as an infinitesimal about zero: phases, which are sums of angles, keep their real parts.
             let moving = solution.at(F::first(F::zero(), F::one()));
@@ -152,5 +125,5 @@ fn rates_of_angles<F: Differentiable>(p: &Point<F>) -> Vec<F> {
                 F::derivative(moving.beta) - F::value(moving.beta_rate),
             ]
         })
-        .collect()
+    })]
 }

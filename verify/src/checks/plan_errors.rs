@@ -1,12 +1,9 @@
 //! The errors that plans foresee, of every method against true ones, in random scenes that it is made for.
 
-use twofold::parameters::{Parameter, Parameters};
-use twofold::plan::{Method, Output, Plan, Promise, Request, gradient};
-use twofold::propagation::Motion;
+use twofold::plan::{Output, Plan, Promise, Request, gradient};
 
 use super::plans::Components;
-use crate::check::{Measured, Worst, checks};
-use crate::error_scenes::ErrorScene;
+use crate::prelude::*;
 
 checks! {
     /// a bound or an estimate that a plan foresees, with its rounding, is not below the true error: free, steady, symmetric and averaged motion,
@@ -94,40 +91,27 @@ fn found(method: Method, derivatives: &[Parameter], count: usize) -> Result<Vec<
 }
 
 fn bounds() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for method in [Method::Free, Method::Steady, Method::Symmetric, Method::Averaged] {
-        for (number, foreseen, error, promise) in found(method, &[], 100)? {
-            if matches!(promise, Promise::Goal(_)) {
-                return Err(format!("{} promises {promise:?}", method.name()));
-            }
-            worst.see(error / foreseen, || format!("{}, scene {number} of seed {SEED}", method.name()));
-        }
-    }
-    worst.finish()
+    worst_of([Method::Free, Method::Steady, Method::Symmetric, Method::Averaged], |&method| {
+        worst_of(found(method, &[], 100)?, |(_, foreseen, error, promise)| match promise {
+            Promise::Goal(_) => Err(format!("{} promises {promise:?}", method.name())),
+            _ => Ok(error / foreseen),
+        })
+    })
 }
 
 /// Splitting, with derivatives where the processor has them, and Taylor series.
 fn goals() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (method, derivatives) in [
-        (Method::Splitting, &[][..]),
-        (Method::Splitting, &[Parameter::Beta, Parameter::S(0, 1)]),
-        (Method::Taylor, &[]),
-    ] {
-        if !derivatives.is_empty() && !super::plans::has_vectors() {
-            continue;
-        }
-        let found = found(method, derivatives, 300)?;
+    let with_derivatives = (Method::Splitting, &[Parameter::Beta, Parameter::S(0, 1)][..]);
+    let with_derivatives = super::plans::has_vectors().then_some(with_derivatives);
+    let methods = [(Method::Splitting, &[][..]), (Method::Taylor, &[])].into_iter().chain(with_derivatives);
+    worst_of(methods, |(method, derivatives)| {
+        let found = found(*method, derivatives, 300)?;
         let Some((.., Promise::Goal(share))) = found.first() else {
             return Err(format!("{} promises no share", method.name()));
         };
         let missed = found.iter().filter(|(_, foreseen, error, _)| error.is_nan() || error > foreseen).count();
-        let figure = missed as f64 / found.len() as f64 / (1.0 - share);
-        worst.see(figure, || {
-            format!("{}, {} derivatives: {missed} of {} missed", method.name(), derivatives.len(), found.len())
-        });
-    }
-    worst.finish()
+        Ok(missed as f64 / found.len() as f64 / (1.0 - share))
+    })
 }
 
 fn not_idle() -> Result<Measured, String> {

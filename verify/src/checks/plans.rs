@@ -1,18 +1,10 @@
 //! Plans: what is forecast against what is counted, motions in closed form against numerical ones, gradients.
 
-use nalgebra::{DMatrix, Matrix3, Vector3};
 use proptest::prelude::*;
-use twofold::Error;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
-use twofold::numerics::scalar::Real;
-use twofold::parameters::{Parameter, Parameters};
-use twofold::plan::{Gradient, Method, Output, Prediction, Request, StateFunction, gradient};
-use twofold::propagation::{Motion, SymmetricMotion, TaylorMotion, UniformMotion};
-use twofold::solutions::perturbation::Precession;
-use twofold::solutions::steady::steady_precession_rate;
+use twofold::plan::{Gradient, Output, Prediction, Request, StateFunction, gradient};
+use twofold::propagation::{SymmetricMotion, UniformMotion};
 
-use crate::check::{Measured, Worst, checks, largest, largest_difference};
-use crate::physical_domain::{RandomScene, scenes, worst_over};
+use crate::prelude::*;
 use crate::reference::reference_gradients;
 
 checks! {
@@ -46,8 +38,9 @@ checks! {
      for all motions, and the worst of 3,000 motions exceeds it 8 times";
     /// derivatives of n, L and e_x by fifteen parameters are those of 45-digit motions, two scenes, by tangent maps and by duals
     Oracle "gradient-reference" [25]: gradients;
-    AtMost(1e-10) "largest error / largest derivative by the same parameter at the same time";
-    because "truncation and rounding of 1e-15 a step, grown with the derivatives over 20 t_c and some hundred steps: five digits at most";
+    AtMost(2e-12) "largest error / largest derivative by the same parameter at the same time";
+    because "splitting takes at most 14,800 stages, each rounded by 1.1e-16: 1.6e-12 if all add up. Errors grow with the phase, but so do the derivatives \
+     that they are divided by; truncation is 1e-15";
 }
 
 /// Largest difference at a time from the numerical motion over the sum of both error estimates, for a body in units `I^xx = C = 1`; `L` in units of
@@ -86,9 +79,9 @@ fn counts() -> Result<Measured, String> {
 fn scenes_for_plans() -> impl Strategy<Value = RandomScene> {
     (scenes(), 0..4_u8, -16.0..-6.0f64).prop_map(|(mut scene, kind, log)| {
         match kind {
-            0 => scene.s = [0.0; 3],
-            1 => scene.s[1] = scene.s[0],
-            2 => scene.s = scene.s.map(|x| x * 10f64.powf(log)),
+            0 => scene.s = PrincipalCoefficients::new([0.0; 3]),
+            1 => scene.s.yy = scene.s.xx,
+            2 => scene.s = scene.s.scaled(10f64.powf(log)),
             _ => {}
         }
         scene
@@ -141,9 +134,9 @@ fn symmetric_motion() -> Result<Measured, String> {
     let mut solved = 0;
     let strategy = (scenes(), prop::array::uniform3(-3.0..3.0f64), 0..3_u8, -12.0..-5.0f64, 0.0..2.0f64);
     let measured = worst_over(44, 400, &strategy, |&(mut scene, frame, kind, log, span)| {
-        scene.s[1] = scene.s[0];
+        scene.s.yy = scene.s.xx;
         if kind == 0 {
-            scene.s[1] *= 1.0 + 10f64.powf(log);
+            scene.s.yy *= 1.0 + 10f64.powf(log);
         }
         // Axes exchanged, too: the symmetry axis need not be that of the last eigenvalue.
         let problem = if kind == 1 { scene.problem() } else { turned(&scene.problem(), frame) };
@@ -164,12 +157,12 @@ fn steady_motion() -> Result<Measured, String> {
     let mut solved = 0;
     let strategy = (scenes(), prop::array::uniform3(-3.0..3.0f64), any::<bool>(), any::<bool>());
     let measured = worst_over(45, 300, &strategy, |&(mut scene, frame, twofold, is_turned)| {
-        scene.s[1] = scene.s[0];
-        let (body, coefficients, angles) = (scene.spheroid(), scene.coefficients(), scene.angles());
+        scene.s.yy = scene.s.xx;
+        let (body, coefficients, angles) = (scene.spheroid, scene.s, scene.angles);
         let kind = if twofold { Precession::Twofold } else { Precession::Single };
-        let spin = scene.rates[2];
+        let spin = scene.rates.gamma;
         let Ok(rate) = steady_precession_rate(kind, &body, &coefficients, spin, angles.beta) else { return Ok(0.0) };
-        scene.rates = [rate, 0.0, spin - rate * angles.beta.cos()];
+        scene.rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * angles.beta.cos() };
         let problem = if is_turned { turned(&scene.problem(), frame) } else { scene.problem() };
         let span = (0.0, 50.0);
         let Ok(motion) = UniformMotion::steady(&problem, span) else { return Ok(0.0) };
@@ -177,7 +170,7 @@ fn steady_motion() -> Result<Measured, String> {
         // What turns faster or slower by 1e-6 is not steady, wherever the torque is above rounding.
         let initial = problem.initial();
         let beside = problem.starting_from(BodyState { momentum: initial.momentum * (1.0 + 1e-6), ..*initial })?;
-        let pull = scene.s[2] - scene.s[0];
+        let pull = scene.s.zz - scene.s.xx;
         let (sin, cos) = angles.beta.sin_cos();
         let speed = rate.abs() + initial.momentum.norm() + (2.0 * pull.abs()).sqrt();
         let noticed = 1e-6 * (2.0 * pull * sin * cos).abs() / (speed * speed) > 1e-13;
@@ -232,22 +225,19 @@ fn derivatives(
 }
 
 fn gradients() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for scene in reference_gradients() {
+    worst_of(reference_gradients(), |scene| {
         let times: Vec<f64> = scene.derivatives.iter().map(|(t, _)| *t).collect();
-        for method in [None, Some(Method::Taylor)] {
-            let found = derivatives(&scene.start, method, 1e-15, &times)?;
-            for ((t, expected), found) in scene.derivatives.iter().zip(&found.jacobians) {
-                for (i, parameter) in Parameter::OF_MOTION.iter().enumerate() {
-                    let size = largest(expected[i].iter().map(|x| x.abs())).max(f64::MIN_POSITIVE);
-                    let errors = expected[i].iter().enumerate().map(|(row, x)| (found[(row, i)] - x).abs());
-                    let name = parameter.symbol();
-                    worst.see(largest(errors) / size, || format!("{} by {name} at t = {t}, {method:?}", scene.name));
-                }
-            }
-        }
-    }
-    worst.finish()
+        worst_of([None, Some(Method::Taylor)], |method| {
+            let found = derivatives(&scene.start, *method, 1e-15, &times)?;
+            worst_of(0..times.len(), |&k| {
+                worst_of(Parameter::OF_MOTION.iter().enumerate(), |(i, _)| {
+                    let (expected, found) = (&scene.derivatives[k].1[*i], found.jacobians[k].column(*i));
+                    let size = largest(expected.iter().map(|x| x.abs())).max(f64::MIN_POSITIVE);
+                    Ok(largest(expected.iter().zip(&found).map(|(x, found)| (found - x).abs())) / size)
+                })
+            })
+        })
+    })
 }
 
 /// Whether tangent maps are compiled for this processor.
@@ -262,7 +252,7 @@ fn gradients_both_ways() -> Result<Measured, String> {
     let strategy = (scenes(), prop::array::uniform3(-3.0..3.0f64), any::<bool>());
     worst_over(46, 60, &strategy, |(scene, frame, backwards)| {
         let violation = *turned(&scene.problem(), *frame).coefficients();
-        let start = Parameters::new(scene.spheroid(), violation, scene.angles(), scene.rates());
+        let start = Parameters::new(scene.spheroid, violation, scene.angles, scene.rates);
         let end = if *backwards { -20.0 } else { 20.0 };
         let both = [(None, 1e-11), (Some(Method::Taylor), 1e-15)]
             .map(|(method, tolerance)| derivatives(&start, method, tolerance, &[end, 0.3 * end, 0.0]));

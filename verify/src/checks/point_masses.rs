@@ -1,16 +1,9 @@
 //! Two point masses, and the coefficients from the action. Eqs. (1)-(6), (17).
 
-use nalgebra::{Matrix3, Matrix4, Vector3};
-use twofold::Scalar;
+use crate::prelude::*;
+use nalgebra::Matrix4;
 use twofold::curvature_coupling::{CurvatureTensor, coefficients_from_vacuum_value};
-use twofold::dynamics::point_masses::{anisotropic_potential_of_masses, preferred_frame_potential_of_masses};
-use twofold::dynamics::potential::anisotropic_potential_of_body;
-use twofold::euler_angles::body_from_inertial;
-use twofold::lorentz_violation::coefficients_from_preferred_frame;
-
-use crate::check::checks;
-use crate::derivation::Differentiable;
-use crate::random::Point;
+use twofold::dynamics::point_masses::preferred_frame_potential_of_masses;
 
 checks! {
     /// with s^ij = -alpha_2 w^i w^j the potential of two masses is that of the PPN formalism; over three directions at right angles it sums to
@@ -81,9 +74,7 @@ fn coupling_to_curvature<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         coupling += k[a][b][c][d] * curvature[a][b][c][d] / 2.0;
     }
     let s = coefficients_from_vacuum_value(&k);
-    let mut residuals = vec![coupling - s.component_mul(&ricci).sum(), s.component_mul(&metric).sum()];
-    residuals.extend((s - s.transpose()).iter());
-    residuals
+    components![coupling - s.component_mul(&ricci).sum(), s.component_mul(&metric).sum(), s - s.transpose()]
 }
 
 /// A symmetric matrix of its spatial part, its column of time and their common component.

@@ -1,19 +1,7 @@
 //! Potential and kinetic energy in Euler angles from their coordinate-free forms. Eqs. (5)-(7), (11), (13),
 //! (21)-(23).
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
-use twofold::dynamics::potential::{
-    anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body, nordtvedt_potential,
-    potential_gradient_in_angles,
-};
-use twofold::euler_angles::{body_from_inertial, body_rates, symmetry_axis, tensor_in_body_frame};
-use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_preferred_frame};
-
-use crate::check::{Measured, checks};
-use crate::derivation::Differentiable;
-use crate::measured_order::measured_order;
-use crate::random::Point;
+use crate::prelude::*;
 
 checks! {
     /// the potential in Euler angles is C s^zz of the rotated tensor, and C n.(s n)

@@ -1,16 +1,7 @@
 //! The numerical motion: against the 34-digit reference motions, its invariants, its dense output and its derivatives.
 
-use num_dual::{Dual2_64, Dual64};
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations};
-use twofold::dynamics::first_integrals::{first_integrals, symmetric_adjugate};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
-use twofold::euler_angles::{body_from_inertial, permuted_from_inertial};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{Motion, TaylorMotion};
-
-use crate::check::{Measured, Worst, checks, largest, largest_component, largest_difference};
-use crate::physical_domain::{scenes, worst_over};
-use crate::reference::{ReferenceMotion, reference_motion, reference_motions};
+use crate::prelude::*;
+use crate::reference::ReferenceMotion;
 
 checks! {
     /// the numerical motion of ten scenes reproduces n, L, e_x of a 34-digit integration at every listed time
@@ -69,31 +60,24 @@ fn motion_of<X: RotationState<f64>>(
 }
 
 pub(super) fn against_reference<X: RotationState<f64>>() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for reference in reference_motions() {
-        let motion = motion_of::<X>(&reference, 1e-14)?;
-        for (t, state) in &reference.states {
-            let off = largest_difference(&motion.state(*t)?, &X::from_vectors(state.vectors()), 1.0);
-            worst.see(off, || format!("{} at t = {t}", reference.name));
-        }
-    }
-    worst.finish()
+    worst_of(reference_motions(), |reference| {
+        let motion = motion_of::<X>(reference, 1e-14)?;
+        worst_of(&reference.states, |(t, state)| {
+            Ok(largest_difference(&motion.state(*t)?, &X::from_vectors(state.vectors()), 1.0))
+        })
+    })
 }
 
 pub(super) fn estimate_against_reference<X: RotationState<f64>>() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for reference in reference_motions() {
-        for exponent in 3..=14 {
-            let motion = motion_of::<X>(&reference, 10f64.powi(-exponent))?;
-            for (t, state) in &reference.states {
+    worst_of(reference_motions(), |reference| {
+        worst_of((3..=14).map(|exponent| 10f64.powi(-exponent)), |&tolerance| {
+            let motion = motion_of::<X>(reference, tolerance)?;
+            worst_of(&reference.states, |(t, state)| {
                 let error = difference(&motion.state(*t)?, &X::from_vectors(state.vectors()));
-                worst.see(error / motion.error_estimate(*t), || {
-                    format!("{} at t = {t}, tolerance 1e-{exponent}, error {error:e}", reference.name)
-                });
-            }
-        }
-    }
-    worst.finish()
+                Ok(error / motion.error_estimate(*t))
+            })
+        })
+    })
 }
 
 /// `[E, Omega^z, K]` and the sums of the magnitudes of their terms.
@@ -111,20 +95,15 @@ fn integrals_and_scales(problem: &Problem<f64>, state: &BodyState<f64>) -> ([f64
 }
 
 fn integrals_of_examples() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for name in ["tp-1", "tp-2", "sp-1", "sp-2"] {
+    worst_of(["tp-1", "tp-2", "sp-1", "sp-2"], |name| {
         let problem = reference_motion(name).problem();
         let motion = problem.taylor((0.0, 400.0), 1e-14)?;
         let (start, scale) = integrals_and_scales(&problem, problem.initial());
-        for i in 0..=800 {
-            let t = f64::from(i) / 2.0;
+        worst_of((0..=800).map(|i| f64::from(i) / 2.0), |&t| {
             let (now, _) = integrals_and_scales(&problem, &motion.state(t)?);
-            for (k, label) in ["E", "Omega^z", "K"].iter().enumerate() {
-                worst.see((now[k] - start[k]).abs() / scale[k], || format!("{label} of {name} at t = {t}"));
-            }
-        }
-    }
-    worst.finish()
+            Ok(largest([0, 1, 2].map(|k| (now[k] - start[k]).abs() / scale[k])))
+        })
+    })
 }
 
 fn integrals_of_random_motions() -> Result<Measured, String> {
@@ -144,52 +123,39 @@ fn dense_output_solves_equations() -> Result<Measured, String> {
     worst_over(2, 100, &scenes(), |scene| {
         // The truncation must be far below rounding: two derivatives multiply it by (order / step)^2.
         let motion = scene.problem().map(Dual2_64::from_re).taylor((0.0, 10.0), 1e-16)?;
-        let mut most = 0.0_f64;
-        for i in 1..20 {
+        worst_of(1..20, |&i| {
             let state = motion.state(Dual2_64::new(0.5 * f64::from(i), 1.0, 0.0))?;
-            let angles = state.angles()?;
-            let sin = angles.beta.re.sin();
+            let EulerAngles { alpha: a, beta: b, gamma } = state.angles()?;
+            let sin = b.re.sin();
             if sin.abs() < 1e-3 {
-                continue;
+                return Ok(0.0);
             }
-            let q = AxisAngles {
-                alpha: angles.alpha.re,
-                beta: angles.beta.re,
-                alpha_rate: angles.alpha.v1,
-                beta_rate: angles.beta.v1,
-            };
-            let spin = q.alpha_rate * q.beta.cos() + angles.gamma.v1;
-            let (alpha, beta) = euler_angle_accelerations(&scene.spheroid(), &scene.coefficients(), spin, &q);
+            let q = AxisAngles { alpha: a.re, beta: b.re, alpha_rate: a.v1, beta_rate: b.v1 };
+            let spin = q.alpha_rate * q.beta.cos() + gamma.v1;
+            let (alpha, beta) = euler_angle_accelerations(&scene.spheroid, &scene.s, spin, &q);
             let size = 1.0 + q.alpha_rate.abs().powi(2) + q.beta_rate.abs() * q.alpha_rate.abs();
-            let residual = ((angles.alpha.v2 - alpha) * sin).abs() + (angles.beta.v2 - beta).abs();
-            most = largest([most, residual * sin * sin / (size * f64::EPSILON)]);
-        }
-        Ok(most)
+            let residual = ((a.v2 - alpha) * sin).abs() + (b.v2 - beta).abs();
+            Ok(residual * sin * sin / (size * f64::EPSILON))
+        })
     })
 }
 
 fn derivatives_by_duals() -> Result<Measured, String> {
     let scene = reference_motion("tp-2");
-    let at = |s_yy: f64| -> Result<BodyState<f64>, twofold::Error> {
+    let at = |s_yy: f64| -> Result<[Vector3<f64>; 3], twofold::Error> {
         let s = PrincipalCoefficients { yy: s_yy, ..scene.coefficients }.tensor();
-        Problem::new(scene.spheroid, s, scene.initial())?.taylor((0.0, 50.0), 1e-15)?.state(50.0)
+        Ok(Problem::new(scene.spheroid, s, scene.initial())?.taylor((0.0, 50.0), 1e-15)?.state(50.0)?.vectors())
     };
     let lifted: Problem<Dual64> = scene.problem().map(Dual64::from_re);
     let mut s = *lifted.coefficients();
     s[(1, 1)].eps = 1.0;
     let problem = Problem::new(*lifted.spheroid(), s, *lifted.initial())?;
     let dual = problem.taylor((0.0, 50.0), 1e-15)?.state(Dual64::from_re(50.0))?;
+    let dual = dual.vectors().map(|vector| vector.map(|x| x.eps));
     let step = 1e-5;
     let (above, below) = (at(scene.coefficients.yy + step)?, at(scene.coefficients.yy - step)?);
-    let mut worst = Worst::default();
-    let differences = above.vectors().into_iter().zip(below.vectors()).map(|(above, below)| above - below);
-    let pairs: Vec<_> = dual.vectors().into_iter().zip(differences).collect();
-    let size = largest(pairs.iter().map(|(d, _)| largest_component(&d.map(|x| x.eps))));
-    for (index, (dual, difference)) in pairs.iter().enumerate() {
-        let error = largest_component(&(dual.map(|x| x.eps) - difference / (2.0 * step)));
-        worst.see(error / size, || format!("d/ds^YY of n, L, e_x [{index}] of tp-2 at t = 50, largest {size:.3}"));
-    }
-    worst.finish()
+    let size = largest(dual.iter().map(largest_component));
+    worst_of(0..3, |&i| Ok(largest_component(&(dual[i] - (above[i] - below[i]) / (2.0 * step))) / size))
 }
 
 /// The state at the end of a span, and its estimated error.
@@ -217,7 +183,8 @@ fn scaling_in_time_unit() -> Result<Measured, String> {
         let unit = (inertia / c).sqrt();
         let problem = scene.problem();
         let (plain, estimate) = end_of(&problem, (0.0, 20.0))?;
-        let spheroid = RigidSpheroid { inertia_xx: inertia, inertia_zz: inertia * scene.inertia_ratio, constant_c: c };
+        let spheroid =
+            RigidSpheroid { inertia_xx: inertia, inertia_zz: inertia * scene.spheroid.inertia_zz, constant_c: c };
         let initial = BodyState { momentum: problem.initial().momentum * (inertia / unit), ..*problem.initial() };
         let scaled = Problem::new(spheroid, *problem.coefficients(), initial)?;
         let (scaled, its_estimate) = end_of(&scaled, (0.0, 20.0 * unit))?;
@@ -229,27 +196,9 @@ fn scaling_in_time_unit() -> Result<Measured, String> {
 fn frame_covariance() -> Result<Measured, String> {
     worst_over(5, 200, &scenes(), |scene| {
         let (plain, estimate) = end_of(&scene.problem(), (0.0, 20.0))?;
-        let mut most = 0.0;
-        for q in [body_from_inertial(&scene.angles()), permuted_from_inertial()] {
+        largest_of([body_from_inertial(&scene.angles), permuted_from_inertial()].map(|q| {
             let (rotated, its_estimate) = end_of(&scene.problem().rotated(&q), (0.0, 20.0))?;
-            most = largest([most, difference(&rotated, &plain.rotated(&q)) / (estimate + its_estimate)]);
-        }
-        Ok(most)
+            Ok(difference(&rotated, &plain.rotated(&q)) / (estimate + its_estimate))
+        }))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use twofold::dynamics::first_integrals::spin_in_angles;
-
-    use super::*;
-
-    /// The scale of `Omega^z` in the drift is that of its terms, not of the sum.
-    #[test]
-    fn spin_of_angles_and_of_state_agree() {
-        let scene = reference_motion("retrograde");
-        let direct = spin_in_angles(&scene.angles, &scene.rates);
-        let (integrals, _) = integrals_and_scales(&scene.problem(), &scene.initial());
-        approx::assert_relative_eq!(direct, integrals[1], max_relative = 1e-15);
-    }
 }

@@ -1,19 +1,9 @@
 //! Bounds from tables of pulsars: their uncertainties, and the same as bounds on alpha_2. Eqs. (5), (20), (41)-(43).
 
-use std::f64::consts::PI;
+use twofold::units::DEGREE;
 
-use nalgebra::Vector3;
-use twofold::lorentz_violation::{PrincipalCoefficients, coefficients_from_preferred_frame};
-use twofold::observables::bound::fluid_inertia_over_c;
-use twofold::observables::eta::secular_axis_rate;
-use twofold::star::deformation::centrifugal_oblateness;
-use twofold::star::estimates::inertia_over_c_estimate;
-use twofold::units::{DEGREE, si};
-
-use crate::check::{Measured, Worst, checks, smallest, worst_of};
-use crate::derivation::Differentiable;
 use crate::eta::seen_rate;
-use crate::random::{Point, Random, worst_of_draws};
+use crate::prelude::*;
 use twofold_scene::pulsar_table::published::{GLOBAL_2014, SOLITARY_ALPHA_2};
 use twofold_scene::pulsar_table::{self, CONFIDENCE, CONSERVATIVE_ETA, Figure, Pulsar, Quantity, Spread, recommended};
 
@@ -72,8 +62,7 @@ fn nordtvedt_precession<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let axis = p.gradient;
     let s = coefficients_from_preferred_frame(alpha_2, &w);
     let rate = secular_axis_rate(fluid_inertia_over_c(spin), spin, &s, &axis);
-    let nordtvedt = w.cross(&axis) * (-(alpha_2 * spin * w.dot(&axis)) / 2.0);
-    (rate - nordtvedt).iter().copied().collect()
+    components![rate - w.cross(&axis) * (-(alpha_2 * spin * w.dot(&axis)) / 2.0)]
 }
 
 fn fluid_inertia() -> Result<Measured, String> {
@@ -89,11 +78,10 @@ fn fluid_inertia() -> Result<Measured, String> {
 fn uncertainties() -> Result<Measured, String> {
     const DRAWS: usize = 20_000;
     let mut random = Random::with_seed(42);
-    let mut worst = Worst::default();
-    for pulsar in pulsar_table::paper() {
+    worst_of(pulsar_table::paper(), |pulsar| {
         let figures = pulsar.figures()?;
         // The measured error of the change is as large as the change: its effect is in `pulsar-limits-monte-carlo`.
-        let pulsar = Pulsar { width_change: Quantity::exact(pulsar.width_change.value), ..pulsar };
+        let pulsar = Pulsar { width_change: Quantity::exact(pulsar.width_change.value), ..pulsar.clone() };
         let (mut sums, mut squares) = (vec![0.0; figures.len()], vec![0.0; figures.len()]);
         for _ in 0..DRAWS {
             let drawn = pulsar.random_figures(&mut random)?;
@@ -103,25 +91,19 @@ fn uncertainties() -> Result<Measured, String> {
                 squares[i] += deviation * deviation;
             }
         }
-        for (i, figure) in figures.iter().enumerate() {
-            let mean = sums[i] / DRAWS as f64;
-            let drawn = (squares[i] / DRAWS as f64 - mean * mean).sqrt() * figure.value.abs();
-            if figure.from_inputs == 0.0 && drawn < 1e-12 * figure.value.abs() {
-                continue;
-            }
-            worst.see((figure.from_inputs / drawn - 1.0).abs(), || {
-                format!("{}, {}: {:.3e}, drawn {drawn:.3e}", pulsar.name, figure.label, figure.from_inputs)
-            });
-        }
-    }
-    worst.finish()
+        worst_of(figures.iter().zip(sums).zip(squares), |((figure, sum), square)| {
+            let mean = sum / DRAWS as f64;
+            let drawn = (square / DRAWS as f64 - mean * mean).sqrt() * figure.value.abs();
+            let exact = figure.from_inputs == 0.0 && drawn < 1e-12 * figure.value.abs();
+            Ok(if exact { 0.0 } else { (figure.from_inputs / drawn - 1.0).abs() })
+        })
+    })
 }
 
 fn limits_by_draws() -> Result<Measured, String> {
     const DRAWS: u32 = 100_000;
     let mut random = Random::with_seed(95);
-    let mut worst = Worst::default();
-    for pulsar in pulsar_table::paper() {
+    worst_of(pulsar_table::paper(), |pulsar| {
         let figures = pulsar.figures()?;
         let own = figures.iter().position(|figure| figure.key == "bound_over_eta_own").ok_or("no bound")?;
         let limit = pulsar.limit(&figures[own])?.all;
@@ -135,9 +117,8 @@ fn limits_by_draws() -> Result<Measured, String> {
         let share = f64::from(above) / f64::from(DRAWS);
         let beyond = 1.0 - CONFIDENCE;
         let standard_error = (beyond * CONFIDENCE / f64::from(DRAWS)).sqrt();
-        worst.see((share - beyond).abs() / standard_error, || format!("{}: {share:.5} above {limit:.3e}", pulsar.name));
-    }
-    worst.finish()
+        Ok(Measured::new((share - beyond).abs() / standard_error, format!("{share:.5} above {limit:.3e}")))
+    })
 }
 
 fn coverage() -> Result<Measured, String> {
@@ -176,14 +157,14 @@ fn coverage() -> Result<Measured, String> {
 
 fn changes_are_slopes() -> Result<Measured, String> {
     let pulsars = pulsar_table::paper();
-    let mut worst = Worst::default();
-    for (pulsar, slope) in pulsars.iter().zip(SLOPES) {
+    if pulsars.len() != SLOPES.len() {
+        return Err(format!("{} pulses", pulsars.len()));
+    }
+    worst_of(pulsars.iter().zip(SLOPES), |(pulsar, slope)| {
         let change = pulsar.measured_change().ok_or_else(|| format!("{}: a change without an error", pulsar.name))?;
         // 52.5 for a printed 53 is met to the half unit, but for the rounding of both.
-        let difference = (change.value * 1e3 - slope * pulsar.years.value).abs() * (1.0 - 1e-12);
-        worst.see(difference, || format!("{}: {}", pulsar.name, change.value));
-    }
-    if pulsars.len() == SLOPES.len() { worst.finish() } else { Err(format!("{} pulses", pulsars.len())) }
+        Ok((change.value * 1e3 - slope * pulsar.years.value).abs() * (1.0 - 1e-12))
+    })
 }
 
 fn limits_with_error() -> Result<Measured, String> {

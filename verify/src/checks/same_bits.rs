@@ -1,11 +1,6 @@
 //! The same bits: backwards as forwards with the momentum reversed, and in every run, order and thread.
 
-use twofold::dynamics::{BodyState, RotationState};
-use twofold::plan::Method;
-use twofold::propagation::Motion;
-
-use crate::check::{Measured, checks};
-use crate::error_scenes::ErrorScene;
+use crate::prelude::*;
 
 const SCENES: u64 = 60;
 const SEED: u64 = 11;

@@ -1,9 +1,6 @@
 //! The numerical motion against another integrator of another crate, in both forms of the equations.
 
-use twofold::propagation::{ContinuousAngles, Motion};
-
-use crate::check::{Measured, checks, largest, largest_difference};
-use crate::physical_domain::{scenes, worst_over};
+use crate::prelude::*;
 use crate::second_integrator::{motion_in_angles, regular_motion};
 
 checks! {
@@ -39,14 +36,8 @@ fn forms_agree() -> Result<Measured, String> {
             return Ok(0.0);
         }
         measured += 1;
-        let other = motion_in_angles(
-            &scene.spheroid(),
-            &scene.coefficients(),
-            (&scene.angles(), &scene.rates()),
-            DURATION,
-            1e-13,
-        )?;
-        let ours = ContinuousAngles::new(&motion, 0.0, &scene.angles()).and_then(|mut angles| angles.at(DURATION))?;
+        let other = motion_in_angles(&scene.spheroid, &scene.s, (&scene.angles, &scene.rates), DURATION, 1e-13)?;
+        let ours = ContinuousAngles::new(&motion, 0.0, &scene.angles).and_then(|mut angles| angles.at(DURATION))?;
         let differences = [ours.alpha - other.alpha, ours.beta - other.beta, ours.gamma - other.gamma];
         Ok(largest(differences.map(f64::abs)))
     })?;

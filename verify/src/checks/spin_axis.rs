@@ -1,22 +1,9 @@
 //! The angle between the spin axis and a fixed direction. Eqs. (37)-(39).
 
-use std::f64::consts::FRAC_PI_2;
-
-use twofold::dynamics::BodyState;
-use twofold::euler_angles::symmetry_axis;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::Observer;
-use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate};
-use twofold::propagation::Motion;
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
-
-use crate::check::checks;
 use crate::checks::observer::observer;
 use crate::checks::perturbation_equations::constants;
-use crate::derivation::{Differentiable, moving_angles};
-use crate::measured_order::order_of_error;
-use crate::paper_examples::{COEFFICIENTS, SPIN, problem_from, spheroid};
-use crate::random::Point;
+use crate::paper_examples::problem_from;
+use crate::prelude::*;
 
 checks! {
     /// Eq. (37) is e_z . n-hat, and changes sign with the direction

@@ -1,6 +1,6 @@
 //! Errors of every kernel in ulp of its conditioned scale, on sweeps into its limits: a check for each family of cases.
 
-use crate::check::{Bound, Check, Kind};
+use crate::prelude::*;
 use crate::stability::cases::FAMILIES;
 
 pub(super) fn checks() -> Vec<Check> {

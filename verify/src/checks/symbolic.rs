@@ -1,7 +1,7 @@
 //! The second derivation: kernels against exact values that SymPy derived from the Lagrangian.
 
-use crate::check::{Measured, checks};
-use crate::symbolic::{Comparison, DATA, Document, compare_doubles, compare_field};
+use crate::prelude::*;
+use crate::symbolic::{DATA, Document, compare_closed, compare_doubles, compare_field};
 
 const EQUATIONS: [u8; 44] = [
     6, 7, 8, 9, 11, 13, 17, 21, 22, 23, 24, 25, 28, 29, 30, 31, 32, 33, 37, 38, 39, 42, 45, 46, 47, 49, 50, 51, 52, 54,
@@ -10,22 +10,17 @@ const EQUATIONS: [u8; 44] = [
 
 checks! {
     /// 47 kernels have the values that computer algebra derives from the Lagrangian, at rational points
-    Exact "symbolic-exact" EQUATIONS: || compare_field(&Document::parse(DATA)?).map(measured);
+    Exact "symbolic-exact" EQUATIONS: || compare_field(&Document::parse(DATA)?);
     AtMost(0.0) "values that differ in the field modulo 2^61 - 1, 8 rational points";
     because "exact arithmetic on both sides";
     /// the same 47 kernels have these values in doubles
-    Oracle "symbolic-rounding" EQUATIONS:
-        || compare_doubles(&Document::parse(DATA)?).map(|[rational, _]| measured(rational));
+    Oracle "symbolic-rounding" EQUATIONS: || compare_doubles(&Document::parse(DATA)?);
     AtMost(2.0) "largest error / (2.2e-16 x sum of magnitudes of its terms), 8 rational points";
     because "each term is rounded some tens of times by half an ulp at most, in directions that have no reason to agree";
     /// coefficients and C of spheroids, steady and free precession, mean Hamiltonian with its transformation, wave harmonics and bound are what
     /// computer algebra derives, from the integral over directions and from the Lagrangian
     Oracle "symbolic-closed-forms" [12, 15, 17, 19, 26, 40, 43, 48, 68, 71, 73, 74, 75, 77, 78, 79]:
-        || compare_doubles(&Document::parse(DATA)?).map(|[_, closed]| measured(closed));
+        || compare_closed(&Document::parse(DATA)?);
     AtMost(16.0) "largest error / (2.2e-16 x its scale: the value, or the vector or sum that it is part of), 8 rational points";
     because "some tens of roundings by half an ulp at most, of numbers no larger than the scale";
-}
-
-fn measured(comparison: Comparison) -> Measured {
-    Measured::new(comparison.figure, comparison.detail)
 }

@@ -1,25 +1,7 @@
 //! The exact motion for `s^XX = s^YY`: equations of motion, reference motions, numerical motion, derivatives and limits.
 
-use std::f64::consts::PI;
-
-use nalgebra::Vector3;
-use num_dual::{Dual2_64, Dual64};
+use crate::prelude::*;
 use proptest::prelude::*;
-use twofold::Error;
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::numerics::scalar::Real;
-use twofold::propagation::Motion;
-use twofold::solutions::free::free_rotation;
-use twofold::solutions::perturbation::Precession;
-use twofold::solutions::steady::steady_precession_rate;
-use twofold::solutions::symmetric::SymmetricSolution;
-
-use crate::check::{Measured, Worst, checks, largest, largest_difference};
-use crate::physical_domain::{RandomScene, scenes, worst_over};
-use crate::reference::reference_motion;
 
 checks! {
     /// the exact solution for s^XX = s^YY, differentiated twice in time by duals, satisfies Eq. (25) and conserves Omega^z
@@ -65,17 +47,18 @@ checks! {
 /// them with coefficients of up to 3, which trap the axis near the equator or a pole.
 fn symmetric_scenes() -> impl Strategy<Value = RandomScene> {
     (scenes(), prop_oneof![Just(1.0), Just(10.0)]).prop_map(|(scene, strength)| {
-        let [xx, _, zz] = scene.s.map(|s| s * strength);
-        RandomScene { s: [xx, xx, zz], ..scene }
+        let s = scene.s.scaled(strength);
+        RandomScene { s: PrincipalCoefficients { yy: s.xx, ..s }, ..scene }
     })
 }
 
 fn lifted<S: Real>(scene: &RandomScene) -> (RigidSpheroid<S>, PrincipalCoefficients<S>, EulerAngles<S>, EulerRates<S>) {
-    let [a, b, c] = scene.angles.map(S::from_f64);
-    let [u, v, w] = scene.rates.map(S::from_f64);
+    let ([xx, yy, zz], q, v) = ([scene.s.xx, scene.s.yy, scene.s.zz].map(S::from_f64), scene.angles, scene.rates);
+    let ([a, b, c], [u, v, w]) =
+        ([q.alpha, q.beta, q.gamma].map(S::from_f64), [v.alpha, v.beta, v.gamma].map(S::from_f64));
     (
-        RigidSpheroid::in_units_of_tc(S::from_f64(scene.inertia_ratio)),
-        PrincipalCoefficients::new(scene.s.map(S::from_f64)),
+        scene.spheroid.map(S::from_f64),
+        PrincipalCoefficients { xx, yy, zz },
         EulerAngles { alpha: a, beta: b, gamma: c },
         EulerRates { alpha: u, beta: v, gamma: w },
     )
@@ -113,11 +96,11 @@ fn solves_equations() -> Result<Measured, String> {
             alpha_rate: angles.alpha.v1,
             beta_rate: angles.beta.v1,
         };
-        let initial_spin = scene.rates[0] * scene.angles[1].cos() + scene.rates[2];
+        let initial_spin = spin_in_angles(&scene.angles, &scene.rates);
         let spin = q.alpha_rate * q.beta.cos() + angles.gamma.v1;
-        let (alpha, beta) = euler_angle_accelerations(&scene.spheroid(), &scene.coefficients(), initial_spin, &q);
+        let (alpha, beta) = euler_angle_accelerations(&scene.spheroid, &scene.s, initial_spin, &q);
         let sin = q.beta.sin();
-        let size = 1.0 + q.alpha_rate.powi(2) + (q.beta_rate * q.alpha_rate).abs() + scene.rates[2].powi(2);
+        let size = 1.0 + q.alpha_rate.powi(2) + (q.beta_rate * q.alpha_rate).abs() + scene.rates.gamma.powi(2);
         let residual = [
             (angles.alpha.v2 - alpha) * sin,
             angles.beta.v2 - beta,
@@ -131,15 +114,11 @@ fn solves_equations() -> Result<Measured, String> {
 }
 
 fn against_reference() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for name in ["axisymmetric-violation", "free"] {
+    worst_of(["axisymmetric-violation", "free"], |name| {
         let scene = reference_motion(name);
         let motion = SymmetricSolution::new(&scene.spheroid, &scene.coefficients, &scene.angles, &scene.rates)?;
-        for (t, expected) in &scene.states {
-            worst.see(difference(&state(&scene.spheroid, &motion, *t), expected), || format!("{name} at t = {t}"));
-        }
-    }
-    worst.finish()
+        worst_of(&scene.states, |(t, expected)| Ok(difference(&state(&scene.spheroid, &motion, *t), expected)))
+    })
 }
 
 /// Largest difference over the error estimate of the numerical motion and the rounding that no solution can avoid: of the
@@ -175,7 +154,7 @@ fn compare_with_propagation(scene: &RandomScene) -> Result<f64, String> {
 fn near_the_poles() -> Result<Measured, String> {
     let start = (symmetric_scenes(), -9.0..-2.0f64, any::<bool>()).prop_map(|(mut scene, log, south)| {
         let distance = 10f64.powf(log);
-        scene.angles[1] = if south { PI - distance } else { distance };
+        scene.angles.beta = if south { PI - distance } else { distance };
         scene
     });
     worst_over(32, 300, &start, compare_with_propagation)
@@ -184,7 +163,7 @@ fn near_the_poles() -> Result<Measured, String> {
 fn derivatives() -> Result<Measured, String> {
     let strategy = (symmetric_scenes(), 0..4_usize, any::<bool>());
     worst_over(33, 100, &strategy, |&(scene, variable, no_violation)| {
-        let scene = if no_violation { RandomScene { s: [0.0; 3], ..scene } } else { scene };
+        let scene = if no_violation { RandomScene { s: PrincipalCoefficients::new([0.0; 3]), ..scene } } else { scene };
         let (spheroid, mut s, angles, mut rates) = lifted::<Dual64>(&scene);
         match variable {
             0 => s.zz.eps = 1.0,
@@ -208,14 +187,14 @@ fn derivatives() -> Result<Measured, String> {
 /// `1 +` the turns of the motion in `t`, in rad.
 fn phase(scene: &RandomScene, t: f64) -> f64 {
     let state = scene.state();
-    1.0 + t * (state.momentum.norm() + scene.rates.iter().map(|r| r.abs()).sum::<f64>())
+    1.0 + t * (state.momentum.norm() + scene.rates.alpha.abs() + scene.rates.beta.abs() + scene.rates.gamma.abs())
 }
 
 fn free_limit() -> Result<Measured, String> {
     worst_over(34, 500, &(symmetric_scenes(), 0.0..100.0f64), |&(scene, t)| {
-        let scene = RandomScene { s: [0.0; 3], ..scene };
-        let exact = state(&scene.spheroid(), &solution(&scene)?, t);
-        let free = free_rotation(&scene.spheroid(), &scene.state(), t);
+        let scene = RandomScene { s: PrincipalCoefficients::new([0.0; 3]), ..scene };
+        let exact = state(&scene.spheroid, &solution(&scene)?, t);
+        let free = free_rotation(&scene.spheroid, &scene.state(), t);
         Ok(difference(&exact, &free) / (phase(&scene, t) * f64::EPSILON))
     })
 }
@@ -225,11 +204,11 @@ fn steady() -> Result<Measured, String> {
     let measured = worst_over(35, 500, &(symmetric_scenes(), any::<bool>()), |&(mut scene, twofold)| {
         let kind = if twofold { Precession::Twofold } else { Precession::Single };
         let (spheroid, s, angles, _) = lifted::<f64>(&scene);
-        let spin = scene.rates[2];
+        let spin = scene.rates.gamma;
         let Ok(rate) = steady_precession_rate(kind, &spheroid, &s, spin, angles.beta) else {
             return Ok(0.0);
         };
-        scene.rates = [rate, 0.0, spin - rate * angles.beta.cos()];
+        scene.rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * angles.beta.cos() };
         let (sin, cos) = angles.beta.sin_cos();
         let k = 2.0 * (s.zz - s.xx);
         let stiffness =
@@ -243,7 +222,7 @@ fn steady() -> Result<Measured, String> {
         let errors = [
             now.alpha - angles.alpha - rate * t,
             now.beta - angles.beta,
-            now.gamma - angles.gamma - scene.rates[2] * t,
+            now.gamma - angles.gamma - scene.rates.gamma * t,
             (motion.mean_rates().alpha - rate) * t,
         ];
         // A rounding of the rate tilts the axis by as much over the stiffness.

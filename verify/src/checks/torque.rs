@@ -1,15 +1,7 @@
 //! Torques as generalised forces. Eq. (66).
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::equations_of_motion::torque_on_axis;
-use twofold::dynamics::potential::potential_gradient_in_angles;
-use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
-use twofold::euler_angles::{body_from_inertial, body_rates, tensor_in_body_frame};
-
-use crate::check::checks;
-use crate::derivation::Differentiable;
 use crate::derivation::virtual_rotation::{gradient_in_angles, torque_by_virtual_rotation, unit_rates};
-use crate::random::Point;
+use crate::prelude::*;
 
 checks! {
     /// the torque does the work -dU under a change of each Euler angle alone, for any potential (U_gamma not zero)
@@ -35,10 +27,7 @@ fn torque_on_spheroid<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let s_body = tensor_in_body_frame(&rotation, &p.s.tensor());
     let on_body = torque_on_body(&s_body, &Matrix3::from_diagonal(&Vector3::new(xx, xx, zz)));
     let on_axis = rotation * torque_on_axis(c, &p.s.tensor(), &rotation.row(2).transpose());
-    let mut out = Vec::new();
-    out.extend(&(from_gradient - on_body));
-    out.extend(&(from_gradient - on_axis));
-    out
+    components![from_gradient - on_body, from_gradient - on_axis]
 }
 
 fn torque_under_rotations<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -47,9 +36,9 @@ fn torque_under_rotations<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let on_body = torque_on_body(&tensor_in_body_frame(&rotation, &p.s_inertial), u);
     let inertial = torque_on_body(&p.s_inertial, &(rotation.transpose() * u * rotation));
     let gradient = gradient_in_angles(q, &p.s_inertial, u);
-    let mut out = Vec::new();
-    out.extend(&(on_body - torque_by_virtual_rotation(&rotation, &p.s_inertial, u)));
-    out.extend(&(on_body - torque_from_gradient(q, &gradient)));
-    out.extend(&(on_body - rotation * inertial));
-    out
+    components![
+        on_body - torque_by_virtual_rotation(&rotation, &p.s_inertial, u),
+        on_body - torque_from_gradient(q, &gradient),
+        on_body - rotation * inertial,
+    ]
 }

@@ -1,18 +1,7 @@
 //! The source of the quadrupole wave: second time derivative of the moment-of-inertia tensor. Eqs. (59)-(65), (67), (68).
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::angular_acceleration::angular_acceleration;
-use twofold::dynamics::equations_of_motion::torque_on_axis;
-use twofold::dynamics::wave_source::{
-    free_inertia_acceleration, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
-};
-use twofold::dynamics::{BodyState, PrincipalInertia};
-use twofold::euler_angles::{EulerRates, body_from_inertial, body_rates};
-use twofold::observables::gravitational_wave::metric_perturbation;
-
-use crate::check::checks;
-use crate::derivation::{Differentiable, accelerated_angles, body_motion};
-use crate::random::Point;
+use crate::derivation::{accelerated_angles, body_motion};
+use crate::prelude::*;
 
 checks! {
     /// with the torque d(R^T I Omega)/dt of any motion, the angular acceleration is the rate of the body rates
@@ -32,10 +21,8 @@ checks! {
 fn eulers_equations<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let (q, v, a) = (&p.angles, &p.rates, &p.accelerations);
     let torque = body_motion::torque_of_motion(&p.inertia, q, v, a);
-    (angular_acceleration(&p.inertia, &body_rates(q, v), &torque) - body_motion::angular_acceleration(q, v, a))
-        .iter()
-        .copied()
-        .collect()
+    let by_torque = angular_acceleration(&p.inertia, &body_rates(q, v), &torque);
+    components![by_torque - body_motion::angular_acceleration(q, v, a)]
 }
 
 fn wave_tensor_of_motion<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -44,20 +31,21 @@ fn wave_tensor_of_motion<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let tensor = wave_tensor(&p.inertia, &body_rates(q, v), &torque);
     let by_time = body_motion::inertia_tensor_acceleration(&p.inertia, q, v, a);
     let rotation = body_from_inertial(q);
-    let mut out = vec![tensor.trace()];
-    out.extend(&(tensor_in_inertial_frame(&rotation, &tensor) - by_time));
-    // The same in the body frame: each component of Eq. (65) by itself.
-    out.extend(&(tensor - rotation * by_time * rotation.transpose()));
-    out
+    components![
+        tensor.trace(),
+        tensor_in_inertial_frame(&rotation, &tensor) - by_time,
+        // The same in the body frame: each component of Eq. (65) by itself.
+        tensor - rotation * by_time * rotation.transpose(),
+    ]
 }
 
 fn free_wave_tensor<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let omega = body_rates(&p.angles, &p.rates);
     let tensor = wave_tensor(&p.inertia, &omega, &Vector3::zeros());
-    let mut out = Vec::new();
-    out.extend(&(tensor - free_wave_tensor_of_zimmermann(&p.inertia, &omega)));
-    out.extend(&(tensor - free_wave_tensor_by_commutators(&p.inertia, &omega)));
-    out
+    components![
+        tensor - free_wave_tensor_of_zimmermann(&p.inertia, &omega),
+        tensor - free_wave_tensor_by_commutators(&p.inertia, &omega),
+    ]
 }
 
 /// The free result of M. Zimmermann, Phys. Rev. D 21, 891 (1980), with indices 1, 2, 3 for the body axes:
@@ -96,7 +84,7 @@ fn spheroid_wave_source<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let torque = rotation * torque_on_axis(p.spheroid.constant_c, s, &state.axis);
     let tensor = wave_tensor(&p.spheroid.inertia(), &body_rates(q, &p.rates), &torque);
     let short = spheroid_inertia_acceleration(&p.spheroid, s, &state.axis, &state.momentum);
-    (tensor_in_inertial_frame(&rotation, &tensor) - short).iter().copied().collect()
+    components![tensor_in_inertial_frame(&rotation, &tensor) - short]
 }
 
 fn free_wave_source<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -109,13 +97,11 @@ fn free_wave_source<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let free = free_inertia_acceleration(spheroid, q.alpha, q.beta, alpha_rate);
     let tensor = wave_tensor(&spheroid.inertia(), &body_rates(q, &rates), &Vector3::zeros());
     let state = BodyState::from_angles(spheroid, q, &rates);
-    let short = spheroid_inertia_acceleration(spheroid, &Matrix3::zeros(), &state.axis, &state.momentum);
-    let by_time = body_motion::inertia_tensor_acceleration(&spheroid.inertia(), q, &rates, &none);
-    let mut out = Vec::new();
-    out.extend(&(free - tensor_in_inertial_frame(&body_from_inertial(q), &tensor)));
-    out.extend(&(free - short));
-    out.extend(&(free - by_time));
-    out
+    components![
+        free - tensor_in_inertial_frame(&body_from_inertial(q), &tensor),
+        free - spheroid_inertia_acceleration(spheroid, &Matrix3::zeros(), &state.axis, &state.momentum),
+        free - body_motion::inertia_tensor_acceleration(&spheroid.inertia(), q, &rates, &none),
+    ]
 }
 
 fn quadrupole_formula<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -130,5 +116,5 @@ fn quadrupole_formula<F: Differentiable>(p: &Point<F>) -> Vec<F> {
         .fold(zero, |sum, (mass, x)| sum + (Matrix3::from_diagonal_element(x.dot(x)) - x * x.transpose()) * *mass);
     let distance = p.spheroid.constant_c;
     let strain = metric_perturbation(distance, &inertia.map(F::derivative_12));
-    (strain * distance - quadrupole.map(F::derivative_12) * F::from_f64(2.0)).iter().copied().collect()
+    components![strain * distance - quadrupole.map(F::derivative_12) * F::from_f64(2.0)]
 }

@@ -1,24 +1,11 @@
 //! The two polarizations of the quadrupole wave. Eqs. (69)-(71).
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::AxisState;
-use twofold::dynamics::equations_of_motion::{angular_velocity, torque_on_axis};
-use twofold::dynamics::wave_source::{free_inertia_acceleration, tensor_in_inertial_frame, wave_tensor};
-use twofold::dynamics::{BodyState, PrincipalInertia, Problem, RotationState};
-use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial, body_rates};
-use twofold::observables::Observer;
-use twofold::observables::gravitational_wave::{
-    Polarizations, metric_perturbation, polarization_tensors, polarizations, strain_unit, wave_of_state,
-};
-use twofold::propagation::Motion;
+use twofold::observables::gravitational_wave::{Polarizations, polarization_tensors, strain_unit, wave_of_state};
 use twofold::units::geometrised::HERTZ;
 use twofold::units::si::KILOPARSEC;
 
-use crate::check::{Measured, Worst, checks, largest, worst_of};
 use crate::checks::observer::observer;
-use crate::derivation::Differentiable;
-use crate::random::Point;
-use crate::reference::{reference_motion, reference_motions};
+use crate::prelude::*;
 
 checks! {
     /// e_+ and e_x are symmetric, trace-free, transverse to n-hat, normal to each other and of square 2
@@ -59,16 +46,15 @@ fn tensor_products<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let tensors = polarization_tensors(&observer);
     let product = |i: usize, j: usize| tensors[i].component_mul(&tensors[j]).sum();
     let two = F::from_f64(2.0);
-    let mut out = vec![product(0, 0) - two, product(1, 1) - two, product(0, 1)];
-    for tensor in &tensors {
-        out.push(tensor.trace());
-        out.extend(&(tensor - tensor.transpose()));
-        out.extend(&(tensor * observer.direction));
-    }
-    // The sign of each: h_+ stretches along theta-hat, h_x along theta-hat + phi-hat.
-    out.push(observer.theta_hat.dot(&(tensors[0] * observer.theta_hat)) - F::one());
-    out.push(observer.theta_hat.dot(&(tensors[1] * observer.phi_hat)) - F::one());
-    out
+    components![
+        [product(0, 0) - two, product(1, 1) - two, product(0, 1)],
+        tensors.map(|tensor| tensor.trace()),
+        tensors.map(|tensor| tensor - tensor.transpose()),
+        tensors.map(|tensor| tensor * observer.direction),
+        // The sign of each: h_+ stretches along theta-hat, h_x along theta-hat + phi-hat.
+        observer.theta_hat.dot(&(tensors[0] * observer.theta_hat)) - F::one(),
+        observer.theta_hat.dot(&(tensors[1] * observer.phi_hat)) - F::one(),
+    ]
 }
 
 fn polarizations_transverse_traceless<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -79,11 +65,12 @@ fn polarizations_transverse_traceless<F: Differentiable>(p: &Point<F>) -> Vec<F>
     let normal = Matrix3::identity() - observer.direction * observer.direction.transpose();
     let projected = normal * h * normal - normal * ((normal * h).trace() / 2.0);
     let (theta, phi) = (&observer.theta_hat, &observer.phi_hat);
-    let mut out: Vec<F> = (e_plus * plus + e_cross * cross - projected).iter().copied().collect();
-    // Second form: -(1/r) of the source's components.
-    out.push(plus + (theta.dot(&(source * theta)) - phi.dot(&(source * phi))) / distance);
-    out.push(cross + theta.dot(&(source * phi)) * F::from_f64(2.0) / distance);
-    out
+    components![
+        e_plus * plus + e_cross * cross - projected,
+        // Second form: -(1/r) of the source's components.
+        plus + (theta.dot(&(source * theta)) - phi.dot(&(source * phi))) / distance,
+        cross + theta.dot(&(source * phi)) * F::from_f64(2.0) / distance,
+    ]
 }
 
 fn wave_of_rotated_scene<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -181,36 +168,30 @@ fn difference(a: &Polarizations<f64>, b: &Polarizations<f64>) -> f64 {
 }
 
 fn two_forms_along_motion() -> Result<Measured, String> {
-    let (mut worst, observer) = (Worst::default(), Observer::at(0.8, 0.3));
-    for name in ["tp-1", "tp-2"] {
+    let observer = Observer::at(0.8, 0.3);
+    worst_of(["tp-1", "tp-2"], |name| {
         let scene = reference_motion(name).problem();
         let motion = scene.taylor((0.0, 200.0), 1e-15)?;
-        for i in 0..=2000 {
-            let t = 0.1 * f64::from(i);
+        worst_of((0..=2000).map(|i| 0.1 * f64::from(i)), |t| {
             let state = motion.state(t.min(200.0))?;
             let short = wave(&observer, &scene, &state.axis_state());
-            let general = wave_by_general_form(&observer, &scene, &state);
-            worst.see(difference(&short, &general), || format!("{name}, t = {t}"));
-        }
-    }
-    worst.finish()
+            Ok(difference(&short, &wave_by_general_form(&observer, &scene, &state)))
+        })
+    })
 }
 
 fn against_reference() -> Result<Measured, String> {
-    let (mut worst, observer) = (Worst::default(), Observer::at(0.8, 0.3));
-    for reference in reference_motions() {
+    let observer = Observer::at(0.8, 0.3);
+    worst_of(reference_motions(), |reference| {
         let scene = reference.problem();
         let end = reference.states.last().ok_or("a scene without states")?.0;
         let (motion, alone) = (scene.taylor((0.0, end), 1e-15)?, scene.reduced().taylor((0.0, end), 1e-15)?);
-        for (t, state) in &reference.states {
+        worst_of(&reference.states, |(t, state)| {
             let theirs = wave_by_general_form(&observer, &scene, state);
-            for state in [motion.axis_state(*t)?, alone.state(*t)?] {
-                let ours = wave(&observer, &scene, &state);
-                worst.see(difference(&ours, &theirs), || format!("{}, t = {t}", reference.name));
-            }
-        }
-    }
-    worst.finish()
+            let ours = [motion.axis_state(*t)?, alone.state(*t)?].map(|state| wave(&observer, &scene, &state));
+            Ok(largest(ours.map(|ours| difference(&ours, &theirs))))
+        })
+    })
 }
 
 /// The authors' published waveform data of tp-I: `t` in t_c, `h_+`, `h_x`.

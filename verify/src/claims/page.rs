@@ -2,9 +2,11 @@
 
 use std::fmt::Write;
 
+use twofold_scene::significant::significant;
+
 use super::{Claim, Verdict, claims};
-use crate::check::{Check, Outcome};
 use crate::checks;
+use crate::prelude::*;
 
 /// A check of a claim and what it measured.
 #[derive(Debug, Clone)]
@@ -44,12 +46,6 @@ fn shown(check: &Check, figure: f64) -> String {
         _ if (1e-2..1e4).contains(&figure.abs()) => significant(figure, 3),
         _ => format!("{figure:.1e}"),
     }
-}
-
-/// Decimal notation with some significant digits.
-fn significant(figure: f64, digits: i32) -> String {
-    let before_point = figure.abs().log10().floor() as i32 + 1;
-    format!("{figure:.*}", usize::try_from(digits - before_point).unwrap_or(0))
 }
 
 /// Runs the checks of a claim.

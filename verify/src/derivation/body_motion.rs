@@ -1,11 +1,7 @@
 //! A rigid body moving along given angles, rates and accelerations: everything from the rotation matrix by time jets.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::Scalar;
-use twofold::dynamics::PrincipalInertia;
-use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial, body_rates};
-
-use crate::derivation::{Differentiable, accelerated_angles, moving_angles, moving_rates};
+use crate::derivation::accelerated_angles;
+use crate::prelude::*;
 
 /// The rotation `R_z(gamma) R_x(beta) R_z(alpha)` from inertial to body components, composed of three rotations about
 /// coordinate axes: the definition of the angles, behind Eq. (9).

@@ -1,11 +1,6 @@
 //! The Euler-Lagrange equations from the Lagrangian alone.
 
-use twofold::dynamics::RigidSpheroid;
-use twofold::dynamics::lagrangian::lagrangian;
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-
-use crate::derivation::Differentiable;
+use crate::prelude::*;
 
 /// `d/dt (dL/dq') - dL/dq` for `q = alpha, beta, gamma`, at any angles, rates and accelerations.
 ///

@@ -1,43 +1,24 @@
 //! The first-order equations by differentiating Eq. (25) with nothing dropped, and a solution put into them.
 
-use twofold::dynamics::RigidSpheroid;
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_residuals};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::linearised::FirstOrderMotion;
-use twofold::solutions::perturbation::{Constants, Perturbation, Precession};
+use crate::prelude::*;
 
-use crate::derivation::Differentiable;
-use crate::derivation::spheroid_motion::fixed_spheroid;
-
-/// The motion about which is expanded: `alpha' = rate`, `beta` constant.
-#[derive(Debug, Clone, Copy)]
-pub struct UnperturbedMotion<F> {
-    /// Free precession or a stationary spin.
-    pub kind: Precession,
-    /// Spin component `Omega^z`.
-    pub spin: F,
-    /// Angle `alpha` at the moment.
-    pub alpha: F,
-    /// Inclination.
-    pub beta: F,
-    /// Rate of `alpha`: of free precession without Lorentz violation, or `a^(1)` of the slow precession of a stationary spin
-    /// about Z with `s^XX = s^YY`, of first order in `s`.
-    pub rate: F,
-}
+/// The motion about which is expanded, free precession or a stationary spin, and the rate of `alpha` in it: of free precession without Lorentz
+/// violation, or `a^(1)` of the slow precession of a stationary spin about Z with `s^XX = s^YY`, of first order in `s`.
+pub type Unperturbed<F> = (ZerothOrder<F>, F);
 
 /// The terms of Eq. (25) that are of first order, with nothing else dropped. The first equation is divided by `sin^2 beta_0`, as
 /// Eq. (29) is.
 pub fn first_order_equations<F: Differentiable>(
     spheroid: &RigidSpheroid<F>,
     s: &PrincipalCoefficients<F>,
-    zeroth: &UnperturbedMotion<F>,
+    unperturbed: &Unperturbed<F>,
     first: &FirstOrderMotion<F>,
 ) -> [F; 2] {
-    let [of_alpha, of_beta] = match zeroth.kind {
-        Precession::Twofold => about_free_precession(spheroid, s, zeroth, first),
-        Precession::Single => about_stationary_spin(spheroid, s, zeroth, first),
+    let [of_alpha, of_beta] = match unperturbed.0.kind {
+        Precession::Twofold => about_free_precession(spheroid, s, unperturbed, first),
+        Precession::Single => about_stationary_spin(spheroid, s, unperturbed, first),
     };
-    let (sin_beta, _) = zeroth.beta.sin_cos();
+    let (sin_beta, _) = unperturbed.0.beta.sin_cos();
     [of_alpha / (sin_beta * sin_beta), of_beta]
 }
 
@@ -46,7 +27,7 @@ pub fn first_order_equations<F: Differentiable>(
 fn about_free_precession<F: Differentiable>(
     spheroid: &RigidSpheroid<F>,
     s: &PrincipalCoefficients<F>,
-    zeroth: &UnperturbedMotion<F>,
+    (zeroth, rate): &Unperturbed<F>,
     first: &FirstOrderMotion<F>,
 ) -> [F; 2] {
     let small = |x| F::first(F::zero(), x);
@@ -54,7 +35,7 @@ fn about_free_precession<F: Differentiable>(
         // At first order the potential is taken along the zeroth order: alpha1 does not enter.
         alpha: F::fixed(zeroth.alpha),
         beta: F::first(zeroth.beta, first.beta),
-        alpha_rate: F::first(zeroth.rate, first.alpha_rate),
+        alpha_rate: F::first(*rate, first.alpha_rate),
         beta_rate: small(first.beta_rate),
     };
     let accelerations = (small(first.alpha_acceleration), small(first.beta_acceleration));
@@ -71,7 +52,7 @@ fn about_free_precession<F: Differentiable>(
 fn about_stationary_spin<F: Differentiable>(
     spheroid: &RigidSpheroid<F>,
     s: &PrincipalCoefficients<F>,
-    zeroth: &UnperturbedMotion<F>,
+    (zeroth, rate): &Unperturbed<F>,
     first: &FirstOrderMotion<F>,
 ) -> [F; 2] {
     let zero = F::zero();
@@ -86,7 +67,7 @@ fn about_stationary_spin<F: Differentiable>(
         // The potential depends on alpha by s^XX - s^YY alone: alpha1 adds terms in e1 e2^2.
         alpha: F::constant(zeroth.alpha),
         beta: F::second(zeroth.beta, zero, first.beta, zero),
-        alpha_rate: F::second(zero, zeroth.rate, zero, first.alpha_rate - zeroth.rate),
+        alpha_rate: F::second(zero, *rate, zero, first.alpha_rate - *rate),
         beta_rate: both_small(first.beta_rate),
     };
     let accelerations = (both_small(first.alpha_acceleration), both_small(first.beta_acceleration));
@@ -98,7 +79,7 @@ fn about_stationary_spin<F: Differentiable>(
 /// A solution as a first-order motion at `t = 0` with its phases at the zeroth-order rate of `alpha` and the homogeneous frequency
 /// `nu`. What Eq. (32) adds to `a` is put back into the rate of `alpha1`, where Eq. (30) has it.
 pub fn first_order_motion<F: Differentiable>(solution: &Perturbation<F>, nu: F) -> FirstOrderMotion<F> {
-    let Constants { alpha_0, beta_0, amplitude, phase } = solution.constants;
+    let Constants { alpha_0, amplitude, phase, .. } = solution.constants;
     // About a stationary spin the forced beta1 divides by a^(1), and the homogeneous one is smaller by the order of s.
     let (rate, amplitude_of_beta) = match solution.kind {
         Precession::Twofold => (solution.zeroth_rate, amplitude),
@@ -112,12 +93,7 @@ pub fn first_order_motion<F: Differentiable>(solution: &Perturbation<F>, nu: F) 
     };
     let moving = Perturbation {
         kind: solution.kind,
-        constants: Constants {
-            alpha_0: F::fixed(alpha_0),
-            beta_0: F::fixed(beta_0),
-            amplitude: F::fixed(amplitude),
-            phase: F::fixed(phase),
-        },
+        constants: fixed_constants(&solution.constants),
         omega: F::fixed(solution.omega),
         rate: F::fixed(rate),
         zeroth_rate: F::fixed(solution.zeroth_rate),
@@ -137,4 +113,10 @@ pub fn first_order_motion<F: Differentiable>(solution: &Perturbation<F>, nu: F) 
         alpha_acceleration: F::derivative(alpha_rate),
         beta_acceleration: F::derivative(beta_rate),
     }
+}
+
+/// Constants of integration with an infinitesimal that they do not have.
+pub fn fixed_constants<F: Differentiable>(c: &Constants<F>) -> Constants<F::First> {
+    let [alpha_0, beta_0, amplitude, phase] = [c.alpha_0, c.beta_0, c.amplitude, c.phase].map(F::fixed);
+    Constants { alpha_0, beta_0, amplitude, phase }
 }

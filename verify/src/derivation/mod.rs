@@ -3,13 +3,11 @@
 //! Each derivation is written once and runs on three kinds of numbers: a prime field (exact), `f64` with the dual numbers
 //! of `num_dual`, and [`Conditioned`] (how large rounding may be).
 
-use num_dual::{Dual64, HyperDual64};
-use twofold::Scalar;
-use twofold::euler_angles::{EulerAngles, EulerRates};
+use nalgebra::SMatrix;
+use num_dual::HyperDual64;
 
 use crate::dual::Dual;
-use crate::magnitudes::Conditioned;
-use crate::prime_field::Fp;
+use crate::prelude::*;
 
 pub mod body_motion;
 pub mod euler_lagrange;
@@ -54,44 +52,15 @@ pub trait Differentiable: Scalar {
     }
 }
 
-impl Differentiable for f64 {
-    type First = Dual64;
-    type Second = HyperDual64;
-
-    fn first(x: f64, x1: f64) -> Dual64 {
-        Dual64::new(x, x1)
-    }
-
-    fn value(x: Dual64) -> f64 {
-        x.re
-    }
-
-    fn derivative(x: Dual64) -> f64 {
-        x.eps
-    }
-
-    fn second(x: f64, x1: f64, x2: f64, x12: f64) -> HyperDual64 {
-        HyperDual64::new(x, x1, x2, x12)
-    }
-
-    fn derivative_1(x: HyperDual64) -> f64 {
-        x.eps1
-    }
-
-    fn derivative_12(x: HyperDual64) -> f64 {
-        x.eps1eps2
-    }
-}
-
-/// The exact field and the measure of conditioning carry the duals of [`crate::dual`].
-macro_rules! differentiable_by_nesting {
-    ($type:ty) => {
+/// Both kinds of infinitesimals over a type of numbers: their types, how the second is made, and its two parts.
+macro_rules! differentiable {
+    ($type:ty, $first:ty, $second:ty, $make:expr, $($one:ident).+, $($both:ident).+) => {
         impl Differentiable for $type {
-            type First = Dual<$type>;
-            type Second = Dual<Dual<$type>>;
+            type First = $first;
+            type Second = $second;
 
             fn first(x: Self, x1: Self) -> Self::First {
-                Dual::new(x, x1)
+                <$first>::new(x, x1)
             }
 
             fn value(x: Self::First) -> Self {
@@ -103,22 +72,28 @@ macro_rules! differentiable_by_nesting {
             }
 
             fn second(x: Self, x1: Self, x2: Self, x12: Self) -> Self::Second {
-                Dual::new(Dual::new(x, x1), Dual::new(x2, x12))
+                $make(x, x1, x2, x12)
             }
 
             fn derivative_1(x: Self::Second) -> Self {
-                x.re.eps
+                x.$($one).+
             }
 
             fn derivative_12(x: Self::Second) -> Self {
-                x.eps.eps
+                x.$($both).+
             }
         }
     };
 }
 
-differentiable_by_nesting!(Fp);
-differentiable_by_nesting!(Conditioned);
+fn nested<F: Scalar>(x: F, x1: F, x2: F, x12: F) -> Dual<Dual<F>> {
+    Dual::new(Dual::new(x, x1), Dual::new(x2, x12))
+}
+
+differentiable!(f64, Dual64, HyperDual64, HyperDual64::new, eps1, eps1eps2);
+// The exact field and the measure of conditioning carry the duals of `crate::dual`.
+differentiable!(Fp, Dual<Fp>, Dual<Dual<Fp>>, nested, re.eps, eps.eps);
+differentiable!(Conditioned, Dual<Conditioned>, Dual<Dual<Conditioned>>, nested, re.eps, eps.eps);
 
 /// Angles that move with given rates, to first order in time.
 pub fn moving_angles<F: Differentiable>(q: &EulerAngles<F>, v: &EulerRates<F>) -> EulerAngles<F::First> {
@@ -143,3 +118,49 @@ pub fn accelerated_angles<F: Differentiable>(
         gamma: F::second(q.gamma, v.gamma, v.gamma, a.gamma),
     }
 }
+
+/// Numbers, vectors and matrices as lists of their components.
+pub trait Components<F> {
+    /// Adds the components to a list.
+    fn append(&self, list: &mut Vec<F>);
+}
+
+impl<F: Differentiable> Components<F> for F {
+    fn append(&self, list: &mut Vec<F>) {
+        list.push(*self);
+    }
+}
+
+impl<F: Differentiable, const R: usize, const C: usize> Components<F> for SMatrix<F, R, C> {
+    fn append(&self, list: &mut Vec<F>) {
+        list.extend(self);
+    }
+}
+
+impl<F: Differentiable, T: Components<F>, const N: usize> Components<F> for [T; N] {
+    fn append(&self, list: &mut Vec<F>) {
+        self.iter().for_each(|part| part.append(list));
+    }
+}
+
+impl<F: Differentiable> Components<F> for Vec<F> {
+    fn append(&self, list: &mut Vec<F>) {
+        list.extend(self);
+    }
+}
+
+impl<F: Differentiable> Components<F> for (F, F) {
+    fn append(&self, list: &mut Vec<F>) {
+        list.extend([self.0, self.1]);
+    }
+}
+
+/// The components of all parts, one after the other.
+macro_rules! components {
+    ($($part:expr),+ $(,)?) => {{
+        let mut list = Vec::new();
+        $($crate::derivation::Components::append(&$part, &mut list);)+
+        list
+    }};
+}
+pub(crate) use components;

@@ -1,13 +1,6 @@
 //! The motion of a spheroid along Eq. (25), with the rotation about its axis.
 
-use twofold::Scalar;
-use twofold::dynamics::RigidSpheroid;
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations};
-use twofold::dynamics::first_integrals::spin_in_angles;
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-
-use crate::derivation::Differentiable;
+use crate::prelude::*;
 
 /// Angles and rates without those of the rotation about the symmetry axis.
 pub fn axis_angles<F: Scalar>(q: &EulerAngles<F>, v: &EulerRates<F>) -> AxisAngles<F> {

@@ -1,10 +1,6 @@
 //! Torques as generalised forces: what a potential does under a small rotation of the body.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::potential::anisotropic_potential_of_body;
-use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial, tensor_in_body_frame};
-
-use crate::derivation::{Differentiable, moving_angles};
+use crate::prelude::*;
 
 /// Torque on a body with the tensor `U^ij` in body components: minus the derivative of `-(1/2) s^ij U^ij` under a rotation
 /// of the body about each of its axes. `s` in inertial components.

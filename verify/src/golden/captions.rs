@@ -1,11 +1,7 @@
 //! Captions of the figures of the four examples, and what their parameters give.
 
-use twofold::Error;
-use twofold::solutions::free::free_precession_rates;
-use twofold::solutions::perturbation::{Form, Perturbation, shifted_rates};
-
 use super::{GoldenLine, GoldenTable, Printed};
-use crate::paper_examples::{COEFFICIENTS, SPIN, paper_examples, spheroid};
+use crate::prelude::*;
 use crate::printed;
 
 /// Initial values of the four examples, Eq. (34).

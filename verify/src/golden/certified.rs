@@ -1,9 +1,8 @@
 //! Rigorous enclosures of golden numbers, made in ball arithmetic independently of the Rust code (`verify/oracles/certified`,
 //! docs/reliability/certified.md). A number whose enclosure lies within what rounds to its printed digits is certified to the last one.
 
-use std::collections::BTreeMap;
-
 use super::{GoldenLine, GoldenTable};
+use crate::prelude::*;
 
 /// What is known of a golden number.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,13 +1,10 @@
 //! The factor eta of Eq. (41): where the paper gives numbers, and along the inclination.
 
-use std::f64::consts::FRAC_PI_2;
-
-use twofold::Error;
-use twofold::observables::eta_distribution::{EtaDistribution, SpinAxis, root_mean_square_along_motion};
 use twofold::units::DEGREE;
 
 use super::{GoldenLine, GoldenTable, Printed};
 use crate::eta::{EtaStatistics, PAPER_ASYMMETRY, eta_curve};
+use crate::prelude::*;
 
 /// What it is for three shapes of the tensor, with its quantiles for the paper's.
 pub(super) fn table() -> Result<GoldenTable, Error> {

@@ -45,22 +45,6 @@ impl GoldenLine {
         if agrees { "confirmed" } else { "differs" }
     }
 
-    /// The line with its label padded to `width`.
-    pub(super) fn aligned(&self, width: usize) -> String {
-        format!(
-            "{:<width$}  printed {:>11}  ours {:>15}  {}",
-            self.label,
-            self.printed_text(),
-            self.ours_text(),
-            self.verdict()
-        )
-    }
-
-    /// Label and our number, for a table of which the paper prints nothing.
-    pub(super) fn aligned_ours(&self, width: usize) -> String {
-        format!("{:<width$}  {:>15}", self.label, self.ours_text())
-    }
-
     /// The paper's number, an order of magnitude with `~` before it.
     pub fn printed_text(&self) -> String {
         match self.printed {
@@ -92,6 +76,9 @@ mod tests {
             (0.70151, Printed::Decimal("0.701"), "differs"),
             (1.8e-5, Printed::Order("1e-5"), "confirmed"),
             (4e-5, Printed::Order("1e-5"), "differs"),
+            (-0.0084, Printed::Decimal("-0.008"), "confirmed"),
+            (2.07e-3, Printed::Decimal("2.1e-3"), "confirmed"),
+            (2.16e-3, Printed::Decimal("2.1e-3"), "differs"),
         ] {
             assert_eq!(GoldenLine::new("x", printed, ours).verdict(), verdict, "{ours} for {printed:?}");
         }

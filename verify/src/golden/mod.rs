@@ -29,8 +29,13 @@ impl std::fmt::Display for GoldenTable {
         let width = self.lines.iter().map(|line| line.label.chars().count()).max().unwrap_or(0);
         let nothing_printed = self.lines.iter().all(|line| line.printed == Printed::No);
         for line in &self.lines {
-            let text = if nothing_printed { line.aligned_ours(width) } else { line.aligned(width) };
-            writeln!(f, "{text}")?;
+            let (label, ours) = (&line.label, line.ours_text());
+            if nothing_printed {
+                writeln!(f, "{label:<width$}  {ours:>15}")?;
+            } else {
+                let (printed, verdict) = (line.printed_text(), line.verdict());
+                writeln!(f, "{label:<width$}  printed {printed:>11}  ours {ours:>15}  {verdict}")?;
+            }
         }
         Ok(())
     }

@@ -1,10 +1,8 @@
 //! Errors of the perturbation solutions over their parameters.
 
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::{Form, Precession};
-
 use super::{GoldenLine, GoldenTable, Printed};
 use crate::checks::regimes::perturbation_error::Case;
+use crate::prelude::*;
 
 const DIGITS: usize = 3;
 

@@ -1,17 +1,10 @@
 //! Estimates for neutron stars in the text, and the expansions of the appendix.
 
-use std::f64::consts::PI;
-
-use num_dual::Dual64;
-use twofold::Error;
-use twofold::star::deformation::{CENTRIFUGAL_COEFFICIENT, centrifugal_oblateness_scaled};
-use twofold::star::estimates::{inertia_over_c_estimate, time_unit_estimate};
-use twofold::star::potential_coefficients::potential_coefficients;
-use twofold::star::spheroid_shape::SpheroidShape;
-use twofold::star::uniform_spheroid::UniformSpheroid;
+use twofold::star::deformation::CENTRIFUGAL_COEFFICIENT;
 use twofold::units::geometrised::GRAM_PER_CUBIC_CENTIMETRE;
 
 use super::{GoldenLine, GoldenTable, Printed};
+use crate::prelude::*;
 
 /// Eqs. (20), (43), (58) with the inputs that the paper names.
 pub(super) fn estimates() -> Result<GoldenTable, Error> {

@@ -1,11 +1,10 @@
 //! Denormal inputs: below the smallest normal number 31 digits are not to be had, but there every kernel has its limit, which the oracle tells
 //! from three inputs far above.
 
-use twofold::Scalar;
-
 use super::input::{self, Input};
 use super::measure::{Errors, spacing};
 use super::{Case, Wide};
+use crate::prelude::*;
 
 /// Where the first input is put: the smallest number of all, and some up to the smallest normal one.
 const PLACES: [f64; 4] = [5e-324, 3.5e-321, 7.77e-313, 1.234e-308];

@@ -1,6 +1,6 @@
 //! Where the inputs of a case are drawn from.
 
-use crate::random::Random;
+use crate::prelude::*;
 
 /// The range of one input.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,12 +1,9 @@
 //! The runner: largest errors of a case in ulp of the conditioned scale, digits lost.
 
-use num_dual::Dual64;
-
 use super::input::points;
-use twofold::Scalar;
+use crate::prelude::*;
 
 use super::{Case, Scale, Wide, WideDual};
-use crate::check::{Measured, Worst};
 
 /// Points of a round, as a rule.
 pub const POINTS: usize = 40;

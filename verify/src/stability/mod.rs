@@ -21,13 +21,10 @@ pub mod measure;
 pub mod oracle;
 pub mod table;
 
-use num_dual::Dual64;
-use twofold::Real;
-
 pub use input::Input;
 
-use crate::double_double::DoubleDouble;
 use crate::dual::Dual;
+use crate::prelude::*;
 
 /// A function of several numbers with several results, over any scalar.
 pub trait Function {

@@ -1,6 +1,6 @@
 //! Formulas for 31 digits where the kernels have constants, series or thresholds for 16.
 
-use twofold::Real;
+use crate::prelude::*;
 
 /// Largest relative distance from the common mean at which a series of Carlson is summed: its first missing terms are of degree 8.
 const SERIES_RADIUS: f64 = 1e-6;

@@ -1,26 +1,9 @@
 //! Kernels with roots or inverse functions, under the names of `verify/oracles/symbolic/quantities.py` and with its order of components.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::Error;
-use twofold::dynamics::{AxisState, BodyState, RotationState};
-use twofold::euler_angles::body_from_inertial;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::Observer;
-use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination, fluid_inertia_over_c};
 use twofold::observables::wave_harmonics::WaveHarmonics;
-use twofold::solutions::averaged::{
-    AveragingOrder, generator, generator_slopes, mean_angular_velocity, mean_potential, middle_axis_growth,
-};
-use twofold::solutions::free::{free_precession_rates, free_rotation};
-use twofold::solutions::perturbation::Precession;
-use twofold::solutions::steady::steady_precession_rate;
-use twofold::star::estimates::inertia_over_c_estimate;
-use twofold::star::maclaurin::MaclaurinSpheroid;
-use twofold::star::potential_coefficients::potential_coefficients;
-use twofold::star::spheroid_shape::SpheroidShape;
-use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::{ClosedKernel, RationalPoint};
+use crate::prelude::*;
 
 type Point = RationalPoint<f64>;
 type Components = Result<Vec<f64>, Error>;

@@ -2,96 +2,74 @@
 
 use std::collections::BTreeSet;
 
-use num_traits::Zero;
-use twofold::Scalar;
-
 use super::document::Document;
 use super::{closed_kernels, rational_kernels};
-use crate::check::Worst;
-use crate::prime_field::Fp;
-
-/// What a comparison counted.
-#[derive(Debug, Clone)]
-pub struct Comparison {
-    /// Values compared.
-    pub count: usize,
-    /// Values that differ, or the largest error in units of the last place, by the kind of comparison.
-    pub figure: f64,
-    /// Where the first or worst was.
-    pub detail: String,
-}
+use crate::prelude::*;
 
 /// Every rational kernel over the prime field: how many values differ from the images of the exact ones.
-///
-/// # Errors
-/// If kernels and file do not have the same names and numbers of components.
-pub fn compare_field(document: &Document) -> Result<Comparison, String> {
+pub(crate) fn compare_field(document: &Document) -> Result<Measured, String> {
     let kernels = rational_kernels();
-    same_names("exact", document.exact.keys(), kernels.iter().map(|kernel| kernel.name))?;
-    let (mut count, mut differ, mut first) = (0, 0, String::new());
-    for kernel in kernels {
-        for (index, (point, expected)) in document.points.iter().zip(&document.exact[kernel.name]).enumerate() {
-            let values = (kernel.field)(&document.layout.coded(point));
-            same_length(kernel.name, values.len(), expected.len())?;
-            for (component, (value, expected)) in values.into_iter().zip(expected).enumerate() {
-                count += 1;
-                if value != image(&expected.text)? {
-                    differ += 1;
-                    if first.is_empty() {
-                        first = format!("; first in {}, component {component}, point {index}", kernel.name);
-                    }
-                }
-            }
+    let values = |i: usize, point: &_| Ok((kernels[i].field)(&document.layout.coded(point)));
+    let pairs = pairs(document, &document.exact, kernels.iter().map(|kernel| kernel.name), values)?;
+    let mut differing = Vec::new();
+    for (place, value, expected) in &pairs {
+        if *value != image(&expected.text)? {
+            differing.push(place);
         }
     }
-    nonempty(count)?;
-    Ok(Comparison { count, figure: f64::from(differ), detail: format!("{count} values{first}") })
+    Ok(Measured::new(differing.len() as f64, format!("{} values; first {:?}", pairs.len(), differing.first())))
 }
 
-/// Every kernel in doubles: the largest error in units of 2.2e-16 times the scale, which for a rational kernel is the sum of the magnitudes of
-/// its terms, for others the scale of the file; separately for the two kinds.
-///
-/// # Errors
-/// If kernels and file do not have the same names and numbers of components, or a kernel refuses a point.
-pub fn compare_doubles(document: &Document) -> Result<[Comparison; 2], String> {
-    let (mut worst, mut count) = (Worst::default(), 0);
+/// Every rational kernel in doubles: the largest error in units of 2.2e-16 times the sum of the magnitudes of the terms.
+pub(crate) fn compare_doubles(document: &Document) -> Result<Measured, String> {
     let kernels = rational_kernels();
-    same_names("exact", document.exact.keys(), kernels.iter().map(|kernel| kernel.name))?;
-    for kernel in kernels {
-        for (index, (point, expected)) in document.points.iter().zip(&document.exact[kernel.name]).enumerate() {
-            let values = (kernel.doubles)(&document.layout.coded(point));
-            let scales = (kernel.conditioned)(&document.layout.coded(point));
-            same_length(kernel.name, values.len(), expected.len())?;
-            for (component, ((value, scale), expected)) in values.iter().zip(scales).zip(expected).enumerate() {
-                count += 1;
-                let figure = error_over_scale(*value, expected.nearest, scale.magnitude);
-                worst.see(figure, || format!("{}, component {component}, point {index}: {value:e}", kernel.name));
-            }
-        }
-    }
-    let rational = finish(worst, count)?;
-    let (mut worst, mut count) = (Worst::default(), 0);
+    let values = |i: usize, point: &_| {
+        let (values, scales) = ((kernels[i].doubles)(&document.layout.coded(point)), &document.layout.coded(point));
+        Ok(values.into_iter().zip((kernels[i].conditioned)(scales)).collect())
+    };
+    worst_of(
+        pairs(document, &document.exact, kernels.iter().map(|kernel| kernel.name), values)?,
+        |(_, (value, scale), expected)| Ok(error_over_scale(*value, expected.nearest, scale.magnitude)),
+    )
+}
+
+/// Every other kernel in doubles: the largest error in units of 2.2e-16 times the scale of the file.
+pub(crate) fn compare_closed(document: &Document) -> Result<Measured, String> {
     let kernels = closed_kernels();
-    same_names("rounded", document.rounded.keys(), kernels.iter().map(|kernel| kernel.name))?;
-    for kernel in kernels {
-        for (index, (point, expected)) in document.points.iter().zip(&document.rounded[kernel.name]).enumerate() {
-            let values = (kernel.values)(&document.layout.coded(point))
-                .map_err(|error| format!("{} refuses point {index}: {error}", kernel.name))?;
-            same_length(kernel.name, values.len(), expected.len())?;
-            for (component, (value, expected)) in values.iter().zip(expected).enumerate() {
-                count += 1;
-                let figure = error_over_scale(*value, expected.value, expected.scale);
-                worst.see(figure, || format!("{}, component {component}, point {index}: {value:e}", kernel.name));
-            }
-        }
-    }
-    Ok([rational, finish(worst, count)?])
+    let values = |i: usize, point: &_| (kernels[i].values)(&document.layout.coded(point));
+    worst_of(
+        pairs(document, &document.rounded, kernels.iter().map(|kernel| kernel.name), values)?,
+        |(_, value, expected)| Ok(error_over_scale(*value, expected.value, expected.scale)),
+    )
 }
 
-fn finish(worst: Worst, count: usize) -> Result<Comparison, String> {
-    nonempty(count)?;
-    let measured = worst.finish()?;
-    Ok(Comparison { count, figure: measured.figure, detail: format!("{count} values; worst in {}", measured.detail) })
+/// Name, point and component of a value, the value, and what the file has for it.
+type Pair<'d, V, E> = ((&'static str, usize, usize), V, &'d E);
+
+/// The values of all kernels of a kind at all points.
+fn pairs<'d, V, E>(
+    document: &'d Document,
+    file: &'d BTreeMap<String, Vec<Vec<E>>>,
+    names: impl Iterator<Item = &'static str>,
+    values: impl Fn(usize, &BTreeMap<String, (i32, i32)>) -> Result<Vec<V>, Error>,
+) -> Result<Vec<Pair<'d, V, E>>, String> {
+    let (names, mut pairs) = (names.collect::<Vec<_>>(), Vec::new());
+    let (in_file, ours): (BTreeSet<&str>, BTreeSet<&str>) =
+        (file.keys().map(String::as_str).collect(), names.iter().copied().collect());
+    if in_file != ours || names.is_empty() || document.points.is_empty() {
+        return Err(format!("quantities on one side only: {:?}", in_file.symmetric_difference(&ours)));
+    }
+    for (i, name) in names.into_iter().enumerate() {
+        for (index, (point, expected)) in document.points.iter().zip(&file[name]).enumerate() {
+            let values = values(i, point).map_err(|error| format!("{name} refuses point {index}: {error}"))?;
+            if values.len() != expected.len() {
+                return Err(format!("{name} has {} components here, {} in the file", values.len(), expected.len()));
+            }
+            let places = (0..values.len()).map(|component| (name, index, component));
+            pairs.extend(places.zip(values).zip(expected).map(|((place, value), expected)| (place, value, expected)));
+        }
+    }
+    Ok(pairs)
 }
 
 fn error_over_scale(value: f64, expected: f64, scale: f64) -> f64 {
@@ -120,23 +98,4 @@ fn image(text: &str) -> Result<Fp, String> {
         return Err(format!("the denominator of {text} vanishes in the prime field"));
     }
     Ok(integer(numerator)? * (Fp::from_f64(1.0) / denominator))
-}
-
-fn same_names<'a>(
-    kind: &str,
-    in_file: impl Iterator<Item = &'a String>,
-    kernels: impl Iterator<Item = &'static str>,
-) -> Result<(), String> {
-    let in_file: BTreeSet<&str> = in_file.map(String::as_str).collect();
-    let kernels: BTreeSet<&str> = kernels.collect();
-    let one_sided: Vec<_> = in_file.symmetric_difference(&kernels).collect();
-    if one_sided.is_empty() { Ok(()) } else { Err(format!("{kind} quantities on one side only: {one_sided:?}")) }
-}
-
-fn same_length(name: &str, ours: usize, theirs: usize) -> Result<(), String> {
-    if ours == theirs { Ok(()) } else { Err(format!("{name} has {ours} components here and {theirs} in the file")) }
-}
-
-fn nonempty(count: usize) -> Result<(), String> {
-    if count > 0 { Ok(()) } else { Err("nothing was compared".into()) }
 }

@@ -1,12 +1,10 @@
 //! The file of exact values.
 
-use std::collections::BTreeMap;
-
 use serde_json::Value;
 
 use super::RationalPoint;
 use super::point::Coded;
-use crate::random::Random;
+use crate::prelude::*;
 
 /// A range of fractions `n / denominator` with `low <= n <= high`, zero left out.
 type Range = (i32, i32, i32);

@@ -1,37 +1,10 @@
 //! Kernels with rational values, under the names of `verify/oracles/symbolic/quantities.py` and with its order of components.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::angular_acceleration::angular_acceleration;
-use twofold::dynamics::equations_of_motion::{angular_velocity, body_state_rates, torque_on_axis};
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations, euler_angle_residuals};
-use twofold::dynamics::first_integrals::{energy_in_angles, first_integrals, spin_in_angles};
-use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
-use twofold::dynamics::lagrangian::lagrangian;
-use twofold::dynamics::potential::{
-    anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body, nordtvedt_potential,
-    potential_gradient_in_angles,
-};
-use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
-use twofold::dynamics::wave_source::{
-    free_inertia_acceleration, rotation_rate, spheroid_inertia_acceleration, tensor_in_inertial_frame, wave_tensor,
-};
-use twofold::euler_angles::{body_from_inertial, body_rates, symmetry_axis, tensor_in_body_frame};
-use twofold::observables::Observer;
-use twofold::observables::bound::{cos_opening_angle, lambda_change_terms, zeta_change_terms};
-use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
-use twofold::observables::pulsar::Beam;
-use twofold::observables::pulsar::beam::axis_along_line_of_sight;
-use twofold::observables::pulsar::direction::{
-    axis_along_line_of_sight_in_azimuth, azimuth_offset_point, cosine_of_colatitude,
-};
-use twofold::observables::pulsar::period::{azimuth_offset_rate, azimuth_rate};
-use twofold::observables::pulsar::width::cosine_of_half_width;
-use twofold::observables::spin_axis::{changes_from_start, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate};
-use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
+use twofold::observables::bound::lambda_change_terms;
 
 use super::point::Coded;
 use super::{RationalKernel, RationalPoint};
+use crate::prelude::*;
 
 /// Each kernel once, for every type of numbers.
 macro_rules! kernels {
@@ -40,7 +13,7 @@ macro_rules! kernels {
         pub(super) fn all() -> Vec<RationalKernel> {
             vec![$({
                 fn kernel<F: Coded>($point: &RationalPoint<F>) -> Vec<F> {
-                    $values
+                    components![$values]
                 }
                 RationalKernel { name: $name, field: kernel, doubles: kernel, conditioned: kernel }
             }),*]
@@ -50,7 +23,7 @@ macro_rules! kernels {
 
 kernels! {
     "rotation-matrix" => |p| flat(&body_from_inertial(&p.angles()));
-    "symmetry-axis" => |p| components(&symmetry_axis(p.at("alpha"), p.at("beta")));
+    "symmetry-axis" => |p| symmetry_axis(p.at("alpha"), p.at("beta"));
     "tensor-in-body-frame" => |p| flat(&tensor_in_body_frame(&body_from_inertial(&p.angles()), &p.symmetric("S")));
     "tensor-in-inertial-frame" => |p| {
         flat(&tensor_in_inertial_frame(&body_from_inertial(&p.angles()), &p.symmetric("S")))
@@ -59,63 +32,51 @@ kernels! {
         let rotation = body_from_inertial(&p.angles());
         flat(&rotation_rate(&rotation, &(rotation.transpose() * body_rates(&p.angles(), &p.rates()))))
     };
-    "body-rates" => |p| components(&body_rates(&p.angles(), &p.rates()));
-    "kinetic-energy" => |p| vec![kinetic_energy(&p.spheroid(), p.at("beta"), &p.rates())];
-    "kinetic-energy-of-body" => |p| vec![kinetic_energy_of_body(&p.body(), &p.vector(["w_1", "w_2", "w_3"]))];
+    "body-rates" => |p| body_rates(&p.angles(), &p.rates());
+    "kinetic-energy" => |p| [kinetic_energy(&p.spheroid(), p.at("beta"), &p.rates())];
+    "kinetic-energy-of-body" => |p| [kinetic_energy_of_body(&p.body(), &p.vector(["w_1", "w_2", "w_3"]))];
     "potential-in-angles" => |p| {
-        vec![anisotropic_potential_in_angles(p.at("c"), &p.coefficients(), p.at("alpha"), p.at("beta"))]
+        [anisotropic_potential_in_angles(p.at("c"), &p.coefficients(), p.at("alpha"), p.at("beta"))]
     };
     "potential-of-axis" => |p| {
-        vec![anisotropic_potential_of_axis(p.at("c"), &p.symmetric("S"), &symmetry_axis(p.at("alpha"), p.at("beta")))]
+        [anisotropic_potential_of_axis(p.at("c"), &p.symmetric("S"), &symmetry_axis(p.at("alpha"), p.at("beta")))]
     };
-    "potential-of-body" => |p| vec![anisotropic_potential_of_body(&p.symmetric("S"), &p.symmetric("u"))];
+    "potential-of-body" => |p| [anisotropic_potential_of_body(&p.symmetric("S"), &p.symmetric("u"))];
     "nordtvedt-potential" => |p| {
         let axis = symmetry_axis(p.at("alpha"), p.at("beta"));
-        vec![nordtvedt_potential(p.at("x_4"), p.at("spin"), &p.vector(["x_1", "x_2", "x_3"]), &axis)]
+        [nordtvedt_potential(p.at("x_4"), p.at("spin"), &p.vector(["x_1", "x_2", "x_3"]), &axis)]
     };
-    "potential-gradient" => |p| {
-        let (by_alpha, by_beta) = gradient(p);
-        vec![by_alpha, by_beta]
-    };
-    "lagrangian" => |p| vec![lagrangian(&p.spheroid(), &p.coefficients(), &p.angles(), &p.rates())];
+    "potential-gradient" => |p| gradient(p);
+    "lagrangian" => |p| [lagrangian(&p.spheroid(), &p.coefficients(), &p.angles(), &p.rates())];
     "euler-angle-residuals" => |p| {
         let accelerations = (p.at("alpha_2"), p.at("beta_2"));
-        let (alpha, beta) =
-            euler_angle_residuals(&p.spheroid(), &p.coefficients(), p.at("spin"), &axis_angles(p), accelerations);
-        vec![alpha, beta]
+        euler_angle_residuals(&p.spheroid(), &p.coefficients(), p.at("spin"), &axis_angles(p), accelerations)
     };
     "euler-angle-accelerations" => |p| {
-        let (alpha, beta) = euler_angle_accelerations(&p.spheroid(), &p.coefficients(), p.at("spin"), &axis_angles(p));
-        vec![alpha, beta]
+        euler_angle_accelerations(&p.spheroid(), &p.coefficients(), p.at("spin"), &axis_angles(p))
     };
-    "state-from-angles" => |p| {
-        let state = p.state();
-        [components(&state.axis), components(&state.momentum), components(&state.equatorial_axis)].concat()
-    };
-    "state-rates" => |p| {
-        let rates = body_state_rates(&p.spheroid(), &p.coefficients().tensor(), &p.state());
-        [components(&rates.axis), components(&rates.momentum), components(&rates.equatorial_axis)].concat()
-    };
+    "state-from-angles" => |p| p.state().vectors();
+    "state-rates" => |p| body_state_rates(&p.spheroid(), &p.coefficients().tensor(), &p.state()).vectors();
     "energy" => |p| {
         let s = p.coefficients();
         let of_state = first_integrals(&p.spheroid(), &s.tensor(), &p.state()).energy;
-        vec![energy_in_angles(&p.spheroid(), &s, &p.angles(), &p.rates()), of_state]
+        [energy_in_angles(&p.spheroid(), &s, &p.angles(), &p.rates()), of_state]
     };
     "spin" => |p| {
         let of_state = first_integrals(&p.spheroid(), &p.coefficients().tensor(), &p.state()).spin;
-        vec![spin_in_angles(&p.angles(), &p.rates()), of_state]
+        [spin_in_angles(&p.angles(), &p.rates()), of_state]
     };
-    "third-integral" => |p| vec![first_integrals(&p.spheroid(), &p.coefficients().tensor(), &p.state()).clebsch];
+    "third-integral" => |p| [first_integrals(&p.spheroid(), &p.coefficients().tensor(), &p.state()).clebsch];
     "torque-from-gradient" => |p| {
-        components(&torque_from_gradient(&p.angles(), &p.vector(["g_1", "g_2", "g_3"])))
+        torque_from_gradient(&p.angles(), &p.vector(["g_1", "g_2", "g_3"]))
     };
-    "torque-on-body" => |p| components(&torque_on_body(&p.symmetric("S"), &p.symmetric("u")));
+    "torque-on-body" => |p| torque_on_body(&p.symmetric("S"), &p.symmetric("u"));
     "torque-on-axis" => |p| {
-        components(&torque_on_axis(p.at("c"), &p.symmetric("S"), &symmetry_axis(p.at("alpha"), p.at("beta"))))
+        torque_on_axis(p.at("c"), &p.symmetric("S"), &symmetry_axis(p.at("alpha"), p.at("beta")))
     };
     "angular-acceleration" => |p| {
         let [omega, torque] = [["w_1", "w_2", "w_3"], ["g_1", "g_2", "g_3"]].map(|names| p.vector(names));
-        components(&angular_acceleration(&p.body(), &omega, &torque))
+        angular_acceleration(&p.body(), &omega, &torque)
     };
     "wave-tensor" => |p| {
         let [omega, torque] = [["w_1", "w_2", "w_3"], ["g_1", "g_2", "g_3"]].map(|names| p.vector(names));
@@ -129,7 +90,7 @@ kernels! {
         let (by_alpha, by_beta) = gradient(p);
         let torque = torque_from_gradient(&p.angles(), &Vector3::new(by_alpha, by_beta, F::zero()));
         let in_body = wave_tensor(&spheroid.inertia(), &body_rates(&p.angles(), &p.rates()), &torque);
-        [flat(&direct), flat(&tensor_in_inertial_frame(&rotation, &in_body))].concat()
+        [flat(&direct), flat(&tensor_in_inertial_frame(&rotation, &in_body))]
     };
     "free-inertia-acceleration" => |p| {
         flat(&free_inertia_acceleration(&p.spheroid(), p.at("alpha"), p.at("beta"), p.at("alpha_1")))
@@ -137,7 +98,7 @@ kernels! {
     "cos-lambda" => |p| {
         let [theta_o, phi_o, alpha, beta] = ["theta_o", "phi_o", "alpha", "beta"].map(|name| p.at(name));
         let (state, to_observer) = (p.state(), observer(p).direction);
-        vec![
+        [
             cos_lambda_in_angles(theta_o, phi_o, alpha, beta),
             to_observer.dot(&state.axis),
             cos_lambda_change(theta_o, phi_o, (alpha, beta), (p.at("x_1"), p.at("x_2"))),
@@ -146,43 +107,43 @@ kernels! {
     };
     "observer" => |p| {
         let Observer { direction, theta_hat, phi_hat } = observer(p);
-        [direction, theta_hat, phi_hat].iter().flat_map(components).collect()
+        [direction, theta_hat, phi_hat]
     };
     "axis-along-line-of-sight" => |p| {
         let [chi, delta, theta_o, phi_o] = ["chi", "delta", "theta_o", "phi_o"].map(|name| p.at(name));
-        vec![axis_along_line_of_sight(&p.angles(), chi, delta, theta_o, phi_o)]
+        [axis_along_line_of_sight(&p.angles(), chi, delta, theta_o, phi_o)]
     };
     "magnetic-axis-direction" => |p| {
         let [beta, gamma, chi, delta] = ["beta", "gamma", "chi", "delta"].map(|name| p.at(name));
         let (x, y) = azimuth_offset_point(beta, gamma, chi, delta);
-        vec![cosine_of_colatitude(beta, gamma, chi, delta), x, y]
+        [cosine_of_colatitude(beta, gamma, chi, delta), x, y]
     };
     "azimuth-rate" => |p| {
         let state = p.state();
         let omega = angular_velocity(&p.spheroid(), &state.axis, &state.momentum);
         let [beta, gamma, chi, delta] = ["beta", "gamma", "chi", "delta"].map(|name| p.at(name));
-        vec![
+        [
             azimuth_rate(&beam(p).direction(&state), &omega),
             azimuth_offset_rate(beta, gamma, p.at("gamma_1"), chi, delta),
         ]
     };
     "margin-rates" => |p| {
         let tensor = p.coefficients().tensor();
-        beam(p).margin_rates(&p.spheroid(), &tensor, &p.state(), &observer(p).direction).to_vec()
+        beam(p).margin_rates(&p.spheroid(), &tensor, &p.state(), &observer(p).direction)
     };
     "axis-in-azimuth" => |p| {
         let [theta, phi, theta_o, phi_o] = ["colatitude", "azimuth", "theta_o", "phi_o"].map(|name| p.at(name));
-        vec![axis_along_line_of_sight_in_azimuth(theta, phi, theta_o, phi_o)]
+        [axis_along_line_of_sight_in_azimuth(theta, phi, theta_o, phi_o)]
     };
-    "cosine-of-half-width" => |p| vec![cosine_of_half_width(p.at("half_opening"), p.at("colatitude"), p.at("theta_o"))];
-    "cos-opening-angle" => |p| vec![cos_opening_angle(p.at("zeta"), p.at("chi"), width(p))];
+    "cosine-of-half-width" => |p| [cosine_of_half_width(p.at("half_opening"), p.at("colatitude"), p.at("theta_o"))];
+    "cos-opening-angle" => |p| [cos_opening_angle(p.at("zeta"), p.at("chi"), width(p))];
     "width-changes" => |p| {
         let terms = [zeta_change_terms, lambda_change_terms];
-        terms.map(|terms| terms(p.at("zeta"), p.at("chi"), width(p))).map(|[above, below]| above / below).to_vec()
+        terms.map(|terms| terms(p.at("zeta"), p.at("chi"), width(p))).map(|[above, below]| above / below)
     };
     "polarizations" => |p| {
         let h = polarizations(&observer(p), &metric_perturbation(p.at("distance"), &p.symmetric("S")));
-        vec![h.plus, h.cross]
+        [h.plus, h.cross]
     };
     "first-order-equations-twofold" => |p| first_order(p, Precession::Twofold, full_residuals);
     "first-order-equations-single" => |p| first_order(p, Precession::Single, full_residuals);
@@ -197,12 +158,8 @@ kernels! {
 type Point<F> = RationalPoint<F>;
 
 /// Row by row.
-fn flat<F: Coded>(m: &Matrix3<F>) -> Vec<F> {
-    m.transpose().iter().copied().collect()
-}
-
-fn components<F: Coded>(v: &Vector3<F>) -> Vec<F> {
-    v.iter().copied().collect()
+fn flat<F: Coded>(m: &Matrix3<F>) -> Matrix3<F> {
+    m.transpose()
 }
 
 fn gradient<F: Coded>(p: &Point<F>) -> (F, F) {
@@ -234,43 +191,24 @@ type Residuals<F> = fn(
     &FirstOrderMotion<F>,
 ) -> (F, F);
 
-fn first_order<F: Coded>(p: &Point<F>, kind: Precession, residuals: Residuals<F>) -> Vec<F> {
+fn first_order<F: Coded>(p: &Point<F>, kind: Precession, residuals: Residuals<F>) -> (F, F) {
     let zeroth = ZerothOrder { kind, spin: p.at("spin"), alpha: p.at("alpha"), beta: p.at("beta") };
     let [beta, alpha_rate, beta_rate, alpha_acceleration, beta_acceleration] =
         ["x_1", "x_2", "x_3", "x_4", "x_5"].map(|name| p.at(name));
     let first = FirstOrderMotion { beta, alpha_rate, beta_rate, alpha_acceleration, beta_acceleration };
-    let (along_alpha, along_beta) = residuals(&p.spheroid(), &p.coefficients(), &zeroth, &first);
-    vec![along_alpha, along_beta]
-}
-
-fn constants<F: Coded>(p: &Point<F>) -> Constants<F> {
-    Constants { alpha_0: p.at("y"), beta_0: p.at("beta"), amplitude: p.at("amplitude"), phase: p.at("x") }
+    residuals(&p.spheroid(), &p.coefficients(), &zeroth, &first)
 }
 
 /// Numbers, angles and rates at the phases `x` and `y`, and the changes in the time `x_1` after the start, where these are the phases.
-fn solved<F: Coded>(p: &Point<F>, solution: &Perturbation<F>) -> Vec<F> {
-    let (alpha, beta) = solution.first_order(p.at("x"), p.at("y"));
-    let (alpha_rate, beta_rate) = solution.first_order_rates(p.at("x"), p.at("y"));
-    let (alpha_change, beta_change) = changes_from_start(solution, p.at("x_1"));
-    vec![
-        solution.omega,
-        solution.rate,
-        solution.zeroth_rate,
-        solution.forced_rate,
-        solution.c_tilde,
-        solution.eta_alpha,
-        solution.eta_beta,
-        solution.homogeneous_frequency,
-        solution.homogeneous_ratio,
-        alpha,
-        beta,
-        alpha_rate,
-        beta_rate,
-        alpha_change,
-        beta_change,
-    ]
-}
-
 fn solution<F: Coded>(p: &Point<F>, form: Form, kind: Precession) -> Vec<F> {
-    solved(p, &Perturbation::new_unchecked(form, kind, &p.spheroid(), &p.coefficients(), p.at("spin"), &constants(p)))
+    let (phase, alpha_0) = (p.at("x"), p.at("y"));
+    let constants = Constants { alpha_0, beta_0: p.at("beta"), amplitude: p.at("amplitude"), phase };
+    let solution = Perturbation::new_unchecked(form, kind, &p.spheroid(), &p.coefficients(), p.at("spin"), &constants);
+    components![
+        [solution.omega, solution.rate, solution.zeroth_rate, solution.forced_rate, solution.c_tilde],
+        [solution.eta_alpha, solution.eta_beta, solution.homogeneous_frequency, solution.homogeneous_ratio],
+        solution.first_order(phase, alpha_0),
+        solution.first_order_rates(phase, alpha_0),
+        changes_from_start(&solution, p.at("x_1")),
+    ]
 }

@@ -5,18 +5,17 @@
 //! compared twice: in the prime field, where a rational number has an exact image and nothing is rounded, and in doubles, in units of the last
 //! place of the sum of the magnitudes of their terms. What takes roots or inverse functions is compared in doubles alone.
 
+use crate::prelude::*;
+
 mod closed_kernels;
 mod compare;
 mod document;
 mod kernels;
 mod point;
 
-pub use compare::{Comparison, compare_doubles, compare_field};
+pub(crate) use compare::{compare_closed, compare_doubles, compare_field};
 pub use document::{Document, Layout};
 pub use point::{Coded, RationalPoint};
-
-use crate::magnitudes::Conditioned;
-use crate::prime_field::Fp;
 
 /// The file that `verify/oracles/symbolic` writes.
 pub const DATA: &str = include_str!("../../data/symbolic.json");

@@ -1,18 +1,9 @@
 //! Points with rational coordinates.
 
-use std::collections::BTreeMap;
-
-use nalgebra::{Matrix3, Vector3};
-use twofold::Scalar;
-use twofold::dynamics::{BodyState, PrincipalInertia, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-
-use crate::magnitudes::Conditioned;
-use crate::prime_field::Fp;
+use crate::prelude::*;
 
 /// A type of numbers that rational numbers and rational points of the circle can be written in.
-pub trait Coded: Scalar {
+pub trait Coded: Differentiable {
     /// The number `numerator / denominator`, both small integers.
     fn number(numerator: i32, denominator: i32) -> Self;
 

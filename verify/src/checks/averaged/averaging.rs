@@ -1,18 +1,10 @@
 //! The averaged Hamiltonian and the generator of the averaging, by duals.
 
-use core::f64::consts::TAU;
-
-use nalgebra::{Rotation3, Unit, Vector3};
-use num_dual::Dual64;
+use nalgebra::Unit;
 use twofold::numerics::scalar::length;
-use twofold::solutions::averaged::{
-    AveragingOrder, generator, generator_slopes, mean_angular_velocity, mean_potential,
-};
 
 use super::scenes::State;
-use crate::check::{Measured, checks, largest, largest_component};
-use crate::derivation::spheroid_motion::fixed_spheroid;
-use crate::random::worst_of_draws;
+use crate::prelude::*;
 
 checks! {
     /// the slopes of the generator of the averaged motion by n and L are its automatic derivatives

@@ -1,15 +1,7 @@
 //! Phases of the averaged motion over decades.
 
-use core::f64::consts::TAU;
-
-use twofold::Scalar;
-use twofold::propagation::{AveragedMotion, Motion};
-use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
-
 use super::scenes::{State, difference};
-use crate::check::{Measured, checks, largest, worst_of};
-use crate::double_double::DoubleDouble;
-use crate::random::{Random, worst_of_draws};
+use crate::prelude::*;
 
 checks! {
     /// the phases about L and about n after 4e11 turns (20 years at 642 Hz) are those of the same theory in double-double numbers, for s below 1e-6

@@ -1,17 +1,10 @@
 //! Derivatives of the averaged motion by duals.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
-use num_dual::Dual64;
-use twofold::dynamics::{BodyState, Problem, RotationState};
-use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame_along, principal_frame_with_derivatives};
+use twofold::lorentz_violation::{principal_frame_along, principal_frame_with_derivatives};
 use twofold::numerics::scalar::length;
-use twofold::propagation::{AveragedMotion, Motion};
-use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
-use twofold::{Error, Real};
 
 use crate::averaged_scenes::AveragedScene;
-use crate::check::{Measured, checks, largest, worst_of};
-use crate::random::Random;
+use crate::prelude::*;
 
 checks! {
     /// the averaged motion in any frame over duals has the derivatives that differences of it have: by s^IJ (two equal eigenvalues, split along

@@ -1,17 +1,12 @@
 //! The error estimate of the averaged motion.
 
-use core::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use twofold::Scalar;
-use twofold::dynamics::{BodyState, RotationState};
-use twofold::solutions::averaged::{AveragedPhases, AveragingOrder};
+use twofold::solutions::averaged::AveragedPhases;
 
 use super::scenes::difference;
 use crate::averaged_scenes::{AveragedScene, EstimateSeen};
-use crate::check::{Measured, Worst, checks};
-use crate::double_double::DoubleDouble;
-use crate::random::Random;
+use crate::prelude::*;
 
 checks! {
     /// the error estimate of the averaged motion, of either order, is not below its error: any strength, symmetric tensors, near the separatrix, c
@@ -50,30 +45,19 @@ fn seen(order: AveragingOrder) -> &'static AllSeen {
 }
 
 fn not_below() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for order in ORDERS {
-        for (number, seen) in seen(order).as_ref()?.iter().enumerate() {
-            worst.see(seen.worst, || format!("scene {number} of seed 11, {order:?}: error, estimate, t {:?}", seen.at));
-        }
-    }
-    worst.finish()
+    worst_of(ORDERS, |&order| worst_of(seen(order).as_ref()?, |seen| Ok(seen.worst)))
 }
 
 fn beside_separatrix() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for number in 0..300 {
-        for order in ORDERS {
-            let seen = AveragedScene::beside_separatrix(13, number).estimate_seen(order, number)?;
-            worst.see(seen.worst, || format!("scene {number} of seed 13, {order:?}: error, estimate, t {:?}", seen.at));
-        }
-    }
-    worst.finish()
+    worst_of(0..300, |&number| {
+        let scene = AveragedScene::beside_separatrix(13, number);
+        worst_of(ORDERS, |&order| Ok(scene.estimate_seen(order, number)?.worst))
+    })
 }
 
 fn rounding() -> Result<Measured, String> {
     let mut random = Random::with_seed(64);
-    let mut worst = Worst::default();
-    for number in 0..60 {
+    worst_of(0..60, |&number| {
         let scene = AveragedScene::draw(19, number, 10.0);
         let averaged = scene.motion::<f64>(AveragingOrder::Second)?;
         let exact = scene.motion::<DoubleDouble>(AveragingOrder::Second)?;
@@ -91,9 +75,8 @@ fn rounding() -> Result<Measured, String> {
         let estimate = averaged.rounding(t);
         let ratio = (estimate / off.max(1e-16)).log10();
         let outside = if ratio.is_nan() { f64::INFINITY } else { (-ratio).max(ratio - 6.0).max(0.0) };
-        worst.see(outside, || format!("scene {number} of seed 19 at t = {t:e}: {off:.1e}, estimated {estimate:.1e}"));
-    }
-    worst.finish()
+        Ok(Measured::new(outside, format!("at t = {t:e}: {off:.1e}, estimated {estimate:.1e}")))
+    })
 }
 
 fn not_idle() -> Result<Measured, String> {

@@ -1,24 +1,9 @@
 //! The averaged motion in closed form: its derivation, its errors and its derivatives.
 
-mod averaging;
-mod decades;
-mod derivatives;
-mod estimates;
-mod orders;
+pub(super) mod averaging;
+pub(super) mod decades;
+pub(super) mod derivatives;
+pub(super) mod estimates;
+pub(super) mod orders;
 mod scenes;
-mod top;
-
-use crate::check::Check;
-
-/// Checks of this subject.
-pub fn checks() -> Vec<Check> {
-    [
-        averaging::checks(),
-        top::checks(),
-        orders::checks(),
-        estimates::checks(),
-        derivatives::checks(),
-        decades::checks(),
-    ]
-    .concat()
-}
+pub(super) mod top;

@@ -1,13 +1,7 @@
 //! Random states for the checks of the averaged motion.
 
-use nalgebra::Vector3;
-use twofold::Error;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-
 use crate::averaged_scenes::direction;
-use crate::check::largest_difference;
-use crate::random::Random;
+use crate::prelude::*;
 
 /// A body, principal values of a traceless tensor, and `n` and `L` in its principal frame.
 #[derive(Debug, Clone, Copy)]

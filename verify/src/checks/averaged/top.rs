@@ -1,10 +1,7 @@
 //! The top by integration.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use crate::prelude::*;
 use twofold::solutions::averaged::Top;
-
-use crate::check::{Measured, Worst, checks, largest};
-use crate::random::Random;
 
 checks! {
     /// the direction, the frame that it carries along and the integrals of its squares, by theta functions, are those of an integration: any order
@@ -41,9 +38,8 @@ fn integrated(k: &Vector3<f64>, l: Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>,
 }
 
 fn tops() -> Result<Measured, String> {
-    let mut random = Random::with_seed(58);
-    let mut worst = Worst::default();
-    for case in 0..120 {
+    let mut case = 0;
+    worst_of_draws(58, 120, |random| {
         let mut any = || random.within(-1.0, 1.0);
         let mut k = Vector3::new(any(), any(), any());
         let mut l = Vector3::new(any(), any(), any());
@@ -63,6 +59,7 @@ fn tops() -> Result<Measured, String> {
             4 => (k, l.z) = (Vector3::new(k.x, 0.0, -k.x), l.x),
             _ => {}
         }
+        case += 1;
         let l = l.normalize();
         let top = Top::new(k.into(), &l);
         let time = 10.0;
@@ -74,12 +71,10 @@ fn tops() -> Result<Measured, String> {
         // What enters a phase is this times rates as small as the slow one.
         let squares = top.mean_squares() * time + top.squares(end.integral - start.integral);
         let (direction, by_steps, integral) = integrated(&k, l);
-        let off = largest([
+        Ok(largest([
             (frame - by_steps).amax(),
             (end.frame.column(2) - direction).amax(),
             (squares - integral).amax() * top.rates.slow.abs().min(1.0),
-        ]);
-        worst.see(off, || format!("case {case} of seed 58: k = {k:?}, l = {l:?}"));
-    }
-    worst.finish()
+        ]))
+    })
 }

@@ -1,10 +1,7 @@
 //! Frequencies of the averaged motion against the exact ones.
 
-use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
-
 use super::scenes::{Scene, TWOFOLD, sum, worst_off_separatrix};
-use crate::check::{Measured, Worst, checks, largest};
-use crate::measured_order::{errors_at, largest_off_order};
+use crate::prelude::*;
 
 checks! {
     /// the slow frequency of tp-II, 0.03546436867 / t_c, follows from the averaged motion of first order to 5 %
@@ -62,19 +59,17 @@ fn random_rates() -> Result<Measured, String> {
 }
 
 fn lines() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    let free = [1.1 / f64::cos(0.7), -0.1];
-    for name in ["tp-1", "tp-2"] {
+    worst_of(["tp-1", "tp-2"], |name| {
         let scene = Scene::example(name, 1.0);
         let exact = scene.exact()?;
         let mut mean = scene.averaged(AveragingOrder::Second)?;
         mean[0] *= exact[0].signum();
-        for (what, multiples, free) in [("alpha'", TWOFOLD.alpha, free[0]), ("gamma'", TWOFOLD.gamma, free[1])] {
+        worst_of([(TWOFOLD.alpha, 1.1 / f64::cos(0.7)), (TWOFOLD.gamma, -0.1)], |&(multiples, free)| {
             let (exact, mean) = (sum(exact, multiples), sum(mean, multiples));
-            worst.see((mean - exact).abs() / (free - exact).abs(), || {
-                format!("{what} of {name}: exact {exact:.9}, formula {mean:.9}, free {free:.4}")
-            });
-        }
-    }
-    worst.finish()
+            Ok(Measured::new(
+                (mean - exact).abs() / (free - exact).abs(),
+                format!("exact {exact:.9}, formula {mean:.9}, free {free:.4}"),
+            ))
+        })
+    })
 }

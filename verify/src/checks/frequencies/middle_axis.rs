@@ -1,19 +1,10 @@
 //! The unstable motion about the middle axis, and slow periods near the separatrix.
 
-use core::f64::consts::{PI, TAU};
-
-use nalgebra::Vector3;
-use num_dual::Dual64;
-use twofold::dynamics::first_integrals::FirstIntegrals;
-use twofold::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::Motion;
-use twofold::solutions::averaged::{AveragingOrder, middle_axis_growth, period_near_separatrix};
-use twofold::solutions::torus::{separatrix_motion, states_with_integrals};
+use twofold::solutions::averaged::period_near_separatrix;
+use twofold::solutions::torus::separatrix_motion;
 
 use super::scenes::Scene;
-use crate::check::{Measured, Worst, checks, largest};
-use crate::measured_order::{errors_at, largest_off_order};
+use crate::prelude::*;
 
 checks! {
     /// the growth rate at the middle axis is that of the monodromy matrix of the unstable periodic motion to first and to second order; for a spin
@@ -109,14 +100,7 @@ fn growth_orders() -> Result<Measured, String> {
 }
 
 fn growth_of_examples() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for nutation in NUTATIONS {
-        let first = growth_error(AveragingOrder::First, 1.0, nutation)?;
-        worst.see(growth_error(AveragingOrder::Second, 1.0, nutation)?, || {
-            format!("at {nutation}; to first order {first:.4}")
-        });
-    }
-    worst.finish()
+    worst_of(NUTATIONS, |&nutation| growth_error(AveragingOrder::Second, 1.0, nutation))
 }
 
 /// Exact slow period at a distance `k'^2` (signed) from the separatrix of the examples' s scaled by `k`, the growth rate and the strength of the torque.
@@ -132,40 +116,24 @@ fn near_separatrix(k: f64, complement: f64) -> Result<(f64, f64, Scene), String>
 }
 
 fn separatrix_logarithm() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for side in [1.0, -1.0] {
-        let mut last: Option<f64> = None;
-        for power in -6..=-3 {
-            let (period, growth, _) = near_separatrix(0.3, side * 10f64.powi(power))?;
-            if let Some(last) = last {
-                let expected = 2.0 / growth * 10f64.ln();
-                worst.see(((last - period) / expected - 1.0).abs(), || {
-                    format!("from 1e{} to 1e{power}, side {side}", power - 1)
-                });
-            }
-            last = Some(period);
-        }
-    }
-    worst.finish()
+    let cases = [1.0, -1.0].into_iter().flat_map(|side| (-5..=-3).map(move |power| (side, power)));
+    worst_of(cases, |&(side, power)| {
+        let (nearer, _, _) = near_separatrix(0.3, side * 10f64.powi(power - 1))?;
+        let (period, growth, _) = near_separatrix(0.3, side * 10f64.powi(power))?;
+        Ok(((nearer - period) / (2.0 / growth * 10f64.ln()) - 1.0).abs())
+    })
 }
 
 fn separatrix_formula() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for k in [1.0, 0.3, 0.1] {
-        for side in [1.0, -1.0] {
-            for power in [-2, -4, -6] {
-                let complement = 10f64.powi(power);
-                let (period, _, torus) = near_separatrix(k, side * complement)?;
-                let FirstIntegrals { energy, spin, .. } = torus.integrals();
-                let growth = middle_axis_growth(&torus.body, &torus.s, energy, spin, AveragingOrder::Second)?;
-                let formula = period_near_separatrix(growth, complement)?;
-                let x = 0.06 * k / torus.start.momentum.norm_squared();
-                let off = (formula / period - 1.0).abs();
-                worst.see(off / x, || {
-                    format!("k = {k}, side {side}, k'^2 = {complement:e}: {off:.2e}, period {:.1} pi", period / PI)
-                });
-            }
-        }
-    }
-    worst.finish()
+    let sides = |k| [1.0, -1.0].map(|side| (k, side));
+    worst_of([1.0, 0.3, 0.1].into_iter().flat_map(sides), |&(k, side)| {
+        worst_of([-2, -4, -6], |&power| {
+            let complement = 10f64.powi(power);
+            let (period, _, torus) = near_separatrix(k, side * complement)?;
+            let FirstIntegrals { energy, spin, .. } = torus.integrals();
+            let growth = middle_axis_growth(&torus.body, &torus.s, energy, spin, AveragingOrder::Second)?;
+            let x = 0.06 * k / torus.start.momentum.norm_squared();
+            Ok((period_near_separatrix(growth, complement)? / period - 1.0).abs() / x)
+        })
+    })
 }

@@ -1,16 +1,7 @@
 //! Motions whose frequencies are compared.
 
-use nalgebra::Vector3;
-use twofold::Error;
-use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
+use crate::prelude::*;
 use twofold::solutions::torus::{TorusFrequencies, torus_frequencies};
-
-use crate::check::{Measured, worst_of};
-use crate::random::Random;
-use crate::reference::reference_motion;
 
 /// A motion in the principal frame of `s^IJ`.
 #[derive(Debug, Clone, Copy)]
@@ -107,6 +98,7 @@ pub(super) fn worst_off_separatrix(
 }
 
 /// Which multiples of `slow`, `about_momentum` and `about_axis` the mean rates of alpha and gamma are.
+#[derive(Debug)]
 pub(super) struct Angles {
     pub(super) alpha: [f64; 3],
     pub(super) gamma: [f64; 3],

@@ -1,16 +1,9 @@
 //! Whether `phi_o` and `delta` can be absorbed in the initial values of `alpha` and `gamma`, as said below Eq. (47).
 
-use nalgebra::{Rotation3, UnitVector3, Vector3};
-use twofold::Error;
-use twofold::dynamics::BodyState;
-use twofold::dynamics::RotationState;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::Observer;
-use twofold::observables::pulsar::Beam;
-use twofold::propagation::Motion;
+use nalgebra::UnitVector3;
 
-use crate::check::{Measured, checks, largest};
-use crate::paper_examples::{COEFFICIENTS, paper_examples, problem_from};
+use crate::paper_examples::problem_from;
+use crate::prelude::*;
 
 checks! {
     /// delta is absorbed in the initial value of gamma, and with s^XX = s^YY also phi_o in that of alpha

@@ -2,17 +2,10 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::observables::Observer;
-use twofold::observables::pulsar::period::{approximate_period, instantaneous_period};
-use twofold::observables::pulsar::{Beam, Stamped};
-use twofold::propagation::Motion;
-use twofold::solutions::perturbation::{ShiftedRates, shifted_rates};
+use twofold::solutions::perturbation::ShiftedRates;
 
 use super::cases::{Case, mean_rates, paper_signal};
-use crate::check::{Measured, Worst, checks, largest, smallest};
-use crate::paper_examples::{COEFFICIENTS, SPIN, spheroid};
+use crate::prelude::*;
 use crate::pulse_series::{PaperCurves, PulseSeries, Viewing, pulse_series};
 
 /// Length of the series, t_c.
@@ -93,16 +86,11 @@ fn periods_of_tp_2() -> Result<Measured, String> {
 
 /// `L` tilted against Z, without Lorentz violation: `gamma'` about Z is small on the mean whatever the tilt.
 fn tilted_momentum() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for azimuth in (0..8).map(|eighth| f64::from(eighth) * FRAC_PI_4) {
-        let (missed, detail) = tilted_momentum_in(azimuth)?;
-        worst.see(missed, || format!("L in the azimuth {azimuth:.2} from the observer: {detail}"));
-    }
-    worst.finish()
+    worst_of((0..8).map(|eighth| f64::from(eighth) * FRAC_PI_4), |&azimuth| Ok(tilted_momentum_in(azimuth)?))
 }
 
 /// The smallest deviation of Eq. (51) from a period, with `L` tilted towards an azimuth.
-fn tilted_momentum_in(azimuth: f64) -> Result<(f64, String), twofold::Error> {
+fn tilted_momentum_in(azimuth: f64) -> Result<Measured, Error> {
     let (tilt, wobble, oblateness) = (0.45_f64, 0.7_f64, 1e-4);
     let spheroid = RigidSpheroid::in_units_of_tc(1.0 + oblateness);
     let towards = |angle: f64| Observer::at(angle, azimuth).direction;
@@ -112,25 +100,15 @@ fn tilted_momentum_in(azimuth: f64) -> Result<(f64, String), twofold::Error> {
     let motion = Problem::new(spheroid, Matrix3::zeros(), start)?.taylor((0.0, SPAN), 1e-13)?;
     let beam = Beam::new(VIEWING.chi, VIEWING.delta, VIEWING.rho);
     let series = pulse_series(&motion, &beam, &Observer::at(VIEWING.theta_o, 0.0).direction, (0.0, SPAN))?;
-    let (mut formula, mut periods, mut missed) = (Vec::new(), Vec::new(), Vec::new());
+    let mut missed = Vec::new();
     for point in &series.periods {
         let state = motion.state(point.time)?;
         let (angles, rates) = (state.angles()?, state.rates(&spheroid)?);
         let at = VIEWING.formulas([angles.beta, angles.gamma], [rates.alpha, rates.gamma])?;
-        let period = approximate_period(rates.alpha, at.offset_rate);
-        formula.push(period);
-        periods.push(point.value);
-        missed.push((period / point.value - 1.0).abs());
+        missed.push((approximate_period(rates.alpha, at.offset_rate) / point.value - 1.0).abs());
     }
-    let detail = format!(
-        "(51) {:.3} to {:.3}, {} periods {:.4} to {:.4}",
-        smallest(formula.clone()),
-        largest(formula),
-        periods.len(),
-        smallest(periods.clone()),
-        largest(periods)
-    );
-    Ok((if missed.is_empty() { f64::NAN } else { smallest(missed) }, detail))
+    let figure = if missed.is_empty() { f64::NAN } else { smallest(missed.iter().copied()) };
+    Ok(Measured::new(figure, format!("{} periods", missed.len())))
 }
 
 /// Deviations of the series of an example from the formulas.

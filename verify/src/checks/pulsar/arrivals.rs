@@ -1,17 +1,7 @@
 //! Times of arrival and residuals. Eqs. (44), (48), (51).
 
-use std::f64::consts::{PI, TAU};
-
-use nalgebra::Matrix3;
-use twofold::dynamics::{Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates, body_from_inertial};
-use twofold::observables::Observer;
-use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
-use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod};
-
 use super::cases::{Case, upright_star, worst_over_random_cases};
-use crate::check::{Measured, Worst, checks, largest};
-use crate::random::{Random, worst_of_draws};
+use crate::prelude::*;
 
 checks! {
     /// there is an arrival for each whole pulse, inside it, and m.n is nowhere larger in the pulse
@@ -34,23 +24,21 @@ checks! {
 }
 
 fn highest_in_pulse() -> Result<Measured, String> {
-    worst_over_random_cases(81, 300, (20.0, 1e-14), |case, worst| {
+    worst_over_random_cases(81, 300, (20.0, 1e-14), |case| {
         let train = case.train()?;
         let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
         let found = case.arrivals()?;
         if found.len() != whole.len() {
-            worst.see(f64::INFINITY, || format!("{} arrivals of {} pulses, {}", found.len(), whole.len(), case.name));
+            return Ok(f64::INFINITY);
         }
-        for (arrival, pulse) in found.iter().zip(whole) {
+        Ok(largest(found.iter().zip(whole).map(|(arrival, pulse)| {
             let inside = pulse.start < arrival.closest_approach && arrival.closest_approach < pulse.end;
             let highest = case.margin(arrival.closest_approach)[0];
             let at = |i: u32| pulse.start + pulse.duration() * f64::from(i) / 100.0;
             let excess = (0..=100).map(|i| case.margin(at(i))[0] - highest);
             let excess = largest(excess.map(|x| if x <= 0.0 { 0.0 } else { x }));
-            let figure = if inside { excess / f64::EPSILON } else { f64::INFINITY };
-            worst.see(figure, || format!("{pulse:?} of {}", case.name));
-        }
-        Ok(())
+            if inside { excess / f64::EPSILON } else { f64::INFINITY }
+        })))
     })
 }
 
@@ -107,7 +95,7 @@ fn steady_rotation() -> Result<Measured, String> {
 }
 
 fn free_precession() -> Result<Measured, String> {
-    let (mut random, mut worst) = (Random::with_seed(83), Worst::default());
+    let mut random = Random::with_seed(83);
     // alpha' / |gamma'| = (1 + epsilon) / (epsilon cos beta).
     let (oblateness, ratio) = (0.1, 13);
     let beta = ((1.0 + oblateness) / (oblateness * f64::from(ratio))).acos();
@@ -116,24 +104,20 @@ fn free_precession() -> Result<Measured, String> {
     let rates = EulerRates { alpha: (1.0 + oblateness) / beta.cos(), beta: 0.0, gamma: -oblateness };
     let star = Problem::from_angles(spheroid, Matrix3::zeros(), &angles, &rates)?;
     let repetition = TAU / oblateness;
-    for (chi, turns) in [(0.4, ratio), (0.5, ratio), (0.7, ratio - 1), (1.2, ratio - 1)] {
-        for theta_o in [0.4, 0.7, 1.0] {
-            let found = arrivals_in_any_frame(&mut random, &star, 4.2 * repetition, [chi, 0.5, theta_o])?;
-            let mut figure = 0.0;
-            for time in TIMES {
-                let later = |a: &Arrival| found.iter().find(|b| b.number == a.number + i64::from(turns)).map(time);
-                let errors = found.iter().filter_map(|a| later(a).map(|t| (t - time(a) - repetition).abs()));
-                let errors: Vec<f64> = errors.collect();
-                let fit = ConstantPeriod::fit(&numbered(&found, time), None)?;
-                let modulation = largest(fit.residuals.iter().map(|r| r.abs()));
-                // Three of four periods have a later one; in the least favourable case they hold four pulses each.
-                let enough = errors.len() >= 12 && modulation > 1e-3;
-                figure = largest([figure, if enough { largest(errors) } else { f64::INFINITY }]);
-            }
-            worst.see(figure, || format!("chi = {chi}, theta_o = {theta_o}, {} pulses", found.len()));
-        }
-    }
-    worst.finish()
+    let cases = [(0.4, ratio), (0.5, ratio), (0.7, ratio - 1), (1.2, ratio - 1)].into_iter();
+    let cases = cases.flat_map(|(chi, turns)| [0.4, 0.7, 1.0].map(|theta_o| (chi, turns, theta_o)));
+    worst_of(cases, |&(chi, turns, theta_o)| {
+        let found = arrivals_in_any_frame(&mut random, &star, 4.2 * repetition, [chi, 0.5, theta_o])?;
+        largest_of(TIMES.map(|time| {
+            let later = |a: &Arrival| found.iter().find(|b| b.number == a.number + i64::from(turns)).map(time);
+            let errors = found.iter().filter_map(|a| later(a).map(|t| (t - time(a) - repetition).abs()));
+            let errors: Vec<f64> = errors.collect();
+            let fit = ConstantPeriod::fit(&numbered(&found, time), None)?;
+            let modulation = largest(fit.residuals.iter().map(|r| r.abs()));
+            // Three of four periods have a later one; in the least favourable case they hold four pulses each.
+            Ok(if errors.len() >= 12 && modulation > 1e-3 { largest(errors) } else { f64::INFINITY })
+        }))
+    })
 }
 
 fn least_squares() -> Result<Measured, String> {

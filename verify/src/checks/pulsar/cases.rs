@@ -1,19 +1,8 @@
 //! Pulsars for the checks of the pulse train: random ones, the paper's, and such as spin about Z.
 
-use std::f64::consts::PI;
-
-use nalgebra::{Matrix3, Vector3};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::observables::Observer;
-use twofold::observables::pulsar::{Arrival, Beam, PulseTrain, arrivals, pulse_train};
-use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion};
+use crate::prelude::*;
+use twofold::observables::pulsar::PulseTrain;
 use twofold::solutions::perturbation::ShiftedRates;
-
-use crate::check::{Measured, Worst, largest};
-use crate::physical_domain::{scenes, worst_over};
-use crate::random::Random;
-use crate::reference::reference_motion;
 
 /// A motion with a beam and an observer.
 pub(super) struct Case {
@@ -52,39 +41,26 @@ impl Case {
     }
 }
 
-/// Sees `count` random scenes, propagated to the time `end` with the given tolerance, each with a random beam and its opposite.
-pub(super) fn for_random_cases(
+/// The largest figure of random scenes, propagated to the time `end` with the given tolerance, each with a random beam and its opposite.
+pub(super) fn worst_over_random_cases<F: Figure>(
     seed: u8,
     count: usize,
     (end, tolerance): (f64, f64),
-    mut see: impl FnMut(&Case, &mut Worst) -> Result<(), String>,
-) -> Result<Worst, String> {
-    let (mut random, mut worst, mut index) = (Random::with_seed(u64::from(seed)), Worst::default(), 0);
+    mut figure: impl FnMut(&Case) -> Result<F, String>,
+) -> Result<Measured, String> {
+    let mut random = Random::with_seed(u64::from(seed));
     worst_over(seed, count, &scenes(), |scene| {
         let motion = scene.problem().taylor((0.0, end), tolerance)?;
         let (chi, delta) = (random.within(0.0, PI), random.within(-PI, PI));
         let (theta, phi) = (random.within(0.0, PI), random.within(-PI, PI));
         let observer = Observer::at(theta, phi).direction;
         let beam = Beam::new(chi, delta, random.within(0.05, 2.0));
-        let name = format!("scene {index} of seed {seed}, beam {beam:?}, observer {observer:?}");
-        let mut case = Case { name, motion, beam, observer };
-        see(&case, &mut worst)?;
+        let mut case = Case { name: format!("{beam:?}, observer {observer:?}"), motion, beam, observer };
+        let first = figure(&case)?.measured();
         case.beam = beam.opposite();
-        see(&case, &mut worst)?;
-        index += 1;
-        Ok(0.0)
-    })?;
-    Ok(worst)
-}
-
-/// The largest figure that `see` shows of such scenes.
-pub(super) fn worst_over_random_cases(
-    seed: u8,
-    count: usize,
-    end_and_tolerance: (f64, f64),
-    see: impl FnMut(&Case, &mut Worst) -> Result<(), String>,
-) -> Result<Measured, String> {
-    for_random_cases(seed, count, end_and_tolerance, see)?.finish()
+        let second = figure(&case)?.measured();
+        worst_of([first, second], |measured| Ok(measured.figure))
+    })
 }
 
 /// The edges of the pulses, but for those at which the train is cut.

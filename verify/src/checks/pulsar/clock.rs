@@ -1,23 +1,11 @@
 //! A pulsar as a clock over decades: numbers and arrival times. Eqs. (44), (47).
 
-use std::f64::consts::PI;
+use twofold::observables::pulsar::PulsarClock;
+use twofold::solutions::averaged::{AveragedPhases, AveragedRates};
 
-use nalgebra::Vector3;
-use num_traits::Zero;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::{PrincipalCoefficients, principal_frame};
-use twofold::numerics::scalar::Scalar;
-use twofold::observables::Observer;
-use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod, PulsarClock, arrivals, pulse_train};
-use twofold::propagation::{AveragedMotion, Motion};
-use twofold::solutions::averaged::{AveragedPhases, AveragedRates, AveragedSolution, AveragingOrder};
-
-use crate::check::{Measured, Worst, checks, largest};
-use crate::double_double::DoubleDouble;
-use crate::measured_order::order_of_error;
-use crate::random::Random;
+use crate::prelude::*;
 use twofold_scene::pulsar_timing::PulsarScene;
-use twofold_scene::scene_file::{PULSARS, Scene};
+use twofold_scene::scene_file::PULSARS;
 
 checks! {
     /// numbers and midpoints of single pulses, looked up in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose
@@ -179,13 +167,14 @@ fn pulsars(alpha_2: &str) -> Result<Vec<(String, Scene)>, String> {
 }
 
 fn twenty_years() -> Result<Measured, String> {
-    let mut worst = Worst::default();
     // |w|^2 alpha_2 = 1e-9.
-    for (name, scene) in [pulsars("1.6e-9")?, pulsars("6.6e-4")?].concat() {
-        let mut pulsar = PulsarScene::new(&scene)?;
+    let pulsars = [pulsars("1.6e-9")?, pulsars("6.6e-4")?].concat();
+    worst_of(0..pulsars.len(), |&i| {
+        let (name, scene) = &pulsars[i];
+        let mut pulsar = PulsarScene::new(scene)?;
         let beam = scene.pulsar.ok_or("no beam")?.beam();
         let exact = Exact::of(&pulsar, &beam)?;
-        let mut seen = 0;
+        let (mut worst, mut seen) = (0.0, 0);
         for k in 0..=400 {
             let t = [f64::from(k - 200) * (0.1 * 31_557_600.0), 1.7e-10];
             // With |s| of 1e-9 millisecond pulsars turn out of the line of sight and back.
@@ -195,14 +184,10 @@ fn twenty_years() -> Result<Measured, String> {
             let half = DoubleDouble::from_f64(pulse.duration / 2.0);
             let edges = [middle - half, middle + half].map(|edge| exact.edge(edge, pulse.duration));
             let expected = (edges[0] + edges[1]) / DoubleDouble::from_f64(2.0);
-            let error = (middle - expected).high();
-            worst.see(error.abs(), || format!("{name} at t = {} s: {error:e} s", t[0]));
+            worst = largest([worst, (middle - expected).high().abs()]);
         }
-        if seen < 20 {
-            return Err(format!("{name} has {seen} pulses in 401 epochs"));
-        }
-    }
-    worst.finish()
+        if seen < 20 { Err(format!("{name} has {seen} pulses in 401 epochs")) } else { Ok(worst) }
+    })
 }
 
 fn free_precession() -> Result<Measured, String> {

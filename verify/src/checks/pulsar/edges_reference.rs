@@ -1,13 +1,10 @@
 //! The pulsar signal against 34-digit motion: `m.n`, edges and closest approaches. Eqs. (44)-(47).
 
-use twofold::observables::Observer;
-use twofold::observables::pulsar::beam::axis_along_line_of_sight;
-use twofold::observables::pulsar::{Arrival, Beam, Pulse};
-use twofold::propagation::Motion;
+use twofold::observables::pulsar::Pulse;
 
 use super::cases::paper_signal;
-use crate::check::{Measured, Worst, checks, largest};
-use crate::reference::{ReferencePulse, reference_motions, reference_pulses};
+use crate::prelude::*;
+use crate::reference::{ReferencePulse, reference_pulses};
 
 checks! {
     /// m.n of the numerical motion of ten scenes, as a vector and by Eq. (47) in its Euler angles, is that of the 34-digit states
@@ -31,44 +28,39 @@ checks! {
 }
 
 fn signal_of_reference_motion() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for scene in reference_motions() {
+    worst_of(reference_motions(), |scene| {
         let end = scene.states.last().map_or(0.0, |(t, _)| *t);
         let motion = scene.problem().taylor((0.0, end), 1e-14)?;
-        for (t, reference) in &scene.states {
-            let state = motion.state(*t)?;
-            for (chi, delta) in [(0.5, 0.0), (1.3, 0.7), (2.8, -2.0)] {
-                for (theta_o, phi_o) in [(0.8, 0.0), (1.5, 2.2), (2.9, -1.1)] {
-                    let (beam, observer) = (Beam::new(chi, delta, 0.6), Observer::at(theta_o, phi_o));
-                    let theirs = beam.direction(reference).dot(&observer.direction);
-                    // On a pole the motion has no angles.
-                    let angles = state.angles().ok();
-                    let in_angles = angles.map(|q| axis_along_line_of_sight(&q, chi, delta, theta_o, phi_o));
-                    let ours = [beam.direction(&state).dot(&observer.direction)].into_iter().chain(in_angles);
-                    let error = largest(ours.map(|ours| (ours - theirs).abs()));
-                    worst.see(error, || format!("{} at t = {t}, chi = {chi}, theta_o = {theta_o}", scene.name));
-                }
-            }
-        }
-    }
-    worst.finish()
+        let axes = [(0.5, 0.0), (1.3, 0.7), (2.8, -2.0)].into_iter();
+        let pairs = axes.flat_map(|axis| [(0.8, 0.0), (1.5, 2.2), (2.9, -1.1)].map(|observer| (axis, observer)));
+        worst_of(pairs, |&((chi, delta), (theta_o, phi_o))| {
+            let (beam, observer) = (Beam::new(chi, delta, 0.6), Observer::at(theta_o, phi_o));
+            worst_of(&scene.states, |(t, reference)| {
+                let state = motion.state(*t)?;
+                let theirs = beam.direction(reference).dot(&observer.direction);
+                // On a pole the motion has no angles.
+                let angles = state.angles().ok();
+                let in_angles = angles.map(|q| axis_along_line_of_sight(&q, chi, delta, theta_o, phi_o));
+                let ours = [beam.direction(&state).dot(&observer.direction)].into_iter().chain(in_angles);
+                Ok(largest(ours.map(|ours| (ours - theirs).abs())))
+            })
+        })
+    })
 }
 
 /// The worst error of a pulse, given as found and as it should be.
 fn worst_pulse(error: fn(&Pulse, &Arrival, &ReferencePulse) -> f64) -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for name in ["tp-1", "tp-2"] {
+    worst_of(["tp-1", "tp-2"], |name| {
         let expected = reference_pulses(name);
         let end = expected.last().map_or(f64::NAN, |pulse| pulse.end + 0.1);
         let signal = paper_signal(name, end)?;
         let (train, found) = (signal.train()?, signal.arrivals()?);
         let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
         if whole.len() != expected.len() || expected.len() < 150 {
-            return Ok(Measured::new(f64::INFINITY, format!("{name}: {} pulses of {}", whole.len(), expected.len())));
+            return Ok(Measured::new(f64::INFINITY, format!("{} pulses of {}", whole.len(), expected.len())));
         }
-        for (index, ((pulse, arrival), expected)) in whole.into_iter().zip(&found).zip(&expected).enumerate() {
-            worst.see(error(pulse, arrival, expected), || format!("pulse {index} of {name}, {expected:?}"));
-        }
-    }
-    worst.finish()
+        worst_of(whole.iter().zip(&found).zip(&expected), |((pulse, arrival), expected)| {
+            Ok(error(pulse, arrival, expected))
+        })
+    })
 }

@@ -1,18 +1,9 @@
 //! Angles of the magnetic axis, periods and widths with roots and inverse functions. Eqs. (49)-(51), (53)-(56).
 
-use std::f64::consts::{PI, TAU};
-
-use twofold::euler_angles::{EulerAngles, body_from_inertial};
-use twofold::observables::pulsar::Beam;
-use twofold::observables::pulsar::direction::{
-    axis_along_line_of_sight_in_azimuth, cosine_of_colatitude, magnetic_axis_direction,
-};
-use twofold::observables::pulsar::period::{approximate_period, instantaneous_period};
-use twofold::observables::pulsar::width::{PulseWidth, cosine_of_half_width, edge_azimuths, pulse_width};
+use twofold::observables::pulsar::width::edge_azimuths;
 
 use super::identities::spherical;
-use crate::check::{Measured, Worst, checks, largest, largest_component};
-use crate::random::worst_of_draws;
+use crate::prelude::*;
 
 checks! {
     /// Theta and Phi, the latter by the two-argument arc tangent, are the colatitude and azimuth of the turned axis in every quadrant
@@ -96,16 +87,12 @@ fn edges_of_width() -> Result<Measured, String> {
 }
 
 fn narrow_widths() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for decade in 1..=12 {
-        for i in 0..28 {
-            let (rho, theta) = (10f64.powi(-decade), 0.2 + 0.1 * f64::from(i));
-            let PulseWidth::Pulsed(width) = pulse_width(rho, theta, theta) else {
-                return Err(format!("no pulse at rho = {rho}, Theta = theta_o = {theta}"));
-            };
-            let expected = 4.0 * ((rho / 2.0).sin() / theta.sin()).asin();
-            worst.see((width / expected - 1.0).abs() / f64::EPSILON, || format!("rho = {rho:e}, Theta = {theta}"));
-        }
-    }
-    worst.finish()
+    let inclinations = |decade: i32| (0..28).map(move |i| (10f64.powi(-decade), 0.2 + 0.1 * f64::from(i)));
+    worst_of((1..=12).flat_map(inclinations), |&(rho, theta)| {
+        let PulseWidth::Pulsed(width) = pulse_width(rho, theta, theta) else {
+            return Err(format!("no pulse at rho = {rho}, Theta = theta_o = {theta}"));
+        };
+        let expected = 4.0 * ((rho / 2.0).sin() / theta.sin()).asin();
+        Ok((width / expected - 1.0).abs() / f64::EPSILON)
+    })
 }

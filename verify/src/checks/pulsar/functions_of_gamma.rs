@@ -1,10 +1,7 @@
 //! Whether the width series is a function of gamma, as the width at constant rates is. Eq. (56).
 
-use nalgebra::{DMatrix, DVector};
-use twofold::observables::pulsar::Stamped;
-
 use super::cases::{Case, mean_rates, paper_signal};
-use crate::check::{Measured, checks};
+use crate::prelude::*;
 use crate::pulse_series::pulse_series;
 
 /// Length of the series, t_c.

@@ -1,19 +1,6 @@
 //! Direction of the magnetic axis and its rate, as identities of rational functions. Eqs. (45), (47), (49)-(52), (54).
 
-use nalgebra::Vector3;
-use twofold::Scalar;
-use twofold::dynamics::BodyState;
-use twofold::euler_angles::{body_from_inertial, body_rates};
-use twofold::observables::pulsar::Beam;
-use twofold::observables::pulsar::beam::axis_along_line_of_sight;
-use twofold::observables::pulsar::direction::{
-    axis_along_line_of_sight_in_azimuth, azimuth_offset_point, cosine_of_colatitude,
-};
-use twofold::observables::pulsar::period::{azimuth_offset_rate, azimuth_rate};
-
-use crate::check::checks;
-use crate::derivation::{Differentiable, moving_angles};
-use crate::random::Point;
+use crate::prelude::*;
 
 checks! {
     /// Eq. (47) is the magnetic axis (45) turned by Eq. (9) along the line of sight, the margin of the beam adds -cos rho, the second beam has the

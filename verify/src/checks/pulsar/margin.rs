@@ -1,15 +1,8 @@
 //! Time derivatives of `m.n` along motions, and their bounds. Eq. (44).
 
-use nalgebra::Vector3;
+use crate::prelude::*;
 use num_dual::Dual3_64;
-use twofold::dynamics::{BodyState, RotationState};
-use twofold::observables::Observer;
-use twofold::observables::pulsar::Beam;
 use twofold::observables::pulsar::rate_bounds::rate_bounds;
-use twofold::propagation::Motion;
-
-use crate::check::{Measured, checks, largest};
-use crate::physical_domain::{RandomScene, scenes, worst_over};
 
 checks! {
     /// the first three time derivatives of m.n are those of the dense output, differentiated by duals
@@ -54,7 +47,7 @@ fn high_rates_within_bounds() -> Result<Measured, String> {
 
 /// A beam and a line of sight from the numbers of a scene.
 fn beam_and_observer(scene: &RandomScene) -> (Beam<f64>, Vector3<f64>) {
-    let [chi, theta, azimuth] = scene.angles;
+    let EulerAngles { alpha: chi, beta: theta, gamma: azimuth } = scene.angles;
     (Beam::new(chi, azimuth, 0.7), Observer::at(theta, chi).direction)
 }
 

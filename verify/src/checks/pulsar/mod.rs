@@ -1,45 +1,20 @@
 //! Pulses of a precessing star: the kernels, their approximations, the pulse train, times of arrival and polarization. Eqs.
 //! (44), (45), (47), (49)-(56).
 
-mod absorbed_angles;
-mod approximations;
-mod arrivals;
+pub(super) mod absorbed_angles;
+pub(super) mod approximations;
+pub(super) mod arrivals;
 mod cases;
-mod clock;
-mod edges_reference;
-mod formulas;
-mod functions_of_gamma;
-mod grazing;
-mod identities;
-mod margin;
-mod position_angle;
-mod published;
-mod pulse_numbers;
-mod scan;
-mod train;
-mod ways;
-
-use crate::check::Check;
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    [
-        identities::checks(),
-        formulas::checks(),
-        margin::checks(),
-        scan::checks(),
-        train::checks(),
-        ways::checks(),
-        grazing::checks(),
-        edges_reference::checks(),
-        published::checks(),
-        arrivals::checks(),
-        pulse_numbers::checks(),
-        clock::checks(),
-        position_angle::checks(),
-        approximations::checks(),
-        functions_of_gamma::checks(),
-        absorbed_angles::checks(),
-    ]
-    .concat()
-}
+pub(super) mod clock;
+pub(super) mod edges_reference;
+pub(super) mod formulas;
+pub(super) mod functions_of_gamma;
+pub(super) mod grazing;
+pub(super) mod identities;
+pub(super) mod margin;
+pub(super) mod position_angle;
+pub(super) mod published;
+pub(super) mod pulse_numbers;
+pub(super) mod scan;
+pub(super) mod train;
+pub(super) mod ways;

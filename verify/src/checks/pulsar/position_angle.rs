@@ -1,24 +1,13 @@
 //! Position angle of the polarization: the rotating-vector model of a precessing star. Eqs. (45), (46), (49), (70).
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::Scalar;
-use twofold::dynamics::equations_of_motion::angular_velocity;
-use twofold::euler_angles::{EulerAngles, body_from_inertial, body_rates};
-use twofold::numerics::angle::wrapped;
-use twofold::observables::Observer;
-use twofold::observables::pulsar::Beam;
-use twofold::observables::pulsar::direction::magnetic_axis_direction;
 use twofold::observables::pulsar::position_angle::{
     position_angle, position_angle_rate, rotating_vector_gradient, rotating_vector_point,
     rotating_vector_position_angle, sky_from_inertial,
 };
-use twofold::propagation::Motion;
 
 use super::cases;
 use super::identities::spherical;
-use crate::check::{Measured, Worst, checks, largest};
-use crate::derivation::{Differentiable, moving_angles};
-use crate::random::{Point, Random, worst_of_draws};
+use crate::prelude::*;
 
 checks! {
     /// north on the sky is the projection of Z, east is along Z x (direction in which the observer looks), as right ascension grows, and north x
@@ -57,12 +46,13 @@ fn sky_directions<F: Differentiable>(p: &Point<F>) -> Vec<F> {
     let (sin, _) = theta_o.sin_cos();
     // The observer looks along -n; right ascension grows eastwards, as a turn about Z carries the sky.
     let (z, view) = (Vector3::z(), -observer.direction);
-    let mut out: Vec<F> = (sky * sky.transpose() - Matrix3::identity()).iter().copied().collect();
-    out.extend(&(north * sin - (z - view * view.dot(&z))));
-    out.extend(&(east * sin - z.cross(&view)));
-    out.extend(&(north.cross(&east) - towards));
-    out.extend(&(towards + view));
-    out
+    components![
+        sky * sky.transpose() - Matrix3::identity(),
+        north * sin - (z - view * view.dot(&z)),
+        east * sin - z.cross(&view),
+        north.cross(&east) - towards,
+        towards + view,
+    ]
 }
 
 fn rotating_vector_model<F: Differentiable>(p: &Point<F>) -> Vec<F> {
@@ -123,14 +113,12 @@ fn rate_of_position_angle<F: Differentiable>(p: &Point<F>) -> Vec<F> {
 }
 
 fn upright_star() -> Result<Measured, String> {
-    let (mut random, mut worst) = (Random::with_seed(69), Worst::default());
-    for case in 0..200 {
+    worst_of_draws(69, 200, |random| {
         let [chi, zeta] = [0; 2].map(|_| random.within(0.05, 3.09));
         let (delta, phi_o, spin) = (random.within(-3.0, 3.0), random.within(-3.0, 3.0), random.within(-2.0, 2.0));
         let motion = cases::upright_star(random.within(0.5, 1.8), spin)?.taylor((0.0, 20.0), 1e-15)?;
         let (beam, observer) = (Beam::new(chi, delta, 0.5), Observer::at(zeta, phi_o));
-        for i in 0..40 {
-            let t = 0.5 * f64::from(i);
+        worst_of((0..40).map(|i| 0.5 * f64::from(i)), |&t| {
             let state = motion.state(t)?;
             let m = beam.direction(&state);
             let psi = position_angle(&m, &observer)?;
@@ -143,12 +131,9 @@ fn upright_star() -> Result<Measured, String> {
             let gradient = rotating_vector_gradient(chi, spin * t + delta, zeta, phi_o).1 * spin;
             let scale = f64::EPSILON * (4.0 + (4.0 + phi.abs()) / across);
             let errors = [wrapped(psi + printed).abs(), (rate - gradient).abs() * across / (4.0 * spin.abs().max(0.1))];
-            worst.see(largest(errors) / scale, || {
-                format!("case {case} of seed 69, t = {t}: chi = {chi}, zeta = {zeta}")
-            });
-        }
-    }
-    worst.finish()
+            Ok(largest(errors) / scale)
+        })
+    })
 }
 
 fn state_and_angles() -> Result<Measured, String> {

@@ -1,11 +1,7 @@
 //! The authors' published series of tp-I. Eqs. (44), (47).
 
-use twofold::dynamics::Problem;
-use twofold::euler_angles::{EulerAngles, EulerRates};
-
 use super::cases::signal_of;
-use crate::check::{Measured, Worst, checks, largest};
-use crate::reference::reference_motion;
+use crate::prelude::*;
 
 checks! {
     /// m.n at t = 0, and widths and periods of tp-I from the initial values rounded as in the caption, are the authors' published data for tp-I:

@@ -1,15 +1,7 @@
 //! The pulse train: its edges, a closed form and symmetries. Eq. (44).
 
-use std::f64::consts::{PI, TAU};
-
-use twofold::observables::Observer;
-use twofold::observables::pulsar::width::{PulseWidth, pulse_width};
-use twofold::observables::pulsar::{Beam, pulse_train};
-use twofold::propagation::Motion;
-
 use super::cases::{edges, upright_star, worst_over_random_cases};
-use crate::check::{Measured, Worst, checks, largest};
-use crate::random::Random;
+use crate::prelude::*;
 
 checks! {
     /// at every edge of 600 random trains m.n is cos rho
@@ -29,25 +21,24 @@ checks! {
 const SPAN: (f64, f64) = (0.0, 20.0);
 
 fn margin_at_edges() -> Result<Measured, String> {
-    worst_over_random_cases(45, 300, (SPAN.1, 1e-14), |case, worst| {
-        for t in edges(&case.train()?) {
+    worst_over_random_cases(45, 300, (SPAN.1, 1e-14), |case| {
+        largest_of(edges(&case.train()?).into_iter().map(|t| {
             let scale = f64::EPSILON * (4.0 + t * case.turning(&case.motion.state(t)?));
-            worst.see(case.margin(t)[0].abs() / scale, || format!("t = {t}, {}", case.name));
-        }
-        Ok(())
+            Ok(case.margin(t)[0].abs() / scale)
+        }))
     })
 }
 
 fn against_closed_form() -> Result<Measured, String> {
-    let (mut random, mut worst, mut kinds) = (Random::with_seed(53), Worst::default(), [0; 3]);
-    for case in 0..400 {
+    let mut kinds = [0; 3];
+    let measured = worst_of_draws(53, 400, |random| {
         let [chi, theta_o] = [0; 2].map(|_| random.within(0.01, PI - 0.01));
         let (phi_o, delta, rho) = (random.within(-PI, PI), random.within(-PI, PI), random.within(0.05, 2.5));
         let spin = random.within(0.3, 2.0);
         let motion = upright_star(random.within(0.5, 1.8), spin)?.taylor(SPAN, 1e-15)?;
         let observer = Observer::at(theta_o, phi_o);
         let train = pulse_train(&motion, &Beam::new(chi, delta, rho), &observer.direction, SPAN)?;
-        let figure = match pulse_width(rho, chi, theta_o) {
+        let right = match pulse_width(rho, chi, theta_o) {
             PulseWidth::Pulsed(width) => {
                 kinds[0] += 1;
                 let mut expected: Vec<f64> = (-4..20)
@@ -60,31 +51,27 @@ fn against_closed_form() -> Result<Measured, String> {
                 let slope = chi.sin() * theta_o.sin() * (width / 2.0).sin().abs();
                 let scale = |t: f64| f64::EPSILON * (1.0 + t) * (1.0 + 1.0 / (slope * spin));
                 if found.len() == expected.len() {
-                    largest(found.iter().zip(&expected).map(|(a, b)| (a - b).abs() / scale(*b)))
-                } else {
-                    f64::INFINITY
+                    return Ok(largest(found.iter().zip(&expected).map(|(a, b)| (a - b).abs() / scale(*b))));
                 }
+                false
             }
             PulseWidth::AlwaysOn => {
                 kinds[1] += 1;
                 let whole = train.pulses.len() == 1 && train.pulses[0].cut_at_start && train.pulses[0].cut_at_end;
-                if whole && train.pulses[0].duration() == SPAN.1 { 0.0 } else { f64::INFINITY }
+                whole && train.pulses[0].duration() == SPAN.1
             }
             PulseWidth::NeverOn => {
                 kinds[2] += 1;
-                if train.pulses.is_empty() { 0.0 } else { f64::INFINITY }
+                train.pulses.is_empty()
             }
         };
-        worst.see(figure, || format!("case {case} of seed 53: chi = {chi}, theta_o = {theta_o}, rho = {rho}, {spin}"));
-    }
-    if kinds.contains(&0) {
-        return Err(format!("a kind was never met: {kinds:?}"));
-    }
-    worst.finish()
+        Ok(if right { 0.0 } else { f64::INFINITY })
+    });
+    if kinds.contains(&0) { Err(format!("a kind was never met: {kinds:?}")) } else { measured }
 }
 
 fn symmetries() -> Result<Measured, String> {
-    worst_over_random_cases(47, 100, (SPAN.1, 1e-14), |case, worst| {
+    worst_over_random_cases(47, 100, (SPAN.1, 1e-14), |case| {
         let whole = edges(&case.train()?);
         let supplement = Beam { half_opening: PI - case.beam.half_opening, ..case.beam.opposite() };
         let between = pulse_train(&case.motion, &supplement, &case.observer, SPAN)?;
@@ -95,7 +82,6 @@ fn symmetries() -> Result<Measured, String> {
             case.difference_of_edges(&within, &edges(&part)),
         ]);
         let cut = part.pulses.iter().all(|p| p.cut_at_start == (p.start == 4.3) && p.cut_at_end == (p.end == 13.7));
-        worst.see(if cut { figure } else { f64::INFINITY }, || case.name.clone());
-        Ok(())
+        Ok(if cut { figure } else { f64::INFINITY })
     })
 }

@@ -1,12 +1,10 @@
 //! The same pulse train by every way of looking at the magnetic axis. Eq. (44).
 
-use twofold::dynamics::Problem;
-use twofold::observables::pulsar::{PulseTrain, pulse_train};
-use twofold::propagation::Motion;
+use twofold::observables::pulsar::PulseTrain;
 
-use super::cases::{Case, edges, for_random_cases, worst_over_random_cases};
-use crate::check::{Measured, checks, largest};
+use super::cases::{Case, edges, worst_over_random_cases};
 use crate::given_states::GivenStates;
+use crate::prelude::*;
 
 checks! {
     /// the pulses of 600 random trains are the same from the series of the motion, from its states, and from series that are not kept
@@ -23,7 +21,7 @@ const END: f64 = 20.0;
 
 fn ways_agree() -> Result<Measured, String> {
     const TOLERANCE: f64 = 1e-14;
-    worst_over_random_cases(48, 300, (END, TOLERANCE), |case, worst| {
+    worst_over_random_cases(48, 300, (END, TOLERANCE), |case| {
         let Case { motion, beam, observer, .. } = case;
         let by_series = case.train()?;
         let by_states = pulse_train(&GivenStates::like(motion, |t| motion.state(t)), beam, observer, (0.0, END))?;
@@ -35,16 +33,14 @@ fn ways_agree() -> Result<Measured, String> {
             false => f64::INFINITY,
         };
         let last = end.states[0].equatorial_axis - motion.state(END)?.equatorial_axis;
-        worst.see(largest([compare(&by_states), compare(&not_kept), last.amax()]), || case.name.clone());
-        Ok(())
+        Ok(largest([compare(&by_states), compare(&not_kept), last.amax()]))
     })
 }
 
 fn projection_against_states() -> Result<Measured, String> {
-    let mut looked = 0;
-    let worst = for_random_cases(49, 300, (END, 1e-15), |case, worst| {
+    worst_over_random_cases(49, 300, (END, 1e-15), |case| {
         // A processor without vector instructions has none: nothing to compare.
-        let Some(projection) = case.motion.projection(&case.beam.axis, &case.observer) else { return Ok(()) };
+        let Some(projection) = case.motion.projection(&case.beam.axis, &case.observer) else { return Ok(0.0) };
         let edge = case.beam.half_opening.cos();
         // Not in order, so that steps behind are looked for as well; again in order, with the same digits.
         let times = (0..25_u32).map(|i| 0.3 + 0.8 * f64::from((7 * i) % 25));
@@ -52,18 +48,14 @@ fn projection_against_states() -> Result<Measured, String> {
         let mut in_order = looks.clone();
         in_order.sort_by(|a, b| a.0.total_cmp(&b.0));
         if in_order.iter().any(|(t, look)| projection.at(*t).ok() != Some(*look)) {
-            worst.see(f64::INFINITY, || format!("another look at the same time: {}", case.name));
+            return Ok(f64::INFINITY);
         }
-        for (t, mut by_series) in looks {
+        largest_of(looks.into_iter().map(|(t, mut by_series)| {
             let by_states = case.margin(t);
             by_series[0] -= edge;
             let turning = case.turning(&case.motion.state(t)?);
             let scale = |k: i32| f64::EPSILON * (4.0 + t * turning) * (1.0 + turning).powi(k);
-            let figure = largest((0..4).map(|k| (by_series[k] - by_states[k]).abs() / scale(k as i32)));
-            worst.see(figure, || format!("t = {t}, {}", case.name));
-            looked += 1;
-        }
-        Ok(())
-    })?;
-    if looked == 0 { Ok(Measured::new(0.0, "no vector instructions".to_owned())) } else { worst.finish() }
+            Ok(largest((0..4).map(|k| (by_series[k] - by_states[k]).abs() / scale(k as i32))))
+        }))
+    })
 }

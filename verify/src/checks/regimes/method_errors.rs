@@ -1,14 +1,7 @@
 //! Errors of the approximate motions against the numerical one, by strength of the torque and by time.
 
-use nalgebra::Vector3;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::Motion;
-use twofold::solutions::averaged::{AveragedSolution, AveragingOrder};
-use twofold::solutions::perturbation::{Form, Precession};
-
 use super::perturbation_error::{Case, axis_at};
-use crate::check::{Measured, Worst, checks, largest};
+use crate::prelude::*;
 
 /// Tolerance of the numerical motion.
 const TOLERANCE: f64 = 1e-13;
@@ -31,24 +24,18 @@ checks! {
 }
 
 fn averaged_motions() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for geometry in Geometry::ALL {
-        for x in [1e-5, 1e-4, 1e-3, 1e-2] {
-            for Errors { time, averaged_state, .. } in errors(geometry, x, &[1.0, 10.0, 100.0, 1000.0, 3000.0])? {
-                let allowed = [3.0 * x * x + 1.5 * x * x * time, 3.0 * x * x + 5.0 * x.powi(3) * time];
-                for order in 0..2 {
-                    worst.see(averaged_state[order] / allowed[order], || {
-                        format!(
-                            "{geometry:?}, order {}, x = {x:e}, t = {time}: {:.2e}",
-                            order + 1,
-                            averaged_state[order]
-                        )
-                    });
-                }
-            }
-        }
-    }
-    worst.finish()
+    worst_of(Geometry::ALL, |&geometry| {
+        worst_of([1e-5, 1e-4, 1e-3, 1e-2], |&x| {
+            worst_of(
+                errors(geometry, x, &[1.0, 10.0, 100.0, 1000.0, 3000.0])?,
+                |&Errors { time, averaged_state, .. }| {
+                    let [first, second] = averaged_state;
+                    let allowed = [3.0 * x * x + 1.5 * x * x * time, 3.0 * x * x + 5.0 * x.powi(3) * time];
+                    Ok(largest([first / allowed[0], second / allowed[1]]))
+                },
+            )
+        })
+    })
 }
 
 /// What a motion is like.

@@ -1,11 +1,6 @@
 //! Precession about the middle principal axis of `s^IJ` is unstable.
 
-use nalgebra::Vector3;
-use twofold::dynamics::{AxisState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::Motion;
-
-use crate::check::{Measured, Worst, checks};
+use crate::prelude::*;
 use twofold::numerics::straight_line::slope;
 
 checks! {
@@ -63,38 +58,21 @@ fn growth_rate() -> f64 {
 }
 
 fn growth_about_middle_axis() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (axis, s) in arrangements(0.01, [0.02, -0.04]) {
+    worst_of(arrangements(0.01, [0.02, -0.04]), |(axis, s)| {
         // The decaying part must have died out, and the tilt must still be small.
-        let window: Vec<_> = tilts(axis, &s, 14.0 / growth_rate())?
+        let window: Vec<_> = tilts(*axis, s, 14.0 / growth_rate())?
             .into_iter()
             .filter(|(t, tilt)| t * growth_rate() > 3.0 && *tilt < 0.03)
             .map(|(t, tilt)| (t, tilt.ln()))
             .collect();
-        let rate = slope(&window)?;
-        worst.see((rate.value / growth_rate() - 1.0).abs(), || {
-            format!(
-                "about {}: rate {:.6e} +- {:.0e}, formula {:.6e}",
-                ["X", "Y", "Z"][axis],
-                rate.value,
-                rate.error,
-                growth_rate()
-            )
-        });
-    }
-    worst.finish()
+        Ok((slope(&window)?.value / growth_rate() - 1.0).abs())
+    })
 }
 
 fn tilt_about_outer_axes() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (value, others) in [(0.02, [0.01, -0.04]), (-0.04, [0.02, 0.01])] {
-        for (axis, s) in arrangements(value, others) {
-            let tilts = tilts(axis, &s, 20.0 / growth_rate())?;
-            let start = tilts[0].1;
-            for (t, tilt) in tilts {
-                worst.see(tilt / start, || format!("about {} with s = {value}: t = {t:.0}", ["X", "Y", "Z"][axis]));
-            }
-        }
-    }
-    worst.finish()
+    let about_first = arrangements(0.02, [0.01, -0.04]);
+    worst_of(about_first.into_iter().chain(arrangements(-0.04, [0.02, 0.01])), |(axis, s)| {
+        let tilts = tilts(*axis, s, 20.0 / growth_rate())?;
+        worst_of(&tilts, |(_, tilt)| Ok(tilt / tilts[0].1))
+    })
 }

@@ -1,16 +1,7 @@
 //! Error of a perturbation solution against the numerical motion from the same initial values.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
-
-use nalgebra::Vector3;
-use twofold::dynamics::{Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates, symmetry_axis};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::{AveragedMotion, ContinuousAngles, Motion, TaylorMotion};
-use twofold::solutions::averaged::AveragingOrder;
-use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession};
-
-use crate::check::largest;
+use crate::paper_examples::problem_from;
+use crate::prelude::*;
 
 /// The numbers of one comparison, those of the paper's examples unless changed.
 #[derive(Debug, Clone, Copy)]
@@ -30,28 +21,19 @@ pub struct Case {
 impl Case {
     /// The paper's numbers with `s` scaled by `k`.
     pub fn paper(form: Form, kind: Precession, k: f64, beta_0: f64, amplitude: f64) -> Self {
-        Self { form, kind, s: PrincipalCoefficients::new([0.02, 0.01, -0.04]).scaled(k), beta_0, amplitude }
+        Self { form, kind, s: COEFFICIENTS.scaled(k), beta_0, amplitude }
     }
 
     /// The solution under test.
     pub fn solution(&self) -> Result<Perturbation<f64>, String> {
-        let (spheroid, spin) = (RigidSpheroid::in_units_of_tc(1.1), 1.0);
         let constants =
             Constants { alpha_0: FRAC_PI_2, beta_0: self.beta_0, amplitude: self.amplitude, phase: FRAC_PI_2 };
-        Perturbation::new(self.form, self.kind, &spheroid, &self.s, spin, &constants).map_err(String::from)
+        Perturbation::new(self.form, self.kind, &spheroid(), &self.s, SPIN, &constants).map_err(String::from)
     }
 
     /// What moves from the initial values of the solution, with `gamma = 0`.
     pub fn problem(&self) -> Result<Problem<f64>, String> {
-        let (angles, rates) = self.start()?;
-        Ok(Problem::from_angles(RigidSpheroid::in_units_of_tc(1.1), self.s.tensor(), &angles, &rates)?)
-    }
-
-    fn start(&self) -> Result<(EulerAngles<f64>, EulerRates<f64>), String> {
-        let start = self.solution()?.at(0.0);
-        let angles = EulerAngles { alpha: start.alpha, beta: start.beta, gamma: 0.0 };
-        let gamma = 1.0 - start.alpha_rate * start.beta.cos();
-        Ok((angles, EulerRates { alpha: start.alpha_rate, beta: start.beta_rate, gamma }))
+        Ok(problem_from(&self.s, &self.solution()?.at(0.0))?)
     }
 
     /// The numerical motion with the initial values of the solution.
@@ -70,11 +52,10 @@ impl Case {
         let solution = self.solution()?;
         let period = TAU / solution.rate.abs();
         let motion = self.averaged_motion(period)?;
-        let distance = |i| {
+        largest_of((0..=samples).map(|i| {
             let t = (period * f64::from(i) / f64::from(samples)).min(period);
             Ok((motion.axis_state(t)?.axis - axis_at(&solution, t)).norm())
-        };
-        Ok(largest((0..=samples).map(distance).collect::<Result<Vec<_>, String>>()?))
+        }))
     }
 
     /// Largest errors over one forced period `2 pi / |a|`, of 1000 samples.
@@ -86,7 +67,8 @@ impl Case {
     pub fn errors(&self, duration: f64, samples: u32) -> Result<Errors, String> {
         let solution = self.solution()?;
         let motion = self.motion(duration)?;
-        let mut angles = ContinuousAngles::new(&motion, 0.0, &self.start()?.0)?;
+        let AxisAngles { alpha, beta, .. } = solution.at(0.0);
+        let mut angles = ContinuousAngles::new(&motion, 0.0, &EulerAngles { alpha, beta, gamma: 0.0 })?;
         let mut errors = Errors::default();
         for i in 0..=samples {
             let t = duration * f64::from(i) / f64::from(samples);

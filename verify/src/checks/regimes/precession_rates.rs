@@ -1,13 +1,7 @@
 //! Mean rates of the precession angle and of the angular momentum, with their signs, for both kinds of precession.
 
-use nalgebra::Vector3;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::fundamental_frequencies::{MeanRate, fundamental_frequencies, mean_rate};
-use twofold::propagation::{Motion, TaylorMotion};
-
-use crate::check::{Measured, Worst, checks};
-use crate::reference::reference_motion;
+use crate::prelude::*;
+use twofold::observables::fundamental_frequencies::{MeanRate, mean_rate};
 
 checks! {
     /// forced precession turns the angular momentum the same way for both kinds; what is opposite is the shift of the rate of alpha in tp-I, a
@@ -67,14 +61,13 @@ fn ratios_of_rates() -> Result<Measured, String> {
 }
 
 fn momentum_rate_across_magic_angle() -> Result<Measured, String> {
-    let mut worst = Worst::default();
     let k = 0.1;
     let s = PrincipalCoefficients::new([0.015, 0.015, -0.04]).scaled(k);
     let spheroid = RigidSpheroid::in_units_of_tc(1.1);
     let (g, tilt) = (1.4, 0.6_f64);
     let l = Vector3::new(tilt.sin(), 0.0, tilt.cos());
     let across = Vector3::new(tilt.cos(), 0.0, -tilt.sin());
-    for c2 in [0.05, 0.15, 0.25, 1.0 / 3.0, 0.4, 0.5, 0.7, 0.9, 1.0] {
+    worst_of([0.05, 0.15, 0.25, 1.0 / 3.0, 0.4, 0.5, 0.7, 0.9, 1.0], |&c2| {
         let c = f64::sqrt(c2);
         let axis = l * c + across * (1.0 - c2).sqrt();
         let initial = BodyState { axis, momentum: l * g, equatorial_axis: Vector3::y() };
@@ -86,9 +79,6 @@ fn momentum_rate_across_magic_angle() -> Result<Measured, String> {
         if c2 < 0.3 && rate * size > 0.0 || c2 > 0.36 && rate * size < 0.0 {
             return Err(format!("wrong sign of the rate {rate:e} at c^2 = {c2}"));
         }
-        worst.see((rate - formula).abs() / (size.abs() * k), || {
-            format!("c^2 = {c2:.3}: rate {rate:.6e}, formula {formula:.6e}")
-        });
-    }
-    worst.finish()
+        Ok(Measured::new((rate - formula).abs() / (size.abs() * k), format!("rate {rate:.6e}, formula {formula:.6e}")))
+    })
 }

@@ -2,12 +2,8 @@
 
 use std::fmt::Debug;
 
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::perturbation::{Form, Precession};
-
 use super::perturbation_error::Case;
-use crate::check::{Measured, checks, least_of, worst_of};
-use crate::measured_order::{errors_at, measured_order};
+use crate::prelude::*;
 
 checks! {
     /// for beta_0 up to 1 the single-precession solution follows the motion through one forced period

@@ -1,19 +1,9 @@
 //! What the paper says of precession, at the small `s` of real stars over years: by the averaged motion, where integration does not reach.
 
-use std::f64::consts::{PI, TAU};
-
-use nalgebra::Vector3;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination};
-use twofold::propagation::{AveragedMotion, Motion};
-use twofold::solutions::averaged::AveragingOrder;
-use twofold::solutions::perturbation::{Form, Precession};
 use twofold::units::JULIAN_YEAR;
 
 use super::perturbation_error::{Case, axis_at};
-use crate::check::{Measured, checks, least_of, worst_of};
-use crate::random::worst_of_draws;
+use crate::prelude::*;
 
 checks! {
     /// for beta_0 up to 1 the single-precession solution follows the motion through one forced period at s of 1e-6 to 1e-14 too, 1e12 turns

@@ -1,14 +1,7 @@
 //! Twofold precession: the printed solution is not right to first order, the corrected one is.
 
-use std::f64::consts::PI;
-
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::propagation::Motion;
-use twofold::solutions::perturbation::{Form, Precession};
-
 use super::perturbation_error::Case;
-use crate::check::{Measured, Worst, checks, largest, least_of};
-use crate::measured_order::{errors_at, measured_order};
+use crate::prelude::*;
 
 /// A case of twofold precession with the paper's numbers.
 fn paper(form: Form, k: f64, beta_0: f64, amplitude: f64) -> Case {
@@ -83,23 +76,14 @@ fn growth_with_time() -> Result<Measured, String> {
 }
 
 fn corrected_is_better() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for beta_0 in [0.3, 0.5, 0.7, 0.9, 1.1, 1.3, 1.4] {
-        for amplitude in [0.0, 1e-4] {
-            for asymmetry in [0.003, 0.01, 0.03] {
-                let s =
-                    PrincipalCoefficients::new([0.015 + asymmetry / 2.0, 0.015 - asymmetry / 2.0, -0.04]).scaled(1e-3);
-                let error = |form| {
-                    Case { form, kind: Precession::Twofold, s, beta_0, amplitude }.errors(10.0, 400).map(|e| e.beta)
-                };
-                let (corrected, printed) = (error(Form::Corrected)?, error(Form::Printed)?);
-                worst.see(corrected / printed, || {
-                    format!("beta_0 = {beta_0}, A = {amplitude:e}, s^XX - s^YY = {asymmetry}e-3: {corrected:.2e} / {printed:.2e}")
-                });
-            }
-        }
-    }
-    worst.finish()
+    worst_of([0.3, 0.5, 0.7, 0.9, 1.1, 1.3, 1.4], |&beta_0| {
+        let amplitudes = |asymmetry| [(asymmetry, 0.0), (asymmetry, 1e-4)];
+        worst_of([0.003, 0.01, 0.03].into_iter().flat_map(amplitudes), |&(asymmetry, amplitude)| {
+            let s = PrincipalCoefficients::new([0.015 + asymmetry / 2.0, 0.015 - asymmetry / 2.0, -0.04]).scaled(1e-3);
+            let error = |form| Case { form, kind: Precession::Twofold, s, beta_0, amplitude }.errors(10.0, 400);
+            Ok(error(Form::Corrected)?.beta / error(Form::Printed)?.beta)
+        })
+    })
 }
 
 fn large_tilt() -> Result<Measured, String> {

@@ -1,11 +1,7 @@
 //! Amplitude spectra and their windows.
 
-use std::f64::consts::{PI, TAU};
-
-use twofold::observables::spectrum::{Series, Window, amplitude_spectrum};
-
-use crate::check::{Measured, Worst, checks, largest, worst_of};
-use crate::random::Random;
+use crate::prelude::*;
+use twofold::observables::spectrum::{Window, amplitude_spectrum};
 
 const WINDOWS: [Window; 4] =
     [Window::Uniform, Window::Hann, Window::Kaiser { shape: 10.0 }, Window::Kaiser { shape: 20.0 }];
@@ -28,41 +24,37 @@ checks! {
 }
 
 fn amplitudes() -> Result<Measured, String> {
-    let (mut worst, step) = (Worst::default(), 0.37);
-    for count in [256, 257] {
-        for window in [Window::Uniform, Window::Hann, Window::Kaiser { shape: 20.0 }] {
-            for (bin, amplitude, phase) in [(24, 0.7, 0.3), (60, 2.0, -1.2), (100, 1e-3, 3.0)] {
-                let wave = |j: usize| amplitude * ((TAU * (bin * j) as f64 / count as f64) + phase).cos();
-                let values = (0..count).map(|j| amplitude + wave(j)).collect();
-                let spectrum = amplitude_spectrum(&Series { start: -5.0, step, values }, window)?;
-                let frequency = TAU * bin as f64 / (count as f64 * step);
-                let errors = [
-                    spectrum.amplitudes[bin] / amplitude - 1.0,
-                    spectrum.amplitudes[0] / amplitude - 1.0,
-                    spectrum.spacing * bin as f64 / frequency - 1.0,
-                ];
-                worst.see(largest(errors.map(f64::abs)), || format!("{window:?}, N = {count}, bin {bin}: {errors:?}"));
-            }
-        }
-    }
-    worst.finish()
+    let step = 0.37;
+    let windows = |count| [Window::Uniform, Window::Hann, Window::Kaiser { shape: 20.0 }].map(|window| (count, window));
+    worst_of([256, 257].into_iter().flat_map(windows), |&(count, window)| {
+        worst_of([(24, 0.7, 0.3), (60, 2.0, -1.2), (100, 1e-3, 3.0)], |&(bin, amplitude, phase)| {
+            let wave = |j: usize| amplitude * ((TAU * (bin * j) as f64 / count as f64) + phase).cos();
+            let values = (0..count).map(|j| amplitude + wave(j)).collect();
+            let spectrum = amplitude_spectrum(&Series { start: -5.0, step, values }, window)?;
+            let frequency = TAU * bin as f64 / (count as f64 * step);
+            let ratios = [
+                spectrum.amplitudes[bin] / amplitude,
+                spectrum.amplitudes[0] / amplitude,
+                spectrum.spacing * bin as f64 / frequency,
+            ];
+            Ok(largest(ratios.map(|ratio| (ratio - 1.0).abs())))
+        })
+    })
 }
 
 fn parseval() -> Result<Measured, String> {
-    let (mut random, mut worst) = (Random::with_seed(47), Worst::default());
-    for count in [16, 17, 100, 243, 512, 1000] {
-        for window in WINDOWS {
-            let values: Vec<f64> = (0..count).map(|_| random.within(-1.0, 3.0)).collect();
-            let weights = window.weights(count)?;
-            let square: f64 = values.iter().zip(&weights).map(|(x, w)| (x * w).powi(2)).sum::<f64>() / count as f64;
-            let spectrum = amplitude_spectrum(&Series { start: 0.0, step: 0.1, values }, window)?;
-            let whole = |index: usize| index == 0 || 2 * index == count;
-            let share = |(index, a): (usize, &f64)| if whole(index) { a * a } else { a * a / 2.0 };
-            let sum: f64 = spectrum.amplitudes.iter().enumerate().map(share).sum();
-            worst.see((sum / square - 1.0).abs(), || format!("{window:?}, N = {count}"));
-        }
-    }
-    worst.finish()
+    let mut random = Random::with_seed(47);
+    let windows = |count| WINDOWS.map(|window| (count, window));
+    worst_of([16, 17, 100, 243, 512, 1000].into_iter().flat_map(windows), |&(count, window)| {
+        let values: Vec<f64> = (0..count).map(|_| random.within(-1.0, 3.0)).collect();
+        let weights = window.weights(count)?;
+        let square: f64 = values.iter().zip(&weights).map(|(x, w)| (x * w).powi(2)).sum::<f64>() / count as f64;
+        let spectrum = amplitude_spectrum(&Series { start: 0.0, step: 0.1, values }, window)?;
+        let whole = |index: usize| index == 0 || 2 * index == count;
+        let share = |(index, a): (usize, &f64)| if whole(index) { a * a } else { a * a / 2.0 };
+        let sum: f64 = spectrum.amplitudes.iter().enumerate().map(share).sum();
+        Ok((sum / square - 1.0).abs())
+    })
 }
 
 fn windows() -> Result<Measured, String> {

@@ -1,20 +1,9 @@
 //! Fundamental frequencies of motions against reference values, the exact symmetric solution, other frames and other spans.
 
-use std::f64::consts::TAU;
-
-use nalgebra::Matrix3;
-use twofold::dynamics::{Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates, permuted_from_inertial};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::fundamental_frequencies::{
-    FundamentalFrequencies, MeanRate, fundamental_frequencies, mean_rates_about,
-};
-use twofold::solutions::symmetric::SymmetricSolution;
+use twofold::observables::fundamental_frequencies::{FundamentalFrequencies, MeanRate, mean_rates_about};
 
 use super::signals::{AVERAGING, motion_of};
-use crate::check::{Measured, Worst, checks, largest};
-use crate::random::Random;
-use crate::reference::reference_motion;
+use crate::prelude::*;
 
 checks! {
     /// mean rates of alpha, gamma and the azimuth of L of the four examples equal those of integration over 20,000 t_c with quadruple precision
@@ -50,30 +39,24 @@ fn rates_of_examples() -> Result<Measured, String> {
         ("sp-1", -0.0720704306, 1.0549619690, -0.0720704306, 1e-10),
         ("sp-2", -0.0257600721, 1.0086796666, -0.0257600721, 1e-10),
     ];
-    let mut worst = Worst::default();
-    for (name, alpha, gamma, momentum, digit) in expected {
+    worst_of(expected, |&(name, alpha, gamma, momentum, digit)| {
         let found = fundamental_frequencies(&motion_of(name, AVERAGING)?)?;
-        for (label, rate, expected) in
-            [("alpha", found.alpha, alpha), ("gamma", found.gamma, gamma), ("L", found.momentum, momentum)]
-        {
-            let rate = known(rate, label)?;
-            let beyond = ((rate - expected).abs() - digit / 2.0).max(0.0);
-            worst.see(if rate.is_finite() { beyond } else { f64::NAN }, || format!("{label} of {name}: {rate:.13}"));
-        }
-    }
-    worst.finish()
+        worst_of([(found.alpha, alpha), (found.gamma, gamma), (found.momentum, momentum)], |(rate, expected)| {
+            let beyond = (known(*rate, name)? - expected).abs() - digit / 2.0;
+            Ok(if beyond < 0.0 { 0.0 } else { beyond })
+        })
+    })
 }
 
 fn symmetric_motions() -> Result<Measured, String> {
-    let (mut random, mut worst) = (Random::with_seed(25), Worst::default());
     let (mut twofold, mut single) = (0, 0);
-    for case in 0..6 {
+    let measured = worst_of_draws(25, 6, |random| {
         let spheroid = RigidSpheroid::in_units_of_tc(random.within(0.8, 1.3));
         let equatorial = random.within(-0.02, 0.02);
         let s = PrincipalCoefficients::new([equatorial, equatorial, equatorial - random.within(0.03, 0.08)]);
         let angles = EulerAngles { alpha: 0.3, beta: random.within(0.6, 0.9), gamma: -1.0 };
-        let (alpha_rate, gamma_rate) = if case % 2 == 0 { (1.5, -0.15) } else { (-0.07, 1.1) };
-        let rates = EulerRates { alpha: alpha_rate, beta: random.within(-0.1, 0.1), gamma: gamma_rate };
+        let (alpha, gamma) = if (twofold + single) % 2 == 0 { (1.5, -0.15) } else { (-0.07, 1.1) };
+        let rates = EulerRates { alpha, beta: random.within(-0.1, 0.1), gamma };
         let exact = SymmetricSolution::new(&spheroid, &s, &angles, &rates)?;
         let problem = Problem::from_angles(spheroid, s.tensor(), &angles, &rates)?;
         let found = fundamental_frequencies(&problem.taylor((0.0, AVERAGING), 1e-13)?)?;
@@ -88,21 +71,20 @@ fn symmetric_motions() -> Result<Measured, String> {
             known(found.nutation, "n round L")? - nutation,
             slow - (mean.alpha - if fast { nutation } else { 0.0 }),
         ];
-        worst.see(largest(differences.map(f64::abs)), || format!("case {case} of seed 25: {differences:?}"));
-    }
+        Ok(largest(differences.map(f64::abs)))
+    });
     if twofold == 0 || single == 0 {
         return Err(format!("{twofold} twofold and {single} single motions: both are needed"));
     }
-    worst.finish()
+    measured
 }
 
 fn frames() -> Result<Measured, String> {
-    let mut worst = Worst::default();
     let permuted = permuted_from_inertial::<f64>();
-    for name in ["tp-2", "retrograde"] {
+    worst_of(["tp-2", "retrograde"], |name| {
         let mut turn = Matrix3::identity();
         let mut first: Option<FundamentalFrequencies> = None;
-        for _ in 0..3 {
+        let over_frames = worst_of(0..3, |_| {
             let turned = reference_motion(name).problem().rotated(&turn);
             let found = fundamental_frequencies(&turned.taylor((0.0, AVERAGING), 1e-13)?)?;
             let axis = found.frame.row(2).transpose();
@@ -114,42 +96,31 @@ fn frames() -> Result<Measured, String> {
                 known(found.nutation, "n")? - known(reference.nutation, "n")?,
                 (turn.transpose() * axis - reference.frame.row(2).transpose()).norm(),
             ];
-            worst.see(largest(differences.map(f64::abs)), || format!("{name}, axis {axis:?}: {differences:?}"));
             turn = permuted * turn;
-        }
+            Ok(largest(differences.map(f64::abs)))
+        })?;
         // About the next axis, which L does not go round.
         let frame = first.map_or(Matrix3::identity(), |first| permuted * first.frame);
         let about_another = mean_rates_about(&motion_of(name, AVERAGING)?, &frame)?;
-        worst.see(known(about_another.slow, "L")?.abs(), || format!("{name}, about another axis"));
-    }
-    worst.finish()
+        Ok(largest([over_frames.figure, known(about_another.slow, "L")?.abs()]))
+    })
 }
 
 fn uncertainties() -> Result<Measured, String> {
-    let (mut worst, mut spans) = (Worst::default(), 0);
-    for name in ["tp-1", "tp-2", "sp-1", "sp-2"] {
+    let mut spans = 0;
+    let measured = worst_of(["tp-1", "tp-2", "sp-1", "sp-2"], |name| {
         let over = |span| motion_of(name, span).and_then(|motion| fundamental_frequencies(&motion));
         let long = over(AVERAGING)?;
-        for span in [800.0, 1400.0] {
-            // A span that is too short is refused, which is right as well.
-            let Ok(short) = over(span) else { continue };
-            spans += 1;
-            for (label, short, long) in [
-                ("alpha", short.alpha, long.alpha),
-                ("gamma", short.gamma, long.gamma),
-                ("slow L", short.slow, long.slow),
-                ("nutation", short.nutation, long.nutation),
-            ] {
-                let (Some(short), Some(long)) = (short, long) else { continue };
-                let difference = (short.value - long.value).abs();
-                worst.see(difference / (short.uncertainty + long.uncertainty), || {
-                    format!("{label} of {name} over {span} t_c: {difference:.1e}, estimate {:.1e}", short.uncertainty)
-                });
-            }
-        }
-    }
-    if spans < 5 {
-        return Err(format!("only {spans} shorter spans gave rates"));
-    }
-    worst.finish()
+        // A span that is too short is refused, which is right as well.
+        let shorter: Vec<_> = [800.0, 1400.0].into_iter().filter_map(|span| over(span).ok()).collect();
+        spans += shorter.len();
+        Ok(largest(shorter.iter().flat_map(|short| {
+            let of_short = [short.alpha, short.gamma, short.slow, short.nutation];
+            let pairs = of_short.into_iter().zip([long.alpha, long.gamma, long.slow, long.nutation]);
+            pairs
+                .filter_map(|(short, long)| short.zip(long))
+                .map(|(short, long)| (short.value - long.value).abs() / (short.uncertainty + long.uncertainty))
+        })))
+    });
+    if spans < 5 { Err(format!("only {spans} shorter spans gave rates")) } else { measured }
 }

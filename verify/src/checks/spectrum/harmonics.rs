@@ -2,10 +2,8 @@
 
 use std::ops::Range;
 
-use twofold::observables::spectrum::{LineList, SpectralLine};
-
 use super::signals::{Example, examples, strongest};
-use crate::check::{Measured, Worst, checks, largest, smallest};
+use crate::prelude::*;
 
 /// Frequencies about the fundamental, the second, third and fourth harmonic, for both examples [1/t_c].
 const FUNDAMENTAL: Range<f64> = 1.0..2.0;
@@ -101,20 +99,15 @@ fn peaks() -> Result<Measured, String> {
 }
 
 fn harmonics_fall() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for example in examples()? {
+    worst_of(examples()?, |example| {
         let alpha = example.frequencies.alpha.ok_or("no mean rate of alpha")?.value;
         for (_, list) in example.waves() {
             for multiple in [1.0, 2.0, 3.0, 4.0].map(|k| k * alpha) {
                 strongest(list, multiple - 1e-8..multiple + 1e-8)?;
             }
         }
-        let higher = [ratios(example, THIRD, SECOND)?, ratios(example, FOURTH, SECOND)?].concat();
-        worst.see(largest(higher.clone()), || {
-            format!("{}: third and fourth {higher:.4?} of the second, h_+ and h_x", example.name)
-        });
-    }
-    worst.finish()
+        worst_of([THIRD, FOURTH], |higher| Ok(largest(ratios(example, higher.clone(), SECOND)?)))
+    })
 }
 
 fn not_harmonics() -> Result<Measured, String> {

@@ -1,9 +1,7 @@
 //! Identification of known and of random frequencies.
 
+use crate::prelude::*;
 use twofold::observables::spectrum::{FrequencyBasis, Generator, Identification};
-
-use crate::check::{Measured, checks};
-use crate::random::Random;
 
 checks! {
     /// frequencies that are no combination are reported as unidentified: of 20,000 random ones no more than the chance of 1e-3 allows are taken for

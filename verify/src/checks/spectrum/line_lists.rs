@@ -1,13 +1,7 @@
 //! Line lists of known sums.
 
-use std::f64::consts::PI;
-
-use twofold::numerics::angle::wrapped;
-use twofold::observables::spectrum::{LineList, Series, SpectralLine, spectral_lines};
-
 use super::signals::{beam, examples, line_of_sight, motion_of};
-use crate::check::{Measured, Worst, checks, largest};
-use crate::random::Random;
+use crate::prelude::*;
 
 checks! {
     /// the lines of a known sum, amplitudes 1 to 1e-6, at random frequencies 0.02 apart or more, beside a constant: none missed, none invented,
@@ -58,8 +52,8 @@ fn compare(found: &LineList, known: &[SpectralLine], rounding: f64) -> [f64; 3] 
 }
 
 fn synthetic_sums() -> Result<Measured, String> {
-    let (mut random, mut worst, mut others) = (Random::with_seed(1990), Worst::default(), 0.0_f64);
-    for case in 0..8 {
+    let mut others = 0.0_f64;
+    let measured = worst_of_draws(1990, 8, |random| {
         let mut lines: Vec<SpectralLine> = Vec::new();
         while lines.len() < 24 {
             let frequency = random.within(0.02, 4.5);
@@ -69,68 +63,51 @@ fn synthetic_sums() -> Result<Measured, String> {
             }
         }
         let constant = random.within(-1.0, 1.0);
-        let series = sum_of(&lines, constant, -700.0, 4000.0 / 8192.0, 8192);
-        let list = spectral_lines(&series, 3e-7, 100)?;
+        let list = spectral_lines(&sum_of(&lines, constant, -700.0, 4000.0 / 8192.0, 8192), 3e-7, 100)?;
         let [frequency, amplitude, phase] = compare(&list, &lines, 1e-10);
         others = largest([others, amplitude, phase, (list.constant - constant).abs() / 1e-10]);
-        worst.see(frequency, || format!("sum {case} of seed 1990, {} lines found", list.lines.len()));
-    }
+        Ok(frequency)
+    })?;
     // Amplitudes, phases times amplitudes and constants: to 1e-10 of the strongest line.
-    let measured = worst.finish()?;
     let figure = if others <= 1.0 { measured.figure } else { f64::INFINITY };
-    Ok(Measured::new(
-        figure,
-        format!("{}; amplitudes, phases, constants within {:.1e}", measured.detail, others * 1e-10),
-    ))
+    let detail = format!("{}; amplitudes, phases, constants within {:.1e}", measured.detail, others * 1e-10);
+    Ok(Measured::new(figure, detail))
 }
 
 fn close_lines() -> Result<Measured, String> {
-    let (mut random, mut worst) = (Random::with_seed(1993), Worst::default());
+    let mut random = Random::with_seed(1993);
     let (span, count) = (4000.0, 8192);
-    for distance in [10.0, 12.0, 16.0, 20.0, 30.0, 40.0] {
-        for ratio in [1.0, 0.1, 1e-3] {
-            for near_zero in [false, true] {
-                let line = |frequency, amplitude, random: &mut Random| SpectralLine {
-                    frequency,
-                    amplitude,
-                    phase: random.within(-PI, PI),
-                    uncertainty: 0.0,
-                };
-                let first = if near_zero { distance / span } else { 1.4 };
-                let mut lines = vec![line(first, 1.0, &mut random)];
-                if !near_zero {
-                    lines.push(line(first + distance / span, ratio, &mut random));
-                }
-                let series = sum_of(&lines, ratio, 0.0, span / count as f64, count);
-                let list = spectral_lines(&series, 1e-7, 20)?;
-                let [frequency, ..] = compare(&list, &lines, 1.0);
-                worst.see(frequency * span / 2.0, || {
-                    format!("{distance} / T apart, ratio {ratio}, near zero: {near_zero}; {} lines", list.lines.len())
-                });
-            }
+    let ratios = |distance| [1.0, 0.1, 1e-3].map(|ratio| (distance, ratio));
+    let cases = [10.0, 12.0, 16.0, 20.0, 30.0, 40.0].into_iter().flat_map(ratios);
+    worst_of(cases.flat_map(|(distance, ratio)| [false, true].map(|near_zero| (distance, ratio, near_zero))), |case| {
+        let (distance, ratio, near_zero) = *case;
+        let mut line = |frequency, amplitude| SpectralLine {
+            frequency,
+            amplitude,
+            phase: random.within(-PI, PI),
+            uncertainty: 0.0,
+        };
+        let first = if near_zero { distance / span } else { 1.4 };
+        let mut lines = vec![line(first, 1.0)];
+        if !near_zero {
+            lines.push(line(first + distance / span, ratio));
         }
-    }
-    worst.finish()
+        let series = sum_of(&lines, ratio, 0.0, span / count as f64, count);
+        let [frequency, ..] = compare(&spectral_lines(&series, 1e-7, 20)?, &lines, 1.0);
+        Ok(frequency * span / 2.0)
+    })
 }
 
 fn incomplete_lists() -> Result<Measured, String> {
-    let (example, mut worst) = (&examples()?[1], Worst::default());
-    for span in [3000.0, 4000.0, 6000.0, 8000.0] {
+    let example = &examples()?[1];
+    worst_of([3000.0, 4000.0, 6000.0, 8000.0], |&span| {
         let (motion, beam, observer) = (motion_of("tp-2", span)?, beam(), line_of_sight());
         let series = Series::of_motion(&motion, (span * 4.0) as usize, |state| beam.direction(state).dot(&observer))?;
-        for most in [10, 25, 50] {
-            let list = spectral_lines(&series, 1e-6, most)?;
-            for line in list.lines.iter().take(10) {
+        worst_of([10, 25, 50], |&most| {
+            worst_of(spectral_lines(&series, 1e-6, most)?.lines.iter().take(10), |line| {
                 let away = |known: &SpectralLine| (known.frequency - line.frequency).abs();
-                let error = example.pulsar.lines.iter().map(away).fold(f64::INFINITY, f64::min);
-                worst.see(error / line.uncertainty, || {
-                    format!(
-                        "{most} lines over {span} t_c, at {:.6}: {error:.1e} with {:.1e}",
-                        line.frequency, line.uncertainty
-                    )
-                });
-            }
-        }
-    }
-    worst.finish()
+                Ok(smallest(example.pulsar.lines.iter().map(away)) / line.uncertainty)
+            })
+        })
+    })
 }

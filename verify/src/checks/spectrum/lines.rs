@@ -1,14 +1,7 @@
 //! Lines of the paper's signals: what they are, those of free precession, and the slow one.
 
-use nalgebra::Matrix3;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::observables::spectrum::{Series, SpectralLine, spectral_lines};
-use twofold::solutions::free::free_precession_rates;
-
 use super::signals::{Example, beam, examples, line_of_sight, strongest, wave_of};
-use crate::check::{Measured, Worst, checks};
-use crate::paper_examples::COEFFICIENTS;
+use crate::prelude::*;
 
 /// Frequencies of the order of the coefficients for Lorentz violation [1/t_c].
 const SLOW: std::ops::Range<f64> = 0.01..0.1;
@@ -80,13 +73,10 @@ fn all_identified() -> Result<Measured, String> {
 }
 
 fn lines_against_rates() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for (example, signal, line) in each_line(1e-5)? {
+    worst_of(each_line(1e-5)?, |(example, _, line)| {
         let what = example.basis.identify(line.frequency, line.uncertainty);
-        let misfit = what.combination().map_or(f64::INFINITY, |combination| combination.misfit.abs());
-        worst.see(misfit, || format!("{} {signal} {line:?}: {what}", example.name));
-    }
-    worst.finish()
+        Ok(what.combination().map_or(f64::INFINITY, |combination| combination.misfit.abs()))
+    })
 }
 
 fn free_precession() -> Result<Measured, String> {
@@ -139,17 +129,12 @@ fn slow_line_of_tp_1() -> Result<Measured, String> {
 }
 
 fn slow_line_of_waves() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for example in examples()? {
-        for (signal, list) in example.waves() {
+    worst_of(examples()?, |example| {
+        Ok(largest(example.waves().map(|(_, list)| {
             // A list without a line there has none above its least amplitude.
-            let line = strongest(list, SLOW).ok();
-            let amplitude = line.map_or(1e-6, |line| line.amplitude);
-            let ratio = amplitude / list.lines[0].amplitude;
-            worst.see(ratio, || format!("{} {signal} at {:.6?}", example.name, line.map(|line| line.frequency)));
-        }
-    }
-    worst.finish()
+            strongest(list, SLOW).map_or(1e-6, |line| line.amplitude) / list.lines[0].amplitude
+        })))
+    })
 }
 
 fn slow_magnitude() -> Result<Measured, String> {

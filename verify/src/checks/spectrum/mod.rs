@@ -1,28 +1,11 @@
 //! Spectra, line lists and fundamental frequencies, and what the paper says of its spectra.
 
-mod amplitudes;
-mod frequencies;
-mod harmonics;
-mod identification;
-mod line_lists;
-mod lines;
-mod pulse_series;
+pub(super) mod amplitudes;
+pub(super) mod frequencies;
+pub(super) mod harmonics;
+pub(super) mod identification;
+pub(super) mod line_lists;
+pub(super) mod lines;
+pub(super) mod pulse_series;
 pub(crate) mod signals;
-mod slow_precession;
-
-use crate::check::Check;
-
-/// The checks of this subject.
-pub fn checks() -> Vec<Check> {
-    [
-        amplitudes::checks(),
-        line_lists::checks(),
-        identification::checks(),
-        frequencies::checks(),
-        slow_precession::checks(),
-        lines::checks(),
-        harmonics::checks(),
-        pulse_series::checks(),
-    ]
-    .concat()
-}
+pub(super) mod slow_precession;

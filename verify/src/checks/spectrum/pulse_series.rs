@@ -1,12 +1,7 @@
 //! Periods in the series of pulse periods and widths.
 
-use std::f64::consts::TAU;
-
-use nalgebra::{DMatrix, DVector};
-use twofold::observables::pulsar::Stamped;
-
 use super::signals::{Example, beam, examples, line_of_sight};
-use crate::check::{Measured, Worst, checks, largest};
+use crate::prelude::*;
 use crate::pulse_series::PulseSeries;
 
 checks! {
@@ -24,19 +19,13 @@ checks! {
 
 /// Period of gamma in the series of both examples: that whose first four multiples fit best.
 fn period_of_gamma() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for example in examples()? {
-        for (name, values) in series(example)? {
+    worst_of(examples()?, |example| {
+        let rate = example.frequencies.gamma.ok_or("gamma has no mean rate")?.value;
+        largest_of(series(example)?.map(|(_, values)| {
             let w = highest(0.1..0.2, |w| explained(&values, &multiples(w, 4)))?;
-            let rate = example.frequencies.gamma.ok_or("gamma has no mean rate")?.value;
-            let figure = if (w - rate.abs()).abs() < GRID { (TAU / w - 40.0).abs() } else { f64::INFINITY };
-            worst.see(figure, || {
-                let part = explained(&values, &multiples(w, 4));
-                format!("{} {name}: {:.1} t_c, {part:.2} of the variance", example.name, TAU / w)
-            });
-        }
-    }
-    worst.finish()
+            Ok(if (w - rate.abs()).abs() < GRID { (TAU / w - 40.0).abs() } else { f64::INFINITY })
+        }))
+    })
 }
 
 /// Period of the slow precession in the series of tp-II.

@@ -2,17 +2,10 @@
 
 use std::sync::OnceLock;
 
-use nalgebra::Vector3;
-use twofold::Error;
-use twofold::dynamics::{BodyState, RotationState};
-use twofold::observables::Observer;
-use twofold::observables::fundamental_frequencies::{FundamentalFrequencies, fundamental_frequencies};
+use crate::prelude::*;
+use twofold::observables::fundamental_frequencies::FundamentalFrequencies;
 use twofold::observables::gravitational_wave::{Polarizations, wave_of_state};
-use twofold::observables::pulsar::Beam;
-use twofold::observables::spectrum::{FrequencyBasis, LineList, Series, SpectralLine, spectral_lines};
-use twofold::propagation::{Motion, TaylorMotion};
-
-use crate::reference::reference_motion;
+use twofold::observables::spectrum::FrequencyBasis;
 
 /// Angles of the paper's figures: observer, magnetic axis, half opening of the beam (rad).
 const THETA_O: f64 = 0.8;
@@ -44,6 +37,8 @@ pub(crate) struct Example {
     /// The motion over [`SIGNAL`].
     pub(super) motion: TaylorMotion<f64>,
 }
+
+crate::reference::named!(Example);
 
 impl Example {
     /// `h_+` and `h_x`.

@@ -1,17 +1,9 @@
 //! The closed formula of the slow precession: against the averaged equation, in its limits, and against the motion.
 
-use nalgebra::Vector3;
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::fundamental_frequencies::{fundamental_frequencies, mean_rate};
+use crate::prelude::*;
+use twofold::observables::fundamental_frequencies::mean_rate;
 use twofold::observables::spectrum::Window;
-use twofold::propagation::Motion;
 use twofold::solutions::averaged::slow_precession::slow_precession;
-
-use crate::check::{Measured, Worst, checks, largest};
-use crate::measured_order::order_of_error;
-use crate::random::{Random, worst_of_draws};
-use crate::reference::reference_motion;
 
 checks! {
     /// the closed formula is the mean rate of dl/dt = kappa (s l) x l, axis and sense included, for all orders of the eigenvalues, both signs of

@@ -1,10 +1,9 @@
 //! Many motions side by side.
 
-use twofold::dynamics::AxisState;
 use twofold::propagation::{ErrorEstimates, SampledProblem, Samples, states_of_many};
 
-use crate::check::{Measured, Worst, largest, largest_difference};
-use crate::physical_domain::{RandomScene, drawn, scenes};
+use crate::physical_domain::drawn;
+use crate::prelude::*;
 
 const SEED: u8 = 31;
 const COUNT: usize = 90;
@@ -69,23 +68,20 @@ pub(super) fn neighbours() -> Result<Measured, String> {
 pub(super) fn tolerance() -> Result<Measured, String> {
     let (scenes, times) = (drawn(SEED, COUNT, &scenes())?, (0..COUNT).map(times).collect::<Vec<_>>());
     let all = motions(&scenes, &times);
-    let mut worst = Worst::default();
-    for (i, (motion, found)) in all.iter().zip(states_of_many(&all)).enumerate() {
-        let SampledProblem { problem, start, times, tolerance } = motion;
+    let found = states_of_many(&all);
+    worst_of(0..COUNT, |&i| {
+        let SampledProblem { problem, start, times, tolerance } = &all[i];
         let finest = if *tolerance < 0.1 { 1e-15 } else { *tolerance };
         let truth = problem.taylor_states(*start, times, finest, ErrorEstimates::Wanted);
-        let truth = match (&found, truth) {
-            (Err(ours), Err(theirs)) if ours.to_string() == theirs.to_string() => continue,
-            (_, truth) => truth?,
+        let (found, truth) = match (&found[i], truth) {
+            (Err(ours), Err(theirs)) if ours.to_string() == theirs.to_string() => return Ok(0.0),
+            (found, truth) => (found.as_ref().map_err(ToString::to_string)?, truth?),
         };
-        let found = found?;
         if found.states.len() != times.len() {
             return Err(format!("{} states of motion {i}", found.states.len()));
         }
         let unit = problem.initial().momentum.norm().max(1.0);
         let apart = found.states.iter().zip(&truth.states).zip(&truth.error_estimates);
-        let figure = largest(apart.map(|((a, b), estimate)| largest_difference(a, b, unit) / (tolerance + estimate)));
-        worst.see(figure, || format!("motion {i} of seed {SEED}, {:?}", scenes[i]));
-    }
-    worst.finish()
+        Ok(largest(apart.map(|((a, b), estimate)| largest_difference(a, b, unit) / (tolerance + estimate))))
+    })
 }

@@ -3,18 +3,11 @@
 mod many;
 mod order_conditions;
 
-use twofold::Error;
-use twofold::dynamics::{AxisState, Problem};
-use twofold::propagation::Motion;
+use crate::prelude::*;
 use twofold::propagation::splitting::{
     GRADIENT_8_6_4, GRADIENT_8_6_6, GRADIENT_8_8_6, NEAR_INTEGRABLE_6_2, NEAR_INTEGRABLE_10_4, SCHEMES, SRKN_6B,
     Scheme, Splitting,
 };
-
-use crate::check::{Measured, Worst, checks, largest, largest_difference, worst_of};
-use crate::measured_order::{errors_at, largest_off_order};
-use crate::physical_domain::{scenes, worst_over};
-use crate::reference::{reference_motion, reference_motions};
 
 checks! {
     /// the logarithm of one step of every scheme is A + B up to the orders claimed, with one, two, three and more kicks
@@ -68,12 +61,9 @@ fn error_of(scheme: &'static Scheme, factor: f64, step: f64) -> Result<(f64, f64
     let problem = Problem::new(*tp_2.spheroid(), tp_2.coefficients() * factor, *tp_2.initial())?;
     let truth = problem.taylor((0.0, 10.0), 1e-16)?;
     let motion = problem.splitting_by(scheme, (0.0, 10.0), step)?;
-    let mut most = 0.0;
-    for i in 1..=20 {
-        let t = 0.5 * f64::from(i);
-        most = largest([most, largest_difference(&motion.state(t)?, &truth.state(t)?, 1.0)]);
-    }
-    Ok((motion.step, most))
+    let times = (1..=20).map(|i| 0.5 * f64::from(i));
+    let errors = times.map(|t| Ok(largest_difference(&motion.state(t)?, &truth.state(t)?, 1.0)));
+    Ok((motion.step, largest_of(errors)?))
 }
 
 fn measured_orders() -> Result<Measured, String> {
@@ -105,20 +95,18 @@ fn factor_of_violation() -> Result<Measured, String> {
 }
 
 fn casimirs() -> Result<Measured, String> {
-    let (problem, mut worst) = (tp_2(), Worst::default());
+    let problem = tp_2();
     let spin = |state: &AxisState<f64>| state.axis.dot(&state.momentum);
-    for scheme in SCHEMES {
+    worst_of(SCHEMES, |scheme| {
         let mut motion = Splitting::new(&problem, scheme, 0.1 * scheme.stages() as f64)?;
         // Not a multiple of the steps between projections.
-        for _ in 0..10 {
-            motion.advance(99_999);
+        worst_of([99_999; 10], |&steps| {
+            motion.advance(steps);
             let state = motion.state();
-            worst.see((state.axis.norm() - 1.0).abs(), || format!("|n| of {}", scheme.name));
-            let drift = (spin(&state) - spin(problem.initial())).abs();
-            worst.see(drift, || format!("L.n of {}", scheme.name));
-        }
-    }
-    worst.finish()
+            let drift = spin(&state) - spin(problem.initial());
+            Ok(largest([(state.axis.norm() - 1.0).abs(), drift.abs()]))
+        })
+    })
 }
 
 fn time_reversal() -> Result<Measured, String> {
@@ -133,38 +121,30 @@ fn time_reversal() -> Result<Measured, String> {
 }
 
 fn against_reference() -> Result<Measured, String> {
-    let mut worst = Worst::default();
-    for reference in reference_motions() {
+    worst_of(reference_motions(), |reference| {
         let end = reference.states.last().map_or(0.0, |(t, _)| *t);
         let motion = reference.problem().splitting_by(&GRADIENT_8_8_6, (0.0, end), 0.1)?;
-        for (t, state) in &reference.states {
-            let error = largest_difference(&motion.state(*t)?, state, 1.0);
-            worst.see(error, || format!("{} at t = {t}", reference.name));
-        }
-    }
-    worst.finish()
+        worst_of(&reference.states, |(t, state)| Ok(largest_difference(&motion.state(*t)?, state, 1.0)))
+    })
 }
 
 fn against_taylor_motion() -> Result<Measured, String> {
     worst_over(25, 200, &scenes(), |scene| {
         let problem = scene.problem();
         let size = problem.initial().momentum.norm().max(1.0);
-        let mut most = 0.0;
-        for end in [40.0, -40.0] {
+        worst_of([40.0, -40.0], |&end| {
             let span = (0.0, end);
             let taylor = problem.taylor(span, 1e-14)?;
             let forced = problem.reduced().splitting_by(&SRKN_6B, span, 0.3)?;
             let chosen = problem.splitting(span, 1e-9)?;
-            for part in [0.13, 0.5, 0.77, 1.0] {
-                let t = part * end;
+            worst_of([0.13 * end, 0.5 * end, 0.77 * end, end], |&t| {
                 let theirs = taylor.state(t)?;
                 let estimates =
                     [forced.error_estimate(t), chosen.error_estimate(t)].map(|e| e + taylor.error_estimate(t));
                 let forced = largest_difference(&forced.state(t)?, &AxisState::from(&theirs), size);
                 let chosen = largest_difference(&chosen.state(t)?, &theirs, size);
-                most = largest([most, forced / estimates[0], chosen / estimates[1]]);
-            }
-        }
-        Ok(most)
+                Ok(largest([forced / estimates[0], chosen / estimates[1]]))
+            })
+        })
     })
 }

@@ -1,8 +1,7 @@
 //! Order conditions of the splitting schemes, in the free Lie algebra of the two flows.
 
+use crate::prelude::*;
 use twofold::propagation::splitting::{Ends, SCHEMES, Scheme};
-
-use crate::check::{Measured, Worst};
 
 /// Longest words kept: the degrees below the highest order, 10.
 const LENGTH: usize = 9;
@@ -142,25 +141,18 @@ fn outside(mut vector: Vec<f64>, others: &[Vec<f64>]) -> Vec<f64> {
 /// The largest coefficient of the logarithm of a step, less A + B, among the terms that the claimed orders say vanish.
 pub(super) fn residuals() -> Result<Measured, String> {
     let ideal = vanishing();
-    let mut worst = Worst::default();
-    for scheme in SCHEMES {
+    let words: Vec<_> = (1..=LENGTH).flat_map(|length| (0..=length as u32).map(move |kicks| (length, kicks))).collect();
+    worst_of(SCHEMES, |scheme| {
         let log = step(scheme).ln();
-        for length in 1..=LENGTH {
-            for kicks in 0..=length as u32 {
-                let order = scheme.orders[(kicks.max(1) as usize - 1).min(2)] as usize;
-                if length > order {
-                    continue;
-                }
-                let mut part = log.part(length, kicks);
-                if length == 1 {
-                    part[0] -= 1.0;
-                }
-                let others: Vec<_> = ideal.iter().map(|series| series.part(length, kicks)).collect();
-                let rest = if kicks >= 3 { outside(part, &others) } else { part };
-                let size = crate::check::largest(rest.iter().map(|x| x.abs()));
-                worst.see(size, || format!("{}, words with {length} letters of which {kicks} kicks", scheme.name));
+        let claimed = |kicks: u32| scheme.orders[(kicks.max(1) as usize - 1).min(2)] as usize;
+        worst_of(words.iter().filter(|(length, kicks)| *length <= claimed(*kicks)), |&&(length, kicks)| {
+            let mut part = log.part(length, kicks);
+            if length == 1 {
+                part[0] -= 1.0;
             }
-        }
-    }
-    worst.finish()
+            let others: Vec<_> = ideal.iter().map(|series| series.part(length, kicks)).collect();
+            let rest = if kicks >= 3 { outside(part, &others) } else { part };
+            Ok(largest(rest.iter().map(|x| x.abs())))
+        })
+    })
 }

@@ -1,18 +1,9 @@
 //! C and U^ij against quadratures of the six-dimensional integrals that know nothing of the coefficients A_i.
 
-use std::f64::consts::PI;
-
-use nalgebra::{Matrix3, Vector3};
-use num_dual::Dual64;
-use twofold::dynamics::point_masses::anisotropic_potential_of_masses;
-use twofold::dynamics::potential::anisotropic_potential_of_body;
 use twofold::star::axisymmetric::{AxisymmetricBody, AxisymmetricIntegrals, axisymmetric_integrals};
-use twofold::star::spheroid_shape::SpheroidShape;
-use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::{relative, unit_spheroid};
-use crate::check::{Measured, Worst, checks, largest, smallest, worst_of};
-use crate::random::Random;
+use crate::prelude::*;
 
 checks! {
     /// C, U^xx and U^zz of uniform spheroids, oblate and prolate, agree with the multipole quadrature of their densities
@@ -164,12 +155,6 @@ fn deviations(q: f64, random: &mut Random) -> Result<[[f64; 2]; 3], String> {
 }
 
 fn six_dimensional_integral() -> Result<Measured, String> {
-    let mut worst = Worst::default();
     let mut random = Random::with_seed(7);
-    for q in [0.6, 1.5] {
-        for ([deviation, error], name) in deviations(q, &mut random)?.into_iter().zip(["C", "U^xx", "delta U"]) {
-            worst.see(deviation, || format!("{name} at a3/a1 = {q}, seed 7: standard error {error:e} of it"));
-        }
-    }
-    worst.finish()
+    worst_of([0.6, 1.5], |&q| worst_of(deviations(q, &mut random)?, |[deviation, _]| Ok(*deviation)))
 }

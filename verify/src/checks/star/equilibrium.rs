@@ -1,14 +1,11 @@
 //! Maclaurin spheroids: rotation rate, T_rot = 2 C and the tensor virial relation from independent parts.
 
-use std::f64::consts::PI;
 use std::num::NonZeroUsize;
 
 use gauss_quad::GaussLegendre;
-use twofold::star::maclaurin::MaclaurinSpheroid;
 
 use super::{coefficients_by_ellip, relative, unit_spheroid};
-use crate::check::{Measured, checks, largest};
-use crate::physical_domain::worst_over;
+use crate::prelude::*;
 
 checks! {
     /// the rate at which the surface of a spheroid is an equipotential, by elliptic integrals, is that of Eq. (77), and with it T_rot = 2 C

@@ -1,20 +1,11 @@
 //! Numbers for neutron stars: centrifugal oblateness, I^zz / C, the unit of time, and where the estimates hold.
 
-use std::f64::consts::PI;
-
-use twofold::star::deformation::{
-    CENTRIFUGAL_COEFFICIENT, PRINTED_CENTRIFUGAL_COEFFICIENT, centrifugal_oblateness, centrifugal_oblateness_scaled,
-};
-use twofold::star::estimates::{inertia_over_c_estimate, time_unit_estimate};
-use twofold::star::maclaurin::MaclaurinSpheroid;
-use twofold::star::spheroid_shape::SpheroidShape;
-use twofold::star::uniform_spheroid::UniformSpheroid;
+use twofold::star::deformation::{PRINTED_CENTRIFUGAL_COEFFICIENT, CENTRIFUGAL_COEFFICIENT};
 use twofold::units::geometrised::{GRAM_PER_CUBIC_CENTIMETRE, HERTZ, KILOMETRE, SOLAR_MASS};
-use twofold::units::{cgs, geometrised, si, time_unit};
+use twofold::units::{cgs, geometrised, time_unit};
 
 use super::relative;
-use crate::check::{Measured, checks, worst_of};
-use crate::physical_domain::worst_over;
+use crate::prelude::*;
 
 checks! {
     /// the centrifugal oblateness is 2.1e-3 at 100 Hz, 10 km, 1.4 solar masses, as printed, and 0.08 at 1.6 ms

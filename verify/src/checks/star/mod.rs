@@ -1,29 +1,13 @@
 //! The star: potential coefficients, the constant C, equilibrium, estimates.
 
-mod energy;
-mod equilibrium;
-mod estimates;
-mod multiprecision_table;
-mod potential_coefficients;
-mod shape;
+use crate::prelude::*;
 
-use twofold::star::spheroid_shape::SpheroidShape;
-use twofold::star::uniform_spheroid::UniformSpheroid;
-
-use crate::check::Check;
-
-/// Checks of this subject.
-pub fn checks() -> Vec<Check> {
-    [
-        multiprecision_table::checks(),
-        potential_coefficients::checks(),
-        shape::checks(),
-        energy::checks(),
-        equilibrium::checks(),
-        estimates::checks(),
-    ]
-    .concat()
-}
+pub(super) mod energy;
+pub(super) mod equilibrium;
+pub(super) mod estimates;
+pub(super) mod multiprecision_table;
+pub(super) mod potential_coefficients;
+pub(super) mod shape;
 
 /// Spheroid with `a1 = rho = 1`.
 fn unit_spheroid(axis_ratio: f64) -> Result<UniformSpheroid<f64>, String> {

@@ -1,12 +1,6 @@
 //! Coefficients A_0, A_1, A_3 and C with their derivatives against a table of 34-digit values.
 
-use num_dual::{Dual2_64, Dual64};
-use twofold::star::potential_coefficients::potential_coefficients;
-use twofold::star::spheroid_shape::SpheroidShape;
-use twofold::star::uniform_spheroid::UniformSpheroid;
-use twofold::{Error, Real};
-
-use crate::check::{Measured, checks, largest, worst_of};
+use crate::prelude::*;
 use crate::reference::records;
 
 checks! {

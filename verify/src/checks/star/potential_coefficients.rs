@@ -1,15 +1,10 @@
 //! Coefficients A_i against the printed closed forms, elliptic integrals, the defining integral and their sum rules.
 
-use nalgebra::Vector3;
 use proptest::prelude::*;
 use twofold::star::ellipsoid::UniformEllipsoid;
-use twofold::star::potential_coefficients::potential_coefficients;
-use twofold::star::spheroid_shape::SpheroidShape;
-use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::{coefficients_by_ellip, relative};
-use crate::check::{Measured, checks, largest};
-use crate::physical_domain::worst_over;
+use crate::prelude::*;
 
 checks! {
     /// A_0, A_1, A_3 and the bracket of C agree with the closed forms as printed, for e from 0.1 to 0.999

@@ -1,15 +1,9 @@
 //! Shapes: oblateness, the appendix's expansions, the domain of the constructors.
 
-use std::f64::consts::PI;
-
 use proptest::prelude::*;
-use twofold::star::potential_coefficients::potential_coefficients;
-use twofold::star::spheroid_shape::SpheroidShape;
-use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use super::unit_spheroid;
-use crate::check::{Measured, Worst, checks, largest};
-use crate::physical_domain::worst_over;
+use crate::prelude::*;
 
 checks! {
     /// (I^zz - I^xx) / I^xx is e^2 / (2 - e^2), and a spheroid built from it has it

@@ -1,30 +1,9 @@
 //! Potential, torque, energies, equations of motion, integrals, the source of the wave.
 
-use core::f64::consts::{FRAC_PI_2, PI};
+use twofold::dynamics::point_masses::preferred_frame_potential_of_masses;
+use twofold::lorentz_violation::preferred_frame_parameter;
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::Real;
-use twofold::dynamics::angular_acceleration::angular_acceleration;
-use twofold::dynamics::equations_of_motion::{body_state_rates, reduced_rates, torque_on_axis};
-use twofold::dynamics::euler_angle_equations::{AxisAngles, euler_angle_accelerations, euler_angle_residuals};
-use twofold::dynamics::first_integrals::{energy_in_angles, first_integrals, spin_in_angles, symmetric_adjugate};
-use twofold::dynamics::kinetic_energy::{kinetic_energy, kinetic_energy_of_body};
-use twofold::dynamics::lagrangian::lagrangian;
-use twofold::dynamics::point_masses::{anisotropic_potential_of_masses, preferred_frame_potential_of_masses};
-use twofold::dynamics::potential::{
-    anisotropic_potential_in_angles, anisotropic_potential_of_axis, anisotropic_potential_of_body, nordtvedt_potential,
-    potential_gradient_in_angles,
-};
-use twofold::dynamics::torque::{torque_from_gradient, torque_on_body};
-use twofold::dynamics::wave_source::{free_inertia_acceleration, spheroid_inertia_acceleration, wave_tensor};
-use twofold::dynamics::{AxisState, BodyState, PrincipalInertia, RigidSpheroid};
-use twofold::lorentz_violation::{coefficients_from_preferred_frame, preferred_frame_parameter};
-use twofold::observables::Observer;
-use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
-
-use super::parts::{angles, body, entries, joined, none, principal, rates, symmetric, vector};
-use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
-use crate::stability::{Case, functions, list};
+use super::parts::*;
 
 fn inertia<S: Real>(x: &[S]) -> PrincipalInertia<S> {
     PrincipalInertia { xx: x[0], yy: x[1], zz: x[2] }
@@ -32,10 +11,6 @@ fn inertia<S: Real>(x: &[S]) -> PrincipalInertia<S> {
 
 fn axis_angles<S: Real>(x: &[S]) -> AxisAngles<S> {
     AxisAngles { beta: x[0], alpha: x[1], alpha_rate: x[2], beta_rate: x[3] }
-}
-
-fn state<S: Real>(x: &[S]) -> BodyState<S> {
-    BodyState { axis: vector(x), momentum: vector(&x[3..]), equatorial_axis: vector(&x[6..]) }
 }
 
 functions! {
@@ -124,7 +99,7 @@ functions! {
     }
     StateRates: "body_state_rates".composite(), (x) {
         let rates = body_state_rates(&body(&x[15..]), &symmetric(x), &state(&x[6..]));
-        joined(&[rates.axis, rates.momentum, rates.equatorial_axis])
+        of_state(&rates)
     }
     Integrals: "first_integrals".composite(), (x) {
         let all = first_integrals(&body(&x[15..]), &symmetric(x), &state(&x[6..]));
@@ -182,10 +157,6 @@ functions! {
     }
 }
 
-const TURN: Input = In(-3.1, 3.1);
-const RATE: Input = Signed(-3.0, 1.0);
-const COMPONENT: Input = In(-1.0, 1.0);
-const INERTIA: Input = In(0.5, 2.0);
 const SMALL: Input = Signed(-9.0, -0.5);
 
 /// A tensor of the given input and the state and body after it.

@@ -1,15 +1,10 @@
 //! Carlson's integrals, Jacobi's functions, theta functions.
 
-use core::f64::consts::FRAC_PI_2;
-
-use twofold::Real;
 use twofold::numerics::elliptic::carlson::{rc, rd, rf, rf_of_roots, rj, rj_of_roots};
-use twofold::numerics::elliptic::jacobi::{ArithmeticGeometricMean, JacobiFunctions, complete_integral, jacobi};
+use twofold::numerics::elliptic::jacobi::{ArithmeticGeometricMean, JacobiFunctions, jacobi};
 use twofold::numerics::elliptic::theta::{Nome, ThetaSeries};
 
-use crate::stability::Input::{Above, Below, Fixed, In, Log, Near, Signed};
-use crate::stability::oracle::{self, pi};
-use crate::stability::{Case, functions};
+use super::parts::*;
 
 fn joined<S: Real>(f: JacobiFunctions<S>) -> Vec<S> {
     vec![f.sn, f.cn, f.dn]

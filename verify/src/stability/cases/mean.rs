@@ -1,19 +1,9 @@
 //! The averaged motion: Hamiltonian, generator, slow precession, top, separatrix.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::Real;
-use twofold::dynamics::{BodyState, Problem};
-use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::averaged::slow_precession::slow_precession;
-use twofold::solutions::averaged::{
-    AveragedSolution, AveragingOrder, Top, generator, generator_slopes, mean_angular_velocity, mean_potential,
-    middle_axis_growth, period_near_separatrix,
-};
+use twofold::solutions::averaged::{Top, period_near_separatrix};
 
-use super::parts::{body, joined, none, vector};
-use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
-use crate::stability::oracle::pi;
-use crate::stability::{Case, functions, list};
+use super::parts::*;
 
 /// `c`, `s` (3), `G`, `l` (3), body.
 fn hamiltonian<S: Real>(x: &[S], order: AveragingOrder) -> Vec<S> {
@@ -170,9 +160,7 @@ fn period(x: &[f64]) -> Vec<f64> {
     period_near_separatrix(x[1], x[0]).map_or(none(1), |period| vec![period])
 }
 
-const COMPONENT: Input = In(-1.0, 1.0);
 const SMALL: Input = Signed(-4.0, -1.0);
-const INERTIA: Input = In(0.5, 2.0);
 
 pub(super) fn cases() -> Vec<Case> {
     let (c, i) = (COMPONENT, INERTIA);

@@ -13,7 +13,7 @@ mod tensor;
 mod torus;
 
 use super::{Case, measure};
-use crate::check::Measured;
+use crate::prelude::*;
 
 /// A family of cases: one check each.
 #[derive(Debug, Clone, Copy)]

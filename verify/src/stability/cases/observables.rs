@@ -1,45 +1,22 @@
 //! What an observer sees: spin axis, bounds, beams, pulses, position angle, wave harmonics, eta, epochs.
 
-use core::f64::consts::{FRAC_PI_2, PI};
-
-use nalgebra::Vector3;
-use twofold::Real;
-use twofold::dynamics::AxisState;
-use twofold::dynamics::BodyState;
 use twofold::epoch::{DAY, Epoch};
-use twofold::observables::Observer;
-use twofold::observables::bound::{
-    SpinAxisDrift, cos_opening_angle, eta_from_inclination, fluid_inertia_over_c, lambda_change, preferred_frame_bound,
-    zeta_change_terms,
-};
+use twofold::observables::bound::{lambda_change, preferred_frame_bound};
 use twofold::observables::eta::{
-    mean_squared_speed, root_mean_square_eta, secular_axis_rate, single_precession_start, squared_speed,
-    squared_speed_along_motion,
+    mean_squared_speed, root_mean_square_eta, single_precession_start, squared_speed, squared_speed_along_motion,
 };
-use twofold::observables::eta_distribution::EtaDistribution;
 use twofold::observables::gravitational_wave::strain_unit;
-use twofold::observables::pulsar::beam::{Beam, axis_along_line_of_sight};
-use twofold::observables::pulsar::direction::{
-    axis_along_line_of_sight_in_azimuth, azimuth_offset_point, cosine_of_colatitude, magnetic_axis_direction,
-};
 use twofold::observables::pulsar::event_time::event_time;
-use twofold::observables::pulsar::period::{
-    approximate_period, azimuth_offset_rate, azimuth_rate, instantaneous_period,
-};
 use twofold::observables::pulsar::position_angle::{
     position_angle, position_angle_rate, rotating_vector_gradient, rotating_vector_point,
     rotating_vector_position_angle,
 };
-use twofold::observables::pulsar::width::{PulseWidth, cosine_of_half_width, edge_azimuths, pulse_width};
-use twofold::observables::spin_axis::{cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate};
+use twofold::observables::pulsar::width::edge_azimuths;
 use twofold::observables::wave_harmonics::WaveHarmonics;
 use twofold::units::geometrised::{KILOGRAM, METRE};
 use twofold::units::time_unit;
 
-use super::parts::{angles, body, joined, none, symmetric, vector};
-use crate::stability::Input::{self, Above, Fixed, In, Log, Near, Signed};
-use crate::stability::oracle::pi;
-use crate::stability::{Case, functions, list};
+use super::parts::*;
 
 fn width<S: Real>(width: PulseWidth<S>) -> Vec<S> {
     match width {
@@ -48,18 +25,10 @@ fn width<S: Real>(width: PulseWidth<S>) -> Vec<S> {
     }
 }
 
-fn state<S: Real>(x: &[S]) -> BodyState<S> {
-    BodyState { axis: vector(x), momentum: vector(&x[3..]), equatorial_axis: vector(&x[6..]) }
-}
-
 /// Colatitude and azimuth.
 fn on_sphere<S: Real>(x: &[S]) -> Vector3<S> {
     let ((st, ct), (sp, cp)) = (x[0].sin_cos(), x[1].sin_cos());
     Vector3::new(st * cp, st * sp, ct)
-}
-
-fn result<S: Real>(value: Result<S, twofold::Error>) -> Vec<S> {
-    value.map_or(none(1), |value| vec![value])
 }
 
 /// Mean of the squared speed, with constants to 31 digits.
@@ -327,9 +296,6 @@ fn fraction(x: &[f64]) -> Vec<f64> {
     epoch(x).map_or(none(1), |start| start.after([x[0], 0.0]).map_or(none(1), |end| vec![end.fraction()]))
 }
 
-const TURN: Input = In(-3.1, 3.1);
-const COMPONENT: Input = In(-1.0, 1.0);
-const INERTIA: Input = In(0.5, 2.0);
 const POLAR: Input = In(0.3, 2.8);
 const TINY: Input = Signed(-15.0, -0.5);
 const SMALL: Input = Signed(-6.0, -1.0);

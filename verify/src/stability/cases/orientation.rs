@@ -1,20 +1,10 @@
 //! Euler angles: rotation matrix, rates and their inverses.
 
-use core::f64::consts::{FRAC_PI_2, PI};
-
-use nalgebra::Matrix3;
-use twofold::dynamics::equations_of_motion::{angular_velocity, euler_rates_of_axis};
-use twofold::dynamics::wave_source::{rotation_rate, tensor_in_inertial_frame};
-use twofold::dynamics::{BodyState, RotationState};
-use twofold::euler_angles::{
-    angles_from_rotation, body_from_inertial, body_rates, euler_rates, symmetry_axis, tensor_in_body_frame,
-};
-use twofold::observables::Observer;
+use twofold::dynamics::equations_of_motion::euler_rates_of_axis;
+use twofold::euler_angles::{angles_from_rotation, euler_rates};
 use twofold::observables::pulsar::position_angle::sky_from_inertial;
 
-use super::parts::{angles, body, entries, joined, matrix, none, of_angles, of_rates, rates, symmetric, vector};
-use crate::stability::Input::{self, Fixed, In, Log, Near, Signed};
-use crate::stability::{Case, functions, list};
+use super::parts::*;
 
 functions! {
     Rotation: "body_from_inertial", (x) { entries(&body_from_inertial(&angles(&[x[1], x[0], x[2]]))) }
@@ -62,16 +52,16 @@ functions! {
     }
     StateFromAngles: "BodyState::from_angles".composite(), (x) {
         let state = BodyState::from_angles(&body(&x[6..]), &angles(&[x[1], x[0], x[2]]), &rates(&x[3..]));
-        joined(&[state.axis, state.momentum, state.equatorial_axis])
+        of_state(&state)
     }
     RotationOfState: "BodyState::body_from_inertial", (x) {
         let state = BodyState { axis: vector(x), momentum: vector(x), equatorial_axis: vector(&x[3..]) };
         entries(&state.body_from_inertial())
     }
     StateRotated: "BodyState::rotated", (x) {
-        let state = BodyState { axis: vector(x), momentum: vector(&x[3..]), equatorial_axis: vector(&x[6..]) };
+        let state = state(x);
         let state = state.rotated(&matrix(&x[9..]));
-        joined(&[state.axis, state.momentum, state.equatorial_axis])
+        of_state(&state)
     }
     /// Angles and rates of a state.
     OfState: "BodyState: angles, rates".composite().natural_derivatives(), (x) {
@@ -91,11 +81,6 @@ functions! {
         [joined(&[observer.direction, observer.theta_hat, observer.phi_hat]), entries(&sky_from_inertial(&observer))].concat()
     }
 }
-
-const TURN: Input = In(-3.1, 3.1);
-const RATE: Input = Signed(-3.0, 1.0);
-const COMPONENT: Input = In(-1.0, 1.0);
-const INERTIA: Input = In(0.5, 2.0);
 
 pub(super) fn cases() -> Vec<Case> {
     let (north, south) = (Log(-300.0, 0.0), Near(PI, -15.0, -0.5));

@@ -1,10 +1,14 @@
 //! Vectors, tensors and bodies from the numbers of a case.
 
-use nalgebra::{Matrix3, Vector3};
-use twofold::Scalar;
-use twofold::dynamics::RigidSpheroid;
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
+pub(super) use crate::prelude::*;
+pub(super) use crate::stability::Input::{self, Above, Below, Fixed, In, Log, Near, Signed};
+pub(super) use crate::stability::oracle::{self, pi, ratio};
+pub(super) use crate::stability::{Case, Function, Wide, functions, list};
+
+pub(super) const TURN: Input = In(-3.1, 3.1);
+pub(super) const RATE: Input = Signed(-3.0, 1.0);
+pub(super) const COMPONENT: Input = In(-1.0, 1.0);
+pub(super) const INERTIA: Input = In(0.5, 2.0);
 
 pub(super) fn vector<S: Scalar>(x: &[S]) -> Vector3<S> {
     Vector3::new(x[0], x[1], x[2])
@@ -57,4 +61,19 @@ pub(super) fn joined<S: Scalar>(vectors: &[Vector3<S>]) -> Vec<S> {
 /// So many results that are not numbers.
 pub(super) fn none<S: Scalar>(count: usize) -> Vec<S> {
     vec![S::from_f64(f64::NAN); count]
+}
+
+/// One result, not a number where there is none.
+pub(super) fn result<S: Scalar>(value: Result<S, Error>) -> Vec<S> {
+    value.map_or(none(1), |value| vec![value])
+}
+
+/// `n`, `L`, `e_x`.
+pub(super) fn state<S: Scalar>(x: &[S]) -> BodyState<S> {
+    BodyState { axis: vector(x), momentum: vector(&x[3..]), equatorial_axis: vector(&x[6..]) }
+}
+
+/// Components of `n`, `L` and `e_x`.
+pub(super) fn of_state<S: Scalar>(state: &BodyState<S>) -> Vec<S> {
+    joined(&state.vectors())
 }

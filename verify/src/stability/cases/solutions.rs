@@ -1,23 +1,9 @@
 //! Free rotation, steady precession, perturbation solutions.
 
-use core::f64::consts::{FRAC_PI_2, PI};
+use twofold::solutions::free::rotated_by;
+use twofold::solutions::perturbation::constants_from_initial_values;
 
-use nalgebra::Vector3;
-use twofold::Real;
-use twofold::dynamics::BodyState;
-use twofold::dynamics::euler_angle_equations::AxisAngles;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::observables::spin_axis::changes_from_start;
-use twofold::solutions::free::{free_precession_rates, free_rotation, rotated_by};
-use twofold::solutions::perturbation::linearised::{FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals};
-use twofold::solutions::perturbation::{
-    Constants, Form, Perturbation, Precession, constants_from_initial_values, shifted_rates,
-};
-use twofold::solutions::steady::steady_precession_rate;
-
-use super::parts::{body, joined, none, of_rates, principal, vector};
-use crate::stability::Input::{self, Below, Fixed, In, Log, Near, Signed};
-use crate::stability::{Case, functions, list};
+use super::parts::*;
 
 fn axis_angles<S: Real>(q: &AxisAngles<S>) -> Vec<S> {
     vec![q.alpha, q.beta, q.alpha_rate, q.beta_rate]
@@ -61,9 +47,9 @@ functions! {
     }
     // t, n, L, e_x, body
     FreeRotation: "free_rotation".against::<ExactFreeRotation>().composite().vector(), (x) {
-        let state = BodyState { axis: vector(&x[1..]), momentum: vector(&x[4..]), equatorial_axis: vector(&x[7..]) };
+        let state = state(&x[1..]);
         let after = free_rotation(&body(&x[10..]), &state, x[0]);
-        joined(&[after.axis, after.momentum, after.equatorial_axis])
+        of_state(&after)
     }
     ExactFreeRotation(x) {
         let (spheroid, t) = (body(&x[10..]), x[0]);
@@ -161,11 +147,8 @@ fn rotation<S: Real>(turn: &Vector3<S>, v: &Vector3<S>) -> Vector3<S> {
 
 const PHASES: &str = "Two phases that grow together, each with a rounding of its own: where the slopes of their terms cancel, the scale does not see it, \
                       condition number t a over the rest.";
-const TURN: Input = In(-3.1, 3.1);
 const BETA: Input = In(0.2, 1.4);
 const SPIN: Input = In(0.5, 2.0);
-const COMPONENT: Input = In(-1.0, 1.0);
-const INERTIA: Input = In(0.5, 2.0);
 const SMALL: Input = Signed(-6.0, -1.0);
 const AMPLITUDE: Input = Signed(-9.0, -1.0);
 

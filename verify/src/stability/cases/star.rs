@@ -1,21 +1,10 @@
 //! Uniform spheroids and ellipsoids.
 
-use nalgebra::Vector3;
-use twofold::Real;
 use twofold::star::axisymmetric::axisymmetric_integrals;
-use twofold::star::deformation::{centrifugal_oblateness, centrifugal_oblateness_scaled};
 use twofold::star::ellipsoid::UniformEllipsoid;
-use twofold::star::estimates::{inertia_over_c_estimate, time_unit_estimate};
-use twofold::star::maclaurin::MaclaurinSpheroid;
-use twofold::star::potential_coefficients::{potential_coefficients, reduced_difference};
-use twofold::star::spheroid_shape::SpheroidShape;
-use twofold::star::uniform_spheroid::UniformSpheroid;
-use twofold::units::si;
+use twofold::star::potential_coefficients::reduced_difference;
 
-use super::parts::none;
-use crate::stability::Input::{Above, Below, Fixed, In, Log, Near, Signed};
-use crate::stability::oracle::{self, pi, ratio};
-use crate::stability::{Case, functions};
+use super::parts::*;
 
 /// Semi-axis ratio, its square and the squared eccentricity, to 31 digits.
 fn by_e<S: Real>(e: S) -> [S; 3] {

@@ -1,14 +1,6 @@
 //! The exact motion for a tensor symmetric about Z.
 
-use core::f64::consts::{FRAC_PI_2, PI};
-
-use twofold::Real;
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::symmetric::SymmetricSolution;
-
-use super::parts::{angles, body, none, of_angles, of_rates, rates};
-use crate::stability::Input::{self, Below, Fixed, In, Log, Near, Signed};
-use crate::stability::{Case, functions};
+use super::parts::*;
 
 /// `s^ZZ - s^XX`, beta, alpha, gamma, rates (3), body.
 fn solution<S: Real>(x: &[S]) -> Option<SymmetricSolution<S>> {
@@ -42,7 +34,6 @@ functions! {
 
 const POLE: &str =
     "By `beta` itself, which near `pi` has not the digits of its distance from there: condition number 1 / sin b.";
-const TURN: Input = In(-3.1, 3.1);
 const BETA: Input = In(0.3, 1.2);
 const RATE: Input = In(0.5, 1.5);
 

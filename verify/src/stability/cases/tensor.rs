@@ -1,15 +1,8 @@
 //! Principal axes of the tensor, the nearest symmetric one.
 
-use nalgebra::Matrix3;
-use num_dual::Dual64;
-use twofold::Real;
-use twofold::lorentz_violation::{
-    PrincipalCoefficients, SymmetryOfTensor, principal_frame, principal_frame_along, principal_frame_with_derivatives,
-};
+use twofold::lorentz_violation::{SymmetryOfTensor, principal_frame_along, principal_frame_with_derivatives};
 
-use super::parts::{none, symmetric};
-use crate::stability::Input::{Fixed, In, Near, Signed};
-use crate::stability::{Case, Wide, functions, list};
+use super::parts::*;
 
 /// Eigenvalues in descending order by Jacobi's rotations.
 fn eigenvalues<S: Real>(tensor: &Matrix3<S>) -> [S; 3] {

@@ -1,18 +1,8 @@
 //! States on tori and their exact frequencies.
 
-use core::f64::consts::TAU;
+use twofold::solutions::torus::{separatrix_motion, torus_frequencies};
 
-use twofold::Real;
-use twofold::dynamics::first_integrals::{FirstIntegrals, first_integrals};
-use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
-use twofold::euler_angles::{EulerAngles, EulerRates};
-use twofold::lorentz_violation::PrincipalCoefficients;
-use twofold::solutions::symmetric::SymmetricSolution;
-use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};
-
-use super::parts::{angles, body, none, rates};
-use crate::stability::Input::{self, Fixed, In, Signed};
-use crate::stability::{Case, Function, Wide, functions};
+use super::parts::*;
 
 fn wide(x: f64) -> Wide {
     <Wide as twofold::Scalar>::from_f64(x)
