@@ -195,7 +195,7 @@ fn bad_rows_are_reported_and_do_not_end_the_sweep() {
     }
     assert_eq!(folder.names(), ["sweep.toml", "table.csv", "table.csv.errors.csv"]);
     // A later sweep without failures does not leave the old errors beside its table.
-    folder.write("sweep.toml", &SWEEP.replace("to = 2.1", "to = 2.0"));
+    folder.write("sweep.toml", SWEEP.replace("to = 2.1", "to = 2.0"));
     let refused = ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv"]), 2);
     assert!(stderr(&refused).contains("--out table.csv: exists; --force replaces it"), "{}", stderr(&refused));
     ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv", "--force"]), 0);
@@ -265,7 +265,7 @@ fn a_huge_sweep_takes_little_memory_and_can_be_interrupted() {
         assert!(message.contains(" rows of 19 columns, about 361.0 GB") || continued, "{message}");
     }
     // A changed sweep does not go on, and leaves what is there.
-    folder.write("sweep.toml", &text.replace("seed = 3", "seed = 4"));
+    folder.write("sweep.toml", text.replace("seed = 3", "seed = 4"));
     let before = folder.bytes(rows);
     let refused = ends(folder.run(&["sweep", "sweep.toml", "--out", "table.csv"]), 2);
     let message = stderr(&refused);
