@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::{Failure, print};
 use crate::text_table::text_table;
-use twofold_scene::pulsar_table::published::{PUBLISHED, PrintedBounds, printed_bounds};
+use twofold_scene::pulsar_table::published::{PrintedBounds, printed_bounds, published};
 use twofold_scene::pulsar_table::{
     COMBINATION, CONFIDENCE, CONSERVATIVE_ETA, Figure, Limit, Pulsar, ROUND_INERTIA_OVER_C, pulsars_in_file,
     recommended,
@@ -59,8 +59,8 @@ pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
             "alpha_2": of_chosen.and_then(|(_, rows)| value_of(rows, "alpha_2_limit")),
             "confidence": CONFIDENCE, "includes": INCLUDES, "leaves_out": LEAVES_OUT,
         });
-        let published = PUBLISHED.iter().map(|p| {
-            json!({ "quantity": p.quantity, "limit": p.limit, "meaning": p.meaning, "source": p.source, "seen": p.seen.name() })
+        let published = published().map(|p| {
+            json!({ "quantity": p.quantity, "limit": p.limit, "meaning": p.meaning, "source": p.source, "seen": p.seen })
         });
         let all = json!({
             "confidence": CONFIDENCE, "pulses": pulses, "recommended": recommended, "published": published.collect::<Vec<_>>(),
@@ -80,7 +80,7 @@ pub(super) fn bounds(args: &BoundsArgs) -> Result<(), Failure> {
     }
     text.push_str(&recommendation(chosen, &limit, of_chosen.map_or(&[], |(_, rows)| rows)));
     let _ = writeln!(text, "\nPublished by others; components in the Sun-centred frame, most with all of them free");
-    let _ = writeln!(text, "{}", published());
+    let _ = writeln!(text, "{}", published_table());
     print(&text)
 }
 
@@ -194,11 +194,11 @@ fn table_of(rows: &[Row]) -> String {
     text_table(&table, |column| column > 0, true)
 }
 
-fn published() -> String {
+fn published_table() -> String {
     let mut table = vec![["", "limit", "", "source", "seen"].map(String::from).to_vec()];
-    for p in PUBLISHED {
+    for p in published() {
         let limit = format!("{:.1e}", p.limit);
-        table.push([p.quantity, &limit, p.meaning, p.source, p.seen.name()].map(String::from).to_vec());
+        table.push([p.quantity, &limit, p.meaning, p.source, p.seen].map(String::from).to_vec());
     }
     text_table(&table, |column| column == 1, true)
 }

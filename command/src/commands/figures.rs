@@ -30,7 +30,7 @@ pub(crate) struct FiguresArgs {
 }
 
 pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
-    let known = if args.scene.is_some() { OF_A_SCENE } else { RECIPES };
+    let known: &[Recipe] = if args.scene.is_some() { &OF_A_SCENE } else { &RECIPES };
     let mut chosen = chosen(known, &args.names)?;
     if args.list {
         return print(&list(&chosen));

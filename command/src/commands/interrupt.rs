@@ -96,21 +96,3 @@ pub(super) fn unfinished<T, E, R: Fn() + Send + 'static>(
     on_request.removals.push(Box::new(removal(&made)));
     Ok(made)
 }
-
-#[cfg(all(test, unix))]
-mod tests {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-
-    use super::heeded;
-
-    #[test]
-    fn each_signal_is_heeded_or_left_by_itself() {
-        let mask = |signals: &[i32]| signals.iter().fold(0, |mask, signal| mask | 1 << (signal - 1));
-        assert_eq!(heeded(0), [SIGINT, SIGHUP, SIGTERM]);
-        assert_eq!(heeded(mask(&[SIGHUP])), [SIGINT, SIGTERM]);
-        assert_eq!(heeded(mask(&[SIGINT])), [SIGHUP, SIGTERM]);
-        assert_eq!(heeded(mask(&[SIGINT, SIGHUP])), [SIGTERM]);
-        assert_eq!(heeded(mask(&[SIGTERM])), [SIGINT, SIGHUP, SIGTERM]);
-        assert_eq!(heeded(u64::MAX), [SIGTERM]);
-    }
-}

@@ -39,38 +39,11 @@ use standard_output::{print, tell};
 ///
 /// Without a command, `verify` is run.
 #[derive(Parser)]
-#[command(name = "twofold", version, max_term_width = 100, after_help = AFTER_HELP)]
+#[command(name = "twofold", version, max_term_width = 100, after_help = include_str!("../../data/examples.txt").trim_end())]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
 }
-
-const AFTER_HELP: &str = "\
-Examples:
-  twofold                           run every check of the paper's equations, print the table
-  twofold verify --filter steady    only the checks whose name contains `steady`
-  twofold run tp-1 > tp-1.csv       the paper's first example of twofold precession
-  twofold scenes --print tp-2 > my-star.toml
-                                    a scene to change into yours
-  twofold run my-star.toml --out my-star.csv
-  twofold bounds                    limits from the paper's table of pulsars
-  twofold run tp-2 --columns h      only the gravitational wave
-  twofold run tp-1 --columns h --explain
-                                    the plan for it: method, what is skipped, cost
-  twofold pulses tp-1               every pulse of the radio beam
-  twofold spectrum tp-1 --of m.n --span 4000
-                                    the spectral lines of the pulsar signal, identified
-  twofold fisher tp-1 --observe arrivals:1e-4,widths:1e-4
-                                    how well such pulses would tell the star and s
-  twofold sweep grid.toml --out grid.csv
-                                    a table with a row for each of many scenes; goes on where it was interrupted
-  twofold timing b1937+21 --out timing
-                                    arrival times over decades, as .csv, .par and .tim, and the strain
-  twofold figures --out figures     the paper's figures and ours
-  twofold report                    everything as one page, report/index.html
-
-Exit status: 0 all well; 1 a check or a computation failed; 2 bad input, and nothing was written;
-3 a sweep is complete but for scenes that failed; 130 interrupted.";
 
 #[derive(Subcommand)]
 pub(crate) enum Command {

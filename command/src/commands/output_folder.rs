@@ -132,15 +132,4 @@ mod tests {
         assert!(failure.is_some_and(|why| why.contains("page cannot be written")));
         assert_eq!(meanwhile(true), ("ours".to_owned(), None));
     }
-
-    #[test]
-    fn what_is_not_a_file_is_refused_with_and_without_leave() {
-        let parent = tempfile::tempdir().expect("folder");
-        fs::create_dir(parent.path().join("page")).expect("folder");
-        for replace in [false, true] {
-            let refused = OutputFolder::at(parent.path(), replace, |name| name == "page").err();
-            assert!(matches!(refused, Some(Failure::BadInput(why)) if why.contains("page exists there and is not a")));
-        }
-        assert_eq!(fs::read_dir(parent.path()).expect("folder").count(), 1);
-    }
 }

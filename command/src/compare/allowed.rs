@@ -70,15 +70,3 @@ const ROUNDINGS: f64 = 8.0;
 fn up_to_last_digit(error: f64) -> f64 {
     error + 10f64.powi(error.log10().floor() as i32 - 1) / 2.0
 }
-
-#[cfg(test)]
-mod tests {
-    use super::up_to_last_digit;
-
-    #[test]
-    fn a_number_of_two_digits_stands_for_half_a_unit_more() {
-        for (error, limit) in [(4.8e-7, 4.85e-7), (9.6e-8, 9.65e-8), (2.0e-6, 2.05e-6)] {
-            assert!((up_to_last_digit(error) / limit - 1.0).abs() < 1e-12);
-        }
-    }
-}

@@ -58,14 +58,11 @@ fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
         part => format!("{} % of the time for {}", significant(100.0 * part, 2), subject.name),
     };
     let parts: Vec<_> = subjects.iter().zip(&parts).map(in_words).collect();
+    let text = |part, words: &[_]| sentences("beam-alignment", part, words);
     Caption {
-        shows: format!(
-            "Cosine of the angle between the axis **m** of the beam and the line of sight **n** in time. Above cos *ρ* (dashed) \
-             the beam holds the line of sight{pulses}."
-        ),
+        shows: text("shows", &[("pulses", pulses.to_owned())]),
         parameters: parameters(&line_of_sight(subjects, true), subjects),
-        method: "Numerical motion; **m** by Eq. (45), **n** by Eq. (46); the condition of a pulse is Eq. (44)."
-            .to_owned(),
+        method: text("method", &[]),
         says: format!("The line of sight is inside the beam {}.", parts.join(", ")),
     }
 }

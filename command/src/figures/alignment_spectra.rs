@@ -70,7 +70,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -
 }
 
 fn caption(subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -> Result<Caption, String> {
-    let rates = subjects.iter().map(|subject| spectrum::rates(subject)).collect::<Result<Vec<_>, _>>()?;
+    let text = |part, words: &[_]| sentences("beam-alignment-spectra", part, words);
     let counts = subjects.iter().zip(spectra).map(|(subject, spectrum)| {
         let known = spectrum.lines.iter().filter(|line| line.combination.is_some()).count();
         match spectrum.lines.len() {
@@ -82,8 +82,7 @@ fn caption(subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -> Result<
     });
     let mut says = spectrum::sentence(&counts.collect::<Vec<_>>().join("; "));
     if subjects.len() > 1 {
-        says += " The peaks stand beside the dashed lines: Lorentz violation shifts the rates. The smallest frequency of tp-II, *l*, is that \
-                 at which its angular momentum goes round *Z*; tp-I has it too, but 600 times weaker than its strongest line.";
+        says += &format!(" {}", text("examples", &[]));
     }
     let drawn = subjects.iter().zip(spectra).enumerate();
     let names: Vec<_> = drawn
@@ -101,13 +100,7 @@ fn caption(subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -> Result<
     Ok(Caption {
         shows,
         parameters: parameters(&line_of_sight(subjects, true), subjects),
-        method: format!(
-            "Fourier transform of 49,152 values over {} with Kaiser's window (shape 14); lines by a joint fit, to 10^{{−5}} of the strongest; mean rates \
-             by weighted averages. Mean rates in {}: {}.",
-            spectrum::length_in_words(subjects),
-            subjects[0].scale.frequency_unit(),
-            rates.join("; ")
-        ),
+        method: text("method", &spectrum::of_series(subjects)?),
         says,
     })
 }

@@ -78,17 +78,7 @@ fn draw(m: &Vector3<f64>, n: &Vector3<f64>) -> String {
 }
 
 fn caption() -> Caption {
-    Caption {
-        shows: "Cone model of pulsar radiation: a cone of semi-open angle *ρ* about the magnetic axis **m**, which is fixed in the star and \
-                turns with it, and the direction **n** of the observer, which is fixed in the frame *X*-*Y*-*Z*. Colatitude and azimuth \
-                are (*Θ*, *Φ*) for **m** and (*θ*_{o}, *φ*_{o}) for **n**; dashed lines are projections on the plane *X*-*Y*."
-            .to_owned(),
-        parameters: format!(
-            "Drawn for *Θ* = {}, *Φ* = {}, *ρ* = {HALF_OPENING}, *θ*_{{o}} = {}, *φ*_{{o}} = {} rad.",
-            BEAM[0], BEAM[1], OBSERVER[0], OBSERVER[1]
-        ),
-        method: "Eqs. (44)-(46), (49); orthographic projection.".to_owned(),
-        says: "The observer sees radiation while the cone holds **n**: **m** · **n** > cos *ρ*. The second cone, about −**m**, is not drawn."
-            .to_owned(),
-    }
+    let numbers = [("theta", BEAM[0]), ("phi", BEAM[1]), ("rho", HALF_OPENING)];
+    let of_observer = [("seen_at", OBSERVER[0]), ("seen_about", OBSERVER[1])];
+    Caption::of("beam-cone", &numbers.into_iter().chain(of_observer).map(written).collect::<Vec<_>>())
 }

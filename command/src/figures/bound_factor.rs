@@ -74,23 +74,5 @@ fn caption(table: &Table) -> Caption {
             format!("{:.1} at *β*_{{0}} = {:.2}, where 1/cos *β*_{{0}} is {:.1}", row[2], row[0], row[1])
         })
     };
-    Caption {
-        shows: "Factor *η* of Eq. (41) against the inclination *β*_{0} of the spin axis to *Z*, for single precession: 1/cos *β*_{0} as the paper \
-                estimates it (dashed); from the root mean square of d cos *λ*/d*t* over directions to the observer, azimuths of the axis and \
-                time (thick); not exceeded in half (dash-dotted) and in 97.5 % (dotted) of directions and azimuths at that inclination. Thin \
-                grey: the root mean square for *s*^{*XX*} = *s*^{*YY*}; the level is the paper's *η* = 10."
-            .to_owned(),
-        parameters: "(*s*^{*XX*} − *s*^{*YY*}) / (2*s*^{*ZZ*} − *s*^{*XX*} − *s*^{*YY*}) = −1/11, that of the paper's examples; the size of *s* does not matter."
-            .to_owned(),
-        method: "Averaged motion of the spin axis, d**l**/d*t* = (2*C*/(*I*^{*zz*}*Ω*^{*z*})) (*s* **l**) × **l**; averages over time by elliptic integrals, those over \
-                 directions in closed form."
-            .to_owned(),
-        says: format!(
-            "The estimate 1/cos *β*_{{0}} is too small at small inclinations, where a spin axis near *Z* moves little: {}. It comes near at about 1.4 \
-             ({}), and at π/2 the root mean square stays below 10 or so, as the paper says. A single direction may see much less change, and \
-             *η* is then larger.",
-            at(0.2),
-            at(1.4)
-        ),
-    }
+    Caption::of("bound-factor", &[("small", at(0.2)), ("large", at(1.4))])
 }

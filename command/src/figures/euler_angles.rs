@@ -88,19 +88,16 @@ fn caption(axes: [&str; 3], nodes: [&str; 2], frame: &str) -> Caption {
     let [first, second, third] = axes;
     // One stretch of italics: two side by side would be the mark of bold.
     let line = format!("*{}*", nodes.map(plain).concat());
-    Caption {
-        shows: format!(
-            "Euler angles *α*, *β* and *γ* between the inertial frame {frame} (black) and the body frame *x*-*y*-*z* (blue). The line {line} \
-             is the intersection of the planes {first}-{second} and *x*-*y*, drawn as circles, dashed where they are behind."
-        ),
-        parameters: format!("Drawn for *α* = {}, *β* = {}, *γ* = {} rad.", ANGLES.alpha, ANGLES.beta, ANGLES.gamma),
-        method: format!(
-            "Rotation matrix of Eqs. (8), (9){}; orthographic projection.",
-            if third == "*X*" { " in the frame permuted by Eq. (36)" } else { "" }
-        ),
-        says: format!(
-            "*α* counts from {first} to the line of nodes, *β* from {third} to *z*, *γ* from the line of nodes to *x*{}.",
-            if third == "*X*" { ": with these angles the solutions apply to forced precession about *X*" } else { "" }
-        ),
-    }
+    let [permuted, forced] = match third {
+        "*X*" => [
+            " in the frame permuted by Eq. (36)",
+            ": with these angles the solutions apply to forced precession about *X*",
+        ],
+        _ => ["", ""],
+    };
+    let EulerAngles { alpha, beta, gamma } = ANGLES;
+    let words = [("frame", frame), ("line", &line), ("first", first), ("second", second), ("third", third)];
+    let angles = [("alpha", alpha), ("beta", beta), ("gamma", gamma)].map(written);
+    let words = words.into_iter().chain([("permuted", permuted), ("forced", forced)]).map(written);
+    Caption::of("euler-angles", &words.chain(angles).collect::<Vec<_>>())
 }

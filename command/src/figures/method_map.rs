@@ -27,7 +27,11 @@ const COLUMNS: [&str; 4] = ["mean second", "mean first", "corrected", "printed"]
 pub(super) fn sheet() -> Result<Sheet, String> {
     let maps: Vec<Map> = Geometry::ALL.into_iter().map(map).collect::<Result<_, _>>()?;
     let svg = draw(&maps);
-    Ok(Sheet { svg, caption: caption(), tables: maps.into_iter().map(|map| map.table).collect() })
+    Ok(Sheet {
+        svg,
+        caption: Caption::of("method-regimes", &[]),
+        tables: maps.into_iter().map(|map| map.table).collect(),
+    })
 }
 
 struct Map {
@@ -135,25 +139,5 @@ fn legend(page: &mut Page, top: f64) {
         page.outline(r, solid(BLACK, 0.6));
         page.text([left + 15.0, top + 7.0], Anchor::Start, SMALL, BLACK, name);
         left += width;
-    }
-}
-
-fn caption() -> Caption {
-    Caption {
-        shows: "The simplest solution whose axis **e**_{*z*} stays within 10^{−3} rad (upper row) and 10^{−6} rad (lower row) of the true one up to a time, by \
-                strength *x* = *C*(*s*_{max} − *s*_{min})*I*^{*xx*}/*L*^{2} of the torque: the printed or the corrected perturbation solution, the averaged motion of first or second \
-                order, or none of them. Lines: where each of them meets the error, also under a simpler one. Columns: motions like tp-I, tp-II and sp-I, \
-                and one near the separatrix (*k'*^{2} = 10^{−3})."
-            .to_owned(),
-        parameters: "*I*^{*zz*}/*I*^{*xx*} = 1.1, *s* = diag(0.02, 0.01, −0.04) scaled. Perturbation solutions: *Ω*^{*z*} = 1, *β*_{0} = 0.7, *α*_{0} = *φ* = π/2, *A* = 0, 0.4, and 0.01 times \
-                     the scale. Near the separatrix: |*L*| = 1.5, **e**_{*z*} at 0.7 rad from *L*."
-            .to_owned(),
-        method: "Largest error so far at 150 times, against numerical motion by Taylor series at 10^{−13}, which meets either error everywhere here. Perturbation solutions from their \
-                 own initial values."
-            .to_owned(),
-        says: "The averaged motion of first order is off by less than 3*x*^{2} + 1.5*x*^{2}*t*/*t*_{c}, that of second order by less than 3*x*^{2} + 5*x*^{3}*t*/*t*_{c}, whatever the tilt of *L*, near the \
-               separatrix too. Where *L* is near *Z* the printed twofold solution is off by 0.01*x* soon, and like the corrected one by 2*x*^{2}*t*/*t*_{c} in the long run; where *L* is tilted, by *A* = 0.4, \
-               neither is of use. The printed single solution drifts by 0.03*xt*/*t*_{c}, the corrected one by 0.002 to 0.006 of *xt*/*t*_{c}."
-            .to_owned(),
     }
 }

@@ -8,6 +8,7 @@ mod alignment_spectra;
 mod axes;
 mod beam_cone;
 mod bound_factor;
+mod caption;
 mod contour;
 #[cfg(test)]
 mod curve_tests;
@@ -32,6 +33,7 @@ mod number;
 mod parameters;
 mod png;
 mod pulse_series;
+mod readme;
 mod recipe;
 mod regime_map;
 mod scale;
@@ -47,12 +49,13 @@ mod wave_spectra;
 mod waves;
 mod work_precision;
 
+pub(crate) use caption::Caption;
 pub(crate) use examples::examples;
 pub use golden::golden_tables;
 pub(crate) use markup::{html, markdown, plain};
 pub(crate) use png::png;
 use rayon::prelude::*;
-use recipe::Sheet;
+pub use readme::readme_picture;
 pub(crate) use recipe::{OF_A_SCENE, RECIPES, Recipe};
 pub(crate) use subject::Subject;
 pub(crate) use table::Table;
@@ -70,20 +73,6 @@ pub struct Figure {
     pub(crate) tables: Vec<Table>,
     /// The picture, a whole SVG document.
     pub(crate) svg: String,
-}
-
-#[derive(Debug, Clone)]
-pub(crate) struct Caption {
-    pub(crate) shows: String,
-    pub(crate) parameters: String,
-    pub(crate) method: String,
-    pub(crate) says: String,
-}
-
-impl Caption {
-    pub(crate) fn paragraphs(&self) -> [&str; 4] {
-        [&self.shows, &self.parameters, &self.method, &self.says]
-    }
 }
 
 impl Figure {

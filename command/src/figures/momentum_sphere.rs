@@ -108,26 +108,8 @@ fn draw(name: &str, motions: &[&Subject], table: &Table) -> String {
 }
 
 fn caption() -> Caption {
-    Caption {
-        shows: "Sphere of the directions **l** = **L**/|**L**| of the angular momentum. Grey: contours of **l** · (*s* **l**). Dashed: the separatrix, \
-                two great circles through the middle axis *Y*. Coloured: numerical paths of the four examples and of a star that \
-                spins about an axis near *Y*; what is behind the sphere is pale."
-            .to_owned(),
-        parameters: format!(
-            "*s*^{{*XX*}}, *s*^{{*YY*}}, *s*^{{*ZZ*}} = {}, {}, {}; contours at {}; paths over {SPAN} *t*_{{c}}; the star near *Y* starts {TILT} rad from \
-             it towards *Z*, with *Ω*^{{*z*}} = {SPIN}.",
-            COEFFICIENTS.xx,
-            COEFFICIENTS.yy,
-            COEFFICIENTS.zz,
-            LEVELS.map(|level| super::axes::signed(&level.to_string())).join(", ")
-        ),
-        method: "Averaged over the free precession, d**l**/d*t* = (2*C* *P*_{2}(*c*)/*G*) (*s* **l**) × **l** with *c* = **n** · **l**, *G* = |**L**|: the contours \
-                 are its solutions, those of a free asymmetric top. The paths are those of the full equations of motion."
-            .to_owned(),
-        says: "The mean path of the angular momentum is a contour; the loops on it are the fast motion. About *X* and *Z*, the axes of \
-               the largest and the smallest eigenvalue, precession is stable, about *Y* it is not: a star that starts near *Y* \
-               leaves it along the separatrix, goes round, and comes back. sp-II runs close to the separatrix, which is why no \
-               expansion about precession at constant inclination describes it."
-            .to_owned(),
-    }
+    let s = [("xx", COEFFICIENTS.xx), ("yy", COEFFICIENTS.yy), ("zz", COEFFICIENTS.zz)];
+    let numbers = s.into_iter().chain([("span", SPAN), ("tilt", TILT), ("spin", SPIN)]).map(written);
+    let levels = LEVELS.map(|level| signed(&level.to_string())).join(", ");
+    Caption::of("momentum-sphere", &numbers.chain([("levels", levels)]).collect::<Vec<_>>())
 }

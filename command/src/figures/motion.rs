@@ -143,15 +143,10 @@ fn caption(subject: &Subject, angles: &Table) -> Caption {
         }
     };
     let in_unit = |t: f64| format!("{} {}", number(scale.time(t)), scale.time_unit());
+    let spans = [("tight", in_unit(shown.equatorial_axis)), ("wide", in_unit(shown.angles))];
+    let words: Vec<_> = spans.into_iter().chain([("name", subject.name.clone())]).collect();
     Caption {
-        shows: format!(
-            "{}. (a) Euler angles *α* and *β* in time. (b) Paths of the heads of **e**_{{*x*}} (thin, green; for *t* up to {}) and \
-             **e**_{{*z*}} (thick, blue; for *t* up to {}) in the frame *X*-*Y*-*Z*, their tails at the origin; arrows mark both at \
-             *t* = 0, and what is behind the unit sphere is pale.",
-            subject.name,
-            in_unit(shown.equatorial_axis),
-            in_unit(shown.angles)
-        ),
+        shows: sentences("motion", "shows", &words),
         parameters: parameters("", &[subject]),
         method: format!(
             "Numerical: Taylor series of the regular equations of motion, Eq. (25) without its poles.{solutions}"

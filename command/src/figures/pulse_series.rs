@@ -178,6 +178,7 @@ fn shifted(points: impl Iterator<Item = (f64, f64)>, by: f64) -> Vec<(f64, f64)>
 }
 
 fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
+    let text = |part| sentences("pulse-series", part, &[]);
     let ranges = subjects.iter().zip(series).map(|(subject, Series { pulses, .. })| {
         let name = &subject.name;
         let unit = format!(" {}", subject.scale.time_unit());
@@ -199,28 +200,15 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
     });
     let mut says: Vec<_> = ranges.collect();
     if series.iter().any(|series| series.curves.is_some()) {
-        says.push(
-            "The formulas follow the series, with angles and rates at the instant as with mean ones; with the rates of Eq. (57), which are of \
-             first order, they drift out of step."
-                .to_owned(),
-        );
+        says.push(text("formulas"));
     }
     if subjects.len() > 1 {
-        says.push(
-            "Both are modulated with the period of *γ*, about 40 *t*_{c}; tp-II has a second modulation of about 180 *t*_{c}, that of \
-             its angular momentum about *Z*. In tp-I the rates of Eq. (57) are off by a radian of *γ* in 400 *t*_{c}."
-                .to_owned(),
-        );
+        says.push(text("modulation"));
     }
-    let mut shows = "Periods (top) and lengths in time (bottom) of the pulses: the period is the time between the midpoints of two \
-                     consecutive pulses, at the mean of both midpoints, the length is at its midpoint."
-        .to_owned();
-    let mut method = "Edges of the pulses: roots of **m** · **n** = cos *ρ*, Eq. (44), along the numerical motion, with bounds that let none be \
-                      missed."
-        .to_owned();
+    let mut shows = text("shows");
+    let mut method = text("method");
     if series.iter().any(|series| !series.pulses.gaps.is_empty()) {
-        shows += " Intervals that are not from one turn of the star to the next, because a turn has no pulse or a pulse lasts for more than a turn, \
-                  are left out.";
+        shows += &format!(" {}", text("gaps"));
     }
     let apart = |row: usize| series.iter().any(|series| reference(&series.values(row)).is_some());
     shows += match [apart(0), apart(1)] {
@@ -239,10 +227,7 @@ fn caption(subjects: &[&Subject], series: &[Series]) -> Caption {
         shows += &format!(" Thin grey lines join points{only}{broken}.");
     }
     if series.iter().any(|series| series.curves.is_some()) {
-        method += " Solid curves, the paper's: 2π over the rate of azimuth *α*′ + Δ*Φ*′, the period of Eqs. (51) and (52) before it is \
-                   expanded, and the width (56) over the mean rate of azimuth, both with the angles and rates of the numerical motion at each \
-                   instant. Dotted and dashed, not in the paper: Eq. (51) to first order and the width over the rate of azimuth at constant \
-                   *β*_{0} and constant rates, the mean ones of the motion and those of Eq. (57).";
+        method += &format!(" {}", text("curves"));
     }
     Caption { shows, parameters: parameters(&line_of_sight(subjects, true), subjects), method, says: says.join(" ") }
 }

@@ -1,5 +1,7 @@
 //! Which figures there are, and what each is drawn from.
 
+use std::sync::LazyLock;
+
 use super::{
     Caption, Figure, Subject, Table, alignment, alignment_spectra, beam_cone, bound_factor, euler_angles, method_map,
     momentum_sphere, motion, pulse_series, regime_map, wave_spectra, waves,
@@ -37,112 +39,46 @@ pub struct Recipe {
     maker: Maker,
 }
 
+/// A figure on a line: its name; its number in the paper, `-`, or `scene` if it is of any motion; what it shows.
+const LIST: &str = include_str!("../../data/figures.txt");
+
 /// All figures: the paper's in its order, then ours.
-pub const RECIPES: &[Recipe] = &[
-    alone("euler-angles", Some(1), "Euler angles between the frames X-Y-Z and x-y-z", euler_angles::common),
-    Recipe {
-        name: "motion-tp-1",
-        paper_figure: Some(2),
-        summary: "Example I of twofold precession: Euler angles and the paths of the body axes",
-        maker: Maker::Motions(Needs::Nothing, &[0], motion::sheet),
-    },
-    Recipe {
-        name: "motion-tp-2",
-        paper_figure: Some(3),
-        summary: "Example II of twofold precession: Euler angles and the paths of the body axes",
-        maker: Maker::Motions(Needs::Nothing, &[1], motion::sheet),
-    },
-    Recipe {
-        name: "motion-sp-1",
-        paper_figure: Some(4),
-        summary: "Example I of single precession: Euler angles and the paths of the body axes",
-        maker: Maker::Motions(Needs::Nothing, &[2], motion::sheet),
-    },
-    Recipe {
-        name: "motion-sp-2",
-        paper_figure: Some(5),
-        summary: "Example II of single precession: Euler angles and the paths of the body axes",
-        maker: Maker::Motions(Needs::Nothing, &[3], motion::sheet),
-    },
-    alone("euler-angles-yzx", Some(6), "Euler angles between the frames Y-Z-X and x-y-z", euler_angles::permuted),
-    alone("beam-cone", Some(7), "Cone model of pulsar radiation: magnetic axis and line of sight", beam_cone::sheet),
-    Recipe {
-        name: "beam-alignment",
-        paper_figure: Some(8),
-        summary: "Cosine of the angle between beam and line of sight in time, tp-I and tp-II",
-        maker: Maker::Motions(Needs::ObserverAndBeam, &[0, 1], alignment::sheet),
-    },
-    Recipe {
-        name: "beam-alignment-spectra",
-        paper_figure: Some(9),
-        summary: "Spectra of the cosine of the angle between beam and line of sight, tp-I and tp-II",
-        maker: Maker::Motions(Needs::ObserverAndBeam, &[0, 1], alignment_spectra::sheet),
-    },
-    Recipe {
-        name: "pulse-series",
-        paper_figure: Some(10),
-        summary: "Periods and lengths of the pulses of tp-I and tp-II, with the curves of Eqs. (51), (56)",
-        maker: Maker::Motions(Needs::ObserverAndBeam, &[0, 1], pulse_series::sheet),
-    },
-    Recipe {
-        name: "waves",
-        paper_figure: Some(11),
-        summary: "Gravitational waves h_+ and h_x of tp-I and tp-II in time",
-        maker: Maker::Motions(Needs::Waves, &[0, 1], waves::sheet),
-    },
-    Recipe {
-        name: "wave-spectra",
-        paper_figure: Some(12),
-        summary: "Spectra of the gravitational waves of tp-I and tp-II, with the third harmonic enlarged",
-        maker: Maker::Motions(Needs::Waves, &[0, 1], wave_spectra::sheet),
-    },
-    alone("bound-factor", None, "Factor eta of the bounds from pulsars against the inclination", bound_factor::sheet),
-    alone("perturbation-regimes", None, "Error of the perturbation solutions over their parameters", regime_map::sheet),
-    alone(
-        "method-regimes",
-        None,
-        "Which approximate motion meets a given error, by strength of the torque and time",
-        method_map::sheet,
-    ),
-    Recipe {
-        name: "momentum-sphere",
-        paper_figure: None,
-        summary: "Directions of the angular momentum: contours, separatrix and paths of the examples",
-        maker: Maker::Motions(Needs::Nothing, &[0, 1, 2, 3], momentum_sphere::sheet),
-    },
-];
+pub static RECIPES: LazyLock<Vec<Recipe>> = LazyLock::new(|| listed(false));
 
 /// Figures of any motion, for a scene.
-pub const OF_A_SCENE: &[Recipe] = &[
-    of_scene("motion", "Euler angles and the paths of the body axes", Needs::Nothing, motion::sheet),
-    of_scene(
-        "beam-alignment",
-        "Cosine of the angle between beam and line of sight in time",
-        Needs::ObserverAndBeam,
-        alignment::sheet,
-    ),
-    of_scene(
-        "beam-alignment-spectra",
-        "Spectrum of the cosine of the angle between beam and line of sight",
-        Needs::ObserverAndBeam,
-        alignment_spectra::sheet,
-    ),
-    of_scene("pulse-series", "Periods and lengths of the pulses", Needs::ObserverAndBeam, pulse_series::sheet),
-    of_scene("waves", "Gravitational waves h_+ and h_x in time", Needs::Waves, waves::sheet),
-    of_scene("wave-spectra", "Spectra of the gravitational waves", Needs::Waves, wave_spectra::sheet),
-];
+pub static OF_A_SCENE: LazyLock<Vec<Recipe>> = LazyLock::new(|| listed(true));
 
-const fn alone(
-    name: &'static str,
-    paper_figure: Option<u8>,
-    summary: &'static str,
-    make: fn() -> Result<Sheet, String>,
-) -> Recipe {
-    Recipe { name, paper_figure, summary, maker: Maker::Alone(make) }
+fn listed(of_a_scene: bool) -> Vec<Recipe> {
+    let recipe = |line: &'static str| {
+        let mut words = line.splitn(3, ' ');
+        let [name, number, summary] = [words.next(), words.next(), words.next()].map(|word| word.expect("three words"));
+        let maker = maker(name, if of_a_scene { &[0] } else { &[0, 1] });
+        (of_a_scene == (number == "scene")).then(|| Recipe { name, paper_figure: number.parse().ok(), summary, maker })
+    };
+    LIST.lines().filter_map(recipe).collect()
 }
 
-const fn of_scene(name: &'static str, summary: &'static str, needs: Needs, make: OfMotions) -> Recipe {
-    Recipe { name, paper_figure: None, summary, maker: Maker::Motions(needs, &[0], make) }
+/// How a figure is made, one of several motions with those at some places.
+fn maker(name: &str, places: &'static [usize]) -> Maker {
+    match name {
+        "euler-angles" => Maker::Alone(euler_angles::common),
+        "euler-angles-yzx" => Maker::Alone(euler_angles::permuted),
+        "beam-cone" => Maker::Alone(beam_cone::sheet),
+        "bound-factor" => Maker::Alone(bound_factor::sheet),
+        "perturbation-regimes" => Maker::Alone(regime_map::sheet),
+        "method-regimes" => Maker::Alone(method_map::sheet),
+        "motion" | "motion-tp-1" => Maker::Motions(Needs::Nothing, &[0], motion::sheet),
+        "motion-tp-2" => Maker::Motions(Needs::Nothing, &[1], motion::sheet),
+        "motion-sp-1" => Maker::Motions(Needs::Nothing, &[2], motion::sheet),
+        "motion-sp-2" => Maker::Motions(Needs::Nothing, &[3], motion::sheet),
+        "beam-alignment" => Maker::Motions(Needs::ObserverAndBeam, places, alignment::sheet),
+        "beam-alignment-spectra" => Maker::Motions(Needs::ObserverAndBeam, places, alignment_spectra::sheet),
+        "pulse-series" => Maker::Motions(Needs::ObserverAndBeam, places, pulse_series::sheet),
+        "waves" => Maker::Motions(Needs::Waves, places, waves::sheet),
+        "wave-spectra" => Maker::Motions(Needs::Waves, places, wave_spectra::sheet),
+        "momentum-sphere" => Maker::Motions(Needs::Nothing, &[0, 1, 2, 3], momentum_sphere::sheet),
+        other => panic!("what is the figure {other}?"),
+    }
 }
 
 impl Recipe {

@@ -173,25 +173,7 @@ fn scale(page: &mut Page, left: f64, top: f64, height: f64) {
 }
 
 fn caption() -> Caption {
-    Caption {
-        shows: format!(
-            "Largest distance between the heads of the true **e**_{{*z*}} and of that by a perturbation solution from the same initial values. \
-             (a), (b) Twofold precession over {DURATION} *t*_{{c}}, by mean inclination *β*_{{0}} and amplitude *A*: as printed and corrected. (c), (d) \
-             Single precession over one forced period, by *β*_{{0}} and the asymmetry |*s*^{{*XX*}} − *s*^{{*YY*}}| / |2*s*^{{*ZZ*}} − *s*^{{*XX*}} − *s*^{{*YY*}}|. Lines \
-             join equal errors of 10^{{−4}} to 10^{{−1}}; rings mark the constants of the paper's examples."
-        ),
-        parameters: format!(
-            "*I*^{{*zz*}}/*I*^{{*xx*}} = 1.1, *Ω*^{{*z*}} = 1, *α*_{{0}} = *φ* = π/2. (a), (b): *s* of the examples times {SCALE}. (c), (d): 2*s*^{{*ZZ*}} − *s*^{{*XX*}} − *s*^{{*YY*}} = \
-             −{COMBINATION} and *A* = {SINGLE_AMPLITUDE} as in the examples, both times 10^{{−4}}."
-        ),
-        method: "Numerical motion, for single precession averaged motion of second order, against Eqs. (30)-(33) as printed and against the \
-                 solutions of the full first-order equations, which keep the term that Eq. (29) lacks."
-            .to_owned(),
-        says: "The error of the printed twofold solution is proportional to *A*, the order of the solution itself, at every *β*_{0}; that of the \
-               corrected one falls with the square of *A* down to the square of *s*, and does not grow towards *β*_{0} = π/2. tp-II \
-               is outside of both. The error of the printed single solution is proportional to the asymmetry, that of the corrected one to its square; \
-               towards π/2 both fail at ever smaller asymmetries. At the asymmetry of sp-I the correction takes a quarter off an error of 0.03; at \
-               the full *s* of the examples, where terms of the order of *s* are larger, it changes nothing."
-            .to_owned(),
-    }
+    let of_single = [("combination", COMBINATION), ("amplitude", SINGLE_AMPLITUDE)];
+    let numbers = [("duration", DURATION), ("scale", SCALE)].into_iter().chain(of_single);
+    Caption::of("perturbation-regimes", &numbers.map(written).collect::<Vec<_>>())
 }

@@ -132,7 +132,14 @@ pub(super) fn sentence(clauses: &str) -> String {
     letters.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
 }
 
-pub(super) fn rates(subject: &Subject) -> Result<String, String> {
+/// Words of the captions: length of the series, unit of frequencies, mean rates.
+pub(super) fn of_series(subjects: &[&Subject]) -> Result<[(&'static str, String); 3], String> {
+    let rates = subjects.iter().map(|subject| rates(subject)).collect::<Result<Vec<_>, _>>()?.join("; ");
+    let unit = subjects[0].scale.frequency_unit().to_owned();
+    Ok([("length", length_in_words(subjects)), ("unit", unit), ("rates", rates)])
+}
+
+fn rates(subject: &Subject) -> Result<String, String> {
     let Some(f) = &subject.long_motion()?.frequencies else {
         return Ok(format!("{}: none is certain over the length of the series", subject.name));
     };
@@ -153,7 +160,7 @@ pub(super) fn rates(subject: &Subject) -> Result<String, String> {
     Ok(format!("{}: {}", subject.name, known.collect::<Vec<_>>().join(", ")))
 }
 
-pub(super) fn length_in_words(subjects: &[&Subject]) -> String {
+fn length_in_words(subjects: &[&Subject]) -> String {
     let length = |s: &&Subject| format!("{} {}", number(s.scale.time(s.spectrum_duration)), s.scale.time_unit());
     let mut lengths: Vec<_> = subjects.iter().map(length).collect();
     lengths.dedup();

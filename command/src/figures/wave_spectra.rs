@@ -128,10 +128,9 @@ fn inset(page: &mut Page, frame: Rectangle, rate: f64, spectrum: &Spectrum) {
 }
 
 fn caption(subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f64) -> Result<Caption, String> {
-    let rates = subjects.iter().map(|subject| spectrum::rates(subject)).collect::<Result<Vec<_>, _>>()?;
     let says: Vec<_> = subjects.iter().zip(spectra).map(|(subject, both)| findings(subject, both)).collect();
-    let scale = &subjects[0].scale;
-    let mut shows = format!("Amplitude spectra of *h*_{{+}} (top) and *h*_{{×}} (bottom), {}", scale.wave_unit());
+    let mut shows =
+        format!("Amplitude spectra of *h*_{{+}} (top) and *h*_{{×}} (bottom), {}", subjects[0].scale.wave_unit());
     let mut insets = Vec::new();
     for (subject, both) in subjects.iter().zip(spectra) {
         insets.extend(fundamental(subject, both, highest)?);
@@ -146,13 +145,7 @@ fn caption(subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f64) -> Re
     Ok(Caption {
         shows,
         parameters: parameters(&line_of_sight(subjects, false), subjects),
-        method: format!(
-            "Waves by Eqs. (59), (64), (65), (69)-(71); Fourier transform of 49,152 values over {} with Kaiser's window (shape 14); lines by a joint fit, to \
-             10^{{−5}} of the strongest. Mean rates in {}: {}.",
-            spectrum::length_in_words(subjects),
-            scale.frequency_unit(),
-            rates.join("; ")
-        ),
+        method: sentences("wave-spectra", "method", &spectrum::of_series(subjects)?),
         says: says.join(" "),
     })
 }

@@ -74,6 +74,7 @@ fn radiates(subject: &Subject, table: &Table) -> bool {
 }
 
 fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
+    let text = |part| sentences("waves", part, &[]);
     let unit = match subjects[0].viewer().ok().and_then(|viewer| viewer.distance) {
         Some(distance) => format!(", as strain at {} kpc", significant(distance / KILOPARSEC, 4)),
         None => "; *h* *r* / *I*^{*xx*} counts multiples of *G* / (*c*^{4} *t*_{c}^{2})".to_owned(),
@@ -94,15 +95,12 @@ fn caption(subjects: &[&Subject], tables: &[Table]) -> Caption {
     let ranges: Vec<_> = subjects.iter().zip(tables).map(range).collect();
     let mut says = format!("{}; the scales are the same.", ranges.join(". "));
     if subjects.len() > 1 {
-        says += " For tp-I the wave is nearly that of a freely precessing star, two lines at the rate of *α* and twice that. For tp-II \
-                 the axis of precession itself is tilted to *Z* and goes round, which changes the shape of the wave slowly.";
+        says += &format!(" {}", text("examples"));
     }
     Caption {
         shows: format!("Quadrupole waves *h*_{{+}} and *h*_{{×}} at the observer in time{unit}."),
         parameters: parameters(&line_of_sight(subjects, false), subjects),
-        method: "Numerical motion; second time derivative of the moment of inertia, Eqs. (64), (65), in the form for a spheroid; \
-                 *h*^{*IJ*} by Eq. (59) and the polarizations by Eqs. (69)-(71)."
-            .to_owned(),
+        method: text("method"),
         says,
     }
 }

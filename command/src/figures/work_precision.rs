@@ -75,7 +75,7 @@ pub fn work_precision(rows: &[Row]) -> Figure {
         name: NAME.to_owned(),
         paper_figure: None,
         summary: "Time of a motion against its error, by method".to_owned(),
-        caption: caption(),
+        caption: Caption::of(NAME, &[]),
         tables,
         svg,
     }
@@ -102,13 +102,4 @@ fn times(rows: &[Row]) -> (f64, f64) {
     let shown = rows.iter().filter(|row| row.error <= ERRORS.1).map(|row| row.times.least * 1e3);
     let (low, high) = shown.fold((f64::INFINITY, 0.0_f64), |(l, h), t| (l.min(t), h.max(t)));
     (low / 1.5, high * 1.5)
-}
-
-fn caption() -> Caption {
-    Caption {
-        shows: "Least time of a motion of 1,000 *t*_{c} on one core against the largest error of a component at its end.".to_owned(),
-        parameters: "tp-II; tp-II with *s* scaled by 2.5 × 10^{−5}; *s* = diag(0.3, 0.1, −0.4).".to_owned(),
-        method: "Runs in turn; of each method those that no other of its runs beats in both. Errors against motions of 50 digits.".to_owned(),
-        says: "Lower and further left is better.".to_owned(),
-    }
 }

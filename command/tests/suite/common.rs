@@ -2,31 +2,26 @@
 #![allow(dead_code, reason = "no test uses everything")]
 
 use std::fs;
-use std::path::Path;
-use std::process::{Child, Command, Output};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
 use tempfile::{TempDir, tempdir};
+use twofold_scene::scene_file::built_in;
+
+/// The program.
+pub const TWOFOLD: &str = env!("CARGO_BIN_EXE_twofold");
 
 /// Runs the command to its end.
 pub fn twofold(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_twofold")).args(args).output().expect("the command starts")
+    Command::new(TWOFOLD).args(args).output().expect("the command starts")
 }
 
 /// Runs the command, which succeeds.
+#[track_caller]
 pub fn succeeds(args: &[&str]) -> Output {
-    let output = twofold(args);
-    assert_eq!(output.status.code(), Some(0), "{args:?}: {}", stderr(&output));
-    output
-}
-
-/// Runs the command, which refuses its input: status 2 and nothing on standard output.
-pub fn refuses(args: &[&str]) -> Output {
-    let output = twofold(args);
-    assert_eq!(output.status.code(), Some(2), "{args:?}: {}", stderr(&output));
-    assert!(output.stdout.is_empty(), "{args:?}: something on standard output");
-    output
+    ends(twofold(args), 0)
 }
 
 /// A command that ended with this status.
@@ -55,13 +50,119 @@ pub fn is_refused(output: &Output, fragments: &[impl AsRef<str>]) {
     has_all(&message, fragments);
 }
 
-/// A file with a text in a folder that is removed at the end, and its path.
-pub fn file(name: &str, text: impl AsRef<[u8]>) -> (TempDir, String) {
-    let folder = folder();
-    let path = folder.path().join(name);
-    fs::write(&path, text).expect("a file");
-    let path = path.to_str().expect("a path in UTF-8").to_owned();
-    (folder, path)
+/// A folder in which commands run; it is removed at the end.
+pub struct Folder(TempDir);
+
+impl Folder {
+    /// An empty folder.
+    pub fn new() -> Self {
+        Self(tempdir().expect("a temporary folder"))
+    }
+
+    /// A folder with some files.
+    pub fn with(files: &[(&str, &str)]) -> Self {
+        let place = Self::new();
+        files.iter().for_each(|(name, text)| place.write(name, text));
+        place
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    /// The path of a file.
+    pub fn at(&self, name: &str) -> PathBuf {
+        self.path().join(name)
+    }
+
+    /// Writes a file, in folders that are made for it.
+    pub fn write(&self, name: &str, text: impl AsRef<[u8]>) {
+        let path = self.at(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        fs::write(path, text).expect("a file");
+    }
+
+    /// The bytes of a file.
+    pub fn bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.at(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    /// The text of a file.
+    pub fn read(&self, name: &str) -> String {
+        String::from_utf8(self.bytes(name)).expect("a text")
+    }
+
+    /// The length of a file, zero if it is not there.
+    pub fn length(&self, name: &str) -> u64 {
+        fs::metadata(self.at(name)).map_or(0, |found| found.len())
+    }
+
+    /// What is in the folder, in order.
+    pub fn names(&self) -> Vec<String> {
+        names_in(self.path())
+    }
+
+    /// Names and bytes of all files, those in folders too.
+    pub fn contents(&self) -> Vec<(String, Vec<u8>)> {
+        let (mut found, mut folders) = (Vec::new(), vec![self.path().to_owned()]);
+        while let Some(folder) = folders.pop() {
+            for path in names_in(&folder).iter().map(|name| folder.join(name)) {
+                match fs::read(&path) {
+                    Ok(bytes) => {
+                        found.push((path.strip_prefix(self.path()).expect("in it").display().to_string(), bytes))
+                    }
+                    Err(_) => folders.extend(path.is_dir().then_some(path)),
+                }
+            }
+        }
+        found
+    }
+
+    /// The command, in the folder.
+    pub fn command(&self, args: &[&str]) -> Command {
+        let mut command = Command::new(TWOFOLD);
+        command.args(args).current_dir(self.path()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    }
+
+    /// Runs the command in the folder to its end.
+    pub fn run(&self, args: &[&str]) -> Output {
+        self.command(args).output().expect("the command starts")
+    }
+
+    /// Runs it, and it succeeds.
+    #[track_caller]
+    pub fn succeeds(&self, args: &[&str]) -> Output {
+        ends(self.run(args), 0)
+    }
+}
+
+/// A built-in scene in which texts are replaced.
+#[track_caller]
+pub fn altered(name: &str, changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(built_in(name).expect("a scene").toml.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "no `{from}` in {name}");
+        text.replace(from, to)
+    })
+}
+
+/// A built-in scene in which the lines that begin so are others.
+pub fn with_lines(name: &str, lines: &[(&str, &str)]) -> String {
+    let text = built_in(name).expect("a scene").toml;
+    let other = |line| lines.iter().find(|(start, _)| str::starts_with(line, start)).map_or(line, |(_, other)| *other);
+    text.lines().map(|line| other(line).to_owned() + "\n").collect()
+}
+
+/// The columns of a table, as texts.
+pub fn cells(table: &str) -> Vec<Vec<&str>> {
+    table.lines().map(|line| line.split(',').collect()).collect()
+}
+
+/// The numbers of a table after its header; what is empty is not a number.
+pub fn numbers(table: &str) -> Vec<Vec<f64>> {
+    let number = |text: &str| if text.is_empty() { f64::NAN } else { text.parse().expect("a number") };
+    table.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect()
 }
 
 /// Standard output as text.
@@ -95,14 +196,10 @@ pub fn send(child: &Child, signal: &str) {
     assert!(sent.success(), "{signal}");
 }
 
-/// A folder that is removed at the end.
-pub fn folder() -> TempDir {
-    tempdir().expect("a temporary folder")
-}
-
 /// The names of what is in a folder, in order.
 pub fn names_in(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).expect("folder");
+    // A command that runs may take a folder away.
+    let entries = fs::read_dir(folder).into_iter().flatten();
     let mut names: Vec<_> =
         entries.map(|entry| entry.expect("entry").file_name().to_string_lossy().into_owned()).collect();
     names.sort();

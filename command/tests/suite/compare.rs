@@ -1,28 +1,14 @@
 //! `twofold compare` on files in the authors' format, made from our own motion, sound and with deliberate defects.
 
-use std::fs;
-use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use crate::common::{ends, has_all, stderr, stdout};
-use tempfile::{TempDir, tempdir};
-use twofold_scene::scene_file::{BUILT_IN, Scene};
+use crate::common::{Folder, altered, ends, has_all, is_refused, stderr, stdout};
+use twofold_scene::scene_file::{Scene, built_in};
 use twofold_scene::trajectory;
 
-fn compare(folder: &Path, extra: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_twofold"));
-    command.arg("compare").arg("--authors-data").arg(folder).args(extra).output().expect("the command starts")
-}
-
-/// A built-in scene with other lines.
-fn scene(name: &str, changes: &[(&str, &str)]) -> Scene {
-    let toml = BUILT_IN.iter().find(|scene| scene.name == name).expect("scene").toml;
-    let text = changes.iter().fold(toml.to_owned(), |text, (from, to)| {
-        assert!(text.contains(from), "no `{from}`");
-        text.replace(from, to)
-    });
-    Scene::from_toml(name, &text).unwrap_or_else(|error| panic!("{error}"))
+fn compare(folder: &Folder, extra: &[&str]) -> Output {
+    folder.run(&[&["compare", "--authors-data", "."], extra].concat())
 }
 
 /// Rows of a CSV table with the fields in another order, separated by tabs.
@@ -35,7 +21,9 @@ fn rows(table: &[u8], fields: &[usize]) -> String {
     text.lines().skip(1).map(row).collect::<Vec<_>>().join("\n")
 }
 
-fn motion(mut scene: Scene, columns: &[&str], fields: &[usize]) -> String {
+/// Columns of the motion of a built-in scene with other lines.
+fn motion(name: &str, changes: &[(&str, &str)], columns: &[&str], fields: &[usize]) -> String {
+    let mut scene = Scene::from_toml(name, &altered(name, changes)).expect("a scene");
     scene.choose_columns(columns).expect("columns");
     let mut table = Vec::new();
     trajectory::write_csv(&scene, &mut table, |_| {}).expect("motion");
@@ -49,14 +37,14 @@ fn files() -> &'static [(&'static str, String)] {
         let samples = ("samples = 4001", "samples = 10000");
         // t, alpha (1), beta (2), gamma, e_x (4..7), e_z (7..10), alpha and beta by Eq. (33) (10, 11)
         let angles = motion(
-            scene("sp-1", &[samples, ("span = 400", "span = 200")]),
+            "sp-1",
+            &[samples, ("span = 400", "span = 200")],
             &["angles", "perturbation", "e_x", "e_z"],
             &[0, 1, 10, 2, 11, 4, 5, 6, 7, 8, 9],
         );
-        let waves = motion(scene("tp-1", &[samples]), &["h"], &[0, 1, 2]);
+        let waves = motion("tp-1", &[samples], &["h"], &[0, 1, 2]);
         let caption = "alpha = 1.5707963267948966\nbeta = 0.701\nalpha_rate = 1.509\nbeta_rate = 0.0\n\n[observer]";
-        let toml = BUILT_IN.iter().find(|scene| scene.name == "tp-1").expect("tp-1").toml;
-        let (before, rest) = toml.split_once("kind =").expect("constants");
+        let (before, rest) = built_in("tp-1").expect("tp-1").toml.split_once("kind =").expect("constants");
         let (_, after) = rest.split_once("[observer]").expect("observer");
         let scene = Scene::from_toml("caption", &format!("{before}{caption}{after}")).expect("scene");
         let mut table = Vec::new();
@@ -75,21 +63,13 @@ fn files() -> &'static [(&'static str, String)] {
     })
 }
 
-fn folder_of(files: &[(&str, &[u8])]) -> TempDir {
-    let folder = tempdir().expect("a temporary folder");
-    for (name, bytes) in files {
-        fs::write(folder.path().join(name), bytes).expect("file");
+/// The sound files, one of them changed.
+fn with_change(name: &str, change: impl Fn(&str) -> Vec<u8>) -> Folder {
+    let folder = Folder::new();
+    for (file, text) in files() {
+        folder.write(file, if *file == name { change(text) } else { text.clone().into_bytes() });
     }
     folder
-}
-
-/// The sound files, one of them changed.
-fn with_change(name: &str, change: impl Fn(&str) -> Vec<u8>) -> TempDir {
-    let bytes: Vec<(&str, Vec<u8>)> = files()
-        .iter()
-        .map(|(file, text)| (*file, if *file == name { change(text) } else { text.clone().into_bytes() }))
-        .collect();
-    folder_of(&bytes.iter().map(|(name, bytes)| (*name, bytes.as_slice())).collect::<Vec<_>>())
 }
 
 /// The text with the line number `line`, from one, replaced.
@@ -102,21 +82,17 @@ fn with_line(text: &str, line: usize, replace: impl Fn(&str) -> String) -> Vec<u
 #[test]
 fn sound_files_agree_and_the_rest_is_told() {
     let folder = with_change("", |_| Vec::new());
-    fs::write(folder.path().join("LICENSE"), "MIT").expect("file");
-    fs::write(folder.path().join("cross1.dat"), "what it is nobody knows").expect("file");
-    let output = compare(folder.path(), &[]);
-    assert_eq!(output.status.code(), Some(0), "{}{}", stdout(&output), stderr(&output));
-    let text = stdout(&output);
+    folder.write("LICENSE", "MIT");
+    folder.write("cross1.dat", "what it is nobody knows");
     has_all(
-        &text,
+        &stdout(&ends(compare(&folder, &[]), 0)),
         &[
             "16 columns agree, none differs, 4 not judged",
             "not in the folder: tp1.dat, tp2.dat, sp2.dat, mntp1.dat, mntp2.dat, mntp2_pset.dat, mntp2_widset.dat, gwtp2.dat",
             "not read, no name of a file that is known: LICENSE, cross1.dat",
         ],
     );
-    let json = compare(folder.path(), &["--json"]);
-    let json: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
+    let json: serde_json::Value = serde_json::from_slice(&compare(&folder, &["--json"]).stdout).expect("JSON");
     assert_eq!(json["differing"].as_array().map(Vec::len), Some(0));
     let file = |name: &str, start: &str| {
         let files = json["files"].as_array().expect("files");
@@ -142,17 +118,17 @@ fn what_the_page_says_is_allowed_is_allowed() {
     let folder = with_change("", |_| Vec::new());
     let samples = ("samples = 4001", "samples = 10000");
     let angles = motion(
-        scene("tp-1", &[samples, ("span = 400", "span = 200")]),
+        "tp-1",
+        &[samples, ("span = 400", "span = 200")],
         &["angles", "perturbation", "e_x", "e_z"],
         &[0, 1, 10, 2, 11, 4, 5, 6, 7, 8, 9],
     );
     // The curves beside m.n are not judged.
-    let signal = motion(scene("tp-1", &[samples]), &["m.n"], &[0, 1, 1, 1]);
+    let signal = motion("tp-1", &[samples], &["m.n"], &[0, 1, 1, 1]);
     for (name, text) in [("tp1.dat", angles), ("mntp1.dat", signal)] {
-        fs::write(folder.path().join(name), text).expect("file");
+        folder.write(name, text);
     }
-    let output = compare(folder.path(), &["--json"]);
-    let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let json: serde_json::Value = serde_json::from_slice(&compare(&folder, &["--json"]).stdout).expect("JSON");
     let allowed = |name: &str, column: &str| -> Option<f64> {
         let files = json["files"].as_array().expect("files").iter().filter(|file| file["file"] == name);
         let columns = files.flat_map(|file| file["columns"].as_array().expect("columns"));
@@ -233,143 +209,88 @@ fn a_difference_beyond_the_files_own_error_fails() {
         ("mntp1_widset.dat", 40, 0, 8e-5, 7e-5, "stamp"),
         ("mntp1_pset.dat", 40, 1, 2e-4, 1.4e-4, "period"),
     ] {
-        let output = compare(with_change(file, |text| with_line(text, line, shifted(column, by))).path(), &[]);
+        let changed = |by| compare(&with_change(file, |text| with_line(text, line, shifted(column, by))), &[]);
+        let output = ends(changed(by), 1);
         let text = stdout(&output);
-        assert_eq!(output.status.code(), Some(1), "{file} {named}\n{text}");
-        assert!(
-            stderr(&output).contains(&format!("files that differ by more than allowed: {file}")),
-            "{}",
-            stderr(&output)
-        );
+        has_all(&stderr(&output), &[format!("files that differ by more than allowed: {file}")]);
         let row = text.lines().find(|line| line.contains("DIFFERS")).unwrap_or_else(|| panic!("{text}"));
         assert!(row.contains(named), "{row}");
-        let output =
-            compare(with_change(file, |text| with_line(text, line, shifted(column, by.signum() * within))).path(), &[]);
-        assert_eq!(output.status.code(), Some(0), "{file} {named}\n{}", stdout(&output));
+        ends(changed(by.signum() * within), 0);
     }
     let (_, series) = files().iter().find(|(name, _)| *name == "mntp1_pset.dat").expect("file");
-    let alone = folder_of(&[("mntp1_pset.dat", &with_line(series, 40, shifted(1, 2e-4)))]);
-    let text = stdout(&compare(alone.path(), &[]));
+    let alone = Folder::new();
+    alone.write("mntp1_pset.dat", with_line(series, 40, shifted(1, 2e-4)));
+    let text = stdout(&compare(&alone, &[]));
     assert!(text.contains("\n1 column agrees, 1 DIFFERS, "), "{text}");
     // A pulse of another star.
-    let output =
-        ends(compare(with_change("mntp1_widset.dat", |text| with_line(text, 40, shifted(0, 1.7))).path(), &[]), 1);
-    assert!(stdout(&output).contains("1 row of the file has nothing of ours within 1 t_c"), "{}", stdout(&output));
+    let other = with_change("mntp1_widset.dat", |text| with_line(text, 40, shifted(0, 1.7)));
+    has_all(&stdout(&ends(compare(&other, &[]), 1)), &["1 row of the file has nothing of ours within 1 t_c"]);
 }
 
 #[test]
 fn malformed_files_are_named_with_line_and_column() {
-    type Change = fn(&str) -> Vec<u8>;
-    let cases: [(&str, Change, &[&str]); 17] = [
+    let of = |name: &str| files().iter().find(|(file, _)| *file == name).expect("a file").1.as_str();
+    let (waves, periods) = (of("gwtp1.dat"), of("mntp1_pset.dat"));
+    let first_rows: Vec<_> = waves.lines().take(9000).collect();
+    let mut cases: Vec<(&str, Vec<u8>, &[&str])> = vec![
         (
             "gwtp1.dat",
-            |text| with_line(text, 57, |line| line.replace('\t', "\tx")),
+            with_line(waves, 57, |line| line.replace('\t', "\tx")),
             &["gwtp1.dat:57:", "`x", "is not a finite decimal number"],
         ),
         (
             "gwtp1.dat",
-            |text| with_line(text, 3, |_| "0.08\tNaN\t0.1".into()),
-            &["gwtp1.dat:3:6: `NaN` is not a finite"],
-        ),
-        ("gwtp1.dat", |text| with_line(text, 3, |_| "0.08\t0.1\t1e999".into()), &["gwtp1.dat:3:10: `1e999`"]),
-        ("gwtp1.dat", |text| with_line(text, 3, |_| "0.08,0.1,0.2".into()), &["gwtp1.dat:3:1: `0.08,0.1,0.2`"]),
-        (
-            "gwtp1.dat",
-            |text| with_line(text, 3, |_| "0.08\t0.1".into()),
-            &["gwtp1.dat:3:9: a truncated row: 2 of 3 numbers"],
-        ),
-        (
-            "gwtp1.dat",
-            |text| with_line(text, 3, |_| "0.08\t0.1 0.2  7".into()),
-            &["gwtp1.dat:3:15: a column too many: the file has 3 (t, h_+, h_x)"],
-        ),
-        ("gwtp1.dat", |text| with_line(text, 4, |_| String::new()), &["gwtp1.dat:4:1: an empty line"]),
-        (
-            "gwtp1.dat",
-            |text| with_line(text, 4, |line| line.replacen("0.12", "0.02", 1)),
+            with_line(waves, 4, |line| line.replacen("0.12", "0.02", 1)),
             &["gwtp1.dat:4:1: time 0.02", "times must increase"],
         ),
         (
             "gwtp1.dat",
-            |text| with_line(text, 1, |_| "-1.0\t0.1\t0.2".into()),
-            &["gwtp1.dat:1:1: time -1.0: allowed is from 0 to 1100"],
-        ),
-        (
-            "gwtp1.dat",
-            |text| with_line(text, 10_000, |_| "1e9\t0.1\t0.2".into()),
-            &["gwtp1.dat:10000:1: time 1000000000.0: allowed"],
-        ),
-        (
-            "gwtp1.dat",
-            |text| format!("{text}\n400.1\t0.1\t0.2").into_bytes(),
+            format!("{waves}\n400.1\t0.1\t0.2").into(),
             &["gwtp1.dat:10001:1: one row too many: the published file has 10000"],
         ),
         (
             "gwtp1.dat",
-            |text| text.lines().take(9000).collect::<Vec<_>>().join("\n").into_bytes(),
+            first_rows.join("\n").into(),
             &["gwtp1.dat:9000:", "truncated: ends after 9000 rows, the published file has 10000"],
         ),
-        (
-            "gwtp1.dat",
-            |text| text.as_bytes()[..text.len() - 30].to_vec(),
-            &["gwtp1.dat:10000:", "a truncated row: 2 of 3 numbers"],
-        ),
-        ("gwtp1.dat", |_| Vec::new(), &["gwtp1.dat: is empty"]),
-        ("gwtp1.dat", |text| [text.as_bytes(), b"\n\xff\xfe"].concat(), &["gwtp1.dat:10001:1: is not text"]),
-        ("gwtp1.dat", |_| vec![0; 1000], &["gwtp1.dat:1:1: `\u{fffd}"]),
+        ("gwtp1.dat", waves[..waves.len() - 30].into(), &["gwtp1.dat:10000:", "a truncated row: 2 of 3 numbers"]),
+        ("gwtp1.dat", Vec::new(), &["gwtp1.dat: is empty"]),
+        ("gwtp1.dat", [waves.as_bytes(), b"\n\xff\xfe"].concat(), &["gwtp1.dat:10001:1: is not text"]),
+        ("gwtp1.dat", vec![0; 1000], &["gwtp1.dat:1:1: `\u{fffd}"]),
         (
             "mntp1_pset.dat",
-            |text| text.lines().skip(1).collect::<Vec<_>>().join("\n").into_bytes(),
+            periods.split_once('\n').expect("lines").1.into(),
             &["mntp1_pset.dat:94:", "truncated: ends after 94 rows"],
         ),
     ];
-    for (file, change, fragments) in cases {
-        let output = compare(with_change(file, change).path(), &[]);
-        let message = stderr(&output);
-        assert_eq!(output.status.code(), Some(2), "{fragments:?}: {message}");
-        assert!(output.stdout.is_empty(), "{fragments:?}");
-        assert!(message.starts_with("error: ") && !message.contains("panicked"), "{message}");
-        has_all(&message, fragments);
+    for (line, text, message) in [
+        (3, "0.08\tNaN\t0.1", &["gwtp1.dat:3:6: `NaN` is not a finite"]),
+        (3, "0.08\t0.1\t1e999", &["gwtp1.dat:3:10: `1e999`"]),
+        (3, "0.08,0.1,0.2", &["gwtp1.dat:3:1: `0.08,0.1,0.2`"]),
+        (3, "0.08\t0.1", &["gwtp1.dat:3:9: a truncated row: 2 of 3 numbers"]),
+        (3, "0.08\t0.1 0.2  7", &["gwtp1.dat:3:15: a column too many: the file has 3 (t, h_+, h_x)"]),
+        (4, "", &["gwtp1.dat:4:1: an empty line"]),
+        (1, "-1.0\t0.1\t0.2", &["gwtp1.dat:1:1: time -1.0: allowed is from 0 to 1100"]),
+        (10_000, "1e9\t0.1\t0.2", &["gwtp1.dat:10000:1: time 1000000000.0: allowed"]),
+    ] {
+        cases.push(("gwtp1.dat", with_line(waves, line, |_| text.to_owned()), message));
+    }
+    assert_eq!(cases.len(), 17);
+    for (file, bytes, fragments) in cases {
+        is_refused(&compare(&with_change(file, |_| bytes.clone()), &[]), fragments);
     }
     // Every malformed file is named at once; line ends of another system and a line end at the end are no fault.
     let folder = with_change("gwtp1.dat", |_| b"1 2".to_vec());
-    fs::write(folder.path().join("mntp1_pset.dat"), "1 two").expect("file");
-    let output = compare(folder.path(), &[]);
-    has_all(&stderr(&output), &["gwtp1.dat:1:4: ", "mntp1_pset.dat:1:3: "]);
-    let folder = with_change("gwtp1.dat", |text| format!("{}\r\n", text.replace('\n', "\r\n")).into_bytes());
-    assert_eq!(compare(folder.path(), &[]).status.code(), Some(0));
+    folder.write("mntp1_pset.dat", "1 two");
+    is_refused(&compare(&folder, &[]), &["gwtp1.dat:1:4: ", "mntp1_pset.dat:1:3: "]);
+    let ends_of_windows = |text: &str| format!("{}\r\n", text.replace('\n', "\r\n")).into_bytes();
+    ends(compare(&with_change("gwtp1.dat", ends_of_windows), &[]), 0);
 }
 
+#[cfg(unix)]
 #[test]
-fn folders_without_the_files_are_refused() {
-    let empty = folder_of(&[]);
-    let misnamed = folder_of(&[("README", b"data"), ("GWTP1.dat", b"0 0 0")]);
-    let nested = folder_of(&[]);
-    fs::create_dir(nested.path().join("tp1.dat")).expect("folder");
-    let file = folder_of(&[("tp1.dat", b"")]);
-    let file_itself = file.path().join("tp1.dat");
-    let nowhere = empty.path().join("none");
-    for (folder, fragments) in [
-        (empty.path(), &["has none of the authors' files tp1.dat, tp2.dat"][..]),
-        (misnamed.path(), &["has none of", "`GWTP1.dat` may be meant to be `gwtp1.dat`"]),
-        (nested.path(), &["tp1.dat: is a directory, not a file of numbers"]),
-        (file.path(), &["tp1.dat: is empty"]),
-        (&file_itself, &["no folder that can be read"]),
-        (&nowhere, &["no folder that can be read"]),
-    ] {
-        let output = compare(folder, &[]);
-        assert_eq!(output.status.code(), Some(2), "{fragments:?}");
-        assert!(output.stdout.is_empty());
-        has_all(&stderr(&output), fragments);
-    }
-    // A pipe that nobody writes to.
-    #[cfg(unix)]
-    {
-        let pipes = folder_of(&[]);
-        let made = Command::new("mkfifo").arg(pipes.path().join("sp1.dat")).status();
-        assert!(made.expect("mkfifo").success());
-        let output = ends(compare(pipes.path(), &[]), 2);
-        assert!(stderr(&output).contains("sp1.dat: is not a regular file"), "{}", stderr(&output));
-    }
-    ends(Command::new(env!("CARGO_BIN_EXE_twofold")).arg("compare").output().expect("starts"), 2);
+fn a_pipe_that_nobody_writes_to_is_refused() {
+    let folder = Folder::new();
+    assert!(Command::new("mkfifo").arg(folder.at("sp1.dat")).status().expect("mkfifo").success());
+    is_refused(&compare(&folder, &[]), &["sp1.dat: is not a regular file"]);
 }

@@ -4,13 +4,9 @@
 use std::ffi::OsStr;
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
-use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use crate::common::{comes_to, ends, folder, names_in, stderr};
-use tempfile::TempDir;
-
-const TWOFOLD: &str = env!("CARGO_BIN_EXE_twofold");
+use crate::common::{Folder, TWOFOLD, altered, comes_to, ends, stderr};
 
 /// Commands that write files, without their `--out`, and the number of bytes a file may have so that they fail on the way.
 const WRITERS: [(&[&str], u32); 9] = [
@@ -22,59 +18,27 @@ const WRITERS: [(&[&str], u32); 9] = [
     (&["figures", "beam-cone"], 1),
     (&["sweep", "g.toml"], 2),
     (&["sweep", "g.toml"], 8),
-    (
-        &[
-            "forecast",
-            "s.toml",
-            "--observe",
-            "strain:1e-4",
-            "--parameters",
-            "spin,eps",
-            "--of",
-            "spin",
-            "--epochs",
-            "5",
-        ],
-        0,
-    ),
+    (&["forecast", "s.toml", "--observe", "strain:1e-4", "--parameters", "spin,eps", "--of=spin", "--epochs=5"], 0),
 ];
 
 /// A folder with a short scene, a pulsar and a sweep.
-fn scenes() -> TempDir {
-    let folder = folder();
-    let short = |text: &str| text.replace("span = 400", "span = 40").replace("samples = 4001", "samples = 101");
+fn scenes() -> Folder {
     let sweep = "scene = \"s.toml\"\n[[vary]]\nparameter = \"pulsar.rho\"\ngrid = { from = 0.4, to = 0.7, points = 40 }\n[time]\n\
                  times = [1.0, 2.0]\n";
-    for (name, text) in [
-        ("s.toml", short(include_str!("../../../scene/scenes/tp-1.toml"))),
-        ("p.toml", short(include_str!("../../../scene/scenes/b1937+21.toml"))),
-        ("g.toml", sweep.to_owned()),
-    ] {
-        fs::write(folder.path().join(name), text).expect("file");
-    }
-    folder
+    let short = altered("tp-1", &[("span = 400", "span = 40"), ("samples = 4001", "samples = 101")]);
+    Folder::with(&[("s.toml", &short), ("p.toml", &altered("b1937+21", &[])), ("g.toml", sweep)])
 }
 
 /// What the commands wrote beside the scenes.
-fn written(folder: &Path) -> Vec<String> {
-    names_in(folder).into_iter().filter(|name| !name.ends_with(".toml")).collect()
-}
-
-fn command(folder: &Path, args: &[&str]) -> Command {
-    let mut command = Command::new(TWOFOLD);
-    command.args(args).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
-    command
-}
-
-fn run(folder: &Path, args: &[&str]) -> Output {
-    command(folder, args).output().expect("the command starts")
+fn written(folder: &Folder) -> Vec<String> {
+    folder.names().into_iter().filter(|name| !name.ends_with(".toml")).collect()
 }
 
 /// By a shell, after its `before`.
-fn shell(folder: &Path, before: &str, args: &[&str]) -> Output {
+fn shell(folder: &Folder, before: &str, args: &[&str]) -> Output {
     let script = format!("{before}; exec \"$0\" \"$@\"");
     let mut command = Command::new("sh");
-    command.args(["-c", &script, TWOFOLD]).args(args).current_dir(folder);
+    command.args(["-c", &script, TWOFOLD]).args(args).current_dir(folder.path());
     command.stdout(Stdio::null()).stderr(Stdio::piped()).output().expect("a shell")
 }
 
@@ -88,21 +52,20 @@ fn out<'a>(args: &[&'a str]) -> Vec<&'a str> {
 fn a_full_disk_leaves_nothing_under_the_final_name() {
     for (args, blocks) in WRITERS {
         let folder = scenes();
-        let failed = shell(folder.path(), &format!("trap '' XFSZ; ulimit -f {blocks}"), &out(args));
+        let failed = shell(&folder, &format!("trap '' XFSZ; ulimit -f {blocks}"), &out(args));
         let message = stderr(&failed);
         assert_eq!(failed.status.code(), Some(1), "{args:?}: {message}");
         assert!(message.contains("written: "), "{args:?}: {message}");
         assert!(message.contains("error: ") && !message.contains("panicked"), "{args:?}: {message}");
         if args[0] != "sweep" {
-            assert!(written(folder.path()).is_empty(), "{args:?} left {:?}", written(folder.path()));
+            assert!(written(&folder).is_empty(), "{args:?} left {:?}", written(&folder));
             continue;
         }
-        assert!(!folder.path().join("out").exists());
-        assert!(run(folder.path(), &out(args)).status.success());
-        let whole = fs::read(folder.path().join("out")).expect("table");
-        assert_eq!(written(folder.path()), ["out"]);
-        assert!(run(folder.path(), &["sweep", "g.toml", "--out", "other"]).status.success());
-        assert!(whole == fs::read(folder.path().join("other")).expect("table"));
+        assert!(!folder.at("out").exists());
+        folder.succeeds(&out(args));
+        assert_eq!(written(&folder), ["out"]);
+        folder.succeeds(&["sweep", "g.toml", "--out", "other"]);
+        assert!(folder.bytes("out") == folder.bytes("other"));
     }
 }
 
@@ -131,10 +94,10 @@ fn standard_output_may_be_full_or_gone() {
     let folder = scenes();
     for (args, _) in PRINTERS {
         let full = fs::File::options().write(true).open("/dev/full").expect("/dev/full");
-        let output = command(folder.path(), args).stdout(full).output().expect("starts");
+        let output = folder.command(args).stdout(full).output().expect("starts");
         assert_eq!(output.status.code(), Some(1), "{args:?}: {}", stderr(&output));
         assert!(stderr(&output).contains("written: No space left"), "{args:?}: {}", stderr(&output));
-        let mut child = command(folder.path(), args).spawn().expect("starts");
+        let mut child = folder.command(args).spawn().expect("starts");
         drop(child.stdout.take());
         let output = child.wait_with_output().expect("its end");
         assert_eq!(output.status.code(), Some(0), "{args:?}: {}", stderr(&output));
@@ -142,7 +105,7 @@ fn standard_output_may_be_full_or_gone() {
         let is_clean = |line: &str| !line.starts_with("error") && !line.contains("panicked");
         assert!(stderr(&output).lines().all(is_clean), "{}", stderr(&output));
     }
-    assert!(written(folder.path()).is_empty(), "{:?}", written(folder.path()));
+    assert!(written(&folder).is_empty(), "{:?}", written(&folder));
 }
 
 /// A result that goes to a closed standard output is lost: an error. The null device, a table in a file, and a command whose result is
@@ -151,23 +114,23 @@ fn standard_output_may_be_full_or_gone() {
 fn a_closed_standard_output_is_an_error_where_a_result_is_lost() {
     let folder = scenes();
     for (args, is_result) in PRINTERS {
-        let closed = shell(folder.path(), "exec >&-", args);
+        let closed = shell(&folder, "exec >&-", args);
         assert_eq!(closed.status.code(), Some(i32::from(is_result)), "{args:?}: {}", stderr(&closed));
         let is_said = stderr(&closed).contains("error: standard output cannot be written: it is closed");
         assert_eq!(is_said, is_result, "{args:?}: {}", stderr(&closed));
-        let thrown_away = shell(folder.path(), "exec > /dev/null", args);
+        let thrown_away = shell(&folder, "exec > /dev/null", args);
         assert_eq!(thrown_away.status.code(), Some(0), "{args:?}: {}", stderr(&thrown_away));
     }
-    ends(shell(folder.path(), "exec >&-", &out(&["run", "s.toml"])), 0);
-    assert_eq!(written(folder.path()), ["out"]);
+    ends(shell(&folder, "exec >&-", &out(&["run", "s.toml"])), 0);
+    assert_eq!(written(&folder), ["out"]);
 }
 
 /// A file in place of a folder, a folder of the system that takes none, and one without leave to write.
 #[test]
 fn a_folder_that_takes_no_file_is_refused_at_once() {
     let folder = scenes();
-    fs::write(folder.path().join("file"), "mine").expect("file");
-    let closed = folder.path().join("closed");
+    folder.write("file", "mine");
+    let closed = folder.at("closed");
     fs::create_dir(&closed).expect("folder");
     let mode = |mode| {
         let permissions = std::os::unix::fs::PermissionsExt::from_mode(mode);
@@ -177,24 +140,26 @@ fn a_folder_that_takes_no_file_is_refused_at_once() {
     // Root may write there all the same.
     let is_closed = fs::write(closed.join("probe"), "").is_err();
     for (args, _) in WRITERS {
-        for place in ["file/out", "/proc/out", "closed/out"] {
-            if place == "closed/out" && !is_closed {
-                continue;
-            }
-            let output = run(folder.path(), &[args, &["--out", place]].concat());
-            assert_eq!(output.status.code(), Some(2), "{args:?} {place}: {}", stderr(&output));
-            assert!(stderr(&output).contains(place), "{args:?} {place}: {}", stderr(&output));
+        for out in ["file/out", "/proc/out", "closed/out"].into_iter().take(if is_closed { 3 } else { 2 }) {
+            let output = folder.run(&[args, &["--out", out]].concat());
+            assert_eq!(output.status.code(), Some(2), "{args:?} {out}: {}", stderr(&output));
+            assert!(stderr(&output).contains(out), "{args:?} {out}: {}", stderr(&output));
         }
     }
     mode(0o755);
-    assert_eq!(fs::read_to_string(folder.path().join("file")).expect("file"), "mine");
+    assert_eq!(folder.read("file"), "mine");
 }
 
 /// Killed without warning, as it starts, with its first file, with the first bytes in it or as the final name appears, a command leaves what is whole, what says that it is not (`.part`, `.partial`), or
 /// nothing; done again it gives the same bytes.
 #[test]
 fn a_kill_at_any_moment_leaves_no_file_without_its_mark() {
-    let bytes = |folder: &Path| contents(folder).iter().map(|(_, bytes)| bytes.len()).sum::<usize>();
+    let complete = |folder: &Folder| {
+        let found =
+            folder.contents().into_iter().filter(|(name, _)| name.starts_with("out") && !name.contains(".part"));
+        found.collect::<Vec<_>>()
+    };
+    let bytes = |folder: &Folder| folder.contents().iter().map(|(_, bytes)| bytes.len()).sum::<usize>();
     for args in [
         &["run", "s.toml"][..],
         &["figures", "beam-cone"],
@@ -202,48 +167,26 @@ fn a_kill_at_any_moment_leaves_no_file_without_its_mark() {
         &["sweep", "g.toml"],
     ] {
         let whole = scenes();
-        assert!(run(whole.path(), &out(args)).status.success(), "{args:?}");
-        let expected = contents(&whole.path().join("out"));
+        whole.succeeds(&out(args));
+        let expected = complete(&whole);
         let folder = scenes();
-        let before = bytes(folder.path());
+        let before = bytes(&folder);
         let signs: [&dyn Fn() -> bool; 4] =
-            [&|| true, &|| !written(folder.path()).is_empty(), &|| bytes(folder.path()) > before, &|| {
-                folder.path().join("out").exists()
-            }];
+            [&|| true, &|| !written(&folder).is_empty(), &|| bytes(&folder) > before, &|| folder.at("out").exists()];
         for sign in signs {
-            let mut child = command(folder.path(), &out(args)).spawn().expect("starts");
+            let mut child = folder.command(&out(args)).spawn().expect("starts");
             comes_to(&mut child, sign);
             child.kill().expect("a signal");
             child.wait().expect("its end");
-            for name in written(folder.path()) {
+            for name in written(&folder) {
                 let is_marked = name.ends_with(".part") || name.starts_with("out.partial");
                 assert!(is_marked || name == "out", "{args:?} left {name}");
             }
-            let found = contents(&folder.path().join("out"));
-            let whole = found.iter().filter(|(name, _)| !name.ends_with(".part"));
-            assert!(whole.clone().all(|file| expected.contains(file)), "{args:?}");
+            assert!(complete(&folder).iter().all(|file| expected.contains(file)), "{args:?}");
         }
-        let again = run(folder.path(), &[&out(args)[..], &["--force"]].concat());
-        assert!(again.status.success(), "{args:?}: {}", stderr(&again));
-        let found: Vec<_> =
-            contents(&folder.path().join("out")).into_iter().filter(|(name, _)| !name.ends_with(".part")).collect();
-        assert!(found == expected, "{args:?}");
+        folder.succeeds(&[&out(args)[..], &["--force"]].concat());
+        assert!(complete(&folder) == expected, "{args:?}");
     }
-}
-
-/// Names and bytes of the files in a folder, or of the one file.
-fn contents(path: &Path) -> Vec<(String, Vec<u8>)> {
-    if path.is_file() {
-        return vec![(String::new(), fs::read(path).expect("file"))];
-    }
-    if !path.exists() {
-        return Vec::new();
-    }
-    let read = |name: String| {
-        let bytes = fs::read(path.join(&name)).unwrap_or_default();
-        (name, bytes)
-    };
-    names_in(path).into_iter().map(read).collect()
 }
 
 /// No HOME, no PATH, no locale: nothing is asked of the environment.
@@ -251,10 +194,10 @@ fn contents(path: &Path) -> Vec<(String, Vec<u8>)> {
 fn an_empty_environment_will_do() {
     let folder = scenes();
     for args in [&["run", "s.toml"][..], &["sweep", "g.toml", "--out", "table.csv"], &["figures", "beam-cone"]] {
-        let bare = command(folder.path(), args).env_clear().output().expect("starts");
+        let bare = folder.command(args).env_clear().output().expect("starts");
         assert_eq!(bare.status.code(), Some(0), "{args:?}: {}", stderr(&bare));
         if args[0] == "run" {
-            assert!(bare.stdout == run(folder.path(), args).stdout);
+            assert!(bare.stdout == folder.run(args).stdout);
         }
     }
 }
@@ -266,14 +209,14 @@ fn names_that_are_no_text_are_written_to_and_not_read_from() {
     let name = OsStr::from_bytes(b"\xff\xfe.csv");
     let path = folder.path().join(name);
     for args in [&["run", "s.toml", "--out"][..], &["sweep", "g.toml", "--out"]] {
-        let written = command(folder.path(), args).arg(name).output().expect("starts");
+        let written = folder.command(args).arg(name).output().expect("starts");
         assert_eq!(written.status.code(), Some(0), "{args:?}: {}", stderr(&written));
         assert!(fs::metadata(&path).is_ok_and(|found| found.len() > 1000));
         fs::remove_file(&path).expect("file");
     }
-    fs::copy(folder.path().join("s.toml"), &path).expect("file");
+    fs::copy(folder.at("s.toml"), &path).expect("file");
     for args in [&["run"][..], &["sweep", "--out", "out"], &["bounds"], &["fit", "s.toml", "--observe", "widths:1"]] {
-        let refused = command(folder.path(), args).arg(name).output().expect("starts");
+        let refused = folder.command(args).arg(name).output().expect("starts");
         assert_eq!(refused.status.code(), Some(2), "{args:?}: {}", stderr(&refused));
         assert!(stderr(&refused).contains("invalid UTF-8"), "{args:?}: {}", stderr(&refused));
     }
@@ -283,12 +226,10 @@ fn names_that_are_no_text_are_written_to_and_not_read_from() {
 #[test]
 fn tables_beyond_the_bounds_are_refused() {
     let folder = scenes();
-    let fit =
-        |name: &str| run(folder.path(), &["fit", "s.toml", name, "--observe", "strain:1e-3", "--parameters", "eps"]);
     let header = "t [t_c],h_plus [1],h_cross [1]\n";
-    fs::write(folder.path().join("wide.csv"), ["x,".repeat(200_000).as_str(), "x\n"].concat()).expect("file");
-    fs::write(folder.path().join("long.csv"), [header, &"1,2,3\n".repeat(100_001)].concat()).expect("file");
-    fs::write(folder.path().join("bytes.csv"), [header.as_bytes(), b"1,\xff,3\n"].concat()).expect("file");
+    folder.write("wide.csv", "x,".repeat(200_000) + "x\n");
+    folder.write("long.csv", header.to_owned() + &"1,2,3\n".repeat(100_001));
+    folder.write("bytes.csv", [header.as_bytes(), b"1,\xff,3\n"].concat());
     for (name, why) in [
         ("wide.csv", "no column `t [t_c]`: its columns are x, x, "),
         ("wide.csv", "and 199971 more"),
@@ -296,8 +237,8 @@ fn tables_beyond_the_bounds_are_refused() {
         ("bytes.csv", "bytes.csv: is not UTF-8 text (byte 34)"),
         ("/dev/zero", "/dev/zero: is longer than 64 MiB, the most that is read"),
     ] {
-        let output = fit(name);
-        assert_eq!(output.status.code(), Some(2), "{name}: {}", stderr(&output));
+        let fit = ["fit", "s.toml", name, "--observe", "strain:1e-3", "--parameters", "eps"];
+        let output = ends(folder.run(&fit), 2);
         assert!(stderr(&output).contains(why) && stderr(&output).len() < 1000, "{name}: {}", stderr(&output));
     }
 }

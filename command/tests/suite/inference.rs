@@ -1,8 +1,6 @@
-//! From data back to the scene: fits that recover and fits that are refused, and the commands `fisher`, `fit` and `forecast`.
+//! From data back to the scene: fits that recover and fits that are refused.
 
-use std::fs;
-
-use crate::common::{ends, folder, has_all, refuses, stderr, stdout, twofold};
+use crate::common::{Folder, altered, cells, has_all, stderr, stdout};
 use twofold::dynamics::RigidSpheroid;
 use twofold::euler_angles::EulerAngles;
 use twofold::inference::{Datum, Fisher, InferenceError, Noise, Observable, Place, Signal, data_of, fit, nonlinearity};
@@ -107,17 +105,10 @@ fn simulations_follow_from_their_number() {
     assert_ne!(a.truth, c.truth);
 }
 
-fn refused(unknowns: &[Parameter], noise: &[Noise]) -> String {
-    let truth = model("tp-2");
-    match fit(&truth, &data(&truth, 100.0, noise), unknowns, 100.0) {
-        Err(error @ InferenceError::Degenerate(_)) => error.to_string(),
-        other => panic!("{unknowns:?}: {other:?}"),
-    }
-}
-
 #[test]
 fn what_the_data_do_not_determine_is_refused_with_the_reason() {
     use Parameter::*;
+    let truth = model("tp-2");
     let strain = [(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 1e-3)];
     for (unknowns, noise, reasons) in [
         (&[Gamma, Delta, Spin][..], &TIMES_AND_WIDTHS[..], &["only gamma + delta", "d(gamma) : d(delta) = "][..]),
@@ -129,8 +120,10 @@ fn what_the_data_do_not_determine_is_refused_with_the_reason() {
         // Determined in principle, but not by data as bad as these.
         (&Parameter::OF_PULSES, &[(Observable::Arrivals, 1e3), (Observable::Widths, 1e3)], &["d("]),
     ] {
-        let message = refused(unknowns, noise);
-        has_all(&message, reasons);
+        match fit(&truth, &data(&truth, 100.0, noise), unknowns, 100.0) {
+            Err(error @ InferenceError::Degenerate(_)) => has_all(&error.to_string(), reasons),
+            other => panic!("{unknowns:?}: {other:?}"),
+        }
     }
 }
 
@@ -160,196 +153,30 @@ fn a_fit_that_ends_on_a_limit_is_refused() {
     assert!(matches!(error, InferenceError::OnLimit { unknown: "eps", .. }), "{error}");
 }
 
-/// tp-2 with another span, as a file.
-fn scene_file(folder: &std::path::Path, name: &str, spin: &str) -> String {
-    let text = fs::read_to_string("../scene/scenes/tp-2.toml").expect("scene");
-    let text = text.replace("spin = 1.0", &format!("spin = {spin}")).replace("span = 400", "span = 100");
-    let path = folder.join(name);
-    fs::write(&path, text.replace("samples = 4001", "samples = 201")).expect("file");
-    path.to_str().expect("path in UTF-8").to_owned()
-}
-
 #[test]
 fn series_written_by_the_command_are_fitted() {
-    let folder = folder();
-    let (truth, near) =
-        (scene_file(folder.path(), "truth.toml", "1.0"), scene_file(folder.path(), "near.toml", "1.0003"));
-    let path = |name: &str| folder.path().join(name).to_str().expect("path in UTF-8").to_owned();
-    let (pulses, strain, table) = (path("pulses.csv"), path("strain.csv"), path("table.csv"));
-    assert!(twofold(&["pulses", &truth, "--out", &pulses]).status.success());
-    assert!(twofold(&["run", &truth, "--columns", "h", "--out", &strain]).status.success());
-    let observed = "arrivals:1e-5,widths:1e-5,strain:1e-5";
-    let output = twofold(&["fit", &near, &pulses, &strain, "--observe", observed, "--out", &table]);
-    assert!(output.status.success(), "{}", stderr(&output));
-    let written = fs::read_to_string(&table).expect("table");
-    let spin: Vec<&str> = written.lines().find(|line| line.starts_with("spin,")).expect("spin").split(',').collect();
+    let scene = |spin| {
+        let spin = ("spin = 1.0", spin);
+        altered("tp-2", &[spin, ("span = 400", "span = 100"), ("samples = 4001", "samples = 201")])
+    };
+    let folder = Folder::with(&[("truth.toml", &scene("spin = 1.0")), ("near.toml", &scene("spin = 1.0003"))]);
+    folder.succeeds(&["pulses", "truth.toml", "--out", "pulses.csv"]);
+    folder.succeeds(&["run", "truth.toml", "--columns", "h", "--out", "strain.csv"]);
+    let fit = |args: &[&str]| folder.succeeds(&[&["fit", "near.toml", "pulses.csv", "--observe"], args].concat());
+    let output = fit(&["arrivals:1e-5,widths:1e-5,strain:1e-5", "strain.csv", "--out", "table.csv"]);
+    let written = folder.read("table.csv");
+    let table = cells(&written);
+    let spin = table.iter().find(|row| row[0] == "spin").expect("spin");
     let (value, sigma): (f64, f64) = (spin[1].parse().expect("number"), spin[2].parse().expect("number"));
     assert!((value - 1.0).abs() < 1e-9 && sigma > 0.0 && sigma < 1e-4, "{spin:?}");
     assert!(stdout(&output).contains("Omega^z") && stderr(&output).contains("chi^2"), "{}", stdout(&output));
-    let noisy = twofold(&["fit", &near, &pulses, "--observe", "arrivals:1e-5,widths:1e-5", "--simulate", "3"]);
-    assert!(noisy.status.success(), "{}", stderr(&noisy));
+    let noisy = fit(&["arrivals:1e-5,widths:1e-5", "--simulate", "3"]);
     assert_ne!(stdout(&noisy), stdout(&output));
-}
-
-#[test]
-fn commands_say_what_is_and_what_is_not_determined() {
-    let fisher = twofold(&["fisher", "tp-1", "--observe", "arrivals:1e-4,widths:1e-4", "--parameters", "all"]);
-    assert!(fisher.status.success(), "{}", stderr(&fisher));
-    has_all(
-        &stderr(&fisher),
-        &["the trace of s^IJ", "only gamma + delta", "about X", "about Y", "about Z", "C against s^IJ"],
-    );
-    assert!(stdout(&fisher).contains("not determined"));
-    let simulated = twofold(&["fit", "tp-2", "--observe", "arrivals:1e-6,widths:1e-6", "--simulate", "1"]);
-    assert!(simulated.status.success(), "{}", stderr(&simulated));
-    let again = twofold(&["fit", "tp-2", "--observe", "arrivals:1e-6,widths:1e-6", "--simulate", "1"]);
-    assert_eq!(stdout(&simulated), stdout(&again));
-    let refused = ends(
-        twofold(&["fit", "tp-2", "--observe", "arrivals:1e-6", "--simulate", "1", "--parameters", "gamma,delta"]),
-        1,
-    );
-    assert!(stderr(&refused).contains("only gamma + delta"), "{}", stderr(&refused));
-    let forecast = twofold(&["forecast", "tp-2", "--observe", "arrivals:1e-6,widths:1e-6", "--spans", "100,200,400"]);
-    assert!(forecast.status.success(), "{}", stderr(&forecast));
-    assert_eq!(stdout(&forecast).lines().filter(|line| line.contains("e-")).count(), 9, "{}", stdout(&forecast));
-    assert!(stderr(&forecast).contains("sigma goes as the span to the power of"));
-}
-
-/// Status 2, nothing on standard output, field, value and what is allowed.
-#[test]
-fn bad_arguments_are_refused() {
-    for (args, fragments) in [
-        (&["fisher", "tp-1", "--observe", "arrivals"][..], &["`arrivals` is no NAME:SIGMA", "allowed"][..]),
-        (
-            &["fisher", "tp-1", "--observe", "arrival:1"],
-            &["`arrival` is no observable", "arrivals, closest_approaches"],
-        ),
-        (&["fisher", "tp-1", "--observe", "arrivals:-1"], &["standard deviation -1", "above zero"]),
-        (&["fisher", "tp-1", "--observe", "arrivals:1e-160"], &["standard deviation 1e-160", "from 1e-100 to 1e100"]),
-        (&["fit", "tp-1", "--simulate", "1", "--observe", "strain:1e101"], &["standard deviation 1e101", "to 1e100"]),
-        (&["fisher", "tp-1", "--observe", "arrivals:1,arrivals:2"], &["`arrivals` is named twice"]),
-        (
-            &["fisher", "tp-1", "--observe", "widths:1", "--parameters", "epss"],
-            &["`epss` is no parameter", "did you mean `eps`"],
-        ),
-        (&["fisher", "tp-1", "--observe", "widths:1", "--parameters", "eps,eps"], &["`eps` is named twice"]),
-        (&["fisher", "tp-11", "--observe", "widths:1"], &["did you mean `tp-1`?"]),
-        (&["fit", "tp-1", "--observe", "widths:1"], &["no data", "--simulate SEED"]),
-        (&["fit", "tp-1", "none.csv", "--observe", "widths:1"], &["none.csv"]),
-        (&["forecast", "tp-1", "--observe", "widths:1", "--of", "delta"], &["--of delta", "s_axial"]),
-        (
-            &["forecast", "tp-1", "--observe", "widths:1", "--spans", "1e9"],
-            &["more than 1e5 rad", "a weaker violation or a shorter span"],
-        ),
-        (&["forecast", "tp-1", "--observe", "widths:1", "--spans", "-1"], &["--spans"]),
-        (&["forecast", "tp-1", "--observe", "widths:1", "--epochs", "1"], &["--epochs 1"]),
-        (&["forecast", "tp-1", "--observe", "periods:1"], &["--observe periods"]),
-    ] {
-        let output = twofold(args);
-        let message = stderr(&output);
-        assert_eq!(output.status.code(), Some(2), "{args:?}: {message}");
-        assert!(output.stdout.is_empty() && !message.contains("panicked"), "{args:?}: {message}");
-        has_all(&message, fragments);
-    }
-}
-
-/// Pulses as `pulses` writes them, without errors: the scene that they are of is their model, whatever errors are stated. Of another
-/// scene it is not; and data with the errors stated are passed without a word.
-#[test]
-fn residuals_are_judged_on_both_sides() {
-    let folder = folder();
-    let path = |name: &str| folder.path().join(name).to_str().expect("path in UTF-8").to_owned();
-    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../scene/scenes/tp-1.toml")).expect("scene");
-    let written = |name: &str, from: &str, to: &str| {
-        assert!(text.contains(from), "{from}");
-        let short =
-            text.replace(from, to).replace("span = 400", "span = 100").replace("samples = 4001", "samples = 101");
-        fs::write(path(name), short).expect("file");
-        path(name)
+    let simulated = || {
+        let args = ["fit", "tp-2", "--observe", "arrivals:1e-6,widths:1e-6", "--simulate", "1"];
+        stdout(&folder.succeeds(&args))
     };
-    let (scene, pulses) = (written("scene.toml", "rho = 0.6", "rho = 0.6"), path("pulses.csv"));
-    assert!(twofold(&["pulses", &scene, "--out", &pulses]).status.success());
-    let fitted = |scene: &str, observe: &str, parameters: &str| {
-        let output = twofold(&["fit", scene, &pulses, "--observe", observe, "--parameters", parameters]);
-        (output.status.code(), stderr(&output), stdout(&output))
-    };
-    for observe in ["arrivals:1e-6,widths:1e-6", "arrivals:1e-9", "arrivals:1e-2,widths:1e-2"] {
-        for parameters in ["s_scale", "eps,spin"] {
-            let (code, notes, table) = fitted(&scene, observe, parameters);
-            assert_eq!(code, Some(0), "{observe} {parameters}: {notes}");
-            assert!(
-                !notes.contains("no model") && notes.contains("fits the data better than such errors allow"),
-                "{notes}"
-            );
-            assert!(parameters != "s_scale" || table.contains(" |s|   1.000000000 "), "{table}");
-        }
-    }
-    // Errors below what doubles tell.
-    for (observe, parameters) in [("arrivals:1e-15", "s_scale"), ("arrivals:1e-17,widths:1e-17", "eps,spin,s_scale")] {
-        let (code, message, table) = fitted(&scene, observe, parameters);
-        assert_eq!((code, table.as_str()), (Some(2), ""), "{observe} {parameters}: {message}");
-        has_all(
-            &message,
-            &[
-                "the scene agrees with the data as far as doubles tell",
-                " t_c, and a fit is to a hundredth of an error",
-                "allowed in --observe are larger",
-            ],
-        );
-        assert!(!message.contains("nearer to the data"), "{message}");
-    }
-    // A scene of another beam, of which only |s| is fitted.
-    let other = written("other.toml", "rho = 0.6", "rho = 0.6001");
-    let (code, notes, _) = fitted(&other, "arrivals:1e-6,widths:1e-6", "s_scale");
-    assert_eq!(code, Some(0), "{notes}");
-    assert!(notes.contains("the scene is no model of the data, or their errors are larger"), "{notes}");
-    let simulated =
-        twofold(&["fit", &scene, "--simulate", "3", "--observe", "arrivals:1e-6", "--parameters", "s_scale,eps"]);
-    assert!(simulated.status.success() && !stderr(&simulated).contains("the residuals are"), "{}", stderr(&simulated));
-}
-
-/// Values are given with ten digits, however small; a span too short for data is told.
-#[test]
-fn numbers_at_extremes_are_readable() {
-    let folder = folder();
-    let small = folder.path().join("small.toml");
-    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../scene/scenes/tp-1.toml")).expect("scene");
-    fs::write(&small, text.replace("phi_o = 0.0", "phi_o = -1e-10")).expect("file");
-    assert_ne!(fs::read_to_string(&small).expect("file"), text);
-    let output = twofold(&["fisher", small.to_str().expect("path"), "--observe", "arrivals:1e-4,widths:1e-4"]);
-    let table = stdout(&output);
-    assert!(table.contains(" phi_o                  -1.000000000e-10 ") && !table.contains("-0.000"), "{table}");
-    assert!(table.contains(" gamma                                 0 "), "{table}");
-    for (spans, code, fragments) in [
-        ("1e-300", Some(0), &["3 of 3 rows have no sigma", "longer spans and more epochs"][..]),
-        ("1e300", Some(2), &["--spans 1e300: what the averaged motion leaves out", "e296: allowed is at most 1e-3"]),
-    ] {
-        let output = twofold(&["forecast", "tp-1", "--observe", "arrivals:1e-4", "--of", "s_axial", "--spans", spans]);
-        let message = stderr(&output);
-        assert_eq!(output.status.code(), code, "{message}");
-        has_all(&message, fragments);
-        assert!(message.lines().chain(stdout(&output).lines()).all(|line| line.len() < 250), "{message}");
-    }
-}
-
-#[test]
-fn tables_that_are_no_data_are_refused() {
-    let folder = folder();
-    let scene = scene_file(folder.path(), "scene.toml", "1.0");
-    let header = "beam,pulse,start [t_c],end [t_c],midpoint [t_c],duration [t_c],cut,period [t_c],turn,closest_approach [t_c],W_56 [rad]\n";
-    for (text, fragments) in [
-        ("a,b\n1,2\n".to_owned(), &["no column `t [t_c]`", "a, b"][..]),
-        (header.replace("midpoint [t_c]", "midpoint [s]"), &["no column `midpoint [t_c]`"]),
-        (format!("{header}1,1,8.0,9.0,soon,1.0,,,0,8.5,1.0\n"), &[":2: `midpoint [t_c]` is `soon`", "a finite number"]),
-        (format!("{header}1,1,8.0,9.0,8.5,1.0,,,first,8.5,1.0\n"), &[":2: `turn` is `first`"]),
-        (format!("{header}1,1,8.0,9.0,8000.5,1.0,,,0,8.5,1.0\n"), &["allowed is the span of the scene"]),
-        (header.to_owned(), &["there is no such datum"]),
-    ] {
-        let path = folder.path().join("data.csv");
-        fs::write(&path, &text).expect("file");
-        let output = refuses(&["fit", &scene, path.to_str().expect("path in UTF-8"), "--observe", "arrivals:1e-3"]);
-        has_all(&stderr(&output), fragments);
-    }
+    assert_eq!(simulated(), simulated());
 }
 
 /// One datum of a linear model late by `d` standard deviations: of `d` its residual keeps the part `q`, with the sign of `d`, and `chi^2 = q d^2`.

@@ -14,6 +14,7 @@ mod notes;
 mod plans;
 mod pulses;
 mod second_program;
+mod sessions;
 #[cfg(target_os = "linux")]
 mod signals;
 mod spectrum;

@@ -1,30 +1,20 @@
 //! What commands say beside their tables: estimated errors, plans, notes and progress.
 
-use std::fs;
-use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use crate::common::{comes_to, file, folder, stderr, succeeds, twofold};
-use twofold_scene::scene_file::BUILT_IN;
+use crate::common::{Folder, altered, comes_to, numbers, stderr, stdout, twofold, with_lines};
+use twofold_scene::scene_file::built_in;
 
 /// The note at the end of `run` is not below the largest difference of the last row from that of a motion a million times as accurate, and
 /// not ten times above it.
 #[test]
 fn the_estimated_error_that_run_prints_is_that_of_its_last_row() {
-    let folder = folder();
-    let built_in = BUILT_IN.iter().find(|scene| scene.name == "tp-2").expect("tp-2").toml;
     let last_row = |tolerance: &str, method: &str| {
-        let text = built_in.replace("tolerance = 1e-13", "");
-        let path = folder.path().join("scene.toml");
-        fs::write(&path, format!("{text}\n[output]\ncolumns = [\"e_x\", \"e_z\"]\ntolerance = {tolerance}\n"))
-            .expect("scene");
-        let output = succeeds(&["run", path.to_str().expect("path in UTF-8"), "--method", method]);
-        let table = String::from_utf8(output.stdout.clone()).expect("text");
-        let row: Vec<f64> =
-            table.lines().last().expect("a row").split(',').skip(1).map(|x| x.parse().expect("a number")).collect();
-        let notes = stderr(&output);
-        let (_, note) = notes.rsplit_once("at the end of the span: ").expect("a note");
-        (row, note.trim().parse::<f64>().expect("a number"))
+        let output = format!("\n[output]\ncolumns = [\"e_x\", \"e_z\"]\ntolerance = {tolerance}\n");
+        let folder = Folder::with(&[("scene.toml", &(altered("tp-2", &[]) + &output))]);
+        let output = folder.succeeds(&["run", "scene.toml", "--method", method]);
+        let row = numbers(&stdout(&output)).pop().expect("a row").split_off(1);
+        (row, number_after(&stderr(&output), "at the end of the span: "))
     };
     let (exact, _) = last_row("1e-13", "taylor");
     for method in ["taylor", "splitting"] {
@@ -34,57 +24,25 @@ fn the_estimated_error_that_run_prints_is_that_of_its_last_row() {
     }
 }
 
-/// `--explain` prints the plan and computes nothing.
-#[test]
-fn a_plan_is_explained() {
-    let explain = |args: &[&str]| {
-        let output = twofold(args);
-        assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""));
-        String::from_utf8_lossy(&output.stdout).into_owned()
-    };
-    let wave = explain(&["run", "tp-1", "--columns", "h", "--explain"]);
-    for fragment in
-        ["state        n, L\n", "method       taylor", "the third angle (e_x): the outputs depend on n and L alone"]
-    {
-        assert!(wave.contains(fragment), "{fragment}: {wave}");
-    }
-    let free = explain(&["run", "free", "--columns", "h", "--explain"]);
-    assert!(free.contains("method       free") && free.contains("integration: the motion has a closed form"), "{free}");
-    let pulses = explain(&["pulses", "tp-1", "--explain"]);
-    assert!(pulses.contains("samples: events are found on the dense output"), "{pulses}");
-    let forced = explain(&["spectrum", "free", "--of", "h_plus", "--unidentified", "--method", "taylor", "--explain"]);
-    assert!(forced.contains("method       taylor") && forced.contains("as asked"), "{forced}");
-}
-
 /// What is allowed and looks like a mistake is said.
 #[test]
 fn a_spin_beyond_break_up_and_a_julian_date_are_noted() {
-    let folder = folder();
-    let built_in = include_str!("../../../scene/scenes/b1937+21.toml");
-    let notes = |name: &str, from: &str, to: &str, args: &[&str]| {
-        assert!(built_in.contains(from), "{from}");
-        fs::write(folder.path().join(name), built_in.replace(from, to)).expect("scene");
-        let scene = folder.path().join(name);
-        let output = succeeds(&[&args[..1], &[scene.to_str().expect("UTF-8")], &args[1..]].concat());
-        stderr(&output)
+    let notes = |lines: &[(&str, &str)], args: &[&str]| {
+        let folder = Folder::with(&[("star.toml", &with_lines("b1937+21", lines))]);
+        stderr(&folder.succeeds(&[&args[..1], &["star.toml"], &args[1..]].concat()))
     };
-    let out = folder.path().join("out");
-    let out = out.to_str().expect("UTF-8");
-    let spin = built_in.lines().find(|line| line.starts_with("spin_frequency")).expect("spin");
-    let epoch = built_in.lines().find(|line| line.starts_with("epoch")).expect("epoch");
     let run = ["run", "--columns", "h"];
-    let fast = notes("fast.toml", spin, "spin_frequency = 3000.0", &run);
-    assert!(fast.contains("fast.toml: `star.spin_frequency` = 3000.0: above ") && fast.contains("break-up"), "{fast}");
-    let julian = notes("julian.toml", epoch, "epoch = \"2455321.75\"", &run);
+    let fast = notes(&[("spin_frequency", "spin_frequency = 3000.0")], &run);
+    assert!(fast.contains("star.toml: `star.spin_frequency` = 3000.0: above ") && fast.contains("break-up"), "{fast}");
+    let julian = notes(&[("epoch", "epoch = \"2455321.75\"")], &run);
     assert!(julian.contains("`time.epoch` = \"2455321.75\": looks like a Julian date"), "{julian}");
     assert!(julian.contains("in the year 8581. If 55321.25 is meant"), "{julian}");
-    let option = ["timing", "--from", "2455321.5", "--to", "2455322.5", "--epochs", "3", "--out", out];
-    let option = notes("as-it-is.toml", spin, spin, &option);
+    let option = notes(&[], &["timing", "--from", "2455321.5", "--to", "2455322.5", "--epochs", "3", "--out", "out"]);
     assert!(
         option.contains("note: --from: looks like a Julian date") && option.contains("If 55321.0 is meant"),
         "{option}"
     );
-    let none = notes("as-it-is.toml", spin, spin, &run);
+    let none = notes(&[], &run);
     assert!(!none.contains("Julian") && !none.contains("break-up"), "{none}");
 }
 
@@ -93,18 +51,10 @@ fn a_spin_beyond_break_up_and_a_julian_date_are_noted() {
 #[test]
 fn a_long_run_without_a_terminal_tells_how_far_it_is() {
     use std::io::{BufRead, BufReader};
-    let folder = folder();
-    let scene = folder.path().join("long.toml");
-    fs::write(&scene, include_str!("../../../scene/scenes/tp-1.toml").replace("span = 400", "span = 4e7"))
-        .expect("scene");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_twofold"))
-        .args(["run", scene.to_str().expect("UTF-8"), "--columns", "e_z", "--out", "motion.csv"])
-        .current_dir(folder.path())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
-    let begun = || fs::read_dir(folder.path()).expect("folder").count() > 1;
-    assert!(comes_to(&mut child, begun), "it ended by itself");
+    let folder = Folder::with(&[("long.toml", &altered("tp-1", &[("span = 400", "span = 4e7")]))]);
+    let mut run = folder.command(&["run", "long.toml", "--columns", "e_z", "--out", "motion.csv"]);
+    let mut child = run.spawn().expect("the command starts");
+    assert!(comes_to(&mut child, || folder.names().len() > 1), "it ended by itself");
     // The first line comes after ten seconds; others use the processor until then.
     crate::common::send(&child, "STOP");
     std::thread::sleep(Duration::from_secs(10));
@@ -130,12 +80,11 @@ fn number_after(text: &str, phrase: &str) -> f64 {
 
 #[test]
 fn notes_and_plans_of_a_physical_star_have_its_times_in_seconds() {
-    let (_folder, scene) = file("scene.toml", GRAZING);
-    let told = stderr(&twofold(&["pulses", &scene]));
+    let folder = Folder::with(&[("scene.toml", GRAZING)]);
+    let told = stderr(&folder.run(&["pulses", "scene.toml"]));
     let first = 7.0 + 0.1 / (40.0 * std::f64::consts::PI);
     assert!((number_after(&told, "first at t = ") - first).abs() < 1e-8, "{told}");
-    let plan = twofold(&["run", &scene, "--columns", "e_z", "--method", "taylor", "--explain"]);
-    let plan = String::from_utf8_lossy(&plan.stdout).into_owned();
+    let plan = stdout(&folder.run(&["run", "scene.toml", "--columns", "e_z", "--method", "taylor", "--explain"]));
     let line = plan.lines().find(|line| line.starts_with("stretch ")).expect("a stretch");
     let [_, from, "to", to, "s"] = line.split_whitespace().collect::<Vec<_>>()[..] else { panic!("{line}") };
     assert!(
@@ -148,8 +97,7 @@ fn notes_and_plans_of_a_physical_star_have_its_times_in_seconds() {
 #[test]
 fn the_next_method_is_the_second_cheapest() {
     // Without violation all methods are good enough.
-    let plan = twofold(&["run", "free", "--columns", "e_z", "--explain"]);
-    let plan = String::from_utf8_lossy(&plan.stdout).into_owned();
+    let plan = stdout(&twofold(&["run", "free", "--columns", "e_z", "--explain"]));
     let unit = |unit: &str| match unit {
         "ns," => 1.0,
         "us," => 1e3,
@@ -174,14 +122,11 @@ fn the_next_method_is_the_second_cheapest() {
 /// A motion of more turns than are kept is computed in stretches, and has no estimate of its own.
 #[test]
 fn an_error_that_is_foreseen_is_not_called_estimated() {
-    let folder = folder();
-    let scene = folder.path().join("scene.toml");
-    let tp_1 = BUILT_IN.iter().find(|scene| scene.name == "tp-1").expect("tp-1").toml;
-    let (before, _) = tp_1.split_once("[time]").expect("times");
+    let (before, _) = built_in("tp-1").expect("tp-1").toml.split_once("[time]").expect("times");
     for (span, words) in [(100.0, "note: estimated error"), (45_000.0, "note: error that the plan foresaw")] {
         let times = format!("[time]\nspan = {span}\nsamples = 2\n[output]\ntolerance = 1e-6\nmethod = \"taylor\"\n");
-        fs::write(&scene, format!("{before}{times}")).expect("scene");
-        let told = stderr(&twofold(&["run", scene.to_str().expect("path in UTF-8"), "--columns", "e_z"]));
+        let folder = Folder::with(&[("scene.toml", &format!("{before}{times}"))]);
+        let told = stderr(&folder.run(&["run", "scene.toml", "--columns", "e_z"]));
         assert!(told.contains(&format!("{words} of n")), "{told}");
     }
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::common::{folder, stderr, twofold};
+use crate::common::{Folder, stderr, twofold};
 use rayon::prelude::*;
 use serde_json::Value;
 
@@ -34,7 +34,7 @@ fn rows(text: &str, output: &Value) -> Vec<Vec<String>> {
     match text_of(&output["separator"]) {
         "json" => {
             let object: Value = serde_json::from_str(text).expect("JSON");
-            let at = |place: &str| match object.pointer(place) {
+            let at = |folder: &str| match object.pointer(folder) {
                 None => "nothing".to_owned(),
                 Some(Value::Null) => String::new(),
                 Some(Value::String(words)) => words.clone(),
@@ -43,7 +43,7 @@ fn rows(text: &str, output: &Value) -> Vec<Vec<String>> {
             list(&output["rows"])
                 .iter()
                 .map(|row| text_of(&row[0]))
-                .map(|place| vec![place.to_owned(), at(place)])
+                .map(|folder| vec![folder.to_owned(), at(folder)])
                 .collect()
         }
         "," => {
@@ -154,7 +154,7 @@ fn scene_text(answer: &Value) -> String {
 
 /// What is wrong with the outputs of one command, or nothing. Its scene is written anew, with the keys that are changed, unless it names its files itself.
 fn failures(answer: &Value, command: &Value) -> Vec<String> {
-    let (out, home) = (folder(), home());
+    let (out, home) = (Folder::new(), home());
     let about = format!("{} {}", answer["scene"], answer["changed"]);
     let path = out.path().join(format!("{}.toml", answer["scene"].as_str().unwrap_or("none")));
     if answer["scene"].is_string() {
@@ -209,7 +209,7 @@ fn compare(name: &str, least: usize) {
 
 /// What is wrong with a sweep of one scene whose key takes one value, against the answers for the scene with that value in the file.
 fn failure_of_sweep(answer: &Value, key: &str, value: &Value) -> Option<String> {
-    let out = folder();
+    let out = Folder::new();
     let text =
         fs::read_to_string(home().join("scenes").join(format!("{}.toml", text_of(&answer["scene"])))).expect("a scene");
     let scene = out.path().join("scene.toml");

@@ -2,10 +2,9 @@
 //! of a script. The tests pass where any of them is ignored: by this process, and so by those it starts.
 
 use std::fs;
-use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use crate::common::{comes_to, ends, folder, names_in, send, stderr};
+use crate::common::{Folder, TWOFOLD, comes_to, ends, send, stderr};
 
 const LONG: &str = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n\
                     [initial]\nalpha = 0.0\nbeta = 0.7\nalpha_rate = 1.5\nbeta_rate = 0.0\n[time]\nspan = 4e7\nsamples = 2\n";
@@ -26,11 +25,11 @@ const COMMANDS: [(&[&str], &str); 5] = [
 const SIGNALS: [(&str, u32); 3] = [("HUP", 1), ("INT", 2), ("TERM", 15)];
 
 /// The command, in a shell that ignores some signals.
-fn start(folder: &Path, args: &[&str], ignoring: &str) -> Child {
+fn start(folder: &Folder, args: &[&str], ignoring: &str) -> Child {
     let trap = if ignoring.is_empty() { String::new() } else { format!("trap '' {ignoring}; ") };
     let mut command = Command::new("sh");
-    command.args(["-c", &format!("{trap}exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_twofold")]).args(args);
-    command.current_dir(folder).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a shell")
+    command.args(["-c", &format!("{trap}exec \"$0\" \"$@\""), TWOFOLD]).args(args);
+    command.current_dir(folder.path()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a shell")
 }
 
 /// Whether signal number `signal` is in a mask of a process.
@@ -41,19 +40,17 @@ fn has_signal(process: &str, mask: &str, signal: u32) -> bool {
 }
 
 /// What the command has written.
-fn written(folder: &Path) -> Vec<String> {
-    names_in(folder).into_iter().filter(|name| !name.ends_with(".toml")).collect()
+fn written(folder: &Folder) -> Vec<String> {
+    folder.names().into_iter().filter(|name| !name.ends_with(".toml")).collect()
 }
 
 /// Starts a command where some signals are ignored, waits for its first file, sends one signal and, where that is ignored, a request to
 /// terminate.
 fn ends_by(args: &[&str], message: &str, signal: &str, ignoring: &str) {
     let what = format!("{args:?}, {signal}, ignoring `{ignoring}`");
-    let folder = folder();
-    fs::write(folder.path().join("long.toml"), LONG).expect("scene");
-    fs::write(folder.path().join("huge.toml"), HUGE).expect("sweep");
-    let mut child = start(folder.path(), args, ignoring);
-    assert!(comes_to(&mut child, || !written(folder.path()).is_empty()), "{what}: it ended by itself");
+    let folder = Folder::with(&[("long.toml", LONG), ("huge.toml", HUGE)]);
+    let mut child = start(&folder, args, ignoring);
+    assert!(comes_to(&mut child, || !written(&folder).is_empty()), "{what}: it ended by itself");
     let process = child.id().to_string();
     let is_ignored = |name: &str, number: u32| {
         name != "TERM" && (ignoring.split(' ').any(|ignored| ignored == name) || has_signal("self", "SigIgn:", number))
@@ -68,10 +65,9 @@ fn ends_by(args: &[&str], message: &str, signal: &str, ignoring: &str) {
     if is_ignored(signal, number) {
         send(&child, "TERM");
     }
-    let output = child.wait_with_output().expect("its end");
-    assert_eq!(output.status.code(), Some(130), "{what}: {}", stderr(&output));
+    let output = ends(child.wait_with_output().expect("its end"), 130);
     assert!(stderr(&output).ends_with(message), "{what}: {}", stderr(&output));
-    let left = written(folder.path());
+    let left = written(&folder);
     if args[0] == "sweep" {
         assert_eq!(left, ["out.partial", "out.partial.errors", "out.partial.journal"], "{what}");
     } else {
@@ -102,17 +98,11 @@ fn a_signal_that_is_ignored_stays_so_and_leaves_the_others_alone() {
 /// A table on standard output has no file to take away; the status says that it is not whole.
 #[test]
 fn a_run_to_standard_output_is_interrupted_too() {
-    let folder = folder();
-    fs::write(folder.path().join("long.toml"), LONG.replace("samples = 2", "samples = 2000000")).expect("scene");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_twofold"))
-        .args(["run", "long.toml", "--columns", "e_z"])
-        .current_dir(folder.path())
-        .stdout(fs::File::create(folder.path().join("motion.csv")).expect("file"))
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
-    let rows = || fs::metadata(folder.path().join("motion.csv")).is_ok_and(|found| found.len() > 0);
-    assert!(comes_to(&mut child, rows), "it ended by itself");
+    let folder = Folder::with(&[("long.toml", &LONG.replace("samples = 2", "samples = 2000000"))]);
+    let mut run = folder.command(&["run", "long.toml", "--columns", "e_z"]);
+    run.stdout(fs::File::create(folder.at("motion.csv")).expect("file"));
+    let mut child = run.spawn().expect("the command starts");
+    assert!(comes_to(&mut child, || folder.length("motion.csv") > 0), "it ended by itself");
     send(&child, "TERM");
     let output = ends(child.wait_with_output().expect("its end"), 130);
     assert!(stderr(&output).ends_with("error: interrupted\n"), "{}", stderr(&output));

@@ -1,52 +1,30 @@
 //! The command `twofold spectrum` as a user meets it: status, messages, output.
 
-use std::fs;
-use std::path::Path;
 use std::process::Output;
 
-use crate::common::{ends, file, folder, has_all, names_in, refuses, stderr, succeeds, twofold};
-
-/// A built-in scene with a text replaced, as a file.
-fn altered(folder: &Path, name: &str, from: &str, to: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scene/scenes/{name}.toml"));
-    let text = fs::read_to_string(path).expect("scene");
-    assert!(text.contains(from), "{text}");
-    let file = folder.join("altered.toml");
-    fs::write(&file, text.replace(from, to)).expect("file");
-    file.to_str().expect("UTF-8").to_owned()
-}
-
-/// A neutron star in free precession at 100 Hz.
-fn physical(folder: &Path) -> String {
-    let star = "mass = 1.4\nradius = 12.0\noblateness = 1e-3\nspin_frequency = 100.0";
-    let text = format!(
-        "[star]\n{star}\n[lorentz_violation]\neigenvalues = [0.0, 0.0, 0.0]\n[initial]\nalpha = 0.0\nbeta = 0.5\n\
-         alpha_rate = 700.0\nbeta_rate = 0.0\n[observer]\ntheta_o = 0.8\nphi_o = 0.0\n[time]\nstart = 3.0\nspan = 2.0\nsamples = 3\n"
-    );
-    let file = folder.join("physical.toml");
-    fs::write(&file, text).expect("file");
-    file.to_str().expect("UTF-8").to_owned()
-}
+use crate::common::{Folder, ends, has_all, numbers, stderr, stdout, succeeds, twofold};
 
 /// Rows of a list of lines: numbers, and what each is.
 fn lines_of(output: &Output) -> Vec<(Vec<f64>, String)> {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(output));
-    let text = String::from_utf8_lossy(&output.stdout);
     let row = |line: &str| {
         let (numbers, name) = line.rsplit_once(',').expect("columns");
         (numbers.split(',').map(|field| field.parse().expect("number")).collect(), name.to_owned())
     };
-    text.lines().skip(1).map(row).collect()
+    stdout(output).lines().skip(1).map(row).collect()
+}
+
+/// The highest point of an amplitude spectrum above a frequency: frequency and amplitude.
+fn highest_point(table: &str, above: f64) -> [f64; 2] {
+    let points = numbers(table).into_iter().filter(|row| row[0] > above).map(|row| [row[0], row[1]]);
+    points.max_by(|a, b| a[1].total_cmp(&b[1])).expect("rows")
 }
 
 #[test]
 fn lines_of_a_spectrum_are_identified() {
     let output = twofold(&["spectrum", "tp-1", "--of", "h_plus", "--span", "4000", "--least", "0.1"]);
-    let text = String::from_utf8_lossy(&output.stdout);
-    assert_eq!(
-        text.lines().next(),
-        Some("frequency [rad/t_c],amplitude [1],phase [rad],uncertainty [rad/t_c],combination")
-    );
+    let header = "frequency [rad/t_c],amplitude [1],phase [rad],uncertainty [rad/t_c],combination";
+    assert_eq!(stdout(&output).lines().next(), Some(header));
     // Free precession: the fundamental and its second harmonic.
     let lines = lines_of(&output);
     assert_eq!(lines.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>(), ["2 alpha'", "alpha'"]);
@@ -73,56 +51,42 @@ fn lines_of_a_spectrum_are_identified() {
 
 #[test]
 fn a_spectrum_of_a_physical_star_is_in_seconds_from_its_start() {
-    let folder = folder();
-    let scene = physical(folder.path());
-    let output = twofold(&["spectrum", &scene, "--of", "cos_lambda"]);
+    let folder = Folder::with(&[("star.toml", include_str!("../cases/physical.toml"))]);
+    let output = folder.run(&["spectrum", "star.toml", "--of", "cos_lambda"]);
     let lines = lines_of(&output);
-    assert!(String::from_utf8_lossy(&output.stdout).starts_with("frequency [rad/s],"));
+    assert!(stdout(&output).starts_with("frequency [rad/s],"));
     // Free precession: n goes round L at |L| / I^xx, here once in 9 ms; the line is cos lambda less its constant term.
     assert_eq!((lines.len(), lines[0].1.as_str()), (1, "alpha'"));
     let (spin, beta) = (1.001 * std::f64::consts::TAU * 100.0, 0.5_f64);
     let along = spin * beta.cos() + 700.0 * beta.sin().powi(2);
     let across = (700.0 * beta.cos() - spin) * beta.sin();
     assert!((lines[0].0[0] / along.hypot(across) - 1.0).abs() < 1e-10, "{lines:?}");
-    let table = twofold(&["run", &scene, "--columns", "lambda"]);
-    let text = String::from_utf8_lossy(&table.stdout).into_owned();
+    let table = stdout(&folder.run(&["run", "star.toml", "--columns", "lambda"]));
     let notes = stderr(&output);
     let constant = notes.split("constant term ").nth(1).and_then(|rest| rest.lines().next()).expect("constant");
     let constant: f64 = constant.parse().expect("number");
-    for row in text.lines().skip(1) {
-        let row: Vec<f64> = row.split(',').map(|field| field.parse().expect("number")).collect();
+    for row in numbers(&table) {
         let [frequency, amplitude, phase, _] = lines[0].0[..] else { panic!("four numbers") };
         let line = constant + amplitude * (frequency * (row[0] - 3.0) + phase).cos();
         assert!((line - row[1]).abs() < 1e-9, "{line} at {row:?}");
     }
     // The amplitude spectrum in steps of 2 pi over the span of 2 s; between two steps the window takes a few hundredths.
-    let spectrum = twofold(&["spectrum", &scene, "--of", "cos_lambda", "--table", "spectrum"]);
-    let text = String::from_utf8_lossy(&spectrum.stdout).into_owned();
+    let text = stdout(&folder.run(&["spectrum", "star.toml", "--of", "cos_lambda", "--table", "spectrum"]));
     assert!(text.starts_with("frequency [rad/s],amplitude [1]\n"), "{text}");
-    let points = text.lines().skip(1).map(|row| {
-        let (frequency, amplitude) = row.split_once(',').expect("two columns");
-        [frequency, amplitude].map(|field| field.parse::<f64>().expect("number"))
-    });
     // The window spreads the constant term over some steps.
-    let highest =
-        points.filter(|[frequency, _]| *frequency > 100.0).max_by(|a, b| a[1].total_cmp(&b[1])).expect("rows");
+    let highest = highest_point(&text, 100.0);
     assert!((highest[0] - lines[0].0[0]).abs() < std::f64::consts::PI, "{highest:?} {lines:?}");
     assert!((0.9..1.001).contains(&(highest[1] / lines[0].0[1])), "{highest:?} {lines:?}");
 }
 
 #[test]
 fn an_amplitude_spectrum_and_lines_without_names_need_no_long_span() {
-    let spectrum = succeeds(&["spectrum", "tp-2", "--of", "m.n", "--table", "spectrum"]);
-    let text = String::from_utf8_lossy(&spectrum.stdout).into_owned();
+    let text = stdout(&succeeds(&["spectrum", "tp-2", "--of", "m.n", "--table", "spectrum"]));
     assert!(text.starts_with("frequency [rad/t_c],amplitude [1]\n0.0,"), "{text}");
-    let highest = text.lines().skip(1).map(|row| {
-        let (frequency, amplitude) = row.split_once(',').expect("two columns");
-        (amplitude.parse::<f64>().expect("number"), frequency.parse::<f64>().expect("number"))
-    });
-    let highest = highest.filter(|(_, frequency)| *frequency > 0.5).max_by(|a, b| a.0.total_cmp(&b.0)).expect("rows");
+    let highest = highest_point(&text, 0.5);
     let lines = lines_of(&twofold(&["spectrum", "tp-2", "--of", "m.n", "--unidentified", "--least", "0.1"]));
     assert!(lines.iter().all(|(_, name)| name == "unidentified"));
-    assert!(lines.iter().any(|(line, _)| (line[0] - highest.1).abs() < 0.02), "{highest:?} {lines:?}");
+    assert!(lines.iter().any(|(line, _)| (line[0] - highest[0]).abs() < 0.02), "{highest:?} {lines:?}");
 
     let short = ends(twofold(&["spectrum", "tp-2", "--of", "m.n"]), 1);
     has_all(&stderr(&short), &["too short", "--span", "--unidentified"]);
@@ -183,13 +147,9 @@ fn rounding_beside_a_constant_is_not_listed() {
         ("tp-1", "E", "400", "the scene's tolerance is 1e-13, of 1.0e0 C"),
     ] {
         let output = twofold(&["spectrum", scene, "--of", column, "--span", span, "--unidentified"]);
-        assert!(lines_of(&output).is_empty(), "{scene} {column}: {}", String::from_utf8_lossy(&output.stdout));
-        let notes = stderr(&output);
-        for fragment in
-            ["constant term", "lines below ", " are not listed: ", floor, "has no line of an amplitude above"]
-        {
-            assert!(notes.contains(fragment), "{scene} {column}: {notes}");
-        }
+        assert!(lines_of(&output).is_empty(), "{scene} {column}: {}", stdout(&output));
+        let no_line = "has no line of an amplitude above";
+        has_all(&stderr(&output), &["constant term", "lines below ", " are not listed: ", floor, no_line]);
     }
 }
 
@@ -198,62 +158,16 @@ fn a_motion_without_frequencies_has_lines_without_names() {
     let text = "[star]\ninertia_ratio = 1.1\nspin = 1.0\n[lorentz_violation]\neigenvalues = [0.02, 0.01, -0.04]\n[initial]\n\
                 alpha = 0.0\nbeta = 0.0\nalpha_rate = 0.0\nbeta_rate = 0.0\n[observer]\ntheta_o = 0.8\nphi_o = 0.0\n[pulsar]\n\
                 chi = 0.5\nrho = 0.6\n[time]\nspan = 3000.0\nsamples = 3\n";
-    let (_folder, scene) = file("upright.toml", text);
-    let output = twofold(&["spectrum", &scene, "--of", "m.n"]);
+    let folder = Folder::with(&[("upright.toml", text)]);
+    let spectrum = |of: &str| folder.run(&["spectrum", "upright.toml", "--of", of]);
+    let output = spectrum("m.n");
     let lines = lines_of(&output);
     assert_eq!((lines.len(), lines[0].1.as_str()), (1, "unidentified"));
     assert!((lines[0].0[0] - 1.0).abs() < 1e-12, "{lines:?}");
     assert!(stderr(&output).contains("no line is identified: the motion has no fundamental frequencies"));
     // Nothing moves here but rounding.
-    let constant = twofold(&["spectrum", &scene, "--of", "L_Z"]);
+    let constant = spectrum("L_Z");
     assert!(lines_of(&constant).is_empty() && stderr(&constant).contains("L_Z has no line"), "{}", stderr(&constant));
-    let output = ends(twofold(&["spectrum", &scene, "--of", "beta"]), 1);
+    let output = ends(spectrum("beta"), 1);
     assert!(stderr(&output).contains("`beta` does not exist at t = 0.0 t_c"), "{}", stderr(&output));
-}
-
-#[test]
-fn what_has_no_spectrum_is_refused_before_anything_is_written() {
-    let folder = folder();
-    let out = folder.path().join("lines.csv");
-    let out = out.to_str().expect("UTF-8");
-    for (args, fragments) in [
-        (
-            &["tp-1", "--of", "h_plu"][..],
-            &["--of for tp-1: `h_plu` is no column", "`beta`,", "Did you mean `h_plus`?"][..],
-        ),
-        (&["tp-1", "--of", "h_plus [1]"], &["is no column"]),
-        (&["tp-1", "--of", "alpha"], &["`alpha` turns without end"]),
-        (&["free", "--of", "beta_printed"], &["the scene lacks a perturbation solution"]),
-        (&["tp-1", "--of", "beta", "--span", "0"], &["--span 0.0: allowed is"]),
-        (&["tp-1", "--of", "beta", "--span", "nan"], &["--span NaN: allowed is"]),
-        (&["tp-1", "--of", "beta", "--span", "1e9"], &["rotation", "at most 1e5 rad"]),
-        (&["tp-1", "--of", "beta", "--least", "0"], &["--least 0.0: allowed is from 1e-12 to 1"]),
-        (&["tp-1", "--of", "beta", "--most", "0"], &["--most", "1..=200"]),
-        (&["tp-1", "--of", "beta", "--table", "picture"], &["--table", "lines, spectrum"]),
-        (&["tp-1"], &["--of <COLUMN>"]),
-        (&["tp-11", "--of", "beta"], &["did you mean `tp-1`?"]),
-    ] {
-        let output = refuses(&[&["spectrum"], args, &["--out", out]].concat());
-        assert!(output.stdout.is_empty() && names_in(folder.path()).is_empty(), "{args:?}");
-        has_all(&stderr(&output), fragments);
-    }
-    let failed = twofold(&["spectrum", "tp-1", "--of", "beta", "--out", out]);
-    assert_eq!((failed.status.code(), names_in(folder.path()).len()), (Some(1), 0));
-    let still = altered(folder.path(), "tp-1", "span = 400 # [t_c]\nsamples = 4001", "times = [0.0]");
-    let output = refuses(&["spectrum", &still, "--of", "beta"]);
-    assert!(stderr(&output).contains("[time] has no length"), "{}", stderr(&output));
-    succeeds(&["spectrum", "free", "--of", "beta", "--out", out]);
-    assert!(fs::read_to_string(out).expect("table").starts_with("frequency [rad/t_c],"));
-}
-
-#[test]
-fn units_of_a_physical_star_are_told_without_what_is_not_asked_for() {
-    let folder = folder();
-    let scene = physical(folder.path());
-    let output = succeeds(&["run", &scene, "--columns", "e_z"]);
-    assert!(
-        stderr(&output).contains("times are in s\n") && !stderr(&output).contains("g cm^2/s"),
-        "{}",
-        stderr(&output)
-    );
 }

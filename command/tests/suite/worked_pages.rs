@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{folder, stderr};
+use crate::common::{Folder, TWOFOLD, stderr};
 
 /// Numbers agree to this part of themselves. The motion is computed to 1e-13 of a component, and its last digits differ between
 /// processors; what is printed may be a difference of components, or a component near zero, of which four digits are gone.
@@ -164,8 +164,8 @@ fn blocks(page: &str) -> Vec<(&str, &str, Room<'_>)> {
 
 /// Runs the page from its first line to its last in an empty folder; how many commands and numbers there were.
 fn work_through(page: &str) -> (Vec<String>, usize) {
-    let folder = folder();
-    let program = Path::new(env!("CARGO_BIN_EXE_twofold")).parent().expect("a folder");
+    let folder = Folder::new();
+    let program = Path::new(TWOFOLD).parent().expect("a folder");
     let path = format!("{}:{}", program.display(), env::var("PATH").unwrap_or_default());
     let (mut commands, mut numbers) = (Vec::new(), 0);
     for (kind, text, room) in blocks(page) {

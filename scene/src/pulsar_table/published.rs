@@ -29,26 +29,7 @@ pub fn printed_bounds() -> Vec<(Pulsar, PrintedBounds)> {
     paper().into_iter().map(printed).collect()
 }
 
-/// What of a publication was seen here.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Seen {
-    /// The number stands in its abstract, which was read.
-    Abstract,
-    /// The number is known from others; the publication could not be opened.
-    SecondHand,
-}
-
-impl Seen {
-    /// In words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Seen::Abstract => "abstract",
-            Seen::SecondHand => "second-hand",
-        }
-    }
-}
-
-/// A published limit.
+/// A published limit, as a line of `pulsars/published.tsv` has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Published {
     /// What is limited; components are those of the Sun-centred frame.
@@ -59,76 +40,21 @@ pub struct Published {
     pub meaning: &'static str,
     /// Who, when and where.
     pub source: &'static str,
-    /// What of it was seen.
-    pub seen: Seen,
+    /// What of it was seen here: `abstract`, the number stands in it and it was read; `second-hand`, the number is known from others, and
+    /// the publication could not be opened.
+    pub seen: &'static str,
 }
-
-/// Of the two pulsars of the paper's table together.
-pub const SOLITARY_ALPHA_2: Published = published(
-    "|alpha_2|, strong field",
-    1.6e-9,
-    "95 %",
-    "two solitary pulsars: Shao et al. 2013, arXiv:1307.2552",
-    Seen::Abstract,
-);
-
-/// Of 13 pulsar systems together, to which the paper compares its bounds.
-pub const GLOBAL_2014: Published = published(
-    "s^XX + s^YY - 2 s^ZZ",
-    1.2e-10,
-    "68 %",
-    "13 pulsar systems: Shao 2014, arXiv:1402.6452",
-    Seen::SecondHand,
-);
-
-const PULSARS_2024: &str = "12 pulsar systems: Dong, Wang, Shao 2024, arXiv:2311.11038";
 
 /// All of them.
-pub const PUBLISHED: &[Published] = &[
-    of_2024("s^XX + s^YY - 2 s^ZZ", 4.1e-11),
-    GLOBAL_2014,
-    of_2024("s^XX - s^YY", 3.9e-11),
-    published(
-        "s^XX - s^YY",
-        1.1e-11,
-        "about 1 sigma",
-        "lunar laser ranging: Bourgoin et al. 2017, arXiv:1706.06294",
-        Seen::SecondHand,
-    ),
-    of_2024("s^XY", 1.2e-11),
-    of_2024("s^XZ", 5.6e-12),
-    of_2024("s^YZ", 1.1e-11),
-    of_2024("s^TX", 2.9e-9),
-    of_2024("s^TY", 3.3e-9),
-    of_2024("s^TZ", 3.2e-9),
-    published("|s^TT|", 1.6e-5, "95 %", "binary pulsars, frame of the CMB: Shao 2014, arXiv:1412.2320", Seen::Abstract),
-    SOLITARY_ALPHA_2,
-    published(
-        "|alpha_2|, strong field",
-        1.8e-4,
-        "95 %",
-        "two binary pulsars: Shao, Wex 2012, arXiv:1209.4503",
-        Seen::Abstract,
-    ),
-    published(
-        "|alpha_1 + 0.4e-5|, strong field",
-        3.7e-5,
-        "95 %; 3.1e-5 below",
-        "PSR J1738+0333: Shao, Wex 2012, arXiv:1209.4503",
-        Seen::Abstract,
-    ),
-];
-
-const fn of_2024(quantity: &'static str, limit: f64) -> Published {
-    published(quantity, limit, "about 1 sigma", PULSARS_2024, Seen::SecondHand)
+pub fn published() -> impl Iterator<Item = Published> {
+    include_str!("../../pulsars/published.tsv").lines().skip(1).map(|line| {
+        let cells: Vec<_> = line.split('\t').collect();
+        let [quantity, limit, meaning, source, seen] = cells[..] else { panic!("five cells in `{line}`") };
+        Published { quantity, limit: limit.parse().expect("a number"), meaning, source, seen }
+    })
 }
 
-const fn published(
-    quantity: &'static str,
-    limit: f64,
-    meaning: &'static str,
-    source: &'static str,
-    seen: Seen,
-) -> Published {
-    Published { quantity, limit, meaning, source, seen }
+/// The limit published in a paper that gives one, by its number at arXiv.
+pub fn limit_of(paper: &str) -> f64 {
+    published().find(|limit| limit.source.ends_with(paper)).expect("a published limit").limit
 }

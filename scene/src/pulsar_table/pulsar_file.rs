@@ -4,30 +4,13 @@ use super::{Eta, Inertia, Pulsar, Quantity, SpinForm, Spread};
 use crate::scene_file::{Entry, Fault, Section};
 
 pub(super) fn read(document: &Section<'_>) -> Result<Vec<Pulsar>, Fault> {
-    document.only(&["about", "pulsar"])?;
+    document.only("about pulsar")?;
     document.optional_string("about")?;
     document.repeated_section("pulsar", "a pulse of a pulsar")?.iter().map(pulsar).collect()
 }
 
 fn pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
-    section.only(&[
-        "name",
-        "source",
-        "spin_period",
-        "spin_frequency",
-        "width",
-        "width_change",
-        "lambda",
-        "zeta",
-        "chi",
-        "years",
-        "inertia_over_c",
-        "density",
-        "oblateness",
-        "beta_0",
-        "eta",
-        "w",
-    ])?;
+    section.only("name source spin_period spin_frequency width width_change lambda zeta chi years inertia_over_c density oblateness beta_0 eta w")?;
     section.not_both(&[
         ("spin_period", "spin_frequency"),
         ("lambda", "zeta"),

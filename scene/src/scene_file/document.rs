@@ -129,21 +129,14 @@ impl<'a> Section<'a> {
         if self.name.is_empty() { self.document.to_owned() } else { format!("[{}]", self.name) }
     }
 
-    /// Refuses keys that are not in `allowed`.
-    pub(crate) fn only(&self, allowed: &[&str]) -> Result<(), Fault> {
+    /// Refuses keys that are not among the words of `allowed`.
+    pub(crate) fn only(&self, allowed: &str) -> Result<(), Fault> {
+        let allowed: Vec<_> = allowed.split(' ').collect();
         let unknown = self.table.keys().filter(|key| !allowed.contains(&key.get_ref().as_ref()));
         let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
-        let (key, name) = (key.span(), key.get_ref());
-        Err(Fault::at(
-            key,
-            format!(
-                "unknown key `{}`: {} has {}.{}",
-                self.dotted(&shortened(name)),
-                self.title(),
-                listed(allowed),
-                did_you_mean(name, allowed)
-            ),
-        ))
+        let (name, title) = (key.get_ref(), self.title());
+        let (dotted, guess) = (self.dotted(&shortened(name)), did_you_mean(name, &allowed));
+        Err(Fault::at(key.span(), format!("unknown key `{dotted}`: {title} has {}.{guess}", listed(&allowed))))
     }
 
     pub(crate) fn has(&self, key: &str) -> bool {
@@ -201,10 +194,8 @@ impl<'a> Section<'a> {
         for (first, second) in pairs {
             if let (Some(_), Some(value)) = (self.find(first), self.find(second)) {
                 let (first, second) = (self.dotted(first), self.dotted(second));
-                return Err(Fault::at(
-                    value.span(),
-                    format!("`{second}` beside `{first}`: only one of the two is allowed"),
-                ));
+                let why = format!("`{second}` beside `{first}`: only one of the two is allowed");
+                return Err(Fault::at(value.span(), why));
             }
         }
         Ok(())
@@ -345,12 +336,9 @@ impl<'a> Entry<'a> {
     /// The entries of a list; `allowed` says of what.
     pub(crate) fn list(&self, allowed: &str) -> Result<Vec<Entry<'a>>, Fault> {
         let DeValue::Array(array) = self.value else { return Err(self.refuse(allowed)) };
-        let entry = |(i, value): (usize, &'a Spanned<DeValue<'a>>)| Entry {
-            text: self.text,
-            replaced: self.replaced,
-            key: format!("{}[{i}]", self.key),
-            span: value.span(),
-            value: value.get_ref(),
+        let entry = |(i, value): (usize, &'a Spanned<DeValue<'a>>)| {
+            let key = format!("{}[{i}]", self.key);
+            Entry { key, span: value.span(), value: value.get_ref(), ..*self }
         };
         Ok(array.iter().enumerate().map(entry).collect())
     }

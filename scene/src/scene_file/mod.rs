@@ -110,17 +110,7 @@ impl Scene {
         columns: Columns<'_>,
         times: Option<&Times>,
     ) -> Result<Self, Fault> {
-        document.only(&[
-            "about",
-            "sources",
-            "star",
-            "lorentz_violation",
-            "initial",
-            "observer",
-            "pulsar",
-            "time",
-            "output",
-        ])?;
+        document.only("about sources star lorentz_violation initial observer pulsar time output")?;
         let about = document.optional_string("about")?.unwrap_or("").to_owned();
         let sources = document.optional("sources").map(|entry| sources(&entry)).transpose()?.unwrap_or_default();
         let star_section = document.required_section("star", "the spheroid and its spin")?;

@@ -59,7 +59,7 @@ pub(super) struct Star {
 
 /// The star, and a sentence if it spins faster than gravity can hold it.
 pub(super) fn read_star(section: &Section<'_>) -> Result<(Star, Option<String>), Fault> {
-    section.only(&["inertia_ratio", "spin", "mass", "radius", "density", "oblateness", "spin_frequency"])?;
+    section.only("inertia_ratio spin mass radius density oblateness spin_frequency")?;
     for physical in ["mass", "radius", "density", "oblateness", "spin_frequency"] {
         section.not_both(&[("inertia_ratio", physical), ("spin", physical)])?;
     }
@@ -149,7 +149,7 @@ pub(super) struct Violation {
 const COEFFICIENT: &str = "a number from -1 to 1: the violation is small";
 
 pub(super) fn read_violation(section: &Section<'_>) -> Result<Violation, Fault> {
-    section.only(&["eigenvalues", "tensor", "alpha_2", "w"])?;
+    section.only("eigenvalues tensor alpha_2 w")?;
     section.not_both(&[
         ("eigenvalues", "tensor"),
         ("eigenvalues", "alpha_2"),
@@ -238,7 +238,7 @@ pub(super) struct Initial {
 }
 
 pub(super) fn read_initial(section: &Section<'_>, star: &Star, violation: &Violation) -> Result<Initial, Fault> {
-    section.only(&[&ANGLES[..2], &["gamma"], &ANGLES[2..], &CONSTANTS].concat())?;
+    section.only("alpha beta gamma alpha_rate beta_rate kind alpha_0 beta_0 amplitude phase")?;
     let Some(constant) = CONSTANTS.iter().find(|key| section.has(key)) else { return from_angles(section, star) };
     section.not_both(&ANGLES.map(|angle| (*constant, angle)))?;
     from_constants(section, star, violation)

@@ -61,7 +61,7 @@ pub struct Catalogued {
 }
 
 pub(super) fn read_observer(section: &Section<'_>, units: &Units) -> Result<Viewer, Fault> {
-    section.only(&["theta_o", "phi_o", "distance"])?;
+    section.only("theta_o phi_o distance")?;
     let theta_o = section
         .required("theta_o", "colatitude of the observer [rad]")?
         .number_in("an angle from 0 to pi [rad]", 0.0..=PI)?;
@@ -77,7 +77,7 @@ pub(super) fn read_observer(section: &Section<'_>, units: &Units) -> Result<View
 }
 
 pub(super) fn read_pulsar(section: &Section<'_>) -> Result<Pulsar, Fault> {
-    section.only(&["chi", "delta", "rho", "second_beam", "name", "right_ascension", "declination"])?;
+    section.only("chi delta rho second_beam name right_ascension declination")?;
     Ok(Pulsar {
         chi: section
             .required("chi", "angle of the magnetic axis to the symmetry axis [rad]")?
@@ -187,7 +187,7 @@ impl Times {
 
 /// Reads the section `[time]` of a scene: it may have an epoch and, for a physical star, a span in years.
 pub(super) fn read_time(section: &Section<'_>, units: &Units) -> Result<Times, Fault> {
-    section.only(&["epoch", "start", "years", "span", "end", "samples", "times"])?;
+    section.only("epoch start years span end samples times")?;
     let Some(years) = section.optional("years") else { return read_times(section) };
     section.not_both(&[("span", "years"), ("end", "years"), ("times", "years")])?;
     if !units.are_physical() {
@@ -323,7 +323,7 @@ pub(crate) fn in_table_order(wanted: &[Output]) -> Vec<Output> {
 
 /// Reads columns and tolerance into a scene that is complete otherwise. It keeps its columns where those of the file are not `used`.
 pub(super) fn read_output(section: &Section<'_>, scene: &mut Scene, used: bool) -> Result<(), Fault> {
-    section.only(&["columns", "tolerance", "method"])?;
+    section.only("columns tolerance method")?;
     read_tolerance_and_method(section, scene)?;
     let Some(list) = section.optional("columns") else { return Ok(()) };
     let names = COLUMN_GROUPS.map(|(name, _)| name);

@@ -143,7 +143,7 @@ impl<'t> Sweep<'t> {
 
 /// Checks the keys of the document; says what the sweep is about.
 fn check_keys(document: &Section<'_>) -> Result<String, Fault> {
-    document.only(&["about", "scene", "seed", "draws", "vary", "time", "output"])?;
+    document.only("about scene seed draws vary time output")?;
     let about = document.optional_string("about")?.unwrap_or("");
     let scene = document.required("scene", "a built-in scene, the path of a scene file, or a section [scene]")?;
     if !scene.is_string() {
@@ -155,7 +155,7 @@ fn check_keys(document: &Section<'_>) -> Result<String, Fault> {
 /// The times of the columns: those of a scene's section, or the end of the span alone.
 fn times(document: &Section<'_>) -> Result<Times, Fault> {
     let section = document.required_section("time", "the times of the columns")?;
-    section.only(&["start", "span", "end", "samples", "times"])?;
+    section.only("start span end samples times")?;
     if section.has("times") || section.has("samples") {
         return read_times(&section);
     }
@@ -173,7 +173,7 @@ fn parameters(document: &Section<'_>, known: &[String]) -> Result<Parameters, Fa
     let mut groups: Vec<(&str, usize)> = Vec::new();
     let mut streams = 0;
     for section in document.repeated_section("vary", "a parameter of the scene and its numbers")? {
-        section.only(&["parameter", "values", "grid", "random", "together"])?;
+        section.only("parameter values grid random together")?;
         section.not_both(&[("values", "grid"), ("values", "random"), ("grid", "random"), ("together", "random")])?;
         let parameter = section.required("parameter", "dotted key of a number of the scene")?;
         found.keys.push(parameter_key(&parameter, known, &found.keys)?);
@@ -256,7 +256,7 @@ fn source(section: &Section<'_>, stream: u64) -> Result<(Option<u64>, Source), F
 }
 
 fn grid(section: &Section<'_>) -> Result<(u64, Source), Fault> {
-    section.only(&["from", "to", "points", "scale"])?;
+    section.only("from to points scale")?;
     let points = section.required("points", "number of points, both ends included")?;
     let points = points.whole_number(2, MOST_SCENES as usize)? as u64;
     let scale = section.optional("scale").map_or(Ok("linear"), |entry| entry.word(&["linear", "log"]))?;
@@ -269,13 +269,13 @@ fn law(section: &Section<'_>) -> Result<Law, Fault> {
     const NAMES: [&str; 3] = ["uniform", "log-uniform", "normal"];
     let name = section.required("distribution", "\"uniform\", \"log-uniform\" or \"normal\"")?.word(&NAMES)?;
     if name == "normal" {
-        section.only(&["distribution", "mean", "deviation"])?;
+        section.only("distribution mean deviation")?;
         let mean = section.required("mean", "mean")?.number()?;
         let entry = section.required("deviation", "standard deviation")?;
         let deviation = entry.number_where("a number above zero", |x| x > 0.0)?;
         return Normal::new(mean, deviation).map(Law::Normal).map_err(|error| entry.refuse_because(&error.to_string()));
     }
-    section.only(&["distribution", "from", "to"])?;
+    section.only("distribution from to")?;
     let (from, to) = ends(section, name == "log-uniform")?;
     Ok(if name == "uniform" { Law::Uniform { from, to } } else { Law::LogUniform { from, to } })
 }
@@ -304,7 +304,7 @@ fn outputs(document: &Section<'_>, scene: &mut Scene, times: Times) -> Result<Ou
     let mut outputs = Outputs { times, groups: Vec::new(), errors: true, summaries: Vec::new() };
     outputs.groups = vec![Output::SymmetryAxis, Output::AngularMomentum];
     let Some(section) = document.section("output")? else { return Ok(outputs) };
-    section.only(&["columns", "summaries", "tolerance", "method"])?;
+    section.only("columns summaries tolerance method")?;
     read_tolerance_and_method(&section, scene)?;
     if let Some(list) = section.optional("columns") {
         let names: Vec<_> = COLUMN_GROUPS.iter().map(|(name, _)| *name).chain([ERRORS]).collect();

@@ -20,7 +20,6 @@ pub struct Edit {
     pub range: (usize, usize),
     /// The text; `\u{1}N\u{2}` and `\u{3}N\u{4}` enclose the code that belongs to variant N alone.
     pub text: String,
-    /// Index of the site.
     pub site: usize,
     /// How deep the site lies in others.
     pub depth: usize,
@@ -32,7 +31,6 @@ pub struct Edit {
 pub struct Origin {
     /// Start and end in bytes of the written text.
     pub range: (usize, usize),
-    /// Index of the site.
     pub site: usize,
     /// Variant, counted within the site.
     pub variant: Option<usize>,
@@ -43,13 +41,7 @@ pub fn apply(text: &str, edits: &[Edit], sites: usize) -> (String, Vec<Origin>) 
     let mut order: Vec<&Edit> = edits.iter().collect();
     // At one place: what closes (inner first), then what opens (outer first), then what replaces.
     order.sort_by_key(|e| {
-        let kind = if e.closes {
-            0
-        } else if e.range.0 == e.range.1 {
-            1
-        } else {
-            2
-        };
+        let kind = if e.closes { 0 } else { 1 + usize::from(e.range.0 != e.range.1) };
         let depth = if e.closes { -(e.depth as i64) } else { e.depth as i64 };
         (e.range.0, kind, depth)
     });

@@ -11,10 +11,10 @@ use crate::edit::{Edit, Origin, Site, apply};
 use crate::sites::{self, Constants, Fault};
 
 /// One source file with what was found in it.
+#[derive(Default)]
 struct Source {
     path: PathBuf,
     text: String,
-    first: u32,
     sites: Vec<Site>,
     origins: Vec<Origin>,
     dropped_sites: HashSet<usize>,
@@ -42,31 +42,19 @@ pub fn instrument(tree: &Path, patterns: &[String]) -> Result<usize, String> {
         for name in sites::constants(&text).map_err(|e| format!("{below}: {e}"))? {
             constants.entry(name).or_default().push(module_of(&below));
         }
-        let faults = faults_of(&below)?;
-        sources.push(Source {
-            path,
-            text,
-            first: 0,
-            sites: vec![],
-            origins: vec![],
-            dropped_sites: HashSet::new(),
-            faults,
-        });
+        sources.push(Source { path, text, faults: faults_of(&below)?, ..Source::default() });
     }
-    let constants: Constants = constants
-        .into_iter()
-        .filter(|(_, modules)| modules.len() == 1)
-        .map(|(name, modules)| {
-            let path = format!("{}::{}", modules[0], sites::function_of(&name));
-            (name, path)
-        })
-        .collect();
+    constants.retain(|_, modules| modules.len() == 1);
+    let with_path = |(name, modules): (String, Vec<String>)| {
+        let path = format!("{}::{}", modules[0], sites::function_of(&name));
+        (name, path)
+    };
+    let constants: Constants = constants.into_iter().map(with_path).collect();
     let mut dropped: HashSet<u32> = HashSet::new();
     prepare(tree)?;
     for round in 1..=40 {
         let mut next = 1;
         for source in &mut sources {
-            source.first = next;
             let found = sites::find(&source.text, next, &constants, &dropped, &source.dropped_sites, &source.faults)
                 .map_err(|e| format!("{}: {e}", source.path.display()))?;
             next += found.sites.iter().map(|s| s.variants.len() as u32).sum::<u32>();
@@ -145,8 +133,7 @@ fn prepare(tree: &Path) -> Result<(), String> {
 
 fn write(source: &mut Source, sites: Vec<Site>, edits: &[Edit]) -> Result<(), String> {
     let (text, origins) = apply(&source.text, edits, sites.len());
-    let is_root = source.path.ends_with("src/lib.rs");
-    if !is_root {
+    if !source.path.ends_with("src/lib.rs") {
         fs::write(&source.path, &text).map_err(|e| e.to_string())?;
     }
     (source.sites, source.origins) = (sites, origins);
@@ -191,12 +178,8 @@ fn refusals(tree: &Path, sources: &mut [Source], dropped: &mut HashSet<u32>) -> 
             let Some(smallest) = within.min_by_key(|o| o.range.1 - o.range.0) else { continue };
             placed = true;
             match smallest.variant {
-                Some(k) => {
-                    new_variants.insert(source.sites[smallest.site].first + k as u32);
-                }
-                None => {
-                    new_sites.insert((which, smallest.site));
-                }
+                Some(k) => drop(new_variants.insert(source.sites[smallest.site].first + k as u32)),
+                None => drop(new_sites.insert((which, smallest.site))),
             }
         }
         if !placed {
@@ -210,12 +193,8 @@ fn refusals(tree: &Path, sources: &mut [Source], dropped: &mut HashSet<u32>) -> 
     }
     for (which, site) in new_sites {
         let source = &mut sources[which];
-        let blamed = source.sites[site]
-            .variants
-            .iter()
-            .enumerate()
-            .any(|(k, _)| new_variants.contains(&(source.sites[site].first + k as u32)));
-        if !blamed {
+        let Site { first, variants, .. } = &source.sites[site];
+        if !(*first..*first + variants.len() as u32).any(|number| new_variants.contains(&number)) {
             refused += usize::from(source.dropped_sites.insert(site));
         }
     }

@@ -9,7 +9,7 @@ use quote::ToTokens;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
-use syn::{BinOp, Expr, Item, Lit, Member, Stmt, Token, UnOp};
+use syn::{Expr, Item, Lit, Member, Stmt, Token, UnOp};
 
 use crate::edit::{Edit, Site};
 
@@ -102,6 +102,39 @@ struct Visitor<'a> {
 /// A variant: what is said of it, and its code.
 type Variant = (String, String);
 
+// What is written in place of what, in turn.
+const ASSIGNMENTS: &str = "+= -= -= += *= /= /= *=";
+const OPERATORS: &str = "+ - - + * / / * % / << >> >> <<";
+const FIELDS: &str = "x y y z z x xx yy yy zz zz xx alpha gamma gamma alpha sin cos cos sin re im im re";
+/// Methods with so many arguments.
+const SWAPPED: &str = "sin/0 cos cos/0 sin sinh/0 cosh cosh/0 sinh floor/0 ceil ceil/0 floor min/1 max max/1 min any/1 all \
+    all/1 any is_some/0 is_none is_none/0 is_some is_ok/0 is_err is_err/0 is_ok exp/0 recip";
+
+// Methods that are left out: without arguments, with any; and those of which the sign is changed.
+const DROPPED_ALONE: &str = "transpose abs sqrt recip conj round trunc normalize ln rev";
+const DROPPED: &str = "powi clamp rem_euclid copysign";
+const NEGATED: &str = "cross dot atan2 tan atan asin acos tr_mul component_mul";
+
+/// What follows a word in a list of pairs.
+fn beside(pairs: &'static str, word: &str) -> Option<&'static str> {
+    let mut words = pairs.split(' ');
+    std::iter::from_fn(|| words.next().zip(words.next())).find(|(first, _)| *first == word).map(|(_, second)| second)
+}
+
+/// The names of some operands.
+fn operands(which: impl IntoIterator<Item = usize>) -> String {
+    which.into_iter().map(|k| format!("__{k}")).collect::<Vec<_>>().join(", ")
+}
+
+/// The orders of `count` things in which two neighbours are swapped, each with the place of the second.
+fn swapped(count: usize) -> impl Iterator<Item = (usize, Vec<usize>)> {
+    (1..count).map(move |k| {
+        let mut order: Vec<usize> = (0..count).collect();
+        order.swap(k - 1, k);
+        (k, order)
+    })
+}
+
 fn range(node: &impl Spanned) -> (usize, usize) {
     let range = node.span().byte_range();
     (range.start, range.end)
@@ -113,22 +146,22 @@ impl<'a> Visitor<'a> {
         &self.text[start..end]
     }
 
+    /// Adds a site; its index.
+    fn add(&mut self, range: (usize, usize), variants: Vec<String>, function: String) -> usize {
+        let (first, line) = (self.next, self.text[..range.0].matches('\n').count() + 1);
+        self.next += variants.len() as u32;
+        self.found.sites.push(Site { variants, first, line, function, range });
+        self.found.sites.len() - 1
+    }
+
     /// Enters a site: its index, and the variants that are left with their numbers.
     fn enter(&mut self, range: (usize, usize), variants: Vec<Variant>) -> Option<(usize, Vec<(usize, u32, String)>)> {
         if variants.is_empty() {
             return None;
         }
-        let index = self.found.sites.len();
         let first = self.next;
-        self.next += variants.len() as u32;
-        let line = self.text[..range.0].matches('\n').count() + 1;
-        self.found.sites.push(Site {
-            variants: variants.iter().map(|(label, _)| label.clone()).collect(),
-            first,
-            line,
-            function: self.context.join("::"),
-            range,
-        });
+        let labels = variants.iter().map(|(label, _)| label.clone()).collect();
+        let index = self.add(range, labels, self.context.join("::"));
         if self.dropped_sites.contains(&index) {
             return None;
         }
@@ -155,22 +188,14 @@ impl<'a> Visitor<'a> {
     }
 
     /// Operands are bound to `__0`, `__1`... and the code chosen works on them.
-    fn bind(
-        &mut self,
-        whole: (usize, usize),
-        operands: &[(usize, usize)],
-        variants: Vec<Variant>,
-        original: &str,
-    ) -> bool {
-        let Some((site, left)) = self.enter(whole, variants) else { return false };
-        let names: Vec<String> = (0..operands.len()).map(|k| format!("__{k}")).collect();
-        self.put(site, (whole.0, operands[0].0), "(match (".into(), false);
-        for pair in operands.windows(2) {
+    fn bind(&mut self, whole: (usize, usize), places: &[(usize, usize)], variants: Vec<Variant>, original: &str) {
+        let Some((site, left)) = self.enter(whole, variants) else { return };
+        self.put(site, (whole.0, places[0].0), "(match (".into(), false);
+        for pair in places.windows(2) {
             self.put(site, (pair[0].1, pair[1].0), ", ".into(), false);
         }
-        let close = format!(",) {{ ({},) => {} }})", names.join(", "), Self::choice(&left, original));
-        self.put(site, (operands[operands.len() - 1].1, whole.1), close, true);
-        true
+        let close = format!(",) {{ ({},) => {} }})", operands(0..places.len()), Self::choice(&left, original));
+        self.put(site, (places[places.len() - 1].1, whole.1), close, true);
     }
 
     fn inside(&mut self, visit: impl FnOnce(&mut Self)) {
@@ -179,85 +204,73 @@ impl<'a> Visitor<'a> {
         self.depth -= 1;
     }
 
-    fn value(&mut self, expr: &Expr) {
-        let before = std::mem::replace(&mut self.place, false);
-        self.visit_expr(expr);
+    /// Visits an expression that names a place, or one that has a value.
+    fn visited(&mut self, place: bool, visit: impl FnOnce(&mut Self)) {
+        let before = std::mem::replace(&mut self.place, place);
+        visit(self);
         self.place = before;
     }
 
+    fn value(&mut self, expr: &Expr) {
+        self.visited(false, |v| v.visit_expr(expr));
+    }
+
     fn of_place(&mut self, expr: &Expr) {
-        let before = std::mem::replace(&mut self.place, true);
-        self.visit_expr(expr);
-        self.place = before;
+        self.visited(true, |v| v.visit_expr(expr));
+    }
+
+    /// A site without a variant of its own; its index, if it is left.
+    fn plain(&mut self, range: (usize, usize), function: String) -> Option<usize> {
+        let index = self.add(range, Vec::new(), function);
+        (!self.dropped_sites.contains(&index)).then_some(index)
+    }
+
+    /// A site with one variant, of which the code in place follows from its number.
+    fn one(&mut self, range: (usize, usize), label: String) -> Option<(usize, String)> {
+        let (site, kept) = self.enter(range, vec![(label, String::new())])?;
+        Some((site, kept[0].1.to_string()))
     }
 
     fn binary(&mut self, binary: &syn::ExprBinary) {
         let whole = range(binary);
         let (left, right) = (range(&binary.left), range(&binary.right));
         let sign = self.raw(&binary.op).to_string();
-        let assigned = |op: &str| -> Option<Vec<(&'static str, &'static str)>> {
-            Some(match op {
-                "+=" => vec![("-=", "-="), ("dropped", "")],
-                "-=" => vec![("+=", "+="), ("dropped", "")],
-                "*=" => vec![("/=", "/="), ("dropped", "")],
-                "/=" => vec![("*=", "*="), ("dropped", "")],
-                _ => return None,
-            })
-        };
-        if let Some(others) = assigned(&sign) {
+        if let Some(other) = beside(ASSIGNMENTS, &sign) {
             let place = self.raw(&binary.left).to_string();
-            let variants = others
-                .iter()
-                .map(|(label, op)| {
-                    let code = if op.is_empty() { String::new() } else { format!("{place} {op} __0;") };
-                    (format!("{sign} -> {label}"), code)
-                })
-                .collect();
-            if let Some((site, left_over)) = self.enter(whole, variants) {
+            let code = |op: &str| format!("{place} {op} __0;");
+            let variants =
+                vec![(format!("{sign} -> {other}"), code(other)), (format!("{sign} -> dropped"), String::new())];
+            if let Some((site, kept)) = self.enter(whole, variants) {
                 self.put(site, (whole.0, right.0), "(match (".into(), false);
-                let close = format!(") {{ __0 => {} }})", Self::choice(&left_over, &format!("{place} {sign} __0;")));
+                let close = format!(") {{ __0 => {} }})", Self::choice(&kept, &code(&sign)));
                 self.put(site, (right.1, whole.1), close, true);
             }
             // The left side is written as it was in every variant.
             return self.inside(|v| v.value(&binary.right));
         }
-        let bound = match binary.op {
-            BinOp::Add(_) => Some("-"),
-            BinOp::Sub(_) => Some("+"),
-            BinOp::Mul(_) => Some("/"),
-            BinOp::Div(_) => Some("*"),
-            BinOp::Rem(_) => Some("/"),
-            BinOp::Shl(_) => Some(">>"),
-            BinOp::Shr(_) => Some("<<"),
-            _ => None,
-        };
-        if let Some(other) = bound {
+        if let Some(other) = beside(OPERATORS, &sign) {
             let variants = vec![
                 (format!("{sign} -> {other}"), format!("__0 {other} __1")),
                 (format!("right of {sign} dropped"), "__0".to_string()),
             ];
             self.bind(whole, &[left, right], variants, &format!("__0 {sign} __1"));
-        } else if matches!(binary.op, BinOp::And(_) | BinOp::Or(_)) {
+        } else if let Some(other) = beside("&& || || &&", &sign) {
             let has_let = |e: &Expr| e.to_token_stream().into_iter().any(|t| t.to_string() == "let");
-            if !has_let(&binary.left) && !has_let(&binary.right) {
-                let other = if sign == "&&" { "||" } else { "&&" };
-                if let Some((site, kept)) = self.enter(whole, vec![(format!("{sign} -> {other}"), String::new())]) {
-                    // By De Morgan's laws, so that neither side is written twice.
-                    let flag = format!("crate::mutation::active({})", kept[0].1);
-                    self.put(site, (whole.0, whole.0), format!("({flag} ^ (({flag} ^ ("), false);
-                    self.put(site, (left.1, right.0), format!(")) {sign} ({flag} ^ ("), false);
-                    self.put(site, (right.1, right.1), "))))".into(), true);
-                }
+            if !has_let(&binary.left)
+                && !has_let(&binary.right)
+                && let Some((site, number)) = self.one(whole, format!("{sign} -> {other}"))
+            {
+                // By De Morgan's laws, so that neither side is written twice.
+                let flag = format!("crate::mutation::active({number})");
+                self.put(site, (whole.0, whole.0), format!("({flag} ^ (({flag} ^ ("), false);
+                self.put(site, (left.1, right.0), format!(")) {sign} ({flag} ^ ("), false);
+                self.put(site, (right.1, right.1), "))))".into(), true);
             }
-        } else if matches!(
-            binary.op,
-            BinOp::Lt(_) | BinOp::Le(_) | BinOp::Gt(_) | BinOp::Ge(_) | BinOp::Eq(_) | BinOp::Ne(_)
-        ) {
-            if let Some((site, kept)) = self.enter(whole, vec![(format!("{sign} negated"), String::new())]) {
-                let flag = format!("crate::mutation::active({})", kept[0].1);
-                self.put(site, (whole.0, whole.0), format!("({flag} ^ ("), false);
-                self.put(site, (whole.1, whole.1), "))".into(), true);
-            }
+        } else if ["<", "<=", ">", ">=", "==", "!="].contains(&sign.as_str())
+            && let Some((site, number)) = self.one(whole, format!("{sign} negated"))
+        {
+            self.put(site, (whole.0, whole.0), format!("(crate::mutation::active({number}) ^ ("), false);
+            self.put(site, (whole.1, whole.1), "))".into(), true);
         }
         self.inside(|v| {
             v.value(&binary.left);
@@ -281,8 +294,8 @@ impl<'a> Visitor<'a> {
             Lit::Bool(b) => format!("{}", !b.value),
             _ => return,
         };
-        if let Some((site, kept)) = self.enter(whole, vec![(format!("{raw} -> {other}"), String::new())]) {
-            self.put(site, whole, format!("crate::mutation::pick({}, {raw}, {other})", kept[0].1), false);
+        if let Some((site, number)) = self.one(whole, format!("{raw} -> {other}")) {
+            self.put(site, whole, format!("crate::mutation::pick({number}, {raw}, {other})"), false);
         }
     }
 
@@ -293,18 +306,14 @@ impl<'a> Visitor<'a> {
         let closure = args.iter().any(|a| matches!(a, Expr::Closure(_)));
         let is_path = matches!(*call.func, Expr::Path(_));
         if !args.is_empty() && is_path && !closure && !["Some", "Ok", "Err"].contains(&last.as_str()) {
-            let names: Vec<String> = (0..args.len()).map(|k| format!("__{k}")).collect();
-            let mut variants = vec![(format!("-{last}(..)"), format!("-{name}({})", names.join(", ")))];
-            for k in 1..args.len() {
-                let mut swapped = names.clone();
-                swapped.swap(k - 1, k);
-                variants.push((
-                    format!("{last}: arguments {k} and {} swapped", k + 1),
-                    format!("{name}({})", swapped.join(", ")),
-                ));
-            }
-            let operands: Vec<_> = args.iter().map(|a| range(*a)).collect();
-            self.bind(range(call), &operands, variants, &format!("{name}({})", names.join(", ")));
+            let straight = format!("{name}({})", operands(0..args.len()));
+            let mut variants = vec![(format!("-{last}(..)"), format!("-{straight}"))];
+            variants.extend(swapped(args.len()).map(|(k, order)| {
+                let label = format!("{last}: arguments {k} and {} swapped", k + 1);
+                (label, format!("{name}({})", operands(order)))
+            }));
+            let places: Vec<_> = args.iter().map(|a| range(*a)).collect();
+            self.bind(range(call), &places, variants, &straight);
         }
         self.inside(|v| args.iter().for_each(|a| v.value(a)));
     }
@@ -312,51 +321,29 @@ impl<'a> Visitor<'a> {
     fn method(&mut self, call: &syn::ExprMethodCall) {
         let name = call.method.to_string();
         let args: Vec<&Expr> = call.args.iter().collect();
-        let names: Vec<String> = (1..=args.len()).map(|k| format!("__{k}")).collect();
-        let list = names.join(", ");
-        let swap = |other: &str| vec![(format!(".{name} -> .{other}"), format!("__0.{other}({list})"))];
-        let drop = || vec![(format!(".{name} dropped"), "__0".to_string())];
-        let negate = || vec![(format!("-(.{name})"), format!("-__0.{name}({list})"))];
-        let variants = match (name.as_str(), args.len()) {
-            ("sin", 0) => swap("cos"),
-            ("cos", 0) => swap("sin"),
-            ("sinh", 0) => swap("cosh"),
-            ("cosh", 0) => swap("sinh"),
-            ("floor", 0) => swap("ceil"),
-            ("ceil", 0) => swap("floor"),
-            ("min", 1) => swap("max"),
-            ("max", 1) => swap("min"),
-            ("any", 1) => swap("all"),
-            ("all", 1) => swap("any"),
-            ("is_some", 0) => swap("is_none"),
-            ("is_none", 0) => swap("is_some"),
-            ("is_ok", 0) => swap("is_err"),
-            ("is_err", 0) => swap("is_ok"),
-            ("exp", 0) => swap("recip"),
-            ("sin_cos", 0) => {
-                vec![(".sin_cos swapped".to_string(), "{ let (s, c) = __0.sin_cos(); (c, s) }".to_string())]
+        let list = operands(1..=args.len());
+        let variant = |label: &str, code: &str| (format!(".{name}{label}"), code.to_string());
+        let among = |names: &str| names.split(' ').any(|known| known == name);
+        let mut variants = Vec::new();
+        if let Some(other) = beside(SWAPPED, &format!("{name}/{}", args.len())) {
+            variants.push(variant(&format!(" -> .{other}"), &format!("__0.{other}({list})")));
+        } else if args.is_empty() && among(DROPPED_ALONE) || among(DROPPED) {
+            variants.push(variant(" dropped", "__0"));
+        } else if among(NEGATED) {
+            variants.push((format!("-(.{name})"), format!("-__0.{name}({list})")));
+        }
+        match (name.as_str(), args.len()) {
+            ("sin_cos", 0) => variants.push(variant(" swapped", "{ let (s, c) = __0.sin_cos(); (c, s) }")),
+            ("atan2", _) => variants.push(variant(" swapped", "__1.atan2(__0)")),
+            ("mul_add", 2) => {
+                variants.push(variant(": sum dropped", "__0 * __1"));
+                variants.push(variant(": minus", "__0.mul_add(__1, -__2)"));
             }
-            ("transpose" | "abs" | "sqrt" | "recip" | "conj" | "round" | "trunc" | "normalize" | "ln" | "rev", 0) => {
-                drop()
-            }
-            ("powi" | "clamp" | "rem_euclid" | "copysign", _) => drop(),
-            ("mul_add", 2) => vec![
-                (".mul_add: sum dropped".to_string(), "__0 * __1".to_string()),
-                (".mul_add: minus".to_string(), "__0.mul_add(__1, -__2)".to_string()),
-            ],
-            ("cross" | "dot" | "atan2" | "tan" | "atan" | "asin" | "acos" | "tr_mul" | "component_mul", _) => {
-                let mut variants = negate();
-                if name == "atan2" {
-                    variants.push((".atan2 swapped".to_string(), "__1.atan2(__0)".to_string()));
-                }
-                variants
-            }
-            _ => Vec::new(),
-        };
+            _ => {}
+        }
         if !variants.is_empty() && call.turbofish.is_none() {
-            let mut operands = vec![range(&call.receiver)];
-            operands.extend(args.iter().map(|a| range(*a)));
-            self.bind(range(call), &operands, variants, &format!("__0.{name}({list})"));
+            let places: Vec<_> = std::iter::once(range(&call.receiver)).chain(args.iter().map(|a| range(*a))).collect();
+            self.bind(range(call), &places, variants, &format!("__0.{name}({list})"));
         }
         self.inside(|v| {
             v.value(&call.receiver);
@@ -365,45 +352,21 @@ impl<'a> Visitor<'a> {
     }
 
     fn field(&mut self, field: &syn::ExprField) {
-        let simple = {
-            let mut base = &*field.base;
-            while let Expr::Field(inner) = base {
-                base = &inner.base;
-            }
-            matches!(base, Expr::Path(_))
-        };
-        if !self.place && simple {
-            let other = match &field.member {
-                Member::Named(name) => match name.to_string().as_str() {
-                    "x" => "y",
-                    "y" => "z",
-                    "z" => "x",
-                    "xx" => "yy",
-                    "yy" => "zz",
-                    "zz" => "xx",
-                    "alpha" => "gamma",
-                    "gamma" => "alpha",
-                    "sin" => "cos",
-                    "cos" => "sin",
-                    "re" => "im",
-                    "im" => "re",
-                    _ => "",
-                }
-                .to_string(),
-                Member::Unnamed(index) if index.index == 0 => "1".to_string(),
-                Member::Unnamed(_) => "0".to_string(),
-            };
-            if !other.is_empty() {
-                let (raw, base) = (self.raw(field).to_string(), self.raw(&field.base).to_string());
-                let variant = (format!("{raw} -> {base}.{other}"), format!("{base}.{other}"));
-                if let Some((site, kept)) = self.enter(range(field), vec![variant]) {
-                    let whole = range(field);
-                    self.put(site, whole, format!("({})", Self::choice(&kept, &raw)), false);
-                }
-                return;
-            }
+        let mut base = &*field.base;
+        while let Expr::Field(inner) = base {
+            base = &inner.base;
         }
-        self.inside(|v| v.of_place(&field.base));
+        let other = match &field.member {
+            _ if self.place || !matches!(base, Expr::Path(_)) => None,
+            Member::Named(name) => beside(FIELDS, &name.to_string()),
+            Member::Unnamed(index) => Some(if index.index == 0 { "1" } else { "0" }),
+        };
+        let Some(other) = other else { return self.inside(|v| v.of_place(&field.base)) };
+        let (raw, base) = (self.raw(field).to_string(), self.raw(&field.base).to_string());
+        let variant = (format!("{raw} -> {base}.{other}"), format!("{base}.{other}"));
+        if let Some((site, kept)) = self.enter(range(field), vec![variant]) {
+            self.put(site, range(field), format!("({})", Self::choice(&kept, &raw)), false);
+        }
     }
 
     fn structure(&mut self, literal: &syn::ExprStruct) {
@@ -411,22 +374,16 @@ impl<'a> Visitor<'a> {
         let closure = fields.iter().any(|f| matches!(f.expr, Expr::Closure(_)));
         if literal.rest.is_none() && fields.len() >= 2 && !closure {
             let path = self.raw(&literal.path).to_string();
-            let write = |order: &[usize]| {
-                let list: Vec<String> =
-                    fields.iter().zip(order).map(|(f, k)| format!("{}: __{k}", f.member.to_token_stream())).collect();
+            let name = |j: usize| fields[j].member.to_token_stream().to_string();
+            let write = |order: Vec<usize>| {
+                let list: Vec<String> = order.iter().enumerate().map(|(j, k)| format!("{}: __{k}", name(j))).collect();
                 format!("{path} {{ {} }}", list.join(", "))
             };
-            let straight: Vec<usize> = (0..fields.len()).collect();
-            let variants = (1..fields.len())
-                .map(|k| {
-                    let mut order = straight.clone();
-                    order.swap(k - 1, k);
-                    let name = |j: usize| fields[j].member.to_token_stream().to_string();
-                    (format!("{path}: {} and {} swapped", name(k - 1), name(k)), write(&order))
-                })
+            let variants = swapped(fields.len())
+                .map(|(k, order)| (format!("{path}: {} and {} swapped", name(k - 1), name(k)), write(order)))
                 .collect();
-            let operands: Vec<_> = fields.iter().map(|f| range(&f.expr)).collect();
-            self.bind(range(literal), &operands, variants, &write(&straight));
+            let places: Vec<_> = fields.iter().map(|f| range(&f.expr)).collect();
+            self.bind(range(literal), &places, variants, &write((0..fields.len()).collect()));
         } else if let Some(rest) = &literal.rest {
             self.inside(|v| v.value(rest));
         }
@@ -439,19 +396,9 @@ impl<'a> Visitor<'a> {
         if path.qself.is_some() || !matches!(last.arguments, syn::PathArguments::None) {
             return;
         }
-        // No variant of its own: the variants are in the function.
-        let index = self.found.sites.len();
-        let whole = range(path);
-        let line = self.text[..whole.0].matches('\n').count() + 1;
-        self.found.sites.push(Site {
-            variants: Vec::new(),
-            first: self.next,
-            line,
-            function: self.context.join("::"),
-            range: whole,
-        });
-        if !self.dropped_sites.contains(&index) {
-            self.put(index, whole, format!("{function}()"), false);
+        // The variants are in the function.
+        if let Some(index) = self.plain(range(path), self.context.join("::")) {
+            self.put(index, range(path), format!("{function}()"), false);
         }
     }
 
@@ -507,18 +454,8 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
                 }
                 // A function with the same value, to be called where the constant is used; the constant itself stays.
                 let name = c.ident.to_string();
-                let index = self.found.sites.len();
                 let (whole, value) = (range(c), range(&*c.expr));
-                self.found.sites.push(Site {
-                    variants: Vec::new(),
-                    first: self.next,
-                    line: self.text[..whole.0].matches('\n').count() + 1,
-                    function: name.clone(),
-                    range: whole,
-                });
-                if self.dropped_sites.contains(&index) {
-                    return;
-                }
+                let Some(index) = self.plain(whole, name.clone()) else { return };
                 let raw = self.raw(c).to_string();
                 let head = format!(
                     "{raw}\n#[allow(non_snake_case)] #[inline] pub(crate) fn {}() -> {} {{ ",
@@ -578,13 +515,9 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
             if !what.is_empty() {
                 let whole = range(stmt);
                 let shown: String = self.raw(stmt).chars().take(60).collect();
-                if let Some((site, kept)) = self.enter(whole, vec![(format!("{what}: {shown}"), String::new())]) {
-                    self.put(
-                        site,
-                        (whole.0, whole.0),
-                        format!("if !crate::mutation::active({}) {{ ", kept[0].1),
-                        false,
-                    );
+                if let Some((site, number)) = self.one(whole, format!("{what}: {shown}")) {
+                    let open = format!("if !crate::mutation::active({number}) {{ ");
+                    self.put(site, (whole.0, whole.0), open, false);
                     self.put(site, (whole.1, whole.1), " }".into(), true);
                 }
                 return self.inside(|v| visit::visit_stmt(v, stmt));
@@ -611,16 +544,12 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
             Expr::Struct(literal) => self.structure(literal),
             Expr::Path(path) => self.constant_used(path),
             Expr::Unary(unary) => {
-                let (whole, operand) = (range(unary), range(&*unary.expr));
-                match unary.op {
-                    UnOp::Neg(_) => {
-                        self.bind(whole, &[operand], vec![("- dropped".to_string(), "__0".to_string())], "-__0");
-                    }
-                    UnOp::Not(_) => {
-                        self.bind(whole, &[operand], vec![("! dropped".to_string(), "__0".to_string())], "!__0");
-                    }
-                    _ => return self.inside(|v| v.of_place(&unary.expr)),
+                if matches!(unary.op, UnOp::Deref(_)) {
+                    return self.inside(|v| v.of_place(&unary.expr));
                 }
+                let sign = self.raw(&unary.op);
+                let variant = (format!("{sign} dropped"), "__0".to_string());
+                self.bind(range(unary), &[range(&*unary.expr)], vec![variant], &format!("{sign}__0"));
                 self.inside(|v| v.value(&unary.expr));
             }
             Expr::Reference(reference) => self.inside(|v| v.of_place(&reference.expr)),
@@ -632,11 +561,7 @@ impl<'ast> Visit<'ast> for Visitor<'_> {
                 v.of_place(&index.expr);
                 v.value(&index.index);
             }),
-            _ => self.inside(|v| {
-                let before = std::mem::replace(&mut v.place, false);
-                visit::visit_expr(v, expr);
-                v.place = before;
-            }),
+            _ => self.inside(|v| v.visited(false, |v| visit::visit_expr(v, expr))),
         }
     }
 }

@@ -46,17 +46,10 @@ pub fn place(mutant: &Value) -> String {
     format!("{file}\t{}\t{function}\t{change}\t{code}", mutant["line"])
 }
 
-/// Numbers of one file.
-#[derive(Default)]
-struct Counts {
-    mutants: usize,
-    caught: usize,
-    equivalent: usize,
-    lives: usize,
-    open: usize,
-    unreached: usize,
-    not_run: usize,
-}
+/// What becomes of mutants; the numbers of a file are in this order.
+const KINDS: [&str; 6] = ["caught", "equivalent", "lives", "open", "unreached", "not run"];
+
+type Counts = [usize; 6];
 
 /// Prints the score, writes `missed.txt`, and puts the files that were run whole into `tools/mutation/record.csv` of the folder above.
 pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
@@ -68,61 +61,38 @@ pub fn write(tree: &Path, mutants: &[Value]) -> Result<(), String> {
     let mut by_file: BTreeMap<String, Counts> = BTreeMap::new();
     let mut missed = String::new();
     for mutant in mutants {
-        let counts = by_file.entry(text(mutant, "file")).or_default();
-        counts.mutants += 1;
         let number = mutant["number"].as_u64().unwrap_or(0);
-        if equivalent.contains(&number) {
-            counts.equivalent += 1;
-            continue;
-        }
-        if edited.contains(&number) {
-            counts.caught += 1;
-            continue;
-        }
-        let Some(result) = last.get(&number) else {
-            counts.not_run += 1;
-            continue;
+        let kind = match last.get(&number) {
+            _ if equivalent.contains(&number) => "equivalent",
+            _ if edited.contains(&number) => "caught",
+            None => "not run",
+            Some(result) => match (text(result, "outcome").as_str(), result["complete"] == false) {
+                ("caught", _) => "caught",
+                ("unreached", _) => "unreached",
+                (_, true) => "open",
+                (_, false) => "lives",
+            },
         };
-        let (count, word) = match (text(result, "outcome").as_str(), result["complete"] == false) {
-            ("caught", _) => (&mut counts.caught, ""),
-            ("unreached", _) => (&mut counts.unreached, "unreached"),
-            (_, true) => (&mut counts.open, "open"),
-            (_, false) => (&mut counts.lives, "lives"),
-        };
-        *count += 1;
-        if !word.is_empty() {
-            missed += &format!("{word}\t{}\n", place(mutant));
+        let place_of_kind = KINDS.iter().position(|known| *known == kind).expect("a kind");
+        by_file.entry(text(mutant, "file")).or_default()[place_of_kind] += 1;
+        if KINDS[2..5].contains(&kind) {
+            missed += &format!("{kind}\t{}\n", place(mutant));
         }
     }
-    println!(
-        "{:<56} {:>7} {:>10} {:>7} {:>7} {:>10} {:>8}",
-        "file", "caught", "equivalent", "lives", "open", "unreached", "not run"
-    );
-    let mut total = Counts::default();
-    for (file, counts) in &by_file {
-        print(file, counts);
-        total.caught += counts.caught;
-        total.equivalent += counts.equivalent;
-        total.lives += counts.lives;
-        total.open += counts.open;
-        total.unreached += counts.unreached;
-        total.not_run += counts.not_run;
-    }
-    print("all", &total);
+    let total = by_file.values().fold(Counts::default(), |sum, counts| std::array::from_fn(|k| sum[k] + counts[k]));
+    let row = |name: &str, [a, b, c, d, e, f]: [String; 6]| {
+        println!("{name:<56} {a:>7} {b:>10} {c:>7} {d:>7} {e:>10} {f:>8}");
+    };
+    row("file", KINDS.map(str::to_string));
+    by_file.iter().for_each(|(file, counts)| row(file, counts.map(|n| n.to_string())));
+    row("all", total.map(|n| n.to_string()));
     fs::write(tree.join("missed.txt"), &missed).map_err(|e| e.to_string())?;
-    if total.not_run == 0 {
+    if total[5] == 0 {
         // With the record, which is read against it.
         fs::write(NOT_CAUGHT, missed).map_err(|e| format!("{NOT_CAUGHT}: {e}"))?;
     }
     println!("those not caught: {}", tree.join("missed.txt").display());
     keep(mutants, &by_file)
-}
-
-fn print(name: &str, c: &Counts) {
-    println!(
-        "{name:<56} {:>7} {:>10} {:>7} {:>7} {:>10} {:>8}",
-        c.caught, c.equivalent, c.lives, c.open, c.unreached, c.not_run
-    );
 }
 
 fn text(value: &Value, key: &str) -> String {
@@ -142,10 +112,10 @@ fn keep(mutants: &[Value], by_file: &BTreeMap<String, Counts>) -> Result<(), Str
     let output = Command::new("date").arg("-I").output().map_err(|e| format!("date: {e}"))?;
     let date = String::from_utf8_lossy(&output.stdout).trim().to_string();
     let contents = contents(mutants)?;
-    for (file, c) in by_file.iter().filter(|(_, c)| c.not_run == 0) {
+    for (file, counts) in by_file.iter().filter(|(_, counts)| counts[5] == 0) {
         let content = contents.get(file).ok_or_else(|| format!("no source {file}"))?;
-        let counts = [c.mutants, c.caught, c.equivalent, c.lives, c.open, c.unreached].map(|n| n.to_string()).join(",");
-        rows.insert(file.clone(), format!("{file},{content},{date},{counts}"));
+        let (all, counts): (usize, _) = (counts.iter().sum(), counts[..5].iter().map(|n| format!(",{n}")));
+        rows.insert(file.clone(), format!("{file},{content},{date},{all}{}", counts.collect::<String>()));
     }
     let lines: Vec<String> = std::iter::once(HEADER.to_string()).chain(rows.into_values()).collect();
     fs::write(RECORD, lines.join("\n") + "\n").map_err(|e| format!("{RECORD}: {e}"))

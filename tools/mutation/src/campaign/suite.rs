@@ -9,9 +9,7 @@ use serde_json::Value;
 
 /// A test with what it reaches.
 pub struct Test {
-    /// Index of its binary.
     pub binary: usize,
-    /// Its name.
     pub name: String,
     /// How long it takes without a mutant (s).
     pub seconds: f64,
@@ -21,25 +19,19 @@ pub struct Test {
 
 /// A binary of tests with the folder it is run in.
 pub struct Binary {
-    /// The file.
     pub path: PathBuf,
-    /// The package's folder.
     pub folder: PathBuf,
 }
 
 /// All binaries.
 pub struct Suite {
-    /// In the order they were built.
     pub binaries: Vec<Binary>,
 }
 
-/// How a run ended.
+/// How a run ended; of one that failed, its output.
 pub enum Outcome {
-    /// All tests passed.
     Passed,
-    /// One failed; its output.
     Failed(String),
-    /// Not ended in time.
     TimedOut,
 }
 

@@ -1,0 +1,52 @@
+//! The picture of the README: a motion beside the perturbation solutions, and the orders of their errors.
+
+use super::drawing::*;
+use twofold::propagation::Motion;
+use twofold::solutions::perturbation::{Form, Precession};
+use twofold_verify::checks::regimes::perturbation_error::Case;
+
+const SOLUTIONS: [(Form, Line, [&str; 2]); 2] = [
+    (Form::Printed, dashed(VERMILION, 1.2), ["perturbation, as printed", "as printed: order 1"]),
+    (Form::Corrected, dotted(BLUE, 1.5), ["perturbation, corrected", "corrected: order 2"]),
+];
+
+/// As SVG. Left, a small tilt of the angular momentum without Lorentz violation: numerical motion and perturbation solutions from the
+/// same initial values. Right, the errors of the solutions for tp-I as the coefficients for Lorentz violation are scaled.
+pub fn readme_picture() -> Result<String, String> {
+    let grid = Grid { left: LEFT, top: 18.0, width: 196.0, height: 136.0, between: [54.0, 0.0] };
+    let mut page = Page::new("perturbation", PAGE, grid.bottom(1) + BELOW);
+    let (duration, tilt) = (20.0, 0.01);
+    // The same tilt by both: A / omega as printed, A / a corrected. Too small an s to matter, since a^(1) needs a sign.
+    let tilted = |form| {
+        let frequency = if form == Form::Printed { 1.1 } else { 1.1 / 0.7_f64.cos() };
+        Case::paper(form, Precession::Twofold, 1e-40, 0.7, tilt * frequency)
+    };
+    let motion = tilted(Form::Printed).motion(duration)?;
+    let beta = |t| Ok((t, motion.state(t).map_err(|error| error.to_string())?.axis.z.acos()));
+    let numerical = times(duration, 600).into_iter().map(beta).collect::<Result<Vec<_>, String>>()?;
+    let y = Axis::linear("*β* [rad]", 0.685, 0.725);
+    let left = Panel::new(grid.frame(0, 0), Axis::linear("*t* / *t*_{c}", 0.0, duration), y);
+    left.curve(&mut page, &numerical, solid(LIGHT, 3.0));
+    let y = Axis::logarithmic("error [rad]", 1e-15, 0.1);
+    let right = Panel::new(grid.frame(1, 0), Axis::logarithmic("scale of *s*", 1e-6, 1.0), y);
+    for (form, line, _) in SOLUTIONS {
+        let solution = tilted(form).solution()?;
+        let points: Vec<_> = times(duration, 600).into_iter().map(|t| (t, solution.at(t).beta)).collect();
+        left.curve(&mut page, &points, line);
+        let scales = (0..=24).map(|j| 10f64.powf(-0.25 * f64::from(j)));
+        let error = |k| Ok((k, Case::paper(form, Precession::Twofold, k, 0.7, 0.0).errors(10.0, 400)?.beta));
+        let points = scales.map(error).collect::<Result<Vec<_>, String>>()?;
+        right.curve(&mut page, &points, line);
+        right.marks(&mut page, &points, Mark::Disc, 1.4, line.colour);
+    }
+    let titles = ["free precession, *L* tilted by 0.01", "tp-I, *s* scaled: error of *β* over 10 *t*_{c}"];
+    for (i, (panel, title)) in [left, right].iter().zip(titles).enumerate() {
+        panel.draw_frame(&mut page);
+        panel.letter(&mut page, i, 2, title);
+        let names = SOLUTIONS.map(|(_, line, names)| (Sample::Line(line), names[i]));
+        let motion = (Sample::Line(solid(LIGHT, 3.0)), "numerical");
+        let entries: Vec<_> = (i == 0).then_some(motion).into_iter().chain(names).collect();
+        legend(&mut page, [panel.frame.left + 8.0, panel.frame.top + 14.0], &entries);
+    }
+    Ok(page.finish("Perturbation solutions and their errors"))
+}
