@@ -187,7 +187,7 @@ fn derivatives() -> Result<Measured, String> {
 /// `1 +` the turns of the motion in `t`, in rad.
 fn phase(scene: &RandomScene, t: f64) -> f64 {
     let state = scene.state();
-    1.0 + t * (state.momentum.norm() + scene.rates.alpha.abs() + scene.rates.beta.abs() + scene.rates.gamma.abs())
+    1.0 + t * (state.momentum.norm() + (scene.rates.alpha.abs() + scene.rates.beta.abs() + scene.rates.gamma.abs()))
 }
 
 fn free_limit() -> Result<Measured, String> {
