@@ -322,18 +322,6 @@ mod tests {
     }
 
     #[test]
-    fn only_equal_eigenvalues_have_no_derivatives() {
-        let found = |values: [f64; 3]| {
-            let tensor = PrincipalCoefficients::new(values).tensor().map(|entry| Dual64::new(entry, 0.1));
-            principal_frame_with_derivatives(&tensor).is_ok()
-        };
-        // Opposite ones are as distinct as any, and so is zero.
-        assert!(found([1.0, 0.3, -1.0]) && found([1.0, 0.5, 0.0]) && found([0.0, -0.5, -1.0]));
-        // To 1e-12 of the largest, which may be the negative one.
-        assert!(found([5e-12, 0.0, -1.0]) && !found([5e-13, 0.0, -1.0]) && !found([1.0, 0.0, -5e-13]));
-    }
-
-    #[test]
     fn the_error_of_equal_eigenvalues_is_their_share_of_the_spread() {
         let error = |values| error_of_principal_frame_along(PrincipalCoefficients::new(values));
         for (values, expected) in [

@@ -3,28 +3,6 @@
 //! The Fisher matrix is `F = J^T J` with the Jacobian `J` of the data, each in units of its standard deviation. It is never formed:
 //! squaring would halve the digits. Everything is taken of the singular values of `J` with columns of unit length, which is within
 //! the square root of the number of unknowns of the best scaling that there is (van der Sluis 1969).
-//!
-//! # Example
-//!
-//! ```
-//! use twofold::dynamics::RigidSpheroid;
-//! use twofold::euler_angles::{EulerAngles, EulerRates};
-//! use twofold::inference::{Fisher, Observable, Signal, data_of, jacobian};
-//! use twofold::lorentz_violation::PrincipalCoefficients;
-//! use twofold::parameters::{Parameter, Parameters};
-//!
-//! let (star, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new([0.02, 0.01, -0.04]).tensor());
-//! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.0, beta: 0.1, gamma: 0.2 });
-//! let parameters = Parameters { chi: 0.8, theta_o: 1.0, ..Parameters::new(star, s, angles, rates) };
-//! let signal = Signal::new(&parameters, 60.0)?;
-//! let (events, unknowns) = (signal.events()?, [Parameter::Gamma, Parameter::Delta]);
-//! let data = data_of(&signal, &events, &[], &[(Observable::Arrivals, 1e-6)])?;
-//! let derivatives = jacobian(&parameters, &events, &data, &unknowns)?.matrix;
-//! assert!((derivatives.column(0) - derivatives.column(1)).amax() < 1e-9);
-//! let fisher = Fisher::of(&parameters, &events, &data, &unknowns)?;
-//! assert!(fisher.degenerate[0].to_string().starts_with("gamma against delta: only gamma + delta"));
-//! # Ok::<(), twofold::inference::InferenceError>(())
-//! ```
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,24 +1,4 @@
 //! How well an unknown will be known: its standard deviation against span, number of data and their errors.
-//!
-//! # Example
-//!
-//! ```
-//! use twofold::dynamics::RigidSpheroid;
-//! use twofold::euler_angles::{EulerAngles, EulerRates};
-//! use twofold::inference::{Observable, check_span, forecast, scaling};
-//! use twofold::lorentz_violation::PrincipalCoefficients;
-//! use twofold::parameters::{Parameter, Parameters};
-//!
-//! let (star, s) = (RigidSpheroid::in_units_of_tc(1.1), PrincipalCoefficients::new([0.02, 0.01, -0.04]).tensor());
-//! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.0, beta: 0.1, gamma: 0.2 });
-//! let parameters = Parameters { chi: 0.8, theta_o: 1.0, ..Parameters::new(star, s, angles, rates).holding_spin() };
-//! let (noise, spans) = ([(Observable::Arrivals, 1e-4)], [100.0, 200.0, 400.0]);
-//! check_span(&parameters, spans[2])?;
-//! let found = forecast(&parameters, &noise, &[Parameter::Spin, Parameter::SAxial], Parameter::Spin, &spans, &[20])?;
-//! let [by_span, _] = scaling(&found);
-//! assert!(by_span.is_some_and(|slope| slope.value < -0.8));
-//! # Ok::<(), twofold::inference::InferenceError>(())
-//! ```
 
 use super::{Datum, Fisher, InferenceError, Noise, Observable, Signal, data_of};
 use crate::numerics::straight_line::{Slope, slope};

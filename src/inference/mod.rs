@@ -13,7 +13,7 @@
 //! ```
 //! use twofold::dynamics::RigidSpheroid;
 //! use twofold::euler_angles::{EulerAngles, EulerRates};
-//! use twofold::inference::{Observable, Signal, data_of, fit, nonlinearity};
+//! use twofold::inference::{Fisher, Observable, Signal, data_of, fit, forecast, nonlinearity, scaling};
 //! use twofold::lorentz_violation::PrincipalCoefficients;
 //! use twofold::parameters::{Parameter, Parameters};
 //!
@@ -21,12 +21,20 @@
 //! let (angles, rates) = (EulerAngles { alpha: 0.3, beta: 0.7, gamma: 0.1 }, EulerRates { alpha: 1.0, beta: 0.1, gamma: 0.2 });
 //! let truth = Parameters { chi: 0.8, theta_o: 1.0, ..Parameters::new(star, s, angles, rates).holding_spin() };
 //! let signal = Signal::new(&truth, 60.0)?;
-//! let data = data_of(&signal, &signal.events()?[1..], &[], &[(Observable::Arrivals, 1e-6)])?;
+//! let (events, noise) = (signal.events()?, [(Observable::Arrivals, 1e-6)]);
+//! let data = data_of(&signal, &events[1..], &[], &noise)?;
 //! let unknowns = [Parameter::Spin, Parameter::SAxial];
 //! let found = fit(&truth.moved(&unknowns, &[1e-4, -1e-4]), &data, &unknowns, 60.0)?;
 //! assert!((found.fisher.values()[1] + 0.11).abs() < 0.01 * found.fisher.sigmas()[1]);
 //! // Error bars hold where chi^2 is a parabola over them.
 //! assert!(nonlinearity(&found.fisher, &data, 60.0)? < 0.1);
+//! // Of the azimuth of the beam and that of the body such data tell the sum alone.
+//! let fisher = Fisher::of(&truth, &events, &data, &[Parameter::Gamma, Parameter::Delta])?;
+//! assert!(fisher.degenerate[0].to_string().starts_with("gamma against delta: only gamma + delta"));
+//! // The uncertainty of the spin falls with the span.
+//! let spans = [100.0, 200.0, 400.0];
+//! let [by_span, _] = scaling(&forecast(&truth, &noise, &unknowns, Parameter::Spin, &spans, &[20])?);
+//! assert!(by_span.is_some_and(|slope| slope.value < -0.8));
 //! # Ok::<(), twofold::inference::InferenceError>(())
 //! ```
 

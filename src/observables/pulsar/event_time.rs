@@ -7,6 +7,8 @@
 //! // The root of t^2 = p at p = 4, by p: dt/dp = 1/4.
 //! let root = event_time(2.0, Dual64::from_re(4.0) - Dual64::new(4.0, 1.0), 4.0)?;
 //! assert_eq!((root.re, root.eps), (2.0, 0.25));
+//! // A touch is no function of p.
+//! assert!([0.0, f64::NAN, f64::INFINITY].iter().all(|rate| event_time(2.0, root, *rate).is_err()));
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
@@ -30,25 +32,4 @@ use crate::numerics::scalar::Real;
 pub fn event_time<S: Real>(t: f64, value: S, rate: f64) -> Result<S, Error> {
     Error::ensure(rate.abs() > 0.0 && rate.is_finite(), "rate at a root", rate, "finite and not zero: no touch")?;
     Ok(S::from_f64(t) - value / rate)
-}
-
-#[cfg(test)]
-mod tests {
-    use num_dual::Dual64;
-
-    use super::*;
-    use crate::numerics::scalar::Scalar;
-
-    /// `cos(p t) = 0` at `t = pi / (2 p)`.
-    #[test]
-    fn root_of_a_cosine_moves_as_the_inverse_of_its_rate() {
-        let (p, t) = (1.7, core::f64::consts::FRAC_PI_2 / 1.7);
-        let (_, value) = (Dual64::new(p, 1.0) * t).sin_cos();
-        let time = event_time(t, value, -p * (p * t).sin()).unwrap();
-        assert!((time.re - t).abs() < 1e-15);
-        assert!((time.eps + t / p).abs() < 1e-15);
-        for rate in [0.0, f64::NAN, f64::INFINITY] {
-            assert!(event_time(t, value, rate).is_err());
-        }
-    }
 }

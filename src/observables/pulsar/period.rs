@@ -54,25 +54,3 @@ pub fn instantaneous_period<S: Scalar>(azimuth_rate: S) -> S {
 pub fn approximate_period<S: Scalar>(alpha_rate: S, offset_rate: S) -> S {
     (S::one() - offset_rate / alpha_rate) * TAU / alpha_rate
 }
-
-#[cfg(test)]
-mod tests {
-    use approx::assert_relative_eq;
-
-    use super::*;
-
-    /// By the azimuth itself, a little later.
-    #[test]
-    fn the_rate_of_the_azimuth_is_that_of_a_turned_axis() {
-        let omega = Vector3::new(0.7, -0.4, 1.9);
-        for axis in [Vector3::new(0.3, 0.5, 0.8), Vector3::new(-2e-3, 7e-4, 1.0), Vector3::new(-1e-8, -1e-8, -1.0)] {
-            let axis: Vector3<f64> = axis.normalize();
-            let size = axis.x.hypot(axis.y);
-            let h = 1e-4 * size;
-            let at = |h: f64| nalgebra::Rotation3::new(omega * h) * axis;
-            let (a, b) = (at(-h), at(h));
-            let turned = (a.x * b.y - a.y * b.x).atan2(a.x * b.x + a.y * b.y);
-            assert_relative_eq!(azimuth_rate(&axis, &omega), turned / (2.0 * h), max_relative = 1e-6);
-        }
-    }
-}

@@ -1,4 +1,4 @@
-//! Clocks, spectral lines, periods, distributions and stars.
+//! Clocks, spectral lines, periods and distributions.
 
 use nalgebra::Vector3;
 use twofold::dynamics::{BodyState, Problem};
@@ -10,9 +10,6 @@ use twofold::observables::pulsar::period::{
 use twofold::observables::pulsar::{Beam, ClockPulse, PulsarClock};
 use twofold::observables::spectrum::{Series, Window, amplitude_spectrum, spectral_lines};
 use twofold::solutions::averaged::AveragingOrder;
-use twofold::star::axisymmetric::axisymmetric_integrals;
-use twofold::star::maclaurin::MaclaurinSpheroid;
-use twofold::star::uniform_spheroid::UniformSpheroid;
 
 use crate::values::scene::{PROLATE, STAR, general, state};
 use crate::values::table::Table;
@@ -138,21 +135,4 @@ fn periods_and_distributions() {
         table.row(&name, root_mean_square_along_motion(ratio, 0.7));
     }
     table.check("periods_and_distributions");
-}
-
-#[test]
-fn stars() {
-    let mut table = Table::default();
-    let dense = |r: f64, mu: f64| 1.2 - r * r * (0.5 + 0.2 * mu * mu);
-    let surface = |mu: f64| (1.0 + 0.1 * mu * mu, 0.2 * mu);
-    for degree in [4, 8, 12] {
-        table.result(&format!("degree {degree}"), axisymmetric_integrals(&(dense, surface), degree));
-    }
-    let spheroid = UniformSpheroid::from_semi_axes(1.3, 0.9, 0.7).expect("a spheroid");
-    let found = axisymmetric_integrals(&spheroid, 8).expect("integrals");
-    table.row("uniform", format_args!("C {:?} +- {:?}", found.c, found.c_error));
-    let star = MaclaurinSpheroid::new(spheroid).expect("a spheroid");
-    let (inside, on_the_axis) = (star.pressure(0.4, 0.3), star.pressure(0.0, 0.7));
-    table.row("pressure", format_args!("inside {inside:?}, on the axis {on_the_axis:?}, of {star:?}"));
-    table.check("stars");
 }
