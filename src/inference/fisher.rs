@@ -24,7 +24,7 @@ pub struct Fisher {
     pub rounding: f64,
     /// Directions that the data do not determine at all: singular values below [`rounding`](Self::rounding).
     pub degenerate: Vec<Direction>,
-    /// Directions along which the whole [`range`](Parameter::range) of the unknowns is less than one standard deviation of the data.
+    /// Directions along which the whole range of the unknowns (a radian, the rate of rotation, one) is less than one standard deviation.
     pub weak: Vec<Direction>,
     /// Covariance of the unknowns. NaN in the rows and columns of those that a degenerate direction moves.
     pub covariance: DMatrix<f64>,

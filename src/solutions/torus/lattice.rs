@@ -129,9 +129,7 @@ mod tests {
     use core::f64::consts::TAU;
 
     use super::*;
-    use crate::dynamics::RigidSpheroid;
-
-    const BODY: RigidSpheroid<f64> = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+    use crate::solutions::torus::plane::tests::BODY;
 
     fn torus(strength: f64, momentum: [f64; 3]) -> Torus {
         let values = Vector3::new(0.21, -0.13, -0.08) * strength;

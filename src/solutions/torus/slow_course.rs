@@ -88,15 +88,15 @@ impl SlowCourse {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solutions::torus::plane::tests::BODY;
 
     /// The averaged direction on the middle axis stays there.
     #[test]
     fn a_course_without_an_end_is_refused() {
-        let body = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
         let values = Vector3::new(2.1e-3, -1.3e-3, -0.8e-3);
-        let integrals = Integrals::new(&body, &values, values.max() - values.min());
+        let integrals = Integrals::new(&BODY, &values, values.max() - values.min());
         let still = BodyState { axis: Vector3::z(), momentum: Vector3::z() * 1.2, equatorial_axis: Vector3::x() };
-        let refused = SlowCourse::along(&integrals, &body, &values, &still).unwrap_err();
+        let refused = SlowCourse::along(&integrals, &BODY, &values, &still).unwrap_err();
         assert!(matches!(refused, Error::NotConverged { iterations: 240, .. }), "{refused:?}");
     }
 }
