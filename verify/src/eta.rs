@@ -110,7 +110,7 @@ pub fn seen_rate(random: &mut Random, s: &Matrix3<f64>, lambda: f64) -> f64 {
     observer.dot(&secular_axis_rate(1.0, 1.0, s, &axis))
 }
 
-/// Twelve turns of a star with the given spin: enough for [`numerical_axis_rate`] to lose the nutation.
+/// Twelve turns of a star with the given spin: enough for `numerical_axis_rate` to lose the nutation.
 pub fn twelve_turns(spin: f64) -> f64 {
     12.0 * TAU / spin
 }

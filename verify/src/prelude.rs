@@ -85,9 +85,7 @@ pub(crate) use twofold::solutions::free::{free_precession_rates, free_rotation};
 pub(crate) use twofold::solutions::perturbation::linearised::{
     FirstOrderMotion, ZerothOrder, full_residuals, printed_residuals,
 };
-pub(crate) use twofold::solutions::perturbation::{
-    Constants, Form, Perturbation, Precession, shifted_rates,
-};
+pub(crate) use twofold::solutions::perturbation::{Constants, Form, Perturbation, Precession, shifted_rates};
 pub(crate) use twofold::solutions::steady::steady_precession_rate;
 pub(crate) use twofold::solutions::symmetric::SymmetricSolution;
 pub(crate) use twofold::solutions::torus::states_with_integrals;

@@ -50,7 +50,10 @@ fn states_on_tori() {
             table.result(&format!("{label}, growth about the middle axis"), growth);
             table.found(&label, AveragedSolution::new(&problem, order), |table, mean| {
                 table.row(&label, format_args!("{:?}, strength {:?}", mean.rates, mean.relative_strength));
-                table.row("  at 13", format_args!("{:?}, error {:?}", mean.phases_at([13.0, 0.0]), mean.error_estimate(13.0)));
+                table.row(
+                    "  at 13",
+                    format_args!("{:?}, error {:?}", mean.phases_at([13.0, 0.0]), mean.error_estimate(13.0)),
+                );
                 table.result(&format!("{label}, derivatives"), mean.require_derivatives());
             });
         }

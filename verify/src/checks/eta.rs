@@ -233,8 +233,9 @@ fn symmetric_is_largest() -> Result<Measured, String> {
 
 fn ten_exceeded() -> Result<Measured, String> {
     let inclinations = (0..=152).map(|i| 0.05 + 0.01 * f64::from(i));
-    let smallest =
-        least_of(inclinations, |&beta| Ok(EtaDistribution::new(PAPER_ASYMMETRY, SpinAxis::AtInclination(beta))?.quantile(0.95)?))?;
+    let smallest = least_of(inclinations, |&beta| {
+        Ok(EtaDistribution::new(PAPER_ASYMMETRY, SpinAxis::AtInclination(beta))?.quantile(0.95)?)
+    })?;
     let share = EtaDistribution::new(PAPER_ASYMMETRY, SpinAxis::Unknown)?.probability_above(10.0);
     let detail = format!("{}; above 10 with probability {share:.2} if nothing is known of the axis", smallest.detail);
     Ok(Measured::new(smallest.figure, detail))

@@ -1,6 +1,6 @@
 //! Numbers for neutron stars: centrifugal oblateness, I^zz / C, the unit of time, and where the estimates hold.
 
-use twofold::star::deformation::{PRINTED_CENTRIFUGAL_COEFFICIENT, CENTRIFUGAL_COEFFICIENT};
+use twofold::star::deformation::{CENTRIFUGAL_COEFFICIENT, PRINTED_CENTRIFUGAL_COEFFICIENT};
 use twofold::units::geometrised::{GRAM_PER_CUBIC_CENTIMETRE, HERTZ, KILOMETRE, SOLAR_MASS};
 use twofold::units::{cgs, geometrised, time_unit};
 
