@@ -8,6 +8,7 @@ use super::progress::on_all_processors;
 use super::run::read_scene;
 use super::{Failure, note, print, tell};
 use crate::figures::{self, Figure, OF_A_SCENE, RECIPES, Recipe, Subject};
+use twofold_scene::scene_file::Columns;
 use twofold_scene::scene_file::did_you_mean;
 
 #[derive(Args)]
@@ -59,7 +60,7 @@ pub(super) fn figures(args: &FiguresArgs) -> Result<(), Failure> {
 }
 
 fn motion_of(scene: &str) -> Result<Subject, Failure> {
-    let read = read_scene(scene)?;
+    let read = read_scene(scene, Columns::Unused)?;
     let name = Path::new(scene).file_stem().map_or_else(|| scene.into(), |stem| stem.to_string_lossy());
     Subject::of_scene(&name, &read).map_err(Failure::Failed)
 }

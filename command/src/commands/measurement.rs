@@ -7,7 +7,7 @@ use crate::text_table::text_table;
 use twofold::inference::{Event, Fisher, InferenceError, Noise, Signal, check_span};
 use twofold::parameters::{Parameter, Parameters};
 use twofold_scene::measurements::{missing_section, parameters_of, parse_noise};
-use twofold_scene::scene_file::{Scene, nearest};
+use twofold_scene::scene_file::{Columns, Scene, nearest};
 use twofold_scene::significant::significant;
 
 pub(super) struct Measurement {
@@ -22,7 +22,7 @@ pub(super) struct Measurement {
 
 impl Measurement {
     pub(super) fn read(args: &MeasurementArgs) -> Result<Self, Failure> {
-        let scene = read_scene(&args.scene)?;
+        let scene = read_scene(&args.scene, Columns::Unused)?;
         let refuse = |why: String| Failure::BadInput(format!("{why} ({})", args.scene));
         let noise = parse_noise(&args.observe, scene.units.time).map_err(|why| refuse(format!("--observe: {why}")))?;
         for (observable, _) in &noise {

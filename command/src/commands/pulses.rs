@@ -2,6 +2,7 @@
 
 use clap::Args;
 use twofold::plan::Output;
+use twofold_scene::scene_file::Columns;
 
 use super::explain::explained;
 use super::run::{OutputArgs, PlanArgs, force_method, read_scene, write};
@@ -23,7 +24,7 @@ pub(crate) struct PulsesArgs {
 }
 
 pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
-    let mut scene = read_scene(&args.scene)?;
+    let mut scene = read_scene(&args.scene, Columns::Unused)?;
     force_method(&mut scene, &args.plan, &args.scene)?;
     scene.has_what_is_needed_for(Output::Pulses).map_err(|lacks| {
         let why = "without which it has no pulses (docs/scenes.md describes it)";

@@ -9,7 +9,7 @@ use super::output_file::OutputFile;
 use super::progress::Progress;
 use super::standard_output::standard_output;
 use super::{Failure, note, print};
-use twofold_scene::scene_file::{Scene, SceneError};
+use twofold_scene::scene_file::{Columns, Scene};
 use twofold_scene::trajectory::{self, ErrorAtEnd, Summary, TrajectoryError};
 
 #[derive(Args)]
@@ -47,13 +47,8 @@ pub(crate) struct OutputArgs {
 }
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
-    let mut scene = match &args.columns {
-        None => accepted(&args.scene, Scene::named(&args.scene))?,
-        Some(columns) => {
-            let names: Vec<_> = columns.iter().map(|name| name.trim()).collect();
-            accepted(&args.scene, Scene::named_with_columns(&args.scene, &names))?
-        }
-    };
+    let names: Option<Vec<_>> = args.columns.as_ref().map(|names| names.iter().map(|name| name.trim()).collect());
+    let mut scene = read_scene(&args.scene, names.as_deref().map_or(Columns::OfTheFile, Columns::Named))?;
     force_method(&mut scene, &args.plan, &args.scene)?;
     if args.plan.explain {
         return print(&explained(&scene, &scene.plan(&scene.columns)?));
@@ -83,14 +78,9 @@ pub(super) fn failed(error: twofold::Error) -> Failure {
     error.into()
 }
 
-/// A scene of which the columns that it names are not used.
-pub(super) fn read_scene(name: &str) -> Result<Scene, Failure> {
-    accepted(name, Scene::named_without_columns(name))
-}
-
-/// The scene that was read, with notes of what in it looks like a mistake.
-fn accepted(name: &str, read: Result<Scene, SceneError>) -> Result<Scene, Failure> {
-    let scene = read?;
+/// The scene, with notes of what in it looks like a mistake.
+pub(super) fn read_scene(name: &str, columns: Columns<'_>) -> Result<Scene, Failure> {
+    let scene = Scene::named_with(name, columns)?;
     scene.cautions.iter().for_each(|caution| note(&format!("{name}: {caution}")));
     Ok(scene)
 }

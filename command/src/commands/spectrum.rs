@@ -8,7 +8,7 @@ use super::run::{OutputArgs, PlanArgs, force_method, read_scene, write};
 use super::{Failure, note, print};
 use twofold_scene::columns::Column;
 use twofold_scene::estimated_error::as_printed;
-use twofold_scene::scene_file::{Scene, Times};
+use twofold_scene::scene_file::{Columns, Scene, Times};
 use twofold_scene::trajectory::{Floor, LinesSummary, LinesWanted, Sampling, TrajectoryError};
 
 #[derive(Args)]
@@ -46,7 +46,7 @@ pub(crate) enum SpectrumTable {
 }
 
 pub(super) fn spectrum(args: &SpectrumArgs) -> Result<(), Failure> {
-    let mut scene = read_scene(&args.scene)?;
+    let mut scene = read_scene(&args.scene, Columns::Unused)?;
     if let Some(span) = args.span {
         let (start, end) = (scene.times.start(), scene.times.start() + span);
         if !end.is_finite() || start == end {

@@ -9,7 +9,7 @@ use super::output_folder::OutputFolder;
 use super::run::read_scene;
 use super::{Failure, note, tell};
 use twofold_scene::pulsar_timing::{PulsarScene, Series, Timing, TimingError, csv, decimal, par, strain_series, tim};
-use twofold_scene::scene_file::{Scene, like_julian_date};
+use twofold_scene::scene_file::{Columns, Scene, like_julian_date};
 
 #[derive(Args)]
 pub(crate) struct TimingArgs {
@@ -51,7 +51,7 @@ pub(crate) struct TimingArgs {
 const MOST: usize = 10_000_000;
 
 pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
-    let scene = read_scene(&args.scene)?;
+    let scene = read_scene(&args.scene, Columns::Unused)?;
     for (option, date) in [("--from", &args.from), ("--to", &args.to)] {
         if let Some(why) = date.as_ref().and_then(like_julian_date) {
             note(&format!("{option}: {why}"));

@@ -10,7 +10,7 @@ use tempfile::TempDir;
 
 use super::scene::is_small;
 use crate::commands::{Cli, Command, FisherArgs, ForecastArgs, MeasurementArgs, run_command};
-use twofold_scene::scene_file::Scene;
+use twofold_scene::scene_file::{Columns, Scene};
 use twofold_scene::sweep::{Sweep, SweepText};
 
 const FILES: [(&str, &str); 5] = [
@@ -76,7 +76,7 @@ fn clean(folder: &Path) {
 
 /// Whether a command is milliseconds of work.
 fn is_little_work(command: &Command) -> bool {
-    let short = |name: &str| match Scene::named_without_columns(name) {
+    let short = |name: &str| match Scene::named_with(name, Columns::Unused) {
         Ok(scene) => is_small(&scene) || name == "p.toml",
         Err(_) => true,
     };

@@ -61,7 +61,7 @@ pub struct Scene {
 
 /// The columns that a scene is read for.
 #[derive(Clone, Copy)]
-pub(crate) enum Columns<'a> {
+pub enum Columns<'a> {
     /// Those of the file.
     OfTheFile,
     /// The groups of these names.
@@ -73,20 +73,11 @@ pub(crate) enum Columns<'a> {
 impl Scene {
     /// The scene with the built-in name, or in the file at the path; `./tp-1` is a file, `tp-1` is built in.
     pub fn named(name_or_path: &str) -> Result<Self, SceneError> {
-        Self::named_for(name_or_path, Columns::OfTheFile)
+        Self::named_with(name_or_path, Columns::OfTheFile)
     }
 
-    /// As [`Scene::named`], with the groups of columns called `names` in place of those of the file.
-    pub fn named_with_columns(name_or_path: &str, names: &[&str]) -> Result<Self, SceneError> {
-        Self::named_for(name_or_path, Columns::Named(names))
-    }
-
-    /// As [`Scene::named`], with the columns of the motion, whatever the file names.
-    pub fn named_without_columns(name_or_path: &str) -> Result<Self, SceneError> {
-        Self::named_for(name_or_path, Columns::Unused)
-    }
-
-    fn named_for(name_or_path: &str, columns: Columns<'_>) -> Result<Self, SceneError> {
+    /// As [`Scene::named`], for other columns than those of the file.
+    pub fn named_with(name_or_path: &str, columns: Columns<'_>) -> Result<Self, SceneError> {
         let read =
             |file: &str, text: &str| SCENE.parse(file, text, |document| Self::from_document(document, columns, None));
         match built_in(name_or_path) {
