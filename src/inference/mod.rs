@@ -28,7 +28,7 @@
 //! assert!((found.fisher.values()[1] + 0.11).abs() < 0.01 * found.fisher.sigmas()[1]);
 //! // Error bars hold where chi^2 is a parabola over them.
 //! assert!(nonlinearity(&found.fisher, &data, 60.0)? < 0.1);
-//! // Of the azimuth of the beam and that of the body such data tell the sum alone.
+//! // Of the azimuth of the beam and that of the body such data determine only the sum of the two azimuths.
 //! let fisher = Fisher::of(&truth, &events, &data, &[Parameter::Gamma, Parameter::Delta])?;
 //! assert!(fisher.degenerate[0].to_string().starts_with("gamma against delta: only gamma + delta"));
 //! // The uncertainty of the spin falls with the span.

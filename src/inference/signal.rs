@@ -54,8 +54,7 @@ pub struct Signal {
     pub parameters: Parameters<f64>,
     /// Last time.
     pub end: f64,
-    /// Whether the span is one of more than 1e5 rad of rotation. Its pulses are those near given times, by the averaged motion of second order.
-    pub is_long: bool,
+    pub(super) is_long: bool,
     motion: PlannedMotion,
     beam: Beam<f64>,
     line_of_sight: Vector3<f64>,
@@ -82,6 +81,11 @@ pub(super) fn strain<S: Scalar>(
 }
 
 impl Signal {
+    /// Whether the span is one of more than 1e5 rad of rotation. Its pulses are those near given times, by the averaged motion of second order.
+    pub fn is_long(&self) -> bool {
+        self.is_long
+    }
+
     /// The signal from time zero to `end`.
     ///
     /// # Errors

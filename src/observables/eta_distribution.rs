@@ -97,7 +97,7 @@ impl EtaDistribution {
         Ok(Self { directions: Directions::OnCone { sine: sine.abs() }, ..self })
     }
 
-    /// For a spin axis of which so much is known, and the asymmetry ratio `r`.
+    /// For what is known of the spin axis, and the asymmetry ratio `r`.
     ///
     /// # Errors
     /// [`Error::Domain`] for numbers that are not finite, and where Eq. (34) gives an inclination outside `[0, pi]` for some `alpha_0`.

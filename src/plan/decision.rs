@@ -34,7 +34,7 @@ pub struct Plan {
     pub samples: usize,
     /// Parameters by which derivatives are computed.
     pub derivatives: Vec<Parameter>,
-    /// Tolerance.
+    /// Truncation error that the motion may have at the end of its span.
     pub tolerance: f64,
     /// What the method will do; nothing where there is none.
     pub prediction: Option<Prediction>,

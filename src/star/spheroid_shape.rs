@@ -26,12 +26,9 @@ use crate::numerics::scalar::Real;
 /// `e^2` is negative; all functions of the shape are analytic in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpheroidShape<S> {
-    /// Axis ratio `q = a3 / a1`.
-    pub axis_ratio: S,
-    /// Squared axis ratio `q^2 = 1 - e^2`.
-    pub axis_ratio_squared: S,
-    /// Squared eccentricity `e^2 = 1 - (a3 / a1)^2`, Eq. (72) `[ecc]`; negative for a prolate spheroid.
-    pub eccentricity_squared: S,
+    pub(crate) axis_ratio: S,
+    pub(crate) axis_ratio_squared: S,
+    pub(crate) eccentricity_squared: S,
     /// What the rounding of `q^2` and of `e^2` lost, zero where it is not known.
     pub(crate) lost: (S, S),
 }
@@ -94,6 +91,21 @@ impl<S: Real> SpheroidShape<S> {
         let e2 = epsilon * 2.0 / (S::one() + epsilon);
         let lost = (S::zero(), S::zero());
         Ok(Self { axis_ratio: q2.sqrt(), axis_ratio_squared: q2, eccentricity_squared: e2, lost })
+    }
+
+    /// Axis ratio `q = a3 / a1`.
+    pub fn axis_ratio(&self) -> S {
+        self.axis_ratio
+    }
+
+    /// Squared axis ratio `q^2 = 1 - e^2`.
+    pub fn axis_ratio_squared(&self) -> S {
+        self.axis_ratio_squared
+    }
+
+    /// Squared eccentricity `e^2 = 1 - (a3 / a1)^2`, Eq. (72) `[ecc]`; negative for a prolate spheroid.
+    pub fn eccentricity_squared(&self) -> S {
+        self.eccentricity_squared
     }
 
     /// Oblateness `epsilon = e^2 / (2 - e^2)` of the uniform spheroid, Eq. (79).

@@ -201,7 +201,7 @@ fn eccentricity_comes_from_the_axes_themselves() {
     let (a1, difference) = (3.0, 2f64.powi(-40));
     let shape = SpheroidShape::from_semi_axes(a1, a1 - difference).expect("a spheroid");
     let exact = difference / a1 * ((2.0 * a1 - difference) / a1);
-    assert!((shape.eccentricity_squared / exact - 1.0).abs() < 1e-15);
+    assert!((shape.eccentricity_squared() / exact - 1.0).abs() < 1e-15);
 }
 
 #[test]
@@ -429,4 +429,19 @@ fn elliptic_functions_are_not_numbers_outside_their_domain() {
         assert!(complete_integral(m1).is_nan() && jacobi(0.5, m1).sn.is_nan(), "m1 = {m1}");
     }
     assert!((complete_integral(f64::MIN_POSITIVE) / (4.0 / f64::MIN_POSITIVE.sqrt()).ln() - 1.0).abs() < 1e-15);
+}
+
+/// A needle that spins fast about itself, and slowly about L, is no clock.
+#[test]
+fn a_clock_turns_about_its_momentum() {
+    let (beam, observer) = (Beam::new(0.2, 0.0, 0.3), Observer::at(0.6, 0.0));
+    let clock = |inertia_zz: f64| {
+        let needle = RigidSpheroid { inertia_xx: 1.0, inertia_zz, constant_c: 0.0 };
+        let axis = Vector3::new(0.6, 0.0, 0.8);
+        let start = BodyState { axis, momentum: Vector3::z(), equatorial_axis: Vector3::y() };
+        let problem = Problem::new(needle, Matrix3::zeros(), start).expect("a problem");
+        PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second)
+    };
+    judged(clock(1e-4), "");
+    judged(clock(1e-5), "rotation (rad) of the body");
 }

@@ -222,19 +222,25 @@ impl Worst {
 
 /// What a case shows: a figure, or the worst figure of cases within it.
 pub trait Figure {
-    /// The figure and its line of detail.
-    fn measured(self) -> Measured;
+    /// The figure and its line of detail; none for a case that shows nothing, which is not counted.
+    fn measured(self) -> Option<Measured>;
 }
 
 impl Figure for f64 {
-    fn measured(self) -> Measured {
-        Measured::new(self, "")
+    fn measured(self) -> Option<Measured> {
+        Some(Measured::new(self, ""))
     }
 }
 
 impl Figure for Measured {
-    fn measured(self) -> Measured {
-        self
+    fn measured(self) -> Option<Measured> {
+        Some(self)
+    }
+}
+
+impl<F: Figure> Figure for Option<F> {
+    fn measured(self) -> Option<Measured> {
+        self.and_then(F::measured)
     }
 }
 
@@ -245,8 +251,9 @@ pub(crate) fn worst_of<C: std::fmt::Debug, F: Figure>(
 ) -> Result<Measured, String> {
     let mut worst = Worst::default();
     for case in cases {
-        let Measured { figure, detail } = figure(&case)?.measured();
-        worst.see(figure, || format!("{case:?} {detail}"));
+        if let Some(Measured { figure, detail }) = figure(&case)?.measured() {
+            worst.see(figure, || format!("{case:?} {detail}"));
+        }
     }
     worst.finish()
 }
@@ -260,14 +267,21 @@ pub(crate) fn least_of<C: std::fmt::Debug>(
     Ok(Measured::new(-figure, detail))
 }
 
-/// The largest of some figures, none of them negative; NaN if one is NaN, which `f64::max` would drop.
+/// The largest of some figures, none of them negative; NaN if one is NaN, which `f64::max` would drop, and without any: nothing was measured.
 pub fn largest(figures: impl IntoIterator<Item = f64>) -> f64 {
-    figures.into_iter().fold(0.0, |most: f64, x| if x.is_nan() || most.is_nan() { f64::NAN } else { most.max(x) })
+    let more = |most: f64, x: f64| if x.is_nan() || most.is_nan() { f64::NAN } else { most.max(x) };
+    figures.into_iter().reduce(more).map_or(f64::NAN, |most| if most < 0.0 { 0.0 } else { most })
 }
 
 /// The largest of some figures, none of them negative.
 pub(crate) fn largest_of<E>(figures: impl IntoIterator<Item = Result<f64, E>>) -> Result<f64, E> {
     Ok(largest(figures.into_iter().collect::<Result<Vec<_>, E>>()?))
+}
+
+/// As [`largest_of`], and nothing where there are no figures.
+pub(crate) fn largest_if_any<E>(figures: impl IntoIterator<Item = Result<f64, E>>) -> Result<Option<f64>, E> {
+    let figures = figures.into_iter().collect::<Result<Vec<_>, E>>()?;
+    Ok((!figures.is_empty()).then(|| largest(figures)))
 }
 
 /// The smallest of some figures; NaN if one is NaN, which `f64::min` would drop, and infinite without one.

@@ -72,6 +72,8 @@ pub fn worst_over<T: Strategy, F: Figure>(
     mut measure: impl FnMut(&T::Value) -> Result<F, String>,
 ) -> Result<Measured, String> {
     worst_of(drawn(seed, cases, strategy)?.iter().enumerate(), |(case, value)| {
-        measure(value).map_err(|error| format!("case {case} of seed {seed}, {value:?}: {error}"))
+        let found = measure(value).map_err(|error| format!("case {case} of seed {seed}, {value:?}: {error}"))?;
+        let of_seed = |Measured { figure, detail }| Measured::new(figure, format!("of seed {seed} {detail}"));
+        Ok(found.measured().map(of_seed))
     })
 }

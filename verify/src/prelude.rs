@@ -2,7 +2,7 @@
 
 pub(crate) use crate::check::{
     Bound, Check, Figure, Kind, Measured, Outcome, Worst, checks, largest, largest_component, largest_difference,
-    largest_of, least_of, smallest, worst_of,
+    largest_if_any, largest_of, least_of, smallest, worst_of,
 };
 pub(crate) use crate::derivation::spheroid_motion::fixed_spheroid;
 pub(crate) use crate::derivation::{Differentiable, components, moving_angles, moving_rates};

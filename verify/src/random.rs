@@ -11,7 +11,7 @@ pub(crate) fn worst_of_draws<F: Figure>(
     mut figure: impl FnMut(&mut Random) -> Result<F, String>,
 ) -> Result<Measured, String> {
     let mut random = Random::with_seed(seed);
-    worst_of((0..count).map(|case| (case, seed)), |_| figure(&mut random))
+    worst_of((0..count).map(|case| format!("case {case} of seed {seed}")), |_| figure(&mut random))
 }
 
 /// A number that can be drawn from a range; a field without order takes any element.

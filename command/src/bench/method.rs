@@ -130,8 +130,8 @@ fn end_of_splitting<X: RotationState<f64>>(
     tolerance: f64,
 ) -> Result<End, String> {
     let motion = problem.splitting((0.0, duration), tolerance)?;
-    let steps = motion.step_count as usize;
-    Ok(End::new(&motion.state(duration)?, steps, 2 * steps * motion.scheme.stages()))
+    let steps = motion.step_count() as usize;
+    Ok(End::new(&motion.state(duration)?, steps, 2 * steps * motion.scheme().stages()))
 }
 
 /// The first of the states of a series.

@@ -11,7 +11,7 @@ pub struct Row {
     pub scene: String,
     pub method: String,
     pub carries: Carries,
-    /// Tolerance, tolerance or step.
+    /// Tolerance or step.
     pub setting: f64,
     /// Largest error of a component of `n`, `L / |L|` and, where it is carried, `e_x` at the end.
     pub error: f64,

@@ -91,7 +91,7 @@ fn read(measurement: &Measurement, files: &[String]) -> Result<Vec<Datum>, Failu
     for file in files {
         let table = DataFile::read(file).map_err(Failure::BadInput)?;
         let of_pulses = table.is_of_pulses().map_err(Failure::BadInput)?;
-        if of_pulses && signal.is_long {
+        if of_pulses && signal.is_long() {
             return Err(Failure::BadInput(format!(
                 "{file}: arrival times of one double each, for a span of more than 1e5 rad of rotation: allowed are --simulate and strains"
             )));

@@ -55,7 +55,7 @@ impl Measurement {
         if self.noise.iter().all(|(observable, _)| !observable.is_of_pulses()) {
             return Ok(Vec::new());
         }
-        if !signal.is_long {
+        if !signal.is_long() {
             return signal.events().map_err(refused);
         }
         note(

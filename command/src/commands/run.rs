@@ -31,7 +31,7 @@ pub(crate) struct PlanArgs {
     /// Compute nothing: print the plan, what it skips and why, and what it is expected to cost
     #[arg(long)]
     pub(crate) explain: bool,
-    /// The method, instead of the cheapest that meets the tolerance: free, steady, symmetric, mean, splitting, taylor
+    /// The method, instead of the cheapest that meets the tolerance: free, steady, symmetric, averaged, splitting, taylor
     #[arg(long, value_name = "NAME")]
     pub(crate) method: Option<String>,
 }

@@ -122,7 +122,7 @@ impl Format {
             (false, _) => Ok(Self::Csv),
             (true, true) => Ok(Self::Parquet),
             (true, false) => Err(Failure::BadInput(format!(
-                "--out {}: this program was built without Parquet; `cargo build --release --features twofold-verify/parquet` \
+                "--out {}: this program was built without Parquet; `cargo build --release --features parquet` \
                  builds it with, and CSV needs nothing",
                 path.display()
             ))),

@@ -103,7 +103,7 @@ impl Folder {
         names_in(self.path())
     }
 
-    /// Names and bytes of all files, those in folders too.
+    /// Names and bytes of all files, and names of all folders.
     pub fn contents(&self) -> Vec<(String, Vec<u8>)> {
         let (mut found, mut folders) = (Vec::new(), vec![self.path().to_owned()]);
         while let Some(folder) = folders.pop() {
@@ -112,7 +112,11 @@ impl Folder {
                     Ok(bytes) => {
                         found.push((path.strip_prefix(self.path()).expect("in it").display().to_string(), bytes))
                     }
-                    Err(_) => folders.extend(path.is_dir().then_some(path)),
+                    Err(_) if path.is_dir() => {
+                        found.push((path.strip_prefix(self.path()).expect("in it").display().to_string(), Vec::new()));
+                        folders.push(path);
+                    }
+                    Err(_) => {}
                 }
             }
         }

@@ -80,7 +80,7 @@ fn decades_give_the_truth() {
     use Parameter::{Chi, Gamma, PhiO, Rho, SAsymmetry, SAxial, Spin, ThetaO};
     let (unknowns, end) = (&[SAxial, SAsymmetry, Spin, Gamma, Chi, Rho, ThetaO, PhiO], 6e9);
     let signal = Signal::new(&truth, end).expect("signal");
-    assert!(signal.is_long && signal.events().is_err());
+    assert!(signal.is_long() && signal.events().is_err());
     let times: Vec<f64> = (1..60).map(|k| end * f64::from(k) / 60.0).collect();
     let events = signal.events_after(&times).expect("pulses");
     let data =

@@ -12,8 +12,15 @@ fn unescaped(text: &str) -> String {
     text.replace("\\n", "\n")
 }
 
+/// What a line looks for; nothing but where a status stands alone.
 fn fragments(text: &str) -> Vec<String> {
     text.split(" | ").filter(|part| !part.is_empty()).map(unescaped).collect()
+}
+
+fn looked_for(text: &str) -> Vec<String> {
+    let found = fragments(text);
+    assert!(!found.is_empty(), "a line looks for nothing");
+    found
 }
 
 /// The words of a line; what is in quotes is one.
@@ -53,28 +60,34 @@ fn carry_out(sessions: &str) {
     for paragraph in sessions.split("\n\n") {
         let folder = Folder::new();
         let (mut command, mut out, mut told, mut status, mut before) = ("", String::new(), String::new(), None, vec![]);
+        let mut is_judged = true;
         for line in paragraph.lines().filter(|line| !line.starts_with('#')) {
             let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
+            let is_preparation = matches!(word, "file" | "$");
+            assert!(is_judged || !is_preparation, "no status is told of `{command}`");
+            assert!(is_preparation || !command.is_empty(), "`{line}` follows no command");
+            is_judged |= !is_preparation && word.trim_end_matches(':').parse::<i32>().is_ok();
             let about = || format!("{command}: {line}\n{out}{told}");
             match word {
                 "file" => write_file(&folder, rest),
                 "$" => {
+                    is_judged = false;
                     before = folder.contents();
                     let output = folder.run(&arguments(rest));
                     (command, out, told, status) = (rest, stdout(&output), stderr(&output), output.status.code());
                     assert!(!told.contains("panicked"), "{command}: {told}");
                 }
-                "out:" => has_all(&out, &fragments(rest)),
+                "out:" => has_all(&out, &looked_for(rest)),
                 "head:" => assert!(out.starts_with(&unescaped(rest)), "{}", about()),
                 "is:" => assert_eq!(out, unescaped(rest), "{}", about()),
                 "not:" => assert!(
-                    !fragments(rest).iter().any(|part| out.contains(part) || told.contains(part)),
+                    !looked_for(rest).iter().any(|part| out.contains(part) || told.contains(part)),
                     "{}",
                     about()
                 ),
                 "in" => {
                     let (name, text) = rest.split_once(": ").expect("a name and a text");
-                    has_all(&folder.read(name), &fragments(text));
+                    has_all(&folder.read(name), &looked_for(text));
                 }
                 "rows:" => {
                     let (count, part) = rest.split_once(' ').unwrap_or((rest, ""));
@@ -98,16 +111,28 @@ fn carry_out(sessions: &str) {
                 }
             }
         }
+        assert!(is_judged && !command.is_empty(), "no status is told of `{command}`: {paragraph}");
     }
 }
 
 macro_rules! sessions {
-    ($($name:ident: $file:literal;)*) => {$(
+    ($($name:ident: $file:literal;)*) => {
+        $(
+            #[test]
+            fn $name() {
+                carry_out(include_str!(concat!("../cases/", $file)));
+            }
+        )*
+
         #[test]
-        fn $name() {
-            carry_out(include_str!(concat!("../cases/", $file)));
+        fn every_file_of_sessions_is_carried_out() {
+            let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+            let found = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+            let mut found: Vec<_> = found.filter(|name| name.ends_with(".txt")).collect();
+            found.sort();
+            assert_eq!(found, [$($file),*]);
         }
-    )*};
+    };
 }
 
 sessions! {

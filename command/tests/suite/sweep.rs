@@ -290,7 +290,7 @@ fn parquet_is_refused_with_the_name_of_its_feature() {
     let folder = Folder::new();
     folder.write("sweep.toml", SWEEP);
     let output = ends(folder.run(&["sweep", "sweep.toml", "--out", "a.parquet"]), 2);
-    assert!(stderr(&output).contains("--features twofold-verify/parquet"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("--features parquet"), "{}", stderr(&output));
     assert_eq!(folder.names(), ["sweep.toml"]);
 }
 

@@ -300,7 +300,7 @@ mod tests {
         assert!(looks <= 1440, "{looks} looks");
     }
 
-    /// Of slow and fast stars: what is near and what is short is so in radians.
+    /// Of slow and fast stars: near and short are measured in radians.
     #[test]
     fn grazings_are_told_on_either_side_of_the_edge() {
         for w in [1.0, 1e-7, 3e-3, 40.0, 1e6] {

@@ -104,12 +104,9 @@ impl PrincipalProblem<3> {
 /// whole step for spans below 100,000 steps, and in any case a number that does not depend on the time asked.
 #[derive(Debug, Clone)]
 pub struct SplittingMotion<X = BodyState<f64>> {
-    /// The scheme.
-    pub scheme: &'static Scheme,
-    /// Length of one step, negative for a motion backwards in time.
-    pub step: f64,
-    /// Number of steps, even.
-    pub step_count: u64,
+    pub(crate) scheme: &'static Scheme,
+    step: f64,
+    pub(crate) step_count: u64,
     kept: Kept,
     state: PhantomData<X>,
 }
@@ -277,6 +274,23 @@ impl<const V: usize> KeptStates<V> {
         }
         let estimate = self.estimate.get_or_init(|| ErrorEstimate::new(self));
         estimate.at((t - self.span.0).abs())
+    }
+}
+
+impl<X> SplittingMotion<X> {
+    /// The scheme.
+    pub fn scheme(&self) -> &'static Scheme {
+        self.scheme
+    }
+
+    /// Length of one step, negative for a motion backwards in time.
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// Number of steps, even.
+    pub fn step_count(&self) -> u64 {
+        self.step_count
     }
 }
 

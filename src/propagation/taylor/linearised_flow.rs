@@ -137,21 +137,104 @@ impl LinearisedFlow {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_relative_eq;
+    use nalgebra::Rotation3;
     use num_dual::Dual64;
 
     use super::*;
-    use crate::dynamics::fixture::{STAR, axis_problem};
+    use crate::dynamics::{AxisState, Problem};
     use crate::propagation::taylor::scaled_problem::ScaledProblem;
     use crate::propagation::taylor::step_size::Work;
+
+    fn flow() -> LinearisedFlow {
+        let spheroid = RigidSpheroid { inertia_xx: 1.3, inertia_zz: 1.5, constant_c: 0.8 };
+        let violation = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.03));
+        let vectors = [Vector3::z(), Vector3::new(0.1, 0.2, 1.0)];
+        let [axis, momentum] = vectors;
+        let problem = Problem::unchecked(spheroid, violation, AxisState { axis, momentum });
+        let setup = ScaledProblem::<f64, 2>::new((true, Work::Quadratic), &problem, (0.0, 1.0), 1e-10).unwrap();
+        LinearisedFlow::new(&spheroid, &violation, 1.0, SharedRounding::of(&setup).0)
+    }
+
+    /// The rotation by `w h` and its mean from the time zero to `h`, on both sides of the angle of a thousandth where the series end.
+    #[test]
+    fn rotations_and_their_means_are_those_of_any_angle() {
+        let flow = flow();
+        let (n, w) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.5, 1.2));
+        for angle in [1e-6, 1e-4, 9.99e-4, 1.001e-3, 0.03, 0.7, 2.9] {
+            let h = angle / w.norm();
+            let (map, turned) = flow.rotation(&n, &w, h);
+            let LinearMap::Rotation { from_rotation, from_momentum, .. } = map else { panic!("a rotation") };
+            let exact = |share: f64| Rotation3::new(w * h * share).into_inner();
+            assert!((from_rotation - exact(1.0)).amax() < 2e-16 + 1e-13 * angle * angle, "{angle}");
+            assert_relative_eq!(turned, exact(1.0) * n, epsilon = 1e-15);
+            // Three points of Gauss and Legendre in each of eight parts.
+            let mut mean = Matrix3::zeros();
+            for part in 0..8 {
+                for (place, weight) in [(-0.6_f64.sqrt(), 5.0 / 18.0), (0.0, 8.0 / 18.0), (0.6_f64.sqrt(), 5.0 / 18.0)]
+                {
+                    mean += exact((f64::from(part) + 0.5 + 0.5 * place) / 8.0) * (weight / 8.0);
+                }
+            }
+            let error = (from_momentum / h - mean).amax();
+            // Beyond the series 1 - cos cancels.
+            let rounding = if angle < 1e-3 { 2e-15 } else { 2e-16 / angle };
+            assert!(error < rounding + 3e-11 * angle.powi(3), "{angle}: {error:e}");
+        }
+    }
+
+    /// `(x - sin x) / x^3` stands alone in the symmetric part of the mean.
+    #[test]
+    fn the_series_of_the_mean_of_a_rotation_has_its_second_term() {
+        let w = Vector3::new(0.3, -0.5, 1.2);
+        let h = 9.99e-4 / w.norm();
+        let (map, _) = flow().rotation(&Vector3::z(), &w, h);
+        let LinearMap::Rotation { from_momentum, .. } = map else { panic!("a rotation") };
+        let square = 9.99e-4_f64.powi(2);
+        let exact = 1.0 / 6.0 - square / 120.0 + square * square / 5040.0;
+        let found = (from_momentum[(0, 2)] + from_momentum[(2, 0)]) / (2.0 * h * h * h * w.x * w.z);
+        assert_relative_eq!(found, exact, max_relative = 3e-11);
+    }
+
+    /// Five maps for each part of half a radian of `|w|` and the root of the pull together, from one part to 128 of them.
+    #[test]
+    fn a_step_has_a_part_for_every_half_radian() {
+        let flow = flow();
+        let (n, w) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.5, 1.2));
+        let rate = w.norm() + flow.pull.norm().sqrt();
+        for (radians, parts) in [(0.0, 1), (1e-6, 1), (0.49, 1), (-0.51, 2), (3.2, 7), (63.9, 128), (1e6, 128)] {
+            let mut maps = 0;
+            flow.over((n, w), &n, radians / rate, |_| maps += 1);
+            assert_eq!(maps, 5 * parts, "{radians}");
+        }
+    }
+
+    #[test]
+    fn the_last_kick_is_at_the_end() {
+        let flow = flow();
+        let (n, w) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.5, 1.2));
+        let end = Vector3::new(0.48, -0.6, 0.64);
+        for (radians, parts) in [(0.3, 1.0), (0.9, 2.0)] {
+            let h = radians / (w.norm() + flow.pull.norm().sqrt());
+            let mut last = Matrix3::zeros();
+            flow.over((n, w), &end, h, |map| {
+                if let LinearMap::Kick { from_rotation, .. } = map {
+                    last = *from_rotation;
+                }
+            });
+            let LinearMap::Kick { from_rotation, .. } = flow.kick(&end, h / parts / 6.0, 0.0).0 else {
+                panic!("a kick")
+            };
+            assert_relative_eq!(last, from_rotation, epsilon = 0.0, max_relative = 1e-14);
+        }
+    }
 
     /// Against derivatives of `n' = w x n`, `w' = (S n) x n` by Runge and Kutta's method in small steps: what is left is of the fifth order in
     /// the step, and would be of the third with another correction of the kick in the middle.
     #[test]
     fn maps_are_those_of_the_linearised_equations_to_the_fourth_order() {
         let pull = Matrix3::from_diagonal(&Vector3::new(0.9, -0.2, -0.7));
-        let problem = axis_problem([0.02, 0.01, -0.03]);
-        let setup = ScaledProblem::<f64, 2>::new((true, Work::Quadratic), &problem, (0.0, 1.0), 1e-10).unwrap();
-        let flow = LinearisedFlow { pull, shared: SharedRounding::of(&setup).0, rate: 1.0 / STAR.inertia_xx };
+        let flow = LinearisedFlow { pull, ..flow() };
         let (n, w) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.3, -0.5, 1.2));
         let (turn, push) = (Vector3::new(0.2, 0.7, -0.4), Vector3::new(-0.6, 0.3, 0.5));
         let h = 0.01;

@@ -43,17 +43,13 @@ pub struct AveragedSolution<S> {
     turning: [DoubleDouble; 3],
     /// `n.n - 1` of the initial axis as given.
     excess_of_length: f64,
-    /// Mean rates.
-    pub rates: AveragedRates<S>,
+    pub(crate) rates: AveragedRates<S>,
     /// Of the angles about `l` and about `n`, by the integral of the top.
     periodic: [S; 2],
-    /// How many orders are taken along.
-    pub order: AveragingOrder,
+    pub(crate) order: AveragingOrder,
     /// Principal values of the tensor of the asymmetric top as which `l` moves.
     tensor: Vector3<S>,
-    /// `|C| (s_max - s_min) I^xx / |L|^2` at the start, whose powers the orders are in: errors are of its size (first order) or of its square
-    /// (second), and grow with its square, or its cube, times the angle turned.
-    pub relative_strength: S,
+    pub(crate) relative_strength: S,
     /// Time from the initial state to the time zero.
     since_start: f64,
 }
@@ -74,6 +70,22 @@ fn rotated_about<S: Real>(axis: &Vector3<S>, v: &Vector3<S>, angle: S) -> Vector
 }
 
 impl<S: Real> AveragedSolution<S> {
+    /// Mean rates.
+    pub fn rates(&self) -> AveragedRates<S> {
+        self.rates
+    }
+
+    /// How many orders are taken along.
+    pub fn order(&self) -> AveragingOrder {
+        self.order
+    }
+
+    /// `|C| (s_max - s_min) I^xx / |L|^2` at the start, whose powers the orders are in: errors are of its size (first order) or of its square
+    /// (second), and grow with its square, or its cube, times the angle turned.
+    pub fn relative_strength(&self) -> S {
+        self.relative_strength
+    }
+
     /// The motion of a problem in the principal frame of its `s`, from its initial state at the time zero.
     ///
     /// # Errors

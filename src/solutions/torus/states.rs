@@ -133,6 +133,36 @@ mod tests {
         }
     }
 
+    /// Which axis `L` goes round is said where rotation is fast against the torque, whatever the sign of `C`.
+    #[test]
+    fn an_axis_is_told_of_fast_rotation_only() {
+        for body in [BODY, PROLATE] {
+            let (mut told, mut untold) = (0, 0);
+            for direction in [[0.3, 0.5, 1.9], [1.7, -0.6, 0.4]] {
+                for i in 0..60 {
+                    let momentum = Vector3::from(direction).normalize() * (0.7 + 0.02 * f64::from(i));
+                    let axis = Vector3::new(0.6, 0.0, 0.8);
+                    let start = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
+                    let integrals = first_integrals(&body, &S.tensor(), &start);
+                    let found = states_with_integrals(&body, &S, &integrals).unwrap();
+                    let least = found.states.iter().map(|state| state.momentum.norm_squared()).fold(9.0, f64::min);
+                    let strength = 0.8 * 0.25 * body.inertia_xx / least;
+                    // One plane has no state, and the others have some: seen by the axes normal to them.
+                    let absent: Vec<usize> = (0..3)
+                        .filter(|&normal| {
+                            found.states.iter().all(|s| s.axis[normal] != 0.0 || s.momentum[normal] != 0.0)
+                        })
+                        .collect();
+                    let expected = (absent.len() == 1 && strength < 0.2).then(|| absent[0]);
+                    assert_eq!(found.round, expected, "{direction:?} {i}: {strength} {absent:?}");
+                    told += usize::from(expected.is_some());
+                    untold += usize::from(absent.len() == 1 && expected.is_none());
+                }
+            }
+            assert!(told > 10 && untold > 10, "{told} {untold}");
+        }
+    }
+
     /// With `C` of either sign the axis of the least eigenvalue of `C s` is the one that `n` may be along: states there, with the integrals.
     #[test]
     fn states_with_the_axis_of_the_body_on_that_of_least_energy_are_found() {

@@ -133,7 +133,7 @@ fn numerical_motions() {
             let (name, t) = (format!("{} to {}", scheme.name, span.1), span.0 + 0.13 * (span.1 - span.0));
             let reduced = problem(general()).reduced().splitting_by(scheme, span, step).expect("a motion");
             let (state, error) = (reduced.axis_state(t).expect("a state"), reduced.error_estimate(t));
-            let (step, steps) = (reduced.step, reduced.step_count);
+            let (step, steps) = (reduced.step(), reduced.step_count());
             table.row(&name, format_args!("step {step:?}, steps {steps}, {state:?}, error {error:?}"));
         }
         let motion = problem(general()).splitting_by(scheme, SPAN, 0.3).expect("a motion");
@@ -141,9 +141,9 @@ fn numerical_motions() {
     }
     for tolerance in [1e-4, 1e-9] {
         let (reduced, motion) = (problem(general()).reduced().splitting(SPAN, tolerance), problem(general()));
-        let scheme = reduced.expect("a motion").scheme.name;
+        let scheme = reduced.expect("a motion").scheme().name;
         let motion = motion.splitting(SPAN, tolerance).expect("a motion");
-        let name = format!("best within {tolerance:e}: {scheme}, with e_x {}", motion.scheme.name);
+        let name = format!("best within {tolerance:e}: {scheme}, with e_x {}", motion.scheme().name);
         look(&mut table, &name, &motion);
     }
     table.check("numerical_motions");

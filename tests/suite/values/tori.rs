@@ -49,7 +49,7 @@ fn states_on_tori() {
             let growth = middle_axis_growth(&star, &s, energy, spin, order);
             table.result(&format!("{label}, growth about the middle axis"), growth);
             table.found(&label, AveragedSolution::new(&problem, order), |table, mean| {
-                table.row(&label, format_args!("{:?}, strength {:?}", mean.rates, mean.relative_strength));
+                table.row(&label, format_args!("{:?}, strength {:?}", mean.rates(), mean.relative_strength()));
                 table.row(
                     "  at 13",
                     format_args!("{:?}, error {:?}", mean.phases_at([13.0, 0.0]), mean.error_estimate(13.0)),

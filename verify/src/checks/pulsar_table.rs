@@ -95,7 +95,7 @@ fn uncertainties() -> Result<Measured, String> {
             let mean = sum / DRAWS as f64;
             let drawn = (square / DRAWS as f64 - mean * mean).sqrt() * figure.value.abs();
             let exact = figure.from_inputs == 0.0 && drawn < 1e-12 * figure.value.abs();
-            Ok(if exact { 0.0 } else { (figure.from_inputs / drawn - 1.0).abs() })
+            Ok((!exact).then(|| (figure.from_inputs / drawn - 1.0).abs()))
         })
     })
 }

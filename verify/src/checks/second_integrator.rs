@@ -33,13 +33,13 @@ fn forms_agree() -> Result<Measured, String> {
             closest = closest.min(axis.x.hypot(axis.y));
         }
         if closest < 0.1 {
-            return Ok(0.0);
+            return Ok(None);
         }
         measured += 1;
         let other = motion_in_angles(&scene.spheroid, &scene.s, (&scene.angles, &scene.rates), DURATION, 1e-13)?;
         let ours = ContinuousAngles::new(&motion, 0.0, &scene.angles).and_then(|mut angles| angles.at(DURATION))?;
         let differences = [ours.alpha - other.alpha, ours.beta - other.beta, ours.gamma - other.gamma];
-        Ok(largest(differences.map(f64::abs)))
+        Ok(Some(largest(differences.map(f64::abs))))
     })?;
     if measured < 100 {
         return Err(format!("only {measured} of 200 scenes stay off the poles"));

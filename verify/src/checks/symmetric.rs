@@ -206,7 +206,7 @@ fn steady() -> Result<Measured, String> {
         let (spheroid, s, angles, _) = lifted::<f64>(&scene);
         let spin = scene.rates.gamma;
         let Ok(rate) = steady_precession_rate(kind, &spheroid, &s, spin, angles.beta) else {
-            return Ok(0.0);
+            return Ok(None);
         };
         scene.rates = EulerRates { alpha: rate, beta: 0.0, gamma: spin - rate * angles.beta.cos() };
         let (sin, cos) = angles.beta.sin_cos();
@@ -214,7 +214,7 @@ fn steady() -> Result<Measured, String> {
         let stiffness =
             (rate * sin).powi(2) + spheroid.free_precession_constant(spin).powi(2) + k * (sin * sin - 4.0 * cos * cos);
         if stiffness <= 0.0 {
-            return Ok(if solution::<f64>(&scene).is_err() { 0.0 } else { f64::INFINITY });
+            return Ok(Some(if solution::<f64>(&scene).is_err() { 0.0 } else { f64::INFINITY }));
         }
         solved += 1;
         let motion: SymmetricSolution<f64> = solution(&scene)?;
@@ -227,7 +227,7 @@ fn steady() -> Result<Measured, String> {
         ];
         // A rounding of the rate tilts the axis by as much over the stiffness.
         let condition = 1.0 + 1.0 / (stiffness * sin * sin);
-        Ok(largest(errors.map(f64::abs)) / (phase(&scene, t) * condition * f64::EPSILON))
+        Ok(Some(largest(errors.map(f64::abs)) / (phase(&scene, t) * condition * f64::EPSILON)))
     })?;
     if solved < 300 {
         return Err(format!("only {solved} scenes have a stable steady precession"));

@@ -69,7 +69,7 @@ fn pairs<'d, V, E>(
             pairs.extend(places.zip(values).zip(expected).map(|((place, value), expected)| (place, value, expected)));
         }
     }
-    Ok(pairs)
+    if pairs.is_empty() { Err("the file has no value".into()) } else { Ok(pairs) }
 }
 
 fn error_over_scale(value: f64, expected: f64, scale: f64) -> f64 {

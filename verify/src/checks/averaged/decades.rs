@@ -22,9 +22,9 @@ fn phases() -> Result<Measured, String> {
         let problem = state.problem(10f64.powf(random.within(-15.0, -6.0)))?;
         let order = if case % 2 == 0 { AveragingOrder::First } else { AveragingOrder::Second };
         let averaged = AveragedSolution::new(&problem, order)?;
-        let rates = AveragedSolution::new(&problem.map(DoubleDouble::from_f64), order)?.rates;
+        let rates = AveragedSolution::new(&problem.map(DoubleDouble::from_f64), order)?.rates();
         let turns = 4e11;
-        let time = [turns / averaged.rates.about_momentum * TAU, 1e-9 * random.within(-1.0, 1.0)];
+        let time = [turns / averaged.rates().about_momentum * TAU, 1e-9 * random.within(-1.0, 1.0)];
         let found = averaged.turns(time);
         let time = DoubleDouble::sum_of(time[0], time[1]);
         let off = [(found.about_momentum, rates.about_momentum), (found.about_axis, rates.about_axis)].map(

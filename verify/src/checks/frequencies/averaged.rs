@@ -52,7 +52,7 @@ fn random_rates() -> Result<Measured, String> {
     worst_off_separatrix(73, [0.001, 0.007], |scene| {
         let exact = scene.exact()?;
         let averaged = scene.averaged(AveragingOrder::Second)?;
-        let x = AveragedSolution::new(&scene.problem()?, AveragingOrder::Second)?.relative_strength;
+        let x = AveragedSolution::new(&scene.problem()?, AveragingOrder::Second)?.relative_strength();
         let differences = [averaged[0] - exact[0].abs(), averaged[1] - exact[1], averaged[2] - exact[2]];
         Ok(largest(differences.map(f64::abs)) / (x.powi(3) * scene.rotation()))
     })

@@ -29,16 +29,16 @@ fn highest_in_pulse() -> Result<Measured, String> {
         let whole: Vec<_> = train.pulses.iter().filter(|pulse| pulse.is_whole()).collect();
         let found = case.arrivals()?;
         if found.len() != whole.len() {
-            return Ok(f64::INFINITY);
+            return Ok(Some(f64::INFINITY));
         }
-        Ok(largest(found.iter().zip(whole).map(|(arrival, pulse)| {
+        largest_if_any(found.iter().zip(whole).map(|(arrival, pulse)| {
             let inside = pulse.start < arrival.closest_approach && arrival.closest_approach < pulse.end;
             let highest = case.margin(arrival.closest_approach)[0];
             let at = |i: u32| pulse.start + pulse.duration() * f64::from(i) / 100.0;
             let excess = (0..=100).map(|i| case.margin(at(i))[0] - highest);
             let excess = largest(excess.map(|x| if x <= 0.0 { 0.0 } else { x }));
-            if inside { excess / f64::EPSILON } else { f64::INFINITY }
-        })))
+            Ok(if inside { excess / f64::EPSILON } else { f64::INFINITY })
+        }))
     })
 }
 

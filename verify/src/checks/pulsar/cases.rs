@@ -59,7 +59,9 @@ pub(super) fn worst_over_random_cases<F: Figure>(
         let first = figure(&case)?.measured();
         case.beam = beam.opposite();
         let second = figure(&case)?.measured();
-        worst_of([first, second], |measured| Ok(measured.figure))
+        let worse = |a: Measured, b: Measured| if b.figure > a.figure || b.figure.is_nan() { b } else { a };
+        let worst = [first, second].into_iter().flatten().reduce(worse);
+        Ok(worst.map(|Measured { figure, detail }| Measured::new(figure, format!("{} {detail}", case.name))))
     })
 }
 

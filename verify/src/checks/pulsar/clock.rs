@@ -118,7 +118,7 @@ impl Exact {
         let turned = Problem::new(*turned.spheroid(), s.tensor(), *turned.initial())?;
         let mean = AveragedSolution::with_free_rotation_of(&start, &turned, AveragingOrder::Second)?;
         Ok(Self {
-            rates: mean.rates,
+            rates: mean.rates(),
             start: mean.phases_at([0.0; 2]),
             mean,
             beam: Beam { axis: beam.axis.map(number), half_opening: number(beam.half_opening) },

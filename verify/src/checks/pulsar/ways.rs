@@ -40,7 +40,7 @@ fn ways_agree() -> Result<Measured, String> {
 fn projection_against_states() -> Result<Measured, String> {
     worst_over_random_cases(49, 300, (END, 1e-15), |case| {
         // A processor without vector instructions has none: nothing to compare.
-        let Some(projection) = case.motion.projection(&case.beam.axis, &case.observer) else { return Ok(0.0) };
+        let Some(projection) = case.motion.projection(&case.beam.axis, &case.observer) else { return Ok(None) };
         let edge = case.beam.half_opening.cos();
         // Not in order, so that steps behind are looked for as well; again in order, with the same digits.
         let times = (0..25_u32).map(|i| 0.3 + 0.8 * f64::from((7 * i) % 25));
@@ -48,9 +48,9 @@ fn projection_against_states() -> Result<Measured, String> {
         let mut in_order = looks.clone();
         in_order.sort_by(|a, b| a.0.total_cmp(&b.0));
         if in_order.iter().any(|(t, look)| projection.at(*t).ok() != Some(*look)) {
-            return Ok(f64::INFINITY);
+            return Ok(Some(f64::INFINITY));
         }
-        largest_of(looks.into_iter().map(|(t, mut by_series)| {
+        largest_if_any(looks.into_iter().map(|(t, mut by_series)| {
             let by_states = case.margin(t);
             by_series[0] -= edge;
             let turning = case.turning(&case.motion.state(t)?);

@@ -42,7 +42,7 @@ fn twofold() -> Result<Measured, String> {
     least_of([1e-5, 1e-7, 1e-9], |&k| {
         let case = Case::paper(Form::Corrected, Precession::Twofold, k, beta_0, amplitude);
         let solution = case.solution()?;
-        let half_turn = PI / case.averaged_motion(0.0)?.mean.rates.slow.abs();
+        let half_turn = PI / case.averaged_motion(0.0)?.mean.rates().slow.abs();
         let motion = case.averaged_motion(half_turn)?;
         // The axes averaged over the last fast rotation: along L, and free of the fast phase, which A^2 t spoils first.
         let mut off = Vector3::zeros();

@@ -114,13 +114,13 @@ fn uncertainties() -> Result<Measured, String> {
         // A span that is too short is refused, which is right as well.
         let shorter: Vec<_> = [800.0, 1400.0].into_iter().filter_map(|span| over(span).ok()).collect();
         spans += shorter.len();
-        Ok(largest(shorter.iter().flat_map(|short| {
+        largest_if_any(shorter.iter().flat_map(|short| {
             let of_short = [short.alpha, short.gamma, short.slow, short.nutation];
             let pairs = of_short.into_iter().zip([long.alpha, long.gamma, long.slow, long.nutation]);
             pairs
                 .filter_map(|(short, long)| short.zip(long))
-                .map(|(short, long)| (short.value - long.value).abs() / (short.uncertainty + long.uncertainty))
-        })))
+                .map(|(short, long)| Ok((short.value - long.value).abs() / (short.uncertainty + long.uncertainty)))
+        }))
     });
     if spans < 5 { Err(format!("only {spans} shorter spans gave rates")) } else { measured }
 }

@@ -63,7 +63,7 @@ fn error_of(scheme: &'static Scheme, factor: f64, step: f64) -> Result<(f64, f64
     let motion = problem.splitting_by(scheme, (0.0, 10.0), step)?;
     let times = (1..=20).map(|i| 0.5 * f64::from(i));
     let errors = times.map(|t| Ok(largest_difference(&motion.state(t)?, &truth.state(t)?, 1.0)));
-    Ok((motion.step, largest_of(errors)?))
+    Ok((motion.step(), largest_of(errors)?))
 }
 
 fn measured_orders() -> Result<Measured, String> {

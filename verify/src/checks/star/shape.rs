@@ -44,7 +44,7 @@ fn mass_and_radius() -> Result<Measured, String> {
             let shape = SpheroidShape::from_axis_ratio(q)?;
             let star = UniformSpheroid::from_mass(mass, radius, shape)?;
             let again = UniformSpheroid::from_semi_axes(star.equatorial_radius, star.polar_radius(), star.density)?;
-            let e2 = shape.eccentricity_squared.abs().min(1.0);
+            let e2 = shape.eccentricity_squared().abs().min(1.0);
             let errors = [
                 star.mass() / mass - 1.0,
                 star.mean_radius() / radius - 1.0,
@@ -67,7 +67,7 @@ fn remainders(e: f64) -> Result<[f64; 4], String> {
         a.a0 / 2.0 - (1.0 - e2 / 3.0),
         a.a1 * 1.5 - (1.0 - e2 / 5.0),
         a.a3 * 1.5 - (1.0 + e2 * 0.4),
-        c / (16.0 * PI * PI / 225.0 * shape.axis_ratio) - e2,
+        c / (16.0 * PI * PI / 225.0 * shape.axis_ratio()) - e2,
     ])
 }
 

@@ -27,7 +27,7 @@ fn by_epsilon<S: Real>(epsilon: S) -> [S; 3] {
 }
 
 fn shape<S: Real>(shape: &SpheroidShape<S>) -> Vec<S> {
-    vec![shape.axis_ratio, shape.axis_ratio_squared, shape.eccentricity_squared, shape.oblateness()]
+    vec![shape.axis_ratio(), shape.axis_ratio_squared(), shape.eccentricity_squared(), shape.oblateness()]
 }
 
 fn exact_shape<S: Real>([q, q2, e2]: [S; 3]) -> Vec<S> {
