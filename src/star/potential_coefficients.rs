@@ -30,7 +30,7 @@
 //! let shape = SpheroidShape::from_axis_ratio(0.9_f64)?;
 //! let a = potential_coefficients(&shape);
 //! assert!((2.0 * a.a1 + a.a3 - 2.0).abs() < 1e-15 && (a.a1 - 0.81 * a.a3 - a.difference).abs() < 1e-14);
-//! assert!((reduced_difference(&shape) * 0.9 * shape.eccentricity_squared / a.difference - 1.0).abs() < 1e-14);
+//! assert!((reduced_difference(&shape) * 0.9 * shape.eccentricity_squared() / a.difference - 1.0).abs() < 1e-14);
 //! # Ok::<(), twofold::Error>(())
 //! ```
 

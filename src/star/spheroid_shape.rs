@@ -10,7 +10,7 @@
 //!     SpheroidShape::from_eccentricity_squared(0.36)?,
 //!     SpheroidShape::from_oblateness(shape.oblateness())?,
 //! ] {
-//!     assert!((same.axis_ratio - 0.8).abs() < 1e-14);
+//!     assert!((same.axis_ratio() - 0.8).abs() < 1e-14);
 //! }
 //! # Ok::<(), twofold::Error>(())
 //! ```

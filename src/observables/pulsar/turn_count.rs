@@ -233,6 +233,17 @@ mod tests {
         TurnCount::new(motion, &Beam::new(0.9, 0.2, 0.3), &sight()).unwrap()
     }
 
+    #[test]
+    fn the_number_is_the_nearest_to_all_parts_together() {
+        let mut count = encircling(&motion());
+        count.last.1 = 4.7;
+        let number = |parts: Parts| count.number(&parts);
+        assert_eq!(number(Parts { phase: -4.7, bounded: 4.7, whole: 20, fast: 4.7 }), 23);
+        count.last.1 = -4.7;
+        let number = |parts: Parts| count.number(&parts);
+        assert_eq!(number(Parts { phase: 4.7, bounded: -4.7, whole: 20, fast: -4.7 }), 17);
+    }
+
     /// The strides of the slow part do not matter, nor does their sense.
     #[test]
     fn the_slow_part_is_followed_both_ways() {

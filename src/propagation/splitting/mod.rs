@@ -11,7 +11,7 @@
 //! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
 //! let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?;
 //! let best = problem.splitting((0.0, 50.0), 1e-10)?;
-//! assert_eq!(best.scheme.name, problem.splitting_forecast((0.0, 50.0), 1e-10)?.scheme.name);
+//! assert_eq!(best.scheme().name, problem.splitting_forecast((0.0, 50.0), 1e-10)?.scheme.name);
 //! // A scheme and a step of one's own choice.
 //! let own = problem.splitting_by(&SRKN_14A, (0.0, 50.0), 0.1)?;
 //! assert!((best.axis_state(50.0)?.axis - own.axis_state(50.0)?.axis).amax() < 1e-8);

@@ -26,7 +26,7 @@
 //!
 //! // L goes round a principal axis, slowly.
 //! let slow = slow_precession(&star, &weak, &state.momentum, &state.axis)?;
-//! assert!((slow.rate / motion.rates.slow).abs() > 0.9);
+//! assert!((slow.rate / motion.rates().slow).abs() > 0.9);
 //! let size = state.momentum.norm();
 //! let direction = state.momentum / size;
 //! let c = state.axis.dot(&direction);

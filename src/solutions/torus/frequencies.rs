@@ -142,6 +142,24 @@ mod tests {
         BodyState { axis: Vector3::new(0.6, 0.0, 0.8), momentum: direction * 1.4, equatorial_axis: Vector3::y() }
     }
 
+    /// By the inverse of periods that are changed one after the other, each by a share of its error.
+    #[test]
+    fn errors_of_rates_are_those_of_changed_periods() {
+        let (periods, of_periods) = (Matrix2::new(5.0, -0.7, 1.9, 311.0), [3e-6, 2e-5]);
+        let inverse = periods.try_inverse().unwrap();
+        let found = errors_of_rates(&inverse, of_periods);
+        for (i, error) in found.into_iter().enumerate() {
+            let mut worst = 0.0_f64;
+            for signs in 0..16 {
+                let sign = |bit: u32| if signs >> bit & 1 == 0 { 1.0 } else { -1.0 };
+                let moved = Matrix2::from_fn(|row, k| sign((2 * row + k) as u32) * of_periods[k]);
+                let changed = (periods + moved).try_inverse().unwrap() - inverse;
+                worst = worst.max((TAU * changed[(i, 0)]).abs());
+            }
+            assert!((worst / error - 1.0).abs() < 1e-4, "{i}: {worst:e} {error:e}");
+        }
+    }
+
     fn frequencies(s: &PrincipalCoefficients<f64>, state: BodyState<f64>) -> Result<TorusFrequencies, Error> {
         torus_frequencies(&Problem::new(BODY, s.tensor(), state).unwrap())
     }

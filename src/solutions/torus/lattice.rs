@@ -139,6 +139,36 @@ mod tests {
         Torus { integrals, start, size: momentum.norm() }
     }
 
+    /// `n`, and `L` in units of its length: all parts of the start count.
+    fn off(torus: &Torus, at: &Axes<f64>) -> f64 {
+        let n = (at[0] - torus.start[0]).amax();
+        n.max((at[1] - torus.start[1]).amax() / torus.start[1].norm())
+    }
+
+    #[test]
+    fn ways_found_are_closed_and_turn_the_body_as_told() {
+        for (strength, momentum) in [(0.3, [0.4, -0.7, 1.9]), (0.1, [1.6, 0.5, -0.4]), (0.03, [-0.3, 1.2, 1.1])] {
+            let torus = torus(strength, momentum);
+            let fast = TAU * BODY.inertia_xx / torus.size;
+            let found = torus.period([fast, 0.0]).unwrap();
+            let end = torus.integrals.moved(found.times, &torus.start);
+            assert!(off(&torus, &end) < 1e-13, "{found:?}");
+            // The vector of the body, turned about n.
+            let [n, _, e] = torus.start;
+            let turned = e * found.turn.cos() + n.cross(&e) * found.turn.sin();
+            assert!((turned - end[2]).norm() < 1e-12, "{found:?} {turned} {}", end[2]);
+            // A start that is off by a twentieth of a turn leads to the same way.
+            let again = torus.period([1.05 * found.times[0], found.times[1]]).unwrap();
+            assert!((0..2).all(|i| (again.times[i] - found.times[i]).abs() < 1e-12), "{found:?} {again:?}");
+            // The error is the gap over how much a time moves the ends, where that is least: by the flows after the way.
+            let rates = [[1.0, 0.0], [0.0, 1.0]].map(|unit| torus.vector(torus.integrals.rates(unit, &end)));
+            let gram = SMatrix::<f64, 2, 2>::from_fn(|i, j| rates[i].dot(&rates[j]));
+            let least = gram.symmetric_eigenvalues().min().sqrt();
+            let gap = found.error * least;
+            assert!(gap > 0.8 * ROUNDING && gap < 5.0 * ROUNDING, "{gap:e}");
+        }
+    }
+
     #[test]
     fn a_way_without_another_is_the_difference() {
         let period = |times, turn, error| Period { times, turn, error };

@@ -32,6 +32,10 @@ impl Case {
         if first.len() != second.len() {
             return f64::INFINITY;
         }
+        // Both without an edge agree.
+        if first.is_empty() {
+            return 0.0;
+        }
         largest(first.iter().zip(second).map(|(a, b)| (a - b).abs() * self.margin(*a)[1].abs().min(1.0)))
     }
 
