@@ -34,8 +34,8 @@
 //! | moments of inertia and `C` of a star | [`star`] |
 //!
 //! Conventions: `G = c = 1`, in any consistent units; those of the paper have `I^xx = C = 1` and time in `t_c`
-//! ([`units`] has SI, CGS and geometrised ones). Angles are in rad. `X, Y, Z` is an inertial frame, in Euler angles the principal frame of
-//! `s^IJ`; `x, y, z` is fixed in the body, with `z` the symmetry axis.
+//! ([`units`] has SI, CGS and geometrised ones). Angles are in rad. `X, Y, Z` is the inertial frame in which
+//! `s^IJ` is given, its principal one in the paper; `x, y, z` is fixed in the body, with `z` the symmetry axis.
 
 pub mod curvature_coupling;
 pub mod dynamics;
