@@ -13,7 +13,7 @@ use crate::solutions::averaged::AveragingOrder;
 pub enum Promise {
     /// It is never above: a bound that is proved.
     Bound,
-    /// It was above in none of the random motions of its test ([`mean`](Method::Averaged): `docs/averaged-solution.md`).
+    /// It was above in none of the random motions of its test ([averaged](Method::Averaged): `docs/averaged-solution.md`).
     Estimate,
     /// A goal that the steps are chosen for: this share of random motions of every kind stays below. Most of the others start beside the
     /// unstable middle axis, whose growth is not foreseen.
@@ -62,7 +62,7 @@ impl Candidate {
             Method::Free => free(problem, request, span),
             Method::Steady => steady(problem, request, span),
             Method::Symmetric => symmetric(problem, request, span),
-            Method::Averaged => mean(problem, request, span),
+            Method::Averaged => averaged(problem, request, span),
             Method::Splitting => splitting(problem, request, span),
             Method::Taylor => taylor(problem, request, state, span),
         };
@@ -163,7 +163,7 @@ fn symmetric(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Res
     Ok(Forecast::closed(Promise::Bound, truncation, rounding))
 }
 
-fn mean(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
+fn averaged(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
     let motion = AveragedMotion::new(problem, span, AveragingOrder::Second)?;
     let elapsed = span.1 - span.0;
     let (mut truncation, rounding) = (motion.mean.truncation(elapsed), motion.mean.rounding(elapsed));

@@ -273,9 +273,9 @@ pub fn largest(figures: impl IntoIterator<Item = f64>) -> f64 {
     figures.into_iter().reduce(more).map_or(f64::NAN, |most| if most < 0.0 { 0.0 } else { most })
 }
 
-/// The largest of some figures, none of them negative.
+/// As [`largest`], of figures that may fail.
 pub(crate) fn largest_of<E>(figures: impl IntoIterator<Item = Result<f64, E>>) -> Result<f64, E> {
-    Ok(largest(figures.into_iter().collect::<Result<Vec<_>, E>>()?))
+    Ok(largest_if_any(figures)?.unwrap_or(f64::NAN))
 }
 
 /// As [`largest_of`], and nothing where there are no figures.

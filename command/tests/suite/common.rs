@@ -108,16 +108,13 @@ impl Folder {
         let (mut found, mut folders) = (Vec::new(), vec![self.path().to_owned()]);
         while let Some(folder) = folders.pop() {
             for path in names_in(&folder).iter().map(|name| folder.join(name)) {
-                match fs::read(&path) {
-                    Ok(bytes) => {
-                        found.push((path.strip_prefix(self.path()).expect("in it").display().to_string(), bytes))
-                    }
-                    Err(_) if path.is_dir() => {
-                        found.push((path.strip_prefix(self.path()).expect("in it").display().to_string(), Vec::new()));
-                        folders.push(path);
-                    }
-                    Err(_) => {}
+                let name = path.strip_prefix(self.path()).expect("in it").display().to_string();
+                // A file may be gone already.
+                let (is_folder, bytes) = (path.is_dir(), fs::read(&path));
+                if is_folder || bytes.is_ok() {
+                    found.push((name, bytes.unwrap_or_default()));
                 }
+                folders.extend(is_folder.then_some(path));
             }
         }
         found

@@ -131,9 +131,9 @@ impl<'a> Section<'a> {
 
     /// Refuses keys that are not among the words of `allowed`.
     pub(crate) fn only(&self, allowed: &str) -> Result<(), Fault> {
-        let allowed: Vec<_> = allowed.split(' ').collect();
-        let unknown = self.table.keys().filter(|key| !allowed.contains(&key.get_ref().as_ref()));
+        let unknown = self.table.keys().filter(|key| allowed.split(' ').all(|word| word != key.get_ref()));
         let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
+        let allowed: Vec<_> = allowed.split(' ').collect();
         let (name, title) = (key.get_ref(), self.title());
         let (dotted, guess) = (self.dotted(&shortened(name)), did_you_mean(name, &allowed));
         Err(Fault::at(key.span(), format!("unknown key `{dotted}`: {title} has {}.{guess}", listed(&allowed))))

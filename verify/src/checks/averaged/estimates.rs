@@ -63,7 +63,7 @@ fn rounding() -> Result<Measured, String> {
         let exact = scene.motion::<DoubleDouble>(AveragingOrder::Second)?;
         let t = 10f64.powf(random.within(0.0, 12.0));
         // Only the part that grows with the slow phase: in double-double numbers phases are not reduced, and the fast ones are the same theory.
-        let rates = &exact.rates();
+        let rates = exact.rates();
         let phases = [rates.slow, rates.about_momentum, rates.about_axis].map(|rate| rate * DoubleDouble::from_f64(t));
         let tau = DoubleDouble::tau();
         let [slow, about_momentum, about_axis] =

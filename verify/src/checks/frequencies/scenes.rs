@@ -35,7 +35,7 @@ impl Scene {
     /// Rates of the averaged motion with the names and signs of the exact ones.
     pub(super) fn averaged(&self, order: AveragingOrder) -> Result<[f64; 3], String> {
         let averaged = AveragedSolution::new(&self.problem()?, order)?;
-        let rates = &averaged.rates();
+        let rates = averaged.rates();
         Ok([rates.slow.abs(), rates.about_momentum, rates.about_axis])
     }
 

@@ -72,7 +72,7 @@ functions! {
         let problem = Problem::new(body(&x[12..]), s.tensor(), state);
         let motion = problem.and_then(|problem| AveragedSolution::new(&problem, AveragingOrder::Second));
         motion.map_or(none(3), |motion| {
-            let rates = &motion.rates();
+            let rates = motion.rates();
             vec![rates.slow, rates.about_momentum, rates.about_axis]
         })
     }
