@@ -64,7 +64,7 @@ impl Epoch {
     /// Time from `other` to this epoch in s, as the unevaluated sum of two doubles, of 32 digits.
     pub fn seconds_since(&self, other: &Self) -> [f64; 2] {
         let days = DoubleDouble::product((self.day - other.day) as f64, DAY);
-        (days + DoubleDouble::sum(self.fraction, -other.fraction) * DAY.into()).into()
+        (days + DoubleDouble::sum(self.fraction, -other.fraction) * DAY).into()
     }
 
     /// The epoch a time later (s, the unevaluated sum of two doubles), rounded to 1e-16 day. It may lie before the date 0.

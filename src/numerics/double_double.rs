@@ -1,9 +1,12 @@
 //! Sums of two doubles, of some 32 digits: for phases over many turns, and no more than those need.
 
 use core::f64::consts::TAU;
-use core::ops::{Add, Mul, Sub};
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use num_traits::{One, Zero};
 
 use crate::numerics::rounding::{quick_two_sum, two_product, two_sum};
+use crate::numerics::scalar::{Real, Scalar};
 
 /// `2 pi - TAU`.
 const TAU_LOW: f64 = 2.449_293_598_294_706_4e-16;
@@ -105,6 +108,141 @@ impl Mul for DoubleDouble {
     }
 }
 
+impl Neg for DoubleDouble {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self { high: -self.high, low: -self.low }
+    }
+}
+
+impl Div for DoubleDouble {
+    type Output = Self;
+
+    fn div(self, divisor: Self) -> Self {
+        self.over(divisor)
+    }
+}
+
+impl Mul<f64> for DoubleDouble {
+    type Output = Self;
+
+    fn mul(self, other: f64) -> Self {
+        self * Self::from(other)
+    }
+}
+
+impl Div<f64> for DoubleDouble {
+    type Output = Self;
+
+    fn div(self, divisor: f64) -> Self {
+        self.over(Self::from(divisor))
+    }
+}
+
+/// An operation that assigns its result.
+macro_rules! assigning {
+    ($($name:ident, $function:ident, $operator:tt;)*) => {
+        $(impl $name for DoubleDouble {
+            fn $function(&mut self, other: Self) {
+                *self = *self $operator other;
+            }
+        })*
+    };
+}
+
+assigning! {
+    AddAssign, add_assign, +;
+    SubAssign, sub_assign, -;
+    MulAssign, mul_assign, *;
+    DivAssign, div_assign, /;
+}
+
+impl Zero for DoubleDouble {
+    fn zero() -> Self {
+        Self::default()
+    }
+
+    fn is_zero(&self) -> bool {
+        self.high == 0.0
+    }
+}
+
+impl One for DoubleDouble {
+    fn one() -> Self {
+        Self::from(1.0)
+    }
+}
+
+/// Halvings of an argument before its series, and terms of the series: `(2 pi / 2^8)^20 / 20! = 1e-50`.
+const HALVINGS: i32 = 8;
+const TERMS: u32 = 20;
+
+impl Scalar for DoubleDouble {
+    fn from_f64(value: f64) -> Self {
+        Self::from(value)
+    }
+
+    /// To some 30 digits of a turn. Of the halved angle by series, then `sin 2x = 2 sin x cos x` and `1 - cos 2x = 2 sin^2 x`.
+    fn sin_cos(self) -> (Self, Self) {
+        let turns = (self.high / TAU).round();
+        let small = (self - Self::TAU * turns) * 0.5_f64.powi(HALVINGS);
+        let square = small * small;
+        let (mut sin, mut versine) = (Self::zero(), Self::zero());
+        for k in (1..TERMS / 2).rev() {
+            let k = f64::from(2 * k);
+            sin = (Self::one() - sin) * square / (k * (k + 1.0));
+            versine = (Self::one() - versine) * square / (k * (k - 1.0));
+        }
+        sin = small * (Self::one() - sin);
+        for _ in 0..HALVINGS {
+            (sin, versine) = (sin * (Self::one() - versine) * 2.0, sin * sin * 2.0);
+        }
+        (sin, Self::one() - versine)
+    }
+}
+
+impl Real for DoubleDouble {
+    const HAS_DERIVATIVES: bool = false;
+
+    fn re(self) -> f64 {
+        self.high + self.low
+    }
+
+    fn sqrt(self) -> Self {
+        Self::sqrt(self)
+    }
+
+    /// By the series of `x / 2^8` and squares.
+    fn exp(self) -> Self {
+        let halvings = (self.high.abs().log2().ceil() as i32 + HALVINGS).max(0);
+        let small = self * 0.5_f64.powi(halvings);
+        // exp x - 1, which keeps its digits.
+        let mut less_one = Self::zero();
+        for k in (1..=TERMS).rev() {
+            less_one = (Self::one() + less_one) * small / f64::from(k);
+        }
+        for _ in 0..halvings {
+            less_one = less_one * (less_one + Self::from(2.0));
+        }
+        less_one + Self::one()
+    }
+
+    /// Newton's step from the logarithm of the high part.
+    fn ln(self) -> Self {
+        let near = Self::from(self.high.ln());
+        near + (self * (-near).exp() - Self::one())
+    }
+
+    /// Newton's step from the angle of the high parts.
+    fn atan2(self, x: Self) -> Self {
+        let near = Self::from(self.high.atan2(x.high));
+        let (sin, cos) = near.sin_cos();
+        let (along, across) = (x * cos + self * sin, self * cos - x * sin);
+        if along.is_zero() { near } else { near + across / along }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -120,6 +258,27 @@ mod tests {
         let third = DoubleDouble::from(1.0).over(DoubleDouble::from(3.0));
         let rest = third * DoubleDouble::from(3.0) + DoubleDouble::from(-1.0);
         assert!(rest.high.abs() < 1e-31, "{rest:?}");
+    }
+
+    #[test]
+    fn functions_have_thirty_digits() {
+        let of = |value: f64| DoubleDouble::from(value);
+        for x in [-3.1, -0.7, -1e-9, 1e-3, 0.6, 2.9] {
+            let (sin, cos) = of(x).sin_cos();
+            let unit = sin * sin + cos * cos - of(1.0);
+            assert!(unit.high.abs() < 1e-30, "{x}: {unit:?}");
+            let back = Real::atan2(sin * 1.7, cos * 1.7) - of(x);
+            assert!(back.high.abs() < 1e-30, "{x}: {back:?}");
+            let back = of(x).exp().ln() - of(x);
+            assert!(back.high.abs() < 1e-29, "{x}: {back:?}");
+            assert!(((sin.high - x.sin()) / x.sin()).abs() < 1e-15 && (cos.high - x.cos()).abs() < 1e-15, "{x}");
+            assert!((of(x).exp().high / x.exp() - 1.0).abs() < 1e-15, "{x}");
+        }
+        // sin 1 = 0.84147098480789650665250232163029899962...
+        let (sin, _) = of(1.0).sin_cos();
+        let rest = sin - DoubleDouble::sum(0.841_470_984_807_896_5, 1.776_845_092_935_536e-18);
+        assert!(rest.high.abs() < 1e-30, "{rest:?}");
+        assert!((of(1.0).sin_cos().0 - of(1.0 + 4.0 * TAU).sin_cos().0).high.abs() < 1e-14);
     }
 
     #[test]
@@ -140,7 +299,7 @@ mod tests {
                 whole(1.0).over(whole(odd)) - square * sum
             }) * whole(1.0).over(whole(n))
         };
-        let turn = (arctan(5.0) * 4.0.into() - arctan(239.0)) * 8.0.into();
+        let turn = (arctan(5.0) * 4.0 - arctan(239.0)) * 8.0;
         let off = turn - DoubleDouble::TAU;
         assert!(off.high.abs() < 1e-29, "{off:?}");
     }

@@ -4,6 +4,7 @@ use pulp::f64x4;
 use pulp::x86::V3;
 
 use crate::numerics::arithmetic::{Arithmetic, LoadStore, Padded, largest};
+use crate::numerics::four_lanes::FourLanes;
 
 /// Proof that the processor has the instructions, found at run time.
 #[derive(Debug, Clone, Copy)]
@@ -102,5 +103,30 @@ impl LoadStore for Fused {
     #[inline(always)]
     fn largest(self, v: f64x4) -> f64 {
         largest([v.0, v.1, v.2])
+    }
+}
+
+impl FourLanes for Fused {
+    type Lanes = f64x4;
+    const FUSED: bool = true;
+
+    #[inline(always)]
+    fn load(self, values: &[f64; 4]) -> Self::Lanes {
+        LoadStore::load(self, &Padded(*values))
+    }
+
+    #[inline(always)]
+    fn all(self, value: f64) -> Self::Lanes {
+        LoadStore::splat(self, value)
+    }
+
+    #[inline(always)]
+    fn multiply_add(self, a: Self::Lanes, b: Self::Lanes, sum: Self::Lanes) -> Self::Lanes {
+        self.mul_add(a, b, sum)
+    }
+
+    #[inline(always)]
+    fn store(self, lanes: Self::Lanes) -> [f64; 4] {
+        LoadStore::store(self, lanes).0
     }
 }

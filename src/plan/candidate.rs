@@ -5,7 +5,7 @@ use crate::dynamics::Problem;
 use crate::error::Error;
 use crate::lorentz_violation::{error_of_principal_frame_along, principal_frame};
 use crate::propagation::splitting::{Goal, SplittingForecast};
-use crate::propagation::{AveragedMotion, SymmetricMotion, TaylorForecast, UniformMotion, largest_torque};
+use crate::propagation::{AveragedMotion, SymmetricMotion, TaylorForecast, TorusMotion, UniformMotion, largest_torque};
 use crate::solutions::averaged::AveragingOrder;
 
 /// What the predicted error of a method promises of the true one, rounding apart.
@@ -63,6 +63,7 @@ impl Candidate {
             Method::Steady => steady(problem, request, span),
             Method::Symmetric => symmetric(problem, request, span),
             Method::Averaged => averaged(problem, request, span),
+            Method::Torus => torus(problem, request, span),
             Method::Splitting => splitting(problem, request, span),
             Method::Taylor => taylor(problem, request, state, span),
         };
@@ -80,15 +81,17 @@ struct Forecast {
     rounding: f64,
     order: usize,
     steps: f64,
+    /// Heap beside the steps, in bytes.
+    table: f64,
 }
 
 impl Forecast {
     fn closed(promise: Promise, truncation: f64, rounding: f64) -> Self {
-        Self { truncation, promise, rounding, order: 0, steps: 0.0 }
+        Self { truncation, promise, rounding, order: 0, steps: 0.0, table: 0.0 }
     }
 
     fn with_work(self, method: Method, state: State, evaluations: f64, derivatives: usize) -> Prediction {
-        let Self { truncation, promise, rounding, order, steps } = self;
+        let Self { truncation, promise, rounding, order, steps, table } = self;
         let full = state == State::Orientation;
         let vectors = if full { 3.0 } else { 2.0 };
         // Each step keeps its coefficients, padded to registers, and its start; there is some room to spare.
@@ -97,8 +100,7 @@ impl Forecast {
         } else {
             1.2 * steps * ((order as f64 + 1.0) * 32.0 * vectors + 16.0)
         };
-        // The roots of the quartic are sought with a few short lists, once.
-        let bytes = dense_output + if method == Method::Symmetric { 1024.0 } else { 0.0 };
+        let bytes = dense_output + table;
         let motions = method.motions_for(derivatives) as f64;
         let (all_steps, all_evaluations) = (motions * steps, motions * evaluations);
         Prediction {
@@ -160,7 +162,8 @@ fn symmetric(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Res
     // The rounding costs more than the motion: only for one that may be used.
     let usable = truncation <= request.tolerance || request.method == Some(Method::Symmetric);
     let rounding = if usable { motion.rounding(elapsed) } else { f64::NAN };
-    Ok(Forecast::closed(Promise::Bound, truncation, rounding))
+    // The roots of the quartic are sought with a few short lists, once.
+    Ok(Forecast { table: 1024.0, ..Forecast::closed(Promise::Bound, truncation, rounding) })
 }
 
 fn averaged(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
@@ -176,13 +179,24 @@ fn averaged(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Resu
     Ok(Forecast::closed(Promise::Estimate, truncation, rounding))
 }
 
+fn torus(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
+    if !request.derivatives.is_empty() {
+        return Err(Error::Unsupported { what: "derivatives", why: "the series on the torus are of doubles" });
+    }
+    let motion = TorusMotion::new(problem, span, request.tolerance)?;
+    let solution = motion.solution();
+    let closed = Forecast::closed(Promise::Estimate, solution.truncation(), solution.rounding(span.1 - span.0));
+    // Eight doubles at most for a pair of frequencies, in lists that have grown.
+    Ok(Forecast { table: 128.0 * solution.term_counts().iter().sum::<usize>() as f64, ..closed })
+}
+
 fn splitting(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
     let goal = if request.derivatives.is_empty() { Goal::State } else { Goal::Derivatives };
     let SplittingForecast { scheme, steps, truncation, coverage, rounding, .. } =
         problem.splitting_forecast_for(goal, span, request.tolerance)?;
     // Rotations and kicks.
     let order = 2 * scheme.stages();
-    Ok(Forecast { truncation, promise: Promise::Goal(coverage), rounding, order, steps })
+    Ok(Forecast { truncation, promise: Promise::Goal(coverage), rounding, order, steps, table: 0.0 })
 }
 
 /// Share of random motions whose error by Taylor series, rounding apart, stays below the tolerance: none of 10,000 with strong torques was
@@ -196,7 +210,14 @@ fn taylor(problem: &Problem<f64>, request: &Request, state: State, span: (f64, f
     } else {
         problem.reduced().taylor_forecast(duration, request.tolerance)?
     };
-    Ok(Forecast { truncation: request.tolerance, promise: Promise::Goal(TAYLOR_COVERAGE), rounding, order, steps })
+    Ok(Forecast {
+        truncation: request.tolerance,
+        promise: Promise::Goal(TAYLOR_COVERAGE),
+        rounding,
+        order,
+        steps,
+        table: 0.0,
+    })
 }
 
 /// Evaluations that the outputs of a request need for a rotation by `rotation` rad.

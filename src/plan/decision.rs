@@ -1,12 +1,15 @@
 //! The plan: what is computed, by which method, and what is left out.
 
 use super::candidate::evaluations;
-use super::{Candidate, Evaluations, Method, Output, PlannedMotion, Prediction, Request, State};
+use super::{Candidate, Cost, Evaluations, Method, Output, PlannedMotion, Prediction, Request, State};
 use crate::dynamics::equations_of_motion::angular_velocity;
 use crate::dynamics::{AxisState, Problem, RotationState};
 use crate::error::Error;
 use crate::parameters::Parameter;
 use crate::propagation::largest_torque;
+
+/// Rounding above the tolerance is admitted unless another method's is smaller by this factor.
+const FAR_BELOW: f64 = 100.0;
 
 /// Something that a plan does not do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,7 +41,7 @@ pub struct Plan {
     pub tolerance: f64,
     /// What the method will do; nothing where there is none.
     pub prediction: Option<Prediction>,
-    /// Every method in the order of [`Method::ALL`], with what it would do or why it cannot.
+    /// Every method in the order of [`Method::ALL`], with what it would do or why it cannot; [`Method::Torus`] only where it may be the one that is taken.
     pub considered: Vec<Candidate>,
     /// What is left out.
     pub skipped: Vec<Skipped>,
@@ -71,11 +74,18 @@ impl Plan {
         if state != State::Nothing {
             let problem = problem.with_equatorial_axis();
             let wanted = |method: &Method| request.method.is_none_or(|forced| forced == *method);
-            plan.considered = Method::ALL
-                .into_iter()
-                .filter(wanted)
-                .map(|method| Candidate::of(method, &problem, request, state, span, count))
-                .collect();
+            let candidate = |method| Candidate::of(method, &problem, request, state, span, count);
+            // The errors of a series on the torus are known once it is computed: it is tried where it would be the cheapest, or where the others lose
+            // what was asked to rounding.
+            let others = Method::ALL.into_iter().filter(|method| *method != Method::Torus);
+            plan.considered = others.filter(wanted).map(candidate).collect();
+            let cost = Cost::of(Method::Torus, state).total(0, 0.0, count);
+            let is_better = |best: &Prediction| cost < best.cost || best.rounding > FAR_BELOW * request.tolerance;
+            let is_tried = || plan.choose().map_or(true, |(_, best)| is_better(&best));
+            if request.method.map_or_else(is_tried, |forced| forced == Method::Torus) {
+                plan.considered.push(candidate(Method::Torus));
+                plan.considered.sort_by_key(|candidate| candidate.method);
+            }
             let (method, prediction) = plan.choose()?;
             (plan.method, plan.prediction) = (Some(method), Some(prediction));
         }
@@ -89,7 +99,7 @@ impl Plan {
         let meets = |prediction: &Prediction| prediction.truncation <= self.tolerance;
         let predictions = self.considered.iter().filter_map(|candidate| candidate.prediction.as_ref().ok());
         let least = predictions.filter(|other| meets(other)).map(|other| other.rounding).fold(f64::INFINITY, f64::min);
-        meets(prediction) && prediction.rounding <= (100.0 * least).max(self.tolerance)
+        meets(prediction) && prediction.rounding <= (FAR_BELOW * least).max(self.tolerance)
     }
 
     /// The cheapest method that is admitted; of methods asked for, the only one.

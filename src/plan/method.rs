@@ -13,6 +13,8 @@ pub enum Method {
     Symmetric,
     /// The averaged motion to second order in `s^IJ`, for bodies that turn fast against the torque.
     Averaged,
+    /// Fourier series on the invariant torus of the motion, for any scene off the separatrix.
+    Torus,
     /// A splitting scheme and a step that suit the tolerance.
     Splitting,
     /// Taylor series with adaptive steps and dense output.
@@ -21,8 +23,8 @@ pub enum Method {
 
 impl Method {
     /// Every method, in the order in which plans list them.
-    pub const ALL: [Self; 6] =
-        [Self::Free, Self::Steady, Self::Symmetric, Self::Averaged, Self::Splitting, Self::Taylor];
+    pub const ALL: [Self; 7] =
+        [Self::Free, Self::Steady, Self::Symmetric, Self::Averaged, Self::Torus, Self::Splitting, Self::Taylor];
 
     /// Name for files and commands.
     pub fn name(self) -> &'static str {
@@ -31,6 +33,7 @@ impl Method {
             Self::Steady => "steady",
             Self::Symmetric => "symmetric",
             Self::Averaged => "averaged",
+            Self::Torus => "torus",
             Self::Splitting => "splitting",
             Self::Taylor => "taylor",
         }
@@ -43,6 +46,7 @@ impl Method {
             Self::Steady => "steady precession in closed form",
             Self::Symmetric => "elliptic functions for two equal eigenvalues of s^IJ",
             Self::Averaged => "averaged motion to second order in s^IJ",
+            Self::Torus => "Fourier series on the invariant torus",
             Self::Splitting => "splitting into exact rotations and kicks",
             Self::Taylor => "Taylor series with adaptive steps and dense output",
         }

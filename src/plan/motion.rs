@@ -6,7 +6,9 @@ use super::{Method, Output, Plan, Request, Work};
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::propagation::splitting::SplittingMotion;
-use crate::propagation::{AveragedMotion, Motion, SeriesProjection, SymmetricMotion, TaylorMotion, UniformMotion};
+use crate::propagation::{
+    AveragedMotion, Motion, SeriesProjection, SymmetricMotion, TaylorMotion, TorusMotion, UniformMotion,
+};
 use crate::solutions::averaged::AveragingOrder;
 
 /// A motion by any method, with the states of its problem.
@@ -19,6 +21,8 @@ pub enum PlannedMotion<X = BodyState<f64>> {
     Symmetric(SymmetricMotion<f64>),
     /// [`Method::Averaged`].
     Averaged(AveragedMotion<f64>),
+    /// [`Method::Torus`].
+    Torus(TorusMotion),
     /// [`Method::Splitting`].
     Splitting(SplittingMotion<X>),
     /// [`Method::Taylor`].
@@ -51,6 +55,7 @@ impl<X: RotationState<f64>> Problem<f64, X> {
             Method::Steady => PlannedMotion::Uniform(UniformMotion::steady(&problem, span)?),
             Method::Symmetric => PlannedMotion::Symmetric(SymmetricMotion::new(&problem, span)?),
             Method::Averaged => PlannedMotion::Averaged(AveragedMotion::new(&problem, span, AveragingOrder::Second)?),
+            Method::Torus => PlannedMotion::Torus(TorusMotion::new(&problem, span, tolerance)?),
             Method::Splitting => PlannedMotion::Splitting(self.splitting(span, tolerance)?),
             Method::Taylor => PlannedMotion::Taylor(self.taylor(span, tolerance)?),
         })
@@ -72,7 +77,7 @@ impl<X: RotationState<f64>> PlannedMotion<X> {
     /// Steps and right-hand sides that it took.
     pub fn work(&self) -> Work {
         match self {
-            Self::Uniform(_) | Self::Symmetric(_) | Self::Averaged(_) => Work::default(),
+            Self::Uniform(_) | Self::Symmetric(_) | Self::Averaged(_) | Self::Torus(_) => Work::default(),
             Self::Splitting(motion) => Work::of_series(motion.step_count as usize, 2 * motion.scheme.stages()),
             Self::Taylor(motion) => Work::of_series(motion.step_count, motion.order),
         }
@@ -86,6 +91,7 @@ macro_rules! by_any {
             PlannedMotion::Uniform($motion) => $work,
             PlannedMotion::Symmetric($motion) => $work,
             PlannedMotion::Averaged($motion) => $work,
+            PlannedMotion::Torus($motion) => $work,
             PlannedMotion::Splitting($motion) => $work,
             PlannedMotion::Taylor($motion) => $work,
         }

@@ -30,7 +30,7 @@ mod taylor;
 mod third_angle;
 mod turning;
 
-pub use closed::{AveragedMotion, SymmetricMotion, UniformMotion, largest_torque};
+pub use closed::{AveragedMotion, SymmetricMotion, TorusMotion, UniformMotion, largest_torque};
 pub use continuous_angles::{ContinuousAngles, MOST_COUNTED};
 pub(crate) use input::check_time;
 pub use many::{SampledProblem, states_of_many};

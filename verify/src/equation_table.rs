@@ -91,7 +91,7 @@ equations! {
          "dynamics::Problem" "dynamics::Problem::taylor" "dynamics::Problem::taylor_states" "propagation::TaylorMotion"
          "dynamics::Problem::splitting" "dynamics::Problem::splitting_by" "propagation::splitting::Splitting"
          "propagation::splitting::SplittingMotion" "propagation::splitting::Scheme" "propagation::states_of_many"
-         "propagation::ContinuousAngles" "solutions::symmetric::SymmetricSolution"] ["figure_motion_tp_1"
+         "propagation::ContinuousAngles" "solutions::symmetric::SymmetricSolution" "solutions::torus::TorusSolution"] ["figure_motion_tp_1"
          "figure_motion_tp_2" "figure_motion_sp_1" "figure_motion_sp_2"]
     26 "sol1" "steady precession for symmetric s" ["solutions::steady::steady_precession_rate"] []
     27 "ansatz" "perturbation ansatz" ["solutions::perturbation::Perturbation::at"] []

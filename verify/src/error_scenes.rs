@@ -115,7 +115,7 @@ impl ErrorScene {
         let [equal, other] = [random.within(-1.0, 1.0), 1.0].map(|x| x * self.strength);
         let (body, s, mut initial) = (*self.problem.spheroid(), self.problem.coefficients(), *self.problem.initial());
         let s = match method {
-            Method::Taylor | Method::Splitting => *s,
+            Method::Taylor | Method::Splitting | Method::Torus => *s,
             // Weak torques over spans that they are nearly nothing in, and none at all.
             Method::Free => {
                 if initial.momentum.norm() == 0.0 {

@@ -115,6 +115,7 @@ pub fn exponent(rows: &[Row], method: &str, error: impl Fn(&Row) -> f64) -> Opti
 #[cfg(test)]
 mod tests {
     use super::*;
+    use twofold::propagation::TorusMotion;
 
     #[test]
     fn the_exponent_of_a_power_is_found() {
@@ -123,6 +124,23 @@ mod tests {
         assert!((exponent(&rows, "m", |row| row.energy).expect("points").value - 0.5).abs() < 1e-12);
         assert!((exponent(&rows, "m", |row| row.phase).expect("points").value - 1.0).abs() < 1e-12);
         assert_eq!(exponent(&rows, "other", |row| row.phase), None);
+    }
+
+    /// The series on the torus against 1e7 t_c of motion in double-double numbers. That one takes `n` as it is rounded, the series as a unit vector: a
+    /// torque of `2 C |s|` that is larger by `|n|^2 - 1` may turn the axes by so much more.
+    #[test]
+    fn the_exact_motion_is_right_after_ten_million() {
+        let problem = BenchScene::named("tp-II").problem;
+        let motion = TorusMotion::new(&problem, (0.0, 1e7), 1e-15).expect("a torus");
+        let axis = problem.initial().axis.map(<DoubleDouble as twofold::Scalar>::from_f64);
+        let excess = (axis.dot(&axis) - twofold::Scalar::from_f64(1.0)).high().abs();
+        let torque =
+            2.0 * problem.spheroid().constant_c * problem.coefficients().amax() / problem.initial().momentum.norm();
+        for (t, axis) in references() {
+            let found = motion.axis_state(t).expect("a state").axis.map(twofold::Scalar::from_f64);
+            let error = largest((found - axis).iter().map(|x: &DoubleDouble| x.high().abs()));
+            assert!(error < 2e-15 + excess * torque * t, "t = {t}: {error:e}, {excess:e}");
+        }
     }
 
     #[test]

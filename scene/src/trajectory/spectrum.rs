@@ -7,7 +7,7 @@ use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::spectrum::{
     FrequencyBasis, Generator, LineList, Series, SpectralLine, Window, amplitude_spectrum, spectral_lines,
 };
-use twofold::plan::{Counted, Output, Plan, PlannedMotion, Request, Samples, State, Work};
+use twofold::plan::{Counted, Method, Output, Plan, PlannedMotion, Request, Samples, State, Work};
 
 use super::TrajectoryError;
 use crate::columns::Column;
@@ -110,7 +110,21 @@ impl Sampling {
         let (intervals, span) = (intervals(scene), (0.0, scene.duration()));
         let samples = Samples { count: intervals as usize + 1, last: span.1 };
         let request = Request { method: scene.method, samples, ..Request::new(&outputs, span, 0, scene.tolerance) };
-        scene.problem.plan(&request)
+        let plan = scene.problem.plan(&request)?;
+        if scene.method.is_some() || plan.method != Some(Method::Torus) {
+            return Ok(plan);
+        }
+        // The rounding of a Fourier series is a sum of lines, which a fit would find: the next best method has noise.
+        let cost = |method: &Method| {
+            let candidate = plan.considered.iter().find(|candidate| candidate.method == *method);
+            candidate
+                .and_then(|candidate| candidate.prediction.as_ref().ok())
+                .filter(|other| plan.admits(other))
+                .map(|other| other.cost)
+        };
+        let others = Method::ALL.into_iter().filter(|method| *method != Method::Torus && cost(method).is_some());
+        let next = others.min_by(|a, b| cost(a).partial_cmp(&cost(b)).unwrap_or(core::cmp::Ordering::Equal));
+        scene.problem.plan(&Request { method: next.or(Some(Method::Taylor)), ..request })
     }
 
     /// Computes the motion by a [`plan`](Sampling::plan) and samples a column, in steps that follow from the rotation rate alone.

@@ -112,9 +112,9 @@ impl SpinFit {
     /// The time at which the fit has the phase `number`, as the unevaluated sum of two doubles: the root `2 n / (F0 + sqrt(F0^2 + 2 F1 n))`
     /// of the quadratic equation, `n` counted from the phase at the time zero. Not a number where the phase never comes so far.
     pub fn time_of(&self, number: i64) -> [f64; 2] {
-        let wanted = (DoubleDouble::from(number as f64) - self.phase.into()) * 2.0.into();
+        let wanted = (DoubleDouble::from(number as f64) - self.phase.into()) * 2.0;
         let frequency = DoubleDouble::from(self.frequency);
-        let root = (frequency * frequency + wanted * self.frequency_rate.into()).sqrt();
+        let root = (frequency * frequency + wanted * self.frequency_rate).sqrt();
         wanted.over(if frequency.high < 0.0 { frequency - root } else { frequency + root }).into()
     }
 }

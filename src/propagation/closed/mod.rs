@@ -19,8 +19,10 @@
 
 mod averaged;
 mod symmetric;
+mod torus;
 mod uniform;
 
 pub use averaged::AveragedMotion;
 pub use symmetric::SymmetricMotion;
+pub use torus::TorusMotion;
 pub use uniform::{UniformMotion, largest_torque};

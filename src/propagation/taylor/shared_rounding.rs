@@ -177,15 +177,15 @@ mod tests {
         let sum = |term: &dyn Fn(usize) -> DoubleDouble| term(0) + term(1) + term(2);
         let traceless = |i: usize, j: usize| DoubleDouble::sum(given[(i, j)], if i == j { -isotropic } else { 0.0 });
         let turned = |i: usize, j: usize| {
-            let half = |k: usize| sum(&|l| traceless(k, l) * back[(l, j)].into());
-            sum(&|k| half(k) * back[(k, i)].into()) - used[(i, j)].into()
+            let half = |k: usize| sum(&|l| traceless(k, l) * back[(l, j)]);
+            sum(&|k| half(k) * back[(k, i)]) - used[(i, j)].into()
         };
         let stretch = |i: usize, j: usize| {
             let unit = if i == j { 1.0 } else { 0.0 };
-            (sum(&|k| DoubleDouble::product(back[(k, i)], back[(k, j)])) - unit.into()) * 0.5.into()
+            (sum(&|k| DoubleDouble::product(back[(k, i)], back[(k, j)])) - unit.into()) * 0.5
         };
         let exact = Matrix3::from_fn(|i, j| {
-            let stretched = |k: usize| stretch(i, k) * used[(k, j)].into() + stretch(k, j) * used[(i, k)].into();
+            let stretched = |k: usize| stretch(i, k) * used[(k, j)] + stretch(k, j) * used[(i, k)];
             (sum(&stretched) - turned(i, j)).high * (2.0 * 0.8 * setup.scale.time)
         });
         assert!((found - exact).amax() < 1e-9 * exact.amax(), "{found} {exact}");
@@ -200,7 +200,7 @@ mod tests {
         let difference = DoubleDouble::sum(zz, -xx);
         assert_ne!(difference.low, 0.0);
         let dot = DoubleDouble::dot(&start[0].into(), &start[1].into());
-        let exact = DoubleDouble::product(rate, xx) * zz.into() + difference * dot;
+        let exact = DoubleDouble::product(rate, xx) * zz + difference * dot;
         let found = excess_of_rate_about_axis(&SPHEROID, &start, rate);
         assert_relative_eq!(found, exact.high / (xx * zz), epsilon = 0.0, max_relative = 1e-10);
     }

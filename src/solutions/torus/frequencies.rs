@@ -4,10 +4,8 @@ use core::f64::consts::TAU;
 
 use nalgebra::Matrix2;
 
-use super::flow::Integrals;
-use super::lattice::{MOST_CORRECTIONS, Period, ROUNDING, Torus};
-use super::slow_course::SlowCourse;
-use crate::dynamics::{BodyState, Problem, RigidSpheroid};
+use super::found::{CLOSED, ROUNDING, Torus};
+use crate::dynamics::Problem;
 use crate::error::Error;
 use crate::solutions::averaged::{AveragedRates, AveragedSolution, AveragingOrder};
 
@@ -37,8 +35,8 @@ pub struct TorusFrequencies {
 /// Exact frequencies of the motion of a problem in the principal frame of its `s`, which turns fast against the torque.
 ///
 /// `H` and `K` have commuting flows on the torus of `(n, L)`. The times `(t_i, k_i)` along both that lead back to the start form a lattice; a basis
-/// of it, once round `L` and once round the slow circle of `L`, is found by Newton steps, which need no derivatives of the flow: what is left to
-/// close lies in the torus. The frequencies solve
+/// of it, once round `L` and once round the slow circle of `L`, is found by Newton steps from symmetric states, which need no derivatives of the flow. The
+/// frequencies solve
 ///
 /// ```text
 /// w_1 (t_1, k_1) + w_2 (t_2, k_2) = 2 pi (1, 0)
@@ -54,60 +52,29 @@ pub struct TorusFrequencies {
 /// separatrix.
 pub fn torus_frequencies(problem: &Problem<f64>) -> Result<TorusFrequencies, Error> {
     let mean = AveragedSolution::new(problem, AveragingOrder::Second)?;
-    let (spheroid, initial) = (problem.spheroid(), problem.initial());
-    let values = problem.coefficients().diagonal();
-    let values = values.map(|value| value - values.mean());
-    let spread = values.max() - values.min();
-    Error::ensure(spread > 0.0, "s_max - s_min", spread, "above zero: without it there is no torque")?;
-    let integrals = Integrals::new(spheroid, &values, spread);
-    let size = initial.momentum.norm();
-    let not_closed = |what| Error::NotConverged { what, iterations: MOST_CORRECTIONS, residual: f64::NAN };
-
-    let fast_rate = size / spheroid.inertia_xx;
-    let course = SlowCourse::along(&integrals, spheroid, &values, initial)?;
-    let torus = Torus { integrals, start: course.fastest, size };
-    let [t, k] = fast_turn(spheroid, spread, initial);
-    let fast = torus.period([t, k]).ok_or(not_closed("way of n round L on the torus: n is on L, or L on an axis"))?;
-    // The time along K for a turn is well known from the averaged motion away from the separatrix, and from the course near it.
-    let once = |found: &Period| {
-        let area = fast.times[0] * found.times[1] - fast.times[1] * found.times[0];
-        (0.7..1.4).contains(&(area / (t * course.period)))
-    };
-    let starts = [course.guess, course.period, 0.9 * course.period, 1.1 * course.period];
-    let slow = starts
-        .into_iter()
-        .find_map(|start| torus.slow_period([t, k], start).filter(once))
-        .ok_or(not_closed("way of L round its axis on the torus: L is on an axis, or this is the separatrix"))?;
-    // Where the slow circle is small the fast way may have gone round it as well.
-    let besides = ((fast.times[1] - k) / slow.times[1]).round();
-    let fast = fast.without(besides, &slow);
-
+    let (torus, ()) = Torus::of(problem, |torus| Ok((torus.gap() < CLOSED).then_some(())))?;
+    let initial = problem.initial();
+    let fast_rate = torus.size() / torus.spheroid.inertia_xx;
+    let [fast, slow] = torus.periods()?;
+    let not_closed = Error::NotConverged { what: "periods of the torus", iterations: 1, residual: f64::NAN };
     let periods = Matrix2::new(fast.times[0], slow.times[0], fast.times[1], slow.times[1]);
-    let inverse = periods.try_inverse().ok_or(not_closed("periods of the torus"))?;
+    let inverse = periods.try_inverse().ok_or(not_closed)?;
     let [round_l, round_axis] = [inverse[(0, 0)] * TAU, inverse[(1, 0)] * TAU];
     let errors = errors_of_rates(&inverse, [fast.error, slow.error]);
 
     // Names.
     let turned = (round_l * fast.turn + round_axis * slow.turn) / TAU;
+    let spheroid = problem.spheroid();
     let turned = turned - spheroid.oblateness() * initial.momentum.dot(&initial.axis) / spheroid.inertia_zz;
     let names = named([round_l, turned], round_axis, &mean.rates);
     let uncertainty = [errors[1], errors[0] + errors[1], errors[0] + errors[1] + ROUNDING * fast_rate];
     Ok(TorusFrequencies {
-        axis: course.axis,
-        slow: round_axis * course.sense,
+        axis: torus.axis(),
+        slow: round_axis * torus.sense(),
         about_momentum: names.map(|[about_momentum, _]| about_momentum),
         about_axis: names.map(|[_, about_axis]| about_axis),
         uncertainty,
     })
-}
-
-/// Times along `H` and `K` of a turn of `n` about `L`, nearly: `K` takes back by how much the torque turns `L` meanwhile.
-fn fast_turn(spheroid: &RigidSpheroid<f64>, spread: f64, initial: &BodyState<f64>) -> [f64; 2] {
-    let size = initial.momentum.norm();
-    let c = initial.axis.dot(&initial.momentum) / size;
-    let p2 = (3.0 * c * c - 1.0) / 2.0;
-    let t = TAU * spheroid.inertia_xx / size;
-    [t, -t * spheroid.constant_c * p2 * spread * spheroid.inertia_xx / (size * size)]
 }
 
 /// Errors of the rates `2 pi (T^-1)_i0` with the inverse of the matrix `T` of periods, from those of the periods: `d(T^-1) = -T^-1 dT T^-1`.
@@ -132,6 +99,7 @@ mod tests {
 
     use super::*;
     use crate::dynamics::first_integrals::{FirstIntegrals, first_integrals};
+    use crate::dynamics::{BodyState, RigidSpheroid};
     use crate::lorentz_violation::PrincipalCoefficients;
     use crate::solutions::torus::{separatrix_motion, states_with_integrals};
 

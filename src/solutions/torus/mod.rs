@@ -1,7 +1,7 @@
-//! Invariant tori of the motion: states with given first integrals, and the exact frequencies.
+//! Invariant tori of the motion: the exact motion at any time, its frequencies, and states with given first integrals.
 //!
 //! `(n, L)` has the commuting integrals `H` and `K` ([`clebsch`](crate::dynamics::first_integrals::FirstIntegrals::clebsch)), so it moves on
-//! tori of two dimensions; the turn about `n`, moved by `L.n`, makes the third.
+//! tori of two dimensions; the turn about `n`, moved by `L.n`, makes the third. `docs/exact-motion.md` derives the solution.
 //!
 //! # Example
 //!
@@ -10,7 +10,7 @@
 //! use twofold::euler_angles::{EulerAngles, EulerRates};
 //! use twofold::lorentz_violation::PrincipalCoefficients;
 //! use twofold::dynamics::first_integrals::first_integrals;
-//! use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};
+//! use twofold::solutions::torus::{TorusSolution, separatrix_motion, states_with_integrals, torus_frequencies};
 //!
 //! let star = RigidSpheroid::in_units_of_tc(1.1);
 //! let s = PrincipalCoefficients::new([0.02, 0.01, -0.04]);
@@ -20,6 +20,11 @@
 //! let problem = Problem::new(star, s.tensor(), state)?;
 //! let frequencies = torus_frequencies(&problem)?;
 //! assert!(frequencies.slow != 0.0);
+//! // The state after 1e12 t_c: its integrals are those of the start.
+//! let solution = TorusSolution::new(&problem, 1e-12, 1e12)?;
+//! let late = first_integrals(&star, &s.tensor(), &solution.state([1e12, 0.0]));
+//! assert!(solution.error_estimate(1e12) < 1e-12);
+//! assert!((late.energy - first_integrals(&star, &s.tensor(), &state).energy).abs() < 1e-12);
 //! // A state with the same integrals lies on the same torus.
 //! let integrals = first_integrals(&star, &s.tensor(), &state);
 //! let other = states_with_integrals(&star, &s, &integrals)?.states[0];
@@ -30,14 +35,21 @@
 //! ```
 
 mod flow;
+mod found;
+mod fourier;
 mod frequencies;
-mod lattice;
+mod phase;
 mod plane;
 mod polynomial;
+mod sampling;
 mod separatrix;
-mod slow_course;
+mod solution;
 mod states;
+mod table;
+mod ways;
+mod wide;
 
 pub use frequencies::{TorusFrequencies, torus_frequencies};
 pub use separatrix::separatrix_motion;
+pub use solution::TorusSolution;
 pub use states::{TorusStates, states_with_integrals};

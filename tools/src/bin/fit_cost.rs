@@ -134,6 +134,7 @@ fn main() -> Result<(), Error> {
     closed(&problem("free"), Method::Steady)?;
     closed(&problem("axisymmetric-violation"), Method::Symmetric)?;
     let tp_2 = problem("tp-2");
+    closed(&tp_2, Method::Torus)?;
     splitting(&tp_2.reduced())?;
     splitting(&tp_2)?;
     taylor(&tp_2.reduced())?;

@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 use twofold::dynamics::{BodyState, Problem};
 use twofold::numerics::scalar::{Real, Scalar};
 use twofold::numerics::straight_line::{Slope, order};
-use twofold::propagation::{AveragedMotion, Motion, SymmetricMotion, UniformMotion};
+use twofold::propagation::{AveragedMotion, Motion, SymmetricMotion, TorusMotion, UniformMotion};
 use twofold::solutions::averaged::AveragingOrder;
 use twofold_command::bench::growth::{self, references};
 use twofold_command::bench::scene::BenchScene;
@@ -49,14 +49,17 @@ fn main() -> Result<(), Failure> {
 
     let problem = BenchScene::named("tp-II").problem;
     let (spheroid, initial) = (*problem.spheroid(), *problem.initial());
+    let beside_reference = |axis: Vector3<f64>, t: f64| -> Result<f64, Failure> {
+        let reference = references().into_iter().find(|(time, _)| *time == t).ok_or("no reference at this time")?;
+        let difference = axis.map(DoubleDouble::from_f64) - reference.1;
+        Ok(largest(difference.iter().map(|x: &DoubleDouble| x.high().abs())))
+    };
     let averaged = |order| -> Result<ErrorAt, Failure> {
         let motion = AveragedMotion::new(&problem, (0.0, longest), order)?;
-        Ok(Box::new(move |t| {
-            let axis = motion.state(t)?.axis.map(DoubleDouble::from_f64);
-            let reference = references().into_iter().find(|(time, _)| *time == t).ok_or("no reference at this time")?;
-            Ok(largest((axis - reference.1).iter().map(|x: &DoubleDouble| x.high().abs())))
-        }))
+        Ok(Box::new(move |t| beside_reference(motion.state(t)?.axis, t)))
     };
+    let torus = TorusMotion::new(&problem, (0.0, longest), 1e-15)?;
+    let by_torus: ErrorAt = Box::new(move |t| beside_reference(torus.axis_state(t)?.axis, t));
     // tp-II's body with another tensor, and at rest but for a spin along the third principal axis.
     let symmetric = Matrix3::from_diagonal(&Vector3::new(0.013, 0.013, -0.04));
     let tilted = Problem::new(spheroid, symmetric, initial)?;
@@ -65,7 +68,8 @@ fn main() -> Result<(), Failure> {
     let upright = tilted.starting_from(BodyState { axis: Vector3::z(), momentum, equatorial_axis: Vector3::x() })?;
     let span = (0.0, 1e7);
     let lifted = |problem: &Problem<f64>| -> Problem<DoubleDouble> { problem.map(DoubleDouble::from_f64) };
-    let methods: [(&str, ErrorAt); 5] = [
+    let methods: [(&str, ErrorAt); 6] = [
+        ("series on the torus", by_torus),
         ("averaged motion, first order", averaged(AveragingOrder::First)?),
         ("averaged motion, second order", averaged(AveragingOrder::Second)?),
         (

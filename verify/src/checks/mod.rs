@@ -34,6 +34,7 @@ mod star;
 mod symbolic;
 mod symmetric;
 mod torque;
+mod torus_motion;
 mod wave_tensor;
 mod waves;
 
@@ -106,6 +107,7 @@ pub fn all() -> Vec<Check> {
         averaged::estimates::checks,
         averaged::derivatives::checks,
         averaged::decades::checks,
+        torus_motion::checks,
         frequencies::torus::checks,
         frequencies::averaged::checks,
         frequencies::middle_axis::checks,

@@ -91,7 +91,7 @@ fn found(method: Method, derivatives: &[Parameter], count: usize) -> Result<Vec<
 }
 
 fn bounds() -> Result<Measured, String> {
-    worst_of([Method::Free, Method::Steady, Method::Symmetric, Method::Averaged], |&method| {
+    worst_of([Method::Free, Method::Steady, Method::Symmetric, Method::Averaged, Method::Torus], |&method| {
         worst_of(found(method, &[], 100)?, |(_, foreseen, error, promise)| match promise {
             Promise::Goal(_) => Err(format!("{} promises {promise:?}", method.name())),
             _ => Ok(error / foreseen),

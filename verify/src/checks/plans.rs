@@ -90,11 +90,16 @@ fn scenes_for_plans() -> impl Strategy<Value = RandomScene> {
 
 fn cheapest() -> Result<Measured, String> {
     let (mut seen, mut cheaper) = ([0; Method::ALL.len()], 0);
-    let strategy = (scenes_for_plans(), -12.0..-2.0f64, 0.0..2.0f64, 1..20_usize, 0..3_usize);
+    let strategy = (scenes_for_plans(), -12.0..-2.0f64, 0.0..6.0f64, 0.0..5.5f64, 0..3_usize);
     worst_over(42, 600, &strategy, |&(scene, tolerance, span, samples, derivatives)| {
         let request = Request {
             derivatives: [Parameter::Beta, Parameter::InertiaZz][..derivatives].to_vec(),
-            ..Request::new(&[Output::EquatorialAxis], (0.0, 10f64.powf(span)), samples, 10f64.powf(tolerance))
+            ..Request::new(
+                &[Output::EquatorialAxis],
+                (0.0, 10f64.powf(span)),
+                10f64.powf(samples) as usize,
+                10f64.powf(tolerance),
+            )
         };
         let plan = scene.problem().plan(&request)?;
         let (method, prediction) = plan.method.zip(plan.prediction).ok_or("a plan without a method")?;

@@ -2,5 +2,5 @@
 
 pub(super) mod averaged;
 pub(super) mod middle_axis;
-mod scenes;
+pub(super) mod scenes;
 pub(super) mod torus;

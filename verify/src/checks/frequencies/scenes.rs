@@ -5,7 +5,7 @@ use twofold::solutions::torus::{TorusFrequencies, torus_frequencies};
 
 /// A motion in the principal frame of `s^IJ`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Scene {
+pub(in crate::checks) struct Scene {
     pub(super) body: RigidSpheroid<f64>,
     pub(super) s: PrincipalCoefficients<f64>,
     pub(super) start: BodyState<f64>,
@@ -17,7 +17,7 @@ impl Scene {
         Self { body: scene.spheroid, s: scene.coefficients.scaled(k), start: scene.initial() }
     }
 
-    pub(super) fn problem(&self) -> Result<Problem<f64>, Error> {
+    pub(in crate::checks) fn problem(&self) -> Result<Problem<f64>, Error> {
         Problem::new(self.body, self.s.tensor(), self.start)
     }
 
@@ -48,7 +48,7 @@ impl Scene {
     }
 
     /// A motion with a strength of the torque between `x` and three times that. Every fourth one a single precession.
-    pub(super) fn random(random: &mut Random, case: usize, strength: f64) -> Self {
+    pub(in crate::checks) fn random(random: &mut Random, case: usize, strength: f64) -> Self {
         let mut body = RigidSpheroid::in_units_of_tc(random.within(0.6, 1.6));
         body.inertia_xx = random.within(0.5, 2.0);
         body.inertia_zz *= body.inertia_xx;
@@ -68,7 +68,7 @@ impl Scene {
     }
 
     /// Distance from the separatrix: `k'^2` by `l` at the start.
-    pub(super) fn complement(&self) -> f64 {
+    pub(in crate::checks) fn complement(&self) -> f64 {
         let l = self.start.momentum.normalize();
         let mut order = [0, 1, 2];
         let values = [self.s.xx, self.s.yy, self.s.zz];

@@ -1,0 +1,74 @@
+//! The exact motion as a Fourier series, in the frame of the caller and over a span.
+
+use nalgebra::Matrix3;
+
+use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
+use crate::error::Error;
+use crate::numerics::double_double::DoubleDouble;
+use crate::propagation::Motion;
+use crate::propagation::input::check_time;
+use crate::solutions::torus::TorusSolution;
+
+/// A motion by [`TorusSolution`]: any scene without isotropic `s`, any time, at the same cost.
+#[derive(Debug, Clone)]
+pub struct TorusMotion {
+    problem: Problem<f64>,
+    span: (f64, f64),
+    solution: TorusSolution,
+}
+
+impl TorusMotion {
+    /// The motion from the initial state at `span.0`, with the largest error wanted.
+    ///
+    /// # Errors
+    /// As for [`TorusSolution::new`].
+    pub fn new(problem: &Problem<f64>, span: (f64, f64), tolerance: f64) -> Result<Self, Error> {
+        Ok(Self { problem: *problem, span, solution: TorusSolution::new(problem, tolerance, span.1 - span.0)? })
+    }
+
+    /// The series and their angles; times count from the initial state.
+    pub fn solution(&self) -> &TorusSolution {
+        &self.solution
+    }
+
+    fn elapsed(&self, t: [f64; 2]) -> Result<[f64; 2], Error> {
+        check_time(self.span, t[0] + t[1])?;
+        Ok((DoubleDouble::sum(t[0], t[1]) - DoubleDouble::from(self.span.0)).into())
+    }
+}
+
+impl Motion<f64> for TorusMotion {
+    type State = BodyState<f64>;
+
+    fn spheroid(&self) -> &RigidSpheroid<f64> {
+        self.problem.spheroid()
+    }
+
+    fn coefficients(&self) -> &Matrix3<f64> {
+        self.problem.coefficients()
+    }
+
+    fn span(&self) -> (f64, f64) {
+        self.span
+    }
+
+    fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
+        self.state_in_parts([t, 0.0])
+    }
+
+    fn axis_state(&self, t: f64) -> Result<AxisState<f64>, Error> {
+        self.axis_state_in_parts([t, 0.0])
+    }
+
+    fn state_in_parts(&self, t: [f64; 2]) -> Result<BodyState<f64>, Error> {
+        Ok(self.solution.state(self.elapsed(t)?))
+    }
+
+    fn axis_state_in_parts(&self, t: [f64; 2]) -> Result<AxisState<f64>, Error> {
+        Ok(self.solution.axis_state(self.elapsed(t)?))
+    }
+
+    fn error_estimate(&self, t: f64) -> f64 {
+        self.solution.error_estimate(t - self.span.0)
+    }
+}

@@ -1,0 +1,56 @@
+//! The angles of a torus as functions of time.
+
+use super::flow::Axes;
+use super::ways::{ClosedWays, HalfWay};
+use crate::dynamics::RigidSpheroid;
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::four_lanes::FourLanes;
+use crate::numerics::rounding::two_product;
+use crate::numerics::scalar::Real;
+
+/// `offset + rate t`, in turns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Phase {
+    pub(super) rate: DoubleDouble,
+    pub(super) offset: DoubleDouble,
+}
+
+impl Phase {
+    /// Turns at the time `t[0] + t[1]`, without whole ones.
+    #[inline(always)]
+    pub(super) fn at<F: FourLanes>(&self, t: [f64; 2]) -> f64 {
+        let rate = self.rate.high;
+        let (turns, rest) = if F::FUSED {
+            let turns = rate * t[0];
+            (turns, rate.mul_add(t[0], -turns))
+        } else {
+            two_product(rate, t[0])
+        };
+        let rest = rest + self.rate.low * t[0] + rate * t[1];
+        let turns = (turns - turns.round_ties_even()) + (rest - rest.round_ties_even()) + self.offset.high;
+        turns - turns.round_ties_even()
+    }
+}
+
+/// Both angles of the torus, from the state in the plane, and the angle by which `e_x` is behind the vector of the torus.
+pub(super) fn phases<S: Real + Into<DoubleDouble>>(
+    spheroid: &RigidSpheroid<S>,
+    [n, momentum, _]: &Axes<S>,
+    ways: &ClosedWays<S>,
+) -> [Phase; 3] {
+    let whole = |half: &HalfWay<S>| (half.times.map(|time| time * 2.0), half.turn * 2.0);
+    let (([t1, k1], psi1), ([t2, k2], psi2)) = (whole(&ways.fast), whole(&ways.slow));
+    let determinant = t1 * k2 - t2 * k1;
+    let turns = |[t, k]: [S; 2]| [(t * k2 - k * t2) / determinant, (k * t1 - t * k1) / determinant];
+    let [f1, f2] = turns([S::one(), S::zero()]);
+    let [a, b] = turns(ways.to_plane.times).map(|turns| -turns);
+    // 2 pi, to the digits of the number.
+    let tau = S::zero().atan2(-S::one()) * 2.0;
+    let spin = spheroid.oblateness() * momentum.dot(n) / spheroid.inertia_zz;
+    let phase = |rate: S, offset: S| Phase { rate: rate.into(), offset: offset.into() };
+    [
+        phase(f1, a),
+        phase(f2, b),
+        phase((spin - f1 * psi1 - f2 * psi2) / tau, -(ways.to_plane.turn + a * psi1 + b * psi2) / tau),
+    ]
+}

@@ -1,0 +1,249 @@
+//! The motion as a Fourier series on its torus: any state at any time at the same cost.
+
+use core::f64::consts::TAU;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::found::Torus;
+use super::phase::{Phase, phases};
+use super::sampling::{Coefficients, ROUNDING, coefficients};
+use super::table::{Table, Turn, fill_with_turns};
+use super::wide::WideTorus;
+use crate::dynamics::{AxisState, BodyState, Problem};
+use crate::error::Error;
+use crate::numerics::angle::sin_cos_of_turns;
+use crate::numerics::arithmetic::plain;
+use crate::numerics::four_lanes::FourLanes;
+use crate::numerics::fused::{Fused, detect_fused, run_fused};
+
+/// What the rounding of the flow leaves at the end of half a closed way.
+const END_OF_HALF_WAY: f64 = 3e-16;
+
+/// What may be left between the series and the flow beside its estimated error, where its torus has the symmetries assumed.
+const CLOSED: f64 = 1e-12;
+
+/// So many multiples of an angle fit on the stack.
+const FEW: usize = 16;
+
+/// The exact motion from an initial state: `n`, `L` and `e_x` as Fourier series of two angles that grow in proportion to time, and a third one that turns
+/// `e_x` about `n`.
+///
+/// ```text
+/// (n, L)(t) = sum_jk (n, L)_jk exp i (j theta_1 + k theta_2),    theta_i = theta_i0 + w_i t
+/// ```
+///
+/// `theta_1` is a turn of `n` about `L` from the plane of `L` and Z, `theta_2` one of the averaged `L` about Z, the principal axis of `s` that it goes round. The
+/// coefficients are those of the motion along the commuting flows of `H` and `K` on a grid of the torus. See `docs/exact-motion.md`.
+#[derive(Debug, Clone)]
+pub struct TorusSolution {
+    phases: [Phase; 3],
+    /// Of `n` and `L`.
+    axes: Table,
+    /// Of `V`, from which `e_x` is turned.
+    vector: Table,
+    multiples: [usize; 2],
+    given_from_torus: Matrix3<f64>,
+    truncation: f64,
+    /// Difference of the series from the flow.
+    off: f64,
+    /// Error of a state per unit of time, by the rates.
+    drift: f64,
+    fused: Option<Fused>,
+}
+
+impl TorusSolution {
+    /// The motion of a problem, with the largest error wanted of the components of `n`, `e_x` and `L / |L|`, for times up to `longest` in size. For long ones
+    /// the closed ways are found to 32 digits, which takes a few ms.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for isotropic `s` and for a body at rest; [`Error::NotConverged`] near the separatrix, and for a torus without the symmetry that is looked for, as
+    /// there are where the torque turns the body as fast as it rotates.
+    pub fn new(problem: &Problem<f64>, tolerance: f64, longest: f64) -> Result<Self, Error> {
+        let tolerance = tolerance.max(ROUNDING);
+        let (_, solution) = Torus::of(problem, |torus| {
+            let phases = phases(&torus.spheroid, &torus.initial, &torus.ways);
+            let drift = rate_of_ways(&phases) * 2.0 * END_OF_HALF_WAY;
+            if longest.abs() * drift <= 0.3 * tolerance
+                && let Some(functions) = coefficients(torus, |quarter| torus.starts(quarter), tolerance)?
+            {
+                return Ok(Self::on(torus, phases, drift, tolerance, functions));
+            }
+            let wide = WideTorus::near(torus, problem)?;
+            let torus = wide.rounded(torus);
+            let starts = |quarter: usize| torus.starts(quarter).or_else(|| Some(wide.starts(quarter)));
+            let functions = coefficients(&torus, starts, tolerance)?;
+            Ok(functions.and_then(|functions| Self::on(&torus, wide.phases, wide.drift, tolerance, functions)))
+        })?;
+        Ok(solution)
+    }
+
+    /// The series on a torus with these phases, unless they are not those of the motion: the torus has not the symmetry that was assumed.
+    fn on(
+        torus: &Torus,
+        phases: [Phase; 3],
+        drift: f64,
+        tolerance: f64,
+        [axes, vector]: [[Coefficients; 6]; 2],
+    ) -> Option<Self> {
+        let (mut axes, left_axes) = Table::without_smallest(&axes, 0.1 * tolerance);
+        let (vector, left_vector) = Table::without_smallest(&vector, 0.1 * tolerance);
+        axes.scale_every_other(torus.size());
+        let [[a, b], [c, d]] = [axes.multiples(), vector.multiples()];
+        let mut solution = Self {
+            phases,
+            axes,
+            vector,
+            // At least zero and one, which are where angles begin.
+            multiples: [a.max(c).max(2), b.max(d).max(2)],
+            given_from_torus: torus.from_given.transpose(),
+            truncation: left_axes.max(left_vector),
+            off: 0.0,
+            drift,
+            fused: detect_fused(),
+        };
+        let gap = solution.gap(torus);
+        solution.off = 2.0 * gap;
+        (gap <= 10.0 * solution.truncation + CLOSED).then_some(solution)
+    }
+
+    /// Largest difference from the start, and from the flow at a point where all functions differ from one another.
+    fn gap(&self, torus: &Torus) -> f64 {
+        let parts = [0.2, 0.45];
+        let times = [0, 1].map(|i| {
+            let ways = [&torus.ways.fast, &torus.ways.slow];
+            (0..2).map(|way| ways[way].times[i] * 2.0 * parts[way]).sum()
+        });
+        let [n, momentum, _] = torus.integrals.moved(times, &torus.ways.plane);
+        let there = self.state_on_torus([parts[0], parts[1], 0.0]);
+        let here = self.state([0.0; 2]);
+        let turn = &torus.from_given;
+        let differences = [
+            turn * there.axis - n,
+            (turn * there.momentum - momentum) / torus.size(),
+            turn * here.axis - torus.initial[0],
+            (turn * here.momentum - torus.initial[1]) / torus.size(),
+            turn * here.equatorial_axis - torus.initial[2],
+        ];
+        // A NaN is a gap too.
+        differences.iter().flatten().fold(0.0, |most, x| if x.abs() <= most { most } else { x.abs() })
+    }
+
+    /// Rates of the angles (rad per unit of time): of `n` about `L` from the plane of `L` and Z, of the averaged `L` about Z, and of `e_x` about `n`.
+    pub fn rates(&self) -> [f64; 3] {
+        self.phases.map(|phase| phase.rate.high * TAU)
+    }
+
+    /// Number of pairs of frequencies in the series of `n` and `L`, and in that of `e_x`.
+    pub fn term_counts(&self) -> [usize; 2] {
+        [self.axes.len(), self.vector.len()]
+    }
+
+    /// Sum of the coefficients that were left out: error of the series, rounding apart.
+    pub fn truncation(&self) -> f64 {
+        self.truncation
+    }
+
+    /// Estimated rounding at a time since the start: of the sums, of the coefficients by what is left between the series and the flow, and of the rates.
+    pub fn rounding(&self, t: f64) -> f64 {
+        8.0 * ROUNDING + self.off + self.drift * t.abs()
+    }
+
+    /// Estimated error of the components of `n`, `e_x` and `L / |L|` at a time since the start.
+    pub fn error_estimate(&self, t: f64) -> f64 {
+        self.truncation + self.rounding(t)
+    }
+
+    /// `n` and `L` at the time `t[0] + t[1]` since the start.
+    pub fn axis_state(&self, t: [f64; 2]) -> AxisState<f64> {
+        match self.fused {
+            Some(fused) => run_fused(fused, || self.axis_state_by(fused, t)),
+            None => self.axis_state_by(plain(), t),
+        }
+    }
+
+    /// The state at the time `t[0] + t[1]` since the start.
+    pub fn state(&self, t: [f64; 2]) -> BodyState<f64> {
+        match self.fused {
+            Some(fused) => run_fused(fused, || self.state_by(fused, t)),
+            None => self.state_by(plain(), t),
+        }
+    }
+
+    /// The state at three angles of the torus, in turns.
+    pub fn state_on_torus(&self, turns: [f64; 3]) -> BodyState<f64> {
+        self.state_at(plain(), turns)
+    }
+
+    #[inline(always)]
+    fn axis_state_by<F: FourLanes>(&self, four: F, t: [f64; 2]) -> AxisState<f64> {
+        let [first, second, _] = &self.phases;
+        self.axes_at(four, &self.turns::<F>([first.at::<F>(t), second.at::<F>(t)]))
+    }
+
+    #[inline(always)]
+    fn state_by<F: FourLanes>(&self, four: F, t: [f64; 2]) -> BodyState<f64> {
+        let [first, second, third] = &self.phases;
+        self.state_at(four, [first.at::<F>(t), second.at::<F>(t), third.at::<F>(t)])
+    }
+
+    #[inline(always)]
+    fn turns<F: FourLanes>(&self, turns: [f64; 2]) -> [Multiples; 2] {
+        let [first, second] = self.multiples;
+        [Multiples::of::<F>(first, turns[0]), Multiples::of::<F>(second, turns[1])]
+    }
+
+    #[inline(always)]
+    fn axes_at<F: FourLanes>(&self, four: F, [first, second]: &[Multiples; 2]) -> AxisState<f64> {
+        let values = self.axes.at(four, first.all(), second.all());
+        let ([x, lx, y, ly], [z, lz]) = (values.changing, values.even);
+        AxisState {
+            axis: self.given_from_torus * Vector3::new(x, y, z),
+            momentum: self.given_from_torus * Vector3::new(lx, ly, lz),
+        }
+    }
+
+    #[inline(always)]
+    fn state_at<F: FourLanes>(&self, four: F, [first, second, third]: [f64; 3]) -> BodyState<f64> {
+        let turns = self.turns::<F>([first, second]);
+        let AxisState { axis, momentum } = self.axes_at(four, &turns);
+        let values = self.vector.at(four, turns[0].all(), turns[1].all());
+        let ([real_x, imaginary_y, real_y, imaginary_x], [real_z, _], [_, imaginary_z]) =
+            (values.changing, values.even, values.odd);
+        let (sin, cos) = sin_cos_of_turns::<F>(third);
+        let turned =
+            Vector3::new(real_x, real_y, real_z) * cos - Vector3::new(imaginary_x, imaginary_y, imaginary_z) * sin;
+        BodyState { axis, momentum, equatorial_axis: self.given_from_torus * turned }
+    }
+}
+
+/// Turns by all multiples of an angle; a few of them on the stack.
+struct Multiples {
+    few: [Turn; FEW],
+    many: Vec<Turn>,
+    count: usize,
+}
+
+impl Multiples {
+    #[inline(always)]
+    fn of<F: FourLanes>(count: usize, turns: f64) -> Self {
+        let mut multiples = Self { few: [[0.0; 4]; FEW], many: Vec::new(), count };
+        let all = if count <= FEW {
+            &mut multiples.few[..count]
+        } else {
+            multiples.many = vec![[0.0; 4]; count];
+            multiples.many.as_mut_slice()
+        };
+        fill_with_turns(all, sin_cos_of_turns::<F>(turns));
+        multiples
+    }
+
+    #[inline(always)]
+    fn all(&self) -> &[Turn] {
+        if self.count <= FEW { &self.few[..self.count] } else { &self.many }
+    }
+}
+
+/// Turns along both closed ways per unit of time.
+pub(super) fn rate_of_ways(phases: &[Phase; 3]) -> f64 {
+    phases[0].rate.high.abs() + phases[1].rate.high.abs()
+}

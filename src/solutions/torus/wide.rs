@@ -1,0 +1,133 @@
+//! A torus in double-double numbers: for times so long that the phases need more than 16 digits, and for tori near the separatrix.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::flow::{Axes, DOUBLE, DOUBLE_DOUBLE, Integrals};
+use super::found::Torus;
+use super::phase::{Phase, phases};
+use super::solution::rate_of_ways;
+use super::ways::ClosedWays;
+use crate::dynamics::Problem;
+use crate::error::Error;
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::scalar::{Real, length};
+
+/// What the rounding of the flow leaves at the end of half a closed way.
+const END_OF_HALF_WAY: f64 = 1e-29;
+
+/// A torus in 32 digits: of the body, the tensor and the state as they are given.
+pub(super) struct WideTorus {
+    integrals: Integrals<DoubleDouble>,
+    ways: ClosedWays<DoubleDouble>,
+    initial: Axes<DoubleDouble>,
+    values: Vector3<DoubleDouble>,
+    from_given: Matrix3<DoubleDouble>,
+    pub(super) phases: [Phase; 3],
+    /// Error of a state per unit of time, by the rates.
+    pub(super) drift: f64,
+}
+
+impl WideTorus {
+    /// From the torus found in doubles.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] if Newton's steps from there do not converge.
+    pub(super) fn near(torus: &Torus, problem: &Problem<f64>) -> Result<Self, Error> {
+        let wide = |value: f64| DoubleDouble::from(value);
+        let spheroid = torus.spheroid.map(wide);
+        let (from_given, tensor) = diagonal_frame(&problem.coefficients().map(wide), torus.from_given.map(wide));
+        let mean = tensor.trace() / 3.0;
+        let values = tensor.diagonal().map(|value| value - mean);
+        let integrals = Integrals::new(&spheroid, &values, wide(torus.spread), DOUBLE_DOUBLE);
+        let given = problem.initial();
+        let mut initial = [given.axis, given.momentum, given.equatorial_axis].map(|v| from_given * v.map(wide));
+        // n is a unit vector, whatever rounding has made of its length.
+        initial[0] /= length(&initial[0]);
+        let ways = ClosedWays::refined(&integrals, &initial, &torus.ways);
+        let what = "closed ways of the torus in 32 digits";
+        let ways = ways.ok_or(Error::NotConverged { what, iterations: 1, residual: f64::NAN })?;
+        let phases = phases(&spheroid, &initial, &ways);
+        // The torque of what is left beside the diagonal, which is not zero where two eigenvalues are nearly equal.
+        let beside = [(0, 1), (1, 2), (2, 0)].map(|place| tensor[place].re().abs()).iter().sum::<f64>();
+        let torque = 2.0 * torus.spheroid.constant_c.abs() * beside / torus.size();
+        let drift = rate_of_ways(&phases) * END_OF_HALF_WAY + torque;
+        Ok(Self { integrals, ways, initial, values, from_given, phases, drift })
+    }
+
+    /// Rounded to doubles, in the place of the one that it was found from.
+    pub(super) fn rounded(&self, torus: &Torus) -> Torus {
+        let values = self.values.map(Real::re);
+        Torus {
+            values,
+            initial: self.initial.map(|v| v.map(Real::re)),
+            ways: self.ways.rounded(),
+            integrals: Integrals::new(&torus.spheroid, &values, torus.spread, DOUBLE),
+            from_given: self.from_given.map(Real::re),
+            ..*torus
+        }
+    }
+
+    /// States a quarter of a turn of the second angle apart by so many steps, rounded.
+    pub(super) fn starts(&self, quarter: usize) -> Vec<Axes<f64>> {
+        let starts = self.ways.starts(&self.integrals, quarter);
+        starts.into_iter().map(|axes| axes.map(|v| v.map(Real::re))).collect()
+    }
+}
+
+/// A rotation near a given one that makes a tensor diagonal, and the tensor after it.
+fn diagonal_frame(
+    tensor: &Matrix3<DoubleDouble>,
+    mut frame: Matrix3<DoubleDouble>,
+) -> (Matrix3<DoubleDouble>, Matrix3<DoubleDouble>) {
+    let one = DoubleDouble::from(1.0);
+    let mut passes = 0;
+    loop {
+        let rows = [0, 1].map(|i| frame.row(i).transpose());
+        let x = rows[0] * (one / Real::sqrt(rows[0].dot(&rows[0])));
+        let y = rows[1] - x * x.dot(&rows[1]);
+        let y = y * (one / Real::sqrt(y.dot(&y)));
+        frame = Matrix3::from_rows(&[x.transpose(), y.transpose(), x.cross(&y).transpose()]);
+        let turned = frame * tensor * frame.transpose();
+        // Each pass squares what is left beside the diagonal, over the differences of eigenvalues: from 1e-16 to 1e-64.
+        if passes == 2 {
+            return (frame, turned);
+        }
+        passes += 1;
+        let size = turned.map(Real::re).amax();
+        let turn = |i: usize, j: usize| {
+            let gap = turned[(j, j)] - turned[(i, i)];
+            if gap.re().abs() < 1e-9 * size { DoubleDouble::default() } else { turned[(i, j)] / gap }
+        };
+        let (a, b, c) = (turn(0, 1), turn(1, 2), turn(0, 2));
+        frame = Matrix3::new(one, -a, -c, a, one, -b, c, b, one) * frame;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Rotation3;
+
+    use super::*;
+
+    #[test]
+    fn a_frame_near_the_principal_one_becomes_it() {
+        let turn = Rotation3::from_euler_angles(0.3, -0.8, 1.7).into_inner();
+        let given = turn.transpose() * Matrix3::from_diagonal(&Vector3::new(0.3, 0.1, -0.4)) * turn;
+        let tensor = ((given + given.transpose()) / 2.0).map(DoubleDouble::from);
+        let (frame, turned) = diagonal_frame(&tensor, turn.map(DoubleDouble::from));
+        for place in [(0, 1), (1, 2), (2, 0)] {
+            assert!(turned[place].re().abs() < 1e-31, "{turned:?}");
+        }
+        let unit = (frame * frame.transpose() - Matrix3::identity()).map(Real::re);
+        assert!(unit.amax() < 1e-31, "{unit:?}");
+        assert!((frame.map(Real::re) - turn).amax() < 1e-15);
+    }
+
+    /// Two equal eigenvalues: any axes of their plane are as good, and none is divided by zero.
+    #[test]
+    fn equal_eigenvalues_keep_their_axes() {
+        let tensor = Matrix3::from_diagonal(&Vector3::new(0.2, 0.2, -0.4)).map(DoubleDouble::from);
+        let (frame, turned) = diagonal_frame(&tensor, Matrix3::identity());
+        assert_eq!((frame, turned), (Matrix3::identity(), tensor));
+    }
+}

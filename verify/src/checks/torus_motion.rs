@@ -1,0 +1,179 @@
+//! The motion as a Fourier series on its torus: each step of its derivation, and its states.
+
+use crate::independent_taylor::state_after;
+use crate::prelude::*;
+use twofold::propagation::TorusMotion;
+use twofold::solutions::torus::TorusSolution;
+
+checks! {
+    /// a motion reflected in a principal plane of s^IJ, with n and L as vectors, runs backwards: F x(t) is a motion in -t
+    Property "torus-reflection" [25]: reflection;
+    AtMost(1e-11) "largest difference of a component, 50 random motions over 20 t_c, each plane";
+    because "two integrations of some 40 rad at the tolerance 1e-13, whose estimated errors add to some 5e-12";
+    /// energy, Omega^z, K and |n| are the same at every point of the torus, and n.e_x is zero there
+    Property "torus-integrals" [24, 25]: integrals;
+    AtMost(1e-13) "largest difference / size of the terms, 60 random tori at 50 random points";
+    because "each coefficient is rounded by 2e-16 of the largest, some 300 are summed, and K is of third degree: 1e-14 as a random walk";
+    /// the series solves the equations of motion: its derivative along the three rates is that of n, L and e_x
+    Property "torus-equations" [25]: equations;
+    AtMost(1e-9) "largest residual / rate of rotation, 60 random tori at 20 random points";
+    because "central differences of the sixth order in steps of 0.03 turns divide the rounding 1e-15 by 0.03, and leave (0.2 k)^6 / 140 of a term of \
+     order k";
+    /// the series reproduces n, L and e_x of a 34-digit integration, at every listed time
+    Oracle "torus-reference" [25, 57]: against_reference;
+    AtMost(1e-13) "largest error of a component, scenes with anisotropic s";
+    because "the initial values of the references are decimal numbers, rounded by 1e-16, which grows with a phase of 600 rad to 6e-14";
+    /// the series reproduces the motion in double-double numbers over 1,000 t_c: the four examples, s = diag(0.3, 0.1, -0.4), and L 1e-4 rad from the
+    /// middle axis
+    Oracle "torus-thousand" [25, 57]: thousand;
+    AtMost(1e-13) "largest error of a component";
+    because "the phases have 32 digits; coefficients and their sum are rounded by 2e-16 each, which passing the middle axis at 1e-4 rad multiplies by at most \
+     1e2";
+    /// the estimated error of the series is not below the true one
+    Oracle "torus-error-estimate" [25]: estimates;
+    AtMost(1.0) "largest true / estimated error, 200 random scenes up to 60 rad";
+    because "an estimate below the true error is wrong";
+    /// where the torque is weaker than a fifth of the rotation's energy and L does not start beside the middle axis, hardly a motion is refused
+    Property "torus-refusals" [25]: refusals;
+    AtMost(0.01) "share of 1,000 random scenes";
+    because "refused are tori near the separatrix, which random starts seldom hit, and those without the symmetry that is looked for, which the strongest \
+     torques have: 0.5 % of 1,300 other scenes";
+}
+
+/// Tori of random motions of two strengths, to rounding.
+fn tori(
+    seed: u64,
+    figure: impl Fn(&Problem<f64>, &TorusSolution, &mut Random) -> Result<f64, String>,
+) -> Result<Measured, String> {
+    let mut case = 0;
+    worst_of_draws(seed, 60, |random| {
+        case += 1;
+        let problem = loop {
+            let scene = super::frequencies::scenes::Scene::random(random, case, [0.003, 0.1][case % 2]);
+            if scene.complement() >= 0.05 {
+                break scene.problem()?;
+            }
+        };
+        figure(&problem, &TorusSolution::new(&problem, 1e-15, 1.0)?, random)
+    })
+}
+
+fn reflection() -> Result<Measured, String> {
+    worst_over(61, 50, &crate::physical_domain::scenes(), |scene| {
+        let problem = scene.problem().reduced();
+        let principal = problem.rotated(&principal_frame(problem.coefficients())?.principal_from_given);
+        let motion = principal.taylor((0.0, 20.0), 1e-13)?;
+        worst_of(0..3, |&plane| {
+            let reflected = |state: &AxisState<f64>| {
+                let mut state = *state;
+                state.axis[plane] *= -1.0;
+                state.momentum[plane] *= -1.0;
+                state
+            };
+            let back = principal.starting_from(reflected(principal.initial()))?.taylor((0.0, -20.0), 1e-13)?;
+            let size = principal.initial().momentum.norm().max(1.0);
+            worst_of([3.1, 20.0], |&t| Ok(largest_difference(&reflected(&motion.state(t)?), &back.state(-t)?, size)))
+        })
+    })
+}
+
+fn integrals() -> Result<Measured, String> {
+    tori(62, |problem, solution, random| {
+        let (body, s) = (problem.spheroid(), problem.coefficients());
+        let of = |state: &BodyState<f64>| first_integrals(body, s, state);
+        let start = of(problem.initial());
+        let size = problem.initial().momentum.norm_squared();
+        worst_of(0..50, |_| {
+            let at = solution.state_on_torus([0, 1, 2].map(|_| random.within(0.0, 1.0)));
+            let found = of(&at);
+            Ok(largest([
+                (found.energy - start.energy).abs() / (size / body.inertia_xx + body.constant_c * s.amax()),
+                (found.spin - start.spin).abs() * body.inertia_xx / size.sqrt(),
+                (found.clebsch - start.clebsch).abs() / (size * s.amax()),
+                (at.axis.norm() - 1.0).abs(),
+                at.axis.dot(&at.equatorial_axis).abs(),
+            ]))
+        })
+        .map(|measured: Measured| measured.figure)
+    })
+}
+
+fn equations() -> Result<Measured, String> {
+    tori(63, |problem, solution, random| {
+        let rates = solution.rates();
+        let rotation = problem.initial().momentum.norm() / problem.spheroid().inertia_xx;
+        worst_of(0..20, |_| {
+            let turns = [0, 1, 2].map(|_| random.within(0.0, 1.0));
+            let step = 0.003 * TAU / rates.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+            let at = |k: f64| solution.state_on_torus([0, 1, 2].map(|i| turns[i] + k * step * rates[i] / TAU));
+            // (45 (f_1 - f_-1) - 9 (f_2 - f_-2) + (f_3 - f_-3)) / 60.
+            let sides = [1.0, 2.0, 3.0].map(|k| [at(k), at(-k)].map(|state| state.vectors()));
+            let here = at(0.0);
+            let exact = body_state_rates(problem.spheroid(), problem.coefficients(), &here).vectors();
+            let size = [1.0, problem.initial().momentum.norm(), 1.0];
+            Ok(largest((0..3).map(|i| {
+                let difference = |k: usize| sides[k][0][i] - sides[k][1][i];
+                let slope = (difference(0) * 45.0 - difference(1) * 9.0 + difference(2)) / (60.0 * step);
+                (slope - exact[i]).amax() / size[i] / rotation
+            })))
+        })
+        .map(|measured: Measured| measured.figure)
+    })
+}
+
+fn against_reference() -> Result<Measured, String> {
+    let anisotropic = |motion: &crate::reference::ReferenceMotion| motion.violation().amax() > 0.0;
+    worst_of(reference_motions().into_iter().filter(anisotropic), |reference| {
+        let (last, _) = reference.states.last().ok_or("a reference without times")?;
+        let motion = TorusMotion::new(&reference.problem(), (0.0, *last), 1e-15)?;
+        worst_of(&reference.states, |(t, state)| Ok(largest_difference(&motion.state(*t)?, state, 1.0)))
+    })
+}
+
+fn thousand() -> Result<Measured, String> {
+    let example = |name: &str| reference_motion(name).problem();
+    let tensor = |values: [f64; 3]| PrincipalCoefficients::new(values).tensor();
+    let strong = {
+        let tp = example("tp-2");
+        Problem::new(*tp.spheroid(), tensor([0.3, 0.1, -0.4]), *tp.initial())?
+    };
+    let near_middle = {
+        let tp = example("tp-2");
+        let (sin, cos) = 1e-4_f64.sin_cos();
+        let momentum = Vector3::new(0.0, cos, sin) * tp.initial().momentum.norm();
+        Problem::new(*tp.spheroid(), *tp.coefficients(), BodyState { momentum, ..*tp.initial() })?
+    };
+    let scenes = [example("tp-1"), example("tp-2"), example("sp-1"), example("sp-2"), strong, near_middle];
+    worst_of(scenes, |problem| {
+        let motion = TorusMotion::new(problem, (0.0, 1000.0), 1e-15)?;
+        let exact = state_after(problem, DoubleDouble::from_f64(1000.0), 1e-22);
+        let found = motion.state(1000.0)?;
+        let pairs = found.vectors().into_iter().zip(exact.vectors());
+        Ok(largest(pairs.map(|(found, exact)| largest_component(&(found - exact.map(Real::re))))))
+    })
+}
+
+/// Seed of the scenes.
+const SEED: u64 = 64;
+
+fn scenes() -> impl Iterator<Item = ErrorScene> {
+    (0..).map(|number| ErrorScene::draw(SEED, number))
+}
+
+fn estimates() -> Result<Measured, String> {
+    let short = scenes().filter(|scene| scene.turned() < 60.0);
+    let ratio =
+        |scene: ErrorScene| scene.estimated_and_true(Method::Torus).ok().map(|(estimate, error)| error / estimate);
+    let ratios: Vec<f64> = short.filter_map(ratio).take(200).collect();
+    Ok(Measured::new(largest(ratios), format!("seed {SEED}")))
+}
+
+fn refusals() -> Result<Measured, String> {
+    let fast = |scene: &ErrorScene| {
+        let (body, square) = (scene.problem.spheroid(), scene.problem.initial().momentum.norm_squared());
+        !scene.near_middle_axis && scene.strength * body.constant_c.abs() * body.inertia_xx < 0.2 * square
+    };
+    let all: Vec<_> = scenes().filter(fast).take(1000).collect();
+    let refused = all.iter().filter(|scene| TorusSolution::new(&scene.problem, 1e-9, 1.0).is_err()).count();
+    Ok(Measured::new(refused as f64 / all.len() as f64, format!("{refused} of {} of seed {SEED}", all.len())))
+}
