@@ -61,16 +61,13 @@ impl<S: Real> ClosedWays<S> {
     pub(super) fn refined(integrals: &Integrals<S>, initial: &Axes<S>, near: &ClosedWays<f64>) -> Option<Self> {
         let raised = |way: &HalfWay<f64>| way.times.map(S::from_f64);
         let search = Search::new(integrals, initial);
-        let (to_plane, plane) = search.end_in_plane(initial, raised(&near.to_plane))?;
-        let plane = with_vector_of_plane(&plane);
-        let to_plane = HalfWay { times: to_plane, turn: search.turn_to(&plane, initial, to_plane) };
+        let (to_plane, end) = search.half_way(initial, raised(&near.to_plane), false)?;
+        let plane = with_vector_of_plane(&end);
         let (fast, _) = search.half_way(&plane, raised(&near.fast), false)?;
         let (slow, _) = search.half_way(&plane, raised(&near.slow), true)?;
         Some(Self { plane, to_plane, fast, slow })
     }
-}
 
-impl<S: Real> ClosedWays<S> {
     /// States along a quarter of a turn of the second angle, from that in the plane on, so many steps apart.
     pub(super) fn starts(&self, integrals: &Integrals<S>, quarter: usize) -> Vec<Axes<S>> {
         let step = self.slow.times.map(|time| time / (2 * quarter) as f64);
@@ -161,16 +158,10 @@ impl<'a, S: Real> Search<'a, S> {
         None
     }
 
-    /// Turn from the vector `u` of the plane, brought back, to that of the initial state.
-    fn turn_to(&self, plane: &Axes<S>, initial: &Axes<S>, times: [S; 2]) -> S {
-        let end = self.integrals.moved(times, initial);
-        angle(&[plane[0], plane[1], end[2]], &plane[2])
-    }
-
-    /// Half of a closed way near given times: to the half turn of the start about Z or, if fast, to another state in the plane.
-    fn half_way(&self, plane: &Axes<S>, times: [S; 2], slow: bool) -> Option<(HalfWay<S>, Axes<S>)> {
-        let (times, end) = self.end_in_plane(plane, times)?;
-        let from = if slow { half_turn(&plane[2]) } else { end[0].cross(&Vector3::y()) };
+    /// The way near given times to a state in the plane, with its turn from the vector of the plane there or, if slow, from the half turn of the start's.
+    fn half_way(&self, start: &Axes<S>, times: [S; 2], slow: bool) -> Option<(HalfWay<S>, Axes<S>)> {
+        let (times, end) = self.end_in_plane(start, times)?;
+        let from = if slow { half_turn(&start[2]) } else { end[0].cross(&Vector3::y()) };
         Some((HalfWay { times, turn: angle(&end, &from) }, end))
     }
 }
@@ -231,22 +222,12 @@ impl<'a> Courses<'a> {
     pub(super) fn closed_ways(&self, initial: &Axes<f64>) -> Result<ClosedWays<f64>, Error> {
         let search = Search::new(self.integrals, initial);
         let refused = |what| Error::NotConverged { what, iterations: MOST_CORRECTIONS, residual: f64::NAN };
-        let k = self.to_plane(initial)?;
-        let at = self.integrals.moved([0.0, k], initial);
-        let part = self.part_of_turn(&at);
-        let guess = [part * self.fast_turn[0], k + part * self.fast_turn[1]];
-        let plane =
-            search.end_in_plane(initial, guess).ok_or(refused("way to a state in a plane of principal axes"))?;
-        let turn = search.turn_to(&with_vector_of_plane(&plane.1), initial, plane.0);
-        let to_plane = HalfWay { times: plane.0, turn };
-        let plane = with_vector_of_plane(&plane.1);
-
+        let found = search.half_way(initial, self.times_to_plane(initial)?, false);
+        let (to_plane, end) = found.ok_or(refused("way to a state in a plane of principal axes"))?;
+        let plane = with_vector_of_plane(&end);
         let guess = self.fast_turn.map(|time| time / 2.0);
         let fast = search.half_way(&plane, guess, false).ok_or(refused("way of n half round L"))?.0;
-        let k = self.to_plane(&plane)?;
-        let at = self.integrals.moved([0.0, k], &plane);
-        let part = self.part_of_turn(&at);
-        let mut guess = [part * self.fast_turn[0], k + part * self.fast_turn[1]];
+        let mut guess = self.times_to_plane(&plane)?;
         // The half turn of the start, or what is half a turn of n about L from it.
         let gap = |end: &Axes<f64>| {
             let apart = [0, 1].map(|i| (end[i] - half_turn(&plane[i])).amax());
@@ -262,8 +243,15 @@ impl<'a> Courses<'a> {
         Err(refused("way of L half round its axis, to the half turn of its start"))
     }
 
+    /// Times, nearly, to the state in which the averaged `L` next crosses the plane, and `n` is in it.
+    fn times_to_plane(&self, start: &Axes<f64>) -> Result<[f64; 2], Error> {
+        let k = self.crossing(start)?;
+        let part = self.part_of_turn(&self.integrals.moved([0.0, k], start));
+        Ok([part * self.fast_turn[0], k + part * self.fast_turn[1]])
+    }
+
     /// Time along `K` until the averaged `L` next crosses the plane.
-    fn to_plane(&self, start: &Axes<f64>) -> Result<f64, Error> {
+    fn crossing(&self, start: &Axes<f64>) -> Result<f64, Error> {
         let direction = |[axis, momentum, equatorial_axis]: Axes<f64>| {
             mean_direction(self.spheroid, self.values, &BodyState { axis, momentum, equatorial_axis })
         };
