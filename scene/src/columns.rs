@@ -5,7 +5,7 @@ use twofold::dynamics::equations_of_motion::{angular_velocity, euler_rates_of_ax
 use twofold::dynamics::first_integrals::first_integrals;
 use twofold::observables::pulsar::position_angle::{position_angle, position_angle_rate};
 use twofold::observables::spin_axis::cos_lambda_rate;
-use twofold::plan::Output;
+use twofold::plan::{Output, State};
 
 use crate::samples::Sample;
 use crate::scene_file::{COLUMN_GROUPS, Scene, Units, did_you_mean, listed};
@@ -35,7 +35,7 @@ pub fn header(group: Output, units: &Units) -> Vec<String> {
         Output::MagneticAxis => with_unit(&["Theta", "Phi"], "rad"),
         Output::PositionAngle => value_and_rate("psi", "rad"),
         Output::GravitationalWave => with_unit(&["h_plus", "h_cross"], "1"),
-        Output::Pulses | Output::FundamentalFrequencies => Vec::new(),
+        Output::Pulses => Vec::new(),
     }
 }
 
@@ -93,7 +93,7 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
             let wave = spheroid_wave(body, s, &sample.axis(), &scene.observer?.basis(), scene.strain_unit());
             vec![wave.plus, wave.cross]
         }
-        Output::Pulses | Output::FundamentalFrequencies => Vec::new(),
+        Output::Pulses => Vec::new(),
     })
 }
 
@@ -132,11 +132,22 @@ impl Column {
                 possible.push(column.name);
             }
         }
+        let found = found.map(|found| found.and_then(Self::of_the_state));
         found.unwrap_or_else(|| {
             let possible: Vec<_> = possible.iter().map(String::as_str).collect();
             let guess = did_you_mean(name, &possible);
             Err(format!("`{name}` is no column; this scene has {}.{guess}", listed(&possible)))
         })
+    }
+
+    fn of_the_state(self) -> Result<Self, String> {
+        if self.group.need().state == State::Nothing {
+            return Err(format!(
+                "`{}` is a formula in time and no function of the state, of which lines are found",
+                self.name
+            ));
+        }
+        Ok(self)
     }
 
     fn of_group(group: Output, scene: &Scene) -> Vec<Self> {

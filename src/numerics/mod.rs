@@ -9,7 +9,6 @@ pub(crate) mod four_lanes;
 #[cfg_attr(not(target_arch = "x86_64"), path = "unfused.rs")]
 pub(crate) mod fused;
 pub(crate) mod hermite;
-pub mod mean_rate;
 pub(crate) mod polynomial;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod registers;
@@ -19,4 +18,3 @@ pub mod scalar;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod side_by_side;
 pub mod straight_line;
-pub mod window;

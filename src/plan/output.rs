@@ -82,13 +82,11 @@ pub enum Output {
     PositionAngle,
     /// Edges, arrival times and turns of the pulses of a beam, Eq. (44).
     Pulses,
-    /// Fundamental frequencies: mean rates of all three angles.
-    FundamentalFrequencies,
 }
 
 impl Output {
     /// Every output.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 13] = [
         Self::PerturbationAngles,
         Self::SymmetryAxis,
         Self::SpinAxisAngle,
@@ -102,7 +100,6 @@ impl Output {
         Self::MagneticAxis,
         Self::PositionAngle,
         Self::Pulses,
-        Self::FundamentalFrequencies,
     ];
 
     /// In words.
@@ -121,7 +118,6 @@ impl Output {
             Self::MagneticAxis => "magnetic axis",
             Self::PositionAngle => "position angle",
             Self::Pulses => "pulses",
-            Self::FundamentalFrequencies => "fundamental frequencies",
         }
     }
 
@@ -140,7 +136,6 @@ impl Output {
             }
             Self::EulerAngles => (State::Orientation, Evaluations::CountingTurns { per_radian: TURN_COUNTING }),
             Self::Pulses => (State::Orientation, Evaluations::ForEvents { per_radian: PULSE_SEARCH }),
-            Self::FundamentalFrequencies => (State::Orientation, Evaluations::ForEvents { per_radian: MEAN_RATES }),
         };
         Need { state, evaluations }
     }
@@ -151,6 +146,3 @@ const TURN_COUNTING: f64 = 12.0;
 
 /// Evaluations per radian of the search for pulses and of their turns.
 const PULSE_SEARCH: f64 = 8.0;
-
-/// Evaluations per radian of the mean rates.
-const MEAN_RATES: f64 = 12.0;

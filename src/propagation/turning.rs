@@ -1,6 +1,6 @@
 //! What turns the body of a motion.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use crate::error::Error;
 
@@ -10,7 +10,7 @@ use crate::error::Error;
 /// A star that a torque of its own spins up and down, `Omega = (2 + 0.3 sin t) Z`:
 ///
 /// ```
-/// use nalgebra::{Matrix3, Vector3};
+/// use nalgebra::Vector3;
 /// use twofold::Error;
 /// use twofold::dynamics::{BodyState, RigidSpheroid};
 /// use twofold::observables::pulsar::{Beam, pulse_train};
@@ -58,39 +58,3 @@ pub enum Turning<'m> {
 
 /// `Omega`, `Omega'` and `Omega''` as functions of time.
 pub type GivenRates<'m> = Box<dyn Fn(f64) -> Result<[Vector3<f64>; 3], Error> + 'm>;
-
-impl<'m> Turning<'m> {
-    /// The same seen from another inertial frame: vectors multiplied by the rotation `other_from_this`.
-    pub(crate) fn rotated(self, other_from_this: &'m Matrix3<f64>) -> Self {
-        match self {
-            Self::Equations => Self::Equations,
-            Self::Given { rates, bounds } => {
-                let rates = Box::new(move |t| Ok(rates(t)?.map(|vector| other_from_this * vector)));
-                Self::Given { rates, bounds }
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use nalgebra::Rotation3;
-
-    use super::*;
-
-    #[test]
-    fn a_law_turns_with_the_frame_and_keeps_its_bounds() {
-        let turn = *Rotation3::from_euler_angles(0.3, -0.8, 1.7).matrix();
-        let bounds = [4.0, 1.0, 2.0, 3.0, 4.0, 5.0];
-        let vectors = [Vector3::new(1.0, 2.0, 3.0), Vector3::x(), Vector3::y()];
-        match (Turning::Given { rates: Box::new(move |t| Ok(vectors.map(|vector| vector * t))), bounds }).rotated(&turn)
-        {
-            Turning::Given { rates, bounds: kept } => {
-                assert_eq!(rates(2.0), Ok(vectors.map(|vector| turn * (vector * 2.0))));
-                assert_eq!(kept, bounds);
-            }
-            Turning::Equations => panic!("another law"),
-        }
-        assert!(matches!(Turning::Equations.rotated(&turn), Turning::Equations));
-    }
-}

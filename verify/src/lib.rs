@@ -17,6 +17,7 @@ pub mod golden;
 pub mod identity;
 pub mod independent_taylor;
 pub mod magnitudes;
+mod mean_rate;
 pub mod measured_order;
 pub mod paper_examples;
 pub mod physical_domain;

@@ -59,7 +59,6 @@ pub(crate) use twofold::observables::bound::{
 };
 pub(crate) use twofold::observables::eta::secular_axis_rate;
 pub(crate) use twofold::observables::eta_distribution::{EtaDistribution, SpinAxis, root_mean_square_along_motion};
-pub(crate) use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 pub(crate) use twofold::observables::gravitational_wave::{metric_perturbation, polarizations};
 pub(crate) use twofold::observables::pulsar::beam::axis_along_line_of_sight;
 pub(crate) use twofold::observables::pulsar::direction::{
@@ -70,7 +69,7 @@ pub(crate) use twofold::observables::pulsar::period::{
 };
 pub(crate) use twofold::observables::pulsar::width::{PulseWidth, cosine_of_half_width, pulse_width};
 pub(crate) use twofold::observables::pulsar::{Arrival, Beam, ConstantPeriod, Stamped, arrivals, pulse_train};
-pub(crate) use twofold::observables::spectrum::{LineList, Series, SpectralLine, spectral_lines};
+pub(crate) use twofold::observables::spectrum::{LineList, QuasiPeriodicMotion, SpectralLine};
 pub(crate) use twofold::observables::spin_axis::{
     changes_from_start, cos_lambda_change, cos_lambda_in_angles, cos_lambda_rate,
 };

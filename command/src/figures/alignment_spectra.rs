@@ -1,7 +1,9 @@
 //! Spectra of `m.n`.
 
 use super::drawing::*;
-use super::spectrum::{self, Spectrum};
+use twofold::observables::spectrum::SpectralLine;
+
+use super::spectrum;
 
 /// Amplitudes that are shown; above the strongest line there is room for names.
 const AMPLITUDES: (f64, f64) = (1e-5, 40.0);
@@ -18,10 +20,7 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
         let (beam, observer) = (pulsar.beam(), viewer.basis());
         let of = spectrum::spectrum(subject, highest, ALIKE, |state| beam.direction(state).dot(&observer.direction))?;
         let frequency = subject.scale.frequency_column();
-        let mut table =
-            Table::new(format!("{}-spectrum", subject.name), [frequency.clone(), "amplitude [1]".to_owned()]);
-        of.points.iter().for_each(|&(frequency, amplitude)| table.push([frequency, amplitude]));
-        tables.extend([table, spectrum::lines_table(format!("{}-lines", subject.name), &of.lines, frequency, "1")]);
+        tables.push(spectrum::lines_table(format!("{}-lines", subject.name), &of, frequency, "1"));
         spectra.push(of);
     }
     let caption = caption(subjects, &spectra, highest)?;
@@ -37,28 +36,27 @@ fn panel(subject: &Subject, i: usize, count: usize, highest: f64) -> Panel {
 }
 
 /// The names over lines with their places, the strongest first, as far as there is room.
-fn names(panel: &Panel, spectrum: &Spectrum, highest: f64) -> Vec<([f64; 2], String)> {
+fn names(panel: &Panel, lines: &[SpectralLine], highest: f64) -> Vec<([f64; 2], String)> {
     let mut names: Vec<([f64; 2], String)> = Vec::new();
-    for line in spectrum.lines.iter().filter(|line| line.amplitude > NAMED && line.frequency < highest) {
+    for line in lines.iter().filter(|line| line.amplitude > NAMED && line.frequency < highest) {
         let [x, y] = panel.at(line.frequency, line.amplitude);
-        if let Some(name) = line.name().filter(|_| names.iter().all(|([other, _], _)| (x - other).abs() > 8.4)) {
-            names.push(([x, y], name));
+        if names.iter().all(|([other, _], _)| (x - other).abs() > 8.4) {
+            names.push(([x, y], spectrum::name(line)));
         }
     }
     names
 }
 
-fn draw(name: &str, subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -> String {
+fn draw(name: &str, subjects: &[&Subject], spectra: &[Vec<SpectralLine>], highest: f64) -> String {
     let count = subjects.len();
     let mut page = Page::new(name, PAGE, GRID.bottom(count) + BELOW);
-    for (i, (subject, spectrum)) in subjects.iter().zip(spectra).enumerate() {
+    for (i, (subject, lines)) in subjects.iter().zip(spectra).enumerate() {
         let panel = panel(subject, i, count, highest);
         for rate in subject.free_rates() {
             panel.upright(&mut page, rate, dashed(VERMILION, 0.9));
         }
-        let points: Vec<_> = spectrum.points.iter().map(|&(w, a)| (w, a.max(AMPLITUDES.0 / 10.0))).collect();
-        panel.curve(&mut page, &points, solid(BLACK, 0.7));
-        for ([x, y], name) in names(&panel, spectrum, highest) {
+        spectrum::draw_lines(&mut page, &panel, lines, AMPLITUDES.0, solid(BLACK, 0.7));
+        for ([x, y], name) in names(&panel, lines, highest) {
             // Upright, clear of the ticks at the left.
             let baseline = (x + 2.5).max(panel.frame.left + 10.5);
             page.turned_text([baseline, y - 3.0], -90.0, Anchor::Start, 7.0, BLACK, &name);
@@ -69,15 +67,18 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -
     page.finish("Spectra of the cosine of the angle between beam and line of sight")
 }
 
-fn caption(subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -> Result<Caption, String> {
+fn caption(subjects: &[&Subject], spectra: &[Vec<SpectralLine>], highest: f64) -> Result<Caption, String> {
     let text = |part, words: &[_]| sentences("beam-alignment-spectra", part, words);
-    let counts = subjects.iter().zip(spectra).map(|(subject, spectrum)| {
-        let known = spectrum.lines.iter().filter(|line| line.combination.is_some()).count();
-        match spectrum.lines.len() {
-            0 => format!("{} has no line", subject.name),
-            1 if known == 1 => format!("the only line of {} is such a combination", subject.name),
-            1 => format!("{} has one line, which is no such combination within its error", subject.name),
-            all => format!("{known} of the {all} strongest lines of {} are such combinations", subject.name),
+    let counts = subjects.iter().zip(spectra).map(|(subject, lines)| match &lines[..] {
+        [] => format!("{} has no line", subject.name),
+        [only] => format!("the only line of {} is {}", subject.name, spectrum::name(only)),
+        [first, second, ..] => {
+            format!(
+                "the strongest lines of {} are {} and {}",
+                subject.name,
+                spectrum::name(first),
+                spectrum::name(second)
+            )
         }
     });
     let mut says = spectrum::sentence(&counts.collect::<Vec<_>>().join("; "));
@@ -86,10 +87,10 @@ fn caption(subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -> Result<
     }
     let drawn = subjects.iter().zip(spectra).enumerate();
     let names: Vec<_> = drawn
-        .flat_map(|(i, (subject, spectrum))| names(&panel(subject, i, subjects.len(), highest), spectrum, highest))
+        .flat_map(|(i, (subject, lines))| names(&panel(subject, i, subjects.len(), highest), lines, highest))
         .map(|(_, name)| name)
         .collect();
-    let mut shows = "Amplitude spectra of **m** · **n**.".to_owned();
+    let mut shows = "Lines of **m** · **n**.".to_owned();
     if !names.is_empty() {
         let symbols = spectrum::symbols_in(&names);
         shows += &format!(" Names over the lines are combinations of mean rates: {symbols}.");
@@ -100,7 +101,7 @@ fn caption(subjects: &[&Subject], spectra: &[Spectrum], highest: f64) -> Result<
     Ok(Caption {
         shows,
         parameters: parameters(&line_of_sight(subjects, true), subjects),
-        method: text("method", &spectrum::of_series(subjects)?),
+        method: text("method", &spectrum::of_rates(subjects)?),
         says,
     })
 }

@@ -16,9 +16,6 @@ pub(super) const LABELS: &[(&str, &str)] = &[
     ("α [rad]", "alpha{} [rad]"),
     ("β [rad]", "beta{} [rad]"),
     ("m · n", "m.n [1]"),
-    ("amplitude of m · n", "amplitude [1]"),
-    ("angular frequency × t_c", "frequency [rad/t_c]"),
-    ("frequency [Hz]", "frequency [Hz]"),
     ("period / t_c", "period{} [t_c]"),
     ("period [s]", "period{} [s]"),
     ("length / t_c", "length{} [t_c]"),
@@ -27,9 +24,6 @@ pub(super) const LABELS: &[(&str, &str)] = &[
     ("h_× r / I^xx", "h_x [G I^xx / (c^4 t_c^2 r)]"),
     ("h_+", "h_+ [1]"),
     ("h_×", "h_x [1]"),
-    // The caption has the unit of these amplitudes.
-    ("amplitude of h_+", "h_+ [1]"),
-    ("amplitude of h_×", "h_x [1]"),
     ("β_0 [rad]", "beta_0 [rad]"),
     ("η", "{}"),
     ("largest error of a component", "error [1]"),
@@ -97,8 +91,7 @@ fn columns<'f>(figure: &'f Figure, frame: &Frame, name: &str) -> (&'f Table, usi
     let of_method = frame.y.label == "time [ms]";
     let [x, y] = [&frame.x, &frame.y].map(|scale| {
         let head = entry(LABELS, &bare(&scale.label)).replace("{}", if of_method { "" } else { entry(NAMES, name) });
-        let in_paper_units = frame.x.label.contains("t_c") && scale.label.starts_with("amplitude of h");
-        if in_paper_units { head.replace("[1]", "[G I^xx / (c^4 t_c^2 r)]") } else { head }
+        head
     });
     // Curves have no other abscissa of that name.
     let x = if x.contains("{}") { x.replace("{}", "") } else { x };
@@ -115,7 +108,6 @@ fn columns<'f>(figure: &'f Figure, frame: &Frame, name: &str) -> (&'f Table, usi
                 || table.name.starts_with(&format!("{scene}-"))
                 || of_method && table.name.starts_with(scene)
         })
-        .filter(|table| !table.name.ends_with("lines"))
         .filter_map(|table| Some((table, place(table, &x)?, place(table, &y)?)))
         .collect();
     assert_eq!(found.len(), 1, "{}: {x} and {y} of `{name}` under `{}`", figure.name, frame.heading);
@@ -133,9 +125,43 @@ fn is_not_a_curve(figure: &str, table: &str, column: &str) -> bool {
     is_spatial || is_list || figure.ends_with("-regimes") || column.starts_with("frequency")
 }
 
+/// Spectral lines are uprights with their tops at the rows of a table, each row inside the frame has one. Gives the number of lines.
+fn assert_lines(figure: &Figure, frame: &Frame) -> usize {
+    let [left, top, right, bottom] = frame.corners;
+    let tops: Vec<Point> = frame
+        .curves
+        .iter()
+        .flat_map(|(_, pieces)| pieces)
+        .filter_map(|piece| piece.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1])))
+        .collect();
+    let rows_of = |table: &Table| -> Vec<Point> {
+        let places = table.rows.iter().map(|row| [frame.x.place(row[0]), frame.y.place(row[1].max(1e-300))]);
+        places
+            .filter(|p| p[0] > left - 0.01 && p[0] < right && p[1] >= top && p[1] < bottom - 2.0 * HALF_A_PIXEL)
+            .collect()
+    };
+    let off = |points: &[Point], others: &[Point]| {
+        let nearest = |p: &Point| others.iter().map(|q| distance(*p, *q, *q)).fold(f64::INFINITY, f64::min);
+        points.iter().map(nearest).fold(0.0, f64::max)
+    };
+    let tall: Vec<Point> = tops.iter().filter(|p| p[1] < bottom - 2.0 * HALF_A_PIXEL).copied().collect();
+    let scene = frame.heading.split(':').next().unwrap_or_default();
+    let tables = figure.tables.iter().filter(|table| {
+        let of_scene = scene.is_empty() || table.name.starts_with(&format!("{scene}-"));
+        let polarization = if frame.y.label.contains('×') { "cross" } else { "plus" };
+        let of_wave = frame.y.label.contains("h_") && !table.name.contains(polarization);
+        of_scene && !of_wave
+    });
+    // An inset has no heading.
+    let best =
+        tables.map(|table| off(&rows_of(table), &tops).max(off(&tall, &rows_of(table)))).fold(f64::INFINITY, f64::min);
+    assert!(best < 2.0 * HALF_A_PIXEL, "{}: `{}` `{}`: {best}", figure.name, frame.heading, frame.y.label);
+    tall.len()
+}
+
 #[test]
 fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
-    let mut count = 0;
+    let (mut count, mut spectra) = (0, 0);
     for figure in FIGURES.iter().filter(|figure| !figure.name.ends_with("-regimes")) {
         let elements = elements(&figure.svg);
         let (lines, marks) = legend(&elements);
@@ -146,10 +172,13 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
                 let told = frame.remarks.iter().find_map(|words| words.strip_prefix(['P', 'W'])?.strip_prefix(" = "));
                 number(told.expect("a remark").trim_end_matches(" s").trim_end_matches(" t_c")).expect("a number")
             });
-            let least = if frame.y.label.starts_with("amp") { 1e-300 } else { f64::NEG_INFINITY };
             let place = |row: &[f64], x: usize, y: usize| {
-                [frame.x.place(row[x]), frame.y.place((row[y] - taken_off.unwrap_or(0.0)).max(least))]
+                [frame.x.place(row[x]), frame.y.place(row[y] - taken_off.unwrap_or(0.0))]
             };
+            if frame.y.label.starts_with("amplitude of") || figure.name.ends_with("spectra") {
+                spectra += assert_lines(figure, &frame);
+                continue;
+            }
             for (style, pieces) in &frame.curves {
                 let named: Vec<_> =
                     lines.iter().filter(|(line, _)| line == style).map(|(_, name)| name.as_str()).collect();
@@ -215,5 +244,5 @@ fn every_curve_of_every_figure_is_the_column_that_its_axes_and_legend_name() {
             }
         }
     }
-    assert!(count > 120, "{count} curves");
+    assert!(count > 110 && spectra > 150, "{count} curves, {spectra} lines");
 }

@@ -256,7 +256,6 @@ fn lines_of_free_precession_have_the_amplitudes_and_frequencies_of_the_closed_fo
         (
             "beam-alignment-spectra",
             "tone-lines",
-            "amplitude [1]",
             vec![
                 [once, si * chi.cos() * sb],
                 [(a + c) / TAU, si * chi.sin() * (1.0 + cb) / 2.0],
@@ -267,35 +266,19 @@ fn lines_of_free_precession_have_the_amplitudes_and_frequencies_of_the_closed_fo
         (
             "wave-spectra",
             "tone-plus-lines",
-            "h_+ [1]",
             vec![[once, h * (2.0 * i).sin() * sb * cb], [twice, 2.0 * h * sb * sb * (1.0 + ci * ci)]],
         ),
-        (
-            "wave-spectra",
-            "tone-cross-lines",
-            "h_x [1]",
-            vec![[once, 2.0 * h * si * sb * cb], [twice, 4.0 * h * ci * sb * sb]],
-        ),
+        ("wave-spectra", "tone-cross-lines", vec![[once, 2.0 * h * si * sb * cb], [twice, 4.0 * h * ci * sb * sb]]),
     ];
-    for (figure, table, head, mut expected) in expected {
+    for (figure, table, mut expected) in expected {
         let found = lines(figure, table);
         expected.sort_by(|a, b| b[1].total_cmp(&a[1]));
         assert_eq!(found.len(), expected.len(), "{table}: {found:?}, expected {expected:?}");
         for (found, expected) in found.iter().zip(&expected) {
-            // A joint fit over 4,000 turns of a line on its own.
             for (found, expected) in found.iter().zip(expected) {
-                assert!((found / expected - 1.0).abs() < 1e-6, "{table}: {found}, expected {expected}");
+                assert!((found / expected - 1.0).abs() < 1e-11, "{table}: {found}, expected {expected}");
             }
         }
-        // The curve of the spectrum has the strongest line at the nearest frequency; half a step beside it the window loses 6 %.
-        let figure = figures.iter().find(|found| found.name == figure).unwrap();
-        let spectrum = figure.tables.iter().find(|found| found.name == "tone-spectrum").unwrap();
-        let (frequency, amplitude) = (column(spectrum, "frequency [Hz]"), column(spectrum, head));
-        let [at, strongest] = expected[0];
-        let distance = |row: &&Vec<f64>| (row[frequency] - at).abs();
-        let peak = spectrum.rows.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()[amplitude];
-        let part = peak / strongest;
-        assert!((0.93..1.001).contains(&part), "{head}: the peak at {at} Hz is {part} of the line");
     }
 }
 

@@ -14,9 +14,6 @@ pub(super) const OBSERVER: Viewer = Viewer { theta_o: 0.8, phi_o: 0.0, distance:
 
 const PULSAR: Pulsar = Pulsar { chi: 0.5, delta: 0.0, rho: 0.6, second_beam: false };
 
-/// Length of the series of which spectra are taken (t_c): pairs of lines of tp-II are 0.0024 apart.
-const SPECTRUM_DURATION: f64 = 17_150.0;
-
 /// The paper's four examples, in its order.
 pub fn examples() -> Result<[Subject; 4], String> {
     let [a, b, c, d] = paper_examples().map(|example| subject(&example));
@@ -45,7 +42,7 @@ fn subject(example: &PaperExample) -> Result<Subject, twofold::Error> {
         observer: Some(OBSERVER),
         pulsar: Some(PULSAR),
         shown,
-        spectrum_duration: SPECTRUM_DURATION,
-        long: OnceLock::new(),
+        rotation_rate: problem.initial().momentum.norm() / spheroid.inertia_xx,
+        quasi_periodic: OnceLock::new(),
     })
 }

@@ -5,11 +5,11 @@ use std::sync::OnceLock;
 use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::euler_angles::EulerAngles;
 use twofold::lorentz_violation::PrincipalCoefficients;
+use twofold::observables::spectrum::QuasiPeriodicMotion;
 use twofold::propagation::{ContinuousAngles, Motion, TaylorMotion};
 use twofold::solutions::perturbation::{Form, Perturbation, constants_from_initial_values};
 
 use super::scale::Scale;
-use super::spectrum::{LongMotion, SERIES_ROTATION};
 use twofold_scene::scene_file::{Pulsar, Scene, Viewer};
 
 /// Truncation error of the motions, far below what a picture shows; the data of the figures have all their digits.
@@ -47,9 +47,9 @@ pub struct Subject {
     pub pulsar: Option<Pulsar>,
     pub shown: Shown,
     pub motion: TaylorMotion<f64>,
-    /// Length of the series of which spectra are taken, t_c.
-    pub(super) spectrum_duration: f64,
-    pub(super) long: OnceLock<Result<LongMotion, String>>,
+    /// Rate of rotation, rad/t_c.
+    pub(super) rotation_rate: f64,
+    pub(super) quasi_periodic: OnceLock<Result<QuasiPeriodicMotion, String>>,
 }
 
 /// Rotation that figures of any motion show at most (rad): some hundred turns, beyond which curves become a blot.
@@ -90,8 +90,8 @@ impl Subject {
             pulsar: None,
             shown,
             motion,
-            spectrum_duration: SERIES_ROTATION / rate,
-            long: OnceLock::new(),
+            rotation_rate: rate,
+            quasi_periodic: OnceLock::new(),
         })
     }
 
@@ -115,10 +115,12 @@ impl Subject {
         momentum.dot(axis) / self.problem.spheroid().inertia_zz
     }
 
-    /// The motion over the length of the spectra, computed once.
-    pub(super) fn long_motion(&self) -> Result<&LongMotion, String> {
-        let long = self.long.get_or_init(|| LongMotion::of(self, self.spectrum_duration));
-        long.as_ref().map_err(Clone::clone)
+    /// The motion as a function of its angles, computed once.
+    pub(super) fn quasi_periodic(&self) -> Result<&QuasiPeriodicMotion, String> {
+        let found = self
+            .quasi_periodic
+            .get_or_init(|| QuasiPeriodicMotion::new(&self.problem).map_err(|why| format!("{}: {why}", self.name)));
+        found.as_ref().map_err(Clone::clone)
     }
 
     /// The observer.

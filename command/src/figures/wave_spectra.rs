@@ -2,9 +2,10 @@
 
 use twofold::dynamics::BodyState;
 use twofold::observables::gravitational_wave::Polarizations;
+use twofold::observables::spectrum::SpectralLine;
 
 use super::drawing::*;
-use super::spectrum::{self, NamedLine, Spectrum};
+use super::spectrum;
 use super::waves;
 
 const LINE: Line = solid(BLACK, 0.8);
@@ -12,8 +13,11 @@ const LINE: Line = solid(BLACK, 0.8);
 /// Half of the width of the inset, as a part of the rate of which the wave has harmonics.
 const INSET: f64 = 0.22;
 
-/// An inset is drawn for amplitudes above this part of the largest: the window's sidelobes are below.
+/// An inset is drawn for amplitudes above this part of the largest.
 const ENLARGED: f64 = 1e-5;
+
+/// The lines of both polarizations.
+type Both = [Vec<SpectralLine>; 2];
 
 pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> {
     let highest = spectrum::highest(subjects, 3.7);
@@ -30,15 +34,9 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
             spectrum::spectrum(subject, highest, error, |state| polarization(state, |h| h.cross))?,
         ];
         let (frequency, unit) = (subject.scale.frequency_column(), subject.scale.wave_column_unit());
-        let columns = [frequency.clone(), format!("h_+ [{unit}]"), format!("h_x [{unit}]")];
-        let mut table = Table::new(format!("{}-spectrum", subject.name), columns);
-        for (plus, cross) in both[0].points.iter().zip(&both[1].points) {
-            table.push([plus.0, plus.1, cross.1]);
-        }
-        tables.push(table);
-        for (polarization, spectrum) in ["plus", "cross"].iter().zip(&both) {
+        for (polarization, lines) in ["plus", "cross"].iter().zip(&both) {
             let name = format!("{}-{polarization}-lines", subject.name);
-            tables.push(spectrum::lines_table(name, &spectrum.lines, frequency.clone(), unit));
+            tables.push(spectrum::lines_table(name, lines, frequency.clone(), unit));
         }
         spectra.push(both);
     }
@@ -46,34 +44,33 @@ pub(super) fn sheet(name: &str, subjects: &[&Subject]) -> Result<Sheet, String> 
     Ok(Sheet { svg: draw(name, subjects, &spectra, highest)?, caption, tables })
 }
 
-/// Largest amplitude in some spectra; the first point is the constant term.
-fn largest(both: &[Spectrum; 2]) -> f64 {
-    both.iter().flat_map(|s| s.points.iter().skip(1).map(|p| p.1)).fold(0.0, f64::max)
+/// Largest amplitude.
+fn largest(both: &Both) -> f64 {
+    both.iter().flatten().map(|line| line.amplitude).fold(0.0, f64::max)
 }
 
 /// Whether a wave is more than the error of the motion.
-fn radiates(subject: &Subject, both: &[Spectrum; 2]) -> bool {
+fn radiates(subject: &Subject, both: &Both) -> bool {
     largest(both) > waves::error(subject)
 }
 
 /// The rate of `alpha`, of which the wave has harmonics, as it is drawn; none where nothing is left to enlarge near its third.
-fn fundamental(subject: &Subject, both: &[Spectrum; 2], highest: f64) -> Result<Option<f64>, String> {
-    let frequencies = &subject.long_motion()?.frequencies;
-    let rate = frequencies.as_ref().and_then(|f| f.alpha).filter(|rate| rate.uncertainty < 1e-6 * rate.value.abs());
-    let rate = rate.map(|rate| subject.scale.frequency(rate.value.abs()));
+fn fundamental(subject: &Subject, both: &Both, highest: f64) -> Result<Option<f64>, String> {
+    let rate = subject.quasi_periodic()?.frequencies().rate("alpha'").filter(|rate| *rate != 0.0);
+    let rate = rate.map(|rate| subject.scale.frequency(rate.abs()));
     let is_seen = |rate: &f64| {
-        let near = both.iter().flat_map(|s| part(s, *rate)).map(|point| point.1).fold(0.0, f64::max);
+        let near = both.iter().flat_map(|lines| part(lines, *rate)).map(|line| line.amplitude).fold(0.0, f64::max);
         (3.0 + INSET) * rate < highest && radiates(subject, both) && near > ENLARGED * largest(both)
     };
     Ok(rate.filter(is_seen))
 }
 
-/// The part of a spectrum near three times a rate.
-fn part(spectrum: &Spectrum, rate: f64) -> impl Iterator<Item = (f64, f64)> {
-    spectrum.points.iter().filter(move |point| (point.0 - 3.0 * rate).abs() < INSET * rate).copied()
+/// The lines near three times a rate.
+fn part(lines: &[SpectralLine], rate: f64) -> impl Iterator<Item = &SpectralLine> {
+    lines.iter().filter(move |line| (line.frequency - 3.0 * rate).abs() < INSET * rate)
 }
 
-fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f64) -> Result<String, String> {
+fn draw(name: &str, subjects: &[&Subject], spectra: &[Both], highest: f64) -> Result<String, String> {
     let grid = Grid::two_rows(subjects.len(), 98.0, 44.0);
     let mut page = Page::new(name, PAGE, grid.bottom(2) + BELOW);
     // One scale for both stars and polarizations, so that sizes can be compared.
@@ -81,7 +78,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
     let most = if most > 0.0 { most } else { 1.0 };
     for (i, (subject, both)) in subjects.iter().zip(spectra).enumerate() {
         let rate = fundamental(subject, both, highest)?;
-        for (polarization, (spectrum, symbol)) in both.iter().zip(["*h*_{+}", "*h*_{×}"]).enumerate() {
+        for (polarization, (lines, symbol)) in both.iter().zip(["*h*_{+}", "*h*_{×}"]).enumerate() {
             let frame = grid.frame(i, polarization);
             let x = Axis::linear(subject.scale.frequency_label(), 0.0, highest);
             let y = Axis::linear(&format!("amplitude of {symbol}"), 0.0, 1.05 * most);
@@ -89,7 +86,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
             if let Some(free) = subject.free_rates().first() {
                 [*free, 2.0 * free].iter().for_each(|rate| panel.upright(&mut page, *rate, dashed(VERMILION, 0.9)));
             }
-            panel.curve(&mut page, &spectrum.points, LINE);
+            spectrum::draw_lines(&mut page, &panel, lines, 0.0, LINE);
             if !radiates(subject, both) {
                 panel.remark(&mut page, "below the error of the numerical motion");
             }
@@ -98,7 +95,7 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
                 panel.letter(&mut page, i, subjects.len(), &subject.name);
             }
             if let Some(rate) = rate {
-                inset(&mut page, frame, rate, spectrum);
+                inset(&mut page, frame, rate, lines);
             }
         }
     }
@@ -106,9 +103,9 @@ fn draw(name: &str, subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f
 }
 
 /// The part of the spectrum near three times `rate` at a scale of its own, in the upper right of the frame.
-fn inset(page: &mut Page, frame: Rectangle, rate: f64, spectrum: &Spectrum) {
-    let part: Vec<_> = part(spectrum, rate).collect();
-    let most = part.iter().map(|point| point.1).fold(f64::MIN_POSITIVE, f64::max);
+fn inset(page: &mut Page, frame: Rectangle, rate: f64, lines: &[SpectralLine]) {
+    let part: Vec<_> = part(lines, rate).cloned().collect();
+    let most = part.iter().map(|line| line.amplitude).fold(f64::MIN_POSITIVE, f64::max);
     let inner = Rectangle {
         left: frame.left + 0.65 * frame.width,
         top: frame.top + 17.0,
@@ -118,7 +115,7 @@ fn inset(page: &mut Page, frame: Rectangle, rate: f64, spectrum: &Spectrum) {
     let x = Axis::linear("", (3.0 - INSET) * rate, (3.0 + INSET) * rate);
     let panel = Panel::new(inner, x, Axis::linear("", 0.0, 1.15 * most));
     panel.upright(page, 3.0 * rate, dotted("#404040", 0.8));
-    panel.curve(page, &part, LINE);
+    spectrum::draw_lines(page, &panel, &part, 0.0, LINE);
     panel.draw_frame(page);
     let power = match panel.y_power() {
         0 => String::new(),
@@ -127,10 +124,9 @@ fn inset(page: &mut Page, frame: Rectangle, rate: f64, spectrum: &Spectrum) {
     page.text([inner.right(), inner.top - 4.0], Anchor::End, SMALL, "#000000", &format!("near 3 d*α*/d*t*{power}"));
 }
 
-fn caption(subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f64) -> Result<Caption, String> {
+fn caption(subjects: &[&Subject], spectra: &[Both], highest: f64) -> Result<Caption, String> {
     let says: Vec<_> = subjects.iter().zip(spectra).map(|(subject, both)| findings(subject, both)).collect();
-    let mut shows =
-        format!("Amplitude spectra of *h*_{{+}} (top) and *h*_{{×}} (bottom), {}", subjects[0].scale.wave_unit());
+    let mut shows = format!("Lines of *h*_{{+}} (top) and *h*_{{×}} (bottom), {}", subjects[0].scale.wave_unit());
     let mut insets = Vec::new();
     for (subject, both) in subjects.iter().zip(spectra) {
         insets.extend(fundamental(subject, both, highest)?);
@@ -145,13 +141,13 @@ fn caption(subjects: &[&Subject], spectra: &[[Spectrum; 2]], highest: f64) -> Re
     Ok(Caption {
         shows,
         parameters: parameters(&line_of_sight(subjects, false), subjects),
-        method: sentences("wave-spectra", "method", &spectrum::of_series(subjects)?),
+        method: sentences("wave-spectra", "method", &spectrum::of_rates(subjects)?),
         says: says.join(" "),
     })
 }
 
 /// What the spectra of a motion say.
-fn findings(subject: &Subject, both: &[Spectrum; 2]) -> String {
+fn findings(subject: &Subject, both: &Both) -> String {
     if !radiates(subject, both) {
         let error = significant(waves::error(subject), 1);
         return format!(
@@ -159,34 +155,30 @@ fn findings(subject: &Subject, both: &[Spectrum; 2]) -> String {
             subject.name
         );
     }
-    let by_strength = |a: &&Spectrum, b: &&Spectrum| {
-        let strongest = |s: &Spectrum| s.lines.first().map_or(0.0, |line| line.amplitude);
+    let by_strength = |a: &&Vec<SpectralLine>, b: &&Vec<SpectralLine>| {
+        let strongest = |lines: &Vec<SpectralLine>| lines.first().map_or(0.0, |line| line.amplitude);
         strongest(a).total_cmp(&strongest(b))
     };
     let strongest = both.iter().rev().max_by(by_strength).expect("two spectra");
-    let Some(first) = strongest.lines.first() else {
+    let Some(first) = strongest.first() else {
         return format!("{} has no line above 10^{{−5}} of its constant term.", subject.name);
     };
     let symbol = if std::ptr::eq(strongest, &both[0]) { "*h*_{+}" } else { "*h*_{×}" };
-    let name = |line: &NamedLine| {
-        let at = format!("at {} {}", number(line.frequency), subject.scale.frequency_unit());
-        line.name().map_or(at.clone(), |name| format!("{name}, {at}"))
+    let name = |line: &SpectralLine| {
+        format!("{}, at {} {}", spectrum::name(line), number(line.frequency), subject.scale.frequency_unit())
     };
-    let multiple = |line: &NamedLine, symbol: &str| {
-        let terms = line.combination.as_ref().map_or(&[][..], |combination| &combination.terms);
-        terms.iter().find(|(_, found)| *found == symbol).map_or(0, |(count, _)| count.abs())
-    };
-    let part = |line: &NamedLine| significant(line.amplitude / first.amplitude, 2);
+    let multiple = |line: &SpectralLine, symbol: &str| line.combination.multiple(symbol).abs();
+    let part = |line: &SpectralLine| significant(line.amplitude / first.amplitude, 2);
     let mut says = format!(
         "The strongest line of {} is in {symbol}: {}, of an amplitude of {}",
         subject.name,
         name(first),
         significant(first.amplitude, 3)
     );
-    if let Some(third) = strongest.lines.iter().find(|line| multiple(line, "alpha'") == 3) {
+    if let Some(third) = strongest.iter().find(|line| multiple(line, "alpha'") == 3) {
         says += &format!("; the strongest of the third harmonic, {}, has {} of it", name(third), part(third));
     }
-    let slow = strongest.lines.iter().find(|line| multiple(line, "l'") == 1 && multiple(line, "alpha'") == 0);
+    let slow = strongest.iter().find(|line| multiple(line, "l'") == 1 && multiple(line, "alpha'") == 0);
     if let Some(slow) = slow {
         says += &format!("; the slow frequency *l* by itself has {} of it", part(slow));
     }

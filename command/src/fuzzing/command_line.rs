@@ -84,9 +84,7 @@ fn is_little_work(command: &Command) -> bool {
     match command {
         Command::Run(args) => args.plan.explain || short(&args.scene),
         Command::Pulses(args) => args.plan.explain || short(&args.scene) && args.scene != "p.toml",
-        Command::Spectrum(args) => {
-            args.plan.explain || short(&args.scene) && args.span.is_none_or(|span| span.abs() < 100.0)
-        }
+        Command::Spectrum(args) => short(&args.scene),
         Command::Timing(args) => {
             let samples = args.strain_span.unwrap_or(1.0).abs() * args.strain_rate.unwrap_or(1e3).abs();
             let every = args.every.is_none_or(|days| !(0.0..1.0).contains(&days));

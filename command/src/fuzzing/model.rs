@@ -13,11 +13,10 @@ use twofold::numerics::elliptic::jacobi::{complete_integral, jacobi};
 use twofold::observables::Observer;
 use twofold::observables::bound::{SpinAxisDrift, eta_from_inclination, lambda_change};
 use twofold::observables::eta_distribution::{EtaDistribution, SpinAxis};
-use twofold::observables::fundamental_frequencies::fundamental_frequencies;
 use twofold::observables::pulsar::timing::ConstantPeriod;
 use twofold::observables::pulsar::width::pulse_width;
 use twofold::observables::pulsar::{Beam, PulsarClock, SpinFit, arrivals, pulse_train};
-use twofold::observables::spectrum::{FrequencyBasis, Generator, Series, Window, amplitude_spectrum, spectral_lines};
+use twofold::observables::spectrum::QuasiPeriodicMotion;
 use twofold::plan::{Method, Output, Request};
 use twofold::propagation::splitting::SCHEMES;
 use twofold::propagation::{
@@ -127,10 +126,9 @@ pub fn model(bytes: &[u8]) {
         8 => stars(&mut bytes),
         9 => elliptic(&mut bytes),
         10 => bounds(&mut bytes),
-        11 => spectra(&mut bytes),
         12 => timing(&mut bytes),
         13 => many(&mut bytes),
-        14 => frequencies(&Case::new(&mut bytes)),
+        11 | 14 => lines(&Case::new(&mut bytes)),
         _ => tensors(&mut bytes),
     }
 }
@@ -319,27 +317,6 @@ fn bounds(bytes: &mut Bytes<'_>) {
     }
 }
 
-fn spectra(bytes: &mut Bytes<'_>) {
-    let (start, step, window) = (bytes.usual(), bytes.number(), bytes.byte());
-    let window = match window % 3 {
-        0 => Window::Hann,
-        1 => Window::Uniform,
-        _ => Window::Kaiser { shape: bytes.number() },
-    };
-    let (least, most) = (bytes.number(), bytes.below(20));
-    let frequencies: [f64; 3] = std::array::from_fn(|_| bytes.number());
-    let generators = frequencies.map(|frequency| Generator { symbol: "a", frequency, uncertainty: bytes.number() });
-    let _ = FrequencyBasis::new(generators.to_vec())
-        .map(|basis| basis.identify(bytes.number(), bytes.number()).to_string());
-    let mut values = Vec::new();
-    while !bytes.is_empty() && values.len() < 200 {
-        values.push(bytes.usual());
-    }
-    let series = Series { start, step, values };
-    let _ = black_box(amplitude_spectrum(&series, window));
-    let _ = black_box(spectral_lines(&series, least, most));
-}
-
 fn timing(bytes: &mut Bytes<'_>) {
     let with_rate = bytes.byte() % 2 == 1;
     let (mut points, mut in_parts) = (Vec::new(), Vec::new());
@@ -364,10 +341,10 @@ fn many(bytes: &mut Bytes<'_>) {
     assert_eq!(states_of_many(&sampled).len(), sampled.len());
 }
 
-fn frequencies(case: &Case) {
-    let Some(problem) = case.problem().filter(|_| case.is_moderate()) else { return };
-    if let Ok(motion) = problem.taylor(case.span, 1e-10) {
-        let _ = black_box(fundamental_frequencies(&motion).and_then(|found| found.basis()));
+fn lines(case: &Case) {
+    let Some(problem) = case.problem() else { return };
+    if let Ok(motion) = QuasiPeriodicMotion::new(&problem) {
+        let _ = black_box(motion.lines(1e-3, |state| Ok::<_, twofold::Error>([state.equatorial_axis.x, 1.0])));
     }
 }
 

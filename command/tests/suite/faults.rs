@@ -12,7 +12,7 @@ use crate::common::{Folder, TWOFOLD, altered, comes_to, ends, stderr};
 const WRITERS: [(&[&str], u32); 9] = [
     (&["run", "s.toml"], 2),
     (&["pulses", "s.toml"], 1),
-    (&["spectrum", "s.toml", "--of", "m.n", "--table", "spectrum"], 1),
+    (&["spectrum", "s.toml", "--of", "m.n", "--least", "1e-12", "--most", "1000"], 1),
     (&["fisher", "s.toml", "--observe", "arrivals:1e-4,widths:1e-4", "--parameters", "chi,rho"], 0),
     (&["timing", "p.toml", "--epochs", "9"], 1),
     (&["figures", "beam-cone"], 1),
@@ -74,7 +74,7 @@ const PRINTERS: [(&[&str], bool); 15] = [
     (&["run", "s.toml"], true),
     (&["run", "s.toml", "--explain"], true),
     (&["pulses", "s.toml"], true),
-    (&["spectrum", "s.toml", "--of", "m.n", "--table", "spectrum"], true),
+    (&["spectrum", "s.toml", "--of", "m.n"], true),
     (&["fisher", "s.toml", "--observe", "arrivals:1e-4", "--parameters", "chi"], true),
     (&["bounds"], true),
     (&["bounds", "--json"], true),

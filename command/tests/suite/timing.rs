@@ -247,14 +247,14 @@ fn the_errors_that_are_printed_are_those_at_the_farthest_epoch() {
 
 #[test]
 fn the_wave_of_a_pulsar_has_lines_at_its_frequency_and_twice_that() {
-    let spectrum = succeeds(&["spectrum", "b1828-11", "--of", "h_plus", "--span", "200", "--unidentified"]);
-    // Twice the rate of the symmetry axis about L, then that rate: 2 pi F0 and the wobble's share.
+    let spectrum = succeeds(&["spectrum", "b1828-11", "--of", "h_plus"]);
+    // The rate of the symmetry axis about L, 2 pi F0 and the wobble's share, and twice that; the slow precession splits both by 3e-17 rad/s.
     let table = stdout(&spectrum);
-    let [twice, once] = [1, 2].map(|line| cells(&table)[line][0].parse::<f64>().expect("a frequency"));
-    assert!(
-        (twice / once - 2.0).abs() < 1e-10 && (once / std::f64::consts::TAU - 2.468_871_7).abs() < 1e-6,
-        "{twice} {once}"
-    );
+    let lines: Vec<f64> = cells(&table)[1..].iter().map(|row| row[0].parse().expect("a frequency")).collect();
+    let near = |harmonic: f64| {
+        lines.iter().filter(|w| (*w / std::f64::consts::TAU / harmonic - 2.468_871_7).abs() < 1e-6).count()
+    };
+    assert!(near(1.0) > 0 && near(2.0) > 0 && near(1.0) + near(2.0) == lines.len(), "{lines:?}");
 }
 
 /// Pulses asked for one by one have the numbers of all those between.

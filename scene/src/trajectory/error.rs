@@ -11,10 +11,8 @@ pub enum TrajectoryError {
     Incomplete(String),
     /// The motion, or what follows from it, could not be computed.
     Motion(Error),
-    /// A column does not exist at a time, written with its unit.
-    Undefined(String, String),
-    /// The span is too short for the fundamental frequencies of the motion, or it has none.
-    NoFrequencies(Error),
+    /// A column does not exist in a state of the motion.
+    Undefined(String),
     /// The rows could not be written.
     Write(csv::Error),
 }
@@ -37,14 +35,12 @@ impl fmt::Display for TrajectoryError {
         match self {
             TrajectoryError::Incomplete(lacks) => f.write_str(lacks),
             TrajectoryError::Motion(error) => write!(f, "the motion could not be computed: {error}"),
-            TrajectoryError::Undefined(column, time) => {
-                write!(f, "`{column}` does not exist at t = {time}, where an axis is on a pole, and so has no spectrum")
+            TrajectoryError::Undefined(column) => {
+                write!(
+                    f,
+                    "`{column}` does not exist in all states of the motion, where an axis is on a pole, and so has no lines"
+                )
             }
-            TrajectoryError::NoFrequencies(error) => write!(
-                f,
-                "the lines cannot be identified: {error}; a longer span (--span, `time.span`) gives the fundamental frequencies, \
-                 --unidentified lists the lines without"
-            ),
             TrajectoryError::Write(error) => write!(f, "the table could not be written: {error}"),
         }
     }

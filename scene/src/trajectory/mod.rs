@@ -11,5 +11,5 @@ mod table;
 pub use crate::samples::ErrorAtEnd;
 pub use error::TrajectoryError;
 pub use pulses::{PulseSummary, write_pulses};
-pub use spectrum::{Floor, LinesSummary, LinesWanted, Sampling};
+pub use spectrum::{LinesSummary, LinesWanted, write_lines};
 pub use table::{Summary, header, write_csv};

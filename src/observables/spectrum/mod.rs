@@ -1,34 +1,38 @@
-//! Spectra of time series: amplitudes by the fast Fourier transform, lists of lines, and lines as combinations of the fundamental frequencies
-//! of the motion.
+//! Spectra: every line of a function of the state, with its frequency, amplitude, phase and name.
+//!
+//! A motion is a function on a torus of angles that grow in proportion to time ([`TorusSolution`](crate::solutions::torus::TorusSolution)), so a
+//! function of its state is a Fourier series of these angles, and each term is a line:
+//!
+//! ```text
+//! f(t) = sum_m c_m exp(i m.theta(t)),    theta(t) = w t:    2 |c_m| cos(m.w t + arg c_m)
+//! ```
+//!
+//! No span of time enters. Lines as near to one another as one likes are told apart.
 //!
 //! ```
-//! use twofold::observables::spectrum::{
-//!     FrequencyBasis, Generator, Series, Window, amplitude_spectrum, spectral_lines,
-//! };
+//! use nalgebra::{Matrix3, Vector3};
+//! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
+//! use twofold::observables::spectrum::QuasiPeriodicMotion;
 //!
-//! // Two lines, 0.3 + 1.1 and 1.1.
-//! let signal = |t: f64| (1.1 * t).cos() + 0.2 * (1.4 * t + 0.5).cos();
-//! let series = Series { start: 0.0, step: 0.5, values: (0..2000).map(|k| signal(0.5 * f64::from(k))).collect() };
-//! let spectrum = amplitude_spectrum(&series, Window::Hann)?;
-//! assert!(spectrum.amplitudes.iter().all(|amplitude| *amplitude < 1.01));
-//! let lines = spectral_lines(&series, 1e-6, 10)?.lines;
-//! assert!((lines[0].frequency - 1.1).abs() < 1e-9 && (lines[1].amplitude - 0.2).abs() < 1e-9);
-//! let generator = |symbol, frequency| Generator { symbol, frequency, uncertainty: 1e-9 };
-//! let basis = FrequencyBasis::new(vec![generator("a", 1.1), generator("b", 0.3)])?;
-//! let name = basis.identify(lines[1].frequency, lines[1].uncertainty).to_string();
-//! assert!(name.contains('a') && name.contains('b'), "{name}");
+//! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
+//! let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(-0.7, 0.1, 1.5));
+//! let start = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
+//! let motion = QuasiPeriodicMotion::new(&Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?)?;
+//! let list = motion.lines(1e-6, |state| Ok::<_, twofold::Error>([state.axis.x, 1.0]))?;
+//! // n_X at any time is the constant term and the sum of the lines.
+//! let at = |t: f64| list.constant + list.lines.iter().map(|line| line.value(t)).sum::<f64>();
+//! assert!((at(0.0) - 0.6).abs() < 1e-4);
+//! assert_eq!(list.lines[0].combination.to_string(), "alpha'");
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
-mod amplitude;
-mod identification;
-mod joint_fit;
+mod combination;
+mod fundamental_frequencies;
 mod lines;
-mod residual_spectrum;
-mod series;
+mod quasi_periodic;
+mod transform;
 
-pub use crate::numerics::window::Window;
-pub use amplitude::{AmplitudeSpectrum, amplitude_spectrum};
-pub use identification::{Combination, FrequencyBasis, Generator, Identification};
-pub use lines::{LineList, SpectralLine, spectral_lines};
-pub use series::{LEAST_LENGTH, Series};
+pub use combination::Combination;
+pub use fundamental_frequencies::{FundamentalFrequencies, FundamentalFrequency};
+pub use lines::{LineList, SpectralLine};
+pub use quasi_periodic::QuasiPeriodicMotion;

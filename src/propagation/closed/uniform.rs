@@ -1,5 +1,7 @@
 //! Motions in which the symmetry axis and the angular momentum turn uniformly about one direction. Eqs. (26), (48).
 
+use core::f64::consts::TAU;
+
 use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::equations_of_motion::{angular_velocity, torque_on_axis};
@@ -133,6 +135,29 @@ impl<S: Real> UniformMotion<S> {
     pub fn rounding(&self, elapsed: f64) -> f64 {
         let phase = (real_part(&self.turn).norm() + self.body_rate.re().abs()) * elapsed.abs();
         (f64::EPSILON * (4.0 + 4.0 * phase) + self.residual * elapsed.abs()) * self.condition
+    }
+}
+
+impl UniformMotion<f64> {
+    /// Rates (rad per unit of time) of the turn of `n` and `L`, and of `e_x` about `n` beside it.
+    pub(crate) fn rates(&self) -> [f64; 2] {
+        [self.turn.norm(), self.body_rate]
+    }
+
+    /// The axis of the angles `alpha` and `gamma`: what `L` goes round, or Z if it stays.
+    pub(crate) fn pole(&self) -> Vector3<f64> {
+        if self.momentum_is_constant { Vector3::z() } else { self.turn.try_normalize(0.0).unwrap_or_else(Vector3::z) }
+    }
+
+    /// The state after turns of both angles since the start.
+    pub(crate) fn state_after_turns(&self, turn: f64, about_axis: f64) -> BodyState<f64> {
+        let BodyState { axis, momentum, equatorial_axis } = self.problem.initial();
+        let (sin, cos) = (TAU * about_axis).sin_cos();
+        let turned = equatorial_axis * cos + axis.cross(equatorial_axis) * sin;
+        let direction = self.turn.try_normalize(0.0).unwrap_or_else(Vector3::zeros);
+        let round = |v: &Vector3<f64>| rotated_by(&(direction * (TAU * turn)), v);
+        let momentum = if self.momentum_is_constant { *momentum } else { round(momentum) };
+        BodyState { axis: round(axis), momentum, equatorial_axis: round(&turned) }
     }
 }
 

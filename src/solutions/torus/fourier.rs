@@ -1,6 +1,7 @@
 //! Functions on the torus as Fourier series of its two angles.
 
-use realfft::RealFftPlanner;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex;
 
 /// What a reflection in the plane does to a function: `f(-theta) = f(theta)` or `-f(theta)`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,8 +27,7 @@ impl QuarterGrid {
     /// multiplies the function by `(-1)^parity`. `values[m]` are those at the point `m` of the second angle.
     pub(super) fn coefficients(&self, values: &[Vec<f64>], reflection: Reflection, parity: usize) -> Vec<Vec<Pair>> {
         let Self { points, quarter } = *self;
-        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
-        let mut output = plan.make_output_vec();
+        let plan = FftPlanner::new().plan_fft_forward(points);
         let multiples = quarter - usize::from(parity == 1) + 1;
         let count = points / 2;
         let mut table = vec![vec![[0.0; 2]; multiples]; count];
@@ -35,8 +35,8 @@ impl QuarterGrid {
         let turns: Vec<(f64, f64)> =
             (0..whole).map(|q| (core::f64::consts::TAU * q as f64 / whole as f64).sin_cos()).collect();
         for (m, values) in values.iter().enumerate() {
-            let mut input = values.clone();
-            plan.process(&mut input, &mut output).expect("lengths are those of the plan");
+            let mut output: Vec<Complex<f64>> = values.iter().map(Complex::from).collect();
+            plan.process(&mut output);
             // Ends of the quarter count once, other points twice for their mirror images, and all twice for the half turn.
             let weight = if m == 0 || m == quarter { 2.0 } else { 4.0 } / (points * whole) as f64;
             for (j, row) in table.iter_mut().enumerate() {

@@ -13,6 +13,7 @@ use crate::dynamics::{AxisState, BodyState, Problem};
 use crate::error::Error;
 use crate::numerics::angle::sin_cos_of_turns;
 use crate::numerics::arithmetic::plain;
+use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::four_lanes::FourLanes;
 use crate::numerics::fused::{Fused, detect_fused, run_fused};
 
@@ -172,6 +173,30 @@ impl TorusSolution {
     /// The state at three angles of the torus, in turns.
     pub fn state_on_torus(&self, turns: [f64; 3]) -> BodyState<f64> {
         self.state_at(plain(), turns)
+    }
+
+    /// The state after turns of the three angles since the start.
+    pub(crate) fn state_after_turns(&self, turns: [f64; 3]) -> BodyState<f64> {
+        let since_start = |i: usize| {
+            let turns = turns[i] + self.phases[i].offset.high;
+            turns - turns.round()
+        };
+        self.state_on_torus([0, 1, 2].map(since_start))
+    }
+
+    /// Rates of the three angles in turns per unit of time.
+    pub(crate) fn turns_per_time(&self) -> [DoubleDouble; 3] {
+        self.phases.map(|phase| phase.rate)
+    }
+
+    /// Error of the rates (rad per unit of time).
+    pub(crate) fn rate_error(&self) -> f64 {
+        self.drift
+    }
+
+    /// The axis of the second angle.
+    pub(crate) fn pole(&self) -> Vector3<f64> {
+        self.given_from_torus.column(2).into()
     }
 
     #[inline(always)]

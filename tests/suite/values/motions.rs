@@ -30,7 +30,7 @@ fn look<M: Motion<f64, State = BodyState<f64>>>(table: &mut Table, name: &str, m
     assert!(difference < 1e-9 && of_axis < 1e-9, "{name} at {t}: {difference:e}, {of_axis:e}");
     assert!(motion.state(to + (to - from)).is_err(), "{name}: after its span");
     let components = Vector3::new(state.axis.z, state.momentum.x, state.equatorial_axis.y);
-    table.row(name, format_args!("{components:?}, error {:?}", motion.error_estimate(t)));
+    table.row(name, format_args!("{components:?}, error {:.2e}", motion.error_estimate(t)));
 }
 
 /// Tensors with and without symmetry, and motions that are slow, steady, at rest, near a pole or turn the other way.
@@ -125,7 +125,7 @@ fn numerical_motions() {
             look(&mut table, &name, &motion);
             let middle = 0.5 * (span.0 + span.1);
             let state = reduced.axis_state(middle).expect("a state");
-            table.row(&name, format_args!("{state:?}, error {:?}", reduced.error_estimate(middle)));
+            table.row(&name, format_args!("{state:?}, error {:.2e}", reduced.error_estimate(middle)));
         }
     }
     for scheme in SCHEMES {
@@ -134,7 +134,7 @@ fn numerical_motions() {
             let reduced = problem(general()).reduced().splitting_by(scheme, span, step).expect("a motion");
             let (state, error) = (reduced.axis_state(t).expect("a state"), reduced.error_estimate(t));
             let (step, steps) = (reduced.step(), reduced.step_count());
-            table.row(&name, format_args!("step {step:?}, steps {steps}, {state:?}, error {error:?}"));
+            table.row(&name, format_args!("step {step:?}, steps {steps}, {state:?}, error {error:.2e}"));
         }
         let motion = problem(general()).splitting_by(scheme, SPAN, 0.3).expect("a motion");
         look(&mut table, &format!("{}, orientation", scheme.name), &motion);

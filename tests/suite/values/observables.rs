@@ -1,6 +1,7 @@
 //! Clocks, spectral lines, periods and distributions.
 
 use nalgebra::Vector3;
+use twofold::Error;
 use twofold::dynamics::{BodyState, Problem};
 use twofold::observables::Observer;
 use twofold::observables::eta_distribution::{EtaDistribution, SpinAxis, root_mean_square_along_motion};
@@ -8,10 +9,10 @@ use twofold::observables::pulsar::period::{
     approximate_period, azimuth_offset_rate, azimuth_rate, instantaneous_period,
 };
 use twofold::observables::pulsar::{Beam, ClockPulse, PulsarClock};
-use twofold::observables::spectrum::{Series, Window, amplitude_spectrum, spectral_lines};
+use twofold::observables::spectrum::QuasiPeriodicMotion;
 use twofold::solutions::averaged::AveragingOrder;
 
-use crate::values::scene::{PROLATE, STAR, general, state};
+use crate::values::scene::{PROLATE, STAR, general, problem, state};
 use crate::values::table::Table;
 
 #[test]
@@ -56,54 +57,31 @@ fn clocks() {
     table.check("clocks");
 }
 
-fn series(waves: &[(f64, f64, f64)], constant: f64, count: usize) -> Series {
-    let step = 0.4;
-    let value = |k: usize| {
-        let t = 1.0 + step * k as f64;
-        constant
-            + waves.iter().map(|(frequency, amplitude, phase)| amplitude * (frequency * t + phase).cos()).sum::<f64>()
-    };
-    Series { start: 1.0, step, values: (0..count).map(value).collect() }
-}
-
 #[test]
 fn lines() {
     let mut table = Table::default();
-    for (name, series) in [
-        ("three", series(&[(1.3, 1.0, 0.3), (2.1, 0.02, -1.0), (0.41, 3e-4, 2.0)], 0.7, 2000)),
-        ("close", series(&[(1.3, 1.0, 0.3), (1.3 + 25.0 / 800.0, 0.5, 1.0)], 0.0, 2000)),
-        ("very close", series(&[(1.3, 1.0, 0.3), (1.3 + 6.0 / 800.0, 0.5, 1.0)], 0.0, 2000)),
-        ("low and high", series(&[(0.03, 1.0, 0.3), (7.8, 0.5, 1.0)], -0.2, 2000)),
-        ("constant", series(&[], 0.3, 64)),
-        ("short", series(&[(1.3, 1.0, 0.3)], 0.3, 17)),
-    ] {
-        let (duration, highest) = (series.duration(), series.highest_frequency());
-        table.row(name, format_args!("duration {duration:?}, highest frequency {highest:?}"));
-        for (least, most) in [(1e-6, 20), (1e-2, 2)] {
-            let name = format!("{name} from {least:e}, {most}");
-            table.found(&name, spectral_lines(&series, least, most), |table, found| {
-                let (count, all) = (found.lines.len(), found.remainder < 1e-9);
-                table.row(&name, format_args!("constant {:?}, {count} lines, all {all}", found.constant));
-                for line in found.lines.iter().take(4) {
-                    let [frequency, amplitude, phase] = [line.frequency, line.amplitude, line.phase];
-                    let known = Some(line.uncertainty).filter(|uncertainty| *uncertainty > 1e-10);
-                    let text = format!("frequency {frequency:?}, amplitude {amplitude:?}, phase {phase:?}");
-                    table.row("  line", format_args!("{text}, +- {known:?}"));
-                }
-            });
-        }
-        for window in [Window::Uniform, Window::Hann, Window::Kaiser { shape: 9.0 }] {
-            let spectrum = amplitude_spectrum(&series, window).expect("a spectrum");
-            let apart = (spectrum.amplitudes.len() / 5).max(1);
-            // What rounds to zero is a rounding.
-            let points = spectrum.points().map(|(frequency, size)| (frequency, (size * 1e9).round() / 1e9));
-            let points: Vec<_> = points.skip(1).step_by(apart).take(5).collect();
-            let (spacing, half_width) = (spectrum.spacing, window.half_width(series.duration()));
+    for (name, s) in [("general", general() * 0.1), ("none", general() * 0.0)] {
+        table.found(name, QuasiPeriodicMotion::new(&problem(s)), |table, motion| {
+            for of in &motion.frequencies().all {
+                table.row("frequency", format_args!("{} {:?}, turns {:?}", of.symbol, of.rate, of.turns));
+            }
+            let function = |state: &BodyState<f64>| Ok::<_, Error>([state.equatorial_axis.x * state.momentum.y, 1.0]);
+            let list = motion.lines(1e-4, function).expect("lines");
             table.row(
-                &format!("  {window:?}"),
-                format_args!("spacing {spacing:?}, half width {half_width:?}, (frequency, amplitude) {points:?}"),
+                "list",
+                format_args!("constant {:?}, {} lines above {:?}", list.constant, list.lines.len(), list.least),
             );
-        }
+            for line in list.lines.iter().take(6) {
+                let [frequency, amplitude, phase] = [line.frequency, line.amplitude, line.phase];
+                table.row(
+                    "  line",
+                    format_args!(
+                        "{} frequency {frequency:?}, amplitude {amplitude:?}, phase {phase:?}",
+                        line.combination
+                    ),
+                );
+            }
+        });
     }
     table.check("lines");
 }

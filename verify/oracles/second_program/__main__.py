@@ -60,7 +60,8 @@ def answered(file, name, changed):
             arguments = ["timing", "{scene}", "--out", "{out}", *strain, *options]
             answer(arguments, lambda s, n, dates=tuple(dates): commands.timing_files(s, n, name, False, rate, 1.0, dates), error)
     for options in SPECTRA.get(file, []):
-        flags = [f"--{option}={value}" for option, value in options.items() if option != "column"]
+        # The span is that of the series here; the command needs none.
+        flags = [f"--{option}={options[option]}" for option in ("least", "most")]
         arguments = ["spectrum", "{scene}", f"--of={options['column']}", *flags]
         answer(arguments, lambda s, n, o=options: commands.spectrum(s, n, **o))
     return done

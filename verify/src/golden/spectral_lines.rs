@@ -9,14 +9,14 @@ const SHOWN: [[usize; 2]; 2] = [[5, 4], [9, 8]];
 pub(super) fn table() -> Result<GoldenTable, String> {
     let mut lines = Vec::new();
     for (example, [of_pulsar, of_wave]) in examples()?.iter().zip(SHOWN) {
-        for generator in example.basis.generators() {
+        for generator in &example.exact.frequencies().basis {
             let label = format!("{} {} [1/t_c]", example.name, generator.symbol);
-            lines.push(GoldenLine::new(label, Printed::No, generator.frequency));
+            lines.push(GoldenLine::new(label, Printed::No, generator.rate));
         }
         for (signal, list) in example.signals() {
             let shown = if signal == "m.n" { of_pulsar } else { of_wave };
             for line in list.lines.iter().take(shown) {
-                let what = example.basis.identify(line.frequency, line.uncertainty).to_string();
+                let what = line.combination.to_string();
                 let label = format!("{} {signal}, {what}", example.name);
                 lines.push(GoldenLine::new(format!("{label}: frequency [1/t_c]"), marked(&what), line.frequency));
                 let amplitude = GoldenLine::new(format!("{label}: amplitude"), Printed::No, line.amplitude);

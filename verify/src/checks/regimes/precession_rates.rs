@@ -1,7 +1,7 @@
 //! Mean rates of the precession angle and of the angular momentum, with their signs, for both kinds of precession.
 
+use crate::mean_rate::{azimuth_of_momentum, mean_rate_of};
 use crate::prelude::*;
-use twofold::observables::fundamental_frequencies::{MeanRate, mean_rate};
 
 checks! {
     /// forced precession turns the angular momentum the same way for both kinds; what is opposite is the shift of the rate of alpha in tp-I, a
@@ -21,26 +21,11 @@ checks! {
 
 /// Mean rates of `alpha`, of `gamma` and of the azimuth of `L` about Z.
 fn mean_rates(name: &str) -> Result<[f64; 3], String> {
-    let motion = reference_motion(name).problem().taylor((0.0, 2000.0), 1e-13)?;
-    let found = fundamental_frequencies(&motion)?;
-    let value = |rate: Option<MeanRate>| rate.map(|rate| rate.value).ok_or_else(|| format!("{name} has no mean rates"));
-    Ok([value(found.alpha)?, value(found.gamma)?, value(found.momentum)?])
-}
-
-/// Mean rate of the azimuth of `L` about Z.
-fn momentum_azimuth_rate(motion: &TaylorMotion<f64>, duration: f64, samples: usize) -> Result<f64, String> {
-    let step = duration / samples as f64;
-    let mut azimuths = Vec::new();
-    for i in 0..=samples {
-        let momentum = motion.state((step * i as f64).min(duration))?.momentum;
-        azimuths.push(continued(azimuths.last().copied(), momentum.y.atan2(momentum.x)));
-    }
-    mean_rate(&azimuths, step).map(|rate| rate.value).map_err(String::from)
-}
-
-fn continued(last: Option<f64>, angle: f64) -> f64 {
-    use std::f64::consts::TAU;
-    angle + last.map_or(0.0, |last| ((last - angle) / TAU).round() * TAU)
+    let problem = reference_motion(name).problem();
+    let exact = QuasiPeriodicMotion::new(&problem)?;
+    let rate = |symbol| exact.frequencies().rate(symbol).ok_or_else(|| format!("{name} has no {symbol}"));
+    let motion = problem.taylor((0.0, 2000.0), 1e-13)?;
+    Ok([rate("alpha'")?, rate("gamma'")?, mean_rate_of(&motion, 2000.0, 8000, azimuth_of_momentum)?])
 }
 
 fn directions() -> Result<Measured, String> {
@@ -73,7 +58,7 @@ fn momentum_rate_across_magic_angle() -> Result<Measured, String> {
         let initial = BodyState { axis, momentum: l * g, equatorial_axis: Vector3::y() };
         let duration = 4000.0;
         let motion = Problem::new(spheroid, s.tensor(), initial)?.taylor((0.0, duration), 1e-12)?;
-        let rate = momentum_azimuth_rate(&motion, duration, 20_000)?;
+        let rate = mean_rate_of(&motion, duration, 20_000, azimuth_of_momentum)?;
         let size = 2.0 * (s.zz - s.xx) / g;
         let formula = size * (1.5 * c2 - 0.5) * l.z;
         if c2 < 0.3 && rate * size > 0.0 || c2 > 0.36 && rate * size < 0.0 {

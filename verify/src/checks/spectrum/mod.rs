@@ -1,10 +1,7 @@
-//! Spectra, line lists and fundamental frequencies, and what the paper says of its spectra.
+//! Lines and fundamental frequencies, and what the paper says of its spectra.
 
-pub(super) mod amplitudes;
 pub(super) mod frequencies;
 pub(super) mod harmonics;
-pub(super) mod identification;
-pub(super) mod line_lists;
 pub(super) mod lines;
 pub(super) mod pulse_series;
 pub(crate) mod signals;

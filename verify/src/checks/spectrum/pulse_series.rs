@@ -1,6 +1,6 @@
 //! Periods in the series of pulse periods and widths.
 
-use super::signals::{Example, beam, examples, line_of_sight};
+use super::signals::{Example, beam, examples, line_of_sight, motion_of};
 use crate::prelude::*;
 use crate::pulse_series::PulseSeries;
 
@@ -20,7 +20,7 @@ checks! {
 /// Period of gamma in the series of both examples: that whose first four multiples fit best.
 fn period_of_gamma() -> Result<Measured, String> {
     worst_of(examples()?, |example| {
-        let rate = example.frequencies.gamma.ok_or("gamma has no mean rate")?.value;
+        let rate = example.rate("gamma'")?;
         largest_of(series(example)?.map(|(_, values)| {
             let w = highest(0.1..0.2, |w| explained(&values, &multiples(w, 4)))?;
             Ok(if (w - rate.abs()).abs() < GRID { (TAU / w - 40.0).abs() } else { f64::INFINITY })
@@ -31,8 +31,8 @@ fn period_of_gamma() -> Result<Measured, String> {
 /// Period of the slow precession in the series of tp-II.
 fn period_of_slow_precession() -> Result<Measured, String> {
     let example = &examples()?[1];
-    let slow = example.frequencies.slow.ok_or("no slow precession")?.value;
-    let gamma = multiples(example.frequencies.gamma.ok_or("gamma has no mean rate")?.value, 6);
+    let slow = example.rate("l'")?;
+    let gamma = multiples(example.rate("gamma'")?, 6);
     let (mut differences, mut details) = (Vec::new(), Vec::new());
     for (name, values) in series(example)? {
         let of_gamma = explained(&values, &gamma);
@@ -68,8 +68,9 @@ fn highest(range: std::ops::Range<f64>, function: impl Fn(f64) -> f64) -> Result
 
 /// The series of an example, without intervals over turns that have no pulse.
 fn series(example: &Example) -> Result<[(&'static str, Vec<Stamped>); 2], String> {
+    let motion = motion_of(example.scene, SERIES)?;
     let PulseSeries { periods, lengths, .. } =
-        crate::pulse_series::pulse_series(&example.motion, &beam(), &line_of_sight(), (0.0, SERIES))?;
+        crate::pulse_series::pulse_series(&motion, &beam(), &line_of_sight(), (0.0, SERIES))?;
     Ok([("periods", periods), ("widths", lengths)])
 }
 

@@ -3,39 +3,30 @@
 use std::sync::OnceLock;
 
 use crate::prelude::*;
-use twofold::observables::fundamental_frequencies::FundamentalFrequencies;
 use twofold::observables::gravitational_wave::{Polarizations, wave_of_state};
-use twofold::observables::spectrum::FrequencyBasis;
 
 /// Angles of the paper's figures: observer, magnetic axis, half opening of the beam (rad).
 const THETA_O: f64 = 0.8;
 const CHI: f64 = 0.5;
 const RHO: f64 = 0.6;
 
-/// Span over which rates are averaged [t_c].
-pub(super) const AVERAGING: f64 = 2400.0;
-
-/// Span and number of samples of the signals. Of m.n of tp-II, four slow turns are nearly one modulation: its
-/// lines come in pairs 0.0024 apart, which takes longer to resolve.
-const SIGNAL: (f64, usize) = (6000.0, 16_384);
-const PAIRED_SIGNAL: (f64, usize) = (16_000.0, 40_960);
+/// Least amplitude of a line, as a part of the strongest one.
+pub(super) const LEAST: f64 = 1e-12;
 
 /// A twofold example with its signals.
 pub(crate) struct Example {
     /// Name in the paper.
     pub name: &'static str,
-    /// Fundamental frequencies.
-    pub frequencies: FundamentalFrequencies,
-    /// Their combinations.
-    pub basis: FrequencyBasis,
-    /// Lines of `m.n` above 1e-4, of `h_+` and `h_x` above 1e-6 (`r = 1`).
+    /// Name of the reference motion.
+    pub(super) scene: &'static str,
+    /// The motion as a function of its angles.
+    pub exact: QuasiPeriodicMotion,
+    /// Lines of `m.n`, `h_+` and `h_x` (`r = 1`).
     pub pulsar: LineList,
     /// `h_+`.
     pub plus: LineList,
     /// `h_x`.
     pub cross: LineList,
-    /// The motion over [`SIGNAL`].
-    pub(super) motion: TaylorMotion<f64>,
 }
 
 crate::reference::named!(Example);
@@ -50,37 +41,45 @@ impl Example {
     pub fn signals(&self) -> [(&'static str, &LineList); 3] {
         [("m.n", &self.pulsar), ("h_+", &self.plus), ("h_x", &self.cross)]
     }
+
+    /// A fundamental frequency.
+    pub(super) fn rate(&self, symbol: &str) -> Result<f64, String> {
+        rate(&self.exact, symbol)
+    }
+}
+
+/// A fundamental frequency of a motion.
+pub(super) fn rate(motion: &QuasiPeriodicMotion, symbol: &str) -> Result<f64, String> {
+    motion.frequencies().rate(symbol).ok_or_else(|| format!("the motion has no {symbol}"))
 }
 
 /// tp-I and tp-II.
 pub(crate) fn examples() -> Result<&'static [Example; 2], String> {
     static EXAMPLES: OnceLock<Result<[Example; 2], String>> = OnceLock::new();
     let examples = EXAMPLES.get_or_init(|| {
-        let example = |name, scene, signal| example(name, scene, signal).map_err(|e| format!("{name}: {e}"));
-        Ok([example("tp-I", "tp-1", SIGNAL)?, example("tp-II", "tp-2", PAIRED_SIGNAL)?])
+        let example = |name, scene| example(name, scene).map_err(|e| format!("{name}: {e}"));
+        Ok([example("tp-I", "tp-1")?, example("tp-II", "tp-2")?])
     });
     examples.as_ref().map_err(Clone::clone)
 }
 
-fn example(name: &'static str, scene: &str, (span, count): (f64, usize)) -> Result<Example, Error> {
-    let frequencies = fundamental_frequencies(&motion_of(scene, AVERAGING)?)?;
-    let motion = motion_of(scene, SIGNAL.0)?;
-    let wave = |part: fn(Polarizations<f64>) -> f64| {
-        let series = Series::of_motion(&motion, SIGNAL.1, |state| part(wave_of(&motion, state)))?;
-        spectral_lines(&series, 1e-6, 200)
-    };
-    let (beam, observer) = (beam(), line_of_sight());
-    let long = motion_of(scene, span)?;
-    let pulsar = Series::of_motion(&long, count, |state| beam.direction(state).dot(&observer))?;
-    Ok(Example {
-        name,
-        frequencies,
-        basis: frequencies.basis()?,
-        pulsar: spectral_lines(&pulsar, 1e-4, 200)?,
-        plus: wave(|h| h.plus)?,
-        cross: wave(|h| h.cross)?,
-        motion,
-    })
+/// The three signals of a state: `m.n`, `h_+` and `h_x`.
+pub(super) fn signals_of(problem: &Problem<f64>, state: &BodyState<f64>) -> [f64; 3] {
+    let wave = wave_of(problem, state);
+    [beam().direction(state).dot(&line_of_sight()), wave.plus, wave.cross]
+}
+
+/// The lines of the three signals of a motion.
+pub(super) fn lines_of_signals(problem: &Problem<f64>, exact: &QuasiPeriodicMotion) -> Result<[LineList; 3], Error> {
+    let lines = |signal: usize| exact.lines(LEAST, |state| Ok::<_, Error>([signals_of(problem, state)[signal], 1.0]));
+    Ok([lines(0)?, lines(1)?, lines(2)?])
+}
+
+fn example(name: &'static str, scene: &'static str) -> Result<Example, Error> {
+    let problem = reference_motion(scene).problem();
+    let exact = QuasiPeriodicMotion::new(&problem)?;
+    let [pulsar, plus, cross] = lines_of_signals(&problem, &exact)?;
+    Ok(Example { name, scene, exact, pulsar, plus, cross })
 }
 
 /// A reference motion over a span.
@@ -96,10 +95,9 @@ pub(super) fn line_of_sight() -> Vector3<f64> {
     Observer::at(THETA_O, 0.0).direction
 }
 
-/// The wave of a state of a motion for the paper's observer.
-pub(super) fn wave_of(motion: &TaylorMotion<f64>, state: &BodyState<f64>) -> Polarizations<f64> {
+fn wave_of(problem: &Problem<f64>, state: &BodyState<f64>) -> Polarizations<f64> {
     let observer = Observer::at(THETA_O, 0.0);
-    wave_of_state(motion.spheroid(), motion.coefficients(), &state.axis_state(), &observer)
+    wave_of_state(problem.spheroid(), problem.coefficients(), &state.axis_state(), &observer)
 }
 
 /// The strongest line with a frequency in a range.

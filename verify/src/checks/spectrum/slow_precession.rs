@@ -1,8 +1,8 @@
 //! The closed formula of the slow precession: against the averaged equation, in its limits, and against the motion.
 
+use super::signals::rate;
+use crate::mean_rate::{kaiser, mean_rate};
 use crate::prelude::*;
-use twofold::observables::fundamental_frequencies::mean_rate;
-use twofold::observables::spectrum::Window;
 use twofold::solutions::averaged::slow_precession::slow_precession;
 
 checks! {
@@ -59,10 +59,10 @@ fn averaged_equation() -> Result<Measured, String> {
             let d = rate(&(at + c * step));
             at += (a + b * 2.0 + c * 2.0 + d) * (step / 6.0);
         }
-        let measured = mean_rate(&azimuths, step)?;
+        let measured = mean_rate(&azimuths, step);
         axes[formula.axis] += 1;
-        worst.see((formula.rate - measured.value).abs() / scale, || {
-            format!("case {case} of seed 37, {s:?}, {formula:?}, measured {:.9}", measured.value)
+        worst.see((formula.rate - measured).abs() / scale, || {
+            format!("case {case} of seed 37, {s:?}, {formula:?}, measured {:.9}", measured)
         });
         case += 1;
     }
@@ -100,12 +100,12 @@ fn limits() -> Result<Measured, String> {
 fn slow_frequency(k: f64) -> Result<[f64; 2], String> {
     let scene = reference_motion("tp-2");
     let s = scene.coefficients.scaled(k);
-    let span = 1600.0 / k;
-    let motion = Problem::new(scene.spheroid, s.tensor(), scene.initial())?.taylor((0.0, span), 1e-12)?;
-    let measured = fundamental_frequencies(&motion)?.slow.ok_or("no slow precession")?;
+    let problem = Problem::new(scene.spheroid, s.tensor(), scene.initial())?;
+    let motion = problem.taylor((0.0, 24.0), 1e-12)?;
+    let measured = rate(&QuasiPeriodicMotion::new(&problem)?, "l'")?;
     // Averages over 24 t_c, five turns of n about L: of the direction of L and of its size.
     let count = 96;
-    let weights = Window::Kaiser { shape: 14.0 }.weights(count)?;
+    let weights = kaiser(count, 14.0);
     let (mut direction, mut g) = (Vector3::zeros(), 0.0);
     for (i, weight) in weights.iter().enumerate() {
         let state: BodyState<f64> = motion.state(0.25 * i as f64)?;
@@ -120,7 +120,7 @@ fn slow_frequency(k: f64) -> Result<[f64; 2], String> {
     if formula.axis != 2 {
         return Err("the formula has L go round another axis than Z".into());
     }
-    Ok([formula.rate, measured.value])
+    Ok([formula.rate, measured])
 }
 
 fn formula_of_tp_2() -> Result<Measured, String> {

@@ -1,0 +1,310 @@
+//! Fundamental frequencies of a motion: mean rates of its angles, by how often each goes round along the angles of the torus.
+
+use core::f64::consts::TAU;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::Combination;
+use crate::dynamics::{BodyState, RotationState};
+use crate::numerics::angle::wrapped;
+
+/// Points of the first grid in each angle, and most of them: an angle that still jumps there comes as near as one likes to a pole.
+const POINTS: [usize; 2] = [32, 256];
+
+/// Largest change of an angle between two points of the grid (rad).
+const LARGEST_STEP: f64 = 1.5;
+
+/// The mean rate of an angle of the motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FundamentalFrequency {
+    /// `alpha'`, `gamma'`, `l'`, `nu'` or `psi'`.
+    pub symbol: &'static str,
+    /// The rate, of either sign (rad per unit of time).
+    pub rate: f64,
+    /// How often the angle goes round with each of the three angles of the torus.
+    pub turns: [i32; 3],
+}
+
+/// Mean rates of the angles of a motion, and which of them are independent.
+///
+/// A continuous angle of the state on the torus goes round a whole number of times with each angle of the torus; its mean rate is that combination of
+/// their rates. The angles, about the principal axis of `s^IJ` that the averaged `L` goes round (Z for a free one):
+///
+/// * `alpha'`, `gamma'`: the Euler angles `alpha` and `gamma`. They have no mean rate where `n` comes as near as one likes to a pole of the axis.
+/// * `l'`: the azimuth of `L` averaged over the fast rotation, the slow precession.
+/// * `nu'`: the turn of the fast part of `n` about the averaged `L`, from the plane of `L` and the axis: the nutation.
+/// * `psi'`: the turn of `e_x` about `n`, from the direction in which that part of `n` moves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FundamentalFrequencies {
+    /// The axis.
+    pub pole: Vector3<f64>,
+    /// All of them.
+    pub all: Vec<FundamentalFrequency>,
+    /// Those that name the lines: of these every line is a whole combination. `alpha'`, `gamma'` and `l'`, or `nu'` where `alpha'` is a multiple of
+    /// `l'`; without `alpha'` and `gamma'` the others.
+    pub basis: Vec<FundamentalFrequency>,
+}
+
+impl FundamentalFrequencies {
+    /// Of a motion on the torus, by the state after turns of its three angles and their rates.
+    pub(super) fn of(state: impl Fn([f64; 3]) -> BodyState<f64>, rates: [f64; 3], pole: &Vector3<f64>) -> Self {
+        let mut grid = Grid::new(&state, POINTS[0], pole);
+        let euler = loop {
+            let euler = grid.euler_windings();
+            if euler.is_some() || grid.count >= POINTS[1] {
+                break euler.flatten();
+            }
+            grid = Grid::new(&state, 2 * grid.count, pole);
+        };
+        let axes = [grid.nutation(), grid.slow(), grid.body()];
+        let mut all = Vec::new();
+        let mut add = |symbol, turns: [i32; 3]| {
+            let rate = (0..3).map(|i| f64::from(turns[i]) * rates[i]).sum();
+            all.push(FundamentalFrequency { symbol, rate, turns });
+        };
+        if let Some([alpha, gamma]) = euler {
+            add("alpha'", alpha);
+            add("gamma'", gamma);
+        }
+        let [nutation, slow, body] = axes;
+        add("l'", slow);
+        add("nu'", nutation);
+        add("psi'", body);
+        let moving = rates.map(|rate| rate != 0.0);
+        let basis = basis(&all, moving);
+        Self { pole: *pole, all, basis }
+    }
+
+    /// The rate of one of them, if the motion has it (rad per unit of time).
+    pub fn rate(&self, symbol: &str) -> Option<f64> {
+        self.all.iter().find(|found| found.symbol == symbol).map(|found| found.rate)
+    }
+
+    /// The combination of the basis that goes round so often with each angle of the torus.
+    pub(super) fn combination(&self, multiples: [i32; 3]) -> Combination {
+        // The rows are whole and the determinant is one, so that the inverse is whole.
+        let rows = completed(&self.basis);
+        let wanted = nalgebra::RowVector3::from(multiples.map(f64::from));
+        let inverse = rows.try_inverse().unwrap_or_else(Matrix3::identity);
+        let terms = (wanted * inverse).iter().zip(&self.basis).map(|(k, of)| (k.round() as i32, of.symbol)).collect();
+        Combination { terms }
+    }
+}
+
+/// The rows of a basis, with unit vectors along the angles that do not move.
+fn completed(basis: &[FundamentalFrequency]) -> Matrix3<f64> {
+    let mut rows = Matrix3::zeros();
+    for (i, of) in basis.iter().enumerate() {
+        rows.set_row(i, &nalgebra::RowVector3::from(of.turns.map(f64::from)));
+    }
+    let mut next = basis.len();
+    for angle in 0..3 {
+        if next < 3 && basis.iter().all(|of| of.turns[angle] == 0) {
+            rows[(next, angle)] = 1.0;
+            next += 1;
+        }
+    }
+    rows
+}
+
+/// The first of some frequencies that are independent and of which all angles that move are whole combinations.
+fn basis(all: &[FundamentalFrequency], moving: [bool; 3]) -> Vec<FundamentalFrequency> {
+    let dimension = moving.iter().filter(|moves| **moves).count();
+    let of_moving: Vec<_> = all
+        .iter()
+        .map(|of| FundamentalFrequency { turns: [0, 1, 2].map(|i| if moving[i] { of.turns[i] } else { 0 }), ..*of })
+        .collect();
+    let choices = [&["alpha'", "gamma'", "l'"][..], &["alpha'", "gamma'", "nu'"], &["alpha'", "gamma'"]];
+    let others = [&["gamma'", "nu'"][..], &["l'", "nu'", "psi'"], &["nu'", "psi'"], &["psi'"], &["nu'"]];
+    for choice in choices.into_iter().chain(others).filter(|choice| choice.len() == dimension) {
+        let found = choice.iter().map(|symbol| of_moving.iter().find(|of| of.symbol == *symbol).copied());
+        if let Some(found) = found.collect::<Option<Vec<_>>>()
+            && completed(&found).determinant().abs().round() == 1.0
+        {
+            return found;
+        }
+    }
+    Vec::new()
+}
+
+/// States on the torus: of both first angles a grid, and of the third one a loop.
+struct Grid {
+    count: usize,
+    /// In the frame whose third axis is that of the angles.
+    states: Vec<BodyState<f64>>,
+    third: Vec<BodyState<f64>>,
+    /// `n` and `L` averaged over the first angle, for each point of the second one.
+    means: Vec<[Vector3<f64>; 2]>,
+}
+
+impl Grid {
+    fn new(state: &impl Fn([f64; 3]) -> BodyState<f64>, count: usize, pole: &Vector3<f64>) -> Self {
+        let frame = frame(pole);
+        let at = |turns: [f64; 3]| state(turns).rotated(&frame);
+        let part = |i: usize| i as f64 / count as f64;
+        let states: Vec<_> =
+            (0..count).flat_map(|k| (0..count).map(move |j| [part(j), part(k), 0.0])).map(at).collect();
+        let third = (0..POINTS[0]).map(|l| at([0.0, 0.0, l as f64 / POINTS[0] as f64])).collect();
+        let mean = |row: &[BodyState<f64>], of: fn(&BodyState<f64>) -> Vector3<f64>| {
+            row.iter().map(of).sum::<Vector3<f64>>() / count as f64
+        };
+        let means = states.chunks(count).map(|row| [mean(row, |state| state.axis), mean(row, |state| state.momentum)]);
+        let means = means.collect();
+        Self { count, states, third, means }
+    }
+
+    /// How often an angle goes round with each angle of the torus: `Some(None)` if not always as often, None if the grid is too coarse.
+    fn windings(&self, angle: impl Fn(&BodyState<f64>, usize) -> f64) -> Option<Option<[i32; 3]>> {
+        let count = self.count;
+        let angles: Vec<f64> = self.states.iter().enumerate().map(|(i, state)| angle(state, i / count)).collect();
+        let third: Vec<f64> = self.third.iter().map(|state| angle(state, 0)).collect();
+        let mut found = [None; 3];
+        for index in 0..count {
+            let rows = [(0, index * count, 1), (1, index, count)];
+            for (way, from, step) in rows {
+                let around = winding((0..count).map(|i| angles[from + i * step]))?;
+                match found[way] {
+                    Some(other) if other != around => return Some(None),
+                    _ => found[way] = Some(around),
+                }
+            }
+        }
+        let of_third = winding(third.into_iter())?;
+        Some(Some([found[0].unwrap_or(0), found[1].unwrap_or(0), of_third]))
+    }
+
+    fn euler_windings(&self) -> Option<Option<[[i32; 3]; 2]>> {
+        let alpha = self.windings(|state, _| state.angles().map_or(f64::NAN, |angles| angles.alpha))?;
+        let gamma = self.windings(|state, _| state.angles().map_or(f64::NAN, |angles| angles.gamma))?;
+        Some(alpha.zip(gamma).map(|(alpha, gamma)| [alpha, gamma]))
+    }
+
+    /// Turns of the fast part of `n` about the averaged `L` from the plane of `L` and the axis, or from a fixed plane where that `L` stays on the axis.
+    fn nutation(&self) -> [i32; 3] {
+        let from_plane = self.windings(|state, k| {
+            let [n, momentum] = self.means[k];
+            let l = momentum.normalize();
+            let plane = Vector3::z() - l * l.z;
+            angle(&l, &plane, &(state.axis - n))
+        });
+        let sense = || sign(area(self.states[..self.count].iter().map(|state| state.axis), &self.means[0][1]));
+        from_plane.flatten().filter(|turns| turns[0].abs() == 1).unwrap_or_else(|| [sense(), 0, 0])
+    }
+
+    /// The sense in which the averaged `L` goes round the axis.
+    fn slow(&self) -> [i32; 3] {
+        [0, sign(area(self.means.iter().map(|[_, momentum]| *momentum), &Vector3::z())), 0]
+    }
+
+    /// Turns of `e_x` about `n`, from the direction in which the fast part of `n` goes round the averaged `L`.
+    fn body(&self) -> [i32; 3] {
+        let from_across = self.windings(|state, k| {
+            let [n, momentum] = self.means[k];
+            let across = momentum.cross(&(state.axis - n));
+            angle(&state.axis, &across, &state.equatorial_axis)
+        });
+        let sense = || sign(area(self.third.iter().map(|state| state.equatorial_axis), &self.third[0].axis));
+        from_across.flatten().filter(|turns| turns[2].abs() == 1).unwrap_or_else(|| [0, 0, sense()])
+    }
+}
+
+/// Angle about a unit vector from a vector across it to another one.
+fn angle(about: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
+    about.dot(&from.cross(to)).atan2(from.dot(to))
+}
+
+/// How often an angle goes round along a closed way; None where it jumps.
+fn winding(angles: impl Iterator<Item = f64> + Clone) -> Option<i32> {
+    let mut sum = 0.0;
+    for (a, b) in angles.clone().zip(angles.cycle().skip(1)) {
+        let step = wrapped(b - a);
+        // NaN is a jump.
+        if !(step.abs() <= LARGEST_STEP) {
+            return None;
+        }
+        sum += step;
+    }
+    Some((sum / TAU).round() as i32)
+}
+
+/// Twice the area round which a closed way of points goes, about a direction.
+fn area(points: impl Iterator<Item = Vector3<f64>> + Clone, direction: &Vector3<f64>) -> f64 {
+    points.clone().zip(points.cycle().skip(1)).map(|(a, b)| a.cross(&b).dot(direction)).sum()
+}
+
+fn sign(value: f64) -> i32 {
+    if value < 0.0 { -1 } else { 1 }
+}
+
+/// A rotation after which a unit vector is along Z.
+fn frame(pole: &Vector3<f64>) -> Matrix3<f64> {
+    let least = pole.iamin();
+    let x = pole.cross(&Vector3::ith(least, 1.0)).normalize();
+    Matrix3::from_rows(&[x.transpose(), pole.cross(&x).transpose(), pole.transpose()])
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Rotation3;
+
+    use super::*;
+
+    /// `L` goes round Z, `n` round `L`, `e_x` round `n`, each once with one angle of the torus and, `n` and `e_x`, some more often with the second.
+    fn turning(tilt: f64, opening: f64, more: [f64; 2]) -> impl Fn([f64; 3]) -> BodyState<f64> {
+        let about_y = |angle| Rotation3::from_axis_angle(&Vector3::y_axis(), angle);
+        let about_z = |turns: f64| Rotation3::from_axis_angle(&Vector3::z_axis(), TAU * turns);
+        move |[a, b, c]| {
+            let momentum = about_z(-b) * about_y(tilt);
+            let body = momentum * about_z(a + more[0] * b) * about_y(opening) * about_z(more[1] * a - c);
+            BodyState {
+                axis: body * Vector3::z(),
+                momentum: momentum * Vector3::z() * 1.5,
+                equatorial_axis: body * Vector3::x(),
+            }
+        }
+    }
+
+    fn found(state: impl Fn([f64; 3]) -> BodyState<f64>) -> FundamentalFrequencies {
+        FundamentalFrequencies::of(state, [1.3, 0.01, 0.2], &Vector3::z())
+    }
+
+    fn turns(found: &FundamentalFrequencies, symbol: &str) -> Option<[i32; 3]> {
+        found.all.iter().find(|of| of.symbol == symbol).map(|of| of.turns)
+    }
+
+    #[test]
+    fn turns_are_counted_along_the_angles_of_the_torus() {
+        // Twofold precession, n far from L.
+        let twofold = found(turning(0.3, 0.9, [0.0, 0.0]));
+        assert_eq!(turns(&twofold, "l'"), Some([0, -1, 0]));
+        assert_eq!(turns(&twofold, "nu'"), Some([1, 0, 0]));
+        assert_eq!(turns(&twofold, "alpha'"), Some([1, -1, 0]));
+        assert_eq!(turns(&twofold, "gamma'"), Some([0, 0, -1]));
+        assert!((twofold.rate("alpha'").unwrap() - 1.29).abs() < 1e-15 && twofold.rate("beta'").is_none());
+        let symbols = |found: &FundamentalFrequencies| found.basis.iter().map(|of| of.symbol).collect::<Vec<_>>();
+        assert_eq!(symbols(&twofold), ["alpha'", "gamma'", "l'"]);
+        // Single precession, n near L; other angles on the same torus.
+        let single = found(turning(0.9, 0.3, [2.0, -1.0]));
+        assert_eq!(turns(&single, "alpha'"), Some([0, -1, 0]));
+        assert_eq!(turns(&single, "nu'"), Some([1, 2, 0]));
+        assert_eq!(turns(&single, "psi'"), Some([-1, 0, -1]));
+        assert_eq!(turns(&single, "gamma'"), Some([0, 2, -1]));
+        assert_eq!(symbols(&single), ["alpha'", "gamma'", "nu'"]);
+        // n passes the pole.
+        let through = found(turning(0.6, 0.6, [0.0, 0.0]));
+        assert_eq!((turns(&through, "alpha'"), symbols(&through)), (None, vec!["l'", "nu'", "psi'"]));
+    }
+
+    #[test]
+    fn every_line_is_a_combination_of_the_basis() {
+        for found in [found(turning(0.3, 0.9, [0.0, 0.0])), found(turning(0.9, 0.3, [2.0, -1.0]))] {
+            for multiples in [[1, 0, 0], [0, 1, 0], [0, 0, 1], [3, -2, 1], [-1, 5, 0]] {
+                let combination = found.combination(multiples);
+                for angle in 0..3 {
+                    let sum: i32 = found.basis.iter().map(|of| combination.multiple(of.symbol) * of.turns[angle]).sum();
+                    assert_eq!(sum, multiples[angle], "{combination}");
+                }
+            }
+        }
+    }
+}
