@@ -13,6 +13,7 @@ pub mod significant;
 pub mod sweep;
 pub mod trajectory;
 pub mod wave;
+mod window;
 
 /// The compiler of this build.
 pub const COMPILER: &str = env!("TWOFOLD_RUSTC");

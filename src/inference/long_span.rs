@@ -56,7 +56,7 @@ fn event(pulse: &ClockPulse) -> Event {
 /// # Errors
 /// As for [`PulsarClock`].
 pub(super) fn pulses_near(parameters: &Parameters<f64>, times: &[f64]) -> Result<Vec<Event>, Error> {
-    let mut clock = clock(parameters)?;
+    let clock = clock(parameters)?;
     let mut found: Vec<Event> = Vec::with_capacity(times.len());
     for &time in times {
         if let Some(pulse) = clock.pulse_near([time, 0.0])?
@@ -74,7 +74,7 @@ pub(super) fn pulses_near(parameters: &Parameters<f64>, times: &[f64]) -> Result
 /// # Errors
 /// As for [`PulsarClock`].
 pub(super) fn pulses_numbered(parameters: &Parameters<f64>, turns: &[(i64, f64)]) -> Result<Vec<Event>, Error> {
-    let mut clock = clock(parameters)?;
+    let clock = clock(parameters)?;
     let period = clock.period();
     let mut found = Vec::with_capacity(turns.len());
     for &(number, near) in turns {

@@ -109,7 +109,7 @@ fn the_error_of_a_clock_is_that_of_its_motion_over_the_rate_of_turns() -> Result
     let clock = PulsarClock::new(&star()?, &beam, &observer, AveragingOrder::Second)?;
     let truncation = clock.truncation(40.0);
     assert!(truncation > 0.0);
-    assert_relative_eq!(truncation, clock.mean_motion().truncation(40.0) * clock.period() / TAU, max_relative = 1e-14);
+    assert_relative_eq!(truncation, clock.motion().truncation(40.0) * clock.period() / TAU, max_relative = 1e-14);
     Ok(())
 }
 

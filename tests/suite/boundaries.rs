@@ -289,7 +289,7 @@ fn a_clock_takes_finite_times_of_two_parts() {
     let start = BodyState { axis: Vector3::z(), momentum: Vector3::z() * 2.2, equatorial_axis: Vector3::x() };
     let (beam, observer) = (Beam::new(0.5, 0.0, 0.3), Observer::at(0.6, 0.0));
     let problem = Problem::new(star(), Matrix3::zeros(), start).expect("a problem");
-    let mut clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second).expect("a clock");
+    let clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second).expect("a clock");
     let (endless, huge) = (f64::INFINITY, f64::MAX);
     for t in [[endless, 0.0], [0.0, endless], [huge, huge], [-huge, -huge], [1.0, f64::NAN], [endless, -endless]] {
         judged(clock.pulse_near(t), "time t");

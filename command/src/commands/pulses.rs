@@ -5,7 +5,7 @@ use twofold::plan::Output;
 use twofold_scene::scene_file::Columns;
 
 use super::explain::explained;
-use super::run::{OutputArgs, PlanArgs, force_method, read_scene, write};
+use super::run::{OutputArgs, PlanArgs, WindowArgs, force_method, read_scene, write};
 use super::{Failure, note, print};
 use twofold_scene::plan::LARGEST_ROTATION;
 use twofold_scene::trajectory::write_pulses;
@@ -17,6 +17,8 @@ pub(crate) struct PulsesArgs {
     /// The opposite beam too, whatever the scene says
     #[arg(long)]
     pub(crate) second_beam: bool,
+    #[command(flatten)]
+    pub(crate) window: WindowArgs,
     #[command(flatten)]
     pub(crate) plan: PlanArgs,
     #[command(flatten)]
@@ -33,11 +35,12 @@ pub(super) fn pulses(args: &PulsesArgs) -> Result<(), Failure> {
     if let Some(pulsar) = &mut scene.pulsar {
         pulsar.second_beam |= args.second_beam;
     }
+    let scene = args.window.of(scene, &args.scene)?;
     let rotation = scene.rotation();
     if rotation > LARGEST_ROTATION {
         return Err(Failure::BadInput(format!(
             "{}: [time] holds a rotation by {rotation:.1e} rad: allowed for a list of every pulse is at most {LARGEST_ROTATION:.0e} rad; \
-             shorten the span, or `twofold timing` computes the pulses near given epochs",
+             shorten the span, or choose a window of it by --from and --to, or `twofold timing` computes the pulses near given epochs",
             args.scene
         )));
     }

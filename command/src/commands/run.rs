@@ -21,9 +21,37 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "GROUP,GROUP", value_delimiter = ',')]
     pub(crate) columns: Option<Vec<String>>,
     #[command(flatten)]
+    pub(crate) window: WindowArgs,
+    #[command(flatten)]
     pub(crate) plan: PlanArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+}
+
+/// A part of the motion.
+#[derive(Args)]
+pub(crate) struct WindowArgs {
+    /// Begin at this time (in the unit of the scene) with the state that the motion has there, however late: turns are counted from there on; if not given, the start
+    /// of the scene
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub(crate) from: Option<f64>,
+    /// End at this time; if not given, the end of the scene
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub(crate) to: Option<f64>,
+}
+
+impl WindowArgs {
+    /// The window of a scene, or all of it.
+    pub(super) fn of(&self, scene: Scene, name: &str) -> Result<Scene, Failure> {
+        if self.from.is_none() && self.to.is_none() {
+            return Ok(scene);
+        }
+        let (from, to) = (self.from.unwrap_or(scene.times.start()), self.to.unwrap_or(scene.times.last()));
+        let window = scene.window(from, to).map_err(|why| Failure::BadInput(format!("{name}: {why}")));
+        let (scene, error) = window?;
+        note(&format!("estimated error of n, e_x and L / |L| at the start of the window: {error:.1e}"));
+        Ok(scene)
+    }
 }
 
 #[derive(Args)]
@@ -50,6 +78,11 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let names: Option<Vec<_>> = args.columns.as_ref().map(|names| names.iter().map(|name| name.trim()).collect());
     let mut scene = read_scene(&args.scene, names.as_deref().map_or(Columns::OfTheFile, Columns::Named))?;
     force_method(&mut scene, &args.plan, &args.scene)?;
+    let scene = args.window.of(scene, &args.scene)?;
+    for output in &scene.columns {
+        let lacks = |lacks: String| Failure::BadInput(format!("{}: {lacks}", args.scene));
+        scene.has_what_is_needed_for(*output).map_err(lacks)?;
+    }
     if args.plan.explain {
         return print(&explained(&scene, &scene.plan(&scene.columns)?));
     }

@@ -58,7 +58,7 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
         }
     }
     let refused = |why: String| Failure::BadInput(format!("{}: {why}", args.scene));
-    let mut pulsar = PulsarScene::new(&scene).map_err(refused)?;
+    let pulsar = PulsarScene::new(&scene).map_err(refused)?;
     let epochs = epochs(args, &scene, &pulsar.epoch)?;
     positive("--uncertainty", args.uncertainty)?;
     let series = series(args, &epochs, pulsar.clock.period())?;

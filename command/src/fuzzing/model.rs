@@ -230,7 +230,7 @@ fn pulses(case: &Case) {
 
 fn clock(case: &Case, time: f64) {
     let (Some(problem), Case { beam, observer, .. }) = (case.problem(), case) else { return };
-    if let Ok(mut clock) = PulsarClock::new(&problem, beam, observer, AveragingOrder::Second) {
+    if let Ok(clock) = PulsarClock::new(&problem, beam, observer, AveragingOrder::Second) {
         let _ = black_box((clock.period(), clock.truncation(time)));
         for time in [[0.0, 0.0], [time, 0.0], [time, time * 1e-17]] {
             let _ = black_box(clock.pulse_near(time));

@@ -34,7 +34,7 @@ fn run(scene: &Scene) {
     if is_short {
         let _ = write_pulses(scene, std::io::sink(), |_| {});
     }
-    if let (Ok(mut pulsar), true) = (PulsarScene::new(scene), scene.times.count() <= SAMPLES) {
+    if let (Ok(pulsar), true) = (PulsarScene::new(scene), scene.times.count() <= SAMPLES) {
         let start = scene.times.start();
         let epochs = scene.times.iter().map(|t| pulsar.epoch.after([t - start, 0.0])).collect::<Result<Vec<_>, _>>();
         let Some(Ok(timing)) = epochs.ok().map(|epochs| pulsar.timed(&epochs, false)) else { return };

@@ -121,7 +121,7 @@ fn the_digits_of_the_files_give_the_residuals() {
 fn a_wobble_is_not_absorbed_by_a_spin_down() {
     let scene = Scene::named("b1828-11").expect("a scene");
     let rms = |scene: &Scene, (count, step): (u32, f64), with_rate| {
-        let mut pulsar = PulsarScene::new(scene).expect("a pulsar");
+        let pulsar = PulsarScene::new(scene).expect("a pulsar");
         let epochs = (0..count).map(|k| pulsar.epoch.after([f64::from(k) * step, 0.0]).expect("near"));
         pulsar.timed(&epochs.collect::<Vec<_>>(), with_rate).expect("times").root_mean_square()
     };
@@ -297,8 +297,37 @@ fn the_rounding_of_directions_is_a_part_of_a_turn() {
     let scene = Scene::from_toml("slow", &with_lines("b1828-11", &lines)).expect("a scene");
     let pulsar = PulsarScene::new(&scene).expect("a pulsar");
     // Without s and at the start nothing else is left; a turn takes 1e6 s but for the 1e-3 by which the axis goes round faster.
-    let turns = pulsar.clock.mean_motion().rounding(0.0) / std::f64::consts::TAU;
+    let turns = pulsar.clock.motion().rounding(0.0) / std::f64::consts::TAU;
     let error = pulsar.residual_error(0.0);
     assert!(turns / frequency > 1e-10, "{turns}");
     assert!((error * frequency / turns - 1.0).abs() < 2e-3, "{error:e} s for {turns:e} turns");
+}
+
+/// A violation so strong that the averaged motion is off by microseconds: pulses are those that `pulses` lists, and the residuals after 20 years are exact to the rounding of an arrival time.
+#[test]
+fn a_strong_violation_is_timed_by_the_exact_motion() {
+    let text = "[star]\nmass = 1.4\ndensity = 4e14\noblateness = 2e-3\nspin_frequency = 57.0\n[lorentz_violation]\n\
+        tensor = [[2.0e-2, 1.1e-2, -0.7e-2], [1.1e-2, -0.9e-2, 0.5e-2], [-0.7e-2, 0.5e-2, -1.4e-2]]\n[initial]\nalpha = 0.4\nbeta = 0.9\n\
+        gamma = 1.3\nalpha_rate = 380.0\nbeta_rate = 21.0\n[observer]\ntheta_o = 1.1\nphi_o = 0.6\n[pulsar]\nchi = 1.2\nrho = 0.6\n\
+        [time]\nepoch = 59000.0\nspan = 3.0\nsamples = 40\n";
+    let folder = Folder::with(&[("strong.toml", text)]);
+    let listed = stdout(&folder.succeeds(&["pulses", "strong.toml"]));
+    let listed: Vec<[f64; 3]> = cells(&listed)[1..]
+        .iter()
+        .filter(|row| row[6].is_empty())
+        .map(|row| [4, 5, 8].map(|k| row[k].parse().expect("a number")))
+        .collect();
+    folder.succeeds(&["timing", "strong.toml", "--out", "."]);
+    let mut turns = Vec::new();
+    for row in numbers(&folder.read("strong.csv")).iter().skip(1) {
+        let seconds = (row[1] - 59000.0 + row[2]) * 86400.0;
+        let near = listed.iter().find(|pulse| (pulse[0] - seconds).abs() < 1e-10).expect("a pulse of the list");
+        assert!((row[4] - near[1]).abs() < 1e-11, "{near:?}");
+        turns.push(row[0] - near[2]);
+    }
+    assert!(turns.len() > 15 && turns.iter().all(|turn| *turn == turns[0]), "{turns:?}");
+    let output =
+        folder.succeeds(&["timing", "strong.toml", "--to", "66305", "--epochs", "200", "--out", ".", "--force"]);
+    assert!(stderr(&output).contains("estimated error of the residuals: 8.6e-12 s"), "{}", stderr(&output));
+    assert!(numbers(&folder.read("strong.csv")).len() > 50);
 }

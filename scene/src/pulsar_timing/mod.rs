@@ -15,8 +15,7 @@ use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::epoch::{DAY, Epoch};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::strain_unit;
-use twofold::observables::pulsar::{Beam, ClockPulse, PulsarClock, SpinFit};
-use twofold::solutions::averaged::AveragingOrder;
+use twofold::observables::pulsar::{Beam, ClockPulse, PhasedMotion, PulsarClock, SpinFit};
 
 use crate::scene_file::Scene;
 
@@ -68,8 +67,8 @@ impl PulsarScene {
         }
         let observer = viewer.basis();
         let problem = Problem::new(spheroid, *scene.problem.coefficients(), initial)?;
-        let clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second)
-            .map_err(|why| format!("the scene has no averaged motion: {why}"))?;
+        let motion = PhasedMotion::new(&problem, scene.times.last() - scene.times.start())?;
+        let clock = PulsarClock::on(motion, &beam, &observer)?;
         Ok(Self {
             problem,
             observer,
@@ -80,10 +79,10 @@ impl PulsarScene {
         })
     }
 
-    /// Estimated error (s) of the residuals of a pulse at the time `t` (s, from the epoch) after `F0` is fitted: what the order of the averaged motion
-    /// leaves out, the rounding of directions, and that of an arrival time to 1e-16 d.
+    /// Estimated error (s) of the residuals of a pulse at the time `t` (s, from the epoch) after `F0` is fitted: what the motion leaves out (the averaged one
+    /// by its order, the series on the torus by its length), the rounding of directions, and that of an arrival time to 1e-16 d.
     pub fn residual_error(&self, t: f64) -> f64 {
-        let motion = self.clock.mean_motion();
+        let motion = self.clock.motion();
         let per_radian = self.clock.period().abs() / TAU;
         // The rounding of rates is linear in time, but for the slow ones, whose share is 1e-15 of a residual.
         ARRIVAL_ROUNDING.max(self.clock.truncation(t).abs() + motion.rounding(0.0) * per_radian)
@@ -97,7 +96,7 @@ impl PulsarScene {
     pub fn arrival_error(&self, t: f64) -> f64 {
         const ROUNDINGS: f64 = 10.0;
         let per_radian = self.clock.period().abs() / TAU;
-        let of_motion = self.clock.mean_motion().error_estimate(t) * per_radian;
+        let of_motion = self.clock.motion().error_estimate(t) * per_radian;
         ARRIVAL_ROUNDING.max(of_motion) + ROUNDINGS * f64::EPSILON / 2.0 * t.abs()
     }
 
@@ -105,7 +104,7 @@ impl PulsarScene {
     ///
     /// # Errors
     /// No pulse at any epoch, with the closest approach; and as for [`PulsarClock::pulse_near`] and [`SpinFit::new`].
-    pub fn timed(&mut self, epochs: &[Epoch], with_rate: bool) -> Result<Timing, TimingError> {
+    pub fn timed(&self, epochs: &[Epoch], with_rate: bool) -> Result<Timing, TimingError> {
         let mut pulses = Vec::with_capacity(epochs.len());
         let (mut seen, mut dark) = (HashSet::new(), 0);
         for at in epochs {

@@ -1,4 +1,4 @@
-//! A pulsar as a clock: its pulse near any time, with turns counted without a break over decades. Eqs. (44), (47).
+//! A pulsar as a clock: its pulse near any time, with turns counted without a break over any number of them. Eqs. (44), (47).
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -8,21 +8,20 @@ use super::position_angle::{position_angle, position_angle_rate};
 use super::rate_bounds::{RateBounds, rate_bounds};
 use super::train::{PulseTrain, check_beam};
 use super::turn_count::TurnCount;
-use super::{Beam, Pulse};
+use super::{Beam, PhasedMotion, Pulse};
 use crate::dynamics::equations_of_motion::angular_velocity;
-use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
+use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
-use crate::lorentz_violation::principal_frame;
 use crate::numerics::angle::wrapped;
 use crate::numerics::double_double::DoubleDouble;
 use crate::observables::Observer;
 use crate::propagation::{Motion, Turning};
-use crate::solutions::averaged::{AveragedSolution, AveragingOrder};
+use crate::solutions::averaged::AveragingOrder;
 
 /// Most rotation of the body in one turn about L (rad): the search takes a tenth of a second.
 const MOST_ROTATION: f64 = 1e5;
 
-/// A pulsar in averaged motion, with its beam and its observer.
+/// A pulsar with its motion, its beam and its observer.
 ///
 /// ```
 /// use nalgebra::{Matrix3, Vector3};
@@ -37,20 +36,16 @@ const MOST_ROTATION: f64 = 1e5;
 /// let start = BodyState { axis: Vector3::z(), momentum: Vector3::z() * (1.001 * spin), equatorial_axis: Vector3::x() };
 /// let (beam, observer) = (Beam::new(1.3, 0.0, 0.15), Observer::at(1.35, 0.0));
 /// let problem = Problem::new(spheroid, Matrix3::zeros(), start)?;
-/// let mut clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second)?;
+/// let clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second)?;
 /// let pulse = clock.pulse_near([4.7e8, 0.0])?.expect("a pulse in every turn");
 /// assert_eq!(pulse.number, (4.7e8 * spin / core::f64::consts::TAU).round() as i64);
 /// # Ok::<(), twofold::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct PulsarClock {
-    mean: AveragedSolution<f64>,
-    spheroid: RigidSpheroid<f64>,
-    /// All in the principal frame of `s`.
-    violation: Matrix3<f64>,
+    motion: PhasedMotion,
     beam: Beam<f64>,
     observer: Observer<f64>,
-    given_from_principal: Matrix3<f64>,
     bounds: RateBounds,
     turns: TurnCount,
 }
@@ -77,19 +72,25 @@ pub struct ClockPulse {
 
 /// The motion near a time.
 struct Near<'a> {
-    clock: &'a PulsarClock,
-    mean: AveragedSolution<f64>,
+    motion: &'a PhasedMotion,
+    t: [f64; 2],
+}
+
+impl Near<'_> {
+    fn at(&self, since: f64) -> BodyState<f64> {
+        self.motion.state((DoubleDouble::from(self.t) + since.into()).into())
+    }
 }
 
 impl Motion<f64> for Near<'_> {
     type State = BodyState<f64>;
 
     fn spheroid(&self) -> &RigidSpheroid<f64> {
-        &self.clock.spheroid
+        self.motion.problem.spheroid()
     }
 
     fn coefficients(&self) -> &Matrix3<f64> {
-        &self.clock.violation
+        self.motion.problem.coefficients()
     }
 
     fn span(&self) -> (f64, f64) {
@@ -97,95 +98,86 @@ impl Motion<f64> for Near<'_> {
     }
 
     fn state(&self, t: f64) -> Result<BodyState<f64>, Error> {
-        Ok(self.mean.state(t))
+        Ok(self.at(t))
     }
 
     fn error_estimate(&self, t: f64) -> f64 {
-        self.mean.error_estimate(t)
+        self.motion.error_estimate(self.t[0] + t)
     }
 }
 
 impl PulsarClock {
-    /// The pulsar whose state at the time zero is the initial one of `problem`, in whose frame the `observer` is.
+    /// The pulsar in averaged motion, whose state at the time zero is the initial one of `problem`, in whose frame the `observer` is.
     ///
     /// # Errors
-    /// [`Error::Domain`] as for [`AveragedSolution::new`] and [`pulse_train`](super::pulse_train), where the line of sight or the magnetic
-    /// axis is along L, about which turns are counted, and for a body that turns by more than 1e5 rad in one such turn.
+    /// As for [`PhasedMotion::averaged`] and [`on`](Self::on).
     pub fn new(
         problem: &Problem<f64>,
         beam: &Beam<f64>,
         observer: &Observer<f64>,
         order: AveragingOrder,
     ) -> Result<Self, Error> {
+        Self::on(PhasedMotion::averaged(problem, order)?, beam, observer)
+    }
+
+    /// The pulsar in a motion, in whose frame the `observer` is.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] as for [`pulse_train`](super::pulse_train), where the line of sight or the magnetic axis comes along L, about which turns are counted,
+    /// and for a body that turns by more than 1e5 rad in one such turn.
+    pub fn on(motion: PhasedMotion, beam: &Beam<f64>, observer: &Observer<f64>) -> Result<Self, Error> {
         check_beam(beam, &observer.direction)?;
-        let (spheroid, initial) = (problem.spheroid(), problem.initial());
-        let frame = principal_frame(problem.coefficients())?;
-        let turned = initial.rotated(&frame.principal_from_given);
-        let violation = frame.coefficients.tensor();
-        let mean =
-            AveragedSolution::with_free_rotation_of(initial, &Problem::new(*spheroid, violation, turned)?, order)?;
-        let observer = observer.rotated(&frame.principal_from_given);
-        let turns = TurnCount::new(&mean, beam, &observer.direction)?;
-        let bounds = rate_bounds(spheroid, &violation, &turned);
-        let rotation = core::f64::consts::TAU * bounds.first / turns.rate(&mean);
+        let turns = TurnCount::new(&motion, beam, &observer.direction)?;
+        let problem = &motion.problem;
+        let bounds = rate_bounds(problem.spheroid(), problem.coefficients(), problem.initial());
+        let rotation = core::f64::consts::TAU * bounds.first / turns.rate(&motion);
         Error::ensure(
             (0.0..=MOST_ROTATION).contains(&rotation),
             "rotation (rad) of the body in a turn of the magnetic axis about L",
             rotation,
             "above zero, and at most 1e5: all of it is searched for pulses",
         )?;
-        Ok(Self {
-            bounds,
-            turns,
-            mean,
-            spheroid: *spheroid,
-            violation,
-            beam: *beam,
-            observer,
-            given_from_principal: frame.principal_from_given.transpose(),
-        })
+        Ok(Self { bounds, turns, motion, beam: *beam, observer: *observer })
     }
 
-    /// The motion, in the principal frame of `s`.
-    pub fn mean_motion(&self) -> &AveragedSolution<f64> {
-        &self.mean
+    /// The motion.
+    pub fn motion(&self) -> &PhasedMotion {
+        &self.motion
     }
 
     /// Mean time between two pulses.
     pub fn period(&self) -> f64 {
-        core::f64::consts::TAU / self.turns.rate(&self.mean)
+        core::f64::consts::TAU / self.turns.rate(&self.motion)
     }
 
-    /// Error of a midpoint at the time `t` by what the order of the averaged motion leaves out: that of directions over the rate of turns.
+    /// Error of a midpoint at the time `t` by what the motion leaves out: that of directions over the rate of turns.
     pub fn truncation(&self, t: f64) -> f64 {
-        self.mean.truncation(t) / self.turns.rate(&self.mean)
+        self.motion.truncation(t) / self.turns.rate(&self.motion)
     }
 
     /// The state as a function of the time since `t[0] + t[1]`, in the frame of the initial one.
     pub fn near(&self, t: [f64; 2]) -> impl Fn(f64) -> BodyState<f64> {
-        let (mean, given_from_principal) = (self.mean.near(t), self.given_from_principal);
-        move |since| mean.state(since).rotated(&given_from_principal)
+        let near = Near { motion: &self.motion, t };
+        move |since| near.at(since)
     }
 
     /// The pulse of the turn nearest to the time `t[0] + t[1]`, of its pulses that nearest to the middle of the turn; none if that turn
-    /// is dark, or if an edge of the pulse is farther than a turn and a half from the middle of the turn.
+    /// is dark, or if an edge of the pulse is farther than a turn and a half from the middle of the turn. The cost does not depend on `t`.
     ///
     /// A pulse is a stretch of time with `m.n > cos rho`. The search takes derivatives and their bounds from the exact equations of motion; those
-    /// of the averaged motion differ by `x^2`, `x = C |s| I^xx / |L|^2`, as the averaged motion itself does. For `x` below 1e-6 edges are as exact as
-    /// those of [`pulse_train`](super::pulse_train), else to some `1e-4 x^2` rad. The cost does not depend on the turns before `t`, but the slow
-    /// precession since the last call is followed in steps of a quarter radian, a microsecond each, so that numbers have no break.
+    /// of an averaged motion differ by `x^2`, `x = C |s| I^xx / |L|^2`, as the averaged motion itself does. For `x` below 1e-6, and in exact motion, edges are as
+    /// exact as those of [`pulse_train`](super::pulse_train), else to some `1e-4 x^2` rad.
     ///
     /// # Errors
-    /// [`Error::Domain`] where turns cannot be counted, for times that are not finite, and after 4e18 turns.
-    pub fn pulse_near(&mut self, t: [f64; 2]) -> Result<Option<ClockPulse>, Error> {
+    /// [`Error::Domain`] for times that are not finite, and after 4e18 turns.
+    pub fn pulse_near(&self, t: [f64; 2]) -> Result<Option<ClockPulse>, Error> {
         Error::ensure((t[0] + t[1]).is_finite(), "time t", t[0] + t[1], "a finite number")?;
         // The parts of a sum that is much less than they are would tell no turns apart.
         let t = DoubleDouble::sum(t[0], t[1]).into();
-        let mean = self.mean.near(t);
-        let look = self.turns.look(&self.mean, t, &mean.state(0.0))?;
+        let look = self.turns.look(&self.motion, t)?;
         let period = self.period();
-        let middle = -look.phase / self.turns.rate(&self.mean);
-        let near = Near { clock: self, mean };
+        let middle = -look.phase / self.turns.rate(&self.motion);
+        let near = Near { motion: &self.motion, t };
         let margin = ByStates {
             motion: &near,
             turning: Turning::Equations,
@@ -194,12 +186,12 @@ impl PulsarClock {
         };
         let search = EdgeSearch::new(margin, self.bounds);
         if let Some(pulse) = around(&search, middle, period)? {
-            return self.described(&near, t, look.number, &pulse).map(Some);
+            return Ok(Some(self.described(&near, look.number, &pulse)));
         }
         for reach in [0.5, 1.5] {
             let train = search.train(middle - reach * period, middle + reach * period)?;
             match nearest(&train, middle) {
-                Some(pulse) if pulse.is_whole() => return self.described(&near, t, look.number, &pulse).map(Some),
+                Some(pulse) if pulse.is_whole() => return Ok(Some(self.described(&near, look.number, &pulse))),
                 Some(_) => {}
                 None => return Ok(None),
             }
@@ -207,22 +199,22 @@ impl PulsarClock {
         Ok(None)
     }
 
-    fn described(&self, near: &Near<'_>, t: [f64; 2], number: i64, pulse: &Pulse) -> Result<ClockPulse, Error> {
-        let state = near.mean.state(pulse.midpoint());
-        let omega = angular_velocity(&self.spheroid, &state.axis, &state.momentum);
+    fn described(&self, near: &Near<'_>, number: i64, pulse: &Pulse) -> ClockPulse {
+        let state = near.at(pulse.midpoint());
+        let omega = angular_velocity(near.spheroid(), &state.axis, &state.momentum);
         let m = self.beam.direction(&state);
         let angle = |m: &Vector3<f64>| position_angle(m, &self.observer).unwrap_or(f64::NAN);
         let middle = angle(&m);
-        let from = |t: f64| angle(&self.beam.direction(&near.mean.state(t)));
-        Ok(ClockPulse {
+        let from = |t: f64| angle(&self.beam.direction(&near.at(t)));
+        ClockPulse {
             number,
-            midpoint: (DoubleDouble::from(t) + pulse.midpoint().into()).into(),
+            midpoint: (DoubleDouble::from(near.t) + pulse.midpoint().into()).into(),
             duration: pulse.duration(),
             position_angle: middle,
             position_angle_rate: if middle.is_nan() { middle } else { position_angle_rate(&m, &omega, &self.observer) },
             swing: wrapped(from(pulse.end) - middle) + wrapped(middle - from(pulse.start)),
-            state: state.rotated(&self.given_from_principal),
-        })
+            state,
+        }
     }
 }
 
@@ -303,7 +295,7 @@ mod tests {
         };
         let wobble = TAU / (0.25 * theta.cos());
         for (half_opening, is_given) in [(0.3, true), (0.75, false)] {
-            let mut clock = wobbling(half_opening);
+            let clock = wobbling(half_opening);
             assert!((clock.period() - TAU).abs() < 1e-12);
             let duration = share(half_opening) * wobble;
             // Less than one turn, or more than three.
@@ -341,7 +333,7 @@ mod tests {
     /// Parts that cancel are one time.
     #[test]
     fn a_time_may_be_any_sum() {
-        let mut clock = wobbling(0.3);
+        let clock = wobbling(0.3);
         let wanted = clock.pulse_near([3.0, 0.0]).unwrap();
         assert_eq!(clock.pulse_near([1e20, -1e20]).unwrap().is_some(), clock.pulse_near([0.0, 0.0]).unwrap().is_some());
         assert_eq!(clock.pulse_near([3.0, 0.0]).unwrap(), wanted);

@@ -253,7 +253,7 @@ impl<S: Real> AveragedSolution<S> {
         &self.tensor
     }
 
-    pub(super) fn top(&self) -> &Top<S> {
+    pub(crate) fn top(&self) -> &Top<S> {
         &self.top
     }
 

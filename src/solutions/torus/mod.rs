@@ -34,6 +34,7 @@
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
+mod angles;
 mod flow;
 mod found;
 mod fourier;

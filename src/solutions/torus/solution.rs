@@ -37,7 +37,7 @@ const FEW: usize = 16;
 /// coefficients are those of the motion along the commuting flows of `H` and `K` on a grid of the torus. See `docs/exact-motion.md`.
 #[derive(Debug, Clone)]
 pub struct TorusSolution {
-    phases: [Phase; 3],
+    pub(super) phases: [Phase; 3],
     /// Of `n` and `L`.
     axes: Table,
     /// Of `V`, from which `e_x` is turned.

@@ -37,7 +37,7 @@ fn clocks() {
             let name = format!("{of}, {name}");
             let clock =
                 Problem::new(star, s, initial).and_then(|problem| PulsarClock::new(&problem, beam, observer, order));
-            table.found(&name, clock, |table, mut clock| {
+            table.found(&name, clock, |table, clock| {
                 table.row(&name, format_args!("period {:?}, truncation {:?}", clock.period(), clock.truncation(40.0)));
                 // In this order: the next pulse is looked for from the one before.
                 for t in [[12.0, 0.3], [5e3, 0.25], [-250.0, 0.0], [30.0, 0.0]] {

@@ -22,12 +22,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let epochs: Vec<_> = epochs.collect::<Result<_, _>>()?;
         let times: Vec<_> = epochs.iter().map(|at| at.seconds_since(&pulsar.epoch)).collect();
         let set_up = least(|| drop(black_box(PulsarScene::new(&scene))));
-        let mean = pulsar.clock.mean_motion();
-        let states = least(|| times.iter().for_each(|t| _ = black_box(mean.state_at(&mean.phases_at(*t)))));
-        let mut clock = pulsar.clock.clone();
-        let pulses = least(|| times.iter().for_each(|t| _ = black_box(clock.pulse_near(*t))));
-        let mut timed = pulsar.clone();
-        let with_fit = least(|| drop(black_box(timed.timed(&epochs, true))));
+        let motion = pulsar.clock.motion();
+        let states = least(|| times.iter().for_each(|t| _ = black_box(motion.state(*t))));
+        let pulses = least(|| times.iter().for_each(|t| _ = black_box(pulsar.clock.pulse_near(*t))));
+        let with_fit = least(|| drop(black_box(pulsar.timed(&epochs, true))));
         println!("{:11} {set_up:12.4} {states:12.2} {pulses:12.2} {with_fit:14.2}", built_in.name);
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! A pulsar as a clock over decades: numbers and arrival times. Eqs. (44), (47).
 
-use twofold::observables::pulsar::PulsarClock;
+use twofold::observables::pulsar::{PhasedMotion, PulsarClock};
 use twofold::solutions::averaged::{AveragedPhases, AveragedRates};
 
 use crate::prelude::*;
@@ -11,10 +11,28 @@ checks! {
     /// numbers and midpoints of single pulses, looked up in any order over 2000 t_c of an averaged motion, are those of the pulse train, whose
     /// turns are followed from one half radian to the next: chi less or more than the wobble and its supplement, spins of both signs, L that goes
     /// round the line of sight or not
-    Oracle "pulsar-clock-numbers" [44]: numbers;
+    Oracle "pulsar-clock-numbers" [44]: || numbers(averaged, |problem| PhasedMotion::averaged(problem, AveragingOrder::Second));
     AtMost(1e-6) "largest error of a midpoint [t_c]; infinite if a number is wrong, 40 random pulsars of 10 pulses or more";
     because "the last step to an edge, some 1e-4 rad, is by derivatives of the exact motion, off by (C |s| I^xx / |L|^2)^2, up to 7e-4; a margin is \
      slow at the edges of a short pulse";
+    /// the same for the exact motion: the clock on the torus, the pulse train by Taylor series
+    Oracle "pulsar-clock-torus" [44]: || numbers(taylor, |problem| PhasedMotion::torus(problem, 2000.0));
+    AtMost(1e-10) "largest error of a midpoint [t_c]; infinite if a number is wrong, 40 random pulsars of 10 pulses or more";
+    because "the Taylor series loses 2e-16 for each radian, 1e-12 in all; a margin is slow at the edges of a short pulse";
+    /// around late times, up to which no turn is followed, numbers and midpoints are those of the pulse train by Taylor series from the state there: the four
+    /// examples of strong violation
+    Oracle "pulsar-clock-late" [44]: late;
+    AtMost(1e-10) "largest error of a midpoint from the time [t_c], 1e6, 1e9 and 1e12 t_c, 300 t_c each; infinite if a number is wrong";
+    because "the state is exact to 1e-15, and the Taylor series to 2e-16 for each radian; a margin is slow at the edges of a short pulse";
+    /// however long, a gap has as many turns as the mean rate gives it, and the periodic part no whole one: the four examples
+    Oracle "pulsar-clock-gaps" [44]: gaps;
+    AtMost(1.0) "largest difference of the number of a pulse from its time over the mean period, that of the first pulse taken away [turns], 1e6, 1e9, 1e12 t_c";
+    because "the azimuth of m about L is at most half a turn from that of its mean turns either way";
+    /// of weakly perturbed stars the clocks on the torus and on the averaged motion agree to what the latter states: tp-II with its tensor times 0.1, 0.01, 0.001,
+    /// over 1e5 t_c
+    Oracle "pulsar-clock-averaged" [44]: against_averaged;
+    AtMost(1.0) "largest difference of a midpoint over the estimated error of the averaged one";
+    because "the estimate is that of directions, of which the middle of two edges takes a part";
     /// arrival times of the four built-in pulsars 20 years before and after their epochs, with their coefficients and with |s| of 1e-9, are those
     /// of the same averaged motion in double-double arithmetic
     Oracle "pulsar-clock-20-years" [44]: twenty_years;
@@ -52,14 +70,27 @@ fn any_star(random: &mut Random) -> Result<Problem<f64>, String> {
     Ok(Problem::new(spheroid, s, BodyState { axis, momentum, equatorial_axis })?)
 }
 
-fn numbers() -> Result<Measured, String> {
+fn averaged(problem: &Problem<f64>) -> Result<AveragedMotion<f64>, Error> {
+    AveragedMotion::new(problem, (0.0, 2000.0), AveragingOrder::Second)
+}
+
+fn taylor(problem: &Problem<f64>) -> Result<TaylorMotion<f64>, Error> {
+    problem.taylor((0.0, 2000.0), 1e-13)
+}
+
+/// Of the motions of random stars.
+fn numbers<M: Motion<f64, State = BodyState<f64>>>(
+    motion: impl Fn(&Problem<f64>) -> Result<M, Error>,
+    phased: impl Fn(&Problem<f64>) -> Result<PhasedMotion, Error>,
+) -> Result<Measured, String> {
     let (mut random, mut worst, mut stars, mut tried) = (Random::with_seed(91), Worst::default(), 0, 0);
     while stars < 40 {
         tried += 1;
         let problem = any_star(&mut random)?;
         let beam = Beam::new(random.within(0.05, PI - 0.05), random.within(-PI, PI), random.within(0.1, 0.9));
         let observer = Observer::at(random.within(0.05, PI - 0.05), random.within(-PI, PI));
-        let Ok(motion) = AveragedMotion::new(&problem, (0.0, 2000.0), AveragingOrder::Second) else { continue };
+        let Ok(clock) = phased(&problem).and_then(|phased| PulsarClock::on(phased, &beam, &observer)) else { continue };
+        let motion = motion(&problem)?;
         let n = &observer.direction;
         let train = pulse_train(&motion, &beam, n, motion.span())?;
         let Ok(found) = arrivals(&motion, &beam, n, &train) else { continue };
@@ -76,7 +107,6 @@ fn numbers() -> Result<Measured, String> {
             continue;
         }
         stars += 1;
-        let mut clock = PulsarClock::new(&problem, &beam, &observer, AveragingOrder::Second)?;
         let mut offset = None;
         for _ in 0..30.min(single.len()) {
             let i = single.swap_remove((random.word() % single.len() as u64) as usize);
@@ -91,6 +121,85 @@ fn numbers() -> Result<Measured, String> {
             let error = (pulse.midpoint[0] - found[i].midpoint) + pulse.midpoint[1];
             let figure = if pulse.number == expected { error.abs() } else { f64::INFINITY };
             worst.see(figure, || format!("{}: {error:e}, number {} for {expected}", place(), pulse.number));
+        }
+    }
+    worst.finish()
+}
+
+/// Name, star and clock on its torus.
+type Example = (&'static str, Problem<f64>, PulsarClock);
+
+/// The four examples of strong violation.
+fn examples() -> Result<Vec<Example>, String> {
+    let of = |name: &'static str| {
+        let problem = Scene::named(name)?.problem;
+        let clock = PulsarClock::on(PhasedMotion::torus(&problem, 1e12)?, &beam(), &observer())?;
+        Ok((name, problem, clock))
+    };
+    ["tp-1", "tp-2", "sp-1", "sp-2"].into_iter().map(of).collect()
+}
+
+fn beam() -> Beam<f64> {
+    Beam::new(0.9, 0.3, 0.5)
+}
+
+fn observer() -> Observer<f64> {
+    Observer::at(1.0, 0.2)
+}
+
+fn late() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for (name, problem, clock) in examples()? {
+        for late in [1e6, 1e9, 1e12] {
+            let motion = problem.starting_from(clock.near([late, 0.0])(0.0))?.taylor((0.0, 300.0), 1e-14)?;
+            let direction = observer().direction;
+            let train = pulse_train(&motion, &beam(), &direction, motion.span())?;
+            let found = arrivals(&motion, &beam(), &direction, &train)?;
+            let mut offset = None;
+            for arrival in &found {
+                let pulse = clock.pulse_near([late, arrival.midpoint])?.ok_or("no pulse")?;
+                let error = (pulse.midpoint[0] - late) + pulse.midpoint[1] - arrival.midpoint;
+                let is_next = pulse.number - arrival.number == *offset.get_or_insert(pulse.number - arrival.number);
+                let figure = if is_next { error.abs() } else { f64::INFINITY };
+                worst.see(figure, || format!("{name} at {late:e} + {}: turn {}", arrival.midpoint, pulse.number));
+            }
+        }
+    }
+    worst.finish()
+}
+
+fn gaps() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    for (name, _, clock) in examples()? {
+        let turns = |late: f64| -> Result<f64, String> {
+            let mut tries = (0..1000).map(|k| clock.pulse_near([late, f64::from(k) * clock.period()]));
+            let pulse = tries.find_map(Result::transpose).ok_or("no pulse")??;
+            // Whole turns of the time in 32 digits.
+            let time = DoubleDouble::sum_of(pulse.midpoint[0], pulse.midpoint[1]);
+            let number = DoubleDouble::from_f64(pulse.number as f64);
+            Ok((number - time / DoubleDouble::from_f64(clock.period())).high())
+        };
+        let first = turns(0.0)?;
+        for late in [1e6, -1e6, 1e9, 1e12] {
+            worst.see((turns(late)? - first).abs(), || format!("{name} at {late:e}"));
+        }
+    }
+    worst.finish()
+}
+
+fn against_averaged() -> Result<Measured, String> {
+    let mut worst = Worst::default();
+    let strong = Scene::named("tp-2")?.problem;
+    for scale in [0.1, 0.01, 0.001] {
+        let problem = Problem::new(*strong.spheroid(), strong.coefficients() * scale, *strong.initial())?;
+        let averaged = PulsarClock::new(&problem, &beam(), &observer(), AveragingOrder::Second)?;
+        let torus = PulsarClock::on(PhasedMotion::torus(&problem, 1e5)?, &beam(), &observer())?;
+        for k in -200..=200 {
+            let t = 500.0 * f64::from(k);
+            let (Some(a), Some(b)) = (averaged.pulse_near([t, 0.0])?, torus.pulse_near([t, 0.0])?) else { continue };
+            let difference = (a.midpoint[0] - b.midpoint[0]) + (a.midpoint[1] - b.midpoint[1]);
+            let figure = if a.number == b.number { difference.abs() / averaged.truncation(t) } else { f64::INFINITY };
+            worst.see(figure, || format!("tensor times {scale} at {t}: {difference:e}"));
         }
     }
     worst.finish()
@@ -171,7 +280,7 @@ fn twenty_years() -> Result<Measured, String> {
     let pulsars = [pulsars("1.6e-9")?, pulsars("6.6e-4")?].concat();
     worst_of(0..pulsars.len(), |&i| {
         let (name, scene) = &pulsars[i];
-        let mut pulsar = PulsarScene::new(scene)?;
+        let pulsar = PulsarScene::new(scene)?;
         let beam = scene.pulsar.ok_or("no beam")?.beam();
         let exact = Exact::of(&pulsar, &beam)?;
         let (mut worst, mut seen) = (0.0, 0);
@@ -218,7 +327,7 @@ fn free_b1828(epsilon: Option<f64>) -> Result<Scene, String> {
 /// Largest difference of the residuals of free precession from the formula, and the largest residual.
 fn left_of_formula(epsilon: Option<f64>) -> Result<[f64; 2], String> {
     let scene = free_b1828(epsilon)?;
-    let mut pulsar = PulsarScene::new(&scene)?;
+    let pulsar = PulsarScene::new(&scene)?;
     let (chi, theta) = (scene.pulsar.ok_or("no beam")?.chi, scene.initial_angles.beta);
     let epochs = (0..500).map(|k| pulsar.epoch.after([f64::from(k) * 631_152.0, 0.0]));
     let epochs = epochs.collect::<Result<Vec<_>, _>>()?;

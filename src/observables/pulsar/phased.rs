@@ -1,0 +1,151 @@
+//! Motions by phases that grow in proportion to time.
+//!
+//! ```
+//! use nalgebra::{Matrix3, Vector3};
+//! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
+//! use twofold::observables::Observer;
+//! use twofold::observables::pulsar::{Beam, PhasedMotion, PulsarClock};
+//!
+//! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
+//! let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(-0.7, 0.1, 1.5));
+//! let start = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
+//! let problem = Problem::new(RigidSpheroid::in_units_of_tc(1.1), s, start)?;
+//! // So strong a torque needs the torus. After 1e12 t_c:
+//! let motion = PhasedMotion::new(&problem, 1e12)?;
+//! assert!(motion.error_estimate(1e12) < 1e-13);
+//! let clock = PulsarClock::on(motion, &Beam::new(1.3, 0.0, 0.6), &Observer::at(1.4, 0.0))?;
+//! let turns = 1e12 / clock.period();
+//! let pulse = (0..9).find_map(|k| clock.pulse_near([1e12, f64::from(k) * clock.period()]).transpose()).expect("a pulse")?;
+//! assert!((pulse.number as f64 - turns).abs() < 10.0);
+//! # Ok::<(), twofold::Error>(())
+//! ```
+
+use core::f64::consts::TAU;
+
+use nalgebra::Matrix3;
+
+use crate::dynamics::{BodyState, Problem, RotationState};
+use crate::error::Error;
+use crate::lorentz_violation::principal_frame;
+use crate::solutions::averaged::{AveragedPhases, AveragedSolution, AveragingOrder, Turns};
+use crate::solutions::torus::TorusSolution;
+
+/// A motion whose state is a periodic function of three phases that grow in proportion to time: near any time at the same cost. Two of them move `n` and `L`,
+/// the third turns the body about `n`.
+#[derive(Debug, Clone)]
+pub struct PhasedMotion {
+    pub(super) problem: Problem<f64>,
+    solution: Solution,
+}
+
+#[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "one motion at a time, and nothing on the heap")]
+enum Solution {
+    Averaged { mean: AveragedSolution<f64>, given_from_principal: Matrix3<f64> },
+    Torus(TorusSolution),
+}
+
+impl PhasedMotion {
+    /// The motion from the initial state at the time zero, for times up to `longest` in size: averaged to second order where what that leaves out is below
+    /// its rounding, or where the torus is refused, else on the torus.
+    ///
+    /// # Errors
+    /// Those of the torus where there is no averaged motion either.
+    pub fn new(problem: &Problem<f64>, longest: f64) -> Result<Self, Error> {
+        let averaged = Self::averaged(problem, AveragingOrder::Second);
+        match averaged {
+            Ok(motion) if motion.truncation(longest) <= motion.rounding(longest) => Ok(motion),
+            averaged => Self::torus(problem, longest).or_else(|refused| averaged.map_err(|_| refused)),
+        }
+    }
+
+    /// The averaged motion.
+    ///
+    /// # Errors
+    /// As for [`AveragedSolution::new`]; [`Error::Domain`] on the separatrix, where the slow precession has no period.
+    pub fn averaged(problem: &Problem<f64>, order: AveragingOrder) -> Result<Self, Error> {
+        let initial = problem.initial();
+        let frame = principal_frame(problem.coefficients())?;
+        let turned = initial.rotated(&frame.principal_from_given);
+        let principal = Problem::new(*problem.spheroid(), frame.coefficients.tensor(), turned)?;
+        let mean = AveragedSolution::with_free_rotation_of(initial, &principal, order)?;
+        let complement = mean.top().complement();
+        Error::ensure(
+            complement > 0.0,
+            "distance k' of L from the separatrix",
+            complement,
+            "above zero: there L goes round no axis",
+        )?;
+        let given_from_principal = frame.principal_from_given.transpose();
+        Ok(Self { problem: *problem, solution: Solution::Averaged { mean, given_from_principal } })
+    }
+
+    /// The exact motion, to rounding, for times up to `longest` in size.
+    ///
+    /// # Errors
+    /// As for [`TorusSolution::new`].
+    pub fn torus(problem: &Problem<f64>, longest: f64) -> Result<Self, Error> {
+        Ok(Self { problem: *problem, solution: Solution::Torus(TorusSolution::new(problem, 0.0, longest)?) })
+    }
+
+    /// Rates of the phases (rad per unit of time).
+    pub fn rates(&self) -> [f64; 3] {
+        match &self.solution {
+            Solution::Averaged { mean, .. } => [mean.rates.slow, mean.rates.about_momentum, mean.rates.about_axis],
+            Solution::Torus(torus) => torus.rates(),
+        }
+    }
+
+    /// The phases at the time `t[0] + t[1]`.
+    pub fn turns(&self, t: [f64; 2]) -> [Turns; 3] {
+        match &self.solution {
+            Solution::Averaged { mean, .. } => {
+                let turns = mean.turns(t);
+                [turns.slow, turns.about_momentum, turns.about_axis]
+            }
+            Solution::Torus(torus) => torus.angles(t),
+        }
+    }
+
+    /// The state at given phases, in turns, in the frame of the initial one.
+    pub fn state_at(&self, turns: [f64; 3]) -> BodyState<f64> {
+        match &self.solution {
+            Solution::Averaged { mean, given_from_principal } => {
+                let [slow, about_momentum, about_axis] = turns.map(|turns| turns * TAU);
+                mean.state_at(&AveragedPhases { slow, about_momentum, about_axis }).rotated(given_from_principal)
+            }
+            Solution::Torus(torus) => torus.state_on_torus(turns),
+        }
+    }
+
+    /// The state at the time `t[0] + t[1]`.
+    pub fn state(&self, t: [f64; 2]) -> BodyState<f64> {
+        match &self.solution {
+            Solution::Averaged { mean, given_from_principal } => {
+                mean.state_at(&mean.phases_at(t)).rotated(given_from_principal)
+            }
+            Solution::Torus(torus) => torus.state(t),
+        }
+    }
+
+    /// What is left out of directions (rad) at the time `t`: of the averaged motion by its order, of the series on the torus by its length.
+    pub fn truncation(&self, t: f64) -> f64 {
+        match &self.solution {
+            Solution::Averaged { mean, .. } => mean.truncation(t),
+            Solution::Torus(torus) => torus.truncation(),
+        }
+    }
+
+    /// Rounding of directions (rad) at the time `t`.
+    pub fn rounding(&self, t: f64) -> f64 {
+        match &self.solution {
+            Solution::Averaged { mean, .. } => mean.rounding(t),
+            Solution::Torus(torus) => torus.rounding(t),
+        }
+    }
+
+    /// Estimated error of directions (rad) at the time `t`.
+    pub fn error_estimate(&self, t: f64) -> f64 {
+        self.truncation(t) + self.rounding(t)
+    }
+}
