@@ -25,6 +25,7 @@ mod continuous_angles;
 mod input;
 mod many;
 mod motion;
+mod phased;
 pub mod splitting;
 mod taylor;
 mod third_angle;
@@ -35,6 +36,7 @@ pub use continuous_angles::{ContinuousAngles, MOST_COUNTED};
 pub(crate) use input::check_time;
 pub use many::{SampledProblem, states_of_many};
 pub use motion::Motion;
+pub use phased::PhasedMotion;
 pub(crate) use taylor::projected_by_segments;
 pub use taylor::{
     ErrorEstimates, STEP_LIMIT, Samples, SeriesProjection, TOLERANCE_RANGE, TaylorForecast, TaylorMotion,

@@ -1,6 +1,7 @@
 //! `twofold pulses`: turns and closest approaches.
 
-use twofold::observables::pulsar::{PhasedMotion, PulsarClock};
+use twofold::observables::pulsar::PulsarClock;
+use twofold::propagation::PhasedMotion;
 use twofold_scene::scene_file::Scene;
 
 use crate::common::{Folder, cells, ends, stderr, stdout, succeeds, twofold};

@@ -15,7 +15,8 @@ use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 use twofold::epoch::{DAY, Epoch};
 use twofold::observables::Observer;
 use twofold::observables::gravitational_wave::strain_unit;
-use twofold::observables::pulsar::{Beam, ClockPulse, PhasedMotion, PulsarClock, SpinFit};
+use twofold::observables::pulsar::{Beam, ClockPulse, PulsarClock, SpinFit};
+use twofold::propagation::PhasedMotion;
 
 use crate::scene_file::Scene;
 

@@ -8,14 +8,14 @@ use super::position_angle::{position_angle, position_angle_rate};
 use super::rate_bounds::{RateBounds, rate_bounds};
 use super::train::{PulseTrain, check_beam};
 use super::turn_count::TurnCount;
-use super::{Beam, PhasedMotion, Pulse};
+use super::{Beam, Pulse};
 use crate::dynamics::equations_of_motion::angular_velocity;
 use crate::dynamics::{BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::numerics::angle::wrapped;
 use crate::numerics::double_double::DoubleDouble;
 use crate::observables::Observer;
-use crate::propagation::{Motion, Turning};
+use crate::propagation::{Motion, PhasedMotion, Turning};
 use crate::solutions::averaged::AveragingOrder;
 
 /// Most rotation of the body in one turn about L (rad): the search takes a tenth of a second.

@@ -14,10 +14,11 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::Vector3;
 
+use super::Beam;
 use super::turns::phase;
-use super::{Beam, PhasedMotion};
 use crate::error::Error;
 use crate::numerics::angle::wrapped;
+use crate::propagation::PhasedMotion;
 use crate::solutions::averaged::Turns;
 
 /// Looks in a turn of a phase, to begin with.

@@ -139,9 +139,9 @@ impl<S: Real> UniformMotion<S> {
 }
 
 impl UniformMotion<f64> {
-    /// Rates (rad per unit of time) of the turn of `n` and `L`, and of `e_x` about `n` beside it.
-    pub(crate) fn rates(&self) -> [f64; 2] {
-        [self.turn.norm(), self.body_rate]
+    /// Rates (rad per unit of time) of the turn of `n` and `L`, of nothing, and of `e_x` about `n`.
+    pub(crate) fn rates(&self) -> [f64; 3] {
+        [self.turn.norm(), 0.0, self.body_rate]
     }
 
     /// The axis of the angles `alpha` and `gamma`: what `L` goes round, or Z if it stays.
@@ -150,7 +150,7 @@ impl UniformMotion<f64> {
     }
 
     /// The state after turns of both angles since the start.
-    pub(crate) fn state_after_turns(&self, turn: f64, about_axis: f64) -> BodyState<f64> {
+    pub(crate) fn state_after_turns(&self, [turn, about_axis]: [f64; 2]) -> BodyState<f64> {
         let BodyState { axis, momentum, equatorial_axis } = self.problem.initial();
         let (sin, cos) = (TAU * about_axis).sin_cos();
         let turned = equatorial_axis * cos + axis.cross(equatorial_axis) * sin;

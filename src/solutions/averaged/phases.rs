@@ -29,7 +29,7 @@ impl Turns {
 
     /// At the `time`, from the turns at the time zero (less than one) and a rate in turns.
     #[inline]
-    pub(in crate::solutions) fn at(start: f64, rate: DoubleDouble, time: DoubleDouble) -> Self {
+    pub(crate) fn at(start: f64, rate: DoubleDouble, time: DoubleDouble) -> Self {
         let DoubleDouble { high, low } = rate * time;
         let (whole, whole_low) = (nearest(high), nearest(low));
         // The difference is exact; what is added is below two.

@@ -202,6 +202,11 @@ impl<S: Real> Top<S> {
         matches!(self.course, Course::Round { .. }) && self.amplitudes[0].re() > 0.0
     }
 
+    /// The principal axis that `l` goes round.
+    pub(crate) fn axis(&self) -> usize {
+        self.places[2]
+    }
+
     /// `k'`, one where the phase grows evenly and zero on the separatrix, the only place where the phase does not repeat itself after a turn.
     pub fn complement(&self) -> f64 {
         match &self.course {

@@ -175,23 +175,9 @@ impl TorusSolution {
         self.state_at(plain(), turns)
     }
 
-    /// The state after turns of the three angles since the start.
-    pub(crate) fn state_after_turns(&self, turns: [f64; 3]) -> BodyState<f64> {
-        let since_start = |i: usize| {
-            let turns = turns[i] + self.phases[i].offset.high;
-            turns - turns.round()
-        };
-        self.state_on_torus([0, 1, 2].map(since_start))
-    }
-
     /// Rates of the three angles in turns per unit of time.
     pub(crate) fn turns_per_time(&self) -> [DoubleDouble; 3] {
         self.phases.map(|phase| phase.rate)
-    }
-
-    /// Error of the rates (rad per unit of time).
-    pub(crate) fn rate_error(&self) -> f64 {
-        self.drift
     }
 
     /// The axis of the second angle.

@@ -1,6 +1,7 @@
 //! A pulsar as a clock over decades: numbers and arrival times. Eqs. (44), (47).
 
-use twofold::observables::pulsar::{PhasedMotion, PulsarClock};
+use twofold::observables::pulsar::PulsarClock;
+use twofold::propagation::PhasedMotion;
 use twofold::solutions::averaged::{AveragedPhases, AveragedRates};
 
 use crate::prelude::*;

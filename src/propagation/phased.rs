@@ -4,7 +4,8 @@
 //! use nalgebra::{Matrix3, Vector3};
 //! use twofold::dynamics::{BodyState, Problem, RigidSpheroid};
 //! use twofold::observables::Observer;
-//! use twofold::observables::pulsar::{Beam, PhasedMotion, PulsarClock};
+//! use twofold::observables::pulsar::{Beam, PulsarClock};
+//! use twofold::propagation::PhasedMotion;
 //!
 //! let s = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, -0.04));
 //! let (axis, momentum) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(-0.7, 0.1, 1.5));
@@ -22,11 +23,13 @@
 
 use core::f64::consts::TAU;
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::dynamics::{BodyState, Problem, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
+use crate::numerics::double_double::DoubleDouble;
+use crate::propagation::{UniformMotion, largest_torque};
 use crate::solutions::averaged::{AveragedPhases, AveragedSolution, AveragingOrder, Turns};
 use crate::solutions::torus::TorusSolution;
 
@@ -34,20 +37,25 @@ use crate::solutions::torus::TorusSolution;
 /// the third turns the body about `n`.
 #[derive(Debug, Clone)]
 pub struct PhasedMotion {
-    pub(super) problem: Problem<f64>,
+    pub(crate) problem: Problem<f64>,
     solution: Solution,
 }
 
 #[derive(Debug, Clone)]
 #[allow(clippy::large_enum_variant, reason = "one motion at a time, and nothing on the heap")]
 enum Solution {
-    Averaged { mean: AveragedSolution<f64>, given_from_principal: Matrix3<f64> },
+    Averaged {
+        mean: AveragedSolution<f64>,
+        given_from_principal: Matrix3<f64>,
+    },
     Torus(TorusSolution),
+    /// Phases: the turn of `n` and `L`, none, and that of `e_x` about `n`.
+    Uniform(UniformMotion<f64>),
 }
 
 impl PhasedMotion {
     /// The motion from the initial state at the time zero, for times up to `longest` in size: averaged to second order where what that leaves out is below
-    /// its rounding, or where the torus is refused, else on the torus.
+    /// its rounding, or where the torus is refused, else [`exact`](Self::exact).
     ///
     /// # Errors
     /// Those of the torus where there is no averaged motion either.
@@ -55,7 +63,24 @@ impl PhasedMotion {
         let averaged = Self::averaged(problem, AveragingOrder::Second);
         match averaged {
             Ok(motion) if motion.truncation(longest) <= motion.rounding(longest) => Ok(motion),
-            averaged => Self::torus(problem, longest).or_else(|refused| averaged.map_err(|_| refused)),
+            averaged => Self::exact(problem, longest).or_else(|refused| averaged.map_err(|_| refused)),
+        }
+    }
+
+    /// The motion without any approximation, for times up to `longest` in size: uniform where it is free or steady, else on the torus.
+    ///
+    /// # Errors
+    /// As for [`TorusSolution::new`].
+    pub fn exact(problem: &Problem<f64>, longest: f64) -> Result<Self, Error> {
+        let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
+        let uniform = if largest_torque(problem.spheroid(), problem.coefficients()) == 0.0 {
+            Some(UniformMotion::free(problem, everywhere))
+        } else {
+            UniformMotion::steady(problem, everywhere).ok()
+        };
+        match uniform {
+            Some(motion) => Ok(Self { problem: *problem, solution: Solution::Uniform(motion) }),
+            None => Self::torus(problem, longest),
         }
     }
 
@@ -93,6 +118,24 @@ impl PhasedMotion {
         match &self.solution {
             Solution::Averaged { mean, .. } => [mean.rates.slow, mean.rates.about_momentum, mean.rates.about_axis],
             Solution::Torus(torus) => torus.rates(),
+            Solution::Uniform(motion) => motion.rates(),
+        }
+    }
+
+    /// The same in turns, to 32 digits where they are known.
+    pub(crate) fn turns_per_time(&self) -> [DoubleDouble; 3] {
+        match &self.solution {
+            Solution::Torus(torus) => torus.turns_per_time(),
+            Solution::Averaged { .. } | Solution::Uniform(_) => self.rates().map(|rate| DoubleDouble::from(rate / TAU)),
+        }
+    }
+
+    /// The axis of the angles `alpha` and `gamma`: a principal axis of `s^IJ` that `L` goes round, or Z if it stays.
+    pub(crate) fn pole(&self) -> Vector3<f64> {
+        match &self.solution {
+            Solution::Averaged { mean, given_from_principal } => given_from_principal.column(mean.top().axis()).into(),
+            Solution::Torus(torus) => torus.pole(),
+            Solution::Uniform(motion) => motion.pole(),
         }
     }
 
@@ -104,6 +147,9 @@ impl PhasedMotion {
                 [turns.slow, turns.about_momentum, turns.about_axis]
             }
             Solution::Torus(torus) => torus.angles(t),
+            Solution::Uniform(_) => {
+                self.turns_per_time().map(|rate| Turns::at(0.0, rate, DoubleDouble::sum(t[0], t[1])))
+            }
         }
     }
 
@@ -115,6 +161,7 @@ impl PhasedMotion {
                 mean.state_at(&AveragedPhases { slow, about_momentum, about_axis }).rotated(given_from_principal)
             }
             Solution::Torus(torus) => torus.state_on_torus(turns),
+            Solution::Uniform(motion) => motion.state_after_turns([turns[0], turns[2]]),
         }
     }
 
@@ -125,6 +172,7 @@ impl PhasedMotion {
                 mean.state_at(&mean.phases_at(t)).rotated(given_from_principal)
             }
             Solution::Torus(torus) => torus.state(t),
+            Solution::Uniform(_) => self.state_at(self.turns(t).map(|turns| turns.fraction)),
         }
     }
 
@@ -133,6 +181,7 @@ impl PhasedMotion {
         match &self.solution {
             Solution::Averaged { mean, .. } => mean.truncation(t),
             Solution::Torus(torus) => torus.truncation(),
+            Solution::Uniform(motion) => motion.truncation(t),
         }
     }
 
@@ -141,6 +190,7 @@ impl PhasedMotion {
         match &self.solution {
             Solution::Averaged { mean, .. } => mean.rounding(t),
             Solution::Torus(torus) => torus.rounding(t),
+            Solution::Uniform(motion) => motion.rounding(t),
         }
     }
 
