@@ -34,6 +34,7 @@
 //! # Ok::<(), twofold::Error>(())
 //! ```
 
+mod derivative;
 mod flow;
 mod found;
 mod fourier;
@@ -49,6 +50,7 @@ mod table;
 mod ways;
 mod wide;
 
+pub use derivative::TorusDerivative;
 pub use frequencies::{TorusFrequencies, torus_frequencies};
 pub use separatrix::separatrix_motion;
 pub use solution::TorusSolution;
