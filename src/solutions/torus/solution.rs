@@ -93,8 +93,8 @@ impl TorusSolution {
         tolerance: f64,
         [axes, vector]: [[Coefficients; 6]; 2],
     ) -> Option<Self> {
-        let (mut axes, left_axes) = Table::without_smallest(&axes, 0.1 * tolerance);
-        let (vector, left_vector) = Table::without_smallest(&vector, 0.1 * tolerance);
+        let (mut axes, left_axes) = Table::within(&axes, tolerance);
+        let (vector, left_vector) = Table::within(&vector, tolerance);
         axes.scale_every_other(torus.size());
         let [[a, b], [c, d]] = [axes.multiples(), vector.multiples()];
         let [most, least] = torus.widths();
