@@ -18,7 +18,7 @@ pub struct Cost {
 }
 
 /// Of derivatives on the torus by one parameter: once, and of each state.
-const TORUS_DERIVATIVE: [f64; 2] = [90_000.0, 17_000.0];
+const TORUS_DERIVATIVE: [f64; 2] = [100_000.0, 20_000.0];
 
 impl Cost {
     /// Costs of a method that carries `state`. From `cargo run -p twofold-verify --example fit_cost`.
