@@ -55,8 +55,7 @@ pub fn jacobian(
             by_numbers[(row, column)] = term.value(&seeded, datum.observable, &|t| states.at(t, column))?.eps;
         }
     }
-    // The averaged motion keeps its phases in 32 digits.
-    let rotation = if states.is_long { 0.0 } else { states.end() * turning_rate(parameters) };
+    let rotation = if states.phases_are_kept { 0.0 } else { last(&states.times) * turning_rate(parameters) };
     let found = Jacobian {
         matrix: &by_numbers * &weights,
         magnitudes: by_numbers.abs() * weights.abs(),
@@ -103,7 +102,7 @@ fn order(a: &[f64; 2], b: &[f64; 2]) -> Ordering {
 struct States {
     times: Vec<[f64; 2]>,
     found: Gradient,
-    is_long: bool,
+    phases_are_kept: bool,
 }
 
 impl States {
@@ -111,23 +110,16 @@ impl States {
         let mut times: Vec<[f64; 2]> = terms.iter().flat_map(Term::times).collect();
         times.sort_by(order);
         times.dedup();
-        let end = last(&times);
-        let is_long = long_span::is_long(parameters, end);
         let needs_beam = terms.iter().any(|term| !matches!(term, Term::Sample(_)));
         let output = if needs_beam { Output::PulseProfile } else { Output::GravitationalWave };
         let of_motion = numbers.iter().copied().filter(|number| Parameter::OF_MOTION.contains(number));
         let request = Request {
             derivatives: of_motion.collect(),
-            method: is_long.then_some(Method::Averaged),
-            ..Request::new(&[output], (0.0, end), times.len(), TOLERANCE)
+            ..Request::new(&[output], (0.0, last(&times)), times.len(), TOLERANCE)
         };
-        let plan = parameters.problem()?.plan(&request)?;
+        let plan = long_span::plan(parameters, request)?;
         let found = gradient_in_parts(&plan, parameters, &Vectors, &times)?;
-        Ok(Self { times, found, is_long })
-    }
-
-    fn end(&self) -> f64 {
-        last(&self.times)
+        Ok(Self { times, found, phases_are_kept: plan.method.is_some_and(Method::keeps_phases) })
     }
 
     /// The state at a time with its derivative by the number of a column: zero for one that the motion does not depend on.

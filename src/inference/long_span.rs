@@ -1,10 +1,11 @@
-//! Spans of more turns than can be followed one by one: pulses near given epochs, by the averaged motion.
+//! Spans of more turns than can be followed one by one: plans that keep phases, and pulses near given epochs, by the averaged motion.
 
 use super::Event;
 use super::signal::turning_rate;
 use crate::error::Error;
 use crate::observables::pulsar::{ClockPulse, PulsarClock};
 use crate::parameters::Parameters;
+use crate::plan::{Method, Plan, Request};
 use crate::propagation::AveragedMotion;
 use crate::solutions::averaged::AveragingOrder;
 
@@ -22,7 +23,23 @@ pub(super) fn is_long(parameters: &Parameters<f64>, end: f64) -> bool {
     end * turning_rate(parameters) > LARGEST_FOLLOWED
 }
 
-/// Refuses a span to `end` that can neither be followed turn by turn nor by the averaged motion.
+/// The plan for a request from the start on: over a span too long to be followed turn by turn by a method that keeps its phases, the averaged motion if no other one
+/// meets the tolerance.
+///
+/// # Errors
+/// As for [`Problem::plan`](crate::dynamics::Problem::plan) and, for the averaged motion, [`check_span`].
+pub(super) fn plan(parameters: &Parameters<f64>, request: Request) -> Result<Plan, Error> {
+    let (problem, end) = (parameters.problem()?, request.span.1);
+    let plan = problem.plan(&request);
+    let meets = |plan: &Plan| plan.method.is_some_and(Method::keeps_phases);
+    if !is_long(parameters, end) || plan.as_ref().is_ok_and(meets) {
+        return plan;
+    }
+    check_span(parameters, end)?;
+    problem.plan(&Request { method: Some(Method::Averaged), ..request })
+}
+
+/// Refuses a span to `end` whose pulses can neither be followed turn by turn nor found by the averaged motion.
 ///
 /// # Errors
 /// [`Error::Domain`] as for [`AveragedMotion::new`], and for what it leaves out.

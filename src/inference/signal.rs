@@ -9,7 +9,7 @@ use crate::numerics::scalar::Scalar;
 use crate::observables::gravitational_wave::wave_of_state;
 use crate::observables::pulsar::{Beam, arrivals, pulse_train};
 use crate::parameters::Parameters;
-use crate::plan::{Method, Output, PlannedMotion, Request};
+use crate::plan::{Output, PlannedMotion, Request};
 use crate::propagation::Motion;
 
 /// A whole pulse.
@@ -92,18 +92,12 @@ impl Signal {
     /// A motion that cannot be computed.
     pub fn new(parameters: &Parameters<f64>, end: f64) -> Result<Self, Error> {
         let is_long = long_span::is_long(parameters, end);
-        let request = if is_long {
-            long_span::check_span(parameters, end)?;
-            let request = Request::new(&[Output::PulseProfile], (0.0, end), 2, TOLERANCE);
-            Request { method: Some(Method::Averaged), ..request }
-        } else {
-            Request::new(&[Output::Pulses], (0.0, end), 2, TOLERANCE)
-        };
-        let problem = parameters.problem()?;
+        let output = if is_long { Output::PulseProfile } else { Output::Pulses };
+        let plan = long_span::plan(parameters, Request::new(&[output], (0.0, end), 2, TOLERANCE))?;
         Ok(Self {
             parameters: *parameters,
             end,
-            motion: problem.plan(&request)?.motion(&problem)?,
+            motion: plan.motion(&parameters.problem()?)?,
             is_long,
             beam: parameters.beam(),
             line_of_sight: parameters.observer().direction,
@@ -129,9 +123,10 @@ impl Signal {
     /// than can be looked for. Of a [long](Self::is_long) span the pulse of the turn nearest to each, with the number of the turn.
     ///
     /// # Errors
-    /// As for [`events`](Self::events).
+    /// As for [`events`](Self::events); of a long span those of [`check_span`](super::check_span).
     pub fn events_after(&self, times: &[f64]) -> Result<Vec<Event>, Error> {
         if self.is_long {
+            long_span::check_span(&self.parameters, self.end)?;
             return long_span::pulses_near(&self.parameters, times);
         }
         let mut found: Vec<Event> = Vec::new();
@@ -151,8 +146,9 @@ impl Signal {
     /// left out.
     ///
     /// # Errors
-    /// A beam or line of sight that has no pulses to be counted.
+    /// A beam or line of sight that has no pulses to be counted, and those of [`check_span`](super::check_span).
     pub fn events_of_turns(&self, turns: &[(i64, f64)]) -> Result<Vec<Event>, Error> {
+        long_span::check_span(&self.parameters, self.end)?;
         long_span::pulses_numbered(&self.parameters, turns)
     }
 

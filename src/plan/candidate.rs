@@ -180,12 +180,13 @@ fn averaged(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Resu
 }
 
 fn torus(problem: &Problem<f64>, request: &Request, span: (f64, f64)) -> Result<Forecast, Error> {
-    if !request.derivatives.is_empty() {
-        return Err(Error::Unsupported { what: "derivatives", why: "the series on the torus are of doubles" });
-    }
     let motion = TorusMotion::new(problem, span, request.tolerance)?;
     let solution = motion.solution();
-    let closed = Forecast::closed(Promise::Estimate, solution.truncation(), solution.rounding(span.1 - span.0));
+    let mut rounding = solution.rounding(span.1 - span.0);
+    if !request.derivatives.is_empty() {
+        rounding = rounding.max(solution.error_of_derivatives()?);
+    }
+    let closed = Forecast::closed(Promise::Estimate, solution.truncation(), rounding);
     // Eight doubles at most for a pair of frequencies, in lists that have grown.
     Ok(Forecast { table: 128.0 * solution.term_counts().iter().sum::<usize>() as f64, ..closed })
 }

@@ -17,6 +17,9 @@ pub struct Cost {
     pub evaluation: [f64; 2],
 }
 
+/// Of derivatives on the torus by one parameter: once, and of each state.
+const TORUS_DERIVATIVE: [f64; 2] = [100_000.0, 20_000.0];
+
 impl Cost {
     /// Costs of a method that carries `state`. From `cargo run -p twofold-verify --example fit_cost`.
     pub fn of(method: Method, state: State) -> Self {
@@ -45,15 +48,20 @@ impl Cost {
     ///
     /// By splitting a state beside tangent maps takes 1.4 times the work of a state alone, and each register of four directions 0.6 times that;
     /// a dual number takes ten times the
-    /// work of a series in vector registers and three times that of a closed form, and goes through it once for each parameter.
+    /// work of a series in vector registers and three times that of a closed form, and goes through it once for each parameter; on the torus it goes through both closed ways
+    /// once and through a part of them for each state.
     pub(super) fn with_derivatives(method: Method, state: State, count: usize) -> Self {
+        let Self { setup, step, evaluation } = Self::of(method, state);
         let factor = match (method, count) {
             (_, 0) => 1.0,
+            (Method::Torus, _) => {
+                let [setup_of_each, flow] = TORUS_DERIVATIVE.map(|cost| cost * count as f64);
+                return Self { setup: setup + setup_of_each, step, evaluation: [evaluation[0] + flow, 0.0] };
+            }
             (Method::Splitting, _) => 1.4 * method.motions_for(count) as f64 + 0.6 * count.div_ceil(4) as f64,
             (Method::Taylor, _) => 10.0 * count as f64,
             _ => 3.0 * count as f64,
         };
-        let Self { setup, step, evaluation } = Self::of(method, state);
         let times = |cost: f64| factor * cost;
         Self { setup: times(setup), step: step.map(times), evaluation: evaluation.map(times) }
     }

@@ -79,7 +79,7 @@ impl Plan {
             // what was asked to rounding.
             let others = Method::ALL.into_iter().filter(|method| *method != Method::Torus);
             plan.considered = others.filter(wanted).map(candidate).collect();
-            let cost = Cost::of(Method::Torus, state).total(0, 0.0, count);
+            let cost = Cost::with_derivatives(Method::Torus, state, request.derivatives.len()).total(0, 0.0, count);
             let is_better = |best: &Prediction| cost < best.cost || best.rounding > FAR_BELOW * request.tolerance;
             let is_tried = || plan.choose().map_or(true, |(_, best)| is_better(&best));
             if request.method.map_or_else(is_tried, |forced| forced == Method::Torus) {

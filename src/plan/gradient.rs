@@ -14,7 +14,7 @@ use crate::propagation::check_time;
 #[cfg(target_arch = "x86_64")]
 use crate::propagation::splitting::derivatives::states_with_derivatives;
 use crate::propagation::splitting::require_tangent_maps;
-use crate::propagation::{AveragedMotion, Motion, SymmetricMotion, UniformMotion};
+use crate::propagation::{AveragedMotion, Motion, SymmetricMotion, TorusMotion, UniformMotion};
 use crate::solutions::averaged::AveragingOrder;
 
 /// Functions of the state at one time, for any scalar. How the derivatives of the state are made is not their concern.
@@ -44,7 +44,8 @@ pub struct Gradient {
 ///
 /// All goes by the method of the plan. By splitting, one motion with the tangent map of each of its flows gives the derivatives by up to sixteen
 /// parameters at once, and the outputs follow by forward duals: values and derivatives are those of one numerical motion, made for the tolerance
-/// of the plan, relative to the largest derivative. By the other methods a forward dual goes through the motion for each parameter; steps of a
+/// of the plan, relative to the largest derivative. On the torus values are those of the Fourier series, and a forward dual for each parameter goes through one flow of less
+/// than a turn of its angles ([`TorusDerivative`](crate::solutions::torus::TorusDerivative)). By the other methods a forward dual goes through the motion for each parameter; steps of a
 /// series follow from real parts alone, and the error of derivatives through it can be some hundred times that of the motion.
 ///
 /// # Errors
@@ -60,7 +61,7 @@ pub fn gradient(
     gradient_in_parts(plan, start, outputs, &in_parts)
 }
 
-/// As [`gradient`], at times that are sums of two doubles. The averaged motion uses both: after 1e10 turns a double does not hold where in its
+/// As [`gradient`], at times that are sums of two doubles. The averaged motion and that on the torus use both: after 1e10 turns a double does not hold where in its
 /// turn a body is. Other motions take the sum.
 ///
 /// # Errors
@@ -103,8 +104,16 @@ pub(crate) fn gradient_in_parts(
         }
         return Ok(found);
     }
+    let torus = if plan.method == Some(Method::Torus) {
+        Some(TorusMotion::new(&start.problem()?, plan.span, plan.tolerance)?)
+    } else {
+        None
+    };
     for (index, seeded) in seeded.iter().enumerate() {
-        let state_at = seeded_motion(plan, seeded)?;
+        let state_at = match &torus {
+            Some(torus) => Box::new(torus.states_by(seeded)?),
+            None => seeded_motion(plan, seeded)?,
+        };
         for (row, &t) in times.iter().enumerate() {
             write(row, index, seeded, &state_at(t)?);
         }
@@ -174,11 +183,11 @@ fn states_by_splitting(_: &Plan, _: &[Problem<Dual64>], _: &[f64]) -> Result<Vec
     unreachable!("no other processor has the tangent maps")
 }
 
-type StateAt = Box<dyn Fn([f64; 2]) -> Result<BodyState<Dual64>, Error>>;
+type StateAt<'a> = Box<dyn Fn([f64; 2]) -> Result<BodyState<Dual64>, Error> + 'a>;
 
-/// The motion of a plan for duals, by any method but splitting.
-fn seeded_motion(plan: &Plan, problem: &Problem<Dual64>) -> Result<StateAt, Error> {
-    fn states(motion: impl Motion<Dual64> + 'static) -> StateAt {
+/// The motion of a plan for duals, by any method but splitting and that on the torus.
+fn seeded_motion(plan: &Plan, problem: &Problem<Dual64>) -> Result<StateAt<'static>, Error> {
+    fn states(motion: impl Motion<Dual64> + 'static) -> StateAt<'static> {
         Box::new(move |t| Ok(BodyState::from_vectors(motion.state_in_parts(t)?.vectors())))
     }
     let span = plan.span;
@@ -263,20 +272,37 @@ mod tests {
         }
     }
 
-    /// A plan that may choose does not say Taylor and use splitting.
+    /// A plan that may choose does not say Taylor and use splitting. Over long spans derivatives are those of the torus.
     #[test]
-    fn numerical_derivatives_are_planned_by_what_makes_them() {
+    fn derivatives_are_planned_by_what_makes_them() {
         let start = start([0.2, 0.1, -0.3]);
-        let request = Request::new(&[Output::SymmetryAxis], (0.0, 200.0), 3, 1e-11);
-        let method = |derivatives: &[Parameter]| {
-            let request = Request { derivatives: derivatives.to_vec(), ..request.clone() };
+        let method = |derivatives: &[Parameter], end: f64| {
+            let request = Request::new(&[Output::SymmetryAxis], (0.0, end), 3, 1e-11);
+            let request = Request { derivatives: derivatives.to_vec(), ..request };
             start.problem().unwrap().plan(&request).unwrap().method
         };
-        assert_eq!(method(&[]), Some(Method::Taylor));
+        assert_eq!(method(&[], 20.0), Some(Method::Taylor));
         let with_maps = if require_tangent_maps().is_ok() { Method::Splitting } else { Method::Taylor };
         for count in [1, 3, 15] {
-            assert_eq!(method(&Parameter::OF_MOTION[..count]), Some(with_maps), "{count}");
+            assert_eq!(method(&Parameter::OF_MOTION[..count], 20.0), Some(with_maps), "{count}");
+            assert_eq!(method(&Parameter::OF_MOTION[..count], 1e6), Some(Method::Torus), "{count}");
         }
+    }
+
+    /// Both parts of a time count: after 1e15 t_c one double does not tell where in its turn a body is.
+    #[test]
+    fn derivatives_on_the_torus_are_at_both_parts_of_a_time() {
+        let start = start([0.2, 0.1, -0.3]);
+        let plan = plan(&start, Method::Torus, (0.0, 1e15), 1e-12);
+        let at = |t: [f64; 2]| gradient_in_parts(&plan, &start, &Components(3), &[t]).unwrap();
+        let [a, b, same] = [[8e14, 0.0], [8e14, 0.03], [8e14 - 0.5, 0.53]].map(at);
+        assert!((&a.values - &b.values).amax() > 1e-3);
+        assert!((&b.values - &same.values).amax() < 1e-12);
+        let [b, same] = [&b, &same].map(|found| &found.jacobians[0]);
+        assert!((b - same).amax() < 1e-12 * b.amax());
+        let without = Plan { derivatives: Vec::new(), ..plan.clone() };
+        let values = gradient_in_parts(&without, &start, &Components(3), &[[8e14, 0.0]]).unwrap().values;
+        assert_eq!(values, a.values);
     }
 
     /// Steady precession about the axis of a symmetric tensor is no free rotation.

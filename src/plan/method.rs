@@ -64,6 +64,11 @@ impl Method {
         motions.max(1)
     }
 
+    /// Whether it keeps its phases in 32 digits, so that a span may have any number of turns.
+    pub fn keeps_phases(self) -> bool {
+        matches!(self, Self::Averaged | Self::Torus)
+    }
+
     /// Whether it gives the state at any time without going through the times before.
     pub fn is_closed_form(self) -> bool {
         !matches!(self, Self::Splitting | Self::Taylor)

@@ -27,7 +27,10 @@ pub(super) fn run(args: &ForecastArgs) -> Result<(), Failure> {
         if !(span > 0.0 && span.is_finite()) {
             return Err(refuse(format!("--spans {span:?}: allowed are numbers above zero")));
         }
-        check_span(&measurement.parameters, span / unit).map_err(|why| refuse(format!("--spans {span:?}: {why}")))?;
+        if measurement.sees_pulses() {
+            check_span(&measurement.parameters, span / unit)
+                .map_err(|why| refuse(format!("--spans {span:?}: {why}")))?;
+        }
     }
     if let Some(count) = args.epochs.iter().find(|count| !(2..=100_000).contains(*count)) {
         return Err(refuse(format!("--epochs {count}: allowed is from 2 to 100000")));

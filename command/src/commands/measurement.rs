@@ -45,14 +45,21 @@ impl Measurement {
             return Err(refuse(format!("[time] has a span of {end:?} t_c: allowed here is one forwards, above zero")));
         }
         let parameters = parameters_of(&scene).map_err(failed)?;
-        check_span(&parameters, end).map_err(|why| refuse(why.to_string()))?;
+        if sees_pulses {
+            check_span(&parameters, end).map_err(|why| refuse(why.to_string()))?;
+        }
         Ok(Self { name: args.scene.clone(), scene, parameters, noise, unknowns, end })
+    }
+
+    /// Whether pulses are observed.
+    pub(super) fn sees_pulses(&self) -> bool {
+        self.noise.iter().any(|(observable, _)| observable.is_of_pulses())
     }
 
     /// The pulses of a signal that are data: all of them, or of a long span those near the samples of the scene.
     pub(super) fn events(&self, signal: &Signal) -> Result<Vec<Event>, Failure> {
         let refused = |error: twofold::Error| self.refused(error.into());
-        if self.noise.iter().all(|(observable, _)| !observable.is_of_pulses()) {
+        if !self.sees_pulses() {
             return Ok(Vec::new());
         }
         if !signal.is_long() {

@@ -97,6 +97,27 @@ fn decades_give_the_truth() {
     }
 }
 
+/// The strain of a strong violation after 1e8 turns leads back to the truth, by the motion on the torus. Its pulses, by the averaged motion, are refused.
+#[test]
+fn strains_of_a_strong_violation_may_be_of_any_span() {
+    use Parameter::{SAxial, Spin};
+    let (truth, unknowns, end) = (model("tp-2"), &[SAxial, Spin], 1e9);
+    let signal = Signal::new(&truth, end).expect("signal");
+    assert!(signal.is_long() && signal.events_after(&[1e8]).is_err() && signal.events_of_turns(&[(9, 1e8)]).is_err());
+    let times: Vec<f64> = (1..60).map(|k| end * f64::from(k) / 60.0).collect();
+    let noise = [(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 1e-3)];
+    let data = data_of(&signal, &[], &times, &noise).expect("data");
+    let fisher = Fisher::of(&truth, &[], &data, unknowns).expect("Fisher matrix");
+    assert!(fisher.degenerate.is_empty() && fisher.weak.is_empty(), "{:?} {:?}", fisher.degenerate, fisher.weak);
+    // Two phases after 1e9 t_c tell two frequencies to some 1e-3 / 1e9.
+    assert!(fisher.sigmas().iter().all(|sigma| *sigma < 1e-10), "{:?}", fisher.sigmas());
+    let mut random = ChaCha8Rng::seed_from_u64(4);
+    let found = fit(&beside(&fisher, 0.3, &mut random), &data, unknowns, end).expect("fit");
+    for ((value, truth), sigma) in found.fisher.values().iter().zip(truth.values(unknowns)).zip(found.fisher.sigmas()) {
+        assert!((value - truth).abs() < 0.05 * sigma, "{value} for {truth} +- {sigma}");
+    }
+}
+
 /// The same simulation twice is the same to the bit, another one is another.
 #[test]
 fn simulations_follow_from_their_number() {

@@ -1,13 +1,14 @@
 //! The exact motion as a Fourier series, in the frame of the caller and over a span.
 
 use nalgebra::Matrix3;
+use num_dual::Dual64;
 
 use crate::dynamics::{AxisState, BodyState, Problem, RigidSpheroid};
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 use crate::propagation::Motion;
 use crate::propagation::input::check_time;
-use crate::solutions::torus::TorusSolution;
+use crate::solutions::torus::{TorusDerivative, TorusSolution};
 
 /// A motion by [`TorusSolution`]: any scene without isotropic `s`, any time, at the same cost.
 #[derive(Debug, Clone)]
@@ -29,6 +30,18 @@ impl TorusMotion {
     /// The series and their angles; times count from the initial state.
     pub fn solution(&self) -> &TorusSolution {
         &self.solution
+    }
+
+    /// States as functions of one parameter of the same problem: [`TorusDerivative`].
+    ///
+    /// # Errors
+    /// As for [`TorusDerivative::new`]; at a time, [`Error::Domain`] for one outside the span.
+    pub(crate) fn states_by(
+        &self,
+        problem: &Problem<Dual64>,
+    ) -> Result<impl Fn([f64; 2]) -> Result<BodyState<Dual64>, Error>, Error> {
+        let derivative = TorusDerivative::new(&self.solution, problem)?;
+        Ok(move |t| Ok(derivative.state(self.elapsed(t)?)))
     }
 
     fn elapsed(&self, t: [f64; 2]) -> Result<[f64; 2], Error> {

@@ -1,9 +1,11 @@
 //! Flows of the integrals, by Taylor series.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3, Vector6};
+use num_dual::Dual64;
 
 use crate::dynamics::RigidSpheroid;
-use crate::numerics::scalar::{Real, length};
+use crate::dynamics::first_integrals::symmetric_adjugate;
+use crate::numerics::scalar::{Real, cast, length};
 
 /// Order of the longest series.
 const HIGHEST_ORDER: usize = 44;
@@ -26,30 +28,32 @@ pub(super) struct Precision {
     rounding: f64,
 }
 
-/// For doubles and dual numbers of doubles.
+/// For doubles and dual numbers of doubles, of which derivatives are as exact as values: against what they are in the first terms.
 pub(super) const DOUBLE: Precision = Precision { order: 26, last_terms: 1e-17, rounding: 2e-16 };
 
 /// For double-double numbers.
 pub(super) const DOUBLE_DOUBLE: Precision = Precision { order: HIGHEST_ORDER, last_terms: 1e-33, rounding: 1e-31 };
 
-/// `H = L.L / (2 I^xx) + C n.(s n)` and `K / (I^xx D)`, `D` the spread of the principal values, of which `K` takes the traceless part.
+/// `H = L.L / (2 I^xx) + C n.(s n)` and `K / (I^xx D)`, `D` the spread of the principal values, of which `K` takes the traceless part. Values are diagonal;
+/// derivatives need not be.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Integrals<S> {
     /// Slopes of both by `L`, over `L`, and by `n`, over `n`.
-    by_momentum: [Vector3<S>; 2],
-    by_axis: [Vector3<S>; 2],
+    by_momentum: [Matrix3<S>; 2],
+    by_axis: [Matrix3<S>; 2],
     precision: Precision,
 }
 
 impl<S: Real> Integrals<S> {
-    /// For traceless principal values and their spread.
-    pub(super) fn new(spheroid: &RigidSpheroid<S>, s: &Vector3<S>, spread: S, precision: Precision) -> Self {
-        let one = Vector3::from_element(S::one());
-        let adjugate = Vector3::new(s.y * s.z, s.z * s.x, s.x * s.y);
+    /// For a traceless tensor and the spread of its principal values.
+    pub(super) fn new(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, spread: S, precision: Precision) -> Self {
         let (c, inertia) = (spheroid.constant_c, spheroid.inertia_xx);
         Self {
-            by_momentum: [one / inertia, s * (S::from_f64(2.0) / (inertia * spread))],
-            by_axis: [s * (c * 2.0), adjugate * (-(c * 4.0) / spread)],
+            by_momentum: [
+                Matrix3::from_diagonal_element(S::one() / inertia),
+                s * (S::from_f64(2.0) / (inertia * spread)),
+            ],
+            by_axis: [s * (c * 2.0), symmetric_adjugate(s) * (-(c * 4.0) / spread)],
             precision,
         }
     }
@@ -61,19 +65,24 @@ impl<S: Real> Integrals<S> {
 
     /// `1 / I^xx`.
     pub(super) fn inverse_inertia(&self) -> f64 {
-        self.by_momentum[0].x.re()
+        self.by_momentum[0].m11.re()
     }
 
     /// Coefficients of the flow of `t H + k K`.
-    fn of(&self, [t, k]: [S; 2]) -> [Vector3<S>; 2] {
+    fn of(&self, [t, k]: [S; 2]) -> [Matrix3<S>; 2] {
         [self.by_momentum, self.by_axis].map(|[of_h, of_k]| of_h * t + of_k * k)
     }
 
-    /// Rates of `n` and `L` along the flow of `t H + k K`.
-    pub(super) fn rates(&self, times: [S; 2], [n, momentum, _]: &Axes<S>) -> [Vector3<S>; 2] {
+    /// Rates along the flow of `t H + k K`.
+    fn rates(&self, times: [S; 2], [n, momentum, u]: &Axes<S>) -> Axes<S> {
         let [a, b] = self.of(times);
-        let turn = a.component_mul(momentum);
-        [turn.cross(n), turn.cross(momentum) + b.component_mul(n).cross(n)]
+        let turn = times_vector(&a, momentum);
+        [turn.cross(n), turn.cross(momentum) + times_vector(&b, n).cross(n), turn.cross(u)]
+    }
+
+    /// Rates along the flows of `H` and of `K`.
+    pub(super) fn both_rates(&self, at: &Axes<S>) -> [Axes<S>; 2] {
+        [[S::one(), S::zero()], [S::zero(), S::one()]].map(|unit| self.rates(unit, at))
     }
 
     /// The flow of `t H + k K` as a series about a point of it.
@@ -82,11 +91,13 @@ impl<S: Real> Integrals<S> {
         let Precision { order: last, last_terms, .. } = self.precision;
         let mut terms = [[Vector3::zeros(); 3]; HIGHEST_ORDER + 1];
         let mut turns = [Vector3::zeros(); HIGHEST_ORDER];
+        let mut torques = [Vector3::zeros(); HIGHEST_ORDER];
         terms[0] = *start;
-        // (a L) x L and (b n) x n, component by component.
-        let of_products = [a, b].map(|v| Vector3::new(v.y - v.z, v.z - v.x, v.x - v.y));
+        // (a L) x L and (b n) x n, component by component where both are diagonal.
+        let of_products = [a, b].map(|m| Vector3::new(m.m22 - m.m33, m.m33 - m.m11, m.m11 - m.m22));
         for order in 0..last {
-            turns[order] = a.component_mul(&terms[order][1]);
+            turns[order] = times_vector(&a, &terms[order][1]);
+            torques[order] = times_vector(&b, &terms[order][0]);
             let mut next = [Vector3::zeros(); 3];
             let mut products = [Vector3::zeros(); 2];
             for i in 0..=order {
@@ -94,20 +105,35 @@ impl<S: Real> Integrals<S> {
                 let [n, momentum, u] = &terms[order - i];
                 next[0] += turns[i].cross(n);
                 next[2] += turns[i].cross(u);
-                products[0] += product(other_l, momentum);
-                products[1] += product(other_n, n);
+                if S::HAS_DERIVATIVES {
+                    next[1] += turns[i].cross(momentum) + torques[i].cross(n);
+                } else {
+                    products[0] += product(other_l, momentum);
+                    products[1] += product(other_n, n);
+                }
             }
-            next[1] = products[0].component_mul(&of_products[0]) + products[1].component_mul(&of_products[1]);
+            if !S::HAS_DERIVATIVES {
+                next[1] = products[0].component_mul(&of_products[0]) + products[1].component_mul(&of_products[1]);
+            }
             terms[order + 1] = next.map(|v| v / S::from_f64((order + 1) as f64));
         }
-        let size = |terms: &Axes<S>| {
-            let [n, momentum, u] = terms.map(|v| length(&v.map(S::re)));
-            n.max(u).max(momentum / length(&start[1].map(S::re)))
+        let unit = length(&start[1].map(S::re));
+        let size = |terms: &Axes<S>, part: fn(S) -> f64| {
+            let [n, momentum, u] = terms.map(|v| length(&v.map(part)));
+            n.max(u).max(momentum / unit)
         };
-        let step = [last - 1, last]
-            .map(|order| (last_terms / size(&terms[order]).max(f64::MIN_POSITIVE)).powf(1.0 / order as f64))
-            .into_iter()
-            .fold(f64::INFINITY, f64::min);
+        let least_of_both = |smallest: f64, part: fn(S) -> f64| {
+            [last - 1, last].into_iter().fold(f64::INFINITY, |least, order| {
+                let ratio = smallest.max(f64::MIN_POSITIVE) / size(&terms[order], part).max(f64::MIN_POSITIVE);
+                least.min(ratio.powf(1.0 / order as f64))
+            })
+        };
+        let mut step = least_of_both(last_terms, S::re);
+        if S::HAS_DERIVATIVES {
+            // Derivatives may have multiples of the frequencies that values have.
+            let first = (0..3).map(|order| size(&terms[order], derivative) * step.min(1.0).powi(order as i32));
+            step = step.min(least_of_both(last_terms * first.fold(0.0, f64::max), derivative));
+        }
         // Of so few bits that steps add up exactly.
         let step = (step * STEPS_IN_ONE).floor().max(1.0) / STEPS_IN_ONE;
         FlowSeries { terms, last, step }
@@ -166,6 +192,22 @@ impl<S: Real> FlowSeries<S> {
         let change = self.change(step);
         core::array::from_fn(|i| self.terms[0][i] + change[i])
     }
+}
+
+/// The product of a vector with a matrix of which values are diagonal.
+fn times_vector<S: Real>(matrix: &Matrix3<S>, v: &Vector3<S>) -> Vector3<S> {
+    if S::HAS_DERIVATIVES { matrix * v } else { matrix.diagonal().component_mul(v) }
+}
+
+/// The components of `n` and of `L` in units of a size.
+pub(super) fn joined<S: Real>([n, momentum, _]: &Axes<S>, size: f64, part: fn(S) -> f64) -> Vector6<f64> {
+    let (n, l) = (n.map(part), momentum.map(part) / size);
+    Vector6::new(n.x, n.y, n.z, l.x, l.y, l.z)
+}
+
+/// The derivative of a dual number, zero of others.
+pub(super) fn derivative<S: Real>(x: S) -> f64 {
+    cast::<S, Dual64>(x).map_or(0.0, |dual| dual.eps)
 }
 
 fn product<S: Real>(a: &Vector3<S>, b: &Vector3<S>) -> Vector3<S> {

@@ -1,12 +1,13 @@
 //! The torus of a motion: a frame in which it has its symmetries, and its closed ways.
 
-use nalgebra::{Matrix3, Matrix6x2, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6x2, Vector3};
 
-use super::flow::{Axes, DOUBLE, Integrals};
+use super::flow::{Axes, DOUBLE, Integrals, joined};
 use super::ways::{ClosedWays, Courses, HalfWay};
 use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
+use crate::numerics::scalar::Real;
 use crate::solutions::averaged::mean_direction;
 
 /// Rounding of the ends of a closed way.
@@ -19,7 +20,7 @@ pub(super) const CLOSED: f64 = 1e-9;
 const EXACT: f64 = 2e-15;
 
 /// A torus whose two flows differ by less than this, relative, is a circle or a point.
-const THINNEST: f64 = 1e-8;
+pub(super) const THINNEST: f64 = 1e-8;
 
 /// A closed way on the torus: along the flow of `H` for the first time and along that of `K` for the second.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,7 +85,7 @@ impl Torus {
         spread: f64,
         initial: &BodyState<f64>,
     ) -> Result<Self, Error> {
-        let integrals = Integrals::new(&spheroid, &values, spread, DOUBLE);
+        let integrals = Integrals::new(&spheroid, &Matrix3::from_diagonal(&values), spread, DOUBLE);
         let start = [initial.axis, initial.momentum, initial.equatorial_axis];
         let courses = Courses::new(&integrals, &spheroid, &values, initial);
         let ways = courses.closed_ways(&start)?;
@@ -98,19 +99,19 @@ impl Torus {
         (n - start).amax().max((momentum - start_momentum).amax() / self.size())
     }
 
+    /// Singular values of the rates of both flows at the state in the plane: the second is zero for a thin torus.
+    pub(super) fn widths(&self) -> [f64; 2] {
+        let columns = self.integrals.both_rates(&self.ways.plane).map(|rates| joined(&rates, self.size(), f64::re));
+        let values = Matrix6x2::from_columns(&columns).singular_values();
+        [values.max(), values.min()]
+    }
+
     /// Both closed ways.
     ///
     /// # Errors
     /// [`Error::NotConverged`] for a torus so thin that its flows hardly differ.
     pub(super) fn periods(&self) -> Result<[Period; 2], Error> {
-        let size = self.size();
-        let columns = [[1.0, 0.0], [0.0, 1.0]].map(|unit| {
-            let [n, momentum] = self.integrals.rates(unit, &self.ways.plane);
-            let l = momentum / size;
-            Vector6::new(n.x, n.y, n.z, l.x, l.y, l.z)
-        });
-        let values = Matrix6x2::from_columns(&columns).singular_values();
-        let (least, most) = (values.min(), values.max());
+        let [most, least] = self.widths();
         if least <= THINNEST * most {
             let what = "periods of the torus: n is on L, or L on an axis";
             return Err(Error::NotConverged { what, iterations: 1, residual: least / most });

@@ -35,6 +35,7 @@
 //! ```
 
 mod angles;
+mod derivative;
 mod flow;
 mod found;
 mod fourier;
@@ -50,6 +51,7 @@ mod table;
 mod ways;
 mod wide;
 
+pub use derivative::TorusDerivative;
 pub use frequencies::{TorusFrequencies, torus_frequencies};
 pub use separatrix::separatrix_motion;
 pub use solution::TorusSolution;

@@ -3,6 +3,7 @@
 use super::flow::Axes;
 use super::ways::{ClosedWays, HalfWay};
 use crate::dynamics::RigidSpheroid;
+use crate::numerics::arithmetic::Componentwise;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::four_lanes::FourLanes;
 use crate::numerics::rounding::two_product;
@@ -29,6 +30,12 @@ impl Phase {
         let rest = rest + self.rate.low * t[0] + rate * t[1];
         let turns = (turns - turns.round_ties_even()) + (rest - rest.round_ties_even()) + self.offset.high;
         turns - turns.round_ties_even()
+    }
+
+    /// Whole turns since the start, to the nearest, and the part of a turn beside them.
+    pub(super) fn passed(&self, t: [f64; 2]) -> [f64; 2] {
+        let part = Self { offset: DoubleDouble::default(), ..*self }.at::<Componentwise<f64>>(t);
+        [(self.rate.high * (t[0] + t[1]) - part).round(), part]
     }
 }
 

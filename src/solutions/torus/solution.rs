@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::found::Torus;
+use super::found::{THINNEST, Torus};
 use super::phase::{Phase, phases};
 use super::sampling::{Coefficients, ROUNDING, coefficients};
 use super::table::{Table, Turn, fill_with_turns};
@@ -23,6 +23,9 @@ const END_OF_HALF_WAY: f64 = 3e-16;
 /// What may be left between the series and the flow beside its estimated error, where its torus has the symmetries assumed.
 const CLOSED: f64 = 1e-12;
 
+/// What rounding leaves of derivatives where both flows differ most: that of some ten steps of the flow, and of their sum.
+const ROUNDING_OF_DERIVATIVES: f64 = 1e-14;
+
 /// So many multiples of an angle fit on the stack.
 const FEW: usize = 16;
 
@@ -38,12 +41,17 @@ const FEW: usize = 16;
 #[derive(Debug, Clone)]
 pub struct TorusSolution {
     pub(super) phases: [Phase; 3],
+    /// Times along the flows of `H` and `K` of both closed ways, and the spread that is the unit of `K`.
+    pub(super) periods: [[f64; 2]; 2],
+    pub(super) spread: f64,
+    /// How much the flows differ: the least over the largest singular value of their rates.
+    width: f64,
     /// Of `n` and `L`.
     axes: Table,
     /// Of `V`, from which `e_x` is turned.
     vector: Table,
     multiples: [usize; 2],
-    given_from_torus: Matrix3<f64>,
+    pub(super) given_from_torus: Matrix3<f64>,
     truncation: f64,
     /// Difference of the series from the flow.
     off: f64,
@@ -86,12 +94,16 @@ impl TorusSolution {
         tolerance: f64,
         [axes, vector]: [[Coefficients; 6]; 2],
     ) -> Option<Self> {
-        let (mut axes, left_axes) = Table::without_smallest(&axes, 0.1 * tolerance);
-        let (vector, left_vector) = Table::without_smallest(&vector, 0.1 * tolerance);
+        let (mut axes, left_axes) = Table::within(&axes, tolerance);
+        let (vector, left_vector) = Table::within(&vector, tolerance);
         axes.scale_every_other(torus.size());
         let [[a, b], [c, d]] = [axes.multiples(), vector.multiples()];
+        let [most, least] = torus.widths();
         let mut solution = Self {
+            width: least / most,
             phases,
+            periods: [&torus.ways.fast, &torus.ways.slow].map(|half| half.times.map(|time| time * 2.0)),
+            spread: torus.spread,
             axes,
             vector,
             // At least zero and one, which are where angles begin.
@@ -110,10 +122,7 @@ impl TorusSolution {
     /// Largest difference from the start, and from the flow at a point where all functions differ from one another.
     fn gap(&self, torus: &Torus) -> f64 {
         let parts = [0.2, 0.45];
-        let times = [0, 1].map(|i| {
-            let ways = [&torus.ways.fast, &torus.ways.slow];
-            (0..2).map(|way| ways[way].times[i] * 2.0 * parts[way]).sum()
-        });
+        let times = [0, 1].map(|i| (0..2).map(|way| self.periods[way][i] * parts[way]).sum());
         let [n, momentum, _] = torus.integrals.moved(times, &torus.ways.plane);
         let there = self.state_on_torus([parts[0], parts[1], 0.0]);
         let here = self.state([0.0; 2]);
@@ -152,6 +161,18 @@ impl TorusSolution {
     /// Estimated error of the components of `n`, `e_x` and `L / |L|` at a time since the start.
     pub fn error_estimate(&self, t: f64) -> f64 {
         self.truncation + self.rounding(t)
+    }
+
+    /// Estimated error of derivatives ([`TorusDerivative`](super::TorusDerivative)) in units of the largest one by the same parameter.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] for a torus so thin that its flows hardly differ: `n` on `L`, `L` on an axis. Neighbours of such a motion have another number of frequencies.
+    pub fn error_of_derivatives(&self) -> Result<f64, Error> {
+        if self.width <= THINNEST {
+            let what = "derivatives on the torus: n is on L, or L on an axis";
+            return Err(Error::NotConverged { what, iterations: 1, residual: self.width });
+        }
+        Ok(ROUNDING_OF_DERIVATIVES / self.width)
     }
 
     /// `n` and `L` at the time `t[0] + t[1]` since the start.

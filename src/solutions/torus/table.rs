@@ -43,20 +43,38 @@ pub(super) struct Values {
     pub(super) odd: [f64; 2],
 }
 
+/// How many coefficients of some functions are kept for a multiple of the first angle, and the sum of the others.
+fn kept(functions: &[Vec<Vec<Pair>>], j: usize, smallest: f64) -> (usize, f64) {
+    let largest =
+        |i: usize| functions.iter().map(|table| table[j][i][0].abs().max(table[j][i][1].abs())).fold(0.0, f64::max);
+    let length = functions[0][j].len();
+    let count = (0..length).rev().find(|&i| largest(i) > smallest).map_or(0, |i| i + 1);
+    (count, (count..length).map(largest).sum())
+}
+
 impl Table {
-    /// The table of six functions by their coefficients `[j][i]`, `k = 2 i` or `2 i + 1`, without those so small that omitting them does not show, and
-    /// the sum of these.
-    pub(super) fn without_smallest(functions: &[Vec<Vec<Pair>>; 6], smallest: f64) -> (Self, f64) {
+    /// The table of six functions by their coefficients `[j][i]`, `k = 2 i` or `2 i + 1`, without the smallest, of which the sum is at most a tolerance (where rounding
+    /// lets it); and that sum.
+    pub(super) fn within(functions: &[Vec<Vec<Pair>>; 6], tolerance: f64) -> (Self, f64) {
+        let left = |smallest: f64| -> f64 {
+            let of = |j: usize| kept(&functions[..4], j, smallest).1 + kept(&functions[4..], j, smallest).1;
+            (0..functions[0].len()).map(of).sum()
+        };
+        let mut smallest = 0.1 * tolerance;
+        while left(smallest) > tolerance && smallest > 1e-3 * tolerance {
+            smallest *= 0.5;
+        }
+        Self::without_smallest(functions, smallest)
+    }
+
+    /// The table without coefficients so small that omitting them does not show, and the sum of these.
+    fn without_smallest(functions: &[Vec<Vec<Pair>>; 6], smallest: f64) -> (Self, f64) {
         let mut left = 0.0;
         let mut table = Self::default();
         for j in 0..functions[0].len() {
             let mut kept = |functions: &[Vec<Vec<Pair>>]| {
-                let largest = |i: usize| {
-                    functions.iter().map(|table| table[j][i][0].abs().max(table[j][i][1].abs())).fold(0.0, f64::max)
-                };
-                let length = functions[0][j].len();
-                let count = (0..length).rev().find(|&i| largest(i) > smallest).map_or(0, |i| i + 1);
-                left += (count..length).map(largest).sum::<f64>();
+                let (count, omitted) = kept(functions, j, smallest);
+                left += omitted;
                 count
             };
             let counts = [kept(&functions[..4]), kept(&functions[4..])];

@@ -57,7 +57,7 @@ pub(super) struct ClosedWays<S> {
 }
 
 impl<S: Real> ClosedWays<S> {
-    /// Closed ways from those of another precision, or of the real parts.
+    /// Closed ways from those of another precision.
     pub(super) fn refined(integrals: &Integrals<S>, initial: &Axes<S>, near: &ClosedWays<f64>) -> Option<Self> {
         let raised = |way: &HalfWay<f64>| way.times.map(S::from_f64);
         let search = Search::new(integrals, initial);
@@ -94,8 +94,8 @@ fn with_vector_of_plane<S: Real>([n, momentum, _]: &Axes<S>) -> Axes<S> {
     [*n, *momentum, n.cross(&Vector3::y())]
 }
 
-/// Angle about `n` from a vector to another one.
-fn angle<S: Real>([n, _, u]: &Axes<S>, from: &Vector3<S>) -> S {
+/// Angle about `n` from a vector to that of the body.
+pub(super) fn angle<S: Real>([n, _, u]: &Axes<S>, from: &Vector3<S>) -> S {
     n.dot(&from.cross(u)).atan2(from.dot(u))
 }
 
@@ -142,10 +142,8 @@ impl<'a, S: Real> Search<'a, S> {
                 return near.then_some((times, at));
             }
             least = size;
-            let [by_h, by_k] = [[S::one(), S::zero()], [S::zero(), S::one()]].map(|unit| {
-                let [n, momentum] = self.integrals.rates(unit, &at);
-                self.distances(&n, &momentum, cosine)
-            });
+            let rates = self.integrals.both_rates(&at);
+            let [by_h, by_k] = rates.map(|[n, momentum, _]| self.distances(&n, &momentum, cosine));
             let change =
                 step_to_zero([Vector2::new(by_h.x, by_k.x), Vector2::new(by_h.y, by_k.y)], left, STILL * self.rate)?;
             // Far from the plane the rates at the end say little.
@@ -311,7 +309,7 @@ mod tests {
     /// With Y the axis of the middle value and `L` round Z.
     fn found(strength: f64) -> (Integrals<f64>, Axes<f64>, ClosedWays<f64>) {
         let values = Vector3::new(-0.13, -0.08, 0.21) * strength;
-        let integrals = Integrals::new(&BODY, &values, 0.34 * strength, DOUBLE);
+        let integrals = Integrals::new(&BODY, &nalgebra::Matrix3::from_diagonal(&values), 0.34 * strength, DOUBLE);
         let start = [Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.4, -0.7, 1.9), Vector3::y()];
         let initial = BodyState { axis: start[0], momentum: start[1], equatorial_axis: start[2] };
         let ways = Courses::new(&integrals, &BODY, &values, &initial).closed_ways(&start).unwrap();

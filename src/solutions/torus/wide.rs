@@ -38,7 +38,7 @@ impl WideTorus {
         let (from_given, tensor) = diagonal_frame(&problem.coefficients().map(wide), torus.from_given.map(wide));
         let mean = tensor.trace() / 3.0;
         let values = tensor.diagonal().map(|value| value - mean);
-        let integrals = Integrals::new(&spheroid, &values, wide(torus.spread), DOUBLE_DOUBLE);
+        let integrals = Integrals::new(&spheroid, &Matrix3::from_diagonal(&values), wide(torus.spread), DOUBLE_DOUBLE);
         let given = problem.initial();
         let mut initial = [given.axis, given.momentum, given.equatorial_axis].map(|v| from_given * v.map(wide));
         // n is a unit vector, whatever rounding has made of its length.
@@ -61,7 +61,7 @@ impl WideTorus {
             values,
             initial: self.initial.map(|v| v.map(Real::re)),
             ways: self.ways.rounded(),
-            integrals: Integrals::new(&torus.spheroid, &values, torus.spread, DOUBLE),
+            integrals: Integrals::new(&torus.spheroid, &Matrix3::from_diagonal(&values), torus.spread, DOUBLE),
             from_given: self.from_given.map(Real::re),
             ..*torus
         }
