@@ -1,4 +1,4 @@
-//! Spans of more turns than can be followed one by one: plans that keep phases, and pulses near given epochs, by the averaged motion.
+//! Spans of more turns than can be followed one by one: plans that keep phases, and pulses near given epochs.
 
 use super::Event;
 use super::signal::turning_rate;
@@ -6,14 +6,14 @@ use crate::error::Error;
 use crate::observables::pulsar::{ClockPulse, PulsarClock};
 use crate::parameters::Parameters;
 use crate::plan::{Method, Plan, Request};
-use crate::propagation::AveragedMotion;
+use crate::propagation::PhasedMotion;
 use crate::solutions::averaged::AveragingOrder;
 
 /// Rotation (rad) up to which every turn is followed.
 const LARGEST_FOLLOWED: f64 = 1e5;
 
-/// Most that the averaged motion may leave out of directions (rad): derivatives are then right to about as much.
-const MOST_LEFT_OUT: f64 = 1e-3;
+/// Largest error of directions (rad): derivatives by the averaged motion are then right to about as much.
+const LARGEST_ERROR: f64 = 1e-3;
 
 /// Most corrections of the time at which a turn with a number is looked for.
 const MOST_CORRECTIONS: usize = 8;
@@ -27,7 +27,7 @@ pub(super) fn is_long(parameters: &Parameters<f64>, end: f64) -> bool {
 /// meets the tolerance.
 ///
 /// # Errors
-/// As for [`Problem::plan`](crate::dynamics::Problem::plan) and, for the averaged motion, [`check_span`].
+/// As for [`Problem::plan`](crate::dynamics::Problem::plan), and [`Error::Domain`] for the error of the averaged motion.
 pub(super) fn plan(parameters: &Parameters<f64>, request: Request) -> Result<Plan, Error> {
     let (problem, end) = (parameters.problem()?, request.span.1);
     let plan = problem.plan(&request);
@@ -35,30 +35,36 @@ pub(super) fn plan(parameters: &Parameters<f64>, request: Request) -> Result<Pla
     if !is_long(parameters, end) || plan.as_ref().is_ok_and(meets) {
         return plan;
     }
-    check_span(parameters, end)?;
+    ensure_exact(&PhasedMotion::averaged(&problem, AveragingOrder::Second)?, end)?;
     problem.plan(&Request { method: Some(Method::Averaged), ..request })
 }
 
-/// Refuses a span to `end` whose pulses can neither be followed turn by turn nor found by the averaged motion.
+/// Refuses a span to `end` whose pulses can neither be followed turn by turn nor found by a motion by phases.
 ///
 /// # Errors
-/// [`Error::Domain`] as for [`AveragedMotion::new`], and for what it leaves out.
+/// [`Error::Domain`] as for [`PhasedMotion::new`], and for an error of directions above 1e-3 rad.
 pub fn check_span(parameters: &Parameters<f64>, end: f64) -> Result<(), Error> {
-    if !is_long(parameters, end) {
-        return Ok(());
-    }
-    let motion = AveragedMotion::new(&parameters.problem()?, (0.0, end), AveragingOrder::Second)?;
-    let left_out = motion.mean.truncation(end);
+    if is_long(parameters, end) { motion(parameters, end).map(|_| ()) } else { Ok(()) }
+}
+
+fn motion(parameters: &Parameters<f64>, end: f64) -> Result<PhasedMotion, Error> {
+    let motion = PhasedMotion::new(&parameters.problem()?, end)?;
+    ensure_exact(&motion, end)?;
+    Ok(motion)
+}
+
+fn ensure_exact(motion: &PhasedMotion, end: f64) -> Result<(), Error> {
+    let error = motion.error_estimate(end);
     Error::ensure(
-        left_out <= MOST_LEFT_OUT,
-        "what the averaged motion leaves out (rad) over a span of more than 1e5 rad of rotation",
-        left_out,
+        error <= LARGEST_ERROR,
+        "estimated error of directions (rad) over a span of more than 1e5 rad of rotation",
+        error,
         "at most 1e-3: a weaker violation or a shorter span",
     )
 }
 
-fn clock(parameters: &Parameters<f64>) -> Result<PulsarClock, Error> {
-    PulsarClock::new(&parameters.problem()?, &parameters.beam(), &parameters.observer(), AveragingOrder::Second)
+fn clock(parameters: &Parameters<f64>, end: f64) -> Result<PulsarClock, Error> {
+    PulsarClock::on(motion(parameters, end)?, &parameters.beam(), &parameters.observer())
 }
 
 /// A pulse with its times counted from the double nearest to its midpoint. The closest approach is not looked for.
@@ -67,13 +73,13 @@ fn event(pulse: &ClockPulse) -> Event {
     Event { turn: pulse.number, epoch, start: rest - half, end: rest + half, closest: f64::NAN }
 }
 
-/// The pulse of the turn nearest to each of some times, in their order; turns without a pulse have none, a turn is taken once, and no pulse before
+/// The pulse of the turn nearest to each of some times up to `end`, in their order; turns without a pulse have none, a turn is taken once, and no pulse before
 /// the start.
 ///
 /// # Errors
-/// As for [`PulsarClock`].
-pub(super) fn pulses_near(parameters: &Parameters<f64>, times: &[f64]) -> Result<Vec<Event>, Error> {
-    let clock = clock(parameters)?;
+/// As for [`check_span`] and [`PulsarClock`].
+pub(super) fn pulses_near(parameters: &Parameters<f64>, end: f64, times: &[f64]) -> Result<Vec<Event>, Error> {
+    let clock = clock(parameters, end)?;
     let mut found: Vec<Event> = Vec::with_capacity(times.len());
     for &time in times {
         if let Some(pulse) = clock.pulse_near([time, 0.0])?
@@ -89,9 +95,13 @@ pub(super) fn pulses_near(parameters: &Parameters<f64>, times: &[f64]) -> Result
 /// The pulses of turns with given numbers, each looked for from a time near it in some other model; turns without a pulse are left out.
 ///
 /// # Errors
-/// As for [`PulsarClock`].
-pub(super) fn pulses_numbered(parameters: &Parameters<f64>, turns: &[(i64, f64)]) -> Result<Vec<Event>, Error> {
-    let clock = clock(parameters)?;
+/// As for [`check_span`] and [`PulsarClock`].
+pub(super) fn pulses_numbered(
+    parameters: &Parameters<f64>,
+    end: f64,
+    turns: &[(i64, f64)],
+) -> Result<Vec<Event>, Error> {
+    let clock = clock(parameters, end)?;
     let period = clock.period();
     let mut found = Vec::with_capacity(turns.len());
     for &(number, near) in turns {

@@ -81,7 +81,7 @@ pub(super) fn strain<S: Scalar>(
 }
 
 impl Signal {
-    /// Whether the span is one of more than 1e5 rad of rotation. Its pulses are those near given times, by the averaged motion of second order.
+    /// Whether the span is one of more than 1e5 rad of rotation. Its pulses are those near given times.
     pub fn is_long(&self) -> bool {
         self.is_long
     }
@@ -126,8 +126,7 @@ impl Signal {
     /// As for [`events`](Self::events); of a long span those of [`check_span`](super::check_span).
     pub fn events_after(&self, times: &[f64]) -> Result<Vec<Event>, Error> {
         if self.is_long {
-            long_span::check_span(&self.parameters, self.end)?;
-            return long_span::pulses_near(&self.parameters, times);
+            return long_span::pulses_near(&self.parameters, self.end, times);
         }
         let mut found: Vec<Event> = Vec::new();
         let window = 2.2 * self.turn();
@@ -148,8 +147,7 @@ impl Signal {
     /// # Errors
     /// A beam or line of sight that has no pulses to be counted, and those of [`check_span`](super::check_span).
     pub fn events_of_turns(&self, turns: &[(i64, f64)]) -> Result<Vec<Event>, Error> {
-        long_span::check_span(&self.parameters, self.end)?;
-        long_span::pulses_numbered(&self.parameters, turns)
+        long_span::pulses_numbered(&self.parameters, self.end, turns)
     }
 
     /// About the time of a turn: that of a rotation at the rate `|L| / I^xx`.

@@ -87,6 +87,9 @@ fn lines_of_a_pulsar_are_told_apart() {
     let (slow, spin) = (named("-alpha'"), named("gamma'"));
     assert!(slow > 0.0 && slow < 1e-16 && (spin - 2.47).abs() < 0.01, "{lines:?}");
     assert!(noted(&output, "alpha' = ") == -slow);
+    // Frequencies are right to their last digits, though they are small differences of large ones.
+    let apart = named("-3 alpha' - gamma' + nu'") - named("-2 alpha' - gamma' + nu'");
+    assert!((apart / slow - 1.0).abs() < 1e-5, "{apart:e} {slow:e}");
 }
 
 #[test]
