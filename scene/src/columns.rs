@@ -100,6 +100,13 @@ pub fn values(group: Output, scene: &Scene, sample: &Sample) -> Option<Vec<f64>>
 /// Angles that grow without end or jump by a turn: a spectrum would be that of the growth or of the jumps.
 const TURNING: [&str; 5] = ["alpha", "gamma", "alpha_printed", "Phi", "psi"];
 
+/// The strain that the rotation would have at right angles to the symmetry axis, and the torque: terms of a wave have that size, whatever is left of their sum.
+fn strain_of_rotation(scene: &Scene) -> f64 {
+    let (body, s) = (scene.problem.spheroid(), scene.problem.coefficients());
+    let rate = scene.problem.initial().momentum.norm() / body.inertia_xx;
+    scene.strain_unit() * (body.inertia_xx * body.oblateness().abs() * rate * rate + body.constant_c.abs() * s.norm())
+}
+
 /// One column of a table.
 #[derive(Debug)]
 pub struct Column {
@@ -171,7 +178,8 @@ impl Column {
     /// The value at a sample and the size of what it is a part of, as `|L|` for a component of `L`; none where they do not exist.
     pub fn value_and_size(&self, scene: &Scene, sample: &Sample) -> Option<(f64, f64)> {
         let values = values(self.group, scene, sample)?;
-        let size = self.parts.iter().fold(0.0_f64, |size, &part| size.hypot(values[part]));
+        let least = if self.group == Output::GravitationalWave { strain_of_rotation(scene) } else { 0.0 };
+        let size = self.parts.iter().fold(least, |size, &part| size.hypot(values[part]));
         Some((values[self.index], size))
     }
 }

@@ -67,21 +67,23 @@ impl PhasedMotion {
         }
     }
 
-    /// The motion without any approximation, for times up to `longest` in size: uniform where it is free or steady, else on the torus.
+    /// The motion to rounding, for times up to `longest` in size: on the torus. A free motion is uniform; where there is no torus, as of `n` on `L`, it is the averaged one
+    /// if that leaves out less than rounding at the start, or a steady one.
     ///
     /// # Errors
     /// As for [`TorusSolution::new`].
     pub fn exact(problem: &Problem<f64>, longest: f64) -> Result<Self, Error> {
         let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
-        let uniform = if largest_torque(problem.spheroid(), problem.coefficients()) == 0.0 {
-            Some(UniformMotion::free(problem, everywhere))
-        } else {
-            UniformMotion::steady(problem, everywhere).ok()
-        };
-        match uniform {
-            Some(motion) => Ok(Self { problem: *problem, solution: Solution::Uniform(motion) }),
-            None => Self::torus(problem, longest),
+        let uniform = |motion| Self { problem: *problem, solution: Solution::Uniform(motion) };
+        if largest_torque(problem.spheroid(), problem.coefficients()) == 0.0 {
+            return Ok(uniform(UniformMotion::free(problem, everywhere)));
         }
+        let is_exact = |motion: &Self| motion.truncation(0.0) <= motion.rounding(0.0);
+        Self::torus(problem, longest).or_else(|refused| {
+            let averaged = Self::averaged(problem, AveragingOrder::Second).ok().filter(is_exact);
+            let steady = || UniformMotion::steady(problem, everywhere).ok().map(uniform);
+            averaged.or_else(steady).ok_or(refused)
+        })
     }
 
     /// The averaged motion.

@@ -73,12 +73,12 @@ pub(crate) enum Command {
     ///
     /// Writes SCENE.csv, SCENE.par and SCENE.tim (FORMAT 1, barycentre), and the strain at the beginning as SCENE.h_plus.txt and
     /// SCENE.h_cross.txt. Pulses are those nearest to the epochs asked for; without options, to the times of the scene. The motion is
-    /// the averaged motion of second order (docs/averaged-solution.md), the files are described in docs/pulsars.md.
+    /// the averaged one where that is as exact, else that on its torus; docs/pulsars.md describes the files.
     Timing(timing::TimingArgs),
     /// Find the spectral lines of what a scene gives, name them by the fundamental frequencies of the motion, write them as CSV
     ///
-    /// The step of the series follows from the rotation rate, not from the scene's samples. Notes on standard error tell the
-    /// step, the fundamental frequencies and the constant term.
+    /// All of them, from the exact motion: the scene's [time] does not matter. Notes on standard error tell the fundamental frequencies, the
+    /// constant term and what the lines leave out.
     Spectrum(spectrum::SpectrumArgs),
     /// Compute many scenes, grids, lists or random draws of the parameters of one, and write a table with a row for each
     ///

@@ -47,6 +47,11 @@ impl WindowArgs {
             return Ok(scene);
         }
         let (from, to) = (self.from.unwrap_or(scene.times.start()), self.to.unwrap_or(scene.times.last()));
+        if self.to.is_none() && (to - from) * scene.duration() < 0.0 {
+            return Err(Failure::BadInput(format!(
+                "{name}: --from {from:?} is after the end of the scene, {to:?}: --to is needed"
+            )));
+        }
         let window = scene.window(from, to).map_err(|why| Failure::BadInput(format!("{name}: {why}")));
         let (scene, error) = window?;
         note(&format!("estimated error of n, e_x and L / |L| at the start of the window: {error:.1e}"));
@@ -59,7 +64,7 @@ pub(crate) struct PlanArgs {
     /// Compute nothing: print the plan, what it skips and why, and what it is expected to cost
     #[arg(long)]
     pub(crate) explain: bool,
-    /// The method, instead of the cheapest that meets the tolerance: free, steady, symmetric, averaged, splitting, taylor
+    /// The method, instead of the cheapest that meets the tolerance: free, steady, symmetric, averaged, torus, splitting, taylor
     #[arg(long, value_name = "NAME")]
     pub(crate) method: Option<String>,
 }

@@ -48,10 +48,15 @@ fn note_lines(column: &Column, summary: &LinesSummary) {
     for frequency in &summary.fundamental {
         note(&format!("{} = {:?} {}", frequency.symbol, frequency.rate, summary.unit));
     }
+    let [x, y, z] = summary.pole;
+    if z < 1.0 {
+        note(&format!("these are of angles about the axis ({x:.6}, {y:.6}, {z:.6}), which L goes round, not about Z"));
+    }
     note(&format!("{name} has the constant term {:?}{unit}", summary.constant));
     if let Some(rounding) = summary.rounding {
         note(&format!("lines below {rounding:.1e}{unit} are not listed: rounding makes as much of a constant"));
     }
+    note(&format!("{name} differs from its constant and all lines found by up to {:.1e}{unit}", summary.left));
     if summary.written == 0 {
         note(&format!("{name} has no line"));
     }

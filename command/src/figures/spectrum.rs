@@ -17,7 +17,8 @@ pub(super) fn spectrum(
     error: f64,
     observable: impl Fn(&BodyState<f64>) -> f64,
 ) -> Result<Vec<SpectralLine>, String> {
-    let list = subject.quasi_periodic()?.lines(WEAKEST, |state| Ok::<_, twofold::Error>([observable(state), 0.0]));
+    let function = |state: &BodyState<f64>| Ok::<_, twofold::Error>([observable(state), error / ALIKE]);
+    let list = subject.quasi_periodic()?.lines(WEAKEST, function);
     let list = list.map_err(|why| format!("{}: {why}", subject.name))?;
     let drawn = |line: SpectralLine| SpectralLine { frequency: subject.scale.frequency(line.frequency), ..line };
     let lines = list.lines.into_iter().filter(|line| line.amplitude > error).map(drawn);

@@ -103,7 +103,13 @@ fn strains_of_a_strong_violation_may_be_of_any_span() {
     use Parameter::{SAxial, Spin};
     let (truth, unknowns, end) = (model("tp-2"), &[SAxial, Spin], 1e9);
     let signal = Signal::new(&truth, end).expect("signal");
-    assert!(signal.is_long() && signal.events_after(&[1e8]).is_err() && signal.events_of_turns(&[(9, 1e8)]).is_err());
+    assert!(signal.is_long());
+    // Its pulses too are found late.
+    let events = signal.events_after(&[1e8, 2e8, 3e8, 4e8, 5e8]).expect("pulses");
+    let turns: Vec<_> = events.iter().map(|event| (event.turn, event.epoch + event.midpoint())).collect();
+    let again = signal.events_of_turns(&turns).expect("the same pulses");
+    assert!(!events.is_empty() && again.len() == events.len());
+    assert!(again.iter().zip(&events).all(|(a, b)| a.turn == b.turn && (a.start - b.start).abs() < 1e-9));
     let times: Vec<f64> = (1..60).map(|k| end * f64::from(k) / 60.0).collect();
     let noise = [(Observable::StrainPlus, 1e-3), (Observable::StrainCross, 1e-3)];
     let data = data_of(&signal, &[], &times, &noise).expect("data");

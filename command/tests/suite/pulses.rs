@@ -80,7 +80,8 @@ fn a_window_may_be_late() {
     );
     for (args, part) in [
         (&["pulses", "tp-2", "--from", "0", "--to", "1e9"][..], "holds a rotation"),
-        (&["pulses", "tp-2", "--from", "1e9", "--method", "taylor"], "rotation over the span"),
+        (&["pulses", "tp-2", "--from", "1e9", "--to", "1000000100", "--method", "taylor"], "rotation over the span"),
+        (&["pulses", "tp-2", "--from", "1e9"], "after the end of the scene"),
         (&["pulses", "tp-2", "--from", "7", "--to", "7"], "a window from 7.0 to 7.0"),
         (&["pulses", "tp-2", "--from", "1e14", "--to", "2e14"], "resolve a thousandth"),
         (&["run", "tp-2", "--from", "7", "--columns", "perturbation"], "not where a window"),

@@ -11,6 +11,8 @@ pub enum TrajectoryError {
     Incomplete(String),
     /// The motion, or what follows from it, could not be computed.
     Motion(Error),
+    /// The lines of a column could not be found.
+    Lines(String, Error),
     /// A column does not exist in a state of the motion.
     Undefined(String),
     /// The rows could not be written.
@@ -35,6 +37,7 @@ impl fmt::Display for TrajectoryError {
         match self {
             TrajectoryError::Incomplete(lacks) => f.write_str(lacks),
             TrajectoryError::Motion(error) => write!(f, "the motion could not be computed: {error}"),
+            TrajectoryError::Lines(column, error) => write!(f, "the lines of `{column}` could not be found: {error}"),
             TrajectoryError::Undefined(column) => {
                 write!(
                     f,

@@ -34,10 +34,14 @@ pub struct LinesSummary {
     pub found: usize,
     /// Amplitude that rounding makes of what is constant, in the unit of the column, where that is more than the least one wanted.
     pub rounding: Option<f64>,
+    /// Largest difference between the column and the sum of all lines found, at sixteen states, in the unit of the column.
+    pub left: f64,
     /// The unit of frequencies.
     pub unit: String,
-    /// The fundamental frequencies by which lines are named, in that unit.
+    /// The fundamental frequencies that are not zero, in that unit.
     pub fundamental: Vec<FundamentalFrequency>,
+    /// The axis of the angles whose rates they are, in the scene's frame.
+    pub pole: [f64; 3],
 }
 
 /// Writes the lines of a column as CSV, strongest first, with their phases at the start of the scene.
@@ -47,8 +51,12 @@ pub fn write_lines(
     wanted: &LinesWanted,
     writer: impl Write,
 ) -> Result<LinesSummary, TrajectoryError> {
-    let motion = QuasiPeriodicMotion::new(&scene.problem)?;
-    let mut list = motion.lines(wanted.least, |state| value_and_size(scene, column, state))?;
+    let not_found = |why: TrajectoryError| match why {
+        TrajectoryError::Motion(error) => TrajectoryError::Lines(column.name.clone(), error),
+        other => other,
+    };
+    let motion = QuasiPeriodicMotion::new(&scene.problem).map_err(|why| not_found(why.into()))?;
+    let mut list = motion.lines(wanted.least, |state| value_and_size(scene, column, state)).map_err(not_found)?;
     let found = list.lines.len();
     let strongest = list.lines.first().map_or(0.0, |line| line.amplitude);
     list.lines.truncate(wanted.most);
@@ -72,14 +80,18 @@ pub fn write_lines(
         table.write_record(numbers.into_iter().chain([line.combination.to_string()]))?;
     }
     table.flush()?;
-    let basis = motion.frequencies().basis.iter();
+    let frequencies = motion.frequencies();
+    let named = |of: &&FundamentalFrequency| frequencies.all.iter().all(|other| other.symbol != of.symbol);
+    let moving = frequencies.all.iter().filter(|of| of.rate != 0.0).chain(frequencies.basis.iter().filter(named));
     Ok(LinesSummary {
         constant: list.constant,
         written: list.lines.len(),
         found,
         rounding: (list.least > wanted.least * strongest).then_some(list.least),
+        left: list.left,
         unit,
-        fundamental: basis.map(|of| FundamentalFrequency { rate: of.rate / scale, ..*of }).collect(),
+        fundamental: moving.map(|of| FundamentalFrequency { rate: of.rate / scale, ..*of }).collect(),
+        pole: frequencies.pole.into(),
     })
 }
 
@@ -91,6 +103,6 @@ fn value_and_size(scene: &Scene, column: &Column, state: &BodyState<f64>) -> Res
     }
     let (value, size) =
         column.value_and_size(scene, &sample).ok_or_else(|| TrajectoryError::Undefined(column.name.clone()))?;
-    // A pole that rounding has moved.
+    // On a pole, or beside it by rounding.
     if value.is_finite() { Ok([value, size]) } else { Err(TrajectoryError::Undefined(column.name.clone())) }
 }

@@ -7,8 +7,9 @@ use nalgebra::{Matrix3, Vector3};
 use super::Combination;
 use crate::dynamics::{BodyState, RotationState};
 use crate::numerics::angle::wrapped;
+use crate::numerics::double_double::DoubleDouble;
 
-/// Points of the first grid in each angle, and most of them: an angle that still jumps there comes as near as one likes to a pole.
+/// Points of the first grid in each angle, and most of them: where an Euler angle still jumps between two of these, `n` passes a pole.
 const POINTS: [usize; 2] = [32, 256];
 
 /// Largest change of an angle between two points of the grid (rad).
@@ -41,13 +42,18 @@ pub struct FundamentalFrequencies {
     /// All of them.
     pub all: Vec<FundamentalFrequency>,
     /// Those that name the lines: of these every line is a whole combination. `alpha'`, `gamma'` and `l'`, or `nu'` where `alpha'` is a multiple of
-    /// `l'`; without `alpha'` and `gamma'` the others.
+    /// `l'`; without `alpha'` and `gamma'` the others, and the angles of the torus
+    /// themselves where these do not name every line.
     pub basis: Vec<FundamentalFrequency>,
 }
 
 impl FundamentalFrequencies {
-    /// Of a motion on the torus, by the state after turns of its three angles and their rates.
-    pub(super) fn of(state: impl Fn([f64; 3]) -> BodyState<f64>, rates: [f64; 3], pole: &Vector3<f64>) -> Self {
+    /// Of a motion on the torus, by the state after turns of its three angles and their rates (turns per unit of time).
+    pub(super) fn of(
+        state: impl Fn([f64; 3]) -> BodyState<f64>,
+        rates: [DoubleDouble; 3],
+        pole: &Vector3<f64>,
+    ) -> Self {
         let mut grid = Grid::new(&state, POINTS[0], pole);
         let euler = loop {
             let euler = grid.euler_windings();
@@ -59,8 +65,7 @@ impl FundamentalFrequencies {
         let axes = [grid.nutation(), grid.slow(), grid.body()];
         let mut all = Vec::new();
         let mut add = |symbol, turns: [i32; 3]| {
-            let rate = (0..3).map(|i| f64::from(turns[i]) * rates[i]).sum();
-            all.push(FundamentalFrequency { symbol, rate, turns });
+            all.push(FundamentalFrequency { symbol, rate: rate_of(&rates, turns), turns });
         };
         if let Some([alpha, gamma]) = euler {
             add("alpha'", alpha);
@@ -70,8 +75,16 @@ impl FundamentalFrequencies {
         add("l'", slow);
         add("nu'", nutation);
         add("psi'", body);
-        let moving = rates.map(|rate| rate != 0.0);
-        let basis = basis(&all, moving);
+        let moving = rates.map(|rate| rate.high != 0.0);
+        let mut basis = basis(&all, moving);
+        if basis.is_empty() {
+            // The angles of the torus themselves.
+            let unit = |i: usize| core::array::from_fn(|j| i32::from(i == j));
+            let angles = ["theta_1'", "theta_2'", "theta_3'"].into_iter().enumerate().filter(|(i, _)| moving[*i]);
+            basis = angles
+                .map(|(i, symbol)| FundamentalFrequency { symbol, rate: rate_of(&rates, unit(i)), turns: unit(i) })
+                .collect();
+        }
         Self { pole: *pole, all, basis }
     }
 
@@ -89,6 +102,12 @@ impl FundamentalFrequencies {
         let terms = (wanted * inverse).iter().zip(&self.basis).map(|(k, of)| (k.round() as i32, of.symbol)).collect();
         Combination { terms }
     }
+}
+
+/// Rate (rad per unit of time) of a combination of angles.
+pub(super) fn rate_of(rates: &[DoubleDouble; 3], multiples: [i32; 3]) -> f64 {
+    let terms = rates.iter().zip(multiples).map(|(rate, k)| *rate * DoubleDouble::from(f64::from(k)));
+    terms.fold(DoubleDouble::from(0.0), |sum, term| sum + term).high * TAU
 }
 
 /// The rows of a basis, with unit vectors along the angles that do not move.
@@ -265,7 +284,8 @@ mod tests {
     }
 
     fn found(state: impl Fn([f64; 3]) -> BodyState<f64>) -> FundamentalFrequencies {
-        FundamentalFrequencies::of(state, [1.3, 0.01, 0.2], &Vector3::z())
+        let rates = [1.3, 0.01, 0.2].map(|rate: f64| DoubleDouble::from(rate / TAU));
+        FundamentalFrequencies::of(state, rates, &Vector3::z())
     }
 
     fn turns(found: &FundamentalFrequencies, symbol: &str) -> Option<[i32; 3]> {

@@ -1,5 +1,9 @@
 //! The lines of a function of the state.
 
+use core::f64::consts::TAU;
+
+use rustfft::num_complex::Complex;
+
 use super::transform::{coefficients, multiple, multiples, points};
 use super::{Combination, QuasiPeriodicMotion};
 use crate::dynamics::BodyState;
@@ -9,13 +13,17 @@ use crate::error::Error;
 const FIRST_GRID: [usize; 3] = [8, 8, 4];
 
 /// Most points of a grid, which take some tenths of a second.
-const MOST_POINTS: usize = 1 << 19;
+const MOST_POINTS: usize = 1 << 18;
 
 /// Coefficients at the edge of the grid are to be below this part of the least amplitude.
-const EDGE: f64 = 0.3;
+const EDGE: f64 = 0.1;
 
-/// Where twice as many points leave more than this part of the coefficients at the edge, they are noise.
-const NOISE: f64 = 0.7;
+/// Noise is below this part of the size of the function, and more than [`STILL`] of it is left by twice as many points in the angle, twice.
+const LARGEST_NOISE: f64 = 1e-10;
+const STILL: f64 = 0.7;
+
+/// Places beside the grid at which the sum of the lines is compared with the function.
+const PLACES: usize = 16;
 
 /// Lines are this many times the largest coefficient of noise, and the error of the states.
 const ABOVE_NOISE: f64 = 4.0;
@@ -49,8 +57,10 @@ pub struct LineList {
     pub constant: f64,
     /// The lines.
     pub lines: Vec<SpectralLine>,
-    /// Least amplitude that is listed: what was asked for, or what rounding makes of a constant.
+    /// Least amplitude that is listed: what was asked for, or what rounding makes of a constant. Amplitudes are right to a tenth of it.
     pub least: f64,
+    /// Largest difference between the function and the sum of constant and lines, at sixteen places of the torus: what is not listed.
+    pub left: f64,
 }
 
 impl QuasiPeriodicMotion {
@@ -61,7 +71,7 @@ impl QuasiPeriodicMotion {
     /// amplitude, or noise; an angle on which the function does not depend has one point. Lines that are left out are below [`LineList::least`].
     ///
     /// # Errors
-    /// Those of the function; [`Error::NotConverged`] for one whose series falls off so slowly that half a million points are not enough, as one that jumps.
+    /// Those of the function; [`Error::Domain`] for one whose series falls off so slowly that a quarter of a million points are not enough, as one that jumps.
     pub fn lines<E: From<Error>>(
         &self,
         least: f64,
@@ -70,7 +80,8 @@ impl QuasiPeriodicMotion {
         let at = |turns: [f64; 3]| function(&self.state_after_turns(turns));
         let still = self.still(&at)?;
         let mut counts: [usize; 3] = core::array::from_fn(|i| if still[i] { 1 } else { FIRST_GRID[i] });
-        let mut before: [Option<f64>; 3] = [None; 3];
+        // How often twice as many points in an angle have left its edge as it was, and that edge.
+        let mut before = [(0, f64::INFINITY); 3];
         loop {
             let (mut values, mut size) = (Vec::with_capacity(counts.iter().product()), 0.0_f64);
             for turns in points(counts) {
@@ -79,24 +90,23 @@ impl QuasiPeriodicMotion {
                 size = size.max(of);
             }
             let all = coefficients(&values, counts);
-            let (strongest, edges) = strongest_and_edges(&all.iter().map(|c| c.norm()).collect::<Vec<_>>(), counts);
-            let rounding = ABOVE_NOISE * self.error() * size;
-            let wanted = (least * 2.0 * strongest).max(rounding);
-            // The angle with the largest coefficients at its edge, unless more points do not make them less.
-            let falls = |i: usize| before[i].is_none_or(|before| edges[i] < NOISE * before);
-            let next = (0..3).filter(|&i| counts[i] > 1 && 2.0 * edges[i] > EDGE * wanted && falls(i));
+            let (strongest, edges) = strongest_and_edges(&all, counts);
+            let wanted = (least * 2.0 * strongest).max(ABOVE_NOISE * self.error() * size);
+            let is_noise = |i: usize| before[i].0 >= 2 && edges[i] < LARGEST_NOISE * size;
+            let next = (0..3).filter(|&i| counts[i] > 1 && 2.0 * edges[i] > EDGE * wanted && !is_noise(i));
             let Some(angle) = next.max_by(|&i, &j| edges[i].total_cmp(&edges[j])) else {
-                let noise = ABOVE_NOISE * 2.0 * edges.into_iter().fold(0.0, f64::max);
-                let least = if noise > EDGE * ABOVE_NOISE * wanted { noise } else { wanted };
-                return Ok(self.listed(&all, counts, least.max(f64::MIN_POSITIVE)));
+                let noise = (0..3).filter(|&i| is_noise(i)).map(|i| ABOVE_NOISE * 2.0 * edges[i]).fold(0.0, f64::max);
+                return self.listed(&all, counts, wanted.max(noise).max(f64::MIN_POSITIVE), &at);
             };
-            before[angle] = Some(edges[angle]);
+            let (still, last) = before[angle];
+            before[angle] = (if edges[angle] > STILL * last { still + 1 } else { 0 }, edges[angle]);
             counts[angle] *= 2;
-            if counts.iter().product::<usize>() > MOST_POINTS {
-                let what = "Fourier series of the function on the torus, which falls off slowly";
-                let residual = edges[angle] / strongest;
-                return Err(Error::NotConverged { what, iterations: MOST_POINTS, residual }.into());
-            }
+            Error::ensure(
+                counts.iter().product::<usize>() <= MOST_POINTS,
+                "amplitude at the edge of a quarter of a million points of the torus, of the strongest line",
+                edges[angle] / strongest,
+                "a tenth of the least amplitude: the lines of this function fall off slowly, as where it has a jump or nearly so",
+            )?;
         }
     }
 
@@ -118,31 +128,51 @@ impl QuasiPeriodicMotion {
         Ok(still)
     }
 
-    fn listed(&self, all: &[rustfft::num_complex::Complex<f64>], counts: [usize; 3], least: f64) -> LineList {
-        let mut lines = Vec::new();
-        for (place, coefficient) in all.iter().enumerate() {
+    fn listed<E>(
+        &self,
+        all: &[Complex<f64>],
+        counts: [usize; 3],
+        least: f64,
+        at: &impl Fn([f64; 3]) -> Result<[f64; 2], E>,
+    ) -> Result<LineList, E> {
+        let (mut lines, mut constant) = (Vec::new(), all[0].re);
+        for (place, coefficient) in all.iter().enumerate().skip(1) {
             let amplitude = 2.0 * coefficient.norm();
-            if place == 0 || amplitude < least {
+            if amplitude < least {
                 continue;
             }
             let places = multiples(place, counts);
             let multiples: [i32; 3] = core::array::from_fn(|i| multiple(places[i], counts[i]));
             let [frequency, uncertainty] = self.frequency(multiples);
-            // The others have the opposite multiples.
-            if frequency > 0.0 {
-                let combination = self.frequencies().combination(multiples);
-                lines.push(SpectralLine { frequency, amplitude, phase: coefficient.arg(), uncertainty, combination });
+            if frequency == 0.0 {
+                constant += coefficient.re;
+            } else if frequency > 0.0 {
+                // The others have the opposite multiples.
+                let (combination, phase) = (self.frequencies().combination(multiples), coefficient.arg());
+                lines.push((SpectralLine { frequency, amplitude, phase, uncertainty, combination }, multiples));
             }
         }
+        let mut left = 0.0_f64;
+        for k in 0..PLACES {
+            // Turns that are no fractions of the grid, of the first prime numbers.
+            let turns = [2.0_f64, 3.0, 5.0].map(|prime| (k as f64 + 0.5) * prime.sqrt());
+            let turns: [f64; 3] = core::array::from_fn(|i| if counts[i] > 1 { turns[i].fract() } else { 0.0 });
+            let of_line = |(line, multiples): &(SpectralLine, [i32; 3])| {
+                let angle: f64 = (0..3).map(|i| f64::from(multiples[i]) * turns[i]).sum();
+                line.amplitude * (TAU * angle + line.phase).cos()
+            };
+            left = left.max((at(turns)?[0] - constant - lines.iter().map(of_line).sum::<f64>()).abs());
+        }
+        let mut lines: Vec<SpectralLine> = lines.into_iter().map(|(line, _)| line).collect();
         lines.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
-        LineList { constant: all[0].re, lines, least }
+        Ok(LineList { constant, lines, least, left })
     }
 }
 
 /// Largest coefficient beside the constant, and for each angle that of multiples in the upper quarter of the grid.
-fn strongest_and_edges(sizes: &[f64], counts: [usize; 3]) -> (f64, [f64; 3]) {
+fn strongest_and_edges(all: &[Complex<f64>], counts: [usize; 3]) -> (f64, [f64; 3]) {
     let (mut strongest, mut edges) = (0.0_f64, [0.0_f64; 3]);
-    for (place, &size) in sizes.iter().enumerate().skip(1) {
+    for (place, size) in all.iter().map(|coefficient| coefficient.norm()).enumerate().skip(1) {
         strongest = strongest.max(size);
         let places = multiples(place, counts);
         for i in 0..3 {
@@ -176,11 +206,11 @@ mod tests {
         let of = |least| lines(&found, least, |state| state.equatorial_axis.y);
         let (few, all) = (of(1e-3), of(1e-12));
         assert!(few.lines.len() < all.lines.len() / 3);
-        assert!((few.least / few.lines[0].amplitude - 1e-3).abs() < 1e-12);
+        assert!((few.least / few.lines[0].amplitude - 1e-3).abs() < 1e-6 && all.left < 1e-10 && few.left < 0.02);
         for (line, exact) in few.lines.iter().zip(&all.lines) {
             assert_eq!((&line.combination, line.frequency), (&exact.combination, exact.frequency));
             // What is folded back from beyond the grid is below the least amplitude.
-            assert!((line.amplitude - exact.amplitude).abs() < few.least);
+            assert!((line.amplitude - exact.amplitude).abs() < EDGE * few.least);
         }
         assert!(all.lines.windows(2).all(|pair| pair[0].amplitude >= pair[1].amplitude && pair[1].frequency > 0.0));
     }
@@ -204,7 +234,7 @@ mod tests {
         let still = lines(&found, 1e-6, |_| 3.0);
         assert!(still.lines.is_empty() && still.constant == 3.0);
         let jump = found.lines(1e-6, |state| Ok::<_, Error>([state.equatorial_axis.x.signum(), 1.0]));
-        assert!(matches!(jump, Err(Error::NotConverged { .. })));
+        assert!(matches!(jump, Err(Error::Domain { .. })));
         let refused = found.lines(1e-6, |_| Err::<[f64; 2], _>(Error::Unsupported { what: "it", why: "no" }));
         assert!(matches!(refused, Err(Error::Unsupported { .. })));
     }

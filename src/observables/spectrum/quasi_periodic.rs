@@ -4,14 +4,16 @@ use core::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use super::FundamentalFrequencies;
+use super::fundamental_frequencies::{FundamentalFrequencies, rate_of};
 use crate::dynamics::{BodyState, Problem};
 use crate::error::Error;
-use crate::numerics::double_double::DoubleDouble;
 use crate::propagation::PhasedMotion;
 
 /// Rates are found to 32 digits, as for a motion of so many turns.
 const TURNS: f64 = 1e15;
+
+/// Part of that over which the error of the rates is taken.
+const PART: f64 = 1e-9;
 
 /// A motion as a function of three angles that grow in proportion to time, with its fundamental frequencies.
 #[derive(Debug, Clone)]
@@ -24,7 +26,7 @@ pub struct QuasiPeriodicMotion {
 }
 
 impl QuasiPeriodicMotion {
-    /// The exact motion of a problem.
+    /// The motion of a problem, exact to rounding, of the numbers as they are given.
     ///
     /// # Errors
     /// As for [`PhasedMotion::exact`]: near the separatrix, and where the torque turns the body as fast as it rotates.
@@ -33,11 +35,12 @@ impl QuasiPeriodicMotion {
         let longest = if momentum > 0.0 { TURNS * TAU * problem.spheroid().inertia_xx / momentum } else { 1.0 };
         let motion = PhasedMotion::exact(problem, longest)?;
         let start = motion.turns([0.0; 2]).map(|turns| turns.fraction);
-        let rate_error = (motion.rounding(longest) - motion.rounding(0.0)) / longest;
+        let rate_error = (motion.error_estimate(PART * longest) - motion.error_estimate(0.0)) / (PART * longest);
         // The end of the axis that is nearest to an axis of the frame.
         let pole: Vector3<f64> = motion.pole();
         let pole = pole * pole[pole.iamax()].signum();
-        let frequencies = FundamentalFrequencies::of(|turns| motion.state_at(sum(start, turns)), motion.rates(), &pole);
+        let frequencies =
+            FundamentalFrequencies::of(|turns| motion.state_at(sum(start, turns)), motion.turns_per_time(), &pole);
         Ok(Self { motion, start, rate_error, frequencies })
     }
 
@@ -58,9 +61,7 @@ impl QuasiPeriodicMotion {
 
     /// Frequency (rad per unit of time) of a combination of the three angles, and its estimated error.
     pub(super) fn frequency(&self, multiples: [i32; 3]) -> [f64; 2] {
-        let rates = self.motion.turns_per_time();
-        let terms = rates.into_iter().zip(multiples).map(|(rate, k)| rate * DoubleDouble::from(f64::from(k)));
-        let sum = terms.fold(DoubleDouble::from(0.0), |sum, term| sum + term).high * TAU;
+        let sum = rate_of(&self.motion.turns_per_time(), multiples);
         let order: i32 = multiples.iter().map(|k| k.abs()).sum();
         [sum, f64::from(order) * self.rate_error + f64::EPSILON * sum.abs()]
     }

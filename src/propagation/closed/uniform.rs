@@ -139,9 +139,20 @@ impl<S: Real> UniformMotion<S> {
 }
 
 impl UniformMotion<f64> {
+    /// The rotation vector of `n` and `L`, and the rate of `e_x` about `n`: all of it where `n` stays.
+    fn turns(&self) -> (Vector3<f64>, f64) {
+        let axis = &self.problem.initial().axis;
+        if self.turn.cross(axis) == Vector3::zeros() {
+            (Vector3::zeros(), self.body_rate + self.turn.dot(axis))
+        } else {
+            (self.turn, self.body_rate)
+        }
+    }
+
     /// Rates (rad per unit of time) of the turn of `n` and `L`, of nothing, and of `e_x` about `n`.
     pub(crate) fn rates(&self) -> [f64; 3] {
-        [self.turn.norm(), 0.0, self.body_rate]
+        let (turn, about_axis) = self.turns();
+        [turn.norm(), 0.0, about_axis]
     }
 
     /// The axis of the angles `alpha` and `gamma`: what `L` goes round, or Z if it stays.
@@ -154,7 +165,7 @@ impl UniformMotion<f64> {
         let BodyState { axis, momentum, equatorial_axis } = self.problem.initial();
         let (sin, cos) = (TAU * about_axis).sin_cos();
         let turned = equatorial_axis * cos + axis.cross(equatorial_axis) * sin;
-        let direction = self.turn.try_normalize(0.0).unwrap_or_else(Vector3::zeros);
+        let direction = self.turns().0.try_normalize(0.0).unwrap_or_else(Vector3::zeros);
         let round = |v: &Vector3<f64>| rotated_by(&(direction * (TAU * turn)), v);
         let momentum = if self.momentum_is_constant { *momentum } else { round(momentum) };
         BodyState { axis: round(axis), momentum, equatorial_axis: round(&turned) }
