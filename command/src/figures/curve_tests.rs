@@ -89,10 +89,8 @@ fn columns<'f>(figure: &'f Figure, frame: &Frame, name: &str) -> (&'f Table, usi
     let bare = |label: &str| label.replace(" − P", "").replace(" − W", "");
     // The methods of one figure are tables, not columns.
     let of_method = frame.y.label == "time [ms]";
-    let [x, y] = [&frame.x, &frame.y].map(|scale| {
-        let head = entry(LABELS, &bare(&scale.label)).replace("{}", if of_method { "" } else { entry(NAMES, name) });
-        head
-    });
+    let [x, y] = [&frame.x, &frame.y]
+        .map(|scale| entry(LABELS, &bare(&scale.label)).replace("{}", if of_method { "" } else { entry(NAMES, name) }));
     // Curves have no other abscissa of that name.
     let x = if x.contains("{}") { x.replace("{}", "") } else { x };
     let place = |table: &Table, head: &str| table.columns.iter().position(|column| column == head);

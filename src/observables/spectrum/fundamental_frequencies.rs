@@ -237,8 +237,8 @@ fn winding(angles: impl Iterator<Item = f64> + Clone) -> Option<i32> {
     let mut sum = 0.0;
     for (a, b) in angles.clone().zip(angles.cycle().skip(1)) {
         let step = wrapped(b - a);
-        // NaN is a jump.
-        if !(step.abs() <= LARGEST_STEP) {
+        // NaN is a jump too.
+        if step.is_nan() || step.abs() > LARGEST_STEP {
             return None;
         }
         sum += step;
@@ -320,9 +320,9 @@ mod tests {
         for found in [found(turning(0.3, 0.9, [0.0, 0.0])), found(turning(0.9, 0.3, [2.0, -1.0]))] {
             for multiples in [[1, 0, 0], [0, 1, 0], [0, 0, 1], [3, -2, 1], [-1, 5, 0]] {
                 let combination = found.combination(multiples);
-                for angle in 0..3 {
+                for (angle, multiple) in multiples.into_iter().enumerate() {
                     let sum: i32 = found.basis.iter().map(|of| combination.multiple(of.symbol) * of.turns[angle]).sum();
-                    assert_eq!(sum, multiples[angle], "{combination}");
+                    assert_eq!(sum, multiple, "{combination}");
                 }
             }
         }
