@@ -98,7 +98,7 @@ impl FundamentalFrequencies {
         // The rows are whole and the determinant is one, so that the inverse is whole.
         let rows = completed(&self.basis);
         let wanted = nalgebra::RowVector3::from(multiples.map(f64::from));
-        let inverse = rows.try_inverse().unwrap_or_else(Matrix3::identity);
+        let inverse = rows.try_inverse().expect("a basis has the determinant one");
         let terms = (wanted * inverse).iter().zip(&self.basis).map(|(k, of)| (k.round() as i32, of.symbol)).collect();
         Combination { terms }
     }
