@@ -10,7 +10,7 @@ use crate::error::Error;
 /// A star that a torque of its own spins up and down, `Omega = (2 + 0.3 sin t) Z`:
 ///
 /// ```
-/// use nalgebra::Vector3;
+/// use nalgebra::{Matrix3, Vector3};
 /// use twofold::Error;
 /// use twofold::dynamics::{BodyState, RigidSpheroid};
 /// use twofold::observables::pulsar::{Beam, pulse_train};

@@ -15,3 +15,4 @@ mod pulsars;
 mod scenes;
 mod stability;
 mod values;
+mod verification;

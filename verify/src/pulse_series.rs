@@ -115,23 +115,3 @@ impl<'m, M: Motion<f64, State = BodyState<f64>>> PaperCurves<'m, M> {
         Ok([instantaneous_period(formulas.azimuth_rate), formulas.width / self.mean_rate])
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The magnetic axis is at the angle `gamma + delta` from the line of nodes: only that sum counts.
-    #[test]
-    fn the_azimuth_of_the_magnetic_axis_in_the_body_adds_to_gamma() {
-        let viewing = |delta: f64| Viewing { chi: 0.5, delta, rho: 0.9, theta_o: 0.8 };
-        let with = viewing(0.7).formulas([0.6, 1.1], [1.4, -0.2]).expect("formulas");
-        let without = viewing(0.0).formulas([0.6, 1.8], [1.4, -0.2]).expect("formulas");
-        for (a, b) in [
-            (with.offset_rate, without.offset_rate),
-            (with.azimuth_rate, without.azimuth_rate),
-            (with.width, without.width),
-        ] {
-            assert!((a - b).abs() < 1e-14 && a != 0.0, "{a} {b}");
-        }
-    }
-}

@@ -24,7 +24,7 @@ use crate::solutions::averaged::Turns;
 /// Looks in a turn of a phase, to begin with.
 const LOOKS: f64 = 16.0;
 
-/// Shortest part of a way between two looks: it passes `L` so near that either side is right.
+/// Shortest step between two looks, as a part of the path. A path that passes `L` nearer than that may count on either side.
 const SHORTEST: f64 = 1e-12;
 
 /// Points along a phase at which a torus is looked at.

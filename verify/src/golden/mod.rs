@@ -9,7 +9,7 @@ mod regimes;
 mod spectral_lines;
 mod star;
 
-pub use certified::{Certainty, Enclosures};
+pub use certified::{Certainty, Enclosures, rounds_to};
 pub use line::{GoldenLine, Printed};
 
 /// One golden table.
