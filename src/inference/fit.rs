@@ -100,7 +100,7 @@ fn compared(parameters: &Parameters<f64>, data: &[Datum], end: f64) -> Result<(V
         Place::Time(_) => None,
     });
     let turns: BTreeMap<i64, f64> = of_pulses.collect();
-    let events = if signal.is_long && !turns.is_empty() {
+    let events = if signal.is_long {
         signal.events_of_turns(&turns.into_iter().collect::<Vec<_>>())?
     } else {
         events_as_counted(&signal, &turns)?

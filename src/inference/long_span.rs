@@ -101,6 +101,9 @@ pub(super) fn pulses_numbered(
     end: f64,
     turns: &[(i64, f64)],
 ) -> Result<Vec<Event>, Error> {
+    if turns.is_empty() {
+        return Ok(Vec::new());
+    }
     let clock = clock(parameters, end)?;
     let period = clock.period();
     let mut found = Vec::with_capacity(turns.len());

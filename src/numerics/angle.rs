@@ -9,7 +9,10 @@
 
 use core::f64::consts::TAU;
 
+use nalgebra::Vector3;
+
 use crate::numerics::four_lanes::FourLanes;
+use crate::numerics::scalar::Real;
 
 /// The whole turns (rad) nearest to an angle.
 pub(crate) fn whole_turns(angle: f64) -> f64 {
@@ -19,6 +22,11 @@ pub(crate) fn whole_turns(angle: f64) -> f64 {
 /// The angle less its nearest whole turns: from -pi to pi.
 pub fn wrapped(angle: f64) -> f64 {
     angle - whole_turns(angle)
+}
+
+/// Angle about a unit vector from a vector across it to another one, in (-pi, pi].
+pub(crate) fn about<S: Real>(axis: &Vector3<S>, from: &Vector3<S>, to: &Vector3<S>) -> S {
+    axis.dot(&from.cross(to)).atan2(from.dot(to))
 }
 
 /// Sine and cosine of a part of a turn, at most one in size: the nearest quarter turn is taken off exactly, and the rest, at most an eighth, has short Taylor series.

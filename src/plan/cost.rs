@@ -21,7 +21,7 @@ pub struct Cost {
 const TORUS_DERIVATIVE: [f64; 2] = [100_000.0, 20_000.0];
 
 impl Cost {
-    /// Costs of a method that carries `state`. From `cargo run -p twofold-verify --example fit_cost`.
+    /// Costs of a method that carries `state`. From `cargo run -p twofold-tools --bin fit_cost`.
     pub fn of(method: Method, state: State) -> Self {
         let closed = |setup, evaluation| Self { setup, step: [0.0; 3], evaluation: [evaluation, 0.0] };
         match (method, state) {

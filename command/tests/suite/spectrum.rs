@@ -68,7 +68,7 @@ fn columns_are_sums_of_their_lines() {
         for row in rows {
             let value = |line: &[f64]| line[1] * (line[0] * (row[0] - start) + line[2]).cos();
             let sum = constant + lines.iter().map(|(line, _)| value(line)).sum::<f64>();
-            assert!((sum - row[place]).abs() < 1e-8 * largest, "{scene} {column}: {sum} at {row:?}");
+            assert!((sum - row[place]).abs() < 1e-9 * largest, "{scene} {column}: {sum} at {row:?}");
         }
     }
     // Free precession: n goes round L at |L| / I^xx, here once in 9 ms.

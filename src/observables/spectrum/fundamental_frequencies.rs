@@ -6,13 +6,13 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::Combination;
 use crate::dynamics::{BodyState, RotationState};
-use crate::numerics::angle::wrapped;
+use crate::numerics::angle::{about, wrapped};
 use crate::numerics::double_double::DoubleDouble;
 
 /// Points of the first grid in each angle, and most of them: where an Euler angle still jumps between two of these, `n` passes a pole.
 const POINTS: [usize; 2] = [32, 256];
 
-/// Largest change of an angle between two points of the grid (rad).
+/// Largest change of an angle between two points of the grid (rad), below a quarter turn.
 const LARGEST_STEP: f64 = 1.5;
 
 /// The mean rate of an angle of the motion.
@@ -58,7 +58,7 @@ impl FundamentalFrequencies {
         let euler = loop {
             let euler = grid.euler_windings();
             if euler.is_some() || grid.count >= POINTS[1] {
-                break euler.flatten();
+                break euler;
             }
             grid = Grid::new(&state, 2 * grid.count, pole);
         };
@@ -172,30 +172,26 @@ impl Grid {
         Self { count, states, third, means }
     }
 
-    /// How often an angle goes round with each angle of the torus: `Some(None)` if not always as often, None if the grid is too coarse.
-    fn windings(&self, angle: impl Fn(&BodyState<f64>, usize) -> f64) -> Option<Option<[i32; 3]>> {
+    /// How often an angle goes round with each angle of the torus; None where it jumps. It is the same along all parallel loops: where it differs between two,
+    /// the steps round a cell between them add to a turn, and one of the four is a quarter turn or more.
+    fn windings(&self, angle: impl Fn(&BodyState<f64>, usize) -> f64) -> Option<[i32; 3]> {
         let count = self.count;
         let angles: Vec<f64> = self.states.iter().enumerate().map(|(i, state)| angle(state, i / count)).collect();
-        let third: Vec<f64> = self.third.iter().map(|state| angle(state, 0)).collect();
-        let mut found = [None; 3];
-        for index in 0..count {
-            let rows = [(0, index * count, 1), (1, index, count)];
-            for (way, from, step) in rows {
-                let around = winding((0..count).map(|i| angles[from + i * step]))?;
-                match found[way] {
-                    Some(other) if other != around => return Some(None),
-                    _ => found[way] = Some(around),
-                }
-            }
+        let loops = |of: usize| {
+            let along = |from: usize, step: usize| winding((0..count).map(|i| angles[from + i * step]));
+            [along(of * count, 1), along(of, count)]
+        };
+        let [first, second] = loops(0);
+        if (1..count).flat_map(loops).any(|around| around.is_none()) {
+            return None;
         }
-        let of_third = winding(third.into_iter())?;
-        Some(Some([found[0].unwrap_or(0), found[1].unwrap_or(0), of_third]))
+        Some([first?, second?, winding(self.third.iter().map(|state| angle(state, 0)))?])
     }
 
-    fn euler_windings(&self) -> Option<Option<[[i32; 3]; 2]>> {
+    fn euler_windings(&self) -> Option<[[i32; 3]; 2]> {
         let alpha = self.windings(|state, _| state.angles().map_or(f64::NAN, |angles| angles.alpha))?;
         let gamma = self.windings(|state, _| state.angles().map_or(f64::NAN, |angles| angles.gamma))?;
-        Some(alpha.zip(gamma).map(|(alpha, gamma)| [alpha, gamma]))
+        Some([alpha, gamma])
     }
 
     /// Turns of the fast part of `n` about the averaged `L` from the plane of `L` and the axis, or from a fixed plane where that `L` stays on the axis.
@@ -204,10 +200,10 @@ impl Grid {
             let [n, momentum] = self.means[k];
             let l = momentum.normalize();
             let plane = Vector3::z() - l * l.z;
-            angle(&l, &plane, &(state.axis - n))
+            about(&l, &plane, &(state.axis - n))
         });
         let sense = || sign(area(self.states[..self.count].iter().map(|state| state.axis), &self.means[0][1]));
-        from_plane.flatten().filter(|turns| turns[0].abs() == 1).unwrap_or_else(|| [sense(), 0, 0])
+        from_plane.filter(|turns| turns[0].abs() == 1).unwrap_or_else(|| [sense(), 0, 0])
     }
 
     /// The sense in which the averaged `L` goes round the axis.
@@ -220,19 +216,14 @@ impl Grid {
         let from_across = self.windings(|state, k| {
             let [n, momentum] = self.means[k];
             let across = momentum.cross(&(state.axis - n));
-            angle(&state.axis, &across, &state.equatorial_axis)
+            about(&state.axis, &across, &state.equatorial_axis)
         });
         let sense = || sign(area(self.third.iter().map(|state| state.equatorial_axis), &self.third[0].axis));
-        from_across.flatten().filter(|turns| turns[2].abs() == 1).unwrap_or_else(|| [0, 0, sense()])
+        from_across.filter(|turns| turns[2].abs() == 1).unwrap_or_else(|| [0, 0, sense()])
     }
 }
 
-/// Angle about a unit vector from a vector across it to another one.
-fn angle(about: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> f64 {
-    about.dot(&from.cross(to)).atan2(from.dot(to))
-}
-
-/// How often an angle goes round along a closed way; None where it jumps.
+/// How often an angle goes round along a loop; None where it jumps.
 fn winding(angles: impl Iterator<Item = f64> + Clone) -> Option<i32> {
     let mut sum = 0.0;
     for (a, b) in angles.clone().zip(angles.cycle().skip(1)) {
@@ -246,7 +237,7 @@ fn winding(angles: impl Iterator<Item = f64> + Clone) -> Option<i32> {
     Some((sum / TAU).round() as i32)
 }
 
-/// Twice the area round which a closed way of points goes, about a direction.
+/// Twice the area round which a loop of points goes, about a direction.
 fn area(points: impl Iterator<Item = Vector3<f64>> + Clone, direction: &Vector3<f64>) -> f64 {
     points.clone().zip(points.cycle().skip(1)).map(|(a, b)| a.cross(&b).dot(direction)).sum()
 }
@@ -310,9 +301,14 @@ mod tests {
         assert_eq!(turns(&single, "psi'"), Some([-1, 0, -1]));
         assert_eq!(turns(&single, "gamma'"), Some([0, 2, -1]));
         assert_eq!(symbols(&single), ["alpha'", "gamma'", "nu'"]);
-        // n passes the pole.
-        let through = found(turning(0.6, 0.6, [0.0, 0.0]));
-        assert_eq!((turns(&through, "alpha'"), symbols(&through)), (None, vec!["l'", "nu'", "psi'"]));
+        // n passes the pole: at a point of the grid, beside one, and with loops on both sides that differ.
+        let passing = turning(0.6, 0.6, [0.0, 0.0]);
+        let beside = |turns: [f64; 3]| passing(turns.map(|part| part + 0.0137));
+        let swinging =
+            |turns: [f64; 3]| turning(0.7 + 0.5 * (2.0 * TAU * turns[1] + 0.3).cos(), 0.6, [0.0, 0.0])(turns);
+        for through in [found(&passing), found(beside), found(swinging)] {
+            assert_eq!((turns(&through, "alpha'"), symbols(&through)), (None, vec!["l'", "nu'", "psi'"]));
+        }
     }
 
     #[test]

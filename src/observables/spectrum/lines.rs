@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use rustfft::num_complex::Complex;
 
-use super::transform::{coefficients, multiple, multiples, points};
+use super::transform::{coefficients, multiples, points};
 use super::{Combination, QuasiPeriodicMotion};
 use crate::dynamics::BodyState;
 use crate::error::Error;
@@ -18,9 +18,9 @@ const MOST_POINTS: usize = 1 << 18;
 /// Coefficients at the edge of the grid are to be below this part of the least amplitude.
 const EDGE: f64 = 0.1;
 
-/// Noise is below this part of the size of the function, and more than [`STILL`] of it is left by twice as many points in the angle, twice.
+/// Noise is below this part of the size of the function, and more than [`UNCHANGED`] of it is left by twice as many points in the angle, twice.
 const LARGEST_NOISE: f64 = 1e-10;
-const STILL: f64 = 0.7;
+const UNCHANGED: f64 = 0.7;
 
 /// Places beside the grid at which the sum of the lines is compared with the function.
 const PLACES: usize = 16;
@@ -98,8 +98,8 @@ impl QuasiPeriodicMotion {
                 let noise = (0..3).filter(|&i| is_noise(i)).map(|i| ABOVE_NOISE * 2.0 * edges[i]).fold(0.0, f64::max);
                 return self.listed(&all, counts, wanted.max(noise).max(f64::MIN_POSITIVE), &at);
             };
-            let (still, last) = before[angle];
-            before[angle] = (if edges[angle] > STILL * last { still + 1 } else { 0 }, edges[angle]);
+            let (times, last) = before[angle];
+            before[angle] = (if edges[angle] > UNCHANGED * last { times + 1 } else { 0 }, edges[angle]);
             counts[angle] *= 2;
             Error::ensure(
                 counts.iter().product::<usize>() <= MOST_POINTS,
@@ -141,8 +141,7 @@ impl QuasiPeriodicMotion {
             if amplitude < least {
                 continue;
             }
-            let places = multiples(place, counts);
-            let multiples: [i32; 3] = core::array::from_fn(|i| multiple(places[i], counts[i]));
+            let multiples = multiples(place, counts);
             let [frequency, uncertainty] = self.frequency(multiples);
             if frequency == 0.0 {
                 constant += coefficient.re;
@@ -174,9 +173,9 @@ fn strongest_and_edges(all: &[Complex<f64>], counts: [usize; 3]) -> (f64, [f64; 
     let (mut strongest, mut edges) = (0.0_f64, [0.0_f64; 3]);
     for (place, size) in all.iter().map(|coefficient| coefficient.norm()).enumerate().skip(1) {
         strongest = strongest.max(size);
-        let places = multiples(place, counts);
+        let multiples = multiples(place, counts);
         for i in 0..3 {
-            if counts[i] > 1 && 8 * multiple(places[i], counts[i]).unsigned_abs() as usize >= 3 * counts[i] {
+            if counts[i] > 1 && 8 * multiples[i].unsigned_abs() as usize >= 3 * counts[i] {
                 edges[i] = edges[i].max(size);
             }
         }

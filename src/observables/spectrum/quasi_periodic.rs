@@ -79,3 +79,25 @@ fn sum(start: [f64; 3], turns: [f64; 3]) -> [f64; 3] {
         turns - turns.round()
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix3;
+
+    use super::*;
+    use crate::dynamics::RigidSpheroid;
+
+    /// The rate of `e_x` about `n` of a nearly spherical star is a difference of rates 1e8 times as large: `-epsilon Omega^z`, the torque apart.
+    #[test]
+    fn small_differences_of_rates_keep_their_digits() {
+        let star = RigidSpheroid { inertia_xx: 1.0, inertia_zz: 1.0 + 9e-9, constant_c: 1.0 };
+        let s = Matrix3::from_diagonal(&Vector3::new(2e-22, 1e-22, -3e-22));
+        let axis = Vector3::new(0.28, 0.0, 0.96);
+        let momentum = Vector3::new(0.36, 0.0, 1.0);
+        let start = BodyState { axis, momentum, equatorial_axis: Vector3::y() };
+        let found = QuasiPeriodicMotion::new(&Problem::new(star, s, start).unwrap()).unwrap();
+        let expected = -star.oblateness() * momentum.dot(&axis) / star.inertia_zz;
+        let rate = found.frequencies().rate("psi'").unwrap();
+        assert!((rate / expected - 1.0).abs() < 1e-12, "{rate:e} {expected:e}");
+    }
+}

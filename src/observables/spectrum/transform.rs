@@ -19,22 +19,25 @@ pub(super) fn coefficients(values: &[f64], mut counts: [usize; 3]) -> Vec<Comple
     all
 }
 
-/// The multiple that a place in a row of coefficients belongs to.
-pub(super) fn multiple(place: usize, count: usize) -> i32 {
-    if 2 * place > count { place as i32 - count as i32 } else { place as i32 }
-}
-
 /// The multiples of the three angles of a place among all coefficients.
-pub(super) fn multiples(place: usize, [_, second, third]: [usize; 3]) -> [usize; 3] {
-    [place / (second * third), place / third % second, place % third]
+pub(super) fn multiples(place: usize, counts: [usize; 3]) -> [i32; 3] {
+    let places = places(place, counts);
+    core::array::from_fn(|i| {
+        let (place, count) = (places[i] as i32, counts[i] as i32);
+        if 2 * place > count { place - count } else { place }
+    })
 }
 
 /// The points of a grid, in turns.
 pub(super) fn points(counts: [usize; 3]) -> impl Iterator<Item = [f64; 3]> {
     (0..counts.iter().product()).map(move |place| {
-        let places = multiples(place, counts);
+        let places = places(place, counts);
         core::array::from_fn(|i| places[i] as f64 / counts[i] as f64)
     })
+}
+
+fn places(place: usize, [_, second, third]: [usize; 3]) -> [usize; 3] {
+    [place / (second * third), place / third % second, place % third]
 }
 
 #[cfg(test)]
@@ -55,8 +58,7 @@ mod tests {
         };
         let values: Vec<f64> = points(counts).map(value).collect();
         for (place, found) in coefficients(&values, counts).iter().enumerate() {
-            let places = multiples(place, counts);
-            let m: [i32; 3] = core::array::from_fn(|i| multiple(places[i], counts[i]));
+            let m = multiples(place, counts);
             let mut expected = Complex::from(0.0);
             for (of, amplitude, phase) in waves {
                 let half = if of == [0; 3] { amplitude } else { amplitude / 2.0 };

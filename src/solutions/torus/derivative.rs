@@ -5,9 +5,9 @@ use num_dual::Dual64;
 
 use super::TorusSolution;
 use super::flow::{Axes, DOUBLE, Integrals, derivative, joined};
-use super::ways::angle;
 use crate::dynamics::{BodyState, Problem, RotationState};
 use crate::error::Error;
+use crate::numerics::angle::about;
 use crate::numerics::scalar::{Real, Scalar};
 
 /// What a closed way may leave between a changed start and its end beside the torus, in units of the change.
@@ -82,7 +82,7 @@ impl<'a> TorusDerivative<'a> {
                 time.eps = *slope;
                 end.iter_mut().zip(rates).for_each(|(end, rate)| *end += rate * Dual64::new(0.0, *slope));
             }
-            *turn = angle(&end, &start[2]).eps;
+            *turn = about(&end[0], &start[2], &end[2]).eps;
         }
         Ok(found)
     }
@@ -99,7 +99,7 @@ impl<'a> TorusDerivative<'a> {
         let given_from_torus = self.solution.given_from_torus.map(Dual64::from_re);
         let [n, momentum, u] = self.integrals.moved(times, &self.start).map(|v| given_from_torus * v);
         let value = self.solution.state(t);
-        turn.re = angle(&[n, momentum, value.equatorial_axis.map(Dual64::from_re)], &u).re;
+        turn.re = about(&n, &u, &value.equatorial_axis.map(Dual64::from_re)).re;
         let (sin, cos) = turn.sin_cos();
         let changing = [n, momentum, u * cos + n.cross(&u) * sin];
         let both = |value: Vector3<f64>, changing: Vector3<Dual64>| {

@@ -17,6 +17,7 @@ use nalgebra::{Vector2, Vector3};
 use super::flow::{Axes, Integrals};
 use crate::dynamics::{BodyState, RigidSpheroid};
 use crate::error::Error;
+use crate::numerics::angle::about;
 use crate::numerics::scalar::{Real, length};
 use crate::solutions::averaged::mean_direction;
 
@@ -94,11 +95,6 @@ fn with_vector_of_plane<S: Real>([n, momentum, _]: &Axes<S>) -> Axes<S> {
     [*n, *momentum, n.cross(&Vector3::y())]
 }
 
-/// Angle about `n` from a vector to that of the body.
-pub(super) fn angle<S: Real>([n, _, u]: &Axes<S>, from: &Vector3<S>) -> S {
-    n.dot(&from.cross(u)).atan2(from.dot(u))
-}
-
 /// `v` turned by half a turn about Z.
 fn half_turn<S: Real>(v: &Vector3<S>) -> Vector3<S> {
     Vector3::new(-v.x, -v.y, v.z)
@@ -160,7 +156,7 @@ impl<'a, S: Real> Search<'a, S> {
     fn half_way(&self, start: &Axes<S>, times: [S; 2], slow: bool) -> Option<(HalfWay<S>, Axes<S>)> {
         let (times, end) = self.end_in_plane(start, times)?;
         let from = if slow { half_turn(&start[2]) } else { end[0].cross(&Vector3::y()) };
-        Some((HalfWay { times, turn: angle(&end, &from) }, end))
+        Some((HalfWay { times, turn: about(&end[0], &from, &end[2]) }, end))
     }
 }
 
