@@ -118,7 +118,7 @@ impl PhasedMotion {
     /// Rates of the phases (rad per unit of time).
     pub fn rates(&self) -> [f64; 3] {
         match &self.solution {
-            Solution::Averaged { mean, .. } => [mean.rates.slow, mean.rates.about_momentum, mean.rates.about_axis],
+            Solution::Averaged { mean, .. } => [mean.rates.about_momentum, mean.rates.slow, mean.rates.about_axis],
             Solution::Torus(torus) => torus.rates(),
             Solution::Uniform(motion) => motion.rates(),
         }
@@ -146,7 +146,7 @@ impl PhasedMotion {
         match &self.solution {
             Solution::Averaged { mean, .. } => {
                 let turns = mean.turns(t);
-                [turns.slow, turns.about_momentum, turns.about_axis]
+                [turns.about_momentum, turns.slow, turns.about_axis]
             }
             Solution::Torus(torus) => torus.angles(t),
             Solution::Uniform(_) => {
@@ -159,7 +159,7 @@ impl PhasedMotion {
     pub fn state_at(&self, turns: [f64; 3]) -> BodyState<f64> {
         match &self.solution {
             Solution::Averaged { mean, given_from_principal } => {
-                let [slow, about_momentum, about_axis] = turns.map(|turns| turns * TAU);
+                let [about_momentum, slow, about_axis] = turns.map(|turns| turns * TAU);
                 mean.state_at(&AveragedPhases { slow, about_momentum, about_axis }).rotated(given_from_principal)
             }
             Solution::Torus(torus) => torus.state_on_torus(turns),

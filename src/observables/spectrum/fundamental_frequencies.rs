@@ -34,7 +34,7 @@ pub struct FundamentalFrequency {
 /// * `alpha'`, `gamma'`: the Euler angles `alpha` and `gamma`. They have no mean rate where `n` comes as near as one likes to a pole of the axis.
 /// * `l'`: the azimuth of `L` averaged over the fast rotation, the slow precession.
 /// * `nu'`: the turn of the fast part of `n` about the averaged `L`, from the plane of `L` and the axis: the nutation.
-/// * `psi'`: the turn of `e_x` about `n`, from the direction in which that part of `n` moves.
+/// * `psi'`: the turn of `e_x` about `n`, from the direction in which that part of `n` moves, or from a fixed one where it has no such part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FundamentalFrequencies {
     /// The axis.
@@ -211,15 +211,23 @@ impl Grid {
         [0, sign(area(self.means.iter().map(|[_, momentum]| *momentum), &Vector3::z())), 0]
     }
 
-    /// Turns of `e_x` about `n`, from the direction in which the fast part of `n` goes round the averaged `L`.
+    /// Turns of `e_x` about `n`, from the direction in which the fast part of `n` goes round the averaged `L`, or from a fixed one where `n` has no such part.
     fn body(&self) -> [i32; 3] {
         let from_across = self.windings(|state, k| {
             let [n, momentum] = self.means[k];
             let across = momentum.cross(&(state.axis - n));
             about(&state.axis, &across, &state.equatorial_axis)
         });
+        let fixed = Vector3::ith(self.states[0].axis.iamin(), 1.0);
+        let from_fixed = || {
+            self.windings(|state, _| {
+                let n = state.axis;
+                about(&n, &(fixed - n * n.dot(&fixed)), &state.equatorial_axis)
+            })
+        };
         let sense = || sign(area(self.third.iter().map(|state| state.equatorial_axis), &self.third[0].axis));
-        from_across.filter(|turns| turns[2].abs() == 1).unwrap_or_else(|| [0, 0, sense()])
+        let counted = |turns: &[i32; 3]| turns[2].abs() == 1;
+        from_across.filter(counted).or_else(|| from_fixed().filter(counted)).unwrap_or_else(|| [0, 0, sense()])
     }
 }
 

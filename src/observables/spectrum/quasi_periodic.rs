@@ -29,7 +29,7 @@ impl QuasiPeriodicMotion {
     /// The motion of a problem, exact to rounding, of the numbers as they are given.
     ///
     /// # Errors
-    /// As for [`PhasedMotion::exact`]: near the separatrix, and where the torque turns the body as fast as it rotates.
+    /// As for [`PhasedMotion::exact`]: near the separatrix.
     pub fn new(problem: &Problem<f64>) -> Result<Self, Error> {
         let momentum = problem.initial().momentum.norm();
         let longest = if momentum > 0.0 { TURNS * TAU * problem.spheroid().inertia_xx / momentum } else { 1.0 };

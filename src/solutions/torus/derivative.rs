@@ -43,8 +43,8 @@ impl<'a> TorusDerivative<'a> {
     pub fn new(solution: &'a TorusSolution, problem: &Problem<Dual64>) -> Result<Self, Error> {
         let (spheroid, coefficients) = (problem.spheroid(), problem.coefficients());
         let torus_from_given = solution.given_from_torus.transpose().map(Dual64::from_re);
-        let traceless = coefficients - Matrix3::from_diagonal_element(coefficients.trace() / 3.0);
-        let tensor = torus_from_given * traceless * torus_from_given.transpose();
+        let tensor = torus_from_given * coefficients * torus_from_given.transpose();
+        let tensor = tensor - Matrix3::from_diagonal_element(Dual64::from_re(tensor.m22.re));
         let start = problem.initial().rotated(&torus_from_given).vectors();
         let spin = -spheroid.oblateness() * start[1].dot(&start[0]) / spheroid.inertia_zz;
         let mut found = Self {
@@ -55,7 +55,8 @@ impl<'a> TorusDerivative<'a> {
             turns: [0.0; 2],
             spin: spin.eps,
         };
-        let size = start[1].map(Real::re).norm();
+        let size = solution.unit;
+        let longest = [0, 1].map(|flow| solution.periods.iter().map(|times| times[flow].abs()).fold(0.0, f64::max));
         let change = joined(&start, size, derivative);
         for (period, turn) in found.periods.iter_mut().zip(&mut found.turns) {
             let mut end = found.integrals.moved(*period, &start);
@@ -73,7 +74,8 @@ impl<'a> TorusDerivative<'a> {
             let svd = tangents.svd(true, true);
             let slopes =
                 svd.solve(&open, f64::EPSILON * svd.singular_values.max()).expect("both factors were asked for");
-            let along = [0, 1].map(|flow| period[flow].re.abs() * joined(&rates[flow], size, derivative).norm());
+            // Not all flows change with the parameter.
+            let along = [0, 1].map(|flow| longest[flow] * joined(&rates[flow], size, derivative).norm());
             let (left, most) = ((open - tangents * slopes).norm(), change.norm() + open.norm() + along[0] + along[1]);
             if left > CLOSED * most {
                 return Err(not_closed(left / most));

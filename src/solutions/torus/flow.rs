@@ -31,11 +31,14 @@ pub(super) struct Precision {
 /// For doubles and dual numbers of doubles, of which derivatives are as exact as values: against what they are in the first terms.
 pub(super) const DOUBLE: Precision = Precision { order: 26, last_terms: 1e-17, rounding: 2e-16 };
 
+/// For a first look.
+pub(super) const COARSE: Precision = Precision { order: 14, last_terms: 1e-9, rounding: 2e-16 };
+
 /// For double-double numbers.
 pub(super) const DOUBLE_DOUBLE: Precision = Precision { order: HIGHEST_ORDER, last_terms: 1e-33, rounding: 1e-31 };
 
-/// `H = L.L / (2 I^xx) + C n.(s n)` and `K / (I^xx D)`, `D` the spread of the principal values, of which `K` takes the traceless part. Values are diagonal;
-/// derivatives need not be.
+/// `H = L.L / (2 I^xx) + C n.(s n)` and `K / (I^xx D)`, `D` the spread of the principal values. Both with the middle principal value taken off, which adds a multiple of `H` to `K`: so where `L` is
+/// near the axis of that value, the flow of `K` is as slow as the motion of `L`. Values are diagonal; derivatives need not be.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Integrals<S> {
     /// Slopes of both by `L`, over `L`, and by `n`, over `n`.
@@ -45,7 +48,7 @@ pub(super) struct Integrals<S> {
 }
 
 impl<S: Real> Integrals<S> {
-    /// For a traceless tensor and the spread of its principal values.
+    /// For a tensor whose middle principal value is zero, and the spread of these values.
     pub(super) fn new(spheroid: &RigidSpheroid<S>, s: &Matrix3<S>, spread: S, precision: Precision) -> Self {
         let (c, inertia) = (spheroid.constant_c, spheroid.inertia_xx);
         Self {
@@ -56,6 +59,11 @@ impl<S: Real> Integrals<S> {
             by_axis: [s * (c * 2.0), symmetric_adjugate(s) * (-(c * 4.0) / spread)],
             precision,
         }
+    }
+
+    /// The same flows in another precision.
+    pub(super) fn with(self, precision: Precision) -> Self {
+        Self { precision, ..self }
     }
 
     /// What counts as zero of a distance.
@@ -83,6 +91,11 @@ impl<S: Real> Integrals<S> {
     /// Rates along the flows of `H` and of `K`.
     pub(super) fn both_rates(&self, at: &Axes<S>) -> [Axes<S>; 2] {
         [[S::one(), S::zero()], [S::zero(), S::one()]].map(|unit| self.rates(unit, at))
+    }
+
+    /// Angular velocities along the flows of `H` and of `K`, without that about `n` which they do not give.
+    pub(super) fn turning_rates(&self, [_, momentum, _]: &Axes<S>) -> [Vector3<S>; 2] {
+        self.by_momentum.map(|m| times_vector(&m, momentum))
     }
 
     /// The flow of `t H + k K` as a series about a point of it.

@@ -3,7 +3,8 @@
 use nalgebra::{Matrix3, Matrix6x2, Vector3};
 
 use super::flow::{Axes, DOUBLE, Integrals, joined};
-use super::ways::{ClosedWays, Courses, HalfWay};
+use super::walk::lattice;
+use super::ways::{ClosedWays, HalfWay};
 use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
@@ -12,9 +13,6 @@ use crate::solutions::averaged::mean_direction;
 
 /// Rounding of the ends of a closed way.
 pub(super) const ROUNDING: f64 = 1e-15;
-
-/// A way that ends so near is closed.
-pub(super) const CLOSED: f64 = 1e-9;
 
 /// What rounding may leave after a quarter of a turn.
 const EXACT: f64 = 2e-15;
@@ -36,9 +34,11 @@ pub(super) struct Period {
 #[derive(Debug, Clone)]
 pub(super) struct Torus {
     pub(super) spheroid: RigidSpheroid<f64>,
-    /// Traceless eigenvalues of `s` along the axes, and the spread of them.
+    /// Eigenvalues of `s` along the axes less the middle one, and the spread of them.
     pub(super) values: Vector3<f64>,
     pub(super) spread: f64,
+    /// Unit of `L`: its size at the start, or `(2 I^xx |C| (s_max - s_min))^(1/2)`, which the torque can give it, if that is larger.
+    pub(super) unit: f64,
     pub(super) initial: Axes<f64>,
     pub(super) ways: ClosedWays<f64>,
     pub(super) integrals: Integrals<f64>,
@@ -46,62 +46,48 @@ pub(super) struct Torus {
 }
 
 impl Torus {
-    /// The torus of a motion, in the first frame in which it has its symmetries and `accept` does not say that it has not.
+    /// The torus of a motion, in a frame with Y the axis of the middle eigenvalue and Z one of the other two about which half a turn takes it to itself.
     ///
     /// # Errors
-    /// [`Error::Domain`] for isotropic `s`, otherwise that of the first frame: [`Error::NotConverged`].
-    pub(super) fn of<R>(
-        problem: &Problem<f64>,
-        accept: impl Fn(&Self) -> Result<Option<R>, Error>,
-    ) -> Result<(Self, R), Error> {
+    /// [`Error::Domain`] for isotropic `s`; [`Error::NotConverged`] where the walk over the torus does not find its symmetric states.
+    pub(super) fn of(problem: &Problem<f64>) -> Result<Self, Error> {
         let frame = principal_frame(problem.coefficients())?.principal_from_given;
         let principal = problem.rotated(&frame);
-        let values = principal.coefficients().diagonal();
-        let values = values.map(|value| value - values.mean());
-        let spread = values.max() - values.min();
+        let mut values = principal.coefficients().diagonal();
+        let mut order = [0, 1, 2];
+        order.sort_by(|&i, &j| values[j].total_cmp(&values[i]));
+        let [high, middle, low] = order;
+        values.add_scalar_mut(-values[middle]);
+        let spread = values[high] - values[low];
         Error::ensure(spread > 0.0, "s_max - s_min", spread, "above zero: without it there is no torus")?;
         let (spheroid, initial) = (*problem.spheroid(), principal.initial());
-        let size = initial.momentum.norm();
-        Error::ensure(size > 0.0, "|L|", size, "above zero: a body at rest has no torus")?;
-        let mut refused = None;
-        for turn in frames(&values, &mean_direction(&spheroid, &values, initial)) {
-            let found = Self::in_frame(spheroid, turn.map(f64::abs) * values, spread, &initial.rotated(&turn));
-            match found.map(|torus| Self { from_given: turn * frame, ..torus }) {
-                Ok(torus) => {
-                    if let Some(wanted) = accept(&torus)? {
-                        return Ok((torus, wanted));
-                    }
-                }
-                Err(error) => _ = refused.get_or_insert(error),
-            }
-        }
-        let what = "torus with the symmetry of reflections in principal planes";
-        Err(refused.unwrap_or(Error::NotConverged { what, iterations: 6, residual: f64::NAN }))
-    }
-
-    fn in_frame(
-        spheroid: RigidSpheroid<f64>,
-        values: Vector3<f64>,
-        spread: f64,
-        initial: &BodyState<f64>,
-    ) -> Result<Self, Error> {
-        let integrals = Integrals::new(&spheroid, &Matrix3::from_diagonal(&values), spread, DOUBLE);
-        let start = [initial.axis, initial.momentum, initial.equatorial_axis];
-        let courses = Courses::new(&integrals, &spheroid, &values, initial);
-        let ways = courses.closed_ways(&start)?;
-        Ok(Self { spheroid, values, spread, initial: start, ways, integrals, from_given: Matrix3::identity() })
-    }
-
-    /// How far the way from the state in the plane ends from the initial state. Large where rounding grows, near the separatrix.
-    pub(super) fn gap(&self) -> f64 {
-        let [n, momentum, _] = self.integrals.moved(self.ways.to_plane.times.map(|time| -time), &self.ways.plane);
-        let [start, start_momentum, _] = &self.initial;
-        (n - start).amax().max((momentum - start_momentum).amax() / self.size())
+        let pull = (2.0 * spheroid.inertia_xx * spheroid.constant_c.abs() * spread).sqrt();
+        let unit = initial.momentum.norm().max(pull);
+        // Where L is fast it goes round the axis on whose side of the separatrix it is.
+        let level = values.dot(&initial.momentum.component_mul(&initial.momentum));
+        let [x, z] = if level > 0.0 { [low, high] } else { [high, low] };
+        let in_frame = |x: usize| {
+            let [x, y] = [x, middle].map(|i| Vector3::ith(i, 1.0));
+            let turn = Matrix3::from_rows(&[x.transpose(), y.transpose(), x.cross(&y).transpose()]);
+            let values = turn.map(f64::abs) * values;
+            let integrals = Integrals::new(&spheroid, &Matrix3::from_diagonal(&values), spread, DOUBLE);
+            let initial = initial.rotated(&turn);
+            let start = [initial.axis, initial.momentum, initial.equatorial_axis];
+            (turn, values, integrals, start)
+        };
+        let lost = |what| Error::NotConverged { what, iterations: 1, residual: f64::NAN };
+        let (turn, values_in_frame, integrals, start) = in_frame(x);
+        let found = lattice(&integrals, unit, &start).ok_or(lost("walk over the torus to its symmetric states"))?;
+        let (turn, values, integrals, initial) =
+            if found.about_x { in_frame(z) } else { (turn, values_in_frame, integrals, start) };
+        let ways = ClosedWays::near(&integrals, unit, &initial, [found.to_plane, found.fast, found.slow]);
+        let ways = ways.ok_or(lost("closed ways of the torus"))?;
+        Ok(Self { spheroid, values, spread, unit, initial, ways, integrals, from_given: turn * frame })
     }
 
     /// Singular values of the rates of both flows at the state in the plane: the second is zero for a thin torus.
     pub(super) fn widths(&self) -> [f64; 2] {
-        let columns = self.integrals.both_rates(&self.ways.plane).map(|rates| joined(&rates, self.size(), f64::re));
+        let columns = self.integrals.both_rates(&self.ways.plane).map(|rates| joined(&rates, self.unit, f64::re));
         let values = Matrix6x2::from_columns(&columns).singular_values();
         [values.max(), values.min()]
     }
@@ -144,25 +130,6 @@ impl Torus {
     pub(super) fn starts(&self, quarter: usize) -> Option<Vec<Axes<f64>>> {
         let starts = self.ways.starts(&self.integrals, quarter);
         let [n, momentum, _] = starts[quarter];
-        (n.x.abs().max((momentum.x / self.size()).abs()) < EXACT).then_some(starts)
+        (n.x.abs().max((momentum.x / self.unit).abs()) < EXACT).then_some(starts)
     }
-
-    /// `|L|`.
-    pub(super) fn size(&self) -> f64 {
-        self.initial[1].norm()
-    }
-}
-
-/// Frames with the principal axes in any order, first that in which the averaged `L` goes round Z and Y is the axis of the middle eigenvalue: the averaged `L` is
-/// fastest where it crosses the plane of the other two.
-fn frames(values: &Vector3<f64>, direction: &Vector3<f64>) -> [Matrix3<f64>; 6] {
-    let mut order = [0, 1, 2];
-    order.sort_by(|&i, &j| values[j].total_cmp(&values[i]));
-    let [high, y, low] = order;
-    let level = (0..3).map(|i| (values[i] - values[y]) * direction[i] * direction[i]).sum::<f64>();
-    let [x, z] = if level > 0.0 { [low, high] } else { [high, low] };
-    [[x, y], [y, x], [z, y], [y, z], [x, z], [z, x]].map(|axes| {
-        let [x, y] = axes.map(|i| Vector3::ith(i, 1.0));
-        Matrix3::from_rows(&[x.transpose(), y.transpose(), x.cross(&y).transpose()])
-    })
 }

@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use nalgebra::Matrix2;
 
-use super::found::{CLOSED, ROUNDING, Torus};
+use super::found::{ROUNDING, Torus};
 use crate::dynamics::Problem;
 use crate::error::Error;
 use crate::solutions::averaged::{AveragedRates, AveragedSolution, AveragingOrder};
@@ -52,9 +52,9 @@ pub struct TorusFrequencies {
 /// separatrix.
 pub fn torus_frequencies(problem: &Problem<f64>) -> Result<TorusFrequencies, Error> {
     let mean = AveragedSolution::new(problem, AveragingOrder::Second)?;
-    let (torus, ()) = Torus::of(problem, |torus| Ok((torus.gap() < CLOSED).then_some(())))?;
+    let torus = Torus::of(problem)?;
     let initial = problem.initial();
-    let fast_rate = torus.size() / torus.spheroid.inertia_xx;
+    let fast_rate = torus.unit / torus.spheroid.inertia_xx;
     let [fast, slow] = torus.periods()?;
     let not_closed = Error::NotConverged { what: "periods of the torus", iterations: 1, residual: f64::NAN };
     let periods = Matrix2::new(fast.times[0], slow.times[0], fast.times[1], slow.times[1]);

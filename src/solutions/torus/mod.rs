@@ -48,6 +48,7 @@ mod separatrix;
 mod solution;
 mod states;
 mod table;
+mod walk;
 mod ways;
 mod wide;
 

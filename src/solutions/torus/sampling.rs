@@ -8,12 +8,26 @@ use crate::error::Error;
 /// Coefficients below this are rounding.
 pub(super) const ROUNDING: f64 = 2e-16;
 
-/// Points of the first angle and of a quarter turn of the second one: of the first grid, and at most.
+/// Largest rounding of a coefficient: flows near the separatrix multiply theirs.
+const LARGEST_ROUNDING: f64 = 1e-12;
+
+/// Points of the first angle and of a quarter turn of the second one: of the first grid, and at most, also of both together.
 const FIRST_GRID: QuarterGrid = QuarterGrid { points: 16, quarter: 4 };
-const LARGEST_GRID: QuarterGrid = QuarterGrid { points: 192, quarter: 256 };
+const LARGEST_GRID: QuarterGrid = QuarterGrid { points: 1024, quarter: 512 };
+const MOST_POINTS: usize = 1 << 17;
 
 /// Coefficients of a function, by multiples of the first angle and then of the second.
 pub(super) type Coefficients = Vec<Vec<Pair>>;
+
+/// Coefficients of the motion on a torus.
+pub(super) struct Sampled {
+    /// Of `n_X, L_X, n_Y, L_Y, n_Z, L_Z`, with `L` in its unit.
+    pub(super) axes: [Coefficients; 6],
+    /// Of `Re V_X, Im V_Y, Re V_Y, Im V_X, Re V_Z, Im V_Z`, where `V = (u + i n x u) exp i (theta_1 psi_1 + theta_2 psi_2) / (2 pi)`.
+    pub(super) vector: [Coefficients; 6],
+    /// Rounding of the states that they come from.
+    pub(super) open: f64,
+}
 
 /// What a reflection and half a turn of the second angle do to the twelve functions.
 const SYMMETRY: [(Reflection, usize); 12] = {
@@ -23,9 +37,7 @@ const SYMMETRY: [(Reflection, usize); 12] = {
     [a, b, c, d, e, e, a, b, c, d, e, (Odd, 0)]
 };
 
-/// Coefficients of `n_X, L_X, n_Y, L_Y, n_Z, L_Z`, with `L` in units of its length, and of `Re V_X, Im V_Y, Re V_Y, Im V_X, Re V_Z, Im V_Z`, where
-/// `V = (u + i n x u) exp i (theta_1 psi_1 + theta_2 psi_2) / (2 pi)`, on a grid so fine that the last ones are below the tolerance. `starts` has the
-/// states at the points of the second angle; None where it has none.
+/// Coefficients on a grid so fine that the last ones are below the tolerance. `starts` has the states at the points of the second angle; None where it has none.
 ///
 /// # Errors
 /// [`Error::NotConverged`] where that takes more points than it may.
@@ -33,17 +45,22 @@ pub(super) fn coefficients(
     torus: &Torus,
     starts: impl Fn(usize) -> Option<Vec<Axes<f64>>>,
     tolerance: f64,
-) -> Result<Option<[[Coefficients; 6]; 2]>, Error> {
+) -> Result<Option<Sampled>, Error> {
     let mut grid = FIRST_GRID;
-    while grid.points <= LARGEST_GRID.points && grid.quarter <= LARGEST_GRID.quarter {
+    let fits = |grid: &QuarterGrid| {
+        grid.points <= LARGEST_GRID.points
+            && grid.quarter <= LARGEST_GRID.quarter
+            && grid.points * grid.quarter <= MOST_POINTS
+    };
+    while fits(&grid) {
         let Some(starts) = starts(grid.quarter) else { return Ok(None) };
-        let functions = sampled(torus, &starts, &grid);
+        let (functions, open) = sampled(torus, &starts, &grid);
         match finer(&functions, &grid, (0.1 * tolerance).max(ROUNDING)) {
             Some(next) => grid = next,
             None => {
                 let mut all = functions.into_iter();
                 let mut six = || core::array::from_fn(|_| all.next().unwrap_or_default());
-                return Ok(Some([six(), six()]));
+                return Ok(Some(Sampled { axes: six(), vector: six(), open }));
             }
         }
     }
@@ -51,26 +68,24 @@ pub(super) fn coefficients(
     Err(Error::NotConverged { what, iterations: grid.quarter, residual: tolerance })
 }
 
-fn sampled(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid) -> Vec<Coefficients> {
+/// Coefficients of the functions by their values on a grid; and the largest difference of both ends of a row, which are one point of the torus.
+fn sampled(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid) -> (Vec<Coefficients>, f64) {
     let QuarterGrid { points, quarter } = *grid;
-    let (integrals, ways, size) = (&torus.integrals, &torus.ways, torus.size());
+    let (ways, unit) = (&torus.ways, torus.unit);
     let mut values = vec![vec![vec![0.0; points]; quarter + 1]; SYMMETRY.len()];
-    let round = ways.fast.times.map(|time| 2.0 * time);
+    let mut open: f64 = 0.0;
     for (m, start) in starts.iter().enumerate() {
-        let mut begin = 0.0;
-        let mut series = integrals.series(round, start);
-        for j in 0..points {
-            let part = j as f64 / points as f64;
-            while part - begin > series.step {
-                let at = series.at(series.step);
-                begin += series.step;
-                series = integrals.series(round, &at);
-            }
-            let [n, momentum, u] = series.at(part - begin);
+        // From the start of a row half a turn either way: rounding grows as it goes.
+        let [(forwards, end), (backwards, other)] = [1.0, -1.0].map(|sense| half_row(torus, start, points, sense));
+        let [n, momentum] = [0, 1].map(|i| (end[i] - other[i]).amax());
+        open = open.max(n).max(momentum / unit);
+        let places = (0..points / 2).chain((points / 2..points).rev());
+        for (j, [n, momentum, u]) in places.zip(forwards.into_iter().chain(backwards)) {
+            let part = if j < points / 2 { j as f64 } else { j as f64 - points as f64 } / points as f64;
             let turned = 2.0 * ways.fast.turn * part + ways.slow.turn * m as f64 / (2 * quarter) as f64;
             let (sin, cos) = turned.sin_cos();
             let v = n.cross(&u);
-            let (l, real, imaginary) = (momentum / size, u * cos - v * sin, v * cos + u * sin);
+            let (l, real, imaginary) = (momentum / unit, u * cos - v * sin, v * cos + u * sin);
             let all = [n.x, l.x, n.y, l.y, n.z, l.z, real.x, imaginary.y, real.y, imaginary.x, real.z, imaginary.z];
             for (values, value) in values.iter_mut().zip(all) {
                 values[m][j] = value;
@@ -78,7 +93,25 @@ fn sampled(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid) -> Vec<Coeff
         }
     }
     let functions = values.iter().zip(SYMMETRY);
-    functions.map(|(values, (reflection, parity))| grid.coefficients(values, reflection, parity)).collect()
+    (functions.map(|(values, (reflection, parity))| grid.coefficients(values, reflection, parity)).collect(), open)
+}
+
+/// States half a turn of the first angle on from one, or back: with the first of them those ahead, without it those behind, up to half a turn; and the state there.
+fn half_row(torus: &Torus, start: &Axes<f64>, points: usize, sense: f64) -> (Vec<Axes<f64>>, Axes<f64>) {
+    let round = torus.ways.fast.times.map(|time| 2.0 * sense * time);
+    let mut begin = 0.0;
+    let mut series = torus.integrals.series(round, start);
+    let mut at = |part: f64| {
+        while part - begin > series.step {
+            let next = series.at(series.step);
+            begin += series.step;
+            series = torus.integrals.series(round, &next);
+        }
+        series.at(part - begin)
+    };
+    let first = usize::from(sense < 0.0);
+    let states = (first..points / 2 + first).map(|j| at(j as f64 / points as f64)).collect();
+    (states, at(0.5))
 }
 
 /// A finer grid, where the last coefficients along an angle are above the smallest wanted.
@@ -108,10 +141,12 @@ fn needed(sizes: &[f64], smallest: f64) -> usize {
     let count = sizes.len();
     let largest_from = |from: usize| sizes[from..].iter().copied().fold(0.0, f64::max);
     let last = largest_from(count - 2);
-    if last <= smallest {
+    let falls = largest_from(count / 2) / last;
+    // Coefficients that have come so far fall by more than 1e5 in their second half, if they are not rounding.
+    if last <= smallest || last < LARGEST_ROUNDING && falls < 30.0 {
         return count;
     }
-    let fall = (largest_from(count / 2) / last).ln() / (count - 2 - count / 2) as f64;
+    let fall = falls.ln() / (count - 2 - count / 2) as f64;
     let more = ((last / smallest).ln() / fall).max(1.0);
     count + if more < count as f64 { more.ceil() as usize + 1 } else { count }
 }

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::found::{THINNEST, Torus};
 use super::phase::{Phase, phases};
-use super::sampling::{Coefficients, ROUNDING, coefficients};
+use super::sampling::{ROUNDING, Sampled, coefficients};
 use super::table::{Table, Turn, fill_with_turns};
 use super::wide::WideTorus;
 use crate::dynamics::{AxisState, BodyState, Problem};
@@ -17,8 +17,8 @@ use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::four_lanes::FourLanes;
 use crate::numerics::fused::{Fused, detect_fused, run_fused};
 
-/// What the rounding of the flow leaves at the end of half a closed way.
-const END_OF_HALF_WAY: f64 = 3e-16;
+/// What the rounding of the flow and of the initial state leaves at the end of half a closed way.
+const END_OF_HALF_WAY: f64 = 5e-16;
 
 /// What may be left between the series and the flow beside its estimated error, where its torus has the symmetries assumed.
 const CLOSED: f64 = 1e-12;
@@ -44,6 +44,8 @@ pub struct TorusSolution {
     /// Times along the flows of `H` and `K` of both closed ways, and the spread that is the unit of `K`.
     pub(super) periods: [[f64; 2]; 2],
     pub(super) spread: f64,
+    /// Unit of `L`.
+    pub(super) unit: f64,
     /// How much the flows differ: the least over the largest singular value of their rates.
     width: f64,
     /// Of `n` and `L`.
@@ -65,38 +67,35 @@ impl TorusSolution {
     /// the closed ways are found to 32 digits, which takes a few ms.
     ///
     /// # Errors
-    /// [`Error::Domain`] for isotropic `s` and for a body at rest; [`Error::NotConverged`] near the separatrix, and for a torus without the symmetry that is looked for, as
-    /// there are where the torque turns the body as fast as it rotates.
+    /// [`Error::Domain`] for isotropic `s`; [`Error::NotConverged`] where the closed ways are not found, or need more coefficients than a table may have: near the
+    /// separatrix.
     pub fn new(problem: &Problem<f64>, tolerance: f64, longest: f64) -> Result<Self, Error> {
         let tolerance = tolerance.max(ROUNDING);
-        let (_, solution) = Torus::of(problem, |torus| {
-            let phases = phases(&torus.spheroid, &torus.initial, &torus.ways);
-            let drift = rate_of_ways(&phases) * 2.0 * END_OF_HALF_WAY;
-            if longest.abs() * drift <= 0.3 * tolerance
-                && let Some(functions) = coefficients(torus, |quarter| torus.starts(quarter), tolerance)?
-            {
-                return Ok(Self::on(torus, phases, drift, tolerance, functions));
-            }
-            let wide = WideTorus::near(torus, problem)?;
-            let torus = wide.rounded(torus);
-            let starts = |quarter: usize| torus.starts(quarter).or_else(|| Some(wide.starts(quarter)));
-            let functions = coefficients(&torus, starts, tolerance)?;
-            Ok(functions.and_then(|functions| Self::on(&torus, wide.phases, wide.drift, tolerance, functions)))
-        })?;
-        Ok(solution)
+        let torus = Torus::of(problem)?;
+        let near = phases(&torus.spheroid, &torus.initial, &torus.ways);
+        let drift = rate_of_ways(&near) * 2.0 * END_OF_HALF_WAY;
+        if longest.abs() * drift <= 0.3 * tolerance
+            && let Some(functions) = coefficients(&torus, |quarter| torus.starts(quarter), tolerance)?
+        {
+            return Self::on(&torus, near, drift, tolerance, functions);
+        }
+        let wide = WideTorus::near(&torus, problem)?;
+        let torus = wide.rounded(&torus);
+        let starts = |quarter: usize| torus.starts(quarter).unwrap_or_else(|| wide.starts(quarter));
+        let functions = coefficients(&torus, |quarter| Some(starts(quarter)), tolerance)?;
+        let what = "Fourier series on the torus";
+        let functions = functions.ok_or(Error::NotConverged { what, iterations: 1, residual: f64::NAN })?;
+        Self::on(&torus, wide.phases, wide.drift, tolerance, functions)
     }
 
-    /// The series on a torus with these phases, unless they are not those of the motion: the torus has not the symmetry that was assumed.
-    fn on(
-        torus: &Torus,
-        phases: [Phase; 3],
-        drift: f64,
-        tolerance: f64,
-        [axes, vector]: [[Coefficients; 6]; 2],
-    ) -> Option<Self> {
-        let (mut axes, left_axes) = Table::within(&axes, tolerance);
-        let (vector, left_vector) = Table::within(&vector, tolerance);
-        axes.scale_every_other(torus.size());
+    /// The series on a torus with these phases.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] if they are not those of the motion.
+    fn on(torus: &Torus, phases: [Phase; 3], drift: f64, tolerance: f64, sampled: Sampled) -> Result<Self, Error> {
+        let (mut axes, left_axes) = Table::within(&sampled.axes, tolerance);
+        let (vector, left_vector) = Table::within(&sampled.vector, tolerance);
+        axes.scale_every_other(torus.unit);
         let [[a, b], [c, d]] = [axes.multiples(), vector.multiples()];
         let [most, least] = torus.widths();
         let mut solution = Self {
@@ -104,6 +103,7 @@ impl TorusSolution {
             phases,
             periods: [&torus.ways.fast, &torus.ways.slow].map(|half| half.times.map(|time| time * 2.0)),
             spread: torus.spread,
+            unit: torus.unit,
             axes,
             vector,
             // At least zero and one, which are where angles begin.
@@ -115,23 +115,28 @@ impl TorusSolution {
             fused: detect_fused(),
         };
         let gap = solution.gap(torus);
-        solution.off = 2.0 * gap;
-        (gap <= 10.0 * solution.truncation + CLOSED).then_some(solution)
+        solution.off = 2.0 * gap.max(sampled.open);
+        if gap <= 10.0 * solution.truncation + CLOSED {
+            return Ok(solution);
+        }
+        Err(Error::NotConverged { what: "Fourier series on the torus, against its flow", iterations: 1, residual: gap })
     }
 
     /// Largest difference from the start, and from the flow at a point where all functions differ from one another.
     fn gap(&self, torus: &Torus) -> f64 {
-        let parts = [0.2, 0.45];
+        let parts = [0.2, 0.06];
         let times = [0, 1].map(|i| (0..2).map(|way| self.periods[way][i] * parts[way]).sum());
-        let [n, momentum, _] = torus.integrals.moved(times, &torus.ways.plane);
+        let [n, momentum, u] = torus.integrals.moved(times, &torus.ways.plane);
+        let turned = 2.0 * (torus.ways.fast.turn * parts[0] + torus.ways.slow.turn * parts[1]);
         let there = self.state_on_torus([parts[0], parts[1], 0.0]);
         let here = self.state([0.0; 2]);
         let turn = &torus.from_given;
         let differences = [
             turn * there.axis - n,
-            (turn * there.momentum - momentum) / torus.size(),
+            (turn * there.momentum - momentum) / torus.unit,
+            turn * there.equatorial_axis - (u * turned.cos() - n.cross(&u) * turned.sin()),
             turn * here.axis - torus.initial[0],
-            (turn * here.momentum - torus.initial[1]) / torus.size(),
+            (turn * here.momentum - torus.initial[1]) / torus.unit,
             turn * here.equatorial_axis - torus.initial[2],
         ];
         // A NaN is a gap too.

@@ -1,8 +1,8 @@
 //! Closed ways on a torus: times along the flows of `H` and `K` that lead back to the start, by the symmetries of the torus.
 //!
 //! In the principal frame a reflection in a coordinate plane takes a motion to one that runs backwards, and a half turn about an axis takes it to
-//! another motion. With Z the axis that the averaged `L` goes round, the reflections in the planes `Y = 0` and `X = 0` and the half turn about Z take a
-//! torus to itself (where it has no state in the plane `Y = 0` it is refused). Angles `theta` from such a state then obey
+//! another motion. With Y the axis of the middle eigenvalue of `s`, and Z one of the other two, the reflections in the planes `Y = 0` and `X = 0` and the half turn
+//! about Z take a torus to itself. Angles `theta` from a state in the plane `Y = 0` then obey
 //!
 //! ```text
 //! (n, L)(-theta) = F_Y (n, L)(theta),      (n, L)(theta_1, theta_2 + pi) = R_Z(pi) (n, L)(theta)
@@ -10,31 +10,26 @@
 //!
 //! so that half a turn of either angle leads to a state of the plane again: two equations for the two times.
 
-use core::f64::consts::TAU;
-
 use nalgebra::{Vector2, Vector3};
 
-use super::flow::{Axes, Integrals};
-use crate::dynamics::{BodyState, RigidSpheroid};
-use crate::error::Error;
+use super::flow::{Axes, Integrals, joined};
 use crate::numerics::angle::about;
-use crate::numerics::scalar::{Real, length};
-use crate::solutions::averaged::mean_direction;
+use crate::numerics::scalar::Real;
 
 /// Newton steps.
-pub(super) const MOST_CORRECTIONS: usize = 30;
+const MOST_CORRECTIONS: usize = 30;
 
-/// Longest of them, as an angle of turning.
-const LONGEST_STEP: f64 = 0.3;
-
-/// Steps in which the averaged `L` must come half round its axis; away from the separatrix it takes less than ten.
-const MOST_STEPS: usize = 200;
+/// Longest of them: by how much `n` and `L` change.
+const LONGEST_STEP: f64 = 0.4;
 
 /// Changes of a condition below this, in radians for a radian of the flow, are rounding: the motion does not depend on that angle.
 const STILL: f64 = 1e-14;
 
-/// What is left to close of a way that ends at the half turn of its start.
-const WIDEST_GAP: f64 = 1e-9;
+/// Distance from the plane from which Newton's steps are known to end in it.
+const NEAR: f64 = 1e-9;
+
+/// What may be left between the end of half the slow way and the half turn of its start: rounding, near the separatrix.
+const WIDEST_GAP: f64 = 1e-7;
 
 /// Half of a closed way: along the flow of `H` for the first time and along that of `K` for the second, from a state in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,15 +53,25 @@ pub(super) struct ClosedWays<S> {
 }
 
 impl<S: Real> ClosedWays<S> {
-    /// Closed ways from those of another precision.
-    pub(super) fn refined(integrals: &Integrals<S>, initial: &Axes<S>, near: &ClosedWays<f64>) -> Option<Self> {
-        let raised = |way: &HalfWay<f64>| way.times.map(S::from_f64);
-        let search = Search::new(integrals, initial);
-        let (to_plane, end) = search.half_way(initial, raised(&near.to_plane), false)?;
-        let plane = with_vector_of_plane(&end);
-        let (fast, _) = search.half_way(&plane, raised(&near.fast), false)?;
-        let (slow, _) = search.half_way(&plane, raised(&near.slow), true)?;
-        Some(Self { plane, to_plane, fast, slow })
+    /// Closed ways near given times: to the plane, and half of the fast and of the slow way. None where there are none.
+    pub(super) fn near(
+        integrals: &Integrals<S>,
+        unit: f64,
+        initial: &Axes<S>,
+        [to_plane, fast, slow]: [[S; 2]; 3],
+    ) -> Option<Self> {
+        let search = Search::new(integrals, unit);
+        let (to_plane, end) = search.half_way(initial, to_plane, false)?;
+        let plane = [end[0], end[1], end[0].cross(&Vector3::y())];
+        let (fast, _) = search.half_way(&plane, fast, false)?;
+        let (slow, end) = search.half_way(&plane, slow, true)?;
+        let [n, momentum] = [0, 1].map(|i| (end[i] - half_turn(&plane[i])).map(S::re).amax());
+        (n.max(momentum / unit) < WIDEST_GAP).then_some(Self { plane, to_plane, fast, slow })
+    }
+
+    /// The times of [`near`](Self::near).
+    pub(super) fn times(&self) -> [[S; 2]; 3] {
+        [self.to_plane.times, self.fast.times, self.slow.times]
     }
 
     /// States along a quarter of a turn of the second angle, from that in the plane on, so many steps apart.
@@ -91,61 +96,71 @@ impl<S: Real> ClosedWays<S> {
     }
 }
 
-fn with_vector_of_plane<S: Real>([n, momentum, _]: &Axes<S>) -> Axes<S> {
-    [*n, *momentum, n.cross(&Vector3::y())]
-}
-
 /// `v` turned by half a turn about Z.
-fn half_turn<S: Real>(v: &Vector3<S>) -> Vector3<S> {
+pub(super) fn half_turn<S: Real>(v: &Vector3<S>) -> Vector3<S> {
     Vector3::new(-v.x, -v.y, v.z)
 }
 
-struct Search<'a, S> {
+/// What is looked for on a torus: states in the plane, and ways between them.
+pub(super) struct Search<'a, S> {
     integrals: &'a Integrals<S>,
-    /// `|L|`.
-    size: S,
-    /// `|L| / I^xx`, the unit of rates along both flows.
+    /// Unit of `L`.
+    unit: f64,
+    /// Unit of rates along both flows.
     rate: f64,
 }
 
 impl<'a, S: Real> Search<'a, S> {
-    fn new(integrals: &'a Integrals<S>, initial: &Axes<S>) -> Self {
-        let size = length(&initial[1]);
-        Self { integrals, size, rate: size.re() * integrals.inverse_inertia() }
+    pub(super) fn new(integrals: &'a Integrals<S>, unit: f64) -> Self {
+        Self { integrals, unit, rate: unit * integrals.inverse_inertia() }
     }
 
     /// Distance of `n` from the plane across `L`, and that of `L`, in units of their lengths.
-    fn distances(&self, n: &Vector3<S>, momentum: &Vector3<S>, cosine: S) -> Vector2<S> {
-        let across = momentum.y / self.size;
-        Vector2::new(n.y - cosine * across, across)
+    fn distances(&self, n: &Vector3<S>, momentum: &Vector3<S>, share: S) -> Vector2<S> {
+        Vector2::new(n.y - share * momentum.y, momentum.y * S::from_f64(1.0 / self.unit))
+    }
+
+    /// `n.L / L^2`, what `n` has of `L`; zero where `L` is small.
+    fn share(&self, [n, momentum, _]: &Axes<S>) -> S {
+        let square = momentum.dot(momentum);
+        if square.re() < 0.01 * self.unit * self.unit { S::zero() } else { n.dot(momentum) / square }
+    }
+
+    /// Distances from the plane, and the change of the times that would make them zero if they changed at the same rates all the way; and how far it leads.
+    pub(super) fn step_to_plane(&self, at: &Axes<S>) -> Option<(Vector2<S>, [S; 2], f64)> {
+        let share = self.share(at);
+        let left = self.distances(&at[0], &at[1], share);
+        let rates = self.integrals.both_rates(at);
+        let [by_h, by_k] = rates.map(|[n, momentum, _]| self.distances(&n, &momentum, share));
+        let change = step_to_zero([by_h, by_k], left, self.rate)?;
+        let way =
+            joined(&rates[0], self.unit, S::re) * change.x.re() + joined(&rates[1], self.unit, S::re) * change.y.re();
+        Some((left, [change.x, change.y], way.norm()))
     }
 
     /// The way near given times that ends in the plane `Y = 0`. Flows commute, so that the rates at the end lead there.
-    fn end_in_plane(&self, start: &Axes<S>, mut times: [S; 2]) -> Option<([S; 2], Axes<S>)> {
-        let mut at = self.integrals.moved(times, start);
+    fn end_in_plane(&self, start: &Axes<S>, times: [S; 2]) -> Option<([S; 2], Axes<S>)> {
+        self.on_to_plane(self.integrals.moved(times, start), times)
+    }
+
+    /// The state in the plane near one that lies at given times from the start.
+    pub(super) fn on_to_plane(&self, mut at: Axes<S>, mut times: [S; 2]) -> Option<([S; 2], Axes<S>)> {
         let mut least = f64::INFINITY;
         for step in 0..MOST_CORRECTIONS {
-            let [n, momentum, _] = &at;
-            let cosine = n.dot(momentum) / self.size;
-            let left = self.distances(n, momentum, cosine);
+            let (left, change, length) = self.step_to_plane(&at)?;
             let size = left.map(S::re).amax();
             if !size.is_finite() {
                 return None;
             }
             // Derivatives need one step from the root.
-            let near = size < WIDEST_GAP;
+            let near = size < NEAR;
             if step > 0 && (near && size >= 0.5 * least || size <= self.integrals.rounding()) {
                 return near.then_some((times, at));
             }
             least = size;
-            let rates = self.integrals.both_rates(&at);
-            let [by_h, by_k] = rates.map(|[n, momentum, _]| self.distances(&n, &momentum, cosine));
-            let change =
-                step_to_zero([Vector2::new(by_h.x, by_k.x), Vector2::new(by_h.y, by_k.y)], left, STILL * self.rate)?;
             // Far from the plane the rates at the end say little.
-            let turn = change.map(S::re).norm() * self.rate;
-            let change = change * S::from_f64(if turn > LONGEST_STEP { LONGEST_STEP / turn } else { 1.0 });
-            let change = [change.x, change.y];
+            let part = S::from_f64(if length > LONGEST_STEP { LONGEST_STEP / length } else { 1.0 });
+            let change = change.map(|time| time * part);
             at = self.integrals.moved(change, &at);
             times = [times[0] + change[0], times[1] + change[1]];
         }
@@ -160,13 +175,16 @@ impl<'a, S: Real> Search<'a, S> {
     }
 }
 
-/// Times that change the distances by minus what they are. A distance that does not change with them is rounding, or the motion does not depend on that angle:
-/// nothing is done about it.
-fn step_to_zero<S: Real>(rows: [Vector2<S>; 2], left: Vector2<S>, still: f64) -> Option<Vector2<S>> {
+/// Times that change the distances by minus what they are, from the changes by each of them. A distance that does not change with them is rounding, or the motion does
+/// not depend on that angle: nothing is done about it.
+fn step_to_zero<S: Real>([by_h, by_k]: [Vector2<S>; 2], left: Vector2<S>, rate: f64) -> Option<Vector2<S>> {
     let norm = |row: &Vector2<S>| row.map(S::re).norm();
+    // One flow may be much slower than the other.
+    let scales = [norm(&by_h), norm(&by_k)].map(|size| S::from_f64(if size > STILL * rate { size } else { rate }));
+    let rows = [0, 1].map(|i| Vector2::new(by_h[i] / scales[0], by_k[i] / scales[1]));
     let along = |row: &Vector2<S>, left: S| row * (-left / row.dot(row));
     let [first, second] = &rows;
-    Some(match (norm(first) > still, norm(second) > still) {
+    let change = match (norm(first) > STILL, norm(second) > STILL) {
         (false, false) => Vector2::zeros(),
         (true, false) => along(first, left.x),
         (false, true) => along(second, left.y),
@@ -180,135 +198,26 @@ fn step_to_zero<S: Real>(rows: [Vector2<S>; 2], left: Vector2<S>, still: f64) ->
                 (second.x * left.x - first.x * left.y) / determinant,
             )
         }
-    })
-}
-
-/// What the closed ways are found from: a body, traceless principal values with Y the axis of the middle one and Z that which the averaged
-/// `L` goes round.
-pub(super) struct Courses<'a> {
-    integrals: &'a Integrals<f64>,
-    spheroid: &'a RigidSpheroid<f64>,
-    values: &'a Vector3<f64>,
-    /// Times along `H` and `K` of a turn of `n` about `L`, nearly.
-    fast_turn: [f64; 2],
-}
-
-impl<'a> Courses<'a> {
-    pub(super) fn new(
-        integrals: &'a Integrals<f64>,
-        spheroid: &'a RigidSpheroid<f64>,
-        values: &'a Vector3<f64>,
-        initial: &BodyState<f64>,
-    ) -> Self {
-        let size = initial.momentum.norm();
-        let cosine = initial.axis.dot(&initial.momentum) / size;
-        let t = TAU * spheroid.inertia_xx / size;
-        // K takes back by how much the averaged torque turns L meanwhile.
-        let spread = values.max() - values.min();
-        let share = spheroid.constant_c * (3.0 * cosine * cosine - 1.0) / 2.0 * spread * spheroid.inertia_xx;
-        Self { integrals, spheroid, values, fast_turn: [t, -t * share / (size * size)] }
-    }
-
-    /// Closed ways of the torus through a state.
-    ///
-    /// # Errors
-    /// [`Error::NotConverged`] near the separatrix, and where the torus has no state in the plane.
-    pub(super) fn closed_ways(&self, initial: &Axes<f64>) -> Result<ClosedWays<f64>, Error> {
-        let search = Search::new(self.integrals, initial);
-        let refused = |what| Error::NotConverged { what, iterations: MOST_CORRECTIONS, residual: f64::NAN };
-        let found = search.half_way(initial, self.times_to_plane(initial)?, false);
-        let (to_plane, end) = found.ok_or(refused("way to a state in a plane of principal axes"))?;
-        let plane = with_vector_of_plane(&end);
-        let guess = self.fast_turn.map(|time| time / 2.0);
-        let fast = search.half_way(&plane, guess, false).ok_or(refused("way of n half round L"))?.0;
-        let mut guess = self.times_to_plane(&plane)?;
-        // The half turn of the start, or what is half a turn of n about L from it.
-        let gap = |end: &Axes<f64>| {
-            let apart = [0, 1].map(|i| (end[i] - half_turn(&plane[i])).amax());
-            apart[0].max(apart[1] / search.size)
-        };
-        for _ in 0..2 {
-            let found = search.half_way(&plane, guess, true).ok_or(refused("way of L half round its axis"))?;
-            if gap(&found.1) < WIDEST_GAP {
-                return Ok(ClosedWays { plane, to_plane, fast, slow: found.0 });
-            }
-            guess = [0, 1].map(|i| guess[i] + fast.times[i]);
-        }
-        Err(refused("way of L half round its axis, to the half turn of its start"))
-    }
-
-    /// Times, nearly, to the state in which the averaged `L` next crosses the plane, and `n` is in it.
-    fn times_to_plane(&self, start: &Axes<f64>) -> Result<[f64; 2], Error> {
-        let k = self.crossing(start)?;
-        let part = self.part_of_turn(&self.integrals.moved([0.0, k], start));
-        Ok([part * self.fast_turn[0], k + part * self.fast_turn[1]])
-    }
-
-    /// Time along `K` until the averaged `L` next crosses the plane.
-    fn crossing(&self, start: &Axes<f64>) -> Result<f64, Error> {
-        let direction = |[axis, momentum, equatorial_axis]: Axes<f64>| {
-            mean_direction(self.spheroid, self.values, &BodyState { axis, momentum, equatorial_axis })
-        };
-        let (mut at, mut k, mut before) = (*start, 0.0, None);
-        let first = direction(at);
-        if first.x.hypot(first.y) < STILL {
-            return Ok(0.0);
-        }
-        for _ in 0..MOST_STEPS {
-            let series = self.integrals.series([0.0, 1.0], &at);
-            let end = series.at(series.step);
-            let y = direction(end).y;
-            if let Some(before) = before.filter(|before: &f64| before * y <= 0.0) {
-                // To some digits, by false position with the weight of an end that stays halved.
-                let (mut ends, mut values) = ([0.0, series.step], [before, y]);
-                for _ in 0..8 {
-                    let middle = (ends[0] * values[1] - ends[1] * values[0]) / (values[1] - values[0]);
-                    let value = direction(series.at(middle)).y;
-                    let same = usize::from(value * values[1] > 0.0);
-                    (ends[same], values[same]) = (middle, value);
-                    values[1 - same] /= 2.0;
-                    if value.abs() < 1e-6 * first.x.hypot(first.y) {
-                        break;
-                    }
-                }
-                let nearer = usize::from(values[1].abs() < values[0].abs());
-                return Ok(k + ends[nearer]);
-            }
-            // A start in the plane is left first.
-            before = Some(y);
-            k += series.step;
-            at = end;
-        }
-        Err(Error::NotConverged {
-            what: "way of L round its axis: this is near the separatrix",
-            iterations: MOST_STEPS,
-            residual: first.y,
-        })
-    }
-
-    /// Part of a turn of `n` about the averaged `L` that brings it to the plane, at most a quarter.
-    fn part_of_turn(&self, at: &Axes<f64>) -> f64 {
-        let [axis, momentum, equatorial_axis] = *at;
-        let l = mean_direction(self.spheroid, self.values, &BodyState { axis, momentum, equatorial_axis });
-        let first = Vector3::y().cross(&l).normalize();
-        let turns = axis.dot(&l.cross(&first)).atan2(axis.dot(&first)) / TAU;
-        ((2.0 * turns).round() / 2.0) - turns
-    }
+    };
+    Some(Vector2::new(change.x / scales[0], change.y / scales[1]))
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::flow::DOUBLE;
+    use super::super::walk::lattice;
     use super::*;
     use crate::solutions::torus::plane::tests::BODY;
 
     /// With Y the axis of the middle value and `L` round Z.
     fn found(strength: f64) -> (Integrals<f64>, Axes<f64>, ClosedWays<f64>) {
-        let values = Vector3::new(-0.13, -0.08, 0.21) * strength;
+        let values = Vector3::new(-0.05, 0.0, 0.29) * strength;
         let integrals = Integrals::new(&BODY, &nalgebra::Matrix3::from_diagonal(&values), 0.34 * strength, DOUBLE);
         let start = [Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.4, -0.7, 1.9), Vector3::y()];
-        let initial = BodyState { axis: start[0], momentum: start[1], equatorial_axis: start[2] };
-        let ways = Courses::new(&integrals, &BODY, &values, &initial).closed_ways(&start).unwrap();
+        let lattice = lattice(&integrals, 2.0, &start).unwrap();
+        assert!(!lattice.about_x);
+        let times = [lattice.to_plane, lattice.fast, lattice.slow];
+        let ways = ClosedWays::near(&integrals, 2.0, &start, times).unwrap();
         (integrals, start, ways)
     }
 
@@ -339,13 +248,18 @@ mod tests {
 
     #[test]
     fn a_condition_that_does_not_change_is_left_alone() {
-        let rows = |a: [f64; 2], b: [f64; 2]| [Vector2::from(a), Vector2::from(b)];
+        // Changes of both distances by either flow.
+        let rows = |a: [f64; 2], b: [f64; 2]| [Vector2::new(a[0], b[0]), Vector2::new(a[1], b[1])];
         let left = Vector2::new(0.3, 0.2);
-        assert_eq!(step_to_zero(rows([0.0; 2], [0.0; 2]), left, 1e-14), Some(Vector2::zeros()));
-        assert_eq!(step_to_zero(rows([0.0; 2], [0.0, 2.0]), left, 1e-14), Some(Vector2::new(0.0, -0.1)));
-        assert_eq!(step_to_zero(rows([3.0, 0.0], [0.0; 2]), left, 1e-14).map(|v| (v.x * 10.0).round()), Some(-1.0));
-        assert_eq!(step_to_zero(rows([3.0, 1.0], [6.0, 2.0]), left, 1e-14), None);
-        let both = step_to_zero(rows([3.0, 1.0], [1.0, 2.0]), left, 1e-14).unwrap();
+        let step = |a: [f64; 2], b: [f64; 2]| step_to_zero(rows(a, b), left, 1.0);
+        assert_eq!(step([0.0; 2], [0.0; 2]), Some(Vector2::zeros()));
+        assert_eq!(step([0.0; 2], [0.0, 2.0]), Some(Vector2::new(0.0, -0.1)));
+        assert_eq!(step([3.0, 0.0], [0.0; 2]).map(|v| (v.x * 10.0).round()), Some(-1.0));
+        assert_eq!(step([3.0, 1.0], [6.0, 2.0]), None);
+        // A flow may be slow, but not as slow as rounding.
+        assert_eq!(step([3.0, 0.0], [0.0, 2e-9]).map(|v| (v.y / 1e6).round()), Some(-100.0));
+        assert_eq!(step([3.0, 0.0], [0.0, 2e-15]).map(|v| v.y), Some(0.0));
+        let both = step([3.0, 1.0], [1.0, 2.0]).unwrap();
         assert!((3.0 * both.x + both.y + 0.3).abs() < 1e-15 && (both.x + 2.0 * both.y + 0.2).abs() < 1e-15);
     }
 }

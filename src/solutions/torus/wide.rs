@@ -36,20 +36,19 @@ impl WideTorus {
         let wide = |value: f64| DoubleDouble::from(value);
         let spheroid = torus.spheroid.map(wide);
         let (from_given, tensor) = diagonal_frame(&problem.coefficients().map(wide), torus.from_given.map(wide));
-        let mean = tensor.trace() / 3.0;
-        let values = tensor.diagonal().map(|value| value - mean);
+        let values = tensor.diagonal().map(|value| value - tensor.m22);
         let integrals = Integrals::new(&spheroid, &Matrix3::from_diagonal(&values), wide(torus.spread), DOUBLE_DOUBLE);
         let given = problem.initial();
         let mut initial = [given.axis, given.momentum, given.equatorial_axis].map(|v| from_given * v.map(wide));
         // n is a unit vector, whatever rounding has made of its length.
         initial[0] /= length(&initial[0]);
-        let ways = ClosedWays::refined(&integrals, &initial, &torus.ways);
+        let ways = ClosedWays::near(&integrals, torus.unit, &initial, torus.ways.times().map(|times| times.map(wide)));
         let what = "closed ways of the torus in 32 digits";
         let ways = ways.ok_or(Error::NotConverged { what, iterations: 1, residual: f64::NAN })?;
         let phases = phases(&spheroid, &initial, &ways);
         // The torque of what is left beside the diagonal, which is not zero where two eigenvalues are nearly equal.
         let beside = [(0, 1), (1, 2), (2, 0)].map(|place| tensor[place].re().abs()).iter().sum::<f64>();
-        let torque = 2.0 * torus.spheroid.constant_c.abs() * beside / torus.size();
+        let torque = 2.0 * torus.spheroid.constant_c.abs() * beside / torus.unit;
         let drift = rate_of_ways(&phases) * END_OF_HALF_WAY + torque;
         Ok(Self { integrals, ways, initial, values, from_given, phases, drift })
     }

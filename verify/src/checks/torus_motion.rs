@@ -34,11 +34,10 @@ checks! {
     Oracle "torus-error-estimate" [25]: estimates;
     AtMost(1.0) "largest true / estimated error, 200 random scenes up to 60 rad";
     because "an estimate below the true error is wrong";
-    /// where the torque is weaker than a fifth of the rotation's energy and L does not start beside the middle axis, hardly a motion is refused
+    /// whatever the strength of the torque, also from rest, hardly a motion is refused whose L does not start beside the middle axis
     Property "torus-refusals" [25]: refusals;
     AtMost(0.01) "share of 1,000 random scenes";
-    because "refused are tori near the separatrix, which random starts seldom hit, and those without the symmetry that is looked for, which the strongest \
-     torques have: 0.5 % of 1,300 other scenes";
+    because "refused are tori as near the separatrix as rounding, which random starts seldom hit";
     /// derivatives of n, L and e_x by fifteen parameters, by the closed ways of the torus, are those of duals through Taylor series over 200 t_c: the four examples,
     /// s = diag(0.3, 0.1, -0.4), diag(0.02, 0.02, -0.04) and diag(2e-7, 1e-7, -3e-7), and 20 random scenes in any frame
     Oracle "torus-gradient" [25]: gradient_by_series;
@@ -254,11 +253,7 @@ fn estimates() -> Result<Measured, String> {
 }
 
 fn refusals() -> Result<Measured, String> {
-    let fast = |scene: &ErrorScene| {
-        let (body, square) = (scene.problem.spheroid(), scene.problem.initial().momentum.norm_squared());
-        !scene.near_middle_axis && scene.strength * body.constant_c.abs() * body.inertia_xx < 0.2 * square
-    };
-    let all: Vec<_> = scenes().filter(fast).take(1000).collect();
+    let all: Vec<_> = scenes().filter(|scene| !scene.near_middle_axis).take(1000).collect();
     let refused = all.iter().filter(|scene| TorusSolution::new(&scene.problem, 1e-9, 1.0).is_err()).count();
     Ok(Measured::new(refused as f64 / all.len() as f64, format!("{refused} of {} of seed {SEED}", all.len())))
 }

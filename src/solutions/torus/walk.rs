@@ -1,0 +1,335 @@
+//! States of a torus in the plane `Y = 0`, found by walking over it, and the ways between them.
+//!
+//! The reflection in the plane takes the torus to itself and turns both angles round: `theta -> c - theta`. So it leaves four states unchanged, half closed ways
+//! apart from one another, and these are the states in the plane. Their times along both flows form a lattice, that of the halves of closed ways.
+
+use nalgebra::{Matrix3x2, Matrix6x2, Vector2, Vector3};
+
+use super::flow::{Axes, COARSE, Integrals, joined};
+use super::ways::{Search, half_turn};
+
+/// Series along the flow of `K` from the start, and along that of `H` from each point on it.
+const SIDES: [[usize; 2]; 2] = [[40, 2], [40, 40]];
+
+/// Points looked at on each series of the flows of `H` and of `K`.
+const POINTS: [usize; 2] = [8, 5];
+
+/// Newton's steps begin where they lead less far than this, as `n` and `L` change.
+const NEAR: f64 = 0.7;
+
+/// Circles are looked at so far beside.
+const MOVED: f64 = 1e-3;
+
+/// Two predictions of a state are one if they differ by less than this part of the way to it.
+const SAME: f64 = 0.3;
+
+/// States are one if they are found at times that differ by less than this part of them.
+const ONE: f64 = 1e-6;
+
+/// Points along each side of a cell of the lattice at which states inside it are looked for.
+const CELL: usize = 6;
+
+/// A torus as thin as this against its length is looked for beside it.
+const THIN: f64 = 1e-7;
+
+/// Ways at a smaller angle, as they change `n` and `L`, have the same direction.
+const PARALLEL: f64 = 1e-4;
+
+/// Half ways end within this of the half turn of their start.
+const HALF_TURN: f64 = 1e-4;
+
+/// Times along both flows: from the start to the plane, and between two states in it by half of the fast and of the slow way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Lattice {
+    pub(super) to_plane: [f64; 2],
+    pub(super) fast: [f64; 2],
+    pub(super) slow: [f64; 2],
+    /// Half of the slow way is half a turn about X, not about Z.
+    pub(super) about_x: bool,
+}
+
+/// States in the plane of the torus through a state. None where they are not found within so many steps.
+pub(super) fn lattice(integrals: &Integrals<f64>, unit: f64, start: &Axes<f64>) -> Option<Lattice> {
+    // Few digits will do, but near the separatrix.
+    [integrals.with(COARSE), *integrals].into_iter().find_map(|integrals| {
+        let from = |start: &Axes<f64>| Walk::new(&integrals, unit).from(start);
+        match from(start) {
+            Walked::Lattice(lattice) => return Some(lattice),
+            Walked::Thin => (),
+            Walked::Nothing => return None,
+        }
+        // The ways of a circle are the limit of those of the tori about it: `n` or also `L` are moved.
+        let [n, momentum, u] = start;
+        let axis = (n + Vector3::new(0.6, 0.5, -0.3) * MOVED).normalize();
+        [0.0, MOVED].into_iter().find_map(|part| {
+            match from(&[axis, momentum + Vector3::new(-0.4, 0.7, 0.5) * (part * unit), *u]) {
+                Walked::Lattice(lattice) => Some(lattice),
+                _ => None,
+            }
+        })
+    })
+}
+
+enum Walked {
+    Lattice(Lattice),
+    Thin,
+    Nothing,
+}
+
+struct Walk<'a> {
+    integrals: &'a Integrals<f64>,
+    search: Search<'a, f64>,
+    unit: f64,
+    /// Number of states seen.
+    seen: f64,
+    /// Sum over them of the squared changes of `n` and `L` and the squared turn of the body by the time along each flow.
+    metric: Vector2<f64>,
+    /// States in the plane, and the times to them from the start.
+    found: Vec<(Vector2<f64>, Axes<f64>)>,
+}
+
+impl<'a> Walk<'a> {
+    fn new(integrals: &'a Integrals<f64>, unit: f64) -> Self {
+        let search = Search::new(integrals, unit);
+        Self { integrals, search, unit, seen: 0.0, metric: Vector2::zeros(), found: Vec::new() }
+    }
+
+    fn from(mut self, start: &Axes<f64>) -> Walked {
+        if self.is_thin(start, 0.0) {
+            return Walked::Thin;
+        }
+        for sides in SIDES {
+            match self.over(start, sides) {
+                Walked::Nothing => (),
+                walked => return walked,
+            }
+        }
+        Walked::Nothing
+    }
+
+    /// Along the flow of `K` by some series, and from each point looked at along that of `H` by some.
+    fn over(&mut self, start: &Axes<f64>, [steps, row]: [usize; 2]) -> Walked {
+        // The parameter of a series is about the angle that the body turns by.
+        let time = 1.0 / (self.unit * self.integrals.inverse_inertia());
+        let points = |step: f64, count: usize| (0..count).map(move |part| step * part as f64 / count as f64);
+        let (mut at, mut k) = (*start, 0.0);
+        for _ in 0..steps {
+            let slow = self.integrals.series([0.0, time], &at);
+            for along in points(slow.step, POINTS[1]) {
+                let (mut state, mut t) = (slow.at(along), 0.0);
+                for _ in 0..row {
+                    let fast = self.integrals.series([time, 0.0], &state);
+                    for past in points(fast.step, POINTS[0]) {
+                        if !self.look(&fast.at(past), Vector2::new(t + past, k + along) * time) {
+                            continue;
+                        }
+                        if self.found.len() == 1 && self.is_thin(&self.found[0].1, THIN) {
+                            return Walked::Thin;
+                        }
+                        if let Some(lattice) = self.complete() {
+                            return Walked::Lattice(lattice);
+                        }
+                    }
+                    state = fast.at(fast.step);
+                    t += fast.step;
+                }
+            }
+            at = slow.at(slow.step);
+            k += slow.step;
+        }
+        Walked::Nothing
+    }
+
+    /// Whether both flows lead the same way, or nowhere.
+    fn is_thin(&self, at: &Axes<f64>, thin: f64) -> bool {
+        let values = self.tangents(at).singular_values();
+        values.min() <= thin * values.max()
+    }
+
+    fn tangents(&self, at: &Axes<f64>) -> Matrix6x2<f64> {
+        Matrix6x2::from_columns(&self.integrals.both_rates(at).map(|rates| joined(&rates, self.unit, |x| x)))
+    }
+
+    /// Whether a state in the plane was found from a state at some times from the start.
+    fn look(&mut self, at: &Axes<f64>, times: Vector2<f64>) -> bool {
+        let (tangents, turns) = (self.tangents(at), self.integrals.turning_rates(at));
+        let turns = Matrix3x2::from_columns(&turns);
+        self.seen += 1.0;
+        for (flow, metric) in self.metric.iter_mut().enumerate() {
+            *metric += tangents.column(flow).norm_squared() + turns.column(flow).norm_squared();
+        }
+        let Some((_, change, length)) = self.search.step_to_plane(at) else { return false };
+        let change = Vector2::from(change);
+        let predicted = times + change;
+        let is_known = |known: &Vector2<f64>| self.length(&(predicted - known)) <= SAME * self.length(&change);
+        if length.is_nan() || length > NEAR || self.found.iter().any(|(known, _)| is_known(known)) {
+            return false;
+        }
+        self.add(at, times)
+    }
+
+    /// Newton's steps from a state to one in the plane that is not yet known.
+    fn add(&mut self, at: &Axes<f64>, times: Vector2<f64>) -> bool {
+        let Some((times, end)) = self.search.on_to_plane(*at, times.into()) else { return false };
+        let times = Vector2::from(times);
+        let apart = self.found.iter().map(|(known, _)| self.length(&(times - known)));
+        let is_new = apart.fold(f64::INFINITY, f64::min) > ONE * (1e-3 * self.seen.sqrt() + self.length(&times));
+        if is_new {
+            self.found.push((times, end));
+        }
+        is_new
+    }
+
+    /// How far times along both flows lead: the body turns and `n` and `L` move, by the states seen, without what one flow takes back of the other.
+    fn length(&self, times: &Vector2<f64>) -> f64 {
+        self.along(times, times).sqrt()
+    }
+
+    /// The product of ways that [`length`](Self::length) is the square root of.
+    fn along(&self, a: &Vector2<f64>, b: &Vector2<f64>) -> f64 {
+        a.component_mul(&self.metric).dot(b)
+    }
+
+    /// The lattice of the states in the plane, if they are all there: none is left inside a cell of those found.
+    fn complete(&mut self) -> Option<Lattice> {
+        'found: loop {
+            let [a, b] = self.basis()?;
+            let (origin, plane) = self.found[0];
+            // They lie symmetrically, so that half of the cell will do.
+            let mut row = plane;
+            for i in 0..CELL {
+                let mut at = row;
+                for j in 0..=CELL / 2 {
+                    let way = (a * i as f64 + b * j as f64) / CELL as f64;
+                    if (i, j) != (0, 0) && self.is_inside(&at, way, [a, b]) && self.add(&at, origin + way) {
+                        continue 'found;
+                    }
+                    at = self.integrals.moved((b / CELL as f64).into(), &at);
+                }
+                row = self.integrals.moved((a / CELL as f64).into(), &row);
+            }
+            return self.named([a, b]);
+        }
+    }
+
+    /// Whether a state of the plane is predicted near one at some way from another, and not at a corner of the cell of two ways.
+    fn is_inside(&self, at: &Axes<f64>, way: Vector2<f64>, [a, b]: [Vector2<f64>; 2]) -> bool {
+        let Some((_, change, _)) = self.search.step_to_plane(at) else { return false };
+        let change = Vector2::from(change);
+        let parts = [(way + change).perp(&b), a.perp(&(way + change))].map(|area| area / a.perp(&b));
+        let beside = parts.into_iter().any(|part| (part - part.round()).abs() > SAME / CELL as f64);
+        beside && self.length(&change) < 2.0 / CELL as f64 * self.length(&a).max(self.length(&b))
+    }
+
+    /// The shortest two independent ways between states that were found.
+    fn basis(&self) -> Option<[Vector2<f64>; 2]> {
+        let origin = self.found[0].0;
+        let mut ways: Vec<_> = self.found[1..].iter().map(|(times, _)| times - origin).collect();
+        ways.sort_by(|a, b| self.length(a).total_cmp(&self.length(b)));
+        let unit = self.metric.product().sqrt();
+        let first = *ways.first()?;
+        let sine = |way: &Vector2<f64>| first.perp(way).abs() * unit / (self.length(&first) * self.length(way));
+        let second = ways.iter().find(|way| sine(way) > PARALLEL)?;
+        Some(self.reduced(first, *second))
+    }
+
+    /// Shorter ways with the same sums: Gauss' reduction.
+    fn reduced(&self, mut a: Vector2<f64>, mut b: Vector2<f64>) -> [Vector2<f64>; 2] {
+        for _ in 0..100 {
+            if self.length(&a) > self.length(&b) {
+                (a, b) = (b, a);
+            }
+            let whole = (self.along(&a, &b) / self.along(&a, &a)).round();
+            if whole == 0.0 {
+                break;
+            }
+            b -= a * whole;
+        }
+        [a, b]
+    }
+
+    /// Which of two ways and their sum lead to the half turn of the start, and which of the others is the fast one.
+    fn named(&self, [a, b]: [Vector2<f64>; 2]) -> Option<Lattice> {
+        let (to_plane, plane) = self.found[0];
+        let ends = [a, b, a + b].map(|way| (way, self.integrals.moved(way.into(), &plane)));
+        let about_x = |v: &Vector3<f64>| Vector3::new(v.x, -v.y, -v.z);
+        let nearest = |turned: fn(&Vector3<f64>) -> Vector3<f64>| {
+            let gaps = ends.map(|(_, end)| {
+                let [n, momentum] = [0, 1].map(|i| (end[i] - turned(&plane[i])).amax());
+                n.max(momentum / self.unit)
+            });
+            (0..3).min_by(|&i, &j| gaps[i].total_cmp(&gaps[j])).filter(|&i| gaps[i] < HALF_TURN)
+        };
+        let (place, is_about_x) = match (nearest(half_turn), nearest(about_x)) {
+            (Some(place), _) => (place, false),
+            (None, Some(place)) => (place, true),
+            (None, None) => return None,
+        };
+        let slow = ends[place].0;
+        // Whole ways of the other kind are left out of each.
+        let less = |way: Vector2<f64>, by: Vector2<f64>| {
+            way - by * (2.0 * (self.along(&way, &by) / self.along(&by, &by) / 2.0).round())
+        };
+        // Of the other two, that which goes less far along the flow of K: this moves the averaged L.
+        let others = (0..3).filter(|i| *i != place).map(|i| less(ends[i].0, slow));
+        let fast = others.min_by(|a, b| a.y.abs().total_cmp(&b.y.abs()))?;
+        let slow = less(slow, fast);
+        let forwards = |way: Vector2<f64>, flow: usize| way * way[flow].signum();
+        let (fast, slow) = (forwards(fast, 0), forwards(slow, 1));
+        // The same state, less whole ways from the start.
+        let area = 2.0 * fast.perp(&slow);
+        let to_plane = to_plane
+            - fast * (2.0 * (to_plane.perp(&slow) / area).round())
+            - slow * (2.0 * (fast.perp(&to_plane) / area).round());
+        Some(Lattice { to_plane: to_plane.into(), fast: fast.into(), slow: slow.into(), about_x: is_about_x })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix3;
+
+    use super::super::flow::DOUBLE;
+    use super::*;
+    use crate::solutions::torus::plane::tests::BODY;
+
+    /// `L` fast and slow, at rest, on `n`, on an axis, and with `n` in a well: half ways end in the plane, one at the half turn of its start, and at no half or third of them is a state in the plane.
+    #[test]
+    fn half_ways_lead_from_plane_to_plane() {
+        let values = Vector3::new(-0.4, 0.0, 0.6);
+        let integrals = Integrals::new(&BODY, &Matrix3::from_diagonal(&values), 1.0, DOUBLE);
+        let tilted = Vector3::<f64>::new(0.48, 0.6, 0.64);
+        let starts: [(_, Vector3<f64>, _); 7] = [
+            (tilted, Vector3::new(0.4, -0.7, 19.0), false),
+            (tilted, Vector3::new(0.3, -0.2, 0.5), false),
+            (tilted, Vector3::new(19.0, 0.6, 0.3), true),
+            (tilted, Vector3::zeros(), true),
+            (tilted, tilted * 9.0, false),
+            (tilted, Vector3::z() * 9.0, false),
+            (Vector3::new(0.995, 0.06, 0.08).normalize(), Vector3::new(0.1, 0.02, 0.03), true),
+        ];
+        for (n, momentum, about_x) in starts {
+            let unit = momentum.norm().max(1.4);
+            let start = [n, momentum, n.cross(&Vector3::new(0.1, 0.7, -0.2)).normalize()];
+            let found = lattice(&integrals, unit, &start).unwrap();
+            assert_eq!(found.about_x, about_x, "{n} {momentum}");
+            let search = Search::new(&integrals, unit);
+            let (_, plane) = search.on_to_plane(integrals.moved(found.to_plane, &start), found.to_plane).unwrap();
+            let off = |[n, momentum, _]: &Axes<f64>| n.y.abs().max((momentum.y / unit).abs());
+            let half = |ways: [[f64; 2]; 2], shares: [f64; 2]| {
+                let times = [0, 1].map(|i| ways[0][i] * shares[0] + ways[1][i] * shares[1]);
+                integrals.moved(times, &plane)
+            };
+            let at = |shares| half([found.fast, found.slow], shares);
+            // Within what few digits and a neighbour of a circle leave.
+            assert!(off(&at([1.0, 0.0])).max(off(&at([0.0, 1.0]))) < 1e-2, "{found:?}");
+            let turned = if about_x { |v: &Vector3<f64>| Vector3::new(v.x, -v.y, -v.z) } else { half_turn };
+            let end = at([0.0, 1.0]);
+            let gap = (end[0] - turned(&plane[0])).amax().max((end[1] - turned(&plane[1])).amax() / unit);
+            assert!(gap < 1e-2, "{gap:e} {found:?}");
+            let between = [[0.5, 0.0], [0.0, 0.5], [0.5, 0.5], [1.0 / 3.0, 0.0], [0.0, 1.0 / 3.0]];
+            let is_circle = [tilted * 9.0, Vector3::z() * 9.0].contains(&momentum);
+            assert!(is_circle || between.into_iter().all(|shares| off(&at(shares)) > 1e-2), "{found:?}");
+        }
+    }
+}
