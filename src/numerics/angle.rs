@@ -45,12 +45,12 @@ pub(crate) fn sin_cos_of_turns<F: FourLanes>(turns: f64) -> (f64, f64) {
     // 2 3, 4 5, ... and 1 2, 3 4, ...: what is left out is below (pi / 4)^18 / 18! = 2e-18.
     let sin = x * horner([6.0, 20.0, 42.0, 72.0, 110.0, 156.0, 210.0, 272.0]);
     let cos = horner([2.0, 12.0, 30.0, 56.0, 90.0, 132.0, 182.0, 240.0]);
-    match quarters as i32 & 3 {
-        0 => (sin, cos),
-        1 => (cos, -sin),
-        2 => (-sin, -cos),
-        _ => (-cos, sin),
-    }
+    // Without branches, which random phases would mispredict.
+    let quarters = quarters as i64 as u64;
+    let swap = (quarters & 1).wrapping_neg();
+    let either = |a: f64, b: f64| a.to_bits() & !swap | b.to_bits() & swap;
+    let signed = |bits: u64, sign: u64| f64::from_bits(bits ^ (sign & 2) << 62);
+    (signed(either(sin, cos), quarters), signed(either(cos, sin), quarters.wrapping_add(1)))
 }
 
 #[cfg(test)]

@@ -115,7 +115,7 @@ impl PhasedMotion {
         Ok(Self { problem: *problem, solution: Solution::Torus(TorusSolution::new(problem, 0.0, longest)?) })
     }
 
-    /// Rates of the phases (rad per unit of time).
+    /// Rates of the phases (rad per unit of time): on the torus those of its angles, of an averaged motion about `L`, of `L` about its axis, and of `e_x` about `n`.
     pub fn rates(&self) -> [f64; 3] {
         match &self.solution {
             Solution::Averaged { mean, .. } => [mean.rates.about_momentum, mean.rates.slow, mean.rates.about_axis],

@@ -15,6 +15,9 @@ const POINTS: [usize; 2] = [32, 256];
 /// Largest change of an angle between two points of the grid (rad), below a quarter turn.
 const LARGEST_STEP: f64 = 1.5;
 
+/// An averaged `L` below this part of its largest is rounding.
+const SMALLEST_MOMENTUM: f64 = 1e-9;
+
 /// The mean rate of an angle of the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FundamentalFrequency {
@@ -32,7 +35,7 @@ pub struct FundamentalFrequency {
 /// their rates. The angles, about the principal axis of `s^IJ` that the averaged `L` goes round (Z for a free one):
 ///
 /// * `alpha'`, `gamma'`: the Euler angles `alpha` and `gamma`. They have no mean rate where `n` comes as near as one likes to a pole of the axis.
-/// * `l'`: the azimuth of `L` averaged over the fast rotation, the slow precession.
+/// * `l'`: the azimuth of `L` averaged over the fast rotation, the slow precession. Neither it nor `nu'` is where that `L` passes zero, as after a start from rest.
 /// * `nu'`: the turn of the fast part of `n` about the averaged `L`, from the plane of `L` and the axis: the nutation.
 /// * `psi'`: the turn of `e_x` about `n`, from the direction in which that part of `n` moves, or from a fixed one where it has no such part.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,7 +65,6 @@ impl FundamentalFrequencies {
             }
             grid = Grid::new(&state, 2 * grid.count, pole);
         };
-        let axes = [grid.nutation(), grid.slow(), grid.body()];
         let mut all = Vec::new();
         let mut add = |symbol, turns: [i32; 3]| {
             all.push(FundamentalFrequency { symbol, rate: rate_of(&rates, turns), turns });
@@ -71,10 +73,14 @@ impl FundamentalFrequencies {
             add("alpha'", alpha);
             add("gamma'", gamma);
         }
-        let [nutation, slow, body] = axes;
-        add("l'", slow);
-        add("nu'", nutation);
-        add("psi'", body);
+        // A body that begins at rest swings: its averaged L goes round nothing.
+        let [nutation, slow] = if grid.has_momentum() { [grid.nutation(), grid.slow()].map(Some) } else { [None; 2] };
+        let body = grid.body();
+        for (symbol, turns) in ["l'", "nu'", "psi'"].into_iter().zip([slow, nutation, Some(body)]) {
+            if let Some(turns) = turns {
+                add(symbol, turns);
+            }
+        }
         let moving = rates.map(|rate| rate.high != 0.0);
         let mut basis = basis(&all, moving);
         if basis.is_empty() {
@@ -204,6 +210,12 @@ impl Grid {
         });
         let sense = || sign(area(self.states[..self.count].iter().map(|state| state.axis), &self.means[0][1]));
         from_plane.filter(|turns| turns[0].abs() == 1).unwrap_or_else(|| [sense(), 0, 0])
+    }
+
+    /// Whether the averaged `L` is nowhere zero.
+    fn has_momentum(&self) -> bool {
+        let sizes = || self.means.iter().map(|[_, momentum]| momentum.norm());
+        sizes().fold(f64::INFINITY, f64::min) > SMALLEST_MOMENTUM * sizes().fold(0.0, f64::max)
     }
 
     /// The sense in which the averaged `L` goes round the axis.

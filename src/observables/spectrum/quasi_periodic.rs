@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::fundamental_frequencies::{FundamentalFrequencies, rate_of};
 use crate::dynamics::{BodyState, Problem};
 use crate::error::Error;
-use crate::propagation::PhasedMotion;
+use crate::propagation::{PhasedMotion, largest_torque};
 
 /// Rates are found to 32 digits, as for a motion of so many turns.
 const TURNS: f64 = 1e15;
@@ -31,8 +31,11 @@ impl QuasiPeriodicMotion {
     /// # Errors
     /// As for [`PhasedMotion::exact`]: near the separatrix.
     pub fn new(problem: &Problem<f64>) -> Result<Self, Error> {
-        let momentum = problem.initial().momentum.norm();
-        let longest = if momentum > 0.0 { TURNS * TAU * problem.spheroid().inertia_xx / momentum } else { 1.0 };
+        let (spheroid, momentum) = (problem.spheroid(), problem.initial().momentum.norm());
+        // From rest by what the torque gives.
+        let torque = largest_torque(spheroid, problem.coefficients());
+        let momentum = momentum.max((spheroid.inertia_xx * torque).sqrt());
+        let longest = if momentum > 0.0 { TURNS * TAU * spheroid.inertia_xx / momentum } else { 1.0 };
         let motion = PhasedMotion::exact(problem, longest)?;
         let start = motion.turns([0.0; 2]).map(|turns| turns.fraction);
         let rate_error = (motion.error_estimate(PART * longest) - motion.error_estimate(0.0)) / (PART * longest);

@@ -26,8 +26,8 @@ const CLOSED: f64 = 1e-12;
 /// What rounding leaves of derivatives where both flows differ most: that of some ten steps of the flow, and of their sum.
 const ROUNDING_OF_DERIVATIVES: f64 = 1e-14;
 
-/// So many multiples of an angle fit on the stack.
-const FEW: usize = 16;
+/// So many multiples of both angles fit on the stack.
+const FEW: usize = 48;
 
 /// The exact motion from an initial state: `n`, `L` and `e_x` as Fourier series of two angles that grow in proportion to time, and a third one that turns
 /// `e_x` about `n`.
@@ -55,7 +55,7 @@ pub struct TorusSolution {
     multiples: [usize; 2],
     pub(super) given_from_torus: Matrix3<f64>,
     truncation: f64,
-    /// Difference of the series from the flow.
+    /// Difference of the series from the flow, and the rounding of so many terms.
     off: f64,
     /// Error of a state per unit of time, by the rates.
     drift: f64,
@@ -63,7 +63,7 @@ pub struct TorusSolution {
 }
 
 impl TorusSolution {
-    /// The motion of a problem, with the largest error wanted of the components of `n`, `e_x` and `L / |L|`, for times up to `longest` in size. For long ones
+    /// The motion of a problem, with the largest error wanted of the components of `n`, `e_x` and `L`, for times up to `longest` in size. For long ones
     /// the closed ways are found to 32 digits, which takes a few ms.
     ///
     /// # Errors
@@ -115,7 +115,8 @@ impl TorusSolution {
             fused: detect_fused(),
         };
         let gap = solution.gap(torus);
-        solution.off = 2.0 * gap.max(sampled.open);
+        let terms = (solution.axes.len() + solution.vector.len()) as f64;
+        solution.off = 2.0 * gap.max(sampled.open) + 0.5 * ROUNDING * terms.sqrt();
         if gap <= 10.0 * solution.truncation + CLOSED {
             return Ok(solution);
         }
@@ -163,7 +164,8 @@ impl TorusSolution {
         8.0 * ROUNDING + self.off + self.drift * t.abs()
     }
 
-    /// Estimated error of the components of `n`, `e_x` and `L / |L|` at a time since the start.
+    /// Estimated error of the components of `n`, `e_x` and `L` at a time since the start, of `L` in units of its size at the start or of `(2 I^xx |C| (s_max - s_min))^(1/2)`, which the torque can
+    /// give it, if that is larger.
     pub fn error_estimate(&self, t: f64) -> f64 {
         self.truncation + self.rounding(t)
     }
@@ -214,7 +216,8 @@ impl TorusSolution {
     #[inline(always)]
     fn axis_state_by<F: FourLanes>(&self, four: F, t: [f64; 2]) -> AxisState<f64> {
         let [first, second, _] = &self.phases;
-        self.axes_at(four, &self.turns::<F>([first.at::<F>(t), second.at::<F>(t)]))
+        let turns = [first.at::<F>(t), second.at::<F>(t)];
+        self.with_multiples(four, turns, |first, second| self.axes_at(four, first, second))
     }
 
     #[inline(always)]
@@ -223,15 +226,27 @@ impl TorusSolution {
         self.state_at(four, [first.at::<F>(t), second.at::<F>(t), third.at::<F>(t)])
     }
 
+    /// Uses turns by all multiples of two angles.
     #[inline(always)]
-    fn turns<F: FourLanes>(&self, turns: [f64; 2]) -> [Multiples; 2] {
+    fn with_multiples<F: FourLanes, R>(&self, four: F, [a, b]: [f64; 2], sum: impl FnOnce(&[Turn], &[Turn]) -> R) -> R {
         let [first, second] = self.multiples;
-        [Multiples::of::<F>(first, turns[0]), Multiples::of::<F>(second, turns[1])]
+        let mut few = [[0.0; 4]; FEW];
+        let mut many = Vec::new();
+        let all = if first + second <= FEW {
+            &mut few[..first + second]
+        } else {
+            many.resize(first + second, [0.0; 4]);
+            many.as_mut_slice()
+        };
+        let (of_first, of_second) = all.split_at_mut(first);
+        fill_with_turns(four, of_first, sin_cos_of_turns::<F>(a));
+        fill_with_turns(four, of_second, sin_cos_of_turns::<F>(b));
+        sum(of_first, of_second)
     }
 
     #[inline(always)]
-    fn axes_at<F: FourLanes>(&self, four: F, [first, second]: &[Multiples; 2]) -> AxisState<f64> {
-        let values = self.axes.at(four, first.all(), second.all());
+    fn axes_at<F: FourLanes>(&self, four: F, first: &[Turn], second: &[Turn]) -> AxisState<f64> {
+        let values = self.axes.at(four, first, second);
         let ([x, lx, y, ly], [z, lz]) = (values.changing, values.even);
         AxisState {
             axis: self.given_from_torus * Vector3::new(x, y, z),
@@ -241,42 +256,15 @@ impl TorusSolution {
 
     #[inline(always)]
     fn state_at<F: FourLanes>(&self, four: F, [first, second, third]: [f64; 3]) -> BodyState<f64> {
-        let turns = self.turns::<F>([first, second]);
-        let AxisState { axis, momentum } = self.axes_at(four, &turns);
-        let values = self.vector.at(four, turns[0].all(), turns[1].all());
+        let (AxisState { axis, momentum }, values) = self.with_multiples(four, [first, second], |first, second| {
+            (self.axes_at(four, first, second), self.vector.at(four, first, second))
+        });
         let ([real_x, imaginary_y, real_y, imaginary_x], [real_z, _], [_, imaginary_z]) =
             (values.changing, values.even, values.odd);
         let (sin, cos) = sin_cos_of_turns::<F>(third);
         let turned =
             Vector3::new(real_x, real_y, real_z) * cos - Vector3::new(imaginary_x, imaginary_y, imaginary_z) * sin;
         BodyState { axis, momentum, equatorial_axis: self.given_from_torus * turned }
-    }
-}
-
-/// Turns by all multiples of an angle; a few of them on the stack.
-struct Multiples {
-    few: [Turn; FEW],
-    many: Vec<Turn>,
-    count: usize,
-}
-
-impl Multiples {
-    #[inline(always)]
-    fn of<F: FourLanes>(count: usize, turns: f64) -> Self {
-        let mut multiples = Self { few: [[0.0; 4]; FEW], many: Vec::new(), count };
-        let all = if count <= FEW {
-            &mut multiples.few[..count]
-        } else {
-            multiples.many = vec![[0.0; 4]; count];
-            multiples.many.as_mut_slice()
-        };
-        fill_with_turns(all, sin_cos_of_turns::<F>(turns));
-        multiples
-    }
-
-    #[inline(always)]
-    fn all(&self) -> &[Turn] {
-        if self.count <= FEW { &self.few[..self.count] } else { &self.many }
     }
 }
 

@@ -8,18 +8,19 @@ pub(super) type Turn = [f64; 4];
 
 /// Cosines and sines of all multiples of an angle, from zero on.
 #[inline(always)]
-pub(super) fn fill_with_turns(turns: &mut [Turn], (sin, cos): (f64, f64)) {
+pub(super) fn fill_with_turns<F: FourLanes>(four: F, turns: &mut [Turn], (sin, cos): (f64, f64)) {
     for k in 0..turns.len() {
-        let (cos, sin) = match k {
-            0 => (1.0, 0.0),
-            1 => (cos, sin),
+        let turn = match k {
+            0 => four.load(&[1.0, 1.0, 0.0, 0.0]),
+            1 => four.load(&[cos, cos, sin, sin]),
             _ => {
                 // In as few steps after one another as there are binary digits.
-                let ([a, _, b, _], [c, _, d, _]) = (turns[k / 2], turns[k - k / 2]);
-                (a * c - b * d, a * d + b * c)
+                let (near, [c, _, s, _]) = (turns[k - k / 2], turns[k / 2]);
+                let across = four.load(&[-near[2], -near[2], near[0], near[0]]);
+                four.multiply_add(across, four.all(s), four.multiply_add(four.load(&near), four.all(c), four.all(0.0)))
             }
         };
-        turns[k] = [cos, cos, sin, sin];
+        turns[k] = four.store(turn);
     }
 }
 
@@ -153,7 +154,7 @@ mod tests {
     #[test]
     fn turns_are_those_of_multiples() {
         let mut turns = [[0.0; 4]; 40];
-        fill_with_turns(&mut turns, 0.7_f64.sin_cos());
+        fill_with_turns(plain(), &mut turns, 0.7_f64.sin_cos());
         for (k, turn) in turns.iter().enumerate() {
             let (sin, cos) = (0.7 * k as f64).sin_cos();
             for (found, expected) in turn.iter().zip([cos, cos, sin, sin]) {
@@ -190,8 +191,8 @@ mod tests {
             odd: [of(4, false), of(5, false)],
         };
         let (mut first, mut second) = ([[0.0; 4]; 5], [[0.0; 4]; 8]);
-        fill_with_turns(&mut first, a.sin_cos());
-        fill_with_turns(&mut second, b.sin_cos());
+        fill_with_turns(plain(), &mut first, a.sin_cos());
+        fill_with_turns(plain(), &mut second, b.sin_cos());
         let near = |found: Values| {
             let pairs = found.changing.into_iter().zip(expected.changing);
             let pairs = pairs.chain(found.even.into_iter().zip(expected.even));

@@ -29,6 +29,9 @@ const ONE: f64 = 1e-6;
 /// Points along each side of a cell of the lattice at which states inside it are looked for.
 const CELL: usize = 6;
 
+/// More states in the plane need not be found: some are missed, or are found anew.
+const MOST_FOUND: usize = 64;
+
 /// A torus as thin as this against its length is looked for beside it.
 const THIN: f64 = 1e-7;
 
@@ -123,6 +126,9 @@ impl<'a> Walk<'a> {
                         if !self.look(&fast.at(past), Vector2::new(t + past, k + along) * time) {
                             continue;
                         }
+                        if self.found.len() > MOST_FOUND {
+                            return Walked::Nothing;
+                        }
                         if self.found.len() == 1 && self.is_thin(&self.found[0].1, THIN) {
                             return Walked::Thin;
                         }
@@ -158,7 +164,7 @@ impl<'a> Walk<'a> {
         for (flow, metric) in self.metric.iter_mut().enumerate() {
             *metric += tangents.column(flow).norm_squared() + turns.column(flow).norm_squared();
         }
-        let Some((_, change, length)) = self.search.step_to_plane(at) else { return false };
+        let (_, change, length) = self.search.step_to_plane(at);
         let change = Vector2::from(change);
         let predicted = times + change;
         let is_known = |known: &Vector2<f64>| self.length(&(predicted - known)) <= SAME * self.length(&change);
@@ -180,7 +186,7 @@ impl<'a> Walk<'a> {
         is_new
     }
 
-    /// How far times along both flows lead: the body turns and `n` and `L` move, by the states seen, without what one flow takes back of the other.
+    /// How far the flows lead in given times: the body turns, and `n` and `L` move. A mean over the states seen, that does not let the flows cancel.
     fn length(&self, times: &Vector2<f64>) -> f64 {
         self.along(times, times).sqrt()
     }
@@ -201,6 +207,9 @@ impl<'a> Walk<'a> {
                 let mut at = row;
                 for j in 0..=CELL / 2 {
                     let way = (a * i as f64 + b * j as f64) / CELL as f64;
+                    if !at[0].x.is_finite() {
+                        return None;
+                    }
                     if (i, j) != (0, 0) && self.is_inside(&at, way, [a, b]) && self.add(&at, origin + way) {
                         continue 'found;
                     }
@@ -214,8 +223,7 @@ impl<'a> Walk<'a> {
 
     /// Whether a state of the plane is predicted near one at some way from another, and not at a corner of the cell of two ways.
     fn is_inside(&self, at: &Axes<f64>, way: Vector2<f64>, [a, b]: [Vector2<f64>; 2]) -> bool {
-        let Some((_, change, _)) = self.search.step_to_plane(at) else { return false };
-        let change = Vector2::from(change);
+        let change = Vector2::from(self.search.step_to_plane(at).1);
         let parts = [(way + change).perp(&b), a.perp(&(way + change))].map(|area| area / a.perp(&b));
         let beside = parts.into_iter().any(|part| (part - part.round()).abs() > SAME / CELL as f64);
         beside && self.length(&change) < 2.0 / CELL as f64 * self.length(&a).max(self.length(&b))
@@ -253,18 +261,15 @@ impl<'a> Walk<'a> {
         let (to_plane, plane) = self.found[0];
         let ends = [a, b, a + b].map(|way| (way, self.integrals.moved(way.into(), &plane)));
         let about_x = |v: &Vector3<f64>| Vector3::new(v.x, -v.y, -v.z);
-        let nearest = |turned: fn(&Vector3<f64>) -> Vector3<f64>| {
-            let gaps = ends.map(|(_, end)| {
-                let [n, momentum] = [0, 1].map(|i| (end[i] - turned(&plane[i])).amax());
-                n.max(momentum / self.unit)
-            });
-            (0..3).min_by(|&i, &j| gaps[i].total_cmp(&gaps[j])).filter(|&i| gaps[i] < HALF_TURN)
+        let gap = |end: &Axes<f64>, turned: fn(&Vector3<f64>) -> Vector3<f64>| {
+            let [n, momentum] = [0, 1].map(|i| (end[i] - turned(&plane[i])).amax());
+            n.max(momentum / self.unit)
         };
-        let (place, is_about_x) = match (nearest(half_turn), nearest(about_x)) {
-            (Some(place), _) => (place, false),
-            (None, Some(place)) => (place, true),
-            (None, None) => return None,
-        };
+        let gaps = (0..3).flat_map(|i| [(gap(&ends[i].1, half_turn), i, false), (gap(&ends[i].1, about_x), i, true)]);
+        let (gap, place, is_about_x) = gaps.min_by(|(a, ..), (b, ..)| a.total_cmp(b))?;
+        if gap > HALF_TURN {
+            return None;
+        }
         let slow = ends[place].0;
         // Whole ways of the other kind are left out of each.
         let less = |way: Vector2<f64>, by: Vector2<f64>| {

@@ -127,15 +127,15 @@ impl<'a, S: Real> Search<'a, S> {
     }
 
     /// Distances from the plane, and the change of the times that would make them zero if they changed at the same rates all the way; and how far it leads.
-    pub(super) fn step_to_plane(&self, at: &Axes<S>) -> Option<(Vector2<S>, [S; 2], f64)> {
+    pub(super) fn step_to_plane(&self, at: &Axes<S>) -> (Vector2<S>, [S; 2], f64) {
         let share = self.share(at);
         let left = self.distances(&at[0], &at[1], share);
         let rates = self.integrals.both_rates(at);
         let [by_h, by_k] = rates.map(|[n, momentum, _]| self.distances(&n, &momentum, share));
-        let change = step_to_zero([by_h, by_k], left, self.rate)?;
+        let change = step_to_zero([by_h, by_k], left, self.rate);
         let way =
             joined(&rates[0], self.unit, S::re) * change.x.re() + joined(&rates[1], self.unit, S::re) * change.y.re();
-        Some((left, [change.x, change.y], way.norm()))
+        (left, [change.x, change.y], way.norm())
     }
 
     /// The way near given times that ends in the plane `Y = 0`. Flows commute, so that the rates at the end lead there.
@@ -147,7 +147,7 @@ impl<'a, S: Real> Search<'a, S> {
     pub(super) fn on_to_plane(&self, mut at: Axes<S>, mut times: [S; 2]) -> Option<([S; 2], Axes<S>)> {
         let mut least = f64::INFINITY;
         for step in 0..MOST_CORRECTIONS {
-            let (left, change, length) = self.step_to_plane(&at)?;
+            let (left, change, length) = self.step_to_plane(&at);
             let size = left.map(S::re).amax();
             if !size.is_finite() {
                 return None;
@@ -177,7 +177,7 @@ impl<'a, S: Real> Search<'a, S> {
 
 /// Times that change the distances by minus what they are, from the changes by each of them. A distance that does not change with them is rounding, or the motion does
 /// not depend on that angle: nothing is done about it.
-fn step_to_zero<S: Real>([by_h, by_k]: [Vector2<S>; 2], left: Vector2<S>, rate: f64) -> Option<Vector2<S>> {
+fn step_to_zero<S: Real>([by_h, by_k]: [Vector2<S>; 2], left: Vector2<S>, rate: f64) -> Vector2<S> {
     let norm = |row: &Vector2<S>| row.map(S::re).norm();
     // One flow may be much slower than the other.
     let scales = [norm(&by_h), norm(&by_k)].map(|size| S::from_f64(if size > STILL * rate { size } else { rate }));
@@ -191,15 +191,18 @@ fn step_to_zero<S: Real>([by_h, by_k]: [Vector2<S>; 2], left: Vector2<S>, rate: 
         (true, true) => {
             let determinant = first.x * second.y - first.y * second.x;
             if determinant.re().abs() <= STILL * norm(first) * norm(second) {
-                return None;
+                // Both distances change alike, on a circle: the nearest to both.
+                let share = second.dot(first) / first.dot(first);
+                along(first, (left.x + share * left.y) / (S::one() + share * share))
+            } else {
+                Vector2::new(
+                    (first.y * left.y - second.y * left.x) / determinant,
+                    (second.x * left.x - first.x * left.y) / determinant,
+                )
             }
-            Vector2::new(
-                (first.y * left.y - second.y * left.x) / determinant,
-                (second.x * left.x - first.x * left.y) / determinant,
-            )
         }
     };
-    Some(Vector2::new(change.x / scales[0], change.y / scales[1]))
+    Vector2::new(change.x / scales[0], change.y / scales[1])
 }
 
 #[cfg(test)]
@@ -252,14 +255,17 @@ mod tests {
         let rows = |a: [f64; 2], b: [f64; 2]| [Vector2::new(a[0], b[0]), Vector2::new(a[1], b[1])];
         let left = Vector2::new(0.3, 0.2);
         let step = |a: [f64; 2], b: [f64; 2]| step_to_zero(rows(a, b), left, 1.0);
-        assert_eq!(step([0.0; 2], [0.0; 2]), Some(Vector2::zeros()));
-        assert_eq!(step([0.0; 2], [0.0, 2.0]), Some(Vector2::new(0.0, -0.1)));
-        assert_eq!(step([3.0, 0.0], [0.0; 2]).map(|v| (v.x * 10.0).round()), Some(-1.0));
-        assert_eq!(step([3.0, 1.0], [6.0, 2.0]), None);
+        assert_eq!(step([0.0; 2], [0.0; 2]), Vector2::zeros());
+        assert_eq!(step([0.0; 2], [0.0, 2.0]), Vector2::new(0.0, -0.1));
+        assert!((step([3.0, 0.0], [0.0; 2]).x + 0.1).abs() < 1e-15);
+        // On a circle both distances change alike: what they are is met as well as one number can.
+        let met = step([3.0, 1.0], [6.0, 2.0]);
+        let rest = Vector2::new(3.0 * met.x + met.y + 0.3, 6.0 * met.x + 2.0 * met.y + 0.2);
+        assert!((rest.x + 2.0 * rest.y).abs() < 1e-15 && (met.y - 3.0 * met.x).abs() < 1e-15, "{met}");
         // A flow may be slow, but not as slow as rounding.
-        assert_eq!(step([3.0, 0.0], [0.0, 2e-9]).map(|v| (v.y / 1e6).round()), Some(-100.0));
-        assert_eq!(step([3.0, 0.0], [0.0, 2e-15]).map(|v| v.y), Some(0.0));
-        let both = step([3.0, 1.0], [1.0, 2.0]).unwrap();
+        assert_eq!((step([3.0, 0.0], [0.0, 2e-9]).y / 1e6).round(), -100.0);
+        assert_eq!(step([3.0, 0.0], [0.0, 2e-15]).y, 0.0);
+        let both = step([3.0, 1.0], [1.0, 2.0]);
         assert!((3.0 * both.x + both.y + 0.3).abs() < 1e-15 && (both.x + 2.0 * both.y + 0.2).abs() < 1e-15);
     }
 }
