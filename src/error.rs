@@ -27,7 +27,7 @@ pub enum Error {
         what: &'static str,
         /// Iterations spent.
         iterations: usize,
-        /// Remaining residual.
+        /// Remaining residual; not a number where nothing was found.
         residual: f64,
     },
 }
@@ -58,6 +58,7 @@ impl fmt::Display for Error {
                 }
             }
             Error::Unsupported { what, why } => write!(f, "{what}: {why}"),
+            Error::NotConverged { what, residual, .. } if residual.is_nan() => write!(f, "{what}: not found"),
             Error::NotConverged { what, iterations, residual } => {
                 write!(f, "{what}: no convergence in {iterations} iterations, residual {residual:e}")
             }

@@ -77,11 +77,12 @@ impl Torus {
         };
         let lost = |what| Error::NotConverged { what, iterations: 1, residual: f64::NAN };
         let (turn, values_in_frame, integrals, start) = in_frame(x);
-        let found = lattice(&integrals, unit, &start).ok_or(lost("walk over the torus to its symmetric states"))?;
+        let found =
+            lattice(&integrals, unit, &start).ok_or(lost("symmetric states of the torus, as near the separatrix"))?;
         let (turn, values, integrals, initial) =
             if found.about_x { in_frame(z) } else { (turn, values_in_frame, integrals, start) };
         let ways = ClosedWays::near(&integrals, unit, &initial, [found.to_plane, found.fast, found.slow]);
-        let ways = ways.ok_or(lost("closed ways of the torus"))?;
+        let ways = ways.ok_or(lost("closed ways of the torus, as near the separatrix"))?;
         Ok(Self { spheroid, values, spread, unit, initial, ways, integrals, from_given: turn * frame })
     }
 
