@@ -74,13 +74,11 @@ impl FundamentalFrequencies {
             add("gamma'", gamma);
         }
         // A body that begins at rest swings: its averaged L goes round nothing.
-        let [nutation, slow] = if grid.has_momentum() { [grid.nutation(), grid.slow()].map(Some) } else { [None; 2] };
-        let body = grid.body();
-        for (symbol, turns) in ["l'", "nu'", "psi'"].into_iter().zip([slow, nutation, Some(body)]) {
-            if let Some(turns) = turns {
-                add(symbol, turns);
-            }
+        if grid.has_momentum() {
+            add("l'", grid.slow());
+            add("nu'", grid.nutation());
         }
+        add("psi'", grid.body());
         let moving = rates.map(|rate| rate.high != 0.0);
         let mut basis = basis(&all, moving);
         if basis.is_empty() {

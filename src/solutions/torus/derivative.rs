@@ -1,14 +1,14 @@
 //! Derivatives of the exact motion by a parameter, at a cost that does not depend on time.
 
-use nalgebra::{Matrix3, Matrix6x2, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 
 use super::TorusSolution;
-use super::flow::{Axes, DOUBLE, Integrals, derivative, joined};
+use super::flow::{Axes, DOUBLE, Integrals, derivative, joined, tangents};
 use crate::dynamics::{BodyState, Problem, RotationState};
 use crate::error::Error;
 use crate::numerics::angle::about;
-use crate::numerics::scalar::{Real, Scalar};
+use crate::numerics::scalar::Scalar;
 
 /// What a closed way may leave between a changed start and its end beside the torus, in units of the change.
 const CLOSED: f64 = 1e-8;
@@ -70,7 +70,7 @@ impl<'a> TorusDerivative<'a> {
                 return Err(not_closed(f64::NAN));
             }
             let rates = found.integrals.both_rates(&end);
-            let tangents = Matrix6x2::from_columns(&[0, 1].map(|flow| joined(&rates[flow], size, Real::re)));
+            let tangents = tangents(&rates, size);
             let svd = tangents.svd(true, true);
             let slopes =
                 svd.solve(&open, f64::EPSILON * svd.singular_values.max()).expect("both factors were asked for");

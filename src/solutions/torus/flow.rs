@@ -1,6 +1,6 @@
 //! Flows of the integrals, by Taylor series.
 
-use nalgebra::{Matrix3, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6x2, Vector3, Vector6};
 use num_dual::Dual64;
 
 use crate::dynamics::RigidSpheroid;
@@ -216,6 +216,17 @@ fn times_vector<S: Real>(matrix: &Matrix3<S>, v: &Vector3<S>) -> Vector3<S> {
 pub(super) fn joined<S: Real>([n, momentum, _]: &Axes<S>, size: f64, part: fn(S) -> f64) -> Vector6<f64> {
     let (n, l) = (n.map(part), momentum.map(part) / size);
     Vector6::new(n.x, n.y, n.z, l.x, l.y, l.z)
+}
+
+/// Values of the rates of `n`, and of `L` in its unit, along both flows.
+pub(super) fn tangents<S: Real>(rates: &[Axes<S>; 2], unit: f64) -> Matrix6x2<f64> {
+    Matrix6x2::from_columns(&[0, 1].map(|flow| joined(&rates[flow], unit, S::re)))
+}
+
+/// Largest difference of a component of `n`, or of `L` in its unit.
+pub(super) fn apart<S: Real>(a: &Axes<S>, b: &Axes<S>, unit: f64) -> f64 {
+    let [n, momentum] = [0, 1].map(|i| (a[i] - b[i]).map(S::re).amax());
+    n.max(momentum / unit)
 }
 
 /// The derivative of a dual number, zero of others.

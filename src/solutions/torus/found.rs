@@ -1,14 +1,13 @@
 //! The torus of a motion: a frame in which it has its symmetries, and its closed ways.
 
-use nalgebra::{Matrix3, Matrix6x2, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
-use super::flow::{Axes, DOUBLE, Integrals, joined};
+use super::flow::{Axes, DOUBLE, Integrals, tangents};
 use super::walk::lattice;
 use super::ways::{ClosedWays, HalfWay};
 use crate::dynamics::{BodyState, Problem, RigidSpheroid, RotationState};
 use crate::error::Error;
 use crate::lorentz_violation::principal_frame;
-use crate::numerics::scalar::Real;
 use crate::solutions::averaged::mean_direction;
 
 /// Rounding of the ends of a closed way.
@@ -88,8 +87,7 @@ impl Torus {
 
     /// Singular values of the rates of both flows at the state in the plane: the second is zero for a thin torus.
     pub(super) fn widths(&self) -> [f64; 2] {
-        let columns = self.integrals.both_rates(&self.ways.plane).map(|rates| joined(&rates, self.unit, f64::re));
-        let values = Matrix6x2::from_columns(&columns).singular_values();
+        let values = tangents(&self.integrals.both_rates(&self.ways.plane), self.unit).singular_values();
         [values.max(), values.min()]
     }
 

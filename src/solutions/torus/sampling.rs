@@ -1,6 +1,6 @@
 //! Coefficients of a motion on its torus, from a grid of flows.
 
-use super::flow::Axes;
+use super::flow::{Axes, apart};
 use super::found::Torus;
 use super::fourier::{Pair, QuarterGrid, Reflection};
 use crate::error::Error;
@@ -77,8 +77,7 @@ fn sampled(torus: &Torus, starts: &[Axes<f64>], grid: &QuarterGrid) -> (Vec<Coef
     for (m, start) in starts.iter().enumerate() {
         // From the start of a row half a turn either way: rounding grows as it goes.
         let [(forwards, end), (backwards, other)] = [1.0, -1.0].map(|sense| half_row(torus, start, points, sense));
-        let [n, momentum] = [0, 1].map(|i| (end[i] - other[i]).amax());
-        open = open.max(n).max(momentum / unit);
+        open = open.max(apart(&end, &other, unit));
         let places = (0..points / 2).chain((points / 2..points).rev());
         for (j, [n, momentum, u]) in places.zip(forwards.into_iter().chain(backwards)) {
             let part = if j < points / 2 { j as f64 } else { j as f64 - points as f64 } / points as f64;

@@ -3,9 +3,9 @@
 //! The reflection in the plane takes the torus to itself and turns both angles round: `theta -> c - theta`. So it leaves four states unchanged, half closed ways
 //! apart from one another, and these are the states in the plane. Their times along both flows form a lattice, that of the halves of closed ways.
 
-use nalgebra::{Matrix3x2, Matrix6x2, Vector2, Vector3};
+use nalgebra::{Vector2, Vector3};
 
-use super::flow::{Axes, COARSE, Integrals, joined};
+use super::flow::{Axes, COARSE, Integrals, apart, tangents};
 use super::ways::{Search, half_turn};
 
 /// Series along the flow of `K` from the start, and along that of `H` from each point on it.
@@ -71,6 +71,11 @@ pub(super) fn lattice(integrals: &Integrals<f64>, unit: f64, start: &Axes<f64>) 
             }
         })
     })
+}
+
+/// `v` turned by half a turn about X.
+fn about_x(v: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(v.x, -v.y, -v.z)
 }
 
 enum Walked {
@@ -148,26 +153,20 @@ impl<'a> Walk<'a> {
 
     /// Whether both flows lead the same way, or nowhere.
     fn is_thin(&self, at: &Axes<f64>, thin: f64) -> bool {
-        let values = self.tangents(at).singular_values();
+        let values = tangents(&self.integrals.both_rates(at), self.unit).singular_values();
         values.min() <= thin * values.max()
-    }
-
-    fn tangents(&self, at: &Axes<f64>) -> Matrix6x2<f64> {
-        Matrix6x2::from_columns(&self.integrals.both_rates(at).map(|rates| joined(&rates, self.unit, |x| x)))
     }
 
     /// Whether a state in the plane was found from a state at some times from the start.
     fn look(&mut self, at: &Axes<f64>, times: Vector2<f64>) -> bool {
-        let (tangents, turns) = (self.tangents(at), self.integrals.turning_rates(at));
-        let turns = Matrix3x2::from_columns(&turns);
+        let (step, turns) = (self.search.step_to_plane(at), self.integrals.turning_rates(at));
         self.seen += 1.0;
         for (flow, metric) in self.metric.iter_mut().enumerate() {
-            *metric += tangents.column(flow).norm_squared() + turns.column(flow).norm_squared();
+            *metric += step.tangents.column(flow).norm_squared() + turns[flow].norm_squared();
         }
-        let (_, change, length) = self.search.step_to_plane(at);
-        let change = Vector2::from(change);
-        let predicted = times + change;
-        let is_known = |known: &Vector2<f64>| self.length(&(predicted - known)) <= SAME * self.length(&change);
+        let length = step.length();
+        let predicted = times + step.change;
+        let is_known = |known: &Vector2<f64>| self.length(&(predicted - known)) <= SAME * self.length(&step.change);
         if length.is_nan() || length > NEAR || self.found.iter().any(|(known, _)| is_known(known)) {
             return false;
         }
@@ -223,7 +222,7 @@ impl<'a> Walk<'a> {
 
     /// Whether a state of the plane is predicted near one at some way from another, and not at a corner of the cell of two ways.
     fn is_inside(&self, at: &Axes<f64>, way: Vector2<f64>, [a, b]: [Vector2<f64>; 2]) -> bool {
-        let change = Vector2::from(self.search.step_to_plane(at).1);
+        let change = self.search.step_to_plane(at).change;
         let parts = [(way + change).perp(&b), a.perp(&(way + change))].map(|area| area / a.perp(&b));
         let beside = parts.into_iter().any(|part| (part - part.round()).abs() > SAME / CELL as f64);
         beside && self.length(&change) < 2.0 / CELL as f64 * self.length(&a).max(self.length(&b))
@@ -260,12 +259,9 @@ impl<'a> Walk<'a> {
     fn named(&self, [a, b]: [Vector2<f64>; 2]) -> Option<Lattice> {
         let (to_plane, plane) = self.found[0];
         let ends = [a, b, a + b].map(|way| (way, self.integrals.moved(way.into(), &plane)));
-        let about_x = |v: &Vector3<f64>| Vector3::new(v.x, -v.y, -v.z);
-        let gap = |end: &Axes<f64>, turned: fn(&Vector3<f64>) -> Vector3<f64>| {
-            let [n, momentum] = [0, 1].map(|i| (end[i] - turned(&plane[i])).amax());
-            n.max(momentum / self.unit)
-        };
-        let gaps = (0..3).flat_map(|i| [(gap(&ends[i].1, half_turn), i, false), (gap(&ends[i].1, about_x), i, true)]);
+        let turned = [(plane.map(|v| half_turn(&v)), false), (plane.map(|v| about_x(&v)), true)];
+        let gaps =
+            (0..3).flat_map(|i| turned.map(|(turned, about_x)| (apart(&ends[i].1, &turned, self.unit), i, about_x)));
         let (gap, place, is_about_x) = gaps.min_by(|(a, ..), (b, ..)| a.total_cmp(b))?;
         if gap > HALF_TURN {
             return None;
@@ -313,11 +309,11 @@ mod tests {
             (tilted, Vector3::z() * 9.0, false),
             (Vector3::new(0.995, 0.06, 0.08).normalize(), Vector3::new(0.1, 0.02, 0.03), true),
         ];
-        for (n, momentum, about_x) in starts {
+        for (n, momentum, is_about_x) in starts {
             let unit = momentum.norm().max(1.4);
             let start = [n, momentum, n.cross(&Vector3::new(0.1, 0.7, -0.2)).normalize()];
             let found = lattice(&integrals, unit, &start).unwrap();
-            assert_eq!(found.about_x, about_x, "{n} {momentum}");
+            assert_eq!(found.about_x, is_about_x, "{n} {momentum}");
             let search = Search::new(&integrals, unit);
             let (_, plane) = search.on_to_plane(integrals.moved(found.to_plane, &start), found.to_plane).unwrap();
             let off = |[n, momentum, _]: &Axes<f64>| n.y.abs().max((momentum.y / unit).abs());
@@ -328,9 +324,8 @@ mod tests {
             let at = |shares| half([found.fast, found.slow], shares);
             // Within what few digits and a neighbour of a circle leave.
             assert!(off(&at([1.0, 0.0])).max(off(&at([0.0, 1.0]))) < 1e-2, "{found:?}");
-            let turned = if about_x { |v: &Vector3<f64>| Vector3::new(v.x, -v.y, -v.z) } else { half_turn };
-            let end = at([0.0, 1.0]);
-            let gap = (end[0] - turned(&plane[0])).amax().max((end[1] - turned(&plane[1])).amax() / unit);
+            let turned = if is_about_x { about_x } else { half_turn };
+            let gap = apart(&at([0.0, 1.0]), &plane.map(|v| turned(&v)), unit);
             assert!(gap < 1e-2, "{gap:e} {found:?}");
             let between = [[0.5, 0.0], [0.0, 0.5], [0.5, 0.5], [1.0 / 3.0, 0.0], [0.0, 1.0 / 3.0]];
             let is_circle = [tilted * 9.0, Vector3::z() * 9.0].contains(&momentum);

@@ -10,9 +10,9 @@
 //!
 //! so that half a turn of either angle leads to a state of the plane again: two equations for the two times.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Matrix6x2, Vector2, Vector3};
 
-use super::flow::{Axes, Integrals, joined};
+use super::flow::{Axes, Integrals, apart, tangents};
 use crate::numerics::angle::about;
 use crate::numerics::scalar::Real;
 
@@ -65,8 +65,8 @@ impl<S: Real> ClosedWays<S> {
         let plane = [end[0], end[1], end[0].cross(&Vector3::y())];
         let (fast, _) = search.half_way(&plane, fast, false)?;
         let (slow, end) = search.half_way(&plane, slow, true)?;
-        let [n, momentum] = [0, 1].map(|i| (end[i] - half_turn(&plane[i])).map(S::re).amax());
-        (n.max(momentum / unit) < WIDEST_GAP).then_some(Self { plane, to_plane, fast, slow })
+        let half_turned = plane.map(|v| half_turn(&v));
+        (apart(&end, &half_turned, unit) < WIDEST_GAP).then_some(Self { plane, to_plane, fast, slow })
     }
 
     /// The times of [`near`](Self::near).
@@ -101,6 +101,23 @@ pub(super) fn half_turn<S: Real>(v: &Vector3<S>) -> Vector3<S> {
     Vector3::new(-v.x, -v.y, v.z)
 }
 
+/// A Newton step to the plane.
+pub(super) struct StepToPlane<S> {
+    /// Distances from the plane.
+    left: Vector2<S>,
+    /// Change of the times that would make them zero if they changed at the same rates all the way.
+    pub(super) change: Vector2<S>,
+    /// Rates along both flows.
+    pub(super) tangents: Matrix6x2<f64>,
+}
+
+impl<S: Real> StepToPlane<S> {
+    /// How far the step leads.
+    pub(super) fn length(&self) -> f64 {
+        (self.tangents * self.change.map(S::re)).norm()
+    }
+}
+
 /// What is looked for on a torus: states in the plane, and ways between them.
 pub(super) struct Search<'a, S> {
     integrals: &'a Integrals<S>,
@@ -126,16 +143,13 @@ impl<'a, S: Real> Search<'a, S> {
         if square.re() < 0.01 * self.unit * self.unit { S::zero() } else { n.dot(momentum) / square }
     }
 
-    /// Distances from the plane, and the change of the times that would make them zero if they changed at the same rates all the way; and how far it leads.
-    pub(super) fn step_to_plane(&self, at: &Axes<S>) -> (Vector2<S>, [S; 2], f64) {
+    pub(super) fn step_to_plane(&self, at: &Axes<S>) -> StepToPlane<S> {
         let share = self.share(at);
         let left = self.distances(&at[0], &at[1], share);
         let rates = self.integrals.both_rates(at);
         let [by_h, by_k] = rates.map(|[n, momentum, _]| self.distances(&n, &momentum, share));
         let change = step_to_zero([by_h, by_k], left, self.rate);
-        let way =
-            joined(&rates[0], self.unit, S::re) * change.x.re() + joined(&rates[1], self.unit, S::re) * change.y.re();
-        (left, [change.x, change.y], way.norm())
+        StepToPlane { left, change, tangents: tangents(&rates, self.unit) }
     }
 
     /// The way near given times that ends in the plane `Y = 0`. Flows commute, so that the rates at the end lead there.
@@ -147,8 +161,8 @@ impl<'a, S: Real> Search<'a, S> {
     pub(super) fn on_to_plane(&self, mut at: Axes<S>, mut times: [S; 2]) -> Option<([S; 2], Axes<S>)> {
         let mut least = f64::INFINITY;
         for step in 0..MOST_CORRECTIONS {
-            let (left, change, length) = self.step_to_plane(&at);
-            let size = left.map(S::re).amax();
+            let found = self.step_to_plane(&at);
+            let size = found.left.map(S::re).amax();
             if !size.is_finite() {
                 return None;
             }
@@ -159,8 +173,9 @@ impl<'a, S: Real> Search<'a, S> {
             }
             least = size;
             // Far from the plane the rates at the end say little.
+            let length = found.length();
             let part = S::from_f64(if length > LONGEST_STEP { LONGEST_STEP / length } else { 1.0 });
-            let change = change.map(|time| time * part);
+            let change = [found.change.x * part, found.change.y * part];
             at = self.integrals.moved(change, &at);
             times = [times[0] + change[0], times[1] + change[1]];
         }
