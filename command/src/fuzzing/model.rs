@@ -31,7 +31,7 @@ use twofold::solutions::perturbation::{
 };
 use twofold::solutions::steady::steady_precession_rate;
 use twofold::solutions::symmetric::SymmetricSolution;
-use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};
+use twofold::solutions::torus::{separatrix_motion, states_with_integrals};
 use twofold::star::maclaurin::MaclaurinSpheroid;
 use twofold::star::potential_coefficients::potential_coefficients;
 use twofold::star::spheroid_shape::SpheroidShape;
@@ -262,8 +262,6 @@ fn solutions(case: &Case, time: f64) {
 
 fn torus(case: &Case, bytes: &mut Bytes<'_>) {
     let Case { body, s, state, .. } = case;
-    let problem = Problem::new(*body, s.tensor(), *state);
-    let _ = black_box(problem.and_then(|problem| torus_frequencies(&problem)));
     let mut integrals = first_integrals(body, &s.tensor(), state);
     let _ = black_box(states_with_integrals(body, s, &integrals));
     integrals.energy = bytes.number();

@@ -12,7 +12,7 @@
 
 use nalgebra::Vector3;
 
-use crate::dynamics::{BodyState, RigidSpheroid};
+use crate::dynamics::RigidSpheroid;
 
 use crate::numerics::scalar::{Real, length};
 
@@ -66,16 +66,4 @@ pub(super) fn transformation<S: Real>(strength: S, s: &Vector3<S>, axes: &Axes<S
     let half = rates(strength, s, axes);
     let middle = core::array::from_fn(|i| axes[i] + half[i] * S::from_f64(0.5 * time));
     rates(strength, s, &middle).map(|rate| rate * S::from_f64(time))
-}
-
-/// Direction of the angular momentum of the averaged motion, from a state in the principal frame of `s`, for traceless principal values.
-pub(in crate::solutions) fn mean_direction<S: Real>(
-    spheroid: &RigidSpheroid<S>,
-    s: &Vector3<S>,
-    state: &BodyState<S>,
-) -> Vector3<S> {
-    let strength = spheroid.constant_c * spheroid.inertia_xx;
-    let [_, change, _] = transformation(strength, s, &[state.axis, state.momentum, state.equatorial_axis], -1.0);
-    let momentum = state.momentum + change;
-    momentum / length(&momentum)
 }

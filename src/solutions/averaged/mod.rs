@@ -56,7 +56,6 @@ pub mod slow_precession;
 mod top;
 
 pub(crate) use averages::mean_of_cn2;
-pub(in crate::solutions) use generator::mean_direction;
 pub use generator::{generator, generator_slopes};
 pub use hamiltonian::{AveragingOrder, mean_angular_velocity, mean_potential};
 pub use middle_axis::{middle_axis_growth, period_near_separatrix};

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::found::{THINNEST, Torus};
 use super::phase::{Phase, phases};
 use super::sampling::{ROUNDING, Sampled, coefficients};
-use super::table::{Table, Turn, fill_with_turns};
+use super::table::{Multiples, Table};
 use super::wide::WideTorus;
 use crate::dynamics::{AxisState, BodyState, Problem};
 use crate::error::Error;
@@ -26,8 +26,8 @@ const CLOSED: f64 = 1e-12;
 /// What rounding leaves of derivatives where both flows differ most: that of some ten steps of the flow, and of their sum.
 const ROUNDING_OF_DERIVATIVES: f64 = 1e-14;
 
-/// So many multiples of both angles fit on the stack.
-const FEW: usize = 48;
+/// So many blocks of multiples of both angles fit on the stack: of cosines and of sines.
+const FEW: usize = 16;
 
 /// The exact motion from an initial state: `n`, `L` and `e_x` as Fourier series of two angles that grow in proportion to time, and a third one that turns
 /// `e_x` about `n`.
@@ -52,7 +52,8 @@ pub struct TorusSolution {
     axes: Table,
     /// Of `V`, from which `e_x` is turned.
     vector: Table,
-    multiples: [usize; 2],
+    /// Blocks of four multiples of both angles that are needed.
+    blocks: [usize; 2],
     pub(super) given_from_torus: Matrix3<f64>,
     truncation: f64,
     /// Difference of the series from the flow, and the rounding of so many terms.
@@ -96,7 +97,7 @@ impl TorusSolution {
         let (mut axes, left_axes) = Table::within(&sampled.axes, tolerance);
         let (vector, left_vector) = Table::within(&sampled.vector, tolerance);
         axes.scale_every_other(torus.unit);
-        let [[a, b], [c, d]] = [axes.multiples(), vector.multiples()];
+        let [[a, b], [c, d]] = [axes.blocks(), vector.blocks()];
         let [most, least] = torus.widths();
         let mut solution = Self {
             width: least / most,
@@ -106,8 +107,7 @@ impl TorusSolution {
             unit: torus.unit,
             axes,
             vector,
-            // At least zero and one, which are where angles begin.
-            multiples: [a.max(c).max(2), b.max(d).max(2)],
+            blocks: [a.max(c), b.max(d)],
             given_from_torus: torus.from_given.transpose(),
             truncation: left_axes.max(left_vector),
             off: 0.0,
@@ -226,10 +226,15 @@ impl TorusSolution {
         self.state_at(four, [first.at::<F>(t), second.at::<F>(t), third.at::<F>(t)])
     }
 
-    /// Uses turns by all multiples of two angles.
+    /// Uses all multiples of two angles.
     #[inline(always)]
-    fn with_multiples<F: FourLanes, R>(&self, four: F, [a, b]: [f64; 2], sum: impl FnOnce(&[Turn], &[Turn]) -> R) -> R {
-        let [first, second] = self.multiples;
+    fn with_multiples<F: FourLanes, R>(
+        &self,
+        four: F,
+        [a, b]: [f64; 2],
+        sum: impl FnOnce(&Multiples<'_>, &Multiples<'_>) -> R,
+    ) -> R {
+        let [first, second] = self.blocks.map(|blocks| 2 * blocks);
         let mut few = [[0.0; 4]; FEW];
         let mut many = Vec::new();
         let all = if first + second <= FEW {
@@ -239,13 +244,13 @@ impl TorusSolution {
             many.as_mut_slice()
         };
         let (of_first, of_second) = all.split_at_mut(first);
-        fill_with_turns(four, of_first, sin_cos_of_turns::<F>(a));
-        fill_with_turns(four, of_second, sin_cos_of_turns::<F>(b));
-        sum(of_first, of_second)
+        let first = Multiples::fill(four, of_first, sin_cos_of_turns::<F>(a));
+        let second = Multiples::fill(four, of_second, sin_cos_of_turns::<F>(b));
+        sum(&first, &second)
     }
 
     #[inline(always)]
-    fn axes_at<F: FourLanes>(&self, four: F, first: &[Turn], second: &[Turn]) -> AxisState<f64> {
+    fn axes_at<F: FourLanes>(&self, four: F, first: &Multiples<'_>, second: &Multiples<'_>) -> AxisState<f64> {
         let values = self.axes.at(four, first, second);
         let ([x, lx, y, ly], [z, lz]) = (values.changing, values.even);
         AxisState {

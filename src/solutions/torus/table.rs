@@ -3,24 +3,37 @@
 use super::fourier::Pair;
 use crate::numerics::four_lanes::FourLanes;
 
-/// Cosine, cosine, sine and sine of a multiple of an angle.
-pub(super) type Turn = [f64; 4];
+/// Cosines and sines of multiples of an angle from zero on, in blocks of four.
+pub(super) struct Multiples<'a> {
+    cos: &'a [[f64; 4]],
+    sin: &'a [[f64; 4]],
+}
 
-/// Cosines and sines of all multiples of an angle, from zero on.
-#[inline(always)]
-pub(super) fn fill_with_turns<F: FourLanes>(four: F, turns: &mut [Turn], (sin, cos): (f64, f64)) {
-    for k in 0..turns.len() {
-        let turn = match k {
-            0 => four.load(&[1.0, 1.0, 0.0, 0.0]),
-            1 => four.load(&[cos, cos, sin, sin]),
-            _ => {
-                // In as few steps after one another as there are binary digits.
-                let (near, [c, _, s, _]) = (turns[k - k / 2], turns[k / 2]);
-                let across = four.load(&[-near[2], -near[2], near[0], near[0]]);
-                four.multiply_add(across, four.all(s), four.multiply_add(four.load(&near), four.all(c), four.all(0.0)))
+impl<'a> Multiples<'a> {
+    /// Computes them, half of a slice the cosines and half the sines.
+    #[inline(always)]
+    pub(super) fn fill<F: FourLanes>(four: F, blocks: &'a mut [[f64; 4]], (sin, cos): (f64, f64)) -> Self {
+        let across = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, b * c + a * d];
+        let first = [cos, sin];
+        let second = across(first, first);
+        let (third, fourth) = (across(second, first), across(second, second));
+        let (of_cos, of_sin) = blocks.split_at_mut(blocks.len() / 2);
+        for i in 0..of_cos.len() {
+            if i == 0 {
+                of_cos[0] = [1.0, first[0], second[0], third[0]];
+                of_sin[0] = [0.0, first[1], second[1], third[1]];
+                continue;
             }
-        };
-        turns[k] = four.store(turn);
+            // In as few steps after one another as there are binary digits.
+            let by = i.div_ceil(2);
+            let [c, s] = if i == 1 { fourth } else { [of_cos[by][0], of_sin[by][0]] };
+            let (near_cos, near_sin) = (four.load(&of_cos[i - by]), four.load(&of_sin[i - by]));
+            let (c, s, minus_s) = (four.all(c), four.all(s), four.all(-s));
+            let zero = four.all(0.0);
+            of_cos[i] = four.store(four.multiply_add(near_cos, c, four.multiply_add(near_sin, minus_s, zero)));
+            of_sin[i] = four.store(four.multiply_add(near_sin, c, four.multiply_add(near_cos, s, zero)));
+        }
+        Self { cos: of_cos, sin: of_sin }
     }
 }
 
@@ -28,12 +41,19 @@ pub(super) fn fill_with_turns<F: FourLanes>(four: F, turns: &mut [Turn], (sin, c
 /// the others, with `k = 0, 2, ...`. The first two are even under a reflection in the plane, the next two odd; the last two are whichever is asked for.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Table {
-    /// For each multiple `j` of the first angle the number of multiples of the second of the first four functions, and of the last two.
-    pub(super) counts: Vec<[usize; 2]>,
-    /// Of the first four functions, those with `cos k theta_2` and with `sin k theta_2`.
-    pub(super) changing: Vec<[[f64; 4]; 2]>,
-    /// Of the last two functions, those with `cos k theta_2` and then those with `sin k theta_2`.
-    pub(super) others: Vec<[f64; 4]>,
+    /// For every four multiples `j` of the first angle how many `i` are kept: `k = 2 i` and `2 i + 1`.
+    counts: Vec<usize>,
+    /// For each of these `i` the coefficients of the four `j`.
+    coefficients: Vec<[Coefficients; 4]>,
+}
+
+/// Coefficients of the six functions for one `j` and one `i`.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Coefficients {
+    /// Of the first four functions, those with `cos (2 i + 1) theta_2` and with `sin (2 i + 1) theta_2`.
+    changing: [[f64; 4]; 2],
+    /// Of the last two functions, those with `cos 2 i theta_2` and then those with `sin 2 i theta_2`.
+    others: [f64; 4],
 }
 
 /// Values of the six functions, the last two taken as even and as odd ones.
@@ -44,23 +64,26 @@ pub(super) struct Values {
     pub(super) odd: [f64; 2],
 }
 
-/// How many coefficients of some functions are kept for a multiple of the first angle, and the sum of the others.
-fn kept(functions: &[Vec<Vec<Pair>>], j: usize, smallest: f64) -> (usize, f64) {
-    let largest =
-        |i: usize| functions.iter().map(|table| table[j][i][0].abs().max(table[j][i][1].abs())).fold(0.0, f64::max);
+/// How many coefficients of four multiples of the first angle, from `j` on, are kept, and the sum of the others.
+fn kept(functions: &[Vec<Vec<Pair>>; 6], j: usize, smallest: f64) -> (usize, f64) {
+    // The largest of functions that have the same pairs of frequencies.
+    let largest = |of: &[Vec<Vec<Pair>>], j: usize, i: usize| {
+        of.iter().flat_map(|table| table[j][i]).fold(0.0, |most: f64, x| most.max(x.abs()))
+    };
+    let rows = j..functions[0].len().min(j + 4);
+    let both = |j: usize, i: usize| [largest(&functions[..4], j, i), largest(&functions[4..], j, i)];
     let length = functions[0][j].len();
-    let count = (0..length).rev().find(|&i| largest(i) > smallest).map_or(0, |i| i + 1);
-    (count, (count..length).map(largest).sum())
+    let all = |i: usize| rows.clone().flat_map(move |j| both(j, i));
+    let count = (0..length).rev().find(|&i| all(i).any(|size| size > smallest)).map_or(0, |i| i + 1);
+    (count, (count..length).flat_map(all).sum())
 }
 
 impl Table {
     /// The table of six functions by their coefficients `[j][i]`, `k = 2 i` or `2 i + 1`, without the smallest, of which the sum is at most a tolerance (where rounding
     /// lets it); and that sum.
     pub(super) fn within(functions: &[Vec<Vec<Pair>>; 6], tolerance: f64) -> (Self, f64) {
-        let left = |smallest: f64| -> f64 {
-            let of = |j: usize| kept(&functions[..4], j, smallest).1 + kept(&functions[4..], j, smallest).1;
-            (0..functions[0].len()).map(of).sum()
-        };
+        let left =
+            |smallest: f64| -> f64 { (0..functions[0].len()).step_by(4).map(|j| kept(functions, j, smallest).1).sum() };
         let mut smallest = 0.1 * tolerance;
         while left(smallest) > tolerance && smallest > 1e-3 * tolerance {
             smallest *= 0.5;
@@ -72,70 +95,76 @@ impl Table {
     fn without_smallest(functions: &[Vec<Vec<Pair>>; 6], smallest: f64) -> (Self, f64) {
         let mut left = 0.0;
         let mut table = Self::default();
-        for j in 0..functions[0].len() {
-            let mut kept = |functions: &[Vec<Vec<Pair>>]| {
-                let (count, omitted) = kept(functions, j, smallest);
-                left += omitted;
-                count
-            };
-            let counts = [kept(&functions[..4]), kept(&functions[4..])];
-            table.counts.push(counts);
-            let of = |function: usize, i: usize, part: usize| functions[function][j][i][part];
-            table.changing.extend((0..counts[0]).map(|i| [0, 1].map(|part| [0, 1, 2, 3].map(|f| of(f, i, part)))));
-            table.others.extend((0..counts[1]).map(|i| [of(4, i, 0), of(5, i, 0), of(4, i, 1), of(5, i, 1)]));
+        let of = |j: usize, i: usize| {
+            if j >= functions[0].len() {
+                return Coefficients::default();
+            }
+            let of = |function: usize, part: usize| functions[function][j][i][part];
+            Coefficients {
+                changing: [0, 1].map(|part| [0, 1, 2, 3].map(|function| of(function, part))),
+                others: [of(4, 0), of(5, 0), of(4, 1), of(5, 1)],
+            }
+        };
+        for j in (0..functions[0].len()).step_by(4) {
+            let (count, omitted) = kept(functions, j, smallest);
+            left += omitted;
+            table.counts.push(count);
+            table.coefficients.extend((0..count).map(|i| [0, 1, 2, 3].map(|row| of(j + row, i))));
         }
-        while table.counts.last() == Some(&[0, 0]) {
+        while table.counts.last() == Some(&0) {
             table.counts.pop();
         }
         (table, left)
     }
 
-    /// How many multiples of each angle are needed, zero among them.
-    pub(super) fn multiples(&self) -> [usize; 2] {
-        [self.counts.len(), self.counts.iter().map(|[changing, others]| 2 * changing.max(others)).max().unwrap_or(0)]
+    /// How many blocks of four multiples of each angle are needed.
+    pub(super) fn blocks(&self) -> [usize; 2] {
+        [self.counts.len(), self.counts.iter().map(|count| count.div_ceil(2)).max().unwrap_or(0)]
     }
 
     /// Number of pairs of frequencies.
     pub(super) fn len(&self) -> usize {
-        self.changing.len() + self.others.len()
+        8 * self.coefficients.len()
     }
 
     /// Multiplies the second, the fourth and the sixth function.
     pub(super) fn scale_every_other(&mut self, factor: f64) {
-        let scale = |row: &mut [f64; 4]| {
-            row[1] *= factor;
-            row[3] *= factor;
-        };
-        self.changing.iter_mut().flatten().for_each(scale);
-        self.others.iter_mut().for_each(scale);
+        for Coefficients { changing: [a, b], others } in self.coefficients.iter_mut().flatten() {
+            for row in [a, b, others] {
+                row[1] *= factor;
+                row[3] *= factor;
+            }
+        }
     }
 
-    /// The sums for turns of both angles.
+    /// The sums for multiples of both angles.
     #[inline(always)]
-    pub(super) fn at<F: FourLanes>(&self, four: F, first: &[Turn], second: &[Turn]) -> Values {
-        let (mut changing, mut others) = (self.changing.as_slice(), self.others.as_slice());
+    pub(super) fn at<F: FourLanes>(&self, four: F, first: &Multiples<'_>, second: &Multiples<'_>) -> Values {
+        let mut coefficients = self.coefficients.as_slice();
         let zero = four.all(0.0);
         let (mut sum, mut even, mut odd) = (zero, zero, zero);
-        for (counts, turn) in self.counts.iter().zip(first) {
-            let [cos, _, sin, _] = *turn;
-            let (turn, crossed) = (four.load(turn), four.load(&[sin, sin, cos, cos]));
-            let (row, rest) = changing.split_at(counts[0]);
-            changing = rest;
-            let (mut with_cos, mut with_sin) = (zero, zero);
-            for ([a, b], [c, _, s, _]) in row.iter().zip(second.iter().skip(1).step_by(2)) {
-                with_cos = four.multiply_add(four.load(a), four.all(*c), with_cos);
-                with_sin = four.multiply_add(four.load(b), four.all(*s), with_sin);
+        let [cos_k, sin_k] = [second.cos, second.sin].map(|multiples| multiples.as_flattened().as_chunks::<2>().0);
+        for ((&count, cos), sin) in self.counts.iter().zip(first.cos).zip(first.sin) {
+            let (block, rest) = coefficients.split_at(count);
+            coefficients = rest;
+            // Four rows at once, so that no sum waits for the one before.
+            let mut rows = [[zero; 3]; 4];
+            for ((block, [even_cos, odd_cos]), [even_sin, odd_sin]) in block.iter().zip(cos_k).zip(sin_k) {
+                let (cos, sin) = (four.all(*odd_cos), four.all(*odd_sin));
+                let both = four.load(&[*even_cos, *even_cos, *even_sin, *even_sin]);
+                for (row, Coefficients { changing: [a, b], others }) in rows.iter_mut().zip(block) {
+                    row[0] = four.multiply_add(four.load(a), cos, row[0]);
+                    row[1] = four.multiply_add(four.load(b), sin, row[1]);
+                    row[2] = four.multiply_add(four.load(others), both, row[2]);
+                }
             }
-            sum = four.multiply_add(with_cos, turn, sum);
-            sum = four.multiply_add(with_sin, crossed, sum);
-            let (row, rest) = others.split_at(counts[1]);
-            others = rest;
-            let mut both = zero;
-            for (coefficients, turn) in row.iter().zip(second.iter().step_by(2)) {
-                both = four.multiply_add(four.load(coefficients), four.load(turn), both);
+            for (([with_cos, with_sin, both], c), s) in rows.into_iter().zip(cos).zip(sin) {
+                let (turn, crossed) = (four.load(&[*c, *c, *s, *s]), four.load(&[*s, *s, *c, *c]));
+                sum = four.multiply_add(with_cos, turn, sum);
+                sum = four.multiply_add(with_sin, crossed, sum);
+                even = four.multiply_add(both, turn, even);
+                odd = four.multiply_add(both, crossed, odd);
             }
-            even = four.multiply_add(both, turn, even);
-            odd = four.multiply_add(both, crossed, odd);
         }
         let [even, odd] = [even, odd].map(|lanes| {
             let [a, b, c, d] = four.store(lanes);
@@ -152,14 +181,14 @@ mod tests {
     use crate::numerics::fused::{detect_fused, run_fused};
 
     #[test]
-    fn turns_are_those_of_multiples() {
-        let mut turns = [[0.0; 4]; 40];
-        fill_with_turns(plain(), &mut turns, 0.7_f64.sin_cos());
-        for (k, turn) in turns.iter().enumerate() {
-            let (sin, cos) = (0.7 * k as f64).sin_cos();
-            for (found, expected) in turn.iter().zip([cos, cos, sin, sin]) {
-                assert!((found - expected).abs() < 1e-14, "{k}: {turn:?}");
-            }
+    fn multiples_are_those_of_the_angle() {
+        let mut blocks = [[0.0; 4]; 20];
+        let found = Multiples::fill(plain(), &mut blocks, 0.7_f64.sin_cos());
+        let pairs = found.cos.as_flattened().iter().zip(found.sin.as_flattened());
+        assert_eq!(pairs.len(), 40);
+        for (k, (cos, sin)) in pairs.enumerate() {
+            let expected = (0.7 * k as f64).sin_cos();
+            assert!((sin - expected.0).abs() < 1e-14 && (cos - expected.1).abs() < 1e-14, "{k}: {cos} {sin}");
         }
     }
 
@@ -173,7 +202,7 @@ mod tests {
             (0..5).map(row).collect()
         });
         let (table, left) = Table::without_smallest(&functions, 0.0);
-        assert_eq!((left, table.multiples(), table.len()), (0.0, [5, 8], 40));
+        assert_eq!((left, table.blocks(), table.len()), (0.0, [2, 2], 64));
         let (a, b) = (0.4_f64, 1.1_f64);
         let of = |f: usize, is_even: bool| {
             let parity = usize::from(f < 4);
@@ -190,9 +219,9 @@ mod tests {
             even: [of(4, true), of(5, true)],
             odd: [of(4, false), of(5, false)],
         };
-        let (mut first, mut second) = ([[0.0; 4]; 5], [[0.0; 4]; 8]);
-        fill_with_turns(plain(), &mut first, a.sin_cos());
-        fill_with_turns(plain(), &mut second, b.sin_cos());
+        let (mut first, mut second) = ([[0.0; 4]; 4], [[0.0; 4]; 4]);
+        let first = Multiples::fill(plain(), &mut first, a.sin_cos());
+        let second = Multiples::fill(plain(), &mut second, b.sin_cos());
         let near = |found: Values| {
             let pairs = found.changing.into_iter().zip(expected.changing);
             let pairs = pairs.chain(found.even.into_iter().zip(expected.even));
@@ -210,18 +239,24 @@ mod tests {
         let fall = |f: usize, j: usize, k: usize| 10f64.powi(-((j + k) as i32)) / (1 + f) as f64;
         let functions: [Vec<Vec<Pair>>; 6] = core::array::from_fn(|f| {
             let parity = usize::from(f < 4);
-            (0..4).map(|j| (0..4).map(|i| [0.0, fall(f, j, 2 * i + parity)]).collect()).collect()
+            (0..6).map(|j| (0..4).map(|i| [0.0, fall(f, j, 2 * i + parity)]).collect()).collect()
         });
-        let (mut table, left) = Table::without_smallest(&functions, 1e-4);
+        // The largest of each four rows are those of their first.
+        let (mut table, left) = Table::without_smallest(&functions, 1e-5);
+        assert_eq!((table.counts.as_slice(), table.blocks()), (&[3, 1][..], [2, 2]));
         // Of the first four functions the first is the largest, of the others the fifth.
-        let small = |size: &f64| *size <= 1e-4;
-        let terms = |parity: usize| (0..4).flat_map(move |j| (0..4).map(move |i| (j, 2 * i + parity)));
-        let odd: f64 = terms(1).map(|(j, k)| fall(0, j, k)).filter(small).sum();
-        let even: f64 = terms(0).map(|(j, k)| fall(4, j, k)).filter(small).sum();
-        assert!((left / (odd + even) - 1.0).abs() < 1e-12, "{left:e} {odd:e} {even:e}");
-        assert_eq!(table.counts, [[2, 2], [1, 2], [1, 1], [0, 1]]);
+        let omitted = |rows: core::ops::Range<usize>, from: usize| -> f64 {
+            let sizes = |j: usize| (from..4).map(move |i| fall(0, j, 2 * i + 1) + fall(4, j, 2 * i));
+            rows.flat_map(sizes).sum()
+        };
+        let expected = omitted(0..4, 3) + omitted(4..6, 1);
+        assert!((left / expected - 1.0).abs() < 1e-12, "{left:e} {expected:e}");
         table.scale_every_other(3.0);
-        assert_eq!(table.changing[0], [[0.0; 4], [0.1, 3.0 * fall(1, 0, 1), fall(2, 0, 1), 3.0 * fall(3, 0, 1)]]);
-        assert_eq!(table.others[0], [0.0, 0.0, fall(4, 0, 0), 3.0 * fall(5, 0, 0)]);
+        let [first, ..] = table.coefficients[0];
+        assert_eq!(first.changing, [[0.0; 4], [0.1, 3.0 * fall(1, 0, 1), fall(2, 0, 1), 3.0 * fall(3, 0, 1)]]);
+        assert_eq!(first.others, [0.0, 0.0, fall(4, 0, 0), 3.0 * fall(5, 0, 0)]);
+        // Rows beyond the last are zero.
+        let [_, last, ..] = table.coefficients[3];
+        assert_eq!((last.others[2], table.coefficients[3][2]), (fall(4, 5, 0), Coefficients::default()));
     }
 }

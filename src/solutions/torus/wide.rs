@@ -57,7 +57,6 @@ impl WideTorus {
     pub(super) fn rounded(&self, torus: &Torus) -> Torus {
         let values = self.values.map(Real::re);
         Torus {
-            values,
             initial: self.initial.map(|v| v.map(Real::re)),
             ways: self.ways.rounded(),
             integrals: Integrals::new(&torus.spheroid, &Matrix3::from_diagonal(&values), torus.spread, DOUBLE),

@@ -5,7 +5,7 @@ use twofold::dynamics::{AxisState, BodyState, Problem};
 use twofold::lorentz_violation::PrincipalCoefficients;
 use twofold::solutions::averaged::slow_precession::slow_precession;
 use twofold::solutions::averaged::{AveragedSolution, AveragingOrder, middle_axis_growth, period_near_separatrix};
-use twofold::solutions::torus::{separatrix_motion, states_with_integrals, torus_frequencies};
+use twofold::solutions::torus::{separatrix_motion, states_with_integrals};
 
 use crate::values::scene::{PROLATE, STAR, state};
 use crate::values::table::Table;
@@ -57,14 +57,6 @@ fn states_on_tori() {
                 table.result(&format!("{label}, derivatives"), mean.require_derivatives());
             });
         }
-        // Errors of exact frequencies are roundings, but near a resonance.
-        let found = torus_frequencies(&problem);
-        table.found("  exact frequencies", found, |table, found| {
-            let uncertain = found.uncertainty.iter().any(|error| *error >= 1e-12);
-            let (about_momentum, about_axis) = (found.about_momentum, found.about_axis);
-            let text = format!("axis {}, slow {:?}, about L {about_momentum:?}", found.axis, found.slow);
-            table.row("  exact frequencies", format_args!("{text}, about n {about_axis:?}, uncertain {uncertain}"));
-        });
     }
     table.result("period near the separatrix", period_near_separatrix(0.03, 1e-5));
     table.check("states_on_tori");

@@ -1,7 +1,7 @@
 //! The unstable motion about the middle axis, and slow periods near the separatrix.
 
 use twofold::solutions::averaged::period_near_separatrix;
-use twofold::solutions::torus::separatrix_motion;
+use twofold::solutions::torus::{TorusSolution, separatrix_motion};
 
 use super::scenes::Scene;
 use crate::prelude::*;
@@ -112,7 +112,8 @@ fn near_separatrix(k: f64, complement: f64) -> Result<(f64, f64, Scene), String>
     let found = states_with_integrals(&scene.body, &scene.s, &integrals)?;
     let start = *found.states.first().ok_or("no state")?;
     let torus = Scene { start, ..scene };
-    Ok((TAU / torus.torus()?.slow.abs(), growth, torus))
+    let [_, slow, _] = TorusSolution::new(&torus.problem()?, 1e-6, 0.0)?.rates();
+    Ok((TAU / slow.abs(), growth, torus))
 }
 
 fn separatrix_logarithm() -> Result<Measured, String> {

@@ -1,7 +1,7 @@
 //! Motions whose frequencies are compared.
 
 use crate::prelude::*;
-use twofold::solutions::torus::{TorusFrequencies, torus_frequencies};
+use twofold::observables::spectrum::QuasiPeriodicMotion;
 
 /// A motion in the principal frame of `s^IJ`.
 #[derive(Debug, Clone, Copy)]
@@ -21,15 +21,15 @@ impl Scene {
         Problem::new(self.body, self.s.tensor(), self.start)
     }
 
-    pub(super) fn torus(&self) -> Result<TorusFrequencies, String> {
-        Ok(torus_frequencies(&self.problem()?)?)
-    }
-
-    /// Exact rates: `slow`, `about_momentum`, `about_axis`.
+    /// Exact rates with the names of the averaged ones: `slow`, `about_momentum`, `about_axis`.
     pub(super) fn exact(&self) -> Result<[f64; 3], String> {
-        let found = self.torus()?;
-        let name = |rate: Option<f64>| rate.ok_or("the rates have no names");
-        Ok([found.slow, name(found.about_momentum)?, name(found.about_axis)?])
+        let motion = QuasiPeriodicMotion::new(&self.problem()?)?;
+        let found = motion.frequencies();
+        let rate = |symbol: &str| found.rate(symbol).ok_or(format!("the motion has no {symbol}: {self:?}"));
+        let slow = rate("l'")?;
+        // The nutation is counted from the plane of L and the axis, which goes round with L.
+        let end = self.start.momentum.dot(&found.pole).signum();
+        Ok([slow, rate("nu'")? + end * slow, rate("psi'")?])
     }
 
     /// Rates of the averaged motion with the names and signs of the exact ones.

@@ -1,6 +1,7 @@
 //! States on tori and their exact frequencies.
 
-use twofold::solutions::torus::{separatrix_motion, torus_frequencies};
+use twofold::observables::spectrum::QuasiPeriodicMotion;
+use twofold::solutions::torus::separatrix_motion;
 
 use super::parts::*;
 
@@ -83,8 +84,10 @@ fn frequencies(x: &[f64]) -> Vec<f64> {
     let (spheroid, s, angles, rates) = twofold(x);
     let state = BodyState::from_angles(&spheroid, &angles, &rates);
     Problem::new(spheroid, s.tensor(), state)
-        .and_then(|problem| torus_frequencies(&problem))
-        .map_or(none(2), |found| vec![found.about_momentum.unwrap_or(f64::NAN), found.about_axis.unwrap_or(f64::NAN)])
+        .and_then(|problem| QuasiPeriodicMotion::new(&problem))
+        .map_or(none(2), |motion| {
+            ["alpha'", "gamma'"].map(|of| motion.frequencies().rate(of).unwrap_or(f64::NAN)).to_vec()
+        })
 }
 
 pub(super) fn cases() -> Vec<Case> {
@@ -110,7 +113,7 @@ pub(super) fn cases() -> Vec<Case> {
         .composite()
         .vector(),
         Case::of_doubles::<OfSymmetric>(
-            "torus_frequencies",
+            "QuasiPeriodicMotion::frequencies",
             "s -> 0, against the exact motion for a symmetric tensor",
             &[Signed(-6.0, -1.5), In(0.6, 1.0), In(1.05, 1.2), Signed(-3.0, -1.5), Signed(-3.0, -1.5)],
             frequencies,
