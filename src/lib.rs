@@ -50,6 +50,7 @@ pub mod parameters;
 pub mod plan;
 pub mod propagation;
 pub mod solutions;
+pub mod spin_down;
 pub mod star;
 pub mod units;
 

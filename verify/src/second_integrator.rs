@@ -26,6 +26,47 @@ pub(crate) fn regular_motion(problem: &Problem<f64>, duration: f64, tolerance: f
     Ok(unpack(&end.y))
 }
 
+/// A star under a braking torque along `L`: its states at times in ascending order from zero. Beside the equations of motion, with `C a^2` in place of `C` as for a bulge,
+///
+/// ```text
+/// dL/dt = ... - lambda L,  da/dt = -lambda a,  lambda = rate a^(n - 1) (1 + g (sin^2 theta_m - a_0))
+/// ```
+///
+/// from `a = |L| / unit` on, with the magnetic axis of the `beam`.
+pub(crate) fn braked_states(
+    problem: &Problem<f64>,
+    (beam, unit, rate, index): (&Beam<f64>, f64, f64, f64),
+    [modulation, mean]: [f64; 2],
+    times: &[f64],
+    tolerance: f64,
+) -> Result<Vec<BodyState<f64>>, String> {
+    let unpack = |y: &Vector<f64, 10>| {
+        let vector = |k: usize| Vector3::new(y[3 * k], y[3 * k + 1], y[3 * k + 2]);
+        BodyState { axis: vector(0), momentum: vector(1), equatorial_axis: vector(2) }
+    };
+    let pack = |state: &BodyState<f64>, last: f64| {
+        let vectors = state.vectors();
+        Vector::from_array(core::array::from_fn(|i| if i < 9 { vectors[i / 3][i % 3] } else { last }))
+    };
+    let rates = |_: f64, y: &Vector<f64, 10>| {
+        let (state, a) = (unpack(y), y[9]);
+        let spheroid = RigidSpheroid { constant_c: problem.spheroid().constant_c * a * a, ..*problem.spheroid() };
+        let mut rates = body_state_rates(&spheroid, problem.coefficients(), &state);
+        let cos = beam.direction(&state).dot(&state.momentum) / state.momentum.norm();
+        let lambda = rate * a.powf(index - 1.0) * (1.0 + modulation * (1.0 - cos * cos - mean));
+        rates.momentum -= state.momentum * lambda;
+        pack(&rates, -lambda * a)
+    };
+    let start = problem.initial();
+    let (mut y, mut time, mut found) = (pack(start, start.momentum.norm() / unit), 0.0, Vec::new());
+    for &next in times {
+        let end = RKV98NoInterp::integrate(time, next, &y, rates, &settings(tolerance)).map_err(|e| e.to_string())?;
+        (y, time) = (end.y, next);
+        found.push(unpack(&y));
+    }
+    Ok(found)
+}
+
 /// Symmetry axis and angular momentum at the given times, in ascending order from zero, by the interpolant of order 8 of the
 /// method.
 ///

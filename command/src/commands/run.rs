@@ -116,8 +116,17 @@ pub(super) fn failed(error: twofold::Error) -> Failure {
     error.into()
 }
 
-/// The scene, with notes of what in it looks like a mistake.
+/// The scene of a command that does not follow a star that slows down, with notes of what in it looks like a mistake.
 pub(super) fn read_scene(name: &str, columns: Columns<'_>) -> Result<Scene, Failure> {
+    let scene = read_with_spin_down(name, columns)?;
+    if scene.spin_down.is_some() {
+        note(&format!("{name}: [spin_down] is for `twofold timing`; here the rotation stays as it is at the epoch"));
+    }
+    Ok(scene)
+}
+
+/// The scene, with notes of what in it looks like a mistake.
+pub(super) fn read_with_spin_down(name: &str, columns: Columns<'_>) -> Result<Scene, Failure> {
     let scene = Scene::named_with(name, columns)?;
     scene.cautions.iter().for_each(|caution| note(&format!("{name}: {caution}")));
     Ok(scene)

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use twofold::epoch::{DAY, Epoch};
 
 use super::output_folder::OutputFolder;
-use super::run::read_scene;
+use super::run::read_with_spin_down;
 use super::{Failure, note, tell};
 use twofold_scene::pulsar_timing::{PulsarScene, Series, Timing, TimingError, csv, decimal, par, strain_series, tim};
 use twofold_scene::scene_file::{Columns, Scene, like_julian_date};
@@ -30,6 +30,12 @@ pub(crate) struct TimingArgs {
     /// Fit F1 beside F0: what a spin-down absorbs is no signature
     #[arg(long)]
     pub(crate) f1: bool,
+    /// Fit F1 and F2
+    #[arg(long)]
+    pub(crate) f2: bool,
+    /// Add to the table what the residuals are made of: geometry, torque, Lorentz violation, and the rate of the frequency
+    #[arg(long)]
+    pub(crate) causes: bool,
     /// Uncertainty of the arrival times that the .tim states, in microseconds
     #[arg(long, value_name = "US", default_value = "1", allow_hyphen_values = true)]
     pub(crate) uncertainty: f64,
@@ -51,7 +57,7 @@ pub(crate) struct TimingArgs {
 const MOST: usize = 10_000_000;
 
 pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
-    let scene = read_scene(&args.scene, Columns::Unused)?;
+    let scene = read_with_spin_down(&args.scene, Columns::Unused)?;
     for (option, date) in [("--from", &args.from), ("--to", &args.to)] {
         if let Some(why) = date.as_ref().and_then(like_julian_date) {
             note(&format!("{option}: {why}"));
@@ -67,14 +73,16 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
     let file = |ending: &str| format!("{name}.{ending}");
     let endings = ["csv", "par", "tim", "h_plus.txt", "h_cross.txt"];
     let folder = OutputFolder::at(&args.out, args.force, |found| endings.iter().any(|ending| found == file(ending)))?;
-    let timing = pulsar.timed(&epochs, args.f1).map_err(|error| match error {
+    let derivatives = if args.f2 { 2 } else { usize::from(args.f1) };
+    let timing = pulsar.timed(&epochs, derivatives).map_err(|error| match error {
         TimingError::NoPulse(why) => refused(why),
         TimingError::Motion(error) => error.into(),
     })?;
-    folder.write(&file("csv"), csv(&pulsar, &timing).as_bytes())?;
+    let causes = args.causes.then(|| pulsar.causes(&timing)).transpose().map_err(refused)?;
+    folder.write(&file("csv"), csv(&pulsar, &timing, causes.as_ref()).as_bytes())?;
     folder.write(&file("par"), par(&scene, &timing)?.as_bytes())?;
     folder.write(&file("tim"), tim(&timing, args.uncertainty * 1e-6).as_bytes())?;
-    match strain_series(&pulsar, &series) {
+    match strain_series(&pulsar, &series)? {
         Some([plus, cross]) => {
             folder.write(&file("h_plus.txt"), plus.as_bytes())?;
             folder.write(&file("h_cross.txt"), cross.as_bytes())?;
@@ -106,7 +114,8 @@ pub(super) fn timing(args: &TimingArgs) -> Result<(), Failure> {
 
 fn summary(timing: &Timing) -> String {
     let (fit, first) = (&timing.fit, &timing.pulses[0]);
-    let rate = if timing.with_rate { format!(", F1 = {:e} Hz/s", fit.frequency_rate) } else { String::new() };
+    let derivatives = [("F1", "Hz/s"), ("F2", "Hz/s^2")].into_iter().zip(fit.derivatives).take(timing.derivatives);
+    let rate: String = derivatives.map(|((name, unit), value)| format!(", {name} = {value:e} {unit}")).collect();
     let sizes = fit.residuals.iter().map(|residual| residual.abs());
     format!(
         "F0 = {} Hz at MJD {}{rate}; residuals: rms {:.3e} s, largest {:.3e} s\nfirst pulse {} at MJD {}\n",

@@ -316,7 +316,7 @@ fn bounds(bytes: &mut Bytes<'_>) {
 }
 
 fn timing(bytes: &mut Bytes<'_>) {
-    let with_rate = bytes.byte() % 2 == 1;
+    let derivatives = usize::from(bytes.byte() % 4);
     let (mut points, mut in_parts) = (Vec::new(), Vec::new());
     while !bytes.is_empty() && points.len() < 40 {
         let number = if bytes.byte() < 200 { points.len() as i64 } else { bytes.number() as i64 };
@@ -325,7 +325,7 @@ fn timing(bytes: &mut Bytes<'_>) {
         in_parts.push((number, [time, bytes.usual() * 1e-17]));
     }
     let _ = black_box(ConstantPeriod::fit(&points, None));
-    let _ = black_box(SpinFit::new(&in_parts, with_rate));
+    let _ = black_box(SpinFit::new(&in_parts, derivatives));
 }
 
 fn many(bytes: &mut Bytes<'_>) {

@@ -37,8 +37,9 @@ fn run(scene: &Scene) {
     if let (Ok(pulsar), true) = (PulsarScene::new(scene), scene.times.count() <= SAMPLES) {
         let start = scene.times.start();
         let epochs = scene.times.iter().map(|t| pulsar.epoch.after([t - start, 0.0])).collect::<Result<Vec<_>, _>>();
-        let Some(Ok(timing)) = epochs.ok().map(|epochs| pulsar.timed(&epochs, false)) else { return };
-        let _ = (csv(&pulsar, &timing), par(scene, &timing), tim(&timing, 1e-6));
+        let Some(Ok(timing)) = epochs.ok().map(|epochs| pulsar.timed(&epochs, 2)) else { return };
+        let causes = pulsar.causes(&timing).ok();
+        let _ = (csv(&pulsar, &timing, causes.as_ref()), par(scene, &timing), tim(&timing, 1e-6));
     }
 }
 

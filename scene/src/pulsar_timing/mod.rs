@@ -1,6 +1,7 @@
 //! A scene's pulsar over decades: arrival times at given epochs, what they are late by against a constant frequency, and the files that
 //! timing programs and readers of strain take. See `docs/pulsars.md`.
 
+mod causes;
 mod decimal;
 mod no_pulse;
 mod parameters;
@@ -20,6 +21,7 @@ use twofold::propagation::PhasedMotion;
 
 use crate::scene_file::Scene;
 
+pub use causes::Causes;
 pub use decimal::decimal;
 pub use no_pulse::TimingError;
 pub use parameters::{par, tim};
@@ -70,6 +72,13 @@ impl PulsarScene {
         let problem = Problem::new(spheroid, *scene.problem.coefficients(), initial)?;
         let motion = PhasedMotion::new(&problem, scene.times.last() - scene.times.start())?;
         let clock = PulsarClock::on(motion, &beam, &observer)?;
+        let clock = match &scene.spin_down {
+            Some(spin_down) => {
+                let braking = spin_down.braking(1.0 / clock.period());
+                clock.braked(&braking)?
+            }
+            None => clock,
+        };
         Ok(Self {
             problem,
             observer,
@@ -101,11 +110,11 @@ impl PulsarScene {
         ARRIVAL_ROUNDING.max(of_motion) + ROUNDINGS * f64::EPSILON / 2.0 * t.abs()
     }
 
-    /// The pulses nearest to given epochs, and their fit. Epochs of dark turns have none.
+    /// The pulses nearest to given epochs, and their fit of F0 and so many derivatives. Epochs of dark turns have none.
     ///
     /// # Errors
     /// No pulse at any epoch, with the closest approach; and as for [`PulsarClock::pulse_near`] and [`SpinFit::new`].
-    pub fn timed(&self, epochs: &[Epoch], with_rate: bool) -> Result<Timing, TimingError> {
+    pub fn timed(&self, epochs: &[Epoch], derivatives: usize) -> Result<Timing, TimingError> {
         let mut pulses = Vec::with_capacity(epochs.len());
         let (mut seen, mut dark) = (HashSet::new(), 0);
         for at in epochs {
@@ -126,7 +135,7 @@ impl PulsarScene {
         let epoch = Epoch::new(0, 0.0)?.after([middle.round() * DAY, 0.0])?;
         let points: Vec<_> =
             pulses.iter().map(|timed| (timed.pulse.number, timed.arrival.seconds_since(&epoch))).collect();
-        Ok(Timing { dark, fit: SpinFit::new(&points, with_rate)?, with_rate, epoch, pulses })
+        Ok(Timing { dark, fit: SpinFit::new(&points, derivatives)?, derivatives, epoch, pulses })
     }
 }
 
@@ -148,8 +157,8 @@ pub struct Timing {
     pub dark: usize,
     /// Frequency (Hz), at [`epoch`](Self::epoch), and residuals (s).
     pub fit: SpinFit,
-    /// Whether `F1` is fitted.
-    pub with_rate: bool,
+    /// How many derivatives of the frequency are fitted.
+    pub derivatives: usize,
     /// `PEPOCH`: a whole day in the middle.
     pub epoch: Epoch,
 }

@@ -25,26 +25,35 @@ const LOOKS: usize = 180;
 
 /// Why the turns of `epochs` have no pulse.
 pub(super) fn no_pulse(pulsar: &PulsarScene, epochs: &[Epoch]) -> TimingError {
+    let found = angles_to_line_of_sight(pulsar, epochs);
+    found.map_or_else(TimingError::Motion, |[nearest, farthest]| {
+        TimingError::NoPulse(sentence(nearest, farthest, pulsar.beam.half_opening))
+    })
+}
+
+/// The least and the largest angle of the magnetic axis to the line of sight in these turns.
+fn angles_to_line_of_sight(pulsar: &PulsarScene, epochs: &[Epoch]) -> Result<[f64; 2], Error> {
     let beam = &pulsar.beam;
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     let period = pulsar.clock.period();
     let (edge, problem) = (beam.half_opening.cos(), &pulsar.problem);
     for epoch in epochs.iter().step_by(epochs.len().div_ceil(MOST)) {
         let near = pulsar.clock.near(epoch.seconds_since(&pulsar.epoch));
-        let at = |t: f64| {
-            beam.margin_rates(problem.spheroid(), problem.coefficients(), &near(t), &pulsar.observer.direction)
+        let at = |t: f64| -> Result<[f64; 4], Error> {
+            let state = near(t)?;
+            Ok(beam.margin_rates(problem.spheroid(), problem.coefficients(), &state, &pulsar.observer.direction))
         };
         let step = period / LOOKS as f64;
         for k in 0..LOOKS {
             let t = period * (k as f64 / LOOKS as f64 - 0.5);
-            let [margin, rate, second, _] = at(t);
+            let [margin, rate, second, _] = at(t)?;
             let to_extremum = -rate / second;
-            let margins = if to_extremum.abs() <= step { [margin, at(t + to_extremum)[0]] } else { [margin, margin] };
+            let margins = if to_extremum.abs() <= step { [margin, at(t + to_extremum)?[0]] } else { [margin, margin] };
             (least, most) = margins.iter().fold((least, most), |(least, most), m| (m.min(least), m.max(most)));
         }
     }
     let angle = |margin: f64| (margin + edge).clamp(-1.0, 1.0).acos();
-    TimingError::NoPulse(sentence(angle(most), angle(least), beam.half_opening))
+    Ok([angle(most), angle(least)])
 }
 
 impl From<Error> for TimingError {

@@ -28,8 +28,8 @@ pub fn par(scene: &Scene, timing: &Timing) -> Result<String, Error> {
         line("POSEPOCH", &timing.epoch.to_string());
     }
     line("F0", &decimal(timing.fit.frequency));
-    if timing.with_rate {
-        line("F1", &format!("{:e}", timing.fit.frequency_rate));
+    for (name, value) in ["F1", "F2"].into_iter().zip(timing.fit.derivatives).take(timing.derivatives) {
+        line(name, &format!("{value:e}"));
     }
     line("PEPOCH", &timing.epoch.to_string());
     line("TZRMJD", &at_reference.to_string());

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use twofold::Error;
 use twofold::dynamics::AxisState;
 use twofold::epoch::Epoch;
 use twofold::observables::gravitational_wave::Polarizations;
@@ -34,16 +35,19 @@ impl PulsarScene {
 }
 
 /// Texts of `h_+` and `h_x`: a line for each sample, seconds from the start and strain. Nothing if the scene has no distance.
-pub fn strain_series(pulsar: &PulsarScene, series: &Series) -> Option<[String; 2]> {
+///
+/// # Errors
+/// As for [`PulsarClock::near`](twofold::observables::pulsar::PulsarClock::near).
+pub fn strain_series(pulsar: &PulsarScene, series: &Series) -> Result<Option<[String; 2]>, Error> {
     let header = |name: &str| format!("# {name} [1] against time [s] from MJD {} (TDB, barycentre)\n", series.start);
     let mut texts = ["h_plus", "h_cross"].map(header);
     let state = pulsar.clock.near(series.start.seconds_since(&pulsar.epoch));
     for k in 0..series.samples {
         let time = k as f64 / series.rate;
-        let wave = pulsar.wave(&AxisState::from(&state(time)))?;
+        let Some(wave) = pulsar.wave(&AxisState::from(&state(time)?)) else { return Ok(None) };
         for (text, h) in texts.iter_mut().zip([wave.plus, wave.cross]) {
             writeln!(text, "{time:?} {h:?}").expect("writing to a string succeeds");
         }
     }
-    Some(texts)
+    Ok(Some(texts))
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use twofold::dynamics::AxisState;
 use twofold::observables::wave_harmonics::WaveHarmonics;
 
-use super::{PulsarScene, Timing};
+use super::{Causes, PulsarScene, Timing};
 
 const HEADER: [&str; 16] = [
     "pulse",
@@ -26,9 +26,16 @@ const HEADER: [&str; 16] = [
     "h_cross [1]",
 ];
 
-/// Comma-separated values with a header, a row for each pulse. What does not exist is left empty.
-pub fn csv(pulsar: &PulsarScene, timing: &Timing) -> String {
-    let mut text = HEADER.join(",") + "\n";
+/// Columns of the causes.
+const CAUSES: [&str; 4] = ["geometry [s]", "torque [s]", "violation [s]", "spin_down_rate [Hz/s]"];
+
+/// Comma-separated values with a header, a row for each pulse, the causes of its residual last if they are given. What does not exist is left empty.
+pub fn csv(pulsar: &PulsarScene, timing: &Timing, causes: Option<&Causes>) -> String {
+    let mut text = HEADER.join(",");
+    if causes.is_some() {
+        text = text + "," + &CAUSES.join(",");
+    }
+    text.push('\n');
     let mut row = |values: &[f64], place: (i64, i64, f64)| {
         let (number, day, fraction) = place;
         write!(text, "{number},{day},{fraction:?}").expect("writing to a string succeeds");
@@ -41,14 +48,14 @@ pub fn csv(pulsar: &PulsarScene, timing: &Timing) -> String {
         }
         text.push('\n');
     };
-    for (timed, residual) in timing.pulses.iter().zip(&timing.fit.residuals) {
+    for (i, (timed, residual)) in timing.pulses.iter().zip(&timing.fit.residuals).enumerate() {
         let pulse = &timed.pulse;
         let state = AxisState::from(&pulse.state);
         let harmonics = WaveHarmonics::of(pulsar.problem.spheroid(), &state, &pulsar.observer).ok();
         let of = |value: fn(&WaveHarmonics<f64>) -> f64| harmonics.as_ref().map_or(f64::NAN, value);
         let unit = pulsar.strain_unit.unwrap_or(f64::NAN);
         let wave = pulsar.wave(&state);
-        let values = [
+        let mut values = vec![
             *residual,
             pulse.duration,
             pulse.position_angle,
@@ -63,6 +70,9 @@ pub fn csv(pulsar: &PulsarScene, timing: &Timing) -> String {
             wave.map_or(f64::NAN, |wave| wave.plus),
             wave.map_or(f64::NAN, |wave| wave.cross),
         ];
+        if let Some(Causes { geometry, torque, violation, spin_down_rate }) = causes {
+            values.extend([geometry, torque, violation, spin_down_rate].map(|column| column[i]));
+        }
         row(&values, (pulse.number, timed.arrival.day(), timed.arrival.fraction()));
     }
     text

@@ -7,6 +7,7 @@ mod built_in;
 mod document;
 mod motion;
 mod observation;
+mod spin_down;
 
 use twofold::dynamics::Problem;
 use twofold::epoch::Epoch;
@@ -20,6 +21,7 @@ pub use document::{SceneError, did_you_mean, listed, nearest, shortened};
 pub use motion::Units;
 pub use observation::{COLUMN_GROUPS, Catalogued, Pulsar, Times, Viewer, column_group, like_julian_date};
 pub(crate) use observation::{columns_in, read_end, read_times, read_tolerance_and_method};
+pub use spin_down::{IndexOrSecond, SpinDown};
 
 /// Largest scene file that is read, in bytes.
 pub const LARGEST_FILE: u64 = 64 << 20;
@@ -45,6 +47,8 @@ pub struct Scene {
     pub pulsar: Option<Pulsar>,
     /// Name and position of the pulsar, where the file has them.
     pub catalogued: Option<Catalogued>,
+    /// How the star slows down, where the file says so: for arrival times.
+    pub spin_down: Option<SpinDown>,
     /// The perturbation solution of the scene's constants as printed, with time from the start in t_c, or why there is none.
     pub perturbation: Result<Perturbation<f64>, &'static str>,
     /// Groups of columns of the table, in its order.
@@ -101,7 +105,7 @@ impl Scene {
         columns: Columns<'_>,
         times: Option<&Times>,
     ) -> Result<Self, Fault> {
-        document.only("about sources star lorentz_violation initial observer pulsar time output")?;
+        document.only("about sources star spin_down lorentz_violation initial observer pulsar time output")?;
         let about = document.optional_string("about")?.unwrap_or("").to_owned();
         let sources = document.optional("sources").map(|entry| sources(&entry)).transpose()?.unwrap_or_default();
         let star_section = document.required_section("star", "the spheroid and its spin")?;
@@ -112,6 +116,8 @@ impl Scene {
         let initial = motion::read_initial(&initial_section, &star, &violation)?;
         let problem = Problem::new(star.spheroid, violation.tensor, initial.state);
         let problem = problem.map_err(|error| initial_section.fault(format!("no motion starts so: {error}")))?;
+        let spin_down_section = document.section("spin_down")?;
+        let spin_down = spin_down_section.as_ref().map(|section| spin_down::read(section, &star.units)).transpose()?;
         let observer = document.section("observer")?;
         let observer = observer.map(|section| observation::read_observer(&section, &star.units)).transpose()?;
         let pulsar_section = document.section("pulsar")?;
@@ -137,6 +143,7 @@ impl Scene {
             observer,
             pulsar,
             catalogued,
+            spin_down,
             perturbation: initial.perturbation,
             columns: observation::columns_of_the_motion(),
             tolerance: observation::DEFAULT_TOLERANCE,

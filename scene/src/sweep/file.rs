@@ -111,6 +111,11 @@ impl<'t> Sweep<'t> {
         let times = times(&section).map_err(in_sweep)?;
         let scene = base.document();
         let with = |times| Scene::from_document(&scene, Columns::Unused, times).map_err(in_scene);
+        if let Some(section) = scene.section("spin_down").map_err(in_scene)? {
+            return Err(in_scene(
+                section.fault("[spin_down] is for `twofold timing`: allowed in a sweep is a scene without it"),
+            ));
+        }
         // The scene's own times, if it has any, are not used; they are checked all the same.
         let own = scene.has("time").then(|| with(None)).transpose()?;
         let mut scene = with(Some(&times))?;

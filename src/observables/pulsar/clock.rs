@@ -15,8 +15,12 @@ use crate::error::Error;
 use crate::numerics::angle::wrapped;
 use crate::numerics::double_double::DoubleDouble;
 use crate::observables::Observer;
-use crate::propagation::{Motion, PhasedMotion, Turning};
+use crate::propagation::{Motion, PhasedMotion, Turning, largest_torque};
 use crate::solutions::averaged::AveragingOrder;
+use crate::spin_down::{Braking, Precession, StretchedTime, TorqueHarmonics};
+
+/// Largest `x = C |s| I^xx / |L|^2` with a torque that goes with the magnetic axis: its two harmonics are those of free precession, right to `x`.
+const STRONGEST: f64 = 1e-3;
 
 /// Most rotation of the body in one turn about L (rad): the search takes a tenth of a second.
 const MOST_ROTATION: f64 = 1e5;
@@ -44,6 +48,8 @@ const MOST_ROTATION: f64 = 1e5;
 #[derive(Debug, Clone)]
 pub struct PulsarClock {
     motion: PhasedMotion,
+    /// In the stretched time the star does not slow down.
+    time: StretchedTime,
     beam: Beam<f64>,
     observer: Observer<f64>,
     bounds: RateBounds,
@@ -137,28 +143,81 @@ impl PulsarClock {
             rotation,
             "above zero, and at most 1e5: all of it is searched for pulses",
         )?;
-        Ok(Self { bounds, turns, motion, beam: *beam, observer: *observer })
+        Ok(Self { bounds, turns, time: StretchedTime::uniform(), motion, beam: *beam, observer: *observer })
     }
 
-    /// The motion.
+    /// The pulsar slowing down by a torque along `L`, from the time zero on, where its mean rotation is that of the motion. `C` falls with the square of the rotation, as
+    /// that of a centrifugal bulge does.
+    ///
+    /// # Errors
+    /// As for [`StretchedTime::new`]; [`Error::Domain`] for a torque that goes with the magnetic axis where `C |s| I^xx / |L|^2` is above 1e-3.
+    pub fn braked(self, braking: &Braking) -> Result<Self, Error> {
+        if braking.torque_share > 0.0 {
+            let strength = "C |s| I^xx / |L|^2 with a torque that goes with the magnetic axis";
+            Error::ensure(self.strength() <= STRONGEST, strength, self.strength(), "at most 1e-3")?;
+        }
+        let state = self.motion.problem.initial();
+        let (n, l) = (state.axis, state.momentum.normalize());
+        let m = self.beam.direction(state);
+        let precession = Precession {
+            torque: TorqueHarmonics::new(n.angle(&l), n.angle(&m)),
+            phase: n.cross(&m).dot(&l).atan2(m.dot(&l) - m.dot(&n) * n.dot(&l)),
+            // The magnetic axis goes round n as e_x does, and psi is from it to L.
+            rate: -self.motion.rates()[2],
+        };
+        Ok(Self { time: StretchedTime::new(braking, &precession)?, ..self })
+    }
+
+    /// The motion, in the stretched time of a star that slows down.
     pub fn motion(&self) -> &PhasedMotion {
         &self.motion
     }
 
-    /// Mean time between two pulses.
+    /// The stretched time of the motion.
+    pub fn stretched_time(&self) -> &StretchedTime {
+        &self.time
+    }
+
+    /// Mean time between two pulses, of a star that slows down at the time zero.
     pub fn period(&self) -> f64 {
         core::f64::consts::TAU / self.turns.rate(&self.motion)
     }
 
-    /// Error of a midpoint at the time `t` by what the motion leaves out: that of directions over the rate of turns.
+    /// Error of a midpoint at the time `t` by what the motion leaves out: that of directions over the rate of turns. Of a star that slows down also what the
+    /// stretched time leaves out, the share `C |s| I^xx / |L|^2` of what the varying torque makes it late, and what a `C` that does not fall would add to the precession of `L`.
     pub fn truncation(&self, t: f64) -> f64 {
-        self.motion.truncation(t) / self.turns.rate(&self.motion)
+        let of_motion = self.motion.truncation(t) / self.turns.rate(&self.motion);
+        if self.time.is_uniform() {
+            return of_motion;
+        }
+        let state = self.motion.problem.initial();
+        let precession = self.strength() * state.momentum.norm() / self.motion.problem.spheroid().inertia_xx;
+        let rigid = precession * (self.time.braking().rate * t * t / self.turns.rate(&self.motion)).abs();
+        of_motion.abs() + self.time.truncation(t) + self.strength() * self.time.largest_lateness() + rigid
+    }
+
+    /// `C |s| I^xx / |L|^2`, by the largest torque: the relative size of what Lorentz violation adds to rates.
+    fn strength(&self) -> f64 {
+        let problem = &self.motion.problem;
+        let torque = largest_torque(problem.spheroid(), problem.coefficients());
+        torque * problem.spheroid().inertia_xx / problem.initial().momentum.norm_squared()
     }
 
     /// The state as a function of the time since `t[0] + t[1]`, in the frame of the initial one.
-    pub fn near(&self, t: [f64; 2]) -> impl Fn(f64) -> BodyState<f64> {
-        let near = Near { motion: &self.motion, t };
-        move |since| near.at(since)
+    ///
+    /// # Errors
+    /// As for [`StretchedTime::stretched_at`], by the function.
+    pub fn near(&self, t: [f64; 2]) -> impl Fn(f64) -> Result<BodyState<f64>, Error> {
+        let near = DoubleDouble::from(t);
+        move |since| {
+            let tau = self.time.stretched_at((near + since.into()).into())?;
+            Ok(self.slowed(self.motion.state(tau), tau[0]))
+        }
+    }
+
+    /// A state of the motion with its `L` at a stretched time.
+    fn slowed(&self, state: BodyState<f64>, tau: f64) -> BodyState<f64> {
+        BodyState { momentum: state.momentum * self.time.slowing(tau), ..state }
     }
 
     /// The pulse of the turn nearest to the time `t[0] + t[1]`, of its pulses that nearest to the middle of the turn; none if that turn
@@ -169,11 +228,11 @@ impl PulsarClock {
     /// exact as those of [`pulse_train`](super::pulse_train), else to some `1e-4 x^2` rad.
     ///
     /// # Errors
-    /// [`Error::Domain`] for times that are not finite, and after 4e18 turns.
+    /// [`Error::Domain`] for times that are not finite, after 4e18 turns, and as for [`StretchedTime::stretched_at`].
     pub fn pulse_near(&self, t: [f64; 2]) -> Result<Option<ClockPulse>, Error> {
         Error::ensure((t[0] + t[1]).is_finite(), "time t", t[0] + t[1], "a finite number")?;
         // The parts of a sum that is much less than they are would tell no turns apart.
-        let t = DoubleDouble::sum(t[0], t[1]).into();
+        let t = self.time.stretched_at(DoubleDouble::sum(t[0], t[1]).into())?;
         let look = self.turns.look(&self.motion, t)?;
         let period = self.period();
         let middle = -look.phase / self.turns.rate(&self.motion);
@@ -206,14 +265,19 @@ impl PulsarClock {
         let angle = |m: &Vector3<f64>| position_angle(m, &self.observer).unwrap_or(f64::NAN);
         let middle = angle(&m);
         let from = |t: f64| angle(&self.beam.direction(&near.at(t)));
+        let time_at =
+            |since: f64| DoubleDouble::from(self.time.time_at((DoubleDouble::from(near.t) + since.into()).into()));
+        let (start, end) = (time_at(pulse.start), time_at(pulse.end));
+        let stretched = near.t[0] + (near.t[1] + pulse.midpoint());
+        let rate = if middle.is_nan() { middle } else { position_angle_rate(&m, &omega, &self.observer) };
         ClockPulse {
             number,
-            midpoint: (DoubleDouble::from(near.t) + pulse.midpoint().into()).into(),
-            duration: pulse.duration(),
+            midpoint: ((start + end) * 0.5).into(),
+            duration: (end - start).high,
             position_angle: middle,
-            position_angle_rate: if middle.is_nan() { middle } else { position_angle_rate(&m, &omega, &self.observer) },
+            position_angle_rate: rate * self.time.slowing(stretched),
             swing: wrapped(from(pulse.end) - middle) + wrapped(middle - from(pulse.start)),
-            state,
+            state: self.slowed(state, stretched),
         }
     }
 }

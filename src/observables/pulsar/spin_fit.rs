@@ -1,11 +1,11 @@
-//! A constant frequency, with or without a spin-down, fitted to numbered arrival times over decades.
+//! A frequency and its derivatives fitted to numbered arrival times over decades.
 //!
 //! ```
 //! use twofold::observables::pulsar::SpinFit;
 //!
 //! // Every hundredth of a thousand pulses, 0.1 s apart.
 //! let points: Vec<_> = (0..10).map(|k| (100 * k, [10.0 * k as f64, 0.0])).collect();
-//! let fit = SpinFit::new(&points, false)?;
+//! let fit = SpinFit::new(&points, 0)?;
 //! assert!((fit.frequency[0] - 10.0).abs() < 1e-14 && fit.residuals.iter().all(|late| late.abs() < 1e-14));
 //! assert!((fit.time_of(50)[0] - 5.0).abs() < 1e-14);
 //! # Ok::<(), twofold::Error>(())
@@ -15,30 +15,31 @@ use super::timing::check_number;
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
 
-/// The phase `phase + F0 t + F1 t^2 / 2` (turns) fitted to pulse numbers by least squares, as timing programs do.
+/// The phase `phase + F0 t + F1 t^2 / 2 + F2 t^3 / 6` (turns) fitted to pulse numbers by least squares, as timing programs do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpinFit {
     /// Turns at the time zero, as the unevaluated sum of two doubles.
     pub phase: [f64; 2],
     /// `F0` at the time zero (turns per unit of time), as the unevaluated sum of two doubles: over 1e12 turns 1e-9 of one is 21 digits.
     pub frequency: [f64; 2],
-    /// `F1`; zero if it is not fitted.
-    pub frequency_rate: f64,
+    /// `F1` and `F2` at the time zero; zero if they are not fitted.
+    pub derivatives: [f64; 2],
     /// `(phase of the fit - number) / F0` at each time: above zero for a pulse that is late.
     pub residuals: Vec<f64>,
 }
 
 impl SpinFit {
-    /// The fit to points `(number, time)`, the times as unevaluated sums of two doubles, all of the same weight; `F1` too if
-    /// `with_rate`.
+    /// The fit to points `(number, time)`, the times as unevaluated sums of two doubles, all of the same weight; with none, one (`F1`) or two (`F2` too) `derivatives` of the
+    /// frequency.
     ///
     /// A chord is taken away to 32 digits first. What is left of the numbers is fitted in doubles, by polynomials orthogonal over the
     /// points: residuals have rounding errors of some 1e-16 of the largest distance from the chord.
     ///
     /// # Errors
-    /// [`Error::Domain`] for times that are not finite, numbers above 2^53 in size, or fewer different ones than are fitted.
-    pub fn new(points: &[(i64, [f64; 2])], with_rate: bool) -> Result<Self, Error> {
-        let wanted = if with_rate { 3.0 } else { 2.0 };
+    /// [`Error::Domain`] for times that are not finite, numbers above 2^53 in size, more than two derivatives, or fewer different points than are fitted.
+    pub fn new(points: &[(i64, [f64; 2])], derivatives: usize) -> Result<Self, Error> {
+        Error::ensure(derivatives <= 2, "number of derivatives", derivatives as f64, "0, 1 (F1) or 2 (F1 and F2)")?;
+        let wanted = 2.0 + derivatives as f64;
         let mut different: Vec<_> = points.iter().map(|(_, time)| time[0] + time[1]).collect();
         for &(number, _) in points {
             check_number(number)?;
@@ -49,13 +50,14 @@ impl SpinFit {
         different.sort_by(f64::total_cmp);
         different.dedup();
         let count = different.len() as f64;
-        Error::ensure(count >= wanted, "number of different times", count, "at least two, or three with F1")?;
+        let at_least = "at least two, three with F1, four with F2";
+        Error::ensure(count >= wanted, "number of different times", count, at_least)?;
 
         let mut numbers: Vec<_> = points.iter().map(|(number, _)| *number).collect();
         numbers.sort_unstable();
         numbers.dedup();
         let pulses = numbers.len() as f64;
-        Error::ensure(pulses >= wanted, "number of different pulses", pulses, "at least two, or three with F1")?;
+        Error::ensure(pulses >= wanted, "number of different pulses", pulses, at_least)?;
 
         let (first, start) = points[0];
         let start = DoubleDouble::from(start);
@@ -74,49 +76,87 @@ impl SpinFit {
         let unit = span.high;
         let x: Vec<_> = points.iter().map(|&(_, time)| since(time).high / unit).collect();
 
-        // 1, x - mean, (x - mean)^2 - slope (x - mean) - square: orthogonal over the points.
         let size = points.len() as f64;
-        let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / size;
-        let middle = mean(&mut x.iter().copied());
+        let mean = |value: &dyn Fn(f64) -> f64, of: &[f64]| of.iter().map(|&u| value(u)).sum::<f64>() / size;
+        let middle = mean(&|x| x, &x);
         let u: Vec<_> = x.iter().map(|x| x - middle).collect();
-        let square = mean(&mut u.iter().map(|u| u * u));
-        let slope = mean(&mut u.iter().map(|u| u * u * u)) / square;
-        let second = |u: f64| if with_rate { u * (u - slope) - square } else { 0.0 };
-        let mut fitted = [0.0; 3];
+        let basis = orthogonal(&u, 1 + derivatives);
+        let mut fitted = [0.0; 4];
         let mut residues = left;
         // Twice: the second time takes away what rounding left.
         for _ in 0..2 {
-            let norm = mean(&mut u.iter().map(|&u| second(u).powi(2)));
-            let along = |weight: &dyn Fn(f64) -> f64| mean(&mut u.iter().zip(&residues).map(|(&u, z)| weight(u) * z));
-            let curvature = if norm > 0.0 { along(&second) / norm } else { 0.0 };
-            let change = [along(&|_| 1.0), along(&|u| u) / square, curvature];
-            for (z, &u) in residues.iter_mut().zip(&u) {
-                *z -= change[0] + change[1] * u + change[2] * second(u);
+            let change: Vec<_> = basis
+                .iter()
+                .map(|p| {
+                    let along: f64 = u.iter().zip(&residues).map(|(&u, z)| horner(p, u)[0] * z).sum();
+                    let square: f64 = u.iter().map(|&u| horner(p, u)[0].powi(2)).sum();
+                    along / square
+                })
+                .collect();
+            for (p, change) in basis.iter().zip(&change) {
+                (0..4).for_each(|power| fitted[power] += change * p[power]);
             }
-            fitted = [0, 1, 2].map(|i| fitted[i] + change[i]);
+            for (z, &u) in residues.iter_mut().zip(&u) {
+                *z -= basis.iter().zip(&change).map(|(p, change)| change * horner(p, u)[0]).sum::<f64>();
+            }
         }
 
         // At the time zero of the caller.
         let zero = DoubleDouble::default() - start;
-        let u = zero.high / unit - middle;
-        let frequency = chord + ((fitted[1] + fitted[2] * (2.0 * u - slope)) / unit).into();
-        let there = fitted[0] + fitted[1] * u + fitted[2] * second(u);
+        let [there, rate, second, third] = horner(&fitted, zero.high / unit - middle);
+        let frequency = chord + (rate / unit).into();
         Ok(Self {
             phase: (DoubleDouble::from(first as f64) + chord * zero + there.into()).into(),
             frequency: frequency.into(),
-            frequency_rate: 2.0 * fitted[2] / (unit * unit),
+            derivatives: [second / (unit * unit), third / (unit * unit * unit)],
             residuals: residues.iter().map(|z| -z / frequency.high).collect(),
         })
     }
 
-    /// The time at which the fit has the phase `number`, as the unevaluated sum of two doubles: the root `2 n / (F0 + sqrt(F0^2 + 2 F1 n))`
-    /// of the quadratic equation, `n` counted from the phase at the time zero. Not a number where the phase never comes so far.
+    /// The time at which the fit has the phase `number`, as the unevaluated sum of two doubles, by Newton's method from the root
+    /// `2 n / (F0 + sqrt(F0^2 + 2 F1 n))` of the quadratic equation, `n` counted from the phase at the time zero. Not a number where that never comes so far.
     pub fn time_of(&self, number: i64) -> [f64; 2] {
         let wanted = (DoubleDouble::from(number as f64) - self.phase.into()) * 2.0;
         let frequency = DoubleDouble::from(self.frequency);
-        let root = (frequency * frequency + wanted * self.frequency_rate).sqrt();
-        wanted.over(if frequency.high < 0.0 { frequency - root } else { frequency + root }).into()
+        let [rate, second] = self.derivatives;
+        let root = (frequency * frequency + wanted * (2.0 * rate)).sqrt();
+        let mut t = wanted.over(if frequency.high < 0.0 { frequency - root } else { frequency + root });
+        if second != 0.0 {
+            let wanted = wanted * 0.5;
+            for _ in 0..NEWTON_STEPS {
+                let phase = t * (frequency + t * (DoubleDouble::from(rate / 2.0) + t * (second / 6.0)));
+                let slope = frequency.high + t.high * (rate + t.high * second / 2.0);
+                t = t - (phase - wanted) / slope;
+            }
+        }
+        t.into()
     }
+}
+
+/// Steps of Newton's method, whose errors are squared: from a thousandth to 32 digits in four.
+const NEWTON_STEPS: usize = 5;
+
+/// Coefficients by powers of `u` of the polynomials up to a degree, at most 3, that are orthogonal over points whose mean is zero.
+fn orthogonal(u: &[f64], degree: usize) -> Vec<[f64; 4]> {
+    let mut basis = vec![[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]];
+    let sum = |value: &dyn Fn(f64) -> f64| u.iter().map(|&u| value(u)).sum::<f64>();
+    while basis.len() <= degree {
+        let [.., before, last] = basis.as_slice() else { break };
+        let square = |p: &[f64; 4]| sum(&|u| horner(p, u)[0].powi(2));
+        let along = sum(&|u| u * horner(last, u)[0].powi(2)) / square(last);
+        let back = square(last) / square(before);
+        let next = |power: usize| {
+            let raised = if power == 0 { 0.0 } else { last[power - 1] };
+            raised - along * last[power] - back * before[power]
+        };
+        basis.push([0, 1, 2, 3].map(next));
+    }
+    basis
+}
+
+/// A cubic polynomial and its three derivatives.
+fn horner([a, b, c, d]: &[f64; 4], u: f64) -> [f64; 4] {
+    [a + u * (b + u * (c + u * d)), b + u * (2.0 * c + u * 3.0 * d), 2.0 * c + 6.0 * d * u, 6.0 * d]
 }
 
 #[cfg(test)]
@@ -135,8 +175,8 @@ mod tests {
                 (number, time.into())
             })
             .collect();
-        for with_rate in [false, true] {
-            let fit = SpinFit::new(&points, with_rate).expect("a fit");
+        for derivatives in 0..3 {
+            let fit = SpinFit::new(&points, derivatives).expect("a fit");
             // A sine of many turns is left nearly as it is.
             for (k, residual) in fit.residuals.iter().enumerate() {
                 assert!((residual - signal(k as i64)).abs() < 2e-10, "{k}: {residual:e}");
@@ -147,5 +187,29 @@ mod tests {
             let time = fit.time_of(5);
             assert!((time[0] - 4.75 / 641.928_233_334_553_6).abs() < 1e-8);
         }
+    }
+
+    /// A phase of third degree is found as it is.
+    #[test]
+    fn derivatives_are_those_of_the_phase() {
+        let [f0, f1, f2] = [DoubleDouble::from(2.46), DoubleDouble::from(-3.65e-13), DoubleDouble::from(8.7e-25)];
+        let phase = |t: DoubleDouble| t * (f0 + t * (f1 * 0.5 + t * (f2 / 6.0)));
+        let points: Vec<_> = (-200..200)
+            .map(|k: i32| {
+                let number = f64::from(k) * 2e6;
+                let mut t = DoubleDouble::from(number / 2.46);
+                (0..4).for_each(|_| t = t - (phase(t) - number.into()) / 2.46);
+                (number as i64, t.into())
+            })
+            .collect();
+        let fit = SpinFit::new(&points, 2).expect("a fit");
+        assert!((fit.derivatives[0] / -3.65e-13 - 1.0).abs() < 1e-10, "{:?}", fit.derivatives);
+        assert!((fit.derivatives[1] / 8.7e-25 - 1.0).abs() < 1e-5, "{:?}", fit.derivatives);
+        // The phase is up to 5,000 turns from the chord.
+        assert!(fit.residuals.iter().all(|late| late.abs() < 2e-12));
+        for (number, time) in points.iter().step_by(50) {
+            assert!((fit.time_of(*number)[0] - time[0]).abs() < 1e-6);
+        }
+        assert!(SpinFit::new(&points, 3).is_err());
     }
 }

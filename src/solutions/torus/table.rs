@@ -64,26 +64,28 @@ pub(super) struct Values {
     pub(super) odd: [f64; 2],
 }
 
-/// How many coefficients of four multiples of the first angle, from `j` on, are kept, and the sum of the others.
-fn kept(functions: &[Vec<Vec<Pair>>; 6], j: usize, smallest: f64) -> (usize, f64) {
-    // The largest of functions that have the same pairs of frequencies.
-    let largest = |of: &[Vec<Vec<Pair>>], j: usize, i: usize| {
-        of.iter().flat_map(|table| table[j][i]).fold(0.0, |most: f64, x| most.max(x.abs()))
-    };
-    let rows = j..functions[0].len().min(j + 4);
-    let both = |j: usize, i: usize| [largest(&functions[..4], j, i), largest(&functions[4..], j, i)];
+/// The coefficients of a function for `j` and `i`; zero beyond its last.
+fn pair(table: &[Vec<Pair>], j: usize, i: usize) -> Pair {
+    table.get(j).and_then(|row| row.get(i)).copied().unwrap_or_default()
+}
+
+/// How many coefficients of functions with the same pairs of frequencies are above the smallest for a multiple `j` of the first angle, and the sum of those behind them.
+fn above(functions: &[Vec<Vec<Pair>>], j: usize, smallest: f64) -> (usize, f64) {
+    let largest =
+        |i: usize| functions.iter().flat_map(|table| pair(table, j, i)).fold(0.0, |most: f64, x| most.max(x.abs()));
     let length = functions[0][j].len();
-    let all = |i: usize| rows.clone().flat_map(move |j| both(j, i));
-    let count = (0..length).rev().find(|&i| all(i).any(|size| size > smallest)).map_or(0, |i| i + 1);
-    (count, (count..length).flat_map(all).sum())
+    let count = (0..length).rev().find(|&i| largest(i) > smallest).map_or(0, |i| i + 1);
+    (count, (count..length).map(largest).sum())
 }
 
 impl Table {
     /// The table of six functions by their coefficients `[j][i]`, `k = 2 i` or `2 i + 1`, without the smallest, of which the sum is at most a tolerance (where rounding
     /// lets it); and that sum.
     pub(super) fn within(functions: &[Vec<Vec<Pair>>; 6], tolerance: f64) -> (Self, f64) {
-        let left =
-            |smallest: f64| -> f64 { (0..functions[0].len()).step_by(4).map(|j| kept(functions, j, smallest).1).sum() };
+        let left = |smallest: f64| -> f64 {
+            let of = |j: usize| above(&functions[..4], j, smallest).1 + above(&functions[4..], j, smallest).1;
+            (0..functions[0].len()).map(of).sum()
+        };
         let mut smallest = 0.1 * tolerance;
         while left(smallest) > tolerance && smallest > 1e-3 * tolerance {
             smallest *= 0.5;
@@ -91,25 +93,27 @@ impl Table {
         Self::without_smallest(functions, smallest)
     }
 
-    /// The table without coefficients so small that omitting them does not show, and the sum of these.
+    /// The table without what is behind the coefficients above the smallest, and the sum of that. Of it the table keeps what comes before the longest of four rows; for a
+    /// row that ends with the grid it stands for what comes behind.
     fn without_smallest(functions: &[Vec<Vec<Pair>>; 6], smallest: f64) -> (Self, f64) {
         let mut left = 0.0;
         let mut table = Self::default();
         let of = |j: usize, i: usize| {
-            if j >= functions[0].len() {
-                return Coefficients::default();
-            }
-            let of = |function: usize, part: usize| functions[function][j][i][part];
+            let of = |function: usize, part: usize| pair(&functions[function], j, i)[part];
             Coefficients {
                 changing: [0, 1].map(|part| [0, 1, 2, 3].map(|function| of(function, part))),
                 others: [of(4, 0), of(5, 0), of(4, 1), of(5, 1)],
             }
         };
-        for j in (0..functions[0].len()).step_by(4) {
-            let (count, omitted) = kept(functions, j, smallest);
-            left += omitted;
+        let length = functions[0].len();
+        for first in (0..length).step_by(4) {
+            let rows =
+                (first..length.min(first + 4)).flat_map(|j| [&functions[..4], &functions[4..]].map(|of| (of, j)));
+            let (counts, omitted): (Vec<_>, Vec<_>) = rows.map(|(of, j)| above(of, j, smallest)).unzip();
+            let count = counts.into_iter().max().unwrap_or(0);
+            left += omitted.iter().sum::<f64>();
             table.counts.push(count);
-            table.coefficients.extend((0..count).map(|i| [0, 1, 2, 3].map(|row| of(j + row, i))));
+            table.coefficients.extend((0..count).map(|i| [0, 1, 2, 3].map(|row| of(first + row, i))));
         }
         while table.counts.last() == Some(&0) {
             table.counts.pop();
@@ -192,6 +196,16 @@ mod tests {
         }
     }
 
+    /// Functions with even multiples may have one more.
+    #[test]
+    fn the_last_even_multiple_is_kept() {
+        let functions: [Vec<Vec<Pair>>; 6] =
+            core::array::from_fn(|f| vec![vec![[1.0, 1.0]; if f < 4 { 2 } else { 3 }]]);
+        let (table, left) = Table::without_smallest(&functions, 0.1);
+        assert_eq!((table.counts.as_slice(), left), (&[3][..], 0.0));
+        assert_eq!((table.coefficients[2][0].changing, table.coefficients[2][0].others), ([[0.0; 4]; 2], [1.0; 4]));
+    }
+
     /// Six functions with coefficients that differ, summed term by term, by vectors and one by one.
     #[test]
     fn sums_are_those_of_all_terms() {
@@ -241,16 +255,15 @@ mod tests {
             let parity = usize::from(f < 4);
             (0..6).map(|j| (0..4).map(|i| [0.0, fall(f, j, 2 * i + parity)]).collect()).collect()
         });
-        // The largest of each four rows are those of their first.
+        // The longest of each four rows is their first.
         let (mut table, left) = Table::without_smallest(&functions, 1e-5);
         assert_eq!((table.counts.as_slice(), table.blocks()), (&[3, 1][..], [2, 2]));
         // Of the first four functions the first is the largest, of the others the fifth.
-        let omitted = |rows: core::ops::Range<usize>, from: usize| -> f64 {
-            let sizes = |j: usize| (from..4).map(move |i| fall(0, j, 2 * i + 1) + fall(4, j, 2 * i));
-            rows.flat_map(sizes).sum()
-        };
-        let expected = omitted(0..4, 3) + omitted(4..6, 1);
-        assert!((left / expected - 1.0).abs() < 1e-12, "{left:e} {expected:e}");
+        let small = |size: &f64| *size <= 1e-5;
+        let terms = |parity: usize| (0..6).flat_map(move |j| (0..4).map(move |i| (j, 2 * i + parity)));
+        let odd: f64 = terms(1).map(|(j, k)| fall(0, j, k)).filter(small).sum();
+        let even: f64 = terms(0).map(|(j, k)| fall(4, j, k)).filter(small).sum();
+        assert!((left / (odd + even) - 1.0).abs() < 1e-12, "{left:e} {odd:e} {even:e}");
         table.scale_every_other(3.0);
         let [first, ..] = table.coefficients[0];
         assert_eq!(first.changing, [[0.0; 4], [0.1, 3.0 * fall(1, 0, 1), fall(2, 0, 1), 3.0 * fall(3, 0, 1)]]);

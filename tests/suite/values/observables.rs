@@ -50,7 +50,7 @@ fn clocks() {
                         None => table.row("  dark", t),
                     });
                 }
-                table.row("  half after 30", clock.near([30.0, 0.0])(0.5));
+                table.row("  half after 30", clock.near([30.0, 0.0])(0.5).expect("it does not slow down"));
             });
         }
     }

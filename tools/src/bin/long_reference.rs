@@ -27,7 +27,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         out,
         "# tp-II of bench_scenes.csv by the Taylor series over double-double numbers (tools/src/bin/long_reference.rs);"
     )?;
-    writeln!(out, "# n a unit vector; each component as the sum of two doubles; t in t_c. Truncation below 1e-11 at the end.")?;
+    writeln!(
+        out,
+        "# n a unit vector; each component as the sum of two doubles; t in t_c. Truncation below 1e-11 at the end."
+    )?;
     let names = ["n_x", "n_y", "n_z", "l_x", "l_y", "l_z"].map(|name| format!("{name},{name}_low"));
     writeln!(out, "scene,t,{}", names.join(","))?;
     for decade in 2..=7 {

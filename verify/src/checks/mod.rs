@@ -28,6 +28,7 @@ mod second_integrator;
 mod solutions;
 pub(crate) mod spectrum;
 mod spin_axis;
+mod spin_down;
 mod splitting;
 mod stability;
 mod star;
@@ -68,6 +69,7 @@ pub fn all() -> Vec<Check> {
         pulsar::arrivals::checks,
         pulsar::pulse_numbers::checks,
         pulsar::clock::checks,
+        spin_down::checks,
         pulsar::position_angle::checks,
         pulsar::approximations::checks,
         pulsar::functions_of_gamma::checks,

@@ -154,7 +154,7 @@ fn late() -> Result<Measured, String> {
     let mut worst = Worst::default();
     for (name, problem, clock) in examples()? {
         for late in [1e6, 1e9, 1e12] {
-            let motion = problem.starting_from(clock.near([late, 0.0])(0.0))?.taylor((0.0, 300.0), 1e-14)?;
+            let motion = problem.starting_from(clock.near([late, 0.0])(0.0)?)?.taylor((0.0, 300.0), 1e-14)?;
             let direction = observer().direction;
             let train = pulse_train(&motion, &beam(), &direction, motion.span())?;
             let found = arrivals(&motion, &beam(), &direction, &train)?;
@@ -345,7 +345,7 @@ fn left_of_formula(epsilon: Option<f64>) -> Result<[f64; 2], String> {
     let (chi, theta) = (scene.pulsar.ok_or("no beam")?.chi, scene.initial_angles.beta);
     let epochs = (0..500).map(|k| pulsar.epoch.after([f64::from(k) * 631_152.0, 0.0]));
     let epochs = epochs.collect::<Result<Vec<_>, _>>()?;
-    let timing = pulsar.timed(&epochs, false)?;
+    let timing = pulsar.timed(&epochs, 0)?;
     let period = 1.0 / timing.fit.frequency[0];
     // The azimuth about L, gamma + (D - gamma), is that of the line of sight: a pulse is late where D falls behind gamma.
     let late = |state: &BodyState<f64>| {

@@ -1,0 +1,67 @@
+//! The section `[spin_down]`.
+
+use twofold::spin_down::Braking;
+
+use super::Units;
+use super::document::{Fault, Section};
+
+/// How a star slows down, by the derivatives of its frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpinDown {
+    /// `F1` at the epoch (Hz/s).
+    pub f1: f64,
+    /// The braking index, or `F2` (Hz/s^2) that it follows from.
+    pub index: IndexOrSecond,
+    /// Share of the torque that goes with the magnetic axis.
+    pub torque_share: f64,
+}
+
+/// The braking index `n = F0 F2 / F1^2`, or `F2`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum IndexOrSecond {
+    /// The braking index.
+    Index(f64),
+    /// `F2` (Hz/s^2).
+    Second(f64),
+}
+
+impl SpinDown {
+    /// The law of braking of a star with the frequency `F0` (Hz).
+    pub fn braking(&self, frequency: f64) -> Braking {
+        let index = match self.index {
+            IndexOrSecond::Index(index) => index,
+            IndexOrSecond::Second(second) => frequency * second / (self.f1 * self.f1),
+        };
+        Braking { rate: -self.f1 / frequency, index, torque_share: self.torque_share }
+    }
+}
+
+/// Named torques, with the share that goes with the magnetic axis.
+const TORQUES: [(&str, f64); 3] = [("constant", 0.0), ("plasma", 0.5), ("vacuum", 1.0)];
+
+pub(super) fn read(section: &Section<'_>, units: &Units) -> Result<SpinDown, Fault> {
+    if !units.are_physical() {
+        return Err(section.fault("[spin_down] is for a physical star (`star.mass`): allowed is a scene without it"));
+    }
+    section.only("f1 f2 index torque")?;
+    section.not_both(&[("f2", "index")])?;
+    let f1 = section.required("f1", "the first derivative of the frequency of the pulses at the epoch [Hz/s]")?;
+    let f1 = f1.number_where("other than zero, from -1e-3 to 1e-3 [Hz/s]", |f1| f1 != 0.0 && f1.abs() <= 1e-3)?;
+    let index = match (section.optional("f2"), section.optional("index")) {
+        (Some(second), _) => IndexOrSecond::Second(second.number_in("from -1e-9 to 1e-9 [Hz/s^2]", -1e-9..=1e-9)?),
+        (None, Some(index)) => IndexOrSecond::Index(index.number_in("from -30 to 30", -30.0..=30.0)?),
+        (None, None) => IndexOrSecond::Index(3.0),
+    };
+    let torque_share = match section.optional("torque") {
+        None => 0.0,
+        Some(entry) if entry.is_string() => {
+            let name = entry.word(&TORQUES.map(|(name, _)| name))?;
+            TORQUES.iter().find(|(of, _)| *of == name).map_or(0.0, |(_, share)| *share)
+        }
+        Some(entry) => entry.number_in(
+            "\"constant\", \"plasma\", \"vacuum\", or the share of sin^2 theta_m in the torque, from 0 to 1",
+            0.0..=1.0,
+        )?,
+    };
+    Ok(SpinDown { f1, index, torque_share })
+}

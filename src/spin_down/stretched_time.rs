@@ -1,0 +1,307 @@
+//! The time in which a star that slows down moves as one that does not.
+
+use core::f64::consts::TAU;
+
+use super::TorqueHarmonics;
+use crate::error::Error;
+use crate::numerics::double_double::DoubleDouble;
+
+/// Largest part of its rotation that a star may lose, times `n - 2` for braking indices `n` above 3 or below 1: the series in it then has 32 digits after [`TERMS`] terms.
+const MOST: f64 = 0.1;
+
+/// Terms of the series of time in stretched time.
+const TERMS: usize = 30;
+
+/// Most steps of Newton's method from the time to the stretched time: two from 10 % to rounding take six.
+const STEPS: usize = 12;
+
+/// How a star is braked: `d|L|/dt` proportional to `-|L|^n (k_0 + k_1 sin^2 theta_m)`, along `L`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Braking {
+    /// `-F1 / F0` at the time zero, averaged over a precession (1 per unit of time).
+    pub rate: f64,
+    /// Braking index `n = F0 F2 / F1^2`: 3 for a dipole.
+    pub index: f64,
+    /// `k_1 / (k_0 + k_1)`, the share of the torque that goes with `sin^2 theta_m`: 1 for a dipole in vacuum, 1/2 for `k_0 = k_1`, as of a magnetosphere filled with
+    /// plasma, 0 for a torque that does not depend on the magnetic axis.
+    pub torque_share: f64,
+}
+
+/// The free precession of a star, with which its torque varies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Precession {
+    /// The torque over one precession.
+    pub torque: TorqueHarmonics<f64>,
+    /// The angle `psi` at the time zero (rad).
+    pub phase: f64,
+    /// Its rate (rad per unit of stretched time): `epsilon Omega^z` without Lorentz violation.
+    pub rate: f64,
+}
+
+/// The map between the time `t` and the stretched time `tau` of a star that slows down, `d tau = a dt` with `a = |L| / |L'|`.
+///
+/// With `kappa` the mean rate of braking and `u = (1 + (n - 2) kappa tau)^(1 / (n - 2))`, the secular `1 / a`:
+///
+/// ```text
+/// t = integral of u dtau + Q(tau) - Q(0)
+/// Q = -kappa g [u^(3 - n) (a_1 cos psi / w^2 + a_2 cos 2 psi / (4 w^2)) - (3 - n) kappa u^(5 - 2 n) (a_1 sin psi / w^3 + a_2 sin 2 psi / (8 w^3))]
+/// ```
+///
+/// with [`TorqueHarmonics`] `a_0, a_1, a_2`, `psi = psi_0 + w tau`, and `g = q / (1 - q + q a_0)` for the torque's share `q`. `Q` is by how much the varying torque makes a pulse late. The rotation of
+/// the star that does not slow down, `tau`, is the mean one at the time zero. Exact for `n = 3`; else without terms of the relative size
+/// `(kappa / w)^2` in `Q`, and of the mean square of the varying torque.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StretchedTime {
+    braking: Braking,
+    precession: Precession,
+    /// `g`.
+    modulation: f64,
+    /// Of `t - tau` by powers of `tau`, from the second on.
+    secular: Vec<DoubleDouble>,
+}
+
+impl StretchedTime {
+    /// The time of a star that does not slow down.
+    pub fn uniform() -> Self {
+        let torque = TorqueHarmonics { constant: 1.0, once: 0.0, twice: 0.0 };
+        let precession = Precession { torque, phase: 0.0, rate: 0.0 };
+        let braking = Braking { rate: 0.0, index: 3.0, torque_share: 0.0 };
+        Self { braking, precession, modulation: 0.0, secular: Vec::new() }
+    }
+
+    /// The time of a star that is braked while it precesses.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for a rate or an index that is not finite, a share outside 0 to 1, and a torque that vanishes: `q = 1` with the magnetic axis and `n` along `L`.
+    pub fn new(braking: &Braking, precession: &Precession) -> Result<Self, Error> {
+        let Braking { rate, index, torque_share } = *braking;
+        Error::ensure(rate.is_finite(), "braking rate -F1 / F0", rate, "a finite number")?;
+        Error::ensure((-30.0..=30.0).contains(&index), "braking index", index, "from -30 to 30")?;
+        let share = "share of the torque with sin^2 theta_m";
+        Error::ensure((0.0..=1.0).contains(&torque_share), share, torque_share, "from 0 to 1")?;
+        let mean = 1.0 - torque_share + torque_share * precession.torque.constant;
+        Error::ensure(mean > 0.0, "mean braking torque", mean, "above zero: the magnetic axis may not stay along L")?;
+        let mut term = DoubleDouble::from(1.0);
+        let mut secular = Vec::new();
+        for k in 1..TERMS {
+            // c_(k + 1) / (k + 1)!, c_(k + 1) = kappa^k (1 - y)(1 - 2 y)...(1 - (k - 1) y), y = n - 2.
+            let factor = DoubleDouble::from(1.0) - DoubleDouble::from(index - 2.0) * ((k - 1) as f64);
+            term = term * factor * rate / ((k + 1) as f64);
+            if term.high == 0.0 {
+                break;
+            }
+            secular.push(term);
+        }
+        Ok(Self { braking: *braking, precession: *precession, modulation: torque_share / mean, secular })
+    }
+
+    /// How the star is braked.
+    pub fn braking(&self) -> &Braking {
+        &self.braking
+    }
+
+    /// The free precession.
+    pub fn precession(&self) -> &Precession {
+        &self.precession
+    }
+
+    /// Whether both times are the same.
+    pub fn is_uniform(&self) -> bool {
+        self.secular.is_empty()
+    }
+
+    /// The time at a stretched one; both as sums of two doubles.
+    pub fn time_at(&self, stretched: [f64; 2]) -> [f64; 2] {
+        self.time(stretched.into()).into()
+    }
+
+    /// The stretched time.
+    ///
+    /// # Errors
+    /// [`Error::Domain`] for times so long that the star loses or gains a tenth of its rotation, for braking indices above 3 or below 1 a tenth over `n - 2`.
+    pub fn stretched_at(&self, time: [f64; 2]) -> Result<[f64; 2], Error> {
+        if self.is_uniform() {
+            return Ok(time);
+        }
+        let lost = self.braking.rate * time[0] * (self.braking.index - 2.0).abs().max(1.0);
+        Error::ensure(
+            lost.abs() <= MOST,
+            "F1 t / F0, times n - 2 for braking indices n above 3",
+            -lost,
+            "at most 0.1 in size: the rotation is followed while it falls by a tenth",
+        )?;
+        let wanted = DoubleDouble::from(time);
+        let mut tau = wanted;
+        for _ in 0..STEPS {
+            let step = (wanted - self.time(tau)) * self.slowing(tau.high);
+            tau = tau + step;
+            // Newton's method squares what is left.
+            if step.high.abs() <= 1e-18 * tau.high.abs() {
+                break;
+            }
+        }
+        Ok(tau.into())
+    }
+
+    fn time(&self, tau: DoubleDouble) -> DoubleDouble {
+        if self.is_uniform() {
+            return tau;
+        }
+        let series = self.secular.iter().rev().fold(DoubleDouble::from(0.0), |sum, term| (sum + *term) * tau);
+        tau + series * tau + self.late(tau.high).into()
+    }
+
+    /// By how much the varying torque makes the star late since the time zero, `Q(tau) - Q(0)`.
+    pub fn late(&self, tau: f64) -> f64 {
+        if self.modulation == 0.0 || self.precession.rate == 0.0 {
+            return 0.0;
+        }
+        self.lateness(tau) - self.lateness(0.0)
+    }
+
+    fn lateness(&self, tau: f64) -> f64 {
+        let Braking { rate, index, .. } = self.braking;
+        let Precession { torque, rate: w, .. } = self.precession;
+        let ((sin, cos), (sin_2, cos_2)) = self.phases(tau);
+        let u = self.secular_slowness(tau);
+        let first = torque.once * cos + torque.twice * cos_2 / 4.0;
+        let second = torque.once * sin + torque.twice * sin_2 / 8.0;
+        let by_parts = (3.0 - index) * rate / w * u.powf(5.0 - 2.0 * index) * second;
+        -rate * self.modulation / (w * w) * (u.powf(3.0 - index) * first - by_parts)
+    }
+
+    /// `a = |L| / |L'| = d tau / dt` at a stretched time.
+    pub fn slowing(&self, tau: f64) -> f64 {
+        let Braking { rate, index, .. } = self.braking;
+        let Precession { torque, rate: w, .. } = self.precession;
+        let u = self.secular_slowness(tau);
+        if self.modulation == 0.0 || w == 0.0 {
+            return 1.0 / u;
+        }
+        let ((sin, _), (sin_2, _)) = self.phases(tau);
+        let varying = rate * self.modulation * (torque.once * sin + torque.twice * sin_2 / 2.0) / w;
+        1.0 / (u + varying * u.powf(3.0 - index))
+    }
+
+    /// The rate of rotation's own rate, `d ln a / dt` over that of the mean torque at the time zero: `a^(n - 1) (1 + g (a_1 cos psi + a_2 cos 2 psi))`.
+    pub fn braking_over_mean(&self, tau: f64) -> f64 {
+        let torque = self.precession.torque;
+        let ((_, cos), (_, cos_2)) = self.phases(tau);
+        let varying = self.modulation * (torque.once * cos + torque.twice * cos_2);
+        self.slowing(tau).powf(self.braking.index - 1.0) * (1.0 + varying)
+    }
+
+    /// Most that the varying torque makes the star late, either way, from its mean.
+    pub fn largest_lateness(&self) -> f64 {
+        let Precession { torque, rate: w, .. } = self.precession;
+        if w == 0.0 {
+            return 0.0;
+        }
+        (self.braking.rate * self.modulation / (w * w)).abs() * (torque.once.abs() + torque.twice.abs() / 4.0)
+    }
+
+    /// What the map leaves out at a time: the mean square of the varying torque, and terms of the relative size `(kappa / w)^2`.
+    pub fn truncation(&self, t: f64) -> f64 {
+        let Braking { rate, index, .. } = self.braking;
+        let Precession { torque, rate: w, .. } = self.precession;
+        if self.modulation == 0.0 || w == 0.0 || index == 3.0 {
+            return 0.0;
+        }
+        let size = self.modulation * (torque.once.abs() + torque.twice.abs());
+        let varying = (rate / w).abs() * size;
+        (3.0 - index).abs()
+            * (0.5 * varying * varying * t.abs() + (rate / w).powi(2) * (index.abs() + 2.0) * varying / w.abs())
+    }
+
+    /// Sines and cosines of `psi` and of `2 psi`.
+    fn phases(&self, tau: f64) -> ((f64, f64), (f64, f64)) {
+        let psi = self.precession.phase + (self.precession.rate * tau) % TAU;
+        (psi.sin_cos(), (2.0 * psi).sin_cos())
+    }
+
+    /// `u`, the secular `1 / a`.
+    fn secular_slowness(&self, tau: f64) -> f64 {
+        let Braking { rate, index, .. } = self.braking;
+        let y = index - 2.0;
+        if y == 0.0 { (rate * tau).exp() } else { ((y * rate * tau).ln_1p() / y).exp() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wobbling(index: f64, rate: f64, share: f64) -> StretchedTime {
+        let precession = Precession { torque: TorqueHarmonics::new(0.2, 1.3), phase: 0.7, rate: 0.013 };
+        StretchedTime::new(&Braking { rate, index, torque_share: share }, &precession).unwrap()
+    }
+
+    #[test]
+    fn both_ways_lead_back() {
+        for (index, rate, share) in
+            [(3.0, 1e-6, 1.0), (2.0, -3e-7, 0.5), (16.0, 1e-8, 1.0), (1.0, 1e-6, 0.0), (2.5, 1e-6, 0.3)]
+        {
+            let stretched = wobbling(index, rate, share);
+            for t in [-9e4, -11.0, 0.0, 3.0, 4.7e4, 9.9e4] {
+                let tau = stretched.stretched_at([t, 1e-17 * t]).unwrap();
+                let back = DoubleDouble::from(stretched.time_at(tau)) - DoubleDouble::from([t, 1e-17 * t]);
+                // The varying part is known to the rounding of a double of its size.
+                assert!(back.high.abs() < 1e-16, "{index} {t}: {back:?}");
+            }
+        }
+    }
+
+    /// By differences of the map, the law of its rate by quadrature of the torque.
+    #[test]
+    fn the_slowing_is_the_rate_of_the_map() {
+        for (index, share) in [(3.0, 1.0), (2.0, 0.5), (5.0, 1.0), (1.0, 0.4)] {
+            let stretched = wobbling(index, 1e-7, share);
+            for tau in [-3e5, 0.0, 20.0, 2.7e5] {
+                let h = 1e-3;
+                let rate = DoubleDouble::from(stretched.time_at([tau, h])) - stretched.time_at([tau, -h]).into();
+                let expected = 2.0 * h / stretched.slowing(tau);
+                // Terms of relative size (kappa / w)^2 of the varying part, 1e-5 of which kappa / w is.
+                assert!(
+                    (rate.high / expected - 1.0).abs() < 3e-14 + 1e-13 * (3.0 - index).abs(),
+                    "{index} {tau}: {:e}",
+                    rate.high / expected - 1.0
+                );
+                let torque = |tau: f64| stretched.braking_over_mean(tau);
+                let change = (stretched.slowing(tau + 1.0) / stretched.slowing(tau - 1.0)).ln();
+                // d ln a / dtau = (d ln a / dt) / a.
+                let law = -2.0 * 1e-7 * torque(tau) / stretched.slowing(tau);
+                assert!((change / law - 1.0).abs() < 1e-4, "{index} {tau}: {change:e} {law:e}");
+            }
+        }
+    }
+
+    /// `t = tau + kappa tau^2 / 2` for a dipole, and the exponential for the index 2.
+    #[test]
+    fn known_series() {
+        let dipole = wobbling(3.0, 1e-6, 0.0);
+        assert_eq!(dipole.secular.len(), 1);
+        assert_eq!(dipole.time_at([8e4, 0.0])[0], 8e4 + 0.5e-6 * 8e4 * 8e4);
+        let exponential = wobbling(2.0, 1e-6, 0.0);
+        assert!((exponential.time_at([8e4, 0.0])[0] / (0.08_f64.exp_m1() * 1e6) - 1.0).abs() < 1e-15);
+        // Frequency and its derivatives: F2 = n F1^2 / F0.
+        let found = wobbling(4.5, 1e-6, 0.0);
+        let nu = |t: f64| found.slowing(found.stretched_at([t, 0.0]).unwrap()[0]);
+        let second = (nu(300.0) - 2.0 * nu(0.0) + nu(-300.0)) / 9e4;
+        assert!((second / 4.5e-12 - 1.0).abs() < 1e-3, "{second:e}");
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused() {
+        let precession = Precession { torque: TorqueHarmonics::new(0.0, 0.0), phase: 0.0, rate: 1.0 };
+        let braking = Braking { rate: 1e-6, index: 3.0, torque_share: 1.0 };
+        let refused = |braking: Braking| StretchedTime::new(&braking, &precession).is_err();
+        assert!(refused(braking) && !refused(Braking { torque_share: 0.9, ..braking }));
+        for wrong in [f64::NAN, -0.1, 1.1] {
+            assert!(refused(Braking { torque_share: wrong, ..braking }));
+        }
+        assert!(refused(Braking { rate: f64::NAN, torque_share: 0.0, ..braking }));
+        assert!(refused(Braking { index: 31.0, torque_share: 0.0, ..braking }));
+        let stretched = wobbling(3.0, 1e-6, 1.0);
+        assert!(stretched.stretched_at([1.01e5, 0.0]).is_err() && stretched.stretched_at([0.99e5, 0.0]).is_ok());
+    }
+}
