@@ -23,8 +23,9 @@ const MOVED: f64 = 1e-3;
 /// Two predictions of a state are one if they differ by less than this part of the way to it.
 const SAME: f64 = 0.3;
 
-/// States are one if they are found at times that differ by less than this part of them.
+/// States are one if they are found at times that differ by less than this part of them, or that lead less far apart (rad): on a thin torus rounding moves the times.
 const ONE: f64 = 1e-6;
+const HERE: f64 = 1e-5;
 
 /// Points along each side of a cell of the lattice at which states inside it are looked for.
 const CELL: usize = 6;
@@ -32,8 +33,8 @@ const CELL: usize = 6;
 /// More states in the plane need not be found: some are missed, or are found anew.
 const MOST_FOUND: usize = 64;
 
-/// A torus as thin as this against its length is looked for beside it.
-const THIN: f64 = 1e-7;
+/// A torus as thin as this against its length is looked for beside it; one as thin as the first number not with few digits, of which the thinness takes some.
+const THIN: [f64; 2] = [1e-3, 1e-7];
 
 /// Ways at a smaller angle, as they change `n` and `L`, have the same direction.
 const PARALLEL: f64 = 1e-4;
@@ -54,12 +55,12 @@ pub(super) struct Lattice {
 /// States in the plane of the torus through a state. None where they are not found within so many steps.
 pub(super) fn lattice(integrals: &Integrals<f64>, unit: f64, start: &Axes<f64>) -> Option<Lattice> {
     // Few digits will do, but near the separatrix.
-    [integrals.with(COARSE), *integrals].into_iter().find_map(|integrals| {
-        let from = |start: &Axes<f64>| Walk::new(&integrals, unit).from(start);
+    [integrals.with(COARSE), *integrals].into_iter().zip(THIN).find_map(|(integrals, thin)| {
+        let from = |start: &Axes<f64>| Walk::new(&integrals, unit, thin).from(start);
         match from(start) {
             Walked::Lattice(lattice) => return Some(lattice),
-            Walked::Thin => (),
-            Walked::Nothing => return None,
+            Walked::Thin if thin == THIN[1] => (),
+            _ => return None,
         }
         // The ways of a circle are the limit of those of the tori about it: `n` or also `L` are moved.
         let [n, momentum, u] = start;
@@ -88,6 +89,8 @@ struct Walk<'a> {
     integrals: &'a Integrals<f64>,
     search: Search<'a, f64>,
     unit: f64,
+    /// A torus as thin as this is.
+    thin: f64,
     /// Number of states seen.
     seen: f64,
     /// Sum over them of the squared changes of `n` and `L` and the squared turn of the body by the time along each flow.
@@ -97,9 +100,9 @@ struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    fn new(integrals: &'a Integrals<f64>, unit: f64) -> Self {
+    fn new(integrals: &'a Integrals<f64>, unit: f64, thin: f64) -> Self {
         let search = Search::new(integrals, unit);
-        Self { integrals, search, unit, seen: 0.0, metric: Vector2::zeros(), found: Vec::new() }
+        Self { integrals, search, unit, thin, seen: 0.0, metric: Vector2::zeros(), found: Vec::new() }
     }
 
     fn from(mut self, start: &Axes<f64>) -> Walked {
@@ -134,7 +137,7 @@ impl<'a> Walk<'a> {
                         if self.found.len() > MOST_FOUND {
                             return Walked::Nothing;
                         }
-                        if self.found.len() == 1 && self.is_thin(&self.found[0].1, THIN) {
+                        if self.found.len() == 1 && self.is_thin(&self.found[0].1, self.thin) {
                             return Walked::Thin;
                         }
                         if let Some(lattice) = self.complete() {
@@ -178,7 +181,7 @@ impl<'a> Walk<'a> {
         let Some((times, end)) = self.search.on_to_plane(*at, times.into()) else { return false };
         let times = Vector2::from(times);
         let apart = self.found.iter().map(|(known, _)| self.length(&(times - known)));
-        let is_new = apart.fold(f64::INFINITY, f64::min) > ONE * (1e-3 * self.seen.sqrt() + self.length(&times));
+        let is_new = apart.fold(f64::INFINITY, f64::min) > HERE * self.seen.sqrt() + ONE * self.length(&times);
         if is_new {
             self.found.push((times, end));
         }
@@ -330,6 +333,25 @@ mod tests {
             let between = [[0.5, 0.0], [0.0, 0.5], [0.5, 0.5], [1.0 / 3.0, 0.0], [0.0, 1.0 / 3.0]];
             let is_circle = [tilted * 9.0, Vector3::z() * 9.0].contains(&momentum);
             assert!(is_circle || between.into_iter().all(|shares| off(&at(shares)) > 1e-2), "{found:?}");
+        }
+    }
+
+    /// As `L` comes to the axis the ways become those of the circle, also where the torus is so thin that rounding moves the times to a state.
+    #[test]
+    fn thin_tori_have_the_ways_of_their_circle() {
+        let integrals = Integrals::new(&BODY, &Matrix3::from_diagonal(&Vector3::new(-0.4, 0.0, 0.6)), 1.0, DOUBLE);
+        let n = Vector3::<f64>::new(0.6, 0.0, 0.8);
+        let found = |tilt: f64| {
+            let start = [n, Vector3::new(tilt, 0.3 * tilt, 19.0), Vector3::y()];
+            lattice(&integrals, 19.0, &start).unwrap()
+        };
+        let thick = found(1e-2);
+        for i in 5..100 {
+            let thin = found(10f64.powf(-0.4 - 0.12 * f64::from(i)));
+            for (a, b) in [(thick.fast, thin.fast), (thick.slow, thin.slow)] {
+                let apart = (a[0] - b[0]).hypot(a[1] - b[1]);
+                assert!(apart < 0.02 * a[0].hypot(a[1]), "{i}: {thick:?} {thin:?}");
+            }
         }
     }
 }
